@@ -1,0 +1,14 @@
+# tessera_warnings: what every target of ours is compiled with; third party is SYSTEM.
+add_library(tessera_warnings INTERFACE)
+target_compile_options(
+  tessera_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
+)
+if(TESSERA_WARNINGS_AS_ERRORS)
+  target_compile_options(tessera_warnings INTERFACE -Werror)
+endif()
+
+# tessera_sanitizers: ASan and UBSan for everything, also at link time.
+if(TESSERA_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()

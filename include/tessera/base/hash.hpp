@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "tessera/base/types.hpp"
+
+namespace tessera {
+
+/// @brief 128-bit number that hashes are summed in, modulo 2^128: sums do not depend on order.
+struct Hash128 {
+  std::uint64_t low = 0;
+  std::uint64_t high = 0;
+
+  friend bool operator==(const Hash128&, const Hash128&) = default;
+
+  Hash128& operator+=(const Hash128& other) noexcept
+  {
+    low += other.low;
+    high += other.high + (low < other.low ? 1U : 0U);
+    return *this;
+  }
+
+  Hash128& operator-=(const Hash128& other) noexcept
+  {
+    const std::uint64_t borrow = low < other.low ? 1U : 0U;
+    low -= other.low;
+    high -= other.high + borrow;
+    return *this;
+  }
+};
+
+/// @brief XXH3-128 of a byte range. Local.
+[[nodiscard]] Hash128 hash_bytes(std::span<const std::byte> bytes) noexcept;
+
+/// @brief Hash of one tet for a mesh digest: over its global vertex ids, the bits of its positions
+/// (shape (4, 3), corner by corner) and its material, in the order given. Local.
+///
+/// The digest of a mesh is the sum of this over its tets: one definition for who writes and who
+/// checks.
+[[nodiscard]] Hash128 hash_tet(std::span<const GlobalIndex, 4> vertex_ids,
+                               std::span<const double, 12> xyz, std::int32_t material) noexcept;
+
+/// @brief 32 lower-case hexadecimal digits, the high half first.
+[[nodiscard]] std::string to_hex(const Hash128& hash);
+
+}  // namespace tessera

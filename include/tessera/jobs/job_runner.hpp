@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "tessera/base/bytes.hpp"
+
+namespace tessera::jobs {
+
+/// @brief What runs in the worker processes: third-party code that may crash, exit, loop or run out
+/// of memory. Implemented by the program; made in the zygote, so it must not touch MPI.
+class Worker {
+ public:
+  virtual ~Worker() = default;
+
+  /// @brief Changes the state that later jobs start from (loads the model, the coarse mesh).
+  /// Runs in the model zygote itself.
+  virtual void load(std::span<const std::byte> message) = 0;
+
+  /// @brief One job, in a fresh fork of the state after the last load(); what it changes is lost.
+  [[nodiscard]] virtual Bytes run(std::span<const std::byte> request) = 0;
+};
+
+/// @brief Bounds of one load or job.
+struct JobLimits {
+  double cpu_s = 600.0;      ///< CPU time of the job process, seconds.
+  double stall_s = 120.0;    ///< Wall time without any CPU time used, seconds: finds sleepers.
+  double memory_gib = 4.0;   ///< Resident memory of the job process, GiB.
+};
+
+enum class JobStatus : int {
+  ok,
+  failed,       ///< The worker threw; `message` is its text, `error` its kind.
+  crashed,      ///< Ended by a signal; `code` is the signal.
+  exited,       ///< Called exit(); `code` is the exit status.
+  out_of_time,  ///< CPU limit.
+  stalled,      ///< Stall limit.
+  out_of_memory,
+  cancelled,    ///< The caller asked to stop.
+};
+
+/// @brief Kind of the exception that a worker threw, so that the caller can throw the same.
+enum class ErrorKind : int { none, config, input, geometry, mesh, netgen, output, other };
+
+struct JobOutcome {
+  JobStatus status = JobStatus::ok;
+  int code = 0;
+  ErrorKind error = ErrorKind::none;
+  std::string message{};        ///< One line for people: what happened, in words.
+  Bytes result{};               ///< What Worker::run() returned; empty unless ok.
+  double cpu_s = 0.0;           ///< CPU time used, seconds.
+  double wall_s = 0.0;          ///< Wall time, seconds.
+  std::size_t peak_rss_bytes = 0;  ///< Largest resident memory seen of the job process.
+};
+
+/// @brief Throws the tessera error that a `failed` outcome names, NetgenError for a process that
+/// died or was killed, Interrupted for `cancelled`; returns on `ok`. `what` is put before the text.
+void throw_unless_ok(const JobOutcome& outcome, const std::string& what);
+
+/// @brief Runs loads and jobs in processes that may die without harm.
+///
+/// The constructor forks a *zygote*, so construct it before MPI_Init and while the process has one
+/// thread. The zygote forks a *model zygote*, which runs load() and forks one process per job. If
+/// the model zygote dies in a load, a fresh one takes its place, and all earlier successful loads
+/// are gone: the outcome of that load says so. All processes end with this object's process, however
+/// it ends. One job at a time; move-only by unique_ptr.
+class JobRunner {
+ public:
+  /// @brief Called every few milliseconds while waiting; returns false to cancel the job.
+  using WaitCallback = std::function<bool()>;
+
+  explicit JobRunner(const std::function<std::unique_ptr<Worker>()>& make_worker);
+  ~JobRunner();
+  JobRunner(const JobRunner&) = delete;
+  JobRunner& operator=(const JobRunner&) = delete;
+
+  /// @brief Sends standard output and error of later loads and jobs to this file (appended).
+  /// Without it they go to /dev/null.
+  void set_log_file(const std::filesystem::path& file);
+
+  /// @brief Runs Worker::load(message) in the model zygote. Local.
+  [[nodiscard]] JobOutcome load(std::span<const std::byte> message, const JobLimits& limits,
+                                const WaitCallback& on_wait);
+
+  /// @brief Runs Worker::run(request) in a fresh process. Local.
+  [[nodiscard]] JobOutcome run(std::span<const std::byte> request, const JobLimits& limits,
+                               const WaitCallback& on_wait);
+
+  /// @brief Largest resident memory of the zygotes and one job together seen so far, bytes; pages
+  /// that they share with each other count once.
+  [[nodiscard]] std::size_t peak_rss_bytes() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace tessera::jobs

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
+
+namespace tessera::mesh {
+
+/// @brief The small sequential mesh that everything else is derived from; the same on every rank.
+///
+/// A *face* is a triangle on the geometry, also one between two materials; it stands once. A
+/// *segment* is a piece of a geometric curve (feature edge); it may stand more than once, with the
+/// parameters of either side. `surface` and `curve` numbers are the Model's; a *patch* is what users
+/// see: one geometric face with its name. Several patches may lie on one surface.
+struct CoarseMesh {
+  std::vector<double> vertex_xyz{};        ///< Shape (num_vertices, 3), output length unit.
+  std::vector<LocalIndex> tet_vertices{};  ///< Shape (num_tets, 4); positive volume, VTK's order.
+  std::vector<LocalIndex> tet_material{};  ///< Shape (num_tets); from 1.
+
+  std::vector<LocalIndex> face_vertices{};  ///< Shape (num_faces, 3); orientation is arbitrary.
+  std::vector<LocalIndex> face_patch{};     ///< Shape (num_faces); row of patch_names.
+  std::vector<double> face_uv{};  ///< Shape (num_faces, 3, 2), corner parameters on the patch's
+                                  ///< surface; empty if the model has none.
+
+  std::vector<LocalIndex> segment_vertices{};  ///< Shape (num_segments, 2).
+  std::vector<LocalIndex> segment_curve{};     ///< Shape (num_segments); the Model's curve number.
+  std::vector<double> segment_t{};  ///< Shape (num_segments, 2), end parameters; empty if none.
+
+  std::vector<std::string> patch_names{};      ///< Shape (num_patches).
+  std::vector<LocalIndex> patch_surface{};     ///< Shape (num_patches); the Model's surface number.
+  std::vector<std::string> material_names{};   ///< Entry m-1 names material m.
+
+  [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
+  [[nodiscard]] LocalIndex num_tets() const { return count(tet_vertices.size(), 4); }
+  [[nodiscard]] LocalIndex num_faces() const { return count(face_vertices.size(), 3); }
+  [[nodiscard]] LocalIndex num_segments() const { return count(segment_vertices.size(), 2); }
+  [[nodiscard]] LocalIndex num_patches() const { return count(patch_names.size(), 1); }
+  [[nodiscard]] LocalIndex num_materials() const { return count(material_names.size(), 1); }
+
+  /// @brief Vertices of tet `t`.
+  [[nodiscard]] std::span<const LocalIndex, 4> tet(LocalIndex t) const
+  {
+    return std::span<const LocalIndex, 4>(tet_vertices.data() + 4 * static_cast<std::size_t>(t), 4);
+  }
+
+  /// @brief Position of vertex `v`.
+  [[nodiscard]] Vec3 position(LocalIndex v) const { return point_at(std::span(vertex_xyz), v); }
+
+ private:
+  static LocalIndex count(std::size_t size, std::size_t width)
+  {
+    return static_cast<LocalIndex>(size / width);
+  }
+};
+
+/// @brief Byte image of a coarse mesh and back, for messages between processes. Local.
+[[nodiscard]] Bytes to_bytes(const CoarseMesh& mesh);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] CoarseMesh coarse_mesh_from_bytes(std::span<const std::byte> bytes);
+
+/// @brief Throws MeshError unless the mesh keeps what CoarseMesh promises: indices in range, every
+/// tet positive, every face a face of one or two tets (two only if their materials differ), every
+/// outer or inter-material triangle of a tet a face, sizes of the arrays consistent. Local.
+void validate(const CoarseMesh& mesh);
+
+}  // namespace tessera::mesh

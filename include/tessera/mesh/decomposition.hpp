@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/base/types.hpp"
+
+namespace tessera::mesh {
+
+/// @brief Which subdomain each coarse tet belongs to, and the weighted graph of the subdomains.
+///
+/// Subdomains are numbered hierarchically: neighbours in space have neighbouring numbers, so any
+/// contiguous range of them is a fair part of the mesh. Symmetric graph in CSR form.
+struct Decomposition {
+  std::vector<LocalIndex> tet_subdomain{};       ///< Shape (num_tets).
+  std::vector<LocalIndex> subdomain_material{};  ///< Shape (num_subdomains); from 1.
+  std::vector<double> subdomain_weight{};        ///< Shape (num_subdomains); predicted fine tets.
+
+  std::vector<LocalIndex> neighbour_offsets{};   ///< Shape (num_subdomains + 1).
+  std::vector<LocalIndex> neighbours{};          ///< Subdomains that share a coarse triangle, ascending.
+  std::vector<LocalIndex> neighbour_triangles{};  ///< Coarse triangles shared with that neighbour.
+  std::vector<double> neighbour_area{};           ///< Their area, output length unit squared.
+
+  [[nodiscard]] LocalIndex num_subdomains() const
+  {
+    return static_cast<LocalIndex>(subdomain_material.size());
+  }
+};
+
+/// @brief Byte image and back, for messages between processes. Local.
+[[nodiscard]] Bytes to_bytes(const Decomposition& decomposition);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] Decomposition decomposition_from_bytes(std::span<const std::byte> bytes);
+
+}  // namespace tessera::mesh

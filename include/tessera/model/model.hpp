@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
+
+namespace tessera::model {
+
+enum class Format : int { csg, stl, occ };  ///< occ: STEP, IGES and BREP, kept as one BREP.
+
+/// @brief What every rank loads the model from: the bytes that rank 0 read (and healed), so that no
+/// rank can see another file than the others.
+struct ModelSource {
+  Format format = Format::csg;
+  std::string file_name{};     ///< For messages only.
+  std::string length_unit{};   ///< "mm", "m", …; empty if the file does not say.
+  Bytes content{};             ///< .geo text; checked STL triangles; BREP and names.
+  std::vector<std::string> repairs{};  ///< What import changed, one line each; for the report.
+};
+
+[[nodiscard]] Bytes to_bytes(const ModelSource& source);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] ModelSource model_source_from_bytes(std::span<const std::byte> bytes);
+
+using SurfaceParameters = std::array<double, 2>;
+
+/// @brief A point on a surface and its parameters there.
+struct SurfacePoint {
+  Vec3 xyz{};
+  SurfaceParameters uv{};
+};
+
+/// @brief A point on a curve and its parameter there.
+struct CurvePoint {
+  Vec3 xyz{};
+  double t = 0.0;
+};
+
+/// @brief A CAD model as refinement sees it: surfaces and curves, and projection onto one of them.
+///
+/// Both projections are pure functions: the same arguments give the same bits, whatever was asked
+/// before. Surface and curve numbers are those of the coarse mesh made from this model
+/// (CoarseMesh::patch_surface, CoarseMesh::segment_curve). Not thread-safe.
+class Model {
+ public:
+  virtual ~Model() = default;
+
+  /// @brief Whether surfaces and curves have parameters (OpenCASCADE: yes; CSG, STL: no). If not,
+  /// the guesses below are ignored and the returned parameters are 0.
+  [[nodiscard]] virtual bool has_parameters() const = 0;
+
+  /// @brief Largest distance by which a point of this surface may be off and still count as on it:
+  /// the CAD entity's own tolerance, at least 1e-8 of the box diagonal.
+  [[nodiscard]] virtual double surface_tolerance(LocalIndex surface) const = 0;
+  [[nodiscard]] virtual double curve_tolerance(LocalIndex curve) const = 0;
+
+  /// @brief The point of `surface` nearest to `point`, searched near `guess`.
+  /// @throws GeometryError if no point is found.
+  [[nodiscard]] virtual SurfacePoint project_to_surface(LocalIndex surface, const Vec3& point,
+                                                        const SurfaceParameters& guess) const = 0;
+
+  /// @brief The point of `curve` nearest to `point`, searched near `guess`.
+  /// @throws GeometryError if no point is found.
+  [[nodiscard]] virtual CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
+                                                    double guess) const = 0;
+
+  /// @brief Diagonal of the model's bounding box, file length unit.
+  [[nodiscard]] virtual double box_diagonal() const = 0;
+};
+
+}  // namespace tessera::model

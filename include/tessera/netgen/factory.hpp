@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/fill/kernel.hpp"
+#include "tessera/model/model.hpp"
+
+/// The only door to NETGEN and OpenCASCADE; free of their types. Everything behind it may crash,
+/// exit or hang, so the program calls it in jobs only.
+namespace tessera::netgen {
+
+/// @brief Reads a CAD file by its extension (.geo .stl .step .stp .iges .igs .brep) and checks it.
+/// @note Local.
+/// @throws InputError if the file is missing, unreadable or of an unknown kind.
+/// @throws GeometryError if it holds no closed solid (names the open edges, the missing solid, …).
+[[nodiscard]] model::ModelSource import_model(const std::filesystem::path& file);
+
+/// @brief Loads what import_model() read. @throws GeometryError if NETGEN refuses it.
+[[nodiscard]] std::unique_ptr<model::Model> load_model(const model::ModelSource& source);
+
+/// @brief A coarse mesher for a model of load_model(). The model must outlive it.
+[[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model);
+
+/// @brief NETGEN's volume mesher as a fill kernel.
+[[nodiscard]] std::unique_ptr<fill::Kernel> make_fill_kernel();
+
+/// @brief NETGEN's version, e.g. "6.2.1905".
+[[nodiscard]] std::string netgen_version();
+
+}  // namespace tessera::netgen

@@ -1,0 +1,58 @@
+include(GoogleTest)
+
+# More ranks than cores, for Open MPI 4 and 5, and root in a container; other MPIs ignore these.
+set(TESSERA_MPI_ENVIRONMENT
+    "OMPI_MCA_rmaps_base_oversubscribe=1;PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_mpi_yield_when_idle=1"
+)
+
+# tessera_add_test(<name> SOURCES <file>... TIMEOUT <seconds> [LINK <target>...] [LABEL <label>])
+#
+# One process, no MPI; one ctest entry. The label is "unit" unless said otherwise.
+function(tessera_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT;LABEL" "SOURCES;LINK")
+  foreach(required IN ITEMS SOURCES TIMEOUT)
+    if(NOT DEFINED arg_${required})
+      message(FATAL_ERROR "tessera_add_test(${name}): ${required} is required")
+    endif()
+  endforeach()
+  if(NOT DEFINED arg_LABEL)
+    set(arg_LABEL unit)
+  endif()
+
+  add_executable(test_${name} ${arg_SOURCES})
+  target_link_libraries(test_${name} PRIVATE tessera_test_support ${arg_LINK} GTest::gtest_main)
+  add_test(NAME ${name} COMMAND test_${name})
+  set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+endfunction()
+
+# tessera_add_mpi_test(<name> SOURCES <file>... RANKS <n>... TIMEOUT <seconds> [LINK <target>...])
+#
+# One ctest entry "<name>.np<n>" per rank count, label "mpi". TIMEOUT is required: a hang is how a
+# missed collective shows. PROCESSORS keeps `ctest -j` from running more ranks than cores at once.
+function(tessera_add_mpi_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;RANKS;LINK")
+  foreach(required IN ITEMS SOURCES RANKS TIMEOUT)
+    if(NOT DEFINED arg_${required})
+      message(FATAL_ERROR "tessera_add_mpi_test(${name}): ${required} is required")
+    endif()
+  endforeach()
+
+  add_executable(test_${name} ${arg_SOURCES})
+  target_link_libraries(test_${name} PRIVATE tessera_test_support ${arg_LINK} tessera_mpi_gtest_main)
+  foreach(np IN LISTS arg_RANKS)
+    add_test(
+      NAME ${name}.np${np}
+      COMMAND
+        ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${np} ${MPIEXEC_PREFLAGS}
+        $<TARGET_FILE:test_${name}> ${MPIEXEC_POSTFLAGS}
+    )
+    set_tests_properties(
+      ${name}.np${np}
+      PROPERTIES
+        LABELS mpi
+        PROCESSORS ${np}
+        TIMEOUT ${arg_TIMEOUT}
+        ENVIRONMENT "${TESSERA_MPI_ENVIRONMENT}"
+    )
+  endforeach()
+endfunction()

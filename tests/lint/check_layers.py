@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Fail if a file includes what its layer may not. ctest runs it as lint.layers."""
+import pathlib
+import re
+import sys
+
+BASE = {"base"}
+CORE = BASE | {"comm", "jobs", "mesh"}
+ALLOWED = {  # module -> project modules it may include, besides itself
+    "base": set(),
+    "comm": BASE,
+    "jobs": BASE,
+    "mesh": BASE | {"comm"},
+    "model": CORE,
+    "netgen": CORE | {"model", "coarse", "fill", "improve"},
+    "coarse": CORE | {"model"},
+    "decompose": CORE | {"model"},
+    "plan": CORE | {"model"},
+    "refine": CORE | {"model"},
+    "fill": CORE | {"model"},
+    "improve": CORE | {"model"},
+    "migrate": CORE,
+    "number": CORE,
+    "quality": CORE,
+    "verify": CORE,
+    "check": BASE | {"comm", "mesh"},  # independent: of mesh only mesh_arrays.hpp
+    "io": CORE,
+}
+ALLOWED["config"] = set(ALLOWED) - {"netgen"}  # and of the modules, only their options.hpp
+ALLOWED["pipeline"] = set(ALLOWED)  # of netgen only include/tessera/netgen/factory.hpp, free of NETGEN's types
+QUARANTINE = {  # third-party header -> the only places that may include it
+    r"mpi\.h": ("include/tessera/comm/", "src/comm/"),
+    r"metis\.h": ("src/decompose/metis_",),
+    r"(nglib\.h|netgen/.*|meshing\.hpp|csg\.hpp|stlgeom\.hpp|occgeom\.hpp|mystdlib\.h|[A-Z]\w+\.hxx)": ("src/netgen/",),
+    r"vtk.*": ("src/io/vtk_",),
+    r"toml.*": ("src/config/",),
+    r"CLI/.*": ("pipeline/cli.cpp",),
+}
+INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]')
+
+
+def module_of(path: str) -> str:
+    parts = path.split("/")
+    return parts[2] if parts[0] == "include" else parts[1] if parts[0] == "src" else parts[0]
+
+
+def problems(root: pathlib.Path):
+    for top in ("include", "src", "pipeline"):
+        for file in sorted(root.glob(f"{top}/**/*.[ch]pp")):
+            here = file.relative_to(root).as_posix()
+            module = module_of(here)
+            if module not in ALLOWED:
+                yield f"{here}: module '{module}' is not in the layer table"
+                continue
+            for number, line in enumerate(file.read_text().splitlines(), 1):
+                match = INCLUDE.match(line)
+                if not match:
+                    continue
+                target = match[1]
+                if target.startswith("tessera/"):
+                    other = target.split("/")[1]
+                    if other != module and other not in ALLOWED[module]:
+                        yield f"{here}:{number}: '{module}' may not include '{other}'"
+                for pattern, homes in QUARANTINE.items():
+                    if re.fullmatch(pattern, target) and not here.startswith(homes):
+                        yield f"{here}:{number}: <{target}> belongs in {' or '.join(homes)}"
+
+
+root = pathlib.Path(sys.argv[1])
+if not list(root.glob("src/**/*.cpp")):
+    sys.exit(f"layers: no sources under {root}")
+found = list(problems(root))
+print("\n".join(found) or "layers: ok")
+sys.exit(1 if found else 0)
