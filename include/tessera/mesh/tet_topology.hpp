@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+
+namespace tessera::mesh {
+
+/// @brief Corners of the face opposite to corner i of a positive tet; its normal points outwards.
+inline constexpr std::array<std::array<std::size_t, 3>, 4> kTetFaceCorners{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
+/// @brief The six edges of a tet as pairs of corners.
+inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdgeCorners{
+    {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
+
+/// @brief The three vertices in ascending order: the key of a triangle.
+[[nodiscard]] std::array<LocalIndex, 3> sorted_triangle(LocalIndex a, LocalIndex b, LocalIndex c);
+
+/// @brief Whether (a, b, c) is an even permutation of its ascending order. @pre all different.
+[[nodiscard]] bool is_even_triangle(LocalIndex a, LocalIndex b, LocalIndex c);
+
+/// @brief One triangle of a tet mesh and the one or two tets it belongs to.
+struct TriangleTets {
+  std::array<LocalIndex, 3> vertices{};  ///< Ascending.
+  std::array<LocalIndex, 2> tets{kNoIndex, kNoIndex};  ///< Ascending; the second may be kNoIndex.
+  std::array<LocalIndex, 2> corners{kNoIndex, kNoIndex};  ///< Corner of that tet opposite to it.
+};
+
+/// @brief All triangles of the tets, in ascending order of their vertices. Local; O(n log n).
+/// @param[in] tet_vertices Shape (num_tets, 4).
+/// @throws MeshError if a triangle belongs to more than two tets.
+[[nodiscard]] std::vector<TriangleTets> triangles_of_tets(std::span<const LocalIndex> tet_vertices);
+
+}  // namespace tessera::mesh

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/coarse_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <string>
+
+#include "tessera/base/error.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+
+namespace tessera::mesh {
+namespace {
+
+void require(bool condition, const std::string& what)
+{
+  if (!condition) throw MeshError("coarse mesh: " + what);
+}
+
+void require_indices_below(const std::vector<LocalIndex>& indices, LocalIndex limit,
+                           const std::string& name)
+{
+  for (const LocalIndex i : indices) {
+    require(i >= 0 && i < limit,
+            name + " holds " + std::to_string(i) + ", not in [0, " + std::to_string(limit) + ")");
+  }
+}
+
+void validate_shapes(const CoarseMesh& mesh)
+{
+  const auto tets = static_cast<std::size_t>(mesh.num_tets());
+  const auto faces = static_cast<std::size_t>(mesh.num_faces());
+  const auto segments = static_cast<std::size_t>(mesh.num_segments());
+  require(tets > 0, "it has no tets");
+  require(mesh.tet_material.size() == tets, "tet_material has another length than tet_vertices");
+  require(mesh.face_patch.size() == faces, "face_patch has another length than face_vertices");
+  require(mesh.face_uv.empty() || mesh.face_uv.size() == 6 * faces, "face_uv has a wrong length");
+  require(mesh.segment_curve.size() == segments, "segment_curve has a wrong length");
+  require(mesh.segment_t.empty() || mesh.segment_t.size() == 2 * segments,
+          "segment_t has a wrong length");
+  require(mesh.patch_surface.size() == mesh.patch_names.size(), "patch_surface has a wrong length");
+  require_indices_below(mesh.tet_vertices, mesh.num_vertices(), "tet_vertices");
+  require_indices_below(mesh.face_vertices, mesh.num_vertices(), "face_vertices");
+  require_indices_below(mesh.face_patch, mesh.num_patches(), "face_patch");
+  require_indices_below(mesh.segment_vertices, mesh.num_vertices(), "segment_vertices");
+  for (const LocalIndex m : mesh.tet_material) {
+    require(m >= 1 && m <= mesh.num_materials(), "material " + std::to_string(m) + " has no name");
+  }
+}
+
+void validate_tets(const CoarseMesh& mesh)
+{
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    const auto tet = mesh.tet(t);
+    const double volume = tet_volume(mesh.position(tet[0]), mesh.position(tet[1]),
+                                     mesh.position(tet[2]), mesh.position(tet[3]));
+    require(volume > 0.0, "tet " + std::to_string(t) + " has volume " + std::to_string(volume));
+  }
+}
+
+void validate_faces(const CoarseMesh& mesh)
+{
+  std::map<std::array<LocalIndex, 3>, int> times_a_face;
+  for (std::size_t f = 0; f < mesh.face_patch.size(); ++f) {
+    const auto corners = sorted_triangle(mesh.face_vertices[3 * f], mesh.face_vertices[3 * f + 1],
+                                         mesh.face_vertices[3 * f + 2]);
+    require(++times_a_face[corners] == 1, "face " + std::to_string(f) + " stands twice");
+  }
+  std::size_t faces_of_tets = 0;
+  for (const TriangleTets& triangle : triangles_of_tets(mesh.tet_vertices)) {
+    const bool is_face = times_a_face.count(triangle.vertices) > 0;
+    faces_of_tets += is_face ? 1 : 0;
+    const auto material = [&](std::size_t side) {
+      return mesh.tet_material[static_cast<std::size_t>(triangle.tets[side])];
+    };
+    const bool outside = triangle.tets[1] == kNoIndex;
+    require(is_face || !(outside || material(0) != material(1)),
+            "a triangle of tet " + std::to_string(triangle.tets[0])
+                + " is on the outside or between two materials but no face");
+  }
+  require(faces_of_tets == times_a_face.size(), "a face is no triangle of any tet");
+}
+
+}  // namespace
+
+void validate(const CoarseMesh& mesh)
+{
+  validate_shapes(mesh);
+  validate_tets(mesh);
+  validate_faces(mesh);
+}
+
+Bytes to_bytes(const CoarseMesh& mesh)
+{
+  ByteWriter out;
+  out.put(mesh.vertex_xyz);
+  out.put(mesh.tet_vertices);
+  out.put(mesh.tet_material);
+  out.put(mesh.face_vertices);
+  out.put(mesh.face_patch);
+  out.put(mesh.face_uv);
+  out.put(mesh.segment_vertices);
+  out.put(mesh.segment_curve);
+  out.put(mesh.segment_t);
+  out.put(mesh.patch_names);
+  out.put(mesh.patch_surface);
+  out.put(mesh.material_names);
+  return std::move(out).take();
+}
+
+CoarseMesh coarse_mesh_from_bytes(std::span<const std::byte> bytes)
+{
+  ByteReader in(bytes);
+  CoarseMesh mesh;
+  mesh.vertex_xyz = in.get_vector<double>();
+  mesh.tet_vertices = in.get_vector<LocalIndex>();
+  mesh.tet_material = in.get_vector<LocalIndex>();
+  mesh.face_vertices = in.get_vector<LocalIndex>();
+  mesh.face_patch = in.get_vector<LocalIndex>();
+  mesh.face_uv = in.get_vector<double>();
+  mesh.segment_vertices = in.get_vector<LocalIndex>();
+  mesh.segment_curve = in.get_vector<LocalIndex>();
+  mesh.segment_t = in.get_vector<double>();
+  mesh.patch_names = in.get_strings();
+  mesh.patch_surface = in.get_vector<LocalIndex>();
+  mesh.material_names = in.get_strings();
+  return mesh;
+}
+
+}  // namespace tessera::mesh
