@@ -13,6 +13,12 @@
 
 namespace tessera::model {
 
+/// @brief What import needs to know beside the file.
+struct ImportOptions {
+  /// STL: dihedral angle, degrees in (0, 180), from which an edge separates two patches.
+  double feature_angle_deg = 30.0;
+};
+
 enum class Format : int { csg, stl, occ };  ///< occ: STEP, IGES and BREP, kept as one BREP.
 
 /// @brief What every rank loads the model from: the bytes that rank 0 read (and healed), so that no

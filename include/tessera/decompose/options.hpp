@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/base/types.hpp"
+
+namespace tessera::decompose {
+
+/// @brief Options of the decomposition; table `[decompose]` of a case file.
+struct DecomposeOptions {
+  /// Wanted number of subdomains, >= 1; 0 stands for "auto". A request: at least one a material, and
+  /// repair may split further.
+  LocalIndex subdomains = 0;
+};
+
+}  // namespace tessera::decompose

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tessera::io {
+
+enum class Compression : int { none, lz4, zlib };
+
+/// @brief Options of the output; table `[output]` of a case file.
+struct OutputOptions {
+  std::filesystem::path directory{};           ///< Relative to the working directory.
+  std::vector<std::string> formats{"pvtu"};
+  Compression compression = Compression::lz4;
+  bool cell_quality = false;                   ///< Also write the mean ratio of every tet.
+};
+
+}  // namespace tessera::io

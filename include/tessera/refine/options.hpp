@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace tessera::refine {
+
+/// @brief Options of the refinement; table `[refine]` of a case file.
+struct RefineOptions {
+  int levels = 1;  ///< L >= 0: every coarse edge is split into 2^L.
+};
+
+}  // namespace tessera::refine
