@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <compare>
+#include <span>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/base/types.hpp"
+
+namespace tessera::mesh {
+
+/// @brief Kinds of skeleton entities that carry inner lattice points.
+enum class LatticeCarrier : std::int32_t { edge, triangle };
+
+/// @brief Names a lattice point that is born on a skeleton edge or triangle.
+struct LatticePointKey {
+  LatticeCarrier carrier = LatticeCarrier::edge;
+  LocalIndex entity = kNoIndex;  ///< Row of the skeleton's edges or triangles.
+  LocalIndex index = 0;          ///< Inner point: k - 1 on an edge, inner_triangle_index() else.
+
+  friend auto operator<=>(const LatticePointKey&, const LatticePointKey&) = default;
+};
+
+/// @brief How far a point goes from its midpoint (0) to its projection (1).
+struct PointDamping {
+  LatticePointKey key{};
+  double factor = 1.0;
+};
+
+/// @brief The result of the plan stage: a sparse list of points whose projection is damped so that
+/// no skin folds. Points that are not listed go all the way.
+class Damping {
+ public:
+  Damping() = default;
+
+  /// @brief Keeps the smallest factor of each point. Entries in any order.
+  explicit Damping(std::vector<PointDamping> entries);
+
+  /// @brief Factor of a point, 1 if it is not listed. O(log n); O(1) when the list is empty.
+  [[nodiscard]] double factor(const LatticePointKey& key) const;
+
+  [[nodiscard]] std::span<const PointDamping> entries() const { return entries_; }
+
+ private:
+  std::vector<PointDamping> entries_{};  ///< By ascending key.
+};
+
+/// @brief Byte image and back, for messages between processes. Local.
+[[nodiscard]] Bytes to_bytes(const Damping& damping);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] Damping damping_from_bytes(std::span<const std::byte> bytes);
+
+}  // namespace tessera::mesh

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/decomposition.hpp"
+
+namespace tessera::mesh {
+
+/// @brief The coarse triangles on the geometry or between two subdomains, with their edges and
+/// vertices: all that subdomains share. A pure function of coarse mesh and decomposition, so every
+/// process builds the same one for itself.
+///
+/// Triangles and edges list their vertices in ascending order of coarse vertex numbers. Each edge
+/// carries one *canonical record* that says where its new points lie: on a curve; else on the
+/// surface of its lowest triangle on the geometry; else they are plain midpoints.
+struct Skeleton {
+  std::vector<LocalIndex> vertex_coarse{};    ///< Shape (num_vertices); coarse vertex, ascending.
+  std::vector<LocalIndex> vertex_owner{};     ///< Lowest subdomain that holds the vertex.
+
+  std::vector<LocalIndex> edge_vertices{};   ///< Shape (num_edges, 2); rows of vertex_coarse.
+  std::vector<LocalIndex> edge_owner{};      ///< Lowest subdomain that holds the edge.
+  std::vector<LocalIndex> edge_curve{};      ///< The Model's curve, or kNoIndex.
+  std::vector<LocalIndex> edge_patch{};      ///< Patch of its lowest triangle on the geometry, or
+                                             ///< kNoIndex. Counts where there is no curve.
+  /// Shape (num_edges, 2, 2). Parameters of the ends on what counts: (t, 0) or (u, v).
+  std::vector<double> edge_parameters{};
+
+  std::vector<LocalIndex> triangle_vertices{};    ///< Shape (num_triangles, 3); rows of vertex_coarse.
+  std::vector<LocalIndex> triangle_edges{};       ///< Shape (num_triangles, 3); sides 01, 02, 12.
+  std::vector<LocalIndex> triangle_patch{};       ///< Patch, or kNoIndex off the geometry.
+  std::vector<double> triangle_uv{};              ///< Shape (num_triangles, 3, 2), corner parameters.
+  /// Shape (num_triangles, 2). Entry 0: the subdomain that the ascending orientation points out of;
+  /// entry 1: the one it points into. kNoIndex: outside.
+  std::vector<LocalIndex> triangle_subdomains{};
+
+  std::vector<LocalIndex> subdomain_offsets{};    ///< Shape (num_subdomains + 1).
+  std::vector<LocalIndex> subdomain_triangles{};  ///< Triangles of each subdomain, ascending.
+
+  [[nodiscard]] LocalIndex num_vertices() const { return size_of(vertex_coarse); }
+  [[nodiscard]] LocalIndex num_edges() const { return size_of(edge_owner); }
+  [[nodiscard]] LocalIndex num_triangles() const { return size_of(triangle_patch); }
+
+  /// @brief Triangles of one subdomain's skin.
+  [[nodiscard]] std::span<const LocalIndex> triangles_of(LocalIndex subdomain) const
+  {
+    const auto s = static_cast<std::size_t>(subdomain);
+    const auto first = static_cast<std::size_t>(subdomain_offsets[s]);
+    const auto last = static_cast<std::size_t>(subdomain_offsets[s + 1]);
+    return std::span(subdomain_triangles).subspan(first, last - first);
+  }
+
+  /// @brief Lowest subdomain beside triangle `t`.
+  [[nodiscard]] LocalIndex triangle_owner(LocalIndex t) const;
+
+  /// @brief Whether both sides of triangle `t` are subdomains (of one or of two materials).
+  [[nodiscard]] bool is_inside(LocalIndex t) const;
+
+ private:
+  template <class T>
+  static LocalIndex size_of(const std::vector<T>& array)
+  {
+    return static_cast<LocalIndex>(array.size());
+  }
+};
+
+/// @brief Builds the skeleton. Local; O(n log n) in the coarse tets.
+/// @pre validate(coarse) holds and the decomposition belongs to that mesh.
+[[nodiscard]] Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposition);
+
+}  // namespace tessera::mesh

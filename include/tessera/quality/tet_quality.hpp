@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "tessera/base/vec3.hpp"
+
+namespace tessera::quality {
+
+/// @brief The four corners of a tet, in VTK's order.
+using TetCorners = std::array<Vec3, 4>;
+
+/// @brief Mean ratio of one tetrahedron, eta = 12 (3 V)^(2/3) / sum of squared edge lengths.
+///
+/// Dimensionless: 1 for the regular tet, 0 for a flat one, negative for an inverted one.
+///
+/// @cite liu1994shape  Liu and Joe, BIT 34 (1994) 268-287, doi:10.1007/BF01955874.
+/// @note Local.
+[[nodiscard]] double mean_ratio(const TetCorners& corners) noexcept;
+
+/// @brief Smallest and largest angle between two faces of a tet, degrees in [0, 180].
+struct DihedralRange {
+  double min_deg = 180.0;
+  double max_deg = 0.0;
+};
+
+/// @brief The range of the six dihedral angles of a tet. A face without area counts as 0 and 180.
+/// @note Local.
+[[nodiscard]] DihedralRange dihedral_range(const TetCorners& corners) noexcept;
+
+}  // namespace tessera::quality

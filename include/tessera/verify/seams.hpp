@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tessera/base/hash.hpp"
+#include "tessera/mesh/skeleton.hpp"
+#include "tessera/mesh/skin.hpp"
+
+namespace tessera::verify {
+
+/// @brief What a piece shows on one inner skeleton triangle: the sum of the signed hashes of its fine
+/// triangles there, each over its vertices' (unit, index) and the bits of their positions.
+struct SeamHash {
+  LocalIndex triangle = kNoIndex;  ///< Skeleton triangle.
+  Hash128 hash{};                  ///< Seen from the other side it is the negative of this.
+};
+
+/// @brief Seam hashes of a piece, ascending by triangle. Local.
+/// @param[in] skin The boundary of the piece's tets, as check_fill() has shown.
+[[nodiscard]] std::vector<SeamHash> seam_hashes(const mesh::Skin& skin,
+                                                const mesh::Skeleton& skeleton);
+
+/// @brief The first skeleton triangle inside the model on which the two sides do not cancel, in
+/// words; nothing if all do.
+/// @param[in] sums Shape (num skeleton triangles): the sum of both sides' hashes. Local.
+[[nodiscard]] std::optional<std::string> first_open_seam(const std::vector<Hash128>& sums,
+                                                         const mesh::Skeleton& skeleton);
+
+}  // namespace tessera::verify

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/complex.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "tessera/mesh/tet_topology.hpp"
+
+namespace tessera::mesh {
+namespace {
+
+using Edge = std::array<LocalIndex, 2>;
+using Triangle = std::array<LocalIndex, 3>;
+
+std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+template <class T>
+void sort_unique(std::vector<T>& values)
+{
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+template <class T>
+LocalIndex index_in(const std::vector<T>& sorted, const T& value)
+{
+  const auto place = std::lower_bound(sorted.begin(), sorted.end(), value);
+  return place != sorted.end() && *place == value ? static_cast<LocalIndex>(place - sorted.begin())
+                                                  : kNoIndex;
+}
+
+template <std::size_t N>
+std::vector<std::array<LocalIndex, N>> rows_of(const std::vector<LocalIndex>& flat)
+{
+  std::vector<std::array<LocalIndex, N>> rows(flat.size() / N);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    std::copy_n(flat.begin() + static_cast<std::ptrdiff_t>(N * r), N, rows[r].begin());
+  }
+  return rows;
+}
+
+template <std::size_t N>
+std::vector<LocalIndex> flat_of(const std::vector<std::array<LocalIndex, N>>& rows)
+{
+  std::vector<LocalIndex> flat;
+  flat.reserve(N * rows.size());
+  for (const auto& row : rows) flat.insert(flat.end(), row.begin(), row.end());
+  return flat;
+}
+
+std::array<Edge, 3> sides_of(const Triangle& v)
+{
+  return {Edge{v[0], v[1]}, Edge{v[0], v[2]}, Edge{v[1], v[2]}};
+}
+
+// Edges of the triangles, numbered in ascending order.
+void add_edges(const std::vector<Triangle>& triangles, Complex& out)
+{
+  std::vector<Edge> edges;
+  for (const Triangle& triangle : triangles) {
+    for (const Edge& side : sides_of(triangle)) edges.push_back(side);
+  }
+  sort_unique(edges);
+  for (const Triangle& triangle : triangles) {
+    for (const Edge& side : sides_of(triangle)) out.triangle_edges.push_back(index_in(edges, side));
+  }
+  out.edge_vertices = flat_of(edges);
+}
+
+}  // namespace
+
+Complex skin_complex(const Skeleton& skeleton, LocalIndex subdomain)
+{
+  Complex out;
+  const auto skin = skeleton.triangles_of(subdomain);
+  out.triangle_skeleton.assign(skin.begin(), skin.end());
+  for (const LocalIndex t : skin) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      out.vertex_skeleton.push_back(skeleton.triangle_vertices[3 * at(t) + c]);
+      out.edge_skeleton.push_back(skeleton.triangle_edges[3 * at(t) + c]);
+    }
+  }
+  sort_unique(out.vertex_skeleton);
+  sort_unique(out.edge_skeleton);
+  const auto local_vertex = [&](LocalIndex v) { return index_in(out.vertex_skeleton, v); };
+  for (const LocalIndex v : out.vertex_skeleton) {
+    out.vertex_coarse.push_back(skeleton.vertex_coarse[at(v)]);
+  }
+  for (const LocalIndex e : out.edge_skeleton) {
+    out.edge_vertices.push_back(local_vertex(skeleton.edge_vertices[2 * at(e)]));
+    out.edge_vertices.push_back(local_vertex(skeleton.edge_vertices[2 * at(e) + 1]));
+  }
+  for (const LocalIndex t : skin) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      out.triangle_vertices.push_back(local_vertex(skeleton.triangle_vertices[3 * at(t) + c]));
+      out.triangle_edges.push_back(
+          index_in(out.edge_skeleton, skeleton.triangle_edges[3 * at(t) + c]));
+    }
+  }
+  return out;
+}
+
+namespace {
+
+// Places of the skeleton's entities for given vertices, by binary search in its sorted arrays.
+class SkeletonIndex {
+ public:
+  explicit SkeletonIndex(const Skeleton& skeleton)
+      : vertices_(skeleton.vertex_coarse),
+        edges_(rows_of<2>(skeleton.edge_vertices)),
+        triangles_(rows_of<3>(skeleton.triangle_vertices))
+  {
+  }
+
+  [[nodiscard]] LocalIndex vertex(LocalIndex coarse) const { return index_in(vertices_, coarse); }
+  [[nodiscard]] LocalIndex edge(const Edge& edge) const { return index_in(edges_, edge); }
+  [[nodiscard]] LocalIndex triangle(const Triangle& t) const { return index_in(triangles_, t); }
+
+ private:
+  const std::vector<LocalIndex>& vertices_;
+  std::vector<Edge> edges_;
+  std::vector<Triangle> triangles_;
+};
+
+void tie_to_skeleton(const Skeleton& skeleton, Complex& complex)
+{
+  const SkeletonIndex index(skeleton);
+  for (const LocalIndex v : complex.vertex_coarse) {
+    complex.vertex_skeleton.push_back(index.vertex(v));
+  }
+  const auto of_vertex = [&](LocalIndex v) { return complex.vertex_skeleton[at(v)]; };
+  for (const Edge& e : rows_of<2>(complex.edge_vertices)) {
+    complex.edge_skeleton.push_back(index.edge({of_vertex(e[0]), of_vertex(e[1])}));
+  }
+  for (const Triangle& t : rows_of<3>(complex.triangle_vertices)) {
+    complex.triangle_skeleton.push_back(
+        index.triangle({of_vertex(t[0]), of_vertex(t[1]), of_vertex(t[2])}));
+  }
+}
+
+}  // namespace
+
+TetComplex tet_complex(const CoarseMesh& coarse, const Skeleton& skeleton,
+                       std::span<const LocalIndex> tets)
+{
+  TetComplex out;
+  Complex& faces = out.faces;
+  out.tets.assign(tets.begin(), tets.end());
+  for (const LocalIndex t : tets) {
+    const auto tet = coarse.tet(t);
+    faces.vertex_coarse.insert(faces.vertex_coarse.end(), tet.begin(), tet.end());
+  }
+  sort_unique(faces.vertex_coarse);
+
+  std::vector<Triangle> triangles;
+  for (const LocalIndex t : tets) {
+    for (const LocalIndex v : coarse.tet(t)) {
+      out.tet_vertices.push_back(index_in(faces.vertex_coarse, v));
+    }
+  }
+  const auto face_of = [&](std::size_t t, std::size_t corner) {
+    const auto& c = kTetFaceCorners[corner];
+    const LocalIndex* v = &out.tet_vertices[4 * t];
+    return sorted_triangle(v[c[0]], v[c[1]], v[c[2]]);
+  };
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    for (std::size_t corner = 0; corner < 4; ++corner) triangles.push_back(face_of(t, corner));
+  }
+  sort_unique(triangles);
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      out.tet_triangles.push_back(index_in(triangles, face_of(t, corner)));
+    }
+  }
+  faces.triangle_vertices = flat_of(triangles);
+  add_edges(triangles, faces);
+  tie_to_skeleton(skeleton, faces);
+  return out;
+}
+
+}  // namespace tessera::mesh

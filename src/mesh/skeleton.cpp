@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/skeleton.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "tessera/mesh/tet_topology.hpp"
+
+namespace tessera::mesh {
+namespace {
+
+using Edge = std::array<LocalIndex, 2>;
+using Triangle = std::array<LocalIndex, 3>;
+
+std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+// Faces of the coarse mesh by their sorted vertices, for look-up by binary search.
+struct FaceTable {
+  struct Row {
+    Triangle vertices;
+    LocalIndex face;
+  };
+  std::vector<Row> rows;
+
+  explicit FaceTable(const CoarseMesh& coarse)
+  {
+    for (LocalIndex f = 0; f < coarse.num_faces(); ++f) {
+      const auto* v = &coarse.face_vertices[3 * at(f)];
+      rows.push_back({sorted_triangle(v[0], v[1], v[2]), f});
+    }
+    std::sort(rows.begin(), rows.end(),
+              [](const Row& a, const Row& b) { return a.vertices < b.vertices; });
+  }
+
+  [[nodiscard]] LocalIndex find(const Triangle& vertices) const
+  {
+    const auto row = std::lower_bound(
+        rows.begin(), rows.end(), vertices,
+        [](const Row& a, const Triangle& wanted) { return a.vertices < wanted; });
+    return row != rows.end() && row->vertices == vertices ? row->face : kNoIndex;
+  }
+};
+
+// Corner parameters of a face, put into the order of the sorted vertices.
+void append_face_uv(const CoarseMesh& coarse, LocalIndex face, const Triangle& sorted,
+                    std::vector<double>& uv)
+{
+  for (const LocalIndex v : sorted) {
+    std::size_t corner = 0;
+    if (face != kNoIndex) {
+      while (coarse.face_vertices[3 * at(face) + corner] != v) ++corner;
+    }
+    const bool known = face != kNoIndex && !coarse.face_uv.empty();
+    for (std::size_t d = 0; d < 2; ++d) {
+      uv.push_back(known ? coarse.face_uv[2 * (3 * at(face) + corner) + d] : 0.0);
+    }
+  }
+}
+
+// Whether the sorted orientation of a triangle points out of the tet that it is a face of.
+bool sorted_points_out_of(const CoarseMesh& coarse, LocalIndex tet, LocalIndex opposite_corner)
+{
+  const auto vertices = coarse.tet(tet);
+  const auto& face = kTetFaceCorners[at(opposite_corner)];
+  return is_even_triangle(vertices[face[0]], vertices[face[1]], vertices[face[2]]);
+}
+
+// Triangles still in coarse vertex numbers.
+void collect_triangles(const CoarseMesh& coarse, const Decomposition& decomposition, Skeleton& out)
+{
+  const FaceTable faces(coarse);
+  for (const TriangleTets& triangle : triangles_of_tets(coarse.tet_vertices)) {
+    std::array<LocalIndex, 2> subdomains{kNoIndex, kNoIndex};
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (triangle.tets[side] == kNoIndex) continue;
+      const bool out_of = sorted_points_out_of(coarse, triangle.tets[side], triangle.corners[side]);
+      subdomains[out_of ? 0 : 1] = decomposition.tet_subdomain[at(triangle.tets[side])];
+    }
+    if (subdomains[0] == subdomains[1]) continue;
+    const LocalIndex face = faces.find(triangle.vertices);
+    out.triangle_vertices.insert(out.triangle_vertices.end(), triangle.vertices.begin(),
+                                 triangle.vertices.end());
+    out.triangle_patch.push_back(face == kNoIndex ? kNoIndex : coarse.face_patch[at(face)]);
+    append_face_uv(coarse, face, triangle.vertices, out.triangle_uv);
+    out.triangle_subdomains.insert(out.triangle_subdomains.end(), subdomains.begin(),
+                                   subdomains.end());
+  }
+}
+
+// Renumbers the triangles' vertices from coarse to skeleton numbers; the order is kept.
+void number_vertices(Skeleton& out)
+{
+  out.vertex_coarse = out.triangle_vertices;
+  std::sort(out.vertex_coarse.begin(), out.vertex_coarse.end());
+  out.vertex_coarse.erase(std::unique(out.vertex_coarse.begin(), out.vertex_coarse.end()),
+                          out.vertex_coarse.end());
+  for (LocalIndex& v : out.triangle_vertices) {
+    const auto place = std::lower_bound(out.vertex_coarse.begin(), out.vertex_coarse.end(), v);
+    v = static_cast<LocalIndex>(place - out.vertex_coarse.begin());
+  }
+}
+
+LocalIndex find_edge(const std::vector<Edge>& edges, const Edge& edge)
+{
+  const auto place = std::lower_bound(edges.begin(), edges.end(), edge);
+  return place != edges.end() && *place == edge ? static_cast<LocalIndex>(place - edges.begin())
+                                                : kNoIndex;
+}
+
+std::array<Edge, 3> sides_of(const Skeleton& skeleton, LocalIndex t)
+{
+  const auto* v = &skeleton.triangle_vertices[3 * at(t)];
+  return {Edge{v[0], v[1]}, Edge{v[0], v[2]}, Edge{v[1], v[2]}};
+}
+
+std::vector<Edge> number_edges(Skeleton& out)
+{
+  std::vector<Edge> edges;
+  for (LocalIndex t = 0; t < out.num_triangles(); ++t) {
+    for (const Edge& edge : sides_of(out, t)) edges.push_back(edge);
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (const Edge& edge : edges) {
+    out.edge_vertices.insert(out.edge_vertices.end(), edge.begin(), edge.end());
+  }
+  for (LocalIndex t = 0; t < out.num_triangles(); ++t) {
+    for (const Edge& edge : sides_of(out, t)) out.triangle_edges.push_back(find_edge(edges, edge));
+  }
+  return edges;
+}
+
+// Owners: the lowest subdomain of the triangles around, which are all that can hold the entity,
+// because a subdomain's closure meets another one only in skeleton triangles.
+void set_owners(Skeleton& out)
+{
+  const LocalIndex nobody = std::numeric_limits<LocalIndex>::max();
+  out.vertex_owner.assign(out.vertex_coarse.size(), nobody);
+  out.edge_owner.assign(out.edge_vertices.size() / 2, nobody);
+  for (LocalIndex t = 0; t < out.num_triangles(); ++t) {
+    const LocalIndex owner = out.triangle_owner(t);
+    for (std::size_t c = 0; c < 3; ++c) {
+      LocalIndex& of_vertex = out.vertex_owner[at(out.triangle_vertices[3 * at(t) + c])];
+      LocalIndex& of_edge = out.edge_owner[at(out.triangle_edges[3 * at(t) + c])];
+      of_vertex = std::min(of_vertex, owner);
+      of_edge = std::min(of_edge, owner);
+    }
+  }
+}
+
+LocalIndex skeleton_vertex(const Skeleton& skeleton, LocalIndex coarse_vertex)
+{
+  const auto& vertices = skeleton.vertex_coarse;
+  const auto place = std::lower_bound(vertices.begin(), vertices.end(), coarse_vertex);
+  return place != vertices.end() && *place == coarse_vertex
+             ? static_cast<LocalIndex>(place - vertices.begin())
+             : kNoIndex;
+}
+
+// The lowest triangle on the geometry gives an edge its patch and the parameters of its ends.
+void set_edge_patches(Skeleton& out)
+{
+  constexpr std::array<std::array<std::size_t, 2>, 3> side_corners{{{0, 1}, {0, 2}, {1, 2}}};
+  for (LocalIndex t = 0; t < out.num_triangles(); ++t) {
+    if (out.triangle_patch[at(t)] == kNoIndex) continue;
+    for (std::size_t side = 0; side < 3; ++side) {
+      const std::size_t edge = at(out.triangle_edges[3 * at(t) + side]);
+      if (out.edge_patch[edge] != kNoIndex) continue;
+      out.edge_patch[edge] = out.triangle_patch[at(t)];
+      for (std::size_t end = 0; end < 2; ++end) {
+        const double* uv = &out.triangle_uv[2 * (3 * at(t) + side_corners[side][end])];
+        std::copy_n(uv, 2, &out.edge_parameters[2 * (2 * edge + end)]);
+      }
+    }
+  }
+}
+
+// A segment puts its edge on a curve; of duplicate segments the lowest counts.
+void set_edge_curves(const CoarseMesh& coarse, const std::vector<Edge>& edges, Skeleton& out)
+{
+  for (LocalIndex s = 0; s < coarse.num_segments(); ++s) {
+    const LocalIndex a = skeleton_vertex(out, coarse.segment_vertices[2 * at(s)]);
+    const LocalIndex b = skeleton_vertex(out, coarse.segment_vertices[2 * at(s) + 1]);
+    const LocalIndex edge = find_edge(edges, {std::min(a, b), std::max(a, b)});
+    if (edge == kNoIndex || out.edge_curve[at(edge)] != kNoIndex) continue;
+    out.edge_curve[at(edge)] = coarse.segment_curve[at(s)];
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::size_t from = a < b ? end : 1 - end;
+      double* parameters = &out.edge_parameters[2 * (2 * at(edge) + end)];
+      parameters[0] = coarse.segment_t.empty() ? 0.0 : coarse.segment_t[2 * at(s) + from];
+      parameters[1] = 0.0;
+    }
+  }
+}
+
+// Canonical records: curves come before patches.
+void set_edge_records(const CoarseMesh& coarse, const std::vector<Edge>& edges, Skeleton& out)
+{
+  out.edge_curve.assign(edges.size(), kNoIndex);
+  out.edge_patch.assign(edges.size(), kNoIndex);
+  out.edge_parameters.assign(4 * edges.size(), 0.0);
+  set_edge_patches(out);
+  set_edge_curves(coarse, edges, out);
+}
+
+void list_subdomain_triangles(LocalIndex num_subdomains, Skeleton& out)
+{
+  out.subdomain_offsets.assign(at(num_subdomains) + 1, 0);
+  for (const LocalIndex s : out.triangle_subdomains) {
+    if (s != kNoIndex) ++out.subdomain_offsets[at(s) + 1];
+  }
+  for (std::size_t s = 0; s < at(num_subdomains); ++s) {
+    out.subdomain_offsets[s + 1] += out.subdomain_offsets[s];
+  }
+  out.subdomain_triangles.resize(at(out.subdomain_offsets.back()));
+  std::vector<LocalIndex> next(out.subdomain_offsets.begin(), out.subdomain_offsets.end() - 1);
+  for (std::size_t i = 0; i < out.triangle_subdomains.size(); ++i) {
+    const LocalIndex s = out.triangle_subdomains[i];
+    if (s != kNoIndex) out.subdomain_triangles[at(next[at(s)]++)] = static_cast<LocalIndex>(i / 2);
+  }
+}
+
+}  // namespace
+
+LocalIndex Skeleton::triangle_owner(LocalIndex t) const
+{
+  const LocalIndex a = triangle_subdomains[2 * at(t)];
+  const LocalIndex b = triangle_subdomains[2 * at(t) + 1];
+  if (a == kNoIndex) return b;
+  return b == kNoIndex ? a : std::min(a, b);
+}
+
+bool Skeleton::is_inside(LocalIndex t) const
+{
+  return triangle_subdomains[2 * at(t)] != kNoIndex && triangle_subdomains[2 * at(t) + 1] != kNoIndex;
+}
+
+Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposition)
+{
+  Skeleton skeleton;
+  collect_triangles(coarse, decomposition, skeleton);
+  number_vertices(skeleton);
+  const std::vector<Edge> edges = number_edges(skeleton);
+  set_owners(skeleton);
+  set_edge_records(coarse, edges, skeleton);
+  list_subdomain_triangles(decomposition.num_subdomains(), skeleton);
+  return skeleton;
+}
+
+}  // namespace tessera::mesh

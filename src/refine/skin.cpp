@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/refine/skin.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace tessera::refine {
+namespace {
+
+namespace lattice = mesh::lattice;
+using lattice::TrianglePoint;
+
+std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+// Appends skin vertices in the order of LatticeNumbering.
+class VertexList {
+ public:
+  explicit VertexList(mesh::Skin& skin) : skin_(skin) {}
+
+  void append(const Vec3& point, mesh::Unit unit, LocalIndex index)
+  {
+    skin_.vertex_xyz.insert(skin_.vertex_xyz.end(), point.begin(), point.end());
+    skin_.vertex_unit.push_back(unit);
+    skin_.vertex_index.push_back(index);
+  }
+
+ private:
+  mesh::Skin& skin_;
+};
+
+void append_coarse_vertices(const mesh::Complex& complex, const RefinedLattice& lattice,
+                            VertexList& vertices)
+{
+  std::vector<Vec3> positions(at(complex.num_vertices()));
+  for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
+    positions[at(complex.edge_vertices[2 * at(e)])] = lattice.edge_point(e, 0);
+    positions[at(complex.edge_vertices[2 * at(e) + 1])] = lattice.edge_point(e, lattice.n);
+  }
+  for (LocalIndex v = 0; v < complex.num_vertices(); ++v) {
+    vertices.append(positions[at(v)], complex.vertex_skeleton[at(v)], 0);
+  }
+}
+
+void append_lattice_points(const mesh::Complex& complex, const RefinedLattice& lattice,
+                           const mesh::UnitLayout& units, VertexList& vertices)
+{
+  const LocalIndex n = lattice.n;
+  for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
+    const mesh::Unit unit = units.first_edge + complex.edge_skeleton[at(e)];
+    for (LocalIndex k = 1; k < n; ++k) vertices.append(lattice.edge_point(e, k), unit, k - 1);
+  }
+  for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
+    const mesh::Unit unit = units.first_triangle + complex.triangle_skeleton[at(t)];
+    LocalIndex index = 0;
+    for (LocalIndex j = 1; j < n; ++j) {
+      for (LocalIndex i = 1; i + j < n; ++i) {
+        vertices.append(lattice.triangle_point(t, {i, j}), unit, index++);
+      }
+    }
+  }
+}
+
+void append_triangles(const mesh::Complex& complex, LocalIndex n, const mesh::Skeleton& skeleton,
+                      LocalIndex subdomain, mesh::Skin& skin)
+{
+  const LatticeNumbering numbering(complex, n);
+  for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
+    const LocalIndex parent = complex.triangle_skeleton[at(t)];
+    const bool ascending_is_outward = skeleton.triangle_subdomains[2 * at(parent)] == subdomain;
+    lattice::for_each_small_triangle(
+        n, 1, [&](const TrianglePoint& a, TrianglePoint b, TrianglePoint c) {
+          if (!ascending_is_outward) std::swap(b, c);
+          for (const TrianglePoint& p : {a, b, c}) {
+            skin.triangle_vertices.push_back(numbering.triangle_point(t, p));
+          }
+          skin.triangle_parent.push_back(parent);
+        });
+  }
+}
+
+}  // namespace
+
+LatticeNumbering::LatticeNumbering(const mesh::Complex& complex, LocalIndex n)
+    : complex_(complex),
+      n_(n),
+      first_edge_point_(complex.num_vertices()),
+      first_triangle_point_(first_edge_point_
+                            + complex.num_edges() * lattice::num_inner_edge_points(n)),
+      num_points_(first_triangle_point_
+                  + complex.num_triangles() * lattice::num_inner_triangle_points(n))
+{
+}
+
+LocalIndex LatticeNumbering::edge_point(LocalIndex e, LocalIndex k) const
+{
+  if (k == 0) return complex_.edge_vertices[2 * at(e)];
+  if (k == n_) return complex_.edge_vertices[2 * at(e) + 1];
+  return first_edge_point_ + e * lattice::num_inner_edge_points(n_) + k - 1;
+}
+
+LocalIndex LatticeNumbering::triangle_point(LocalIndex t, const TrianglePoint& p) const
+{
+  const LocalIndex* edges = &complex_.triangle_edges[3 * at(t)];
+  if (p.j == 0) return edge_point(edges[0], p.i);
+  if (p.i == 0) return edge_point(edges[1], p.j);
+  if (p.i + p.j == n_) return edge_point(edges[2], p.j);
+  return first_triangle_point_ + t * lattice::num_inner_triangle_points(n_)
+         + lattice::inner_triangle_index(n_, p.i, p.j);
+}
+
+mesh::Skin extract_skin(const mesh::Complex& complex, const RefinedLattice& lattice,
+                        const mesh::Skeleton& skeleton, LocalIndex subdomain)
+{
+  mesh::Skin skin;
+  VertexList vertices(skin);
+  append_coarse_vertices(complex, lattice, vertices);
+  append_lattice_points(complex, lattice, mesh::UnitLayout(skeleton), vertices);
+  append_triangles(complex, lattice.n, skeleton, subdomain, skin);
+  return skin;
+}
+
+}  // namespace tessera::refine
