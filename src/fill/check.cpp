@@ -52,8 +52,8 @@ double positive_volume(const FillOutput& tets)
   double sum = 0.0;
   for (std::size_t t = 0; 4 * t < tets.tet_vertices.size(); ++t) {
     const LocalIndex* v = &tets.tet_vertices[4 * t];
-    const double volume = tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]),
-                                     point_at(xyz, v[2]), point_at(xyz, v[3]));
+    const double volume = tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]),
+                                     point_at(xyz, v[3]));
     if (!(volume > 0.0)) {  // Written so that a NaN counts.
       std::ostringstream text;
       text << "tet " << t << " has volume " << volume;
@@ -114,11 +114,13 @@ std::vector<LocalIndex> match_boundary(const FillInput& skin, const FillOutput& 
   if (w != wanted.end() || f != found.end()) {
     throw MeshError("the fill's boundary is not the skin: " + std::to_string(found.size())
                     + " outside triangles for " + std::to_string(wanted.size())
-                    + (w == wanted.end() ? std::string()
-                                         : ", first at skin triangle " + std::to_string(w->origin)));
+                    + (w == wanted.end()
+                           ? std::string()
+                           : ", first at skin triangle " + std::to_string(w->origin)));
   }
   std::vector<LocalIndex> triangle_tet(wanted.size());
-  for (std::size_t i = 0; i < wanted.size(); ++i) triangle_tet[at(wanted[i].origin)] = found[i].origin;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    triangle_tet[at(wanted[i].origin)] = found[i].origin;
   return triangle_tet;
 }
 

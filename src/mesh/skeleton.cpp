@@ -35,9 +35,9 @@ struct FaceTable {
 
   [[nodiscard]] LocalIndex find(const Triangle& vertices) const
   {
-    const auto row = std::lower_bound(
-        rows.begin(), rows.end(), vertices,
-        [](const Row& a, const Triangle& wanted) { return a.vertices < wanted; });
+    const auto row =
+        std::lower_bound(rows.begin(), rows.end(), vertices,
+                         [](const Row& a, const Triangle& wanted) { return a.vertices < wanted; });
     return row != rows.end() && row->vertices == vertices ? row->face : kNoIndex;
   }
 };
@@ -233,7 +233,8 @@ LocalIndex Skeleton::triangle_owner(LocalIndex t) const
 
 bool Skeleton::is_inside(LocalIndex t) const
 {
-  return triangle_subdomains[2 * at(t)] != kNoIndex && triangle_subdomains[2 * at(t) + 1] != kNoIndex;
+  return triangle_subdomains[2 * at(t)] != kNoIndex
+         && triangle_subdomains[2 * at(t) + 1] != kNoIndex;
 }
 
 Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposition)

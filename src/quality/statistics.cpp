@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "tessera/base/error.hpp"
 
 namespace tessera::quality {
 
 void Histogram::add(double value)
 {
-  const double scaled =
-      (value - low_) / (high_ - low_) * static_cast<double>(counts_.size());
+  const double scaled = (value - low_) / (high_ - low_) * static_cast<double>(counts_.size());
   const double last = static_cast<double>(counts_.size() - 1);
   ++counts_[static_cast<std::size_t>(std::clamp(std::floor(scaled), 0.0, last))];
 }
@@ -18,6 +20,12 @@ void Histogram::add(double value)
 void Histogram::add(const Histogram& other)
 {
   for (std::size_t b = 0; b < counts_.size(); ++b) counts_[b] += other.counts_[b];
+}
+
+void Histogram::set_counts(std::vector<GlobalIndex> counts)
+{
+  if (counts.size() != counts_.size()) throw InputError("a histogram has other bins than expected");
+  counts_ = std::move(counts);
 }
 
 GlobalIndex Histogram::total() const
@@ -45,18 +53,6 @@ std::vector<GlobalIndex> Histogram::coarsened(std::size_t num_bins) const
   return coarse;
 }
 
-void TetStatistics::add(const TetCorners& corners)
-{
-  const double eta = quality::mean_ratio(corners);
-  const DihedralRange dihedral = dihedral_range(corners);
-  ++num_tets;
-  min_dihedral_deg = std::min(min_dihedral_deg, dihedral.min_deg);
-  max_dihedral_deg = std::max(max_dihedral_deg, dihedral.max_deg);
-  min_mean_ratio = std::min(min_mean_ratio, eta);
-  sum_mean_ratio += eta;
-  mean_ratio.add(eta);
-}
-
 void TetStatistics::add(const TetStatistics& other)
 {
   num_tets += other.num_tets;
@@ -64,7 +60,6 @@ void TetStatistics::add(const TetStatistics& other)
   max_dihedral_deg = std::max(max_dihedral_deg, other.max_dihedral_deg);
   min_mean_ratio = std::min(min_mean_ratio, other.min_mean_ratio);
   sum_mean_ratio += other.sum_mean_ratio;
-  mean_ratio.add(other.mean_ratio);
 }
 
 double TetStatistics::mean_mean_ratio() const
@@ -72,42 +67,38 @@ double TetStatistics::mean_mean_ratio() const
   return num_tets == 0 ? 0.0 : sum_mean_ratio / static_cast<double>(num_tets);
 }
 
-void EdgeStatistics::add(double length) { log2_length.add(std::log2(length)); }
-
-double EdgeStatistics::percentile(double share) const
+void QualityHistograms::add(const QualityHistograms& other)
 {
-  return log2_length.total() == 0 ? 0.0 : std::exp2(log2_length.percentile(share));
+  mean_ratio.add(other.mean_ratio);
+  seam_mean_ratio.add(other.seam_mean_ratio);
+  log2_edge_length.add(other.log2_edge_length);
 }
 
-void write(ByteWriter& out, const TetStatistics& statistics)
+void add_tet(const TetCorners& corners, TetStatistics& statistics, Histogram& mean_ratios)
 {
-  out.put(statistics.num_tets);
-  out.put(statistics.min_dihedral_deg);
-  out.put(statistics.max_dihedral_deg);
-  out.put(statistics.min_mean_ratio);
-  out.put(statistics.sum_mean_ratio);
-  statistics.mean_ratio.write(out);
+  const double eta = mean_ratio(corners);
+  const DihedralRange dihedral = dihedral_range(corners);
+  statistics.add({1, dihedral.min_deg, dihedral.max_deg, eta, eta});
+  mean_ratios.add(eta);
 }
 
-TetStatistics read_tet_statistics(ByteReader& in)
+Bytes to_bytes(const QualityHistograms& histograms)
 {
-  TetStatistics statistics;
-  statistics.num_tets = in.get<GlobalIndex>();
-  statistics.min_dihedral_deg = in.get<double>();
-  statistics.max_dihedral_deg = in.get<double>();
-  statistics.min_mean_ratio = in.get<double>();
-  statistics.sum_mean_ratio = in.get<double>();
-  statistics.mean_ratio.read(in);
-  return statistics;
+  ByteWriter out;
+  out.put(histograms.mean_ratio.counts());
+  out.put(histograms.seam_mean_ratio.counts());
+  out.put(histograms.log2_edge_length.counts());
+  return std::move(out).take();
 }
 
-void write(ByteWriter& out, const EdgeStatistics& statistics) { statistics.log2_length.write(out); }
-
-EdgeStatistics read_edge_statistics(ByteReader& in)
+QualityHistograms quality_histograms_from_bytes(std::span<const std::byte> bytes)
 {
-  EdgeStatistics statistics;
-  statistics.log2_length.read(in);
-  return statistics;
+  ByteReader in(bytes);
+  QualityHistograms histograms;
+  histograms.mean_ratio.set_counts(in.get_vector<GlobalIndex>());
+  histograms.seam_mean_ratio.set_counts(in.get_vector<GlobalIndex>());
+  histograms.log2_edge_length.set_counts(in.get_vector<GlobalIndex>());
+  return histograms;
 }
 
 }  // namespace tessera::quality

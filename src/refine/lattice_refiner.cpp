@@ -104,19 +104,15 @@ class LatticeRefiner {
   {
     const LocalIndex edge = complex_.edge_skeleton[at(e)];
     for (LocalIndex k = step; k < n_; k += 2 * step) {
-      const Vec3 chord =
-          midpoint(result_.edge_point(e, k - step), result_.edge_point(e, k + step));
+      const Vec3 chord = midpoint(result_.edge_point(e, k - step), result_.edge_point(e, k + step));
       const bool is_free = edge == kNoIndex || context_.skeleton.edge_patch[at(edge)] == kNoIndex;
-      const Vec3 point =
-          is_free ? chord
-                  : damped(chord, project_edge_point(e, k, step, chord),
-                           {mesh::LatticeCarrier::edge, edge, k - 1});
-      store(result_.edge_xyz, edge_place(e, k), point);
+      store(result_.edge_xyz, edge_place(e, k),
+            is_free ? chord : place_on_geometry(e, k, step, chord));
     }
   }
 
   // Onto the edge's curve if it has one, else onto the patch of its canonical record.
-  Vec3 project_edge_point(LocalIndex e, LocalIndex k, LocalIndex step, const Vec3& chord)
+  Vec3 place_on_geometry(LocalIndex e, LocalIndex k, LocalIndex step, const Vec3& chord)
   {
     const std::size_t edge = at(complex_.edge_skeleton[at(e)]);
     SurfaceParameters parameters{};
@@ -124,19 +120,19 @@ class LatticeRefiner {
       parameters = middle(edge_parameters_[edge_place(e, k - step)],
                           edge_parameters_[edge_place(e, k + step)]);
     }
-    Vec3 projected;
-    if (const LocalIndex curve = context_.skeleton.edge_curve[edge]; curve != kNoIndex) {
-      const auto on_curve = context_.model.project_to_curve(curve, chord, parameters[0]);
-      projected = on_curve.xyz;
-      parameters[0] = on_curve.t;
-    } else {
-      const auto on_surface = context_.model.project_to_surface(
-          surface_of(context_.skeleton.edge_patch[edge]), chord, parameters);
-      projected = on_surface.xyz;
-      parameters = on_surface.uv;
-    }
-    if (has_parameters()) edge_parameters_[edge_place(e, k)] = parameters;
-    return projected;
+    const LocalIndex curve = context_.skeleton.edge_curve[edge];
+    const auto project = [&](const Vec3& point, const SurfaceParameters& guess) {
+      if (curve == kNoIndex) {
+        return context_.model.project_to_surface(surface_of(context_.skeleton.edge_patch[edge]),
+                                                 point, guess);
+      }
+      const model::CurvePoint on_curve = context_.model.project_to_curve(curve, point, guess[0]);
+      return model::SurfacePoint{on_curve.xyz, {on_curve.t, 0.0}};
+    };
+    const model::SurfacePoint projected = project(chord, parameters);
+    if (has_parameters()) edge_parameters_[edge_place(e, k)] = projected.uv;
+    return settle(chord, projected,
+                  {mesh::LatticeCarrier::edge, complex_.edge_skeleton[at(e)], k - 1}, project);
   }
 
   void refine_triangle(LocalIndex t, LocalIndex step)
@@ -172,12 +168,16 @@ class LatticeRefiner {
     const Vec3 chord = midpoint(result_.triangle_point(t, a), result_.triangle_point(t, b));
     Vec3 point = chord;
     if (const LocalIndex patch = patch_of(t); patch != kNoIndex) {
-      const auto on_surface = context_.model.project_to_surface(
-          surface_of(patch), chord, has_parameters() ? guess_uv(t, p, step) : SurfaceParameters{});
-      if (has_parameters()) triangle_uv_[triangle_place(t, p)] = on_surface.uv;
-      point = damped(chord, on_surface.xyz,
+      const auto project = [&](const Vec3& at_point, const SurfaceParameters& guess) {
+        return context_.model.project_to_surface(surface_of(patch), at_point, guess);
+      };
+      const model::SurfacePoint projected =
+          project(chord, has_parameters() ? guess_uv(t, p, step) : SurfaceParameters{});
+      if (has_parameters()) triangle_uv_[triangle_place(t, p)] = projected.uv;
+      point = settle(chord, projected,
                      {mesh::LatticeCarrier::triangle, complex_.triangle_skeleton[at(t)],
-                      lattice::inner_triangle_index(n_, p.i, p.j)});
+                      lattice::inner_triangle_index(n_, p.i, p.j)},
+                     project);
     }
     store(result_.triangle_xyz, triangle_place(t, p), point);
   }
@@ -200,11 +200,21 @@ class LatticeRefiner {
     return context_.coarse.patch_surface[at(patch)];
   }
 
-  [[nodiscard]] Vec3 damped(const Vec3& chord, const Vec3& projected,
-                            const mesh::LatticePointKey& key) const
+  // Where the plan lets a projected point go; measures how far off the geometry that is.
+  template <class Project>
+  Vec3 settle(const Vec3& chord, const model::SurfacePoint& projected,
+              const mesh::LatticePointKey& key, const Project& project)
   {
     const double factor = context_.damping.factor(key);
-    return factor == 1.0 ? projected : chord + factor * (projected - chord);
+    const Vec3 point = factor == 1.0 ? projected.xyz : chord + factor * (projected.xyz - chord);
+    if (context_.measure_distance) {
+      ModelDistance& distance = result_.distance;
+      const double off = norm(project(point, projected.uv).xyz - point);
+      double& largest = factor == 1.0 ? distance.largest : distance.largest_damped;
+      largest = std::max(largest, off);
+      distance.num_damped += factor == 1.0 ? 0 : 1;
+    }
+    return point;
   }
 
   const mesh::Complex& complex_;

@@ -84,7 +84,8 @@ mesh::CoarseMesh cube_tets(int n)
   for (int k = 0; k <= n; ++k)
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n; ++i)
-        mesh.vertex_xyz.insert(mesh.vertex_xyz.end(), {coordinate(i), coordinate(j), coordinate(k)});
+        mesh.vertex_xyz.insert(mesh.vertex_xyz.end(),
+                               {coordinate(i), coordinate(j), coordinate(k)});
 
   // Each tet walks from corner (0,0,0) to (1,1,1) of its cell along the axes in one of 3! orders;
   // odd orders swap the last two corners so that all volumes are positive.

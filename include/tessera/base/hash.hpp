@@ -10,7 +10,8 @@
 
 namespace tessera {
 
-/// @brief 128-bit number that hashes are summed in, modulo 2^128: sums do not depend on order.
+/// @brief 128-bit hash that is summed half by half, each modulo 2^64: sums do not depend on order,
+/// and an MPI sum of the halves is the sum of the hashes.
 struct Hash128 {
   std::uint64_t low = 0;
   std::uint64_t high = 0;
@@ -20,15 +21,14 @@ struct Hash128 {
   Hash128& operator+=(const Hash128& other) noexcept
   {
     low += other.low;
-    high += other.high + (low < other.low ? 1U : 0U);
+    high += other.high;
     return *this;
   }
 
   Hash128& operator-=(const Hash128& other) noexcept
   {
-    const std::uint64_t borrow = low < other.low ? 1U : 0U;
     low -= other.low;
-    high -= other.high + borrow;
+    high -= other.high;
     return *this;
   }
 };

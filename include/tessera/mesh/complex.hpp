@@ -11,8 +11,8 @@
 namespace tessera::mesh {
 
 /// @brief Coarse vertices, edges and triangles that are refined together, with local numbers and
-/// their place in the skeleton. Vertices, and with them edges and triangles, keep the ascending order
-/// of the coarse vertex numbers, so lattices of the same entity read the same everywhere.
+/// their place in the skeleton. Vertices, and with them edges and triangles, keep the ascending
+/// order of the coarse vertex numbers, so lattices of the same entity read the same everywhere.
 struct Complex {
   std::vector<LocalIndex> vertex_coarse{};      ///< Shape (num_vertices); ascending.
   std::vector<LocalIndex> vertex_skeleton{};    ///< Skeleton vertex, or kNoIndex inside.

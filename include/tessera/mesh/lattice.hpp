@@ -6,19 +6,23 @@
 
 #include "tessera/base/types.hpp"
 
-/// @brief Closed forms of the lattices that L levels of splitting put on coarse edges and triangles.
+/// @brief Closed forms of the lattices that L levels of splitting put on coarse edges and
+/// triangles.
 ///
 /// With n = 2^L, an edge (v0 < v1) carries points 0…n from v0 to v1; a triangle (v0 < v1 < v2)
-/// carries points (i, j), i, j >= 0, i + j <= n: i steps towards v1 and j towards v2. *Inner* points
-/// lie on no end point or side. A point that level l adds (step s = 2^(L-l)) is the midpoint of
-/// exactly one pair of older points, the same pair seen from everywhere.
+/// carries points (i, j), i, j >= 0, i + j <= n: i steps towards v1 and j towards v2. *Inner*
+/// points lie on no end point or side. A point that level l adds (step s = 2^(L-l)) is the midpoint
+/// of exactly one pair of older points, the same pair seen from everywhere.
 namespace tessera::mesh::lattice {
 
 /// @brief Largest number of levels: keeps every count of one coarse entity within LocalIndex.
 inline constexpr int kMaxLevels = 10;
 
 /// @brief Intervals of an edge: n = 2^levels. @pre 0 <= levels <= kMaxLevels.
-[[nodiscard]] constexpr LocalIndex intervals(int levels) noexcept { return LocalIndex{1} << levels; }
+[[nodiscard]] constexpr LocalIndex intervals(int levels) noexcept
+{
+  return LocalIndex{1} << levels;
+}
 
 [[nodiscard]] constexpr LocalIndex num_triangle_points(LocalIndex n) noexcept
 {

@@ -14,19 +14,20 @@ namespace tessera::mesh {
 
 /// @brief The tets of one subdomain, finished and immutable.
 ///
-/// Vertices are numbered locally, those of the skin first. Global ids are not known before all pieces
-/// are: a skin vertex refers to (unit, index), interior vertex i to (the piece's own unit, i).
+/// Vertices are numbered locally, those of the skin first. Global ids are not known before all
+/// pieces are: a skin vertex refers to (unit, index), interior vertex i to (the piece's own unit,
+/// i).
 struct Piece {
   LocalIndex subdomain = 0;
   LocalIndex material = 1;
-  std::vector<double> vertex_xyz{};              ///< Shape (num_vertices, 3).
-  std::vector<Unit> skin_unit{};                 ///< Shape (num_skin_vertices).
-  std::vector<LocalIndex> skin_index{};          ///< Shape (num_skin_vertices).
-  std::vector<LocalIndex> tet_vertices{};        ///< Shape (num_tets, 4); positive, VTK's order.
-  std::vector<LocalIndex> boundary_vertices{};   ///< Shape (num_boundary, 3): triangles on the
-                                                 ///< geometry that this piece owns; outward.
-  std::vector<LocalIndex> boundary_patch{};      ///< Shape (num_boundary).
-  std::vector<LocalIndex> boundary_tet{};        ///< Shape (num_boundary); local tet behind it.
+  std::vector<double> vertex_xyz{};             ///< Shape (num_vertices, 3).
+  std::vector<Unit> skin_unit{};                ///< Shape (num_skin_vertices).
+  std::vector<LocalIndex> skin_index{};         ///< Shape (num_skin_vertices).
+  std::vector<LocalIndex> tet_vertices{};       ///< Shape (num_tets, 4); positive, VTK's order.
+  std::vector<LocalIndex> boundary_vertices{};  ///< Shape (num_boundary, 3): triangles on the
+                                                ///< geometry that this piece owns; outward.
+  std::vector<LocalIndex> boundary_patch{};     ///< Shape (num_boundary).
+  std::vector<LocalIndex> boundary_tet{};       ///< Shape (num_boundary); local tet behind it.
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
   [[nodiscard]] LocalIndex num_skin_vertices() const { return count(skin_unit.size(), 1); }
@@ -42,7 +43,8 @@ struct Piece {
   {
     std::array<Vec3, 4> positions;
     for (std::size_t c = 0; c < 4; ++c) {
-      positions[c] = point_at(std::span(vertex_xyz), tet_vertices[4 * static_cast<std::size_t>(t) + c]);
+      positions[c] =
+          point_at(std::span(vertex_xyz), tet_vertices[4 * static_cast<std::size_t>(t) + c]);
     }
     return positions;
   }

@@ -19,21 +19,22 @@ namespace tessera::mesh {
 /// carries one *canonical record* that says where its new points lie: on a curve; else on the
 /// surface of its lowest triangle on the geometry; else they are plain midpoints.
 struct Skeleton {
-  std::vector<LocalIndex> vertex_coarse{};    ///< Shape (num_vertices); coarse vertex, ascending.
-  std::vector<LocalIndex> vertex_owner{};     ///< Lowest subdomain that holds the vertex.
+  std::vector<LocalIndex> vertex_coarse{};  ///< Shape (num_vertices); coarse vertex, ascending.
+  std::vector<LocalIndex> vertex_owner{};   ///< Lowest subdomain that holds the vertex.
 
-  std::vector<LocalIndex> edge_vertices{};   ///< Shape (num_edges, 2); rows of vertex_coarse.
-  std::vector<LocalIndex> edge_owner{};      ///< Lowest subdomain that holds the edge.
-  std::vector<LocalIndex> edge_curve{};      ///< The Model's curve, or kNoIndex.
-  std::vector<LocalIndex> edge_patch{};      ///< Patch of its lowest triangle on the geometry, or
-                                             ///< kNoIndex. Counts where there is no curve.
+  std::vector<LocalIndex> edge_vertices{};  ///< Shape (num_edges, 2); rows of vertex_coarse.
+  std::vector<LocalIndex> edge_owner{};     ///< Lowest subdomain that holds the edge.
+  std::vector<LocalIndex> edge_curve{};     ///< The Model's curve, or kNoIndex.
+  std::vector<LocalIndex> edge_patch{};     ///< Patch of its lowest triangle on the geometry, or
+                                            ///< kNoIndex. Counts where there is no curve.
   /// Shape (num_edges, 2, 2). Parameters of the ends on what counts: (t, 0) or (u, v).
   std::vector<double> edge_parameters{};
 
-  std::vector<LocalIndex> triangle_vertices{};    ///< Shape (num_triangles, 3); rows of vertex_coarse.
-  std::vector<LocalIndex> triangle_edges{};       ///< Shape (num_triangles, 3); sides 01, 02, 12.
-  std::vector<LocalIndex> triangle_patch{};       ///< Patch, or kNoIndex off the geometry.
-  std::vector<double> triangle_uv{};              ///< Shape (num_triangles, 3, 2), corner parameters.
+  std::vector<LocalIndex>
+      triangle_vertices{};                   ///< Shape (num_triangles, 3); rows of vertex_coarse.
+  std::vector<LocalIndex> triangle_edges{};  ///< Shape (num_triangles, 3); sides 01, 02, 12.
+  std::vector<LocalIndex> triangle_patch{};  ///< Patch, or kNoIndex off the geometry.
+  std::vector<double> triangle_uv{};         ///< Shape (num_triangles, 3, 2), corner parameters.
   /// Shape (num_triangles, 2). Entry 0: the subdomain that the ascending orientation points out of;
   /// entry 1: the one it points into. kNoIndex: outside.
   std::vector<LocalIndex> triangle_subdomains{};

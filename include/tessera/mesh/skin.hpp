@@ -28,11 +28,12 @@ struct UnitLayout {
 
 /// @brief The refined, closed, outward surface of one subdomain.
 struct Skin {
-  std::vector<double> vertex_xyz{};             ///< Shape (num_vertices, 3).
-  std::vector<Unit> vertex_unit{};              ///< Shape (num_vertices).
-  std::vector<LocalIndex> vertex_index{};       ///< Place within its unit.
-  std::vector<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3); normals point outwards.
-  std::vector<LocalIndex> triangle_parent{};    ///< Skeleton triangle of each.
+  std::vector<double> vertex_xyz{};        ///< Shape (num_vertices, 3).
+  std::vector<Unit> vertex_unit{};         ///< Shape (num_vertices).
+  std::vector<LocalIndex> vertex_index{};  ///< Place within its unit.
+  std::vector<LocalIndex>
+      triangle_vertices{};                    ///< Shape (num_triangles, 3); normals point outwards.
+  std::vector<LocalIndex> triangle_parent{};  ///< Skeleton triangle of each.
 
   [[nodiscard]] LocalIndex num_vertices() const
   {

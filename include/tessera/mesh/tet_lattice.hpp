@@ -10,8 +10,8 @@
 ///
 /// Points are (i, j, k), i, j, k >= 0, i + j + k <= n: steps towards corners 1, 2 and 3. All n^3
 /// children come from three shapes: upright tets, octahedra cut into four along one diagonal, and
-/// tets upside down. One choice of diagonal for all levels of a coarse tet is Bey's ordering: at most
-/// three similarity classes.
+/// tets upside down. One choice of diagonal for all levels of a coarse tet is Bey's ordering: at
+/// most three similarity classes.
 /// @cite bey1995tetrahedral  Bey, Computing 55 (1995) 355-378.
 namespace tessera::mesh::lattice {
 
@@ -35,16 +35,17 @@ struct TetPoint {
   return before + p.j * (rest + 1) - p.j * (p.j - 1) / 2 + p.i;
 }
 
-/// @brief Calls visit(a, b, c, d) for each of the (n/step)^3 children, all positive if the coarse tet
-/// is. `diagonal` in {0, 1, 2}: the octahedra are cut along the diagonal from the middle of the edge
-/// between corners 0 and diagonal + 1 to the middle of the opposite edge.
+/// @brief Calls visit(a, b, c, d) for each of the (n/step)^3 children, all positive if the coarse
+/// tet is. `diagonal` in {0, 1, 2}: the octahedra are cut along the diagonal from the middle of the
+/// edge between corners 0 and diagonal + 1 to the middle of the opposite edge.
 /// @pre step divides n.
 template <class Visit>
 constexpr void for_each_child(LocalIndex n, LocalIndex step, std::size_t diagonal, Visit&& visit)
 {
-  // The octahedron's corners as sums of steps (e1, e2, e3): its diagonal first, then the ring around
-  // it, such that (from, to, ring[m], ring[m + 1]) is positive.
-  constexpr TetPoint e1{1, 0, 0}, e2{0, 1, 0}, e3{0, 0, 1}, e12{1, 1, 0}, e13{1, 0, 1}, e23{0, 1, 1};
+  // The octahedron's corners as sums of steps (e1, e2, e3): its diagonal first, then the ring
+  // around it, such that (from, to, ring[m], ring[m + 1]) is positive.
+  constexpr TetPoint e1{1, 0, 0}, e2{0, 1, 0}, e3{0, 0, 1}, e12{1, 1, 0}, e13{1, 0, 1},
+      e23{0, 1, 1};
   constexpr std::array<std::array<TetPoint, 6>, 3> octahedra{
       {{e1, e23, e12, e2, e3, e13}, {e2, e13, e12, e23, e3, e1}, {e3, e12, e13, e1, e2, e23}}};
   const auto moved = [step](const TetPoint& p, const TetPoint& by) {

@@ -17,9 +17,9 @@ struct PieceCounts {
 
 /// @brief Dense 64-bit ids 0…N-1 of vertices, tets and boundary triangles.
 ///
-/// Vertices are counted unit by unit: skeleton vertices, edges, triangles (closed forms, 1, n - 1 and
-/// (n - 1)(n - 2)/2 points each), then the interiors of the pieces (a prefix sum). Tets and boundary
-/// triangles are counted piece by piece. The same for every number of ranks.
+/// Vertices are counted unit by unit: skeleton vertices, edges, triangles (closed forms, 1, n - 1
+/// and (n - 1)(n - 2)/2 points each), then the interiors of the pieces (a prefix sum). Tets and
+/// boundary triangles are counted piece by piece. The same for every number of ranks.
 class IdLayout {
  public:
   /// @param[in] pieces Counts of all subdomains, in their order. @param[in] n Intervals of an edge.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
@@ -31,8 +32,8 @@ class Histogram {
   /// @brief The counts gathered into `num_bins` equal bins. @pre num_bins divides the bins.
   [[nodiscard]] std::vector<GlobalIndex> coarsened(std::size_t num_bins) const;
 
-  void write(ByteWriter& out) const { out.put(counts_); }
-  void read(ByteReader& in) { counts_ = in.get_vector<GlobalIndex>(); }
+  [[nodiscard]] const std::vector<GlobalIndex>& counts() const { return counts_; }
+  void set_counts(std::vector<GlobalIndex> counts);  ///< @throws InputError if the bins differ.
 
  private:
   double low_;
@@ -40,34 +41,34 @@ class Histogram {
   std::vector<GlobalIndex> counts_;
 };
 
-/// @brief Shape statistics of some tets, made to be merged: minima and counts are exact, sums are
-/// added in the order of the merges.
+/// @brief Shape statistics of some tets. Extremes and counts are exact; the sum is that of the
+/// order in which tets and parts were added.
 struct TetStatistics {
   GlobalIndex num_tets = 0;
   double min_dihedral_deg = 180.0;
   double max_dihedral_deg = 0.0;
   double min_mean_ratio = 1.0;
   double sum_mean_ratio = 0.0;
-  Histogram mean_ratio{0.0, 1.0, 2000};  ///< Bins of 0.0005.
 
-  void add(const TetCorners& corners);
   void add(const TetStatistics& other);
   [[nodiscard]] double mean_mean_ratio() const;
 };
 
-/// @brief Statistics of the edge lengths: bins of log2(length), 64 an octave (1.1 % wide), from 2^-40
-/// to 2^40 output length units.
-struct EdgeStatistics {
-  Histogram log2_length{-40.0, 40.0, 80 * 64};
+/// @brief Distributions over tets and edges; merged in any order they are the same.
+struct QualityHistograms {
+  Histogram mean_ratio{0.0, 1.0, 2000};       ///< Of all tets; bins of 0.0005.
+  Histogram seam_mean_ratio{0.0, 1.0, 2000};  ///< Of the seam tets.
+  /// Of log2(edge length / output length unit): 64 bins an octave (1.1 % wide), from -40 to 40.
+  Histogram log2_edge_length{-40.0, 40.0, 80 * 64};
 
-  void add(double length);
-  void add(const EdgeStatistics& other) { log2_length.add(other.log2_length); }
-  [[nodiscard]] double percentile(double share) const;  ///< Output length unit.
+  void add(const QualityHistograms& other);
 };
 
-void write(ByteWriter& out, const TetStatistics& statistics);
-[[nodiscard]] TetStatistics read_tet_statistics(ByteReader& in);
-void write(ByteWriter& out, const EdgeStatistics& statistics);
-[[nodiscard]] EdgeStatistics read_edge_statistics(ByteReader& in);
+/// @brief Adds one tet to statistics and to a histogram of the mean ratio.
+void add_tet(const TetCorners& corners, TetStatistics& statistics, Histogram& mean_ratios);
+
+[[nodiscard]] Bytes to_bytes(const QualityHistograms& histograms);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] QualityHistograms quality_histograms_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace tessera::quality

@@ -21,6 +21,14 @@ struct RefineContext {
   const model::Model& model;
   const mesh::Damping& damping;
   int levels = 0;
+  bool measure_distance = false;  ///< Fill RefinedLattice::distance; twice the projections.
+};
+
+/// @brief How far the points on the geometry are from it, each measured by a second projection.
+struct ModelDistance {
+  double largest = 0.0;         ///< Over the points that were not damped; output length unit.
+  double largest_damped = 0.0;  ///< Over the points that the plan left off the geometry.
+  LocalIndex num_damped = 0;    ///< Their number.
 };
 
 /// @brief Positions of all lattice points of a complex.
@@ -28,13 +36,16 @@ struct RefinedLattice {
   LocalIndex n = 1;                    ///< Intervals of an edge.
   std::vector<double> edge_xyz{};      ///< Shape (num_edges, n + 1, 3).
   std::vector<double> triangle_xyz{};  ///< Shape (num_triangles, num_triangle_points(n), 3).
+  ModelDistance distance{};            ///< Measured if the context asks for it.
 
   [[nodiscard]] Vec3 edge_point(LocalIndex edge, LocalIndex k) const
   {
-    return point_at(std::span(edge_xyz), static_cast<std::size_t>(edge) * row_of_edge() + offset(k));
+    return point_at(std::span(edge_xyz),
+                    static_cast<std::size_t>(edge) * row_of_edge() + offset(k));
   }
 
-  [[nodiscard]] Vec3 triangle_point(LocalIndex triangle, const mesh::lattice::TrianglePoint& p) const
+  [[nodiscard]] Vec3 triangle_point(LocalIndex triangle,
+                                    const mesh::lattice::TrianglePoint& p) const
   {
     return point_at(std::span(triangle_xyz),
                     static_cast<std::size_t>(triangle) * row_of_triangle()

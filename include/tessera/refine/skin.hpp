@@ -19,7 +19,8 @@ class LatticeNumbering {
   [[nodiscard]] LocalIndex edge_point(LocalIndex e, LocalIndex k) const;
 
   /// @brief Number of point `p` of triangle `t`, sides and corners included.
-  [[nodiscard]] LocalIndex triangle_point(LocalIndex t, const mesh::lattice::TrianglePoint& p) const;
+  [[nodiscard]] LocalIndex triangle_point(LocalIndex t,
+                                          const mesh::lattice::TrianglePoint& p) const;
 
  private:
   const mesh::Complex& complex_;
