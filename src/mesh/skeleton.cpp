@@ -249,4 +249,24 @@ Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposi
   return skeleton;
 }
 
+std::vector<char> units_on_seams(const Skeleton& skeleton, const Decomposition& decomposition)
+{
+  const std::size_t first_edge = at(skeleton.num_vertices());
+  const std::size_t first_triangle = first_edge + at(skeleton.num_edges());
+  std::vector<char> on_seam(first_triangle + at(skeleton.num_triangles()), 0);
+  const auto material = [&](LocalIndex t, std::size_t side) {
+    const LocalIndex subdomain = skeleton.triangle_subdomains[2 * at(t) + side];
+    return decomposition.subdomain_material[at(subdomain)];
+  };
+  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
+    if (!skeleton.is_inside(t) || material(t, 0) != material(t, 1)) continue;
+    on_seam[first_triangle + at(t)] = 1;
+    for (std::size_t c = 0; c < 3; ++c) {
+      on_seam[at(skeleton.triangle_vertices[3 * at(t) + c])] = 1;
+      on_seam[first_edge + at(skeleton.triangle_edges[3 * at(t) + c])] = 1;
+    }
+  }
+  return on_seam;
+}
+
 }  // namespace tessera::mesh

@@ -45,7 +45,7 @@ class LatticeRefiner {
     }
   }
 
-  RefinedLattice run()
+  mesh::RefinedLattice run()
   {
     for (LocalIndex e = 0; e < complex_.num_edges(); ++e) place_ends(e);
     for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) place_corners(t);
@@ -208,7 +208,7 @@ class LatticeRefiner {
     const double factor = context_.damping.factor(key);
     const Vec3 point = factor == 1.0 ? projected.xyz : chord + factor * (projected.xyz - chord);
     if (context_.measure_distance) {
-      ModelDistance& distance = result_.distance;
+      mesh::ModelDistance& distance = result_.distance;
       const double off = norm(project(point, projected.uv).xyz - point);
       double& largest = factor == 1.0 ? distance.largest : distance.largest_damped;
       largest = std::max(largest, off);
@@ -222,14 +222,14 @@ class LatticeRefiner {
   LocalIndex n_;
   std::size_t edge_row_;
   std::size_t triangle_row_;
-  RefinedLattice result_{};
+  mesh::RefinedLattice result_{};
   std::vector<SurfaceParameters> edge_parameters_{};  ///< As edge_xyz; only for parametric models.
   std::vector<SurfaceParameters> triangle_uv_{};      ///< As triangle_xyz; likewise.
 };
 
 }  // namespace
 
-RefinedLattice refine_lattice(const mesh::Complex& complex, const RefineContext& context)
+mesh::RefinedLattice refine_lattice(const mesh::Complex& complex, const RefineContext& context)
 {
   return LatticeRefiner(complex, context).run();
 }

@@ -28,7 +28,7 @@ class VertexList {
   mesh::Skin& skin_;
 };
 
-void append_coarse_vertices(const mesh::Complex& complex, const RefinedLattice& lattice,
+void append_coarse_vertices(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
                             VertexList& vertices)
 {
   std::vector<Vec3> positions(at(complex.num_vertices()));
@@ -41,7 +41,7 @@ void append_coarse_vertices(const mesh::Complex& complex, const RefinedLattice& 
   }
 }
 
-void append_lattice_points(const mesh::Complex& complex, const RefinedLattice& lattice,
+void append_lattice_points(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
                            const mesh::UnitLayout& units, VertexList& vertices)
 {
   const LocalIndex n = lattice.n;
@@ -108,7 +108,7 @@ LocalIndex LatticeNumbering::triangle_point(LocalIndex t, const TrianglePoint& p
          + lattice::inner_triangle_index(n_, p.i, p.j);
 }
 
-mesh::Skin extract_skin(const mesh::Complex& complex, const RefinedLattice& lattice,
+mesh::Skin extract_skin(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
                         const mesh::Skeleton& skeleton, LocalIndex subdomain)
 {
   mesh::Skin skin;

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
-#include "tessera/base/types.hpp"
-#include "tessera/base/vec3.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/complex.hpp"
 #include "tessera/mesh/damping.hpp"
-#include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skeleton.hpp"
 #include "tessera/model/model.hpp"
 
@@ -21,44 +17,7 @@ struct RefineContext {
   const model::Model& model;
   const mesh::Damping& damping;
   int levels = 0;
-  bool measure_distance = false;  ///< Fill RefinedLattice::distance; twice the projections.
-};
-
-/// @brief How far the points on the geometry are from it, each measured by a second projection.
-struct ModelDistance {
-  double largest = 0.0;         ///< Over the points that were not damped; output length unit.
-  double largest_damped = 0.0;  ///< Over the points that the plan left off the geometry.
-  LocalIndex num_damped = 0;    ///< Their number.
-};
-
-/// @brief Positions of all lattice points of a complex.
-struct RefinedLattice {
-  LocalIndex n = 1;                    ///< Intervals of an edge.
-  std::vector<double> edge_xyz{};      ///< Shape (num_edges, n + 1, 3).
-  std::vector<double> triangle_xyz{};  ///< Shape (num_triangles, num_triangle_points(n), 3).
-  ModelDistance distance{};            ///< Measured if the context asks for it.
-
-  [[nodiscard]] Vec3 edge_point(LocalIndex edge, LocalIndex k) const
-  {
-    return point_at(std::span(edge_xyz),
-                    static_cast<std::size_t>(edge) * row_of_edge() + offset(k));
-  }
-
-  [[nodiscard]] Vec3 triangle_point(LocalIndex triangle,
-                                    const mesh::lattice::TrianglePoint& p) const
-  {
-    return point_at(std::span(triangle_xyz),
-                    static_cast<std::size_t>(triangle) * row_of_triangle()
-                        + offset(mesh::lattice::triangle_index(n, p.i, p.j)));
-  }
-
- private:
-  static std::size_t offset(LocalIndex i) { return static_cast<std::size_t>(i); }
-  [[nodiscard]] std::size_t row_of_edge() const { return offset(n) + 1; }
-  [[nodiscard]] std::size_t row_of_triangle() const
-  {
-    return offset(mesh::lattice::num_triangle_points(n));
-  }
+  bool measure_distance = false;  ///< Fill mesh::RefinedLattice::distance; twice the projections.
 };
 
 /// @brief Refines the edges and triangles of a complex, level by level; new points on the geometry
@@ -69,7 +28,7 @@ struct RefinedLattice {
 ///
 /// @note Local.
 /// @throws GeometryError if a projection fails.
-[[nodiscard]] RefinedLattice refine_lattice(const mesh::Complex& complex,
+[[nodiscard]] mesh::RefinedLattice refine_lattice(const mesh::Complex& complex,
                                             const RefineContext& context);
 
 }  // namespace tessera::refine

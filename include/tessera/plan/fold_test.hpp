@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/mesh/complex.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/damping.hpp"
+#include "tessera/mesh/decomposition.hpp"
+#include "tessera/mesh/refined_lattice.hpp"
+#include "tessera/mesh/skeleton.hpp"
+
+namespace tessera::plan {
+
+/// @brief The tets of a subdomain that have an edge on the geometry: only these can fold. Local.
+[[nodiscard]] std::vector<LocalIndex> tets_on_geometry(const mesh::CoarseMesh& coarse,
+                                                       const mesh::Skeleton& skeleton,
+                                                       const mesh::Decomposition& decomposition,
+                                                       LocalIndex subdomain);
+
+/// @brief New, smaller factors for the points that make a child of some tet flat or inverted.
+///
+/// Level by level, on the first level that has a bad child the new points on the geometry of that
+/// tet are damped one step further; with all of them at 0 the level is a plain subdivision and every
+/// child is as good as its parent, so repeated calls end.
+/// @param[in] complex Tets to test. @param[in] lattice Its points under `damping`.
+/// @return Empty if no child is bad.
+/// @note Local.
+[[nodiscard]] std::vector<mesh::PointDamping> find_folds(const mesh::TetComplex& complex,
+                                                         const mesh::Skeleton& skeleton,
+                                                         const mesh::RefinedLattice& lattice,
+                                                         const mesh::Damping& damping);
+
+/// @brief Steps of the damping factor: 1, 3/4, 1/2, 1/4, 0.
+[[nodiscard]] double next_factor(double factor);
+
+}  // namespace tessera::plan

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/mesh_worker.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+#include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/io/piece_store.hpp"
+#include "tessera/model/scaled_model.hpp"
+#include "tessera/netgen/factory.hpp"
+#include "tessera/plan/fold_test.hpp"
+
+#include "pipeline/fill_job.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+enum class Message : int { load_model, load_mesh, load_plan, import, coarse, plan, fill };
+
+// State of the model zygote; jobs are forked from it.
+class MeshWorker final : public jobs::Worker {
+ public:
+  void load(std::span<const std::byte> message) override
+  {
+    ByteReader in(message);
+    switch (in.get<Message>()) {
+      case Message::load_model: return load_model(in);
+      case Message::load_mesh: return load_mesh(in);
+      case Message::load_plan: damping_ = mesh::damping_from_bytes(in.get_vector<std::byte>()); return;
+      default: throw Error("load message of an unknown kind");
+    }
+  }
+
+  Bytes run(std::span<const std::byte> request) override
+  {
+    ByteReader in(request);
+    switch (in.get<Message>()) {
+      case Message::import: return import(in);
+      case Message::coarse: return coarse(in);
+      case Message::plan: return plan(in);
+      case Message::fill: return fill(in);
+      default: throw Error("job request of an unknown kind");
+    }
+  }
+
+ private:
+  void load_model(ByteReader& in)
+  {
+    scale_ = in.get<double>();
+    const Bytes source = in.get_vector<std::byte>();
+    netgen_model_ = netgen::load_model(model::model_source_from_bytes(source));
+    scaled_model_ = std::make_unique<model::ScaledModel>(*netgen_model_, scale_);
+  }
+
+  void load_mesh(ByteReader& in)
+  {
+    coarse_ = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
+    decomposition_ = mesh::decomposition_from_bytes(in.get_vector<std::byte>());
+    levels_ = in.get<int>();
+    piece_folder_ = in.get_string();
+    skeleton_ = mesh::build_skeleton(coarse_, decomposition_);
+    seam_units_ = mesh::units_on_seams(skeleton_, decomposition_);
+  }
+
+  static Bytes import(ByteReader& in)
+  {
+    const std::filesystem::path file = in.get_string();
+    return model::to_bytes(netgen::import_model(file, in.get<model::ImportOptions>()));
+  }
+
+  Bytes coarse(ByteReader& in)
+  {
+    auto options = in.get<coarse::CoarseOptions>();
+    options.max_size /= scale_;
+    mesh::CoarseMesh mesh = netgen::make_coarse_mesher(*netgen_model_)->generate(options);
+    for (double& x : mesh.vertex_xyz) x *= scale_;
+    mesh::validate(mesh);
+    return mesh::to_bytes(mesh);
+  }
+
+  Bytes plan(ByteReader& in)
+  {
+    const auto subdomain = in.get<LocalIndex>();
+    const mesh::Damping damping = mesh::damping_from_bytes(in.get_vector<std::byte>());
+    return mesh::to_bytes(plan::find_folds(refine_context(damping), decomposition_, subdomain));
+  }
+
+  Bytes fill(ByteReader& in)
+  {
+    const auto subdomain = in.get<LocalIndex>();
+    const auto settings = in.get<fill::FillTry>();
+    const auto kernel = netgen::make_fill_kernel();
+    refine::RefineContext context = refine_context(damping_);
+    context.measure_distance = true;
+    FilledPiece filled =
+        fill_subdomain({context, decomposition_, seam_units_}, subdomain, *kernel, settings);
+    io::PieceStore(piece_folder_).put(subdomain, mesh::to_bytes(filled.piece));
+    return to_bytes(filled.result);
+  }
+
+  [[nodiscard]] refine::RefineContext refine_context(const mesh::Damping& damping) const
+  {
+    return {coarse_, skeleton_, *scaled_model_, damping, levels_};
+  }
+
+  double scale_ = 1.0;
+  std::unique_ptr<model::Model> netgen_model_{};
+  std::unique_ptr<model::Model> scaled_model_{};
+  mesh::CoarseMesh coarse_{};
+  mesh::Decomposition decomposition_{};
+  mesh::Skeleton skeleton_{};
+  std::vector<char> seam_units_{};
+  mesh::Damping damping_{};
+  int levels_ = 0;
+  std::filesystem::path piece_folder_{};
+};
+
+template <class... Values>
+Bytes message(Message kind, const Values&... values)
+{
+  ByteWriter out;
+  out.put(kind);
+  (out.put(values), ...);
+  return std::move(out).take();
+}
+
+}  // namespace
+
+std::unique_ptr<jobs::Worker> make_mesh_worker() { return std::make_unique<MeshWorker>(); }
+
+Bytes load_model_message(const model::ModelSource& source, double scale)
+{
+  return message(Message::load_model, scale, model::to_bytes(source));
+}
+
+Bytes load_mesh_message(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
+                        int levels, const std::filesystem::path& piece_folder)
+{
+  return message(Message::load_mesh, mesh::to_bytes(coarse), mesh::to_bytes(decomposition), levels,
+                 piece_folder.string());
+}
+
+Bytes load_plan_message(const mesh::Damping& damping)
+{
+  return message(Message::load_plan, mesh::to_bytes(damping));
+}
+
+Bytes import_request(const std::filesystem::path& file, const model::ImportOptions& options)
+{
+  return message(Message::import, file.string(), options);
+}
+
+Bytes coarse_request(const coarse::CoarseOptions& options)
+{
+  return message(Message::coarse, options);
+}
+
+Bytes plan_request(LocalIndex subdomain, const mesh::Damping& damping)
+{
+  return message(Message::plan, subdomain, mesh::to_bytes(damping));
+}
+
+Bytes fill_request(LocalIndex subdomain, const fill::FillTry& settings)
+{
+  return message(Message::fill, subdomain, settings);
+}
+
+}  // namespace tessera::pipeline
