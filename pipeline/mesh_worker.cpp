@@ -16,7 +16,7 @@
 namespace tessera::pipeline {
 namespace {
 
-enum class Message : int { load_model, load_mesh, load_plan, import, coarse, plan, fill };
+enum class Message : int { load_model, load_mesh, load_plan, import, box, coarse, plan, fill };
 
 // State of the model zygote; jobs are forked from it.
 class MeshWorker final : public jobs::Worker {
@@ -37,6 +37,7 @@ class MeshWorker final : public jobs::Worker {
     ByteReader in(request);
     switch (in.get<Message>()) {
       case Message::import: return import(in);
+      case Message::box: return box();
       case Message::coarse: return coarse(in);
       case Message::plan: return plan(in);
       case Message::fill: return fill(in);
@@ -69,6 +70,13 @@ class MeshWorker final : public jobs::Worker {
     return model::to_bytes(netgen::import_model(file, in.get<model::ImportOptions>()));
   }
 
+  [[nodiscard]] Bytes box() const
+  {
+    ByteWriter out;
+    out.put(scaled_model_->box_diagonal());
+    return std::move(out).take();
+  }
+
   Bytes coarse(ByteReader& in)
   {
     auto options = in.get<coarse::CoarseOptions>();
@@ -83,7 +91,13 @@ class MeshWorker final : public jobs::Worker {
   {
     const auto subdomain = in.get<LocalIndex>();
     const mesh::Damping damping = mesh::damping_from_bytes(in.get_vector<std::byte>());
-    return mesh::to_bytes(plan::find_folds(refine_context(damping), decomposition_, subdomain));
+    const mesh::TetComplex complex = mesh::tet_complex(
+        coarse_, skeleton_,
+        plan::tets_on_geometry(coarse_, skeleton_, decomposition_, subdomain));
+    const mesh::RefinedLattice lattice =
+        refine::refine_lattice(complex.faces, refine_context(damping));
+    return mesh::to_bytes(
+        mesh::Damping(plan::find_folds(complex, skeleton_, lattice, damping)));
   }
 
   Bytes fill(ByteReader& in)
@@ -150,6 +164,8 @@ Bytes import_request(const std::filesystem::path& file, const model::ImportOptio
 {
   return message(Message::import, file.string(), options);
 }
+
+Bytes box_request() { return message(Message::box); }
 
 Bytes coarse_request(const coarse::CoarseOptions& options)
 {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/resolve_size.hpp"
+
+#include <cmath>
+
+#include "pipeline/exit_code.hpp"
+#include "pipeline/mesh_worker.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+constexpr jobs::JobLimits kQueryLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
+
+// A part fills about a third of a cube with its box's diagonal; a regular tet has h^3 / (6 sqrt 2).
+double estimated_tets(double box_diagonal, double target)
+{
+  const double side = box_diagonal / std::sqrt(3.0);
+  return std::pow(side / target, 3.0) * 6.0 * std::sqrt(2.0) / 3.0;
+}
+
+}  // namespace
+
+int levels_for(double num_fine_tets)
+{
+  if (num_fine_tets < 2e4) return 1;
+  if (num_fine_tets < 2e6) return 2;
+  return num_fine_tets < 1e8 ? 3 : 4;
+}
+
+config::Case resolve_size(const config::Case& given, RunContext& context)
+{
+  if (given.size.target == 0.0) return given;
+  const Bytes bytes = on_root(context.comm, [&] {
+    const jobs::JobOutcome outcome =
+        context.jobs.run(box_request(), kQueryLimits, wait_for_stop_signal());
+    jobs::throw_unless_ok(outcome, given.geometry.file.string());
+    return outcome.result;
+  });
+  const auto box_diagonal = ByteReader(bytes).get<double>();
+  config::Case resolved = given;
+  resolved.refine.levels = levels_for(estimated_tets(box_diagonal, given.size.target));
+  resolved.coarse.max_size = std::ldexp(given.size.target, resolved.refine.levels);
+  resolved.size.target = 0.0;
+  context.log.info("size.target {}: coarse.max_size = {}, refine.levels = {}", given.size.target,
+                   resolved.coarse.max_size, resolved.refine.levels);
+  return resolved;
+}
+
+}  // namespace tessera::pipeline

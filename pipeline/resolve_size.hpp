@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/config/case.hpp"
+
+#include "pipeline/run_context.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief The case with coarse.max_size and refine.levels chosen from size.target, if that is given.
+///
+/// The number of fine tets is estimated from the model's box; levels grow with it so that the serial
+/// coarse mesh stays small (each level makes it 8 times smaller) but keeps enough tets to cut.
+/// @note Collective: asks the model, which is loaded in the workers, for its box.
+[[nodiscard]] config::Case resolve_size(const config::Case& given, RunContext& context);
+
+/// @brief Levels for a wanted number of fine tets: 1 below 2·10^4, 2 below 2·10^6, 3 below 10^8, 4
+/// above.
+[[nodiscard]] int levels_for(double num_fine_tets);
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/run_context.hpp"
+
+#include <utility>
+
+#include "tessera/base/error.hpp"
+
+#include "pipeline/stop_signal.hpp"
+
+namespace tessera::pipeline {
+
+StageScope::StageScope(RunContext& context, std::string name, std::int64_t total,
+                       const std::string& unit)
+    : context_(context), name_(std::move(name)), start_(std::chrono::steady_clock::now())
+{
+  context_.progress.begin(name_, total, unit);
+}
+
+double StageScope::elapsed_s() const
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void StageScope::finish(const std::string& summary)
+{
+  const double own_s = work_s_ < 0.0 ? elapsed_s() : work_s_;
+  const double min_s = context_.comm.min(own_s);
+  const double max_s = context_.comm.max(own_s);
+  context_.times.push_back({name_, elapsed_s(), min_s, max_s});
+  context_.progress.end(summary);
+  throw_if_stopped(context_.comm);
+}
+
+jobs::JobRunner::WaitCallback wait_for_stop_signal()
+{
+  return [] { return !stop_requested(); };
+}
+
+void throw_if_stopped(const comm::Communicator& comm)
+{
+  std::optional<std::string> stopped;
+  if (stop_requested()) stopped = "stopped by a signal";
+  comm.throw_if_any<Interrupted>(stopped);
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tessera/comm/communicator.hpp"
+#include "tessera/jobs/job_runner.hpp"
+
+#include "pipeline/progress.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief Wall time of one stage, seconds.
+struct StageTime {
+  std::string name{};
+  double wall_s = 0.0;      ///< On rank 0, waiting included.
+  double rank_min_s = 0.0;  ///< Smallest time that a rank was at work.
+  double rank_max_s = 0.0;
+};
+
+/// @brief What every stage may use. Owned by the mesh command, borrowed by the stages.
+struct RunContext {
+  const comm::Communicator& comm;
+  jobs::JobRunner& jobs;
+  Progress& progress;
+  spdlog::logger& log;            ///< Console and log/run.log; rank 0 speaks, others are silent.
+  std::filesystem::path folder;   ///< The output folder.
+  std::vector<StageTime> times{};
+};
+
+/// @brief Times one stage and speaks of it: begins with the object, ends with finish().
+class StageScope {
+ public:
+  StageScope(RunContext& context, std::string name, std::int64_t total = 0,
+             const std::string& unit = "");
+
+  /// @brief Marks the end of this rank's own work; what follows is waiting for others.
+  void work_is_done() { work_s_ = elapsed_s(); }
+
+  /// @brief Ends the stage. @note Collective.
+  void finish(const std::string& summary);
+
+ private:
+  [[nodiscard]] double elapsed_s() const;
+
+  RunContext& context_;
+  std::string name_;
+  std::chrono::steady_clock::time_point start_;
+  double work_s_ = -1.0;
+};
+
+/// @brief Callback for jobs that one rank runs while the others wait: cancels on a stop signal.
+[[nodiscard]] jobs::JobRunner::WaitCallback wait_for_stop_signal();
+
+/// @brief Throws Interrupted on all ranks if a stop signal came to any. @note Collective.
+void throw_if_stopped(const comm::Communicator& comm);
+
+}  // namespace tessera::pipeline

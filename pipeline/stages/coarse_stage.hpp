@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/config/case.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+
+#include "pipeline/run_context.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief The coarse mesh and how it was got.
+struct CoarseResult {
+  mesh::CoarseMesh mesh{};
+  coarse::CoarseOptions options{};  ///< Those of the try that succeeded.
+  int tries = 0;                    ///< Rungs of the ladder that were needed, from 1.
+};
+
+/// @brief The tries at a coarse mesh, best first: as asked, then finer, flatter in grading, coarser
+/// in curvature; a mesh that fails at one size often works at another.
+[[nodiscard]] std::vector<coarse::CoarseOptions> coarse_ladder(const coarse::CoarseOptions& asked);
+
+/// @brief Makes the coarse mesh in jobs of rank 0 and gives it to all ranks.
+/// @note Collective.
+/// @throws GeometryError, MeshError on every rank, with the words of every try, if none succeeds.
+[[nodiscard]] CoarseResult run_coarse_stage(const config::Case& run_case, RunContext& context);
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stages/fill_stage.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+#include "tessera/comm/work_queue.hpp"
+#include "tessera/fill/ladder.hpp"
+
+#include "pipeline/mesh_worker.hpp"
+#include "pipeline/stop_signal.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+// The slowest fills measured make 7 k tets/s; 20 times the time that takes is a hang.
+constexpr double kSlowTetsPerSecond = 7000.0;
+constexpr double kTimeMargin = 20.0;
+constexpr double kLeastTime_s = 60.0;
+
+std::vector<LocalIndex> largest_first(const std::vector<double>& weight)
+{
+  std::vector<LocalIndex> order(weight.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](LocalIndex a, LocalIndex b) {
+    return weight[at(a)] > weight[at(b)];
+  });
+  return order;
+}
+
+jobs::JobLimits limits_of(const fill::FillOptions& options, double predicted_tets)
+{
+  jobs::JobLimits limits;
+  limits.memory_gib = options.memory_gib;
+  limits.cpu_s = options.timeout_s > 0.0
+                     ? options.timeout_s
+                     : std::max(kLeastTime_s, kTimeMargin * predicted_tets / kSlowTetsPerSecond);
+  return limits;
+}
+
+// Climbs the ladder for one subdomain after another; keeps what this rank's pieces sum up to.
+class Filler {
+ public:
+  Filler(const fill::FillOptions& options, const mesh::Decomposition& decomposition,
+         const mesh::Skeleton& skeleton, RunContext& context)
+      : options_(options), decomposition_(decomposition), context_(context)
+  {
+    own_.seam_sums.resize(at(skeleton.num_triangles()));
+  }
+
+  /// Fills one subdomain. @throws MeshError if every rung failed, Interrupted if cancelled.
+  void fill(LocalIndex subdomain, const jobs::JobRunner::WaitCallback& on_wait)
+  {
+    const jobs::JobLimits limits =
+        limits_of(options_, decomposition_.subdomain_weight[at(subdomain)]);
+    std::string failures;
+    bool was_limited = false;
+    LocalIndex tries = 0;
+    for (const fill::FillTry& settings : fill::retry_ladder(options_)) {
+      const jobs::JobOutcome outcome =
+          context_.jobs.run(fill_request(subdomain, settings), limits, on_wait);
+      ++tries;
+      if (outcome.status == jobs::JobStatus::ok) {
+        FillResult result = fill_result_from_bytes(outcome.result);
+        result.summary.tries = tries;
+        result.summary.was_limited = was_limited;
+        result.summary.cpu_s = outcome.cpu_s;
+        keep(result);
+        return;
+      }
+      if (outcome.status == jobs::JobStatus::cancelled) throw Interrupted("stopped by a signal");
+      was_limited = was_limited || outcome.status == jobs::JobStatus::out_of_time
+                    || outcome.status == jobs::JobStatus::stalled
+                    || outcome.status == jobs::JobStatus::out_of_memory;
+      failures += "\n  try " + std::to_string(tries) + ": " + outcome.message;
+    }
+    throw MeshError("subdomain " + std::to_string(subdomain)
+                    + " could not be filled; try another decompose.subdomains or a smaller "
+                      "coarse.max_size"
+                    + failures);
+  }
+
+  [[nodiscard]] FilledPieces take() && { return std::move(own_); }
+
+ private:
+  void keep(const FillResult& result)
+  {
+    own_.pieces.push_back(result.summary);
+    own_.histograms.add(result.histograms);
+    for (const verify::SeamHash& seam : result.seams) {
+      own_.seam_sums[at(seam.triangle)] += seam.hash;
+    }
+  }
+
+  const fill::FillOptions& options_;
+  const mesh::Decomposition& decomposition_;
+  RunContext& context_;
+  FilledPieces own_{};
+};
+
+void sum_over_ranks(quality::Histogram& histogram, const comm::Communicator& comm)
+{
+  std::vector<GlobalIndex> counts = histogram.counts();
+  comm.sum_in_place(counts);
+  histogram.set_counts(std::move(counts));
+}
+
+// Puts what the ranks have together; integers and sums modulo 2^64 only, so in any order the same.
+FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
+{
+  FilledPieces all;
+  for (const Bytes& bytes : comm.all_gather(std::as_bytes(std::span(own.pieces)))) {
+    const std::size_t first = all.pieces.size();
+    all.pieces.resize(first + bytes.size() / sizeof(PieceSummary));
+    if (!bytes.empty()) std::memcpy(&all.pieces[first], bytes.data(), bytes.size());
+  }
+  std::sort(all.pieces.begin(), all.pieces.end(), [](const PieceSummary& a, const PieceSummary& b) {
+    return a.subdomain < b.subdomain;
+  });
+  all.histograms = std::move(own.histograms);
+  sum_over_ranks(all.histograms.mean_ratio, comm);
+  sum_over_ranks(all.histograms.seam_mean_ratio, comm);
+  sum_over_ranks(all.histograms.log2_edge_length, comm);
+
+  std::vector<std::uint64_t> halves;
+  for (const Hash128& hash : own.seam_sums) halves.insert(halves.end(), {hash.low, hash.high});
+  comm.sum_in_place(halves);
+  for (std::size_t i = 0; i < halves.size(); i += 2) {
+    all.seam_sums.push_back({halves[i], halves[i + 1]});
+  }
+  return all;
+}
+
+}  // namespace
+
+FilledPieces run_fill_stage(const config::Case& run_case, const mesh::Decomposition& decomposition,
+                            const mesh::Skeleton& skeleton, RunContext& context)
+{
+  StageScope stage(context, "fill", decomposition.num_subdomains(), "subdomains");
+  Filler filler(run_case.fill, decomposition, skeleton, context);
+  std::optional<std::string> defect;
+  comm::WorkQueue queue(context.comm, largest_first(decomposition.subdomain_weight));
+  const auto on_wait = [&] {
+    if (stop_requested()) queue.request_stop();
+    context.progress.update(queue.num_handed_out());
+    return queue.progress();
+  };
+  while (const auto subdomain = queue.next()) {
+    try {
+      filler.fill(*subdomain, on_wait);
+    } catch (const Interrupted&) {
+      queue.request_stop();
+    } catch (const Error& error) {
+      defect = error.what();
+      queue.request_stop();
+    }
+  }
+  stage.work_is_done();
+  static_cast<void>(queue.finish());
+  throw_if_stopped(context.comm);
+  context.comm.throw_if_any<MeshError>(defect);
+
+  FilledPieces all = combine(std::move(filler).take(), context.comm);
+  GlobalIndex num_tets = 0;
+  for (const PieceSummary& piece : all.pieces) num_tets += piece.num_tets;
+  stage.finish(std::to_string(num_tets) + " tets");
+  return all;
+}
+
+}  // namespace tessera::pipeline

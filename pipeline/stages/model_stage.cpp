@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stages/model_stage.hpp"
+
+#include "tessera/base/error.hpp"
+
+#include "pipeline/exit_code.hpp"
+#include "pipeline/mesh_worker.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+// Reading and healing take seconds even for large models; minutes mean a hang.
+constexpr jobs::JobLimits kModelLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
+
+// A death in the reader says that the file is bad, not that the program is.
+void throw_unless_read(const jobs::JobOutcome& outcome, const std::filesystem::path& file)
+{
+  using jobs::JobStatus;
+  if (outcome.status == JobStatus::crashed || outcome.status == JobStatus::exited
+      || outcome.status == JobStatus::out_of_time || outcome.status == JobStatus::stalled
+      || outcome.status == JobStatus::out_of_memory) {
+    throw GeometryError(file.string() + ": the CAD library cannot read this model: "
+                        + outcome.message + "; repair it in a CAD program or export it anew");
+  }
+  jobs::throw_unless_ok(outcome, file.string());
+}
+
+}  // namespace
+
+model::ModelSource run_model_stage(const config::Case& run_case, RunContext& context)
+{
+  StageScope stage(context, "model");
+  const std::filesystem::path& file = run_case.geometry.file;
+  const Bytes bytes = on_root(context.comm, [&] {
+    const jobs::JobOutcome outcome =
+        context.jobs.run(import_request(file, {run_case.coarse.feature_angle_deg}), kModelLimits,
+                         wait_for_stop_signal());
+    throw_unless_read(outcome, file);
+    return outcome.result;
+  });
+  model::ModelSource source = model::model_source_from_bytes(bytes);
+  all_or_none(context.comm, [&] {
+    throw_unless_read(context.jobs.load(load_model_message(source, run_case.geometry.scale),
+                                        kModelLimits, wait_for_stop_signal()),
+                      file);
+  });
+  stage.work_is_done();
+  for (const std::string& repair : source.repairs) context.log.warn("model: {}", repair);
+  stage.finish(file.filename().string());
+  return source;
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/config/case.hpp"
+#include "tessera/model/model.hpp"
+
+#include "pipeline/run_context.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief Reads the CAD file on rank 0, in a job, and loads what was read in the workers of all ranks.
+/// @note Collective.
+/// @throws InputError, GeometryError on every rank if the file is no model that can be meshed.
+[[nodiscard]] model::ModelSource run_model_stage(const config::Case& run_case, RunContext& context);
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stages/plan_stage.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tessera/base/error.hpp"
+#include "tessera/comm/work_queue.hpp"
+
+#include "pipeline/exit_code.hpp"
+#include "pipeline/mesh_worker.hpp"
+#include "pipeline/piece_folder.hpp"
+#include "pipeline/stop_signal.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+constexpr jobs::JobLimits kPlanLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory_gib = 8.0};
+
+// What this rank's share of the subdomains finds under the dampings so far.
+std::vector<mesh::PointDamping> test_subdomains(const std::vector<LocalIndex>& subdomains,
+                                                const mesh::Damping& damping, RunContext& context)
+{
+  comm::WorkQueue queue(context.comm, subdomains);
+  std::vector<mesh::PointDamping> found;
+  std::optional<std::string> defect;
+  const auto on_wait = [&] {
+    if (stop_requested()) queue.request_stop();
+    return queue.progress();
+  };
+  while (const auto subdomain = queue.next()) {
+    const jobs::JobOutcome outcome =
+        context.jobs.run(plan_request(*subdomain, damping), kPlanLimits, on_wait);
+    if (outcome.status != jobs::JobStatus::ok) {
+      defect = "plan of subdomain " + std::to_string(*subdomain) + ": " + outcome.message;
+      queue.request_stop();
+      continue;
+    }
+    const mesh::Damping smaller = mesh::damping_from_bytes(outcome.result);
+    found.insert(found.end(), smaller.entries().begin(), smaller.entries().end());
+  }
+  static_cast<void>(queue.finish());
+  throw_if_stopped(context.comm);
+  context.comm.throw_if_any<MeshError>(defect);
+  return found;
+}
+
+std::vector<mesh::PointDamping> gather(const std::vector<mesh::PointDamping>& found,
+                                       const comm::Communicator& comm)
+{
+  std::vector<mesh::PointDamping> all;
+  for (const Bytes& bytes : comm.all_gather(mesh::to_bytes(mesh::Damping(found)))) {
+    const mesh::Damping part = mesh::damping_from_bytes(bytes);
+    all.insert(all.end(), part.entries().begin(), part.entries().end());
+  }
+  return all;
+}
+
+// Subdomains that hold one of the points, in ascending order.
+std::vector<LocalIndex> subdomains_around(const std::vector<mesh::PointDamping>& points,
+                                          const mesh::Skeleton& skeleton)
+{
+  std::set<LocalIndex> edges;
+  std::set<LocalIndex> triangles;
+  for (const mesh::PointDamping& point : points) {
+    (point.key.carrier == mesh::LatticeCarrier::edge ? edges : triangles).insert(point.key.entity);
+  }
+  std::set<LocalIndex> around;
+  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
+    const auto at = static_cast<std::size_t>(t);
+    const auto touches = [&](std::size_t side) {
+      return edges.count(skeleton.triangle_edges[3 * at + side]) > 0;
+    };
+    if (triangles.count(t) == 0 && !touches(0) && !touches(1) && !touches(2)) continue;
+    around.insert(skeleton.triangle_subdomains[2 * at]);
+    around.insert(skeleton.triangle_subdomains[2 * at + 1]);
+  }
+  around.erase(kNoIndex);
+  return {around.begin(), around.end()};
+}
+
+void load_everywhere(const Bytes& message, RunContext& context)
+{
+  all_or_none(context.comm, [&] {
+    jobs::throw_unless_ok(context.jobs.load(message, kPlanLimits, wait_for_stop_signal()),
+                          "loading the coarse mesh");
+  });
+}
+
+}  // namespace
+
+mesh::Damping run_plan_stage(const config::Case& run_case, const mesh::CoarseMesh& coarse,
+                             const mesh::Decomposition& decomposition,
+                             const mesh::Skeleton& skeleton, RunContext& context)
+{
+  StageScope stage(context, "plan");
+  load_everywhere(load_mesh_message(coarse, decomposition, run_case.refine.levels,
+                                    piece_folder(context.folder)),
+                  context);
+  std::vector<LocalIndex> subdomains(decomposition.subdomain_material.size());
+  std::iota(subdomains.begin(), subdomains.end(), 0);
+  mesh::Damping damping;
+  while (!subdomains.empty()) {
+    const auto found = gather(test_subdomains(subdomains, damping, context), context.comm);
+    std::vector<mesh::PointDamping> all(damping.entries().begin(), damping.entries().end());
+    all.insert(all.end(), found.begin(), found.end());
+    damping = mesh::Damping(std::move(all));
+    subdomains = subdomains_around(found, skeleton);
+  }
+  load_everywhere(load_plan_message(damping), context);
+  stage.work_is_done();
+  stage.finish(damping.entries().empty()
+                   ? "no folds"
+                   : std::to_string(damping.entries().size()) + " points kept off the geometry");
+  return damping;
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stop_signal.hpp"
+
+#include <csignal>
+
+namespace tessera::pipeline {
+namespace {
+
+volatile std::sig_atomic_t stop_flag = 0;
+
+extern "C" void note_stop(int signal)
+{
+  if (stop_flag != 0 && signal == SIGINT) {
+    std::signal(SIGINT, SIG_DFL);
+    std::raise(SIGINT);
+  }
+  stop_flag = 1;
+}
+
+}  // namespace
+
+void catch_stop_signals()
+{
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, note_stop);
+}
+
+bool stop_requested() { return stop_flag != 0; }
+
+}  // namespace tessera::pipeline

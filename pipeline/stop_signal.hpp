@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace tessera::pipeline {
+
+/// @brief From now on SIGINT, SIGTERM and SIGUSR1 (a batch system's warning) only set a flag; a
+/// second SIGINT ends the process at once.
+void catch_stop_signals();
+
+/// @brief Whether one of them has come to this rank. Local, cheap.
+[[nodiscard]] bool stop_requested();
+
+}  // namespace tessera::pipeline
