@@ -44,7 +44,7 @@ void add_mesh(CLI::App& app, Parsed& parsed)
                  "Predict size, time and memory; mesh nothing finely");
   mesh->add_option("--progress", parsed.progress, "Progress bars: on a terminal, always or never")
       ->type_name("auto|always|never")
-      ->check(CLI::IsMember(kProgressWords))
+      ->check(CLI::IsMember(kProgressWords).description(""))
       ->capture_default_str();
   CLI::Option* quiet = mesh->add_flag("-q,--quiet", parsed.quiet, "Print errors only");
   mesh->add_flag("-v,--verbose", parsed.verbose, "Print more")->excludes(quiet);
@@ -67,7 +67,7 @@ void add_info(CLI::App& app, Parsed& parsed)
 void set_up(CLI::App& app, Parsed& parsed)
 {
   app.set_help_flag("-h,--help", "Print this help");
-  app.set_version_flag("--version", "tessera " TESSERA_VERSION);
+  app.set_version_flag("--version", "tessera " TESSERA_VERSION, "Print the version");
   app.require_subcommand(1);
   app.footer(
       "Every command runs alone or under `mpirun -np N`, with the same result.\n"
@@ -90,9 +90,13 @@ Command to_command(const CLI::App& app, Parsed parsed)
 
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error)
 {
-  std::string text = error.what();
-  std::replace(text.begin(), text.end(), '\n', ' ');
   const auto commands = app.get_subcommands();
+  const std::vector<std::string> strangers = app.remaining();
+  std::string text = error.what();
+  if (commands.empty() && !strangers.empty()) {
+    text = "there is no command or option " + strangers.front();
+  }
+  std::replace(text.begin(), text.end(), '\n', ' ');
   const std::string command = commands.empty() ? "" : " " + commands.front()->get_name();
   return "wrong command line: " + text + " (see `tessera" + command + " --help`)";
 }

@@ -184,6 +184,7 @@ std::optional<std::string_view> nearest_key(std::string_view name)
 {
   constexpr std::size_t kLongestName = 100;  // Nothing longer is near; bounds the work.
   if (name.size() > kLongestName) return std::nullopt;
+  if (const Key* key = find_key(table_of(name))) return key->name;  // [coarse.max_size]
   std::optional<std::string_view> nearest;
   std::size_t least = std::max<std::size_t>(2, name.size() / 4) + 1;
   for (const Key& key : kKeys) {
