@@ -9,6 +9,8 @@ struct CoarseOptions {
   double grading = 0.3;            ///< Growth of the size away from small features, in (0, 1].
   double curvature = 2.0;          ///< Elements per curvature radius, > 0.
   double feature_angle_deg = 30.0;  ///< STL: dihedral angle from which an edge is a feature, degrees.
+
+  friend bool operator==(const CoarseOptions&, const CoarseOptions&) = default;
 };
 
 }  // namespace tessera::coarse

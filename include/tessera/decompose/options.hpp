@@ -10,6 +10,8 @@ struct DecomposeOptions {
   /// Wanted number of subdomains, >= 1; 0 stands for "auto". A request: at least one a material, and
   /// repair may split further.
   LocalIndex subdomains = 0;
+
+  friend bool operator==(const DecomposeOptions&, const DecomposeOptions&) = default;
 };
 
 }  // namespace tessera::decompose

@@ -15,6 +15,8 @@ struct FillOptions {
   double memory_gib = 4.0;   ///< Resident memory of a job, GiB, > 0.
   int optimize_steps = 3;    ///< NETGEN's optimisation rounds, >= 0.
   double grading = 0.3;      ///< Growth of the size away from the skin, in (0, 1].
+
+  friend bool operator==(const FillOptions&, const FillOptions&) = default;
 };
 
 }  // namespace tessera::fill

@@ -15,6 +15,8 @@ struct OutputOptions {
   std::vector<std::string> formats{"pvtu"};
   Compression compression = Compression::lz4;
   bool cell_quality = false;                   ///< Also write the mean ratio of every tet.
+
+  friend bool operator==(const OutputOptions&, const OutputOptions&) = default;
 };
 
 }  // namespace tessera::io

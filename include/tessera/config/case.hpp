@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "tessera/coarse/options.hpp"
+#include "tessera/decompose/options.hpp"
+#include "tessera/fill/options.hpp"
+#include "tessera/io/options.hpp"
+#include "tessera/quality/options.hpp"
+#include "tessera/refine/options.hpp"
+
+namespace tessera::config {
+
+/// @brief What to mesh; table `[geometry]` of a case file.
+struct GeometryOptions {
+  std::filesystem::path file{};  ///< The CAD model; absolute in a loaded case.
+  double scale = 1.0;            ///< Output length units per file length unit, > 0.
+
+  friend bool operator==(const GeometryOptions&, const GeometryOptions&) = default;
+};
+
+/// @brief How fine; table `[size]` of a case file.
+struct SizeOptions {
+  /// Wanted edge length, output length unit, > 0; 0: not given, then coarse.max_size and
+  /// refine.levels say it.
+  double target = 0.0;
+
+  friend bool operator==(const SizeOptions&, const SizeOptions&) = default;
+};
+
+/// @brief Everything a run is told: the options of every stage. What a value may be, its unit and
+/// the reason for its default stand in configs/reference.toml.
+///
+/// A loaded case has a model file, and either size.target or coarse.max_size (the other one is 0).
+struct Case {
+  GeometryOptions geometry{};
+  SizeOptions size{};
+  coarse::CoarseOptions coarse{};
+  decompose::DecomposeOptions decompose{};
+  refine::RefineOptions refine{};
+  fill::FillOptions fill{};
+  quality::QualityTargets quality{};
+  io::OutputOptions output{};
+
+  friend bool operator==(const Case&, const Case&) = default;
+};
+
+/// @brief Read a case file. Local.
+///
+/// An override has the form `table.key=value` and acts as if it stood in the file instead of the
+/// key there. Its value is read as TOML; text needs no quotes (`geometry.file=a b.geo`).
+/// @throws ConfigError naming file and line (or the override), the key, the value given, what is
+/// allowed, and for an unknown key the nearest known one.
+[[nodiscard]] Case load_case(const std::filesystem::path& file,
+                             std::span<const std::string> overrides = {});
+
+/// @brief load_case() on the text of a case file. `file` is where it would stand: it names the
+/// input in messages, `geometry.file` is relative to its folder, and the output folder is named
+/// after it. Local.
+[[nodiscard]] Case parse_case(std::string_view text, const std::filesystem::path& file,
+                              std::span<const std::string> overrides = {});
+
+/// @brief The case as a case file with every key written out; parse_case() of it gives the same
+/// case. Local.
+/// @throws ConfigError if a path is not valid UTF-8, which no TOML file can hold.
+[[nodiscard]] std::string to_toml(const Case& resolved);
+
+/// @brief The text of configs/reference.toml: every key with its meaning, unit, range, default and
+/// the reason for the default. Local.
+[[nodiscard]] std::string reference_toml();
+
+}  // namespace tessera::config

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/cli.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <CLI/CLI.hpp>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+const std::map<std::string, Progress> kProgressWords{
+    {"auto", Progress::automatic}, {"always", Progress::always}, {"never", Progress::never}};
+
+// What CLI11 writes into; becomes a Command when all went well.
+struct Parsed {
+  MeshCommand mesh{};
+  std::string progress = "auto";
+  bool quiet = false;
+  bool verbose = false;
+  CheckCommand check{};
+  InfoCommand info{};
+};
+
+void add_mesh(CLI::App& app, Parsed& parsed)
+{
+  CLI::App* mesh = app.add_subcommand("mesh", "Make a mesh from a case file");
+  mesh->add_option("CASE.toml", parsed.mesh.case_file,
+                   "The case; configs/reference.toml has all keys")
+      ->required();
+  // One value an occurrence: otherwise `--set a.b=1 case.toml` would swallow the case file.
+  mesh->add_option("--set", parsed.mesh.overrides, "Override a key of the case; may be repeated")
+      ->type_name("TABLE.KEY=VALUE")
+      ->allow_extra_args(false);
+  mesh->add_option("--output", parsed.mesh.output,
+                   "Folder of the results, instead of output.directory")
+      ->type_name("DIR");
+  mesh->add_flag("--overwrite", parsed.mesh.overwrite,
+                 "Use the output folder even if it is not empty");
+  mesh->add_flag("--dump-config", parsed.mesh.dump_config, "Print the resolved case and stop");
+  mesh->add_flag("--dry-run", parsed.mesh.dry_run,
+                 "Predict size, time and memory; mesh nothing finely");
+  mesh->add_option("--progress", parsed.progress, "Progress bars: on a terminal, always or never")
+      ->type_name("auto|always|never")
+      ->check(CLI::IsMember(kProgressWords).description(""))
+      ->capture_default_str();
+  CLI::Option* quiet = mesh->add_flag("-q,--quiet", parsed.quiet, "Print errors only");
+  mesh->add_flag("-v,--verbose", parsed.verbose, "Print more")->excludes(quiet);
+}
+
+void add_check(CLI::App& app, Parsed& parsed)
+{
+  CLI::App* check = app.add_subcommand("check", "Verify a mesh from its files alone");
+  check->add_option("MESH.pvtu", parsed.check.mesh_file, "A .pvtu or .vtu file of tets")
+      ->required();
+  check->add_flag("--json", parsed.check.json, "Print the findings as JSON");
+}
+
+void add_info(CLI::App& app, Parsed& parsed)
+{
+  CLI::App* info = app.add_subcommand("info", "Say what a file holds");
+  info->add_option("FILE", parsed.info.file, "A CAD model, case or mesh")->required();
+}
+
+void set_up(CLI::App& app, Parsed& parsed)
+{
+  app.set_help_flag("-h,--help", "Print this help");
+  app.set_version_flag("--version", "tessera " TESSERA_VERSION, "Print the version");
+  app.require_subcommand(1);
+  app.footer(
+      "Every command runs alone or under `mpirun -np N`, with the same result.\n"
+      "`tessera COMMAND --help` says more.");
+  add_mesh(app, parsed);
+  add_check(app, parsed);
+  add_info(app, parsed);
+  for (CLI::App* command : app.get_subcommands({})) command->footer("");
+}
+
+Command to_command(const CLI::App& app, Parsed parsed)
+{
+  if (app.got_subcommand("check")) return parsed.check;
+  if (app.got_subcommand("info")) return parsed.info;
+  parsed.mesh.progress = kProgressWords.at(parsed.progress);
+  if (parsed.quiet) parsed.mesh.verbosity = Verbosity::quiet;
+  if (parsed.verbose) parsed.mesh.verbosity = Verbosity::verbose;
+  return parsed.mesh;
+}
+
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error)
+{
+  const auto commands = app.get_subcommands();
+  const std::vector<std::string> strangers = app.remaining();
+  std::string text = error.what();
+  if (commands.empty() && !strangers.empty()) {
+    text = "there is no command or option " + strangers.front();
+  }
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const std::string command = commands.empty() ? "" : " " + commands.front()->get_name();
+  return "wrong command line: " + text + " (see `tessera" + command + " --help`)";
+}
+
+}  // namespace
+
+Command parse_command_line(int argc, const char* const* argv)
+{
+  CLI::App app("Tessera turns a CAD model into a partitioned tetrahedral mesh.", "tessera");
+  Parsed parsed;
+  set_up(app, parsed);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return PrintCommand{app.help()};
+  } catch (const CLI::CallForVersion& version) {
+    return PrintCommand{version.what() + std::string("\n")};
+  } catch (const CLI::ParseError& error) {
+    throw ConfigError(usage_message(app, error));
+  }
+  return to_command(app, std::move(parsed));
+}
+
+}  // namespace tessera::pipeline

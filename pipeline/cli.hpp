@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tessera::pipeline {
+
+enum class Progress : int { automatic, always, never };
+enum class Verbosity : int { quiet, normal, verbose };
+
+/// @brief `tessera mesh`: make a mesh from a case file.
+struct MeshCommand {
+  std::filesystem::path case_file{};
+  std::vector<std::string> overrides{};           ///< "table.key=value", unchecked.
+  std::optional<std::filesystem::path> output{};  ///< In place of output.directory.
+  bool overwrite = false;                         ///< Use an output folder that is not empty.
+  bool dump_config = false;                       ///< Print the resolved case and stop.
+  bool dry_run = false;                           ///< Predict the run instead of running.
+  Progress progress = Progress::automatic;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// @brief `tessera check`: verify a mesh from its files alone.
+struct CheckCommand {
+  std::filesystem::path mesh_file{};
+  bool json = false;  ///< Print the keys of report.json instead of text.
+};
+
+/// @brief `tessera info`: say what a model, case or mesh file holds.
+struct InfoCommand {
+  std::filesystem::path file{};
+};
+
+/// @brief `--help` or `--version`: print this to standard output and end with exit code 0.
+struct PrintCommand {
+  std::string text{};
+};
+
+using Command = std::variant<MeshCommand, CheckCommand, InfoCommand, PrintCommand>;
+
+/// @brief Read the command line. Pure: prints nothing and never ends the process, since every rank
+/// parses and only one may speak. Local.
+/// @throws ConfigError with one message that says how to get help.
+[[nodiscard]] Command parse_command_line(int argc, const char* const* argv);
+
+}  // namespace tessera::pipeline

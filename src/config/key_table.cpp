@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "config/key_table.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "config/text.hpp"
+
+namespace tessera::config {
+namespace {
+
+// Lengths, scales and times beyond this are mistakes; toml11 turns an overflow into the largest
+// double, which this excludes as well.
+constexpr double kHuge = 1e30;
+
+constexpr std::array<std::string_view, 1> kKernelWords{"netgen"};
+constexpr std::array<std::string_view, 1> kFormatWords{"pvtu"};
+constexpr std::array<std::string_view, 3> kCompressionWords{"none", "lz4", "zlib"};
+
+constexpr Key kKeys[] = {
+    {.name = "geometry.file",
+     .rule = PathRule{[](Case& c) -> std::filesystem::path& { return c.geometry.file; }},
+     .meaning = "The CAD model: .geo (NETGEN's CSG), .stl, .step/.stp, .iges/.igs or .brep. "
+                "Relative to the folder of the case file.",
+     .reason = "every case names its model",
+     .example = "\"model.step\""},
+    {.name = "geometry.scale",
+     .rule = RealRule{[](Case& c) -> double& { return c.geometry.scale; }, 0.0, Bound::exclusive,
+                      kHuge, Bound::inclusive},
+     .unit = "output length units per file length unit",
+     .meaning = "Factor applied to the model. Every length below is in output units.",
+     .reason = "the mesh keeps the model's unit"},
+
+    {.name = "size.target",
+     .rule = RealRule{[](Case& c) -> double& { return c.size.target; }, 0.0, Bound::exclusive,
+                      kHuge, Bound::inclusive},
+     .unit = "output length unit",
+     .meaning = "Wanted edge length of the mesh. Chooses coarse.max_size and refine.levels, and "
+                "therefore excludes them.",
+     .reason = "a size suits one model only; give this or coarse.max_size",
+     .example = "1.0",
+     .is_optional = true},
+
+    {.name = "coarse.max_size",
+     .rule = RealRule{[](Case& c) -> double& { return c.coarse.max_size; }, 0.0, Bound::exclusive,
+                      kHuge, Bound::inclusive},
+     .unit = "output length unit",
+     .meaning = "Largest edge of the coarse mesh; small features make it finer by themselves.",
+     .reason = "a size suits one model only; give this or size.target",
+     .example = "10.0",
+     .excluded_by = "size.target"},
+    {.name = "coarse.grading",
+     .rule = RealRule{[](Case& c) -> double& { return c.coarse.grading; }, 0.0, Bound::exclusive,
+                      1.0, Bound::inclusive},
+     .meaning = "How fast the size grows away from small features; small values grow slowly.",
+     .reason = "NETGEN's own default"},
+    {.name = "coarse.curvature",
+     .rule = RealRule{[](Case& c) -> double& { return c.coarse.curvature; }, 0.0, Bound::exclusive,
+                      100.0, Bound::inclusive},
+     .unit = "elements per radius of curvature",
+     .meaning = "How finely the coarse mesh follows curved surfaces.",
+     .reason = "NETGEN's own default"},
+    {.name = "coarse.feature_angle_deg",
+     .rule = RealRule{[](Case& c) -> double& { return c.coarse.feature_angle_deg; }, 0.0,
+                      Bound::exclusive, 180.0, Bound::exclusive},
+     .unit = "degrees",
+     .meaning = "STL only: angle between two triangles from which their edge separates two "
+                "patches.",
+     .reason = "NETGEN's own default"},
+
+    {.name = "decompose.subdomains",
+     .rule =
+         IntegerRule{[](Case& c) -> int& { return c.decompose.subdomains; }, 1, 1'000'000, "auto"},
+     .meaning = "Wanted number of subdomains K, never a function of the number of ranks. A "
+                "request: there is at least one for each material, and repair may split some.",
+     .reason = "\"auto\" keeps subdomains large enough for good tets at their seams, at least "
+               "about 100 coarse tets each"},
+
+    {.name = "refine.levels",
+     .rule = IntegerRule{[](Case& c) -> int& { return c.refine.levels; }, 0, 10},
+     .meaning = "Number of refinements L of the subdomains' surfaces: every coarse edge is split "
+                "into 2^L, and the mesh has about 8^L times as many tets.",
+     .reason = "the smallest number that refines at all",
+     .excluded_by = "size.target"},
+
+    {.name = "fill.kernel",
+     .rule = WordRule{kKernelWords, [](const Case& c) { return static_cast<int>(c.fill.kernel); },
+                      [](Case& c, int word) { c.fill.kernel = fill::KernelKind{word}; }},
+     .meaning = "What turns the surface of a subdomain into tets.",
+     .reason = "the only kernel of this version"},
+    {.name = "fill.timeout_s",
+     .rule = RealRule{[](Case& c) -> double& { return c.fill.timeout_s; }, 0.0, Bound::inclusive,
+                      kHuge, Bound::inclusive},
+     .unit = "seconds of CPU time",
+     .meaning = "Limit of one fill job; 0 derives it from the predicted number of tets.",
+     .reason = "the derived limit is generous (at least 20 times the prediction), so that only a "
+               "hanging job meets it"},
+    {.name = "fill.memory_gib",
+     .rule = RealRule{[](Case& c) -> double& { return c.fill.memory_gib; }, 0.0, Bound::exclusive,
+                      1e6, Bound::inclusive},
+     .unit = "GiB",
+     .meaning = "Limit of one fill job's resident memory.",
+     .reason = "filling one skin with 485 k tets took 0.7 GiB; a job that needs more than this is "
+               "running away, or wants more subdomains"},
+    {.name = "fill.optimize_steps",
+     .rule = IntegerRule{[](Case& c) -> int& { return c.fill.optimize_steps; }, 0, 100},
+     .meaning = "NETGEN's rounds of optimisation of a fill.",
+     .reason = "NETGEN's own default; without any, fills were about twice as fast but had dihedral "
+               "angles down to 0.4 degrees"},
+    {.name = "fill.grading",
+     .rule = RealRule{[](Case& c) -> double& { return c.fill.grading; }, 0.0, Bound::exclusive, 1.0,
+                      Bound::inclusive},
+     .meaning = "How fast the size grows from the surface of a subdomain to its inside; small "
+                "values grow slowly.",
+     .reason = "NETGEN's own default"},
+
+    {.name = "quality.min_dihedral_deg",
+     .rule = RealRule{[](Case& c) -> double& { return c.quality.min_dihedral_deg; }, 0.0,
+                      Bound::inclusive, 70.5, Bound::inclusive},
+     .unit = "degrees",
+     .meaning = "Smallest dihedral angle that is wanted; if one is smaller, the run ends degraded "
+                "(exit code 3). A regular tet has 70.5.",
+     .reason = "a run is judged by validity alone unless more is asked"},
+    {.name = "quality.min_mean_ratio",
+     .rule = RealRule{[](Case& c) -> double& { return c.quality.min_mean_ratio; }, 0.0,
+                      Bound::inclusive, 1.0, Bound::inclusive},
+     .meaning =
+         "Smallest mean ratio 12 (3 V)^(2/3) / (sum of squared edges) that is wanted; if one "
+         "is smaller, the run ends degraded (exit code 3). A regular tet has 1.",
+     .reason = "a run is judged by validity alone unless more is asked"},
+
+    {.name = "output.directory",
+     .rule = PathRule{[](Case& c) -> std::filesystem::path& { return c.output.directory; }},
+     .meaning = "Folder of the results, relative to the working directory. It must be new or empty "
+                "unless --overwrite is given.",
+     .reason = "one folder a case, where git ignores it",
+     .derived_default = "outputs/<name of the case file without .toml>",
+     .example = "\"outputs/case\"",
+     .is_optional = true},
+    {.name = "output.formats",
+     .rule = WordListRule{kFormatWords,
+                          [](Case& c) -> std::vector<std::string>& { return c.output.formats; }},
+     .meaning = "Formats in which the mesh is written.",
+     .reason = "ParaView and VTK read it in parallel; the only format of this version"},
+    {.name = "output.compression",
+     .rule = WordRule{kCompressionWords,
+                      [](const Case& c) { return static_cast<int>(c.output.compression); },
+                      [](Case& c, int word) { c.output.compression = io::Compression{word}; }},
+     .meaning = "Compression of the arrays in the mesh files.",
+     .reason = "lz4 wrote 10 M tets/s at 19 bytes a tet; none 11 M at 33; zlib 2 M at 7.5"},
+    {.name = "output.cell_quality",
+     .rule = FlagRule{[](Case& c) -> bool& { return c.output.cell_quality; }},
+     .meaning = "Also write the mean ratio of every tet.",
+     .reason = "one more number a tet, and report.json has the histogram"},
+};
+
+}  // namespace
+
+std::span<const Key> all_keys() { return kKeys; }
+
+const Key* find_key(std::string_view name)
+{
+  const auto* found = std::ranges::find(kKeys, name, &Key::name);
+  return found == std::end(kKeys) ? nullptr : found;
+}
+
+std::string_view table_of(std::string_view name)
+{
+  const std::size_t dot = name.rfind('.');
+  return dot == std::string_view::npos ? std::string_view{} : name.substr(0, dot);
+}
+
+std::string_view last_part(std::string_view name)
+{
+  return name.substr(name.rfind('.') + 1);  // npos + 1 is 0: a name without a dot is its own.
+}
+
+bool is_table(std::string_view name)
+{
+  return std::ranges::any_of(kKeys, [&](const Key& key) { return table_of(key.name) == name; });
+}
+
+std::optional<std::string_view> nearest_key(std::string_view name)
+{
+  constexpr std::size_t kLongestName = 100;  // Nothing longer is near; bounds the work.
+  if (name.size() > kLongestName) return std::nullopt;
+  if (const Key* key = find_key(table_of(name))) return key->name;  // [coarse.max_size]
+  std::optional<std::string_view> nearest;
+  std::size_t least = std::max<std::size_t>(2, name.size() / 4) + 1;
+  for (const Key& key : kKeys) {
+    // A right key in a wrong table counts as one mistake.
+    const std::size_t distance = std::min(edit_distance(name, key.name),
+                                          1 + edit_distance(last_part(name), last_part(key.name)));
+    if (distance < least) {
+      least = distance;
+      nearest = key.name;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace tessera::config

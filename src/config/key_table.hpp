@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "tessera/config/case.hpp"
+
+#include "config/toml_document.hpp"
+
+namespace tessera::config {
+
+enum class Bound : int { inclusive, exclusive };
+
+// The kinds of keys: what a value may be, and the member of Case that holds it. The default is the
+// value of that member in a default-constructed Case. A number outside its range, or an empty path,
+// stands for "not given".
+
+struct RealRule {
+  double& (*field)(Case&);
+  double low;
+  Bound low_bound;
+  double high;
+  Bound high_bound;
+};
+
+struct IntegerRule {
+  int& (*field)(Case&);
+  int low;
+  int high;
+  std::string_view word_for_zero{};  ///< Text that stands for 0, itself out of range; or empty.
+};
+
+struct FlagRule {
+  bool& (*field)(Case&);
+};
+
+struct PathRule {
+  std::filesystem::path& (*field)(Case&);
+};
+
+struct WordRule {
+  std::span<const std::string_view> words;  ///< By the value of the enumeration.
+  int (*get)(const Case&);
+  void (*set)(Case&, int);
+};
+
+/// @brief A list without repetitions, not empty.
+struct WordListRule {
+  std::span<const std::string_view> words;
+  std::vector<std::string>& (*field)(Case&);
+};
+
+using Rule = std::variant<RealRule, IntegerRule, FlagRule, PathRule, WordRule, WordListRule>;
+
+/// @brief All there is to say about one key of a case file.
+struct Key {
+  std::string_view name;  ///< "table.key".
+  Rule rule;
+  std::string_view unit{};  ///< Empty: none.
+  std::string_view meaning;
+  std::string_view reason;             ///< Why this default; why none if there is none.
+  std::string_view derived_default{};  ///< In words, for a default that no constant can hold.
+  std::string_view example{};          ///< TOML value for the reference, if there is no default.
+  bool is_optional = false;            ///< No constant default, and may be left out all the same.
+  std::string_view excluded_by{};      ///< Key that must not be given together with this one.
+};
+
+/// @brief Every key, table by table, in the order in which people read them.
+[[nodiscard]] std::span<const Key> all_keys();
+
+/// @brief The key of that name, or null.
+[[nodiscard]] const Key* find_key(std::string_view name);
+
+/// @brief Whether a key stands in that table.
+[[nodiscard]] bool is_table(std::string_view name);
+
+/// @brief "coarse" of "coarse.max_size".
+[[nodiscard]] std::string_view table_of(std::string_view name);
+
+/// @brief "max_size" of "coarse.max_size".
+[[nodiscard]] std::string_view last_part(std::string_view name);
+
+/// @brief The known key that `name` most likely means, or nothing if none is near.
+[[nodiscard]] std::optional<std::string_view> nearest_key(std::string_view name);
+
+/// @brief Put the value into the case. False, and the case unchanged, if the rule forbids it.
+[[nodiscard]] bool assign(const Rule& rule, const Value& value, Case& into);
+
+/// @brief What the rule allows, to follow "must be ".
+[[nodiscard]] std::string allowed(const Rule& rule);
+
+/// @brief The case's value as TOML, or nothing if it is not given and has no default.
+[[nodiscard]] std::optional<std::string> toml_value(const Rule& rule, const Case& from);
+
+/// @brief Whether every value is text, so that an override needs no quotes.
+[[nodiscard]] bool takes_text(const Rule& rule);
+
+}  // namespace tessera::config

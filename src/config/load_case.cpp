@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "tessera/base/error.hpp"
+#include "tessera/config/case.hpp"
+
+#include "config/key_table.hpp"
+#include "config/text.hpp"
+#include "config/toml_document.hpp"
+
+namespace tessera::config {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& where, const std::string& what)
+{
+  throw ConfigError(where + ": " + what);
+}
+
+std::string file_name_for_messages(const fs::path& file) { return printable(file.string()); }
+
+[[noreturn]] void fail_unknown(const std::string& name, const std::string& origin)
+{
+  std::string message = "unknown key " + toml_string(name);
+  if (const auto near = nearest_key(name)) message += "; did you mean " + toml_string(*near) + "?";
+  fail(origin, message + " (configs/reference.toml lists all keys)");
+}
+
+// An empty table says nothing, but its name must be known.
+bool is_empty_table(const Entry& entry)
+{
+  const auto* other = std::get_if<OtherValue>(&entry.value.data);
+  return other != nullptr && other->kind == kEmptyTable;
+}
+
+const Key* key_of(const Entry& entry)
+{
+  const Key* key = find_key(entry.name);
+  if (key != nullptr) return key;
+  if (!is_table(entry.name)) fail_unknown(entry.name, entry.origin);
+  if (is_empty_table(entry)) return nullptr;
+  fail(entry.origin, toml_string(entry.name) + " is a table, not a value: write [" + entry.name
+                         + "] on a line of its own and its keys below");
+}
+
+Entry parse_override(const std::string& text)
+{
+  const std::string origin = "--set " + printable(text);
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) fail(origin, "must have the form table.key=value");
+  Entry entry{.name = std::string(trimmed(std::string_view(text).substr(0, equals))),
+              .origin = origin};
+  const std::string_view value = trimmed(std::string_view(text).substr(equals + 1));
+  const Key* key = find_key(entry.name);
+  if (key == nullptr) fail_unknown(entry.name, origin);
+  if (value.empty()) fail(origin, "no value after '='; must be " + allowed(key->rule));
+
+  const bool is_quoted = value.front() == '"' || value.front() == '\'';
+  if (takes_text(key->rule) && !is_quoted) {
+    entry.value = {std::string(value)};
+  } else {
+    entry.value = parse_toml_value(value).value_or(Value{std::string(value)});
+  }
+  return entry;
+}
+
+// Overrides come after the file's entries and win, the last one of a key before all.
+std::vector<Entry> all_entries(std::string_view text, const fs::path& file,
+                               std::span<const std::string> overrides)
+{
+  std::vector<Entry> entries = parse_toml(text, file_name_for_messages(file));
+  for (const std::string& override_text : overrides) {
+    Entry entry = parse_override(override_text);
+    std::erase_if(entries, [&](const Entry& old) { return old.name == entry.name; });
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+void apply(const Entry& entry, Case& into)
+{
+  const Key* key = key_of(entry);
+  if (key == nullptr || assign(key->rule, entry.value, into)) return;
+  fail(entry.origin,
+       entry.name + " = " + value_text(entry.value) + ": must be " + allowed(key->rule));
+}
+
+void check_exclusions(const std::vector<Entry>& entries)
+{
+  for (const Entry& entry : entries) {
+    const Key* key = find_key(entry.name);
+    if (key == nullptr || key->excluded_by.empty()) continue;
+    const auto other = std::ranges::find(entries, key->excluded_by, &Entry::name);
+    if (other == entries.end()) continue;
+    fail(entry.origin, entry.name + " excludes " + other->name + " (" + other->origin
+                           + "): size.target chooses coarse.max_size and refine.levels; give "
+                             "either it or them");
+  }
+}
+
+void check_required(const Case& loaded, const std::string& where)
+{
+  if (loaded.geometry.file.empty()) {
+    fail(where, "no geometry.file; every case names its CAD model");
+  }
+  if (loaded.size.target == 0.0 && loaded.coarse.max_size == 0.0) {
+    fail(where, "no size; give either size.target or coarse.max_size");
+  }
+}
+
+void resolve_paths(const fs::path& case_file, Case& loaded)
+{
+  const fs::path model = case_file.parent_path() / loaded.geometry.file;
+  loaded.geometry.file = fs::absolute(model).lexically_normal();
+  if (loaded.output.directory.empty()) loaded.output.directory = "outputs" / case_file.stem();
+}
+
+std::string read_text(const fs::path& file)
+{
+  const std::string name = file_name_for_messages(file);
+  if (file.empty()) throw ConfigError("the name of the case file is empty");
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) fail(name, "no such case file");
+  if (status.type() == fs::file_type::directory) fail(name, "is a folder, not a case file");
+
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(name, std::string("cannot read the case file: ") + std::strerror(errno));
+  constexpr std::size_t kLargest = 1U << 20U;  // Far above any case file; a model is often larger.
+  std::string text(kLargest + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) fail(name, "cannot read the case file: input or output error");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > kLargest) fail(name, "is larger than 1 MiB, so it is no case file");
+  return text;
+}
+
+}  // namespace
+
+Case parse_case(std::string_view text, const std::filesystem::path& file,
+                std::span<const std::string> overrides)
+{
+  const std::string name = file_name_for_messages(file);
+  if (text.find('\0') != std::string_view::npos) {
+    fail(name, "is a binary file, not a case file (TOML)");
+  }
+  if (trimmed(text).empty()) fail(name, "the case file is empty");
+
+  const std::vector<Entry> entries = all_entries(text, file, overrides);
+  Case loaded;
+  for (const Entry& entry : entries) apply(entry, loaded);
+  check_exclusions(entries);
+  check_required(loaded, name);
+  resolve_paths(file, loaded);
+  return loaded;
+}
+
+Case load_case(const std::filesystem::path& file, std::span<const std::string> overrides)
+{
+  return parse_case(read_text(file), file, overrides);
+}
+
+}  // namespace tessera::config

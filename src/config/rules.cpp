@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "tessera/base/error.hpp"
+
+#include "config/key_table.hpp"
+#include "config/text.hpp"
+
+namespace tessera::config {
+namespace {
+
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
+// Written so that NaN is outside.
+bool in_range(const RealRule& rule, double value)
+{
+  const bool above = rule.low_bound == Bound::inclusive ? value >= rule.low : value > rule.low;
+  const bool below = rule.high_bound == Bound::inclusive ? value <= rule.high : value < rule.high;
+  return above && below;
+}
+
+std::optional<double> as_real(const Value& value)
+{
+  if (const auto* real = std::get_if<double>(&value.data)) return *real;
+  if (const auto* integer = std::get_if<std::int64_t>(&value.data)) {
+    return static_cast<double>(*integer);
+  }
+  return std::nullopt;
+}
+
+bool assign_to(const RealRule& rule, const Value& value, Case& into)
+{
+  const std::optional<double> number = as_real(value);
+  if (!number || !in_range(rule, *number)) return false;
+  rule.field(into) = *number;
+  return true;
+}
+
+bool assign_to(const IntegerRule& rule, const Value& value, Case& into)
+{
+  if (const auto* text = std::get_if<std::string>(&value.data)) {
+    if (rule.word_for_zero.empty() || *text != rule.word_for_zero) return false;
+    rule.field(into) = 0;
+    return true;
+  }
+  const auto* number = std::get_if<std::int64_t>(&value.data);
+  if (number == nullptr || *number < rule.low || *number > rule.high) return false;
+  rule.field(into) = static_cast<int>(*number);
+  return true;
+}
+
+bool assign_to(const FlagRule& rule, const Value& value, Case& into)
+{
+  const auto* flag = std::get_if<bool>(&value.data);
+  if (flag == nullptr) return false;
+  rule.field(into) = *flag;
+  return true;
+}
+
+bool assign_to(const PathRule& rule, const Value& value, Case& into)
+{
+  const auto* text = std::get_if<std::string>(&value.data);
+  if (text == nullptr || text->empty() || text->find('\0') != std::string::npos) return false;
+  rule.field(into) = *text;
+  return true;
+}
+
+bool assign_to(const WordRule& rule, const Value& value, Case& into)
+{
+  const auto* text = std::get_if<std::string>(&value.data);
+  if (text == nullptr) return false;
+  const auto found = std::ranges::find(rule.words, *text);
+  if (found == rule.words.end()) return false;
+  rule.set(into, static_cast<int>(found - rule.words.begin()));
+  return true;
+}
+
+bool assign_to(const WordListRule& rule, const Value& value, Case& into)
+{
+  const auto* items = std::get_if<std::vector<Value>>(&value.data);
+  if (items == nullptr || items->empty()) return false;
+  std::vector<std::string> words;
+  for (const Value& item : *items) {
+    const auto* text = std::get_if<std::string>(&item.data);
+    if (text == nullptr || std::ranges::count(rule.words, *text) == 0) return false;
+    if (std::ranges::count(words, *text) != 0) return false;
+    words.push_back(*text);
+  }
+  rule.field(into) = std::move(words);
+  return true;
+}
+
+std::string bound_text(std::string_view relation, double value)
+{
+  std::string number = number_text(value);
+  if (number.ends_with(".0")) number.resize(number.size() - 2);
+  return std::string(relation).append(number);
+}
+
+std::string allowed_range(const RealRule& rule)
+{
+  return std::string("a number ")
+      .append(bound_text(rule.low_bound == Bound::inclusive ? ">= " : "> ", rule.low))
+      .append(bound_text(rule.high_bound == Bound::inclusive ? " and <= " : " and < ", rule.high));
+}
+
+std::string word_list(std::span<const std::string_view> words)
+{
+  std::string result;
+  for (const std::string_view word : words) {
+    if (!result.empty()) result += ", ";
+    result += toml_string(word);
+  }
+  return result;
+}
+
+std::string path_value(const std::filesystem::path& path)
+{
+  if (!is_utf8(path.string())) {
+    throw ConfigError("path " + toml_string(path.string())
+                      + " is not valid UTF-8, so no case file can hold it; rename it");
+  }
+  return toml_string(path.string());
+}
+
+}  // namespace
+
+bool assign(const Rule& rule, const Value& value, Case& into)
+{
+  return std::visit([&](const auto& kind) { return assign_to(kind, value, into); }, rule);
+}
+
+std::string allowed(const Rule& rule)
+{
+  return std::visit(
+      Overloaded{
+          [](const RealRule& real) { return allowed_range(real); },
+          [](const IntegerRule& integer) {
+            const std::string word = integer.word_for_zero.empty()
+                                         ? std::string()
+                                         : ", or " + toml_string(integer.word_for_zero);
+            return "a whole number from " + std::to_string(integer.low) + " to "
+                   + std::to_string(integer.high) + word;
+          },
+          [](const FlagRule&) { return std::string("true or false"); },
+          [](const PathRule&) { return std::string("a path in quotes, not empty"); },
+          [](const WordRule& word) {
+            return (word.words.size() > 1 ? "one of " : "") + word_list(word.words);
+          },
+          [](const WordListRule& list) {
+            return "a list without repetitions, not empty, of: " + word_list(list.words);
+          },
+      },
+      rule);
+}
+
+std::optional<std::string> toml_value(const Rule& rule, const Case& from)
+{
+  Case copy = from;  // The rules hand out references; a copy keeps `from` const.
+  using Text = std::optional<std::string>;
+  return std::visit(
+      Overloaded{
+          [&](const RealRule& real) {
+            const double value = real.field(copy);
+            return in_range(real, value) ? Text(number_text(value)) : Text();
+          },
+          [&](const IntegerRule& integer) {
+            const int value = integer.field(copy);
+            const bool is_word = value == 0 && !integer.word_for_zero.empty();
+            return Text(is_word ? toml_string(integer.word_for_zero) : std::to_string(value));
+          },
+          [&](const FlagRule& flag) { return Text(flag.field(copy) ? "true" : "false"); },
+          [&](const PathRule& path) {
+            return path.field(copy).empty() ? Text() : Text(path_value(path.field(copy)));
+          },
+          [&](const WordRule& word) {
+            return Text(toml_string(word.words[static_cast<std::size_t>(word.get(copy))]));
+          },
+          [&](const WordListRule& list) {
+            const std::vector<std::string>& texts = list.field(copy);
+            const std::vector<std::string_view> words(texts.begin(), texts.end());
+            return Text(std::string("[").append(word_list(words)).append("]"));
+          },
+      },
+      rule);
+}
+
+bool takes_text(const Rule& rule)
+{
+  return std::holds_alternative<PathRule>(rule) || std::holds_alternative<WordRule>(rule);
+}
+
+}  // namespace tessera::config

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "config/toml_document.hpp"
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <sstream>
+
+#include <toml.hpp>
+
+#include "tessera/base/error.hpp"
+
+#include "config/text.hpp"
+
+namespace tessera::config {
+namespace {
+
+using TomlValue = toml::basic_value<toml::discard_comments, std::map>;
+
+TomlValue parse(std::string_view text, const std::string& file_name)
+{
+  std::istringstream stream{std::string(text)};
+  return toml::parse<toml::discard_comments, std::map>(stream, file_name);
+}
+
+Value to_value(const TomlValue& toml)
+{
+  switch (toml.type()) {
+    case toml::value_t::boolean:
+      return {toml.as_boolean()};
+    case toml::value_t::integer:
+      return {toml.as_integer()};
+    case toml::value_t::floating:
+      return {toml.as_floating()};
+    case toml::value_t::string:
+      return {toml.as_string().str};
+    case toml::value_t::table:
+      return {OtherValue{"a table"}};
+    case toml::value_t::array:
+      break;
+    default:
+      return {OtherValue{"a date or time"}};
+  }
+  std::vector<Value> items;
+  for (const TomlValue& item : toml.as_array()) items.push_back(to_value(item));
+  return {std::move(items)};
+}
+
+struct LinedEntry {
+  std::uint_least32_t line = 0;
+  Entry entry{};
+};
+
+void flatten(const TomlValue& table, const std::string& prefix, std::vector<LinedEntry>& entries)
+{
+  for (const auto& [key, value] : table.as_table()) {
+    const std::string name = prefix.empty() ? key : prefix + "." + key;
+    if (value.is_table() && !value.as_table().empty()) {
+      flatten(value, name, entries);
+      continue;
+    }
+    const toml::source_location location = value.location();
+    const std::string origin = location.file_name() + ":" + std::to_string(location.line());
+    Value plain = value.is_table() ? Value{OtherValue{std::string(kEmptyTable)}} : to_value(value);
+    entries.push_back({location.line(), {name, std::move(plain), origin}});
+  }
+}
+
+// toml11 describes an error by a headline and then, for one or two places, the line of the file and
+// below it a marker with a comment:
+//     [error] toml::insert_value: value ("a") already exists.
+//      --> case.toml
+//        |
+//      2 | a = 3
+//        |     ^--- value defined twice
+// Of the exception's own location only some kinds of errors know the line; the drawing always does.
+struct Place {
+  std::string line_number{};
+  std::string line{};
+  std::string comment{};
+};
+
+std::vector<Place> places_in(const std::vector<std::string>& lines)
+{
+  static const std::regex numbered(R"(^ *([0-9]+) \| (.*)$)");
+  static const std::regex marked(R"(^ +\| *(\^-*|~+) ?(.*)$)");
+  std::vector<Place> places;
+  std::smatch match;
+  for (const std::string& line : lines) {
+    if (std::regex_match(line, match, numbered)) {
+      places.push_back({match[1], match[2], {}});
+    } else if (!places.empty() && std::regex_match(line, match, marked)) {
+      places.back().comment = match[2];
+    }
+  }
+  return places;
+}
+
+std::string without_prefix(const std::string& headline)
+{
+  static const std::regex prefix(R"(^(\[error\] )?((toml::)?[a-z_]+:+ *)?)");
+  return std::string(trimmed(std::regex_replace(headline, prefix, "")));
+}
+
+std::vector<std::string> split_lines(const std::string& text)
+{
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string one_line_message(const std::string& file_name, const toml::exception& error)
+{
+  const std::vector<std::string> lines = split_lines(error.what());
+  const std::string headline = lines.empty() ? "" : without_prefix(lines.front());
+  const std::vector<Place> places = places_in(lines);
+  if (places.empty()) {
+    return file_name + ":" + std::to_string(error.location().line())
+           + ": not valid TOML: " + printable(headline);
+  }
+  const Place& last = places.back();
+  std::string message = file_name + ":" + last.line_number + ": ";
+  if (places.size() == 2 && last.comment.ends_with("twice")) {
+    message += "defined twice (first on line " + places.front().line_number + ")";
+  } else {
+    message += "not valid TOML: " + headline;
+    if (!last.comment.empty()) message += (headline.empty() ? "" : ": ") + last.comment;
+  }
+  constexpr std::size_t kLongestLine = 120;
+  return printable(message + ": " + last.line.substr(0, kLongestLine));
+}
+
+}  // namespace
+
+std::string value_text(const Value& value)
+{
+  struct Writer {
+    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+    std::string operator()(std::int64_t number) const { return std::to_string(number); }
+    std::string operator()(double number) const { return number_text(number); }
+    std::string operator()(const std::string& text) const { return toml_string(text); }
+    std::string operator()(const OtherValue& other) const { return other.kind; }
+    std::string operator()(const std::vector<Value>& items) const
+    {
+      std::string result = "[";
+      for (const Value& item : items) {
+        if (result.size() > 1) result += ", ";
+        result += value_text(item);
+      }
+      return result + "]";
+    }
+  };
+  return std::visit(Writer{}, value.data);
+}
+
+std::vector<Entry> parse_toml(std::string_view text, const std::string& file_name)
+{
+  std::vector<LinedEntry> lined;
+  try {
+    flatten(parse(text, file_name), "", lined);
+  } catch (const toml::exception& error) {
+    throw ConfigError(one_line_message(file_name, error));
+  }
+  std::stable_sort(lined.begin(), lined.end(),
+                   [](const LinedEntry& a, const LinedEntry& b) { return a.line < b.line; });
+  std::vector<Entry> entries;
+  for (LinedEntry& item : lined) entries.push_back(std::move(item.entry));
+  return entries;
+}
+
+std::optional<Value> parse_toml_value(std::string_view text)
+{
+  if (text.find('\n') != std::string_view::npos) return std::nullopt;
+  try {
+    const TomlValue table = parse("value = " + std::string(text), "");
+    return to_value(table.as_table().at("value"));
+  } catch (const toml::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace tessera::config

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/config/case.hpp"
+
+#include "config/key_table.hpp"
+
+namespace tessera::config {
+namespace {
+
+Case complete_case()
+{
+  Case wanted;
+  wanted.geometry = {.file = "/m \"q\" \\ ü\t.geo", .scale = 1.0 / 3.0};
+  wanted.coarse = {.max_size = 1e-7, .grading = 0.1, .curvature = 99.5, .feature_angle_deg = 12.25};
+  wanted.decompose.subdomains = 77;
+  wanted.refine.levels = 0;
+  wanted.fill = {.timeout_s = 1e5, .memory_gib = 0.3, .optimize_steps = 9, .grading = 0.9};
+  wanted.quality = {.min_dihedral_deg = 7.1, .min_mean_ratio = 0.11};
+  wanted.output.directory = "out/a b";
+  wanted.output.compression = io::Compression::none;
+  wanted.output.cell_quality = true;
+  return wanted;
+}
+
+TEST(ToToml, ReadsBackAsTheSameCase)
+{
+  const Case wanted = complete_case();
+  EXPECT_EQ(parse_case(to_toml(wanted), "/elsewhere/case.toml"), wanted);
+}
+
+TEST(ToToml, ReadsBackAsTheSameCaseWithATargetSize)
+{
+  Case wanted = complete_case();
+  wanted.size.target = 0.125;
+  wanted.coarse.max_size = 0.0;
+  wanted.refine.levels = refine::RefineOptions{}.levels;
+  wanted.decompose.subdomains = 0;
+  EXPECT_EQ(parse_case(to_toml(wanted), "/elsewhere/case.toml"), wanted);
+}
+
+TEST(ToToml, WritesEveryKeyThatIsGiven)
+{
+  const std::string text = to_toml(complete_case());
+  for (const Key& key : all_keys()) {
+    const std::string line = "\n" + std::string(last_part(key.name)) + " = ";
+    EXPECT_EQ(text.find(line) != std::string::npos, key.name != "size.target") << key.name;
+  }
+}
+
+TEST(ToToml, RefusesAPathThatIsNoUtf8)
+{
+  Case wanted = complete_case();
+  wanted.output.directory = "gr\xFC\xDF";
+  EXPECT_THROW((void)to_toml(wanted), ConfigError);
+}
+
+TEST(Reference, IsACaseWithEveryDefault)
+{
+  Case defaults;
+  defaults.geometry.file = "/configs/model.step";
+  defaults.coarse.max_size = 10.0;
+  defaults.output.directory = "outputs/reference";
+  EXPECT_EQ(parse_case(reference_toml(), "/configs/reference.toml"), defaults);
+}
+
+TEST(Reference, NamesEveryKeyWithItsRangeAndReason)
+{
+  const std::string text = reference_toml();
+  for (const Key& key : all_keys()) {
+    EXPECT_NE(text.find("[" + std::string(table_of(key.name)) + "]"), std::string::npos);
+    EXPECT_NE(text.find("\n" + std::string(last_part(key.name)) + " = ") != std::string::npos,
+              text.find("\n# " + std::string(last_part(key.name)) + " = ") != std::string::npos)
+        << key.name;
+    EXPECT_FALSE(key.meaning.empty()) << key.name;
+    EXPECT_FALSE(key.reason.empty()) << key.name;
+  }
+}
+
+TEST(KeyTable, NamesAreUniqueAndExclusionsKnown)
+{
+  for (const Key& key : all_keys()) {
+    EXPECT_EQ(find_key(key.name), &key) << key.name;
+    EXPECT_TRUE(key.excluded_by.empty() || find_key(key.excluded_by) != nullptr) << key.name;
+  }
+}
+
+TEST(KeyTable, DefaultsAreAllowed)
+{
+  Case from;
+  from.geometry.file = "/a.geo";
+  from.coarse.max_size = 1.0;
+  from.output.directory = "out";
+  for (const Key& key : all_keys()) {
+    const auto text = toml_value(key.rule, from);
+    if (key.name == "size.target") continue;
+    ASSERT_TRUE(text.has_value()) << key.name;
+    const auto value = parse_toml_value(*text);
+    ASSERT_TRUE(value.has_value()) << key.name;
+    Case into;
+    EXPECT_TRUE(assign(key.rule, *value, into)) << key.name << " = " << *text;
+  }
+}
+
+}  // namespace
+}  // namespace tessera::config

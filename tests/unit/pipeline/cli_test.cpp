@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/cli.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+Command parsed(std::vector<const char*> arguments)
+{
+  arguments.insert(arguments.begin(), "tessera");
+  return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
+}
+
+template <class Kind>
+Kind parsed_as(const std::vector<const char*>& arguments)
+{
+  return std::get<Kind>(parsed(arguments));
+}
+
+std::string error_of(const std::vector<const char*>& arguments)
+{
+  try {
+    (void)parsed(arguments);
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(CommandLine, MeshNeedsOnlyACase)
+{
+  const auto mesh = parsed_as<MeshCommand>({"mesh", "a case.toml"});
+  EXPECT_EQ(mesh.case_file, "a case.toml");
+  EXPECT_TRUE(mesh.overrides.empty());
+  EXPECT_FALSE(mesh.output.has_value());
+  EXPECT_FALSE(mesh.overwrite || mesh.dump_config || mesh.dry_run);
+  EXPECT_EQ(mesh.progress, Progress::automatic);
+  EXPECT_EQ(mesh.verbosity, Verbosity::normal);
+}
+
+TEST(CommandLine, MeshTakesEveryOption)
+{
+  const auto mesh = parsed_as<MeshCommand>({"mesh", "--set", "a.b=1", "--set=c.d=x y", "case.toml",
+                                            "--output", "out dir", "--overwrite", "--dump-config",
+                                            "--dry-run", "--progress", "never", "-v"});
+  EXPECT_EQ(mesh.case_file, "case.toml");
+  EXPECT_EQ(mesh.overrides, (std::vector<std::string>{"a.b=1", "c.d=x y"}));
+  EXPECT_EQ(mesh.output, "out dir");
+  EXPECT_TRUE(mesh.overwrite && mesh.dump_config && mesh.dry_run);
+  EXPECT_EQ(mesh.progress, Progress::never);
+  EXPECT_EQ(mesh.verbosity, Verbosity::verbose);
+}
+
+TEST(CommandLine, OverridesArriveAsTheyWereWritten)
+{
+  const auto mesh =
+      parsed_as<MeshCommand>({"mesh", "case.toml", "--set", "output.formats=[\"pvtu\"]", "--set",
+                              "[x,y]", "--set", "a.b='q'"});
+  EXPECT_EQ(mesh.overrides,
+            (std::vector<std::string>{"output.formats=[\"pvtu\"]", "[x,y]", "a.b='q'"}));
+}
+
+TEST(CommandLine, QuietAndProgressWords)
+{
+  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "-q"}).verbosity, Verbosity::quiet);
+  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--progress=auto"}).progress, Progress::automatic);
+  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--progress=always"}).progress, Progress::always);
+}
+
+TEST(CommandLine, CheckAndInfo)
+{
+  EXPECT_EQ(parsed_as<CheckCommand>({"check", "m.pvtu"}).mesh_file, "m.pvtu");
+  EXPECT_FALSE(parsed_as<CheckCommand>({"check", "m.pvtu"}).json);
+  EXPECT_TRUE(parsed_as<CheckCommand>({"check", "--json", "m.pvtu"}).json);
+  EXPECT_EQ(parsed_as<InfoCommand>({"info", "--", "-m.geo"}).file, "-m.geo");
+}
+
+TEST(CommandLine, HelpOfEveryLevelIsReturnedNotPrinted)
+{
+  const std::string all = parsed_as<PrintCommand>({"--help"}).text;
+  for (const char* word : {"mesh", "check", "info", "--version"}) {
+    EXPECT_NE(all.find(word), std::string::npos) << word;
+  }
+  const std::string mesh = parsed_as<PrintCommand>({"mesh", "--help"}).text;
+  for (const char* word : {"tessera mesh", "CASE.toml", "--set", "--output", "--overwrite",
+                           "--dump-config", "--dry-run", "--progress", "--quiet", "--verbose"}) {
+    EXPECT_NE(mesh.find(word), std::string::npos) << word;
+  }
+  EXPECT_NE(parsed_as<PrintCommand>({"check", "-h"}).text.find("--json"), std::string::npos);
+  EXPECT_NE(parsed_as<PrintCommand>({"info", "--help"}).text.find("FILE"), std::string::npos);
+}
+
+TEST(CommandLine, VersionIsReturned)
+{
+  EXPECT_EQ(parsed_as<PrintCommand>({"--version"}).text, "tessera " TESSERA_VERSION "\n");
+}
+
+TEST(CommandLine, WrongUseIsOneLineThatSaysHowToGetHelp)
+{
+  const std::vector<std::vector<const char*>> wrong{
+      {},
+      {"polish"},
+      {"mesh"},
+      {"check"},
+      {"info"},
+      {"info", "a", "b"},
+      {"mesh", "c", "extra"},
+      {"mesh", "c", "--set"},
+      {"mesh", "c", "--output"},
+      {"mesh", "c", "--output", "a", "--output", "b"},
+      {"mesh", "c", "--progress", "loud"},
+      {"mesh", "c", "-q", "-v"},
+      {"mesh", "c", "--overwrite=perhaps"},
+      {"mesh", "c", "check", "m"},
+      {"-x"},
+  };
+  for (const auto& arguments : wrong) {
+    const std::string message = error_of(arguments);
+    EXPECT_TRUE(message.starts_with("wrong command line: ")) << message;
+    EXPECT_NE(message.find("--help`"), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST(CommandLine, UnknownCommandsAndOptionsAreNamed)
+{
+  for (const char* stranger : {"polish", "-x", "--polish"}) {
+    EXPECT_NE(error_of({stranger}).find(stranger), std::string::npos);
+    EXPECT_NE(error_of({"mesh", "c", stranger}).find(stranger), std::string::npos);
+  }
+}
+
+TEST(CommandLine, OptionsOfLaterVersionsAreRefused)
+{
+  for (const char* option : {"--resume", "--only-subdomains=1", "--ranks=4"}) {
+    const std::string message = error_of({"mesh", "c", option});
+    EXPECT_NE(message.find(option), std::string::npos) << message;
+  }
+  EXPECT_NE(error_of({"repartition", "m.pvtu"}), "no error");
+}
+
+}  // namespace
+}  // namespace tessera::pipeline
