@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "tessera/base/types.hpp"
+#include "tessera/decompose/graph_partitioner.hpp"
+#include "tessera/decompose/options.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/decomposition.hpp"
+
+namespace tessera::decompose {
+
+/// @brief "auto" asks for at least this many coarse tets a subdomain: with fewer, most of them
+/// touch a seam and the quality of the seams is the quality of the mesh.
+inline constexpr LocalIndex kAutoCoarseTets = 100;
+
+/// @brief "auto" asks for at least this many predicted fine tets a subdomain: NETGEN is fastest on
+/// skins of 3 k to 15 k tets (12-14 k tets/s a core), below that the cost of a job shows.
+inline constexpr double kAutoFineTets = 3000.0;
+
+/// @brief What the decomposition was asked for and what it became. A *seam* triangle lies between
+/// two subdomains of one material.
+struct DecomposeReport {
+  LocalIndex num_requested = 0;  ///< As in the options; 0: auto.
+  LocalIndex num_wanted = 0;  ///< After "auto", and at least one a connected piece of a material.
+  LocalIndex num_subdomains = 0;         ///< What it became; >= num_wanted.
+  LocalIndex num_moves = 0;              ///< Repair moves of one tet that were accepted.
+  LocalIndex num_splits = 0;             ///< Subdomains cut in two because no move helped.
+  LocalIndex num_merges = 0;             ///< Small subdomains that a neighbour could take up again.
+  double seam_area = 0.0;                ///< Output length unit squared.
+  double min_seam_dihedral_deg = 180.0;  ///< Smallest angle, inside a subdomain, between a seam
+                                         ///< triangle and the next skin triangle; 180: no seam.
+  double mean_weight = 0.0;              ///< Predicted fine tets a subdomain.
+  double max_weight = 0.0;               ///< Of the heaviest subdomain.
+};
+
+struct DecomposeResult {
+  mesh::Decomposition decomposition{};
+  DecomposeReport report{};
+};
+
+/// @brief Cuts a coarse mesh into subdomains that a volume mesher can fill one by one.
+///
+/// Afterwards every subdomain is not empty, face-connected and of one material, and its skin is one
+/// closed surface without an edge of four triangles or a vertex where it touches itself; so it
+/// encloses neither another subdomain nor a void of the model. validate() checks all of it.
+/// @note Local; the same bits for the same arguments. About linear in the number of tets.
+/// @param[in] tet_weight Shape (num_tets), > 0: predicted fine tets of each coarse tet.
+/// @throws ConfigError if more subdomains are requested than there are coarse tets.
+/// @throws MeshError if tet_weight has a wrong length or the partitioner gives invalid parts.
+[[nodiscard]] DecomposeResult decompose(const mesh::CoarseMesh& mesh,
+                                        const DecomposeOptions& options,
+                                        std::span<const double> tet_weight,
+                                        const GraphPartitioner& partitioner);
+
+/// @brief Throws MeshError, naming subdomain and vertex, unless the decomposition keeps every
+/// promise of decompose() and its graph is the symmetric one of the shared triangles. Local.
+void validate(const mesh::CoarseMesh& mesh, const mesh::Decomposition& decomposition);
+
+}  // namespace tessera::decompose

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/decompose/graph.hpp"
+
+namespace tessera::decompose {
+
+/// @brief Cuts a graph into parts of similar weight with cheap cuts.
+class GraphPartitioner {
+ public:
+  virtual ~GraphPartitioner() = default;
+
+  /// @brief Part of each vertex, in [0, num_parts). Parts may be empty or disconnected: callers
+  /// check. A pure function of its arguments.
+  /// @note Local.
+  /// @pre 2 <= num_parts <= graph.num_vertices().
+  /// @throws MeshError if the partitioner gives up.
+  [[nodiscard]] virtual std::vector<LocalIndex> partition(const Graph& graph,
+                                                          LocalIndex num_parts) const = 0;
+};
+
+/// @brief METIS with a fixed seed. @cite karypis1998
+[[nodiscard]] std::unique_ptr<GraphPartitioner> make_metis_partitioner();
+
+/// @brief Consecutive blocks of a breadth-first order; needs no library, cuts badly. For tests.
+[[nodiscard]] std::unique_ptr<GraphPartitioner> make_block_partitioner();
+
+}  // namespace tessera::decompose

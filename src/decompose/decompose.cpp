@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/decompose/decompose.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <string>
+
+#include "tessera/base/error.hpp"
+
+#include "decompose/initial_partition.hpp"
+#include "decompose/merge_small.hpp"
+#include "decompose/numbering.hpp"
+#include "decompose/repair.hpp"
+#include "decompose/seam_angles.hpp"
+
+namespace tessera::decompose {
+namespace {
+
+void check_arguments(const mesh::CoarseMesh& mesh, const DecomposeOptions& options,
+                     std::span<const double> tet_weight)
+{
+  if (options.subdomains < 0) {
+    throw ConfigError("decompose.subdomains is " + std::to_string(options.subdomains)
+                      + "; it must be at least 1, or \"auto\"");
+  }
+  if (options.subdomains > mesh.num_tets()) {
+    throw ConfigError("decompose.subdomains is " + std::to_string(options.subdomains)
+                      + " but the coarse mesh has only " + std::to_string(mesh.num_tets())
+                      + " tets; ask for fewer subdomains or a smaller coarse.max_size");
+  }
+  if (mesh.num_tets() == 0) throw MeshError("decompose: the coarse mesh has no tets");
+  if (tet_weight.size() != static_cast<std::size_t>(mesh.num_tets())) {
+    throw MeshError("decompose: " + std::to_string(tet_weight.size()) + " weights for "
+                    + std::to_string(mesh.num_tets()) + " tets");
+  }
+}
+
+LocalIndex automatic_number(const mesh::CoarseMesh& mesh, std::span<const double> tet_weight)
+{
+  const double fine_tets = std::accumulate(tet_weight.begin(), tet_weight.end(), 0.0);
+  const double by_fine_tets =
+      std::min(fine_tets / kAutoFineTets, static_cast<double>(mesh.num_tets()));
+  const LocalIndex by_coarse_tets = mesh.num_tets() / kAutoCoarseTets;
+  return std::max(1, std::min(by_coarse_tets, static_cast<LocalIndex>(by_fine_tets)));
+}
+
+void measure(const TetGraph& graph, const mesh::Decomposition& decomposition,
+             DecomposeReport& report)
+{
+  const auto& weight = decomposition.subdomain_weight;
+  report.num_subdomains = decomposition.num_subdomains();
+  report.max_weight = *std::max_element(weight.begin(), weight.end());
+  report.mean_weight =
+      std::accumulate(weight.begin(), weight.end(), 0.0) / static_cast<double>(weight.size());
+  for (const mesh::TriangleTets& triangle : graph.triangles) {
+    if (!is_seam(graph, decomposition, triangle)) continue;
+    report.seam_area += triangle_area(*graph.mesh, triangle);
+  }
+  report.min_seam_dihedral_deg = min_seam_dihedral_deg(graph, decomposition);
+}
+
+}  // namespace
+
+DecomposeResult decompose(const mesh::CoarseMesh& mesh, const DecomposeOptions& options,
+                          std::span<const double> tet_weight, const GraphPartitioner& partitioner)
+{
+  check_arguments(mesh, options, tet_weight);
+  const TetGraph graph = make_tet_graph(mesh, tet_weight);
+  const auto pieces = connected_pieces(graph);
+
+  DecomposeResult result;
+  DecomposeReport& report = result.report;
+  report.num_requested = options.subdomains;
+  const LocalIndex number =
+      options.subdomains > 0 ? options.subdomains : automatic_number(mesh, tet_weight);
+  report.num_wanted = std::max(number, static_cast<LocalIndex>(pieces.size()));
+
+  Labelling labelling = partition_pieces(graph, pieces, report.num_wanted, partitioner);
+  const RepairCounts repairs = repair(graph, labelling);
+  report.num_moves = repairs.num_moves;
+  report.num_splits = repairs.num_splits;
+  report.num_merges = merge_small(graph, labelling, report.num_wanted);
+
+  result.decomposition = number_subdomains(graph, labelling, partitioner);
+  measure(graph, result.decomposition, report);
+  return result;
+}
+
+}  // namespace tessera::decompose

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "tessera/decompose/graph_partitioner.hpp"
+
+#include "decompose/labelling.hpp"
+
+namespace tessera::decompose {
+
+/// @brief The face-connected pieces of each material, by lowest tet.
+[[nodiscard]] std::vector<std::vector<LocalIndex>> connected_pieces(const TetGraph& graph);
+
+/// @brief Parts for each piece: at least one, at most its tets, else in proportion to its weight.
+/// @pre pieces.size() <= num_parts <= number of tets.
+[[nodiscard]] std::vector<LocalIndex> allot_parts(
+    const TetGraph& graph, const std::vector<std::vector<LocalIndex>>& pieces,
+    LocalIndex num_parts);
+
+/// @brief Face-connected labels, `num_parts` or more: the partitioner on each piece; what is left
+/// over of a part in small bits goes to a neighbour; the heaviest are halved while too few.
+[[nodiscard]] Labelling partition_pieces(const TetGraph& graph,
+                                         const std::vector<std::vector<LocalIndex>>& pieces,
+                                         LocalIndex num_parts, const GraphPartitioner& partitioner);
+
+}  // namespace tessera::decompose

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "decompose/labelling.hpp"
+
+namespace tessera::decompose {
+
+/// @brief Face-connected labels from parts that may be in several components.
+///
+/// The heaviest component of a part stays; of the others, light ones (slivers) join the component
+/// with which they share the most expensive seam, heavy ones become labels of their own.
+/// @param[in] tet_part Shape (num_tets), in [0, num_parts).
+[[nodiscard]] Labelling connect_parts(const TetGraph& graph,
+                                      const std::vector<LocalIndex>& tet_part,
+                                      LocalIndex num_parts);
+
+}  // namespace tessera::decompose

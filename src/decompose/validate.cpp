@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Shares no code with the stages that make a decomposition: it works on the skins as surfaces, from
+// the triangles alone.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tessera/base/error.hpp"
+#include "tessera/decompose/decompose.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+
+namespace tessera::decompose {
+namespace {
+
+[[noreturn]] void fail(const std::string& what) { throw MeshError("decomposition: " + what); }
+
+[[noreturn]] void fail_at(LocalIndex subdomain, LocalIndex vertex, const std::string& what)
+{
+  fail("subdomain " + std::to_string(subdomain) + " at vertex " + std::to_string(vertex) + ": "
+       + what);
+}
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t size) : parent_(size)
+  {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+  std::size_t root(std::size_t node)
+  {
+    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
+    return node;
+  }
+  void join(std::size_t a, std::size_t b) { parent_[root(a)] = root(b); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+// A set of connected corners (of tets or of skin triangles) at one vertex in one subdomain.
+struct Fan {
+  LocalIndex vertex;
+  LocalIndex subdomain;
+  std::size_t root;
+  friend auto operator<=>(const Fan&, const Fan&) = default;
+};
+
+void require_one_fan(std::vector<Fan>& fans, const std::string& what)
+{
+  std::sort(fans.begin(), fans.end());
+  fans.erase(std::unique(fans.begin(), fans.end()), fans.end());
+  for (std::size_t i = 1; i < fans.size(); ++i) {
+    const bool is_second =
+        fans[i].vertex == fans[i - 1].vertex && fans[i].subdomain == fans[i - 1].subdomain;
+    if (is_second) fail_at(fans[i].subdomain, fans[i].vertex, what);
+  }
+}
+
+class Validator {
+ public:
+  Validator(const mesh::CoarseMesh& mesh, const mesh::Decomposition& decomposition)
+      : mesh_(mesh),
+        decomposition_(decomposition),
+        triangles_(mesh::triangles_of_tets(mesh.tet_vertices))
+  {
+  }
+
+  void check_interiors() const
+  {
+    DisjointSets tets(num_tets());
+    DisjointSets corners(4 * num_tets());
+    for (const mesh::TriangleTets& triangle : triangles_) {
+      if (triangle.tets[1] == kNoIndex || subdomain(triangle, 0) != subdomain(triangle, 1))
+        continue;
+      const auto a = static_cast<std::size_t>(triangle.tets[0]);
+      const auto b = static_cast<std::size_t>(triangle.tets[1]);
+      tets.join(a, b);
+      for (const LocalIndex v : triangle.vertices) corners.join(corner(a, v), corner(b, v));
+    }
+    std::vector<std::size_t> known(num_subdomains(), kUnknown);
+    std::vector<Fan> fans;
+    for (std::size_t t = 0; t < num_tets(); ++t) {
+      const LocalIndex s = decomposition_.tet_subdomain[t];
+      const std::size_t root = tets.root(t);
+      std::size_t& first = known[static_cast<std::size_t>(s)];
+      if (first == kUnknown) first = root;
+      if (first != root) fail_at(s, mesh_.tet_vertices[4 * t], "it is not face-connected");
+      for (std::size_t c = 4 * t; c < 4 * t + 4; ++c) {
+        fans.push_back({mesh_.tet_vertices[c], s, corners.root(c)});
+      }
+    }
+    require_one_fan(fans, "its tets here are not face-connected");
+  }
+
+  void check_skins() const
+  {
+    const std::vector<SkinTriangle> skin = collect_skin();
+    std::vector<SkinEdge> edges;
+    for (std::size_t i = 0; i < skin.size(); ++i) {
+      const auto& [a, b, c] = skin[i].vertices;
+      const LocalIndex s = skin[i].subdomain;
+      edges.insert(edges.end(), {{s, {a, b}, {3 * i, 3 * i + 1}},
+                                 {s, {a, c}, {3 * i, 3 * i + 2}},
+                                 {s, {b, c}, {3 * i + 1, 3 * i + 2}}});
+    }
+    std::sort(edges.begin(), edges.end(), [](const SkinEdge& x, const SkinEdge& y) {
+      return x.subdomain != y.subdomain ? x.subdomain < y.subdomain : x.ends < y.ends;
+    });
+    DisjointSets corners(3 * skin.size());
+    DisjointSets surfaces(skin.size());
+    for (std::size_t i = 0; i < edges.size(); i += 2) {
+      const SkinEdge& edge = edges[i];
+      if (i + 1 == edges.size() || !edge.is_same(edges[i + 1])) fail_edge(edge, "an odd number of");
+      if (i + 2 < edges.size() && edge.is_same(edges[i + 2])) fail_edge(edge, "more than two");
+      for (std::size_t end = 0; end < 2; ++end) {
+        corners.join(edge.corners[end], edges[i + 1].corners[end]);
+      }
+      surfaces.join(edge.corners[0] / 3, edges[i + 1].corners[0] / 3);
+    }
+    check_surfaces(skin, surfaces);
+    std::vector<Fan> fans;
+    for (std::size_t c = 0; c < 3 * skin.size(); ++c) {
+      fans.push_back({skin[c / 3].vertices[c % 3], skin[c / 3].subdomain, corners.root(c)});
+    }
+    require_one_fan(fans, "its skin touches itself");
+  }
+
+  void check_sizes() const
+  {
+    const std::size_t size = num_subdomains();
+    const auto& d = decomposition_;
+    if (d.tet_subdomain.size() != num_tets()) fail("tet_subdomain has a wrong length");
+    if (d.subdomain_weight.size() != size) fail("subdomain_weight has a wrong length");
+    if (d.neighbour_offsets.size() != size + 1) fail("neighbour_offsets has a wrong length");
+    const auto num_entries = static_cast<std::size_t>(d.neighbour_offsets.back());
+    if (d.neighbours.size() != num_entries || d.neighbour_triangles.size() != num_entries
+        || d.neighbour_area.size() != num_entries) {
+      fail("the arrays of the graph have different lengths");
+    }
+  }
+
+  void check_materials() const
+  {
+    std::vector<bool> has_tet(num_subdomains(), false);
+    for (std::size_t t = 0; t < num_tets(); ++t) {
+      const LocalIndex s = decomposition_.tet_subdomain[t];
+      if (s < 0 || static_cast<std::size_t>(s) >= num_subdomains()) {
+        fail("tet " + std::to_string(t) + " is in subdomain " + std::to_string(s) + " of "
+             + std::to_string(num_subdomains()));
+      }
+      has_tet[static_cast<std::size_t>(s)] = true;
+      if (decomposition_.subdomain_material[static_cast<std::size_t>(s)] != mesh_.tet_material[t]) {
+        fail_at(s, mesh_.tet_vertices[4 * t], "a tet of another material");
+      }
+    }
+    const auto empty = std::find(has_tet.begin(), has_tet.end(), false);
+    if (empty != has_tet.end()) {
+      fail("subdomain " + std::to_string(empty - has_tet.begin()) + " is empty");
+    }
+  }
+
+  // Counts both directions of every shared triangle off the graph's own numbers.
+  void check_graph() const
+  {
+    std::vector<LocalIndex> left = decomposition_.neighbour_triangles;
+    for (const mesh::TriangleTets& triangle : triangles_) {
+      if (triangle.tets[1] == kNoIndex) continue;
+      const LocalIndex a = subdomain(triangle, 0);
+      const LocalIndex b = subdomain(triangle, 1);
+      if (a == b) continue;
+      const std::size_t there = entry(a, b);
+      const std::size_t back = entry(b, a);
+      --left[there];
+      --left[back];
+      if (decomposition_.neighbour_area[there] != decomposition_.neighbour_area[back]) {
+        fail("the area between subdomains " + std::to_string(a) + " and " + std::to_string(b)
+             + " is not symmetric");
+      }
+    }
+    if (std::any_of(left.begin(), left.end(), [](LocalIndex n) { return n != 0; })) {
+      fail("the graph counts other triangles than the subdomains share");
+    }
+  }
+
+ private:
+  struct SkinTriangle {
+    LocalIndex subdomain;
+    std::array<LocalIndex, 3> vertices;
+  };
+  struct SkinEdge {
+    LocalIndex subdomain;
+    std::array<LocalIndex, 2> ends;
+    std::array<std::size_t, 2> corners;  // of a skin triangle, at either end
+    [[nodiscard]] bool is_same(const SkinEdge& other) const
+    {
+      return subdomain == other.subdomain && ends == other.ends;
+    }
+  };
+  static constexpr std::size_t kUnknown = static_cast<std::size_t>(-1);
+
+  [[nodiscard]] std::size_t num_tets() const { return mesh_.tet_material.size(); }
+  [[nodiscard]] std::size_t num_subdomains() const
+  {
+    return decomposition_.subdomain_material.size();
+  }
+  [[nodiscard]] LocalIndex subdomain(const mesh::TriangleTets& triangle, std::size_t side) const
+  {
+    return decomposition_.tet_subdomain[static_cast<std::size_t>(triangle.tets[side])];
+  }
+  [[nodiscard]] std::size_t corner(std::size_t tet, LocalIndex vertex) const
+  {
+    std::size_t at = 4 * tet;
+    while (mesh_.tet_vertices[at] != vertex) ++at;
+    return at;
+  }
+
+  [[nodiscard]] std::vector<SkinTriangle> collect_skin() const
+  {
+    std::vector<SkinTriangle> skin;
+    for (const mesh::TriangleTets& triangle : triangles_) {
+      const bool is_outer = triangle.tets[1] == kNoIndex;
+      if (!is_outer && subdomain(triangle, 0) == subdomain(triangle, 1)) continue;
+      skin.push_back({subdomain(triangle, 0), triangle.vertices});
+      if (!is_outer) skin.push_back({subdomain(triangle, 1), triangle.vertices});
+    }
+    return skin;
+  }
+
+  void check_surfaces(const std::vector<SkinTriangle>& skin, DisjointSets& surfaces) const
+  {
+    std::vector<std::size_t> known(num_subdomains(), kUnknown);
+    for (std::size_t i = 0; i < skin.size(); ++i) {
+      std::size_t& first = known[static_cast<std::size_t>(skin[i].subdomain)];
+      if (first == kUnknown) first = surfaces.root(i);
+      if (first != surfaces.root(i)) {
+        fail_at(skin[i].subdomain, skin[i].vertices[0], "its skin is more than one surface");
+      }
+    }
+  }
+
+  [[noreturn]] static void fail_edge(const SkinEdge& edge, const std::string& how_many)
+  {
+    fail_at(edge.subdomain, edge.ends[0],
+            how_many + " skin triangles at the edge to vertex " + std::to_string(edge.ends[1]));
+  }
+
+  [[nodiscard]] std::size_t entry(LocalIndex from, LocalIndex to) const
+  {
+    const auto& offsets = decomposition_.neighbour_offsets;
+    const auto begin = decomposition_.neighbours.begin();
+    const auto first = begin + offsets[static_cast<std::size_t>(from)];
+    const auto last = begin + offsets[static_cast<std::size_t>(from) + 1];
+    const auto found = std::lower_bound(first, last, to);
+    if (found == last || *found != to) {
+      fail("subdomains " + std::to_string(from) + " and " + std::to_string(to)
+           + " share a triangle, but not in the graph");
+    }
+    return static_cast<std::size_t>(found - begin);
+  }
+
+  const mesh::CoarseMesh& mesh_;
+  const mesh::Decomposition& decomposition_;
+  std::vector<mesh::TriangleTets> triangles_;
+};
+
+}  // namespace
+
+void validate(const mesh::CoarseMesh& mesh, const mesh::Decomposition& decomposition)
+{
+  const Validator validator(mesh, decomposition);
+  validator.check_sizes();
+  validator.check_materials();
+  validator.check_interiors();
+  validator.check_skins();
+  validator.check_graph();
+}
+
+}  // namespace tessera::decompose
