@@ -11,8 +11,8 @@
 namespace tessera::pipeline {
 namespace {
 
-const std::map<std::string, Progress> kProgressWords{
-    {"auto", Progress::automatic}, {"always", Progress::always}, {"never", Progress::never}};
+const std::map<std::string, ProgressMode> kProgressWords{
+    {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
 
 // What CLI11 writes into; becomes a Command when all went well.
 struct Parsed {

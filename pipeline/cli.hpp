@@ -9,7 +9,7 @@
 
 namespace tessera::pipeline {
 
-enum class Progress : int { automatic, always, never };
+enum class ProgressMode : int { automatic, always, never };
 enum class Verbosity : int { quiet, normal, verbose };
 
 /// @brief `tessera mesh`: make a mesh from a case file.
@@ -20,7 +20,7 @@ struct MeshCommand {
   bool overwrite = false;                         ///< Use an output folder that is not empty.
   bool dump_config = false;                       ///< Print the resolved case and stop.
   bool dry_run = false;                           ///< Predict the run instead of running.
-  Progress progress = Progress::automatic;
+  ProgressMode progress = ProgressMode::automatic;
   Verbosity verbosity = Verbosity::normal;
 };
 

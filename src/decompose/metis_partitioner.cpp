@@ -83,4 +83,10 @@ std::unique_ptr<GraphPartitioner> make_metis_partitioner()
   return std::make_unique<MetisPartitioner>();
 }
 
+std::string metis_version()
+{
+  return std::to_string(METIS_VER_MAJOR) + "." + std::to_string(METIS_VER_MINOR) + "."
+         + std::to_string(METIS_VER_SUBMINOR);
+}
+
 }  // namespace tessera::decompose

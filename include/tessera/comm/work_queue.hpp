@@ -40,6 +40,12 @@ class WorkQueue {
   /// @return False when a rank requested a stop: cancel the item at hand.
   bool progress();
 
+  /// @brief Items handed out so far, on rank 0; 0 elsewhere. Local.
+  [[nodiscard]] std::int64_t num_handed_out() const
+  {
+    return static_cast<std::int64_t>(num_handed_out_);
+  }
+
   /// @brief Asks all ranks to stop: no further item is handed out to anybody. Local.
   void request_stop();
 

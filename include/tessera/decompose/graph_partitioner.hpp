@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -25,6 +26,9 @@ class GraphPartitioner {
 
 /// @brief METIS with a fixed seed. @cite karypis1998
 [[nodiscard]] std::unique_ptr<GraphPartitioner> make_metis_partitioner();
+
+/// @brief METIS's version, e.g. "5.1.0".
+[[nodiscard]] std::string metis_version();
 
 /// @brief Consecutive blocks of a breadth-first order; needs no library, cuts badly. For tests.
 [[nodiscard]] std::unique_ptr<GraphPartitioner> make_block_partitioner();

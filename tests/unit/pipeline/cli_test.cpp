@@ -40,7 +40,7 @@ TEST(CommandLine, MeshNeedsOnlyACase)
   EXPECT_TRUE(mesh.overrides.empty());
   EXPECT_FALSE(mesh.output.has_value());
   EXPECT_FALSE(mesh.overwrite || mesh.dump_config || mesh.dry_run);
-  EXPECT_EQ(mesh.progress, Progress::automatic);
+  EXPECT_EQ(mesh.progress, ProgressMode::automatic);
   EXPECT_EQ(mesh.verbosity, Verbosity::normal);
 }
 
@@ -53,7 +53,7 @@ TEST(CommandLine, MeshTakesEveryOption)
   EXPECT_EQ(mesh.overrides, (std::vector<std::string>{"a.b=1", "c.d=x y"}));
   EXPECT_EQ(mesh.output, "out dir");
   EXPECT_TRUE(mesh.overwrite && mesh.dump_config && mesh.dry_run);
-  EXPECT_EQ(mesh.progress, Progress::never);
+  EXPECT_EQ(mesh.progress, ProgressMode::never);
   EXPECT_EQ(mesh.verbosity, Verbosity::verbose);
 }
 
@@ -69,8 +69,8 @@ TEST(CommandLine, OverridesArriveAsTheyWereWritten)
 TEST(CommandLine, QuietAndProgressWords)
 {
   EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "-q"}).verbosity, Verbosity::quiet);
-  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--progress=auto"}).progress, Progress::automatic);
-  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--progress=always"}).progress, Progress::always);
+  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--progress=auto"}).progress, ProgressMode::automatic);
+  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--progress=always"}).progress, ProgressMode::always);
 }
 
 TEST(CommandLine, CheckAndInfo)

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/comm/communicator.hpp"
+
+namespace tessera::comm {
+
+/// @brief MPI from its construction to its end; one in a program, in main().
+class Environment {
+ public:
+  Environment(int& argc, char**& argv);
+  ~Environment();
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+};
+
+/// @brief A communicator of all ranks. @note Collective. @pre an Environment lives.
+[[nodiscard]] Communicator world();
+
+}  // namespace tessera::comm

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "tessera/base/error.hpp"
+#include "tessera/comm/communicator.hpp"
+#include "tessera/comm/environment.hpp"
+#include "tessera/jobs/job_runner.hpp"
+
+#include "pipeline/check_command.hpp"
+#include "pipeline/cli.hpp"
+#include "pipeline/exit_code.hpp"
+#include "pipeline/info_command.hpp"
+#include "pipeline/mesh_command.hpp"
+#include "pipeline/mesh_worker.hpp"
+#include "pipeline/stop_signal.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+void say(const comm::Communicator& comm, const std::string& text)
+{
+  if (comm.rank() == 0) std::fprintf(stderr, "tessera: %s\n", text.c_str());
+}
+
+ExitCode run(const Command& command, const comm::Communicator& comm, jobs::JobRunner& jobs)
+{
+  if (const auto* print = std::get_if<PrintCommand>(&command)) {
+    if (comm.rank() == 0) std::fputs(print->text.c_str(), stdout);
+    return ExitCode::ok;
+  }
+  if (const auto* check = std::get_if<CheckCommand>(&command)) return run_check_command(*check, comm);
+  if (const auto* info = std::get_if<InfoCommand>(&command)) {
+    return run_info_command(*info, comm, jobs);
+  }
+  return run_mesh_command(std::get<MeshCommand>(command), comm, jobs);
+}
+
+// Errors that all ranks threw end the program in order; on any other one the other ranks may wait in
+// a collective for ever, so it ends all of them.
+ExitCode run_guarded(int argc, char** argv, const comm::Communicator& comm, jobs::JobRunner& jobs)
+{
+  try {
+    return run(parse_command_line(argc, argv), comm, jobs);
+  } catch (const ConfigError& error) {
+    say(comm, error.what());
+    return ExitCode::wrong_input;
+  } catch (const comm::ThrownOnAllRanks& thrown) {
+    const auto& error = dynamic_cast<const std::exception&>(thrown);
+    say(comm, error.what());
+    return exit_code_of(error);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tessera: internal error on rank %d, please report it: %s\n", comm.rank(),
+                 error.what());
+    comm.abort(static_cast<int>(ExitCode::internal));
+  }
+}
+
+}  // namespace
+}  // namespace tessera::pipeline
+
+int main(int argc, char** argv)
+{
+  using namespace tessera;
+  // Before MPI starts: MPI must not be in the processes that jobs are forked from.
+  jobs::JobRunner jobs(pipeline::make_mesh_worker);
+  const comm::Environment mpi(argc, argv);
+  pipeline::catch_stop_signals();
+  const comm::Communicator comm = comm::world();
+  return static_cast<int>(pipeline::run_guarded(argc, argv, comm, jobs));
+}

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/mesh_command.hpp"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstring>
+#include <numeric>
+#include <optional>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/config/case.hpp"
+#include "tessera/io/files.hpp"
+#include "tessera/io/output_folder.hpp"
+#include "tessera/jobs/process_memory.hpp"
+
+#include "pipeline/log.hpp"
+#include "pipeline/report.hpp"
+#include "pipeline/run_pipeline.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+Bytes bytes_of(const std::string& text)
+{
+  Bytes bytes(text.size());
+  if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
+  return bytes;
+}
+
+std::string text_of(const Bytes& bytes)
+{
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// Rank 0 reads the file; the others get the resolved text, so no rank can see another case.
+config::Case read_case(const MeshCommand& command, const comm::Communicator& comm)
+{
+  const std::string text = text_of(on_root(comm, [&] {
+    config::Case given = config::load_case(command.case_file, command.overrides);
+    if (command.output) given.output.directory = *command.output;
+    return bytes_of(config::to_toml(given));
+  }));
+  return config::parse_case(text, command.case_file);
+}
+
+Progress::Style progress_style(const MeshCommand& command, const comm::Communicator& comm)
+{
+  if (comm.rank() != 0 || command.verbosity == Verbosity::quiet) return Progress::Style::silent;
+  const bool is_terminal = command.progress == pipeline::ProgressMode::always
+                           || (command.progress == pipeline::ProgressMode::automatic
+                               && isatty(STDOUT_FILENO) != 0);
+  return is_terminal ? Progress::Style::bar : Progress::Style::lines;
+}
+
+// One run in its folder, which is locked as long as this lives.
+class MeshRun {
+ public:
+  MeshRun(const MeshCommand& command, config::Case given, const comm::Communicator& comm,
+          jobs::JobRunner& jobs)
+      : command_(command), given_(std::move(given)), comm_(comm), jobs_(jobs)
+  {
+    all_or_none(comm, [&] {
+      if (comm.rank() == 0) open_folder();
+    });
+    comm.barrier();
+    jobs.set_log_file(given_.output.directory / "log" / fmt::format("rank_{:06}.log", comm.rank()));
+  }
+
+  ExitCode run()
+  {
+    const auto log = make_log(comm_.rank() == 0 ? given_.output.directory / "log" / "run.log"
+                                                : std::filesystem::path(),
+                              command_.verbosity);
+    Progress progress(progress_style(command_, comm_), log);
+    RunContext context{comm_, jobs_, progress, *log, given_.output.directory};
+    try {
+      return command_.dry_run ? predict(context) : mesh(context);
+    } catch (const comm::ThrownOnAllRanks& thrown) {
+      progress.clear();
+      if (comm_.rank() == 0) report_failure(dynamic_cast<const std::exception&>(thrown), context);
+      throw;
+    }
+  }
+
+ private:
+  void open_folder()
+  {
+    folder_.emplace(given_.output.directory, command_.overwrite ? io::ExistingFolder::overwrite
+                                                                : io::ExistingFolder::refuse);
+    std::filesystem::create_directories(given_.output.directory / "log");
+    io::write_text_atomically(given_.output.directory / "case.toml", config::to_toml(given_));
+  }
+
+  ExitCode mesh(RunContext& context)
+  {
+    const RunResult run = run_pipeline(given_, context);
+    const Verdict verdict = judge(run);
+    const RunFigures run_figures = figures();
+    all_or_none(comm_, [&] {
+      if (comm_.rank() != 0) return;
+      io::write_text_atomically(given_.output.directory / "report.json",
+                                report_json(run, verdict, run_figures, context.times));
+    });
+    if (comm_.rank() == 0) {
+      for (const std::string& reason : verdict.reasons) context.log.warn("degraded: {}", reason);
+      context.log.info("{} tets in {} pieces, {:.1f} s: {}", run.num_tets, run.filled.pieces.size(),
+                       run_figures.wall_time_s, given_.output.directory.string());
+    }
+    return verdict.exit_code;
+  }
+
+  ExitCode predict(RunContext& context)
+  {
+    const RunResult run = run_dry(given_, context);
+    const auto& weights = run.decomposition.decomposition.subdomain_weight;
+    context.log.info("about {:.3g} tets in {} subdomains, {} levels from {} coarse tets",
+                     std::accumulate(weights.begin(), weights.end(), 0.0), weights.size(),
+                     run.resolved.refine.levels, run.coarse.mesh.num_tets());
+    return ExitCode::ok;
+  }
+
+  void report_failure(const std::exception& error, const RunContext& context) const
+  {
+    RunFigures failed = local_figures();
+    failed.peak_rss_bytes_max = peak_rss_bytes();
+    try {
+      io::write_text_atomically(
+          given_.output.directory / "report.json",
+          failure_json(exit_code_of(error), error.what(), failed, context.times));
+    } catch (const Error& second) {
+      context.log.warn("report.json is missing: {}", second.what());
+    }
+  }
+
+  [[nodiscard]] std::size_t peak_rss_bytes() const
+  {
+    return jobs::peak_rss_of_this_process() + jobs_.peak_rss_bytes();
+  }
+
+  [[nodiscard]] RunFigures local_figures() const
+  {
+    const auto now = std::chrono::steady_clock::now();
+    return {.case_name = command_.case_file.filename().string(),
+            .num_ranks = comm_.size(),
+            .wall_time_s = std::chrono::duration<double>(now - start_).count()};
+  }
+
+  /// Collective.
+  [[nodiscard]] RunFigures figures() const
+  {
+    RunFigures all = local_figures();
+    all.peak_rss_bytes_max =
+        static_cast<std::size_t>(comm_.max(static_cast<double>(peak_rss_bytes())));
+    return all;
+  }
+
+  const MeshCommand& command_;
+  config::Case given_;
+  const comm::Communicator& comm_;
+  jobs::JobRunner& jobs_;
+  std::optional<io::OutputFolder> folder_{};
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+ExitCode run_mesh_command(const MeshCommand& command, const comm::Communicator& comm,
+                          jobs::JobRunner& jobs)
+{
+  config::Case given = read_case(command, comm);
+  if (command.dump_config) {
+    if (comm.rank() == 0) fmt::print("{}", config::to_toml(given));
+    return ExitCode::ok;
+  }
+  return MeshRun(command, std::move(given), comm, jobs).run();
+}
+
+}  // namespace tessera::pipeline

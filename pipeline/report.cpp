@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/report.hpp"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "tessera/base/version.hpp"
+#include "tessera/comm/mpi_version.hpp"
+#include "tessera/decompose/graph_partitioner.hpp"
+#include "tessera/io/vtu.hpp"
+#include "tessera/netgen/factory.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kReportBins = 20;
+
+quality::TetStatistics statistics_of(const std::vector<PieceSummary>& pieces,
+                                     quality::TetStatistics PieceSummary::*part)
+{
+  quality::TetStatistics all;
+  for (const PieceSummary& piece : pieces) all.add(piece.*part);
+  return all;
+}
+
+double largest(const std::vector<PieceSummary>& pieces, double PieceSummary::*member)
+{
+  double largest = 0.0;
+  for (const PieceSummary& piece : pieces) largest = std::max(largest, piece.*member);
+  return largest;
+}
+
+double sum(const std::vector<PieceSummary>& pieces, double PieceSummary::*member)
+{
+  double sum = 0.0;
+  for (const PieceSummary& piece : pieces) sum += piece.*member;
+  return sum;
+}
+
+Json mean_ratio_json(const quality::TetStatistics& tets, const quality::Histogram& histogram)
+{
+  return {{"min", tets.min_mean_ratio},
+          {"p01", histogram.percentile(0.01)},
+          {"mean", tets.mean_mean_ratio()},
+          {"histogram", histogram.coarsened(kReportBins)}};
+}
+
+Json quality_json(const FilledPieces& filled)
+{
+  const auto tets = statistics_of(filled.pieces, &PieceSummary::tets);
+  const auto seam = statistics_of(filled.pieces, &PieceSummary::seam_tets);
+  const quality::Histogram& edges = filled.histograms.log2_edge_length;
+  const auto edge_length = [&](double share) { return std::exp2(edges.percentile(share)); };
+  Json json{{"min_dihedral_deg", tets.min_dihedral_deg},
+            {"max_dihedral_deg", tets.max_dihedral_deg},
+            {"edge_length",
+             {{"p01", edge_length(0.01)}, {"median", edge_length(0.5)}, {"p99", edge_length(0.99)}}},
+            {"mean_ratio", mean_ratio_json(tets, filled.histograms.mean_ratio)},
+            {"seam", {{"num_tets", seam.num_tets}}}};
+  if (seam.num_tets > 0) {
+    json["seam"]["min_dihedral_deg"] = seam.min_dihedral_deg;
+    json["seam"]["mean_ratio"] = mean_ratio_json(seam, filled.histograms.seam_mean_ratio);
+  }
+  return json;
+}
+
+Json subdomains_json(const RunResult& run)
+{
+  Json subdomains = Json::array();
+  for (std::size_t s = 0; s < run.filled.pieces.size(); ++s) {
+    const PieceSummary& piece = run.filled.pieces[s];
+    subdomains.push_back({{"id", piece.subdomain},
+                          {"material", piece.material},
+                          {"tets", piece.num_tets},
+                          {"kernel", "netgen"},
+                          {"tries", piece.tries},
+                          {"seconds", piece.cpu_s},
+                          {"digest", to_hex(run.digests[s])}});
+  }
+  return subdomains;
+}
+
+// Who is beside whom, with the area they share: what a solver's partitioner can start from.
+Json graph_json(const mesh::Decomposition& decomposition)
+{
+  Json edges = Json::array();
+  for (LocalIndex s = 0; s < decomposition.num_subdomains(); ++s) {
+    const auto first = decomposition.neighbour_offsets[static_cast<std::size_t>(s)];
+    const auto last = decomposition.neighbour_offsets[static_cast<std::size_t>(s) + 1];
+    for (auto e = static_cast<std::size_t>(first); e < static_cast<std::size_t>(last); ++e) {
+      if (decomposition.neighbours[e] < s) continue;
+      edges.push_back({s, decomposition.neighbours[e], decomposition.neighbour_triangles[e],
+                       decomposition.neighbour_area[e]});
+    }
+  }
+  return {{"vertex_weight", decomposition.subdomain_weight},
+          {"edges_as_a_b_coarse_triangles_area", std::move(edges)}};
+}
+
+Json stages_json(const std::vector<StageTime>& times)
+{
+  Json stages = Json::array();
+  for (const StageTime& time : times) {
+    stages.push_back({{"name", time.name},
+                      {"wall_time_s", time.wall_s},
+                      {"rank_min_s", time.rank_min_s},
+                      {"rank_max_s", time.rank_max_s}});
+  }
+  return stages;
+}
+
+Json libraries_json()
+{
+  return {{"netgen", netgen::netgen_version()},
+          {"metis", decompose::metis_version()},
+          {"vtk", io::vtk_version()},
+          {"mpi", comm::mpi_version()}};
+}
+
+std::string status_name(ExitCode code)
+{
+  switch (code) {
+    case ExitCode::ok: return "ok";
+    case ExitCode::degraded: return "degraded";
+    case ExitCode::stopped: return "stopped";
+    default: return "failed";
+  }
+}
+
+Json head_json(ExitCode exit_code, const std::string& reason, const RunFigures& figures)
+{
+  return {{"schema", 1},
+          {"version", version()},
+          {"status", status_name(exit_code)},
+          {"exit_code", static_cast<int>(exit_code)},
+          {"reason", reason},
+          {"case", figures.case_name},
+          {"num_ranks", figures.num_ranks}};
+}
+
+void add_figures(Json& json, const RunFigures& figures)
+{
+  json["wall_time_s"] = figures.wall_time_s;
+  json["peak_rss_bytes_max"] = figures.peak_rss_bytes_max;
+}
+
+}  // namespace
+
+Verdict judge(const RunResult& run)
+{
+  Verdict verdict;
+  const auto tets = statistics_of(run.filled.pieces, &PieceSummary::tets);
+  const quality::QualityTargets& targets = run.resolved.quality;
+  if (tets.min_dihedral_deg < targets.min_dihedral_deg) {
+    verdict.reasons.push_back(fmt::format("smallest dihedral angle {:.4g} deg < wanted {:.4g} deg",
+                                          tets.min_dihedral_deg, targets.min_dihedral_deg));
+  }
+  if (tets.min_mean_ratio < targets.min_mean_ratio) {
+    verdict.reasons.push_back(fmt::format("smallest mean ratio {:.4g} < wanted {:.4g}",
+                                          tets.min_mean_ratio, targets.min_mean_ratio));
+  }
+  if (!run.damping.entries().empty()) {
+    verdict.reasons.push_back(
+        fmt::format("{} points were kept off the geometry because the surface would have folded, by "
+                    "at most {:.3g}; a smaller coarse.max_size may help",
+                    run.damping.entries().size(),
+                    largest(run.filled.pieces, &PieceSummary::damped_distance)));
+  }
+  if (!verdict.reasons.empty()) verdict.exit_code = ExitCode::degraded;
+  return verdict;
+}
+
+std::string report_json(const RunResult& run, const Verdict& verdict, const RunFigures& figures,
+                        const std::vector<StageTime>& times)
+{
+  const std::vector<PieceSummary>& pieces = run.filled.pieces;
+  Hash128 digest;
+  for (const Hash128& piece : run.digests) digest += piece;
+  Json json = head_json(verdict.exit_code, fmt::format("{}", fmt::join(verdict.reasons, "; ")),
+                        figures);
+  json["num_subdomains"] = pieces.size();
+  json["num_subdomains_requested"] = run.resolved.decompose.subdomains;
+  json["num_tets"] = run.num_tets;
+  json["num_vertices"] = run.num_vertices;
+  json["volume"] = sum(pieces, &PieceSummary::volume);
+  json["boundary_area"] = sum(pieces, &PieceSummary::boundary_area);
+  json["model_distance_max"] = largest(pieces, &PieceSummary::model_distance);
+  json["num_points_off_geometry"] = run.damping.entries().size();
+  json["reproducible"] = std::none_of(pieces.begin(), pieces.end(),
+                                      [](const PieceSummary& piece) { return piece.was_limited; });
+  json["digest"] = to_hex(digest);
+  add_figures(json, figures);
+  json["tets_per_second"] = static_cast<double>(run.num_tets) / figures.wall_time_s;
+  json["stages"] = stages_json(times);
+  json["quality"] = quality_json(run.filled);
+  json["model"] = {{"repairs", run.model.repairs}, {"length_unit", run.model.length_unit}};
+  json["coarse"] = {{"num_tets", run.coarse.mesh.num_tets()},
+                    {"max_size", run.coarse.options.max_size},
+                    {"tries", run.coarse.tries},
+                    {"levels", run.resolved.refine.levels}};
+  json["decompose"] = {{"seam_area", run.decomposition.report.seam_area},
+                       {"min_seam_dihedral_deg", run.decomposition.report.min_seam_dihedral_deg},
+                       {"splits", run.decomposition.report.num_splits},
+                       {"moves", run.decomposition.report.num_moves}};
+  json["subdomains"] = subdomains_json(run);
+  json["subdomain_graph"] = graph_json(run.decomposition.decomposition);
+  json["libraries"] = libraries_json();
+  return json.dump(1) + "\n";
+}
+
+std::string failure_json(ExitCode exit_code, const std::string& reason, const RunFigures& figures,
+                         const std::vector<StageTime>& times)
+{
+  Json json = head_json(exit_code, reason, figures);
+  add_figures(json, figures);
+  json["stages"] = stages_json(times);
+  json["libraries"] = libraries_json();
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tessera::pipeline
