@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <random>
 
@@ -81,13 +82,13 @@ TEST_P(WithCompression, AHoleInTheDataIsAnInputErrorOrConsistent)
 TEST_P(WithCompression, FlippedBytesAreAnInputErrorOrConsistent)
 {
   const std::string bytes = sample_bytes();
-  std::mt19937 random(17);
+  std::mt19937_64 random(17);
   std::size_t num_refused = 0;
   constexpr std::size_t kNumTrials = 1500;
   for (std::size_t trial = 0; trial < kNumTrials; ++trial) {
     std::string damaged = bytes;
     for (std::size_t flip = 0; flip <= trial % 3; ++flip) {
-      constexpr std::string_view kLikely = "\x00\xff\x01\x80" "09<\"";
+      constexpr std::array kLikely{'\x00', '\xff', '\x01', '\x80', '0', '9', '<', '"'};
       const char byte = trial % 2 == 0 ? static_cast<char>(random() % 256)
                                        : kLikely[random() % kLikely.size()];
       damaged[random() % damaged.size()] = byte;
@@ -105,9 +106,9 @@ TEST_P(WithCompression, AFlippedByteInAHeaderOfDataIsAnInputErrorOrConsistent)
   const std::string bytes = sample_bytes();
   const std::size_t data = bytes.find('_', bytes.find("<AppendedData"));
   for (std::size_t at = data + 1; at < std::min(data + 200, bytes.size()); ++at) {
-    for (const unsigned char byte : {0x00, 0x01, 0x7f, 0x80, 0xff}) {
+    for (const char byte : {'\x00', '\x01', '\x7f', '\x80', '\xff'}) {
       std::string damaged = bytes;
-      damaged[at] = static_cast<char>(byte);
+      damaged[at] = byte;
       testing::write_bytes(file(), damaged);
       if (const auto mesh = read_damaged(file())) expect_consistent(*mesh);
     }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
