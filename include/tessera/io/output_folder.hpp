@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+namespace tessera::io {
+
+/// @brief What to do with an output folder that already holds something.
+enum class ExistingFolder : int {
+  refuse,     ///< It is an error.
+  overwrite,  ///< Remove what a Tessera run made; refuse a folder that no Tessera run has used.
+  resume,     ///< Keep everything; refuse a folder that no Tessera run has used.
+};
+
+/// @brief The output folder of one run, held by a lock for as long as this object lives.
+///
+/// The lock is the file ".tessera.lock". It names its owner (host, process, start time) while it is
+/// held; empty, it stays as the mark of a folder that a Tessera run has used. The lock of a process
+/// that died on this host is taken over; of one on another host nobody can tell, so its file must be
+/// removed by hand. Rank 0 makes it; all functions are local.
+class OutputFolder {
+ public:
+  /// @brief Makes the folder with its parents, or takes the existing one as `existing` says.
+  ///
+  /// Overwriting removes only names that a run makes, follows no symbolic link, and keeps all else.
+  /// @throws OutputError naming the folder: not empty, in use (by whom), not writable (why).
+  OutputFolder(std::filesystem::path folder, ExistingFolder existing);
+  ~OutputFolder();
+  OutputFolder(OutputFolder&&) noexcept;
+  OutputFolder& operator=(OutputFolder&&) noexcept;
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return folder_; }
+
+  /// @brief Bytes that this user may still write to the folder's file system. @throws OutputError
+  [[nodiscard]] std::uintmax_t free_bytes() const;
+
+ private:
+  std::filesystem::path folder_;
+  std::unique_ptr<class FolderLock> lock_;
+};
+
+}  // namespace tessera::io

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "tessera/io/options.hpp"
+#include "tessera/mesh/mesh_arrays.hpp"
+
+namespace tessera::io {
+
+/// @brief Writes one piece as a VTK XML unstructured grid (.vtu). Local.
+///
+/// Raw appended data, Int32 connectivity; ids as Int64 arrays "GlobalPointIds" and "GlobalCellIds"
+/// with the attribute GLOBAL_IDS, which spares a reader a global sort. Equal arrays give equal
+/// bytes. The file appears under its name only when complete. All pieces of one mesh need the same
+/// keys in the maps of arrays, also those without points or cells.
+/// @pre The arrays fit together: every array has one entry a point or cell, or is empty where it is
+///      optional; `cell_points` lie in 0…num_points-1.
+/// @throws MeshError if they do not, or if a 32-bit index cannot hold the piece.
+/// @throws OutputError naming the file and the cause (permission, disk full).
+void write_vtu(const mesh::MeshArrays& piece, const std::filesystem::path& path,
+               Compression compression);
+
+/// @brief Writes the index (.pvtu) of piece files that all have the arrays of `schema`. Local.
+///
+/// @param pieces paths relative to the folder of `path`, in the order in which they are read.
+/// @param schema any one piece; only its names and which optional arrays are there matter.
+/// @throws OutputError naming the file and the cause.
+void write_pvtu(const std::filesystem::path& path, const std::vector<std::filesystem::path>& pieces,
+                const mesh::MeshArrays& schema);
+
+/// @brief The piece files that a .pvtu names, in its order; a .vtu is its own only piece. Local.
+///
+/// Whether the pieces exist is not looked at. A piece outside the index's own folder is refused: a
+/// mesh from elsewhere must not make a program read other files.
+/// @throws InputError naming the file and what is wrong.
+[[nodiscard]] std::vector<std::filesystem::path> piece_files(const std::filesystem::path& path);
+
+/// @brief Reads a .vtu of any tool, in every encoding that VTK's XML format has. Local.
+///
+/// - Cells: the linear tets; in a file without any, the linear triangles. Cells of all other kinds
+///   are counted in `num_other_cells` and left out. A file without cells counts as one of tets.
+/// - Ids: the array that the attribute GlobalIds names; else one of the usual names.
+/// - Positions and cell arrays of 32-bit floating point are widened.
+/// - Integer arrays with one component: up to 32 bits (and UInt32 or 64 bits on points) become
+///   `point_ints`, `cell_ints`; wider ones of cells `cell_longs`. Arrays with no place in MeshArrays,
+///   or with values that do not fit it, are left out.
+///
+/// VTK's own reader is not used: it hangs or dies of a few flipped bits (a block size of 0).
+/// @throws InputError naming the file and what is wrong: missing, not a .vtu, cut off, corrupt. What
+///         is returned is consistent: sizes match, `cell_points` lie in 0…num_points-1.
+[[nodiscard]] mesh::MeshArrays read_vtu(const std::filesystem::path& path);
+
+}  // namespace tessera::io

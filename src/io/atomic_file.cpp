@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+#include "tessera/io/files.hpp"
+
+namespace tessera::io {
+namespace {
+
+constexpr std::string_view kTemporaryMark = ".tmp-";
+
+}  // namespace
+
+std::string system_error_text(int error_number)
+{
+  return std::generic_category().message(error_number);
+}
+
+bool is_temporary_name(const std::string& name)
+{
+  const auto mark = name.rfind(kTemporaryMark);
+  return mark != std::string::npos
+         && name.find_first_not_of("0123456789-", mark + kTemporaryMark.size())
+                == std::string::npos;
+}
+
+AtomicFile::AtomicFile(std::filesystem::path final_path) : final_(std::move(final_path))
+{
+  static std::atomic<unsigned> counter{0};
+  do {
+    temporary_ = final_;
+    temporary_ += std::string(kTemporaryMark) + std::to_string(::getpid()) + "-"
+                  + std::to_string(counter++);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor_ < 0 && errno == EEXIST);
+  if (descriptor_ < 0) fail(errno);
+}
+
+AtomicFile::~AtomicFile()
+{
+  if (descriptor_ >= 0) ::close(descriptor_);
+  if (!committed_) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes)
+{
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) fail(errno);
+    if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void AtomicFile::commit()
+{
+  close();
+  if (::rename(temporary_.c_str(), final_.c_str()) != 0) fail(errno);
+  committed_ = true;
+}
+
+void AtomicFile::close()
+{
+  // Network file systems report a full disk as late as here.
+  if (::close(std::exchange(descriptor_, -1)) != 0 && errno != EINTR) fail(errno);
+}
+
+void AtomicFile::fail(int error_number) const
+{
+  throw OutputError("cannot write " + final_.string() + ": " + system_error_text(error_number));
+}
+
+void write_text_atomically(const std::filesystem::path& path, std::string_view text)
+{
+  AtomicFile file(path);
+  file.write(std::as_bytes(std::span(text)));
+  file.commit();
+}
+
+}  // namespace tessera::io

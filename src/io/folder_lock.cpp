@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "folder_lock.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <ctime>
+
+#include "tessera/base/error.hpp"
+
+#include "atomic_file.hpp"
+
+namespace tessera::io {
+namespace {
+
+[[nodiscard]] std::string host_name()
+{
+  std::array<char, 256> name{};
+  ::gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+[[nodiscard]] std::string now_utc()
+{
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text.data();
+}
+
+[[nodiscard]] std::string host_line() { return "host " + host_name() + "\n"; }
+
+[[nodiscard]] std::string in_words(std::string owner)
+{
+  std::replace(owner.begin(), owner.end(), '\n', ' ');
+  return owner.empty() ? "an unknown process" : owner;
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const std::filesystem::path& folder)
+    : folder_(folder), file_(folder / kLockName)
+{
+  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (descriptor_ < 0) {
+    throw OutputError("cannot write to folder " + folder.string() + ": "
+                      + system_error_text(errno));
+  }
+  try {
+    acquire();
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
+}
+
+FolderLock::~FolderLock()
+{
+  // Emptied before it is given up: the next owner must not find this one's name.
+  [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, 0);
+  ::close(descriptor_);
+}
+
+void FolderLock::acquire()
+{
+  if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) {
+      throw OutputError("folder " + folder_.string() + " is in use by " + in_words(read_owner()));
+    }
+    throw OutputError("cannot lock folder " + folder_.string() + ": " + system_error_text(errno));
+  }
+  refuse_owner_on_other_host();
+  write_owner();
+}
+
+void FolderLock::refuse_owner_on_other_host() const
+{
+  const std::string owner = read_owner();
+  if (owner.empty() || owner.starts_with(host_line())) return;
+  throw OutputError("folder " + folder_.string() + " may be in use by " + in_words(owner)
+                    + "; if that run is over, remove " + file_.string());
+}
+
+void FolderLock::write_owner() const
+{
+  const std::string owner = host_line() + "process " + std::to_string(::getpid()) + "\nsince "
+                            + now_utc() + "\n";
+  const bool written = ::ftruncate(descriptor_, 0) == 0
+                       && ::pwrite(descriptor_, owner.data(), owner.size(), 0)
+                              == static_cast<ssize_t>(owner.size());
+  if (!written) {
+    throw OutputError("cannot write " + file_.string() + ": " + system_error_text(errno));
+  }
+}
+
+std::string FolderLock::read_owner() const
+{
+  std::array<char, 512> text{};
+  const ssize_t size = ::pread(descriptor_, text.data(), text.size(), 0);
+  return {text.data(), static_cast<std::size_t>(std::max<ssize_t>(size, 0))};
+}
+
+}  // namespace tessera::io

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/io/output_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "tessera/base/error.hpp"
+
+#include "atomic_file.hpp"
+#include "folder_lock.hpp"
+
+namespace tessera::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Files and folders that a run makes; nothing else is ever removed.
+constexpr std::array kRunFiles{"mesh.pvtu", "boundary.pvtu", "case.toml", "report.json",
+                               "subdomains.json"};
+constexpr std::array kPieceFolders{"mesh", "boundary", "pieces"};
+constexpr std::array kOwnFolders{"log", "failure"};
+
+template <class Names>
+[[nodiscard]] bool has_name(const Names& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+[[noreturn]] void fail(const std::string& what, const fs::path& path, const std::error_code& error)
+{
+  throw OutputError(what + " " + path.string() + ": " + error.message());
+}
+
+void make_folder(const fs::path& folder)
+{
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && !fs::is_directory(folder, error) && !error) {
+    error = std::make_error_code(std::errc::not_a_directory);
+  }
+  if (error) fail("cannot make folder", folder, error);
+}
+
+/// @brief The entries of a folder, read to the end before the caller changes any.
+[[nodiscard]] std::vector<fs::directory_entry> entries_of(const fs::path& folder)
+{
+  std::vector<fs::directory_entry> entries;
+  std::error_code error;
+  fs::directory_iterator at(folder, error);
+  for (; !error && at != fs::directory_iterator(); at.increment(error)) entries.push_back(*at);
+  if (error) fail("cannot read folder", folder, error);
+  return entries;
+}
+
+[[nodiscard]] bool is_empty_but_for_lock(const fs::path& folder)
+{
+  return std::ranges::all_of(entries_of(folder), [](const fs::directory_entry& entry) {
+    return entry.path().filename() == kLockName;
+  });
+}
+
+/// @brief Whether a Tessera run has used the folder; one of the files alone could be anyone's.
+[[nodiscard]] bool is_of_a_run(const fs::path& folder)
+{
+  const auto has = [&](const char* name) { return fs::is_regular_file(folder / name); };
+  return has(kLockName) || (has("case.toml") && has("report.json"));
+}
+
+void require_usable(const fs::path& folder, ExistingFolder existing)
+{
+  if (is_empty_but_for_lock(folder)) return;
+  if (existing == ExistingFolder::refuse) {
+    throw OutputError("folder " + folder.string()
+                      + " exists and is not empty; --overwrite replaces what a run left there");
+  }
+  if (!is_of_a_run(folder)) {
+    throw OutputError("folder " + folder.string()
+                      + " is not empty and no Tessera run has used it (it has no " + kLockName
+                      + "); choose another folder, or empty it");
+  }
+}
+
+/// @brief Removes one file, link (not what it points to) or folder with all that is in it.
+void remove_tree(const fs::path& path)
+{
+  std::error_code error;
+  fs::remove_all(path, error);
+  if (error) fail("cannot remove", path, error);
+}
+
+/// @brief Removes the pieces in a folder, and the folder if nothing else is in it.
+void remove_pieces(const fs::path& folder)
+{
+  for (const fs::directory_entry& entry : entries_of(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_piece = name.starts_with("piece_")
+                          && (name.ends_with(".vtu") || name.ends_with(".record")
+                              || is_temporary_name(name));
+    if (is_piece && !entry.is_directory()) remove_tree(entry.path());
+  }
+  std::error_code error;
+  fs::remove(folder, error);  // Fails, as it should, when a foreign file is in it.
+}
+
+void remove_earlier_run(const fs::path& folder)
+{
+  for (const fs::directory_entry& entry : entries_of(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_folder = entry.is_directory() && !entry.is_symlink();
+    if (is_folder && has_name(kPieceFolders, name)) {
+      remove_pieces(entry.path());
+    } else if (is_folder ? has_name(kOwnFolders, name)
+                         : has_name(kRunFiles, name) || has_name(kPieceFolders, name)
+                               || has_name(kOwnFolders, name) || is_temporary_name(name)) {
+      remove_tree(entry.path());
+    }
+  }
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path folder, ExistingFolder existing) : folder_(std::move(folder))
+{
+  make_folder(folder_);
+  require_usable(folder_, existing);  // Before the lock, which would mark a foreign folder as ours.
+  lock_ = std::make_unique<FolderLock>(folder_);
+  require_usable(folder_, existing);  // Again: another run may have come and gone in between.
+  if (existing == ExistingFolder::overwrite) remove_earlier_run(folder_);
+}
+
+OutputFolder::~OutputFolder() = default;
+OutputFolder::OutputFolder(OutputFolder&&) noexcept = default;
+OutputFolder& OutputFolder::operator=(OutputFolder&&) noexcept = default;
+
+std::uintmax_t OutputFolder::free_bytes() const
+{
+  std::error_code error;
+  const fs::space_info space = fs::space(folder_, error);
+  if (error) fail("cannot ask for the free space of", folder_, error);
+  return space.available;
+}
+
+}  // namespace tessera::io

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/io/piece_store.hpp"
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/hash.hpp"
+
+#include "atomic_file.hpp"
+
+namespace tessera::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPrefix = "piece_";
+constexpr std::string_view kSuffix = ".record";
+
+/// First bytes of a record file. It names the piece, so that a file under a wrong name is noticed.
+struct Header {
+  std::array<char, 8> magic{'T', 'S', 'R', 'P', 'I', 'E', 'C', 'E'};
+  std::uint32_t version = 1;
+  LocalIndex id = kNoIndex;
+  std::uint64_t size = 0;
+  Hash128 hash{};
+
+  friend bool operator==(const Header&, const Header&) = default;
+};
+static_assert(sizeof(Header) == 40, "padding would leave bytes that are not set");
+
+[[nodiscard]] Header header_of(LocalIndex id, std::span<const std::byte> record)
+{
+  Header header;
+  header.id = id;
+  header.size = record.size();
+  header.hash = hash_bytes(record);
+  return header;
+}
+
+[[nodiscard]] bool is_record_name(const std::string& name)
+{
+  return name.starts_with(kPrefix) && (name.ends_with(kSuffix) || is_temporary_name(name));
+}
+
+void remove_file(const fs::path& file)
+{
+  std::error_code error;
+  fs::remove(file, error);
+  if (error) throw OutputError("cannot remove " + file.string() + ": " + error.message());
+}
+
+}  // namespace
+
+PieceStore::PieceStore(fs::path folder) : folder_(std::move(folder))
+{
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw OutputError("cannot make folder " + folder_.string() + ": " + error.message());
+}
+
+fs::path PieceStore::file_of(LocalIndex id) const
+{
+  std::array<char, 48> name{};
+  std::snprintf(name.data(), name.size(), "%s%06d%s", kPrefix.data(), id, kSuffix.data());
+  return folder_ / name.data();
+}
+
+void PieceStore::put(LocalIndex id, std::span<const std::byte> record) const
+{
+  const Header header = header_of(id, record);
+  AtomicFile file(file_of(id));
+  file.write(std::as_bytes(std::span(&header, 1)));
+  file.write(record);
+  file.commit();
+}
+
+Bytes PieceStore::get(LocalIndex id) const
+{
+  const fs::path path = file_of(id);
+  std::error_code error;
+  const std::uintmax_t file_size = fs::file_size(path, error);
+  if (error) throw InputError("cannot read " + path.string() + ": " + error.message());
+  const auto require = [&](bool condition) {
+    if (!condition) throw InputError(path.string() + " is cut off or altered");
+  };
+
+  std::ifstream file(path, std::ios::binary);
+  Header header;
+  file.read(reinterpret_cast<char*>(&header), sizeof(header));
+  require(file.good() && file_size - sizeof(header) == header.size);
+
+  Bytes record(header.size);
+  file.read(reinterpret_cast<char*>(record.data()), static_cast<std::streamsize>(record.size()));
+  require(file.good() && header == header_of(id, record));
+  return record;
+}
+
+bool PieceStore::contains(LocalIndex id) const
+{
+  std::error_code error;
+  return fs::is_regular_file(file_of(id), error);
+}
+
+void PieceStore::remove(LocalIndex id) const { remove_file(file_of(id)); }
+
+void PieceStore::remove_all() const
+{
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_, error)) {
+    if (is_record_name(entry.path().filename().string())) remove_file(entry.path());
+  }
+  fs::remove(folder_, error);  // Fails, as it should, when something else is in it.
+}
+
+}  // namespace tessera::io

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+#include "tessera/base/error.hpp"
+#include "tessera/io/files.hpp"
+#include "tessera/io/vtu.hpp"
+
+#include "arrays.hpp"
+#include "atomic_file.hpp"
+#include "mesh_file.hpp"
+#include "xml.hpp"
+
+namespace tessera::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+void put_array(std::ostream& out, std::string_view type, std::string_view name)
+{
+  out << "      <PDataArray type=\"" << type << "\" Name=\"" << xml_escape(name) << "\"/>\n";
+}
+
+template <class Arrays>
+void put_arrays(std::ostream& out, std::string_view type, const Arrays& arrays)
+{
+  for (const auto& [name, values] : arrays) put_array(out, type, name);
+}
+
+void put_ids(std::ostream& out, std::string_view element, std::string_view name, bool has_ids)
+{
+  out << "    <" << element;
+  if (has_ids) out << " GlobalIds=\"" << name << '"';
+  out << ">\n";
+  if (has_ids) {
+    out << "      <PDataArray type=\"Int64\" IdType=\"1\" Name=\"" << name << "\"/>\n";
+  }
+}
+
+/// @brief A text array: the codes of its characters as VTK writes them, each text ended by a 0.
+void put_texts(std::ostream& out, const std::string& name, const std::vector<std::string>& texts)
+{
+  out << "      <Array type=\"String\" Name=\"" << xml_escape(name) << "\" NumberOfTuples=\""
+      << texts.size() << "\" format=\"ascii\">\n";
+  for (const std::string& text : texts) {
+    for (const char character : text) out << int{static_cast<signed char>(character)} << ' ';
+    out << "0\n";
+  }
+  out << "      </Array>\n";
+}
+
+[[nodiscard]] std::string index_text(const std::vector<fs::path>& pieces,
+                                     const mesh::MeshArrays& schema)
+{
+  std::ostringstream out;
+  out << "<?xml version=\"1.0\"?>\n"
+         "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+         "header_type=\"UInt64\">\n"
+         "  <PUnstructuredGrid GhostLevel=\"0\">\n";
+  if (!schema.field_texts.empty()) {
+    out << "    <FieldData>\n";
+    for (const auto& [name, texts] : schema.field_texts) put_texts(out, name, texts);
+    out << "    </FieldData>\n";
+  }
+  put_ids(out, "PPointData", kPointIdsName, has_point_ids(schema));
+  put_arrays(out, "Int32", schema.point_ints);
+  out << "    </PPointData>\n";
+  put_ids(out, "PCellData", kCellIdsName, has_cell_ids(schema));
+  put_arrays(out, "Int32", schema.cell_ints);
+  put_arrays(out, "Int64", schema.cell_longs);
+  put_arrays(out, "Float64", schema.cell_doubles);
+  out << "    </PCellData>\n"
+         "    <PPoints>\n"
+         "      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n"
+         "    </PPoints>\n";
+  for (const fs::path& piece : pieces) {
+    out << "    <Piece Source=\"" << xml_escape(piece.generic_string()) << "\"/>\n";
+  }
+  out << "  </PUnstructuredGrid>\n"
+         "</VTKFile>\n";
+  return out.str();
+}
+
+[[nodiscard]] bool is_within(const fs::path& folder, const fs::path& path)
+{
+  const fs::path relative = path.lexically_relative(folder);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+[[nodiscard]] fs::path piece_path(const fs::path& folder, const std::string& source)
+{
+  if (source.empty()) throw InputError("a piece has no file name");
+  const fs::path base = fs::absolute(folder).lexically_normal();
+  if (!is_within(base, (base / source).lexically_normal())) {
+    throw InputError("piece " + source + " is outside of the folder of its index");
+  }
+  return (folder / source).lexically_normal();
+}
+
+[[nodiscard]] std::vector<fs::path> pieces_of_index(const fs::path& path)
+{
+  const std::string file = load_file(path);
+  const XmlDocument document = parse_vtk_xml(file);
+  const XmlElement* const grid = document.root.child("PUnstructuredGrid");
+  if (grid == nullptr) throw InputError("it has no element PUnstructuredGrid");
+  std::vector<fs::path> pieces;
+  for (const XmlElement& element : grid->children) {
+    if (element.name == "Piece") {
+      pieces.push_back(piece_path(path.parent_path(), element.attribute("Source")));
+    }
+  }
+  return pieces;
+}
+
+/// @brief Whether the head of a file says that it is an index; throws if it is no mesh at all.
+[[nodiscard]] bool is_index(const fs::path& path)
+{
+  constexpr std::size_t kHeadSize = 4096;
+  const std::string head = load_file(path, kHeadSize);
+  const std::size_t begin = head.find("<VTKFile");
+  const std::string_view tag = std::string_view(head).substr(std::min(begin, head.size()));
+  const std::string_view root = tag.substr(0, tag.find('>'));
+  if (root.find("\"PUnstructuredGrid\"") != std::string_view::npos) return true;
+  if (root.find("\"UnstructuredGrid\"") != std::string_view::npos) return false;
+  throw InputError("it is no VTK XML file of an unstructured grid (.vtu, .pvtu)");
+}
+
+}  // namespace
+
+std::string load_file(const fs::path& path, std::size_t max_size)
+{
+  std::error_code error;
+  if (fs::is_directory(path, error)) throw InputError(system_error_text(EISDIR));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(system_error_text(errno));
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error) throw InputError(error.message());
+  std::string bytes(static_cast<std::size_t>(std::min<std::uintmax_t>(size, max_size)), '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file) throw InputError("it cannot be read to its end");
+  return bytes;
+}
+
+void write_pvtu(const fs::path& path, const std::vector<fs::path>& pieces,
+                const mesh::MeshArrays& schema)
+{
+  write_text_atomically(path, index_text(pieces, schema));
+}
+
+std::vector<fs::path> piece_files(const fs::path& path)
+{
+  return naming_the_file(path, [&]() -> std::vector<fs::path> {
+    if (is_index(path)) return pieces_of_index(path);
+    return {path};
+  });
+}
+
+}  // namespace tessera::io

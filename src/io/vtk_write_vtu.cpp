@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <limits>
+#include <string>
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkExecutive.h>
+#include <vtkFieldData.h>
+#include <vtkIdTypeArray.h>
+#include <vtkIntArray.h>
+#include <vtkLongLongArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/io/vtu.hpp"
+
+#include "arrays.hpp"
+#include "atomic_file.hpp"
+#include "vtk_messages.hpp"
+
+namespace tessera::io {
+namespace {
+
+using mesh::MeshArrays;
+
+static_assert(sizeof(vtkIdType) == sizeof(GlobalIndex), "ids are written without conversion");
+
+void require(bool condition, const std::string& what)
+{
+  if (!condition) throw MeshError("arrays of a piece do not fit together: " + what);
+}
+
+template <class T>
+void require_size(const std::map<std::string, std::vector<T>>& arrays, GlobalIndex size)
+{
+  for (const auto& [name, values] : arrays) {
+    require(std::cmp_equal(values.size(), size), "size of " + name);
+  }
+}
+
+void require_consistent(const MeshArrays& piece)
+{
+  const GlobalIndex num_points = piece.num_points();
+  const GlobalIndex num_cells = piece.num_cells();
+  const auto is_optional = [](const auto& values, GlobalIndex size) {
+    return values.empty() || std::cmp_equal(values.size(), size);
+  };
+  require(piece.vertices_per_cell == 4 || piece.vertices_per_cell == 3, "vertices per cell");
+  require(piece.point_xyz.size() % 3 == 0, "size of positions");
+  require(std::cmp_equal(piece.cell_points.size(), num_cells * piece.vertices_per_cell),
+          "size of connectivity");
+  require(std::cmp_less_equal(piece.cell_points.size(), std::numeric_limits<std::int32_t>::max())
+              && num_points <= std::numeric_limits<std::int32_t>::max(),
+          "more than 32-bit indices can hold; use more subdomains");
+  require(is_optional(piece.point_ids, num_points), "size of point ids");
+  require(is_optional(piece.cell_ids, num_cells), "size of cell ids");
+  require_size(piece.point_ints, num_points);
+  require_size(piece.cell_ints, num_cells);
+  require_size(piece.cell_longs, num_cells);
+  require_size(piece.cell_doubles, num_cells);
+}
+
+/// @brief A VTK array on the memory of `values`, which must outlive it and is only read.
+template <class VtkArray, class T>
+[[nodiscard]] vtkSmartPointer<VtkArray> view_of(const char* name, const std::vector<T>& values,
+                                                int num_components = 1)
+{
+  auto array = vtkSmartPointer<VtkArray>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(num_components);
+  constexpr int kKeepMemory = 1;
+  array->SetVoidArray(const_cast<T*>(values.data()), static_cast<vtkIdType>(values.size()),
+                      kKeepMemory);
+  return array;
+}
+
+template <class VtkArray, class T>
+void add_arrays(vtkFieldData& data, const std::map<std::string, std::vector<T>>& arrays)
+{
+  for (const auto& [name, values] : arrays) {
+    data.AddArray(view_of<VtkArray>(name.c_str(), values));
+  }
+}
+
+void add_texts(vtkFieldData& data, const std::map<std::string, std::vector<std::string>>& texts)
+{
+  for (const auto& [name, values] : texts) {
+    const vtkNew<vtkStringArray> array;
+    array->SetName(name.c_str());
+    for (const std::string& value : values) array->InsertNextValue(value);
+    data.AddArray(array);
+  }
+}
+
+[[nodiscard]] vtkSmartPointer<vtkCellArray> make_cells(const MeshArrays& piece)
+{
+  const vtkNew<vtkCellArray::ArrayType32> offsets;
+  const vtkNew<vtkCellArray::ArrayType32> connectivity;
+  const auto num_cells = piece.num_cells();
+  offsets->SetNumberOfValues(num_cells + 1);
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(piece.cell_points.size()));
+  for (GlobalIndex cell = 0; cell <= num_cells; ++cell) {
+    offsets->SetValue(cell, static_cast<vtkTypeInt32>(cell * piece.vertices_per_cell));
+  }
+  const GlobalIndex num_points = piece.num_points();
+  vtkTypeInt32* to = connectivity->GetPointer(0);
+  for (const GlobalIndex point : piece.cell_points) {
+    require(point >= 0 && point < num_points, "a cell has a point that does not exist");
+    *to++ = static_cast<vtkTypeInt32>(point);
+  }
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+
+[[nodiscard]] vtkSmartPointer<vtkUnstructuredGrid> make_grid(const MeshArrays& piece)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  const vtkNew<vtkPoints> points;
+  points->SetData(view_of<vtkDoubleArray>("Points", piece.point_xyz, 3));
+  grid->SetPoints(points);
+  grid->SetCells(piece.vertices_per_cell == 4 ? VTK_TETRA : VTK_TRIANGLE, make_cells(piece));
+
+  vtkPointData& point_data = *grid->GetPointData();
+  vtkCellData& cell_data = *grid->GetCellData();
+  if (has_point_ids(piece)) {
+    point_data.SetGlobalIds(view_of<vtkIdTypeArray>(kPointIdsName, piece.point_ids));
+  }
+  if (has_cell_ids(piece)) {
+    cell_data.SetGlobalIds(view_of<vtkIdTypeArray>(kCellIdsName, piece.cell_ids));
+  }
+  add_arrays<vtkIntArray>(point_data, piece.point_ints);
+  add_arrays<vtkIntArray>(cell_data, piece.cell_ints);
+  add_arrays<vtkLongLongArray>(cell_data, piece.cell_longs);
+  add_arrays<vtkDoubleArray>(cell_data, piece.cell_doubles);
+  add_texts(*grid->GetFieldData(), piece.field_texts);
+  return grid;
+}
+
+void set_compression(vtkXMLWriter& writer, Compression compression)
+{
+  switch (compression) {
+    case Compression::none: return writer.SetCompressorTypeToNone();
+    case Compression::lz4: return writer.SetCompressorTypeToLZ4();
+    case Compression::zlib: return writer.SetCompressorTypeToZLib();
+  }
+}
+
+/// @brief What went wrong: VTK's error code is a system error number or one of its own.
+[[nodiscard]] std::string cause_of(unsigned long error_code, const std::string& messages)
+{
+  if (error_code == vtkErrorCode::OutOfDiskSpaceError) return "no space left on the disk";
+  if (error_code != vtkErrorCode::NoError && error_code < vtkErrorCode::FirstVTKErrorCode) {
+    return system_error_text(static_cast<int>(error_code));
+  }
+  return messages.empty() ? vtkErrorCode::GetStringFromErrorCode(error_code) : messages;
+}
+
+}  // namespace
+
+void write_vtu(const MeshArrays& piece, const std::filesystem::path& path, Compression compression)
+{
+  require_consistent(piece);
+  const auto grid = make_grid(piece);
+  AtomicFile file(path);
+
+  const vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  const VtkMessages messages(*writer);
+  const VtkMessages pipeline_messages(*writer->GetExecutive());  // Says again what the writer said.
+  writer->SetFileName(file.temporary_path().c_str());
+  writer->SetInputData(grid);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetHeaderTypeToUInt64();
+  set_compression(*writer, compression);
+  const bool written = writer->Write() == 1;
+  if (!written || writer->GetErrorCode() != vtkErrorCode::NoError || !messages.text().empty()) {
+    throw OutputError("cannot write " + path.string() + ": "
+                      + cause_of(writer->GetErrorCode(), messages.text()));
+  }
+  file.commit();
+}
+
+}  // namespace tessera::io

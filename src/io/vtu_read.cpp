@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <span>
+#include <string_view>
+
+#include "tessera/base/error.hpp"
+#include "tessera/io/vtu.hpp"
+
+#include "arrays.hpp"
+#include "data_array.hpp"
+#include "mesh_file.hpp"
+#include "xml.hpp"
+
+namespace tessera::io {
+namespace {
+
+using mesh::MeshArrays;
+
+constexpr std::uint8_t kVtkTriangle = 5;
+constexpr std::uint8_t kVtkTetra = 10;
+
+void require(bool condition, const std::string& what)
+{
+  if (!condition) throw InputError(what);
+}
+
+[[nodiscard]] std::string name_of(const XmlElement& element)
+{
+  return element.attribute_or("Name", "");
+}
+
+/// @brief The array's values as T. @throws InputError if there are not `num_values`, or they do not
+/// fit.
+template <class T>
+[[nodiscard]] std::vector<T> read_values(const XmlElement& element, const Encoding& encoding)
+{
+  auto values = values_as<T>(decode_array(element, encoding));
+  require(values.has_value(), "array " + name_of(element) + " has values out of range");
+  return *std::move(values);
+}
+
+[[nodiscard]] const XmlElement& required_child(const XmlElement& element, std::string_view name)
+{
+  const XmlElement* const child = element.child(name);
+  require(child != nullptr, "element " + element.name + " has no " + std::string(name));
+  return *child;
+}
+
+[[nodiscard]] const XmlElement& named_array(const XmlElement& parent, std::string_view name)
+{
+  for (const XmlElement& element : parent.children) {
+    if (name_of(element) == name) return element;
+  }
+  throw InputError("element " + parent.name + " has no array " + std::string(name));
+}
+
+/// @brief Cells as stored: any mix of kinds.
+struct MixedCells {
+  std::vector<GlobalIndex> connectivity{};
+  std::vector<GlobalIndex> offsets{};  ///< End of each cell in `connectivity`.
+  std::vector<std::uint8_t> types{};
+
+  [[nodiscard]] std::span<const GlobalIndex> points_of(std::size_t cell) const
+  {
+    const auto begin = cell == 0 ? 0 : static_cast<std::size_t>(offsets[cell - 1]);
+    return std::span(connectivity).subspan(begin, static_cast<std::size_t>(offsets[cell]) - begin);
+  }
+};
+
+[[nodiscard]] MixedCells read_cells(const XmlElement& piece, const Encoding& encoding)
+{
+  MixedCells cells;
+  const std::size_t num_cells = piece.count_attribute("NumberOfCells");
+  if (num_cells == 0) return cells;
+  const XmlElement& element = required_child(piece, "Cells");
+  cells.connectivity = read_values<GlobalIndex>(named_array(element, "connectivity"), encoding);
+  cells.offsets = read_values<GlobalIndex>(named_array(element, "offsets"), encoding);
+  cells.types = read_values<std::uint8_t>(named_array(element, "types"), encoding);
+  require(cells.offsets.size() == num_cells && cells.types.size() == num_cells,
+          "the cells are not as many as the file says");
+  require(std::ranges::is_sorted(cells.offsets) && cells.offsets.front() >= 0
+              && std::cmp_less_equal(cells.offsets.back(), cells.connectivity.size()),
+          "the offsets of the cells are corrupt");
+  return cells;
+}
+
+/// @brief Which cells are kept, and how many there were.
+struct Selection {
+  std::vector<std::size_t> kept{};
+  std::size_t num_cells = 0;
+
+  [[nodiscard]] bool is_all() const { return kept.size() == num_cells; }
+};
+
+[[nodiscard]] Selection select_cells(const MixedCells& cells, std::uint8_t kind)
+{
+  Selection selection;
+  selection.num_cells = cells.types.size();
+  for (std::size_t cell = 0; cell < cells.types.size(); ++cell) {
+    if (cells.types[cell] == kind) selection.kept.push_back(cell);
+  }
+  return selection;
+}
+
+void keep_cells(const MixedCells& cells, const Selection& selection, MeshArrays& mesh)
+{
+  const auto num_corners = static_cast<std::size_t>(mesh.vertices_per_cell);
+  const GlobalIndex num_points = mesh.num_points();
+  mesh.cell_points.reserve(selection.kept.size() * num_corners);
+  for (const std::size_t cell : selection.kept) {
+    const auto points = cells.points_of(cell);
+    require(points.size() == num_corners, "a cell has not the number of points of its type");
+    for (const GlobalIndex point : points) {
+      require(point >= 0 && point < num_points, "a cell has a point that does not exist");
+      mesh.cell_points.push_back(point);
+    }
+  }
+}
+
+template <class T>
+[[nodiscard]] std::vector<T> selected(std::vector<T> values, const Selection& selection)
+{
+  if (selection.is_all()) return values;
+  std::vector<T> kept;
+  kept.reserve(selection.kept.size());
+  for (const std::size_t cell : selection.kept) kept.push_back(values[cell]);
+  return kept;
+}
+
+/// @brief Name of the array with the ids: as flagged, else the first usual name there is, else "".
+template <class Names>
+[[nodiscard]] std::string ids_name(const XmlElement& data, const Names& usual_names)
+{
+  const std::string flagged = data.attribute_or("GlobalIds", "");
+  if (!flagged.empty()) return flagged;
+  for (const std::string_view name : usual_names) {
+    for (const XmlElement& element : data.children) {
+      if (name_of(element) == name) return std::string(name);
+    }
+  }
+  return {};
+}
+
+/// @brief The array, if it has one value for each of `size` entities; others have no place in
+/// MeshArrays and are not even decoded where that shows before.
+[[nodiscard]] std::optional<DataArray> read_scalars(const XmlElement& element,
+                                                    const Encoding& encoding, std::size_t size)
+{
+  const bool is_array = element.name == "DataArray" && element.attribute("type") != "String";
+  if (!is_array || element.attribute_or("NumberOfComponents", "1") != "1") return std::nullopt;
+  DataArray array = decode_array(element, encoding);
+  require(array.num_values() == size, "array " + name_of(element) + " has not the size it should");
+  return array;
+}
+
+void read_point_data(const XmlElement& data, const Encoding& encoding, MeshArrays& mesh)
+{
+  const auto num_points = static_cast<std::size_t>(mesh.num_points());
+  const std::string ids = ids_name(data, kUsualPointIdNames);
+  for (const XmlElement& element : data.children) {
+    const auto array = read_scalars(element, encoding, num_points);
+    if (!array) continue;
+    if (name_of(element) == ids) {
+      if (auto values = values_as<GlobalIndex>(*array)) mesh.point_ids = *std::move(values);
+    } else if (auto values = values_as<std::int32_t>(*array)) {
+      mesh.point_ints[name_of(element)] = *std::move(values);
+    }
+  }
+}
+
+[[nodiscard]] bool is_wide(ScalarType type)
+{
+  return type == ScalarType::i64 || type == ScalarType::u64 || type == ScalarType::u32;
+}
+
+void read_cell_data(const XmlElement& data, const Encoding& encoding, const Selection& selection,
+                    MeshArrays& mesh)
+{
+  const std::string ids = ids_name(data, kUsualCellIdNames);
+  for (const XmlElement& element : data.children) {
+    const auto array = read_scalars(element, encoding, selection.num_cells);
+    if (!array) continue;
+    const std::string name = name_of(element);
+    if (array->is_floating()) {
+      mesh.cell_doubles[name] = selected(*values_as<double>(*array), selection);
+    } else if (name == ids || is_wide(array->type)) {
+      auto values = values_as<GlobalIndex>(*array);
+      if (!values) continue;
+      (name == ids ? mesh.cell_ids : mesh.cell_longs[name]) =
+          selected(*std::move(values), selection);
+    } else if (auto values = values_as<std::int32_t>(*array)) {
+      mesh.cell_ints[name] = selected(*std::move(values), selection);
+    }
+  }
+}
+
+/// @brief The texts of a string array: bytes, each text ended by a 0.
+[[nodiscard]] std::vector<std::string> read_texts(const XmlElement& element,
+                                                  const Encoding& encoding)
+{
+  const DataArray array = decode_array(element, encoding);
+  std::vector<std::string> texts;
+  std::string text;
+  for (const std::byte byte : array.values) {
+    if (byte == std::byte{0}) {
+      texts.push_back(std::move(text));
+      text.clear();
+    } else {
+      text += static_cast<char>(byte);
+    }
+  }
+  if (!text.empty()) texts.push_back(std::move(text));
+  return texts;
+}
+
+void read_field_data(const XmlElement& grid, const Encoding& encoding, MeshArrays& mesh)
+{
+  const XmlElement* const data = grid.child("FieldData");
+  if (data == nullptr) return;
+  for (const XmlElement& element : data->children) {
+    const bool is_text = element.name == "Array" && element.attribute("type") == "String";
+    if (is_text) mesh.field_texts[name_of(element)] = read_texts(element, encoding);
+  }
+}
+
+[[nodiscard]] std::vector<double> read_points(const XmlElement& piece, const Encoding& encoding)
+{
+  const std::size_t num_points = piece.count_attribute("NumberOfPoints");
+  if (num_points == 0) return {};
+  const XmlElement& points = required_child(piece, "Points");
+  require(!points.children.empty(), "element Points has no array");
+  std::vector<double> xyz = read_values<double>(points.children.front(), encoding);
+  require(xyz.size() / 3 == num_points && xyz.size() % 3 == 0,
+          "the points are not as many as the file says");
+  return xyz;
+}
+
+/// @brief A piece element whose points and cells are read, but not yet reduced to one kind.
+struct RawPiece {
+  const XmlElement* element = nullptr;
+  MixedCells cells{};
+};
+
+[[nodiscard]] MeshArrays reduce(const RawPiece& raw, const Encoding& encoding, std::uint8_t kind)
+{
+  MeshArrays mesh;
+  mesh.vertices_per_cell = kind == kVtkTetra ? 4 : 3;
+  mesh.point_xyz = read_points(*raw.element, encoding);
+  const Selection selection = select_cells(raw.cells, kind);
+  mesh.num_other_cells = static_cast<GlobalIndex>(selection.num_cells - selection.kept.size());
+  keep_cells(raw.cells, selection, mesh);
+  if (const XmlElement* const data = raw.element->child("PointData")) {
+    read_point_data(*data, encoding, mesh);
+  }
+  if (const XmlElement* const data = raw.element->child("CellData")) {
+    read_cell_data(*data, encoding, selection, mesh);
+  }
+  return mesh;
+}
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from)
+{
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+/// @brief Appends arrays that both have, and drops the others, which have no value for some entities.
+template <class T>
+void append(std::map<std::string, std::vector<T>>& to,
+            const std::map<std::string, std::vector<T>>& from)
+{
+  std::erase_if(to, [&](const auto& entry) { return !from.contains(entry.first); });
+  for (auto& [name, values] : to) append(values, from.at(name));
+}
+
+/// @brief Appends ids if all entities of both have some; else the whole has none.
+void append_ids(std::vector<GlobalIndex>& to, GlobalIndex num_to,
+                const std::vector<GlobalIndex>& from, GlobalIndex num_from)
+{
+  const bool is_complete = std::cmp_equal(to.size(), num_to) && std::cmp_equal(from.size(), num_from);
+  if (is_complete) {
+    append(to, from);
+  } else {
+    to.clear();
+  }
+}
+
+/// @brief Appends a further piece of the same file.
+void append(MeshArrays& to, const MeshArrays& from)
+{
+  if (from.num_points() == 0) return;
+  if (to.num_points() == 0) {
+    to = from;
+    return;
+  }
+  const GlobalIndex first_point = to.num_points();
+  append_ids(to.point_ids, first_point, from.point_ids, from.num_points());
+  append_ids(to.cell_ids, to.num_cells(), from.cell_ids, from.num_cells());
+  append(to.point_xyz, from.point_xyz);
+  for (const GlobalIndex point : from.cell_points) to.cell_points.push_back(first_point + point);
+  append(to.point_ints, from.point_ints);
+  append(to.cell_ints, from.cell_ints);
+  append(to.cell_longs, from.cell_longs);
+  append(to.cell_doubles, from.cell_doubles);
+  to.num_other_cells += from.num_other_cells;
+}
+
+/// @brief Tets where there are any, or no cells at all; else triangles.
+[[nodiscard]] std::uint8_t kind_to_read(const std::vector<RawPiece>& pieces)
+{
+  const auto has = [&](std::uint8_t kind) {
+    return std::ranges::any_of(pieces, [&](const RawPiece& piece) {
+      return std::ranges::find(piece.cells.types, kind) != piece.cells.types.end();
+    });
+  };
+  return !has(kVtkTetra) && has(kVtkTriangle) ? kVtkTriangle : kVtkTetra;
+}
+
+/// @brief A complete file ends with its root element, also when its data are raw bytes.
+void require_complete(std::string_view file)
+{
+  const std::size_t last = file.find_last_not_of(" \t\r\n");
+  require(last != std::string_view::npos && file.substr(0, last + 1).ends_with("</VTKFile>"),
+          "it is cut off, or no VTK XML file");
+}
+
+[[nodiscard]] MeshArrays read_document(std::string_view file)
+{
+  require_complete(file);
+  const XmlDocument document = parse_vtk_xml(file);
+  const Encoding encoding = encoding_of(document);
+  const XmlElement& grid = required_child(document.root, "UnstructuredGrid");
+  std::vector<RawPiece> pieces;
+  for (const XmlElement& element : grid.children) {
+    if (element.name == "Piece") pieces.push_back({&element, read_cells(element, encoding)});
+  }
+  require(!pieces.empty(), "it has no piece");
+
+  const std::uint8_t kind = kind_to_read(pieces);
+  MeshArrays mesh = reduce(pieces.front(), encoding, kind);
+  for (std::size_t i = 1; i < pieces.size(); ++i) append(mesh, reduce(pieces[i], encoding, kind));
+  read_field_data(grid, encoding, mesh);
+  return mesh;
+}
+
+}  // namespace
+
+MeshArrays read_vtu(const std::filesystem::path& path)
+{
+  return naming_the_file(path, [&] { return read_document(load_file(path)); });
+}
+
+}  // namespace tessera::io
