@@ -26,19 +26,19 @@ using ::netgen::PointIndex;
 //
 // NETGEN puts one point into every cell of an octree, and its optimiser moves them; so this factor
 // decides the edge length. The octree is built such that its cells have this very size (see
-// align_octree()); with NETGEN's own octree the cell is anything from a half of the wanted size to
-// the whole, and the median edge of the skins below was 0.82 to 1.43 of the wanted one.
+// align_octree()): in NETGEN's own octree a cell is anything from half the wanted size to the
+// whole, and the median edge came out as 0.85 to 1.28 of the wanted one.
 //
 // Measured on surfaces of unit cubes (9, 11, 13 cells a side) and a sphere (1280 triangles), wanted
-// edge = mean edge of the skin, 3 optimisation steps, grading 0.3. Median edge / wanted edge, share
-// of edges below 1.6 times the wanted one, mean of mean ratio; worst of the four each:
-//   0.75: 0.88–1.03, 99.7 %, 0.892      0.80: 0.97–1.08, 99.2 %, 0.861
-//   0.78: 0.93–1.06, 99.4 %, 0.877      0.82: 1.00–1.08, 99.1 %, 0.860
+// edge = mean edge of the skin, 3 optimisation steps, grading 0.3. Median edge / wanted edge, then
+// the worst of the four: share of edges below 1.6 times the wanted one, mean of mean ratio.
+//   0.75: 0.88 to 1.03, 99.7 %, 0.892      0.80: 0.97 to 1.08, 99.2 %, 0.861
+//   0.78: 0.93 to 1.06, 99.4 %, 0.877      0.82: 1.00 to 1.08, 99.1 %, 0.860
 constexpr double kPointSpacing = 0.78;
 
 // A cell may exceed its size by this factor before it is split. Cells come in powers of two, so
-// under a varying size they are 0.6 to 1.2 of it; at sqrt(2), which would be fair on average, the
-// cells between two samples stayed too large (median 1.13 on the sphere in place of 1.06).
+// under a varying size they are 0.6 to 1.2 of it. At sqrt(2), which would be fair on average, cells
+// between two samples stay too large: on the sphere at 0.75, median 1.07 in place of 1.04.
 constexpr double kCellTolerance = 1.2;
 
 // Interior points keep this part of a skin triangle's diameter off it. NETGEN's own 0.1 gave on the
