@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "decompose/initial_partition.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <numeric>
 #include <queue>
@@ -82,7 +83,9 @@ std::vector<std::vector<LocalIndex>> connected_pieces(const TetGraph& graph)
 {
   std::vector<LocalIndex> all(static_cast<std::size_t>(graph.num_tets()));
   std::iota(all.begin(), all.end(), 0);
-  return RegionSearch(graph).components(all);
+  auto pieces = RegionSearch(graph).components(all);
+  for (auto& piece : pieces) std::sort(piece.begin(), piece.end());
+  return pieces;
 }
 
 std::vector<LocalIndex> allot_parts(const TetGraph& graph,

@@ -9,7 +9,7 @@
 
 namespace tessera::decompose {
 
-/// @brief The face-connected pieces of each material, by lowest tet.
+/// @brief The face-connected pieces of each material, by lowest tet; each ascending.
 [[nodiscard]] std::vector<std::vector<LocalIndex>> connected_pieces(const TetGraph& graph);
 
 /// @brief Parts for each piece: at least one, at most its tets, else in proportion to its weight.

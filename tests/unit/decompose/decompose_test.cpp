@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/decompose/decompose.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/decompose/predicted_fine_tets.hpp"
+
+#include "support/meshes.hpp"
+
+#include "partitioners.hpp"
+
+namespace tessera::decompose {
+namespace {
+
+DecomposeResult decompose_by(const mesh::CoarseMesh& mesh, LocalIndex subdomains,
+                             const GraphPartitioner& partitioner)
+{
+  const DecomposeOptions options{.subdomains = subdomains};
+  return decompose(mesh, options, predicted_fine_tets(mesh, 1), partitioner);
+}
+
+DecomposeResult decompose_by_metis(const mesh::CoarseMesh& mesh, LocalIndex subdomains)
+{
+  return decompose_by(mesh, subdomains, *make_metis_partitioner());
+}
+
+// The number of connected parts that a range of subdomains falls into.
+int num_parts_of_range(const mesh::Decomposition& d, LocalIndex begin, LocalIndex end)
+{
+  std::set<LocalIndex> left;
+  for (LocalIndex s = begin; s < end; ++s) left.insert(s);
+  int parts = 0;
+  while (!left.empty()) {
+    std::vector<LocalIndex> stack{*left.begin()};
+    left.erase(left.begin());
+    ++parts;
+    while (!stack.empty()) {
+      const auto s = static_cast<std::size_t>(stack.back());
+      stack.pop_back();
+      for (LocalIndex i = d.neighbour_offsets[s]; i < d.neighbour_offsets[s + 1]; ++i) {
+        const LocalIndex neighbour = d.neighbours[static_cast<std::size_t>(i)];
+        if (left.erase(neighbour) > 0) stack.push_back(neighbour);
+      }
+    }
+  }
+  return parts;
+}
+
+TEST(Decompose, KeepsItsPromisesForEveryNumberOfSubdomains)
+{
+  const auto mesh = testing::kuhn_cube(2);
+  for (LocalIndex k = 1; k <= mesh.num_tets(); ++k) {
+    const auto result = decompose_by_metis(mesh, k);
+    EXPECT_NO_THROW(validate(mesh, result.decomposition)) << k << " subdomains";
+    EXPECT_GE(result.decomposition.num_subdomains(), k);
+  }
+}
+
+TEST(Decompose, KeepsItsPromisesWithTheBlockPartitioner)
+{
+  const auto mesh = testing::kuhn_cube(4);
+  const auto partitioner = make_block_partitioner();
+  for (const LocalIndex k : {1, 2, 3, 5, 8, 13, 100, 383, 384}) {
+    const auto result = decompose_by(mesh, k, *partitioner);
+    EXPECT_NO_THROW(validate(mesh, result.decomposition)) << k << " subdomains";
+    EXPECT_GE(result.decomposition.num_subdomains(), k);
+  }
+}
+
+TEST(Decompose, BalancesTheWeights)
+{
+  const auto mesh = testing::kuhn_cube(8);
+  const auto result = decompose_by_metis(mesh, 16);
+  EXPECT_LT(result.report.max_weight, 1.15 * result.report.mean_weight);
+  const auto& weight = result.decomposition.subdomain_weight;
+  EXPECT_GT(*std::min_element(weight.begin(), weight.end()), 0.75 * result.report.mean_weight);
+}
+
+TEST(Decompose, GivesEachPieceOfAMaterialItsShare)
+{
+  const auto mesh = testing::two_material_cube(4);
+  auto weight = predicted_fine_tets(mesh, 1);
+  for (std::size_t t = 0; t < weight.size(); ++t) {
+    if (mesh.tet_material[t] == 2) weight[t] *= 3.0;
+  }
+  const auto result = decompose(mesh, {.subdomains = 12}, weight, *make_metis_partitioner());
+  validate(mesh, result.decomposition);
+  const auto& material = result.decomposition.subdomain_material;
+  EXPECT_EQ(std::count(material.begin(), material.end(), 1), 3);
+  EXPECT_EQ(std::count(material.begin(), material.end(), 2), 9);
+}
+
+TEST(Decompose, RaisesTheRequestToOneSubdomainAPiece)
+{
+  const auto mesh = testing::two_material_cube(2);
+  const auto result = decompose_by_metis(mesh, 1);
+  validate(mesh, result.decomposition);
+  EXPECT_EQ(result.report.num_requested, 1);
+  EXPECT_EQ(result.report.num_wanted, 2);
+  EXPECT_EQ(result.report.num_subdomains, 2);
+}
+
+TEST(Decompose, RefusesMoreSubdomainsThanTets)
+{
+  const auto mesh = testing::kuhn_cube(1);
+  try {
+    (void)decompose_by_metis(mesh, 7);
+    FAIL() << "7 subdomains of 6 tets";
+  } catch (const ConfigError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("decompose.subdomains"), std::string::npos);
+    EXPECT_NE(message.find("7"), std::string::npos);
+    EXPECT_NE(message.find("6"), std::string::npos);
+  }
+}
+
+TEST(Decompose, RefusesANegativeRequestAndWrongWeights)
+{
+  const auto mesh = testing::kuhn_cube(1);
+  EXPECT_THROW((void)decompose_by_metis(mesh, -1), ConfigError);
+  const std::vector<double> too_few(5, 1.0);
+  EXPECT_THROW((void)decompose(mesh, {.subdomains = 2}, too_few, *make_block_partitioner()),
+               MeshError);
+}
+
+TEST(Decompose, RefusesAPartitionerThatLies)
+{
+  const auto mesh = testing::kuhn_cube(2);
+  const testing::FakePartitioner beyond([](LocalIndex, LocalIndex num_parts) { return num_parts; });
+  EXPECT_THROW((void)decompose_by(mesh, 3, beyond), MeshError);
+}
+
+TEST(Decompose, ChoosesTheNumberFromTheMeshAlone)
+{
+  const auto mesh = testing::kuhn_cube(6);
+  const std::vector<double> heavy(static_cast<std::size_t>(mesh.num_tets()), 1000.0);
+  const std::vector<double> light(heavy.size(), 8.0);
+  const auto partitioner = make_metis_partitioner();
+  EXPECT_EQ(decompose(mesh, {}, heavy, *partitioner).report.num_wanted,
+            mesh.num_tets() / kAutoCoarseTets);
+  EXPECT_EQ(decompose(mesh, {}, light, *partitioner).report.num_wanted, 3);
+  EXPECT_EQ(decompose_by_metis(testing::kuhn_cube(1), 0).report.num_wanted, 1);
+}
+
+TEST(Decompose, GivesTheSameBitsEachTime)
+{
+  const auto mesh = testing::two_material_cube(6);
+  const auto once = mesh::to_bytes(decompose_by_metis(mesh, 20).decomposition);
+  const auto again = mesh::to_bytes(decompose_by_metis(mesh, 20).decomposition);
+  EXPECT_EQ(once, again);
+}
+
+TEST(Decompose, NumbersNeighboursTogether)
+{
+  const auto mesh = testing::kuhn_cube(8);
+  const auto result = decompose_by_metis(mesh, 32);
+  const mesh::Decomposition& d = result.decomposition;
+  double along_order = 0.0;
+  for (LocalIndex begin = 0; begin + 8 <= d.num_subdomains(); ++begin) {
+    const int parts = num_parts_of_range(d, begin, begin + 8);
+    EXPECT_LE(parts, 3) << "subdomains " << begin << " to " << begin + 7;
+    along_order += parts;
+  }
+  EXPECT_LT(along_order / (d.num_subdomains() - 7), 1.5);
+}
+
+TEST(Decompose, ReportsTheSeamsOfTheResult)
+{
+  const auto mesh = testing::two_material_cube(4);
+  const auto one_each = decompose_by_metis(mesh, 2).report;
+  EXPECT_EQ(one_each.seam_area, 0.0);  // an interface of materials is no seam
+  EXPECT_EQ(one_each.min_seam_dihedral_deg, 180.0);
+  const auto many = decompose_by_metis(mesh, 8).report;
+  EXPECT_GT(many.seam_area, 0.0);
+  EXPECT_GE(many.min_seam_dihedral_deg, 45.0 - 1e-9);  // of a Kuhn tet
+  EXPECT_LE(many.min_seam_dihedral_deg, 90.0 + 1e-9);
+}
+
+TEST(PredictedFineTets, GrowEightfoldALevelAndFollowTheVolume)
+{
+  const auto mesh = testing::kuhn_cube(2);
+  const auto coarse = predicted_fine_tets(mesh, 0);
+  const auto fine = predicted_fine_tets(mesh, 2);
+  ASSERT_EQ(coarse.size(), static_cast<std::size_t>(mesh.num_tets()));
+  for (std::size_t t = 0; t < coarse.size(); ++t) EXPECT_DOUBLE_EQ(fine[t], 64.0 * coarse[t]);
+
+  mesh::CoarseMesh regular;
+  regular.vertex_xyz = {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1};
+  regular.tet_vertices = {0, 2, 1, 3};
+  EXPECT_NEAR(predicted_fine_tets(regular, 0).at(0), 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace tessera::decompose
