@@ -55,16 +55,18 @@ Vec3 nearest_point_of(const std::array<Vec3, 3>& triangle, const Vec3& point) no
   const double weight_c = ab_a * ac_b - ab_b * ac_a;
   const double weight_b = ab_c * ac_a - ab_a * ac_c;
   const double weight_a = ab_b * ac_c - ab_c * ac_b;
-  if (weight_c <= 0.0 && ab_a >= 0.0 && ab_b <= 0.0) return nearest_point_of(std::array{a, b}, point);
-  if (weight_b <= 0.0 && ac_a >= 0.0 && ac_c <= 0.0) return nearest_point_of(std::array{a, c}, point);
-  if (weight_a <= 0.0 && ac_b >= ab_b && ab_c >= ac_c) return nearest_point_of(std::array{b, c}, point);
+  if (weight_c <= 0.0 && ab_a >= 0.0 && ab_b <= 0.0)
+    return nearest_point_of(std::array{a, b}, point);
+  if (weight_b <= 0.0 && ac_a >= 0.0 && ac_c <= 0.0)
+    return nearest_point_of(std::array{a, c}, point);
+  if (weight_a <= 0.0 && ac_b >= ab_b && ab_c >= ac_c)
+    return nearest_point_of(std::array{b, c}, point);
   const double sum = weight_a + weight_b + weight_c;
   return a + (weight_b / sum) * ab + (weight_c / sum) * ac;
 }
 
 template <class Part>
-NearestPointSearch<Part>::NearestPointSearch(std::span<const Part> parts)
-    : numbers_(parts.size())
+NearestPointSearch<Part>::NearestPointSearch(std::span<const Part> parts) : numbers_(parts.size())
 {
   double largest = 0.0;
   for (const Part& part : parts) {

@@ -57,7 +57,8 @@ class AsciiReader {
   void read_facet()
   {
     expect("normal");
-    for (int i = 0; i < 3; ++i) next_word("a component of the normal");  // may be anything, even nan
+    for (int i = 0; i < 3; ++i)
+      next_word("a component of the normal");  // may be anything, even nan
     expect("outer");
     expect("loop");
     for (int corner = 0; corner < 3; ++corner) {

@@ -64,10 +64,10 @@ bool looks_like_text(std::string_view bytes)
   const auto first = front.find_first_not_of(" \t\r\n");
   if (!no_control_characters || first == std::string_view::npos) return false;
   constexpr std::string_view solid = "solid";
-  return std::equal(solid.begin(), solid.end(), front.begin() + static_cast<std::ptrdiff_t>(first),
-                    front.begin() + static_cast<std::ptrdiff_t>(
-                                        std::min(first + solid.size(), front.size())),
-                    [](char a, char b) { return a == (b | 0x20); });
+  return std::equal(
+      solid.begin(), solid.end(), front.begin() + static_cast<std::ptrdiff_t>(first),
+      front.begin() + static_cast<std::ptrdiff_t>(std::min(first + solid.size(), front.size())),
+      [](char a, char b) { return a == (b | 0x20); });
 }
 
 // Binary files that begin with "solid" name the solid there, as ASCII files do.

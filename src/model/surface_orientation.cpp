@@ -104,8 +104,8 @@ class ShellWalk {
   {
     const Vec3 p = surface_.position(surface_.triangle_vertices[index(h)]);
     std::ostringstream text;
-    text << name_ << ": surface is one-sided (as a Moebius strip), so it bounds no body; near (" << p[0]
-         << ", " << p[1] << ", " << p[2] << ")";
+    text << name_ << ": surface is one-sided (as a Moebius strip), so it bounds no body; near ("
+         << p[0] << ", " << p[1] << ", " << p[2] << ")";
     throw GeometryError(text.str());
   }
 

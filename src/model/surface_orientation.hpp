@@ -16,8 +16,8 @@ struct Shell {
 };
 
 struct Orientation {
-  std::vector<Shell> shells{};    ///< In the order of their first triangles.
-  LocalIndex num_turned = 0;      ///< Single triangles turned to agree with their neighbours.
+  std::vector<Shell> shells{};       ///< In the order of their first triangles.
+  LocalIndex num_turned = 0;         ///< Single triangles turned to agree with their neighbours.
   LocalIndex num_turned_shells = 0;  ///< Shells turned as a whole.
 };
 

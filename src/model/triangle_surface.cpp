@@ -75,9 +75,8 @@ void drop_and_record(CheckedSurface& checked)
 {
   const DroppedTriangles dropped = drop_bad_triangles(checked.surface);
   if (dropped.degenerate > 0) {
-    checked.repairs.push_back(
-        counted(dropped.degenerate, "triangle", "triangles")
-        + " with fewer than three different corners dropped");
+    checked.repairs.push_back(counted(dropped.degenerate, "triangle", "triangles")
+                              + " with fewer than three different corners dropped");
   }
   if (dropped.repeated > 0) {
     checked.repairs.push_back(counted(dropped.repeated, "repeated triangle", "repeated triangles")
@@ -105,9 +104,9 @@ void record_turns(CheckedSurface& checked, const Orientation& orientation)
                               + " turned to agree with the neighbours");
   }
   if (orientation.num_turned_shells > 0) {
-    checked.repairs.push_back(
-        counted(orientation.num_turned_shells, "shell", "shells") + " of "
-        + std::to_string(orientation.shells.size()) + " turned: the inside was out");
+    checked.repairs.push_back(counted(orientation.num_turned_shells, "shell", "shells") + " of "
+                              + std::to_string(orientation.shells.size())
+                              + " turned: the inside was out");
   }
 }
 
@@ -129,7 +128,8 @@ void set_materials(TriangleSurface& surface, const std::vector<Shell>& shells)
     }
     for (const LocalIndex t : shell.triangles) {
       surface.triangle_material[index(t)] = entry->second;
-      if (surface.triangle_solid[index(t)] != solid) has_one_solid[index(entry->second) - 1] = false;
+      if (surface.triangle_solid[index(t)] != solid)
+        has_one_solid[index(entry->second) - 1] = false;
     }
   }
   for (std::size_t m = 0; m < surface.material_names.size(); ++m) {
@@ -167,8 +167,7 @@ CheckedSurface check_surface(const TriangleSoup& soup, const std::string& name)
   }
   require_two_triangles_per_edge(checked.surface, name);
 
-  const auto opposite =
-      opposite_half_edges(half_edges_of_edges(checked.surface.triangle_vertices));
+  const auto opposite = opposite_half_edges(half_edges_of_edges(checked.surface.triangle_vertices));
   const Orientation orientation = orient(checked.surface, opposite, name);
   record_turns(checked, orientation);
   set_materials(checked.surface, orientation.shells);

@@ -14,13 +14,14 @@ namespace tessera::model {
 /// @brief The nearest point of a set of triangles or segments.
 struct NearestPoint {
   Vec3 xyz{};
-  LocalIndex part = kNoIndex;     ///< Number of the triangle or segment, in the order given.
+  LocalIndex part = kNoIndex;  ///< Number of the triangle or segment, in the order given.
   double squared_distance = 0.0;
 };
 
 /// @brief Nearest point of a triangle @cite ericson2004 or segment: never off it by more than
 /// rounding, and one of its corners exactly where a corner is nearest.
-[[nodiscard]] Vec3 nearest_point_of(const std::array<Vec3, 3>& triangle, const Vec3& point) noexcept;
+[[nodiscard]] Vec3 nearest_point_of(const std::array<Vec3, 3>& triangle,
+                                    const Vec3& point) noexcept;
 [[nodiscard]] Vec3 nearest_point_of(const std::array<Vec3, 2>& segment, const Vec3& point) noexcept;
 
 /// @brief Search for the nearest point of many triangles or segments (`Part`: array of corners).

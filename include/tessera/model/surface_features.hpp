@@ -20,8 +20,9 @@ namespace tessera::model {
 struct SurfaceFeatures {
   std::vector<LocalIndex> triangle_patch{};  ///< Shape (num_triangles); numbered by first triangle.
   std::vector<std::string> patch_names{};    ///< From the `solid`, where that has a name.
-  std::vector<LocalIndex> edge_vertices{};   ///< Shape (num_edges, 2), lower vertex first, ascending.
-  std::vector<LocalIndex> edge_curve{};      ///< Shape (num_edges).
+  std::vector<LocalIndex>
+      edge_vertices{};                   ///< Shape (num_edges, 2), lower vertex first, ascending.
+  std::vector<LocalIndex> edge_curve{};  ///< Shape (num_edges).
   std::vector<LocalIndex> curve_offsets{0};  ///< Shape (num_curves + 1), into curve_vertices.
   std::vector<LocalIndex> curve_vertices{};  ///< Polylines; a loop ends with its first vertex.
 

@@ -16,12 +16,12 @@ namespace tessera::model {
 /// @brief Closed triangulated surface of one or more bodies: every edge has two triangles, normals
 /// point out of the material.
 struct TriangleSurface {
-  std::vector<double> vertex_xyz{};              ///< Shape (num_vertices, 3), file length unit.
-  std::vector<LocalIndex> triangle_vertices{};   ///< Shape (num_triangles, 3).
-  std::vector<LocalIndex> triangle_solid{};      ///< Shape (num_triangles); row of solid_names.
-  std::vector<LocalIndex> triangle_material{};   ///< Shape (num_triangles); from 1.
-  std::vector<std::string> solid_names{};        ///< `solid`s of the file; empty where unnamed.
-  std::vector<std::string> material_names{};     ///< Entry m-1 names material m.
+  std::vector<double> vertex_xyz{};             ///< Shape (num_vertices, 3), file length unit.
+  std::vector<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3).
+  std::vector<LocalIndex> triangle_solid{};     ///< Shape (num_triangles); row of solid_names.
+  std::vector<LocalIndex> triangle_material{};  ///< Shape (num_triangles); from 1.
+  std::vector<std::string> solid_names{};       ///< `solid`s of the file; empty where unnamed.
+  std::vector<std::string> material_names{};    ///< Entry m-1 names material m.
 
   [[nodiscard]] LocalIndex num_vertices() const
   {
