@@ -163,8 +163,7 @@ class StlMeshing {
       patch_of_face[index(geometry_.GetTriangle(t + 1).GetFaceNum())] = patch;
       material_of_patch[index(patch)] = surface_.triangle_material[index(t)];
     }
-    for (int e = 1; e <= mesh_->GetNSE(); ++e) {
-      auto& element = mesh_->SurfaceElement(e);
+    for (auto& element : mesh_->SurfaceElements()) {
       element.SetIndex(patch_of_face[index(element.GetIndex())] + 1);
     }
     mesh_->ClearFaceDescriptors();
