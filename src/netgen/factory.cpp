@@ -25,6 +25,7 @@ struct FileKind {
 
 constexpr FileKind kFileKinds[] = {
     {".geo", [](const fs::path& file, const ImportOptions&) { return import_csg(file); }},
+    {".stl", import_stl},
 };
 
 std::string lower_case_extension(const fs::path& file)
@@ -104,6 +105,8 @@ std::unique_ptr<model::Model> load_model(const ModelSource& source)
   switch (source.format) {
     case model::Format::csg:
       return load_csg(source);
+    case model::Format::stl:
+      return load_stl(source);
     default:
       throw InputError(source.file_name + ": unknown format of model");
   }

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
+
+namespace tessera::model {
+
+/// @brief The nearest point of a set of triangles or segments.
+struct NearestPoint {
+  Vec3 xyz{};
+  LocalIndex part = kNoIndex;  ///< Number of the triangle or segment, in the order given.
+  double squared_distance = 0.0;
+};
+
+/// @brief Nearest point of a triangle @cite ericson2004 or segment: never off it by more than
+/// rounding, and one of its corners exactly where a corner is nearest.
+[[nodiscard]] Vec3 nearest_point_of(const std::array<Vec3, 3>& triangle,
+                                    const Vec3& point) noexcept;
+[[nodiscard]] Vec3 nearest_point_of(const std::array<Vec3, 2>& segment, const Vec3& point) noexcept;
+
+/// @brief Search for the nearest point of many triangles or segments (`Part`: array of corners).
+///
+/// A pure function of its argument: of equally near parts, the lowest number wins. An own bounding
+/// volume hierarchy, since that rule needs control over the walk and exact distances, which the
+/// well-kept libraries at hand do not offer together under a permissive licence (Boost's R-tree
+/// orders by box distance only, CGAL's tree is GPL).
+template <class Part>
+class NearestPointSearch {
+ public:
+  /// @pre parts is not empty.
+  explicit NearestPointSearch(std::span<const Part> parts);
+
+  /// @note Local; touches no state, so calls may run side by side.
+  [[nodiscard]] NearestPoint nearest(const Vec3& point) const;
+
+ private:
+  struct Box {
+    Vec3 low{};
+    Vec3 high{};
+  };
+  // Children are node + 1 and `other_child`; a leaf has parts [first, first + count).
+  struct Node {
+    Box box{};
+    LocalIndex other_child = kNoIndex;
+    LocalIndex first = 0;
+    LocalIndex count = 0;
+  };
+
+  LocalIndex build(std::span<const Part> parts, LocalIndex first, LocalIndex last);
+  [[nodiscard]] Box padded_box(std::span<const Part> parts, LocalIndex first,
+                               LocalIndex last) const;
+  void look_into_leaf(const Node& leaf, const Vec3& point, NearestPoint& best) const;
+  static double squared_distance(const Box& box, const Vec3& point) noexcept;
+
+  double padding_ = 0.0;
+  std::vector<Node> nodes_{};
+  std::vector<LocalIndex> numbers_{};  // of parts, in the order of the leaves
+  std::vector<Part> parts_{};          // likewise, beside each other in memory
+};
+
+using TriangleSearch = NearestPointSearch<std::array<Vec3, 3>>;
+using SegmentSearch = NearestPointSearch<std::array<Vec3, 2>>;
+extern template class NearestPointSearch<std::array<Vec3, 3>>;
+extern template class NearestPointSearch<std::array<Vec3, 2>>;
+
+}  // namespace tessera::model

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/model/nearest_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace tessera::model {
+namespace {
+
+constexpr LocalIndex kLeafSize = 4;
+constexpr std::size_t kDeepest = 64;  // halving 2^31 parts gives 31 levels
+
+constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+template <class Part>
+double middle_along(const Part& part, std::size_t axis)
+{
+  double sum = 0.0;
+  for (const Vec3& corner : part) sum += corner[axis];
+  return sum;
+}
+
+}  // namespace
+
+Vec3 nearest_point_of(const std::array<Vec3, 2>& segment, const Vec3& point) noexcept
+{
+  const auto& [a, b] = segment;
+  const Vec3 ab = b - a;
+  const double along = dot(point - a, ab);
+  const double length2 = dot(ab, ab);
+  if (along <= 0.0) return a;
+  if (along >= length2) return b;
+  return a + (along / length2) * ab;
+}
+
+Vec3 nearest_point_of(const std::array<Vec3, 3>& triangle, const Vec3& point) noexcept
+{
+  const auto& [a, b, c] = triangle;
+  const Vec3 ab = b - a;
+  const Vec3 ac = c - a;
+  const double ab_a = dot(ab, point - a);
+  const double ac_a = dot(ac, point - a);
+  if (ab_a <= 0.0 && ac_a <= 0.0) return a;
+  const double ab_b = dot(ab, point - b);
+  const double ac_b = dot(ac, point - b);
+  if (ab_b >= 0.0 && ac_b <= ab_b) return b;
+  const double ab_c = dot(ab, point - c);
+  const double ac_c = dot(ac, point - c);
+  if (ac_c >= 0.0 && ab_c <= ac_c) return c;
+
+  // Barycentric weights of the projection onto the plane, up to a common factor.
+  const double weight_c = ab_a * ac_b - ab_b * ac_a;
+  const double weight_b = ab_c * ac_a - ab_a * ac_c;
+  const double weight_a = ab_b * ac_c - ab_c * ac_b;
+  if (weight_c <= 0.0 && ab_a >= 0.0 && ab_b <= 0.0)
+    return nearest_point_of(std::array{a, b}, point);
+  if (weight_b <= 0.0 && ac_a >= 0.0 && ac_c <= 0.0)
+    return nearest_point_of(std::array{a, c}, point);
+  if (weight_a <= 0.0 && ac_b >= ab_b && ab_c >= ac_c)
+    return nearest_point_of(std::array{b, c}, point);
+  const double sum = weight_a + weight_b + weight_c;
+  return a + (weight_b / sum) * ab + (weight_c / sum) * ac;
+}
+
+template <class Part>
+NearestPointSearch<Part>::NearestPointSearch(std::span<const Part> parts) : numbers_(parts.size())
+{
+  double largest = 0.0;
+  for (const Part& part : parts) {
+    for (const Vec3& corner : part) {
+      for (const double x : corner) largest = std::max(largest, std::abs(x));
+    }
+  }
+  // Rounding of a nearest point must not put it outside its box, or a tie could be missed.
+  padding_ = 64.0 * std::numeric_limits<double>::epsilon() * largest;
+  std::iota(numbers_.begin(), numbers_.end(), 0);
+  build(parts, 0, static_cast<LocalIndex>(parts.size()));
+  for (const LocalIndex number : numbers_) parts_.push_back(parts[index(number)]);
+}
+
+template <class Part>
+typename NearestPointSearch<Part>::Box NearestPointSearch<Part>::padded_box(
+    std::span<const Part> parts, LocalIndex first, LocalIndex last) const
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  for (LocalIndex i = first; i < last; ++i) {
+    for (const Vec3& corner : parts[index(numbers_[index(i)])]) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], corner[axis] - padding_);
+        box.high[axis] = std::max(box.high[axis], corner[axis] + padding_);
+      }
+    }
+  }
+  return box;
+}
+
+template <class Part>
+LocalIndex NearestPointSearch<Part>::build(std::span<const Part> parts, LocalIndex first,
+                                           LocalIndex last)
+{
+  const auto node = static_cast<LocalIndex>(nodes_.size());
+  const Box box = padded_box(parts, first, last);
+  nodes_.push_back({box, kNoIndex, first, last - first});
+  if (last - first <= kLeafSize) return node;
+
+  const Vec3 extent = box.high - box.low;
+  const auto axis = static_cast<std::size_t>(
+      std::distance(extent.begin(), std::max_element(extent.begin(), extent.end())));
+  const LocalIndex middle = first + (last - first) / 2;
+  std::nth_element(numbers_.begin() + first, numbers_.begin() + middle, numbers_.begin() + last,
+                   [&](LocalIndex a, LocalIndex b) {
+                     return std::pair(middle_along(parts[index(a)], axis), a)
+                            < std::pair(middle_along(parts[index(b)], axis), b);
+                   });
+  build(parts, first, middle);
+  const LocalIndex other_child = build(parts, middle, last);
+  nodes_[index(node)].other_child = other_child;
+  return node;
+}
+
+template <class Part>
+double NearestPointSearch<Part>::squared_distance(const Box& box, const Vec3& point) noexcept
+{
+  double sum = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double outside =
+        std::max({box.low[axis] - point[axis], point[axis] - box.high[axis], 0.0});
+    sum += outside * outside;
+  }
+  return sum;
+}
+
+template <class Part>
+void NearestPointSearch<Part>::look_into_leaf(const Node& leaf, const Vec3& point,
+                                              NearestPoint& best) const
+{
+  for (LocalIndex i = leaf.first; i < leaf.first + leaf.count; ++i) {
+    const Vec3 candidate = nearest_point_of(parts_[index(i)], point);
+    const Vec3 offset = candidate - point;
+    const std::pair distance_and_number(dot(offset, offset), numbers_[index(i)]);
+    if (distance_and_number < std::pair(best.squared_distance, best.part)) {
+      best = {candidate, distance_and_number.second, distance_and_number.first};
+    }
+  }
+}
+
+template <class Part>
+NearestPoint NearestPointSearch<Part>::nearest(const Vec3& point) const
+{
+  // Boxes at just the best distance are opened too: a tie with a lower number may be in there.
+  struct Visit {
+    LocalIndex node;
+    double squared_distance;
+  };
+  std::array<Visit, kDeepest> to_visit;
+  std::size_t num_to_visit = 0;
+  NearestPoint best{{}, kNoIndex, std::numeric_limits<double>::infinity()};
+  to_visit[num_to_visit++] = {0, 0.0};
+  while (num_to_visit > 0) {
+    const Visit visit = to_visit[--num_to_visit];
+    if (visit.squared_distance > best.squared_distance) continue;
+    const Node& node = nodes_[index(visit.node)];
+    if (node.other_child == kNoIndex) {
+      look_into_leaf(node, point, best);
+      continue;
+    }
+    Visit near{visit.node + 1, squared_distance(nodes_[index(visit.node) + 1].box, point)};
+    Visit far{node.other_child, squared_distance(nodes_[index(node.other_child)].box, point)};
+    if (far.squared_distance < near.squared_distance) std::swap(near, far);
+    to_visit[num_to_visit++] = far;
+    to_visit[num_to_visit++] = near;
+  }
+  return best;
+}
+
+template class NearestPointSearch<std::array<Vec3, 3>>;
+template class NearestPointSearch<std::array<Vec3, 2>>;
+
+}  // namespace tessera::model

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface_orientation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include "tessera/base/error.hpp"
+
+#include "half_edges.hpp"
+
+namespace tessera::model {
+namespace {
+
+constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+struct Box {
+  Vec3 low{};
+  Vec3 high{};
+};
+
+Box box_of(const TriangleSurface& surface, const Shell& shell)
+{
+  const Vec3 first = surface.corners(shell.triangles.front())[0];
+  Box box{first, first};
+  for (const LocalIndex t : shell.triangles) {
+    for (const Vec3& p : surface.corners(t)) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] = std::min(box.low[axis], p[axis]);
+        box.high[axis] = std::max(box.high[axis], p[axis]);
+      }
+    }
+  }
+  return box;
+}
+
+bool contains(const Box& box, const Vec3& p)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (p[axis] < box.low[axis] || p[axis] > box.high[axis]) return false;
+  }
+  return true;
+}
+
+// Walks from triangle to triangle over shared edges, and marks those that must be turned to agree
+// with the first of their shell.
+class ShellWalk {
+ public:
+  ShellWalk(const TriangleSurface& surface, std::span<const LocalIndex> opposite,
+            const std::string& name)
+      : surface_(surface),
+        opposite_(opposite),
+        name_(name),
+        reached_(index(surface.num_triangles())),
+        turned_(index(surface.num_triangles()))
+  {
+  }
+
+  std::vector<Shell> walk()
+  {
+    std::vector<Shell> shells;
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+      if (!reached_[index(t)]) shells.push_back(walk_from(t));
+    }
+    return shells;
+  }
+
+  [[nodiscard]] const std::vector<bool>& turned() const { return turned_; }
+
+ private:
+  Shell walk_from(LocalIndex start)
+  {
+    Shell shell;
+    shell.triangles.push_back(start);
+    reached_[index(start)] = true;
+    for (std::size_t i = 0; i < shell.triangles.size(); ++i) {
+      const LocalIndex t = shell.triangles[i];
+      for (LocalIndex h = 3 * t; h < 3 * t + 3; ++h) {
+        const LocalIndex other = opposite_[index(h)] / 3;
+        const bool turn_other = turned_[index(t)] != same_direction(h);
+        if (!reached_[index(other)]) {
+          reached_[index(other)] = true;
+          turned_[index(other)] = turn_other;
+          shell.triangles.push_back(other);
+        } else if (turned_[index(other)] != turn_other) {
+          refuse_one_sided(h);
+        }
+      }
+    }
+    std::sort(shell.triangles.begin(), shell.triangles.end());
+    return shell;
+  }
+
+  // Whether h and its opposite run the same way, which neighbours that agree never do.
+  [[nodiscard]] bool same_direction(LocalIndex h) const
+  {
+    return surface_.triangle_vertices[index(h)]
+           == surface_.triangle_vertices[index(opposite_[index(h)])];
+  }
+
+  [[noreturn]] void refuse_one_sided(LocalIndex h) const
+  {
+    const Vec3 p = surface_.position(surface_.triangle_vertices[index(h)]);
+    std::ostringstream text;
+    text << name_ << ": surface is one-sided (as a Moebius strip), so it bounds no body; near ("
+         << p[0] << ", " << p[1] << ", " << p[2] << ")";
+    throw GeometryError(text.str());
+  }
+
+  const TriangleSurface& surface_;
+  std::span<const LocalIndex> opposite_;
+  const std::string& name_;
+  std::vector<bool> reached_;
+  std::vector<bool> turned_;
+};
+
+void turn(TriangleSurface& surface, LocalIndex t)
+{
+  const std::size_t at = 3 * index(t);
+  std::swap(surface.triangle_vertices[at + 1], surface.triangle_vertices[at + 2]);
+}
+
+// Measured from a corner of the shell, so that a small body far from the origin keeps its digits.
+double enclosed_volume(const TriangleSurface& surface, const Shell& shell)
+{
+  const Vec3 origin = surface.corners(shell.triangles.front())[0];
+  double volume = 0.0;
+  for (const LocalIndex t : shell.triangles) {
+    const auto [a, b, c] = surface.corners(t);
+    volume += tet_volume(origin, a, b, c);
+  }
+  return volume;
+}
+
+// Solid angle under which a triangle is seen from p. @cite vanoosterom1983
+double solid_angle(const std::array<Vec3, 3>& corners, const Vec3& p)
+{
+  const Vec3 a = corners[0] - p;
+  const Vec3 b = corners[1] - p;
+  const Vec3 c = corners[2] - p;
+  const double la = norm(a);
+  const double lb = norm(b);
+  const double lc = norm(c);
+  const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  return 2.0 * std::atan2(dot(a, cross(b, c)), denominator);
+}
+
+bool is_inside(const TriangleSurface& surface, const Shell& shell, const Vec3& p)
+{
+  double angle = 0.0;
+  for (const LocalIndex t : shell.triangles) angle += solid_angle(surface.corners(t), p);
+  return std::abs(angle) > 2.0 * std::numbers::pi;  // 4 pi inside, 0 outside
+}
+
+void nest(const TriangleSurface& surface, std::vector<Shell>& shells)
+{
+  std::vector<Box> boxes;
+  for (const Shell& shell : shells) boxes.push_back(box_of(surface, shell));
+  std::vector<std::vector<LocalIndex>> containers(shells.size());
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    const auto [a, b, c] = surface.corners(shells[s].triangles.front());
+    const Vec3 probe = (1.0 / 3.0) * (a + b + c);
+    for (std::size_t other = 0; other < shells.size(); ++other) {
+      if (other == s || !contains(boxes[other], probe)) continue;
+      if (is_inside(surface, shells[other], probe)) {
+        containers[s].push_back(static_cast<LocalIndex>(other));
+      }
+    }
+    shells[s].depth = static_cast<LocalIndex>(containers[s].size());
+  }
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    for (const LocalIndex c : containers[s]) {
+      if (shells[index(c)].depth == shells[s].depth - 1) shells[s].parent = c;
+    }
+  }
+}
+
+}  // namespace
+
+Orientation orient(TriangleSurface& surface, std::span<const LocalIndex> opposite,
+                   const std::string& name)
+{
+  ShellWalk walk(surface, opposite, name);
+  Orientation result;
+  result.shells = walk.walk();
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+    if (walk.turned()[index(t)]) turn(surface, t);
+  }
+  nest(surface, result.shells);
+  for (const Shell& shell : result.shells) {
+    const Box box = box_of(surface, shell);
+    const double volume = enclosed_volume(surface, shell);
+    constexpr double flat = 1e-12;  // far below what single precision leaves of a flat shell
+    if (std::abs(volume) <= flat * std::pow(norm(box.high - box.low), 3)) {
+      throw GeometryError(name + ": shell of " + std::to_string(shell.triangles.size())
+                          + " triangles encloses no volume");
+    }
+    const bool inside_out = (volume > 0.0) != (shell.depth % 2 == 0);
+    const auto num_turned = static_cast<LocalIndex>(
+        std::count_if(shell.triangles.begin(), shell.triangles.end(),
+                      [&](LocalIndex t) { return walk.turned()[index(t)]; }));
+    const auto num_triangles = static_cast<LocalIndex>(shell.triangles.size());
+    if (inside_out) {
+      for (const LocalIndex t : shell.triangles) turn(surface, t);
+    }
+    // Against the file: either a few were turned, or the whole shell but for a few.
+    const LocalIndex num_changed = inside_out ? num_triangles - num_turned : num_turned;
+    if (2 * num_changed > num_triangles) ++result.num_turned_shells;
+    result.num_turned += std::min(num_changed, num_triangles - num_changed);
+  }
+  return result;
+}
+
+}  // namespace tessera::model

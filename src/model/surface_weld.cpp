@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface_weld.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <set>
+#include <utility>
+
+#include "half_edges.hpp"
+
+namespace tessera::model {
+namespace {
+
+constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+// Vertices of edges with one triangle, ascending.
+std::vector<LocalIndex> open_vertices(const TriangleSurface& surface)
+{
+  const HalfEdgesOfEdges edges = half_edges_of_edges(surface.triangle_vertices);
+  std::vector<LocalIndex> vertices;
+  for (LocalIndex e = 0; e < edges.num_edges(); ++e) {
+    if (edges.of(e).size() != 1) continue;
+    const LocalIndex h = edges.of(e)[0];
+    vertices.push_back(surface.triangle_vertices[index(h)]);
+    vertices.push_back(surface.triangle_vertices[index(next_in_triangle(h))]);
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
+// Union-find whose roots are the lowest numbers.
+class LowestRepresentative {
+ public:
+  explicit LowestRepresentative(LocalIndex size) : parent_(index(size))
+  {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  LocalIndex find(LocalIndex i)
+  {
+    while (parent_[index(i)] != i) {
+      parent_[index(i)] = parent_[index(parent_[index(i)])];
+      i = parent_[index(i)];
+    }
+    return i;
+  }
+
+  void join(LocalIndex a, LocalIndex b)
+  {
+    const LocalIndex root_a = find(a);
+    const LocalIndex root_b = find(b);
+    parent_[index(std::max(root_a, root_b))] = std::min(root_a, root_b);
+  }
+
+ private:
+  std::vector<LocalIndex> parent_;
+};
+
+void drop_unused_vertices(TriangleSurface& surface)
+{
+  std::vector<LocalIndex> old_to_new_vertex(index(surface.num_vertices()), kNoIndex);
+  std::vector<double> vertex_xyz;
+  for (LocalIndex& v : surface.triangle_vertices) {
+    LocalIndex& renumbered = old_to_new_vertex[index(v)];
+    if (renumbered == kNoIndex) {
+      renumbered = static_cast<LocalIndex>(vertex_xyz.size() / 3);
+      const Vec3 p = surface.position(v);
+      vertex_xyz.insert(vertex_xyz.end(), p.begin(), p.end());
+    }
+    v = renumbered;
+  }
+  surface.vertex_xyz = std::move(vertex_xyz);
+}
+
+}  // namespace
+
+TriangleSurface weld_equal_corners(const TriangleSoup& soup)
+{
+  const std::span<const double> corner_xyz(soup.corner_xyz);
+  std::vector<LocalIndex> sorted(soup.corner_xyz.size() / 3);
+  std::iota(sorted.begin(), sorted.end(), 0);
+  std::sort(sorted.begin(), sorted.end(), [&](LocalIndex a, LocalIndex b) {
+    return std::pair(point_at(corner_xyz, a), a) < std::pair(point_at(corner_xyz, b), b);
+  });
+
+  TriangleSurface surface;
+  surface.vertex_xyz = soup.corner_xyz;
+  surface.triangle_vertices.resize(sorted.size());
+  surface.triangle_solid = soup.triangle_solid;
+  surface.solid_names = soup.solid_names;
+  LocalIndex first = 0;  // lowest corner at the position of the one looked at
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    if (i == 0 || point_at(corner_xyz, sorted[i]) != point_at(corner_xyz, first)) first = sorted[i];
+    surface.triangle_vertices[index(sorted[i])] = first;
+  }
+  drop_unused_vertices(surface);
+  return surface;
+}
+
+LocalIndex weld_open_vertices(TriangleSurface& surface, double tolerance)
+{
+  // Near points are near along any direction; along this one, unlike along an axis, the points of a
+  // flat side do not all coincide, so few pairs have to be looked at.
+  constexpr Vec3 direction{0.4082, 0.5345, 0.7401};
+  const auto along = [&](LocalIndex v) { return dot(direction, surface.position(v)); };
+  std::vector<LocalIndex> open = open_vertices(surface);
+  std::sort(open.begin(), open.end(), [&](LocalIndex a, LocalIndex b) {
+    return std::pair(along(a), a) < std::pair(along(b), b);
+  });
+  LowestRepresentative representative(surface.num_vertices());
+  LocalIndex num_joined = 0;
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    for (std::size_t j = i + 1; j < open.size(); ++j) {
+      if (along(open[j]) - along(open[i]) > tolerance) break;
+      if (norm(surface.position(open[j]) - surface.position(open[i])) > tolerance) continue;
+      if (representative.find(open[i]) != representative.find(open[j])) ++num_joined;
+      representative.join(open[i], open[j]);
+    }
+  }
+  for (LocalIndex& v : surface.triangle_vertices) v = representative.find(v);
+  return num_joined;
+}
+
+DroppedTriangles drop_bad_triangles(TriangleSurface& surface)
+{
+  DroppedTriangles dropped;
+  std::set<std::array<LocalIndex, 3>> seen;
+  LocalIndex kept = 0;
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+    const auto vertices = surface.triangle_vertices.begin() + 3 * std::ptrdiff_t{t};
+    std::array<LocalIndex, 3> key{vertices[0], vertices[1], vertices[2]};
+    std::sort(key.begin(), key.end());
+    const bool degenerate = key[0] == key[1] || key[1] == key[2];
+    if (degenerate) {
+      ++dropped.degenerate;
+    } else if (!seen.insert(key).second) {
+      ++dropped.repeated;
+    } else {
+      std::copy_n(vertices, 3, surface.triangle_vertices.begin() + 3 * std::ptrdiff_t{kept});
+      surface.triangle_solid[index(kept++)] = surface.triangle_solid[index(t)];
+    }
+  }
+  surface.triangle_vertices.resize(3 * index(kept));
+  surface.triangle_solid.resize(index(kept));
+  drop_unused_vertices(surface);
+  return dropped;
+}
+
+}  // namespace tessera::model

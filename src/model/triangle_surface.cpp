@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/model/triangle_surface.hpp"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+
+#include "half_edges.hpp"
+#include "surface_orientation.hpp"
+#include "surface_weld.hpp"
+
+namespace tessera::model {
+namespace {
+
+constexpr double kWeldTolerance = 1e-6;  // of the box diagonal
+
+constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+std::string counted(LocalIndex count, const std::string& one, const std::string& many)
+{
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+void put_point(std::ostream& out, const Vec3& p)
+{
+  out << '(' << p[0] << ", " << p[1] << ", " << p[2] << ')';
+}
+
+// "3 edges, first (0, 0, 0) - (1, 0, 0), …" for the edges whose number of triangles is `bad`.
+template <class Predicate>
+std::string describe_edges(const TriangleSurface& surface, const HalfEdgesOfEdges& edges,
+                           Predicate bad)
+{
+  constexpr LocalIndex num_shown = 3;
+  LocalIndex count = 0;
+  std::ostringstream shown;
+  shown.precision(9);
+  for (LocalIndex e = 0; e < edges.num_edges(); ++e) {
+    if (!bad(edges.of(e).size())) continue;
+    if (count++ >= num_shown) continue;
+    const LocalIndex h = edges.of(e)[0];
+    shown << (count == 1 ? ", first " : ", ");
+    put_point(shown, surface.position(surface.triangle_vertices[index(h)]));
+    shown << " - ";
+    put_point(shown, surface.position(surface.triangle_vertices[index(next_in_triangle(h))]));
+  }
+  if (count == 0) return {};
+  return counted(count, "edge", "edges") + shown.str() + (count > num_shown ? ", …" : "");
+}
+
+std::string open_edges(const TriangleSurface& surface)
+{
+  return describe_edges(surface, half_edges_of_edges(surface.triangle_vertices),
+                        [](std::size_t triangles) { return triangles == 1; });
+}
+
+void require_two_triangles_per_edge(const TriangleSurface& surface, const std::string& name)
+{
+  const std::string crowded =
+      describe_edges(surface, half_edges_of_edges(surface.triangle_vertices),
+                     [](std::size_t triangles) { return triangles > 2; });
+  if (!crowded.empty()) {
+    throw GeometryError(name + ": surface bounds no body: more than two triangles at " + crowded);
+  }
+  const std::string open = open_edges(surface);
+  if (!open.empty()) {
+    throw GeometryError(name + ": surface is not closed: only one triangle at " + open);
+  }
+}
+
+void drop_and_record(CheckedSurface& checked)
+{
+  const DroppedTriangles dropped = drop_bad_triangles(checked.surface);
+  if (dropped.degenerate > 0) {
+    checked.repairs.push_back(counted(dropped.degenerate, "triangle", "triangles")
+                              + " with fewer than three different corners dropped");
+  }
+  if (dropped.repeated > 0) {
+    checked.repairs.push_back(counted(dropped.repeated, "repeated triangle", "repeated triangles")
+                              + " dropped");
+  }
+}
+
+void weld_and_record(CheckedSurface& checked)
+{
+  if (open_edges(checked.surface).empty()) return;
+  const double tolerance = kWeldTolerance * box_diagonal(checked.surface);
+  const LocalIndex num_joined = weld_open_vertices(checked.surface, tolerance);
+  if (num_joined == 0) return;
+  std::ostringstream text;
+  text << counted(num_joined, "vertex of an open edge", "vertices of open edges")
+       << " joined to a neighbour closer than " << tolerance;
+  checked.repairs.push_back(text.str());
+  drop_and_record(checked);
+}
+
+void record_turns(CheckedSurface& checked, const Orientation& orientation)
+{
+  if (orientation.num_turned > 0) {
+    checked.repairs.push_back(counted(orientation.num_turned, "triangle", "triangles")
+                              + " turned to agree with the neighbours");
+  }
+  if (orientation.num_turned_shells > 0) {
+    checked.repairs.push_back(counted(orientation.num_turned_shells, "shell", "shells") + " of "
+                              + std::to_string(orientation.shells.size())
+                              + " turned: the inside was out");
+  }
+}
+
+// One material a solid, taken from the first triangle of the outer shell: what lies in a shell's
+// cavity is another shell, and a cavity's own triangles bound the material around it.
+void set_materials(TriangleSurface& surface, const std::vector<Shell>& shells)
+{
+  std::map<LocalIndex, LocalIndex> material_of_solid;
+  surface.triangle_material.resize(index(surface.num_triangles()));
+  std::vector<bool> has_one_solid;
+  for (const Shell& shell : shells) {
+    const Shell& outer = shell.depth % 2 == 0 ? shell : shells[index(shell.parent)];
+    const LocalIndex solid = surface.triangle_solid[index(outer.triangles.front())];
+    const auto next = static_cast<LocalIndex>(material_of_solid.size() + 1);
+    const auto [entry, is_new] = material_of_solid.emplace(solid, next);
+    if (is_new) {
+      surface.material_names.push_back(surface.solid_names[index(solid)]);
+      has_one_solid.push_back(true);
+    }
+    for (const LocalIndex t : shell.triangles) {
+      surface.triangle_material[index(t)] = entry->second;
+      if (surface.triangle_solid[index(t)] != solid)
+        has_one_solid[index(entry->second) - 1] = false;
+    }
+  }
+  for (std::size_t m = 0; m < surface.material_names.size(); ++m) {
+    std::string& name = surface.material_names[m];
+    // Several solids around one body name its sides, not the body.
+    if (name.empty() || !has_one_solid[m]) name = "material_" + std::to_string(m + 1);
+  }
+}
+
+bool is_consistent(const TriangleSurface& surface)
+{
+  const auto all_below = [](const std::vector<LocalIndex>& values, std::size_t end) {
+    return std::all_of(values.begin(), values.end(),
+                       [&](LocalIndex v) { return v >= 0 && index(v) < end; });
+  };
+  const std::size_t num_triangles = surface.triangle_vertices.size() / 3;
+  return surface.vertex_xyz.size() % 3 == 0 && surface.triangle_vertices.size() % 3 == 0
+         && surface.triangle_solid.size() == num_triangles
+         && surface.triangle_material.size() == num_triangles
+         && all_below(surface.triangle_vertices, surface.vertex_xyz.size() / 3)
+         && all_below(surface.triangle_solid, surface.solid_names.size())
+         && all_below(surface.triangle_material, surface.material_names.size() + 1);
+}
+
+}  // namespace
+
+CheckedSurface check_surface(const TriangleSoup& soup, const std::string& name)
+{
+  CheckedSurface checked;
+  checked.surface = weld_equal_corners(soup);
+  drop_and_record(checked);
+  weld_and_record(checked);
+  if (checked.surface.num_triangles() == 0) {
+    throw GeometryError(name + ": holds no triangle with an area");
+  }
+  require_two_triangles_per_edge(checked.surface, name);
+
+  const auto opposite = opposite_half_edges(half_edges_of_edges(checked.surface.triangle_vertices));
+  const Orientation orientation = orient(checked.surface, opposite, name);
+  record_turns(checked, orientation);
+  set_materials(checked.surface, orientation.shells);
+  return checked;
+}
+
+double box_diagonal(const TriangleSurface& surface)
+{
+  if (surface.num_vertices() == 0) return 0.0;
+  Vec3 low = surface.position(0);
+  Vec3 high = low;
+  for (LocalIndex v = 1; v < surface.num_vertices(); ++v) {
+    const Vec3 p = surface.position(v);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  return norm(high - low);
+}
+
+Bytes to_bytes(const TriangleSurface& surface)
+{
+  ByteWriter out;
+  out.put(surface.vertex_xyz);
+  out.put(surface.triangle_vertices);
+  out.put(surface.triangle_solid);
+  out.put(surface.triangle_material);
+  out.put(surface.solid_names);
+  out.put(surface.material_names);
+  return std::move(out).take();
+}
+
+TriangleSurface triangle_surface_from_bytes(std::span<const std::byte> bytes)
+{
+  ByteReader in(bytes);
+  TriangleSurface surface;
+  surface.vertex_xyz = in.get_vector<double>();
+  surface.triangle_vertices = in.get_vector<LocalIndex>();
+  surface.triangle_solid = in.get_vector<LocalIndex>();
+  surface.triangle_material = in.get_vector<LocalIndex>();
+  surface.solid_names = in.get_strings();
+  surface.material_names = in.get_strings();
+  if (!in.at_end() || !is_consistent(surface)) throw InputError("record of a surface is damaged");
+  return surface;
+}
+
+}  // namespace tessera::model

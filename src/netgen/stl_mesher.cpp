@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/stl_mesher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <mystdlib.h>
+#include <stlgeom.hpp>
+
+#include "tessera/base/error.hpp"
+
+#include "netgen/mesh_conversion.hpp"
+#include "netgen/netgen_session.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+// Sets NETGEN's global STL parameters, and puts the old ones back at its end.
+class StlParameters {
+ public:
+  explicit StlParameters(const coarse::CoarseOptions& options)
+  {
+    ::netgen::stldoctor.geom_tol_fact = kPointTolerance;
+    ::netgen::stlparam.resthsurfcurvenable = 1;
+    ::netgen::stlparam.resthsurfcurvfac = options.curvature;
+  }
+  ~StlParameters()
+  {
+    ::netgen::stlparam = saved_parameters_;
+    ::netgen::stldoctor = saved_doctor_;
+  }
+  StlParameters(const StlParameters&) = delete;
+  StlParameters& operator=(const StlParameters&) = delete;
+
+ private:
+  // Of the box: our vertices are welded already, and NETGEN must not join any more of them.
+  static constexpr double kPointTolerance = 1e-14;
+
+  ::netgen::STLParameters saved_parameters_ = ::netgen::stlparam;
+  ::netgen::STLDoctorParams saved_doctor_ = ::netgen::stldoctor;
+};
+
+// NETGEN's STL mesher has absolute lengths in it (segments below 1e-10, boxes grown by 10), so it
+// always sees a model of about this size. The factor is a power of two: no bit of a position is
+// lost on the way there and back.
+constexpr double kDiagonalForNetgen = 100.0;
+
+double scale_for_netgen(const model::TriangleSurface& surface)
+{
+  return std::exp2(std::round(std::log2(kDiagonalForNetgen / model::box_diagonal(surface))));
+}
+
+class StlMeshing {
+ public:
+  StlMeshing(const model::TriangleSurface& surface, const model::SurfaceFeatures& features,
+             const coarse::CoarseOptions& options, const std::string& name)
+      : surface_(surface),
+        features_(features),
+        name_(name),
+        scale_(scale_for_netgen(surface)),
+        stl_parameters_(options),
+        session_(parameters(options, scale_))
+  {
+  }
+
+  mesh::CoarseMesh run()
+  {
+    session_.run(name_ + ": loading into NETGEN", [&] { give_triangles(); });
+    give_feature_edges();
+    session_.run(name_ + ": coarse mesh", [&] {
+      mesh_up_to(::netgen::MESHCONST_ANALYSE, ::netgen::MESHCONST_MESHEDGES);
+      give_domains();
+      mesh_up_to(::netgen::MESHCONST_MESHSURFACE, ::netgen::MESHCONST_OPTVOLUME);
+    });
+    if (geometry_.surfacemeshed == 0 || geometry_.volumemeshed == 0) {
+      throw NetgenError(name_ + ": NETGEN gave up on the coarse "
+                        + (geometry_.surfacemeshed == 0 ? "surface" : "volume") + " mesh"
+                        + (session_.words().empty() ? "" : ": " + session_.words()));
+    }
+    take_own_numbers();
+    mesh::CoarseMesh mesh = to_coarse_mesh(*mesh_, numbers(), name_);
+    for (double& x : mesh.vertex_xyz) x /= scale_;
+    return mesh;
+  }
+
+ private:
+  static ::netgen::MeshingParameters parameters(coarse::CoarseOptions options, double scale)
+  {
+    options.max_size *= scale;
+    return coarse_parameters(options);
+  }
+
+  void give_triangles()
+  {
+    const std::vector<Vec3> normals = model::triangle_normals(surface_);
+    ::netgen::Array<::netgen::STLReadTriangle> triangles;
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+      ::netgen::Point<3> corners[3];
+      for (int c = 0; c < 3; ++c) {
+        const Vec3 p = scale_ * surface_.corners(t)[static_cast<std::size_t>(c)];
+        corners[c] = ::netgen::Point<3>(p[0], p[1], p[2]);
+      }
+      const Vec3& n = normals[index(t)];
+      triangles.Append(::netgen::STLReadTriangle(corners, ::netgen::Vec<3>(n[0], n[1], n[2])));
+    }
+    geometry_.InitSTLGeometry(triangles);
+    if (geometry_.GetNT() != surface_.num_triangles()
+        || geometry_.GetNP() != surface_.num_vertices()) {
+      throw NetgenError(name_ + ": NETGEN refuses some triangles");
+    }
+    if (!geometry_.Topology_Ok() || !geometry_.Orientation_Ok()) {
+      throw NetgenError(name_ + ": NETGEN sees no closed surface");
+    }
+  }
+
+  // A confirmed or excluded edge keeps its status whatever its angle.
+  void give_feature_edges()
+  {
+    std::vector<LocalIndex> our_vertex(index(surface_.num_vertices()) + 1);
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+      for (int c = 0; c < 3; ++c) {
+        our_vertex[index(geometry_.GetTriangle(t + 1)[c])] =
+            surface_.triangle_vertices[3 * index(t) + static_cast<std::size_t>(c)];
+      }
+    }
+    for (int e = 1; e <= geometry_.GetNTE(); ++e) {
+      ::netgen::STLTopEdge& edge = geometry_.GetTopEdge(e);
+      const LocalIndex curve =
+          features_.curve_of_edge(our_vertex[index(edge[0])], our_vertex[index(edge[1])]);
+      edge.SetStatus(curve == kNoIndex ? ::netgen::ED_EXCLUDED : ::netgen::ED_CONFIRMED);
+    }
+    our_vertex_ = std::move(our_vertex);
+  }
+
+  void mesh_up_to(int first_step, int last_step)
+  {
+    auto& parameters = session_.parameters();
+    parameters.perfstepsstart = first_step;
+    parameters.perfstepsend = last_step;
+    ::netgen::STLMeshingDummy(&geometry_, mesh_, parameters);
+  }
+
+  // NETGEN has one descriptor a face, all of domain 1.
+  void give_domains()
+  {
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+      const int face = geometry_.GetTriangle(t + 1).GetFaceNum();
+      mesh_->GetFaceDescriptor(face).SetDomainIn(surface_.triangle_material[index(t)]);
+    }
+  }
+
+  // A face of NETGEN's is all of a patch or a part of it: it keeps to our feature edges.
+  void take_own_numbers()
+  {
+    std::vector<LocalIndex> patch_of_face(index(geometry_.GetNOFaces()) + 1);
+    std::vector<LocalIndex> material_of_patch(index(features_.num_patches()));
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+      const LocalIndex patch = features_.triangle_patch[index(t)];
+      patch_of_face[index(geometry_.GetTriangle(t + 1).GetFaceNum())] = patch;
+      material_of_patch[index(patch)] = surface_.triangle_material[index(t)];
+    }
+    for (auto& element : mesh_->SurfaceElements()) {
+      element.SetIndex(patch_of_face[index(element.GetIndex())] + 1);
+    }
+    mesh_->ClearFaceDescriptors();
+    for (LocalIndex p = 0; p < features_.num_patches(); ++p) {
+      mesh_->AddFaceDescriptor(::netgen::FaceDescriptor(p + 1, material_of_patch[index(p)], 0, 0));
+    }
+  }
+
+  GeometryNumbers numbers()
+  {
+    const auto patch = [](const ::netgen::FaceDescriptor& face) { return face.SurfNr() - 1; };
+    GeometryNumbers numbers;
+    numbers.surface = patch;
+    numbers.patch_name = [this, patch](const ::netgen::FaceDescriptor& face) {
+      return features_.patch_names[index(patch(face))];
+    };
+    numbers.material_name = [this](int domain) {
+      return surface_.material_names[index(domain - 1)];
+    };
+    numbers.curve = [this](const ::netgen::Segment& segment) { return curve_of(segment); };
+    return numbers;
+  }
+
+  // A line of NETGEN's runs along one curve: both end where not two feature edges meet.
+  LocalIndex curve_of(const ::netgen::Segment& segment)
+  {
+    const ::netgen::STLLine& line = *geometry_.GetLine(segment.edgenr);
+    return features_.curve_of_edge(our_vertex_[index(line.PNum(1))],
+                                   our_vertex_[index(line.PNum(2))]);
+  }
+
+  const model::TriangleSurface& surface_;
+  const model::SurfaceFeatures& features_;
+  const std::string& name_;
+  double scale_;
+  StlParameters stl_parameters_;
+  NetgenSession session_;
+  ::netgen::STLGeometry geometry_{};
+  std::shared_ptr<::netgen::Mesh> mesh_{};
+  std::vector<LocalIndex> our_vertex_{};  // of NETGEN's vertices, which count from 1
+};
+
+}  // namespace
+
+mesh::CoarseMesh mesh_stl_surface(const model::TriangleSurface& surface,
+                                  const model::SurfaceFeatures& features,
+                                  const coarse::CoarseOptions& options, const std::string& name)
+{
+  return StlMeshing(surface, features, options, name).run();
+}
+
+}  // namespace tessera::netgen

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "tessera/coarse/options.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/model/surface_features.hpp"
+#include "tessera/model/triangle_surface.hpp"
+
+namespace tessera::netgen {
+
+/// @brief Coarse mesh of an STL surface by NETGEN's STL mesher, with our patches and curves.
+///
+/// NETGEN gets our triangles and our feature edges and no other, so it never decides by an angle of
+/// its own; what edges it adds inside a patch, to start a face or to unroll it, are not segments of
+/// the result.
+/// @param name  What messages call the model.
+/// @note May crash or hang inside NETGEN.
+/// @throws NetgenError if NETGEN gives up or the result is not a valid mesh.
+[[nodiscard]] mesh::CoarseMesh mesh_stl_surface(const model::TriangleSurface& surface,
+                                                const model::SurfaceFeatures& features,
+                                                const coarse::CoarseOptions& options,
+                                                const std::string& name);
+
+}  // namespace tessera::netgen

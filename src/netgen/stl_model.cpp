@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tessera/base/error.hpp"
+#include "tessera/model/nearest_point.hpp"
+#include "tessera/model/stl_file.hpp"
+#include "tessera/model/surface_features.hpp"
+#include "tessera/model/triangle_surface.hpp"
+
+#include "netgen/loaded_model.hpp"
+#include "netgen/stl_mesher.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+constexpr double kTolerance = 1e-8;  // of the box diagonal, as Model promises
+
+std::vector<model::TriangleSearch> searches_of_patches(const model::TriangleSurface& surface,
+                                                       const model::SurfaceFeatures& features)
+{
+  std::vector<std::vector<std::array<Vec3, 3>>> patch_triangles(features.patch_names.size());
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+    const auto patch = features.triangle_patch[static_cast<std::size_t>(t)];
+    patch_triangles[static_cast<std::size_t>(patch)].push_back(surface.corners(t));
+  }
+  return {patch_triangles.begin(), patch_triangles.end()};
+}
+
+std::vector<model::SegmentSearch> searches_of_curves(const model::TriangleSurface& surface,
+                                                     const model::SurfaceFeatures& features)
+{
+  std::vector<model::SegmentSearch> searches;
+  for (LocalIndex c = 0; c < features.num_curves(); ++c) {
+    const auto vertices = features.curve(c);
+    std::vector<std::array<Vec3, 2>> segments;
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+      segments.push_back({surface.position(vertices[i - 1]), surface.position(vertices[i])});
+    }
+    searches.emplace_back(segments);
+  }
+  return searches;
+}
+
+// Projection of our own: NETGEN's depends on the order of its arguments and needs charts that exist
+// only after meshing.
+class StlModel final : public LoadedModel {
+ public:
+  StlModel(model::TriangleSurface surface, double feature_angle_deg, std::string name)
+      : surface_(std::move(surface)),
+        features_(model::find_features(surface_, feature_angle_deg)),
+        patch_search_(searches_of_patches(surface_, features_)),
+        curve_search_(searches_of_curves(surface_, features_)),
+        box_diagonal_(model::box_diagonal(surface_)),
+        name_(std::move(name))
+  {
+  }
+
+  [[nodiscard]] bool has_parameters() const override { return false; }
+  [[nodiscard]] double surface_tolerance(LocalIndex) const override
+  {
+    return kTolerance * box_diagonal_;
+  }
+  [[nodiscard]] double curve_tolerance(LocalIndex) const override
+  {
+    return kTolerance * box_diagonal_;
+  }
+  [[nodiscard]] double box_diagonal() const override { return box_diagonal_; }
+
+  [[nodiscard]] model::SurfacePoint project_to_surface(
+      LocalIndex surface, const Vec3& point, const model::SurfaceParameters&) const override
+  {
+    const auto& search = patch_search_.at(static_cast<std::size_t>(surface));
+    return {found(search.nearest(point)), {}};
+  }
+
+  [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
+                                                   double) const override
+  {
+    const auto& search = curve_search_.at(static_cast<std::size_t>(curve));
+    return {found(search.nearest(point)), 0.0};
+  }
+
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override
+  {
+    return mesh_stl_surface(surface_, features_, options, name_);
+  }
+
+ private:
+  // Nothing is near a point that is not finite.
+  [[nodiscard]] Vec3 found(const model::NearestPoint& nearest) const
+  {
+    if (nearest.part == kNoIndex) throw GeometryError(name_ + ": no nearest point found");
+    return nearest.xyz;
+  }
+
+  model::TriangleSurface surface_;
+  model::SurfaceFeatures features_;
+  std::vector<model::TriangleSearch> patch_search_;
+  std::vector<model::SegmentSearch> curve_search_;
+  double box_diagonal_;
+  std::string name_;
+};
+
+}  // namespace
+
+model::ModelSource import_stl(const std::filesystem::path& file,
+                              const model::ImportOptions& options)
+{
+  model::CheckedSurface checked = model::check_surface(model::read_stl(file), file.string());
+  ByteWriter content;
+  content.put(options.feature_angle_deg);
+  content.put(model::to_bytes(checked.surface));
+  return {.format = model::Format::stl,
+          .file_name = file.string(),
+          .length_unit = {},
+          .content = std::move(content).take(),
+          .repairs = std::move(checked.repairs)};
+}
+
+std::unique_ptr<LoadedModel> load_stl(const model::ModelSource& source)
+{
+  ByteReader content(source.content);
+  const auto feature_angle_deg = content.get<double>();
+  model::TriangleSurface surface =
+      model::triangle_surface_from_bytes(content.get_vector<std::byte>());
+  return std::make_unique<StlModel>(std::move(surface), feature_angle_deg, source.file_name);
+}
+
+}  // namespace tessera::netgen

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/model/triangle_surface.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
+
+#include "support/stl_models.hpp"
+
+namespace tessera::model {
+namespace {
+
+using testing::cube_soup;
+using testing::joined;
+using testing::sphere_soup;
+
+double enclosed_volume(const TriangleSurface& surface)
+{
+  double volume = 0.0;
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+    const auto [a, b, c] = surface.corners(t);
+    volume += tet_volume({}, a, b, c);
+  }
+  return volume;
+}
+
+void turn_all(TriangleSoup& soup)
+{
+  for (LocalIndex t = 0; t < soup.num_triangles(); ++t) testing::turn_triangle(soup, t);
+}
+
+// What check_surface() says of a soup it refuses; empty if it does not.
+std::string refusal_of(const TriangleSoup& soup)
+{
+  try {
+    (void)check_surface(soup, "part.stl");
+  } catch (const GeometryError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool has(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+TEST(TriangleSurface, SoundCubeNeedsNoRepair)
+{
+  const CheckedSurface checked = check_surface(cube_soup(), "cube");
+  EXPECT_TRUE(checked.repairs.empty());
+  EXPECT_EQ(checked.surface.num_vertices(), 8);
+  EXPECT_EQ(checked.surface.num_triangles(), 12);
+  EXPECT_DOUBLE_EQ(enclosed_volume(checked.surface), 1.0);
+  EXPECT_EQ(checked.surface.material_names, std::vector<std::string>{"material_1"});
+}
+
+TEST(TriangleSurface, HoleIsRefusedWithItsEdges)
+{
+  TriangleSoup soup = cube_soup();
+  testing::remove_triangle(soup, 11);
+  const std::string message = refusal_of(soup);
+  EXPECT_TRUE(has(message, "part.stl: surface is not closed: only one triangle at 3 edges"))
+      << message;
+  EXPECT_TRUE(has(message, "(0, 0, 1) - (1, 1, 1)") || has(message, "(1, 1, 1) - (0, 0, 1)"))
+      << message;
+}
+
+TEST(TriangleSurface, EdgeWithThreeTrianglesIsRefusedWithItsPlace)
+{
+  TriangleSoup soup = cube_soup();
+  soup.corner_xyz.insert(soup.corner_xyz.end(), {0, 0, 0, 1, 0, 0, 0.5, -1, -1});
+  soup.triangle_solid.push_back(0);
+  const std::string message = refusal_of(soup);
+  EXPECT_TRUE(has(message, "more than two triangles at 1 edge, first (0, 0, 0) - (1, 0, 0)")
+              || has(message, "more than two triangles at 1 edge, first (1, 0, 0) - (0, 0, 0)"))
+      << message;
+}
+
+TEST(TriangleSurface, CubesThatShareAnEdgeAreRefused)
+{
+  EXPECT_TRUE(has(refusal_of(joined(cube_soup(), cube_soup({1.0, 1.0, 0.0}))),
+                  "more than two triangles at 1 edge"));
+}
+
+TEST(TriangleSurface, TurnedTrianglesAreTurnedBackAndCounted)
+{
+  TriangleSoup soup = sphere_soup(3);
+  for (const LocalIndex t : {0, 17, 18, 200}) testing::turn_triangle(soup, t);
+  const CheckedSurface checked = check_surface(soup, "sphere");
+  EXPECT_EQ(checked.repairs,
+            std::vector<std::string>{"4 triangles turned to agree with the neighbours"});
+  EXPECT_EQ(to_bytes(checked.surface), to_bytes(check_surface(sphere_soup(3), "").surface));
+}
+
+TEST(TriangleSurface, BodyInsideOutIsTurned)
+{
+  TriangleSoup soup = cube_soup();
+  turn_all(soup);
+  const CheckedSurface checked = check_surface(soup, "cube");
+  EXPECT_EQ(checked.repairs, std::vector<std::string>{"1 shell of 1 turned: the inside was out"});
+  EXPECT_DOUBLE_EQ(enclosed_volume(checked.surface), 1.0);
+}
+
+TEST(TriangleSurface, ShellInsideAnotherBoundsACavityWhicheverWayItCame)
+{
+  const TriangleSoup outer = cube_soup({-1.0, -1.0, -1.0}, 3.0);
+  TriangleSoup inner = cube_soup();
+  const CheckedSurface turned = check_surface(joined(inner, outer), "cubes");
+  EXPECT_EQ(turned.repairs, std::vector<std::string>{"1 shell of 2 turned: the inside was out"});
+  EXPECT_DOUBLE_EQ(enclosed_volume(turned.surface), 26.0);
+
+  turn_all(inner);
+  const CheckedSurface sound = check_surface(joined(inner, outer), "cubes");
+  EXPECT_TRUE(sound.repairs.empty());
+  EXPECT_DOUBLE_EQ(enclosed_volume(sound.surface), 26.0);
+  EXPECT_EQ(sound.surface.material_names.size(), 1U);
+}
+
+TEST(TriangleSurface, BodyInACavityPointsOutwardsAgain)
+{
+  const TriangleSoup shells = joined(
+      joined(cube_soup({-2.0, -2.0, -2.0}, 5.0), cube_soup({-1.0, -1.0, -1.0}, 3.0)), cube_soup());
+  EXPECT_DOUBLE_EQ(enclosed_volume(check_surface(shells, "cubes").surface), 125.0 - 27.0 + 1.0);
+}
+
+TEST(TriangleSurface, RepeatedAndDegenerateTrianglesAreDroppedAndCounted)
+{
+  TriangleSoup soup = cube_soup();
+  soup = joined(soup, cube_soup());  // all twice
+  testing::turn_triangle(soup, 12);
+  soup.corner_xyz.insert(soup.corner_xyz.end(), {0, 0, 0, 1, 0, 0, 0, 0, 0});
+  soup.triangle_solid.push_back(0);
+  const CheckedSurface checked = check_surface(soup, "cube");
+  EXPECT_EQ(checked.repairs,
+            (std::vector<std::string>{"1 triangle with fewer than three different corners dropped",
+                                      "12 repeated triangles dropped"}));
+  EXPECT_EQ(checked.surface.num_triangles(), 12);
+}
+
+TEST(TriangleSurface, CornersThatDifferByRoundingAreJoinedAndSaidSo)
+{
+  TriangleSoup soup = sphere_soup(2);
+  for (std::size_t i = 0; i < soup.corner_xyz.size(); i += 7) soup.corner_xyz[i] += 1e-9;
+  const CheckedSurface checked = check_surface(soup, "sphere");
+  ASSERT_FALSE(checked.repairs.empty());
+  EXPECT_TRUE(has(checked.repairs.front(), "vertices of open edges joined"));
+  EXPECT_EQ(checked.surface.num_vertices(), 2 + checked.surface.num_triangles() / 2);
+}
+
+TEST(TriangleSurface, GapWiderThanTheToleranceStaysAnError)
+{
+  TriangleSoup soup = cube_soup();
+  soup.corner_xyz[0] += 1e-4;
+  EXPECT_TRUE(has(refusal_of(soup), "surface is not closed"));
+}
+
+TEST(TriangleSurface, OneSidedSurfaceIsRefused)
+{
+  // The projective plane with six vertices: closed, every edge has two triangles, one-sided.
+  constexpr int triangles[10][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},
+                                    {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
+  constexpr double xyz[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, 2, 3}};
+  TriangleSoup soup;
+  soup.solid_names = {""};
+  for (const auto& triangle : triangles) {
+    for (const int v : triangle) {
+      soup.corner_xyz.insert(soup.corner_xyz.end(), xyz[v], xyz[v] + 3);
+    }
+    soup.triangle_solid.push_back(0);
+  }
+  EXPECT_TRUE(has(refusal_of(soup), "one-sided"));
+}
+
+TEST(TriangleSurface, FlatShellIsRefused)
+{
+  TriangleSoup soup = cube_soup();
+  for (std::size_t i = 2; i < soup.corner_xyz.size(); i += 3) soup.corner_xyz[i] *= 1e-14;
+  EXPECT_NE(refusal_of(soup), "");
+}
+
+TEST(TriangleSurface, SolidsWithABodyEachBecomeMaterialsWithTheirNames)
+{
+  TriangleSoup both = joined(cube_soup(), cube_soup({2.0, 0.0, 0.0}));
+  both.solid_names = {"steel", "copper"};
+  const TriangleSurface surface = check_surface(both, "").surface;
+  EXPECT_EQ(surface.material_names, (std::vector<std::string>{"steel", "copper"}));
+  EXPECT_EQ(surface.triangle_material.front(), 1);
+  EXPECT_EQ(surface.triangle_material.back(), 2);
+}
+
+TEST(TriangleSurface, SolidsAroundOneBodyAreNoMaterials)
+{
+  TriangleSoup soup = cube_soup();
+  soup.solid_names = {"inlet", "wall"};
+  std::fill(soup.triangle_solid.begin() + 2, soup.triangle_solid.end(), 1);
+  const TriangleSurface surface = check_surface(soup, "").surface;
+  EXPECT_EQ(surface.material_names, std::vector<std::string>{"material_1"});
+}
+
+TEST(TriangleSurface, BytesComeBackEqualAndDamagedOnesAreRefused)
+{
+  const TriangleSurface surface = check_surface(sphere_soup(2), "").surface;
+  const Bytes bytes = to_bytes(surface);
+  EXPECT_EQ(to_bytes(triangle_surface_from_bytes(bytes)), bytes);
+  EXPECT_THROW((void)triangle_surface_from_bytes(std::span(bytes).first(bytes.size() - 1)),
+               InputError);
+  TriangleSurface damaged = surface;
+  damaged.triangle_vertices[5] = damaged.num_vertices();
+  EXPECT_THROW((void)triangle_surface_from_bytes(to_bytes(damaged)), InputError);
+}
+
+}  // namespace
+}  // namespace tessera::model
