@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/netgen/factory.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <string_view>
+
+#include "tessera/base/error.hpp"
+
+#include "netgen/loaded_model.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+namespace fs = std::filesystem;
+using model::ImportOptions;
+using model::ModelSource;
+
+struct FileKind {
+  std::string_view extension;  // Lower case.
+  ModelSource (*import)(const fs::path& file, const ImportOptions& options);
+};
+
+constexpr FileKind kFileKinds[] = {
+    {".geo", [](const fs::path& file, const ImportOptions&) { return import_csg(file); }},
+};
+
+std::string lower_case_extension(const fs::path& file)
+{
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+[[noreturn]] void throw_unknown_kind(const fs::path& file)
+{
+  std::string allowed;
+  for (const FileKind& kind : kFileKinds) {
+    allowed += (allowed.empty() ? "" : " ") + std::string(kind.extension);
+  }
+  throw InputError(file.string()
+                   + ": not a kind of CAD file that is known by its extension; known are "
+                   + allowed);
+}
+
+const FileKind& kind_of(const fs::path& file)
+{
+  const std::string extension = lower_case_extension(file);
+  for (const FileKind& kind : kFileKinds) {
+    if (kind.extension == extension) return kind;
+  }
+  throw_unknown_kind(file);
+}
+
+// Says what is wrong before a reader of NETGEN or OpenCASCADE, whose words help less, sees the
+// file.
+void require_readable(const fs::path& file)
+{
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) {
+    throw InputError(file.string() + ": no such file; check geometry.file, which is relative to the "
+                     "case file's folder");
+  }
+  if (status.type() == fs::file_type::directory) {
+    throw InputError(file.string() + ": is a folder; name a CAD file in it");
+  }
+  if (!std::ifstream(file, std::ios::binary)) {
+    throw InputError(file.string() + ": cannot be read; check its permissions");
+  }
+  if (status.type() == fs::file_type::regular && fs::file_size(file, error) == 0 && !error) {
+    throw InputError(file.string() + ": is empty; export the model again");
+  }
+}
+
+// What load_model() made, seen as a mesher; the model stays the caller's.
+class MesherOfModel final : public coarse::CoarseMesher {
+ public:
+  explicit MesherOfModel(const LoadedModel& model) : model_(model) {}
+
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override
+  {
+    return model_.generate(options);
+  }
+
+ private:
+  const LoadedModel& model_;
+};
+
+}  // namespace
+
+model::ModelSource import_model(const fs::path& file, const ImportOptions& options)
+{
+  const FileKind& kind = kind_of(file);
+  require_readable(file);
+  return kind.import(file, options);
+}
+
+std::unique_ptr<model::Model> load_model(const ModelSource& source)
+{
+  switch (source.format) {
+    case model::Format::csg:
+      return load_csg(source);
+    default:
+      throw InputError(source.file_name + ": unknown format of model");
+  }
+}
+
+std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model)
+{
+  const auto* loaded = dynamic_cast<const LoadedModel*>(&model);
+  if (loaded == nullptr) throw MeshError("a coarse mesher needs a model of load_model()");
+  return std::make_unique<MesherOfModel>(*loaded);
+}
+
+}  // namespace tessera::netgen

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/mesh_conversion.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+using ::netgen::PointIndex;
+
+// Builds the coarse mesh array by array; each step needs the ones before it.
+class Conversion {
+ public:
+  Conversion(const ::netgen::Mesh& from, const GeometryNumbers& numbers)
+      : from_(from), numbers_(numbers)
+  {
+  }
+
+  mesh::CoarseMesh run()
+  {
+    keep_vertices_of_tets();
+    add_tets();
+    add_patches();
+    add_faces();
+    if (numbers_.curve) add_segments();
+    return std::move(to_);
+  }
+
+ private:
+  void keep_vertices_of_tets()
+  {
+    new_vertex_.assign(from_.GetNP(), kNoIndex);
+    for (const auto& element : from_.VolumeElements()) {
+      if (element.IsDeleted()) continue;
+      if (element.GetType() != ::netgen::TET) throw NetgenError("a volume element is no tet");
+      for (int c = 0; c < 4; ++c) new_vertex_.at(place(element[c])) = 0;
+    }
+    LocalIndex next = 0;
+    for (std::size_t v = 0; v < new_vertex_.size(); ++v) {
+      if (new_vertex_[v] == kNoIndex) continue;
+      new_vertex_[v] = next++;
+      const auto& point = from_[PointIndex(static_cast<int>(v) + PointIndex::BASE)];
+      for (int axis = 0; axis < 3; ++axis) to_.vertex_xyz.push_back(point(axis));
+    }
+    if (next == 0) throw NetgenError("NETGEN made no tets");
+  }
+
+  void add_tets()
+  {
+    LocalIndex num_materials = 0;
+    for (const auto& element : from_.VolumeElements()) {
+      if (element.IsDeleted()) continue;
+      for (const int c : kNetgenTetOrder) to_.tet_vertices.push_back(vertex(element[c]));
+      to_.tet_material.push_back(element.GetIndex());
+      num_materials = std::max(num_materials, element.GetIndex());
+    }
+    for (LocalIndex m = 1; m <= num_materials; ++m) {
+      const std::string name = numbers_.material_name ? numbers_.material_name(m) : "";
+      to_.material_names.push_back(name.empty() ? "material_" + std::to_string(m) : name);
+    }
+  }
+
+  // Face descriptors without triangles (edges that NETGEN removed) become no patch.
+  void add_patches()
+  {
+    patch_of_descriptor_.assign(static_cast<std::size_t>(from_.GetNFD()) + 1, kNoIndex);
+    for (const auto& element : from_.SurfaceElements()) {
+      if (!element.IsDeleted()) patch_of_descriptor_.at(descriptor(element)) = 0;
+    }
+    for (std::size_t d = 1; d < patch_of_descriptor_.size(); ++d) {
+      if (patch_of_descriptor_[d] == kNoIndex) continue;
+      patch_of_descriptor_[d] = to_.num_patches();
+      const auto& face = from_.GetFaceDescriptor(static_cast<int>(d));
+      const std::string name = numbers_.patch_name ? numbers_.patch_name(face) : "";
+      to_.patch_surface.push_back(numbers_.surface(face));
+      to_.patch_names.push_back(name.empty() ? "patch_" + std::to_string(to_.num_patches() + 1)
+                                             : name);
+    }
+  }
+
+  void add_faces()
+  {
+    for (const auto& element : from_.SurfaceElements()) {
+      if (element.IsDeleted()) continue;
+      if (element.GetType() != ::netgen::TRIG)
+        throw NetgenError("a surface element is no triangle");
+      to_.face_patch.push_back(patch_of_descriptor_.at(descriptor(element)));
+      for (int c = 0; c < 3; ++c) {
+        to_.face_vertices.push_back(vertex(element[c]));
+        if (!numbers_.uv) continue;
+        const model::SurfaceParameters uv = numbers_.uv(element, c);
+        to_.face_uv.insert(to_.face_uv.end(), uv.begin(), uv.end());
+      }
+    }
+  }
+
+  void add_segments()
+  {
+    for (const ::netgen::Segment& segment : from_.LineSegments()) {
+      if (!segment[0].IsValid()) continue;  // Deleted.
+      const LocalIndex curve = numbers_.curve(segment);
+      const std::array<LocalIndex, 2> ends{vertex(segment[0]), vertex(segment[1])};
+      if (curve == kNoIndex || ends[0] == kNoIndex || ends[1] == kNoIndex) continue;
+      to_.segment_vertices.insert(to_.segment_vertices.end(), ends.begin(), ends.end());
+      to_.segment_curve.push_back(curve);
+      if (!numbers_.t) continue;
+      for (int end = 0; end < 2; ++end) to_.segment_t.push_back(numbers_.t(segment, end));
+    }
+  }
+
+  static std::size_t place(PointIndex p) { return static_cast<std::size_t>(p - PointIndex::BASE); }
+  static std::size_t descriptor(const ::netgen::Element2d& element)
+  {
+    return static_cast<std::size_t>(element.GetIndex());
+  }
+  [[nodiscard]] LocalIndex vertex(PointIndex p) const { return new_vertex_.at(place(p)); }
+
+  const ::netgen::Mesh& from_;
+  const GeometryNumbers& numbers_;
+  std::vector<LocalIndex> new_vertex_{};           // kNoIndex: no vertex of a tet.
+  std::vector<LocalIndex> patch_of_descriptor_{};  // Descriptors count from 1.
+  mesh::CoarseMesh to_{};
+};
+
+}  // namespace
+
+mesh::CoarseMesh to_coarse_mesh(const ::netgen::Mesh& from, const GeometryNumbers& numbers,
+                                const std::string& what)
+{
+  try {
+    mesh::CoarseMesh mesh = Conversion(from, numbers).run();
+    mesh::validate(mesh);
+    return mesh;
+  } catch (const MeshError& error) {
+    throw NetgenError(what + ": " + error.what());
+  }
+}
+
+}  // namespace tessera::netgen

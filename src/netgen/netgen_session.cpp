@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/netgen_session.hpp"
+
+#include <iostream>
+#include <sstream>
+#include <typeinfo>
+
+#include <Standard_Failure.hxx>
+
+#include "tessera/base/error.hpp"
+
+// Defined in libinterface.so and declared in no header of NETGEN 6.2.1905.
+namespace netgen {
+extern DLL_HEADER MeshingParameters mparam;
+}
+
+namespace tessera::netgen {
+namespace {
+
+// Swallows everything. NETGEN dereferences testout without a check, so it must be a stream.
+class NullBuffer final : public std::streambuf {
+  int_type overflow(int_type c) override { return traits_type::not_eof(c); }
+  std::streamsize xsputn(const char*, std::streamsize n) override { return n; }
+};
+
+// Passes everything on to standard error and keeps the end of it.
+class KeepingBuffer final : public std::streambuf {
+ public:
+  [[nodiscard]] const std::string& kept() const { return kept_; }
+  void clear() { kept_.clear(); }
+
+ private:
+  static constexpr std::size_t kMostKept =
+      2000;  // Characters; a loop of warnings must not fill memory.
+
+  int_type overflow(int_type c) override
+  {
+    if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+    const char character = traits_type::to_char_type(c);
+    xsputn(&character, 1);
+    return c;
+  }
+
+  std::streamsize xsputn(const char* text, std::streamsize n) override
+  {
+    std::cerr.write(text, n);
+    kept_.append(text, static_cast<std::size_t>(n));
+    if (kept_.size() > 2 * kMostKept) kept_.erase(0, kept_.size() - kMostKept);
+    return n;
+  }
+
+  std::string kept_;
+};
+
+// Runs of white space, line ends among them, become one blank.
+std::string on_one_line(const std::string& text)
+{
+  std::istringstream in(text);
+  std::string line;
+  for (std::string word; in >> word;) line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
+std::string message_of_current_exception()
+{
+  try {
+    throw;
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (const Standard_Failure& failure) {
+    return std::string(failure.DynamicType()->Name()) + ": " + failure.GetMessageString();
+  } catch (...) {
+    return "an exception of unknown type";
+  }
+}
+
+}  // namespace
+
+::netgen::MeshingParameters coarse_parameters(const coarse::CoarseOptions& options)
+{
+  ::netgen::MeshingParameters parameters;
+  parameters.maxh = options.max_size;
+  parameters.grading = options.grading;
+  parameters.curvaturesafety = options.curvature;
+  return parameters;
+}
+
+struct NetgenSession::Saved {
+  ::netgen::MeshingParameters parameters = ::netgen::mparam;
+  int message_level = ::netgen::printmessage_importance;
+  std::ostream* messages = ::netgen::mycout;
+  std::ostream* errors = ::netgen::myerr;
+  std::ostream* test = ngcore::testout;
+
+  NullBuffer null_buffer{};
+  KeepingBuffer keeping_buffer{};
+  std::ostream null_stream{&null_buffer};
+  std::ostream keeping_stream{&keeping_buffer};
+};
+
+NetgenSession::NetgenSession(const ::netgen::MeshingParameters& parameters)
+    : saved_(std::make_unique<Saved>())
+{
+  ::netgen::mparam = parameters;
+  ::netgen::printmessage_importance = 1;  // The main steps only.
+  ::netgen::mycout = &std::cout;
+  ::netgen::myerr = &saved_->keeping_stream;
+  ngcore::testout = &saved_->null_stream;
+  ::netgen::multithread.terminate = 0;
+}
+
+NetgenSession::~NetgenSession()
+{
+  ::netgen::mparam = saved_->parameters;
+  ::netgen::printmessage_importance = saved_->message_level;
+  ::netgen::mycout = saved_->messages;
+  ::netgen::myerr = saved_->errors;
+  ngcore::testout = saved_->test;
+}
+
+::netgen::MeshingParameters& NetgenSession::parameters() { return ::netgen::mparam; }
+
+std::string NetgenSession::words() const { return on_one_line(saved_->keeping_buffer.kept()); }
+
+void NetgenSession::forget_words() { saved_->keeping_buffer.clear(); }
+
+void NetgenSession::throw_translated(const std::string& what) const
+{
+  try {
+    throw;
+  } catch (const Error&) {
+    throw;
+  } catch (...) {
+    const std::string said = words();
+    throw NetgenError(what + ": " + on_one_line(message_of_current_exception())
+                      + (said.empty() ? "" : " (" + said + ")"));
+  }
+}
+
+}  // namespace tessera::netgen
