@@ -25,6 +25,11 @@ struct FileKind {
 
 constexpr FileKind kFileKinds[] = {
     {".geo", [](const fs::path& file, const ImportOptions&) { return import_csg(file); }},
+    {".step", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".stp", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".iges", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".igs", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".brep", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
 };
 
 std::string lower_case_extension(const fs::path& file)
@@ -104,6 +109,8 @@ std::unique_ptr<model::Model> load_model(const ModelSource& source)
   switch (source.format) {
     case model::Format::csg:
       return load_csg(source);
+    case model::Format::occ:
+      return load_occ(source);
     default:
       throw InputError(source.file_name + ": unknown format of model");
   }

@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "occ_curve.hpp"
+#include "netgen/occ_curve.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 #include <BRep_Tool.hxx>
 #include <GeomAbs_CurveType.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <gp_Vec.hxx>
 
-#include "occ_descent.hpp"
+#include "netgen/occ_descent.hpp"
 
 namespace tessera::netgen {
 namespace {
 
-/// Enough starts that two extrema between neighbouring samples are unlikely: several a span.
+// Enough starts that two extrema between neighbouring samples are unlikely: several a span.
 int sample_count(const Handle(Geom_Curve) & curve, double first, double last)
 {
   const GeomAdaptor_Curve adaptor(curve, first, last);
   switch (adaptor.GetType()) {
-    case GeomAbs_Line: return 2;
+    case GeomAbs_Line:
+      return 2;
     case GeomAbs_BSplineCurve:
     case GeomAbs_BezierCurve:
       return std::clamp(4 * adaptor.NbIntervals(GeomAbs_C2) + adaptor.Degree(), 16, 256);
-    default: return 24;
+    default:
+      return 24;
   }
 }
 
@@ -88,18 +90,18 @@ OccCurve::Descent OccCurve::descend(const Vec3& point, double guess) const
     for (int halvings = 0; halvings < kMaxHalvings; ++halvings, step *= 0.5) {
       next = std::clamp(t + step, first_, last_);
       next_distance = curve_->Value(next).Distance(target);
-      if (next_distance <= distance) break;
+      if (next_distance <= distance + kRounding * box_diagonal_) break;
     }
     const double moved = curve_->Value(next).Distance(curve_->Value(t));
     converged = moved <= kConvergedStep * box_diagonal_;
-    if (next_distance > distance) break;
+    if (next_distance > distance + kRounding * box_diagonal_) break;
     t = next;
     distance = next_distance;
   }
   return {{from_occ(curve_->Value(t)), t}, distance, converged};
 }
 
-/// Newton's step for the squared distance; Gauss-Newton's where that is no descent direction.
+// Newton's step for the squared distance; Gauss-Newton's where that is no descent direction.
 double OccCurve::step_at(const gp_Pnt& target, double t) const
 {
   gp_Pnt value;

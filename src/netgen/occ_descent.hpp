@@ -19,6 +19,14 @@ inline constexpr int kMaxDescentSteps = 60;
 inline constexpr int kMaxHalvings = 30;
 /// Newton's matrix counts as singular below this fraction of Gauss-Newton's.
 inline constexpr double kMinRelativePivot = 1e-3;
+/// Distances count as equal below this: a descent must not stop early because rounding hides the
+/// last gains, which are quadratically small.
+inline constexpr double kRounding = 1e-14;
+/// A parameter direction is degenerate (pole, apex) where its whole range is shorter than this.
+inline constexpr double kPoleLength = 1e-7;
+/// How far past the end of its domain the parameter of a point on a seam may come out, in periods,
+/// and still be set to that end: vertices are off their seam by the CAD tolerance.
+inline constexpr double kSeamFraction = 1e-4;
 inline constexpr double kFarAway = 1e300;
 
 }  // namespace tessera::netgen

@@ -16,12 +16,11 @@ auto with_occ_errors(const std::string& what, Work&& work)
 {
   try {
     return work();
-  }
-  catch (const Standard_Failure& failure) {
+  } catch (const Standard_Failure& failure) {
     const char* words = failure.GetMessageString();
     const std::string reason = words != nullptr && *words != '\0' ? words : "no reason given";
-    throw GeometryError(what + ": OpenCASCADE says " + failure.DynamicType()->Name() + " ("
-                        + reason + ")");
+    throw GeometryError(what + ": OpenCASCADE says " + failure.DynamicType()->Name() + " (" + reason
+                        + ")");
   }
 }
 
