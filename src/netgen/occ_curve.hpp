@@ -48,9 +48,9 @@ class OccCurve {
   [[nodiscard]] Descent descend(const Vec3& point, double guess) const;
   [[nodiscard]] double step_at(const gp_Pnt& target, double t) const;
 
-  Handle(Geom_Curve) curve_;
   double first_ = 0.0;
   double last_ = 0.0;
+  Handle(Geom_Curve) curve_;  ///< Sets the two above when it is read from the edge.
   double tolerance_ = 0.0;
   double box_diagonal_ = 0.0;
   int num_samples_ = 0;  ///< Starts of the global search.
