@@ -26,6 +26,11 @@ struct FileKind {
 constexpr FileKind kFileKinds[] = {
     {".geo", [](const fs::path& file, const ImportOptions&) { return import_csg(file); }},
     {".stl", import_stl},
+    {".step", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".stp", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".iges", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".igs", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".brep", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
 };
 
 std::string lower_case_extension(const fs::path& file)
@@ -107,6 +112,8 @@ std::unique_ptr<model::Model> load_model(const ModelSource& source)
       return load_csg(source);
     case model::Format::stl:
       return load_stl(source);
+    case model::Format::occ:
+      return load_occ(source);
     default:
       throw InputError(source.file_name + ": unknown format of model");
   }

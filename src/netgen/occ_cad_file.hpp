@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <NCollection_DataMap.hxx>
+#include <TopTools_ShapeMapHasher.hxx>
+#include <TopoDS_Shape.hxx>
+
+namespace tessera::netgen {
+
+/// @brief Names of faces and solids; a shape and its reverse are the same key.
+using ShapeNames = NCollection_DataMap<TopoDS_Shape, std::string, TopTools_ShapeMapHasher>;
+
+/// @brief What a STEP, IGES or BREP file holds, coordinates in the file's own length unit.
+struct CadFile {
+  TopoDS_Shape shape{};
+  ShapeNames names{};                  ///< Only those that the file names.
+  std::string length_unit{};           ///< "mm", "m", "in", …; empty if the file does not say.
+  std::vector<std::string> repairs{};  ///< What was changed since, one line each.
+};
+
+/// @brief Reads a file by its extension: .step .stp .iges .igs .brep .brp (text or binary).
+/// @throws InputError if it is unreadable, truncated or not what its name says.
+[[nodiscard]] CadFile read_cad_file(const std::filesystem::path& file);
+
+/// @brief Makes `cad.shape` one closed, valid solid, or a compound of several that share the faces
+/// on which they touch. Names follow their faces and solids; every change adds to `cad.repairs`.
+/// @throws GeometryError that says what the file holds instead, or what stays open.
+void make_closed_solids(CadFile& cad);
+
+}  // namespace tessera::netgen

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/occ_curve.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <BRep_Tool.hxx>
+#include <GeomAbs_CurveType.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <gp_Vec.hxx>
+
+#include "netgen/occ_descent.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+// Enough starts that two extrema between neighbouring samples are unlikely: several a span.
+int sample_count(const Handle(Geom_Curve) & curve, double first, double last)
+{
+  const GeomAdaptor_Curve adaptor(curve, first, last);
+  switch (adaptor.GetType()) {
+    case GeomAbs_Line:
+      return 2;
+    case GeomAbs_BSplineCurve:
+    case GeomAbs_BezierCurve:
+      return std::clamp(4 * adaptor.NbIntervals(GeomAbs_C2) + adaptor.Degree(), 16, 256);
+    default:
+      return 24;
+  }
+}
+
+}  // namespace
+
+OccCurve::OccCurve(const TopoDS_Edge& edge, double box_diagonal)
+    : curve_(BRep_Tool::Curve(edge, first_, last_)),
+      tolerance_(std::max(BRep_Tool::Tolerance(edge), kMinRelativeTolerance * box_diagonal)),
+      box_diagonal_(box_diagonal)
+{
+  if (curve_.IsNull()) throw GeometryError("an edge of the model has no curve in space");
+  num_samples_ = sample_count(curve_, first_, last_);
+}
+
+model::CurvePoint OccCurve::project(const Vec3& point, double guess) const
+{
+  const Descent local = descend(point, guess);
+  return local.converged ? local.point : nearest(point);
+}
+
+model::CurvePoint OccCurve::locate(const Vec3& point, double guess) const
+{
+  const Descent local = descend(point, guess);
+  if (local.converged && local.distance <= tolerance_) return local.point;
+  const model::CurvePoint global = nearest(point);
+  return norm(global.xyz - point) < local.distance ? global : local.point;
+}
+
+model::CurvePoint OccCurve::nearest(const Vec3& point) const
+{
+  // Samples that are nearer than their neighbours start a descent; the ends are candidates.
+  const gp_Pnt target = to_occ(point);
+  const auto parameter = [this](int i) { return first_ + (last_ - first_) * i / num_samples_; };
+  std::vector<double> distances;
+  for (int i = 0; i <= num_samples_; ++i) {
+    distances.push_back(curve_->Value(parameter(i)).Distance(target));
+  }
+  Descent best;
+  best.distance = kFarAway;
+  for (int i = 0; i <= num_samples_; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const bool below_left = i == 0 || distances[at] <= distances[at - 1];
+    const bool below_right = i == num_samples_ || distances[at] <= distances[at + 1];
+    if (!below_left || !below_right) continue;
+    const Descent candidate = descend(point, parameter(i));
+    if (candidate.distance < best.distance - kTieDistance * box_diagonal_) best = candidate;
+  }
+  return best.point;
+}
+
+OccCurve::Descent OccCurve::descend(const Vec3& point, double guess) const
+{
+  const gp_Pnt target = to_occ(point);
+  double t = std::clamp(guess, first_, last_);
+  double distance = curve_->Value(t).Distance(target);
+  bool converged = false;
+  for (int i = 0; i < kMaxDescentSteps && !converged; ++i) {
+    const double limit = kMaxStepFraction * (last_ - first_);
+    double step = std::clamp(step_at(target, t), -limit, limit);
+    double next = t;
+    double next_distance = distance;
+    for (int halvings = 0; halvings < kMaxHalvings; ++halvings, step *= 0.5) {
+      next = std::clamp(t + step, first_, last_);
+      next_distance = curve_->Value(next).Distance(target);
+      if (next_distance <= distance + kRounding * box_diagonal_) break;
+    }
+    const double moved = curve_->Value(next).Distance(curve_->Value(t));
+    converged = moved <= kConvergedStep * box_diagonal_;
+    if (next_distance > distance + kRounding * box_diagonal_) break;
+    t = next;
+    distance = next_distance;
+  }
+  return {{from_occ(curve_->Value(t)), t}, distance, converged};
+}
+
+// Newton's step for the squared distance; Gauss-Newton's where that is no descent direction.
+double OccCurve::step_at(const gp_Pnt& target, double t) const
+{
+  gp_Pnt value;
+  gp_Vec first_derivative;
+  gp_Vec second_derivative;
+  curve_->D2(t, value, first_derivative, second_derivative);
+  const gp_Vec offset(target, value);
+  const double gradient = offset.Dot(first_derivative);
+  const double squared_speed = first_derivative.SquareMagnitude();
+  if (squared_speed <= 0.0) return 0.0;
+  const double curvature = squared_speed + offset.Dot(second_derivative);
+  return -gradient / (curvature > kMinRelativePivot * squared_speed ? curvature : squared_speed);
+}
+
+}  // namespace tessera::netgen

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/occ_glue.hpp"
+
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <BRepBndLib.hxx>
+#include <BRep_Builder.hxx>
+#include <Bnd_Box.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS_Compound.hxx>
+
+#include "netgen/occ_shape.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+Bnd_Box box_of(const TopoDS_Shape& shape)
+{
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, Standard_False);
+  return box;
+}
+
+bool any_boxes_touch(const std::vector<TopoDS_Shape>& solids)
+{
+  std::vector<Bnd_Box> boxes;
+  for (const TopoDS_Shape& solid : solids) {
+    const Bnd_Box box = box_of(solid);
+    for (const Bnd_Box& other : boxes) {
+      if (!box.IsOut(other)) return true;
+    }
+    boxes.push_back(box);
+  }
+  return false;
+}
+
+TopoDS_Compound compound_of(const std::vector<TopoDS_Shape>& solids)
+{
+  TopoDS_Compound compound;
+  BRep_Builder().MakeCompound(compound);
+  for (const TopoDS_Shape& solid : solids) BRep_Builder().Add(compound, solid);
+  return compound;
+}
+
+int count_solids(const TopoDS_Shape& shape)
+{
+  return static_cast<int>(parts_of(shape, TopAbs_SOLID).size());
+}
+
+int count_shared_faces(const TopoDS_Shape& shape)
+{
+  TopTools_IndexedDataMapOfShapeListOfShape solids_of_face;
+  TopExp::MapShapesAndUniqueAncestors(shape, TopAbs_FACE, TopAbs_SOLID, solids_of_face);
+  int num_shared = 0;
+  for (const TopTools_ListOfShape& solids : solids_of_face) num_shared += solids.Extent() > 1;
+  return num_shared;
+}
+
+}  // namespace
+
+void follow_names(const TopoDS_Shape& shape, ShapeNames& names,
+                  const std::function<TopTools_ListOfShape(const TopoDS_Shape&)>& images_of)
+{
+  for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_FACE}) {
+    for (const TopoDS_Shape& part : parts_of(shape, kind)) {
+      if (!names.IsBound(part)) continue;
+      const std::string name = names.Find(part);
+      for (const TopoDS_Shape& image : images_of(part)) {
+        if (image.IsNull() || names.IsBound(image)) continue;
+        names.Bind(image, name);
+      }
+    }
+  }
+}
+
+TopoDS_Shape glued(const std::vector<TopoDS_Shape>& solids, CadFile& cad)
+{
+  const TopoDS_Compound apart = compound_of(solids);
+  if (!any_boxes_touch(solids)) return apart;
+  TopTools_ListOfShape arguments;
+  for (const TopoDS_Shape& solid : solids) arguments.Append(solid);
+  BRepAlgoAPI_BuilderAlgo fuse;
+  fuse.SetArguments(arguments);
+  fuse.SetNonDestructive(Standard_True);
+  fuse.SetRunParallel(Standard_False);
+  fuse.Build();
+  const int num_given = count_solids(apart);
+  if (fuse.HasErrors() || count_solids(fuse.Shape()) < num_given) {
+    cad.repairs.push_back("solids that may touch could not be glued");
+    return apart;
+  }
+  const int num_solids = count_solids(fuse.Shape());
+  const int num_shared = count_shared_faces(fuse.Shape());
+  if (num_solids == num_given && num_shared == count_shared_faces(apart)) return apart;
+  follow_names(apart, cad.names, [&](const TopoDS_Shape& part) { return fuse.Modified(part); });
+  cad.repairs.push_back("touching solids were glued: " + std::to_string(num_shared)
+                        + " shared faces");
+  if (num_solids != num_given) {
+    cad.repairs.push_back("overlapping solids were cut: " + std::to_string(num_given) + " became "
+                          + std::to_string(num_solids));
+  }
+  return fuse.Shape();
+}
+
+}  // namespace tessera::netgen

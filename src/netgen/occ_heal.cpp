@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <sstream>
+
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <ShapeBuild_ReShape.hxx>
+#include <ShapeFix_Shape.hxx>
+#include <ShapeFix_Wireframe.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+
+#include "tessera/base/error.hpp"
+
+#include "netgen/occ_cad_file.hpp"
+#include "netgen/occ_glue.hpp"
+#include "netgen/occ_shape.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+// Sewing gaps that are tried, in fractions of the box diagonal; a wider gap is no rounding.
+constexpr std::array<double, 4> kSewingGaps{1e-6, 1e-5, 1e-4, 1e-3};
+
+int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind)
+{
+  return static_cast<int>(parts_of(shape, kind).size());
+}
+
+bool is_closed(const TopoDS_Shape& solid)
+{
+  TopExp_Explorer shells(solid, TopAbs_SHELL);
+  if (!shells.More()) return false;
+  for (; shells.More(); shells.Next()) {
+    if (!BRep_Tool::IsClosed(shells.Current())) return false;
+  }
+  return true;
+}
+
+double volume_of(const TopoDS_Shape& solid)
+{
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(solid, properties);
+  return properties.Mass();
+}
+
+std::string counted(int number, const std::string& thing)
+{
+  return std::to_string(number) + " " + thing + (number == 1 ? "" : "s");
+}
+
+// "3 shells, 120 faces": what a file without a solid holds.
+std::string contents_of(const TopoDS_Shape& shape)
+{
+  std::string text;
+  const std::array<std::pair<TopAbs_ShapeEnum, const char*>, 4> kinds{{{TopAbs_SHELL, "shell"},
+                                                                       {TopAbs_FACE, "face"},
+                                                                       {TopAbs_EDGE, "edge"},
+                                                                       {TopAbs_VERTEX, "point"}}};
+  for (const auto& [kind, name] : kinds) {
+    const int number = count(shape, kind);
+    if (number == 0) continue;
+    text += (text.empty() ? "" : ", ") + counted(number, name);
+    if (kind == TopAbs_FACE) break;
+  }
+  return text.empty() ? "nothing" : text;
+}
+
+struct Sewn {
+  std::vector<TopoDS_Shape> closed_shells{};
+  int num_open_shells = 0;
+  int num_open_edges = 0;
+  double gap = 0.0;
+  std::string first_open_edge{};  // Where it is.
+};
+
+std::string place_of(const TopoDS_Edge& edge)
+{
+  const gp_Pnt point = BRep_Tool::Pnt(TopExp::FirstVertex(edge));
+  std::ostringstream text;
+  text << "(" << point.X() << ", " << point.Y() << ", " << point.Z() << ")";
+  return text.str();
+}
+
+Sewn sew(const TopoDS_Shape& faces, double gap, ShapeNames& names)
+{
+  BRepBuilderAPI_Sewing sewing(gap);
+  sewing.Add(faces);
+  sewing.Perform();
+  Sewn sewn;
+  sewn.gap = gap;
+  sewn.num_open_edges = sewing.NbFreeEdges();
+  if (sewn.num_open_edges > 0) sewn.first_open_edge = place_of(sewing.FreeEdge(1));
+  for (const TopoDS_Shape& shell : parts_of(sewing.SewedShape(), TopAbs_SHELL)) {
+    if (BRep_Tool::IsClosed(shell)) {
+      sewn.closed_shells.push_back(shell);
+    } else {
+      ++sewn.num_open_shells;
+    }
+  }
+  follow_names(faces, names, [&](const TopoDS_Shape& face) {
+    TopTools_ListOfShape images;
+    images.Append(sewing.IsModifiedSubShape(face) ? sewing.ModifiedSubShape(face) : face);
+    return images;
+  });
+  return sewn;
+}
+
+// Sews with the narrowest gap that closes everything; else the one that leaves fewest open edges.
+Sewn sew(const TopoDS_Shape& faces, ShapeNames& names)
+{
+  const double diagonal = box_diagonal_of(faces);
+  Sewn best;
+  for (const double gap : kSewingGaps) {
+    Sewn sewn = sew(faces, gap * diagonal, names);
+    const bool first = best.gap == 0.0;
+    if (first || sewn.num_open_edges < best.num_open_edges) best = std::move(sewn);
+    if (best.num_open_edges == 0) break;
+  }
+  return best;
+}
+
+std::vector<TopoDS_Shape> solids_from_faces(const TopoDS_Shape& faces, CadFile& cad)
+{
+  const Sewn sewn = sew(faces, cad.names);
+  if (sewn.closed_shells.empty()) {
+    throw GeometryError("no closed solid: after sewing with gaps up to " + std::to_string(sewn.gap)
+                        + ", " + counted(sewn.num_open_edges, "edge") + " of "
+                        + counted(count(faces, TopAbs_FACE), "face")
+                        + " bound one face only, the first at " + sewn.first_open_edge
+                        + "; close the gaps in the CAD program");
+  }
+  std::vector<TopoDS_Shape> solids;
+  for (const TopoDS_Shape& shell : sewn.closed_shells) {
+    solids.push_back(BRepBuilderAPI_MakeSolid(TopoDS::Shell(shell)).Solid());
+  }
+  std::ostringstream line;
+  line << "sewed " << counted(count(faces, TopAbs_FACE), "face") << " with gap " << sewn.gap
+       << " into " << counted(static_cast<int>(solids.size()), "solid");
+  if (sewn.num_open_shells > 0) {
+    line << "; left out " << counted(sewn.num_open_shells, "open shell");
+  }
+  cad.repairs.push_back(line.str());
+  return solids;
+}
+
+// ShapeFix on wires, faces, shells and the solid, then on small edges and gaps in wires.
+TopoDS_Shape fixed(const TopoDS_Shape& solid, ShapeNames& names)
+{
+  const Handle(ShapeBuild_ReShape) changes = new ShapeBuild_ReShape;
+  ShapeFix_Shape shape_fix(solid);
+  shape_fix.SetContext(changes);
+  shape_fix.Perform();
+  ShapeFix_Wireframe wires(shape_fix.Shape());
+  wires.SetContext(changes);
+  wires.ModeDropSmallEdges() = Standard_True;
+  wires.FixSmallEdges();
+  wires.FixWireGaps();
+  follow_names(solid, names, [&](const TopoDS_Shape& part) {
+    TopTools_ListOfShape images;
+    images.Append(changes->Apply(part));
+    return images;
+  });
+  return wires.Shape();
+}
+
+// One solid of the file as closed solids; usually itself.
+std::vector<TopoDS_Shape> healed(const TopoDS_Shape& solid, int number, CadFile& cad)
+{
+  const std::string name = "solid " + std::to_string(number);
+  const bool valid = BRepCheck_Analyzer(solid).IsValid();
+  if (valid && is_closed(solid)) return {solid};
+  const TopoDS_Shape better = fixed(solid, cad.names);
+  std::vector<TopoDS_Shape> closed;
+  for (const TopoDS_Shape& part : parts_of(better, TopAbs_SOLID)) {
+    if (is_closed(part)) closed.push_back(part);
+  }
+  const std::string was = is_closed(solid) ? "was invalid" : "was not closed";
+  if (closed.empty()) {
+    cad.repairs.push_back(name + " " + was);
+    return solids_from_faces(better, cad);
+  }
+  bool clean = true;
+  for (const TopoDS_Shape& part : closed) clean = clean && BRepCheck_Analyzer(part).IsValid();
+  cad.repairs.push_back(name + " " + was + "; its wires, faces and shells were fixed"
+                        + (clean ? "" : ", defects remain"));
+  return closed;
+}
+
+// A solid that is the outside of what was meant turns inside out.
+TopoDS_Shape outward(const TopoDS_Shape& shape, CadFile& cad)
+{
+  TopoDS_Solid solid = TopoDS::Solid(shape);
+  if (volume_of(solid) > 0.0) return solid;
+  BRepLib::OrientClosedSolid(solid);
+  if (volume_of(solid) < 0.0) solid = TopoDS::Solid(solid.Reversed());
+  cad.repairs.push_back("a solid was inside out and was turned");
+  return solid;
+}
+
+void require_curves(const TopoDS_Shape& shape)
+{
+  BRepLib::BuildCurves3d(shape);
+  for (const TopoDS_Shape& part : parts_of(shape, TopAbs_EDGE)) {
+    const TopoDS_Edge& edge = TopoDS::Edge(part);
+    double first = 0.0;
+    double last = 0.0;
+    if (BRep_Tool::Degenerated(edge)) continue;
+    if (BRep_Tool::Curve(edge, first, last).IsNull()) {
+      throw GeometryError("the edge at " + place_of(edge) + " has no curve in space");
+    }
+  }
+}
+
+std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
+{
+  const std::vector<TopoDS_Shape> given = parts_of(cad.shape, TopAbs_SOLID);
+  if (given.empty()) {
+    if (count(cad.shape, TopAbs_FACE) == 0) {
+      throw GeometryError("no solid and no face to make one of; the file holds "
+                          + contents_of(cad.shape) + ": export the model as a solid");
+    }
+    try {
+      return solids_from_faces(cad.shape, cad);
+    } catch (const GeometryError& error) {
+      throw GeometryError("no solid, only " + contents_of(cad.shape) + "; " + error.what());
+    }
+  }
+  std::vector<TopoDS_Shape> solids;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    for (const TopoDS_Shape& solid : healed(given[i], static_cast<int>(i) + 1, cad)) {
+      solids.push_back(solid);
+    }
+  }
+  TopExp_Explorer loose(cad.shape, TopAbs_FACE, TopAbs_SOLID);
+  if (loose.More()) cad.repairs.push_back("faces that belong to no solid were left out");
+  return solids;
+}
+
+}  // namespace
+
+void make_closed_solids(CadFile& cad)
+{
+  std::vector<TopoDS_Shape> solids = closed_solids(cad);
+  for (TopoDS_Shape& solid : solids) solid = outward(solid, cad);
+  cad.shape = solids.size() == 1 ? solids.front() : glued(solids, cad);
+  for (TopExp_Explorer parts(cad.shape, TopAbs_SOLID); parts.More(); parts.Next()) {
+    if (!is_closed(parts.Current())) {
+      throw GeometryError(
+          "a solid is not closed, also after healing; repair it in the CAD program");
+    }
+  }
+  require_curves(cad.shape);
+}
+
+}  // namespace tessera::netgen

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vector>
+
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <mystdlib.h>
+#include <occgeom.hpp>
+
+#include "tessera/base/error.hpp"
+
+#include "netgen/loaded_model.hpp"
+#include "netgen/mesh_conversion.hpp"
+#include "netgen/netgen_session.hpp"
+#include "netgen/occ_cad_file.hpp"
+#include "netgen/occ_content.hpp"
+#include "netgen/occ_curve.hpp"
+#include "netgen/occ_error.hpp"
+#include "netgen/occ_shape.hpp"
+#include "netgen/occ_surface.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+// Degenerate edges have no curve; their places stay empty so that numbers are those of the map.
+using OptionalCurve = std::unique_ptr<OccCurve>;
+
+class OccModel final : public LoadedModel {
+ public:
+  OccModel(OccContent content, std::string file_name);
+
+  [[nodiscard]] bool has_parameters() const override { return true; }
+  [[nodiscard]] double surface_tolerance(LocalIndex surface) const override
+  {
+    return surface_at(surface).tolerance();
+  }
+  [[nodiscard]] double curve_tolerance(LocalIndex curve) const override
+  {
+    return curve_at(curve).tolerance();
+  }
+  [[nodiscard]] model::SurfacePoint project_to_surface(
+      LocalIndex surface, const Vec3& point, const model::SurfaceParameters& guess) const override;
+  [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
+                                                   double guess) const override;
+  [[nodiscard]] double box_diagonal() const override { return box_diagonal_; }
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override;
+
+ private:
+  [[nodiscard]] const OccSurface& surface_at(LocalIndex surface) const;
+  [[nodiscard]] const OccCurve& curve_at(LocalIndex curve) const;
+  [[nodiscard]] GeometryNumbers numbers_for(const ::netgen::OCCGeometry& geometry) const;
+  void triangulate() const;
+  void locate_face_corners(mesh::CoarseMesh& mesh) const;
+  void locate_segment_ends(mesh::CoarseMesh& mesh) const;
+
+  OccContent content_;
+  std::string file_name_;
+  double box_diagonal_ = 0.0;
+  TopTools_IndexedMapOfShape faces_{};
+  TopTools_IndexedMapOfShape edges_{};
+  std::vector<OccSurface> surfaces_{};
+  std::vector<OptionalCurve> curves_{};
+};
+
+OccModel::OccModel(OccContent content, std::string file_name)
+    : content_(std::move(content)),
+      file_name_(std::move(file_name)),
+      box_diagonal_(box_diagonal_of(content_.shape))
+{
+  TopExp::MapShapes(content_.shape, TopAbs_FACE, faces_);
+  TopExp::MapShapes(content_.shape, TopAbs_EDGE, edges_);
+  for (const TopoDS_Shape& face : parts_of(content_.shape, TopAbs_FACE)) {
+    surfaces_.emplace_back(TopoDS::Face(face), box_diagonal_);
+  }
+  for (const TopoDS_Shape& shape : parts_of(content_.shape, TopAbs_EDGE)) {
+    const TopoDS_Edge& edge = TopoDS::Edge(shape);
+    curves_.push_back(
+        BRep_Tool::Degenerated(edge) ? nullptr : std::make_unique<OccCurve>(edge, box_diagonal_));
+  }
+}
+
+const OccSurface& OccModel::surface_at(LocalIndex surface) const
+{
+  return surfaces_.at(static_cast<std::size_t>(surface));
+}
+
+const OccCurve& OccModel::curve_at(LocalIndex curve) const
+{
+  const OptionalCurve& found = curves_.at(static_cast<std::size_t>(curve));
+  if (found == nullptr) throw GeometryError("edge " + std::to_string(curve) + " is a point");
+  return *found;
+}
+
+model::SurfacePoint OccModel::project_to_surface(LocalIndex surface, const Vec3& point,
+                                                 const model::SurfaceParameters& guess) const
+{
+  return with_occ_errors("projection onto face " + std::to_string(surface),
+                         [&] { return surface_at(surface).project(point, guess); });
+}
+
+model::CurvePoint OccModel::project_to_curve(LocalIndex curve, const Vec3& point,
+                                             double guess) const
+{
+  return with_occ_errors("projection onto edge " + std::to_string(curve),
+                         [&] { return curve_at(curve).project(point, guess); });
+}
+
+// NETGEN makes a triangulation where there is none and then reads it unchecked, so it is made and
+// checked here; always anew, so that every call starts from the same state.
+void OccModel::triangulate() const
+{
+  constexpr double kDeflection = 0.01;  // Of an edge's length; what NETGEN takes.
+  BRepTools::Clean(content_.shape);
+  BRepMesh_IncrementalMesh(content_.shape, kDeflection, Standard_True);
+  for (int i = 1; i <= faces_.Extent(); ++i) {
+    TopLoc_Location place;
+    if (!BRep_Tool::Triangulation(TopoDS::Face(faces_(i)), place).IsNull()) continue;
+    throw NetgenError(file_name_ + ": OpenCASCADE cannot triangulate face " + std::to_string(i - 1)
+                      + "; repair it in the CAD program");
+  }
+}
+
+GeometryNumbers OccModel::numbers_for(const ::netgen::OCCGeometry& geometry) const
+{
+  GeometryNumbers numbers;
+  numbers.surface = [&](const ::netgen::FaceDescriptor& face) {
+    return faces_.FindIndex(geometry.fmap(face.SurfNr())) - 1;
+  };
+  numbers.patch_name = [this, surface = numbers.surface](const ::netgen::FaceDescriptor& face) {
+    return content_.face_names.at(static_cast<std::size_t>(surface(face)));
+  };
+  numbers.curve = [&](const ::netgen::Segment& segment) {
+    return edges_.FindIndex(geometry.emap(segment.epgeominfo[0].edgenr)) - 1;
+  };
+  numbers.material_name = [this](int domain) {
+    const auto at = static_cast<std::size_t>(domain - 1);
+    return at < content_.solid_names.size() ? content_.solid_names[at] : std::string();
+  };
+  numbers.uv = [](const ::netgen::Element2d& element, int corner) {
+    const ::netgen::PointGeomInfo& info = element.GeomInfoPi(corner + 1);
+    return model::SurfaceParameters{info.u, info.v};
+  };
+  numbers.t = [](const ::netgen::Segment& segment, int end) {
+    return segment.epgeominfo[end].dist;
+  };
+  return numbers;
+}
+
+mesh::CoarseMesh OccModel::generate(const coarse::CoarseOptions& options) const
+{
+  NetgenSession session(coarse_parameters(options));
+  return session.run("coarse mesh of " + file_name_, [&] {
+    triangulate();
+    ::netgen::OCCGeometry geometry;
+    geometry.shape = content_.shape;
+    geometry.changed = 1;
+    geometry.BuildFMap();
+    geometry.CalcBoundingBox();
+    auto mesh = std::make_shared<::netgen::Mesh>();
+    const int failed = geometry.GenerateMesh(mesh, session.parameters());
+    if (failed != 0) throw NetgenError("NETGEN gave up: " + session.words());
+    mesh::CoarseMesh coarse = to_coarse_mesh(*mesh, numbers_for(geometry), file_name_);
+    locate_face_corners(coarse);
+    locate_segment_ends(coarse);
+    return coarse;
+  });
+}
+
+// What NETGEN has at a corner is only a guess: its optimiser moves points and forgets parameters.
+void OccModel::locate_face_corners(mesh::CoarseMesh& mesh) const
+{
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const auto at = static_cast<std::size_t>(f);
+    std::array<Vec3, 3> corners{};
+    std::array<model::SurfaceParameters, 3> guesses{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      corners[c] = mesh.position(mesh.face_vertices[3 * at + c]);
+      guesses[c] = {mesh.face_uv[2 * (3 * at + c)], mesh.face_uv[2 * (3 * at + c) + 1]};
+    }
+    const LocalIndex patch = mesh.face_patch[at];
+    const LocalIndex surface = mesh.patch_surface[static_cast<std::size_t>(patch)];
+    const auto uv = surface_at(surface).triangle_parameters(corners, guesses);
+    for (std::size_t c = 0; c < 3; ++c) {
+      mesh.face_uv[2 * (3 * at + c)] = uv[c][0];
+      mesh.face_uv[2 * (3 * at + c) + 1] = uv[c][1];
+    }
+  }
+}
+
+// The guess at an end of a closed curve says which of its two parameters is meant.
+void OccModel::locate_segment_ends(mesh::CoarseMesh& mesh) const
+{
+  for (std::size_t end = 0; end < mesh.segment_t.size(); ++end) {
+    const OccCurve& curve = curve_at(mesh.segment_curve[end / 2]);
+    const Vec3 point = mesh.position(mesh.segment_vertices[end]);
+    mesh.segment_t[end] = curve.locate(point, mesh.segment_t[end]).t;
+  }
+}
+
+}  // namespace
+
+model::ModelSource import_occ(const std::filesystem::path& file)
+{
+  CadFile cad = read_cad_file(file);
+  try {
+    with_occ_errors("healing", [&] { make_closed_solids(cad); });
+  } catch (const GeometryError& error) {
+    throw GeometryError(file.string() + ": " + error.what());
+  }
+  model::ModelSource source;
+  source.format = model::Format::occ;
+  source.file_name = file.string();
+  source.length_unit = cad.length_unit;
+  source.content = to_bytes(cad);
+  source.repairs = cad.repairs;
+  return source;
+}
+
+std::unique_ptr<LoadedModel> load_occ(const model::ModelSource& source)
+{
+  return with_occ_errors(source.file_name, [&]() -> std::unique_ptr<LoadedModel> {
+    return std::make_unique<OccModel>(occ_content_from_bytes(source.content), source.file_name);
+  });
+}
+
+}  // namespace tessera::netgen

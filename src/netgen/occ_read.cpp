@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BinTools.hxx>
+#include <IFSelect_ReturnStatus.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Reader.hxx>
+#include <IGESData_IGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <STEPControl_Controller.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopoDS_Compound.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+
+#include "tessera/base/error.hpp"
+
+#include "netgen/occ_cad_file.hpp"
+#include "netgen/occ_error.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Keeps OpenCASCADE's readers from printing statistics of every transfer.
+class QuietMessages {
+ public:
+  QuietMessages() : saved_(Message::DefaultMessenger()->Printers())
+  {
+    Message::DefaultMessenger()->ChangePrinters().Clear();
+  }
+  ~QuietMessages() { Message::DefaultMessenger()->ChangePrinters() = saved_; }
+  QuietMessages(const QuietMessages&) = delete;
+  QuietMessages& operator=(const QuietMessages&) = delete;
+
+ private:
+  Message_SequenceOfPrinters saved_;
+};
+
+struct LengthUnit {
+  std::string_view step_name;  // As OpenCASCADE spells it, lower case.
+  std::string_view short_name;
+  double metres;
+};
+
+constexpr std::array<LengthUnit, 12> kLengthUnits{{{"millimetre", "mm", 1e-3},
+                                                   {"metre", "m", 1.0},
+                                                   {"centimetre", "cm", 1e-2},
+                                                   {"decimetre", "dm", 1e-1},
+                                                   {"kilometre", "km", 1e3},
+                                                   {"micrometre", "um", 1e-6},
+                                                   {"nanometre", "nm", 1e-9},
+                                                   {"inch", "in", 0.0254},
+                                                   {"foot", "ft", 0.3048},
+                                                   {"mile", "mi", 1609.344},
+                                                   {"mil", "mil", 2.54e-5},
+                                                   {"microinch", "uin", 2.54e-8}}};
+
+std::string lower_case(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+// The last `size` characters of the file, for the marks that formats end with.
+std::string tail_of(const fs::path& file, std::streamoff size)
+{
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff length = in.tellg();
+  in.seekg(std::max<std::streamoff>(0, length - size));
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::string head_of(const fs::path& file, std::size_t size)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string head(size, '\0');
+  in.read(head.data(), static_cast<std::streamsize>(size));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head;
+}
+
+// The unit whose numbers the shape shall have: the file's, or millimetres if it names none known.
+LengthUnit step_unit(STEPCAFControl_Reader& reader, CadFile& cad)
+{
+  TColStd_SequenceOfAsciiString lengths;
+  TColStd_SequenceOfAsciiString angles;
+  TColStd_SequenceOfAsciiString solid_angles;
+  reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
+  if (lengths.IsEmpty()) return {"", "", 1e-3};
+  const std::string name = lower_case(lengths.First().ToCString());
+  for (const TCollection_AsciiString& other : lengths) {
+    if (lower_case(other.ToCString()) == name) continue;
+    cad.repairs.push_back("parts in " + lower_case(other.ToCString()) + " converted to " + name);
+  }
+  const auto* known = std::find_if(kLengthUnits.begin(), kLengthUnits.end(),
+                                   [&](const LengthUnit& unit) { return unit.step_name == name; });
+  if (known != kLengthUnits.end()) return *known;
+  cad.repairs.push_back("length unit '" + name + "' converted to mm");
+  return {"millimetre", "mm", 1e-3};
+}
+
+std::string name_of(const TDF_Label& label)
+{
+  Handle(TDataStd_Name) name;
+  if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return {};
+  const TCollection_ExtendedString& wide = name->Get();
+  std::string text(static_cast<std::size_t>(wide.LengthOfCString()) + 1, '\0');
+  Standard_PCharacter to = text.data();
+  wide.ToUTF8CString(to);
+  text.resize(static_cast<std::size_t>(wide.LengthOfCString()));
+  return text;
+}
+
+// OpenCASCADE names parts without a name after their kind.
+bool is_default_name(const std::string& name)
+{
+  constexpr std::array<std::string_view, 9> kDefaults{
+      "SOLID", "COMPOUND", "COMPSOLID", "SHELL", "FACE", "NAUO", "ASSEMBLY", "=>", "Open CASCADE"};
+  return name.empty() || std::any_of(kDefaults.begin(), kDefaults.end(), [&](auto prefix) {
+           return name.starts_with(prefix);
+         });
+}
+
+// Collects the parts of an assembly, each at its place, and their names.
+class PartCollector {
+ public:
+  explicit PartCollector(CadFile& cad) : cad_(cad) { BRep_Builder().MakeCompound(parts_); }
+
+  void collect(const TDF_Label& label, const TopLoc_Location& place)
+  {
+    if (XCAFDoc_ShapeTool::IsAssembly(label)) {
+      TDF_LabelSequence components;
+      XCAFDoc_ShapeTool::GetComponents(label, components);
+      for (const TDF_Label& component : components) {
+        TDF_Label part;
+        if (!XCAFDoc_ShapeTool::GetReferredShape(component, part)) continue;
+        collect(part, place * XCAFDoc_ShapeTool::GetLocation(component));
+      }
+      return;
+    }
+    const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(label).Moved(place);
+    BRep_Builder().Add(parts_, shape);
+    name_parts(label, shape, place);
+  }
+
+  [[nodiscard]] const TopoDS_Compound& parts() const { return parts_; }
+
+ private:
+  void name_parts(const TDF_Label& label, const TopoDS_Shape& shape, const TopLoc_Location& place)
+  {
+    const std::string part_name = name_of(label);
+    for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
+      if (!is_default_name(part_name)) cad_.names.Bind(solids.Current(), part_name);
+    }
+    TDF_LabelSequence children;
+    XCAFDoc_ShapeTool::GetSubShapes(label, children);
+    for (const TDF_Label& child : children) {
+      const std::string name = name_of(child);
+      if (is_default_name(name)) continue;
+      cad_.names.Bind(XCAFDoc_ShapeTool::GetShape(child).Moved(place), name);
+    }
+  }
+
+  CadFile& cad_;
+  TopoDS_Compound parts_{};
+};
+
+CadFile read_step(const fs::path& file)
+{
+  if (tail_of(file, 4096).find("END-ISO-10303-21") == std::string::npos) {
+    throw InputError(file.string()
+                     + ": does not end with END-ISO-10303-21, so it is truncated or no STEP file");
+  }
+  STEPControl_Controller::Init();
+  STEPCAFControl_Reader reader;
+  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
+  reader.SetNameMode(Standard_True);
+  reader.SetColorMode(Standard_False);
+  reader.SetLayerMode(Standard_False);
+  reader.SetPropsMode(Standard_False);
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
+    throw InputError(file.string() + ": OpenCASCADE cannot read it as STEP; export it again");
+  }
+  CadFile cad;
+  const LengthUnit unit = step_unit(reader, cad);
+  cad.length_unit = unit.short_name;
+  Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
+  XCAFDoc_DocumentTool::Set(document->Main(), Standard_False);
+  XCAFDoc_DocumentTool::SetLengthUnit(document, unit.metres);
+  if (!reader.Transfer(document)) {
+    throw InputError(file.string() + ": holds no shape that OpenCASCADE can build");
+  }
+  TDF_LabelSequence roots;
+  XCAFDoc_DocumentTool::ShapeTool(document->Main())->GetFreeShapes(roots);
+  PartCollector collector(cad);
+  for (const TDF_Label& root : roots) collector.collect(root, TopLoc_Location());
+  cad.shape = collector.parts();
+  return cad;
+}
+
+std::string name_of(const IGESControl_Reader& reader, const TopoDS_Shape& shape)
+{
+  const auto entity = Handle(IGESData_IGESEntity)::DownCast(
+      reader.WS()->TransferReader()->EntityFromShapeResult(shape, 1));
+  if (entity.IsNull() || !entity->HasName()) return {};
+  return entity->NameValue()->ToCString();
+}
+
+// The unit of an IGES file by the name in its global section; millimetres if it names none known.
+LengthUnit iges_unit(const IGESControl_Reader& reader, CadFile& cad)
+{
+  constexpr std::array<std::array<std::string_view, 2>, 4> kAliases{
+      {{"inch", "in"}, {"mi", "mi"}, {"uin", "uin"}, {"mils", "mil"}}};
+  const auto text = reader.IGESModel()->GlobalSection().UnitName();
+  std::string name = text.IsNull() ? std::string() : lower_case(text->ToCString());
+  for (const auto& [alias, meaning] : kAliases) {
+    if (name == alias) name = meaning;
+  }
+  const auto* known = std::find_if(kLengthUnits.begin(), kLengthUnits.end(),
+                                   [&](const LengthUnit& unit) { return unit.short_name == name; });
+  if (known != kLengthUnits.end()) return *known;
+  if (!name.empty()) cad.repairs.push_back("length unit '" + name + "' converted to mm");
+  return {"millimetre", name.empty() ? "" : "mm", 1e-3};
+}
+
+// OpenCASCADE hands IGES out in millimetres; this takes it back to the file's own numbers.
+void scale_to_unit(CadFile& cad, const LengthUnit& unit)
+{
+  cad.length_unit = unit.short_name;
+  if (unit.metres == 1e-3) return;
+  gp_Trsf scaling;
+  scaling.SetScaleFactor(1e-3 / unit.metres);
+  BRepBuilderAPI_Transform transform(cad.shape, scaling, Standard_True);
+  ShapeNames names;
+  for (ShapeNames::Iterator named(cad.names); named.More(); named.Next()) {
+    names.Bind(transform.ModifiedShape(named.Key()), named.Value());
+  }
+  cad.names = names;
+  cad.shape = transform.Shape();
+}
+
+CadFile read_iges(const fs::path& file)
+{
+  if (tail_of(file, 4096).find("T0000001") == std::string::npos) {
+    throw InputError(file.string()
+                     + ": has no terminate section, so it is truncated or no IGES file");
+  }
+  IGESControl_Controller::Init();
+  IGESControl_Reader reader;
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
+    throw InputError(file.string() + ": OpenCASCADE cannot read it as IGES; export it again");
+  }
+  reader.TransferRoots();
+  CadFile cad;
+  cad.shape = reader.OneShape();
+  if (cad.shape.IsNull()) {
+    throw InputError(file.string() + ": holds no shape that OpenCASCADE can build");
+  }
+  for (TopExp_Explorer faces(cad.shape, TopAbs_FACE); faces.More(); faces.Next()) {
+    const std::string name = name_of(reader, faces.Current());
+    if (!name.empty()) cad.names.Bind(faces.Current(), name);
+  }
+  scale_to_unit(cad, iges_unit(reader, cad));
+  return cad;
+}
+
+CadFile read_brep(const fs::path& file)
+{
+  CadFile cad;
+  const std::string head = head_of(file, 200);
+  if (head.find("Open CASCADE Topology") != std::string::npos) {
+    BinTools::Read(cad.shape, file.c_str());
+  } else {
+    BRepTools::Read(cad.shape, file.c_str(), BRep_Builder());
+  }
+  if (cad.shape.IsNull()) {
+    throw InputError(file.string() + ": OpenCASCADE cannot read it as BREP; export it again");
+  }
+  return cad;
+}
+
+}  // namespace
+
+CadFile read_cad_file(const fs::path& file)
+{
+  const QuietMessages quiet;
+  const std::string extension = lower_case(file.extension().string());
+  return with_occ_errors(file.string(), [&] {
+    if (extension == ".step" || extension == ".stp") return read_step(file);
+    if (extension == ".iges" || extension == ".igs") return read_iges(file);
+    return read_brep(file);
+  });
+}
+
+}  // namespace tessera::netgen

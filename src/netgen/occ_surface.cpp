@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/occ_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <GeomAbs_SurfaceType.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <Precision.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+
+#include "netgen/occ_descent.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+// Enough starts that two extrema between neighbouring samples are unlikely.
+std::array<int, 2> sample_counts(const Handle(Geom_Surface) & surface)
+{
+  const GeomAdaptor_Surface adaptor(surface);
+  switch (adaptor.GetType()) {
+    case GeomAbs_Plane:
+      return {1, 1};
+    case GeomAbs_BSplineSurface:
+    case GeomAbs_BezierSurface:
+      return {std::clamp(3 * adaptor.NbUIntervals(GeomAbs_C2) + adaptor.UDegree(), 8, 64),
+              std::clamp(3 * adaptor.NbVIntervals(GeomAbs_C2) + adaptor.VDegree(), 8, 64)};
+    default:
+      return {16, 16};
+  }
+}
+
+// Half the squared distance up to second order around a point of the surface.
+struct Quadratic {
+  double uu = 0.0;
+  double vv = 0.0;
+  double uv = 0.0;
+  std::array<double, 2> gradient{};
+
+  [[nodiscard]] double determinant() const { return uu * vv - uv * uv; }
+
+  // Takes direction `k` out: its step becomes 0.
+  void fix(std::size_t k)
+  {
+    (k == 0 ? uu : vv) = 1.0;
+    uv = 0.0;
+    gradient[k] = 0.0;
+  }
+
+  [[nodiscard]] std::array<double, 2> minimum() const
+  {
+    return {(-gradient[0] * vv + gradient[1] * uv) / determinant(),
+            (-gradient[1] * uu + gradient[0] * uv) / determinant()};
+  }
+};
+
+// Newton's step; Gauss-Newton's where that is no descent; each direction by itself where both are
+// singular.
+std::array<double, 2> newton_step(const Quadratic& newton, const Quadratic& gauss_newton)
+{
+  const double scale = gauss_newton.uu * gauss_newton.vv;
+  if (newton.uu > 0.0 && newton.determinant() > kMinRelativePivot * scale) return newton.minimum();
+  if (gauss_newton.determinant() > kMinRelativePivot * scale) return gauss_newton.minimum();
+  return {-0.5 * gauss_newton.gradient[0] / gauss_newton.uu,
+          -0.5 * gauss_newton.gradient[1] / gauss_newton.vv};
+}
+
+// `value` plus the number of periods that brings it nearest to `reference`.
+double nearest_period(double value, double reference, double period)
+{
+  return value + period * std::round((reference - value) / period);
+}
+
+}  // namespace
+
+OccSurface::OccSurface(const TopoDS_Face& face, double box_diagonal)
+    : surface_(BRep_Tool::Surface(face)),
+      classifier_(std::make_unique<BRepTopAdaptor_FClass2d>(face, Precision::PConfusion())),
+      tolerance_(std::max(BRep_Tool::Tolerance(face), kMinRelativeTolerance * box_diagonal)),
+      box_diagonal_(box_diagonal)
+{
+  auto& [u, v] = directions_;
+  surface_->Bounds(u.domain_first, u.domain_last, v.domain_first, v.domain_last);
+  BRepTools::UVBounds(face, u.face_first, u.face_last, v.face_first, v.face_last);
+  // A surface that closes without being periodic has a seam as well; it may not be left.
+  if (surface_->IsUClosed()) u.period = u.domain_last - u.domain_first;
+  if (surface_->IsVClosed()) v.period = v.domain_last - v.domain_first;
+  for (const auto& [periodic, direction] :
+       {std::pair{surface_->IsUPeriodic(), &u}, std::pair{surface_->IsVPeriodic(), &v}}) {
+    if (!periodic) continue;
+    direction->domain_first = -kFarAway;
+    direction->domain_last = kFarAway;
+  }
+  num_samples_ = sample_counts(surface_);
+  collect_boundaries(face, box_diagonal);
+}
+
+void OccSurface::collect_boundaries(const TopoDS_Face& face, double box_diagonal)
+{
+  TopTools_IndexedMapOfShape seen;
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+    if (BRep_Tool::Degenerated(edge) || seen.Contains(edge)) continue;
+    seen.Add(edge);
+    double first = 0.0;
+    double last = 0.0;
+    const auto on_surface = BRep_Tool::CurveOnSurface(edge, face, first, last);
+    if (!on_surface.IsNull()) boundaries_.push_back({OccCurve(edge, box_diagonal), on_surface});
+  }
+}
+
+model::SurfacePoint OccSurface::project(const Vec3& point, const Uv& guess) const
+{
+  const Descent local = descend(point, guess);
+  if (local.converged && within_trim(local.point)) return local.point;
+  return nearest(point, guess);
+}
+
+model::SurfacePoint OccSurface::locate(const Vec3& point, const Uv& guess) const
+{
+  const Descent local = descend(point, guess);
+  const bool inside = within_trim(local.point);
+  if (local.converged && inside && local.distance <= tolerance_) return local.point;
+  const model::SurfacePoint global = nearest(point, guess);
+  return inside && local.distance <= norm(global.xyz - point) ? local.point : global;
+}
+
+OccSurface::Descent OccSurface::descend(const Vec3& point, const Uv& guess) const
+{
+  const gp_Pnt target = to_occ(point);
+  Uv uv = clamped(guess);
+  gp_Pnt value = surface_->Value(uv[0], uv[1]);
+  double distance = value.Distance(target);
+  bool converged = false;
+  for (int i = 0; i < kMaxDescentSteps && !converged; ++i) {
+    const Uv step = step_at(target, uv);
+    Uv next = uv;
+    gp_Pnt next_value = value;
+    double next_distance = kFarAway;
+    double fraction = 1.0;
+    for (int halvings = 0; halvings < kMaxHalvings; ++halvings, fraction *= 0.5) {
+      next = clamped({uv[0] + fraction * step[0], uv[1] + fraction * step[1]});
+      next_value = surface_->Value(next[0], next[1]);
+      next_distance = next_value.Distance(target);
+      if (next_distance <= distance + kRounding * box_diagonal_) break;
+    }
+    converged = next_value.Distance(value) <= kConvergedStep * box_diagonal_;
+    if (next_distance > distance + kRounding * box_diagonal_) break;
+    uv = next;
+    value = next_value;
+    distance = next_distance;
+  }
+  return {{from_occ(value), uv}, distance, converged};
+}
+
+OccSurface::Uv OccSurface::step_at(const gp_Pnt& target, const Uv& uv) const
+{
+  gp_Pnt value;
+  std::array<gp_Vec, 2> first;
+  gp_Vec by_uu;
+  gp_Vec by_vv;
+  gp_Vec by_uv;
+  surface_->D2(uv[0], uv[1], value, first[0], first[1], by_uu, by_vv, by_uv);
+  const gp_Vec offset(target, value);
+  Quadratic gauss_newton{first[0].SquareMagnitude(),
+                         first[1].SquareMagnitude(),
+                         first[0].Dot(first[1]),
+                         {offset.Dot(first[0]), offset.Dot(first[1])}};
+  Quadratic newton = gauss_newton;
+  newton.uu += offset.Dot(by_uu);
+  newton.vv += offset.Dot(by_vv);
+  newton.uv += offset.Dot(by_uv);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Direction& direction = directions_[k];
+    const double slope = gauss_newton.gradient[k];
+    const bool at_end = (uv[k] <= direction.domain_first && slope > 0.0)
+                        || (uv[k] >= direction.domain_last && slope < 0.0);
+    if (!at_end && first[k].Magnitude() * direction.span() > kPoleLength * box_diagonal_) continue;
+    newton.fix(k);
+    gauss_newton.fix(k);
+  }
+  Uv step = newton_step(newton, gauss_newton);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double limit = kMaxStepFraction * directions_[k].span();
+    const double factor = std::abs(step[k]) > limit ? limit / std::abs(step[k]) : 1.0;
+    step = {factor * step[0], factor * step[1]};
+  }
+  return step;
+}
+
+OccSurface::Uv OccSurface::clamped(const Uv& uv) const
+{
+  return {std::clamp(uv[0], directions_[0].domain_first, directions_[0].domain_last),
+          std::clamp(uv[1], directions_[1].domain_first, directions_[1].domain_last)};
+}
+
+bool OccSurface::within_trim(const model::SurfacePoint& point) const
+{
+  const gp_Pnt2d uv(point.uv[0], point.uv[1]);
+  if (classifier_->Perform(uv, Standard_True) != TopAbs_OUT) return true;
+  // Trimming edges are only as exact as their tolerance.
+  return std::any_of(boundaries_.begin(), boundaries_.end(), [&](const Boundary& boundary) {
+    const Vec3 on_edge = boundary.curve.nearest(point.xyz).xyz;
+    return norm(on_edge - point.xyz) <= std::max(tolerance_, boundary.curve.tolerance());
+  });
+}
+
+model::SurfacePoint OccSurface::nearest(const Vec3& point, const Uv& guess) const
+{
+  Descent best = nearest_inside(point);
+  const Descent boundary = nearest_boundary(point);
+  if (boundary.distance < best.distance - kTieDistance * box_diagonal_) best = boundary;
+  if (!best.converged) throw GeometryError("no nearest point found on a face of the model");
+  for (std::size_t k = 0; k < 2; ++k) {
+    best.point.uv[k] = on_branch_of(best.point.uv[k], guess[k], directions_[k]);
+  }
+  return best.point;
+}
+
+OccSurface::Descent OccSurface::nearest_inside(const Vec3& point) const
+{
+  Descent best{{}, kFarAway, false};
+  for (const Uv& start : descent_starts(point)) {
+    const Descent candidate = descend(point, start);
+    if (!candidate.converged) continue;
+    if (candidate.distance >= best.distance - kTieDistance * box_diagonal_) continue;
+    if (within_trim(candidate.point)) best = candidate;
+  }
+  return best;
+}
+
+OccSurface::Descent OccSurface::nearest_boundary(const Vec3& point) const
+{
+  Descent best{{}, kFarAway, false};
+  for (const Boundary& boundary : boundaries_) {
+    const model::CurvePoint on_edge = boundary.curve.nearest(point);
+    const double distance = norm(on_edge.xyz - point);
+    if (distance >= best.distance - kTieDistance * box_diagonal_) continue;
+    const gp_Pnt2d uv = boundary.on_surface->Value(on_edge.t);
+    best = descend(on_edge.xyz, {uv.X(), uv.Y()});
+    best.distance = distance;
+    best.converged = true;  // A point of the edge, whatever the descent onto the surface did.
+  }
+  if (best.converged) best.distance = norm(best.point.xyz - point);
+  return best;
+}
+
+// The samples of a grid over the face that are nearer than their neighbours.
+std::vector<OccSurface::Uv> OccSurface::descent_starts(const Vec3& point) const
+{
+  const gp_Pnt target = to_occ(point);
+  const auto [rows, columns] = num_samples_;
+  const auto sample = [&](int i, int j) {
+    const auto& [u, v] = directions_;
+    return Uv{u.face_first + u.span() * (i + 0.5) / rows,
+              v.face_first + v.span() * (j + 0.5) / columns};
+  };
+  std::vector<double> distances;
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      const Uv uv = sample(i, j);
+      distances.push_back(surface_->Value(uv[0], uv[1]).SquareDistance(target));
+    }
+  }
+  const auto distance_at = [&](int i, int j) {
+    const bool outside = i < 0 || j < 0 || i >= rows || j >= columns;
+    return outside ? kFarAway : distances[static_cast<std::size_t>(i * columns + j)];
+  };
+  std::vector<Uv> starts;
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) {
+      const double here = distance_at(i, j);
+      if (here <= distance_at(i - 1, j) && here <= distance_at(i + 1, j)
+          && here <= distance_at(i, j - 1) && here <= distance_at(i, j + 1)) {
+        starts.push_back(sample(i, j));
+      }
+    }
+  }
+  return starts;
+}
+
+double OccSurface::on_branch_of(double value, double reference, const Direction& direction)
+{
+  if (direction.period <= 0.0) return value;
+  const double moved = nearest_period(value, reference, direction.period);
+  const double slack = kSeamFraction * direction.period;
+  const bool allowed =
+      moved >= direction.domain_first - slack && moved <= direction.domain_last + slack;
+  return allowed ? std::clamp(moved, direction.domain_first, direction.domain_last) : value;
+}
+
+std::array<OccSurface::Uv, 3> OccSurface::triangle_parameters(
+    const std::array<Vec3, 3>& corners, const std::array<Uv, 3>& guesses) const
+{
+  std::array<Uv, 3> uv{};
+  std::array<std::array<bool, 2>, 3> free{};  // Corner, direction: any value does.
+  for (std::size_t c = 0; c < 3; ++c) {
+    uv[c] = locate(corners[c], guesses[c]).uv;
+    gp_Pnt value;
+    std::array<gp_Vec, 2> first;
+    surface_->D1(uv[c][0], uv[c][1], value, first[0], first[1]);
+    for (std::size_t k = 0; k < 2; ++k) {
+      free[c][k] = first[k].Magnitude() * directions_[k].span() <= kPoleLength * box_diagonal_;
+    }
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::vector<double*> bound;
+    std::vector<double*> unbound;
+    for (std::size_t c = 0; c < 3; ++c) (free[c][k] ? unbound : bound).push_back(&uv[c][k]);
+    if (bound.empty()) continue;
+    unwrap(bound, directions_[k]);
+    double mean = 0.0;
+    for (const double* value : bound) mean += *value / static_cast<double>(bound.size());
+    for (double* value : unbound) *value = mean;
+  }
+  return uv;
+}
+
+// The value farthest from the seam says on which side of it the triangle lies.
+void OccSurface::unwrap(std::span<double* const> values, const Direction& direction)
+{
+  if (direction.period <= 0.0) return;
+  const double middle = 0.5 * (direction.face_first + direction.face_last);
+  for (double* value : values) *value = on_branch_of(*value, middle, direction);
+  const double anchor =
+      **std::min_element(values.begin(), values.end(), [middle](const double* a, const double* b) {
+        return std::abs(*a - middle) < std::abs(*b - middle);
+      });
+  for (double* value : values) *value = on_branch_of(*value, anchor, direction);
+}
+
+}  // namespace tessera::netgen
