@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "tessera/io/options.hpp"
@@ -51,5 +52,8 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::filesy
 /// @throws InputError naming the file and what is wrong: missing, not a .vtu, cut off, corrupt. What
 ///         is returned is consistent: sizes match, `cell_points` lie in 0…num_points-1.
 [[nodiscard]] mesh::MeshArrays read_vtu(const std::filesystem::path& path);
+
+/// @brief VTK's version, e.g. "9.1.0". Local.
+[[nodiscard]] std::string vtk_version();
 
 }  // namespace tessera::io

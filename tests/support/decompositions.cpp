@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/decompositions.hpp"
+
+namespace tessera::testing {
+
+mesh::Decomposition slabs(const mesh::CoarseMesh& coarse, int slabs_a_material)
+{
+  mesh::Decomposition decomposition;
+  for (LocalIndex m = 1; m <= coarse.num_materials(); ++m) {
+    decomposition.subdomain_material.insert(decomposition.subdomain_material.end(),
+                                            static_cast<std::size_t>(slabs_a_material), m);
+  }
+  decomposition.subdomain_weight.assign(decomposition.subdomain_material.size(), 1.0);
+  for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
+    double y = 0.0;
+    for (const LocalIndex v : coarse.tet(t)) y += 0.25 * coarse.position(v)[1];
+    const auto slab = static_cast<LocalIndex>(y * slabs_a_material);
+    const LocalIndex material = coarse.tet_material[static_cast<std::size_t>(t)];
+    decomposition.tet_subdomain.push_back((material - 1) * slabs_a_material + slab);
+  }
+  return decomposition;
+}
+
+}  // namespace tessera::testing

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/decomposition.hpp"
+
+namespace tessera::testing {
+
+/// @brief Cuts every material into `slabs_a_material` slabs of equal height along y, by the tets'
+/// middles; subdomains are numbered material by material. Without the graph.
+/// @pre the mesh is a cube of tests/support/meshes.hpp whose n is a multiple of slabs_a_material.
+[[nodiscard]] mesh::Decomposition slabs(const mesh::CoarseMesh& coarse, int slabs_a_material);
+
+}  // namespace tessera::testing

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/vec3.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+
+namespace tessera::mesh {
+namespace {
+
+TEST(TetTopology, FacesOfAPositiveTetPointOutwards)
+{
+  const std::array<Vec3, 4> tet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const auto& [a, b, c] = kTetFaceCorners[corner];
+    EXPECT_LT(tet_volume(tet[a], tet[b], tet[c], tet[corner]), 0.0) << "face " << corner;
+  }
+}
+
+TEST(TetTopology, EvenTrianglesAreTheRotationsOfTheAscendingOrder)
+{
+  EXPECT_TRUE(is_even_triangle(1, 2, 3));
+  EXPECT_TRUE(is_even_triangle(2, 3, 1));
+  EXPECT_TRUE(is_even_triangle(3, 1, 2));
+  EXPECT_FALSE(is_even_triangle(1, 3, 2));
+  EXPECT_FALSE(is_even_triangle(3, 2, 1));
+  EXPECT_FALSE(is_even_triangle(2, 1, 3));
+}
+
+TEST(TetTopology, FindsTheSharedTriangleOfTwoTets)
+{
+  const std::vector<LocalIndex> tets{0, 1, 2, 3, 1, 2, 3, 4};
+
+  const auto triangles = triangles_of_tets(tets);
+
+  ASSERT_EQ(triangles.size(), 7U);
+  int shared = 0;
+  for (const TriangleTets& triangle : triangles) {
+    if (triangle.tets[1] == kNoIndex) continue;
+    ++shared;
+    EXPECT_EQ(triangle.vertices, (std::array<LocalIndex, 3>{1, 2, 3}));
+    EXPECT_EQ(triangle.corners, (std::array<LocalIndex, 2>{0, 3}));
+  }
+  EXPECT_EQ(shared, 1);
+}
+
+TEST(TetTopology, RefusesATriangleOfThreeTets)
+{
+  const std::vector<LocalIndex> tets{0, 1, 2, 3, 1, 2, 3, 4, 1, 2, 3, 5};
+
+  EXPECT_THROW(static_cast<void>(triangles_of_tets(tets)), MeshError);
+}
+
+}  // namespace
+}  // namespace tessera::mesh
