@@ -1,10 +1,274 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
 #include <csg.hpp>
 #include <mystdlib.h>
 
+#include "tessera/base/error.hpp"
+
 #include "netgen/loaded_model.hpp"
+#include "netgen/mesh_conversion.hpp"
+#include "netgen/netgen_session.hpp"
+
+// Defined in libcsg.so and declared in no header of NETGEN 6.2.1905.
+namespace netgen {
+CSGeometry* ParseCSG(std::istream& text, CSGeometry* instance);
+}
 
 namespace tessera::netgen {
-model::ModelSource import_csg(const std::filesystem::path&) { return {}; }
-std::unique_ptr<LoadedModel> load_csg(const model::ModelSource&) { return nullptr; }
+namespace {
+
+using Geometry = ::netgen::CSGeometry;
+using Point = ::netgen::Point<3>;
+
+// NETGEN's own value: surfaces that differ by less, relative to the bounding box, are one surface.
+constexpr double kIdenticSurfaces = 1e-8;
+
+// A point counts as on an entity within this part of the box diagonal.
+constexpr double kTolerance = 1e-8;
+
+// Repeated until a step is shorter than this part of the box diagonal. NETGEN's own loops end after
+// ten steps or at 1e-12 of the file's unit, whichever comes first.
+constexpr double kConverged = 1e-14;
+constexpr int kMostSteps = 30;
+
+std::string read_text(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in && !in.eof()) throw InputError(file.string() + ": cannot be read");
+  return text;
+}
+
+std::unique_ptr<Geometry> parse(const std::string& text, const std::string& file_name)
+{
+  NetgenSession session;
+  // At the end of the text NETGEN's scanner repeats the last letter of a name for ever.
+  std::istringstream in(text + '\n');
+  std::unique_ptr<Geometry> geometry;
+  try {
+    geometry.reset(session.run(file_name, [&] { return ::netgen::ParseCSG(in, nullptr); }));
+  } catch (const NetgenError& error) {
+    throw InputError(error.what());
+  }
+  if (geometry == nullptr) {
+    throw InputError(file_name + ": is not a NETGEN geometry: its first word is not 'algebraic3d'");
+  }
+  geometry->FindIdenticSurfaces(kIdenticSurfaces * geometry->MaxSize());
+  return geometry;
+}
+
+// NETGEN skips a statement that it does not know, and says so on standard output only.
+class SkippedStatements {
+ public:
+  SkippedStatements() : saved_(std::cout.rdbuf(said_.rdbuf())) {}
+  ~SkippedStatements() { std::cout.rdbuf(saved_); }
+  SkippedStatements(const SkippedStatements&) = delete;
+  SkippedStatements& operator=(const SkippedStatements&) = delete;
+
+  [[nodiscard]] std::vector<std::string> lines() const
+  {
+    std::vector<std::string> found;
+    std::istringstream in(said_.str());
+    for (std::string line; std::getline(in, line);) {
+      if (line.find("unidentified token") != std::string::npos) {
+        found.push_back("NETGEN skipped a word: " + line);
+      }
+    }
+    return found;
+  }
+
+ private:
+  std::ostringstream said_{};
+  std::streambuf* saved_;
+};
+
+void require_solid(const Geometry& geometry, const std::string& file_name)
+{
+  for (int i = 0; i < geometry.GetNTopLevelObjects(); ++i) {
+    if (geometry.GetTopLevelObject(i)->GetSurface() == nullptr) return;
+  }
+  throw GeometryError(file_name + ": no solid is to be meshed; name one with 'tlo NAME;'");
+}
+
+// The bounding box that CSGeometry has is a bound for NETGEN's searches, by default 2000 wide.
+::netgen::Box<3> extent(Geometry& geometry, const std::string& file_name)
+{
+  // Detail and facets a radius: the box comes out within 2 % in some milliseconds.
+  geometry.CalcTriangleApproximation(0.1, 20);
+  ::netgen::Box<3> box(::netgen::Box<3>::EMPTY_BOX);
+  int num_points = 0;
+  for (int i = 0; i < geometry.GetNTopLevelObjects(); ++i) {
+    const auto* triangles = geometry.GetTriApprox(i);
+    for (int p = 0; p < triangles->GetNP(); ++p, ++num_points) box.Add(triangles->GetPoint(p));
+  }
+  if (num_points == 0) {
+    throw GeometryError(file_name + ": its solids are empty, or outside the bounding box; set one "
+                        "with 'boundingbox (x, y, z; x, y, z);'");
+  }
+  return box;
+}
+
+Point to_netgen(const Vec3& p) { return {p[0], p[1], p[2]}; }
+Vec3 from_netgen(const Point& p) { return {p(0), p(1), p(2)}; }
+
+// First-order distance of a point to a surface; NaN counts as far.
+double distance(const ::netgen::Surface& surface, const Point& point)
+{
+  ::netgen::Vec<3> gradient;
+  surface.CalcGradient(point, gradient);
+  const double value = std::abs(surface.CalcFunctionValue(point));
+  return value == 0.0 ? 0.0 : value / gradient.Length();
+}
+
+// `step` is one of NETGEN's projections.
+template <class Step>
+Point iterate(Point point, double converged, const Step& step)
+{
+  for (int i = 0; i < kMostSteps; ++i) {
+    const Point before = point;
+    step(point);
+    if (::netgen::Dist(before, point) <= converged) break;
+  }
+  return point;
+}
+
+class CsgModel final : public LoadedModel {
+ public:
+  explicit CsgModel(const model::ModelSource& source);
+
+  [[nodiscard]] bool has_parameters() const override { return false; }
+  [[nodiscard]] double surface_tolerance(LocalIndex) const override { return tolerance_; }
+  [[nodiscard]] double curve_tolerance(LocalIndex) const override { return tolerance_; }
+  [[nodiscard]] double box_diagonal() const override { return box_diagonal_; }
+  [[nodiscard]] model::SurfacePoint project_to_surface(
+      LocalIndex surface, const Vec3& point, const model::SurfaceParameters& guess) const override;
+  [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
+                                                   double guess) const override;
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override;
+
+ private:
+  [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
+  void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
+
+  std::string file_name_;
+  std::string text_;
+  std::unique_ptr<Geometry> geometry_;
+  double box_diagonal_ = 0.0;
+  double tolerance_ = 0.0;
+};
+
+CsgModel::CsgModel(const model::ModelSource& source)
+    : file_name_(source.file_name),
+      text_(reinterpret_cast<const char*>(source.content.data()), source.content.size()),
+      geometry_(parse(text_, file_name_))
+{
+  require_solid(*geometry_, file_name_);
+  NetgenSession session;
+  box_diagonal_ = session.run(file_name_, [&] { return extent(*geometry_, file_name_).Diam(); });
+  tolerance_ = kTolerance * box_diagonal_;
+}
+
+const ::netgen::Surface& CsgModel::surface(LocalIndex number) const
+{
+  if (number < 0 || number >= geometry_->GetNSurf()) {
+    throw GeometryError(file_name_ + ": has no surface " + std::to_string(number));
+  }
+  return *geometry_->GetSurface(number);
+}
+
+void CsgModel::require_on(const ::netgen::Surface& surface, const Point& point,
+                          const Vec3& from) const
+{
+  if (distance(surface, point) <= tolerance_) return;
+  std::ostringstream message;
+  message << file_name_ << ": NETGEN finds no point of a surface near (" << from[0] << ", "
+          << from[1] << ", " << from[2] << ")";
+  throw GeometryError(message.str());
+}
+
+model::SurfacePoint CsgModel::project_to_surface(LocalIndex number, const Vec3& point,
+                                                 const model::SurfaceParameters&) const
+{
+  const ::netgen::Surface& on = surface(number);
+  const Point found =
+      iterate(to_netgen(point), kConverged * box_diagonal_, [&](Point& p) { on.Project(p); });
+  require_on(on, found, point);
+  return {from_netgen(found), {}};
+}
+
+model::CurvePoint CsgModel::project_to_curve(LocalIndex curve, const Vec3& point, double) const
+{
+  const int num_surfaces = geometry_->GetNSurf();
+  const ::netgen::Surface& first = surface(curve / num_surfaces);
+  const ::netgen::Surface& second = surface(curve % num_surfaces);
+  const Point found = iterate(to_netgen(point), kConverged * box_diagonal_,
+                              [&](Point& p) { ::netgen::ProjectToEdge(&first, &second, p); });
+  require_on(first, found, point);
+  require_on(second, found, point);
+  return {from_netgen(found), 0.0};
+}
+
+GeometryNumbers numbers_of(const Geometry& geometry)
+{
+  GeometryNumbers numbers;
+  numbers.surface = [](const ::netgen::FaceDescriptor& face) { return face.SurfNr(); };
+  numbers.patch_name = [](const ::netgen::FaceDescriptor& face) {
+    return face.GetBCName() == "default" ? std::string() : face.GetBCName();
+  };
+  numbers.curve = [n = geometry.GetNSurf()](const ::netgen::Segment& segment) {
+    const auto [low, high] = std::minmax(segment.surfnr1, segment.surfnr2);
+    return low < 0 ? kNoIndex : low * n + high;
+  };
+  numbers.material_name = [&geometry](int domain) {
+    const auto* object = geometry.GetTopLevelObject(domain - 1);
+    return object->GetMaterial().empty() ? std::string(object->GetSolid()->Name())
+                                         : object->GetMaterial();
+  };
+  return numbers;
+}
+
+mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options) const
+{
+  // NETGEN adds points to the geometry that it meshes and takes names out of it: a fresh one for
+  // every try makes each a pure function of the options.
+  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
+  NetgenSession session(coarse_parameters(options));
+  std::shared_ptr<::netgen::Mesh> mesh;
+  const int failed = session.run(file_name_ + ": coarse mesh", [&] {
+    return geometry->GenerateMesh(mesh, session.parameters());
+  });
+  if (failed != 0)
+    throw NetgenError(file_name_ + ": coarse mesh: NETGEN gave up; " + session.words());
+  return to_coarse_mesh(*mesh, numbers_of(*geometry), file_name_ + ": coarse mesh");
+}
+
+}  // namespace
+
+model::ModelSource import_csg(const std::filesystem::path& file)
+{
+  model::ModelSource source;
+  source.format = model::Format::csg;
+  source.file_name = file.string();
+  const std::string text = read_text(file);
+  const auto* first = reinterpret_cast<const std::byte*>(text.data());
+  source.content.assign(first, first + text.size());
+
+  const SkippedStatements skipped;
+  const CsgModel check(source);
+  source.repairs = skipped.lines();
+  return source;
+}
+
+std::unique_ptr<LoadedModel> load_csg(const model::ModelSource& source)
+{
+  return std::make_unique<CsgModel>(source);
+}
+
 }  // namespace tessera::netgen

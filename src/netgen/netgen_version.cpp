@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <core/ngcore.hpp>
+#include <filesystem>
+
+#include <dlfcn.h>
+#include <meshing.hpp>
+#include <mystdlib.h>
 
 #include "tessera/netgen/factory.hpp"
 
@@ -7,8 +11,13 @@ namespace tessera::netgen {
 
 std::string netgen_version()
 {
-  const std::string version = ngcore::GetLibraryVersion("netgen").to_string();
-  return version.starts_with('v') ? version.substr(1) : version;
+  // NETGEN tells its version only to programs that register it; its library file is named by it.
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<void*>(&::netgen::MeshVolume), &info) == 0) return "unknown";
+  std::error_code error;
+  const std::string file = std::filesystem::canonical(info.dli_fname, error).filename().string();
+  const auto at = file.find(".so.");
+  return error || at == std::string::npos ? "unknown" : file.substr(at + 4);
 }
 
 }  // namespace tessera::netgen

@@ -16,6 +16,7 @@
 #include "tessera/mesh/coarse_mesh.hpp"
 
 #include "support/stl_models.hpp"
+#include "support/temporary_file.hpp"
 
 #include "netgen/loaded_model.hpp"
 
