@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/version.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -67,7 +68,7 @@ void add_info(CLI::App& app, Parsed& parsed)
 void set_up(CLI::App& app, Parsed& parsed)
 {
   app.set_help_flag("-h,--help", "Print this help");
-  app.set_version_flag("--version", "tessera " TESSERA_VERSION, "Print the version");
+  app.set_version_flag("--version", "tessera " + std::string(version()), "Print the version");
   app.require_subcommand(1);
   app.footer(
       "Every command runs alone or under `mpirun -np N`, with the same result.\n"

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "tessera/base/error.hpp"
 
@@ -177,6 +178,18 @@ void nest(const TriangleSurface& surface, std::vector<Shell>& shells)
   }
 }
 
+bool is_inside_out(const TriangleSurface& surface, const Shell& shell, const std::string& name)
+{
+  constexpr double flat = 1e-12;  // far below what single precision leaves of a flat shell
+  const Box box = box_of(surface, shell);
+  const double volume = enclosed_volume(surface, shell);
+  if (std::abs(volume) <= flat * std::pow(norm(box.high - box.low), 3)) {
+    throw GeometryError(name + ": shell of " + std::to_string(shell.triangles.size())
+                        + " triangles encloses no volume");
+  }
+  return (volume > 0.0) != (shell.depth % 2 == 0);
+}
+
 }  // namespace
 
 Orientation orient(TriangleSurface& surface, std::span<const LocalIndex> opposite,
@@ -190,23 +203,15 @@ Orientation orient(TriangleSurface& surface, std::span<const LocalIndex> opposit
   }
   nest(surface, result.shells);
   for (const Shell& shell : result.shells) {
-    const Box box = box_of(surface, shell);
-    const double volume = enclosed_volume(surface, shell);
-    constexpr double flat = 1e-12;  // far below what single precision leaves of a flat shell
-    if (std::abs(volume) <= flat * std::pow(norm(box.high - box.low), 3)) {
-      throw GeometryError(name + ": shell of " + std::to_string(shell.triangles.size())
-                          + " triangles encloses no volume");
-    }
-    const bool inside_out = (volume > 0.0) != (shell.depth % 2 == 0);
-    const auto num_turned = static_cast<LocalIndex>(
-        std::count_if(shell.triangles.begin(), shell.triangles.end(),
-                      [&](LocalIndex t) { return walk.turned()[index(t)]; }));
-    const auto num_triangles = static_cast<LocalIndex>(shell.triangles.size());
+    const bool inside_out = is_inside_out(surface, shell, name);
     if (inside_out) {
       for (const LocalIndex t : shell.triangles) turn(surface, t);
     }
     // Against the file: either a few were turned, or the whole shell but for a few.
-    const LocalIndex num_changed = inside_out ? num_triangles - num_turned : num_turned;
+    const auto num_changed = static_cast<LocalIndex>(
+        std::count_if(shell.triangles.begin(), shell.triangles.end(),
+                      [&](LocalIndex t) { return walk.turned()[index(t)] != inside_out; }));
+    const auto num_triangles = static_cast<LocalIndex>(shell.triangles.size());
     if (2 * num_changed > num_triangles) ++result.num_turned_shells;
     result.num_turned += std::min(num_changed, num_triangles - num_changed);
   }

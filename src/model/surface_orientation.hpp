@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "tessera/model/triangle_surface.hpp"
@@ -22,8 +23,7 @@ struct Orientation {
 };
 
 /// @brief Turns triangles so that normals point out of the material, and tells the shells.
-/// @param opposite  Of opposite_half_edges(); stays valid: a turned triangle keeps its half-edges'
-///                  numbers only until this call returns, so recompute what depends on them.
+/// @param opposite  Of opposite_half_edges(), for the surface as it comes in.
 /// @throws GeometryError if a shell is one-sided or encloses no volume; `name` begins the message.
 Orientation orient(TriangleSurface& surface, std::span<const LocalIndex> opposite,
                    const std::string& name);

@@ -10,7 +10,7 @@
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/netgen/factory.hpp"
 
-#include "temporary_file.hpp"
+#include "support/temporary_file.hpp"
 
 namespace tessera {
 namespace {
@@ -25,7 +25,7 @@ constexpr const char* kCylinder =
     "  ;\nsolid cut = can and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 2; 0, 0, 1);\n"
     "tlo cut -material=steel;\n";
 constexpr const char* kTorus =
-    "algebraic3d\nsolid ring = torus (0, 0, 0; 0, 0, 1; 2; 0.7) -bcname=skin;\ntlo ring;\n";
+    "algebraic3d\nsolid ring = torus (0, 0, 0; 0, 0, 1; 2; 1) -bcname=skin;\ntlo ring;\n";
 constexpr const char* kCone =
     "algebraic3d\nsolid tip = cone (0, 0, 0; 2; 0, 0, 4; 1) -bcname=mantle;\n"
     "solid cut = tip and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 3; 0, 0, 1);\ntlo cut;\n";
@@ -49,7 +49,7 @@ struct Loaded {
   }
 
   // Few elements a curvature radius: NETGEN's bound for a torus is far above its curvature.
-  [[nodiscard]] mesh::CoarseMesh generate(double max_size, double curvature = 0.5) const
+  [[nodiscard]] mesh::CoarseMesh generate(double max_size, double curvature = 1.0) const
   {
     coarse::CoarseOptions options;
     options.max_size = max_size;
@@ -198,7 +198,7 @@ TEST(CsgProjection, PutsPointsOnTheTorus)
 {
   const Loaded ring(kTorus, 1.0);
   expect_on_formula(ring, "skin", [](const Vec3& p) {
-    return std::hypot(std::hypot(p[0], p[1]) - 2.0, p[2]) - 0.7;
+    return std::hypot(std::hypot(p[0], p[1]) - 2.0, p[2]) - 1.0;
   });
 }
 

@@ -7,7 +7,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/netgen/factory.hpp"
 
-#include "temporary_file.hpp"
+#include "support/temporary_file.hpp"
 
 namespace tessera {
 namespace {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/stl_models.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <vector>
-
-#include <unistd.h>
 
 namespace tessera::testing {
 namespace {
@@ -143,21 +141,6 @@ std::string binary_stl(const model::TriangleSoup& soup, const std::string& heade
     if (i % 9 == 8) bytes.append(2, '\0');
   }
   return bytes;
-}
-
-TemporaryFile::TemporaryFile(const std::string& name, const std::string& content)
-{
-  static int count = 0;
-  path_ = std::filesystem::temp_directory_path()
-          / ("tessera_test_" + std::to_string(getpid()) + "_" + std::to_string(count++)) / name;
-  std::filesystem::create_directories(path_.parent_path());
-  std::ofstream(path_, std::ios::binary) << content;
-}
-
-TemporaryFile::~TemporaryFile()
-{
-  std::error_code ignored;
-  std::filesystem::remove_all(path_.parent_path(), ignored);
 }
 
 }  // namespace tessera::testing

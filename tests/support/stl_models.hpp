@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "tessera/base/vec3.hpp"
@@ -32,19 +31,5 @@ void remove_triangle(model::TriangleSoup& soup, LocalIndex t);
 /// @param header  First bytes, at most 80.
 [[nodiscard]] std::string binary_stl(const model::TriangleSoup& soup,
                                      const std::string& header = "binary STL");
-
-/// @brief A file in a folder of its own that goes with this object.
-class TemporaryFile {
- public:
-  TemporaryFile(const std::string& name, const std::string& content);
-  ~TemporaryFile();
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace tessera::testing

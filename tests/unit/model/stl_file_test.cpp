@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/model/stl_file.hpp"
 
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
 
 #include "support/stl_models.hpp"
+#include "support/temporary_file.hpp"
 
 namespace tessera::model {
 namespace {

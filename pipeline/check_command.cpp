@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/check_command.hpp"
+
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/check/check_mesh.hpp"
+#include "tessera/io/vtu.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+// Rank 0 reads the index; the others get the list, so no rank can see another one.
+std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& index,
+                                             const comm::Communicator& comm)
+{
+  const Bytes bytes = on_root(comm, [&] {
+    std::vector<std::string> names;
+    for (const auto& piece : io::piece_files(index)) names.push_back(piece.string());
+    ByteWriter out;
+    out.put(names);
+    return std::move(out).take();
+  });
+  std::vector<std::filesystem::path> pieces;
+  for (const std::string& name : ByteReader(bytes).get_strings()) pieces.emplace_back(name);
+  return pieces;
+}
+
+check::PieceSource source_of(const std::vector<std::filesystem::path>& files)
+{
+  return {static_cast<LocalIndex>(files.size()),
+          [&files](LocalIndex piece) { return io::read_vtu(files[static_cast<std::size_t>(piece)]); }};
+}
+
+// boundary.pvtu beside mesh.pvtu belongs to it.
+std::optional<std::filesystem::path> boundary_beside(const std::filesystem::path& mesh)
+{
+  if (mesh.filename() != "mesh.pvtu") return std::nullopt;
+  std::filesystem::path boundary = mesh.parent_path() / "boundary.pvtu";
+  if (!std::filesystem::exists(boundary)) return std::nullopt;
+  return boundary;
+}
+
+void print(const check::CheckReport& report)
+{
+  fmt::print("{} tets, {} vertices, {} boundary triangles, {} between subdomains, {} between "
+             "materials\n",
+             report.num_tets, report.num_vertices, report.num_boundary_triangles,
+             report.num_seam_triangles, report.num_interface_triangles);
+  fmt::print("volume {:.10g}, boundary area {:.10g}\n", report.volume, report.boundary_area);
+  fmt::print("Euler characteristic {}, components {}, boundary components {}\n",
+             report.euler_characteristic, report.num_components, report.num_boundary_components);
+  fmt::print("dihedral angles {:.2f} to {:.2f} deg, mean ratio: smallest {:.4f}, mean {:.4f}\n",
+             report.quality.min_dihedral_deg, report.quality.max_dihedral_deg,
+             report.quality.mean_ratio_min, report.quality.mean_ratio_mean);
+  if (report.has_digest) fmt::print("digest {}\n", to_hex(report.digest));
+  for (const std::string& note : report.notes) fmt::print("note: {}\n", note);
+  for (const check::Defect& defect : report.defects) {
+    fmt::print("DEFECT {}: {} times\n", defect.kind, defect.count);
+    for (const std::string& offender : defect.offenders) fmt::print("  {}\n", offender);
+  }
+  fmt::print("{}\n", report.conforms ? "the mesh conforms" : "the mesh does NOT conform");
+}
+
+}  // namespace
+
+ExitCode run_check_command(const CheckCommand& command, const comm::Communicator& comm)
+{
+  const auto mesh_files = pieces_of(command.mesh_file, comm);
+  const check::PieceSource mesh = source_of(mesh_files);
+  std::vector<std::filesystem::path> boundary_files;
+  std::optional<check::PieceSource> boundary;
+  if (const auto file = boundary_beside(command.mesh_file)) {
+    boundary_files = pieces_of(*file, comm);
+    boundary = source_of(boundary_files);
+  }
+  const check::CheckReport report =
+      check::check_mesh(mesh, boundary ? &*boundary : nullptr, comm);
+  if (comm.rank() == 0) {
+    if (command.json) {
+      fmt::print("{}\n", check::to_json(report));
+    } else {
+      print(report);
+    }
+  }
+  return report.conforms ? ExitCode::ok : ExitCode::failed;
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/info_command.hpp"
+
+#include <string>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/config/case.hpp"
+#include "tessera/io/vtu.hpp"
+#include "tessera/model/model.hpp"
+
+#include "pipeline/mesh_worker.hpp"
+#include "pipeline/run_context.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+constexpr jobs::JobLimits kInfoLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
+
+std::string describe_mesh(const std::filesystem::path& file)
+{
+  GlobalIndex num_points = 0;
+  GlobalIndex num_cells = 0;
+  std::string names;
+  const auto pieces = io::piece_files(file);
+  for (const auto& path : pieces) {
+    const mesh::MeshArrays piece = io::read_vtu(path);
+    num_points += piece.num_points();
+    num_cells += piece.num_cells();
+    if (!names.empty()) continue;
+    for (const auto& [name, texts] : piece.field_texts) {
+      names += fmt::format("{}: {}\n", name, fmt::join(texts, ", "));
+    }
+  }
+  return fmt::format("mesh: {} pieces, {} cells, {} points (shared points counted in every piece)\n{}",
+                     pieces.size(), num_cells, num_points, names);
+}
+
+// The model is read in a job: the CAD libraries may crash on it.
+std::string describe_model(const std::filesystem::path& file, jobs::JobRunner& jobs)
+{
+  const jobs::JobOutcome read =
+      jobs.run(import_request(file, model::ImportOptions{}), kInfoLimits, wait_for_stop_signal());
+  jobs::throw_unless_ok(read, file.string());
+  const model::ModelSource source = model::model_source_from_bytes(read.result);
+  jobs::throw_unless_ok(jobs.load(load_model_message(source, 1.0), kInfoLimits,
+                                  wait_for_stop_signal()),
+                        file.string());
+  const jobs::JobOutcome box = jobs.run(box_request(), kInfoLimits, wait_for_stop_signal());
+  jobs::throw_unless_ok(box, file.string());
+  std::string text = fmt::format("model: box diagonal {:.6g} {}\n",
+                                 ByteReader(box.result).get<double>(), source.length_unit);
+  for (const std::string& repair : source.repairs) text += "repair: " + repair + "\n";
+  return text;
+}
+
+std::string describe(const std::filesystem::path& file, jobs::JobRunner& jobs)
+{
+  const std::string extension = file.extension().string();
+  if (extension == ".pvtu" || extension == ".vtu") return describe_mesh(file);
+  if (extension == ".toml") return config::to_toml(config::load_case(file));
+  return describe_model(file, jobs);
+}
+
+}  // namespace
+
+ExitCode run_info_command(const InfoCommand& command, const comm::Communicator& comm,
+                          jobs::JobRunner& jobs)
+{
+  const Bytes text = on_root(comm, [&] {
+    ByteWriter out;
+    out.put(describe(command.file, jobs));
+    return std::move(out).take();
+  });
+  if (comm.rank() == 0) fmt::print("{}", ByteReader(text).get_string());
+  return ExitCode::ok;
+}
+
+}  // namespace tessera::pipeline
