@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <csg.hpp>
-#include <mystdlib.h>
 
 #include "tessera/base/error.hpp"
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include <meshing.hpp>
-#include <mystdlib.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"

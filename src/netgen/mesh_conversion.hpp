@@ -6,7 +6,6 @@
 #include <string>
 
 #include <meshing.hpp>
-#include <mystdlib.h>
 
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <meshing.hpp>
-#include <mystdlib.h>
 
 #include "tessera/coarse/options.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <dlfcn.h>
 #include <meshing.hpp>
-#include <mystdlib.h>
 
 #include "tessera/netgen/factory.hpp"
 

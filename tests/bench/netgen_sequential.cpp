@@ -19,7 +19,6 @@
 #include <string>
 
 #include <csg.hpp>
-#include <mystdlib.h>
 #include <sys/resource.h>
 
 // Defined in NETGEN's libraries and declared in none of its headers (6.2.1905).
