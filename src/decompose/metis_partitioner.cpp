@@ -18,7 +18,7 @@ std::vector<idx_t> as_metis(const std::vector<LocalIndex>& values)
 
 // Recursive bisection for any number of parts. On nine trials with coarse meshes of NETGEN (16 to
 // 66 parts), k-way with METIS_OPTION_CONTIG cut 4 % more area (-1 % to 11 %), its lightest part had
-// 0.51 of the mean weight in the median instead of 0.85, and 22 subdomains had to be split instead
+// 0.51 of the mean weight in the median instead of 0.85, and 23 subdomains had to be split instead
 // of one; it was not faster. Parts that come out disconnected are the caller's to mend.
 class MetisPartitioner final : public GraphPartitioner {
  public:
