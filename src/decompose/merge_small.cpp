@@ -26,7 +26,8 @@ class Merger {
         num_wanted_(num_wanted),
         wanted_weight_(labelling.mean_weight() * labelling.num_used() / num_wanted),
         spots_(graph, labelling),
-        skins_(graph)
+        skins_(graph),
+        is_hopeless_(static_cast<std::size_t>(labelling.num_labels()), false)
   {
   }
 
@@ -39,11 +40,17 @@ class Merger {
     for (const LocalIndex label : small_labels()) {
       if (labelling_->num_used() <= num_wanted_) break;
       if (is_changed[static_cast<std::size_t>(label)]) continue;
-      for (const LocalIndex other : neighbours_of(label_tets.of(label))) {
-        if (is_changed[static_cast<std::size_t>(other)]) continue;
+      const auto neighbours = neighbours_of(label_tets.of(label));
+      is_hopeless_[static_cast<std::size_t>(label)] = true;
+      for (const LocalIndex other : neighbours) {
+        if (is_changed[static_cast<std::size_t>(other)]) {
+          is_hopeless_[static_cast<std::size_t>(label)] = false;
+          continue;
+        }
         if (!try_merge(label_tets.of(label), label_tets.of(other))) continue;
         is_changed[static_cast<std::size_t>(label)] = true;
         is_changed[static_cast<std::size_t>(other)] = true;
+        for (const LocalIndex n : neighbours) is_hopeless_[static_cast<std::size_t>(n)] = false;
         ++num_merges;
         break;
       }
@@ -52,14 +59,15 @@ class Merger {
   }
 
  private:
-  // Lightest first.
+  // Those worth a try, lightest first.
   std::vector<LocalIndex> small_labels() const
   {
     std::vector<LocalIndex> labels;
     for (LocalIndex label = 0; label < labelling_->num_labels(); ++label) {
+      if (is_hopeless_[static_cast<std::size_t>(label)]) continue;
       const bool is_used = labelling_->num_tets(label) > 0;
-      if (is_used && labelling_->weight(label) < kSmallShare * wanted_weight_)
-        labels.push_back(label);
+      const bool is_small = labelling_->weight(label) < kSmallShare * wanted_weight_;
+      if (is_used && is_small) labels.push_back(label);
     }
     std::stable_sort(labels.begin(), labels.end(), [&](LocalIndex a, LocalIndex b) {
       return labelling_->weight(a) < labelling_->weight(b);
@@ -113,11 +121,15 @@ class Merger {
   bool is_one_surface(std::span<const LocalIndex> small, std::span<const LocalIndex> large)
   {
     const LocalIndex label = labelling_->of(large.front());
+    std::vector<LocalIndex> vertices;
     for (const LocalIndex t : small) {
-      for (const LocalIndex v : graph_->vertices(t)) {
-        if (spots_.count(v, label) > 0) return false;
-      }
+      const auto corners = graph_->vertices(t);
+      vertices.insert(vertices.end(), corners.begin(), corners.end());
     }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const auto is_spot = [&](LocalIndex v) { return spots_.count(v, label) > 0; };
+    if (std::any_of(vertices.begin(), vertices.end(), is_spot)) return false;
     std::vector<LocalIndex> tets;
     std::merge(small.begin(), small.end(), large.begin(), large.end(), std::back_inserter(tets));
     return skins_.tets_at_cavity(*labelling_, tets).empty();
@@ -129,6 +141,7 @@ class Merger {
   double wanted_weight_;
   Spots spots_;
   SkinComponents skins_;
+  std::vector<bool> is_hopeless_;  // tried in vain, and nothing next to it has changed since
 };
 
 }  // namespace

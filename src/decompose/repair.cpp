@@ -17,7 +17,7 @@ namespace tessera::decompose {
 namespace {
 
 // Two connected sets of tets of one label that must not stay together.
-struct Divorce {
+struct Separation {
   LocalIndex label = kNoIndex;
   std::vector<LocalIndex> first{};
   std::vector<LocalIndex> second{};
@@ -34,42 +34,42 @@ class Splitter {
   // tets of all labels that were split.
   std::vector<LocalIndex> run(LocalIndex& num_splits)
   {
-    std::vector<Divorce> divorces = divorces_at_spots();
+    std::vector<Separation> separations = separations_at_spots();
     const LabelTets label_tets = tets_of_labels(*graph_, *labelling_);
-    if (divorces.empty()) divorces = divorces_at_cavities(label_tets);
+    if (separations.empty()) separations = separations_at_cavities(label_tets);
     std::vector<LocalIndex> changed;
-    for (const Divorce& divorce : divorces) {
-      const auto tets = label_tets.of(divorce.label);
+    for (const Separation& separation : separations) {
+      const auto tets = label_tets.of(separation.label);
       const LocalIndex new_label = labelling_->add_label();
-      for (const LocalIndex t : search_.cut(tets, divorce.first, divorce.second)) {
+      for (const LocalIndex t : search_.cut(tets, separation.first, separation.second)) {
         labelling_->assign(t, new_label);
       }
       changed.insert(changed.end(), tets.begin(), tets.end());
     }
     spots_->refresh(changed);
-    num_splits += static_cast<LocalIndex>(divorces.size());
+    num_splits += static_cast<LocalIndex>(separations.size());
     return changed;
   }
 
  private:
-  std::vector<Divorce> divorces_at_spots()
+  std::vector<Separation> separations_at_spots()
   {
-    std::vector<Divorce> divorces;
+    std::vector<Separation> separations;
     std::vector<bool> is_done(static_cast<std::size_t>(labelling_->num_labels()), false);
     for (LocalIndex v = 0; v < graph_->num_vertices(); ++v) {
       if (spots_->total(v) == 0) continue;
       for (const LocalIndex label : spots_->labels_at(v)) {
         if (is_done[static_cast<std::size_t>(label)] || spots_->count(v, label) == 0) continue;
         is_done[static_cast<std::size_t>(label)] = true;
-        divorces.push_back(divorce_at(v, label));
+        separations.push_back(separation_at(v, label));
       }
     }
-    return divorces;
+    return separations;
   }
 
   // Two fans at the vertex; else two wedges at an edge of it; else (one fan, bounded by two rings)
   // halves of the fan.
-  Divorce divorce_at(LocalIndex v, LocalIndex label)
+  Separation separation_at(LocalIndex v, LocalIndex label)
   {
     std::vector<LocalIndex> star;
     for (const LocalIndex t : graph_->tets_at(v)) {
@@ -96,9 +96,9 @@ class Splitter {
   }
 
   // A cut from one end of the cavity to the other opens it.
-  std::vector<Divorce> divorces_at_cavities(const LabelTets& label_tets)
+  std::vector<Separation> separations_at_cavities(const LabelTets& label_tets)
   {
-    std::vector<Divorce> divorces;
+    std::vector<Separation> separations;
     for (LocalIndex label = 0; label < labelling_->num_labels(); ++label) {
       const auto tets = label_tets.of(label);
       if (tets.empty()) continue;
@@ -110,9 +110,9 @@ class Splitter {
         return std::binary_search(at_cavity.begin(), at_cavity.end(), t);
       });
       const LocalIndex second = *last_at_cavity == first ? order.back() : *last_at_cavity;
-      divorces.push_back({label, {first}, {second}});
+      separations.push_back({label, {first}, {second}});
     }
-    return divorces;
+    return separations;
   }
 
   const TetGraph* graph_;

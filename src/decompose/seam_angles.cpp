@@ -40,25 +40,19 @@ double dihedral(const TetGraph& graph, LocalIndex t, std::size_t edge)
   return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
-}  // namespace
+// The angle that one tet adds to the wedge of its subdomain at an edge.
+struct Share {
+  std::size_t edge;
+  LocalIndex subdomain;
+  double angle;
+  [[nodiscard]] bool is_same_wedge(const Share& other) const
+  {
+    return edge == other.edge && subdomain == other.subdomain;
+  }
+};
 
-bool is_seam(const TetGraph& graph, const mesh::Decomposition& decomposition,
-             const mesh::TriangleTets& triangle)
+std::vector<Share> shares_at_seams(const TetGraph& graph, const mesh::Decomposition& decomposition)
 {
-  if (triangle.tets[1] == kNoIndex) return false;
-  const auto a = static_cast<std::size_t>(triangle.tets[0]);
-  const auto b = static_cast<std::size_t>(triangle.tets[1]);
-  return decomposition.tet_subdomain[a] != decomposition.tet_subdomain[b]
-         && graph.mesh->tet_material[a] == graph.mesh->tet_material[b];
-}
-
-double min_seam_dihedral_deg(const TetGraph& graph, const mesh::Decomposition& decomposition)
-{
-  struct Share {
-    std::size_t edge;
-    LocalIndex subdomain;
-    double angle;
-  };
   const std::vector<Edge> edges = edges_of_seams(graph, decomposition);
   std::vector<bool> is_at_seam(static_cast<std::size_t>(graph.num_vertices()), false);
   for (const auto& [a, b] : edges) {
@@ -81,6 +75,24 @@ double min_seam_dihedral_deg(const TetGraph& graph, const mesh::Decomposition& d
                         dihedral(graph, t, edge)});
     }
   }
+  return shares;
+}
+
+}  // namespace
+
+bool is_seam(const TetGraph& graph, const mesh::Decomposition& decomposition,
+             const mesh::TriangleTets& triangle)
+{
+  if (triangle.tets[1] == kNoIndex) return false;
+  const auto a = static_cast<std::size_t>(triangle.tets[0]);
+  const auto b = static_cast<std::size_t>(triangle.tets[1]);
+  return decomposition.tet_subdomain[a] != decomposition.tet_subdomain[b]
+         && graph.mesh->tet_material[a] == graph.mesh->tet_material[b];
+}
+
+double min_seam_dihedral_deg(const TetGraph& graph, const mesh::Decomposition& decomposition)
+{
+  std::vector<Share> shares = shares_at_seams(graph, decomposition);
   std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
     return a.edge != b.edge ? a.edge < b.edge : a.subdomain < b.subdomain;
   });
@@ -88,11 +100,7 @@ double min_seam_dihedral_deg(const TetGraph& graph, const mesh::Decomposition& d
   for (std::size_t i = 0; i < shares.size();) {
     const Share& first = shares[i];
     double sum = 0.0;
-    for (; i < shares.size() && shares[i].edge == first.edge
-           && shares[i].subdomain == first.subdomain;
-         ++i) {
-      sum += shares[i].angle;
-    }
+    for (; i < shares.size() && first.is_same_wedge(shares[i]); ++i) sum += shares[i].angle;
     smallest = std::min(smallest, sum);
   }
   return smallest * 180.0 / std::numbers::pi;

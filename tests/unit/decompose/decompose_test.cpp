@@ -13,6 +13,7 @@
 
 #include "support/meshes.hpp"
 
+#include "decompose/initial_partition.hpp"
 #include "partitioners.hpp"
 
 namespace tessera::decompose {
@@ -92,8 +93,22 @@ TEST(Decompose, GivesEachPieceOfAMaterialItsShare)
   const auto result = decompose(mesh, {.subdomains = 12}, weight, *make_metis_partitioner());
   validate(mesh, result.decomposition);
   const auto& material = result.decomposition.subdomain_material;
-  EXPECT_EQ(std::count(material.begin(), material.end(), 1), 3);
-  EXPECT_EQ(std::count(material.begin(), material.end(), 2), 9);
+  EXPECT_GE(std::count(material.begin(), material.end(), 1), 3);
+  EXPECT_GE(std::count(material.begin(), material.end(), 2), 9);
+}
+
+TEST(AllotParts, FollowsTheWeightsBetweenOneAndAllTetsOfAPiece)
+{
+  const auto mesh = testing::two_material_cube(2);
+  std::vector<double> weight(static_cast<std::size_t>(mesh.num_tets()), 1.0);
+  for (std::size_t t = 0; t < weight.size(); ++t) {
+    if (mesh.tet_material[t] == 2) weight[t] = 3.0;
+  }
+  const TetGraph graph = make_tet_graph(mesh, weight);
+  const auto pieces = connected_pieces(graph);
+  EXPECT_EQ(allot_parts(graph, pieces, 2), (std::vector<LocalIndex>{1, 1}));
+  EXPECT_EQ(allot_parts(graph, pieces, 12), (std::vector<LocalIndex>{3, 9}));
+  EXPECT_EQ(allot_parts(graph, pieces, 40), (std::vector<LocalIndex>{16, 24}));
 }
 
 TEST(Decompose, RaisesTheRequestToOneSubdomainAPiece)
