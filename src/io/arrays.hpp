@@ -14,11 +14,11 @@ inline constexpr const char* kCellIdsName = "GlobalCellIds";
 
 /// Names that tools give to global ids without flagging them; our own come first.
 inline constexpr std::array<std::string_view, 6> kUsualPointIdNames{
-    kPointIdsName, "GlobalNodeID", "GlobalNodeId", "GlobalPointID", "GlobalNodeIds",
-    "vtkGlobalPointIds"};
+    kPointIdsName,   "GlobalNodeID",  "GlobalNodeId",
+    "GlobalPointID", "GlobalNodeIds", "vtkGlobalPointIds"};
 inline constexpr std::array<std::string_view, 6> kUsualCellIdNames{
-    kCellIdsName, "GlobalElementID", "GlobalElementId", "GlobalCellID", "GlobalElementIds",
-    "vtkGlobalCellIds"};
+    kCellIdsName,   "GlobalElementID",  "GlobalElementId",
+    "GlobalCellID", "GlobalElementIds", "vtkGlobalCellIds"};
 
 /// @brief Whether the piece has point ids. An empty one always has, as an index of pieces with ids
 /// demands them of every piece.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "atomic_file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cerrno>
 #include <string_view>
 #include <system_error>
 #include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/io/files.hpp"
@@ -38,8 +38,8 @@ AtomicFile::AtomicFile(std::filesystem::path final_path) : final_(std::move(fina
   static std::atomic<unsigned> counter{0};
   do {
     temporary_ = final_;
-    temporary_ += std::string(kTemporaryMark) + std::to_string(::getpid()) + "-"
-                  + std::to_string(counter++);
+    temporary_ +=
+        std::string(kTemporaryMark) + std::to_string(::getpid()) + "-" + std::to_string(counter++);
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ < 0) fail(errno);

@@ -14,8 +14,8 @@
 namespace tessera::io {
 namespace {
 
-/// No compressor of VTK packs better (zlib 1032, LZ4 255, LZMA a few thousand); a block that claims to
-/// is corrupt, and its size must not be allocated.
+/// No compressor of VTK packs better (zlib 1032, LZ4 255, LZMA a few thousand); a block that claims
+/// to is corrupt, and its size must not be allocated.
 constexpr std::size_t kMaxCompressionRatio = 8192;
 constexpr std::size_t kSmallBlock = 65536;
 
@@ -47,17 +47,21 @@ class Source {
   /// Takes a run of `size` bytes; in base64, the run has its own padding.
   [[nodiscard]] Bytes take(std::size_t size)
   {
-    Bytes bytes = peek(size);
+    Bytes bytes = peek(0, size);
     rest_.remove_prefix(is_base64_ ? num_digits(size) : size);
     return bytes;
   }
 
-  /// The first `size` bytes of the next run, which may be longer.
-  [[nodiscard]] Bytes peek(std::size_t size) const
+  /// Bytes from `begin` to `end` of the next run, which may be longer.
+  [[nodiscard]] Bytes peek(std::size_t begin, std::size_t end) const
   {
-    require(size <= rest_.size(), kCutOff);  // Holds for base64 as well, and rules out overflows.
-    if (is_base64_) return decode_base64(size);
-    const auto bytes = std::as_bytes(std::span(rest_.substr(0, size)));
+    require(end <= rest_.size(), kCutOff);  // Holds for base64 as well, and rules out overflows.
+    if (is_base64_) {
+      Bytes bytes = decode_base64(end);
+      bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(begin));
+      return bytes;
+    }
+    const auto bytes = std::as_bytes(std::span(rest_.substr(begin, end - begin)));
     return {bytes.begin(), bytes.end()};
   }
 
@@ -116,14 +120,12 @@ template <class Word>
 }
 
 /// @brief [number of bytes][bytes], one run.
-[[nodiscard]] Bytes decode_plain(Source source, const Encoding& encoding)
+[[nodiscard]] Bytes decode_plain(const Source& source, const Encoding& encoding)
 {
   const std::size_t word = encoding.header_word;
-  const std::size_t size = header_words(source.peek(word), encoding).front();
+  const std::size_t size = header_words(source.peek(0, word), encoding).front();
   require(size <= SIZE_MAX - word, kCutOff);
-  Bytes bytes = source.take(word + size);
-  bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(word));
-  return bytes;
+  return source.peek(word, word + size);
 }
 
 /// @brief [number of blocks][size of a block][size of the last if smaller][compressed sizes…], then
@@ -131,7 +133,7 @@ template <class Word>
 [[nodiscard]] Bytes decode_compressed(Source source, const Encoding& encoding)
 {
   const std::size_t word = encoding.header_word;
-  const std::size_t num_blocks = header_words(source.peek(word), encoding).front();
+  const std::size_t num_blocks = header_words(source.peek(0, word), encoding).front();
   if (num_blocks == 0) return {};
   require(num_blocks <= SIZE_MAX / word - 3, kCutOff);
   const auto header = header_words(source.take((3 + num_blocks) * word), encoding);
@@ -173,7 +175,8 @@ template <class T>
     if (*at == '+') ++at;
     T value{};
     const auto [next, error] = std::from_chars(at, end, value);
-    require(error == std::errc(), "an array in text form holds something that is no number of its type");
+    require(error == std::errc(),
+            "an array in text form holds something that is no number of its type");
     values.push_back(value);
     at = next;
   }
@@ -184,16 +187,26 @@ template <class T>
 [[nodiscard]] Bytes parse_numbers(std::string_view text, ScalarType type)
 {
   switch (type) {
-    case ScalarType::i8: return parse_numbers<std::int8_t>(text);
-    case ScalarType::u8: return parse_numbers<std::uint8_t>(text);
-    case ScalarType::i16: return parse_numbers<std::int16_t>(text);
-    case ScalarType::u16: return parse_numbers<std::uint16_t>(text);
-    case ScalarType::i32: return parse_numbers<std::int32_t>(text);
-    case ScalarType::u32: return parse_numbers<std::uint32_t>(text);
-    case ScalarType::i64: return parse_numbers<std::int64_t>(text);
-    case ScalarType::u64: return parse_numbers<std::uint64_t>(text);
-    case ScalarType::f32: return parse_numbers<float>(text);
-    case ScalarType::f64: break;
+    case ScalarType::i8:
+      return parse_numbers<std::int8_t>(text);
+    case ScalarType::u8:
+      return parse_numbers<std::uint8_t>(text);
+    case ScalarType::i16:
+      return parse_numbers<std::int16_t>(text);
+    case ScalarType::u16:
+      return parse_numbers<std::uint16_t>(text);
+    case ScalarType::i32:
+      return parse_numbers<std::int32_t>(text);
+    case ScalarType::u32:
+      return parse_numbers<std::uint32_t>(text);
+    case ScalarType::i64:
+      return parse_numbers<std::int64_t>(text);
+    case ScalarType::u64:
+      return parse_numbers<std::uint64_t>(text);
+    case ScalarType::f32:
+      return parse_numbers<float>(text);
+    case ScalarType::f64:
+      break;
   }
   return parse_numbers<double>(text);
 }

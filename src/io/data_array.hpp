@@ -22,8 +22,8 @@ enum class ScalarType : int { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 /// @brief How the arrays of one VTK XML file are stored.
 struct Encoding {
   bool swap_bytes = false;
-  std::size_t header_word = 4;    ///< Bytes of a size in front of binary data: 4 or 8.
-  std::string compressor{};       ///< VTK's name; empty without compression.
+  std::size_t header_word = 4;  ///< Bytes of a size in front of binary data: 4 or 8.
+  std::string compressor{};     ///< VTK's name; empty without compression.
   std::string_view appended{};
   bool appended_is_base64 = false;
 };
@@ -59,16 +59,26 @@ decltype(auto) visit_values(const DataArray& array, Visitor&& visit)
                            array.values.size() / sizeof(T)));
   };
   switch (array.type) {
-    case ScalarType::i8: return as(std::int8_t{});
-    case ScalarType::u8: return as(std::uint8_t{});
-    case ScalarType::i16: return as(std::int16_t{});
-    case ScalarType::u16: return as(std::uint16_t{});
-    case ScalarType::i32: return as(std::int32_t{});
-    case ScalarType::u32: return as(std::uint32_t{});
-    case ScalarType::i64: return as(std::int64_t{});
-    case ScalarType::u64: return as(std::uint64_t{});
-    case ScalarType::f32: return as(float{});
-    case ScalarType::f64: break;
+    case ScalarType::i8:
+      return as(std::int8_t{});
+    case ScalarType::u8:
+      return as(std::uint8_t{});
+    case ScalarType::i16:
+      return as(std::int16_t{});
+    case ScalarType::u16:
+      return as(std::uint16_t{});
+    case ScalarType::i32:
+      return as(std::int32_t{});
+    case ScalarType::u32:
+      return as(std::uint32_t{});
+    case ScalarType::i64:
+      return as(std::int64_t{});
+    case ScalarType::u64:
+      return as(std::uint64_t{});
+    case ScalarType::f32:
+      return as(float{});
+    case ScalarType::f64:
+      break;
   }
   return as(double{});
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "folder_lock.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <ctime>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include "tessera/base/error.hpp"
 
@@ -89,11 +89,11 @@ void FolderLock::refuse_owner_on_other_host() const
 
 void FolderLock::write_owner() const
 {
-  const std::string owner = host_line() + "process " + std::to_string(::getpid()) + "\nsince "
-                            + now_utc() + "\n";
-  const bool written = ::ftruncate(descriptor_, 0) == 0
-                       && ::pwrite(descriptor_, owner.data(), owner.size(), 0)
-                              == static_cast<ssize_t>(owner.size());
+  const std::string owner =
+      host_line() + "process " + std::to_string(::getpid()) + "\nsince " + now_utc() + "\n";
+  const bool written =
+      ::ftruncate(descriptor_, 0) == 0
+      && ::pwrite(descriptor_, owner.data(), owner.size(), 0) == static_cast<ssize_t>(owner.size());
   if (!written) {
     throw OutputError("cannot write " + file_.string() + ": " + system_error_text(errno));
   }

@@ -11,8 +11,8 @@ inline constexpr const char* kLockName = ".tessera.lock";
 /// @brief Holds the lock file of a folder for its lifetime; see OutputFolder.
 ///
 /// flock does the locking, as the kernel gives it up when the owner dies, however it dies. The text
-/// in the file tells people who holds it, and tells apart owners on other hosts, which flock does not
-/// see on every network file system.
+/// in the file tells people who holds it, and tells apart owners on other hosts, which flock does
+/// not see on every network file system.
 class FolderLock {
  public:
   /// @brief Takes the lock. @throws OutputError naming the owner, or why there can be no lock.

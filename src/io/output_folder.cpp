@@ -19,8 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Files and folders that a run makes; nothing else is ever removed.
-constexpr std::array kRunFiles{"mesh.pvtu", "boundary.pvtu", "case.toml", "report.json",
-                               "subdomains.json"};
+constexpr std::array kRunFiles{"mesh.pvtu", "boundary.pvtu", "case.toml", "report.json"};
 constexpr std::array kPieceFolders{"mesh", "boundary", "pieces"};
 constexpr std::array kOwnFolders{"log", "failure"};
 
@@ -97,9 +96,9 @@ void remove_pieces(const fs::path& folder)
 {
   for (const fs::directory_entry& entry : entries_of(folder)) {
     const std::string name = entry.path().filename().string();
-    const bool is_piece = name.starts_with("piece_")
-                          && (name.ends_with(".vtu") || name.ends_with(".record")
-                              || is_temporary_name(name));
+    const bool is_piece =
+        name.starts_with("piece_")
+        && (name.ends_with(".vtu") || name.ends_with(".record") || is_temporary_name(name));
     if (is_piece && !entry.is_directory()) remove_tree(entry.path());
   }
   std::error_code error;

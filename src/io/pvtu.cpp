@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 
@@ -10,7 +8,6 @@
 #include "tessera/io/vtu.hpp"
 
 #include "arrays.hpp"
-#include "atomic_file.hpp"
 #include "mesh_file.hpp"
 #include "xml.hpp"
 
@@ -129,20 +126,6 @@ void put_texts(std::ostream& out, const std::string& name, const std::vector<std
 }
 
 }  // namespace
-
-std::string load_file(const fs::path& path, std::size_t max_size)
-{
-  std::error_code error;
-  if (fs::is_directory(path, error)) throw InputError(system_error_text(EISDIR));
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(system_error_text(errno));
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (error) throw InputError(error.message());
-  std::string bytes(static_cast<std::size_t>(std::min<std::uintmax_t>(size, max_size)), '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file) throw InputError("it cannot be read to its end");
-  return bytes;
-}
 
 void write_pvtu(const fs::path& path, const std::vector<fs::path>& pieces,
                 const mesh::MeshArrays& schema)

@@ -149,9 +149,12 @@ void add_texts(vtkFieldData& data, const std::map<std::string, std::vector<std::
 void set_compression(vtkXMLWriter& writer, Compression compression)
 {
   switch (compression) {
-    case Compression::none: return writer.SetCompressorTypeToNone();
-    case Compression::lz4: return writer.SetCompressorTypeToLZ4();
-    case Compression::zlib: return writer.SetCompressorTypeToZLib();
+    case Compression::none:
+      return writer.SetCompressorTypeToNone();
+    case Compression::lz4:
+      return writer.SetCompressorTypeToLZ4();
+    case Compression::zlib:
+      return writer.SetCompressorTypeToZLib();
   }
 }
 

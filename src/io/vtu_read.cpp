@@ -264,7 +264,8 @@ void append(std::vector<T>& to, const std::vector<T>& from)
   to.insert(to.end(), from.begin(), from.end());
 }
 
-/// @brief Appends arrays that both have, and drops the others, which have no value for some entities.
+/// @brief Appends arrays that both have, and drops the others, which have no value for some
+/// entities.
 template <class T>
 void append(std::map<std::string, std::vector<T>>& to,
             const std::map<std::string, std::vector<T>>& from)
@@ -277,7 +278,8 @@ void append(std::map<std::string, std::vector<T>>& to,
 void append_ids(std::vector<GlobalIndex>& to, GlobalIndex num_to,
                 const std::vector<GlobalIndex>& from, GlobalIndex num_from)
 {
-  const bool is_complete = std::cmp_equal(to.size(), num_to) && std::cmp_equal(from.size(), num_from);
+  const bool is_complete =
+      std::cmp_equal(to.size(), num_to) && std::cmp_equal(from.size(), num_from);
   if (is_complete) {
     append(to, from);
   } else {

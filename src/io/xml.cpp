@@ -138,9 +138,8 @@ class Parser {
   {
     std::string plain;
     while (!text.empty()) {
-      const auto* entity = std::ranges::find_if(kEntities, [&](const Entity& candidate) {
-        return text.starts_with(candidate.written);
-      });
+      const auto* entity = std::ranges::find_if(
+          kEntities, [&](const Entity& candidate) { return text.starts_with(candidate.written); });
       const bool is_entity = entity != kEntities.end();
       plain += is_entity ? entity->character : text.front();
       text.remove_prefix(is_entity ? entity->written.size() : 1);

@@ -35,8 +35,8 @@ struct XmlDocument {
 
 /// @brief Parses the part of XML that VTK files use. The result refers to `file`. Local.
 ///
-/// Own, because a general parser stops at raw bytes, and so that depth and memory are bounded by the
-/// size of the file. @throws InputError saying what is wrong and at which byte.
+/// Own, because a general parser stops at raw bytes, and so that depth and memory are bounded by
+/// the size of the file. @throws InputError saying what is wrong and at which byte.
 [[nodiscard]] XmlDocument parse_vtk_xml(std::string_view file);
 
 /// @brief `text` as the value of an XML attribute.

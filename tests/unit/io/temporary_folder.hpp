@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -11,6 +8,9 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace tessera::testing {
 
@@ -38,8 +38,7 @@ class TemporaryFolder {
   }
   [[nodiscard]] std::size_t num_entries() const
   {
-    return static_cast<std::size_t>(
-        std::distance(std::filesystem::directory_iterator(path_), {}));
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
   }
 
  private:

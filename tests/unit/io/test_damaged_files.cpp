@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(All, WithCompression,
 TEST_P(WithCompression, AFileThatIsCutOffAnywhereIsAnInputError)
 {
   const std::string bytes = sample_bytes();
-  for (std::size_t size = 0; size + 1 < bytes.size(); size += 1 + size / 64) {
+  for (std::size_t size = 0; size + 1 < bytes.size(); size += 1 + size / 32) {
     testing::write_bytes(file(), bytes.substr(0, size));
     EXPECT_FALSE(read_damaged(file()).has_value()) << size << " of " << bytes.size();
   }
@@ -84,19 +84,22 @@ TEST_P(WithCompression, FlippedBytesAreAnInputErrorOrConsistent)
   const std::string bytes = sample_bytes();
   std::mt19937_64 random(17);
   std::size_t num_refused = 0;
-  constexpr std::size_t kNumTrials = 1500;
+  constexpr std::size_t kNumTrials = 800;
   for (std::size_t trial = 0; trial < kNumTrials; ++trial) {
     std::string damaged = bytes;
     for (std::size_t flip = 0; flip <= trial % 3; ++flip) {
       constexpr std::array kLikely{'\x00', '\xff', '\x01', '\x80', '0', '9', '<', '"'};
-      const char byte = trial % 2 == 0 ? static_cast<char>(random() % 256)
-                                       : kLikely[random() % kLikely.size()];
+      const char byte =
+          trial % 2 == 0 ? static_cast<char>(random() % 256) : kLikely[random() % kLikely.size()];
       damaged[random() % damaged.size()] = byte;
     }
     testing::write_bytes(file(), damaged);
     const auto mesh = read_damaged(file());
-    if (mesh) expect_consistent(*mesh);
-    num_refused += mesh ? 0 : 1;
+    if (mesh) {
+      expect_consistent(*mesh);
+    } else {
+      ++num_refused;
+    }
   }
   EXPECT_GT(num_refused, kNumTrials / 20);
 }
@@ -105,7 +108,7 @@ TEST_P(WithCompression, AFlippedByteInAHeaderOfDataIsAnInputErrorOrConsistent)
 {
   const std::string bytes = sample_bytes();
   const std::size_t data = bytes.find('_', bytes.find("<AppendedData"));
-  for (std::size_t at = data + 1; at < std::min(data + 200, bytes.size()); ++at) {
+  for (std::size_t at = data + 1; at < std::min(data + 80, bytes.size()); ++at) {
     for (const char byte : {'\x00', '\x01', '\x7f', '\x80', '\xff'}) {
       std::string damaged = bytes;
       damaged[at] = byte;
@@ -119,11 +122,18 @@ TEST(ReadVtu, FilesOfOtherKindsAreInputErrors)
 {
   const TemporaryFolder folder;
   const std::vector<std::string> contents{
-      "", " ", "solid cube\nendsolid\n", "<html></html>", std::string(10000, '<'),
-      std::string(1000, '\0'), "<VTKFile type=\"PolyData\"></VTKFile>",
+      "",
+      " ",
+      "solid cube\nendsolid\n",
+      "<html></html>",
+      std::string(10000, '<'),
+      std::string(1000, '\0'),
+      "<VTKFile type=\"PolyData\"></VTKFile>",
       "<VTKFile type=\"UnstructuredGrid\"></VTKFile>",
       "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid/></VTKFile>",
-      "</VTKFile>", "<VTKFile", "<VTKFile></VTKFile></VTKFile>"};
+      "</VTKFile>",
+      "<VTKFile",
+      "<VTKFile></VTKFile></VTKFile>"};
   for (const std::string& content : contents) {
     testing::write_bytes(folder / "a.vtu", content);
     EXPECT_FALSE(read_damaged(folder / "a.vtu").has_value()) << content.substr(0, 80);
@@ -145,7 +155,8 @@ TEST(ReadVtu, SizesThatNoFileCanHoldAreInputErrors)
   write_vtu(testing::sample_tets(2), folder / "good.vtu", Compression::none);
   const std::string bytes = testing::file_bytes(folder / "good.vtu");
   for (const std::string attribute : {"NumberOfPoints=\"", "NumberOfCells=\"", "offset=\""}) {
-    for (const std::string value : {"18446744073709551615", "99999999999999999999", "-1", "1e3", ""}) {
+    for (const std::string value :
+         {"18446744073709551615", "99999999999999999999", "-1", "1e3", ""}) {
       std::string damaged = bytes;
       const std::size_t at = bytes.find(attribute) + attribute.size();
       damaged.replace(at, bytes.find('"', at) - at, value);
@@ -171,7 +182,7 @@ TEST(PieceFiles, ADamagedIndexIsAnInputErrorOrAList)
   write_pvtu(folder / "good.pvtu", {"a.vtu", "b.vtu"}, testing::sample_tets(1));
   const std::string bytes = testing::file_bytes(folder / "good.pvtu");
   std::mt19937 random(5);
-  for (int trial = 0; trial < 1000; ++trial) {
+  for (int trial = 0; trial < 500; ++trial) {
     std::string damaged = bytes.substr(0, trial % 2 == 0 ? bytes.size() : random() % bytes.size());
     if (!damaged.empty()) damaged[random() % damaged.size()] = static_cast<char>(random() % 256);
     testing::write_bytes(folder / "mesh.pvtu", damaged);

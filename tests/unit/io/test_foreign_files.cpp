@@ -53,18 +53,19 @@ using testing::TemporaryFolder;
   return grid;
 }
 
-using Format = std::tuple<int, int, bool, bool>;  // Data mode, compressor, 64-bit sizes, big endian.
+using Format =
+    std::tuple<int, int, bool, bool>;  // Data mode, compressor, 64-bit sizes, big endian.
 class EveryEncoding : public ::testing::TestWithParam<Format> {};
-INSTANTIATE_TEST_SUITE_P(
-    All, EveryEncoding,
-    ::testing::Combine(::testing::Range(0, 4), ::testing::Range(0, 4), ::testing::Bool(),
-                       ::testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(All, EveryEncoding,
+                         ::testing::Combine(::testing::Range(0, 4), ::testing::Range(0, 4),
+                                            ::testing::Bool(), ::testing::Bool()));
 
 void set_format(vtkXMLUnstructuredGridWriter& writer, const Format& format)
 {
   const auto& [mode, compressor, is_64_bit, is_big_endian] = format;
-  writer.SetDataMode(mode == 0 ? vtkXMLWriter::Ascii
-                               : mode == 1 ? vtkXMLWriter::Binary : vtkXMLWriter::Appended);
+  writer.SetDataMode(mode == 0   ? vtkXMLWriter::Ascii
+                     : mode == 1 ? vtkXMLWriter::Binary
+                                 : vtkXMLWriter::Appended);
   writer.SetEncodeAppendedData(mode == 2);
   writer.SetCompressorType(compressor);
   writer.SetHeaderType(is_64_bit ? vtkXMLWriter::UInt64 : vtkXMLWriter::UInt32);
@@ -134,7 +135,8 @@ void add_numbers(vtkDataSetAttributes& data, const char* name, vtkIdType size, i
   data.AddArray(array);
 }
 
-void write_with_vtk(vtkUnstructuredGrid* grid, const std::filesystem::path& path, int num_pieces = 1)
+void write_with_vtk(vtkUnstructuredGrid* grid, const std::filesystem::path& path,
+                    int num_pieces = 1)
 {
   const vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writer->SetFileName(path.c_str());

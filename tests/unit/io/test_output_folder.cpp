@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/io/files.hpp"
@@ -101,7 +100,9 @@ TEST(OutputFolder, IsRefusedIfItIsNotEmpty)
 TEST(OutputFolder, OfARunThatWroteNothingCountsAsEmpty)
 {
   const TemporaryFolder folder;
-  { const OutputFolder output(folder / "run", ExistingFolder::refuse); }
+  {
+    const OutputFolder output(folder / "run", ExistingFolder::refuse);
+  }
   EXPECT_EQ(refusal(folder / "run", ExistingFolder::refuse), "");
 }
 

@@ -136,8 +136,9 @@ TEST(PieceStore, AFolderThatCannotBeMadeIsAnOutputError)
 {
   const TemporaryFolder folder;
   testing::write_bytes(folder / "file", "");
-  EXPECT_NE(message_of<OutputError>([&] { const PieceStore store(folder / "file/pieces"); })
-                .find("file/pieces"),
+  EXPECT_NE(message_of<OutputError>([&] {
+              const PieceStore store(folder / "file/pieces");
+            }).find("file/pieces"),
             std::string::npos);
 }
 

@@ -75,8 +75,7 @@ TEST_P(WithCompression, EqualArraysGiveEqualBytes)
   write_vtu(testing::sample_tets(3), folder / "a.vtu", GetParam());
   write_vtu(testing::sample_tets(3), folder / "b.vtu", GetParam());
   EXPECT_EQ(testing::file_bytes(folder / "a.vtu"), testing::file_bytes(folder / "b.vtu"));
-  EXPECT_EQ(testing::file_bytes(folder / "a.vtu").find(folder.path().string()),
-            std::string::npos);
+  EXPECT_EQ(testing::file_bytes(folder / "a.vtu").find(folder.path().string()), std::string::npos);
 }
 
 TEST_P(WithCompression, VtkReadsAPieceWithoutAWarning)
@@ -93,8 +92,8 @@ TEST_P(WithCompression, VtkReadsAPieceWithoutAWarning)
   ASSERT_NE(grid->GetPointData()->GetGlobalIds(), nullptr);
   ASSERT_NE(grid->GetCellData()->GetGlobalIds(), nullptr);
   EXPECT_EQ(grid->GetCellData()->GetGlobalIds()->GetVariantValue(5).ToLongLong(), mesh.cell_ids[5]);
-  auto* const names = vtkStringArray::SafeDownCast(
-      grid->GetFieldData()->GetAbstractArray("patch_names"));
+  auto* const names =
+      vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("patch_names"));
   ASSERT_NE(names, nullptr);
   EXPECT_EQ(names->GetValue(2), mesh.field_texts.at("patch_names")[2]);
 }
@@ -141,8 +140,8 @@ TEST(WriteVtu, AFullDiskIsAnOutputErrorAndLeavesNothing)
   const MeshArrays mesh = testing::sample_tets(8);
   for (const rlim_t limit : {0UL, 100UL, 4096UL, 20000UL, 60000UL}) {
     const FullDisk full_disk(limit);
-    const std::string message = message_of<OutputError>(
-        [&] { write_vtu(mesh, folder / "piece.vtu", Compression::none); });
+    const std::string message =
+        message_of<OutputError>([&] { write_vtu(mesh, folder / "piece.vtu", Compression::none); });
     EXPECT_NE(message.find("piece.vtu: "), std::string::npos) << limit << ": " << message;
     EXPECT_EQ(folder.num_entries(), 0U) << limit;
   }
@@ -176,9 +175,8 @@ TEST(WriteVtu, AFailedWriteKeepsTheOlderFile)
 TEST(WriteVtu, AFolderThatIsMissingIsNamed)
 {
   const TemporaryFolder folder;
-  const std::string message = message_of<OutputError>([&] {
-    write_vtu(testing::sample_tets(1), folder / "missing/piece.vtu", Compression::none);
-  });
+  const std::string message = message_of<OutputError>(
+      [&] { write_vtu(testing::sample_tets(1), folder / "missing/piece.vtu", Compression::none); });
   EXPECT_NE(message.find("missing/piece.vtu: No such file"), std::string::npos) << message;
 }
 
@@ -201,8 +199,8 @@ TEST(WritePvtu, VtkReadsAllPiecesWithoutAWarning)
   EXPECT_NE(grid->GetPointData()->GetGlobalIds(), nullptr);
   EXPECT_NE(grid->GetCellData()->GetGlobalIds(), nullptr);
   EXPECT_NE(grid->GetCellData()->GetArray("mean_ratio"), nullptr);
-  auto* const names = vtkStringArray::SafeDownCast(
-      grid->GetFieldData()->GetAbstractArray("patch_names"));
+  auto* const names =
+      vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("patch_names"));
   ASSERT_NE(names, nullptr);
   EXPECT_EQ(names->GetValue(2), mesh.field_texts.at("patch_names")[2]);
 }
