@@ -27,9 +27,9 @@ class Worker {
 
 /// @brief Bounds of one load or job.
 struct JobLimits {
-  double cpu_s = 600.0;      ///< CPU time of the job process, seconds.
-  double stall_s = 120.0;    ///< Wall time without any CPU time used, seconds: finds sleepers.
-  double memory_gib = 4.0;   ///< Resident memory of the job process, GiB.
+  double cpu_s = 600.0;     ///< CPU time of the job process, seconds.
+  double stall_s = 120.0;   ///< Wall time without any CPU time used, seconds: finds sleepers.
+  double memory_gib = 4.0;  ///< Resident memory of the job process, GiB.
 };
 
 enum class JobStatus : int {
@@ -40,7 +40,7 @@ enum class JobStatus : int {
   out_of_time,  ///< CPU limit.
   stalled,      ///< Stall limit.
   out_of_memory,
-  cancelled,    ///< The caller asked to stop.
+  cancelled,  ///< The caller asked to stop.
 };
 
 /// @brief Kind of the exception that a worker threw, so that the caller can throw the same.
@@ -50,10 +50,10 @@ struct JobOutcome {
   JobStatus status = JobStatus::ok;
   int code = 0;
   ErrorKind error = ErrorKind::none;
-  std::string message{};        ///< One line for people: what happened, in words.
-  Bytes result{};               ///< What Worker::run() returned; empty unless ok.
-  double cpu_s = 0.0;           ///< CPU time used, seconds.
-  double wall_s = 0.0;          ///< Wall time, seconds.
+  std::string message{};           ///< One line for people: what happened, in words.
+  Bytes result{};                  ///< What Worker::run() returned; empty unless ok.
+  double cpu_s = 0.0;              ///< CPU time used, seconds.
+  double wall_s = 0.0;             ///< Wall time, seconds.
   std::size_t peak_rss_bytes = 0;  ///< Largest resident memory seen of the job process.
 };
 
@@ -66,8 +66,8 @@ void throw_unless_ok(const JobOutcome& outcome, const std::string& what);
 /// The constructor forks a *zygote*, so construct it before MPI_Init and while the process has one
 /// thread. The zygote forks a *model zygote*, which runs load() and forks one process per job. If
 /// the model zygote dies in a load, a fresh one takes its place, and all earlier successful loads
-/// are gone: the outcome of that load says so. All processes end with this object's process, however
-/// it ends. One job at a time; move-only by unique_ptr.
+/// are gone: the outcome of that load says so. All processes end with this object's process,
+/// however it ends. One job at a time; move-only by unique_ptr.
 class JobRunner {
  public:
   /// @brief Called every few milliseconds while waiting; returns false to cancel the job.

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/call.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <sstream>
+#include <utility>
+
+#include <poll.h>
+#include <sys/wait.h>
+
+#include "jobs/failure.hpp"
+
+namespace tessera::jobs {
+namespace {
+
+// How often the caller is asked and the limits are looked at. A look costs about 20 µs.
+constexpr std::chrono::milliseconds kTick{4};
+
+// A process that is to be killed ends within milliseconds; if nothing is heard of it, its parent is
+// stopped or broken, and the parent's parent is asked.
+constexpr std::chrono::seconds kPatience{5};
+
+double seconds_between(std::chrono::steady_clock::time_point from,
+                       std::chrono::steady_clock::time_point to)
+{
+  return std::chrono::duration<double>(to - from).count();
+}
+
+std::string signal_message(int signal)
+{
+  const std::string text =
+      "ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
+  if (signal != SIGKILL) return text;
+  return text + " from outside: by hand, or because the system ran out of memory";
+}
+
+std::string with_unit(double value, const char* unit)
+{
+  std::ostringstream text;
+  text << value << " " << unit;
+  return text.str();
+}
+
+}  // namespace
+
+void ZygoteLink::start_model()
+{
+  send_signal(control.get(), PacketKind::start_model, num_calls);
+  model_was_started = true;
+  model = 0;
+  loaded_bytes = 0;
+  model_bytes = 0;
+}
+
+Call::Call(ZygoteLink& link, PacketKind kind, std::span<const std::byte> message,
+           const JobLimits& limits, const JobRunner::WaitCallback& on_wait)
+    : link_(link),
+      kind_(kind),
+      limits_(limits),
+      on_wait_(on_wait),
+      number_(++link.num_calls),
+      log_file_(link.log_file.string()),
+      log_request_(PacketKind::log_file, number_, std::as_bytes(std::span(log_file_))),
+      request_(kind, number_, message),
+      start_(Clock::now()),
+      last_tick_(start_)
+{
+}
+
+JobOutcome Call::wait()
+{
+  receive_control();
+  if (!outcome_ && !link_.model_was_started) link_.start_model();
+  while (!outcome_) {
+    if (!kill_reason_) send_request();
+    wait_for_packets();
+    receive_data();
+    receive_control();
+    const Clock::time_point now = Clock::now();
+    if (!outcome_ && now - last_tick_ >= kTick) tick(now);
+  }
+  if (thrown_) std::rethrow_exception(thrown_);
+  outcome_->wall_s = seconds_between(start_, Clock::now());
+  return std::move(*outcome_);
+}
+
+void Call::wait_for_packets()
+{
+  const bool sending = !kill_reason_ && !request_.is_sent();
+  std::array<pollfd, 2> polled{
+      pollfd{.fd = link_.data.get(),
+             .events = static_cast<short>(sending ? POLLIN | POLLOUT : POLLIN),
+             .revents = 0},
+      pollfd{.fd = link_.control.get(), .events = POLLIN, .revents = 0}};
+  // A signal ends it early, then the tick is due a little later: no harm.
+  ::poll(polled.data(), polled.size(), static_cast<int>(kTick.count()));
+}
+
+void Call::send_request()
+{
+  const bool alive = log_request_.send_some(link_.data.get())
+                     && (!log_request_.is_sent() || request_.send_some(link_.data.get()));
+  if (!alive) link_.zygote_is_gone = true;
+}
+
+void Call::receive_data()
+{
+  // A large result keeps coming for seconds; the caller and the limits have their turn in between.
+  constexpr int kMaxPackets = 64;
+  for (int i = 0; i < kMaxPackets && !outcome_; ++i) {
+    const auto packet = link_.data_packets.receive(link_.data.get(), false);
+    if (!packet) return;
+    // Lower numbers: what a job still said when it was already given up.
+    if (packet->header.call == number_) accept_data(*packet);
+  }
+}
+
+void Call::receive_control()
+{
+  while (const auto packet = link_.control_packets.receive(link_.control.get(), false))
+    accept_control(*packet);
+  link_.zygote_is_gone = link_.zygote_is_gone || link_.control_packets.is_closed();
+  if (link_.zygote_is_gone && !outcome_)
+    finish(JobStatus::crashed,
+           "the worker process of this rank is gone, killed from outside; no more jobs can be run");
+}
+
+void Call::accept_data(const Packet& packet)
+{
+  switch (packet.header.kind) {
+    case PacketKind::usage:
+      usage_ = packet.value<UsageReport>();
+      break;
+    case PacketKind::result:
+    case PacketKind::failure:
+      accept_answer(packet);
+      break;
+    case PacketKind::job_started:
+      job_ = packet.value<pid_t>();
+      break;
+    case PacketKind::job_ended:
+      finish_ended(packet.value<ProcessEnd>(), false);
+      break;
+    default:
+      break;
+  }
+}
+
+void Call::accept_answer(const Packet& packet)
+{
+  answered_ = answer_.add(packet);
+  // A job's answer counts when the job has ended; a load killed a moment too late is lost all the
+  // same, so its end is waited for.
+  if (answered_ && kind_ == PacketKind::load && !kill_reason_) finish_answered();
+}
+
+void Call::accept_control(const Packet& packet)
+{
+  if (packet.header.kind == PacketKind::model_started) link_.model = packet.value<pid_t>();
+  if (packet.header.kind != PacketKind::model_ended) return;
+  link_.model_was_started = false;
+  link_.model = 0;
+  if (!outcome_) finish_ended(packet.value<ProcessEnd>(), true);
+}
+
+void Call::tick(Clock::time_point now)
+{
+  const double since_last_tick_s = seconds_between(std::exchange(last_tick_, now), now);
+  if (kill_reason_) {
+    if (now - kill_time_ < kPatience) return;
+    kill(killed_ == Target::job ? Target::model : Target::zygote, now);
+    return;
+  }
+  bool go_on = true;
+  try {
+    go_on = !on_wait_ || on_wait_();
+  } catch (...) {
+    thrown_ = std::current_exception();
+    go_on = false;
+  }
+  kill_reason_ = go_on ? reason_to_kill(since_last_tick_s) : JobStatus::cancelled;
+  if (kill_reason_) kill(kind_ == PacketKind::run ? Target::job : Target::model, now);
+}
+
+std::optional<JobStatus> Call::reason_to_kill(double since_last_tick_s)
+{
+  const pid_t worker = job_ > 0 ? job_ : link_.model;
+  const auto sample = worker > 0 ? sample_process(worker) : std::nullopt;
+  if (!watch_ || worker != watched_) {
+    // A job's time counts from its start, a load's from the first look at the model zygote.
+    const double cpu_before_s = sample && job_ == 0 ? sample->cpu_s : 0.0;
+    watch_.emplace(limits_, cpu_before_s);
+    watched_ = worker;
+  }
+  return watch_->look(sample, since_last_tick_s);
+}
+
+void Call::kill(Target target, Clock::time_point now)
+{
+  killed_ = target;
+  kill_time_ = now;
+  if (target == Target::job) send_signal(link_.data.get(), PacketKind::kill_job, number_);
+  if (target == Target::model) send_signal(link_.control.get(), PacketKind::kill_model, number_);
+  // A child of this process, so the number is surely its own; the others follow it.
+  if (target == Target::zygote) ::kill(link_.zygote, SIGKILL);
+}
+
+void Call::finish(JobStatus status, std::string message)
+{
+  outcome_.emplace();
+  outcome_->status = status;
+  outcome_->message = std::move(message);
+  if (watch_) {
+    outcome_->cpu_s = watch_->cpu_s();
+    outcome_->peak_rss_bytes = watch_->peak_rss_bytes();
+  }
+  if (usage_) {
+    outcome_->cpu_s = usage_->cpu_s;
+    outcome_->peak_rss_bytes = usage_->peak_rss_bytes;
+    // The parts that were given back between the peak and the report were this process's own.
+    const std::size_t returned =
+        usage_->peak_rss_bytes - std::min(usage_->peak_rss_bytes, usage_->rss_bytes);
+    link_.peak_bytes = std::max(link_.peak_bytes, usage_->together_bytes + returned);
+  }
+}
+
+void Call::finish_ended(const ProcessEnd& end, bool is_model)
+{
+  if (kill_reason_) {
+    finish(*kill_reason_, killed_message(*kill_reason_));
+  } else if (answered_ && !is_model) {
+    finish_answered();
+  } else if (end.fork_error != 0) {
+    finish(JobStatus::failed, std::string("cannot start a process: ") + ::strerror(end.fork_error));
+    outcome_->error = ErrorKind::other;
+  } else if (WIFSIGNALED(end.wait_status)) {
+    finish(JobStatus::crashed, signal_message(WTERMSIG(end.wait_status)));
+    outcome_->code = WTERMSIG(end.wait_status);
+  } else {
+    const int code = WEXITSTATUS(end.wait_status);
+    finish(JobStatus::exited, "called exit(" + std::to_string(code) + ")");
+    outcome_->code = code;
+  }
+  if (is_model) {
+    if (kind_ == PacketKind::run)
+      outcome_->message = "the process that holds the model: " + outcome_->message;
+    outcome_->message += "; what had been loaded is lost";
+    link_.peak_bytes = std::max(link_.peak_bytes, static_cast<std::size_t>(end.peak_rss_bytes));
+  } else {
+    note_usage(end);
+  }
+}
+
+// What the kernel counted is exact, and there also for processes that could report nothing.
+void Call::note_usage(const ProcessEnd& end)
+{
+  outcome_->cpu_s = end.cpu_s;
+  outcome_->peak_rss_bytes = end.peak_rss_bytes;
+  const std::size_t own = end.peak_rss_bytes - std::min(end.peak_rss_bytes, link_.model_bytes);
+  link_.peak_bytes = std::max(link_.peak_bytes, link_.loaded_bytes + own);
+}
+
+void Call::finish_answered()
+{
+  if (answer_.header().kind == PacketKind::result) {
+    finish(JobStatus::ok, "");
+    outcome_->result = answer_.take();
+  } else {
+    const Failure failure = to_failure(answer_.take());
+    finish(failure.status, failure.message);
+    outcome_->error = failure.status == JobStatus::failed ? failure.error : ErrorKind::none;
+  }
+  if (kind_ == PacketKind::load && usage_) {
+    link_.loaded_bytes = usage_->together_bytes;
+    link_.model_bytes = usage_->rss_bytes;
+  }
+}
+
+std::string Call::killed_message(JobStatus reason) const
+{
+  switch (reason) {
+    case JobStatus::out_of_time:
+      return "used more than " + with_unit(limits_.cpu_s, "s of CPU time");
+    case JobStatus::stalled:
+      return "used no CPU time for " + with_unit(limits_.stall_s, "s");
+    case JobStatus::out_of_memory:
+      return "used more than " + with_unit(limits_.memory_gib, "GiB of memory");
+    default:
+      return "cancelled";
+  }
+}
+
+}  // namespace tessera::jobs

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/child_process.hpp"
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/signalfd.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tessera::jobs {
+namespace {
+
+double seconds(const timeval& time)
+{
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+}  // namespace
+
+void die_with_parent(pid_t parent)
+{
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // It may have died before the line above.
+  if (::getppid() != parent) ::_exit(1);
+}
+
+void ignore_group_signals()
+{
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGHUP, SIGPIPE})
+    std::signal(signal, SIG_IGN);
+  // Inherited as ignored, it would keep children from being waited for.
+  std::signal(SIGCHLD, SIG_DFL);
+}
+
+void unblock_signals()
+{
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+void close_all_but(std::span<const int> keep)
+{
+  std::vector<int> open;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
+    open.push_back(std::stoi(entry.path().filename().string()));
+  for (const int descriptor : open) {
+    const bool kept = std::find(keep.begin(), keep.end(), descriptor) != keep.end();
+    if (descriptor > STDERR_FILENO && !kept) ::close(descriptor);
+  }
+}
+
+void redirect_output(const std::filesystem::path& log_file)
+{
+  FileDescriptor output;
+  if (!log_file.empty())
+    output =
+        FileDescriptor(::open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  if (output.get() < 0) output = FileDescriptor(::open("/dev/null", O_WRONLY | O_CLOEXEC));
+  ::dup2(output.get(), STDOUT_FILENO);
+  ::dup2(output.get(), STDERR_FILENO);
+}
+
+void flush_streams()
+{
+  std::cout.flush();
+  std::clog.flush();
+  std::fflush(nullptr);
+}
+
+ChildWatch::ChildWatch()
+{
+  sigset_t child_ended;
+  ::sigemptyset(&child_ended);
+  ::sigaddset(&child_ended, SIGCHLD);
+  ::sigprocmask(SIG_BLOCK, &child_ended, nullptr);
+  signals_ = FileDescriptor(::signalfd(-1, &child_ended, SFD_CLOEXEC | SFD_NONBLOCK));
+}
+
+void ChildWatch::wait(int socket) const
+{
+  std::array<pollfd, 2> polled{pollfd{.fd = socket, .events = POLLIN, .revents = 0},
+                               pollfd{.fd = signals_.get(), .events = POLLIN, .revents = 0}};
+  ::poll(polled.data(), polled.size(), -1);
+  signalfd_siginfo info{};
+  while (::read(signals_.get(), &info, sizeof(info)) > 0) {
+  }
+}
+
+std::optional<ProcessEnd> ChildWatch::reap(pid_t child) const
+{
+  ProcessEnd end;
+  rusage usage{};
+  if (child <= 0 || ::wait4(child, &end.wait_status, WNOHANG, &usage) != child) return std::nullopt;
+  end.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  end.peak_rss_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  return end;
+}
+
+}  // namespace tessera::jobs

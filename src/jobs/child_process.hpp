@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+
+#include <sys/types.h>
+
+#include "jobs/file_descriptor.hpp"
+#include "jobs/packet.hpp"
+
+/// What the worker processes do with themselves and with their children.
+namespace tessera::jobs {
+
+/// @brief Ends this process with its parent, however the parent ends. @pre called right after fork.
+void die_with_parent(pid_t parent);
+
+/// @brief Lets signals to the process group pass: Ctrl-C is for the rank, which decides.
+void ignore_group_signals();
+
+/// @brief Closes what was open at the fork, but for the standard streams and `keep`.
+void close_all_but(std::span<const int> keep);
+
+/// @brief Standard output and error go to the end of `log_file`, or to /dev/null if it is empty or
+/// cannot be opened.
+void redirect_output(const std::filesystem::path& log_file);
+
+/// @brief Writes out what is buffered, so that a fork does not inherit it and _exit() not lose it.
+void flush_streams();
+
+/// @brief Tells when children end, as a file descriptor for poll(): blocks SIGCHLD.
+class ChildWatch {
+ public:
+  ChildWatch();
+
+  [[nodiscard]] int descriptor() const noexcept { return signals_.get(); }
+
+  /// @brief Waits until a child may have ended or `socket` can be read.
+  void wait(int socket) const;
+
+  /// @brief Reaps `child` if it has ended. @return How it did, or nothing if it still runs.
+  [[nodiscard]] std::optional<ProcessEnd> reap(pid_t child) const;
+
+ private:
+  FileDescriptor signals_;
+};
+
+/// @brief Takes back what a ChildWatch blocks, in a child that is not to inherit it.
+void unblock_signals();
+
+}  // namespace tessera::jobs

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/jobs/job_runner.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "tessera/base/error.hpp"
+
+#include "jobs/call.hpp"
+#include "jobs/child_process.hpp"
+#include "jobs/zygote.hpp"
+#include "jobs/zygote_link.hpp"
+
+namespace tessera::jobs {
+namespace {
+
+[[noreturn]] void throw_system_error(const char* what)
+{
+  throw Error(std::string("cannot start the worker process: ") + what + ": "
+              + std::strerror(errno));
+}
+
+std::pair<FileDescriptor, FileDescriptor> make_socket_pair()
+{
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
+    throw_system_error("socketpair");
+  return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
+}
+
+}  // namespace
+
+struct JobRunner::State {
+  ZygoteLink link{};
+};
+
+JobRunner::JobRunner(const std::function<std::unique_ptr<Worker>()>& make_worker)
+    : state_(std::make_unique<State>())
+{
+  ZygoteLink& link = state_->link;
+  ZygoteSockets sockets;
+  std::tie(link.control, sockets.control) = make_socket_pair();
+  std::tie(link.data, sockets.data) = make_socket_pair();
+
+  flush_streams();
+  const pid_t rank_process = ::getpid();
+  link.zygote = ::fork();
+  if (link.zygote < 0) throw_system_error("fork");
+  if (link.zygote == 0) run_zygote(rank_process, std::move(sockets), make_worker);
+  link.start_model();
+}
+
+JobRunner::~JobRunner()
+{
+  ZygoteLink& link = state_->link;
+  link.control.close();
+  link.data.close();
+  while (::waitpid(link.zygote, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+void JobRunner::set_log_file(const std::filesystem::path& file)
+{
+  // The worker processes keep the working directory of the time when they were forked.
+  state_->link.log_file = std::filesystem::absolute(file);
+}
+
+JobOutcome JobRunner::load(std::span<const std::byte> message, const JobLimits& limits,
+                           const WaitCallback& on_wait)
+{
+  return Call(state_->link, PacketKind::load, message, limits, on_wait).wait();
+}
+
+JobOutcome JobRunner::run(std::span<const std::byte> request, const JobLimits& limits,
+                          const WaitCallback& on_wait)
+{
+  return Call(state_->link, PacketKind::run, request, limits, on_wait).wait();
+}
+
+std::size_t JobRunner::peak_rss_bytes() const { return state_->link.peak_bytes; }
+
+}  // namespace tessera::jobs

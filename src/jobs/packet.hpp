@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+
+/// What the processes say to each other, over SOCK_SEQPACKET sockets: a packet arrives whole or not
+/// at all, so a process that dies in the middle of a message leaves nothing that confuses the next.
+namespace tessera::jobs {
+
+enum class PacketKind : std::uint32_t {
+  start_model,    ///< rank → zygote
+  kill_model,     ///< rank → zygote
+  model_started,  ///< zygote → rank: pid_t
+  model_ended,    ///< zygote → rank: ProcessEnd
+  log_file,       ///< rank → model zygote: path, or empty
+  load,           ///< rank → model zygote: what Worker::load() gets
+  run,            ///< rank → model zygote: what Worker::run() gets
+  kill_job,       ///< rank → model zygote
+  job_started,    ///< model zygote → rank: pid_t
+  job_ended,      ///< model zygote → rank: ProcessEnd
+  usage,          ///< model zygote after a load, or job → rank: UsageReport
+  result,         ///< model zygote after a load, or job → rank: bytes
+  failure,        ///< model zygote after a load, or job → rank: see put_failure()
+};
+
+/// @brief How a process ended.
+struct ProcessEnd {
+  int wait_status = 0;  ///< As waitpid() tells it.
+  int fork_error = 0;   ///< errno if the process could not even be started.
+  double cpu_s = 0.0;
+  std::uint64_t peak_rss_bytes = 0;
+};
+
+/// @brief What a process says about itself at the end of its work.
+struct UsageReport {
+  double cpu_s = 0.0;
+  std::uint64_t rss_bytes = 0;
+  std::uint64_t peak_rss_bytes = 0;
+  std::uint64_t together_bytes = 0;  ///< It and the zygotes, shared pages once; 0 if not measured.
+};
+
+struct PacketHeader {
+  PacketKind kind = PacketKind::result;
+  std::uint32_t call = 0;          ///< Number of the load or run that it is about.
+  std::uint64_t message_size = 0;  ///< Of all packets of the message together, without headers.
+};
+
+struct Packet {
+  PacketHeader header{};
+  std::span<const std::byte> payload{};  ///< Valid until the next receive.
+
+  /// @brief The payload as what it was sent as. @pre it was sent by send_value() with this type.
+  template <class T>
+  [[nodiscard]] T value() const
+  {
+    return ByteReader(payload).get<T>();
+  }
+};
+
+/// @brief A message on its way out, cut into packets. The bytes must live until it is sent.
+class Outgoing {
+ public:
+  Outgoing(PacketKind kind, std::uint32_t call, std::span<const std::byte> bytes);
+
+  /// @brief Sends as much as the socket takes without waiting.
+  /// @return False if nobody will ever read it.
+  bool send_some(int socket) { return send(socket, false); }
+
+  /// @brief Sends all of it, waiting. @return False if nobody will ever read it.
+  bool send_all(int socket) { return send(socket, true); }
+
+  [[nodiscard]] bool is_sent() const noexcept { return sent_; }
+
+ private:
+  bool send(int socket, bool wait);
+
+  PacketHeader header_;
+  std::span<const std::byte> rest_;
+  bool sent_ = false;
+};
+
+/// @brief Sends a trivially copyable value. @return False if nobody will ever read it.
+template <class T>
+bool send_value(int socket, PacketKind kind, std::uint32_t call, const T& value)
+{
+  return Outgoing(kind, call, std::as_bytes(std::span<const T, 1>(&value, 1))).send_all(socket);
+}
+
+/// @brief Sends a packet without payload, never waits. @return False if it could not be sent.
+bool send_signal(int socket, PacketKind kind, std::uint32_t call);
+
+/// @brief Receives packets of one socket.
+class Incoming {
+ public:
+  Incoming();
+
+  /// @return The next packet; nothing if none is there, or ever will be: is_closed().
+  [[nodiscard]] std::optional<Packet> receive(int socket, bool wait);
+
+  [[nodiscard]] bool is_closed() const noexcept { return closed_; }
+
+ private:
+  std::vector<std::byte> buffer_;
+  bool closed_ = false;
+};
+
+/// @brief Puts the packets of one message together.
+class Assembly {
+ public:
+  /// @brief Adds a packet; one of another message than the last starts anew.
+  /// @return Whether the message is complete.
+  bool add(const Packet& packet);
+
+  [[nodiscard]] const PacketHeader& header() const noexcept { return header_; }
+  [[nodiscard]] Bytes take();  ///< The bytes of the complete message.
+
+ private:
+  PacketHeader header_{};
+  Bytes bytes_{};
+  bool complete_ = true;
+};
+
+}  // namespace tessera::jobs

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+
+#include <sys/types.h>
+
+#include "jobs/file_descriptor.hpp"
+#include "jobs/packet.hpp"
+
+namespace tessera::jobs {
+
+/// @brief The rank's end of the line to its worker processes, and what it knows of them.
+struct ZygoteLink {
+  pid_t zygote = 0;
+  FileDescriptor control{};
+  FileDescriptor data{};
+  Incoming control_packets{};
+  Incoming data_packets{};
+  bool zygote_is_gone = false;
+  bool model_was_started = false;  ///< And its end was not reported yet.
+  pid_t model = 0;                 ///< 0 until the zygote has told.
+  std::uint32_t num_calls = 0;
+  std::filesystem::path log_file{};
+
+  std::size_t peak_bytes = 0;    ///< Of all worker processes together.
+  std::size_t loaded_bytes = 0;  ///< Of the zygotes together after the last load.
+  std::size_t model_bytes = 0;   ///< Of the model zygote after the last load.
+
+  /// @brief Asks for a model zygote that answers this and later calls.
+  void start_model();
+};
+
+}  // namespace tessera::jobs
