@@ -62,7 +62,7 @@ void Checker::read_tets(PieceName name)
   if (mesh.has_cell_ids) ++counts_.num_pieces_with_cell_ids;
   counts_.num_other_cells += mesh.arrays.num_other_cells;
   counts_.num_triangles += topology.num_inner_triangles;
-  counts_.num_edges += topology.num_edges - count_edges(surface);
+  counts_.num_edges += topology.num_edges;
   num_components_ += topology.num_components;
   take_ids(mesh, surface);
   if (comm_.size() >= tets_.num_pieces) only_piece_ = std::move(mesh);
@@ -175,8 +175,11 @@ void Checker::match_ids(const std::vector<PointId>& shared)
 void Checker::match_all_edges()
 {
   std::vector<EdgeRecord> edges;
-  for (const PieceSurface& surface : surfaces_)
-    num_boundary_components_ += append_edges(surface, edges);
+  for (const PieceSurface& surface : surfaces_) {
+    const SurfaceEdges own = append_edges(surface, edges);
+    counts_.num_edges -= own.num_edges;  // They are counted again, once for all pieces.
+    num_boundary_components_ += own.num_boundary_components;
+  }
   const EdgeMatch match = match_edges(edges, comm_, findings_);
   counts_.num_edges += match.num_edges;
   counts_.num_nonmanifold_edges += match.num_nonmanifold;

@@ -31,7 +31,7 @@ bool is_finite(const std::array<Vec3, 4>& corners)
 }
 
 // The points as the file has them: of points with one id each keeps its own position.
-Hash128 digest_of(const PieceMesh& mesh, LocalIndex cell, std::int32_t attribute)
+Hash128 digest_of(const PieceMesh& mesh, LocalIndex cell)
 {
   std::array<GlobalIndex, 4> ids{};
   std::array<double, 12> xyz{};
@@ -42,7 +42,7 @@ Hash128 digest_of(const PieceMesh& mesh, LocalIndex cell, std::int32_t attribute
     const Vec3 x = mesh.position(p);
     std::copy(x.begin(), x.end(), xyz.begin() + static_cast<std::ptrdiff_t>(3 * i));
   }
-  return hash_tet(ids, xyz, attribute);
+  return hash_tet(ids, xyz, mesh.material(cell));
 }
 
 void report_volume(const PieceMesh& mesh, LocalIndex cell, double volume, Findings& findings)
@@ -60,16 +60,13 @@ PieceFigures measure(const PieceMesh& mesh, Findings& findings)
 {
   PieceFigures figures;
   figures.num_tets = mesh.num_cells();
-  const auto found = mesh.arrays.cell_ints.find("attribute");
-  const auto* attributes = found == mesh.arrays.cell_ints.end() ? nullptr : found->second.data();
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     if (mesh.is_left_out(c)) continue;
     const auto corners = corner_positions(mesh, c);
     const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
     if (!(volume > 0.0)) report_volume(mesh, c, volume, findings);
     if (std::isfinite(volume)) figures.volume += volume;
-    if (mesh.has_point_ids)
-      figures.digest += digest_of(mesh, c, attributes == nullptr ? 0 : attributes[c]);
+    if (mesh.has_point_ids) figures.digest += digest_of(mesh, c);
   }
   return figures;
 }

@@ -211,6 +211,9 @@ PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity iden
                               arrays.cell_ids, findings);
   mesh.identity = mesh.has_point_ids ? identity : Identity::kPositions;
   mesh.arrays = std::move(arrays);
+  mesh.attribute.assign(static_cast<std::size_t>(mesh.num_cells()), 0);
+  const auto attribute = mesh.arrays.cell_ints.find("attribute");
+  if (attribute != mesh.arrays.cell_ints.end()) mesh.attribute = std::move(attribute->second);
   check_points(mesh, findings);
   set_cells(mesh, findings);
   return mesh;

@@ -31,6 +31,7 @@ struct PieceMesh {
   std::vector<LocalIndex> cell_vertices{};  ///< Shape (num_cells, vertices_per_cell); the lowest of
                                             ///< the points that are one; -1 in cells left out.
   std::vector<LocalIndex> unused_points{};
+  std::vector<std::int32_t> attribute{};  ///< Shape (num_cells); material, 0 if the file has none.
 
   [[nodiscard]] LocalIndex num_points() const
   {
@@ -55,11 +56,15 @@ struct PieceMesh {
   {
     return has_cell_ids ? arrays.cell_ids[static_cast<std::size_t>(c)] : kNoId;
   }
+  [[nodiscard]] std::int32_t material(LocalIndex c) const
+  {
+    return attribute[static_cast<std::size_t>(c)];
+  }
   [[nodiscard]] VertexKey key(LocalIndex v) const
   {
     return identity == Identity::kIds ? key_of_id(point_id(v)) : key_of_position(position(v));
   }
-  /// @brief Value of a cell array of 32-bit integers, or `otherwise` if the file has none.
+  /// @brief Value of a cell array of 32-bit integers, or `otherwise` if the file has none. Slow.
   [[nodiscard]] std::int32_t cell_int(const std::string& array, LocalIndex c,
                                       std::int32_t otherwise) const;
 };

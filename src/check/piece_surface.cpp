@@ -175,7 +175,7 @@ PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology,
     surface.cells.push_back(triangle.cell);
     TriangleRecord record = record_of_last(surface);
     record.component = triangle.component;
-    record.attribute = mesh.cell_int("attribute", triangle.cell, 0);
+    record.attribute = mesh.material(triangle.cell);
     record.cell_id = mesh.cell_id(triangle.cell);
     records.push_back(record);
   }
@@ -232,12 +232,13 @@ double outside_area(const PieceSurface& surface)
   return area;
 }
 
-LocalIndex append_edges(const PieceSurface& surface, std::vector<EdgeRecord>& records)
+SurfaceEdges append_edges(const PieceSurface& surface, std::vector<EdgeRecord>& records)
 {
   const std::vector<TriangleEdge> edges = sorted_edges(surface);
-  LocalIndex num_components = 0;
-  const auto component = boundary_components(surface, edges, num_components);
+  SurfaceEdges counts;
+  const auto component = boundary_components(surface, edges, counts.num_boundary_components);
   for_each_edge(edges, [&](std::span<const TriangleEdge> triangles) {
+    ++counts.num_edges;
     const std::size_t num_before = records.size();
     for (const TriangleEdge& edge : triangles) {
       const LocalIndex set = component[static_cast<std::size_t>(edge.triangle)];
@@ -249,14 +250,7 @@ LocalIndex append_edges(const PieceSurface& surface, std::vector<EdgeRecord>& re
     }
     if (records.size() == num_before) records.push_back(record_of(surface, triangles[0]));
   });
-  return num_components;
-}
-
-GlobalIndex count_edges(const PieceSurface& surface)
-{
-  GlobalIndex num_edges = 0;
-  for_each_edge(sorted_edges(surface), [&](std::span<const TriangleEdge>) { ++num_edges; });
-  return num_edges;
+  return counts;
 }
 
 }  // namespace tessera::check

@@ -43,11 +43,13 @@ void mark_seam_vertices(PieceSurface& surface);
 /// @brief Area of the triangles on the outside, added in their order. @pre roles are set.
 [[nodiscard]] double outside_area(const PieceSurface& surface);
 
-/// @brief Appends the edges of the surface. Local. @pre roles are set.
-/// @return Number of sets of boundary triangles of this piece joined through edges.
-LocalIndex append_edges(const PieceSurface& surface, std::vector<EdgeRecord>& records);
+struct SurfaceEdges {
+  GlobalIndex num_edges = 0;               ///< Different ones.
+  LocalIndex num_boundary_components = 0;  ///< Sets of boundary triangles joined through edges.
+};
 
-/// @brief Number of different edges of the surface's triangles. Local.
-[[nodiscard]] GlobalIndex count_edges(const PieceSurface& surface);
+/// @brief Appends the edges of the surface. Local. @pre roles are set.
+[[nodiscard]] SurfaceEdges append_edges(const PieceSurface& surface,
+                                        std::vector<EdgeRecord>& records);
 
 }  // namespace tessera::check

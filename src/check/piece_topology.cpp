@@ -148,8 +148,7 @@ class TriangleMatcher {
 
   [[nodiscard]] bool is_interface(std::span<const Side> sides) const
   {
-    return mesh_.cell_int("attribute", sides[0].cell(), 0)
-           != mesh_.cell_int("attribute", sides[1].cell(), 0);
+    return mesh_.material(sides[0].cell()) != mesh_.material(sides[1].cell());
   }
 
   [[nodiscard]] bool is_chord(const Side& side) const
