@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/model_zygote.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <filesystem>
@@ -19,13 +18,13 @@
 namespace tessera::jobs {
 namespace {
 
-UsageReport usage_of_this_process(pid_t zygote, double cpu_before_s)
+UsageReport usage_of_this_process(double cpu_before_s, std::size_t together_bytes)
 {
   const auto sample = sample_process(::getpid());
   return {.cpu_s = cpu_time_of_this_process() - cpu_before_s,
           .rss_bytes = sample ? sample->rss_bytes : 0,
           .peak_rss_bytes = peak_rss_bytes(::getpid()),
-          .together_bytes = proportional_rss_bytes(zygote) + proportional_rss_bytes(::getpid())};
+          .together_bytes = together_bytes};
 }
 
 class ModelZygote {
@@ -79,8 +78,9 @@ class ModelZygote {
     flush_streams();
     redirect_output({});
 
-    largest_job_bytes_ = 0;
-    send_value(data_.get(), PacketKind::usage, call, usage_of_this_process(zygote_, cpu_before_s));
+    measure_zygotes();
+    send_value(data_.get(), PacketKind::usage, call,
+               usage_of_this_process(cpu_before_s, zygotes_bytes_));
     if (loaded)
       send_result(call, {});
     else
@@ -96,6 +96,7 @@ class ModelZygote {
       send_value(data_.get(), PacketKind::job_ended, call, ProcessEnd{});
       return;
     }
+    if (zygotes_bytes_ == 0) measure_zygotes();
     const pid_t model_zygote = ::getpid();
     const pid_t job = ::fork();
     if (job == 0) {
@@ -108,7 +109,6 @@ class ModelZygote {
     }
     send_value(data_.get(), PacketKind::job_started, call, job);
     const ProcessEnd end = wait_for(job, call);
-    largest_job_bytes_ = std::max(largest_job_bytes_, end.peak_rss_bytes);
     send_value(data_.get(), PacketKind::job_ended, call, end);
   }
 
@@ -119,11 +119,11 @@ class ModelZygote {
     redirect_output(log_file_);
     try {
       const Bytes result = worker().run(request);
-      report_usage(call);
+      report_usage_of_job(call);
       send_result(call, result);
     } catch (...) {
       const Failure failure = current_failure();
-      report_usage(call);
+      report_usage_of_job(call);
       send_failure(call, failure);
     }
     flush_streams();
@@ -131,14 +131,17 @@ class ModelZygote {
     ::_exit(0);
   }
 
-  // Measuring takes milliseconds for a large process, and a job that was smaller than an earlier
-  // one tells nothing new about the peak.
-  void report_usage(std::uint32_t call) const
+  void measure_zygotes()
   {
-    if (peak_rss_bytes(::getpid()) <= largest_job_bytes_) return;
-    UsageReport report = usage_of_this_process(zygote_, 0.0);
-    report.together_bytes += proportional_rss_bytes(::getppid());
-    send_value(data_.get(), PacketKind::usage, call, report);
+    zygotes_bytes_ = proportional_rss_bytes(zygote_) + proportional_rss_bytes(::getpid());
+  }
+
+  // The zygotes sleep while a job runs. A page that a job writes to becomes its own, and the model
+  // zygote keeps the old one.
+  void report_usage_of_job(std::uint32_t call) const
+  {
+    send_value(data_.get(), PacketKind::usage, call,
+               usage_of_this_process(0.0, zygotes_bytes_ + private_rss_bytes()));
   }
 
   ProcessEnd wait_for(pid_t job, std::uint32_t call)
@@ -171,7 +174,7 @@ class ModelZygote {
   Assembly request_{};
   std::filesystem::path log_file_{};
   std::unique_ptr<Worker> worker_{};
-  std::uint64_t largest_job_bytes_ = 0;
+  std::size_t zygotes_bytes_ = 0;
 };
 
 }  // namespace

@@ -70,6 +70,12 @@ std::size_t proportional_rss_bytes(pid_t pid)
   return bytes_of_line(read_proc_file(pid, "smaps_rollup"), "Pss");
 }
 
+std::size_t private_rss_bytes()
+{
+  const std::string text = read_proc_file(::getpid(), "smaps_rollup");
+  return bytes_of_line(text, "Private_Clean") + bytes_of_line(text, "Private_Dirty");
+}
+
 std::size_t peak_rss_bytes(pid_t pid)
 {
   return bytes_of_line(read_proc_file(pid, "status"), "VmHWM");

@@ -22,6 +22,10 @@ struct ProcessSample {
 /// page tables: milliseconds for a GiB. 0 if there is no such process.
 [[nodiscard]] std::size_t proportional_rss_bytes(pid_t pid);
 
+/// @brief Resident memory that the calling process shares with no other, bytes. Walks the page
+/// tables, too.
+[[nodiscard]] std::size_t private_rss_bytes();
+
 /// @brief Largest resident memory of a process so far, bytes. 0 if there is no such process.
 [[nodiscard]] std::size_t peak_rss_bytes(pid_t pid);
 

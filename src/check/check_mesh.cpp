@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/check/check_mesh.hpp"
+
+#include "check/checker.hpp"
+
+namespace tessera::check {
+namespace {
+
+CheckReport check_by_positions(const PieceSource& tets, const PieceSource* boundary,
+                               const comm::Communicator& comm, const Findings* id_findings)
+{
+  Checker checker(tets, boundary, comm, Identity::kPositions);
+  checker.read();
+  checker.match();
+  checker.measure_quality();
+  return checker.report(id_findings);
+}
+
+}  // namespace
+
+CheckReport check_mesh(const PieceSource& tets, const PieceSource* boundary,
+                       const comm::Communicator& comm)
+{
+  Checker checker(tets, boundary, comm, Identity::kIds);
+  checker.read();
+  if (checker.has_mixed_ids()) return check_by_positions(tets, boundary, comm, nullptr);
+  checker.match();
+  if (checker.has_unusable_ids())
+    return check_by_positions(tets, boundary, comm, &checker.findings());
+  checker.measure_quality();
+  return checker.report(nullptr);
+}
+
+}  // namespace tessera::check

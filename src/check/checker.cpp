@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/checker.hpp"
+
+#include <array>
+#include <exception>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+
+#include "check/concat.hpp"
+#include "check/match_edges.hpp"
+#include "check/piece_topology.hpp"
+
+namespace tessera::check {
+
+Checker::Checker(const PieceSource& tets, const PieceSource* boundary,
+                 const comm::Communicator& comm, Identity identity)
+    : tets_(tets), boundary_(boundary), comm_(comm), identity_(identity)
+{
+}
+
+template <class Visit>
+void Checker::for_each_own_piece(const PieceSource& source, bool is_boundary,
+                                 const Visit& visit) const
+{
+  std::optional<std::string> defect;
+  for (LocalIndex p = comm_.rank(); p < source.num_pieces && !defect; p += comm_.size()) {
+    const PieceName name{p, is_boundary};
+    try {
+      visit(name);
+    } catch (const std::exception& error) {
+      defect = concat(to_text(name), ": ", error.what());
+    }
+  }
+  comm_.throw_if_any<InputError>(defect);
+}
+
+PieceMesh Checker::load(PieceName name, Findings& findings) const
+{
+  const PieceSource& source = name.is_boundary ? *boundary_ : tets_;
+  return make_piece_mesh(name, source.read(name.piece), identity_, findings);
+}
+
+void Checker::read()
+{
+  for_each_own_piece(tets_, false, [&](PieceName name) { read_tets(name); });
+  if (boundary_ != nullptr)
+    for_each_own_piece(*boundary_, true, [&](PieceName name) { read_boundary(name); });
+}
+
+void Checker::read_tets(PieceName name)
+{
+  PieceMesh mesh = load(name, findings_);
+  const PieceTopology topology = analyse_topology(mesh, edge_lengths_, findings_);
+  PieceSurface& surface = surfaces_.emplace_back(make_surface(mesh, topology, triangles_));
+  records_.push_back({name.piece, measure(mesh, findings_), 0.0, {}, {}});
+
+  if (mesh.has_point_ids) {
+    ++counts_.num_pieces_with_point_ids;
+    ++counts_.num_tet_pieces_with_point_ids;
+  }
+  if (mesh.has_cell_ids) ++counts_.num_pieces_with_cell_ids;
+  counts_.num_other_cells += mesh.arrays.num_other_cells;
+  counts_.num_triangles += topology.num_inner_triangles;
+  counts_.num_edges += topology.num_edges;
+  num_components_ += topology.num_components;
+  take_ids(mesh, surface);
+  if (comm_.size() >= tets_.num_pieces) only_piece_ = std::move(mesh);
+}
+
+void Checker::read_boundary(PieceName name)
+{
+  const PieceMesh mesh = load(name, findings_);
+  listed_.push_back(make_boundary_surface(mesh, triangles_));
+  if (mesh.has_point_ids) ++counts_.num_pieces_with_point_ids;
+  if (mesh.num_cells() == 0) return;
+  if (!mesh.arrays.cell_longs.contains("tet")) ++counts_.num_boundary_pieces_without_tet;
+  if (!mesh.arrays.cell_ints.contains("patch")) ++counts_.num_boundary_pieces_without_patch;
+}
+
+// Counts the vertices that no other piece can have, and takes their ids and those of the cells.
+void Checker::take_ids(const PieceMesh& mesh, const PieceSurface& surface)
+{
+  std::vector<bool> is_taken(static_cast<std::size_t>(mesh.num_points()), false);
+  for (const VertexRecord& vertex : surface.vertices)
+    is_taken[static_cast<std::size_t>(vertex.point)] = true;
+  std::vector<GlobalIndex> inner_ids;
+  for (const LocalIndex v : mesh.cell_vertices) {
+    if (v == kNoIndex || is_taken[static_cast<std::size_t>(v)]) continue;
+    is_taken[static_cast<std::size_t>(v)] = true;
+    ++counts_.num_vertices;
+    inner_ids.push_back(mesh.point_id(v));
+  }
+  const LocalIndex piece = mesh.name.piece;
+  if (mesh.identity == Identity::kIds)
+    append_runs(std::move(inner_ids), piece, point_id_space(), point_ids_, findings_);
+  if (mesh.has_cell_ids)
+    append_runs(mesh.arrays.cell_ids, piece, cell_id_space(), cell_ids_, findings_);
+}
+
+GlobalIndex Checker::num_pieces() const
+{
+  return tets_.num_pieces + (boundary_ == nullptr ? 0 : boundary_->num_pieces);
+}
+
+bool Checker::has_mixed_ids() const
+{
+  const GlobalIndex num_with_ids = comm_.sum(counts_.num_pieces_with_point_ids);
+  return identity_ == Identity::kIds && num_with_ids > 0 && num_with_ids < num_pieces();
+}
+
+void Checker::match()
+{
+  // Pieces without ids were matched by position as they were read.
+  if (comm_.sum(counts_.num_pieces_with_point_ids) == 0) identity_ = Identity::kPositions;
+  match_all_triangles();
+  match_all_vertices();
+  match_all_edges();
+}
+
+void Checker::match_all_triangles()
+{
+  const TriangleMatch match = match_triangles(triangles_, boundary_ != nullptr, comm_, findings_);
+  auto role = match.roles.begin();
+  for (PieceSurface& surface : surfaces_) {
+    const auto end = role + static_cast<std::ptrdiff_t>(surface.triangles.size());
+    surface.roles.assign(role, end);
+    role = end;
+    mark_seam_vertices(surface);
+  }
+  triangles_ = {};
+  for (std::size_t s = 0; s < surfaces_.size(); ++s)
+    records_[s].boundary_area = outside_area(surfaces_[s]);
+
+  counts_.num_triangles += match.counts.num_triangles;
+  counts_.num_outside += match.counts.num_outside;
+  counts_.num_seam += match.counts.num_seam;
+  counts_.num_interface += match.counts.num_interface;
+  counts_.num_unlisted += match.counts.num_unlisted;
+  num_components_ = count_components(num_components_, match.links, comm_);
+}
+
+void Checker::match_all_vertices()
+{
+  std::vector<VertexRecord> vertices;
+  for (const PieceSurface& surface : surfaces_)
+    vertices.insert(vertices.end(), surface.vertices.begin(), surface.vertices.end());
+  for (const PieceSurface& surface : listed_)
+    vertices.insert(vertices.end(), surface.vertices.begin(), surface.vertices.end());
+  const VertexMatch match = match_vertices(vertices, identity_, comm_, findings_);
+
+  std::size_t row = 0;
+  for (PieceSurface& surface : surfaces_)
+    for (VertexRecord& vertex : surface.vertices) vertex.is_on_seam = match.is_on_seam[row++] != 0;
+  counts_.num_vertices += match.num_vertices;
+  match_ids(match.ids);
+  has_unusable_ids_ =
+      has_unusable_ids_ || 2 * comm_.sum(match.num_contradicted) > comm_.sum(match.num_shared_ids);
+}
+
+void Checker::match_ids(const std::vector<PointId>& shared)
+{
+  for (const PointId& point : shared)
+    append_runs({point.id}, point.piece, point_id_space(), point_ids_, findings_);
+  check_ids(point_ids_, point_id_space(), comm_, findings_);
+  const GlobalIndex num_defects =
+      findings_.count(Kind::kPointIdHole) + findings_.count(Kind::kPointIdTwice);
+  has_unusable_ids_ = comm_.sum(num_defects) > 0;
+
+  // Where some pieces have no cell ids, the others' need not be dense.
+  if (comm_.sum(counts_.num_pieces_with_cell_ids) == tets_.num_pieces)
+    check_ids(cell_ids_, cell_id_space(), comm_, findings_);
+}
+
+void Checker::match_all_edges()
+{
+  std::vector<EdgeRecord> edges;
+  for (const PieceSurface& surface : surfaces_) {
+    const SurfaceEdges own = append_edges(surface, edges);
+    counts_.num_edges -= own.num_edges;  // They are counted again, once for all pieces.
+    num_boundary_components_ += own.num_boundary_components;
+  }
+  const EdgeMatch match = match_edges(edges, comm_, findings_);
+  counts_.num_edges += match.num_edges;
+  counts_.num_nonmanifold_edges += match.num_nonmanifold;
+  num_boundary_components_ = count_components(num_boundary_components_, match.links, comm_);
+}
+
+void Checker::measure_quality()
+{
+  std::size_t s = 0;
+  for_each_own_piece(tets_, false, [&](PieceName name) {
+    Findings repeated;
+    const PieceMesh mesh = only_piece_ ? *std::exchange(only_piece_, {}) : load(name, repeated);
+    PieceRecord& record = records_[s];
+    if (mesh.num_cells() != record.figures.num_tets) throw InputError("changed while it was read");
+    std::vector<bool> is_on_seam(static_cast<std::size_t>(mesh.num_points()), false);
+    for (const VertexRecord& vertex : surfaces_[s].vertices)
+      is_on_seam.at(static_cast<std::size_t>(vertex.point)) = vertex.is_on_seam;
+    measure_shapes(mesh, is_on_seam, record, shape_counts_);
+    ++s;
+  });
+}
+
+CheckReport Checker::report(const Findings* id_findings)
+{
+  constexpr std::array kIdKinds{Kind::kPointPosition, Kind::kPointIdTwice, Kind::kPointIdHole};
+  if (id_findings != nullptr) findings_.merge(*id_findings, kIdKinds);
+  sum_over_ranks(counts_);
+  CheckReport report;
+  set_counts(report);
+  set_sums(report);
+  if (report.num_tets == 0 && comm_.rank() == 0)
+    findings_.add(Kind::kNoTets, {}, [] { return "the mesh has no tets"; });
+
+  Findings all;
+  const Bytes own = findings_.to_bytes();
+  for (const Bytes& bytes : comm_.all_gather(own)) all.merge(Findings::from_bytes(bytes));
+  report.defects = all.to_defects();
+  report.conforms = report.defects.empty();
+  report.notes = notes();
+  return report;
+}
+
+void Checker::sum_over_ranks(Counts& counts) const
+{
+  constexpr std::array kMembers{&Counts::num_pieces_with_point_ids,
+                                &Counts::num_tet_pieces_with_point_ids,
+                                &Counts::num_pieces_with_cell_ids,
+                                &Counts::num_other_cells,
+                                &Counts::num_boundary_pieces_without_tet,
+                                &Counts::num_boundary_pieces_without_patch,
+                                &Counts::num_vertices,
+                                &Counts::num_edges,
+                                &Counts::num_triangles,
+                                &Counts::num_outside,
+                                &Counts::num_seam,
+                                &Counts::num_interface,
+                                &Counts::num_unlisted,
+                                &Counts::num_nonmanifold_edges};
+  static_assert(sizeof(Counts) == kMembers.size() * sizeof(GlobalIndex), "a member is missing");
+  std::vector<GlobalIndex> values;
+  for (const auto member : kMembers) values.push_back(counts.*member);
+  comm_.sum_in_place(values);
+  for (std::size_t i = 0; i < kMembers.size(); ++i) counts.*kMembers[i] = values[i];
+}
+
+void Checker::set_counts(CheckReport& report) const
+{
+  report.has_global_ids = counts_.num_tet_pieces_with_point_ids == tets_.num_pieces
+                          && counts_.num_pieces_with_cell_ids == tets_.num_pieces;
+  report.has_digest = counts_.num_tet_pieces_with_point_ids == tets_.num_pieces;
+  report.matched_by_ids = identity_ == Identity::kIds;
+  report.num_vertices = counts_.num_vertices;
+  report.num_edges = counts_.num_edges;
+  report.num_triangles = counts_.num_triangles;
+  report.num_boundary_triangles = counts_.num_outside;
+  report.num_interface_triangles = counts_.num_interface;
+  report.num_seam_triangles = counts_.num_seam;
+  report.num_open_seam_triangles = boundary_ == nullptr ? 0 : counts_.num_unlisted;
+  report.num_nonmanifold_edges = counts_.num_nonmanifold_edges;
+  report.num_components = num_components_;
+  report.num_boundary_components = num_boundary_components_;
+}
+
+void Checker::set_sums(CheckReport& report)
+{
+  ShapeSums shapes;
+  ShapeSums seam_shapes;
+  for (const PieceRecord& record : all_records(records_, comm_)) {
+    report.pieces.push_back(record.figures);
+    report.num_tets += record.figures.num_tets;
+    report.volume += record.figures.volume;
+    report.digest += record.figures.digest;
+    report.boundary_area += record.boundary_area;
+    shapes.add(record.shapes);
+    seam_shapes.add(record.seam_shapes);
+  }
+  report.euler_characteristic =
+      report.num_vertices - report.num_edges + report.num_triangles - report.num_tets;
+
+  comm_.sum_in_place(shape_counts_.all.counts());
+  comm_.sum_in_place(shape_counts_.seam.counts());
+  comm_.sum_in_place(edge_lengths_.counts());
+  report.quality = quality_figures(shapes, shape_counts_.all);
+  report.seam_quality = quality_figures(seam_shapes, shape_counts_.seam);
+  report.edge_length = edge_lengths_.figures();
+}
+
+std::vector<std::string> Checker::notes() const
+{
+  std::vector<std::string> notes;
+  const auto note = [&](GlobalIndex count, const std::string& text) {
+    if (count > 0) notes.push_back(concat(count, " ", text));
+  };
+  note(num_pieces() - counts_.num_pieces_with_point_ids, "pieces have no point ids");
+  note(tets_.num_pieces - counts_.num_pieces_with_cell_ids, "pieces have no cell ids");
+  note(counts_.num_other_cells, "cells are no tets and were left out");
+  note(counts_.num_boundary_pieces_without_tet,
+       "boundary pieces have no array \"tet\", so only their triangles were compared");
+  note(counts_.num_boundary_pieces_without_patch, "boundary pieces have no array \"patch\"");
+  if (identity_ == Identity::kPositions)
+    notes.emplace_back("points of different pieces were matched by the bits of their positions");
+  if (boundary_ == nullptr)
+    notes.emplace_back("no boundary file: triangles on one tet are taken for the boundary");
+  return notes;
+}
+
+}  // namespace tessera::check

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tessera/check/check_mesh.hpp"
+
+#include "check/components.hpp"
+#include "check/findings.hpp"
+#include "check/id_runs.hpp"
+#include "check/match_triangles.hpp"
+#include "check/match_vertices.hpp"
+#include "check/piece_figures.hpp"
+#include "check/piece_mesh.hpp"
+#include "check/piece_surface.hpp"
+#include "check/quality.hpp"
+#include "check/records.hpp"
+
+namespace tessera::check {
+
+/// @brief One run of the checks, with points matched in one way. Every public function but
+/// findings() is collective; call them in the order of their declaration.
+class Checker {
+ public:
+  Checker(const PieceSource& tets, const PieceSource* boundary, const comm::Communicator& comm,
+          Identity identity);
+
+  /// @brief Reads every piece once and does all that needs one piece only.
+  /// @throws InputError on all ranks if a piece cannot be read.
+  void read();
+
+  /// @brief Whether only a part of the pieces has point ids, so that none can be matched by them.
+  [[nodiscard]] bool has_mixed_ids() const;
+
+  /// @brief Does all that needs several pieces.
+  void match();
+
+  /// @brief Whether the point ids turned out to be no names of points.
+  [[nodiscard]] bool has_unusable_ids() const { return has_unusable_ids_; }
+
+  /// @brief Reads the pieces again for the shapes of tets, now that the seams are known.
+  /// @throws InputError on all ranks if a piece cannot be read, or is not what it was.
+  void measure_quality();
+
+  /// @param[in] id_findings What a run that matched by ids found out about the ids, or nullptr.
+  [[nodiscard]] CheckReport report(const Findings* id_findings);
+
+  /// @brief What this rank found.
+  [[nodiscard]] const Findings& findings() const { return findings_; }
+
+ private:
+  // Sums over pieces, then over ranks.
+  struct Counts {
+    GlobalIndex num_pieces_with_point_ids = 0;  // Of both files.
+    GlobalIndex num_tet_pieces_with_point_ids = 0;
+    GlobalIndex num_pieces_with_cell_ids = 0;
+    GlobalIndex num_other_cells = 0;
+    GlobalIndex num_boundary_pieces_without_tet = 0;
+    GlobalIndex num_boundary_pieces_without_patch = 0;
+    GlobalIndex num_vertices = 0;
+    GlobalIndex num_edges = 0;
+    GlobalIndex num_triangles = 0;
+    GlobalIndex num_outside = 0;
+    GlobalIndex num_seam = 0;
+    GlobalIndex num_interface = 0;
+    GlobalIndex num_unlisted = 0;
+    GlobalIndex num_nonmanifold_edges = 0;
+  };
+
+  template <class Visit>
+  void for_each_own_piece(const PieceSource& source, bool is_boundary, const Visit& visit) const;
+  [[nodiscard]] PieceMesh load(PieceName name, Findings& findings) const;
+  void read_tets(PieceName name);
+  void read_boundary(PieceName name);
+  void take_ids(const PieceMesh& mesh, const PieceSurface& surface);
+  void match_all_triangles();
+  void match_all_vertices();
+  void match_all_edges();
+  void match_ids(const std::vector<PointId>& shared);
+  void sum_over_ranks(Counts& counts) const;
+  [[nodiscard]] GlobalIndex num_pieces() const;
+  [[nodiscard]] std::vector<std::string> notes() const;
+  void set_counts(CheckReport& report) const;
+  void set_sums(CheckReport& report);
+
+  const PieceSource& tets_;
+  const PieceSource* boundary_;
+  const comm::Communicator& comm_;
+  Identity identity_;
+
+  Findings findings_{};
+  Counts counts_{};
+  GlobalIndex num_components_ = 0;
+  GlobalIndex num_boundary_components_ = 0;
+  bool has_unusable_ids_ = false;
+
+  std::vector<TriangleRecord> triangles_{};  // Of all surfaces, one after the other.
+  std::vector<PieceSurface> surfaces_{};     // Of this rank's pieces of tets.
+  std::vector<PieceSurface> listed_{};       // Of this rank's pieces of the boundary file.
+  std::vector<PieceRecord> records_{};       // Parallel to surfaces_.
+  std::optional<PieceMesh> only_piece_{};    // If this rank has one piece of tets.
+  std::vector<IdRun> point_ids_{};
+  std::vector<IdRun> cell_ids_{};
+  EdgeLengths edge_lengths_{};
+  ShapeCounts shape_counts_{};
+};
+
+}  // namespace tessera::check

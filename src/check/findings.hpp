@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/base/types.hpp"
+#include "tessera/check/report.hpp"
+
+namespace tessera::check {
+
+/// @brief Kinds of defects, in the order of the report.
+enum class Kind {
+  kNoTets,
+  kArrays,
+  kCellPoints,
+  kNonFinitePoint,
+  kNonPositiveVolume,
+  kUnusedPoint,
+  kDuplicatePoint,
+  kDuplicateTet,
+  kPointPosition,
+  kPointIdTwice,
+  kPointIdHole,
+  kCellIdTwice,
+  kCellIdHole,
+  kTriangle,
+  kBoundaryEdge,
+  kFoldedBoundary,
+  kBoundaryMissing,
+  kBoundaryExtra,
+  kBoundaryTwice,
+  kBoundaryTet,
+  kBoundaryOrientation,
+  kBoundarySubdomain,
+  kBoundaryPoint,
+  kNumKinds
+};
+inline constexpr auto kNumKinds = static_cast<std::size_t>(Kind::kNumKinds);
+
+/// @brief Order of the offenders of one kind; independent of the rank that finds them.
+struct Place {
+  GlobalIndex piece = 0;   ///< -1: not of one piece.
+  GlobalIndex entity = 0;  ///< Cell, point or id.
+
+  friend auto operator<=>(const Place&, const Place&) = default;
+};
+
+/// @brief Counts defects and keeps the first few of each kind; texts are made only for those.
+class Findings {
+ public:
+  static constexpr std::size_t kNumKept = 10;
+
+  /// @brief Counts a defect; `describe()` returns its text and is called only if it may be kept.
+  template <class Describe>
+  void add(Kind kind, Place place, Describe&& describe)
+  {
+    Entry& entry = entries_[static_cast<std::size_t>(kind)];
+    ++entry.count;
+    if (entry.kept.size() == kNumKept && entry.kept.back().place < place) return;
+    keep(entry, {place, describe()});
+  }
+
+  /// @brief Counts defects of which enough were described already.
+  void add_uncited(Kind kind, GlobalIndex num_more)
+  {
+    entries_[static_cast<std::size_t>(kind)].count += num_more;
+  }
+
+  [[nodiscard]] GlobalIndex count(Kind kind) const
+  {
+    return entries_[static_cast<std::size_t>(kind)].count;
+  }
+
+  /// @brief Adds what another rank or pass found, but only the kinds given.
+  void merge(const Findings& other, std::span<const Kind> kinds);
+  /// @brief Adds all that another rank found.
+  void merge(const Findings& other);
+
+  [[nodiscard]] std::vector<Defect> to_defects() const;
+
+  [[nodiscard]] Bytes to_bytes() const;
+  [[nodiscard]] static Findings from_bytes(std::span<const std::byte> bytes);
+
+ private:
+  struct Finding {
+    Place place{};
+    std::string text{};
+
+    friend auto operator<=>(const Finding&, const Finding&) = default;
+  };
+  struct Entry {
+    GlobalIndex count = 0;
+    std::vector<Finding> kept{};  // ascending
+  };
+  static void keep(Entry& entry, Finding finding);
+  static void merge(Entry& into, const Entry& from);
+
+  std::array<Entry, kNumKinds> entries_{};
+};
+
+/// @brief "(x, y, z)" with the digits that tell two doubles apart.
+[[nodiscard]] std::string to_text(std::span<const double, 3> position);
+
+}  // namespace tessera::check

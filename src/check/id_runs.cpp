@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/id_runs.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "check/concat.hpp"
+
+namespace tessera::check {
+namespace {
+
+constexpr GlobalIndex kMaxId = GlobalIndex{1} << 62;
+
+// Reports each id of [begin, end); describes as many as can be among the first ones.
+template <class Describe>
+void report_ids(Kind kind, GlobalIndex begin, GlobalIndex end, Findings& findings,
+                const Describe& describe)
+{
+  const auto num_described = std::min<GlobalIndex>(end - begin, Findings::kNumKept);
+  for (GlobalIndex id = begin; id < begin + num_described; ++id)
+    findings.add(kind, {-1, id}, [&] { return describe(id); });
+  findings.add_uncited(kind, end - begin - num_described);
+}
+
+std::string describe_twice(const IdSpace& space, GlobalIndex id, std::span<const IdRun> runs)
+{
+  std::vector<LocalIndex> pieces;
+  for (const IdRun& run : runs)
+    if (run.begin <= id && id < run.end) pieces.push_back(run.piece);
+  std::sort(pieces.begin(), pieces.end());
+  std::string text = concat(space.of, " id ", id, " is given more than once, in piece");
+  for (const LocalIndex piece : pieces) text += concat(" ", piece);
+  return text;
+}
+
+// Looks at the ids of [begin, end). @pre runs are ascending and within the range.
+void sweep(std::span<const IdRun> runs, GlobalIndex begin, GlobalIndex end, const IdSpace& space,
+           Findings& findings)
+{
+  const auto report_hole = [&](GlobalIndex from, GlobalIndex to) {
+    report_ids(space.hole, from, to, findings, [&](GlobalIndex id) {
+      return concat("no ", space.of, " has id ", id, ", but higher ids exist");
+    });
+  };
+  GlobalIndex covered = begin;
+  for (const IdRun& run : runs) {
+    if (run.begin > covered) report_hole(covered, run.begin);
+    if (run.begin < covered) {
+      report_ids(space.twice, run.begin, std::min(run.end, covered), findings,
+                 [&](GlobalIndex id) { return describe_twice(space, id, runs); });
+    }
+    covered = std::max(covered, run.end);
+  }
+  if (covered < end) report_hole(covered, end);
+}
+
+GlobalIndex max_over_ranks(GlobalIndex value, const comm::Communicator& comm)
+{
+  std::vector<GlobalIndex> values(static_cast<std::size_t>(comm.size()), 0);
+  values[static_cast<std::size_t>(comm.rank())] = value;
+  comm.sum_in_place(values);
+  return *std::max_element(values.begin(), values.end());
+}
+
+// Cuts runs at multiples of `block` and gives each part to the rank of its block.
+std::vector<IdRun> send_to_blocks(std::span<const IdRun> runs, GlobalIndex block,
+                                  const comm::Communicator& comm)
+{
+  std::vector<std::vector<IdRun>> to_rank(static_cast<std::size_t>(comm.size()));
+  for (IdRun run : runs) {
+    while (run.begin < run.end) {
+      const GlobalIndex rank = run.begin / block;
+      const GlobalIndex cut = std::min(run.end, (rank + 1) * block);
+      to_rank[static_cast<std::size_t>(rank)].push_back({run.begin, cut, run.piece});
+      run.begin = cut;
+    }
+  }
+  std::vector<comm::Message> messages;
+  for (std::size_t r = 0; r < to_rank.size(); ++r) {
+    if (to_rank[r].empty()) continue;
+    const auto bytes = std::as_bytes(std::span(to_rank[r]));
+    messages.push_back({static_cast<Rank>(r), Bytes(bytes.begin(), bytes.end())});
+  }
+  std::vector<IdRun> received;
+  for (const comm::Message& message : comm.exchange(std::move(messages))) {
+    const std::size_t begin = received.size();
+    received.resize(begin + message.bytes.size() / sizeof(IdRun));
+    std::memcpy(received.data() + begin, message.bytes.data(), message.bytes.size());
+  }
+  return received;
+}
+
+}  // namespace
+
+IdSpace point_id_space() { return {"point", Kind::kPointIdTwice, Kind::kPointIdHole}; }
+IdSpace cell_id_space() { return {"cell", Kind::kCellIdTwice, Kind::kCellIdHole}; }
+
+void append_runs(std::vector<GlobalIndex> ids, LocalIndex piece, const IdSpace& space,
+                 std::vector<IdRun>& runs, Findings& findings)
+{
+  if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
+  const std::size_t num_before = runs.size();
+  for (const GlobalIndex id : ids) {
+    if (id < 0 || id > kMaxId) {
+      findings.add(space.hole, {piece, id}, [&] {
+        return concat("piece ", piece, ": ", space.of, " id ", id, " is out of range");
+      });
+    } else if (runs.size() > num_before && runs.back().end == id) {
+      ++runs.back().end;
+    } else {
+      runs.push_back({id, id + 1, piece});
+    }
+  }
+}
+
+void check_ids(std::span<const IdRun> runs, const IdSpace& space, const comm::Communicator& comm,
+               Findings& findings)
+{
+  GlobalIndex end = 0;
+  for (const IdRun& run : runs) end = std::max(end, run.end);
+  end = max_over_ranks(end, comm);
+  const GlobalIndex block = std::max<GlobalIndex>(1, (end + comm.size() - 1) / comm.size());
+
+  std::vector<IdRun> own = send_to_blocks(runs, block, comm);
+  std::sort(own.begin(), own.end());
+  const GlobalIndex first = std::min(end, comm.rank() * block);
+  sweep(own, first, std::min(end, first + block), space, findings);
+}
+
+}  // namespace tessera::check

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/match_edges.hpp"
+
+#include <string>
+#include <tuple>
+
+#include "check/concat.hpp"
+#include "check/record_exchange.hpp"
+
+namespace tessera::check {
+namespace {
+
+// Angle in radians below which two triangles lie on one another; far above the rounding of
+// coordinates and far below the exterior angle of any meshed cusp.
+constexpr double kFoldAngle = 1e-6;
+
+class EdgeGroup {
+ public:
+  EdgeGroup(std::span<const EdgeRecord> records, std::span<const std::size_t> rows)
+  {
+    for (const std::size_t row : rows)
+      if (records[row].is_on_boundary) triangles_.push_back(&records[row]);
+  }
+
+  void check(EdgeMatch& match, Findings& findings) const
+  {
+    ++match.num_edges;
+    if (triangles_.size() % 2 == 1)
+      report(Kind::kBoundaryEdge, findings);
+    else if (triangles_.size() > 2)
+      ++match.num_nonmanifold;
+    if (has_fold()) report(Kind::kFoldedBoundary, findings);
+    for (std::size_t i = 1; i < triangles_.size(); ++i) {
+      const GlobalIndex a = name(*triangles_[0]);
+      const GlobalIndex b = name(*triangles_[i]);
+      if (a != b && (match.links.empty() || match.links.back() != Link{a, b}))
+        match.links.push_back({a, b});
+    }
+  }
+
+ private:
+  static GlobalIndex name(const EdgeRecord& record)
+  {
+    return component_name(record.piece, record.boundary_component);
+  }
+
+  [[nodiscard]] bool has_fold() const
+  {
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      for (std::size_t j = i + 1; j < triangles_.size(); ++j) {
+        const Vec3& a = triangles_[i]->inward;
+        const Vec3& b = triangles_[j]->inward;
+        if (dot(a, b) > 0.5 && norm(a - b) <= kFoldAngle) return true;
+      }
+    }
+    return false;
+  }
+
+  void report(Kind kind, Findings& findings) const
+  {
+    const EdgeRecord& first = *triangles_[0];
+    findings.add(kind, {first.piece, first.cell}, [&] {
+      const Vec3 near{first.middle[0], first.middle[1], first.middle[2]};
+      std::string text = concat("edge near ", to_text(near), " has ", triangles_.size(),
+                                " boundary triangles, of");
+      for (const EdgeRecord* triangle : triangles_) {
+        text += concat(" cell ", triangle->cell, " of piece ", triangle->piece, ";");
+      }
+      return text;
+    });
+  }
+
+  std::vector<const EdgeRecord*> triangles_{};
+};
+
+}  // namespace
+
+EdgeMatch match_edges(std::span<const EdgeRecord> records, const comm::Communicator& comm,
+                      Findings& findings)
+{
+  const RecordExchange<EdgeRecord> exchange(
+      records, [](const EdgeRecord& record) { return hash_of(record.key); }, comm);
+  const std::span<const EdgeRecord> received = exchange.received();
+  EdgeMatch match;
+  for_each_group(
+      received, [](const EdgeRecord& record) { return record.key; },
+      [](const EdgeRecord& r) { return std::make_tuple(r.piece, r.cell, r.inward); },
+      [&](std::span<const std::size_t> rows) { EdgeGroup(received, rows).check(match, findings); });
+  return match;
+}
+
+}  // namespace tessera::check

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/match_triangles.hpp"
+
+#include <string>
+#include <tuple>
+
+#include "check/concat.hpp"
+#include "check/record_exchange.hpp"
+
+namespace tessera::check {
+namespace {
+
+std::string describe(const TriangleRecord& record)
+{
+  const Vec3 near{record.centroid[0], record.centroid[1], record.centroid[2]};
+  std::string text = record.is_listed ? "triangle " : "cell ";
+  text += std::to_string(record.cell);
+  if (!record.is_listed && record.cell_id != kNoId) text += concat(" (id ", record.cell_id, ")");
+  text += record.is_listed ? " of boundary piece " : " of piece ";
+  return concat(text, record.piece, " near ", to_text(near));
+}
+
+Place place_of(const TriangleRecord& record) { return {record.piece, record.cell}; }
+
+// All records of one triangle: first its sides, then its occurrences in the boundary file.
+class TriangleGroup {
+ public:
+  TriangleGroup(std::span<const TriangleRecord> records, std::span<const std::size_t> rows)
+      : records_(records), rows_(rows)
+  {
+    while (num_sides_ < rows.size() && !records[rows[num_sides_]].is_listed) ++num_sides_;
+  }
+
+  [[nodiscard]] std::size_t num_sides() const { return num_sides_; }
+  [[nodiscard]] std::size_t num_listed() const { return rows_.size() - num_sides_; }
+  [[nodiscard]] const TriangleRecord& side(std::size_t i) const { return records_[rows_[i]]; }
+  [[nodiscard]] const TriangleRecord& listed(std::size_t i) const
+  {
+    return records_[rows_[num_sides_ + i]];
+  }
+
+  [[nodiscard]] TriangleRole role() const
+  {
+    if (num_sides_ == 1) return TriangleRole::kOutside;
+    if (num_sides_ != 2 || side(0).is_odd == side(1).is_odd) return TriangleRole::kFaulty;
+    if (side(0).attribute != side(1).attribute) return TriangleRole::kInterface;
+    return side(0).piece == side(1).piece ? TriangleRole::kInner : TriangleRole::kSeam;
+  }
+
+ private:
+  std::span<const TriangleRecord> records_;
+  std::span<const std::size_t> rows_;
+  std::size_t num_sides_ = 0;
+};
+
+void report_fault(const TriangleGroup& group, Findings& findings)
+{
+  findings.add(Kind::kTriangle, place_of(group.side(0)), [&] {
+    std::string text = group.num_sides() == 2 ? "triangle has two tets on one side:"
+                                              : "triangle has more than two tets:";
+    for (std::size_t i = 0; i < group.num_sides(); ++i)
+      text += concat(" ", describe(group.side(i)), ";");
+    return text;
+  });
+}
+
+// A triangle of the boundary file against the side whose tet it names.
+void check_listed(const TriangleRecord& listed, const TriangleRecord& side, Findings& findings)
+{
+  const auto report = [&](Kind kind, const std::string& what) {
+    findings.add(kind, place_of(listed), [&] {
+      return concat(describe(listed), " ", what, "; the tet behind it is ", describe(side));
+    });
+  };
+  if (listed.cell_id != kNoId && side.cell_id != kNoId && listed.cell_id != side.cell_id)
+    report(Kind::kBoundaryTet, concat("names tet ", listed.cell_id));
+  if (listed.is_odd != side.is_odd) report(Kind::kBoundaryOrientation, "points inwards");
+  if (listed.attribute != kNoSubdomain && listed.attribute != side.piece)
+    report(Kind::kBoundarySubdomain, concat("names subdomain ", listed.attribute));
+}
+
+// The side a listed triangle means: that of the tet it names, or else the one it is turned to.
+const TriangleRecord& side_meant(const TriangleGroup& group, const TriangleRecord& listed)
+{
+  for (std::size_t i = 0; i < group.num_sides(); ++i)
+    if (listed.cell_id != kNoId && group.side(i).cell_id == listed.cell_id) return group.side(i);
+  for (std::size_t i = 0; i < group.num_sides(); ++i)
+    if (group.side(i).is_odd == listed.is_odd) return group.side(i);
+  return group.side(0);
+}
+
+void check_boundary(const TriangleGroup& group, TriangleRole role, Findings& findings)
+{
+  if (group.num_listed() == 0) {
+    if (role != TriangleRole::kOutside) return;
+    findings.add(Kind::kBoundaryMissing, place_of(group.side(0)), [&] {
+      return concat("the boundary file lacks the outer triangle of ", describe(group.side(0)));
+    });
+    return;
+  }
+  for (std::size_t i = 1; i < group.num_listed(); ++i) {
+    findings.add(Kind::kBoundaryTwice, place_of(group.listed(i)), [&] {
+      return concat(describe(group.listed(0)), " and ", describe(group.listed(i)));
+    });
+  }
+  const TriangleRecord& listed = group.listed(0);
+  if (role == TriangleRole::kOutside || role == TriangleRole::kInterface) {
+    check_listed(listed, side_meant(group, listed), findings);
+  } else {
+    findings.add(Kind::kBoundaryExtra, place_of(listed), [&] {
+      return concat(describe(listed),
+                    " is neither an outer triangle of the mesh nor between two materials");
+    });
+  }
+}
+
+void count(const TriangleGroup& group, TriangleRole role, TriangleCounts& counts)
+{
+  if (group.num_sides() == 0) return;
+  ++counts.num_triangles;
+  if (role == TriangleRole::kOutside) ++counts.num_outside;
+  if (role == TriangleRole::kSeam) ++counts.num_seam;
+  if (role == TriangleRole::kInterface) ++counts.num_interface;
+  if (role == TriangleRole::kOutside && group.num_listed() == 0) ++counts.num_unlisted;
+}
+
+void link_pieces(const TriangleGroup& group, std::vector<Link>& links)
+{
+  for (std::size_t i = 1; i < group.num_sides(); ++i) {
+    const auto a = component_name(group.side(0).piece, group.side(0).component);
+    const auto b = component_name(group.side(i).piece, group.side(i).component);
+    if (a != b && (links.empty() || links.back() != Link{a, b})) links.push_back({a, b});
+  }
+}
+
+}  // namespace
+
+TriangleMatch match_triangles(std::span<const TriangleRecord> records, bool has_boundary,
+                              const comm::Communicator& comm, Findings& findings)
+{
+  const auto key_of = [](const TriangleRecord& record) { return record.key; };
+  const RecordExchange<TriangleRecord> exchange(
+      records, [&](const TriangleRecord& record) { return hash_of(record.key); }, comm);
+  const std::span<const TriangleRecord> received = exchange.received();
+
+  TriangleMatch match;
+  std::vector<TriangleRole> roles(received.size());
+  for_each_group(
+      received, key_of,
+      [](const TriangleRecord& r) {
+        return std::make_tuple(r.is_listed, r.piece, r.cell, r.cell_id, r.is_odd);
+      },
+      [&](std::span<const std::size_t> rows) {
+        const TriangleGroup group(received, rows);
+        const TriangleRole role = group.role();
+        for (const std::size_t row : rows) roles[row] = role;
+        count(group, role, match.counts);
+        link_pieces(group, match.links);
+        if (role == TriangleRole::kFaulty && group.num_sides() > 0) report_fault(group, findings);
+        if (has_boundary) check_boundary(group, role, findings);
+      });
+  match.roles = exchange.answer(std::span<const TriangleRole>(roles), comm);
+  return match;
+}
+
+}  // namespace tessera::check

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/piece_figures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <string>
+
+#include "tessera/base/hash.hpp"
+
+#include "check/concat.hpp"
+
+namespace tessera::check {
+namespace {
+
+std::array<Vec3, 4> corner_positions(const PieceMesh& mesh, LocalIndex cell)
+{
+  const auto tet = mesh.cell(cell);
+  return {mesh.position(tet[0]), mesh.position(tet[1]), mesh.position(tet[2]),
+          mesh.position(tet[3])};
+}
+
+bool is_finite(const std::array<Vec3, 4>& corners)
+{
+  for (const Vec3& corner : corners)
+    for (const double x : corner)
+      if (!std::isfinite(x)) return false;
+  return true;
+}
+
+// The points as the file has them: of points with one id each keeps its own position.
+Hash128 digest_of(const PieceMesh& mesh, LocalIndex cell)
+{
+  std::array<GlobalIndex, 4> ids{};
+  std::array<double, 12> xyz{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto p =
+        static_cast<LocalIndex>(mesh.arrays.cell_points[4 * static_cast<std::size_t>(cell) + i]);
+    ids[i] = mesh.point_id(p);
+    const Vec3 x = mesh.position(p);
+    std::copy(x.begin(), x.end(), xyz.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  }
+  return hash_tet(ids, xyz, mesh.material(cell));
+}
+
+void report_volume(const PieceMesh& mesh, LocalIndex cell, double volume, Findings& findings)
+{
+  findings.add(Kind::kNonPositiveVolume, {mesh.name.piece, cell}, [&] {
+    std::string text = concat(describe_cell(mesh, cell), " has volume ", volume, ":");
+    for (const LocalIndex v : mesh.cell(cell)) text += concat(" [", describe_point(mesh, v), "]");
+    return text;
+  });
+}
+
+}  // namespace
+
+PieceFigures measure(const PieceMesh& mesh, Findings& findings)
+{
+  PieceFigures figures;
+  figures.num_tets = mesh.num_cells();
+  for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
+    if (mesh.is_left_out(c)) continue;
+    const auto corners = corner_positions(mesh, c);
+    const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
+    if (!(volume > 0.0)) report_volume(mesh, c, volume, findings);
+    if (std::isfinite(volume)) figures.volume += volume;
+    if (mesh.has_point_ids) figures.digest += digest_of(mesh, c);
+  }
+  return figures;
+}
+
+void measure_shapes(const PieceMesh& mesh, const std::vector<bool>& is_on_seam, PieceRecord& record,
+                    ShapeCounts& counts)
+{
+  for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
+    if (mesh.is_left_out(c)) continue;
+    const auto corners = corner_positions(mesh, c);
+    if (!is_finite(corners)) continue;
+    const TetShape shape = shape_of(corners);
+    record.shapes.add(shape);
+    counts.all.add(shape.mean_ratio);
+    const auto tet = mesh.cell(c);
+    const bool is_seam_tet = std::any_of(tet.begin(), tet.end(), [&](LocalIndex v) {
+      return is_on_seam[static_cast<std::size_t>(v)];
+    });
+    if (!is_seam_tet) continue;
+    record.seam_shapes.add(shape);
+    counts.seam.add(shape.mean_ratio);
+  }
+}
+
+std::vector<PieceRecord> all_records(std::span<const PieceRecord> own,
+                                     const comm::Communicator& comm)
+{
+  std::vector<PieceRecord> all;
+  for (const Bytes& bytes : comm.all_gather(std::as_bytes(own))) {
+    const std::size_t begin = all.size();
+    all.resize(begin + bytes.size() / sizeof(PieceRecord));
+    std::memcpy(all.data() + begin, bytes.data(), bytes.size());
+  }
+  std::sort(all.begin(), all.end(),
+            [](const PieceRecord& a, const PieceRecord& b) { return a.piece < b.piece; });
+  return all;
+}
+
+}  // namespace tessera::check

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/piece_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+
+#include "check/concat.hpp"
+
+namespace tessera::check {
+namespace {
+
+// Side indices of triangles, with one bit for the parity, are 32-bit.
+constexpr GlobalIndex kMaxCells = GlobalIndex{1} << 29;
+
+void add_array_defect(const PieceName& name, const std::string& what, Findings& findings)
+{
+  findings.add(Kind::kArrays, {name.piece, 0}, [&] { return concat(to_text(name), ": ", what); });
+}
+
+// Removes the arrays of a map whose length is not the number of cells.
+template <class Arrays>
+void drop_wrong_lengths(const PieceName& name, std::size_t num_cells, Arrays& arrays,
+                        Findings& findings)
+{
+  for (auto it = arrays.begin(); it != arrays.end();) {
+    if (it->second.size() == num_cells) {
+      ++it;
+      continue;
+    }
+    add_array_defect(name,
+                     concat("cell array \"", it->first, "\" has ", it->second.size(),
+                            " values for ", num_cells, " cells"),
+                     findings);
+    it = arrays.erase(it);
+  }
+}
+
+bool has_ids(const PieceName& name, const char* of, std::size_t num_entities,
+             const std::vector<GlobalIndex>& ids, Findings& findings)
+{
+  if (ids.size() == num_entities) return true;
+  if (!ids.empty()) {
+    add_array_defect(name, concat(ids.size(), " ids for ", num_entities, " ", of), findings);
+  }
+  return false;
+}
+
+void check_sizes(const PieceName& name, mesh::MeshArrays& arrays, Findings& findings)
+{
+  const auto width = static_cast<std::size_t>(name.vertices_per_cell());
+  if (arrays.cell_points.empty()) arrays.vertices_per_cell = name.vertices_per_cell();
+  const bool is_readable = arrays.vertices_per_cell == name.vertices_per_cell()
+                           && arrays.point_xyz.size() % 3 == 0
+                           && arrays.cell_points.size() % width == 0;
+  if (!is_readable) {
+    add_array_defect(name,
+                     concat(arrays.point_xyz.size(), " coordinates and ", arrays.cell_points.size(),
+                            " cell corners are no whole points and cells of ", width,
+                            " corners; the piece is left out"),
+                     findings);
+    arrays = {};
+    arrays.vertices_per_cell = name.vertices_per_cell();
+  }
+  if (arrays.num_cells() >= kMaxCells
+      || arrays.num_points() > std::numeric_limits<LocalIndex>::max())
+    throw InputError(concat(to_text(name), " has more than 2^29 cells or 2^31 points; split it"));
+  const auto num_cells = static_cast<std::size_t>(arrays.num_cells());
+  drop_wrong_lengths(name, num_cells, arrays.cell_ints, findings);
+  drop_wrong_lengths(name, num_cells, arrays.cell_longs, findings);
+  drop_wrong_lengths(name, num_cells, arrays.cell_doubles, findings);
+}
+
+struct KeyedPoint {
+  VertexKey key{};
+  LocalIndex point = 0;
+
+  friend auto operator<=>(const KeyedPoint&, const KeyedPoint&) = default;
+};
+
+// For each point the lowest point with the same key.
+template <class KeyOf>
+std::vector<LocalIndex> lowest_of_equal(LocalIndex num_points, const KeyOf& key_of)
+{
+  std::vector<KeyedPoint> order(static_cast<std::size_t>(num_points));
+  for (LocalIndex p = 0; p < num_points; ++p) order[static_cast<std::size_t>(p)] = {key_of(p), p};
+  std::sort(order.begin(), order.end());
+  std::vector<LocalIndex> lowest(order.size());
+  const KeyedPoint* first = nullptr;
+  for (const KeyedPoint& item : order) {
+    if (first == nullptr || first->key != item.key) first = &item;
+    lowest[static_cast<std::size_t>(item.point)] = first->point;
+  }
+  return lowest;
+}
+
+void check_points(const PieceMesh& mesh, Findings& findings)
+{
+  for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
+    const Vec3 x = mesh.position(p);
+    if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])) continue;
+    findings.add(Kind::kNonFinitePoint, {mesh.name.piece, p},
+                 [&] { return concat(to_text(mesh.name), ": ", describe_point(mesh, p)); });
+  }
+}
+
+void report_equal_points(const PieceMesh& mesh, Kind kind, LocalIndex p, LocalIndex lowest,
+                         Findings& findings)
+{
+  findings.add(kind, {mesh.name.piece, p}, [&] {
+    return concat(to_text(mesh.name), ": ", describe_point(mesh, lowest), " and ",
+                  describe_point(mesh, p));
+  });
+}
+
+// The vertex of each point, with a defect for each point that repeats an id or a position.
+std::vector<LocalIndex> match_points(const PieceMesh& mesh, Findings& findings)
+{
+  const auto by_position = lowest_of_equal(
+      mesh.num_points(), [&](LocalIndex p) { return key_of_position(mesh.position(p)); });
+  std::vector<LocalIndex> vertex = by_position;
+  if (mesh.identity == Identity::kIds) {
+    vertex = lowest_of_equal(mesh.num_points(), [&](LocalIndex p) { return mesh.key(p); });
+  }
+  for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
+    const auto i = static_cast<std::size_t>(p);
+    if (mesh.identity == Identity::kIds && vertex[i] != p)
+      report_equal_points(mesh, Kind::kPointIdTwice, p, vertex[i], findings);
+    else if (by_position[i] != p)
+      report_equal_points(mesh, Kind::kDuplicatePoint, p, by_position[i], findings);
+  }
+  return vertex;
+}
+
+// Whether the corners are different vertices in range; sets the cell's vertices if so.
+bool set_cell_vertices(PieceMesh& mesh, LocalIndex cell, std::span<const LocalIndex> vertex_of,
+                       std::vector<bool>& is_used)
+{
+  const auto width = static_cast<std::size_t>(mesh.arrays.vertices_per_cell);
+  const auto at = static_cast<std::size_t>(cell) * width;
+  const auto corners = std::span(mesh.arrays.cell_points).subspan(at, width);
+  const auto vertices = std::span(mesh.cell_vertices).subspan(at, width);
+  bool is_good = true;
+  for (std::size_t i = 0; i < width; ++i) {
+    if (corners[i] < 0 || corners[i] >= mesh.num_points()) {
+      is_good = false;
+      continue;
+    }
+    const auto p = static_cast<std::size_t>(corners[i]);
+    is_used[p] = true;
+    vertices[i] = vertex_of[p];
+    for (std::size_t j = 0; j < i; ++j) is_good = is_good && vertices[j] != vertices[i];
+  }
+  if (!is_good) std::fill(vertices.begin(), vertices.end(), kNoIndex);
+  return is_good;
+}
+
+std::string describe_corners(const PieceMesh& mesh, LocalIndex cell)
+{
+  const auto width = static_cast<std::size_t>(mesh.arrays.vertices_per_cell);
+  std::string text;
+  for (std::size_t i = 0; i < width; ++i) {
+    text += concat(i == 0 ? "" : ", ",
+                   mesh.arrays.cell_points[static_cast<std::size_t>(cell) * width + i]);
+  }
+  return text;
+}
+
+void set_cells(PieceMesh& mesh, Findings& findings)
+{
+  const std::vector<LocalIndex> vertex_of = match_points(mesh, findings);
+  std::vector<bool> is_used(vertex_of.size(), false);
+  mesh.cell_vertices.assign(mesh.arrays.cell_points.size(), kNoIndex);
+  for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
+    if (set_cell_vertices(mesh, c, vertex_of, is_used)) continue;
+    findings.add(Kind::kCellPoints, {mesh.name.piece, c}, [&] {
+      return concat(describe_cell(mesh, c), ": points ", describe_corners(mesh, c), " of ",
+                    mesh.num_points(), " are out of range or not different");
+    });
+  }
+  for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
+    if (is_used[static_cast<std::size_t>(p)]) continue;
+    mesh.unused_points.push_back(p);
+    findings.add(Kind::kUnusedPoint, {mesh.name.piece, p},
+                 [&] { return concat(to_text(mesh.name), ": ", describe_point(mesh, p)); });
+  }
+}
+
+}  // namespace
+
+std::int32_t PieceMesh::cell_int(const std::string& array, LocalIndex c,
+                                 std::int32_t otherwise) const
+{
+  const auto found = arrays.cell_ints.find(array);
+  if (found == arrays.cell_ints.end()) return otherwise;
+  return found->second[static_cast<std::size_t>(c)];
+}
+
+PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity identity,
+                          Findings& findings)
+{
+  check_sizes(name, arrays, findings);
+  PieceMesh mesh;
+  mesh.name = name;
+  mesh.has_point_ids = has_ids(name, "points", static_cast<std::size_t>(arrays.num_points()),
+                               arrays.point_ids, findings);
+  mesh.has_cell_ids = has_ids(name, "cells", static_cast<std::size_t>(arrays.num_cells()),
+                              arrays.cell_ids, findings);
+  mesh.identity = mesh.has_point_ids ? identity : Identity::kPositions;
+  mesh.arrays = std::move(arrays);
+  mesh.attribute.assign(static_cast<std::size_t>(mesh.num_cells()), 0);
+  const auto attribute = mesh.arrays.cell_ints.find("attribute");
+  if (attribute != mesh.arrays.cell_ints.end()) mesh.attribute = std::move(attribute->second);
+  check_points(mesh, findings);
+  set_cells(mesh, findings);
+  return mesh;
+}
+
+std::string to_text(const PieceName& name)
+{
+  return concat(name.is_boundary ? "boundary piece " : "piece ", name.piece);
+}
+
+std::string describe_cell(const PieceMesh& mesh, LocalIndex cell)
+{
+  const std::string id = mesh.has_cell_ids ? concat(" (id ", mesh.cell_id(cell), ")") : "";
+  return concat("cell ", cell, id, " of ", to_text(mesh.name));
+}
+
+std::string describe_point(const PieceMesh& mesh, LocalIndex point)
+{
+  const std::string id = mesh.has_point_ids ? concat(" (id ", mesh.point_id(point), ")") : "";
+  return concat("point ", point, id, " at ", to_text(mesh.position(point)));
+}
+
+}  // namespace tessera::check

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tessera/mesh/mesh_arrays.hpp"
+
+#include "check/findings.hpp"
+#include "check/records.hpp"
+
+namespace tessera::check {
+
+/// @brief Which file a piece belongs to and which of its pieces it is.
+struct PieceName {
+  LocalIndex piece = 0;
+  bool is_boundary = false;
+  LocalIndex vertices_per_cell() const { return is_boundary ? 3 : 4; }
+};
+
+/// @brief Arrays of a piece in which every index is in range, and which of its points are the same.
+struct PieceMesh {
+  PieceName name{};
+  Identity identity = Identity::kIds;
+  mesh::MeshArrays arrays{};
+  bool has_point_ids = false;
+  bool has_cell_ids = false;
+  std::vector<LocalIndex> cell_vertices{};  ///< Shape (num_cells, vertices_per_cell); the lowest of
+                                            ///< the points that are one; -1 in cells left out.
+  std::vector<LocalIndex> unused_points{};
+  std::vector<std::int32_t> attribute{};  ///< Shape (num_cells); material, 0 if the file has none.
+
+  [[nodiscard]] LocalIndex num_points() const
+  {
+    return static_cast<LocalIndex>(arrays.point_xyz.size() / 3);
+  }
+  [[nodiscard]] LocalIndex num_cells() const { return static_cast<LocalIndex>(arrays.num_cells()); }
+  [[nodiscard]] Vec3 position(LocalIndex v) const
+  {
+    return point_at(std::span<const double>(arrays.point_xyz), v);
+  }
+  [[nodiscard]] std::span<const LocalIndex> cell(LocalIndex c) const
+  {
+    const auto width = static_cast<std::size_t>(arrays.vertices_per_cell);
+    return std::span(cell_vertices).subspan(static_cast<std::size_t>(c) * width, width);
+  }
+  [[nodiscard]] bool is_left_out(LocalIndex c) const { return cell(c)[0] == kNoIndex; }
+  [[nodiscard]] GlobalIndex point_id(LocalIndex v) const
+  {
+    return has_point_ids ? arrays.point_ids[static_cast<std::size_t>(v)] : kNoId;
+  }
+  [[nodiscard]] GlobalIndex cell_id(LocalIndex c) const
+  {
+    return has_cell_ids ? arrays.cell_ids[static_cast<std::size_t>(c)] : kNoId;
+  }
+  [[nodiscard]] std::int32_t material(LocalIndex c) const
+  {
+    return attribute[static_cast<std::size_t>(c)];
+  }
+  [[nodiscard]] VertexKey key(LocalIndex v) const
+  {
+    return identity == Identity::kIds ? key_of_id(point_id(v)) : key_of_position(position(v));
+  }
+  /// @brief Value of a cell array of 32-bit integers, or `otherwise` if the file has none. Slow.
+  [[nodiscard]] std::int32_t cell_int(const std::string& array, LocalIndex c,
+                                      std::int32_t otherwise) const;
+};
+
+/// @brief Takes the arrays of one piece and reports what is wrong with them by themselves: sizes,
+/// ranges, points that are not finite, used twice or never. Local.
+/// @param[in] identity Points are matched by position, whatever is asked, if the piece has no ids.
+/// @throws InputError if the piece has 2^29 cells or 2^31 points.
+[[nodiscard]] PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity identity,
+                                        Findings& findings);
+
+/// @brief "piece 3" or "boundary piece 3".
+[[nodiscard]] std::string to_text(const PieceName& name);
+/// @brief "cell 7 (id 1007) of piece 3".
+[[nodiscard]] std::string describe_cell(const PieceMesh& mesh, LocalIndex cell);
+/// @brief "point 7 (id 107) at (x, y, z)".
+[[nodiscard]] std::string describe_point(const PieceMesh& mesh, LocalIndex point);
+
+}  // namespace tessera::check

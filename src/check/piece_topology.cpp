@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/piece_topology.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "check/concat.hpp"
+#include "check/union_find.hpp"
+
+namespace tessera::check {
+namespace {
+
+// A side of a triangle, kept in the bucket of its lowest vertex.
+struct Side {
+  std::uint64_t upper = 0;  // The two other vertices, the middle one in the high half.
+  std::uint32_t code = 0;   // (4 cell + corner) * 2 + parity.
+
+  [[nodiscard]] LocalIndex cell() const { return static_cast<LocalIndex>(code >> 3); }
+  [[nodiscard]] std::size_t corner() const { return (code >> 1) & 3U; }
+  [[nodiscard]] bool is_odd() const { return (code & 1U) != 0; }
+
+  friend auto operator<=>(const Side&, const Side&) = default;
+};
+
+std::array<LocalIndex, 3> outward_vertices(const PieceMesh& mesh, LocalIndex cell,
+                                           std::size_t corner)
+{
+  const auto tet = mesh.cell(cell);
+  const auto& corners = kOutwardCorners[corner];
+  return {tet[corners[0]], tet[corners[1]], tet[corners[2]]};
+}
+
+// Items sorted into buckets by counting: `visit` calls back with (bucket, item) and runs twice.
+template <class Item>
+struct Buckets {
+  std::vector<std::size_t> offsets{};
+  std::vector<Item> items{};
+
+  template <class Visit>
+  Buckets(LocalIndex num_buckets, const Visit& visit)
+      : offsets(static_cast<std::size_t>(num_buckets) + 2, 0)
+  {
+    visit([&](LocalIndex bucket, const Item&) { ++offsets[static_cast<std::size_t>(bucket) + 2]; });
+    for (std::size_t b = 2; b < offsets.size(); ++b) offsets[b] += offsets[b - 1];
+    items.resize(offsets.back());
+    visit([&](LocalIndex bucket, const Item& item) {
+      items[offsets[static_cast<std::size_t>(bucket) + 1]++] = item;
+    });
+  }
+
+  [[nodiscard]] LocalIndex size() const { return static_cast<LocalIndex>(offsets.size()) - 2; }
+  [[nodiscard]] std::span<Item> operator[](LocalIndex bucket)
+  {
+    const auto b = static_cast<std::size_t>(bucket);
+    return std::span(items).subspan(offsets[b], offsets[b + 1] - offsets[b]);
+  }
+};
+
+Buckets<Side> sides_by_lowest_vertex(const PieceMesh& mesh)
+{
+  return {mesh.num_points(), [&](const auto& put) {
+            for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
+              if (mesh.is_left_out(c)) continue;
+              for (std::size_t corner = 0; corner < 4; ++corner) {
+                auto [a, b, d] = outward_vertices(mesh, c, corner);
+                const unsigned odd = is_odd(a, b, d) ? 1U : 0U;
+                if (b < a) std::swap(a, b);
+                if (d < b) std::swap(b, d);
+                if (b < a) std::swap(a, b);
+                const auto upper =
+                    static_cast<std::uint64_t>(b) << 32 | static_cast<std::uint64_t>(d);
+                const auto side =
+                    4 * static_cast<std::uint32_t>(c) + static_cast<std::uint32_t>(corner);
+                put(a, Side{upper, 2 * side + odd});
+              }
+            }
+          }};
+}
+
+class TriangleMatcher {
+ public:
+  TriangleMatcher(const PieceMesh& mesh, Findings& findings)
+      : mesh_(mesh),
+        findings_(findings),
+        sides_(sides_by_lowest_vertex(mesh)),
+        components_(mesh.num_cells()),
+        is_on_surface_(static_cast<std::size_t>(mesh.num_points()), false)
+  {
+    for (LocalIndex v = 0; v < sides_.size(); ++v) std::sort(sides_[v].begin(), sides_[v].end());
+  }
+
+  PieceTopology match()
+  {
+    for_each_triangle([&](std::span<const Side> sides) { match_sides(sides); });
+    for_each_triangle([&](std::span<const Side> sides) { sort_out(sides); });
+    number_components();
+    return std::move(topology_);
+  }
+
+ private:
+  template <class Visit>
+  void for_each_triangle(const Visit& visit)
+  {
+    for (LocalIndex v = 0; v < sides_.size(); ++v) {
+      const std::span<const Side> bucket = sides_[v];
+      for (std::size_t begin = 0, end = 0; begin < bucket.size(); begin = end) {
+        while (end < bucket.size() && bucket[end].upper == bucket[begin].upper) ++end;
+        visit(bucket.subspan(begin, end - begin));
+      }
+    }
+  }
+
+  static bool is_matched(std::span<const Side> sides)
+  {
+    return sides.size() == 2 && sides[0].is_odd() != sides[1].is_odd();
+  }
+
+  [[nodiscard]] std::array<LocalIndex, 3> vertices(const Side& side) const
+  {
+    return outward_vertices(mesh_, side.cell(), side.corner());
+  }
+
+  void match_sides(std::span<const Side> sides)
+  {
+    for (const Side& side : sides.subspan(1)) components_.join(sides[0].cell(), side.cell());
+    if (sides.size() == 1) {
+      for (const LocalIndex v : vertices(sides[0]))
+        is_on_surface_[static_cast<std::size_t>(v)] = true;
+    } else if (!is_matched(sides)) {
+      report(sides);
+    }
+  }
+
+  // Decides whether other pieces must see the triangle.
+  void sort_out(std::span<const Side> sides)
+  {
+    const bool is_shown =
+        sides.size() == 1 || (is_matched(sides) && (is_interface(sides) || is_chord(sides[0])));
+    if (!is_shown) {
+      ++topology_.num_inner_triangles;
+      return;
+    }
+    for (const Side& side : sides)
+      topology_.surface.push_back({vertices(side), side.cell(), components_.find(side.cell())});
+  }
+
+  [[nodiscard]] bool is_interface(std::span<const Side> sides) const
+  {
+    return mesh_.material(sides[0].cell()) != mesh_.material(sides[1].cell());
+  }
+
+  [[nodiscard]] bool is_chord(const Side& side) const
+  {
+    const auto corners = vertices(side);
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](LocalIndex v) { return is_on_surface_[static_cast<std::size_t>(v)]; });
+  }
+
+  void report(std::span<const Side> sides)
+  {
+    const LocalIndex piece = mesh_.name.piece;
+    findings_.add(Kind::kTriangle, {piece, sides[0].cell()}, [&] {
+      std::string text = "triangle of";
+      for (const LocalIndex v : vertices(sides[0]))
+        text += concat(" [", describe_point(mesh_, v), "]");
+      text += sides.size() == 2 ? " has two tets on one side:" : " has more than two tets:";
+      for (const Side& side : sides) text += concat(" ", describe_cell(mesh_, side.cell()), ";");
+      return text;
+    });
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      for (std::size_t j = i + 1; j < sides.size(); ++j) report_duplicate(sides[i], sides[j]);
+  }
+
+  // Two equal tets meet at four triangles: they are reported at the one opposite to corner 0.
+  void report_duplicate(const Side& first, const Side& second)
+  {
+    const auto a = mesh_.cell(first.cell());
+    const auto b = mesh_.cell(second.cell());
+    if (first.corner() != 0 || !std::is_permutation(a.begin(), a.end(), b.begin())) return;
+    findings_.add(Kind::kDuplicateTet, {mesh_.name.piece, second.cell()}, [&] {
+      return concat(describe_cell(mesh_, first.cell()), " and ",
+                    describe_cell(mesh_, second.cell()));
+    });
+  }
+
+  // Components are named by their lowest cell so far; surface triangles get their numbers.
+  void number_components()
+  {
+    std::vector<LocalIndex> number(static_cast<std::size_t>(mesh_.num_cells()), kNoIndex);
+    for (LocalIndex c = 0; c < mesh_.num_cells(); ++c) {
+      if (!mesh_.is_left_out(c) && components_.find(c) == c)
+        number[static_cast<std::size_t>(c)] = topology_.num_components++;
+    }
+    for (SurfaceTriangle& triangle : topology_.surface)
+      triangle.component = number[static_cast<std::size_t>(triangle.component)];
+  }
+
+  const PieceMesh& mesh_;
+  Findings& findings_;
+  Buckets<Side> sides_;
+  UnionFind components_;
+  std::vector<bool> is_on_surface_;
+  PieceTopology topology_{};
+};
+
+Buckets<LocalIndex> edges_by_lower_vertex(const PieceMesh& mesh)
+{
+  return {mesh.num_points(), [&](const auto& put) {
+            for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
+              if (mesh.is_left_out(c)) continue;
+              const auto tet = mesh.cell(c);
+              for (std::size_t i = 0; i < 4; ++i)
+                for (std::size_t j = i + 1; j < 4; ++j)
+                  put(std::min(tet[i], tet[j]), std::max(tet[i], tet[j]));
+            }
+          }};
+}
+
+GlobalIndex count_edges(const PieceMesh& mesh, EdgeLengths& lengths)
+{
+  Buckets<LocalIndex> edges = edges_by_lower_vertex(mesh);
+  std::vector<LocalIndex> last_seen_from(static_cast<std::size_t>(mesh.num_points()), kNoIndex);
+  GlobalIndex num_edges = 0;
+  for (LocalIndex v = 0; v < edges.size(); ++v) {
+    for (const LocalIndex upper : edges[v]) {
+      LocalIndex& seen = last_seen_from[static_cast<std::size_t>(upper)];
+      if (seen == v) continue;
+      seen = v;
+      ++num_edges;
+      lengths.add(norm(mesh.position(upper) - mesh.position(v)));
+    }
+  }
+  return num_edges;
+}
+
+}  // namespace
+
+PieceTopology analyse_topology(const PieceMesh& mesh, EdgeLengths& lengths, Findings& findings)
+{
+  PieceTopology topology = TriangleMatcher(mesh, findings).match();
+  topology.num_edges = count_edges(mesh, lengths);
+  return topology;
+}
+
+}  // namespace tessera::check

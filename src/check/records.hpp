@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "tessera/base/hash.hpp"
+#include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
+
+namespace tessera::check {
+
+/// @brief By what points of different pieces are recognised as the same vertex.
+enum class Identity { kIds, kPositions };
+
+/// @brief The same for the same vertex in every piece: (id, 0), or a 128-bit hash of the position.
+using VertexKey = std::array<std::uint64_t, 2>;
+using EdgeKey = std::array<VertexKey, 2>;      ///< Ascending.
+using TriangleKey = std::array<VertexKey, 3>;  ///< Ascending.
+
+/// @brief Hash of a key that spreads records over ranks.
+template <class Key>
+[[nodiscard]] std::uint64_t hash_of(const Key& key)
+{
+  return hash_bytes(std::as_bytes(std::span(&key, 1))).low;
+}
+
+[[nodiscard]] inline VertexKey key_of_id(GlobalIndex id)
+{
+  return {static_cast<std::uint64_t>(id), 0};
+}
+
+/// @brief Key by the bits of the position; the two zeros are one.
+[[nodiscard]] inline VertexKey key_of_position(const Vec3& position)
+{
+  const Vec3 one_zero = position + Vec3{0.0, 0.0, 0.0};
+  const Hash128 hash = hash_bytes(std::as_bytes(std::span(one_zero)));
+  return {hash.low, hash.high};
+}
+
+inline constexpr GlobalIndex kNoId = std::numeric_limits<GlobalIndex>::min();
+inline constexpr std::int32_t kNoSubdomain = std::numeric_limits<std::int32_t>::min();
+
+/// @brief One side of a triangle that did not cancel inside its piece, or a triangle of the
+/// boundary file.
+struct TriangleRecord {
+  TriangleKey key{};
+  std::array<float, 3> centroid{};  ///< For messages only.
+  LocalIndex piece = 0;
+  LocalIndex cell = 0;          ///< Row in its piece.
+  LocalIndex component = 0;     ///< Of its piece; tets only.
+  std::int32_t attribute = 0;   ///< Material of the tet; in the boundary file: subdomain, or
+                                ///< kNoSubdomain.
+  GlobalIndex cell_id = kNoId;  ///< Of the tet; in the boundary file: of the tet named there.
+  bool is_odd = false;          ///< Whether the outward order is an odd permutation of the key.
+  bool is_listed = false;       ///< From the boundary file.
+};
+
+/// @brief What a triangle turned out to be.
+enum class TriangleRole : std::uint8_t { kInner, kOutside, kSeam, kInterface, kFaulty };
+
+/// @brief A point of a piece that may be in other pieces as well.
+struct VertexRecord {
+  Vec3 position{};
+  GlobalIndex id = kNoId;
+  LocalIndex piece = 0;
+  LocalIndex point = 0;     ///< Row in its piece.
+  bool is_used = false;     ///< By a tet.
+  bool is_inner = false;    ///< On no open triangle of its piece: no other piece may have it.
+  bool is_on_seam = false;  ///< On a seam triangle of its piece.
+  bool is_listed = false;   ///< From the boundary file.
+};
+
+/// @brief An edge on the surface of a piece; once per boundary triangle on it, or once if none is.
+struct EdgeRecord {
+  EdgeKey key{};
+  Vec3 inward{};  ///< Unit vector from the edge into the triangle, normal to the edge.
+  std::array<float, 3> middle{};  ///< For messages only.
+  LocalIndex piece = 0;
+  LocalIndex cell = 0;                ///< Tet of the triangle.
+  LocalIndex boundary_component = 0;  ///< Of its piece.
+  bool is_on_boundary = false;
+};
+
+}  // namespace tessera::check

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+
+namespace tessera::check {
+
+/// @brief Disjoint sets of 0…n-1; the lowest member stands for its set.
+class UnionFind {
+ public:
+  explicit UnionFind(LocalIndex n) : parent_(static_cast<std::size_t>(n))
+  {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+
+  [[nodiscard]] LocalIndex find(LocalIndex i)
+  {
+    while (parent(i) != i) {
+      parent(i) = parent(parent(i));
+      i = parent(i);
+    }
+    return i;
+  }
+
+  /// @brief Joins the sets of both. @return Whether they were two.
+  bool join(LocalIndex a, LocalIndex b)
+  {
+    a = find(a);
+    b = find(b);
+    if (a == b) return false;
+    if (b < a) std::swap(a, b);
+    parent(b) = a;
+    return true;
+  }
+
+ private:
+  LocalIndex& parent(LocalIndex i) { return parent_[static_cast<std::size_t>(i)]; }
+
+  std::vector<LocalIndex> parent_;
+};
+
+}  // namespace tessera::check

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check/findings.hpp"
+
+#include <array>
+
+#include <gtest/gtest.h>
+
+namespace tessera::check {
+namespace {
+
+void add(Findings& findings, Kind kind, GlobalIndex piece, GlobalIndex entity)
+{
+  findings.add(kind, {piece, entity},
+               [&] { return std::to_string(piece) + "/" + std::to_string(entity); });
+}
+
+TEST(Findings, KeepTheFirstPlacesInWhateverOrderTheyCome)
+{
+  Findings up;
+  Findings down;
+  for (GlobalIndex i = 0; i < 50; ++i) {
+    add(up, Kind::kTriangle, i / 7, i % 7);
+    add(down, Kind::kTriangle, (49 - i) / 7, (49 - i) % 7);
+  }
+  const std::vector<Defect> defects = up.to_defects();
+  ASSERT_EQ(defects.size(), 1U);
+  EXPECT_EQ(defects[0].kind, "triangle");
+  EXPECT_EQ(defects[0].count, 50);
+  ASSERT_EQ(defects[0].offenders.size(), Findings::kNumKept);
+  EXPECT_EQ(defects[0].offenders.front(), "0/0");
+  EXPECT_EQ(defects[0].offenders.back(), "1/2");
+  EXPECT_EQ(down.to_defects()[0].offenders, defects[0].offenders);
+}
+
+TEST(Findings, MergedPartsEqualTheWhole)
+{
+  Findings whole;
+  std::array<Findings, 3> parts;
+  for (GlobalIndex i = 0; i < 40; ++i) {
+    const Kind kind = i % 2 == 0 ? Kind::kUnusedPoint : Kind::kArrays;
+    add(whole, kind, i % 5, i);
+    add(parts[static_cast<std::size_t>(i) % 3], kind, i % 5, i);
+  }
+  Findings merged;
+  for (const Findings& part : parts) merged.merge(Findings::from_bytes(part.to_bytes()));
+  EXPECT_EQ(merged.to_bytes(), whole.to_bytes());
+}
+
+TEST(Findings, MergeOfChosenKindsLeavesTheOthers)
+{
+  Findings from;
+  add(from, Kind::kArrays, 0, 0);
+  add(from, Kind::kPointIdHole, 0, 1);
+  Findings into;
+  into.merge(from, std::array{Kind::kPointIdHole});
+  EXPECT_EQ(into.count(Kind::kArrays), 0);
+  EXPECT_EQ(into.count(Kind::kPointIdHole), 1);
+}
+
+}  // namespace
+}  // namespace tessera::check

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/watch.hpp"
+
+#include <optional>
+
+#include <gtest/gtest.h>
+
+namespace tessera::jobs {
+namespace {
+
+constexpr JobLimits kLimits{.cpu_s = 10.0, .stall_s = 3.0, .memory_gib = 1.0};
+
+ProcessSample sample(double cpu_s, std::size_t rss_mib = 10, bool runnable = false)
+{
+  return {.cpu_s = cpu_s, .rss_bytes = rss_mib << 20, .runnable = runnable};
+}
+
+TEST(Watch, LetsAProcessWithinItsLimitsRun)
+{
+  Watch watch(kLimits, 0.0);
+  for (int look = 1; look < 90; ++look)
+    EXPECT_EQ(watch.look(sample(0.1 * look, 1024), 0.1), std::nullopt);
+}
+
+TEST(Watch, CountsCpuTimeFromTheStartOfTheWork)
+{
+  Watch watch(kLimits, 100.0);
+  EXPECT_EQ(watch.look(sample(109.0), 0.1), std::nullopt);
+  EXPECT_DOUBLE_EQ(watch.cpu_s(), 9.0);
+  EXPECT_EQ(watch.look(sample(110.5), 0.1), JobStatus::out_of_time);
+}
+
+TEST(Watch, FindsMemoryAboveTheLimit)
+{
+  Watch watch(kLimits, 0.0);
+  EXPECT_EQ(watch.look(sample(0.1, 1025), 0.1), JobStatus::out_of_memory);
+  EXPECT_EQ(watch.peak_rss_bytes(), std::size_t{1025} << 20);
+}
+
+TEST(Watch, FindsSleepers)
+{
+  Watch watch(kLimits, 0.0);
+  EXPECT_EQ(watch.look(sample(1.0), 0.5), std::nullopt);
+  for (int look = 0; look < 6; ++look) EXPECT_EQ(watch.look(sample(1.0), 0.5), std::nullopt);
+  EXPECT_EQ(watch.look(sample(1.0), 0.5), JobStatus::stalled);
+}
+
+TEST(Watch, AProcessThatCannotBeLookedAtSleeps)
+{
+  Watch watch(kLimits, 0.0);
+  for (int look = 0; look < 6; ++look) EXPECT_EQ(watch.look(std::nullopt, 0.5), std::nullopt);
+  EXPECT_EQ(watch.look(std::nullopt, 0.5), JobStatus::stalled);
+}
+
+TEST(Watch, WaitingForACoreIsNoSleep)
+{
+  Watch watch(kLimits, 0.0);
+  for (int look = 0; look < 100; ++look)
+    EXPECT_EQ(watch.look(sample(1.0, 10, true), 0.5), std::nullopt);
+}
+
+TEST(Watch, WorkInBetweenStartsTheStallAnew)
+{
+  Watch watch(kLimits, 0.0);
+  for (int look = 0; look < 100; ++look)
+    EXPECT_EQ(watch.look(sample(0.01 * (look / 4)), 0.7), std::nullopt);
+}
+
+TEST(Watch, TimeInWhichNobodyLookedProvesLittle)
+{
+  Watch watch(kLimits, 0.0);
+  EXPECT_EQ(watch.look(sample(1.0), 0.1), std::nullopt);
+  EXPECT_EQ(watch.look(sample(1.0), 3600.0), std::nullopt);
+}
+
+}  // namespace
+}  // namespace tessera::jobs
