@@ -116,7 +116,9 @@ void OccSurface::collect_boundaries(const TopoDS_Face& face, double box_diagonal
 model::SurfacePoint OccSurface::project(const Vec3& point, const Uv& guess) const
 {
   const Descent local = descend(point, guess);
-  if (local.converged && within_trim(local.point)) return local.point;
+  // At a pole all directions but one are frozen, so a descent that ends there may have missed more.
+  const bool trusted = local.converged && !is_pole(local.point.uv);
+  if (trusted && within_trim(local.point)) return local.point;
   return nearest(point, guess);
 }
 
@@ -190,6 +192,18 @@ OccSurface::Uv OccSurface::step_at(const gp_Pnt& target, const Uv& uv) const
     step = {factor * step[0], factor * step[1]};
   }
   return step;
+}
+
+std::array<bool, 2> OccSurface::degenerate_directions(const Uv& uv) const
+{
+  gp_Pnt value;
+  std::array<gp_Vec, 2> first;
+  surface_->D1(uv[0], uv[1], value, first[0], first[1]);
+  std::array<bool, 2> degenerate{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    degenerate[k] = first[k].Magnitude() * directions_[k].span() <= kPoleLength * box_diagonal_;
+  }
+  return degenerate;
 }
 
 OccSurface::Uv OccSurface::clamped(const Uv& uv) const
@@ -300,12 +314,7 @@ std::array<OccSurface::Uv, 3> OccSurface::triangle_parameters(
   std::array<std::array<bool, 2>, 3> free{};  // Corner, direction: any value does.
   for (std::size_t c = 0; c < 3; ++c) {
     uv[c] = locate(corners[c], guesses[c]).uv;
-    gp_Pnt value;
-    std::array<gp_Vec, 2> first;
-    surface_->D1(uv[c][0], uv[c][1], value, first[0], first[1]);
-    for (std::size_t k = 0; k < 2; ++k) {
-      free[c][k] = first[k].Magnitude() * directions_[k].span() <= kPoleLength * box_diagonal_;
-    }
+    free[c] = degenerate_directions(uv[c]);
   }
   for (std::size_t k = 0; k < 2; ++k) {
     std::vector<double*> bound;

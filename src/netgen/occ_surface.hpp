@@ -72,6 +72,12 @@ class OccSurface {
   void collect_boundaries(const TopoDS_Face& face, double box_diagonal);
   [[nodiscard]] Descent descend(const Vec3& point, const Uv& guess) const;
   [[nodiscard]] Uv step_at(const gp_Pnt& target, const Uv& uv) const;
+  [[nodiscard]] std::array<bool, 2> degenerate_directions(const Uv& uv) const;
+  [[nodiscard]] bool is_pole(const Uv& uv) const
+  {
+    const auto [u, v] = degenerate_directions(uv);
+    return u || v;
+  }
   [[nodiscard]] Uv clamped(const Uv& uv) const;
   [[nodiscard]] bool within_trim(const model::SurfacePoint& point) const;
   [[nodiscard]] model::SurfacePoint nearest(const Vec3& point, const Uv& guess) const;
