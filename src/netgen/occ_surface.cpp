@@ -8,7 +8,6 @@
 #include <BRep_Tool.hxx>
 #include <GeomAbs_SurfaceType.hxx>
 #include <GeomAdaptor_Surface.hxx>
-#include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -79,7 +78,6 @@ double nearest_period(double value, double reference, double period)
 
 OccSurface::OccSurface(const TopoDS_Face& face, double box_diagonal)
     : surface_(BRep_Tool::Surface(face)),
-      classifier_(std::make_unique<BRepTopAdaptor_FClass2d>(face, Precision::PConfusion())),
       tolerance_(std::max(BRep_Tool::Tolerance(face), kMinRelativeTolerance * box_diagonal)),
       box_diagonal_(box_diagonal)
 {
@@ -95,6 +93,9 @@ OccSurface::OccSurface(const TopoDS_Face& face, double box_diagonal)
     direction->domain_first = -kFarAway;
     direction->domain_last = kFarAway;
   }
+  trim_ = std::make_unique<OccTrim>(
+      face, std::array<double, 2>{surface_->IsUPeriodic() ? u.period : 0.0,
+                                  surface_->IsVPeriodic() ? v.period : 0.0});
   num_samples_ = sample_counts(surface_);
   collect_boundaries(face, box_diagonal);
 }
@@ -214,8 +215,7 @@ OccSurface::Uv OccSurface::clamped(const Uv& uv) const
 
 bool OccSurface::within_trim(const model::SurfacePoint& point) const
 {
-  const gp_Pnt2d uv(point.uv[0], point.uv[1]);
-  if (classifier_->Perform(uv, Standard_True) != TopAbs_OUT) return true;
+  if (trim_->contains(point.uv)) return true;
   // Trimming edges are only as exact as their tolerance.
   return std::any_of(boundaries_.begin(), boundaries_.end(), [&](const Boundary& boundary) {
     const Vec3 on_edge = boundary.curve.nearest(point.xyz).xyz;
