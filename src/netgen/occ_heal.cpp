@@ -227,7 +227,10 @@ void require_curves(const TopoDS_Shape& shape)
 
 std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
 {
-  const std::vector<TopoDS_Shape> given = parts_of(cad.shape, TopAbs_SOLID);
+  std::vector<TopoDS_Shape> given = parts_of(cad.shape, TopAbs_SOLID);
+  const auto num_empty = std::erase_if(
+      given, [](const TopoDS_Shape& solid) { return count(solid, TopAbs_FACE) == 0; });
+  if (num_empty > 0) cad.repairs.push_back("solids without faces were left out");
   if (given.empty()) {
     if (count(cad.shape, TopAbs_FACE) == 0) {
       throw GeometryError("no solid and no face to make one of; the file holds "
