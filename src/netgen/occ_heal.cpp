@@ -132,11 +132,12 @@ std::vector<TopoDS_Shape> solids_from_faces(const TopoDS_Shape& faces, CadFile& 
 {
   const Sewn sewn = sew(faces, cad.names);
   if (sewn.closed_shells.empty()) {
-    throw GeometryError("no closed solid: after sewing with gaps up to " + std::to_string(sewn.gap)
-                        + ", " + counted(sewn.num_open_edges, "edge") + " of "
-                        + counted(count(faces, TopAbs_FACE), "face")
-                        + " bound one face only, the first at " + sewn.first_open_edge
-                        + "; close the gaps in the CAD program");
+    std::ostringstream reason;
+    reason << "no closed solid: sewn with gap " << sewn.gap << ", "
+           << counted(sewn.num_open_edges, "edge") << " of "
+           << counted(count(faces, TopAbs_FACE), "face") << " bound one face only, the first at "
+           << sewn.first_open_edge << "; close the gaps in the CAD program";
+    throw GeometryError(reason.str());
   }
   std::vector<TopoDS_Shape> solids;
   for (const TopoDS_Shape& shell : sewn.closed_shells) {
@@ -184,9 +185,13 @@ std::vector<TopoDS_Shape> healed(const TopoDS_Shape& solid, int number, CadFile&
     if (is_closed(part)) closed.push_back(part);
   }
   const std::string was = is_closed(solid) ? "was invalid" : "was not closed";
+  if (closed.empty() && is_closed(solid)) {
+    cad.repairs.push_back(name + " is closed but invalid, and fixing it made it worse: left as is");
+    return {solid};
+  }
   if (closed.empty()) {
     cad.repairs.push_back(name + " " + was);
-    return solids_from_faces(better, cad);
+    return solids_from_faces(count(better, TopAbs_FACE) > 0 ? better : solid, cad);
   }
   bool clean = true;
   for (const TopoDS_Shape& part : closed) clean = clean && BRepCheck_Analyzer(part).IsValid();
@@ -222,7 +227,10 @@ void require_curves(const TopoDS_Shape& shape)
 
 std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
 {
-  const std::vector<TopoDS_Shape> given = parts_of(cad.shape, TopAbs_SOLID);
+  std::vector<TopoDS_Shape> given = parts_of(cad.shape, TopAbs_SOLID);
+  const auto num_empty = std::erase_if(
+      given, [](const TopoDS_Shape& solid) { return count(solid, TopAbs_FACE) == 0; });
+  if (num_empty > 0) cad.repairs.push_back("solids without faces were left out");
   if (given.empty()) {
     if (count(cad.shape, TopAbs_FACE) == 0) {
       throw GeometryError("no solid and no face to make one of; the file holds "

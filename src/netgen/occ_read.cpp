@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <string_view>
 
 #include <BRepBuilderAPI_Transform.hxx>
@@ -288,13 +289,24 @@ CadFile read_iges(const fs::path& file)
   return cad;
 }
 
+// The table of a text file ends with '*' and an empty line; then comes the root: orientation and
+// number of a shape, number of a location. The reader loops for ever on some files that end early.
+bool ends_with_root(const fs::path& file)
+{
+  static const std::regex root(R"(\*\s*\n\s*\n[-+ie]\d+ \d+)");
+  return std::regex_search(tail_of(file, 256), root);
+}
+
 CadFile read_brep(const fs::path& file)
 {
   CadFile cad;
   const std::string head = head_of(file, 200);
   if (head.find("Open CASCADE Topology") != std::string::npos) {
     BinTools::Read(cad.shape, file.c_str());
-  } else {
+  } else if (head.find("CASCADE Topology") != std::string::npos) {
+    if (!ends_with_root(file)) {
+      throw InputError(file.string() + ": ends before its root shape, so it is truncated");
+    }
     BRepTools::Read(cad.shape, file.c_str(), BRep_Builder());
   }
   if (cad.shape.IsNull()) {

@@ -8,7 +8,6 @@
 #include <BRep_Tool.hxx>
 #include <GeomAbs_SurfaceType.hxx>
 #include <GeomAdaptor_Surface.hxx>
-#include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -79,7 +78,6 @@ double nearest_period(double value, double reference, double period)
 
 OccSurface::OccSurface(const TopoDS_Face& face, double box_diagonal)
     : surface_(BRep_Tool::Surface(face)),
-      classifier_(std::make_unique<BRepTopAdaptor_FClass2d>(face, Precision::PConfusion())),
       tolerance_(std::max(BRep_Tool::Tolerance(face), kMinRelativeTolerance * box_diagonal)),
       box_diagonal_(box_diagonal)
 {
@@ -95,6 +93,9 @@ OccSurface::OccSurface(const TopoDS_Face& face, double box_diagonal)
     direction->domain_first = -kFarAway;
     direction->domain_last = kFarAway;
   }
+  trim_ = std::make_unique<OccTrim>(
+      face, std::array<double, 2>{surface_->IsUPeriodic() ? u.period : 0.0,
+                                  surface_->IsVPeriodic() ? v.period : 0.0});
   num_samples_ = sample_counts(surface_);
   collect_boundaries(face, box_diagonal);
 }
@@ -116,7 +117,9 @@ void OccSurface::collect_boundaries(const TopoDS_Face& face, double box_diagonal
 model::SurfacePoint OccSurface::project(const Vec3& point, const Uv& guess) const
 {
   const Descent local = descend(point, guess);
-  if (local.converged && within_trim(local.point)) return local.point;
+  // At a pole all directions but one are frozen, so a descent that ends there may have missed more.
+  const bool trusted = local.converged && !is_pole(local.point.uv);
+  if (trusted && within_trim(local.point)) return local.point;
   return nearest(point, guess);
 }
 
@@ -192,6 +195,18 @@ OccSurface::Uv OccSurface::step_at(const gp_Pnt& target, const Uv& uv) const
   return step;
 }
 
+std::array<bool, 2> OccSurface::degenerate_directions(const Uv& uv) const
+{
+  gp_Pnt value;
+  std::array<gp_Vec, 2> first;
+  surface_->D1(uv[0], uv[1], value, first[0], first[1]);
+  std::array<bool, 2> degenerate{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    degenerate[k] = first[k].Magnitude() * directions_[k].span() <= kPoleLength * box_diagonal_;
+  }
+  return degenerate;
+}
+
 OccSurface::Uv OccSurface::clamped(const Uv& uv) const
 {
   return {std::clamp(uv[0], directions_[0].domain_first, directions_[0].domain_last),
@@ -200,8 +215,7 @@ OccSurface::Uv OccSurface::clamped(const Uv& uv) const
 
 bool OccSurface::within_trim(const model::SurfacePoint& point) const
 {
-  const gp_Pnt2d uv(point.uv[0], point.uv[1]);
-  if (classifier_->Perform(uv, Standard_True) != TopAbs_OUT) return true;
+  if (trim_->contains(point.uv)) return true;
   // Trimming edges are only as exact as their tolerance.
   return std::any_of(boundaries_.begin(), boundaries_.end(), [&](const Boundary& boundary) {
     const Vec3 on_edge = boundary.curve.nearest(point.xyz).xyz;
@@ -300,12 +314,7 @@ std::array<OccSurface::Uv, 3> OccSurface::triangle_parameters(
   std::array<std::array<bool, 2>, 3> free{};  // Corner, direction: any value does.
   for (std::size_t c = 0; c < 3; ++c) {
     uv[c] = locate(corners[c], guesses[c]).uv;
-    gp_Pnt value;
-    std::array<gp_Vec, 2> first;
-    surface_->D1(uv[c][0], uv[c][1], value, first[0], first[1]);
-    for (std::size_t k = 0; k < 2; ++k) {
-      free[c][k] = first[k].Magnitude() * directions_[k].span() <= kPoleLength * box_diagonal_;
-    }
+    free[c] = degenerate_directions(uv[c]);
   }
   for (std::size_t k = 0; k < 2; ++k) {
     std::vector<double*> bound;

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include <BRepTopAdaptor_FClass2d.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <TopoDS_Face.hxx>
@@ -15,6 +14,7 @@
 #include "tessera/model/model.hpp"
 
 #include "netgen/occ_curve.hpp"
+#include "netgen/occ_trim.hpp"
 
 namespace tessera::netgen {
 
@@ -72,6 +72,12 @@ class OccSurface {
   void collect_boundaries(const TopoDS_Face& face, double box_diagonal);
   [[nodiscard]] Descent descend(const Vec3& point, const Uv& guess) const;
   [[nodiscard]] Uv step_at(const gp_Pnt& target, const Uv& uv) const;
+  [[nodiscard]] std::array<bool, 2> degenerate_directions(const Uv& uv) const;
+  [[nodiscard]] bool is_pole(const Uv& uv) const
+  {
+    const auto [u, v] = degenerate_directions(uv);
+    return u || v;
+  }
   [[nodiscard]] Uv clamped(const Uv& uv) const;
   [[nodiscard]] bool within_trim(const model::SurfacePoint& point) const;
   [[nodiscard]] model::SurfacePoint nearest(const Vec3& point, const Uv& guess) const;
@@ -85,7 +91,7 @@ class OccSurface {
   Handle(Geom_Surface) surface_;
   std::array<Direction, 2> directions_{};
   std::vector<Boundary> boundaries_{};
-  std::unique_ptr<BRepTopAdaptor_FClass2d> classifier_{};
+  std::unique_ptr<OccTrim> trim_{};
   double tolerance_ = 0.0;
   double box_diagonal_ = 0.0;
   std::array<int, 2> num_samples_{};  ///< Grid of the global search.

@@ -128,9 +128,8 @@ void write_iges(const fs::path& file)
 void write_all(const fs::path& folder)
 {
   write_step(folder / "sphere.step", {{BRepPrimAPI_MakeSphere(10).Shape(), "sphere", {"skin"}}});
-  write_step(folder / "cylinder.step", {{BRepPrimAPI_MakeCylinder(5, 20).Shape(),
-                                         "cylinder",
-                                         {"side", "top", "bottom"}}});
+  write_step(folder / "cylinder.step",
+             {{BRepPrimAPI_MakeCylinder(5, 20).Shape(), "cylinder", {"side", "top", "bottom"}}});
   write_step(folder / "torus.step", {{BRepPrimAPI_MakeTorus(10, 3).Shape(), "torus", {"skin"}}});
   write_step(folder / "bracket.step", {{bracket(), "bracket", {}}});
   write_step(folder / "two_blocks.step",

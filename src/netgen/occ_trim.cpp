@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/occ_trim.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <Precision.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+
+namespace tessera::netgen {
+namespace {
+
+constexpr int kNumFirstSteps = 64;  // Along each edge, before steps are halved where they are long.
+constexpr int kMaxHalvings = 12;
+
+bool is_in(const BRepTopAdaptor_FClass2d& classifier, const model::SurfaceParameters& uv)
+{
+  return classifier.Perform(gp_Pnt2d(uv[0], uv[1]), Standard_True) != TopAbs_OUT;
+}
+
+}  // namespace
+
+OccTrim::OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods)
+    : classifier_(std::make_unique<BRepTopAdaptor_FClass2d>(face, Precision::PConfusion())),
+      periods_(periods),
+      cells_(static_cast<std::size_t>(kNumCells * kNumCells), Cell::unknown)
+{
+  Uv last{};
+  BRepTools::UVBounds(face, first_[0], last[0], first_[1], last[1]);
+  for (std::size_t k = 0; k < 2; ++k) cell_size_[k] = (last[k] - first_[k]) / kNumCells;
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+    double from = 0.0;
+    double to = 0.0;
+    const auto curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, from, to);
+    if (curve.IsNull()) continue;
+    const double step = (to - from) / kNumFirstSteps;
+    for (int i = 0; i < kNumFirstSteps; ++i) {
+      mark_boundary(curve, from + i * step, from + (i + 1) * step, kMaxHalvings);
+    }
+  }
+  // No edge passes between cells that are left, so one answer holds for all that hang together.
+  for (int i = 0; i < kNumCells; ++i) {
+    for (int j = 0; j < kNumCells; ++j) {
+      if (cell({i, j}) != Cell::unknown) continue;
+      fill_from({i, j}, is_in(*classifier_, centre_of({i, j})) ? Cell::inside : Cell::outside);
+    }
+  }
+}
+
+bool OccTrim::contains(const Uv& uv) const
+{
+  const Place place = place_of(uv);
+  if (is_on_grid(place)) {
+    const Cell state = cells_[static_cast<std::size_t>(place[0] * kNumCells + place[1])];
+    if (state == Cell::inside || state == Cell::outside) return state == Cell::inside;
+  }
+  return is_in(*classifier_, uv);
+}
+
+OccTrim::Place OccTrim::place_of(const Uv& uv) const
+{
+  Place place{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    double offset = uv[k] - first_[k];
+    if (periods_[k] > 0.0) offset -= periods_[k] * std::floor(offset / periods_[k]);
+    place[k] =
+        static_cast<int>(std::clamp(std::floor(offset / cell_size_[k]), -2.0, kNumCells + 1.0));
+  }
+  return place;
+}
+
+OccTrim::Uv OccTrim::centre_of(const Place& place) const
+{
+  return {first_[0] + (place[0] + 0.5) * cell_size_[0],
+          first_[1] + (place[1] + 0.5) * cell_size_[1]};
+}
+
+bool OccTrim::is_on_grid(const Place& place)
+{
+  return std::all_of(place.begin(), place.end(), [](int i) { return i >= 0 && i < kNumCells; });
+}
+
+OccTrim::Cell& OccTrim::cell(const Place& place)
+{
+  return cells_[static_cast<std::size_t>(place[0] * kNumCells + place[1])];
+}
+
+// Marks the cells round a piece of an edge, in steps no longer than half a cell.
+void OccTrim::mark_boundary(const Handle(Geom2d_Curve) & curve, double first, double last,
+                            int depth)
+{
+  const gp_Pnt2d begin = curve->Value(first);
+  const gp_Pnt2d end = curve->Value(last);
+  const bool is_short = std::abs(end.X() - begin.X()) <= 0.5 * cell_size_[0]
+                        && std::abs(end.Y() - begin.Y()) <= 0.5 * cell_size_[1];
+  if (is_short || depth == 0) {
+    for (const gp_Pnt2d& point : {begin, end}) mark_around(place_of({point.X(), point.Y()}));
+    return;
+  }
+  const double middle = 0.5 * (first + last);
+  mark_boundary(curve, first, middle, depth - 1);
+  mark_boundary(curve, middle, last, depth - 1);
+}
+
+void OccTrim::mark_around(const Place& place)
+{
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      const Place near{place[0] + i, place[1] + j};
+      if (is_on_grid(near)) cell(near) = Cell::boundary;
+    }
+  }
+}
+
+void OccTrim::fill_from(const Place& start, Cell state)
+{
+  std::vector<Place> open{start};
+  cell(start) = state;
+  while (!open.empty()) {
+    const auto [i, j] = open.back();
+    open.pop_back();
+    for (const Place& next : {Place{i - 1, j}, Place{i + 1, j}, Place{i, j - 1}, Place{i, j + 1}}) {
+      if (!is_on_grid(next) || cell(next) != Cell::unknown) continue;
+      cell(next) = state;
+      open.push_back(next);
+    }
+  }
+}
+
+}  // namespace tessera::netgen

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fstream>
+#include <iterator>
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <Interface_Static.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Compound.hxx>
+#include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
+
+#include "netgen/occ_fixture.hpp"
+
+namespace tessera {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::own_model;
+
+// A folder of this test's own, gone at its end.
+class OccImport : public ::testing::Test {
+ protected:
+  OccImport()
+      : folder_(fs::temp_directory_path()
+                / ("tessera_"
+                   + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())))
+  {
+    fs::create_directories(folder_);
+  }
+  ~OccImport() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] fs::path write(const std::string& name, const std::string& text) const
+  {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return folder_ / name;
+  }
+
+  [[nodiscard]] fs::path write_brep(const TopoDS_Shape& shape) const
+  {
+    BRepTools::Write(shape, (folder_ / "shape.brep").c_str());
+    return folder_ / "shape.brep";
+  }
+
+  fs::path folder_;
+};
+
+std::string content_of(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+TopoDS_Compound faces_of_box(int num_faces)
+{
+  TopoDS_Compound compound;
+  BRep_Builder().MakeCompound(compound);
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
+  TopExp_Explorer faces(box, TopAbs_FACE);
+  for (int i = 0; i < num_faces; ++i, faces.Next()) BRep_Builder().Add(compound, faces.Current());
+  return compound;
+}
+
+// What import_model() says of the file.
+template <class Expected>
+std::string message_of(const fs::path& file)
+{
+  try {
+    (void)netgen::import_model(file, {});
+  } catch (const Expected& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "no error of the expected kind for " << file;
+  return {};
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(OccImport, MissingFileIsAnInputErrorThatNamesIt)
+{
+  EXPECT_TRUE(contains(message_of<InputError>(folder_ / "absent.step"), "absent.step"));
+}
+
+TEST_F(OccImport, EmptyFilesAreInputErrors)
+{
+  for (const char* name : {"a.step", "a.stp", "a.iges", "a.igs", "a.brep"}) {
+    EXPECT_THROW((void)netgen::import_model(write(name, ""), {}), InputError) << name;
+  }
+}
+
+TEST_F(OccImport, GarbageIsAnInputError)
+{
+  const std::string garbage(5000, '?');
+  for (const char* name : {"a.step", "a.iges", "a.brep"}) {
+    EXPECT_THROW((void)netgen::import_model(write(name, garbage), {}), InputError) << name;
+  }
+}
+
+TEST_F(OccImport, TruncatedFilesAreInputErrorsWhereverTheyEnd)
+{
+  for (const char* name : {"cylinder.step", "frustum.iges", "cone.brep"}) {
+    const std::string whole = content_of(own_model(name));
+    for (const double part : {0.1, 0.5, 0.9}) {
+      const auto size = static_cast<std::size_t>(part * static_cast<double>(whole.size()));
+      EXPECT_THROW((void)netgen::import_model(write(name, whole.substr(0, size)), {}), InputError)
+          << name << " cut to " << size << " of " << whole.size() << " bytes";
+    }
+  }
+}
+
+TEST_F(OccImport, FileWithoutFacesSaysWhatItHolds)
+{
+  const fs::path file =
+      write_brep(BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0)).Shape());
+  const std::string message = message_of<GeometryError>(file);
+  EXPECT_TRUE(contains(message, "no solid")) << message;
+  EXPECT_TRUE(contains(message, "1 edge")) << message;
+}
+
+TEST_F(OccImport, OpenShellIsAGeometryErrorThatCountsOpenEdges)
+{
+  const std::string message = message_of<GeometryError>(write_brep(faces_of_box(5)));
+  EXPECT_TRUE(contains(message, "5 faces")) << message;
+  EXPECT_TRUE(contains(message, "4 edges")) << message;
+}
+
+TEST_F(OccImport, LooseFacesThatCloseAreSewnAndReported)
+{
+  const model::ModelSource source = netgen::import_model(write_brep(faces_of_box(6)), {});
+  ASSERT_EQ(source.repairs.size(), 1U);
+  EXPECT_TRUE(contains(source.repairs[0], "sewed 6 faces")) << source.repairs[0];
+}
+
+TEST_F(OccImport, CleanSolidNeedsNoRepair)
+{
+  for (const char* name : {"sphere.step", "cylinder.step", "torus.step", "bracket.step"}) {
+    EXPECT_TRUE(netgen::import_model(own_model(name), {}).repairs.empty()) << name;
+  }
+}
+
+TEST_F(OccImport, UnitAndNumbersAreTheFiles)
+{
+  EXPECT_EQ(netgen::import_model(own_model("sphere.step"), {}).length_unit, "mm");
+
+  STEPControl_Controller::Init();
+  const std::array<std::array<const char*, 2>, 3> units{{{"M", "m"}, {"INCH", "in"}, {"CM", "cm"}}};
+  const std::array<double, 3> millimetres{1000.0, 25.4, 10.0};
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    Interface_Static::SetCVal("write.step.unit", units[i][0]);
+    STEPControl_Writer writer;
+    const double size = 2.0 * millimetres[i];
+    writer.Transfer(BRepPrimAPI_MakeBox(size, size, size).Shape(), STEPControl_AsIs);
+    writer.Write((folder_ / "box.step").c_str());
+    const model::ModelSource source = netgen::import_model(folder_ / "box.step", {});
+    EXPECT_EQ(source.length_unit, units[i][1]);
+    EXPECT_NEAR(netgen::load_model(source)->box_diagonal(), 2.0 * std::sqrt(3.0), 1e-5);
+  }
+  Interface_Static::SetCVal("write.step.unit", "MM");
+}
+
+TEST_F(OccImport, IgesKeepsInches)
+{
+  const model::ModelSource source = netgen::import_model(own_model("frustum.iges"), {});
+  EXPECT_EQ(source.length_unit, "in");
+  EXPECT_NEAR(netgen::load_model(source)->box_diagonal(), std::sqrt(12.0), 1e-5);
+}
+
+TEST_F(OccImport, SameFileGivesTheSameBytes)
+{
+  for (const char* name : {"bracket.step", "two_blocks.step", "frustum.iges"}) {
+    const fs::path file = own_model(name);
+    EXPECT_EQ(to_bytes(netgen::import_model(file, {})), to_bytes(netgen::import_model(file, {})));
+  }
+}
+
+TEST_F(OccImport, TouchingSolidsAreGluedAndReported)
+{
+  const model::ModelSource source = netgen::import_model(own_model("two_blocks.step"), {});
+  ASSERT_EQ(source.repairs.size(), 1U);
+  EXPECT_TRUE(contains(source.repairs[0], "glued")) << source.repairs[0];
+}
+
+}  // namespace
+}  // namespace tessera

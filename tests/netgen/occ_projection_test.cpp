@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "netgen/occ_fixture.hpp"
+
+namespace tessera {
+namespace {
+
+using testing::coarse_mesh_of;
+using testing::load_own;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kExact = 1e-12;  // Of the box.
+
+// Distances to our own models by formula.
+double off_sphere(const Vec3& p) { return std::abs(norm(p) - 10.0); }
+double off_cylinder(const Vec3& p) { return std::abs(std::hypot(p[0], p[1]) - 5.0); }
+double off_torus(const Vec3& p)
+{
+  return std::abs(std::hypot(std::hypot(p[0], p[1]) - 10.0, p[2]) - 3.0);
+}
+
+// The number of the surface of the patch of this name.
+LocalIndex surface_named(const mesh::CoarseMesh& mesh, const std::string& name)
+{
+  for (std::size_t p = 0; p < mesh.patch_names.size(); ++p) {
+    if (mesh.patch_names[p] == name) return mesh.patch_surface[p];
+  }
+  ADD_FAILURE() << "no patch " << name;
+  return 0;
+}
+
+TEST(OccProjection, PointsOfTheSphereKeepItsFormula)
+{
+  const auto model = load_own("sphere.step");
+  for (double u = 0.1; u < 2.0 * kPi; u += 0.7) {
+    for (double v = -1.5; v < 1.5; v += 0.3) {
+      const Vec3 direction{std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v)};
+      const auto found = model->project_to_surface(0, 8.5 * direction, {u + 0.2, v - 0.1});
+      EXPECT_LE(off_sphere(found.xyz), kExact * model->box_diagonal());
+      EXPECT_LE(norm(found.xyz - 10.0 * direction), 1e-10 * model->box_diagonal());
+    }
+  }
+}
+
+TEST(OccProjection, PolesOfTheSphereAreReachedAndLeft)
+{
+  const auto model = load_own("sphere.step");
+  for (const double sign : {1.0, -1.0}) {
+    const Vec3 pole{0.0, 0.0, sign * 10.0};
+    for (const double u : {0.0, 1.0, 4.0}) {
+      const auto reached = model->project_to_surface(0, pole, {u, sign * 1.2});
+      EXPECT_LE(norm(reached.xyz - pole), kExact * model->box_diagonal());
+      const Vec3 beside{0.3, -0.4, sign * 9.0};
+      const auto left = model->project_to_surface(0, beside, {u, sign * kPi / 2});
+      EXPECT_LE(norm(left.xyz - (10.0 / norm(beside)) * beside), 1e-10 * model->box_diagonal());
+    }
+  }
+}
+
+TEST(OccProjection, PointsOfTheTorusKeepItsFormula)
+{
+  const auto model = load_own("torus.step");
+  for (double u = 0.0; u < 2.0 * kPi; u += 0.5) {
+    for (double v = 0.0; v < 2.0 * kPi; v += 0.5) {
+      const double radius = 10.0 + 2.5 * std::cos(v);
+      const Vec3 point{radius * std::cos(u), radius * std::sin(u), 2.5 * std::sin(v)};
+      const auto found = model->project_to_surface(0, point, {u + 0.2, v + 0.2});
+      EXPECT_LE(off_torus(found.xyz), kExact * model->box_diagonal());
+      EXPECT_NEAR(norm(found.xyz - point), 0.5, 1e-9);
+      EXPECT_NEAR(found.uv[0], u, 1e-9) << "stays on the branch of the guess";
+      EXPECT_NEAR(found.uv[1], v, 1e-9);
+    }
+  }
+}
+
+TEST(OccProjection, GuessesBeyondTheSeamStayOnTheirBranch)
+{
+  const auto model = load_own("cylinder.step");
+  const auto mesh = coarse_mesh_of(*model, 6.0);
+  const LocalIndex side = surface_named(mesh, "side");
+  for (const double branch : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
+    for (const double u : {-0.2, 0.0, 0.2, 2.0 * kPi - 0.2}) {
+      const Vec3 point{4.6 * std::cos(u), 4.6 * std::sin(u), 7.0};
+      const auto found = model->project_to_surface(side, point, {branch + u + 0.1, 7.5});
+      EXPECT_LE(off_cylinder(found.xyz), kExact * model->box_diagonal());
+      EXPECT_NEAR(found.uv[0], branch + u, 1e-9);
+      EXPECT_NEAR(found.xyz[2], 7.0, 1e-9);
+    }
+  }
+}
+
+TEST(OccProjection, PointsBeyondTheTrimGoToTheNearestPointOfTheFace)
+{
+  const auto model = load_own("cylinder.step");
+  const auto mesh = coarse_mesh_of(*model, 6.0);
+  const auto on_side =
+      model->project_to_surface(surface_named(mesh, "side"), {6.0, 0.0, 23.0}, {0.1, 19.0});
+  EXPECT_LE(norm(on_side.xyz - Vec3{5.0, 0.0, 20.0}), 1e-7);
+  const auto on_top =
+      model->project_to_surface(surface_named(mesh, "top"), {0.0, 9.0, 20.5}, {0.0, 0.0});
+  EXPECT_LE(norm(on_top.xyz - Vec3{0.0, 5.0, 20.0}), 1e-7);
+}
+
+TEST(OccProjection, RimOfTheCylinderIsACircleOnBothItsFaces)
+{
+  const auto model = load_own("cylinder.step");
+  const auto mesh = coarse_mesh_of(*model, 6.0);
+  int num_on_rim = 0;
+  for (std::size_t s = 0; s < mesh.segment_curve.size(); ++s) {
+    const Vec3 p = mesh.position(mesh.segment_vertices[2 * s]);
+    const Vec3 q = mesh.position(mesh.segment_vertices[2 * s + 1]);
+    if (p[2] != q[2]) continue;  // The seam.
+    ++num_on_rim;
+    const double guess = 0.5 * (mesh.segment_t[2 * s] + mesh.segment_t[2 * s + 1]);
+    const auto found = model->project_to_curve(mesh.segment_curve[s], midpoint(p, q), guess);
+    EXPECT_LE(off_cylinder(found.xyz), kExact * model->box_diagonal());
+    EXPECT_NEAR(found.xyz[2], p[2], kExact * model->box_diagonal());
+  }
+  EXPECT_GE(num_on_rim, 12);
+}
+
+TEST(OccProjection, CurveParameterStaysBetweenItsEnds)
+{
+  const auto model = load_own("cylinder.step");
+  const auto mesh = coarse_mesh_of(*model, 6.0);
+  for (std::size_t s = 0; s < mesh.segment_curve.size(); ++s) {
+    const Vec3 p = mesh.position(mesh.segment_vertices[2 * s]);
+    const LocalIndex curve = mesh.segment_curve[s];
+    const auto low = model->project_to_curve(curve, p, -1e6);
+    const auto high = model->project_to_curve(curve, p, 1e6);
+    EXPECT_LE(low.t, high.t);
+    EXPECT_LE(high.t - low.t, 2.0 * kPi + 20.0);
+  }
+}
+
+TEST(OccProjection, IsAPureFunction)
+{
+  const auto model = load_own("bracket.step");
+  const auto mesh = coarse_mesh_of(*model, 10.0);
+  const auto project_all = [&](const model::Model& with, bool backwards) {
+    std::vector<Vec3> found(static_cast<std::size_t>(mesh.num_faces()));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const std::size_t f = backwards ? found.size() - 1 - i : i;
+      Vec3 centre{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        centre = centre + (1.0 / 3.0) * mesh.position(mesh.face_vertices[3 * f + c]);
+      }
+      const auto patch = static_cast<std::size_t>(mesh.face_patch[f]);
+      found[f] = with.project_to_surface(mesh.patch_surface[patch], centre,
+                                         {mesh.face_uv[6 * f], mesh.face_uv[6 * f + 1]})
+                     .xyz;
+    }
+    return found;
+  };
+  const std::vector<Vec3> first = project_all(*model, false);
+  EXPECT_EQ(project_all(*model, true), first);
+  EXPECT_EQ(project_all(*load_own("bracket.step"), true), first);
+}
+
+}  // namespace
+}  // namespace tessera
