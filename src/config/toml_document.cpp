@@ -2,6 +2,7 @@
 #include "config/toml_document.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -16,6 +17,14 @@ namespace tessera::config {
 namespace {
 
 using TomlValue = toml::basic_value<toml::discard_comments, std::map>;
+
+// toml11 parses nested lists by recursion: some ten thousand open brackets overflow the stack. No
+// case file has a tenth of this number of brackets in all.
+bool is_too_deep(std::string_view text)
+{
+  constexpr std::ptrdiff_t kMostBrackets = 1000;
+  return std::ranges::count_if(text, [](char c) { return c == '[' || c == '{'; }) > kMostBrackets;
+}
 
 TomlValue parse(std::string_view text, const std::string& file_name)
 {
@@ -156,6 +165,7 @@ std::string value_text(const Value& value)
 
 std::vector<Entry> parse_toml(std::string_view text, const std::string& file_name)
 {
+  if (is_too_deep(text)) throw ConfigError(file_name + ": has too many brackets for a case file");
   std::vector<LinedEntry> lined;
   try {
     flatten(parse(text, file_name), "", lined);
@@ -171,7 +181,7 @@ std::vector<Entry> parse_toml(std::string_view text, const std::string& file_nam
 
 std::optional<Value> parse_toml_value(std::string_view text)
 {
-  if (text.find('\n') != std::string_view::npos) return std::nullopt;
+  if (text.find('\n') != std::string_view::npos || is_too_deep(text)) return std::nullopt;
   try {
     const TomlValue table = parse("value = " + std::string(text), "");
     return to_value(table.as_table().at("value"));

@@ -5,10 +5,11 @@ namespace tessera::coarse {
 
 /// @brief Options of the coarse mesh; table `[coarse]` of a case file.
 struct CoarseOptions {
-  double max_size = 0.0;           ///< Largest edge, output length unit; > 0. No default.
-  double grading = 0.3;            ///< Growth of the size away from small features, in (0, 1].
-  double curvature = 2.0;          ///< Elements per curvature radius, > 0.
-  double feature_angle_deg = 30.0;  ///< STL: dihedral angle from which an edge is a feature, degrees.
+  double max_size = 0.0;   ///< Largest edge, output length unit, > 0; 0: size.target says it.
+  double grading = 0.3;    ///< Growth of the size away from small features, in (0, 1].
+  double curvature = 2.0;  ///< Elements per curvature radius, > 0.
+  /// STL: dihedral angle from which an edge is a feature, degrees, in (0, 180).
+  double feature_angle_deg = 30.0;
 
   friend bool operator==(const CoarseOptions&, const CoarseOptions&) = default;
 };

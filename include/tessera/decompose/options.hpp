@@ -7,8 +7,8 @@ namespace tessera::decompose {
 
 /// @brief Options of the decomposition; table `[decompose]` of a case file.
 struct DecomposeOptions {
-  /// Wanted number of subdomains, >= 1; 0 stands for "auto". A request: at least one a material, and
-  /// repair may split further.
+  /// Wanted number of subdomains, >= 1; 0 stands for "auto". A request: at least one a material,
+  /// and repair may split further.
   LocalIndex subdomains = 0;
 
   friend bool operator==(const DecomposeOptions&, const DecomposeOptions&) = default;

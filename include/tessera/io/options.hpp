@@ -11,10 +11,10 @@ enum class Compression : int { none, lz4, zlib };
 
 /// @brief Options of the output; table `[output]` of a case file.
 struct OutputOptions {
-  std::filesystem::path directory{};           ///< Relative to the working directory.
+  std::filesystem::path directory{};  ///< Relative to the working directory.
   std::vector<std::string> formats{"pvtu"};
   Compression compression = Compression::lz4;
-  bool cell_quality = false;                   ///< Also write the mean ratio of every tet.
+  bool cell_quality = false;  ///< Also write the mean ratio of every tet.
 
   friend bool operator==(const OutputOptions&, const OutputOptions&) = default;
 };

@@ -153,6 +153,13 @@ TEST(ConfigErrors, BrokenTomlNamesItsLineInOneCleanLine)
   EXPECT_TRUE(error_of_key("[output]\nformats = [1,\n 2").starts_with("case.toml:"));
 }
 
+TEST(ConfigErrors, EndlessNestingIsRefusedInsteadOfOverflowingTheStack)
+{
+  const std::string deep(100'000, '[');
+  EXPECT_EQ(error_of("a = " + deep), "case.toml: has too many brackets for a case file");
+  EXPECT_NE(error_of_override("output.formats=" + deep).find("must be a list"), std::string::npos);
+}
+
 TEST(ConfigErrors, BytesThatAreNoUtf8AreRefused)
 {
   EXPECT_NE(error_of("[geometry]\nfile = \"gr\xFC\xDF.geo\"").find("case.toml:2: not valid TOML"),

@@ -16,23 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMinimal = "[geometry]\nfile = \"shaft.geo\"\n[coarse]\nmax_size = 20\n";
 
-Case parsed(const std::string& text, const std::vector<std::string>& overrides = {})
-{
-  return parse_case(text, "/cases/shaft.toml", overrides);
-}
-
-TEST(LoadCase, MinimalCaseHasTheDefaultsOfTheOptionStructs)
-{
-  Case expected;
-  expected.geometry.file = "/cases/shaft.geo";
-  expected.coarse.max_size = 20.0;
-  expected.output.directory = "outputs/shaft";
-  EXPECT_EQ(parsed(kMinimal), expected);
-}
-
-TEST(LoadCase, EveryKeyReachesItsOwnOption)
-{
-  const Case loaded = parsed(R"(
+constexpr const char* kEveryKey = R"(
 [geometry]
 file = "m.stl"
 scale = 1e-3
@@ -59,7 +43,25 @@ directory = "out dir"
 formats = ["pvtu"]
 compression = "zlib"
 cell_quality = true
-)");
+)";
+
+Case parsed(const std::string& text, const std::vector<std::string>& overrides = {})
+{
+  return parse_case(text, "/cases/shaft.toml", overrides);
+}
+
+TEST(LoadCase, MinimalCaseHasTheDefaultsOfTheOptionStructs)
+{
+  Case expected;
+  expected.geometry.file = "/cases/shaft.geo";
+  expected.coarse.max_size = 20.0;
+  expected.output.directory = "outputs/shaft";
+  EXPECT_EQ(parsed(kMinimal), expected);
+}
+
+TEST(LoadCase, EveryKeyReachesItsOwnOption)
+{
+  const Case loaded = parsed(kEveryKey);
   EXPECT_EQ(loaded.geometry.file, "/cases/m.stl");
   EXPECT_EQ(loaded.geometry.scale, 1e-3);
   EXPECT_EQ(loaded.size.target, 0.0);

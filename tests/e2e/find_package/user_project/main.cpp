@@ -10,8 +10,8 @@
 
 int main()
 {
-  const auto loaded =
-      tessera::config::parse_case("geometry.file = 'cube.geo'\ncoarse.max_size = 0.5", "/case.toml");
+  const auto loaded = tessera::config::parse_case(
+      "geometry.file = 'cube.geo'\ncoarse.max_size = 0.5", "/case.toml");
   const std::string text = tessera::config::to_toml(loaded);
   std::cout << text << tessera::to_hex(tessera::hash_bytes(std::as_bytes(std::span(text)))) << '\n';
   try {

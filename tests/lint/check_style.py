@@ -1,0 +1,59 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fail if a source file breaks a rule that a line count or a pattern can see. ctest: lint.style."""
+import pathlib
+import re
+import sys
+
+SPDX = "SPDX-License-Identifier: BSD-3-Clause"
+LONGEST_FILE = 450
+LONGEST_FUNCTION = 60  # The aim is 40; what is between is named, but does not fail.
+AIM_FUNCTION = 40
+OPEN_WORK = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b")
+FOLDERS = ("include", "src", "pipeline", "tests", "cmake", ".ci", "configs")
+TEXT = {".hpp", ".cpp", ".py", ".cmake", ".txt", ".in", ".toml", ""}
+
+
+def functions(lines: list[str]):
+    """(line number, length) of each body: .clang-format puts its braces on lines of their own,
+    in column 0 for all that is not a member defined in its class."""
+    start = None
+    for number, line in enumerate(lines, 1):
+        if line == "{":
+            start = number
+        elif line == "}" and start is not None:
+            yield start, number - start + 1
+            start = None
+
+
+def problems(root: pathlib.Path):
+    files = (f for top in FOLDERS for f in sorted((root / top).rglob("*")) if f.is_file())
+    for file in files:
+        if file.suffix not in TEXT or "__pycache__" in file.parts:
+            continue
+        here = file.relative_to(root).as_posix()
+        lines = file.read_text().splitlines()
+        is_cpp = file.suffix in (".hpp", ".cpp")
+        is_script = bool(lines) and lines[0].startswith("#!")
+        if (is_cpp or is_script) and SPDX not in "".join(lines[:2]):
+            yield here, 1, f"no line '{SPDX}' at the top"
+        if file.suffix == ".hpp" and "#pragma once" not in lines:
+            yield here, 1, "no '#pragma once'"
+        if (is_cpp or is_script) and len(lines) > LONGEST_FILE:
+            yield here, len(lines), f"more than {LONGEST_FILE} lines"
+        for number, line in enumerate(lines, 1):
+            if OPEN_WORK.search(line) and file.name != pathlib.Path(__file__).name:
+                yield here, number, "open work belongs in an issue, not in the code"
+            if line != line.rstrip():
+                yield here, number, "blanks at the end of the line"
+        for number, length in functions(lines) if is_cpp else ():
+            if length > LONGEST_FUNCTION:
+                yield here, number, f"function of {length} lines, more than {LONGEST_FUNCTION}"
+            elif length > AIM_FUNCTION:
+                print(f"{here}:{number}: note: function of {length} lines, the aim is {AIM_FUNCTION}")
+
+
+root = pathlib.Path(sys.argv[1])
+found = [f"{here}:{number}: {what}" for here, number, what in problems(root)]
+print("\n".join(found) or "style: ok")
+sys.exit(1 if found else 0)
