@@ -32,7 +32,7 @@ ExitCode run(const Command& command, const comm::Communicator& comm, jobs::JobRu
     if (comm.rank() == 0) std::fputs(print->text.c_str(), stdout);
     return ExitCode::ok;
   }
-  //CHK  if (const auto* check = std::get_if<CheckCommand>(&command)) return run_check_command(*check, comm);
+  if (const auto* check = std::get_if<CheckCommand>(&command)) return run_check_command(*check, comm);
   if (const auto* info = std::get_if<InfoCommand>(&command)) {
     return run_info_command(*info, comm, jobs);
   }

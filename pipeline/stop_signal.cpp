@@ -2,6 +2,7 @@
 #include "pipeline/stop_signal.hpp"
 
 #include <csignal>
+#include <initializer_list>
 
 namespace tessera::pipeline {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "tessera/decompose/graph_partitioner.hpp"
-#include "tessera/decompose/predicted_tets.hpp"
+#include "tessera/decompose/predicted_fine_tets.hpp"
 
 #include "pipeline/exit_code.hpp"
 
