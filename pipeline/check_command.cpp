@@ -33,8 +33,9 @@ std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& index,
 
 check::PieceSource source_of(const std::vector<std::filesystem::path>& files)
 {
-  return {static_cast<LocalIndex>(files.size()),
-          [&files](LocalIndex piece) { return io::read_vtu(files[static_cast<std::size_t>(piece)]); }};
+  return {static_cast<LocalIndex>(files.size()), [&files](LocalIndex piece) {
+            return io::read_vtu(files[static_cast<std::size_t>(piece)]);
+          }};
 }
 
 // boundary.pvtu beside mesh.pvtu belongs to it.
@@ -48,10 +49,11 @@ std::optional<std::filesystem::path> boundary_beside(const std::filesystem::path
 
 void print(const check::CheckReport& report)
 {
-  fmt::print("{} tets, {} vertices, {} boundary triangles, {} between subdomains, {} between "
-             "materials\n",
-             report.num_tets, report.num_vertices, report.num_boundary_triangles,
-             report.num_seam_triangles, report.num_interface_triangles);
+  fmt::print(
+      "{} tets, {} vertices, {} boundary triangles, {} between subdomains, {} between "
+      "materials\n",
+      report.num_tets, report.num_vertices, report.num_boundary_triangles,
+      report.num_seam_triangles, report.num_interface_triangles);
   fmt::print("volume {:.10g}, boundary area {:.10g}\n", report.volume, report.boundary_area);
   fmt::print("Euler characteristic {}, components {}, boundary components {}\n",
              report.euler_characteristic, report.num_components, report.num_boundary_components);
@@ -79,8 +81,7 @@ ExitCode run_check_command(const CheckCommand& command, const comm::Communicator
     boundary_files = pieces_of(*file, comm);
     boundary = source_of(boundary_files);
   }
-  const check::CheckReport report =
-      check::check_mesh(mesh, boundary ? &*boundary : nullptr, comm);
+  const check::CheckReport report = check::check_mesh(mesh, boundary ? &*boundary : nullptr, comm);
   if (comm.rank() == 0) {
     if (command.json) {
       fmt::print("{}\n", check::to_json(report));

@@ -12,8 +12,9 @@
 namespace tessera::pipeline {
 namespace {
 
-const std::map<std::string, ProgressMode> kProgressWords{
-    {"auto", ProgressMode::automatic}, {"always", ProgressMode::always}, {"never", ProgressMode::never}};
+const std::map<std::string, ProgressMode> kProgressWords{{"auto", ProgressMode::automatic},
+                                                         {"always", ProgressMode::always},
+                                                         {"never", ProgressMode::never}};
 
 // What CLI11 writes into; becomes a Command when all went well.
 struct Parsed {

@@ -19,11 +19,16 @@ ExitCode exit_code_of(const std::exception& error)
 void throw_on_all_ranks(ExitCode code, const std::string& message)
 {
   switch (code) {
-    case ExitCode::wrong_input: throw comm::Collective<InputError>(message);
-    case ExitCode::failed: throw comm::Collective<MeshError>(message);
-    case ExitCode::cannot_write: throw comm::Collective<OutputError>(message);
-    case ExitCode::stopped: throw comm::Collective<Interrupted>(message);
-    default: throw comm::Collective<Error>(message);
+    case ExitCode::wrong_input:
+      throw comm::Collective<InputError>(message);
+    case ExitCode::failed:
+      throw comm::Collective<MeshError>(message);
+    case ExitCode::cannot_write:
+      throw comm::Collective<OutputError>(message);
+    case ExitCode::stopped:
+      throw comm::Collective<Interrupted>(message);
+    default:
+      throw comm::Collective<Error>(message);
   }
 }
 

@@ -72,9 +72,8 @@ void measure_edges(const mesh::Piece& piece, LocalIndex num_skin_triangles, Fill
   }
   const GlobalIndex num_tets = piece.num_tets();
   const GlobalIndex num_triangles = (4 * num_tets + num_skin_triangles) / 2;
-  result.summary.euler_characteristic = piece.num_vertices()
-                                        - static_cast<GlobalIndex>(edges.size()) + num_triangles
-                                        - num_tets;
+  result.summary.euler_characteristic =
+      piece.num_vertices() - static_cast<GlobalIndex>(edges.size()) + num_triangles - num_tets;
 }
 
 void measure_tets(const mesh::Piece& piece, const std::vector<char>& seam_units, FillResult& result)

@@ -33,8 +33,9 @@ std::string describe_mesh(const std::filesystem::path& file)
       names += fmt::format("{}: {}\n", name, fmt::join(texts, ", "));
     }
   }
-  return fmt::format("mesh: {} pieces, {} cells, {} points (shared points counted in every piece)\n{}",
-                     pieces.size(), num_cells, num_points, names);
+  return fmt::format(
+      "mesh: {} pieces, {} cells, {} points (shared points counted in every piece)\n{}",
+      pieces.size(), num_cells, num_points, names);
 }
 
 // The model is read in a job: the CAD libraries may crash on it.
@@ -44,9 +45,9 @@ std::string describe_model(const std::filesystem::path& file, jobs::JobRunner& j
       jobs.run(import_request(file, model::ImportOptions{}), kInfoLimits, wait_for_stop_signal());
   jobs::throw_unless_ok(read, file.string());
   const model::ModelSource source = model::model_source_from_bytes(read.result);
-  jobs::throw_unless_ok(jobs.load(load_model_message(source, 1.0), kInfoLimits,
-                                  wait_for_stop_signal()),
-                        file.string());
+  jobs::throw_unless_ok(
+      jobs.load(load_model_message(source, 1.0), kInfoLimits, wait_for_stop_signal()),
+      file.string());
   const jobs::JobOutcome box = jobs.run(box_request(), kInfoLimits, wait_for_stop_signal());
   jobs::throw_unless_ok(box, file.string());
   std::string text = fmt::format("model: box diagonal {:.6g} {}\n",

@@ -10,8 +10,8 @@
 
 namespace tessera::pipeline {
 
-/// @brief The log of a run: plain lines on standard output (warnings and errors marked), and all with
-/// times in `file`. An empty path makes a silent log: only rank 0 speaks.
+/// @brief The log of a run: plain lines on standard output (warnings and errors marked), and all
+/// with times in `file`. An empty path makes a silent log: only rank 0 speaks.
 /// @throws OutputError if the file cannot be written.
 [[nodiscard]] std::shared_ptr<spdlog::logger> make_log(const std::filesystem::path& file,
                                                        Verbosity verbosity);

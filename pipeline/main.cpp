@@ -32,15 +32,16 @@ ExitCode run(const Command& command, const comm::Communicator& comm, jobs::JobRu
     if (comm.rank() == 0) std::fputs(print->text.c_str(), stdout);
     return ExitCode::ok;
   }
-  if (const auto* check = std::get_if<CheckCommand>(&command)) return run_check_command(*check, comm);
+  if (const auto* check = std::get_if<CheckCommand>(&command))
+    return run_check_command(*check, comm);
   if (const auto* info = std::get_if<InfoCommand>(&command)) {
     return run_info_command(*info, comm, jobs);
   }
   return run_mesh_command(std::get<MeshCommand>(command), comm, jobs);
 }
 
-// Errors that all ranks threw end the program in order; on any other one the other ranks may wait in
-// a collective for ever, so it ends all of them.
+// Errors that all ranks threw end the program in order; on any other one the other ranks may wait
+// in a collective for ever, so it ends all of them.
 ExitCode run_guarded(int argc, char** argv, const comm::Communicator& comm, jobs::JobRunner& jobs)
 {
   try {

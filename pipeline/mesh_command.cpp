@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/mesh_command.hpp"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <cstring>
 #include <numeric>
 #include <optional>
 
 #include <spdlog/fmt/fmt.h>
+#include <unistd.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/config/case.hpp"
@@ -49,9 +48,9 @@ config::Case read_case(const MeshCommand& command, const comm::Communicator& com
 Progress::Style progress_style(const MeshCommand& command, const comm::Communicator& comm)
 {
   if (comm.rank() != 0 || command.verbosity == Verbosity::quiet) return Progress::Style::silent;
-  const bool is_terminal = command.progress == pipeline::ProgressMode::always
-                           || (command.progress == pipeline::ProgressMode::automatic
-                               && isatty(STDOUT_FILENO) != 0);
+  const bool is_terminal =
+      command.progress == pipeline::ProgressMode::always
+      || (command.progress == pipeline::ProgressMode::automatic && isatty(STDOUT_FILENO) != 0);
   return is_terminal ? Progress::Style::bar : Progress::Style::lines;
 }
 
@@ -71,9 +70,9 @@ class MeshRun {
 
   ExitCode run()
   {
-    const auto log = make_log(comm_.rank() == 0 ? given_.output.directory / "log" / "run.log"
-                                                : std::filesystem::path(),
-                              command_.verbosity);
+    const auto log = make_log(
+        comm_.rank() == 0 ? given_.output.directory / "log" / "run.log" : std::filesystem::path(),
+        command_.verbosity);
     Progress progress(progress_style(command_, comm_), log);
     RunContext context{comm_, jobs_, progress, *log, given_.output.directory};
     try {

@@ -25,10 +25,15 @@ class MeshWorker final : public jobs::Worker {
   {
     ByteReader in(message);
     switch (in.get<Message>()) {
-      case Message::load_model: return load_model(in);
-      case Message::load_mesh: return load_mesh(in);
-      case Message::load_plan: damping_ = mesh::damping_from_bytes(in.get_vector<std::byte>()); return;
-      default: throw Error("load message of an unknown kind");
+      case Message::load_model:
+        return load_model(in);
+      case Message::load_mesh:
+        return load_mesh(in);
+      case Message::load_plan:
+        damping_ = mesh::damping_from_bytes(in.get_vector<std::byte>());
+        return;
+      default:
+        throw Error("load message of an unknown kind");
     }
   }
 
@@ -36,12 +41,18 @@ class MeshWorker final : public jobs::Worker {
   {
     ByteReader in(request);
     switch (in.get<Message>()) {
-      case Message::import: return import(in);
-      case Message::box: return box();
-      case Message::coarse: return coarse(in);
-      case Message::plan: return plan(in);
-      case Message::fill: return fill(in);
-      default: throw Error("job request of an unknown kind");
+      case Message::import:
+        return import(in);
+      case Message::box:
+        return box();
+      case Message::coarse:
+        return coarse(in);
+      case Message::plan:
+        return plan(in);
+      case Message::fill:
+        return fill(in);
+      default:
+        throw Error("job request of an unknown kind");
     }
   }
 
@@ -92,12 +103,10 @@ class MeshWorker final : public jobs::Worker {
     const auto subdomain = in.get<LocalIndex>();
     const mesh::Damping damping = mesh::damping_from_bytes(in.get_vector<std::byte>());
     const mesh::TetComplex complex = mesh::tet_complex(
-        coarse_, skeleton_,
-        plan::tets_on_geometry(coarse_, skeleton_, decomposition_, subdomain));
+        coarse_, skeleton_, plan::tets_on_geometry(coarse_, skeleton_, decomposition_, subdomain));
     const mesh::RefinedLattice lattice =
         refine::refine_lattice(complex.faces, refine_context(damping));
-    return mesh::to_bytes(
-        mesh::Damping(plan::find_folds(complex, skeleton_, lattice, damping)));
+    return mesh::to_bytes(mesh::Damping(plan::find_folds(complex, skeleton_, lattice, damping)));
   }
 
   Bytes fill(ByteReader& in)

@@ -35,7 +35,8 @@ namespace tessera::pipeline {
 [[nodiscard]] Bytes import_request(const std::filesystem::path& file,
                                    const model::ImportOptions& options);
 
-/// @brief run: result: the diagonal of the model's box, output length unit, a double. Needs the model.
+/// @brief run: result: the diagonal of the model's box, output length unit, a double. Needs the
+/// model.
 [[nodiscard]] Bytes box_request();
 
 /// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh. Needs the model.

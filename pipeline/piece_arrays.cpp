@@ -43,8 +43,7 @@ void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshAr
   owner.reserve(at(piece.num_vertices()));
   arrays.point_ids.reserve(at(piece.num_vertices()));
   for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-    arrays.point_ids.push_back(
-        mesh.ids.vertex_id(piece.skin_unit[at(v)], piece.skin_index[at(v)]));
+    arrays.point_ids.push_back(mesh.ids.vertex_id(piece.skin_unit[at(v)], piece.skin_index[at(v)]));
     owner.push_back(owner_of_unit(mesh.skeleton, piece.skin_unit[at(v)]));
   }
   for (LocalIndex i = 0; i < piece.num_interior_vertices(); ++i) {

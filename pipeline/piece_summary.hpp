@@ -15,21 +15,22 @@ namespace tessera::pipeline {
 struct PieceSummary {
   LocalIndex subdomain = kNoIndex;
   LocalIndex material = 0;
-  LocalIndex tries = 0;                 ///< Rungs of the ladder that were needed, from 1.
-  LocalIndex num_damped = 0;            ///< Skin points that the plan left off the geometry.
+  LocalIndex tries = 0;       ///< Rungs of the ladder that were needed, from 1.
+  LocalIndex num_damped = 0;  ///< Skin points that the plan left off the geometry.
   GlobalIndex num_tets = 0;
   GlobalIndex num_interior_vertices = 0;
-  GlobalIndex num_boundary = 0;         ///< Triangles on the geometry that this piece owns.
+  GlobalIndex num_boundary = 0;          ///< Triangles on the geometry that this piece owns.
   GlobalIndex euler_characteristic = 0;  ///< V - E + F - T of the piece; 1 for a ball.
-  double volume = 0.0;                  ///< Output length unit cubed.
-  double boundary_area = 0.0;           ///< Outside of the model only; output length unit squared.
-  double model_distance = 0.0;          ///< Largest, of the undamped points; output length unit.
-  double damped_distance = 0.0;         ///< Largest, of the damped points; output length unit.
-  double cpu_s = 0.0;                   ///< Of the try that succeeded.
-  bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
+  double volume = 0.0;                   ///< Output length unit cubed.
+  double boundary_area = 0.0;            ///< Outside of the model only; output length unit squared.
+  double model_distance = 0.0;           ///< Largest, of the undamped points; output length unit.
+  double damped_distance = 0.0;          ///< Largest, of the damped points; output length unit.
+  double cpu_s = 0.0;                    ///< Of the try that succeeded.
+  bool was_limited = false;              ///< A try ended for time or memory: not reproducible.
   quality::TetStatistics tets{};
-  quality::TetStatistics seam_tets{};   ///< Tets with a vertex between two subdomains of one material.
-  Hash128 digest{};                     ///< Sum of hash_tet(); known after the write stage.
+  quality::TetStatistics
+      seam_tets{};   ///< Tets with a vertex between two subdomains of one material.
+  Hash128 digest{};  ///< Sum of hash_tet(); known after the write stage.
 };
 
 /// @brief What a fill job sends back; the piece itself is in the piece store.

@@ -91,8 +91,8 @@ void Progress::draw_bar(std::int64_t done)
     fmt::print("\r\033[K{:<10} …", stage_);
   } else {
     const auto filled = static_cast<std::size_t>(kBarWidth * done / total_);
-    fmt::print("\r\033[K{:<10} [{:<{}}] {}/{} {}{}", stage_, std::string(filled, '='), kBarWidth, done,
-               total_, unit_, rate_and_rest(done));
+    fmt::print("\r\033[K{:<10} [{:<{}}] {}/{} {}{}", stage_, std::string(filled, '='), kBarWidth,
+               done, total_, unit_, rate_and_rest(done));
   }
   std::fflush(stdout);
 }

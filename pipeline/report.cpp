@@ -55,12 +55,13 @@ Json quality_json(const FilledPieces& filled)
   const auto seam = statistics_of(filled.pieces, &PieceSummary::seam_tets);
   const quality::Histogram& edges = filled.histograms.log2_edge_length;
   const auto edge_length = [&](double share) { return std::exp2(edges.percentile(share)); };
-  Json json{{"min_dihedral_deg", tets.min_dihedral_deg},
-            {"max_dihedral_deg", tets.max_dihedral_deg},
-            {"edge_length",
-             {{"p01", edge_length(0.01)}, {"median", edge_length(0.5)}, {"p99", edge_length(0.99)}}},
-            {"mean_ratio", mean_ratio_json(tets, filled.histograms.mean_ratio)},
-            {"seam", {{"num_tets", seam.num_tets}}}};
+  Json json{
+      {"min_dihedral_deg", tets.min_dihedral_deg},
+      {"max_dihedral_deg", tets.max_dihedral_deg},
+      {"edge_length",
+       {{"p01", edge_length(0.01)}, {"median", edge_length(0.5)}, {"p99", edge_length(0.99)}}},
+      {"mean_ratio", mean_ratio_json(tets, filled.histograms.mean_ratio)},
+      {"seam", {{"num_tets", seam.num_tets}}}};
   if (seam.num_tets > 0) {
     json["seam"]["min_dihedral_deg"] = seam.min_dihedral_deg;
     json["seam"]["mean_ratio"] = mean_ratio_json(seam, filled.histograms.seam_mean_ratio);
@@ -124,10 +125,14 @@ Json libraries_json()
 std::string status_name(ExitCode code)
 {
   switch (code) {
-    case ExitCode::ok: return "ok";
-    case ExitCode::degraded: return "degraded";
-    case ExitCode::stopped: return "stopped";
-    default: return "failed";
+    case ExitCode::ok:
+      return "ok";
+    case ExitCode::degraded:
+      return "degraded";
+    case ExitCode::stopped:
+      return "stopped";
+    default:
+      return "failed";
   }
 }
 
@@ -164,11 +169,10 @@ Verdict judge(const RunResult& run)
                                           tets.min_mean_ratio, targets.min_mean_ratio));
   }
   if (!run.damping.entries().empty()) {
-    verdict.reasons.push_back(
-        fmt::format("{} points were kept off the geometry because the surface would have folded, by "
-                    "at most {:.3g}; a smaller coarse.max_size may help",
-                    run.damping.entries().size(),
-                    largest(run.filled.pieces, &PieceSummary::damped_distance)));
+    verdict.reasons.push_back(fmt::format(
+        "{} points were kept off the geometry because the surface would have folded, by "
+        "at most {:.3g}; a smaller coarse.max_size may help",
+        run.damping.entries().size(), largest(run.filled.pieces, &PieceSummary::damped_distance)));
   }
   if (!verdict.reasons.empty()) verdict.exit_code = ExitCode::degraded;
   return verdict;
@@ -180,8 +184,8 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   const std::vector<PieceSummary>& pieces = run.filled.pieces;
   Hash128 digest;
   for (const Hash128& piece : run.digests) digest += piece;
-  Json json = head_json(verdict.exit_code, fmt::format("{}", fmt::join(verdict.reasons, "; ")),
-                        figures);
+  Json json =
+      head_json(verdict.exit_code, fmt::format("{}", fmt::join(verdict.reasons, "; ")), figures);
   json["num_subdomains"] = pieces.size();
   json["num_subdomains_requested"] = run.resolved.decompose.subdomains;
   json["num_tets"] = run.num_tets;

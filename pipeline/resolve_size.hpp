@@ -7,10 +7,12 @@
 
 namespace tessera::pipeline {
 
-/// @brief The case with coarse.max_size and refine.levels chosen from size.target, if that is given.
+/// @brief The case with coarse.max_size and refine.levels chosen from size.target, if that is
+/// given.
 ///
-/// The number of fine tets is estimated from the model's box; levels grow with it so that the serial
-/// coarse mesh stays small (each level makes it 8 times smaller) but keeps enough tets to cut.
+/// The number of fine tets is estimated from the model's box; levels grow with it so that the
+/// serial coarse mesh stays small (each level makes it 8 times smaller) but keeps enough tets to
+/// cut.
 /// @note Collective: asks the model, which is loaded in the workers, for its box.
 [[nodiscard]] config::Case resolve_size(const config::Case& given, RunContext& context);
 

@@ -26,8 +26,8 @@ struct RunContext {
   const comm::Communicator& comm;
   jobs::JobRunner& jobs;
   Progress& progress;
-  spdlog::logger& log;            ///< Console and log/run.log; rank 0 speaks, others are silent.
-  std::filesystem::path folder;   ///< The output folder.
+  spdlog::logger& log;           ///< Console and log/run.log; rank 0 speaks, others are silent.
+  std::filesystem::path folder;  ///< The output folder.
   std::vector<StageTime> times{};
 };
 

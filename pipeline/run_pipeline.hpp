@@ -18,13 +18,13 @@ namespace tessera::pipeline {
 
 /// @brief What a run has made; the same on every rank. The mesh itself is in the output folder.
 struct RunResult {
-  config::Case resolved{};             ///< With size and levels as chosen.
+  config::Case resolved{};  ///< With size and levels as chosen.
   model::ModelSource model{};
   CoarseResult coarse{};
   decompose::DecomposeResult decomposition{};
   mesh::Damping damping{};
   FilledPieces filled{};
-  std::vector<Hash128> digests{};      ///< By subdomain.
+  std::vector<Hash128> digests{};  ///< By subdomain.
   GlobalIndex num_vertices = 0;
   GlobalIndex num_tets = 0;
 };

@@ -18,8 +18,8 @@ decompose::DecomposeResult run_decompose_stage(const config::Case& run_case,
   const Bytes bytes = on_root(context.comm, [&] {
     const auto partitioner = decompose::make_metis_partitioner();
     const decompose::DecomposeResult result = decompose::decompose(
-        coarse, run_case.decompose,
-        decompose::predicted_fine_tets(coarse, run_case.refine.levels), *partitioner);
+        coarse, run_case.decompose, decompose::predicted_fine_tets(coarse, run_case.refine.levels),
+        *partitioner);
     decompose::validate(coarse, result.decomposition);
     ByteWriter out;
     out.put(mesh::to_bytes(result.decomposition));

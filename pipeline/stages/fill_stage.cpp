@@ -29,9 +29,8 @@ std::vector<LocalIndex> largest_first(const std::vector<double>& weight)
 {
   std::vector<LocalIndex> order(weight.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](LocalIndex a, LocalIndex b) {
-    return weight[at(a)] > weight[at(b)];
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](LocalIndex a, LocalIndex b) { return weight[at(a)] > weight[at(b)]; });
   return order;
 }
 
@@ -121,9 +120,8 @@ FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
     all.pieces.resize(first + bytes.size() / sizeof(PieceSummary));
     if (!bytes.empty()) std::memcpy(&all.pieces[first], bytes.data(), bytes.size());
   }
-  std::sort(all.pieces.begin(), all.pieces.end(), [](const PieceSummary& a, const PieceSummary& b) {
-    return a.subdomain < b.subdomain;
-  });
+  std::sort(all.pieces.begin(), all.pieces.end(),
+            [](const PieceSummary& a, const PieceSummary& b) { return a.subdomain < b.subdomain; });
   all.histograms = std::move(own.histograms);
   sum_over_ranks(all.histograms.mean_ratio, comm);
   sum_over_ranks(all.histograms.seam_mean_ratio, comm);

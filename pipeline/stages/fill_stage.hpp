@@ -14,9 +14,9 @@ namespace tessera::pipeline {
 
 /// @brief What is known of all pieces; the same on every rank.
 struct FilledPieces {
-  std::vector<PieceSummary> pieces{};        ///< Shape (num_subdomains), by subdomain.
-  quality::QualityHistograms histograms{};   ///< Over all pieces.
-  std::vector<Hash128> seam_sums{};          ///< Shape (num skeleton triangles): both sides' hashes.
+  std::vector<PieceSummary> pieces{};       ///< Shape (num_subdomains), by subdomain.
+  quality::QualityHistograms histograms{};  ///< Over all pieces.
+  std::vector<Hash128> seam_sums{};         ///< Shape (num skeleton triangles): both sides' hashes.
 };
 
 /// @brief Refines and fills all subdomains, in jobs, largest first, each by the first rung of the

@@ -8,7 +8,8 @@
 
 namespace tessera::pipeline {
 
-/// @brief Reads the CAD file on rank 0, in a job, and loads what was read in the workers of all ranks.
+/// @brief Reads the CAD file on rank 0, in a job, and loads what was read in the workers of all
+/// ranks.
 /// @note Collective.
 /// @throws InputError, GeometryError on every rank if the file is no model that can be meshed.
 [[nodiscard]] model::ModelSource run_model_stage(const config::Case& run_case, RunContext& context);

@@ -15,8 +15,8 @@ namespace tessera::pipeline {
 /// loads the plan that keeps them back.
 ///
 /// In synchronous rounds: every subdomain is tested under the dampings so far, all findings are put
-/// together, and those that touch a finding are tested again. Factors only fall, in few steps, so it
-/// ends; rounds depend on subdomains only, so the plan is the same for every number of ranks.
+/// together, and those that touch a finding are tested again. Factors only fall, in few steps, so
+/// it ends; rounds depend on subdomains only, so the plan is the same for every number of ranks.
 /// @note Collective.
 [[nodiscard]] mesh::Damping run_plan_stage(const config::Case& run_case,
                                            const mesh::CoarseMesh& coarse,

@@ -10,8 +10,8 @@
 
 namespace tessera::pipeline {
 
-/// @brief Checks what the pieces say of themselves against each other: every seam closes, every piece
-/// has the Euler characteristic of its coarse subdomain, no piece is missing.
+/// @brief Checks what the pieces say of themselves against each other: every seam closes, every
+/// piece has the Euler characteristic of its coarse subdomain, no piece is missing.
 /// @note Collective.
 /// @throws MeshError on every rank naming the first defect.
 void run_verify_stage(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,

@@ -10,7 +10,8 @@
 namespace tessera::fill {
 namespace {
 
-// Barycentric weights of the sample points of one coarse tet: its middle, and halfway to each corner.
+// Barycentric weights of the sample points of one coarse tet: its middle, and halfway to each
+// corner.
 constexpr std::array<std::array<double, 4>, 5> kSampleWeights{{{0.25, 0.25, 0.25, 0.25},
                                                                {0.625, 0.125, 0.125, 0.125},
                                                                {0.125, 0.625, 0.125, 0.125},

@@ -75,8 +75,8 @@ void TetPoints::choose_diagonal()
   }
 }
 
-// A new inner point has two odd weights, and is the midpoint along the edge in which they change, or
-// four, and is the middle of an octahedron: the midpoint of its diagonal.
+// A new inner point has two odd weights, and is the midpoint along the edge in which they change,
+// or four, and is the middle of an octahedron: the midpoint of its diagonal.
 void TetPoints::fill_inside()
 {
   for (LocalIndex step = n_ / 2; step >= 1; step /= 2) {
@@ -99,9 +99,8 @@ void TetPoints::fill_inside()
               sign = -sign;
             }
           }
-          points_[static_cast<std::size_t>(lattice::tet_index(n_, {i, j, k}))] =
-              midpoint(at({i - by[0], j - by[1], k - by[2]}),
-                       at({i + by[0], j + by[1], k + by[2]}));
+          points_[static_cast<std::size_t>(lattice::tet_index(n_, {i, j, k}))] = midpoint(
+              at({i - by[0], j - by[1], k - by[2]}), at({i + by[0], j + by[1], k + by[2]}));
         }
       }
     }

@@ -22,14 +22,11 @@ std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
 bool has_bad_child(const mesh::TetPoints& points, LocalIndex n, LocalIndex step)
 {
   bool bad = false;
-  lattice::for_each_child(n, step, points.diagonal(),
-                          [&](const TetPoint& a, const TetPoint& b, const TetPoint& c,
-                              const TetPoint& d) {
-                            bad = bad
-                                  || !(tet_volume(points.at(a), points.at(b), points.at(c),
-                                                  points.at(d))
-                                       > 0.0);
-                          });
+  lattice::for_each_child(
+      n, step, points.diagonal(),
+      [&](const TetPoint& a, const TetPoint& b, const TetPoint& c, const TetPoint& d) {
+        bad = bad || !(tet_volume(points.at(a), points.at(b), points.at(c), points.at(d)) > 0.0);
+      });
   return bad;
 }
 
@@ -71,8 +68,8 @@ class NewPoints {
     for (LocalIndex j = step_; j < n_; j += step_) {
       for (LocalIndex i = step_; i + j < n_; i += step_) {
         if ((i / step_) % 2 == 0 && (j / step_) % 2 == 0) continue;
-        keys.push_back({mesh::LatticeCarrier::triangle, triangle,
-                        lattice::inner_triangle_index(n_, i, j)});
+        keys.push_back(
+            {mesh::LatticeCarrier::triangle, triangle, lattice::inner_triangle_index(n_, i, j)});
       }
     }
   }

@@ -17,7 +17,8 @@ void count_rows(std::vector<std::array<LocalIndex, N>> rows, GlobalIndex sign,
 {
   std::sort(rows.begin(), rows.end());
   const auto last = std::unique(rows.begin(), rows.end());
-  for (auto row = rows.begin(); row != last; ++row) counts[static_cast<std::size_t>((*row)[0])] += sign;
+  for (auto row = rows.begin(); row != last; ++row)
+    counts[static_cast<std::size_t>((*row)[0])] += sign;
 }
 
 }  // namespace

@@ -20,14 +20,11 @@ using Bytes = std::vector<std::byte>;
 class ByteWriter {
  public:
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  void put(const T& value)
-  {
-    append(&value, sizeof(T));
-  }
+  requires std::is_trivially_copyable_v<T>
+  void put(const T& value) { append(&value, sizeof(T)); }
 
   template <class T>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   void put(const std::vector<T>& values)
   {
     put(static_cast<std::uint64_t>(values.size()));
@@ -58,14 +55,14 @@ class ByteWriter {
   Bytes bytes_{};
 };
 
-/// @brief Reads what ByteWriter wrote, in the same order. Never reads past the end: a size that does
-/// not fit the bytes that are left is an InputError, before anything is allocated.
+/// @brief Reads what ByteWriter wrote, in the same order. Never reads past the end: a size that
+/// does not fit the bytes that are left is an InputError, before anything is allocated.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   template <class T>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   [[nodiscard]] T get()
   {
     T value;
@@ -75,7 +72,7 @@ class ByteReader {
   }
 
   template <class T>
-    requires std::is_trivially_copyable_v<T>
+  requires std::is_trivially_copyable_v<T>
   [[nodiscard]] std::vector<T> get_vector()
   {
     const auto count = get<std::uint64_t>();

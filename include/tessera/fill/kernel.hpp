@@ -9,16 +9,17 @@ namespace tessera::fill {
 
 /// @brief A closed, outward oriented triangle surface, and the wanted edge length inside it.
 struct FillInput {
-  std::vector<double> vertex_xyz{};             ///< Shape (num_vertices, 3).
-  std::vector<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3); normals point outwards.
-  std::vector<double> size_xyz{};               ///< Shape (num_samples, 3): where size_h holds.
-  std::vector<double> size_h{};                 ///< Shape (num_samples): wanted edge length there.
+  std::vector<double> vertex_xyz{};  ///< Shape (num_vertices, 3).
+  std::vector<LocalIndex>
+      triangle_vertices{};         ///< Shape (num_triangles, 3); normals point outwards.
+  std::vector<double> size_xyz{};  ///< Shape (num_samples, 3): where size_h holds.
+  std::vector<double> size_h{};    ///< Shape (num_samples): wanted edge length there.
 };
 
 /// @brief Settings of one try; the ladder of tries is made of these.
 struct FillTry {
-  double grading = 0.3;          ///< Growth of the size away from the skin, in (0, 1].
-  int optimize_steps = 3;        ///< Optimisation rounds after the fill.
+  double grading = 0.3;           ///< Growth of the size away from the skin, in (0, 1].
+  int optimize_steps = 3;         ///< Optimisation rounds after the fill.
   unsigned point_order_seed = 0;  ///< 0: points as given; else another fixed order.
 };
 

@@ -15,8 +15,8 @@ namespace tessera::mesh {
 ///
 /// A *face* is a triangle on the geometry, also one between two materials; it stands once. A
 /// *segment* is a piece of a geometric curve (feature edge); it may stand more than once, with the
-/// parameters of either side. `surface` and `curve` numbers are the Model's; a *patch* is what users
-/// see: one geometric face with its name. Several patches may lie on one surface.
+/// parameters of either side. `surface` and `curve` numbers are the Model's; a *patch* is what
+/// users see: one geometric face with its name. Several patches may lie on one surface.
 struct CoarseMesh {
   std::vector<double> vertex_xyz{};        ///< Shape (num_vertices, 3), output length unit.
   std::vector<LocalIndex> tet_vertices{};  ///< Shape (num_tets, 4); positive volume, VTK's order.
@@ -31,9 +31,9 @@ struct CoarseMesh {
   std::vector<LocalIndex> segment_curve{};     ///< Shape (num_segments); the Model's curve number.
   std::vector<double> segment_t{};  ///< Shape (num_segments, 2), end parameters; empty if none.
 
-  std::vector<std::string> patch_names{};      ///< Shape (num_patches).
-  std::vector<LocalIndex> patch_surface{};     ///< Shape (num_patches); the Model's surface number.
-  std::vector<std::string> material_names{};   ///< Entry m-1 names material m.
+  std::vector<std::string> patch_names{};     ///< Shape (num_patches).
+  std::vector<LocalIndex> patch_surface{};    ///< Shape (num_patches); the Model's surface number.
+  std::vector<std::string> material_names{};  ///< Entry m-1 names material m.
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
   [[nodiscard]] LocalIndex num_tets() const { return count(tet_vertices.size(), 4); }

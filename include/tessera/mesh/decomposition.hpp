@@ -18,8 +18,8 @@ struct Decomposition {
   std::vector<LocalIndex> subdomain_material{};  ///< Shape (num_subdomains); from 1.
   std::vector<double> subdomain_weight{};        ///< Shape (num_subdomains); predicted fine tets.
 
-  std::vector<LocalIndex> neighbour_offsets{};   ///< Shape (num_subdomains + 1).
-  std::vector<LocalIndex> neighbours{};          ///< Subdomains that share a coarse triangle, ascending.
+  std::vector<LocalIndex> neighbour_offsets{};  ///< Shape (num_subdomains + 1).
+  std::vector<LocalIndex> neighbours{};  ///< Subdomains that share a coarse triangle, ascending.
   std::vector<LocalIndex> neighbour_triangles{};  ///< Coarse triangles shared with that neighbour.
   std::vector<double> neighbour_area{};           ///< Their area, output length unit squared.
 

@@ -15,16 +15,18 @@ namespace tessera::mesh {
 /// Plain exchange struct between the file format (io) and its users. Optional arrays are empty when
 /// the file has none. Cells are all of one kind: tets (4 vertices) or triangles (3).
 struct MeshArrays {
-  int vertices_per_cell = 4;                 ///< 4: tets, 3: boundary triangles.
-  std::vector<double> point_xyz{};           ///< Shape (num_points, 3).
-  std::vector<GlobalIndex> cell_points{};    ///< Shape (num_cells, vertices_per_cell), local, from 0.
-  std::vector<GlobalIndex> point_ids{};      ///< Shape (num_points); GLOBAL_IDS. Optional.
-  std::vector<GlobalIndex> cell_ids{};       ///< Shape (num_cells); GLOBAL_IDS. Optional.
+  int vertices_per_cell = 4;               ///< 4: tets, 3: boundary triangles.
+  std::vector<double> point_xyz{};         ///< Shape (num_points, 3).
+  std::vector<GlobalIndex> cell_points{};  ///< Shape (num_cells, vertices_per_cell), local, from 0.
+  std::vector<GlobalIndex> point_ids{};    ///< Shape (num_points); GLOBAL_IDS. Optional.
+  std::vector<GlobalIndex> cell_ids{};     ///< Shape (num_cells); GLOBAL_IDS. Optional.
   std::map<std::string, std::vector<std::int32_t>> point_ints{};  ///< E.g. "owner".
   std::map<std::string, std::vector<std::int32_t>> cell_ints{};   ///< E.g. "attribute", "patch".
-  std::map<std::string, std::vector<GlobalIndex>> cell_longs{};   ///< E.g. "tet": id of the tet behind.
-  std::map<std::string, std::vector<double>> cell_doubles{};      ///< E.g. "mean_ratio".
-  std::map<std::string, std::vector<std::string>> field_texts{};  ///< E.g. "patch_names", "length_unit".
+  std::map<std::string, std::vector<GlobalIndex>>
+      cell_longs{};                                           ///< E.g. "tet": id of the tet behind.
+  std::map<std::string, std::vector<double>> cell_doubles{};  ///< E.g. "mean_ratio".
+  std::map<std::string, std::vector<std::string>>
+      field_texts{};                ///< E.g. "patch_names", "length_unit".
   GlobalIndex num_other_cells = 0;  ///< Cells of other kinds that a reader left out.
 
   [[nodiscard]] GlobalIndex num_points() const

@@ -31,12 +31,10 @@ struct RefinedLattice {
                     static_cast<std::size_t>(edge) * row_of_edge() + offset(k));
   }
 
-  [[nodiscard]] Vec3 triangle_point(LocalIndex triangle,
-                                    const lattice::TrianglePoint& p) const
+  [[nodiscard]] Vec3 triangle_point(LocalIndex triangle, const lattice::TrianglePoint& p) const
   {
-    return point_at(std::span(triangle_xyz),
-                    static_cast<std::size_t>(triangle) * row_of_triangle()
-                        + offset(lattice::triangle_index(n, p.i, p.j)));
+    return point_at(std::span(triangle_xyz), static_cast<std::size_t>(triangle) * row_of_triangle()
+                                                 + offset(lattice::triangle_index(n, p.i, p.j)));
   }
 
  private:

@@ -26,7 +26,7 @@ inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdgeCorners{
 
 /// @brief One triangle of a tet mesh and the one or two tets it belongs to.
 struct TriangleTets {
-  std::array<LocalIndex, 3> vertices{};  ///< Ascending.
+  std::array<LocalIndex, 3> vertices{};                ///< Ascending.
   std::array<LocalIndex, 2> tets{kNoIndex, kNoIndex};  ///< Ascending; the second may be kNoIndex.
   std::array<LocalIndex, 2> corners{kNoIndex, kNoIndex};  ///< Corner of that tet opposite to it.
 };

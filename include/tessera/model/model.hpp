@@ -25,9 +25,9 @@ enum class Format : int { csg, stl, occ };  ///< occ: STEP, IGES and BREP, kept 
 /// rank can see another file than the others.
 struct ModelSource {
   Format format = Format::csg;
-  std::string file_name{};     ///< For messages only.
-  std::string length_unit{};   ///< "mm", "m", …; empty if the file does not say.
-  Bytes content{};             ///< .geo text; checked STL triangles; BREP and names.
+  std::string file_name{};             ///< For messages only.
+  std::string length_unit{};           ///< "mm", "m", …; empty if the file does not say.
+  Bytes content{};                     ///< .geo text; checked STL triangles; BREP and names.
   std::vector<std::string> repairs{};  ///< What import changed, one line each; for the report.
 };
 

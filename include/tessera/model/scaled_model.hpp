@@ -8,7 +8,8 @@ namespace tessera::model {
 /// @brief A model in output length units, made from one in file length units.
 class ScaledModel final : public Model {
  public:
-  /// @param[in] file_model Borrowed; must outlive this. @param[in] scale Output units per file unit, > 0.
+  /// @param[in] file_model Borrowed; must outlive this. @param[in] scale Output units per file
+  /// unit, > 0.
   ScaledModel(const Model& file_model, double scale) : file_model_(file_model), scale_(scale) {}
 
   [[nodiscard]] bool has_parameters() const override { return file_model_.has_parameters(); }

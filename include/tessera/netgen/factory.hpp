@@ -18,7 +18,7 @@ namespace tessera::netgen {
 /// @throws InputError if the file is missing, unreadable or of an unknown kind.
 /// @throws GeometryError if it holds no closed solid (names the open edges, the missing solid, …).
 [[nodiscard]] model::ModelSource import_model(const std::filesystem::path& file,
-                                             const model::ImportOptions& options);
+                                              const model::ImportOptions& options);
 
 /// @brief Loads what import_model() read. @throws GeometryError if NETGEN refuses it.
 [[nodiscard]] std::unique_ptr<model::Model> load_model(const model::ModelSource& source);

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
-#include "tessera/mesh/complex.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/complex.hpp"
 #include "tessera/mesh/damping.hpp"
 #include "tessera/mesh/decomposition.hpp"
 #include "tessera/mesh/refined_lattice.hpp"
@@ -23,8 +23,8 @@ namespace tessera::plan {
 /// @brief New, smaller factors for the points that make a child of some tet flat or inverted.
 ///
 /// Level by level, on the first level that has a bad child the new points on the geometry of that
-/// tet are damped one step further; with all of them at 0 the level is a plain subdivision and every
-/// child is as good as its parent, so repeated calls end.
+/// tet are damped one step further; with all of them at 0 the level is a plain subdivision and
+/// every child is as good as its parent, so repeated calls end.
 /// @param[in] complex Tets to test. @param[in] lattice Its points under `damping`.
 /// @return Empty if no child is bad.
 /// @note Local.

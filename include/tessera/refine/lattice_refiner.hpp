@@ -29,6 +29,6 @@ struct RefineContext {
 /// @note Local.
 /// @throws GeometryError if a projection fails.
 [[nodiscard]] mesh::RefinedLattice refine_lattice(const mesh::Complex& complex,
-                                            const RefineContext& context);
+                                                  const RefineContext& context);
 
 }  // namespace tessera::refine

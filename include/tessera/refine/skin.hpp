@@ -32,7 +32,8 @@ class LatticeNumbering {
 
 /// @brief The skin of a subdomain from the refined lattice of its skin_complex().
 /// @note Local.
-[[nodiscard]] mesh::Skin extract_skin(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
+[[nodiscard]] mesh::Skin extract_skin(const mesh::Complex& complex,
+                                      const mesh::RefinedLattice& lattice,
                                       const mesh::Skeleton& skeleton, LocalIndex subdomain);
 
 }  // namespace tessera::refine

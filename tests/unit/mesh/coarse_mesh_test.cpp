@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/coarse_mesh.hpp"
+
 #include <functional>
 
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
-#include "tessera/mesh/coarse_mesh.hpp"
 
 #include "support/meshes.hpp"
 
@@ -39,7 +40,8 @@ TEST(CoarseMesh, EveryTruncatedByteImageIsRefused)
 {
   const Bytes bytes = to_bytes(testing::kuhn_cube(1));
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_THROW(static_cast<void>(coarse_mesh_from_bytes(std::span(bytes).first(size))), InputError)
+    EXPECT_THROW(static_cast<void>(coarse_mesh_from_bytes(std::span(bytes).first(size))),
+                 InputError)
         << size << " of " << bytes.size() << " bytes";
   }
 }

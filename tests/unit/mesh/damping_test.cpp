@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <gtest/gtest.h>
-
 #include "tessera/mesh/damping.hpp"
+
+#include <gtest/gtest.h>
 
 namespace tessera::mesh {
 namespace {

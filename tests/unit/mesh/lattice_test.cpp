@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/lattice.hpp"
+
 #include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "tessera/base/vec3.hpp"
-#include "tessera/mesh/lattice.hpp"
 #include "tessera/mesh/tet_lattice.hpp"
 
 namespace tessera::mesh::lattice {
@@ -87,12 +88,12 @@ TEST(TetLattice, ChildrenArePositiveAndOfEqualVolumeForEveryDiagonal)
   for (std::size_t diagonal = 0; diagonal < 3; ++diagonal) {
     for (const LocalIndex n : {1, 2, 4, 8}) {
       LocalIndex count = 0;
-      for_each_child(n, 1, diagonal,
-                     [&](const TetPoint& a, const TetPoint& b, const TetPoint& c, const TetPoint& d) {
-                       EXPECT_EQ(6.0 * tet_volume(position(a), position(b), position(c), position(d)),
-                                 1.0);
-                       ++count;
-                     });
+      for_each_child(
+          n, 1, diagonal,
+          [&](const TetPoint& a, const TetPoint& b, const TetPoint& c, const TetPoint& d) {
+            EXPECT_EQ(6.0 * tet_volume(position(a), position(b), position(c), position(d)), 1.0);
+            ++count;
+          });
       EXPECT_EQ(count, n * n * n);
     }
   }
@@ -117,19 +118,19 @@ TEST(TetLattice, TheSkinOfTheChildrenIsTheRefinedSkin)
                      toggle(a, b, c);
                    });
     std::set<std::array<LocalIndex, 3>> skin;
-    for_each_small_triangle(n, 1, [&](const TrianglePoint& a, const TrianglePoint& b,
-                                      const TrianglePoint& c) {
-      const auto add = [&](auto to_tet) {
-        std::array<LocalIndex, 3> key{tet_index(n, to_tet(a)), tet_index(n, to_tet(b)),
-                                      tet_index(n, to_tet(c))};
-        std::sort(key.begin(), key.end());
-        skin.insert(key);
-      };
-      add([](const TrianglePoint& p) { return TetPoint{p.i, p.j, 0}; });
-      add([](const TrianglePoint& p) { return TetPoint{p.i, 0, p.j}; });
-      add([](const TrianglePoint& p) { return TetPoint{0, p.i, p.j}; });
-      add([n](const TrianglePoint& p) { return TetPoint{n - p.i - p.j, p.i, p.j}; });
-    });
+    for_each_small_triangle(
+        n, 1, [&](const TrianglePoint& a, const TrianglePoint& b, const TrianglePoint& c) {
+          const auto add = [&](auto to_tet) {
+            std::array<LocalIndex, 3> key{tet_index(n, to_tet(a)), tet_index(n, to_tet(b)),
+                                          tet_index(n, to_tet(c))};
+            std::sort(key.begin(), key.end());
+            skin.insert(key);
+          };
+          add([](const TrianglePoint& p) { return TetPoint{p.i, p.j, 0}; });
+          add([](const TrianglePoint& p) { return TetPoint{p.i, 0, p.j}; });
+          add([](const TrianglePoint& p) { return TetPoint{0, p.i, p.j}; });
+          add([n](const TrianglePoint& p) { return TetPoint{n - p.i - p.j, p.i, p.j}; });
+        });
     EXPECT_EQ(open, skin) << "diagonal " << diagonal;
   }
 }

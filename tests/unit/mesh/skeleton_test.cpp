@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/skeleton.hpp"
+
 #include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
 
 #include "tessera/mesh/complex.hpp"
-#include "tessera/mesh/skeleton.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 #include "support/decompositions.hpp"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/tet_points.hpp"
+
 #include <gtest/gtest.h>
 
 #include "tessera/mesh/complex.hpp"
 #include "tessera/mesh/tet_face_map.hpp"
-#include "tessera/mesh/tet_points.hpp"
 #include "tessera/refine/lattice_refiner.hpp"
 
 #include "support/decompositions.hpp"

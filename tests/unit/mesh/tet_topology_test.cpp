@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/tet_topology.hpp"
+
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
-#include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::mesh {
 namespace {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/version.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -69,8 +70,10 @@ TEST(CommandLine, OverridesArriveAsTheyWereWritten)
 TEST(CommandLine, QuietAndProgressWords)
 {
   EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "-q"}).verbosity, Verbosity::quiet);
-  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--progress=auto"}).progress, ProgressMode::automatic);
-  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--progress=always"}).progress, ProgressMode::always);
+  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--progress=auto"}).progress,
+            ProgressMode::automatic);
+  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--progress=always"}).progress,
+            ProgressMode::always);
 }
 
 TEST(CommandLine, CheckAndInfo)
@@ -98,7 +101,8 @@ TEST(CommandLine, HelpOfEveryLevelIsReturnedNotPrinted)
 
 TEST(CommandLine, VersionIsReturned)
 {
-  EXPECT_EQ(parsed_as<PrintCommand>({"--version"}).text, "tessera " TESSERA_VERSION "\n");
+  EXPECT_EQ(parsed_as<PrintCommand>({"--version"}).text,
+            "tessera " + std::string(version()) + "\n");
 }
 
 TEST(CommandLine, WrongUseIsOneLineThatSaysHowToGetHelp)
