@@ -6,6 +6,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/fill/size_samples.hpp"
 #include "tessera/io/piece_store.hpp"
 #include "tessera/model/scaled_model.hpp"
 #include "tessera/netgen/factory.hpp"
@@ -73,6 +74,7 @@ class MeshWorker final : public jobs::Worker {
     piece_folder_ = in.get_string();
     skeleton_ = mesh::build_skeleton(coarse_, decomposition_);
     seam_units_ = mesh::units_on_seams(skeleton_, decomposition_);
+    vertex_size_ = fill::vertex_sizes(coarse_);
   }
 
   static Bytes import(ByteReader& in)
@@ -117,7 +119,7 @@ class MeshWorker final : public jobs::Worker {
     refine::RefineContext context = refine_context(damping_);
     context.measure_distance = true;
     FilledPiece filled =
-        fill_subdomain({context, decomposition_, seam_units_}, subdomain, *kernel, settings);
+        fill_subdomain({context, decomposition_, seam_units_, vertex_size_}, subdomain, *kernel, settings);
     io::PieceStore(piece_folder_).put(subdomain, mesh::to_bytes(filled.piece));
     return to_bytes(filled.result);
   }
@@ -134,6 +136,7 @@ class MeshWorker final : public jobs::Worker {
   mesh::Decomposition decomposition_{};
   mesh::Skeleton skeleton_{};
   std::vector<char> seam_units_{};
+  std::vector<double> vertex_size_{};
   mesh::Damping damping_{};
   int levels_ = 0;
   std::filesystem::path piece_folder_{};
