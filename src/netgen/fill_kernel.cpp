@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include <meshing.hpp>
@@ -46,6 +48,38 @@ constexpr double kDistanceFromSkin = 0.05;
 // The largest cell that is not split where `size` is the wanted edge length.
 double largest_cell(double size) { return kCellTolerance * kPointSpacing * size; }
 
+// How many points the octree has for one that the sizes ask for, if `cell` halved some times are
+// its cells.
+double point_surplus(const std::vector<double>& sizes, double cell)
+{
+  double sum = 0.0;
+  for (const double size : sizes) {
+    const double halvings = std::ceil(std::log2(cell / largest_cell(size)));
+    sum += std::pow(kPointSpacing * size / std::ldexp(cell, -static_cast<int>(halvings)), 3.0);
+  }
+  return sum / static_cast<double>(sizes.size());
+}
+
+// The cell, within one octave, with which the number of points comes nearest to what the sizes ask
+// for. With the median size, a skin with sizes of 1 and 0.8 got cells of 0.78 and 0.39: on shaft
+// (L = 3, K = 16) two of 16 pieces had 25 % too many tets, a mean ratio of 0.78 and angles of 2
+// deg, the others 0.87 and 8 deg or more.
+double best_cell(const std::vector<double>& sizes)
+{
+  constexpr int kCandidates = 16;  // 4 % apart.
+  double best = sizes.front();
+  double least = std::numeric_limits<double>::infinity();
+  for (int candidate = 0; candidate < kCandidates; ++candidate) {
+    const double cell = sizes.front() * std::exp2(static_cast<double>(candidate) / kCandidates);
+    const double misfit = std::abs(std::log(point_surplus(sizes, cell)));
+    if (misfit < least) {
+      least = misfit;
+      best = cell;
+    }
+  }
+  return best;
+}
+
 // Gives NETGEN's octree a root from which halving leads to cells of exactly `cell`.
 void align_octree(::netgen::Mesh& mesh, double cell, double grading)
 {
@@ -66,15 +100,15 @@ void align_octree(::netgen::Mesh& mesh, double cell, double grading)
   make(root / enlargement);
 }
 
+// The samples alone where there are any: NETGEN's sizes from the skin halve every cell whose skin
+// edge is a little shorter than it (shaft, L = 2, K = 32: smallest angle 5.2 deg in place of 7.7).
 void set_sizes(::netgen::Mesh& mesh, const FillInput& input, double grading)
 {
-  if (!input.size_h.empty()) {
-    std::vector<double> sorted = input.size_h;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    align_octree(mesh, kPointSpacing * *middle, grading);
+  if (input.size_h.empty()) {
+    mesh.CalcLocalH(grading);
+    return;
   }
-  mesh.CalcLocalH(grading);
+  align_octree(mesh, best_cell(input.size_h), grading);
   for (std::size_t s = 0; s < input.size_h.size(); ++s) {
     mesh.RestrictLocalH(to_netgen(point_at(std::span(input.size_xyz), s)),
                         largest_cell(input.size_h[s]));
