@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/bodies.hpp"
+
+#include <utility>
+
+#include "tessera/refine/skin.hpp"
+
+namespace tessera::testing {
+
+Body::Body(mesh::CoarseMesh given, mesh::Decomposition cut)
+    : coarse(std::move(given)),
+      decomposition(std::move(cut)),
+      skeleton(mesh::build_skeleton(coarse, decomposition))
+{
+}
+
+mesh::Decomposition whole(const mesh::CoarseMesh& coarse)
+{
+  mesh::Decomposition decomposition;
+  decomposition.tet_subdomain.assign(static_cast<std::size_t>(coarse.num_tets()), 0);
+  decomposition.subdomain_material = {1};
+  decomposition.subdomain_weight = {1.0};
+  return decomposition;
+}
+
+RefinedComplex refine_skin(const Body& body, const model::Model& model, int levels,
+                           LocalIndex subdomain, const mesh::Damping& damping,
+                           bool measure_distance)
+{
+  RefinedComplex refined{mesh::skin_complex(body.skeleton, subdomain), {}};
+  refined.lattice = refine::refine_lattice(
+      refined.complex, {body.coarse, body.skeleton, model, damping, levels, measure_distance});
+  return refined;
+}
+
+mesh::Skin skin_of(const Body& body, const model::Model& model, int levels, LocalIndex subdomain,
+                   const mesh::Damping& damping)
+{
+  const RefinedComplex refined = refine_skin(body, model, levels, subdomain, damping);
+  return refine::extract_skin(refined.complex, refined.lattice, body.skeleton, subdomain);
+}
+
+}  // namespace tessera::testing
