@@ -14,15 +14,6 @@ Body::Body(mesh::CoarseMesh given, mesh::Decomposition cut)
 {
 }
 
-mesh::Decomposition whole(const mesh::CoarseMesh& coarse)
-{
-  mesh::Decomposition decomposition;
-  decomposition.tet_subdomain.assign(static_cast<std::size_t>(coarse.num_tets()), 0);
-  decomposition.subdomain_material = {1};
-  decomposition.subdomain_weight = {1.0};
-  return decomposition;
-}
-
 RefinedComplex refine_skin(const Body& body, const model::Model& model, int levels,
                            LocalIndex subdomain, const mesh::Damping& damping,
                            bool measure_distance)

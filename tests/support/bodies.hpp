@@ -29,9 +29,6 @@ struct Body {
   [[nodiscard]] LocalIndex num_subdomains() const { return decomposition.num_subdomains(); }
 };
 
-/// @brief All tets in one subdomain of material 1.
-[[nodiscard]] mesh::Decomposition whole(const mesh::CoarseMesh& coarse);
-
 /// @brief A complex and its refined lattice.
 struct RefinedComplex {
   mesh::Complex complex{};

@@ -16,6 +16,7 @@
 #include "tessera/netgen/factory.hpp"
 
 #include "support/bodies.hpp"
+#include "support/decompositions.hpp"
 #include "support/surfaces.hpp"
 #include "support/temporary_file.hpp"
 
@@ -115,7 +116,7 @@ class ClosedForms : public ::testing::TestWithParam<TestBody> {
     options.max_size = max_size;
     const mesh::CoarseMesh coarse = netgen::make_coarse_mesher(model)->generate(options);
     mesh::validate(coarse);
-    return {coarse, testing::whole(coarse)};
+    return {coarse, testing::one_subdomain_a_material(coarse)};
   }
 
   [[nodiscard]] mesh::Skin skin(int levels) const

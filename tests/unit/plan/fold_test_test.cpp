@@ -148,7 +148,7 @@ TEST(FoldTest, FindsNothingOnAFlatModelOfFlatTets)
 TEST(FoldTest, FindsNothingWithoutLevels)
 {
   const mesh::CoarseMesh plate = thin_plate(2, 0.01);
-  const Body body(plate, testing::whole(plate));
+  const Body body(plate, testing::one_subdomain_a_material(plate));
   EXPECT_TRUE(make_plan(body, bulging_bottom(2, 0.5), 0, 1).damping.entries().empty());
 }
 
@@ -183,7 +183,8 @@ TEST_P(FoldedPlate, FoldsAndIsUnfolded)
 
 TEST_P(FoldedPlate, IsUnfoldedWhateverTheSubdomains)
 {
-  for (const auto& decomposition : {testing::whole(plate), testing::slabs(plate, 2)}) {
+  for (const auto& decomposition :
+       {testing::one_subdomain_a_material(plate), testing::slabs(plate, 2)}) {
     const Body body(plate, decomposition);
     const Plan plan = make_plan(body, model, levels, 200);
     EXPECT_GT(worst_child(body, model, plan.damping, levels), 0.0);
@@ -192,7 +193,7 @@ TEST_P(FoldedPlate, IsUnfoldedWhateverTheSubdomains)
 
 TEST_P(FoldedPlate, DampsOnlyNewPointsOnTheGeometryByListedSteps)
 {
-  const Body body(plate, testing::whole(plate));
+  const Body body(plate, testing::one_subdomain_a_material(plate));
   const Plan plan = make_plan(body, model, levels, 200);
   for (const PointDamping& entry : plan.damping.entries()) {
     const bool on_edge = entry.key.carrier == mesh::LatticeCarrier::edge;
@@ -206,7 +207,7 @@ TEST_P(FoldedPlate, DampsOnlyNewPointsOnTheGeometryByListedSteps)
 
 TEST_P(FoldedPlate, FindingsDependOnTheArgumentsOnly)
 {
-  const Body body(plate, testing::whole(plate));
+  const Body body(plate, testing::one_subdomain_a_material(plate));
   const Damping none;
   const auto find = [&](const std::vector<LocalIndex>& tets) {
     const RefinedTets refined(body, model, none, levels, tets);

@@ -10,6 +10,7 @@
 #include "support/bodies.hpp"
 #include "support/curved_meshes.hpp"
 #include "support/curved_models.hpp"
+#include "support/decompositions.hpp"
 
 namespace tessera::refine {
 namespace {
@@ -24,7 +25,7 @@ std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
 // A ball with one damped edge and one damped triangle.
 struct DampedPoints : ::testing::Test {
   static constexpr int kLevels = 2;
-  const Body body{testing::ball(2), testing::whole(testing::ball(2))};
+  const Body body{testing::ball(2), testing::one_subdomain_a_material(testing::ball(2))};
   const testing::SphereModel sphere{{1.0}};
   const mesh::Complex complex = mesh::skin_complex(body.skeleton, 0);
 

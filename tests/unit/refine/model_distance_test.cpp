@@ -10,6 +10,7 @@
 #include "support/bodies.hpp"
 #include "support/curved_meshes.hpp"
 #include "support/curved_models.hpp"
+#include "support/decompositions.hpp"
 
 namespace tessera::refine {
 namespace {
@@ -18,7 +19,7 @@ using mesh::LatticeCarrier;
 using testing::Body;
 
 struct DistanceToModel : ::testing::Test {
-  const Body body{testing::ball(2), testing::whole(testing::ball(2))};
+  const Body body{testing::ball(2), testing::one_subdomain_a_material(testing::ball(2))};
   const testing::SphereModel sphere{{1.0}};
 
   [[nodiscard]] mesh::ModelDistance distance(const model::Model& model, int levels,
@@ -57,7 +58,8 @@ TEST_F(DistanceToModel, ShowsAProjectionThatStopsEarly)
 
 TEST_F(DistanceToModel, ShowsAProjectionOntoRimsThatStopsEarly)
 {
-  const Body cylinder(testing::cylinder(2), testing::whole(testing::cylinder(2)));
+  const Body cylinder(testing::cylinder(2),
+                      testing::one_subdomain_a_material(testing::cylinder(2)));
   const testing::CylinderModel round;
   const testing::LazyModel lazy(round, 0.5);
   const auto found = testing::refine_skin(cylinder, lazy, 1, 0, {}, true).lattice.distance;

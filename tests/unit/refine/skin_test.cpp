@@ -68,7 +68,7 @@ TEST_P(SkinOfLevel, IsAClosedOutwardSphereOfEveryHalf)
 TEST_P(SkinOfLevel, HasTwoSpheresAroundACavity)
 {
   const testing::SphereModel spheres({1.0, 0.5});
-  const Body body(testing::shell(), testing::whole(testing::shell()));
+  const Body body(testing::shell(), testing::one_subdomain_a_material(testing::shell()));
   const mesh::Skin skin = testing::skin_of(body, spheres, GetParam(), 0);
   const auto topology = testing::topology_of(skin.triangle_vertices);
   EXPECT_EQ(topology.num_unmatched_edges, 0);
@@ -154,8 +154,9 @@ INSTANTIATE_TEST_SUITE_P(Levels, SkinOfLevel, ::testing::Range(0, 5));
 // Four times as close with every halving of h: what projection at every level is for.
 TEST(Skin, VolumesConvergeToTheFormulaWithOrderTwo)
 {
-  const Body ball(testing::ball(2), testing::whole(testing::ball(2)));
-  const Body cylinder(testing::cylinder(2), testing::whole(testing::cylinder(2)));
+  const Body ball(testing::ball(2), testing::one_subdomain_a_material(testing::ball(2)));
+  const Body cylinder(testing::cylinder(2),
+                      testing::one_subdomain_a_material(testing::cylinder(2)));
   const auto error = [](const Body& body, const model::Model& model, int levels, double exact) {
     return exact - volume_of(testing::skin_of(body, model, levels, 0));
   };
@@ -184,7 +185,7 @@ TEST(Skin, OfOneTetIsThatTet)
   coarse.face_patch = {0, 0, 0, 0};
   coarse.patch_names = {"p"};
   coarse.patch_surface = {0};
-  const Body body(coarse, testing::whole(coarse));
+  const Body body(coarse, testing::one_subdomain_a_material(coarse));
   for (int levels = 0; levels < 4; ++levels) {
     const mesh::Skin skin = testing::skin_of(body, testing::FlatModel(), levels, 0);
     expect_closed_sphere(skin);

@@ -189,7 +189,7 @@ TEST(Seams, CloseBetweenMaterialsAndAtEveryLevel)
 
 TEST(Seams, OfOneSubdomainAreNone)
 {
-  const Body body(testing::ball(2), testing::whole(testing::ball(2)));
+  const Body body(testing::ball(2), testing::one_subdomain_a_material(testing::ball(2)));
   const auto skin = testing::skin_of(body, testing::SphereModel({1.0}), 1, 0);
   EXPECT_TRUE(seam_hashes(skin, body.skeleton).empty());
   EXPECT_TRUE(seam_hashes(mesh::Skin{}, body.skeleton).empty());
