@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/exit_code.hpp"
 
+#include <filesystem>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera::pipeline {
@@ -12,6 +14,10 @@ ExitCode exit_code_of(const std::exception& error)
   if (is(static_cast<const InputError*>(nullptr))) return ExitCode::wrong_input;
   if (is(static_cast<const MeshError*>(nullptr))) return ExitCode::failed;
   if (is(static_cast<const OutputError*>(nullptr))) return ExitCode::cannot_write;
+  // The program calls the throwing functions of <filesystem> only to make folders.
+  if (is(static_cast<const std::filesystem::filesystem_error*>(nullptr))) {
+    return ExitCode::cannot_write;
+  }
   if (is(static_cast<const Interrupted*>(nullptr))) return ExitCode::stopped;
   return ExitCode::internal;
 }

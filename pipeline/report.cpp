@@ -122,6 +122,12 @@ Json libraries_json()
           {"mpi", comm::mpi_version()}};
 }
 
+// Names from CAD files are in any encoding: what is not UTF-8 is replaced, not refused.
+std::string text_of(const Json& json)
+{
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 std::string status_name(ExitCode code)
 {
   switch (code) {
@@ -213,7 +219,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   json["subdomains"] = subdomains_json(run);
   json["subdomain_graph"] = graph_json(run.decomposition.decomposition);
   json["libraries"] = libraries_json();
-  return json.dump(1) + "\n";
+  return text_of(json);
 }
 
 std::string failure_json(ExitCode exit_code, const std::string& reason, const RunFigures& figures,
@@ -223,7 +229,7 @@ std::string failure_json(ExitCode exit_code, const std::string& reason, const Ru
   add_figures(json, figures);
   json["stages"] = stages_json(times);
   json["libraries"] = libraries_json();
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return text_of(json);
 }
 
 }  // namespace tessera::pipeline

@@ -20,6 +20,13 @@ std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
 // Sums in the fill and of the skin differ by rounding only.
 constexpr double kVolumeTolerance = 1e-9;
 
+void require_whole_rows(const FillOutput& tets)
+{
+  if (tets.vertex_xyz.size() % 3 != 0 || tets.tet_vertices.size() % 4 != 0) {
+    throw MeshError("the fill's arrays end in the middle of a vertex or tet");
+  }
+}
+
 void require_skin_kept(const FillInput& skin, const FillOutput& tets)
 {
   const std::size_t size = skin.vertex_xyz.size();
@@ -141,6 +148,7 @@ double enclosed_volume(const FillInput& skin)
 
 FillFacts check_fill(const FillInput& skin, const FillOutput& tets)
 {
+  require_whole_rows(tets);
   require_skin_kept(skin, tets);
   require_vertices_used(tets);
   FillFacts facts{match_boundary(skin, tets), positive_volume(tets)};

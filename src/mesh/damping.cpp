@@ -24,17 +24,30 @@ double Damping::factor(const LatticePointKey& key) const
   return place != entries_.end() && place->key == key ? place->factor : 1.0;
 }
 
+// Keys and factors apart: PointDamping has padding, whose bytes nobody sets.
 Bytes to_bytes(const Damping& damping)
 {
+  std::vector<LatticePointKey> keys;
+  std::vector<double> factors;
+  for (const PointDamping& entry : damping.entries()) {
+    keys.push_back(entry.key);
+    factors.push_back(entry.factor);
+  }
   ByteWriter out;
-  out.put(std::vector<PointDamping>(damping.entries().begin(), damping.entries().end()));
+  out.put(keys);
+  out.put(factors);
   return std::move(out).take();
 }
 
 Damping damping_from_bytes(std::span<const std::byte> bytes)
 {
   ByteReader in(bytes);
-  return Damping(in.get_vector<PointDamping>());
+  const auto keys = in.get_vector<LatticePointKey>();
+  const auto factors = in.get_vector<double>();
+  if (keys.size() != factors.size()) throw InputError("record of a damping is inconsistent");
+  std::vector<PointDamping> entries;
+  for (std::size_t i = 0; i < keys.size(); ++i) entries.push_back({keys[i], factors[i]});
+  return Damping(std::move(entries));
 }
 
 }  // namespace tessera::mesh

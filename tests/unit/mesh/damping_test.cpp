@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/mesh/damping.hpp"
 
+#include <cstring>
+#include <vector>
+
 #include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
 
 namespace tessera::mesh {
 namespace {
@@ -24,6 +29,32 @@ TEST(Damping, TheSmallestFactorOfAPointCountsInAnyOrder)
   EXPECT_EQ(down.factor(key), 0.25);
   EXPECT_EQ(down.entries().size(), 2U);
   EXPECT_EQ(to_bytes(down), to_bytes(up));
+}
+
+// A plan is broadcast as bytes: the same plan must give the same ones.
+TEST(Damping, BytesAreAFunctionOfTheEntries)
+{
+  std::vector<PointDamping> one(50);
+  std::vector<PointDamping> other(50);
+  std::memset(static_cast<void*>(one.data()), 0x00, one.size() * sizeof(PointDamping));
+  std::memset(static_cast<void*>(other.data()), 0xFF, other.size() * sizeof(PointDamping));
+  for (LocalIndex i = 0; i < 50; ++i) {
+    for (auto* entries : {&one, &other}) {
+      PointDamping& entry = (*entries)[static_cast<std::size_t>(i)];
+      entry.key.carrier = LatticeCarrier::edge;
+      entry.key.entity = i;
+      entry.key.index = 2 * i;
+      entry.factor = 0.25;
+    }
+  }
+  const Bytes bytes = to_bytes(Damping(one));
+  EXPECT_EQ(bytes, to_bytes(Damping(other)));
+
+  const Damping back = damping_from_bytes(bytes);
+  ASSERT_EQ(back.entries().size(), 50U);
+  EXPECT_EQ(back.factor({LatticeCarrier::edge, 49, 98}), 0.25);
+  EXPECT_THROW(static_cast<void>(damping_from_bytes(std::span(bytes).first(bytes.size() - 1))),
+               InputError);
 }
 
 }  // namespace

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/number/id_layout.hpp"
+
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tessera/mesh/lattice.hpp"
+
+#include "support/bodies.hpp"
+#include "support/curved_meshes.hpp"
+#include "support/curved_models.hpp"
+#include "support/decompositions.hpp"
+#include "support/flat_model.hpp"
+#include "support/meshes.hpp"
+
+namespace tessera::number {
+namespace {
+
+using testing::Body;
+
+std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
+
+mesh::UnitLayout units_of(LocalIndex vertices, LocalIndex edges, LocalIndex triangles)
+{
+  mesh::Skeleton skeleton;
+  skeleton.vertex_coarse.resize(at(vertices));
+  skeleton.edge_owner.resize(at(edges));
+  skeleton.triangle_patch.resize(at(triangles));
+  return mesh::UnitLayout(skeleton);
+}
+
+class IdsOfIntervals : public ::testing::TestWithParam<LocalIndex> {};
+
+TEST_P(IdsOfIntervals, CountEveryVertexOfAllUnitsOnce)
+{
+  const LocalIndex n = GetParam();
+  const mesh::UnitLayout units = units_of(5, 9, 7);
+  const std::vector<PieceCounts> pieces{{3, 10, 4}, {0, 1, 0}, {8, 30, 2}};
+  const IdLayout ids(units, n, pieces);
+  std::vector<int> times(static_cast<std::size_t>(ids.num_vertices()), 0);
+  const auto count_unit = [&](mesh::Unit unit, GlobalIndex points) {
+    for (LocalIndex i = 0; i < points; ++i)
+      ++times.at(static_cast<std::size_t>(ids.vertex_id(unit, i)));
+  };
+  for (mesh::Unit unit = 0; unit < units.first_edge; ++unit) count_unit(unit, 1);
+  for (mesh::Unit unit = units.first_edge; unit < units.first_triangle; ++unit) {
+    count_unit(unit, mesh::lattice::num_inner_edge_points(n));
+  }
+  for (mesh::Unit unit = units.first_triangle; unit < units.first_piece; ++unit) {
+    count_unit(unit, mesh::lattice::num_inner_triangle_points(n));
+  }
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    count_unit(units.first_piece + static_cast<mesh::Unit>(p), pieces[p].interior_vertices);
+  }
+  for (const int count : times) EXPECT_EQ(count, 1);
+  EXPECT_EQ(ids.num_tets(), 41);
+  EXPECT_EQ(ids.num_boundary_triangles(), 6);
+}
+
+// With the skins that refine really makes: what two pieces share has one id.
+TEST_P(IdsOfIntervals, OfSkinsAreDenseAndShared)
+{
+  int levels = 0;
+  while (mesh::lattice::intervals(levels) < GetParam()) ++levels;
+  const mesh::CoarseMesh cube = testing::two_material_cube(2);
+  const Body body(cube, testing::slabs(cube, 2));
+  const IdLayout ids(mesh::UnitLayout(body.skeleton), GetParam(), std::vector<PieceCounts>(4));
+  std::map<GlobalIndex, std::array<std::uint64_t, 3>> position_of;
+  std::set<std::array<std::uint64_t, 3>> positions;
+  for (LocalIndex s = 0; s < 4; ++s) {
+    const mesh::Skin skin = testing::skin_of(body, testing::FlatModel(), levels, s);
+    for (LocalIndex v = 0; v < skin.num_vertices(); ++v) {
+      const auto id = ids.vertex_id(skin.vertex_unit[at(v)], skin.vertex_index[at(v)]);
+      const auto point = testing::bits(point_at(std::span<const double>(skin.vertex_xyz), v));
+      EXPECT_EQ(position_of.emplace(id, point).first->second, point);
+      positions.insert(point);
+    }
+  }
+  EXPECT_EQ(static_cast<GlobalIndex>(position_of.size()), ids.num_vertices());
+  EXPECT_EQ(position_of.begin()->first, 0);
+  EXPECT_EQ(position_of.rbegin()->first, ids.num_vertices() - 1);
+  EXPECT_EQ(positions.size(), position_of.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Intervals, IdsOfIntervals, ::testing::Values(1, 2, 4, 8));
+
+TEST(IdLayout, CellsArePrefixSums)
+{
+  const IdLayout ids(units_of(1, 1, 1), 1, {{0, 10, 4}, {0, 0, 0}, {0, 5, 1}});
+  EXPECT_EQ(ids.first_tet(0), 0);
+  EXPECT_EQ(ids.first_tet(1), 10);
+  EXPECT_EQ(ids.first_tet(2), 10);
+  EXPECT_EQ(ids.first_boundary_triangle(2), 4);
+  EXPECT_EQ(ids.num_tets(), 15);
+  EXPECT_EQ(ids.num_boundary_triangles(), 5);
+}
+
+TEST(IdLayout, WithoutPiecesHasTheSkeletonOnly)
+{
+  const IdLayout ids(units_of(4, 6, 4), 4, {});
+  EXPECT_EQ(ids.num_vertices(), 4 + 6 * 3 + 4 * 3);
+  EXPECT_EQ(ids.num_tets(), 0);
+  EXPECT_EQ(IdLayout(units_of(0, 0, 0), 1, {}).num_vertices(), 0);
+}
+
+TEST(IdLayout, CountsBeyond32Bits)
+{
+  constexpr GlobalIndex kMany = 3'000'000'000;
+  const LocalIndex n = mesh::lattice::intervals(mesh::lattice::kMaxLevels);
+  const LocalIndex num_edges = 15'000'000;
+  const LocalIndex num_triangles = 10'000'000;
+  const IdLayout ids(units_of(5'000'000, num_edges, num_triangles), n,
+                     {{kMany, 2 * kMany, kMany}, {kMany, 2 * kMany, kMany}});
+  const GlobalIndex of_edges = GlobalIndex{1023} * num_edges;
+  const GlobalIndex of_triangles = GlobalIndex{1023 * 1022 / 2} * num_triangles;
+  const GlobalIndex on_skeleton = 5'000'000 + of_edges + of_triangles;
+  const mesh::Unit first_edge = 5'000'000;
+  EXPECT_EQ(ids.vertex_id(first_edge + num_edges - 1, 1022), 5'000'000 + of_edges - 1);
+  EXPECT_EQ(ids.vertex_id(first_edge + num_edges, 0), 5'000'000 + of_edges);
+  EXPECT_EQ(ids.vertex_id(first_edge + num_edges + num_triangles - 1, 1023 * 1022 / 2 - 1),
+            on_skeleton - 1);
+  EXPECT_EQ(ids.interior_vertex_id(0, 0), on_skeleton);
+  EXPECT_EQ(ids.interior_vertex_id(1, 7), on_skeleton + kMany + 7);
+  EXPECT_EQ(ids.num_vertices(), on_skeleton + 2 * kMany);
+  EXPECT_EQ(ids.first_tet(1), 2 * kMany);
+  EXPECT_EQ(ids.num_tets(), 4 * kMany);
+  EXPECT_EQ(ids.num_boundary_triangles(), 2 * kMany);
+}
+
+}  // namespace
+}  // namespace tessera::number

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/report.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace tessera::pipeline {
+namespace {
+
+using Json = nlohmann::json;
+
+PieceSummary piece(LocalIndex subdomain, double min_dihedral_deg, double min_mean_ratio)
+{
+  PieceSummary summary;
+  summary.subdomain = subdomain;
+  summary.material = 1;
+  summary.tries = 1;
+  summary.num_tets = 10;
+  summary.volume = 0.25 * (subdomain + 1);
+  summary.boundary_area = 2.0;
+  summary.model_distance = 1e-12 * (subdomain + 1);
+  summary.tets = {10, min_dihedral_deg, 150.0, min_mean_ratio, 8.0};
+  return summary;
+}
+
+RunResult run_of_two_pieces()
+{
+  RunResult run;
+  run.filled.pieces = {piece(0, 20.0, 0.4), piece(1, 8.0, 0.3)};
+  run.filled.histograms.mean_ratio.add(0.8);
+  run.filled.histograms.log2_edge_length.add(std::log2(2.0));
+  run.digests = {{1, 2}, {10, 20}};
+  run.num_tets = 20;
+  run.num_vertices = 11;
+  run.decomposition.decomposition.subdomain_weight = {9.0, 11.0};
+  run.decomposition.decomposition.subdomain_material = {1, 1};
+  run.decomposition.decomposition.neighbour_offsets = {0, 1, 2};
+  run.decomposition.decomposition.neighbours = {1, 0};
+  run.decomposition.decomposition.neighbour_triangles = {4, 4};
+  run.decomposition.decomposition.neighbour_area = {0.5, 0.5};
+  return run;
+}
+
+Json report_of(const RunResult& run)
+{
+  return Json::parse(report_json(run, judge(run), {"shaft.toml", 2, 10.0, 1000}, {}));
+}
+
+TEST(Judge, ARunWithoutTargetsIsOk)
+{
+  const Verdict verdict = judge(run_of_two_pieces());
+  EXPECT_EQ(verdict.exit_code, ExitCode::ok);
+  EXPECT_TRUE(verdict.reasons.empty());
+}
+
+TEST(Judge, TargetsThatAreJustMetAreMet)
+{
+  RunResult run = run_of_two_pieces();
+  run.resolved.quality = {8.0, 0.3};
+  EXPECT_EQ(judge(run).exit_code, ExitCode::ok);
+}
+
+TEST(Judge, EveryMissedTargetIsAReasonWithBothFigures)
+{
+  RunResult run = run_of_two_pieces();
+  run.resolved.quality.min_dihedral_deg = 8.5;
+  ASSERT_EQ(judge(run).reasons.size(), 1U);
+  EXPECT_NE(judge(run).reasons[0].find("dihedral angle 8 deg < wanted 8.5 deg"), std::string::npos);
+
+  run.resolved.quality.min_mean_ratio = 0.35;
+  const Verdict verdict = judge(run);
+  EXPECT_EQ(verdict.exit_code, ExitCode::degraded);
+  ASSERT_EQ(verdict.reasons.size(), 2U);
+  EXPECT_NE(verdict.reasons[1].find("mean ratio 0.3 < wanted 0.35"), std::string::npos);
+}
+
+TEST(Judge, PointsOffTheGeometryDegrade)
+{
+  RunResult run = run_of_two_pieces();
+  run.damping = mesh::Damping(
+      {{{mesh::LatticeCarrier::edge, 1, 0}, 0.5}, {{mesh::LatticeCarrier::edge, 2, 0}, 0.0}});
+  run.filled.pieces[1].damped_distance = 0.125;
+  const Verdict verdict = judge(run);
+  EXPECT_EQ(verdict.exit_code, ExitCode::degraded);
+  ASSERT_EQ(verdict.reasons.size(), 1U);
+  EXPECT_EQ(verdict.reasons[0].find("2 points were kept off the geometry"), 0U);
+  EXPECT_NE(verdict.reasons[0].find("0.125"), std::string::npos);
+}
+
+TEST(Report, SumsAndExtremesAreOverAllPieces)
+{
+  const Json report = report_of(run_of_two_pieces());
+  EXPECT_EQ(report["schema"], 1);
+  EXPECT_EQ(report["status"], "ok");
+  EXPECT_EQ(report["exit_code"], 0);
+  EXPECT_EQ(report["reason"], "");
+  EXPECT_EQ(report["case"], "shaft.toml");
+  EXPECT_EQ(report["num_ranks"], 2);
+  EXPECT_EQ(report["num_subdomains"], 2);
+  EXPECT_EQ(report["num_tets"], 20);
+  EXPECT_EQ(report["num_vertices"], 11);
+  EXPECT_EQ(report["volume"], 0.75);
+  EXPECT_EQ(report["boundary_area"], 4.0);
+  EXPECT_EQ(report["model_distance_max"], 2e-12);
+  EXPECT_EQ(report["tets_per_second"], 2.0);
+  EXPECT_EQ(report["digest"], to_hex({11, 22}));
+  EXPECT_EQ(report["subdomains"][1]["digest"], to_hex({10, 20}));
+  EXPECT_EQ(report["quality"]["min_dihedral_deg"], 8.0);
+  EXPECT_EQ(report["quality"]["mean_ratio"]["min"], 0.3);
+  EXPECT_EQ(report["quality"]["mean_ratio"]["mean"], 0.8);
+  EXPECT_EQ(report["quality"]["mean_ratio"]["histogram"].size(), 20U);
+  EXPECT_NEAR(report["quality"]["edge_length"]["median"].get<double>(), 2.0, 0.02);
+}
+
+TEST(Report, HasEveryKeyOfTheSchema)
+{
+  const Json report = report_of(run_of_two_pieces());
+  for (const char* key : {"schema",
+                          "version",
+                          "status",
+                          "exit_code",
+                          "reason",
+                          "case",
+                          "num_ranks",
+                          "num_subdomains",
+                          "num_tets",
+                          "num_vertices",
+                          "volume",
+                          "boundary_area",
+                          "model_distance_max",
+                          "reproducible",
+                          "digest",
+                          "wall_time_s",
+                          "tets_per_second",
+                          "peak_rss_bytes_max",
+                          "stages",
+                          "quality",
+                          "subdomains",
+                          "libraries"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  for (const char* key : {"id", "material", "tets", "kernel", "tries", "seconds"}) {
+    EXPECT_TRUE(report["subdomains"][0].contains(key)) << key;
+  }
+  for (const char* key : {"netgen", "metis", "vtk", "mpi"}) {
+    EXPECT_FALSE(report["libraries"][key].get<std::string>().empty()) << key;
+  }
+}
+
+TEST(Report, EveryEdgeOfTheGraphStandsOnce)
+{
+  const Json graph = report_of(run_of_two_pieces())["subdomain_graph"];
+  EXPECT_EQ(graph["edges_as_a_b_coarse_triangles_area"], Json::parse("[[0, 1, 4, 0.5]]"));
+}
+
+TEST(Report, SeamFiguresStandOnlyIfThereAreSeamTets)
+{
+  RunResult run = run_of_two_pieces();
+  EXPECT_EQ(report_of(run)["quality"]["seam"], Json::parse(R"({"num_tets": 0})"));
+  run.filled.pieces[0].seam_tets = {4, 12.0, 140.0, 0.5, 3.0};
+  const Json seam = report_of(run)["quality"]["seam"];
+  EXPECT_EQ(seam["num_tets"], 4);
+  EXPECT_EQ(seam["min_dihedral_deg"], 12.0);
+  EXPECT_EQ(seam["mean_ratio"]["mean"], 0.75);
+}
+
+TEST(Report, ATryThatEndedForTimeIsNotReproducible)
+{
+  RunResult run = run_of_two_pieces();
+  EXPECT_EQ(report_of(run)["reproducible"], true);
+  run.filled.pieces[1].was_limited = true;
+  EXPECT_EQ(report_of(run)["reproducible"], false);
+}
+
+TEST(Report, NamesStatusAndReasonsOfADegradedRun)
+{
+  RunResult run = run_of_two_pieces();
+  run.resolved.quality = {30.0, 0.9};
+  const Json report = report_of(run);
+  EXPECT_EQ(report["status"], "degraded");
+  EXPECT_EQ(report["exit_code"], 3);
+  EXPECT_NE(report["reason"].get<std::string>().find("; "), std::string::npos);
+}
+
+// Names in CAD files are in any encoding; they must not cost a finished run.
+TEST(Report, TextThatIsNotUnicodeDoesNoHarm)
+{
+  RunResult run = run_of_two_pieces();
+  run.model.repairs = {"solid W\xE4lle: closed a gap"};
+  run.model.length_unit = "\xB5m";
+  EXPECT_NE(report_of(run)["model"]["repairs"][0].get<std::string>().find("lle"),
+            std::string::npos);
+}
+
+TEST(Report, OfAFailureSaysWhy)
+{
+  const Json report = Json::parse(failure_json(ExitCode::stopped, "stopped \xE4 by a signal",
+                                               {"a.toml", 3, 1.5, 7}, {{"model", 0.5, 0.1, 0.4}}));
+  EXPECT_EQ(report["status"], "stopped");
+  EXPECT_EQ(report["exit_code"], 75);
+  EXPECT_EQ(report["num_ranks"], 3);
+  EXPECT_EQ(report["peak_rss_bytes_max"], 7);
+  EXPECT_EQ(report["stages"][0]["name"], "model");
+  EXPECT_EQ(report["stages"][0]["rank_max_s"], 0.4);
+  EXPECT_NE(report["reason"].get<std::string>().find("by a signal"), std::string::npos);
+  EXPECT_EQ(Json::parse(failure_json(ExitCode::wrong_input, "", {}, {}))["status"], "failed");
+}
+
+}  // namespace
+}  // namespace tessera::pipeline

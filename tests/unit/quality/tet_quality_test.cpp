@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/quality/tet_quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace tessera::quality {
+namespace {
+
+const TetCorners kRegular{{{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}}};
+const TetCorners kCorner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+const TetCorners kKuhn{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}};
+
+double degrees(double cosine) { return std::acos(cosine) * 180.0 / std::numbers::pi; }
+
+template <class Map>
+TetCorners mapped(TetCorners corners, const Map& map)
+{
+  for (Vec3& corner : corners) corner = map(corner);
+  return corners;
+}
+
+TEST(MeanRatio, HasClosedForms)
+{
+  EXPECT_NEAR(mean_ratio(kRegular), 1.0, 1e-15);
+  // 12 (3/6)^(2/3) / (3 * 1 + 3 * 2) and 12 (3/6)^(2/3) / (3 * 1 + 2 * 2 + 3).
+  EXPECT_NEAR(mean_ratio(kCorner), 12.0 / 9.0 * std::pow(0.5, 2.0 / 3.0), 1e-15);
+  EXPECT_NEAR(mean_ratio(kKuhn), 12.0 / 10.0 * std::pow(0.5, 2.0 / 3.0), 1e-15);
+}
+
+TEST(MeanRatio, DoesNotDependOnScaleAndPlace)
+{
+  for (const double scale : {1e-60, 1e-6, 3.0, 1e60}) {
+    const auto moved = mapped(kCorner, [scale](const Vec3& p) {
+      return scale * (p + Vec3{2, 3, 5});
+    });
+    EXPECT_NEAR(mean_ratio(moved), mean_ratio(kCorner), 1e-13) << scale;
+  }
+}
+
+TEST(MeanRatio, DoesNotDependOnAnEvenOrderOfCorners)
+{
+  TetCorners turned{kKuhn[1], kKuhn[2], kKuhn[0], kKuhn[3]};
+  EXPECT_NEAR(mean_ratio(turned), mean_ratio(kKuhn), 1e-15);
+}
+
+TEST(MeanRatio, OfAnInvertedTetIsNegative)
+{
+  TetCorners inverted = kRegular;
+  std::swap(inverted[0], inverted[1]);
+  EXPECT_NEAR(mean_ratio(inverted), -1.0, 1e-15);
+}
+
+TEST(MeanRatio, OfAFlatTetIsZero)
+{
+  EXPECT_EQ(mean_ratio({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}), 0.0);
+  EXPECT_EQ(mean_ratio({{{2, 2, 2}, {2, 2, 2}, {2, 2, 2}, {2, 2, 2}}}), 0.0);
+}
+
+TEST(MeanRatio, FallsWithFlattening)
+{
+  double last = 1.1;
+  for (const double height : {1.0, 0.3, 0.1, 1e-3, 1e-9}) {
+    const auto flat = mapped(kRegular, [height](const Vec3& p) {
+      return Vec3{p[0], p[1], height * p[2]};
+    });
+    EXPECT_LT(mean_ratio(flat), last);
+    EXPECT_GT(mean_ratio(flat), 0.0);
+    last = mean_ratio(flat);
+  }
+}
+
+TEST(DihedralRange, HasClosedForms)
+{
+  const DihedralRange regular = dihedral_range(kRegular);
+  EXPECT_NEAR(regular.min_deg, degrees(1.0 / 3.0), 1e-12);
+  EXPECT_NEAR(regular.max_deg, degrees(1.0 / 3.0), 1e-12);
+  const DihedralRange corner = dihedral_range(kCorner);
+  EXPECT_NEAR(corner.min_deg, degrees(1.0 / std::sqrt(3.0)), 1e-12);
+  EXPECT_NEAR(corner.max_deg, 90.0, 1e-12);
+  const DihedralRange kuhn = dihedral_range(kKuhn);
+  EXPECT_NEAR(kuhn.min_deg, 45.0, 1e-12);
+  EXPECT_NEAR(kuhn.max_deg, 90.0, 1e-12);
+}
+
+// Two triangles that meet along the x axis at a given angle. Where that is the smallest of the
+// tet's six angles the common edge is long, where it is the largest one the edge is short.
+TEST(DihedralRange, FindsTheAngleOfAWedge)
+{
+  for (const double angle : {1.0, 10.0, 30.0, 100.0, 120.0, 179.0}) {
+    const double radians = angle * std::numbers::pi / 180.0;
+    const double half = angle < 90.0 ? 10.0 : 0.01;
+    const DihedralRange found = dihedral_range(
+        {{{-half, 0, 0}, {half, 0, 0}, {0, 1, 0}, {0, std::cos(radians), std::sin(radians)}}});
+    EXPECT_NEAR(angle < 90.0 ? found.min_deg : found.max_deg, angle, 1e-9);
+  }
+}
+
+TEST(DihedralRange, IsThatOfAllSixEdges)
+{
+  TetCorners corners{{{0, 0, 0}, {1.1, 0.2, 0}, {0.3, 0.9, -0.2}, {0.1, 0.4, 0.7}}};
+  const DihedralRange range = dihedral_range(corners);
+  std::array<std::size_t, 4> order{0, 1, 2, 3};
+  do {
+    const DihedralRange other = dihedral_range(
+        {corners[order[0]], corners[order[1]], corners[order[2]], corners[order[3]]});
+    EXPECT_NEAR(other.min_deg, range.min_deg, 1e-12);
+    EXPECT_NEAR(other.max_deg, range.max_deg, 1e-12);
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(DihedralRange, DoesNotDependOnScale)
+{
+  for (const double scale : {1e-60, 1e60}) {
+    const auto scaled = mapped(kCorner, [scale](const Vec3& p) { return scale * p; });
+    EXPECT_NEAR(dihedral_range(scaled).min_deg, dihedral_range(kCorner).min_deg, 1e-12);
+  }
+}
+
+TEST(DihedralRange, OfAFlatTetIsFromZeroToAHalfTurn)
+{
+  const DihedralRange flat = dihedral_range({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}});
+  EXPECT_NEAR(flat.min_deg, 0.0, 1e-6);
+  EXPECT_NEAR(flat.max_deg, 180.0, 1e-6);
+}
+
+TEST(DihedralRange, OfAFaceWithoutAreaIsFromZeroToAHalfTurn)
+{
+  const DihedralRange needle = dihedral_range({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}});
+  EXPECT_EQ(needle.min_deg, 0.0);
+  EXPECT_EQ(needle.max_deg, 180.0);
+}
+
+}  // namespace
+}  // namespace tessera::quality
