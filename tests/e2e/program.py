@@ -2,6 +2,7 @@
 """What the end-to-end tests share: starting the program, tiny models and cases, its processes."""
 import contextlib
 import dataclasses
+import json
 import os
 import pathlib
 import re
@@ -129,6 +130,22 @@ class ProgramTest(unittest.TestCase):
             outcome.err + outcome.out,
             r"terminate called|\*\*\* Process received|MPI_ABORT|Sanitizer|runtime error|internal error",
         )
+
+
+class ResultTest(ProgramTest):
+    """Looks at one result: made once by `make_result(maker)`, copied to `self.out` for each test."""
+
+    @classmethod
+    def setUpClass(cls):
+        maker = ProgramTest()
+        maker.setUp()
+        cls.addClassCleanup(maker.doCleanups)
+        cls.result = cls.make_result(maker)
+
+    def setUp(self):
+        super().setUp()
+        self.out = shutil.copytree(self.result, self.folder / "out")
+        self.report = json.loads((self.out / "report.json").read_text())
 
 
 def wait_until(condition, what, within_s=HANG_S):
