@@ -103,7 +103,7 @@ FilledPiece fill_subdomain(const FillContext& context, LocalIndex subdomain,
 
   fill::FillInput input{.vertex_xyz = skin.vertex_xyz, .triangle_vertices = skin.triangle_vertices};
   fill::add_size_samples(context.refine.coarse, context.decomposition, subdomain,
-                         context.refine.levels, input);
+                         context.vertex_size, context.refine.levels, input);
   fill::FillOutput tets = kernel.fill(input, settings);
   const fill::FillFacts facts = fill::check_fill(input, tets);
 

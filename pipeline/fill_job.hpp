@@ -16,7 +16,8 @@ namespace tessera::pipeline {
 struct FillContext {
   const refine::RefineContext& refine;
   const mesh::Decomposition& decomposition;
-  const std::vector<char>& seam_units;  ///< mesh::units_on_seams().
+  const std::vector<char>& seam_units;     ///< mesh::units_on_seams().
+  const std::vector<double>& vertex_size;  ///< fill::vertex_sizes().
 };
 
 /// @brief A piece and what the run keeps of it.

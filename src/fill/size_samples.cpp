@@ -5,42 +5,72 @@
 #include <cmath>
 
 #include "tessera/base/vec3.hpp"
+#include "tessera/mesh/lattice.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::fill {
 namespace {
 
-// Barycentric weights of the sample points of one coarse tet: its middle, and halfway to each
-// corner.
-constexpr std::array<std::array<double, 4>, 5> kSampleWeights{{{0.25, 0.25, 0.25, 0.25},
-                                                               {0.625, 0.125, 0.125, 0.125},
-                                                               {0.125, 0.625, 0.125, 0.125},
-                                                               {0.125, 0.125, 0.625, 0.125},
-                                                               {0.125, 0.125, 0.125, 0.625}}};
+std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
 
-double mean_edge_length(const std::array<Vec3, 4>& corners)
+// Calls visit(weights) for the barycentric middle of each upright child of an n-fold split tet.
+template <class Visit>
+void for_each_sample(LocalIndex n, Visit&& visit)
 {
-  double sum = 0.0;
-  for (const auto& [a, b] : mesh::kTetEdgeCorners) sum += norm(corners[b] - corners[a]);
-  return sum / 6.0;
+  const double width = 1.0 / n;
+  for (LocalIndex k = 0; k < n; ++k) {
+    for (LocalIndex j = 0; j + k < n; ++j) {
+      for (LocalIndex i = 0; i + j + k < n; ++i) {
+        const std::array<LocalIndex, 4> corner{n - 1 - i - j - k, i, j, k};
+        std::array<double, 4> weights;
+        for (std::size_t c = 0; c < 4; ++c) weights[c] = width * (corner[c] + 0.25);
+        visit(weights);
+      }
+    }
+  }
 }
 
 }  // namespace
 
-void add_size_samples(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
-                      LocalIndex subdomain, int levels, FillInput& input)
+std::vector<double> vertex_sizes(const mesh::CoarseMesh& coarse)
 {
+  std::vector<double> sum(at(coarse.num_vertices()), 0.0);
+  std::vector<double> count(sum.size(), 0.0);
+  // An edge counts once for every tet around it: the tets' sizes are what is averaged.
   for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
-    if (decomposition.tet_subdomain[static_cast<std::size_t>(t)] != subdomain) continue;
-    std::array<Vec3, 4> corners;
-    for (std::size_t c = 0; c < 4; ++c) corners[c] = coarse.position(coarse.tet(t)[c]);
-    const double size = std::ldexp(mean_edge_length(corners), -levels);
-    for (const auto& weights : kSampleWeights) {
-      Vec3 point{};
-      for (std::size_t c = 0; c < 4; ++c) point = point + weights[c] * corners[c];
-      input.size_xyz.insert(input.size_xyz.end(), point.begin(), point.end());
-      input.size_h.push_back(size);
+    const auto tet = coarse.tet(t);
+    for (const auto& [a, b] : mesh::kTetEdgeCorners) {
+      const double length = norm(coarse.position(tet[b]) - coarse.position(tet[a]));
+      for (const LocalIndex v : {tet[a], tet[b]}) {
+        sum[at(v)] += length;
+        count[at(v)] += 1.0;
+      }
     }
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v) {
+    if (count[v] > 0.0) sum[v] /= count[v];
+  }
+  return sum;
+}
+
+void add_size_samples(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
+                      LocalIndex subdomain, const std::vector<double>& vertex_size, int levels,
+                      FillInput& input)
+{
+  const LocalIndex n = mesh::lattice::intervals(levels);
+  for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
+    if (decomposition.tet_subdomain[at(t)] != subdomain) continue;
+    const auto tet = coarse.tet(t);
+    for_each_sample(n, [&](const std::array<double, 4>& weights) {
+      Vec3 point{};
+      double size = 0.0;
+      for (std::size_t c = 0; c < 4; ++c) {
+        point = point + weights[c] * coarse.position(tet[c]);
+        size += weights[c] * vertex_size[at(tet[c])];
+      }
+      input.size_xyz.insert(input.size_xyz.end(), point.begin(), point.end());
+      input.size_h.push_back(std::ldexp(size, -levels));
+    });
   }
 }
 

@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "tessera/fill/kernel.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/decomposition.hpp"
 
 namespace tessera::fill {
 
-/// @brief Puts the background size into a fill: at the middle of every coarse tet of the subdomain
-/// and of its four corners' connections, the mean length of the tet's edges divided by 2^levels.
+/// @brief The coarse mesh's own size field: at every vertex the mean length of the edges that meet
+/// there. Shape (num_vertices), output length unit; 0 at unused vertices. Local.
+[[nodiscard]] std::vector<double> vertex_sizes(const mesh::CoarseMesh& coarse);
+
+/// @brief Puts the background size into a fill: samples about one wanted edge apart in every coarse
+/// tet of the subdomain, each with the interpolated vertex size divided by 2^levels.
 ///
 /// Without it NETGEN grows the tets inside a skin by grading alone, and the result depends on how
-/// many skins there are: 11.8 k tets with 1 and 38.1 k with 32 (circle_on_cube, 2 levels).
+/// many skins there are: 11.8 k tets with 1 and 38.1 k with 32 (circle_on_cube, 2 levels). Sizes
+/// are interpolated because NETGEN takes the smallest of neighbouring samples: with one size a tet
+/// the smallest tets around would decide everywhere.
+/// @param[in] vertex_size vertex_sizes() of the mesh.
 /// @note Local.
 void add_size_samples(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
-                      LocalIndex subdomain, int levels, FillInput& input);
+                      LocalIndex subdomain, const std::vector<double>& vertex_size, int levels,
+                      FillInput& input);
 
 }  // namespace tessera::fill
