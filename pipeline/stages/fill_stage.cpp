@@ -105,7 +105,7 @@ class Filler {
         keep(result);
         return;
       }
-      if (outcome.status == jobs::JobStatus::cancelled) throw Interrupted("stopped by a signal");
+      throw_if_cancelled(outcome);
       if (outcome.error == jobs::ErrorKind::output) throw OutputError(outcome.message);
       was_limited = was_limited || depends_on_machine(outcome);
       failures += "\n  try " + std::to_string(tries) + ": " + outcome.message;

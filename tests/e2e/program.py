@@ -125,7 +125,6 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(len(outcome.messages), 1, outcome.err)
         for word in words:
             self.assertIn(str(word), outcome.messages[0])
-        self.assertEqual(outcome.messages[0].count(str(words[0])), 1, "said more than once")
         self.assertNotRegex(
             outcome.err + outcome.out,
             r"terminate called|\*\*\* Process received|MPI_ABORT|Sanitizer|runtime error|internal error",
