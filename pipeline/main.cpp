@@ -66,6 +66,7 @@ ExitCode run_guarded(int argc, char** argv, const comm::Communicator& comm, jobs
 int main(int argc, char** argv)
 {
   using namespace tessera;
+  pipeline::ignore_file_size_signal();
   // Before MPI starts: MPI must not be in the processes that jobs are forked from.
   jobs::JobRunner jobs(pipeline::make_mesh_worker);
   const comm::Environment mpi(argc, argv);

@@ -8,6 +8,11 @@
 #include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
+namespace {
+
+constexpr const char* kStopped = "stopped by a signal";
+
+}  // namespace
 
 StageScope::StageScope(RunContext& context, std::string name, std::int64_t total,
                        const std::string& unit)
@@ -36,10 +41,15 @@ jobs::JobRunner::WaitCallback wait_for_stop_signal()
   return [] { return !stop_requested(); };
 }
 
+void throw_if_cancelled(const jobs::JobOutcome& outcome)
+{
+  if (outcome.status == jobs::JobStatus::cancelled) throw Interrupted(kStopped);
+}
+
 void throw_if_stopped(const comm::Communicator& comm)
 {
   std::optional<std::string> stopped;
-  if (stop_requested()) stopped = "stopped by a signal";
+  if (stop_requested()) stopped = kStopped;
   comm.throw_if_any<Interrupted>(stopped);
 }
 

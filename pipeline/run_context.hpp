@@ -55,6 +55,9 @@ class StageScope {
 /// @brief Callback for jobs that one rank runs while the others wait: cancels on a stop signal.
 [[nodiscard]] jobs::JobRunner::WaitCallback wait_for_stop_signal();
 
+/// @brief Throws Interrupted if the outcome says that the callback cancelled the job. Local.
+void throw_if_cancelled(const jobs::JobOutcome& outcome);
+
 /// @brief Throws Interrupted on all ranks if a stop signal came to any. @note Collective.
 void throw_if_stopped(const comm::Communicator& comm);
 

@@ -25,6 +25,8 @@ void catch_stop_signals()
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, note_stop);
 }
 
+void ignore_file_size_signal() { std::signal(SIGXFSZ, SIG_IGN); }
+
 bool stop_requested() { return stop_flag != 0; }
 
 }  // namespace tessera::pipeline

@@ -29,9 +29,9 @@ CoarseResult climb(const config::Case& run_case, RunContext& context)
       result.options = options;
       return result;
     }
-    const bool is_final = outcome.status == jobs::JobStatus::cancelled
-                          || outcome.error == jobs::ErrorKind::geometry
-                          || outcome.error == jobs::ErrorKind::input;
+    throw_if_cancelled(outcome);
+    const bool is_final =
+        outcome.error == jobs::ErrorKind::geometry || outcome.error == jobs::ErrorKind::input;
     if (is_final) jobs::throw_unless_ok(outcome, run_case.geometry.file.string());
     context.log.warn("coarse: try {} with max_size {} failed: {}", result.tries, options.max_size,
                      outcome.message);

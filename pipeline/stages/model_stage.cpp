@@ -16,6 +16,7 @@ constexpr jobs::JobLimits kModelLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_
 void throw_unless_read(const jobs::JobOutcome& outcome, const std::filesystem::path& file)
 {
   using jobs::JobStatus;
+  throw_if_cancelled(outcome);
   if (outcome.status == JobStatus::crashed || outcome.status == JobStatus::exited
       || outcome.status == JobStatus::out_of_time || outcome.status == JobStatus::stalled
       || outcome.status == JobStatus::out_of_memory) {

@@ -56,7 +56,9 @@ Failure to_failure(std::span<const std::byte> bytes)
 void throw_unless_ok(const JobOutcome& outcome, const std::string& what)
 {
   if (outcome.status == JobStatus::ok) return;
-  const std::string text = what + ": " + outcome.message;
+  // Readers name the file themselves.
+  const std::string text =
+      outcome.message.starts_with(what) ? outcome.message : what + ": " + outcome.message;
   if (outcome.status == JobStatus::cancelled) throw Interrupted(text);
   if (outcome.status != JobStatus::failed) throw NetgenError(text);
   switch (outcome.error) {

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the end-to-end tests share: starting the program, tiny models and cases, its processes."""
+import contextlib
+import dataclasses
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.environ["TESSERA_PROGRAM"]
+MPIEXEC = os.environ["TESSERA_MPIEXEC"]
+CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
+
+# Runs here take seconds; one that takes this long, also on a busy machine, hangs.
+HANG_S = 90.0
+
+# Exit codes of the program.
+OK, FAILED, DEGRADED, WRONG_INPUT, INTERNAL, CANNOT_WRITE, STOPPED = 0, 2, 3, 64, 70, 73, 75
+
+BALL = "algebraic3d\nsolid ball = sphere (0, 0, 0; 1);\ntlo ball;\n"
+
+CUBE_CORNERS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+CUBE_TRIANGLES = [  # Rows of CUBE_CORNERS, normals outwards.
+    (0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4),
+    (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5),
+]  # fmt: skip
+
+
+def stl_text(triangles, corners=CUBE_CORNERS):
+    """An ASCII STL file of triangles given by rows of `corners`."""
+    facets = (
+        "facet normal 0 0 0\nouter loop\n"
+        + "".join("vertex {} {} {}\n".format(*corners[c]) for c in triangle)
+        + "endloop\nendfacet\n"
+        for triangle in triangles
+    )
+    return "solid model\n" + "".join(facets) + "endsolid model\n"
+
+
+@dataclasses.dataclass
+class Outcome:
+    """How the program ended."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def messages(self):
+        """What the program itself, not mpirun, said on standard error: one text a message."""
+        return re.findall(r"^tessera: .*(?:\n  .*)*", self.err, re.MULTILINE)
+
+
+def command_line(arguments, ranks):
+    """`ranks` None: the bare program, without mpirun."""
+    start = [] if ranks is None else [MPIEXEC, "-n", str(ranks)]
+    return [*start, PROGRAM, *map(str, arguments)]
+
+
+class ProgramTest(unittest.TestCase):
+    """A test with a folder of its own that runs the program in it."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tessera_e2e_"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def write(self, name, content):
+        """Writes a text or bytes into the folder."""
+        file = self.folder / name
+        file.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return file
+
+    def write_case(self, name="case.toml", geometry="ball.geo", max_size=0.7, subdomains=4, levels=1):
+        """A case of a second or two; ball.geo is made if the case names it."""
+        if geometry == "ball.geo":
+            self.write(geometry, BALL)
+        return self.write(
+            name,
+            f"geometry.file = '{geometry}'\ncoarse.max_size = {max_size}\n"
+            f"decompose.subdomains = {subdomains}\nrefine.levels = {levels}\n",
+        )
+
+    def start(self, *arguments, ranks=None, **options):
+        """Starts the program in the folder; what it leaves running ends with the test."""
+        process = subprocess.Popen(
+            command_line(arguments, ranks),
+            cwd=self.folder,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            **options,
+        )
+        self.addCleanup(end_tree, process)
+        return process
+
+    def finish(self, process, within_s=HANG_S):
+        """Waits for a started program; one that takes longer fails the test."""
+        try:
+            out, err = process.communicate(timeout=within_s)
+        except subprocess.TimeoutExpired:
+            self.fail(f"{process.args} has not ended after {within_s} s")
+        return Outcome(process.returncode, out, err)
+
+    def run_program(self, *arguments, ranks=None, **options):
+        return self.finish(self.start(*arguments, ranks=ranks, **options))
+
+    def mesh(self, case, output, *arguments, ranks=None, **options):
+        """Runs a case that must end well; its folder."""
+        outcome = self.run_program(
+            "mesh", case, "--output", output, "--progress", "never", *arguments, ranks=ranks, **options
+        )
+        self.assertEqual(outcome.code, OK, outcome.err)
+        return self.folder / output
+
+    def assert_refused(self, outcome, code, *words):
+        """Ended with `code` and one message that holds `words`, and nothing like a crash."""
+        self.assertEqual(outcome.code, code, outcome.err + outcome.out)
+        self.assertEqual(len(outcome.messages), 1, outcome.err)
+        for word in words:
+            self.assertIn(str(word), outcome.messages[0])
+        self.assertNotRegex(
+            outcome.err + outcome.out,
+            r"terminate called|\*\*\* Process received|MPI_ABORT|Sanitizer|runtime error|internal error",
+        )
+
+
+class ResultTest(ProgramTest):
+    """Looks at one result: made once by `make_result(maker)`, copied to `self.out` for each test."""
+
+    @classmethod
+    def setUpClass(cls):
+        maker = ProgramTest()
+        maker.setUp()
+        cls.addClassCleanup(maker.doCleanups)
+        cls.result = cls.make_result(maker)
+
+    def setUp(self):
+        super().setUp()
+        self.out = shutil.copytree(self.result, self.folder / "out")
+        self.report = json.loads((self.out / "report.json").read_text())
+
+
+def wait_until(condition, what, within_s=HANG_S):
+    """The first true value of `condition`, polled."""
+    end = time.monotonic() + within_s
+    while time.monotonic() < end:
+        if value := condition():
+            return value
+        time.sleep(0.01)
+    raise AssertionError(f"waited {within_s} s in vain: {what}")
+
+
+def is_running(pid):
+    """Not gone, and no zombie that only waits for its parent."""
+    return (stat := _stat(pid)) is not None and stat[0] not in "ZX"
+
+
+def children(pid):
+    """Processes started by `pid`, in the order of their numbers."""
+    numbers = sorted(int(entry) for entry in os.listdir("/proc") if entry.isdigit())
+    return [child for child in numbers if (stat := _stat(child)) and int(stat[1]) == pid]
+
+
+def descendants(pid):
+    """All processes that come from `pid`, itself not included."""
+    found = []
+    for child in children(pid):
+        found += [child, *descendants(child)]
+    return found
+
+
+def is_program(pid):
+    """Whether a process is the program: a rank or one that it forked."""
+    with contextlib.suppress(OSError):
+        return os.path.samefile(f"/proc/{pid}/exe", PROGRAM)
+    return False
+
+
+def program_children(pid):
+    return [child for child in children(pid) if is_program(child)]
+
+
+def ranks_of(process):
+    """The rank processes under mpirun."""
+    return program_children(process.pid)
+
+
+def chain_of(rank):
+    """Zygote, model zygote and job below a rank process: as many of them as there are."""
+    chain = []
+    while below := program_children(chain[-1] if chain else rank):
+        chain.append(below[0])
+    return chain
+
+
+def end_tree(process):
+    """Ends a program and everything it started."""
+    for pid in descendants(process.pid):
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+    if process.poll() is None:
+        process.kill()
+    process.wait()
+    for stream in (process.stdout, process.stderr):
+        if stream:
+            stream.close()
+
+
+def _stat(pid):
+    """State and parent of a process, and what follows; None if it is gone."""
+    try:
+        with open(f"/proc/{pid}/stat", encoding="utf-8", errors="replace") as stat:
+            return stat.read().rpartition(")")[2].split()
+    except OSError:
+        return None
