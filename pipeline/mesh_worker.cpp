@@ -11,6 +11,7 @@
 #include "tessera/model/scaled_model.hpp"
 #include "tessera/netgen/factory.hpp"
 #include "tessera/plan/fold_test.hpp"
+#include "tessera/refine/skin.hpp"
 
 #include "pipeline/fill_job.hpp"
 
@@ -106,9 +107,13 @@ class MeshWorker final : public jobs::Worker {
     const mesh::Damping damping = mesh::damping_from_bytes(in.get_vector<std::byte>());
     const mesh::TetComplex complex = mesh::tet_complex(
         coarse_, skeleton_, plan::tets_on_geometry(coarse_, skeleton_, decomposition_, subdomain));
-    const mesh::RefinedLattice lattice =
-        refine::refine_lattice(complex.faces, refine_context(damping));
-    return mesh::to_bytes(mesh::Damping(plan::find_folds(complex, skeleton_, lattice, damping)));
+    const refine::RefineContext context = refine_context(damping);
+    const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, context);
+    std::vector<mesh::PointDamping> folds = plan::find_folds(complex, skeleton_, lattice, damping);
+    // Bad children do not matter to a kernel that meshes anew, as long as the skin is sound: points
+    // are kept off the geometry only where it is not.
+    if (!folds.empty() && !netgen::skin_overlaps(fill_input(context, subdomain))) folds.clear();
+    return mesh::to_bytes(mesh::Damping(std::move(folds)));
   }
 
   Bytes fill(ByteReader& in)
@@ -118,10 +123,20 @@ class MeshWorker final : public jobs::Worker {
     const auto kernel = netgen::make_fill_kernel();
     refine::RefineContext context = refine_context(damping_);
     context.measure_distance = true;
-    FilledPiece filled =
-        fill_subdomain({context, decomposition_, seam_units_, vertex_size_}, subdomain, *kernel, settings);
+    FilledPiece filled = fill_subdomain({context, decomposition_, seam_units_, vertex_size_},
+                                        subdomain, *kernel, settings);
     io::PieceStore(piece_folder_).put(subdomain, mesh::to_bytes(filled.piece));
     return to_bytes(filled.result);
+  }
+
+  [[nodiscard]] fill::FillInput fill_input(const refine::RefineContext& context,
+                                           LocalIndex subdomain) const
+  {
+    const mesh::Complex complex = mesh::skin_complex(skeleton_, subdomain);
+    mesh::Skin skin = refine::extract_skin(complex, refine::refine_lattice(complex, context),
+                                           skeleton_, subdomain);
+    return {.vertex_xyz = std::move(skin.vertex_xyz),
+            .triangle_vertices = std::move(skin.triangle_vertices)};
   }
 
   [[nodiscard]] refine::RefineContext refine_context(const mesh::Damping& damping) const

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cstdint>
-#include <numeric>
 #include <string>
 
 #include <meshing.hpp>
@@ -12,6 +10,7 @@
 
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
+#include "netgen/skin_mesh.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -43,50 +42,6 @@ constexpr double kCellTolerance = 1.2;
 // Interior points keep this part of a skin triangle's diameter off it. NETGEN's own 0.1 gave on the
 // same skins the same quality and more long edges next to the skin (99.2 % below 1.6).
 constexpr double kDistanceFromSkin = 0.05;
-
-// Order in which NETGEN gets the skin's vertices: entry i is the vertex that comes as number i.
-std::vector<LocalIndex> point_order(LocalIndex num_vertices, unsigned seed)
-{
-  std::vector<LocalIndex> order(static_cast<std::size_t>(num_vertices));
-  std::iota(order.begin(), order.end(), 0);
-  if (seed == 0) return order;
-  // Own shuffle and generator: those of the standard library differ between its makers.
-  std::uint64_t state = seed;
-  for (std::size_t left = order.size(); left > 1; --left) {
-    state = state * 6364136223846793005U + 1442695040888963407U;
-    std::swap(order[left - 1], order[static_cast<std::size_t>((state >> 33) % left)]);
-  }
-  return order;
-}
-
-std::vector<LocalIndex> inverse(const std::vector<LocalIndex>& order)
-{
-  std::vector<LocalIndex> place(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    place[static_cast<std::size_t>(order[i])] = static_cast<LocalIndex>(i);
-  }
-  return place;
-}
-
-::netgen::Point3d to_netgen(const Vec3& p) { return {p[0], p[1], p[2]}; }
-
-void add_skin(::netgen::Mesh& mesh, const FillInput& input, const std::vector<LocalIndex>& order)
-{
-  for (const LocalIndex v : order) {
-    mesh.AddPoint(to_netgen(point_at(std::span(input.vertex_xyz), v)));
-  }
-  mesh.AddFaceDescriptor(
-      ::netgen::FaceDescriptor(1, 1, 0, 0));  // Domain 1 inside, nothing outside.
-  const std::vector<LocalIndex> place = inverse(order);
-  const auto number = [&](std::size_t at) {
-    return place[static_cast<std::size_t>(input.triangle_vertices[at])] + PointIndex::BASE;
-  };
-  for (std::size_t t = 0; t < input.triangle_vertices.size(); t += 3) {
-    ::netgen::Element2d triangle(number(t), number(t + 1), number(t + 2));
-    triangle.SetIndex(1);
-    mesh.AddSurfaceElement(triangle);
-  }
-}
 
 // The largest cell that is not split where `size` is the wanted edge length.
 double largest_cell(double size) { return kCellTolerance * kPointSpacing * size; }

@@ -21,4 +21,15 @@ mesh::Decomposition slabs(const mesh::CoarseMesh& coarse, int slabs_a_material)
   return decomposition;
 }
 
+mesh::Decomposition one_subdomain_a_material(const mesh::CoarseMesh& coarse)
+{
+  mesh::Decomposition decomposition;
+  for (LocalIndex m = 1; m <= coarse.num_materials(); ++m) {
+    decomposition.subdomain_material.push_back(m);
+    decomposition.subdomain_weight.push_back(1.0);
+  }
+  for (const LocalIndex m : coarse.tet_material) decomposition.tet_subdomain.push_back(m - 1);
+  return decomposition;
+}
+
 }  // namespace tessera::testing

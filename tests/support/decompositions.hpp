@@ -11,4 +11,7 @@ namespace tessera::testing {
 /// @pre the mesh is a cube of tests/support/meshes.hpp whose n is a multiple of slabs_a_material.
 [[nodiscard]] mesh::Decomposition slabs(const mesh::CoarseMesh& coarse, int slabs_a_material);
 
+/// @brief Every material is one subdomain. Without the graph.
+[[nodiscard]] mesh::Decomposition one_subdomain_a_material(const mesh::CoarseMesh& coarse);
+
 }  // namespace tessera::testing

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <meshing.hpp>
+
+#include "tessera/netgen/factory.hpp"
+
+#include "netgen/netgen_session.hpp"
+#include "netgen/skin_mesh.hpp"
+
+namespace tessera::netgen {
+
+bool skin_overlaps(const fill::FillInput& skin)
+{
+  NetgenSession session{::netgen::MeshingParameters()};
+  return session.run("overlap test", [&] {
+    ::netgen::Mesh mesh;
+    add_skin(mesh, skin, point_order(static_cast<LocalIndex>(skin.vertex_xyz.size() / 3), 0));
+    mesh.FindOpenElements();
+    return mesh.CheckOverlappingBoundary() != 0;
+  });
+}
+
+}  // namespace tessera::netgen
