@@ -17,7 +17,7 @@ struct WriteContext {
   const mesh::CoarseMesh& coarse;
   const mesh::Skeleton& skeleton;
   const number::IdLayout& ids;
-  const std::string& length_unit;
+  const std::string& length_unit;  ///< Of the output; empty if nobody knows it.
 };
 
 /// @brief What the files of one piece hold.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/run_pipeline.hpp"
 
+#include <string>
+
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/mesh/skeleton.hpp"
 
@@ -22,6 +24,12 @@ number::IdLayout number_pieces(const mesh::Skeleton& skeleton, int levels,
     counts.push_back({piece.num_interior_vertices, piece.num_tets, piece.num_boundary});
   }
   return {mesh::UnitLayout(skeleton), mesh::lattice::intervals(levels), counts};
+}
+
+// Of a scaled mesh only the user knows the unit.
+std::string output_length_unit(const RunResult& run)
+{
+  return run.resolved.geometry.scale == 1.0 ? run.model.length_unit : std::string{};
 }
 
 }  // namespace
@@ -48,8 +56,9 @@ RunResult run_pipeline(const config::Case& given, RunContext& context)
   const number::IdLayout ids =
       number_pieces(skeleton, run.resolved.refine.levels, run.filled.pieces);
   run_verify_stage(coarse, decomposition, skeleton, run.filled, context);
+  const std::string length_unit = output_length_unit(run);
   run.digests = run_write_stage(run.resolved, run.filled.pieces,
-                                {coarse, skeleton, ids, run.model.length_unit}, context);
+                                {coarse, skeleton, ids, length_unit}, context);
   run.num_vertices = ids.num_vertices();
   run.num_tets = ids.num_tets();
   return run;

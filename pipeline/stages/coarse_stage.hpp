@@ -15,8 +15,9 @@ struct CoarseResult {
   int tries = 0;                    ///< Rungs of the ladder that were needed, from 1.
 };
 
-/// @brief The tries at a coarse mesh, best first: as asked, then finer, flatter in grading, coarser
-/// in curvature; a mesh that fails at one size often works at another.
+/// @brief The tries at a coarse mesh, best first: as asked, then with smaller sizes that grow more
+/// slowly, then with more elements on curved surfaces; a mesh that fails at one size often works at
+/// another.
 [[nodiscard]] std::vector<coarse::CoarseOptions> coarse_ladder(const coarse::CoarseOptions& asked);
 
 /// @brief Makes the coarse mesh in jobs of rank 0 and gives it to all ranks.

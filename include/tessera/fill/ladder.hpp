@@ -9,7 +9,8 @@
 namespace tessera::fill {
 
 /// @brief The tries of one subdomain, best first: as asked; the same with another order of points
-/// (an inner cavity or a bad start can depend on it); relaxed grading with little optimisation.
+/// (an inner cavity or a bad start can depend on it); relaxed grading with little optimisation,
+/// twice with different orders of points.
 [[nodiscard]] std::vector<FillTry> retry_ladder(const FillOptions& options);
 
 }  // namespace tessera::fill
