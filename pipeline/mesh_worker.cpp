@@ -120,11 +120,15 @@ class MeshWorker final : public jobs::Worker {
   {
     const auto subdomain = in.get<LocalIndex>();
     const auto settings = in.get<fill::FillTry>();
+    const auto angle_to_beat_deg = in.get<double>();
     const auto kernel = netgen::make_fill_kernel();
     refine::RefineContext context = refine_context(damping_);
     context.measure_distance = true;
     FilledPiece filled = fill_subdomain({context, decomposition_, seam_units_, vertex_size_},
                                         subdomain, *kernel, settings);
+    if (filled.result.summary.tets.min_dihedral_deg <= angle_to_beat_deg) {
+      throw MeshError("the fill is not better than the one before");
+    }
     io::PieceStore(piece_folder_).put(subdomain, mesh::to_bytes(filled.piece));
     return to_bytes(filled.result);
   }
@@ -204,9 +208,9 @@ Bytes plan_request(LocalIndex subdomain, const mesh::Damping& damping)
   return message(Message::plan, subdomain, mesh::to_bytes(damping));
 }
 
-Bytes fill_request(LocalIndex subdomain, const fill::FillTry& settings)
+Bytes fill_request(LocalIndex subdomain, const fill::FillTry& settings, double angle_to_beat_deg)
 {
-  return message(Message::fill, subdomain, settings);
+  return message(Message::fill, subdomain, settings, angle_to_beat_deg);
 }
 
 }  // namespace tessera::pipeline

@@ -47,7 +47,9 @@ namespace tessera::pipeline {
 [[nodiscard]] Bytes plan_request(LocalIndex subdomain, const mesh::Damping& damping);
 
 /// @brief run: refines, fills and checks one subdomain and stores the piece; result: bytes of a
-/// FillResult. Needs model, mesh and plan.
-[[nodiscard]] Bytes fill_request(LocalIndex subdomain, const fill::FillTry& settings);
+/// FillResult. A piece whose smallest dihedral angle does not beat `angle_to_beat_deg` is an error
+/// and leaves the store as it was. Needs model, mesh and plan.
+[[nodiscard]] Bytes fill_request(LocalIndex subdomain, const fill::FillTry& settings,
+                                 double angle_to_beat_deg);
 
 }  // namespace tessera::pipeline
