@@ -14,7 +14,7 @@ ExitCode exit_code_of(const std::exception& error)
   if (is(static_cast<const InputError*>(nullptr))) return ExitCode::wrong_input;
   if (is(static_cast<const MeshError*>(nullptr))) return ExitCode::failed;
   if (is(static_cast<const OutputError*>(nullptr))) return ExitCode::cannot_write;
-  // The program calls the throwing functions of <filesystem> only to make folders.
+  // Thrown where folders are made: permission, disk full.
   if (is(static_cast<const std::filesystem::filesystem_error*>(nullptr))) {
     return ExitCode::cannot_write;
   }

@@ -75,11 +75,10 @@ ClosedForm cylinder()
     return std::min(std::abs(p[2]), std::abs(p[2] - height));
   };
   return {"cylinder",
-          "algebraic3d\nsolid body = cylinder (0, 0, 0; 0, 0, 20; 5)\n"
-          "  and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 20; 0, 0, 1);\ntlo body;\n",
-          5.0,
-          kPi * radius * radius * height,
-          std::hypot(2.0 * radius, 2.0 * radius, height),
+          // Planes first: their triangles come first at the rims, and only the curves say "circle".
+          "algebraic3d\nsolid body = plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 20; 0, 0, 1)\n"
+          "  and cylinder (0, 0, 0; 0, 0, 20; 5);\ntlo body;\n",
+          5.0, kPi * radius * radius * height, std::hypot(2.0 * radius, 2.0 * radius, height),
           [=](const Vec3& p) { return std::min(from_mantle(p), from_ends(p)); },
           [=](const Vec3& p) { return std::max(from_mantle(p), from_ends(p)); }};
 }

@@ -17,10 +17,10 @@ namespace tessera::testing {
 /// @brief Fills one subdomain of a body on a flat model, with NETGEN.
 [[nodiscard]] pipeline::FilledPiece fill_of(const Body& body, int levels, LocalIndex subdomain);
 
-/// @brief two_material_cube(2) in four slabs, refined once, filled with NETGEN and numbered, as the
-/// stages of the program do it. The pieces are made once for all tests.
+/// @brief two_material_cube(2) in four slabs, refined twice, filled with NETGEN and numbered, as
+/// the stages of the program do it. The pieces are made once for all tests.
 struct FilledCube : ::testing::Test {
-  static constexpr int kLevels = 1;
+  static constexpr int kLevels = 2;  ///< Triangles have inner points from 2 on.
 
   static void SetUpTestSuite();
   static void TearDownTestSuite();
