@@ -51,8 +51,9 @@ void refine_skin(benchmark::State& state, const Subject& subject, const model::M
   for (auto _ : state) {
     benchmark::DoNotOptimize(refine::refine_lattice(subject.skin, context));
   }
-  state.counters["points/s"] = benchmark::Counter(
-      num_points(subject.skin) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["points/s"] =
+      benchmark::Counter(num_points(subject.skin) * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate);
 }
 
 }  // namespace
@@ -76,8 +77,9 @@ int main(int argc, char** argv)
     const std::string file = argument.substr(0, equals);
     subjects.push_back(std::make_unique<Subject>(file, std::stod(argument.substr(equals + 1))));
     const Subject& subject = *subjects.back();
-    benchmark::RegisterBenchmark((file + "/projected").c_str(),
-                                 [&](benchmark::State& s) { refine_skin(s, subject, *subject.model); });
+    benchmark::RegisterBenchmark((file + "/projected").c_str(), [&](benchmark::State& s) {
+      refine_skin(s, subject, *subject.model);
+    });
     benchmark::RegisterBenchmark((file + "/flat").c_str(),
                                  [&](benchmark::State& s) { refine_skin(s, subject, flat); });
   }

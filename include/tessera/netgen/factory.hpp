@@ -29,7 +29,8 @@ namespace tessera::netgen {
 /// @brief NETGEN's volume mesher as a fill kernel.
 [[nodiscard]] std::unique_ptr<fill::Kernel> make_fill_kernel();
 
-/// @brief Whether triangles of a skin that share no edge cut each other: NETGEN cannot fill it then.
+/// @brief Whether triangles of a skin that share no edge cut each other: NETGEN cannot fill it
+/// then.
 /// @note Local.
 [[nodiscard]] bool skin_overlaps(const fill::FillInput& skin);
 
