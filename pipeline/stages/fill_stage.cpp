@@ -136,6 +136,8 @@ class Filler {
   {
     jobs::JobOutcome outcome = context_.jobs.run(request, limits, on_wait);
     if (!was_killed_from_outside(outcome)) return outcome;
+    context_.progress.clear();
+    context_.log.warn("fill: subdomain {} is filled again: {}", subdomain, outcome.message);
     return context_.jobs.run(request, limits, on_wait);
   }
 

@@ -94,7 +94,6 @@ class ProgramTest(unittest.TestCase):
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
-            text=True,
             **options,
         )
         self.addCleanup(end_tree, process)
@@ -106,7 +105,8 @@ class ProgramTest(unittest.TestCase):
             out, err = process.communicate(timeout=within_s)
         except subprocess.TimeoutExpired:
             self.fail(f"{process.args} has not ended after {within_s} s")
-        return Outcome(process.returncode, out, err)
+        # Not the text mode of subprocess, which makes line feeds of carriage returns.
+        return Outcome(process.returncode, out.decode(), err.decode())
 
     def run_program(self, *arguments, ranks=None, **options):
         return self.finish(self.start(*arguments, ranks=ranks, **options))

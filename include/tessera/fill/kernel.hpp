@@ -19,7 +19,7 @@ struct FillInput {
 /// @brief Settings of one try; the ladder of tries is made of these.
 struct FillTry {
   double grading = 0.3;           ///< Growth of the size away from the skin, in (0, 1].
-  int optimize_steps = 3;         ///< Optimisation rounds after the fill.
+  int optimize_steps = 2;         ///< Optimisation rounds after the fill.
   unsigned point_order_seed = 0;  ///< 0: points as given; else another fixed order.
 };
 

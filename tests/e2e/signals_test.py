@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Signals and killed processes: a run stops or goes on, but never hangs or leaves processes behind."""
+import json
+import os
+import signal
+import time
+import unittest
+
+import program
+from program import FAILED, OK, STOPPED
+
+# To stop a run takes a tick of some milliseconds; the rest is for a busy machine.
+QUICK_S = 10.0
+
+
+class SignalsTest(program.ProgramTest):
+    def start_run(self, case, ranks=None):
+        return self.start("mesh", case, "--output", "out", "--progress", "never", ranks=ranks)
+
+    def report(self):
+        return json.loads((self.folder / "out" / "report.json").read_text())
+
+    def wait_for_job(self, rank):
+        """Zygote, model zygote and a fill job of a rank, as soon as there are all three."""
+
+        log = self.folder / "out" / "log" / "run.log"
+
+        def chain():
+            is_planned = log.exists() and "no folds" in log.read_text()
+            found = program.chain_of(rank)
+            return found if is_planned and len(found) == 3 else None
+
+        return program.wait_until(chain, "a fill job")
+
+    def assert_nothing_is_left(self, pids):
+        program.wait_until(
+            lambda: not any(program.is_running(pid) for pid in pids), "the end of all processes", QUICK_S
+        )
+
+
+class StopSignals(SignalsTest):
+    def setUp(self):
+        super().setUp()
+        self.case = self.write_case(levels=4)  # Half a million tets: nobody waits for its end.
+
+    def assert_stops(self, number):
+        process = self.start_run(self.case)
+        self.wait_for_job(process.pid)
+        family = program.descendants(process.pid)
+        process.send_signal(number)
+        outcome = self.finish(process, QUICK_S)
+        self.assert_refused(outcome, STOPPED, "stopped by a signal")
+        self.assert_nothing_is_left(family)
+        self.assertEqual((self.report()["status"], self.report()["exit_code"]), ("stopped", STOPPED))
+
+    def test_interrupt(self):
+        self.assert_stops(signal.SIGINT)
+
+    def test_terminate(self):
+        self.assert_stops(signal.SIGTERM)
+
+    def test_warning_of_a_batch_system(self):
+        self.assert_stops(signal.SIGUSR1)
+
+    def test_during_the_coarse_mesh(self):
+        case = self.write_case(max_size=0.05)  # Seconds of coarse meshing.
+        process = self.start_run(case)
+        program.wait_until(lambda: len(program.chain_of(process.pid)) == 3, "a job")
+        time.sleep(0.5)  # Past the import, which takes milliseconds.
+        process.terminate()
+        self.assert_refused(self.finish(process, QUICK_S), STOPPED, "stopped by a signal")
+
+    def test_folder_can_be_used_again(self):
+        process = self.start_run(self.case)
+        self.wait_for_job(process.pid)
+        process.terminate()
+        self.finish(process, QUICK_S)
+        self.mesh(self.write_case(levels=0), "out", "--overwrite")
+
+    def test_one_rank_of_three_stops_all(self):
+        process = self.start_run(self.case, ranks=3)
+        ranks = program.wait_until(lambda: program.ranks_of(process), "ranks")
+        self.wait_for_job(ranks[0])
+        family = program.descendants(process.pid)
+        os.kill(program.ranks_of(process)[1], signal.SIGUSR1)
+        self.assert_refused(self.finish(process, QUICK_S), STOPPED, "stopped by a signal")
+        self.assert_nothing_is_left(family)
+
+
+class KilledProcesses(SignalsTest):
+    def test_killed_rank(self):
+        """mpirun ends the others; their jobs go with them."""
+        process = self.start_run(self.write_case(levels=4), ranks=3)
+        ranks = program.wait_until(lambda: program.ranks_of(process), "ranks")
+        self.wait_for_job(ranks[0])
+        family = program.descendants(process.pid)
+        os.kill(program.ranks_of(process)[2], signal.SIGKILL)
+        self.assertEqual(self.finish(process, QUICK_S).code, 128 + signal.SIGKILL)
+        self.assert_nothing_is_left(family)
+
+    def test_killed_rank_alone(self):
+        process = self.start_run(self.write_case(levels=4))
+        self.wait_for_job(process.pid)
+        family = program.descendants(process.pid)
+        process.kill()
+        process.wait()
+        self.assert_nothing_is_left(family)
+
+    def test_killed_job_is_repeated(self):
+        case = self.write_case(levels=2, subdomains=6)
+        process = self.start_run(case)
+        _, _, job = self.wait_for_job(process.pid)
+        os.kill(job, signal.SIGKILL)
+        outcome = self.finish(process)
+        self.assertEqual(outcome.code, OK, outcome.err)
+        self.assertRegex(outcome.out, "warning: .*Killed.* from outside")
+        self.assertTrue(self.report()["reproducible"])
+        undisturbed = self.mesh(case, "undisturbed", ranks=2)
+        other = json.loads((undisturbed / "report.json").read_text())
+        self.assertEqual(self.report()["digest"], other["digest"])
+
+    def assert_ends_without_hang(self, link_of_chain, ranks):
+        process = self.start_run(self.write_case(levels=4), ranks=ranks)
+        rank = process.pid
+        if ranks is not None:
+            rank = program.wait_until(lambda: program.ranks_of(process)[1:], "ranks")[0]
+        chain = self.wait_for_job(rank)
+        family = program.descendants(process.pid)
+        os.kill(chain[link_of_chain], signal.SIGKILL)
+        outcome = self.finish(process, QUICK_S)
+        self.assert_refused(outcome, FAILED, "could not be filled")
+        self.assert_nothing_is_left(family)
+
+    def test_killed_zygote(self):
+        self.assert_ends_without_hang(0, None)
+
+    def test_killed_zygote_of_one_rank(self):
+        self.assert_ends_without_hang(0, 3)
+
+    def test_killed_model_zygote(self):
+        self.assert_ends_without_hang(1, None)
+
+    def test_killed_model_zygote_of_one_rank(self):
+        self.assert_ends_without_hang(1, 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
