@@ -13,16 +13,30 @@
 namespace tessera::pipeline {
 namespace {
 
-// 8 k tets/s: an hour is some 3·10^7 coarse tets, more than a coarse mesh should have.
-constexpr jobs::JobLimits kCoarseLimits{.cpu_s = 3600.0, .stall_s = 120.0, .memory_gib = 16.0};
+constexpr double kStall_s = 120.0;
+constexpr double kMemory_gib = 16.0;
+
+// The model will not get better on another rung, nor will a mesher that does not end.
+bool is_final(const jobs::JobOutcome& outcome)
+{
+  return outcome.error == jobs::ErrorKind::geometry || outcome.error == jobs::ErrorKind::input
+         || outcome.loads_are_lost;
+}
+
+bool is_endless(const jobs::JobOutcome& outcome)
+{
+  return outcome.status == jobs::JobStatus::out_of_time
+         || outcome.status == jobs::JobStatus::stalled;
+}
 
 CoarseResult climb(const config::Case& run_case, RunContext& context)
 {
+  const jobs::JobLimits limits{run_case.coarse.timeout_s, kStall_s, kMemory_gib};
   std::string failures;
   CoarseResult result;
   for (const coarse::CoarseOptions& options : coarse_ladder(run_case.coarse)) {
     const jobs::JobOutcome outcome =
-        context.jobs.run(coarse_request(options), kCoarseLimits, wait_for_stop_signal());
+        context.jobs.run(coarse_request(options), limits, wait_for_stop_signal());
     ++result.tries;
     if (outcome.status == jobs::JobStatus::ok) {
       result.mesh = mesh::coarse_mesh_from_bytes(outcome.result);
@@ -30,15 +44,14 @@ CoarseResult climb(const config::Case& run_case, RunContext& context)
       return result;
     }
     throw_if_cancelled(outcome);
-    const bool is_final =
-        outcome.error == jobs::ErrorKind::geometry || outcome.error == jobs::ErrorKind::input;
-    if (is_final) jobs::throw_unless_ok(outcome, run_case.geometry.file.string());
+    if (is_final(outcome)) jobs::throw_unless_ok(outcome, run_case.geometry.file.string());
     context.log.warn("coarse: try {} with max_size {} failed: {}", result.tries, options.max_size,
                      outcome.message);
     failures += "\n  max_size " + std::to_string(options.max_size) + ": " + outcome.message;
+    if (is_endless(outcome)) break;
   }
   throw MeshError(run_case.geometry.file.string() + ": no coarse mesh could be made; try another "
-                  + "coarse.max_size, or repair the model" + failures);
+                  + "coarse.max_size, a longer coarse.timeout_s, or repair the model" + failures);
 }
 
 }  // namespace

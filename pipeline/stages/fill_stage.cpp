@@ -91,61 +91,75 @@ class Filler {
   /// Fills one subdomain. @throws MeshError if every rung failed, Interrupted if cancelled.
   void fill(LocalIndex subdomain, const jobs::JobRunner::WaitCallback& on_wait)
   {
-    const jobs::JobLimits limits =
-        limits_of(options_, decomposition_.subdomain_weight[at(subdomain)]);
-    std::optional<FillResult> best;
-    std::string failures;
-    bool was_limited = false;
-    LocalIndex tries = 0;
+    Climb climb{.subdomain = subdomain};
     for (const fill::FillTry& settings : fill::retry_ladder(options_)) {
-      const double angle_to_beat = best ? best->summary.tets.min_dihedral_deg : 0.0;
-      const jobs::JobOutcome outcome =
-          run_try(fill_request(subdomain, settings, angle_to_beat), limits, on_wait);
-      ++tries;
-      throw_unless_of_the_fill(outcome);
-      was_limited = was_limited || depends_on_machine(outcome);
-      if (outcome.status == jobs::JobStatus::ok) {
-        const bool is_second = best.has_value();
-        best = fill_result_from_bytes(outcome.result);
-        best->summary.tries = tries;
-        best->summary.cpu_s = outcome.cpu_s;
-        if (is_second || best->summary.tets.min_dihedral_deg >= kPoorAngle_deg) break;
-      } else {
-        if (best) break;
-        failures += "\n  try " + std::to_string(tries) + ": " + outcome.message;
-      }
+      if (is_done_after(climb, settings, on_wait)) break;
     }
-    if (!best) {
+    if (!climb.best) {
       throw MeshError("subdomain " + std::to_string(subdomain)
                       + " could not be filled; try another decompose.subdomains or a smaller "
                         "coarse.max_size"
-                      + failures);
+                      + climb.failures);
     }
-    best->summary.was_limited = was_limited;
-    context_.log.debug("fill: subdomain {}: {} tets, try {}, {:.2f} s of CPU time", subdomain,
-                       best->summary.num_tets, best->summary.tries, best->summary.cpu_s);
-    keep(*best);
+    climb.best->summary.was_limited = climb.was_limited;
+    keep(*climb.best);
   }
 
   [[nodiscard]] FilledPieces take() && { return std::move(own_); }
 
  private:
+  // What the rungs of one subdomain's ladder have given so far.
+  struct Climb {
+    LocalIndex subdomain = kNoIndex;
+    LocalIndex tries = 0;
+    bool was_limited = false;
+    std::optional<FillResult> best{};
+    std::string failures{};
+  };
+
+  // Takes one rung. A failure leads to the next one; a poor result, to one more try.
+  bool is_done_after(Climb& climb, const fill::FillTry& settings,
+                     const jobs::JobRunner::WaitCallback& on_wait)
+  {
+    const bool had_one = climb.best.has_value();
+    const double angle_to_beat = had_one ? climb.best->summary.tets.min_dihedral_deg : 0.0;
+    const jobs::JobOutcome outcome =
+        run_try(climb.subdomain, fill_request(climb.subdomain, settings, angle_to_beat), on_wait);
+    ++climb.tries;
+    throw_unless_of_the_fill(outcome);
+    climb.was_limited = climb.was_limited || depends_on_machine(outcome);
+    if (outcome.status != jobs::JobStatus::ok) {
+      climb.failures += "\n  try " + std::to_string(climb.tries) + ": " + outcome.message;
+      return had_one;
+    }
+    climb.best = fill_result_from_bytes(outcome.result);
+    PieceSummary& summary = climb.best->summary;
+    summary.tries = climb.tries;
+    summary.cpu_s = outcome.cpu_s;
+    context_.log.debug("fill: subdomain {}: {} tets, try {}, {:.2f} s of CPU time", climb.subdomain,
+                       summary.num_tets, summary.tries, summary.cpu_s);
+    return had_one || summary.tets.min_dihedral_deg >= kPoorAngle_deg;
+  }
+
   // The same once more if the job was killed, so that the mesh is the same as without that.
-  jobs::JobOutcome run_try(const Bytes& request, const jobs::JobLimits& limits,
+  jobs::JobOutcome run_try(LocalIndex subdomain, const Bytes& request,
                            const jobs::JobRunner::WaitCallback& on_wait)
   {
+    const jobs::JobLimits limits =
+        limits_of(options_, decomposition_.subdomain_weight[at(subdomain)]);
     jobs::JobOutcome outcome = context_.jobs.run(request, limits, on_wait);
-    if (!was_killed_from_outside(outcome)) return outcome;
+    if (!was_killed_from_outside(outcome) || outcome.loads_are_lost) return outcome;
     context_.progress.clear();
     context_.log.warn("fill: subdomain {} is filled again: {}", subdomain, outcome.message);
     return context_.jobs.run(request, limits, on_wait);
   }
 
-  // A stop and a full disk end the run; no other rung helps there.
+  // A stop, a full disk and a lost worker end the run; no other rung helps there.
   static void throw_unless_of_the_fill(const jobs::JobOutcome& outcome)
   {
     throw_if_cancelled(outcome);
     if (outcome.error == jobs::ErrorKind::output) throw OutputError(outcome.message);
+    if (outcome.loads_are_lost) throw MeshError(outcome.message + "; run the case again");
   }
 
   void keep(const FillResult& result)

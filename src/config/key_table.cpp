@@ -68,6 +68,15 @@ constexpr Key kKeys[] = {
                 "patches.",
      .reason = "NETGEN's own default"},
 
+    {.name = "coarse.timeout_s",
+     .rule = RealRule{[](Case& c) -> double& { return c.coarse.timeout_s; }, 0.0, Bound::exclusive,
+                      1e6, Bound::inclusive},
+     .unit = "seconds of CPU time",
+     .meaning = "Limit of one try at the coarse mesh.",
+     .reason =
+         "NETGEN makes about 8 k coarse tets/s, so 300 s is two million of them; on some dirty "
+         "models it never ends"},
+
     {.name = "decompose.subdomains",
      .rule =
          IntegerRule{[](Case& c) -> int& { return c.decompose.subdomains; }, 1, 1'000'000, "auto"},
@@ -105,8 +114,9 @@ constexpr Key kKeys[] = {
     {.name = "fill.optimize_steps",
      .rule = IntegerRule{[](Case& c) -> int& { return c.fill.optimize_steps; }, 0, 100},
      .meaning = "NETGEN's rounds of optimisation of a fill.",
-     .reason = "NETGEN's own default; without any, fills were about twice as fast but had dihedral "
-               "angles down to 0.4 degrees"},
+     .reason =
+         "on shaft (156 k tets, 17 subdomains) 3 rounds gave a mean ratio of 0.857 and 2 gave "
+         "0.851 in 0.65 of the time; without any, angles fell to 0.4 degrees"},
     {.name = "fill.grading",
      .rule = RealRule{[](Case& c) -> double& { return c.fill.grading; }, 0.0, Bound::exclusive, 1.0,
                       Bound::inclusive},

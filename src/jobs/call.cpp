@@ -121,9 +121,10 @@ void Call::receive_control()
   while (const auto packet = link_.control_packets.receive(link_.control.get(), false))
     accept_control(*packet);
   link_.zygote_is_gone = link_.zygote_is_gone || link_.control_packets.is_closed();
-  if (link_.zygote_is_gone && !outcome_)
-    finish(JobStatus::crashed,
-           "the worker process of this rank is gone, killed from outside; no more jobs can be run");
+  if (!link_.zygote_is_gone || outcome_) return;
+  finish(JobStatus::crashed,
+         "the worker process of this rank is gone, killed from outside; no more jobs can be run");
+  outcome_->loads_are_lost = true;
 }
 
 void Call::accept_data(const Packet& packet)
@@ -246,6 +247,7 @@ void Call::finish_ended(const ProcessEnd& end, bool is_model)
     if (kind_ == PacketKind::run)
       outcome_->message = "the process that holds the model: " + outcome_->message;
     outcome_->message += "; what had been loaded is lost";
+    outcome_->loads_are_lost = true;
     link_.peak_bytes = std::max(link_.peak_bytes, static_cast<std::size_t>(end.peak_rss_bytes));
   } else {
     note_usage(end);

@@ -11,6 +11,8 @@ struct CoarseOptions {
   /// STL: dihedral angle from which an edge is a feature, degrees, in (0, 180).
   double feature_angle_deg = 30.0;
 
+  double timeout_s = 300.0;  ///< CPU seconds of one try, > 0.
+
   friend bool operator==(const CoarseOptions&, const CoarseOptions&) = default;
 };
 

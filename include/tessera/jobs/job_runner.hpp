@@ -50,6 +50,7 @@ struct JobOutcome {
   JobStatus status = JobStatus::ok;
   int code = 0;
   ErrorKind error = ErrorKind::none;
+  bool loads_are_lost = false;     ///< The process that holds what was loaded died too.
   std::string message{};           ///< One line for people: what happened, in words.
   Bytes result{};                  ///< What Worker::run() returned; empty unless ok.
   double cpu_s = 0.0;              ///< CPU time used, seconds.
