@@ -11,6 +11,10 @@ namespace {
 
 constexpr jobs::JobLimits kQueryLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
 
+// NETGEN's largest size is more of a middle: on a brick, edges came out with a median of 1.18 and a
+// 99th percentile of 1.94 times it, after refinement too. With this factor they are 0.94 and 1.55.
+constexpr double kSizeForEdge = 0.8;
+
 // A part fills about a third of a cube with its box's diagonal; a regular tet has h^3 / (6 sqrt 2).
 double estimated_tets(double box_diagonal, double target)
 {
@@ -39,7 +43,7 @@ config::Case resolve_size(const config::Case& given, RunContext& context)
   const auto box_diagonal = ByteReader(bytes).get<double>();
   config::Case resolved = given;
   resolved.refine.levels = levels_for(estimated_tets(box_diagonal, given.size.target));
-  resolved.coarse.max_size = std::ldexp(given.size.target, resolved.refine.levels);
+  resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, resolved.refine.levels);
   resolved.size.target = 0.0;
   context.log.info("size.target {}: coarse.max_size = {}, refine.levels = {}", given.size.target,
                    resolved.coarse.max_size, resolved.refine.levels);
