@@ -88,6 +88,15 @@ void collect_triangles(const CoarseMesh& coarse, const Decomposition& decomposit
   }
 }
 
+LocalIndex skeleton_vertex(const Skeleton& skeleton, LocalIndex coarse_vertex)
+{
+  const auto& vertices = skeleton.vertex_coarse;
+  const auto place = std::lower_bound(vertices.begin(), vertices.end(), coarse_vertex);
+  return place != vertices.end() && *place == coarse_vertex
+             ? static_cast<LocalIndex>(place - vertices.begin())
+             : kNoIndex;
+}
+
 // Renumbers the triangles' vertices from coarse to skeleton numbers; the order is kept.
 void number_vertices(Skeleton& out)
 {
@@ -95,10 +104,7 @@ void number_vertices(Skeleton& out)
   std::sort(out.vertex_coarse.begin(), out.vertex_coarse.end());
   out.vertex_coarse.erase(std::unique(out.vertex_coarse.begin(), out.vertex_coarse.end()),
                           out.vertex_coarse.end());
-  for (LocalIndex& v : out.triangle_vertices) {
-    const auto place = std::lower_bound(out.vertex_coarse.begin(), out.vertex_coarse.end(), v);
-    v = static_cast<LocalIndex>(place - out.vertex_coarse.begin());
-  }
+  for (LocalIndex& v : out.triangle_vertices) v = skeleton_vertex(out, v);
 }
 
 LocalIndex find_edge(const std::vector<Edge>& edges, const Edge& edge)
@@ -147,15 +153,6 @@ void set_owners(Skeleton& out)
       of_edge = std::min(of_edge, owner);
     }
   }
-}
-
-LocalIndex skeleton_vertex(const Skeleton& skeleton, LocalIndex coarse_vertex)
-{
-  const auto& vertices = skeleton.vertex_coarse;
-  const auto place = std::lower_bound(vertices.begin(), vertices.end(), coarse_vertex);
-  return place != vertices.end() && *place == coarse_vertex
-             ? static_cast<LocalIndex>(place - vertices.begin())
-             : kNoIndex;
 }
 
 // The lowest triangle on the geometry gives an edge its patch and the parameters of its ends.
