@@ -14,8 +14,6 @@
 namespace tessera::pipeline {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // Triangles on the geometry that this subdomain owns: all on the outside, and those between two
 // materials if it is the lower side.
 void add_boundary(const mesh::Skin& skin, const mesh::Skeleton& skeleton,

@@ -10,8 +10,6 @@
 namespace tessera::pipeline {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // Lowest subdomain that holds the points of a unit of the skeleton.
 LocalIndex owner_of_unit(const mesh::Skeleton& skeleton, mesh::Unit unit)
 {

@@ -23,8 +23,6 @@
 namespace tessera::pipeline {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // The slowest fills measured make 7 k tets/s; 20 times the time that takes is a hang.
 constexpr double kSlowTetsPerSecond = 7000.0;
 constexpr double kTimeMargin = 20.0;

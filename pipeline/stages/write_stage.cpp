@@ -20,8 +20,6 @@
 namespace tessera::pipeline {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 std::filesystem::path piece_name(const std::string& folder, LocalIndex subdomain)
 {
   return std::filesystem::path(folder) / fmt::format("piece_{:06}.vtu", subdomain);

@@ -15,8 +15,6 @@
 namespace tessera::fill {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // Sums in the fill and of the skin differ by rounding only.
 constexpr double kVolumeTolerance = 1e-9;
 

@@ -11,8 +11,6 @@
 namespace tessera::fill {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // Calls visit(weights) for the barycentric middle of each upright child of an n-fold split tet.
 template <class Visit>
 void for_each_sample(LocalIndex n, Visit&& visit)

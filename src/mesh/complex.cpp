@@ -13,8 +13,6 @@ namespace {
 using Edge = std::array<LocalIndex, 2>;
 using Triangle = std::array<LocalIndex, 3>;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 template <class T>
 void sort_unique(std::vector<T>& values)
 {

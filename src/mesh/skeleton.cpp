@@ -13,8 +13,6 @@ namespace {
 using Edge = std::array<LocalIndex, 2>;
 using Triangle = std::array<LocalIndex, 3>;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // Faces of the coarse mesh by their sorted vertices, for look-up by binary search.
 struct FaceTable {
   struct Row {

@@ -13,8 +13,6 @@ namespace {
 constexpr LocalIndex kLeafSize = 4;
 constexpr std::size_t kDeepest = 64;  // halving 2^31 parts gives 31 levels
 
-constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 template <class Part>
 double middle_along(const Part& part, std::size_t axis)
 {
@@ -78,7 +76,7 @@ NearestPointSearch<Part>::NearestPointSearch(std::span<const Part> parts) : numb
   padding_ = 64.0 * std::numeric_limits<double>::epsilon() * largest;
   std::iota(numbers_.begin(), numbers_.end(), 0);
   build(parts, 0, static_cast<LocalIndex>(parts.size()));
-  for (const LocalIndex number : numbers_) parts_.push_back(parts[index(number)]);
+  for (const LocalIndex number : numbers_) parts_.push_back(parts[at(number)]);
 }
 
 template <class Part>
@@ -88,7 +86,7 @@ typename NearestPointSearch<Part>::Box NearestPointSearch<Part>::padded_box(
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Box box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   for (LocalIndex i = first; i < last; ++i) {
-    for (const Vec3& corner : parts[index(numbers_[index(i)])]) {
+    for (const Vec3& corner : parts[at(numbers_[at(i)])]) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         box.low[axis] = std::min(box.low[axis], corner[axis] - padding_);
         box.high[axis] = std::max(box.high[axis], corner[axis] + padding_);
@@ -113,12 +111,12 @@ LocalIndex NearestPointSearch<Part>::build(std::span<const Part> parts, LocalInd
   const LocalIndex middle = first + (last - first) / 2;
   std::nth_element(numbers_.begin() + first, numbers_.begin() + middle, numbers_.begin() + last,
                    [&](LocalIndex a, LocalIndex b) {
-                     return std::pair(middle_along(parts[index(a)], axis), a)
-                            < std::pair(middle_along(parts[index(b)], axis), b);
+                     return std::pair(middle_along(parts[at(a)], axis), a)
+                            < std::pair(middle_along(parts[at(b)], axis), b);
                    });
   build(parts, first, middle);
   const LocalIndex other_child = build(parts, middle, last);
-  nodes_[index(node)].other_child = other_child;
+  nodes_[at(node)].other_child = other_child;
   return node;
 }
 
@@ -139,9 +137,9 @@ void NearestPointSearch<Part>::look_into_leaf(const Node& leaf, const Vec3& poin
                                               NearestPoint& best) const
 {
   for (LocalIndex i = leaf.first; i < leaf.first + leaf.count; ++i) {
-    const Vec3 candidate = nearest_point_of(parts_[index(i)], point);
+    const Vec3 candidate = nearest_point_of(parts_[at(i)], point);
     const Vec3 offset = candidate - point;
-    const std::pair distance_and_number(dot(offset, offset), numbers_[index(i)]);
+    const std::pair distance_and_number(dot(offset, offset), numbers_[at(i)]);
     if (distance_and_number < std::pair(best.squared_distance, best.part)) {
       best = {candidate, distance_and_number.second, distance_and_number.first};
     }
@@ -163,13 +161,13 @@ NearestPoint NearestPointSearch<Part>::nearest(const Vec3& point) const
   while (num_to_visit > 0) {
     const Visit visit = to_visit[--num_to_visit];
     if (visit.squared_distance > best.squared_distance) continue;
-    const Node& node = nodes_[index(visit.node)];
+    const Node& node = nodes_[at(visit.node)];
     if (node.other_child == kNoIndex) {
       look_into_leaf(node, point, best);
       continue;
     }
-    Visit near{visit.node + 1, squared_distance(nodes_[index(visit.node) + 1].box, point)};
-    Visit far{node.other_child, squared_distance(nodes_[index(node.other_child)].box, point)};
+    Visit near{visit.node + 1, squared_distance(nodes_[at(visit.node) + 1].box, point)};
+    Visit far{node.other_child, squared_distance(nodes_[at(node.other_child)].box, point)};
     if (far.squared_distance < near.squared_distance) std::swap(near, far);
     to_visit[num_to_visit++] = far;
     to_visit[num_to_visit++] = near;

@@ -16,15 +16,13 @@ namespace {
 // be off by several degrees.
 constexpr double kNoisyHeight = 1e-6;
 
-constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 LocalIndex longest_half_edge(const TriangleSurface& surface, LocalIndex t)
 {
   const std::array<Vec3, 3> corners = surface.corners(t);
   LocalIndex longest = 0;
   double longest_length = -1.0;
   for (LocalIndex c = 0; c < 3; ++c) {
-    const double length = norm(corners[index((c + 1) % 3)] - corners[index(c)]);
+    const double length = norm(corners[at((c + 1) % 3)] - corners[at(c)]);
     if (length > longest_length) {
       longest = c;
       longest_length = length;
@@ -53,7 +51,7 @@ std::vector<bool> feature_half_edges(const TriangleSurface& surface,
   std::vector<bool> is_feature(opposite.size());
   for (std::size_t h = 0; h < opposite.size(); ++h) {
     const std::size_t here = h / 3;
-    const std::size_t there = index(opposite[h]) / 3;
+    const std::size_t there = at(opposite[h]) / 3;
     is_feature[h] = dot(normals[here], normals[there]) < cos_angle
                     || surface.triangle_solid[here] != surface.triangle_solid[there];
   }
@@ -75,9 +73,9 @@ LocalIndex mark_patches(std::span<const LocalIndex> opposite, const std::vector<
       const LocalIndex t = to_visit.back();
       to_visit.pop_back();
       for (LocalIndex h = 3 * t; h < 3 * t + 3; ++h) {
-        const LocalIndex neighbour = opposite[index(h)] / 3;
-        if (is_feature[index(h)] || triangle_patch[index(neighbour)] != kNoIndex) continue;
-        triangle_patch[index(neighbour)] = num_patches;
+        const LocalIndex neighbour = opposite[at(h)] / 3;
+        if (is_feature[at(h)] || triangle_patch[at(neighbour)] != kNoIndex) continue;
+        triangle_patch[at(neighbour)] = num_patches;
         to_visit.push_back(neighbour);
       }
     }
@@ -90,17 +88,17 @@ std::vector<std::string> name_patches(const TriangleSurface& surface,
                                       const std::vector<LocalIndex>& triangle_patch,
                                       LocalIndex num_patches)
 {
-  std::vector<LocalIndex> patch_solid(index(num_patches));
+  std::vector<LocalIndex> patch_solid(at(num_patches));
   for (std::size_t t = 0; t < triangle_patch.size(); ++t) {
-    patch_solid[index(triangle_patch[t])] = surface.triangle_solid[t];
+    patch_solid[at(triangle_patch[t])] = surface.triangle_solid[t];
   }
   std::vector<LocalIndex> solid_num_patches(surface.solid_names.size());
-  for (const LocalIndex s : patch_solid) ++solid_num_patches[index(s)];
+  for (const LocalIndex s : patch_solid) ++solid_num_patches[at(s)];
 
   std::vector<LocalIndex> solid_num_named(surface.solid_names.size());
   std::vector<std::string> names;
   for (std::size_t p = 0; p < patch_solid.size(); ++p) {
-    const std::size_t s = index(patch_solid[p]);
+    const std::size_t s = at(patch_solid[p]);
     const std::string& solid = surface.solid_names[s];
     const std::string number = std::to_string(++solid_num_named[s]);
     if (solid.empty()) {
@@ -116,10 +114,10 @@ std::vector<std::string> name_patches(const TriangleSurface& surface,
 class CurveWalk {
  public:
   CurveWalk(SurfaceFeatures& features, LocalIndex num_vertices)
-      : features_(features), vertex_edges_(index(num_vertices))
+      : features_(features), vertex_edges_(at(num_vertices))
   {
     for (std::size_t i = 0; i < features.edge_vertices.size(); ++i) {
-      vertex_edges_[index(features.edge_vertices[i])].push_back(static_cast<LocalIndex>(i / 2));
+      vertex_edges_[at(features.edge_vertices[i])].push_back(static_cast<LocalIndex>(i / 2));
     }
     features.edge_curve.assign(features.edge_vertices.size() / 2, kNoIndex);
   }
@@ -139,14 +137,14 @@ class CurveWalk {
  private:
   void follow(LocalIndex vertex, LocalIndex edge)
   {
-    if (features_.edge_curve[index(edge)] != kNoIndex) return;
+    if (features_.edge_curve[at(edge)] != kNoIndex) return;
     const LocalIndex curve = features_.num_curves();
     features_.curve_vertices.push_back(vertex);
     while (edge != kNoIndex) {
-      features_.edge_curve[index(edge)] = curve;
-      const std::size_t at = 2 * index(edge);
-      vertex = features_.edge_vertices[at] == vertex ? features_.edge_vertices[at + 1]
-                                                     : features_.edge_vertices[at];
+      features_.edge_curve[at(edge)] = curve;
+      const std::size_t row = 2 * at(edge);
+      vertex = features_.edge_vertices[row] == vertex ? features_.edge_vertices[row + 1]
+                                                      : features_.edge_vertices[row];
       features_.curve_vertices.push_back(vertex);
       edge = next_edge(vertex);
     }
@@ -155,10 +153,10 @@ class CurveWalk {
 
   [[nodiscard]] LocalIndex next_edge(LocalIndex vertex) const
   {
-    const std::vector<LocalIndex>& edges = vertex_edges_[index(vertex)];
+    const std::vector<LocalIndex>& edges = vertex_edges_[at(vertex)];
     if (edges.size() != 2) return kNoIndex;
     for (const LocalIndex e : edges) {
-      if (features_.edge_curve[index(e)] == kNoIndex) return e;
+      if (features_.edge_curve[at(e)] == kNoIndex) return e;
     }
     return kNoIndex;
   }
@@ -202,12 +200,12 @@ std::vector<Vec3> triangle_normals(const TriangleSurface& surface)
   for (const LocalIndex t : without_normal) {
     LocalIndex source = t;
     // Two slivers may lie longest edge to longest edge, or more in a ring: give up after a few.
-    for (int step = 0; step < 8 && normals[index(source)] == Vec3{}; ++step) {
-      source = opposite[index(longest_half_edge(surface, source))] / 3;
+    for (int step = 0; step < 8 && normals[at(source)] == Vec3{}; ++step) {
+      source = opposite[at(longest_half_edge(surface, source))] / 3;
     }
-    normals[index(t)] = normals[index(source)];
-    if (normals[index(t)] == Vec3{}) normals[index(t)] = own_normal(surface, t, 0.0);
-    if (normals[index(t)] == Vec3{}) normals[index(t)] = {0.0, 0.0, 1.0};
+    normals[at(t)] = normals[at(source)];
+    if (normals[at(t)] == Vec3{}) normals[at(t)] = own_normal(surface, t, 0.0);
+    if (normals[at(t)] == Vec3{}) normals[at(t)] = {0.0, 0.0, 1.0};
   }
   return normals;
 }
@@ -223,9 +221,9 @@ SurfaceFeatures find_features(const TriangleSurface& surface, double feature_ang
   features.patch_names = name_patches(surface, features.triangle_patch, num_patches);
   for (LocalIndex e = 0; e < edges.num_edges(); ++e) {
     const LocalIndex h = edges.of(e)[0];
-    if (!is_feature[index(h)]) continue;
-    const LocalIndex a = surface.triangle_vertices[index(h)];
-    const LocalIndex b = surface.triangle_vertices[index(next_in_triangle(h))];
+    if (!is_feature[at(h)]) continue;
+    const LocalIndex a = surface.triangle_vertices[at(h)];
+    const LocalIndex b = surface.triangle_vertices[at(next_in_triangle(h))];
     features.edge_vertices.push_back(std::min(a, b));
     features.edge_vertices.push_back(std::max(a, b));
   }

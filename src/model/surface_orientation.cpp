@@ -15,8 +15,6 @@
 namespace tessera::model {
 namespace {
 
-constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 struct Box {
   Vec3 low{};
   Vec3 high{};
@@ -54,8 +52,8 @@ class ShellWalk {
       : surface_(surface),
         opposite_(opposite),
         name_(name),
-        reached_(index(surface.num_triangles())),
-        turned_(index(surface.num_triangles()))
+        reached_(at(surface.num_triangles())),
+        turned_(at(surface.num_triangles()))
   {
   }
 
@@ -63,7 +61,7 @@ class ShellWalk {
   {
     std::vector<Shell> shells;
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
-      if (!reached_[index(t)]) shells.push_back(walk_from(t));
+      if (!reached_[at(t)]) shells.push_back(walk_from(t));
     }
     return shells;
   }
@@ -75,17 +73,17 @@ class ShellWalk {
   {
     Shell shell;
     shell.triangles.push_back(start);
-    reached_[index(start)] = true;
+    reached_[at(start)] = true;
     for (std::size_t i = 0; i < shell.triangles.size(); ++i) {
       const LocalIndex t = shell.triangles[i];
       for (LocalIndex h = 3 * t; h < 3 * t + 3; ++h) {
-        const LocalIndex other = opposite_[index(h)] / 3;
-        const bool turn_other = turned_[index(t)] != same_direction(h);
-        if (!reached_[index(other)]) {
-          reached_[index(other)] = true;
-          turned_[index(other)] = turn_other;
+        const LocalIndex other = opposite_[at(h)] / 3;
+        const bool turn_other = turned_[at(t)] != same_direction(h);
+        if (!reached_[at(other)]) {
+          reached_[at(other)] = true;
+          turned_[at(other)] = turn_other;
           shell.triangles.push_back(other);
-        } else if (turned_[index(other)] != turn_other) {
+        } else if (turned_[at(other)] != turn_other) {
           refuse_one_sided(h);
         }
       }
@@ -97,13 +95,12 @@ class ShellWalk {
   // Whether h and its opposite run the same way, which neighbours that agree never do.
   [[nodiscard]] bool same_direction(LocalIndex h) const
   {
-    return surface_.triangle_vertices[index(h)]
-           == surface_.triangle_vertices[index(opposite_[index(h)])];
+    return surface_.triangle_vertices[at(h)] == surface_.triangle_vertices[at(opposite_[at(h)])];
   }
 
   [[noreturn]] void refuse_one_sided(LocalIndex h) const
   {
-    const Vec3 p = surface_.position(surface_.triangle_vertices[index(h)]);
+    const Vec3 p = surface_.position(surface_.triangle_vertices[at(h)]);
     std::ostringstream text;
     text << name_ << ": surface is one-sided (as a Moebius strip), so it bounds no body; near ("
          << p[0] << ", " << p[1] << ", " << p[2] << ")";
@@ -119,8 +116,8 @@ class ShellWalk {
 
 void turn(TriangleSurface& surface, LocalIndex t)
 {
-  const std::size_t at = 3 * index(t);
-  std::swap(surface.triangle_vertices[at + 1], surface.triangle_vertices[at + 2]);
+  const std::size_t row = 3 * at(t);
+  std::swap(surface.triangle_vertices[row + 1], surface.triangle_vertices[row + 2]);
 }
 
 // Measured from a corner of the shell, so that a small body far from the origin keeps its digits.
@@ -173,7 +170,7 @@ void nest(const TriangleSurface& surface, std::vector<Shell>& shells)
   }
   for (std::size_t s = 0; s < shells.size(); ++s) {
     for (const LocalIndex c : containers[s]) {
-      if (shells[index(c)].depth == shells[s].depth - 1) shells[s].parent = c;
+      if (shells[at(c)].depth == shells[s].depth - 1) shells[s].parent = c;
     }
   }
 }
@@ -199,7 +196,7 @@ Orientation orient(TriangleSurface& surface, std::span<const LocalIndex> opposit
   Orientation result;
   result.shells = walk.walk();
   for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
-    if (walk.turned()[index(t)]) turn(surface, t);
+    if (walk.turned()[at(t)]) turn(surface, t);
   }
   nest(surface, result.shells);
   for (const Shell& shell : result.shells) {
@@ -210,7 +207,7 @@ Orientation orient(TriangleSurface& surface, std::span<const LocalIndex> opposit
     // Against the file: either a few were turned, or the whole shell but for a few.
     const auto num_changed = static_cast<LocalIndex>(
         std::count_if(shell.triangles.begin(), shell.triangles.end(),
-                      [&](LocalIndex t) { return walk.turned()[index(t)] != inside_out; }));
+                      [&](LocalIndex t) { return walk.turned()[at(t)] != inside_out; }));
     const auto num_triangles = static_cast<LocalIndex>(shell.triangles.size());
     if (2 * num_changed > num_triangles) ++result.num_turned_shells;
     result.num_turned += std::min(num_changed, num_triangles - num_changed);

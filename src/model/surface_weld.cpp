@@ -12,8 +12,6 @@
 namespace tessera::model {
 namespace {
 
-constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // Vertices of edges with one triangle, ascending.
 std::vector<LocalIndex> open_vertices(const TriangleSurface& surface)
 {
@@ -22,8 +20,8 @@ std::vector<LocalIndex> open_vertices(const TriangleSurface& surface)
   for (LocalIndex e = 0; e < edges.num_edges(); ++e) {
     if (edges.of(e).size() != 1) continue;
     const LocalIndex h = edges.of(e)[0];
-    vertices.push_back(surface.triangle_vertices[index(h)]);
-    vertices.push_back(surface.triangle_vertices[index(next_in_triangle(h))]);
+    vertices.push_back(surface.triangle_vertices[at(h)]);
+    vertices.push_back(surface.triangle_vertices[at(next_in_triangle(h))]);
   }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -33,16 +31,16 @@ std::vector<LocalIndex> open_vertices(const TriangleSurface& surface)
 // Union-find whose roots are the lowest numbers.
 class LowestRepresentative {
  public:
-  explicit LowestRepresentative(LocalIndex size) : parent_(index(size))
+  explicit LowestRepresentative(LocalIndex size) : parent_(at(size))
   {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
 
   LocalIndex find(LocalIndex i)
   {
-    while (parent_[index(i)] != i) {
-      parent_[index(i)] = parent_[index(parent_[index(i)])];
-      i = parent_[index(i)];
+    while (parent_[at(i)] != i) {
+      parent_[at(i)] = parent_[at(parent_[at(i)])];
+      i = parent_[at(i)];
     }
     return i;
   }
@@ -51,7 +49,7 @@ class LowestRepresentative {
   {
     const LocalIndex root_a = find(a);
     const LocalIndex root_b = find(b);
-    parent_[index(std::max(root_a, root_b))] = std::min(root_a, root_b);
+    parent_[at(std::max(root_a, root_b))] = std::min(root_a, root_b);
   }
 
  private:
@@ -60,10 +58,10 @@ class LowestRepresentative {
 
 void drop_unused_vertices(TriangleSurface& surface)
 {
-  std::vector<LocalIndex> old_to_new_vertex(index(surface.num_vertices()), kNoIndex);
+  std::vector<LocalIndex> old_to_new_vertex(at(surface.num_vertices()), kNoIndex);
   std::vector<double> vertex_xyz;
   for (LocalIndex& v : surface.triangle_vertices) {
-    LocalIndex& renumbered = old_to_new_vertex[index(v)];
+    LocalIndex& renumbered = old_to_new_vertex[at(v)];
     if (renumbered == kNoIndex) {
       renumbered = static_cast<LocalIndex>(vertex_xyz.size() / 3);
       const Vec3 p = surface.position(v);
@@ -93,7 +91,7 @@ TriangleSurface weld_equal_corners(const TriangleSoup& soup)
   LocalIndex first = 0;  // lowest corner at the position of the one looked at
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     if (i == 0 || point_at(corner_xyz, sorted[i]) != point_at(corner_xyz, first)) first = sorted[i];
-    surface.triangle_vertices[index(sorted[i])] = first;
+    surface.triangle_vertices[at(sorted[i])] = first;
   }
   drop_unused_vertices(surface);
   return surface;
@@ -139,11 +137,11 @@ DroppedTriangles drop_bad_triangles(TriangleSurface& surface)
       ++dropped.repeated;
     } else {
       std::copy_n(vertices, 3, surface.triangle_vertices.begin() + 3 * std::ptrdiff_t{kept});
-      surface.triangle_solid[index(kept++)] = surface.triangle_solid[index(t)];
+      surface.triangle_solid[at(kept++)] = surface.triangle_solid[at(t)];
     }
   }
-  surface.triangle_vertices.resize(3 * index(kept));
-  surface.triangle_solid.resize(index(kept));
+  surface.triangle_vertices.resize(3 * at(kept));
+  surface.triangle_solid.resize(at(kept));
   drop_unused_vertices(surface);
   return dropped;
 }

@@ -17,8 +17,6 @@ namespace {
 
 constexpr double kWeldTolerance = 1e-6;  // of the box diagonal
 
-constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 std::string counted(LocalIndex count, const std::string& one, const std::string& many)
 {
   return std::to_string(count) + " " + (count == 1 ? one : many);
@@ -43,9 +41,9 @@ std::string describe_edges(const TriangleSurface& surface, const HalfEdgesOfEdge
     if (count++ >= num_shown) continue;
     const LocalIndex h = edges.of(e)[0];
     shown << (count == 1 ? ", first " : ", ");
-    put_point(shown, surface.position(surface.triangle_vertices[index(h)]));
+    put_point(shown, surface.position(surface.triangle_vertices[at(h)]));
     shown << " - ";
-    put_point(shown, surface.position(surface.triangle_vertices[index(next_in_triangle(h))]));
+    put_point(shown, surface.position(surface.triangle_vertices[at(next_in_triangle(h))]));
   }
   if (count == 0) return {};
   return counted(count, "edge", "edges") + shown.str() + (count > num_shown ? ", …" : "");
@@ -115,21 +113,20 @@ void record_turns(CheckedSurface& checked, const Orientation& orientation)
 void set_materials(TriangleSurface& surface, const std::vector<Shell>& shells)
 {
   std::map<LocalIndex, LocalIndex> material_of_solid;
-  surface.triangle_material.resize(index(surface.num_triangles()));
+  surface.triangle_material.resize(at(surface.num_triangles()));
   std::vector<bool> has_one_solid;
   for (const Shell& shell : shells) {
-    const Shell& outer = shell.depth % 2 == 0 ? shell : shells[index(shell.parent)];
-    const LocalIndex solid = surface.triangle_solid[index(outer.triangles.front())];
+    const Shell& outer = shell.depth % 2 == 0 ? shell : shells[at(shell.parent)];
+    const LocalIndex solid = surface.triangle_solid[at(outer.triangles.front())];
     const auto next = static_cast<LocalIndex>(material_of_solid.size() + 1);
     const auto [entry, is_new] = material_of_solid.emplace(solid, next);
     if (is_new) {
-      surface.material_names.push_back(surface.solid_names[index(solid)]);
+      surface.material_names.push_back(surface.solid_names[at(solid)]);
       has_one_solid.push_back(true);
     }
     for (const LocalIndex t : shell.triangles) {
-      surface.triangle_material[index(t)] = entry->second;
-      if (surface.triangle_solid[index(t)] != solid)
-        has_one_solid[index(entry->second) - 1] = false;
+      surface.triangle_material[at(t)] = entry->second;
+      if (surface.triangle_solid[at(t)] != solid) has_one_solid[at(entry->second) - 1] = false;
     }
   }
   for (std::size_t m = 0; m < surface.material_names.size(); ++m) {
@@ -143,7 +140,7 @@ bool is_consistent(const TriangleSurface& surface)
 {
   const auto all_below = [](const std::vector<LocalIndex>& values, std::size_t end) {
     return std::all_of(values.begin(), values.end(),
-                       [&](LocalIndex v) { return v >= 0 && index(v) < end; });
+                       [&](LocalIndex v) { return v >= 0 && at(v) < end; });
   };
   const std::size_t num_triangles = surface.triangle_vertices.size() / 3;
   return surface.vertex_xyz.size() % 3 == 0 && surface.triangle_vertices.size() % 3 == 0

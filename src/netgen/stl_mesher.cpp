@@ -17,8 +17,6 @@
 namespace tessera::netgen {
 namespace {
 
-constexpr std::size_t index(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // Sets NETGEN's global STL parameters, and puts the old ones back at its end.
 //
 // Beside NETGEN's defaults the size follows the curvature: with 2 elements a radius instead of
@@ -110,7 +108,7 @@ class StlMeshing {
         const Vec3 p = scale_ * surface_.corners(t)[static_cast<std::size_t>(c)];
         corners[c] = ::netgen::Point<3>(p[0], p[1], p[2]);
       }
-      const Vec3& n = normals[index(t)];
+      const Vec3& n = normals[at(t)];
       triangles.Append(::netgen::STLReadTriangle(corners, ::netgen::Vec<3>(n[0], n[1], n[2])));
     }
     geometry_.InitSTLGeometry(triangles);
@@ -126,17 +124,17 @@ class StlMeshing {
   // A confirmed or excluded edge keeps its status whatever its angle.
   void give_feature_edges()
   {
-    std::vector<LocalIndex> our_vertex(index(surface_.num_vertices()) + 1);
+    std::vector<LocalIndex> our_vertex(at(surface_.num_vertices()) + 1);
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
       for (int c = 0; c < 3; ++c) {
-        our_vertex[index(geometry_.GetTriangle(t + 1)[c])] =
-            surface_.triangle_vertices[3 * index(t) + static_cast<std::size_t>(c)];
+        our_vertex[at(geometry_.GetTriangle(t + 1)[c])] =
+            surface_.triangle_vertices[3 * at(t) + static_cast<std::size_t>(c)];
       }
     }
     for (int e = 1; e <= geometry_.GetNTE(); ++e) {
       ::netgen::STLTopEdge& edge = geometry_.GetTopEdge(e);
       const LocalIndex curve =
-          features_.curve_of_edge(our_vertex[index(edge[0])], our_vertex[index(edge[1])]);
+          features_.curve_of_edge(our_vertex[at(edge[0])], our_vertex[at(edge[1])]);
       edge.SetStatus(curve == kNoIndex ? ::netgen::ED_EXCLUDED : ::netgen::ED_CONFIRMED);
     }
     our_vertex_ = std::move(our_vertex);
@@ -155,26 +153,26 @@ class StlMeshing {
   {
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
       const int face = geometry_.GetTriangle(t + 1).GetFaceNum();
-      mesh_->GetFaceDescriptor(face).SetDomainIn(surface_.triangle_material[index(t)]);
+      mesh_->GetFaceDescriptor(face).SetDomainIn(surface_.triangle_material[at(t)]);
     }
   }
 
   // A face of NETGEN's is all of a patch or a part of it: it keeps to our feature edges.
   void take_own_numbers()
   {
-    std::vector<LocalIndex> patch_of_face(index(geometry_.GetNOFaces()) + 1);
-    std::vector<LocalIndex> material_of_patch(index(features_.num_patches()));
+    std::vector<LocalIndex> patch_of_face(at(geometry_.GetNOFaces()) + 1);
+    std::vector<LocalIndex> material_of_patch(at(features_.num_patches()));
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
-      const LocalIndex patch = features_.triangle_patch[index(t)];
-      patch_of_face[index(geometry_.GetTriangle(t + 1).GetFaceNum())] = patch;
-      material_of_patch[index(patch)] = surface_.triangle_material[index(t)];
+      const LocalIndex patch = features_.triangle_patch[at(t)];
+      patch_of_face[at(geometry_.GetTriangle(t + 1).GetFaceNum())] = patch;
+      material_of_patch[at(patch)] = surface_.triangle_material[at(t)];
     }
     for (auto& element : mesh_->SurfaceElements()) {
-      element.SetIndex(patch_of_face[index(element.GetIndex())] + 1);
+      element.SetIndex(patch_of_face[at(element.GetIndex())] + 1);
     }
     mesh_->ClearFaceDescriptors();
     for (LocalIndex p = 0; p < features_.num_patches(); ++p) {
-      mesh_->AddFaceDescriptor(::netgen::FaceDescriptor(p + 1, material_of_patch[index(p)], 0, 0));
+      mesh_->AddFaceDescriptor(::netgen::FaceDescriptor(p + 1, material_of_patch[at(p)], 0, 0));
     }
   }
 
@@ -184,11 +182,9 @@ class StlMeshing {
     GeometryNumbers numbers;
     numbers.surface = patch;
     numbers.patch_name = [this, patch](const ::netgen::FaceDescriptor& face) {
-      return features_.patch_names[index(patch(face))];
+      return features_.patch_names[at(patch(face))];
     };
-    numbers.material_name = [this](int domain) {
-      return surface_.material_names[index(domain - 1)];
-    };
+    numbers.material_name = [this](int domain) { return surface_.material_names[at(domain - 1)]; };
     numbers.curve = [this](const ::netgen::Segment& segment) { return curve_of(segment); };
     return numbers;
   }
@@ -198,8 +194,7 @@ class StlMeshing {
   LocalIndex curve_of(const ::netgen::Segment& segment)
   {
     const ::netgen::STLLine& line = *geometry_.GetLine(segment.edgenr);
-    return features_.curve_of_edge(our_vertex_[index(line.PNum(1))],
-                                   our_vertex_[index(line.PNum(2))]);
+    return features_.curve_of_edge(our_vertex_[at(line.PNum(1))], our_vertex_[at(line.PNum(2))]);
   }
 
   const model::TriangleSurface& surface_;

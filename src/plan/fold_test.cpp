@@ -17,8 +17,6 @@ namespace lattice = mesh::lattice;
 using lattice::TetPoint;
 using lattice::TrianglePoint;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 bool has_bad_child(const mesh::TetPoints& points, LocalIndex n, LocalIndex step)
 {
   bool bad = false;

@@ -12,8 +12,6 @@ namespace lattice = mesh::lattice;
 using lattice::TrianglePoint;
 using model::SurfaceParameters;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 SurfaceParameters middle(const SurfaceParameters& a, const SurfaceParameters& b)
 {
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};

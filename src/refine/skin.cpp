@@ -10,8 +10,6 @@ namespace {
 namespace lattice = mesh::lattice;
 using lattice::TrianglePoint;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // Appends skin vertices in the order of LatticeNumbering.
 class VertexList {
  public:

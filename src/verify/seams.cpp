@@ -9,8 +9,6 @@
 namespace tessera::verify {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // One vertex as both sides of a seam must see it. No padding: all bytes are hashed.
 struct VertexImage {
   mesh::Unit unit;

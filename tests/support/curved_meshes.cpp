@@ -13,8 +13,6 @@
 namespace tessera::testing {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // Scales a point such that the cubes |p|_max = s around the origin become the spheres |p| = s.
 Vec3 cube_to_ball(const Vec3& p)
 {

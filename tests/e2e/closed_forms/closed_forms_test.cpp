@@ -26,8 +26,6 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kMostLevels = 3;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // A body around the origin with the z axis as its axis, and its formula.
 struct ClosedForm {
   std::string name;

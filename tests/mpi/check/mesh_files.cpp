@@ -10,8 +10,6 @@
 namespace tessera::testing {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // Adds cells to a piece, and their points with position and id when they are new.
 class PieceBuilder {
  public:

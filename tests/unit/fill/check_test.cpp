@@ -20,8 +20,6 @@
 namespace tessera::fill {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // A cube of 3^3 cells: its skin, and its tets with the skin's vertices first.
 struct CubeFill : ::testing::Test {
   FillInput skin{};

@@ -15,8 +15,6 @@
 namespace tessera::mesh {
 namespace {
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 struct SkeletonOfCube : ::testing::Test {
   CoarseMesh coarse = testing::two_material_cube(4);
   Decomposition decomposition = testing::slabs(coarse, 2);  // Two slabs a material along y.

@@ -22,8 +22,6 @@ namespace {
 
 using testing::Body;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 mesh::UnitLayout units_of(LocalIndex vertices, LocalIndex edges, LocalIndex triangles)
 {
   mesh::Skeleton skeleton;

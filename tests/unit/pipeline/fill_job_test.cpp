@@ -22,8 +22,6 @@ namespace {
 
 using testing::Body;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 struct FillJob : testing::FilledCube {};
 
 TEST_F(FillJob, PiecesSumUpToTheCube)

@@ -29,8 +29,6 @@ using mesh::Damping;
 using mesh::PointDamping;
 using testing::Body;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // A plate of kuhn_cube(n), so thin that what bulges from its bottom goes through its top.
 mesh::CoarseMesh thin_plate(int n, double height)
 {

@@ -20,8 +20,6 @@ using mesh::lattice::TrianglePoint;
 using testing::bits;
 using testing::Body;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 // A ball with one damped edge and one damped triangle.
 struct DampedPoints : ::testing::Test {
   static constexpr int kLevels = 2;

@@ -29,8 +29,6 @@ using testing::Body;
 using testing::RefinedComplex;
 using Bits = std::array<std::uint64_t, 3>;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 template <class Visit>
 void for_each_point(LocalIndex n, const Visit& visit)
 {

@@ -23,8 +23,6 @@ namespace {
 
 using testing::Body;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 double volume_of(const mesh::Skin& skin)
 {
   return testing::volume_inside(skin.vertex_xyz, skin.triangle_vertices);

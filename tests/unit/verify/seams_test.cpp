@@ -19,8 +19,6 @@ namespace {
 
 using testing::Body;
 
-std::size_t at(LocalIndex i) { return static_cast<std::size_t>(i); }
-
 std::vector<Hash128> sums_of(const std::vector<mesh::Skin>& skins, const mesh::Skeleton& skeleton)
 {
   std::vector<Hash128> sums(at(skeleton.num_triangles()));
