@@ -71,6 +71,20 @@ std::vector<LocalIndex> read_subdomains(const std::string& text)
   return subdomains;
 }
 
+CLI::Option* add_dry_run(CLI::App& mesh, MeshCommand& command)
+{
+  CLI::Option* dry_run = mesh.add_flag("--dry-run", command.dry_run,
+                                       "Predict size, time and memory; mesh nothing finely");
+  const auto take_ranks = [&command](const std::string& text) {
+    command.predicted_ranks = read_ranks(text);
+  };
+  mesh.add_option_function<std::string>("--ranks", take_ranks,
+                                        "With --dry-run: predict for so many ranks")
+      ->type_name("N")
+      ->needs(dry_run);
+  return dry_run;
+}
+
 void add_folder_options(CLI::App& mesh, MeshCommand& command, CLI::Option* dry_run)
 {
   mesh.add_option("--output", command.output, "Folder of the results, instead of output.directory")
@@ -94,15 +108,7 @@ void add_mesh(CLI::App& app, Parsed& parsed)
       ->type_name("TABLE.KEY=VALUE")
       ->allow_extra_args(false);
   mesh->add_flag("--dump-config", parsed.mesh.dump_config, "Print the resolved case and stop");
-  CLI::Option* dry_run = mesh->add_flag("--dry-run", parsed.mesh.dry_run,
-                                        "Predict size, time and memory; mesh nothing finely");
-  const auto take_ranks = [&parsed](const std::string& text) {
-    parsed.mesh.predicted_ranks = read_ranks(text);
-  };
-  mesh->add_option_function<std::string>("--ranks", take_ranks,
-                                         "With --dry-run: predict for so many ranks")
-      ->type_name("N")
-      ->needs(dry_run);
+  CLI::Option* dry_run = add_dry_run(*mesh, parsed.mesh);
   add_folder_options(*mesh, parsed.mesh, dry_run);
   const auto take_subdomains = [&parsed](const std::string& text) {
     parsed.mesh.only_subdomains = read_subdomains(text);

@@ -130,8 +130,10 @@ void apply_list(const TableList& list, const Entry& entry, Case& into)
     const std::string text = value_text(unique->value);
     const auto [first, is_new] = origins.emplace(text, unique->origin);
     if (is_new) continue;
-    fail(unique->origin, unique->name + " = " + text + ": given twice (first at " + first->second
-                             + "); must be another one in every [[" + entry.name + "]]");
+    const bool is_elsewhere = first->second != unique->origin;
+    fail(unique->origin, unique->name + " = " + text + ": given twice"
+                             + (is_elsewhere ? " (first at " + first->second + ")" : "")
+                             + "; must be another one in every [[" + entry.name + "]]");
   }
 }
 

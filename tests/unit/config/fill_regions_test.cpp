@@ -133,6 +133,15 @@ TEST(FillRegionErrors, MaterialGivenTwiceNamesBothLines)
       "another one in every [[fill.region]]");
 }
 
+TEST(FillRegionErrors, MaterialGivenTwiceOnOneLineNamesItOnce)
+{
+  EXPECT_EQ(error_of_override(
+                "fill.region=[{material='a',kernel='netgen'},{material='a',kernel='netgen'}]"),
+            "--set fill.region=[{material='a',kernel='netgen'},{material='a',kernel='netgen'}]: "
+            "fill.region.material = \"a\": given twice; must be another one in every "
+            "[[fill.region]]");
+}
+
 TEST(FillRegionErrors, WhatIsNoListOfTablesIsRefused)
 {
   EXPECT_EQ(error_of("[fill]\nregion = 'a'"),
