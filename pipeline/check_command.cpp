@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 #include <vector>
 
 #include <spdlog/fmt/fmt.h>
@@ -43,7 +44,8 @@ std::optional<std::filesystem::path> boundary_beside(const std::filesystem::path
 {
   if (mesh.filename() != "mesh.pvtu") return std::nullopt;
   std::filesystem::path boundary = mesh.parent_path() / "boundary.pvtu";
-  if (!std::filesystem::exists(boundary)) return std::nullopt;
+  std::error_code error;  // What cannot be looked at is as good as absent.
+  if (!std::filesystem::exists(boundary, error)) return std::nullopt;
   return boundary;
 }
 

@@ -2,7 +2,10 @@
 #include "pipeline/cli.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <limits>
 #include <map>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -26,6 +29,74 @@ struct Parsed {
   InfoCommand info{};
 };
 
+// CLI11's own conversion takes 010 for eight.
+template <class Integer>
+std::optional<Integer> whole_number(std::string_view text, Integer low, Integer high)
+{
+  Integer number = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end || number < low || number > high) {
+    return std::nullopt;
+  }
+  return number;
+}
+
+int read_ranks(const std::string& text)
+{
+  constexpr int kMost = 1'000'000;
+  const auto ranks = whole_number(text, 1, kMost);
+  if (ranks) return *ranks;
+  throw CLI::ValidationError("--ranks " + text,
+                             "must be a whole number from 1 to " + std::to_string(kMost));
+}
+
+std::vector<LocalIndex> read_subdomains(const std::string& text)
+{
+  const auto fail = [&](const std::string& what) {
+    throw CLI::ValidationError("--only-subdomains " + text, what);
+  };
+  std::vector<LocalIndex> subdomains;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const auto subdomain = whole_number(std::string_view(text).substr(begin, end - begin),
+                                        LocalIndex{0}, std::numeric_limits<LocalIndex>::max());
+    if (!subdomain) fail("must be whole numbers >= 0 with commas between, such as 0,7,8");
+    subdomains.push_back(*subdomain);
+    begin = end + 1;
+  }
+  std::ranges::sort(subdomains);
+  const auto repeated = std::ranges::adjacent_find(subdomains);
+  if (repeated != subdomains.end()) fail("names " + std::to_string(*repeated) + " twice");
+  return subdomains;
+}
+
+CLI::Option* add_dry_run(CLI::App& mesh, MeshCommand& command)
+{
+  CLI::Option* dry_run = mesh.add_flag("--dry-run", command.dry_run,
+                                       "Predict size, time and memory; mesh nothing finely");
+  const auto take_ranks = [&command](const std::string& text) {
+    command.predicted_ranks = read_ranks(text);
+  };
+  mesh.add_option_function<std::string>("--ranks", take_ranks,
+                                        "With --dry-run: predict for so many ranks")
+      ->type_name("N")
+      ->needs(dry_run);
+  return dry_run;
+}
+
+void add_folder_options(CLI::App& mesh, MeshCommand& command, CLI::Option* dry_run)
+{
+  mesh.add_option("--output", command.output, "Folder of the results, instead of output.directory")
+      ->type_name("DIR");
+  CLI::Option* overwrite = mesh.add_flag("--overwrite", command.overwrite,
+                                         "Use the output folder even if it is not empty");
+  mesh.add_flag("--resume", command.resume,
+                "Go on with the stopped run of this case in the output folder")
+      ->excludes(overwrite)
+      ->excludes(dry_run);
+}
+
 void add_mesh(CLI::App& app, Parsed& parsed)
 {
   CLI::App* mesh = app.add_subcommand("mesh", "Make a mesh from a case file");
@@ -36,14 +107,15 @@ void add_mesh(CLI::App& app, Parsed& parsed)
   mesh->add_option("--set", parsed.mesh.overrides, "Override a key of the case; may be repeated")
       ->type_name("TABLE.KEY=VALUE")
       ->allow_extra_args(false);
-  mesh->add_option("--output", parsed.mesh.output,
-                   "Folder of the results, instead of output.directory")
-      ->type_name("DIR");
-  mesh->add_flag("--overwrite", parsed.mesh.overwrite,
-                 "Use the output folder even if it is not empty");
   mesh->add_flag("--dump-config", parsed.mesh.dump_config, "Print the resolved case and stop");
-  mesh->add_flag("--dry-run", parsed.mesh.dry_run,
-                 "Predict size, time and memory; mesh nothing finely");
+  CLI::Option* dry_run = add_dry_run(*mesh, parsed.mesh);
+  add_folder_options(*mesh, parsed.mesh, dry_run);
+  const auto take_subdomains = [&parsed](const std::string& text) {
+    parsed.mesh.only_subdomains = read_subdomains(text);
+  };
+  mesh->add_option_function<std::string>("--only-subdomains", take_subdomains,
+                                         "Make and write these subdomains only")
+      ->type_name("I,J,...");
   mesh->add_option("--progress", parsed.progress, "Progress bars: on a terminal, always or never")
       ->type_name("auto|always|never")
       ->check(CLI::IsMember(kProgressWords).description(""))

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "tessera/base/types.hpp"
+
 namespace tessera::pipeline {
 
 enum class ProgressMode : int { automatic, always, never };
@@ -18,8 +20,11 @@ struct MeshCommand {
   std::vector<std::string> overrides{};           ///< "table.key=value", unchecked.
   std::optional<std::filesystem::path> output{};  ///< In place of output.directory.
   bool overwrite = false;                         ///< Use an output folder that is not empty.
+  bool resume = false;                            ///< Go on with a run that was stopped.
   bool dump_config = false;                       ///< Print the resolved case and stop.
   bool dry_run = false;                           ///< Predict the run instead of running.
+  std::optional<int> predicted_ranks{};           ///< With dry_run; nothing: those that run.
+  std::vector<LocalIndex> only_subdomains{};      ///< Ascending; empty: all.
   ProgressMode progress = ProgressMode::automatic;
   Verbosity verbosity = Verbosity::normal;
 };

@@ -2,6 +2,7 @@
 #include "pipeline/info_command.hpp"
 
 #include <string>
+#include <system_error>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -58,6 +59,10 @@ std::string describe_model(const std::filesystem::path& file, jobs::JobRunner& j
 
 std::string describe(const std::filesystem::path& file, jobs::JobRunner& jobs)
 {
+  std::error_code error;
+  if (std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found) {
+    throw InputError(file.string() + ": no such file");
+  }
   const std::string extension = file.extension().string();
   if (extension == ".pvtu" || extension == ".vtu") return describe_mesh(file);
   if (extension == ".toml") return config::to_toml(config::load_case(file));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 
 #include "config/text.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 // double, which this excludes as well.
 constexpr double kHuge = 1e30;
 
-constexpr std::array<std::string_view, 1> kKernelWords{"netgen"};
+constexpr std::array<std::string_view, 2> kKernelWords{"netgen", "subdivide"};
 constexpr std::array<std::string_view, 1> kFormatWords{"pvtu"};
 constexpr std::array<std::string_view, 3> kCompressionWords{"none", "lz4", "zlib"};
 
@@ -95,8 +96,10 @@ constexpr Key kKeys[] = {
     {.name = "fill.kernel",
      .rule = WordRule{kKernelWords, [](const Case& c) { return static_cast<int>(c.fill.kernel); },
                       [](Case& c, int word) { c.fill.kernel = fill::KernelKind{word}; }},
-     .meaning = "What turns the surface of a subdomain into tets.",
-     .reason = "the only kernel of this version"},
+     .meaning =
+         "What turns a subdomain into tets: \"netgen\" meshes its surface anew, \"subdivide\" "
+         "splits each of its coarse tets into 8^L.",
+     .reason = "it can do better than the coarse tets, whose shapes subdivision keeps"},
     {.name = "fill.timeout_s",
      .rule = RealRule{[](Case& c) -> double& { return c.fill.timeout_s; }, 0.0, Bound::inclusive,
                       kHuge, Bound::inclusive},
@@ -158,20 +161,87 @@ constexpr Key kKeys[] = {
                       [](Case& c, int word) { c.output.compression = io::Compression{word}; }},
      .meaning = "Compression of the arrays in the mesh files.",
      .reason = "lz4 wrote 10 M tets/s at 19 bytes a tet; none 11 M at 33; zlib 2 M at 7.5"},
+    {.name = "output.files",
+     .rule = IntegerRule{[](Case& c) -> int& { return c.output.files; }, 0, 1'000'000},
+     .meaning =
+         "Number of files that hold the pieces, each a contiguous range of subdomains; 0: one "
+         "for each subdomain.",
+     .reason =
+         "readers can share out every subdomain; ask for fewer when they are too many for the "
+         "file system"},
     {.name = "output.cell_quality",
      .rule = FlagRule{[](Case& c) -> bool& { return c.output.cell_quality; }},
      .meaning = "Also write the mean ratio of every tet.",
      .reason = "one more number a tet, and report.json has the histogram"},
 };
 
+constexpr Key kRegionKeys[] = {
+    {.name = "fill.region.material",
+     .rule = TextRule{[](Case& c) -> std::string& { return c.fill.regions.back().material; }},
+     .meaning = "Name of the material, as the model has it.",
+     .reason = "a region is told by its material",
+     .example = "\"steel\""},
+    {.name = "fill.region.kernel",
+     .rule = WordRule{
+         kKernelWords, [](const Case& c) { return static_cast<int>(c.fill.regions.back().kernel); },
+         [](Case& c, int word) { c.fill.regions.back().kernel = fill::KernelKind{word}; }},
+     .meaning = "As fill.kernel.",
+     .reason = "a region is there to name it",
+     .example = "\"subdivide\""},
+};
+
+constexpr TableList kTableLists[] = {
+    {.name = "fill.region",
+     .keys = kRegionKeys,
+     .unique_key = "fill.region.material",
+     .meaning = "The kernel for all subdomains of one material, in place of fill.kernel.",
+     .reason = "one kernel for all materials is the rule",
+     .size = [](const Case& c) { return c.fill.regions.size(); },
+     .resize = [](Case& c, std::size_t size) { c.fill.regions.resize(size); }},
+};
+
+// Whatever may stand in a case file.
+std::vector<std::string_view> all_names()
+{
+  std::vector<std::string_view> names;
+  for (const Key& key : kKeys) names.push_back(key.name);
+  for (const TableList& list : kTableLists) {
+    names.push_back(list.name);
+    for (const Key& key : list.keys) names.push_back(key.name);
+  }
+  return names;
+}
+
+// A right key in a wrong table counts as one mistake; then the nearer table decides.
+struct Nearness {
+  std::size_t mistakes = 0;
+  std::size_t distance = 0;
+
+  friend auto operator<=>(const Nearness&, const Nearness&) = default;
+};
+
+Nearness nearness_of(std::string_view name, std::string_view known)
+{
+  const std::size_t distance = edit_distance(name, known);
+  return {std::min(distance, 1 + edit_distance(last_part(name), last_part(known))), distance};
+}
+
 }  // namespace
 
 std::span<const Key> all_keys() { return kKeys; }
+
+std::span<const TableList> all_table_lists() { return kTableLists; }
 
 const Key* find_key(std::string_view name)
 {
   const auto* found = std::ranges::find(kKeys, name, &Key::name);
   return found == std::end(kKeys) ? nullptr : found;
+}
+
+const TableList* find_table_list(std::string_view name)
+{
+  const auto* found = std::ranges::find(kTableLists, name, &TableList::name);
+  return found == std::end(kTableLists) ? nullptr : found;
 }
 
 std::string_view table_of(std::string_view name)
@@ -196,14 +266,12 @@ std::optional<std::string_view> nearest_key(std::string_view name)
   if (name.size() > kLongestName) return std::nullopt;
   if (const Key* key = find_key(table_of(name))) return key->name;  // [coarse.max_size]
   std::optional<std::string_view> nearest;
-  std::size_t least = std::max<std::size_t>(2, name.size() / 4) + 1;
-  for (const Key& key : kKeys) {
-    // A right key in a wrong table counts as one mistake.
-    const std::size_t distance = std::min(edit_distance(name, key.name),
-                                          1 + edit_distance(last_part(name), last_part(key.name)));
-    if (distance < least) {
-      least = distance;
-      nearest = key.name;
+  Nearness least{.mistakes = std::max<std::size_t>(2, name.size() / 4) + 1};
+  for (const std::string_view known : all_names()) {
+    const Nearness nearness = nearness_of(name, known);
+    if (nearness < least) {
+      least = nearness;
+      nearest = known;
     }
   }
   return nearest;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -50,13 +51,19 @@ struct WordRule {
   void (*set)(Case&, int);
 };
 
+/// @brief Text, not empty.
+struct TextRule {
+  std::string& (*field)(Case&);
+};
+
 /// @brief A list without repetitions, not empty.
 struct WordListRule {
   std::span<const std::string_view> words;
   std::vector<std::string>& (*field)(Case&);
 };
 
-using Rule = std::variant<RealRule, IntegerRule, FlagRule, PathRule, WordRule, WordListRule>;
+using Rule =
+    std::variant<RealRule, IntegerRule, FlagRule, PathRule, WordRule, TextRule, WordListRule>;
 
 /// @brief All there is to say about one key of a case file.
 struct Key {
@@ -71,13 +78,30 @@ struct Key {
   std::string_view excluded_by{};      ///< Key that must not be given together with this one.
 };
 
-/// @brief Every key, table by table, in the order in which people read them.
+/// @brief A table that may stand any number of times, as `[[name]]`. Every key must be given.
+struct TableList {
+  std::string_view name;
+  std::span<const Key> keys;    ///< Their rules see the last element of a case's list.
+  std::string_view unique_key;  ///< No two elements have the same value of it. A TextRule.
+  std::string_view meaning;
+  std::string_view reason;  ///< Why there are none unless given.
+  std::size_t (*size)(const Case&);
+  void (*resize)(Case&, std::size_t);
+};
+
+/// @brief Every key outside of lists, table by table, in the order in which people read them.
 [[nodiscard]] std::span<const Key> all_keys();
+
+/// @brief Every list of tables.
+[[nodiscard]] std::span<const TableList> all_table_lists();
 
 /// @brief The key of that name, or null.
 [[nodiscard]] const Key* find_key(std::string_view name);
 
-/// @brief Whether a key stands in that table.
+/// @brief The list of that name, or null.
+[[nodiscard]] const TableList* find_table_list(std::string_view name);
+
+/// @brief Whether a key of all_keys() stands in that table.
 [[nodiscard]] bool is_table(std::string_view name);
 
 /// @brief "coarse" of "coarse.max_size".
@@ -86,7 +110,7 @@ struct Key {
 /// @brief "max_size" of "coarse.max_size".
 [[nodiscard]] std::string_view last_part(std::string_view name);
 
-/// @brief The known key that `name` most likely means, or nothing if none is near.
+/// @brief The known key or list that `name` most likely means, or nothing if none is near.
 [[nodiscard]] std::optional<std::string_view> nearest_key(std::string_view name);
 
 /// @brief Put the value into the case. False, and the case unchanged, if the rule forbids it.
@@ -94,6 +118,9 @@ struct Key {
 
 /// @brief What the rule allows, to follow "must be ".
 [[nodiscard]] std::string allowed(const Rule& rule);
+
+/// @brief What a list is, to follow "must be ".
+[[nodiscard]] std::string allowed(const TableList& list);
 
 /// @brief The case's value as TOML, or nothing if it is not given and has no default.
 [[nodiscard]] std::optional<std::string> toml_value(const Rule& rule, const Case& from);

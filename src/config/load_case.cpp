@@ -4,6 +4,8 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <set>
 #include <system_error>
 
 #include "tessera/base/error.hpp"
@@ -32,6 +34,15 @@ std::string file_name_for_messages(const fs::path& file) { return printable(file
   fail(origin, message + " (configs/reference.toml lists all keys)");
 }
 
+// A key of a list is known, but not where other keys stand.
+[[noreturn]] void fail_unknown_outside_lists(const std::string& name, const std::string& origin)
+{
+  const TableList* list = find_table_list(table_of(name));
+  if (list == nullptr) fail_unknown(name, origin);
+  fail(origin, name + " stands outside of a list; " + std::string(list->name) + " must be "
+                   + allowed(*list));
+}
+
 // An empty table says nothing, but its name must be known.
 bool is_empty_table(const Entry& entry)
 {
@@ -43,7 +54,7 @@ const Key* key_of(const Entry& entry)
 {
   const Key* key = find_key(entry.name);
   if (key != nullptr) return key;
-  if (!is_table(entry.name)) fail_unknown(entry.name, entry.origin);
+  if (!is_table(entry.name)) fail_unknown_outside_lists(entry.name, entry.origin);
   if (is_empty_table(entry)) return nullptr;
   fail(entry.origin, toml_string(entry.name) + " is a table, not a value: write [" + entry.name
                          + "] on a line of its own and its keys below");
@@ -57,17 +68,17 @@ Entry parse_override(const std::string& text)
   Entry entry{.name = std::string(trimmed(std::string_view(text).substr(0, equals))),
               .origin = origin};
   const std::string_view value = trimmed(std::string_view(text).substr(equals + 1));
+  const TableList* list = find_table_list(entry.name);
   const Key* key = find_key(entry.name);
-  if (key == nullptr) fail_unknown(entry.name, origin);
-  if (value.empty()) fail(origin, "no value after '='; must be " + allowed(key->rule));
-
-  const bool is_quoted = value.front() == '"' || value.front() == '\'';
-  if (takes_text(key->rule) && !is_quoted) {
-    entry.value = {std::string(value)};
-  } else {
-    entry.value = parse_toml_value(value).value_or(Value{std::string(value)});
+  if (list == nullptr && key == nullptr) fail_unknown_outside_lists(entry.name, origin);
+  if (value.empty()) {
+    fail(origin,
+         "no value after '='; must be " + (key != nullptr ? allowed(key->rule) : allowed(*list)));
   }
-  return entry;
+  entry.value = {std::string(value)};
+  const bool is_quoted = value.front() == '"' || value.front() == '\'';
+  if (key != nullptr && takes_text(key->rule) && !is_quoted) return entry;
+  return parse_toml_value(value, entry.name, origin).value_or(entry);
 }
 
 // Overrides come after the file's entries and win, the last one of a key before all.
@@ -83,12 +94,58 @@ std::vector<Entry> all_entries(std::string_view text, const fs::path& file,
   return entries;
 }
 
+[[noreturn]] void fail_value(const Entry& entry, const std::string& must_be)
+{
+  fail(entry.origin, entry.name + " = " + value_text(entry.value) + ": must be " + must_be);
+}
+
+// Fills the last element of the list.
+void apply_table(const TableList& list, const Table& table, Case& into)
+{
+  std::set<std::string_view> given;
+  for (const Entry& entry : table.entries) {
+    const auto key = std::ranges::find(list.keys, entry.name, &Key::name);
+    if (key == list.keys.end()) fail_unknown(entry.name, entry.origin);
+    if (!assign(key->rule, entry.value, into)) fail_value(entry, allowed(key->rule));
+    given.insert(key->name);
+  }
+  for (const Key& key : list.keys) {
+    if (given.contains(key.name)) continue;
+    fail(table.origin, "no " + std::string(key.name) + "; must be " + allowed(key.rule));
+  }
+}
+
+void apply_list(const TableList& list, const Entry& entry, Case& into)
+{
+  const auto* items = std::get_if<std::vector<Value>>(&entry.value.data);
+  if (items == nullptr) fail_value(entry, allowed(list));
+  std::map<std::string, std::string> origins;  // By the value of the unique key.
+  for (const Value& item : *items) {
+    const auto* table = std::get_if<Table>(&item.data);
+    if (table == nullptr) fail_value(entry, allowed(list));
+    list.resize(into, list.size(into) + 1);
+    apply_table(list, *table, into);
+
+    const auto unique = std::ranges::find(table->entries, list.unique_key, &Entry::name);
+    const std::string text = value_text(unique->value);
+    const auto [first, is_new] = origins.emplace(text, unique->origin);
+    if (is_new) continue;
+    const bool is_elsewhere = first->second != unique->origin;
+    fail(unique->origin, unique->name + " = " + text + ": given twice"
+                             + (is_elsewhere ? " (first at " + first->second + ")" : "")
+                             + "; must be another one in every [[" + entry.name + "]]");
+  }
+}
+
 void apply(const Entry& entry, Case& into)
 {
+  if (const TableList* list = find_table_list(entry.name)) {
+    apply_list(*list, entry, into);
+    return;
+  }
   const Key* key = key_of(entry);
   if (key == nullptr || assign(key->rule, entry.value, into)) return;
-  fail(entry.origin,
-       entry.name + " = " + value_text(entry.value) + ": must be " + allowed(key->rule));
+  fail_value(entry, allowed(key->rule));
 }
 
 void check_exclusions(const std::vector<Entry>& entries)

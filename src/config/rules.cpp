@@ -81,6 +81,14 @@ bool assign_to(const WordRule& rule, const Value& value, Case& into)
   return true;
 }
 
+bool assign_to(const TextRule& rule, const Value& value, Case& into)
+{
+  const auto* text = std::get_if<std::string>(&value.data);
+  if (text == nullptr || text->empty()) return false;
+  rule.field(into) = *text;
+  return true;
+}
+
 bool assign_to(const WordListRule& rule, const Value& value, Case& into)
 {
   const auto* items = std::get_if<std::vector<Value>>(&value.data);
@@ -153,11 +161,26 @@ std::string allowed(const Rule& rule)
           [](const WordRule& word) {
             return (word.words.size() > 1 ? "one of " : "") + word_list(word.words);
           },
+          [](const TextRule&) { return std::string("text in quotes, not empty"); },
           [](const WordListRule& list) {
             return "a list without repetitions, not empty, of: " + word_list(list.words);
           },
       },
       rule);
+}
+
+std::string allowed(const TableList& list)
+{
+  std::string keys;
+  for (const Key& key : list.keys) {
+    keys.append(keys.empty() ? "" : " and ").append(last_part(key.name));
+  }
+  return std::string("tables [[")
+      .append(list.name)
+      .append("]], each with ")
+      .append(keys)
+      .append(" and no two with the same ")
+      .append(last_part(list.unique_key));
 }
 
 std::optional<std::string> toml_value(const Rule& rule, const Case& from)
@@ -182,6 +205,9 @@ std::optional<std::string> toml_value(const Rule& rule, const Case& from)
           [&](const WordRule& word) {
             return Text(toml_string(word.words[static_cast<std::size_t>(word.get(copy))]));
           },
+          [&](const TextRule& text) {
+            return text.field(copy).empty() ? Text() : Text(toml_string(text.field(copy)));
+          },
           [&](const WordListRule& list) {
             const std::vector<std::string>& texts = list.field(copy);
             const std::vector<std::string_view> words(texts.begin(), texts.end());
@@ -193,7 +219,8 @@ std::optional<std::string> toml_value(const Rule& rule, const Case& from)
 
 bool takes_text(const Rule& rule)
 {
-  return std::holds_alternative<PathRule>(rule) || std::holds_alternative<WordRule>(rule);
+  return std::holds_alternative<PathRule>(rule) || std::holds_alternative<WordRule>(rule)
+         || std::holds_alternative<TextRule>(rule);
 }
 
 }  // namespace tessera::config

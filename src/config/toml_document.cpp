@@ -19,7 +19,7 @@ namespace {
 using TomlValue = toml::basic_value<toml::discard_comments, std::map>;
 
 // toml11 parses nested lists by recursion: some ten thousand open brackets overflow the stack. No
-// case file has a tenth of this number of brackets in all.
+// case file has this number of brackets in all: a hundred fill regions have 200.
 bool is_too_deep(std::string_view text)
 {
   constexpr std::ptrdiff_t kMostBrackets = 1000;
@@ -32,7 +32,27 @@ TomlValue parse(std::string_view text, const std::string& file_name)
   return toml::parse<toml::discard_comments, std::map>(stream, file_name);
 }
 
-Value to_value(const TomlValue& toml)
+// Says where a value stands. All that an override gives stands in the override.
+class OriginOf {
+ public:
+  OriginOf() = default;
+  explicit OriginOf(std::string everywhere) : everywhere_(std::move(everywhere)) {}
+
+  std::string operator()(const TomlValue& value) const
+  {
+    if (!everywhere_.empty()) return everywhere_;
+    const toml::source_location location = value.location();
+    return location.file_name() + ":" + std::to_string(location.line());
+  }
+
+ private:
+  std::string everywhere_{};
+};
+
+std::vector<Entry> entries_of(const TomlValue& table, const std::string& prefix,
+                              const OriginOf& origin_of);
+
+Value to_value(const TomlValue& toml, const std::string& name, const OriginOf& origin_of)
 {
   switch (toml.type()) {
     case toml::value_t::boolean:
@@ -44,14 +64,14 @@ Value to_value(const TomlValue& toml)
     case toml::value_t::string:
       return {toml.as_string().str};
     case toml::value_t::table:
-      return {OtherValue{"a table"}};
+      return {Table{entries_of(toml, name, origin_of), origin_of(toml)}};
     case toml::value_t::array:
       break;
     default:
       return {OtherValue{"a date or time"}};
   }
   std::vector<Value> items;
-  for (const TomlValue& item : toml.as_array()) items.push_back(to_value(item));
+  for (const TomlValue& item : toml.as_array()) items.push_back(to_value(item, name, origin_of));
   return {std::move(items)};
 }
 
@@ -60,19 +80,30 @@ struct LinedEntry {
   Entry entry{};
 };
 
-void flatten(const TomlValue& table, const std::string& prefix, std::vector<LinedEntry>& entries)
+void flatten(const TomlValue& table, const std::string& prefix, const OriginOf& origin_of,
+             std::vector<LinedEntry>& entries)
 {
   for (const auto& [key, value] : table.as_table()) {
     const std::string name = prefix.empty() ? key : prefix + "." + key;
     if (value.is_table() && !value.as_table().empty()) {
-      flatten(value, name, entries);
+      flatten(value, name, origin_of, entries);
       continue;
     }
-    const toml::source_location location = value.location();
-    const std::string origin = location.file_name() + ":" + std::to_string(location.line());
-    Value plain = value.is_table() ? Value{OtherValue{std::string(kEmptyTable)}} : to_value(value);
-    entries.push_back({location.line(), {name, std::move(plain), origin}});
+    Value plain = value.is_table() ? Value{OtherValue{std::string(kEmptyTable)}}
+                                   : to_value(value, name, origin_of);
+    entries.push_back({value.location().line(), {name, std::move(plain), origin_of(value)}});
   }
+}
+
+std::vector<Entry> entries_of(const TomlValue& table, const std::string& prefix,
+                              const OriginOf& origin_of)
+{
+  std::vector<LinedEntry> lined;
+  flatten(table, prefix, origin_of, lined);
+  std::ranges::stable_sort(lined, {}, &LinedEntry::line);
+  std::vector<Entry> entries;
+  for (LinedEntry& item : lined) entries.push_back(std::move(item.entry));
+  return entries;
 }
 
 // toml11 describes an error by a headline and then, for one or two places, the line of the file and
@@ -149,6 +180,7 @@ std::string value_text(const Value& value)
     std::string operator()(std::int64_t number) const { return std::to_string(number); }
     std::string operator()(double number) const { return number_text(number); }
     std::string operator()(const std::string& text) const { return toml_string(text); }
+    std::string operator()(const Table&) const { return "a table"; }
     std::string operator()(const OtherValue& other) const { return other.kind; }
     std::string operator()(const std::vector<Value>& items) const
     {
@@ -166,25 +198,21 @@ std::string value_text(const Value& value)
 std::vector<Entry> parse_toml(std::string_view text, const std::string& file_name)
 {
   if (is_too_deep(text)) throw ConfigError(file_name + ": has too many brackets for a case file");
-  std::vector<LinedEntry> lined;
   try {
-    flatten(parse(text, file_name), "", lined);
+    return entries_of(parse(text, file_name), "", OriginOf());
   } catch (const toml::exception& error) {
     throw ConfigError(one_line_message(file_name, error));
   }
-  std::stable_sort(lined.begin(), lined.end(),
-                   [](const LinedEntry& a, const LinedEntry& b) { return a.line < b.line; });
-  std::vector<Entry> entries;
-  for (LinedEntry& item : lined) entries.push_back(std::move(item.entry));
-  return entries;
 }
 
-std::optional<Value> parse_toml_value(std::string_view text)
+std::optional<Entry> parse_toml_value(std::string_view text, const std::string& name,
+                                      const std::string& origin)
 {
   if (text.find('\n') != std::string_view::npos || is_too_deep(text)) return std::nullopt;
   try {
     const TomlValue table = parse("value = " + std::string(text), "");
-    return to_value(table.as_table().at("value"));
+    Value value = to_value(table.as_table().at("value"), name, OriginOf(origin));
+    return Entry{name, std::move(value), origin};
   } catch (const toml::exception&) {
     return std::nullopt;
   }

@@ -15,9 +15,18 @@ struct OtherValue {
   std::string kind{};
 };
 
+struct Entry;
+
+/// @brief A table that stands in a list, such as one `[[fill.region]]`.
+struct Table {
+  std::vector<Entry> entries{};  ///< In the order of their lines.
+  std::string origin{};          ///< Where it begins.
+};
+
 /// @brief One value of a TOML file, free of toml11's types.
 struct Value {
-  std::variant<bool, std::int64_t, double, std::string, std::vector<Value>, OtherValue> data{};
+  std::variant<bool, std::int64_t, double, std::string, std::vector<Value>, Table, OtherValue>
+      data{};
 };
 
 /// @brief The value as a user would write it, on one line.
@@ -38,7 +47,9 @@ struct Entry {
 /// @throws ConfigError with file and line if the text is not TOML or holds a key twice.
 [[nodiscard]] std::vector<Entry> parse_toml(std::string_view text, const std::string& file_name);
 
-/// @brief A single TOML value (`0.3`, `"text"`, `["pvtu"]`), or nothing if the text is none.
-[[nodiscard]] std::optional<Value> parse_toml_value(std::string_view text);
+/// @brief The entry `name` with a single TOML value (`0.3`, `"text"`, `["pvtu"]`), or nothing if
+/// the text is none. It and all within it have the origin given.
+[[nodiscard]] std::optional<Entry> parse_toml_value(std::string_view text, const std::string& name,
+                                                    const std::string& origin);
 
 }  // namespace tessera::config

@@ -63,6 +63,35 @@ void write_reference_entry(std::ostream& out, const Key& key)
       << constant.value_or(std::string(key.example)) << '\n';
 }
 
+// Commented out as a whole: the reference is a case without any of them.
+void write_reference_list(std::ostream& out, const TableList& list)
+{
+  out << '\n';
+  write_comment(out, std::string(list.meaning));
+  write_comment(out, "Allowed: " + allowed(list) + ".");
+  write_comment(out, "Default: none, because: " + std::string(list.reason) + ".");
+  out << "# [[" << list.name << "]]\n";
+  for (const Key& key : list.keys) {
+    out << '\n';
+    write_comment(out, std::string(key.meaning));
+    write_comment(out, "Allowed: " + allowed(key.rule) + ".");
+    write_comment(out, "Default: none, because: " + std::string(key.reason) + ".");
+    out << "# " << last_part(key.name) << " = " << key.example << '\n';
+  }
+}
+
+void write_list(std::ostream& out, const TableList& list, const Case& resolved)
+{
+  for (std::size_t size = 1; size <= list.size(resolved); ++size) {
+    Case shortened = resolved;  // The rules of the keys see the last element.
+    list.resize(shortened, size);
+    out << "\n[[" << list.name << "]]\n";
+    for (const Key& key : list.keys) {
+      out << last_part(key.name) << " = " << toml_value(key.rule, shortened).value() << '\n';
+    }
+  }
+}
+
 }  // namespace
 
 std::string to_toml(const Case& resolved)
@@ -76,6 +105,7 @@ std::string to_toml(const Case& resolved)
     headings.before(key);
     out << last_part(key.name) << " = " << *value << '\n';
   }
+  for (const TableList& list : all_table_lists()) write_list(out, list, resolved);
   return out.str();
 }
 
@@ -89,6 +119,7 @@ std::string reference_toml()
     headings.before(key);
     write_reference_entry(out, key);
   }
+  for (const TableList& list : all_table_lists()) write_reference_list(out, list);
   return out.str();
 }
 

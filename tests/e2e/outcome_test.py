@@ -259,6 +259,7 @@ class WrongMesh(OutcomeTest):
         self.assert_refuses(["check", "empty.vtu"], WRONG_INPUT, "empty.vtu", ranks=[None])
         self.assert_refuses(["check", "none.pvtu"], WRONG_INPUT, "none.pvtu")
         self.assert_refuses(["info", "none.step"], WRONG_INPUT, "none.step", ranks=[None])
+        self.assert_refuses(["info", "none.xyz"], WRONG_INPUT, "none.xyz: no such file", ranks=[None])
 
     def test_truncated_piece(self):
         out = self.mesh(self.write_case(subdomains=2), "out")

@@ -6,11 +6,20 @@
 
 namespace tessera::fill {
 
-enum class KernelKind : int { netgen };
+enum class KernelKind : int { netgen, subdivide };
+
+/// @brief The kernel for the subdomains of one material; table `[[fill.region]]` of a case file.
+struct FillRegion {
+  std::string material{};  ///< Its name in the model, not empty.
+  KernelKind kernel = KernelKind::netgen;
+
+  friend bool operator==(const FillRegion&, const FillRegion&) = default;
+};
 
 /// @brief Options of the fill; table `[fill]` of a case file.
 struct FillOptions {
   KernelKind kernel = KernelKind::netgen;
+  std::vector<FillRegion> regions{};  ///< In place of `kernel`; no material twice.
   double timeout_s = 0.0;   ///< CPU seconds a job; 0: many times what its predicted tets take.
   double memory_gib = 4.0;  ///< Resident memory of a job, GiB, > 0.
   int optimize_steps = 2;   ///< NETGEN's optimisation rounds, >= 0.

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tessera/base/types.hpp"
+
 namespace tessera::io {
 
 enum class Compression : int { none, lz4, zlib };
@@ -14,6 +16,7 @@ struct OutputOptions {
   std::filesystem::path directory{};  ///< Relative to the working directory.
   std::vector<std::string> formats{"pvtu"};
   Compression compression = Compression::lz4;
+  LocalIndex files = 0;       ///< Number of piece files; 0: one for each subdomain.
   bool cell_quality = false;  ///< Also write the mean ratio of every tet.
 
   friend bool operator==(const OutputOptions&, const OutputOptions&) = default;

@@ -64,11 +64,9 @@ TEST(ConfigErrors, UnknownTableIsNamedEvenIfEmpty)
 
 TEST(ConfigErrors, KeysOfLaterVersionsAreUnknown)
 {
-  for (const char* key : {"improve.seams=2", "output.parts=4", "output.files=4"}) {
+  for (const char* key : {"improve.seams=2", "output.parts=4"}) {
     EXPECT_NE(error_of_override(key).find("unknown key"), std::string::npos) << key;
   }
-  EXPECT_NE(error_of_key("[[fill.region]]\nmaterial = 'a'").find("unknown key \"fill.region\""),
-            std::string::npos);
 }
 
 TEST(ConfigErrors, WrongTypeNamesTheValueAndWhatIsAllowed)
@@ -102,6 +100,12 @@ TEST(ConfigErrors, NumbersOutsideTheirRangeAreRefused)
         "[refine]\nlevels = -1", "[fill]\nmemory_gib = 0", "[fill]\ntimeout_s = -1",
         "[quality]\nmin_dihedral_deg = 71", "[quality]\nmin_mean_ratio = nan"}) {
     EXPECT_NE(error_of_key(line).find("must be a"), std::string::npos) << line;
+  }
+  for (const char* files : {"-1", "1000001", "2.0", "auto"}) {
+    EXPECT_NE(error_of_override(std::string("output.files=") + files)
+                  .find("must be a whole number from 0 to 1000000"),
+              std::string::npos)
+        << files;
   }
   for (const char* size : {"0", "-1", "nan", "inf", "1e999"}) {
     EXPECT_NE(

@@ -30,7 +30,7 @@ subdomains = 12
 [refine]
 levels = 4
 [fill]
-kernel = "netgen"
+kernel = "subdivide"
 timeout_s = 30
 memory_gib = 1.5
 optimize_steps = 0
@@ -42,6 +42,7 @@ min_mean_ratio = 0.25
 directory = "out dir"
 formats = ["pvtu"]
 compression = "zlib"
+files = 6
 cell_quality = true
 )";
 
@@ -71,7 +72,7 @@ TEST(LoadCase, EveryKeyReachesItsOwnOption)
   EXPECT_EQ(loaded.coarse.feature_angle_deg, 45.0);
   EXPECT_EQ(loaded.decompose.subdomains, 12);
   EXPECT_EQ(loaded.refine.levels, 4);
-  EXPECT_EQ(loaded.fill.kernel, fill::KernelKind::netgen);
+  EXPECT_EQ(loaded.fill.kernel, fill::KernelKind::subdivide);
   EXPECT_EQ(loaded.fill.timeout_s, 30.0);
   EXPECT_EQ(loaded.fill.memory_gib, 1.5);
   EXPECT_EQ(loaded.fill.optimize_steps, 0);
@@ -81,7 +82,14 @@ TEST(LoadCase, EveryKeyReachesItsOwnOption)
   EXPECT_EQ(loaded.output.directory, "out dir");
   EXPECT_EQ(loaded.output.formats, std::vector<std::string>{"pvtu"});
   EXPECT_EQ(loaded.output.compression, io::Compression::zlib);
+  EXPECT_EQ(loaded.output.files, 6);
   EXPECT_TRUE(loaded.output.cell_quality);
+}
+
+TEST(LoadCase, KernelWordsNameTheirEnumerators)
+{
+  EXPECT_EQ(parsed(kMinimal, {{"fill.kernel=netgen"}}).fill.kernel, fill::KernelKind::netgen);
+  EXPECT_EQ(parsed(kMinimal, {{"fill.kernel=subdivide"}}).fill.kernel, fill::KernelKind::subdivide);
 }
 
 TEST(LoadCase, CompressionWordsNameTheirEnumerators)

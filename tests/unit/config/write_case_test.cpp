@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -19,10 +22,17 @@ Case complete_case()
   wanted.coarse = {.max_size = 1e-7, .grading = 0.1, .curvature = 99.5, .feature_angle_deg = 12.25};
   wanted.decompose.subdomains = 77;
   wanted.refine.levels = 0;
-  wanted.fill = {.timeout_s = 1e5, .memory_gib = 0.3, .optimize_steps = 9, .grading = 0.9};
+  wanted.fill = {
+      .kernel = fill::KernelKind::subdivide,
+      .regions = {{"st\"a\\hl ü\n", fill::KernelKind::netgen}, {"b", fill::KernelKind::subdivide}},
+      .timeout_s = 1e5,
+      .memory_gib = 0.3,
+      .optimize_steps = 9,
+      .grading = 0.9};
   wanted.quality = {.min_dihedral_deg = 7.1, .min_mean_ratio = 0.11};
   wanted.output.directory = "out/a b";
   wanted.output.compression = io::Compression::none;
+  wanted.output.files = 12;
   wanted.output.cell_quality = true;
   return wanted;
 }
@@ -52,6 +62,16 @@ TEST(ToToml, WritesEveryKeyThatIsGiven)
   }
 }
 
+TEST(ToToml, HasNoRegionUnlessOneIsGiven)
+{
+  Case wanted = complete_case();
+  EXPECT_NE(to_toml(wanted).find("[[fill.region]]\nmaterial = \"b\"\nkernel = \"subdivide\"\n"),
+            std::string::npos);
+  wanted.fill.regions.clear();
+  EXPECT_EQ(to_toml(wanted).find("fill.region"), std::string::npos);
+  EXPECT_EQ(parse_case(to_toml(wanted), "/elsewhere/case.toml"), wanted);
+}
+
 TEST(ToToml, RefusesAPathThatIsNoUtf8)
 {
   Case wanted = complete_case();
@@ -68,13 +88,46 @@ TEST(Reference, IsACaseWithEveryDefault)
   EXPECT_EQ(parse_case(reference_toml(), "/configs/reference.toml"), defaults);
 }
 
+// The text with its commented tables and keys made effective from `begin` on.
+std::string uncommented(std::string text, const std::string& begin)
+{
+  text.erase(0, text.find(begin));
+  return std::regex_replace(text, std::regex("(^|\n)# (?=\\[\\[|[a-z_]+ = )"), "$1");
+}
+
+TEST(Reference, ExamplesOfAListAreAValidTable)
+{
+  const std::string region = uncommented(reference_toml(), "# [[fill.region]]");
+  const Case loaded = parse_case("geometry.file = 'a'\nsize.target = 1\n" + region, "case.toml");
+  EXPECT_EQ(loaded.fill.regions,
+            (std::vector<fill::FillRegion>{{"steel", fill::KernelKind::subdivide}}));
+}
+
+TEST(Reference, NamesEveryKeyOfEveryListWithItsReason)
+{
+  const std::string text = reference_toml();
+  for (const TableList& list : all_table_lists()) {
+    const std::size_t heading = text.find("\n# [[" + std::string(list.name) + "]]\n");
+    ASSERT_NE(heading, std::string::npos) << list.name;
+    EXPECT_FALSE(list.meaning.empty() || list.reason.empty()) << list.name;
+    for (const Key& key : list.keys) {
+      EXPECT_NE(text.find("\n# " + std::string(last_part(key.name)) + " = ", heading),
+                std::string::npos)
+          << key.name;
+      EXPECT_FALSE(key.meaning.empty() || key.reason.empty()) << key.name;
+    }
+  }
+}
+
 TEST(Reference, NamesEveryKeyWithItsRangeAndReason)
 {
   const std::string text = reference_toml();
   for (const Key& key : all_keys()) {
-    EXPECT_NE(text.find("[" + std::string(table_of(key.name)) + "]"), std::string::npos);
-    EXPECT_NE(text.find("\n" + std::string(last_part(key.name)) + " = ") != std::string::npos,
-              text.find("\n# " + std::string(last_part(key.name)) + " = ") != std::string::npos)
+    const std::size_t heading = text.find("\n[" + std::string(table_of(key.name)) + "]\n");
+    ASSERT_NE(heading, std::string::npos) << key.name;
+    const std::string table = text.substr(heading + 1, text.find("\n[", heading + 1) - heading);
+    const std::string comment = key.is_optional ? "\n# " : "\n";
+    EXPECT_NE(table.find(comment + std::string(last_part(key.name)) + " = "), std::string::npos)
         << key.name;
     EXPECT_FALSE(key.meaning.empty()) << key.name;
     EXPECT_FALSE(key.reason.empty()) << key.name;
@@ -89,6 +142,16 @@ TEST(KeyTable, NamesAreUniqueAndExclusionsKnown)
   }
 }
 
+TEST(KeyTable, ListsHaveNamesOfTheirOwnAndAUniqueKeyAmongTheirKeys)
+{
+  for (const TableList& list : all_table_lists()) {
+    EXPECT_EQ(find_table_list(list.name), &list) << list.name;
+    EXPECT_TRUE(find_key(list.name) == nullptr && !is_table(list.name)) << list.name;
+    EXPECT_EQ(std::ranges::count(list.keys, list.unique_key, &Key::name), 1) << list.name;
+    for (const Key& key : list.keys) EXPECT_EQ(table_of(key.name), list.name) << key.name;
+  }
+}
+
 TEST(KeyTable, DefaultsAreAllowed)
 {
   Case from;
@@ -99,10 +162,10 @@ TEST(KeyTable, DefaultsAreAllowed)
     const auto text = toml_value(key.rule, from);
     if (key.name == "size.target") continue;
     ASSERT_TRUE(text.has_value()) << key.name;
-    const auto value = parse_toml_value(*text);
-    ASSERT_TRUE(value.has_value()) << key.name;
+    const auto entry = parse_toml_value(*text, std::string(key.name), "test");
+    ASSERT_TRUE(entry.has_value()) << key.name;
     Case into;
-    EXPECT_TRUE(assign(key.rule, *value, into)) << key.name << " = " << *text;
+    EXPECT_TRUE(assign(key.rule, entry->value, into)) << key.name << " = " << *text;
   }
 }
 

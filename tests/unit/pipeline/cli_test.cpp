@@ -40,31 +40,87 @@ TEST(CommandLine, MeshNeedsOnlyACase)
   EXPECT_EQ(mesh.case_file, "a case.toml");
   EXPECT_TRUE(mesh.overrides.empty());
   EXPECT_FALSE(mesh.output.has_value());
-  EXPECT_FALSE(mesh.overwrite || mesh.dump_config || mesh.dry_run);
+  EXPECT_FALSE(mesh.overwrite || mesh.resume || mesh.dump_config || mesh.dry_run);
+  EXPECT_FALSE(mesh.predicted_ranks.has_value());
+  EXPECT_TRUE(mesh.only_subdomains.empty());
   EXPECT_EQ(mesh.progress, ProgressMode::automatic);
   EXPECT_EQ(mesh.verbosity, Verbosity::normal);
 }
 
 TEST(CommandLine, MeshTakesEveryOption)
 {
-  const auto mesh = parsed_as<MeshCommand>({"mesh", "--set", "a.b=1", "--set=c.d=x y", "case.toml",
-                                            "--output", "out dir", "--overwrite", "--dump-config",
-                                            "--dry-run", "--progress", "never", "-v"});
+  const auto mesh = parsed_as<MeshCommand>(
+      {"mesh", "--set", "a.b=1", "--set=c.d=x y", "case.toml", "--output", "out dir", "--overwrite",
+       "--dump-config", "--dry-run", "--ranks", "100000", "--progress", "never", "-v"});
   EXPECT_EQ(mesh.case_file, "case.toml");
   EXPECT_EQ(mesh.overrides, (std::vector<std::string>{"a.b=1", "c.d=x y"}));
   EXPECT_EQ(mesh.output, "out dir");
   EXPECT_TRUE(mesh.overwrite && mesh.dump_config && mesh.dry_run);
+  EXPECT_EQ(mesh.predicted_ranks, 100'000);
   EXPECT_EQ(mesh.progress, ProgressMode::never);
   EXPECT_EQ(mesh.verbosity, Verbosity::verbose);
 }
 
+TEST(CommandLine, ResumeExcludesWhatDoesNotGoOn)
+{
+  EXPECT_TRUE(parsed_as<MeshCommand>({"mesh", "c", "--resume", "--output", "a"}).resume);
+  for (const char* other : {"--overwrite", "--dry-run"}) {
+    const std::string message = error_of({"mesh", "c", "--resume", other});
+    EXPECT_NE(message.find(" excludes "), std::string::npos) << message;
+    EXPECT_NE(message.find("--resume"), std::string::npos) << message;
+    EXPECT_NE(message.find(other), std::string::npos) << message;
+  }
+}
+
+TEST(CommandLine, RanksBelongToADryRun)
+{
+  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--ranks=1", "--dry-run"}).predicted_ranks, 1);
+  EXPECT_EQ(parsed_as<MeshCommand>({"mesh", "c", "--dry-run", "--ranks", "010"}).predicted_ranks,
+            10);
+  EXPECT_NE(error_of({"mesh", "c", "--ranks", "4"}).find("--ranks requires --dry-run"),
+            std::string::npos);
+  for (const char* ranks : {"0", "-1", "1000001", "99999999999", "4.0", "four", "4 ", "0x4"}) {
+    const std::string option = std::string("--ranks=") + ranks;
+    const std::string message = error_of({"mesh", "c", "--dry-run", option.c_str()});
+    EXPECT_NE(message.find(std::string("--ranks ") + ranks
+                           + ": must be a whole number from 1 to 1000000"),
+              std::string::npos)
+        << message;
+  }
+}
+
+TEST(CommandLine, SubdomainsArriveAscending)
+{
+  const auto subdomains = [](const char* text) {
+    return parsed_as<MeshCommand>({"mesh", "--only-subdomains", text, "c"}).only_subdomains;
+  };
+  EXPECT_EQ(subdomains("0"), std::vector<LocalIndex>{0});
+  EXPECT_EQ(subdomains("17,3,2147483647,0"), (std::vector<LocalIndex>{0, 3, 17, 2147483647}));
+}
+
+TEST(CommandLine, SubdomainsThatAreNoListOfNumbersAreRefused)
+{
+  for (const char* text :
+       {"-1", "1,", ",1", "1,,2", "1;2", "1, 2", "a", "2147483648", "1.5", "+1"}) {
+    const std::string option = std::string("--only-subdomains=") + text;
+    const std::string message = error_of({"mesh", "c", option.c_str()});
+    EXPECT_NE(message.find(std::string("--only-subdomains ") + text + ": must be whole numbers"),
+              std::string::npos)
+        << message;
+  }
+  EXPECT_NE(error_of({"mesh", "c", "--only-subdomains", "3,1,3"})
+                .find("--only-subdomains 3,1,3: names 3 twice"),
+            std::string::npos);
+}
+
 TEST(CommandLine, OverridesArriveAsTheyWereWritten)
 {
-  const auto mesh =
-      parsed_as<MeshCommand>({"mesh", "case.toml", "--set", "output.formats=[\"pvtu\"]", "--set",
-                              "[x,y]", "--set", "a.b='q'"});
+  const auto mesh = parsed_as<MeshCommand>(
+      {"mesh", "case.toml", "--set", "output.formats=[\"pvtu\"]", "--set", "[x,y]", "--set",
+       "a.b='q'", "--set", "fill.region=[{material=\"a\",kernel=\"netgen\"}]"});
   EXPECT_EQ(mesh.overrides,
-            (std::vector<std::string>{"output.formats=[\"pvtu\"]", "[x,y]", "a.b='q'"}));
+            (std::vector<std::string>{"output.formats=[\"pvtu\"]", "[x,y]", "a.b='q'",
+                                      "fill.region=[{material=\"a\",kernel=\"netgen\"}]"}));
 }
 
 TEST(CommandLine, QuietAndProgressWords)
@@ -92,7 +148,8 @@ TEST(CommandLine, HelpOfEveryLevelIsReturnedNotPrinted)
   }
   const std::string mesh = parsed_as<PrintCommand>({"mesh", "--help"}).text;
   for (const char* word : {"tessera mesh", "CASE.toml", "--set", "--output", "--overwrite",
-                           "--dump-config", "--dry-run", "--progress", "--quiet", "--verbose"}) {
+                           "--resume", "--dump-config", "--dry-run", "--ranks", "--only-subdomains",
+                           "--progress", "--quiet", "--verbose"}) {
     EXPECT_NE(mesh.find(word), std::string::npos) << word;
   }
   EXPECT_NE(parsed_as<PrintCommand>({"check", "-h"}).text.find("--json"), std::string::npos);
@@ -120,6 +177,11 @@ TEST(CommandLine, WrongUseIsOneLineThatSaysHowToGetHelp)
       {"mesh", "c", "--output", "a", "--output", "b"},
       {"mesh", "c", "--progress", "loud"},
       {"mesh", "c", "-q", "-v"},
+      {"mesh", "c", "--resume", "--overwrite"},
+      {"mesh", "c", "--ranks", "4"},
+      {"mesh", "c", "--dry-run", "--ranks", "x"},
+      {"mesh", "c", "--only-subdomains"},
+      {"mesh", "c", "--only-subdomains", "1", "--only-subdomains", "2"},
       {"mesh", "c", "--overwrite=perhaps"},
       {"mesh", "c", "check", "m"},
       {"-x"},
@@ -140,12 +202,8 @@ TEST(CommandLine, UnknownCommandsAndOptionsAreNamed)
   }
 }
 
-TEST(CommandLine, OptionsOfLaterVersionsAreRefused)
+TEST(CommandLine, CommandsOfLaterVersionsAreRefused)
 {
-  for (const char* option : {"--resume", "--only-subdomains=1", "--ranks=4"}) {
-    const std::string message = error_of({"mesh", "c", option});
-    EXPECT_NE(message.find(option), std::string::npos) << message;
-  }
   EXPECT_NE(error_of({"repartition", "m.pvtu"}), "no error");
 }
 
