@@ -72,4 +72,20 @@ template <class Work>
   return comm.broadcast(std::move(bytes), 0);
 }
 
+/// @brief As on_root(), for bytes that may not be there.
+/// @note Collective.
+template <class Work>
+[[nodiscard]] std::optional<Bytes> find_on_root(const comm::Communicator& comm, Work&& work)
+{
+  const Bytes bytes = on_root(comm, [&] {
+    ByteWriter out;
+    const std::optional<Bytes> found = std::forward<Work>(work)();
+    out.put(found.has_value());
+    if (found) out.put(*found);
+    return std::move(out).take();
+  });
+  ByteReader in(bytes);
+  return in.get<bool>() ? std::optional(in.get_vector<std::byte>()) : std::nullopt;
+}
+
 }  // namespace tessera::pipeline

@@ -2,12 +2,13 @@
 #include "pipeline/fill_job.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "tessera/fill/check.hpp"
 #include "tessera/fill/size_samples.hpp"
+#include "tessera/fill/subdivide.hpp"
+#include "tessera/mesh/tet_edges.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/refine/skin.hpp"
 
@@ -44,34 +45,19 @@ double outside_area(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
   return area;
 }
 
-std::vector<std::array<LocalIndex, 2>> edges_of(const mesh::Piece& piece)
-{
-  std::vector<std::array<LocalIndex, 2>> edges;
-  edges.reserve(6 * at(piece.num_tets()));
-  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-    const LocalIndex* v = &piece.tet_vertices[4 * at(t)];
-    for (const auto& [a, b] : mesh::kTetEdgeCorners) {
-      edges.push_back({std::min(v[a], v[b]), std::max(v[a], v[b])});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
-
 // Edge lengths, and the Euler characteristic with the edges' number.
 void measure_edges(const mesh::Piece& piece, LocalIndex num_skin_triangles, FillResult& result)
 {
-  const auto edges = edges_of(piece);
   const std::span<const double> xyz(piece.vertex_xyz);
-  for (const auto& [a, b] : edges) {
-    const double length = norm(point_at(xyz, b) - point_at(xyz, a));
-    result.histograms.log2_edge_length.add(std::log2(length));
-  }
+  GlobalIndex num_edges = 0;
+  mesh::for_each_edge(piece.tet_vertices, piece.num_vertices(), [&](LocalIndex a, LocalIndex b) {
+    ++num_edges;
+    const Vec3 edge = point_at(xyz, b) - point_at(xyz, a);
+    result.histograms.log2_edge_length.add(0.5 * std::log2(dot(edge, edge)));
+  });
   const GlobalIndex num_tets = piece.num_tets();
   const GlobalIndex num_triangles = (4 * num_tets + num_skin_triangles) / 2;
-  result.summary.euler_characteristic =
-      piece.num_vertices() - static_cast<GlobalIndex>(edges.size()) + num_triangles - num_tets;
+  result.summary.euler_characteristic = piece.num_vertices() - num_edges + num_triangles - num_tets;
 }
 
 void measure_tets(const mesh::Piece& piece, const std::vector<char>& seam_units, FillResult& result)
@@ -89,46 +75,86 @@ void measure_tets(const mesh::Piece& piece, const std::vector<char>& seam_units,
   }
 }
 
-}  // namespace
+// A skin, and the tets that some kernel put into it, unchecked.
+struct RawFill {
+  mesh::Skin skin{};
+  mesh::ModelDistance distance{};
+  fill::FillOutput tets{};
+};
 
-FilledPiece fill_subdomain(const FillContext& context, LocalIndex subdomain,
-                           const fill::Kernel& kernel, const fill::FillTry& settings)
+fill::FillInput input_of(const mesh::Skin& skin)
 {
-  const mesh::Skeleton& skeleton = context.refine.skeleton;
-  const mesh::Complex complex = mesh::skin_complex(skeleton, subdomain);
-  const mesh::RefinedLattice lattice = refine::refine_lattice(complex, context.refine);
-  mesh::Skin skin = refine::extract_skin(complex, lattice, skeleton, subdomain);
+  return {.vertex_xyz = skin.vertex_xyz, .triangle_vertices = skin.triangle_vertices};
+}
 
-  fill::FillInput input{.vertex_xyz = skin.vertex_xyz, .triangle_vertices = skin.triangle_vertices};
-  fill::add_size_samples(context.refine.coarse, context.decomposition, subdomain,
-                         context.vertex_size, context.refine.levels, input);
-  fill::FillOutput tets = kernel.fill(input, settings);
-  const fill::FillFacts facts = fill::check_fill(input, tets);
+RawFill remesh(const CutMesh& cut, const refine::RefineContext& refine, LocalIndex subdomain,
+               const fill::FillTry& settings, const fill::Kernel& netgen)
+{
+  const mesh::Complex complex = mesh::skin_complex(cut.skeleton, subdomain);
+  const mesh::RefinedLattice lattice = refine::refine_lattice(complex, refine);
+  RawFill raw{
+      refine::extract_skin(complex, lattice, cut.skeleton, subdomain), lattice.distance, {}};
+  fill::FillInput input = input_of(raw.skin);
+  fill::add_size_samples(cut.coarse, cut.tets.of(subdomain), cut.vertex_size, refine.levels, input);
+  raw.tets = netgen.fill(input, settings);
+  return raw;
+}
 
+RawFill subdivide(const CutMesh& cut, const refine::RefineContext& refine, LocalIndex subdomain)
+{
+  const mesh::TetComplex complex =
+      mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets.of(subdomain));
+  const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, refine);
+  return {refine::extract_skin(complex.faces, lattice, cut.skeleton, subdomain), lattice.distance,
+          fill::subdivide(complex, lattice)};
+}
+
+FilledPiece check_and_measure(const CutMesh& cut, LocalIndex subdomain, RawFill raw)
+{
+  const fill::FillFacts facts = fill::check_fill(input_of(raw.skin), raw.tets);
   FilledPiece filled;
   mesh::Piece& piece = filled.piece;
   piece.subdomain = subdomain;
-  piece.material = context.decomposition.subdomain_material[at(subdomain)];
-  piece.vertex_xyz = std::move(tets.vertex_xyz);
-  piece.skin_unit = skin.vertex_unit;
-  piece.skin_index = skin.vertex_index;
-  piece.tet_vertices = std::move(tets.tet_vertices);
-  add_boundary(skin, skeleton, facts.triangle_tet, piece);
+  piece.material = cut.decomposition.subdomain_material[at(subdomain)];
+  piece.vertex_xyz = std::move(raw.tets.vertex_xyz);
+  piece.skin_unit = raw.skin.vertex_unit;
+  piece.skin_index = raw.skin.vertex_index;
+  piece.tet_vertices = std::move(raw.tets.tet_vertices);
+  add_boundary(raw.skin, cut.skeleton, facts.triangle_tet, piece);
 
   PieceSummary& summary = filled.result.summary;
-  summary.subdomain = subdomain;
   summary.material = piece.material;
   summary.num_tets = piece.num_tets();
   summary.num_interior_vertices = piece.num_interior_vertices();
   summary.num_boundary = piece.num_boundary();
-  summary.num_damped = lattice.distance.num_damped;
-  summary.model_distance = lattice.distance.largest;
-  summary.damped_distance = lattice.distance.largest_damped;
+  summary.num_damped = raw.distance.num_damped;
+  summary.model_distance = raw.distance.largest;
+  summary.damped_distance = raw.distance.largest_damped;
   summary.volume = facts.volume;
-  summary.boundary_area = outside_area(skin, skeleton);
-  measure_edges(piece, skin.num_triangles(), filled.result);
-  measure_tets(piece, context.seam_units, filled.result);
-  filled.result.seams = verify::seam_hashes(skin, skeleton);
+  summary.boundary_area = outside_area(raw.skin, cut.skeleton);
+  measure_edges(piece, raw.skin.num_triangles(), filled.result);
+  measure_tets(piece, cut.seam_units, filled.result);
+  filled.result.seams = verify::seam_hashes(raw.skin, cut.skeleton);
+  return filled;
+}
+
+}  // namespace
+
+FilledPiece fill_subdomain(const CutMesh& cut, const refine::RefineContext& refine,
+                           LocalIndex subdomain, const fill::FillTry& settings,
+                           const fill::Kernel& netgen)
+{
+  const bool is_subdivision = settings.kernel == fill::KernelKind::subdivide;
+  RawFill raw = is_subdivision ? subdivide(cut, refine, subdomain)
+                               : remesh(cut, refine, subdomain, settings, netgen);
+  FilledPiece filled;
+  if (is_subdivision && !fill::all_positive(raw.tets)) {
+    filled.result.summary.is_folded = true;
+  } else {
+    filled = check_and_measure(cut, subdomain, std::move(raw));
+  }
+  filled.result.summary.subdomain = subdomain;
+  filled.result.summary.kernel = settings.kernel;
   return filled;
 }
 

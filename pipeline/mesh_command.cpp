@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/hash.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/io/output_folder.hpp"
@@ -18,6 +19,8 @@
 #include "pipeline/log.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/run_pipeline.hpp"
+#include "pipeline/run_state.hpp"
+#include "pipeline/stages/model_stage.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -87,21 +90,56 @@ class MeshRun {
  private:
   void open_folder()
   {
-    folder_.emplace(given_.output.directory, command_.overwrite ? io::ExistingFolder::overwrite
-                                                                : io::ExistingFolder::refuse);
+    folder_.emplace(given_.output.directory, existing());
+    const RunState state(given_.output.directory);
+    if (command_.resume) state.require_same_case(given_);
     std::filesystem::create_directories(given_.output.directory / "log");
+    std::filesystem::create_directories(given_.output.directory / "mesh");
+    std::filesystem::create_directories(given_.output.directory / "boundary");
     io::write_text_atomically(given_.output.directory / "case.toml", config::to_toml(given_));
+  }
+
+  [[nodiscard]] io::ExistingFolder existing() const
+  {
+    if (command_.overwrite) return io::ExistingFolder::overwrite;
+    return command_.resume ? io::ExistingFolder::resume : io::ExistingFolder::refuse;
+  }
+
+  // A run that has ended needs no more than a look at whether it is the same run.
+  std::optional<ExitCode> finished(RunContext& context) const
+  {
+    if (!command_.resume) return std::nullopt;
+    const RunState state(given_.output.directory);
+    const auto code = find_on_root(comm_, [&]() -> std::optional<Bytes> {
+      const auto ended = state.finished();
+      if (!ended) return std::nullopt;
+      ByteWriter out;
+      out.put(*ended);
+      return std::move(out).take();
+    });
+    if (!code) return std::nullopt;
+    const model::ModelSource model = run_model_stage(given_, context);
+    all_or_none(comm_, [&] {
+      if (comm_.rank() != 0) return;
+      state.require_same_model(hash_bytes(model.content));
+      state.clear();
+    });
+    context.log.info("nothing to do: the run in {} has ended", given_.output.directory.string());
+    return ByteReader(*code).get<ExitCode>();
   }
 
   ExitCode mesh(RunContext& context)
   {
-    const RunResult run = run_pipeline(given_, context);
+    if (const auto code = finished(context)) return *code;
+    const RunState state(given_.output.directory);
+    const RunResult run = run_pipeline(given_, {&state, command_.only_subdomains}, context);
     const Verdict verdict = judge(run);
     const RunFigures run_figures = figures();
     all_or_none(comm_, [&] {
       if (comm_.rank() != 0) return;
       io::write_text_atomically(given_.output.directory / "report.json",
                                 report_json(run, verdict, run_figures, context.times));
+      state.clear();
     });
     if (comm_.rank() == 0) {
       for (const std::string& reason : verdict.reasons) context.log.warn("degraded: {}", reason);
@@ -113,7 +151,7 @@ class MeshRun {
 
   ExitCode predict(RunContext& context)
   {
-    const RunResult run = run_dry(given_, context);
+    const RunResult run = run_coarse_part(given_, {}, context);
     const auto& weights = run.decomposition.decomposition.subdomain_weight;
     context.log.info("about {:.3g} tets in {} subdomains, {} levels from {} coarse tets",
                      std::accumulate(weights.begin(), weights.end(), 0.0), weights.size(),

@@ -6,19 +6,31 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
-#include "tessera/fill/size_samples.hpp"
-#include "tessera/io/piece_store.hpp"
+#include "tessera/mesh/lattice.hpp"
 #include "tessera/model/scaled_model.hpp"
 #include "tessera/netgen/factory.hpp"
 #include "tessera/plan/fold_test.hpp"
 #include "tessera/refine/skin.hpp"
 
+#include "pipeline/batch_filler.hpp"
+#include "pipeline/cut_mesh.hpp"
 #include "pipeline/fill_job.hpp"
+#include "pipeline/test_fault.hpp"
 
 namespace tessera::pipeline {
 namespace {
 
-enum class Message : int { load_model, load_mesh, load_plan, import, box, coarse, plan, fill };
+enum class Message : int {
+  load_model,
+  load_mesh,
+  load_plan,
+  load_numbers,
+  import,
+  box,
+  coarse,
+  plan,
+  fill
+};
 
 // State of the model zygote; jobs are forked from it.
 class MeshWorker final : public jobs::Worker {
@@ -34,6 +46,8 @@ class MeshWorker final : public jobs::Worker {
       case Message::load_plan:
         damping_ = mesh::damping_from_bytes(in.get_vector<std::byte>());
         return;
+      case Message::load_numbers:
+        return load_numbers(in);
       default:
         throw Error("load message of an unknown kind");
     }
@@ -69,13 +83,21 @@ class MeshWorker final : public jobs::Worker {
 
   void load_mesh(ByteReader& in)
   {
+    cut_.reset();
     coarse_ = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
     decomposition_ = mesh::decomposition_from_bytes(in.get_vector<std::byte>());
     levels_ = in.get<int>();
-    piece_folder_ = in.get_string();
-    skeleton_ = mesh::build_skeleton(coarse_, decomposition_);
-    seam_units_ = mesh::units_on_seams(skeleton_, decomposition_);
-    vertex_size_ = fill::vertex_sizes(coarse_);
+    output_ = in.get_string();
+    cut_.emplace(coarse_, decomposition_);
+  }
+
+  void load_numbers(ByteReader& in)
+  {
+    const auto counts = in.get_vector<number::PieceCounts>();
+    length_unit_ = in.get_string();
+    output_options_.compression = in.get<io::Compression>();
+    output_options_.cell_quality = in.get<bool>();
+    ids_.emplace(mesh::UnitLayout(cut_->skeleton), mesh::lattice::intervals(levels_), counts);
   }
 
   static Bytes import(ByteReader& in)
@@ -103,49 +125,52 @@ class MeshWorker final : public jobs::Worker {
 
   Bytes plan(ByteReader& in)
   {
-    const auto subdomain = in.get<LocalIndex>();
+    const auto test = in.get<PlanTest>();
     const mesh::Damping damping = mesh::damping_from_bytes(in.get_vector<std::byte>());
-    const mesh::TetComplex complex = mesh::tet_complex(
-        coarse_, skeleton_, plan::tets_on_geometry(coarse_, skeleton_, decomposition_, subdomain));
-    const refine::RefineContext context = refine_context(damping);
+    const auto tets =
+        plan::tets_on_geometry(coarse_, cut_->tets.of(test.subdomain), cut_->on_geometry);
+    const mesh::TetComplex complex = mesh::tet_complex(coarse_, cut_->skeleton, tets);
+    refine::RefineContext context = refine_context(damping);
+    context.levels = test.levels;
     const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, context);
-    std::vector<mesh::PointDamping> folds = plan::find_folds(complex, skeleton_, lattice, damping);
+    auto folds = plan::find_folds(complex, cut_->skeleton, lattice, damping);
     // Bad children do not matter to a kernel that meshes anew, as long as the skin is sound: points
     // are kept off the geometry only where it is not.
-    if (!folds.empty() && !netgen::skin_overlaps(fill_input(context, subdomain))) folds.clear();
+    if (test.kernel == fill::KernelKind::netgen && !folds.empty()
+        && !netgen::skin_overlaps(skin_of(context, test.subdomain))) {
+      folds.clear();
+    }
     return mesh::to_bytes(mesh::Damping(std::move(folds)));
   }
 
   Bytes fill(ByteReader& in)
   {
-    const auto subdomain = in.get<LocalIndex>();
-    const auto settings = in.get<fill::FillTry>();
-    const auto angle_to_beat_deg = in.get<double>();
-    const auto kernel = netgen::make_fill_kernel();
+    const auto task = in.get<FillTask>();
+    const auto kernel = make_faulty_if_asked(netgen::make_fill_kernel(), task.first);
     refine::RefineContext context = refine_context(damping_);
     context.measure_distance = true;
-    FilledPiece filled = fill_subdomain({context, decomposition_, seam_units_, vertex_size_},
-                                        subdomain, *kernel, settings);
-    if (filled.result.summary.tets.min_dihedral_deg <= angle_to_beat_deg) {
-      throw MeshError("the fill is not better than the one before");
+    std::optional<WriteContext> numbers;
+    if (ids_) numbers.emplace(WriteContext{coarse_, cut_->skeleton, *ids_, length_unit_});
+    BatchFiller batch(task, output_, numbers ? &*numbers : nullptr, output_options_);
+    for (LocalIndex s = task.first; s < task.last; ++s) {
+      batch.add(fill_subdomain(*cut_, context, s, task.settings, *kernel));
     }
-    io::PieceStore(piece_folder_).put(subdomain, mesh::to_bytes(filled.piece));
-    return to_bytes(filled.result);
+    return std::move(batch).finish();
   }
 
-  [[nodiscard]] fill::FillInput fill_input(const refine::RefineContext& context,
-                                           LocalIndex subdomain) const
+  [[nodiscard]] fill::FillInput skin_of(const refine::RefineContext& context,
+                                        LocalIndex subdomain) const
   {
-    const mesh::Complex complex = mesh::skin_complex(skeleton_, subdomain);
+    const mesh::Complex complex = mesh::skin_complex(cut_->skeleton, subdomain);
     mesh::Skin skin = refine::extract_skin(complex, refine::refine_lattice(complex, context),
-                                           skeleton_, subdomain);
+                                           cut_->skeleton, subdomain);
     return {.vertex_xyz = std::move(skin.vertex_xyz),
             .triangle_vertices = std::move(skin.triangle_vertices)};
   }
 
   [[nodiscard]] refine::RefineContext refine_context(const mesh::Damping& damping) const
   {
-    return {coarse_, skeleton_, *scaled_model_, damping, levels_};
+    return {coarse_, cut_->skeleton, *scaled_model_, damping, levels_};
   }
 
   double scale_ = 1.0;
@@ -153,12 +178,13 @@ class MeshWorker final : public jobs::Worker {
   std::unique_ptr<model::Model> scaled_model_{};
   mesh::CoarseMesh coarse_{};
   mesh::Decomposition decomposition_{};
-  mesh::Skeleton skeleton_{};
-  std::vector<char> seam_units_{};
-  std::vector<double> vertex_size_{};
+  std::optional<CutMesh> cut_{};
   mesh::Damping damping_{};
   int levels_ = 0;
-  std::filesystem::path piece_folder_{};
+  std::filesystem::path output_{};
+  std::optional<number::IdLayout> ids_{};  ///< If they are known before the pieces are.
+  std::string length_unit_{};
+  io::OutputOptions output_options_{};
 };
 
 template <class... Values>
@@ -180,10 +206,17 @@ Bytes load_model_message(const model::ModelSource& source, double scale)
 }
 
 Bytes load_mesh_message(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
-                        int levels, const std::filesystem::path& piece_folder)
+                        int levels, const std::filesystem::path& output)
 {
   return message(Message::load_mesh, mesh::to_bytes(coarse), mesh::to_bytes(decomposition), levels,
-                 piece_folder.string());
+                 output.string());
+}
+
+Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
+                           const std::string& length_unit, const io::OutputOptions& options)
+{
+  return message(Message::load_numbers, counts, length_unit, options.compression,
+                 options.cell_quality);
 }
 
 Bytes load_plan_message(const mesh::Damping& damping)
@@ -203,14 +236,11 @@ Bytes coarse_request(const coarse::CoarseOptions& options)
   return message(Message::coarse, options);
 }
 
-Bytes plan_request(LocalIndex subdomain, const mesh::Damping& damping)
+Bytes plan_request(const PlanTest& test, const mesh::Damping& damping)
 {
-  return message(Message::plan, subdomain, mesh::to_bytes(damping));
+  return message(Message::plan, test, mesh::to_bytes(damping));
 }
 
-Bytes fill_request(LocalIndex subdomain, const fill::FillTry& settings, double angle_to_beat_deg)
-{
-  return message(Message::fill, subdomain, settings, angle_to_beat_deg);
-}
+Bytes fill_request(const FillTask& task) { return message(Message::fill, task); }
 
 }  // namespace tessera::pipeline

@@ -3,15 +3,21 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/base/hash.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/fill/kernel.hpp"
+#include "tessera/io/options.hpp"
 #include "tessera/jobs/job_runner.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/damping.hpp"
 #include "tessera/mesh/decomposition.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/number/id_layout.hpp"
 
 /// Everything that runs in job processes because it calls NETGEN or OpenCASCADE, and the messages
 /// that start it. A job's result is the bytes that the stage reads back.
@@ -23,13 +29,19 @@ namespace tessera::pipeline {
 /// @brief load: the model. `scale`: output length units per file length unit.
 [[nodiscard]] Bytes load_model_message(const model::ModelSource& source, double scale);
 
-/// @brief load: coarse mesh and decomposition, the number of levels, and where pieces go.
+/// @brief load: coarse mesh and decomposition, the number of levels, and the output folder.
 [[nodiscard]] Bytes load_mesh_message(const mesh::CoarseMesh& coarse,
                                       const mesh::Decomposition& decomposition, int levels,
-                                      const std::filesystem::path& piece_folder);
+                                      const std::filesystem::path& output);
 
 /// @brief load: the finished plan.
 [[nodiscard]] Bytes load_plan_message(const mesh::Damping& damping);
+
+/// @brief load: what piece files need besides the pieces, if that is known before any is filled:
+/// fill jobs then write the files themselves. `counts` of all subdomains. Needs the mesh.
+[[nodiscard]] Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
+                                         const std::string& length_unit,
+                                         const io::OutputOptions& options);
 
 /// @brief run: reads a CAD file; result: bytes of a ModelSource. Needs no load.
 [[nodiscard]] Bytes import_request(const std::filesystem::path& file,
@@ -42,14 +54,32 @@ namespace tessera::pipeline {
 /// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh. Needs the model.
 [[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options);
 
+/// @brief What a plan job tests.
+struct PlanTest {
+  LocalIndex subdomain = kNoIndex;
+  fill::KernelKind kernel = fill::KernelKind::netgen;  ///< That the subdomain is for.
+  int levels = 0;                                      ///< On which children must be positive.
+};
+
 /// @brief run: tests one subdomain for folds under the given dampings; result: bytes of a Damping
 /// with the new, smaller factors. Needs model and mesh.
-[[nodiscard]] Bytes plan_request(LocalIndex subdomain, const mesh::Damping& damping);
+[[nodiscard]] Bytes plan_request(const PlanTest& test, const mesh::Damping& damping);
 
-/// @brief run: refines, fills and checks one subdomain and stores the piece; result: bytes of a
-/// FillResult. A piece whose smallest dihedral angle does not beat `angle_to_beat_deg` is an error
-/// and leaves the store as it was. Needs model, mesh and plan.
-[[nodiscard]] Bytes fill_request(LocalIndex subdomain, const fill::FillTry& settings,
-                                 double angle_to_beat_deg);
+/// @brief What a fill job makes: the pieces of the subdomains first…last-1.
+struct FillTask {
+  LocalIndex batch = 0;  ///< Number of the record, and of the file if numbers are loaded.
+  LocalIndex first = 0;
+  LocalIndex last = 0;
+  Hash128 plan{};                  ///< plan_fingerprint() of them.
+  fill::FillTry settings{};        ///< The same for all.
+  double angle_to_beat_deg = 0.0;  ///< A piece whose smallest angle does not is an error.
+  LocalIndex tries = 1;            ///< Which rung of the ladder this is.
+  bool was_limited = false;        ///< A rung before it ended for time or memory.
+  bool keep = true;                ///< false: measure only and store nothing, for a prediction.
+};
+
+/// @brief run: refines, fills and checks subdomains and stores their record; result: bytes of their
+/// FillResults. If one is folded there is no record. Needs model, mesh and plan.
+[[nodiscard]] Bytes fill_request(const FillTask& task);
 
 }  // namespace tessera::pipeline

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/piece_summary.hpp"
 
+#include <utility>
+
 namespace tessera::pipeline {
 
 Bytes to_bytes(const FillResult& result)
@@ -20,6 +22,25 @@ FillResult fill_result_from_bytes(std::span<const std::byte> bytes)
   result.histograms = quality::quality_histograms_from_bytes(in.get_vector<std::byte>());
   result.seams = in.get_vector<verify::SeamHash>();
   return result;
+}
+
+Bytes to_bytes(const std::vector<FillResult>& results)
+{
+  ByteWriter out;
+  out.put(static_cast<std::uint64_t>(results.size()));
+  for (const FillResult& result : results) out.put(to_bytes(result));
+  return std::move(out).take();
+}
+
+std::vector<FillResult> fill_results_from_bytes(std::span<const std::byte> bytes)
+{
+  ByteReader in(bytes);
+  const auto count = in.get<std::uint64_t>();
+  std::vector<FillResult> results;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    results.push_back(fill_result_from_bytes(in.get_vector<std::byte>()));
+  }
+  return results;
 }
 
 }  // namespace tessera::pipeline

@@ -6,6 +6,7 @@
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/base/types.hpp"
+#include "tessera/fill/options.hpp"
 #include "tessera/quality/statistics.hpp"
 #include "tessera/verify/seams.hpp"
 
@@ -15,6 +16,7 @@ namespace tessera::pipeline {
 struct PieceSummary {
   LocalIndex subdomain = kNoIndex;
   LocalIndex material = 0;
+  fill::KernelKind kernel = fill::KernelKind::netgen;  ///< What made the piece.
   LocalIndex tries = 0;       ///< Rungs of the ladder that were needed, from 1.
   LocalIndex num_damped = 0;  ///< Skin points that the plan left off the geometry.
   GlobalIndex num_tets = 0;
@@ -27,13 +29,14 @@ struct PieceSummary {
   double damped_distance = 0.0;          ///< Largest, of the damped points; output length unit.
   double cpu_s = 0.0;                    ///< Of the try that succeeded.
   bool was_limited = false;              ///< A try ended for time or memory: not reproducible.
+  bool is_folded = false;  ///< A coarse tet has children that are not positive: there is no piece.
   quality::TetStatistics tets{};
   quality::TetStatistics
       seam_tets{};   ///< Tets with a vertex between two subdomains of one material.
-  Hash128 digest{};  ///< Sum of hash_tet(); known after the write stage.
+  Hash128 digest{};  ///< Sum of hash_tet(); known when the piece is written.
 };
 
-/// @brief What a fill job sends back; the piece itself is in the piece store.
+/// @brief What is kept of one piece besides its tets.
 struct FillResult {
   PieceSummary summary{};
   quality::QualityHistograms histograms{};
@@ -43,5 +46,9 @@ struct FillResult {
 [[nodiscard]] Bytes to_bytes(const FillResult& result);
 /// @throws InputError if the bytes are truncated.
 [[nodiscard]] FillResult fill_result_from_bytes(std::span<const std::byte> bytes);
+
+[[nodiscard]] Bytes to_bytes(const std::vector<FillResult>& results);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] std::vector<FillResult> fill_results_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace tessera::pipeline

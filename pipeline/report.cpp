@@ -9,6 +9,7 @@
 #include "tessera/base/version.hpp"
 #include "tessera/comm/mpi_version.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
+#include "tessera/fill/ladder.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/netgen/factory.hpp"
 
@@ -72,15 +73,14 @@ Json quality_json(const FilledPieces& filled)
 Json subdomains_json(const RunResult& run)
 {
   Json subdomains = Json::array();
-  for (std::size_t s = 0; s < run.filled.pieces.size(); ++s) {
-    const PieceSummary& piece = run.filled.pieces[s];
+  for (const PieceSummary& piece : run.filled.pieces) {
     subdomains.push_back({{"id", piece.subdomain},
                           {"material", piece.material},
                           {"tets", piece.num_tets},
-                          {"kernel", "netgen"},
+                          {"kernel", fill::name_of(piece.kernel)},
                           {"tries", piece.tries},
                           {"seconds", piece.cpu_s},
-                          {"digest", to_hex(run.digests[s])}});
+                          {"digest", to_hex(piece.digest)}});
   }
   return subdomains;
 }
@@ -159,6 +159,16 @@ void add_figures(Json& json, const RunFigures& figures)
   json["peak_rss_bytes_max"] = figures.peak_rss_bytes_max;
 }
 
+// Where the ladder ended at another kernel than the case wants.
+std::vector<LocalIndex> substituted_subdomains(const RunResult& run)
+{
+  std::vector<LocalIndex> substituted;
+  for (const PieceSummary& piece : run.filled.pieces) {
+    if (piece.kernel != run.kernels[at(piece.subdomain)]) substituted.push_back(piece.subdomain);
+  }
+  return substituted;
+}
+
 }  // namespace
 
 Verdict judge(const RunResult& run)
@@ -180,6 +190,11 @@ Verdict judge(const RunResult& run)
         "at most {:.3g}; a smaller coarse.max_size may help",
         run.damping.entries().size(), largest(run.filled.pieces, &PieceSummary::damped_distance)));
   }
+  if (const auto substituted = substituted_subdomains(run); !substituted.empty()) {
+    verdict.reasons.push_back(
+        fmt::format("NETGEN could not fill {} subdomains, they were subdivided: {}",
+                    substituted.size(), fmt::join(substituted, ", ")));
+  }
   if (!verdict.reasons.empty()) verdict.exit_code = ExitCode::degraded;
   return verdict;
 }
@@ -189,7 +204,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
 {
   const std::vector<PieceSummary>& pieces = run.filled.pieces;
   Hash128 digest;
-  for (const Hash128& piece : run.digests) digest += piece;
+  for (const PieceSummary& piece : pieces) digest += piece.digest;
   Json json =
       head_json(verdict.exit_code, fmt::format("{}", fmt::join(verdict.reasons, "; ")), figures);
   json["num_subdomains"] = pieces.size();
@@ -207,7 +222,9 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   json["tets_per_second"] = static_cast<double>(run.num_tets) / figures.wall_time_s;
   json["stages"] = stages_json(times);
   json["quality"] = quality_json(run.filled);
-  json["model"] = {{"repairs", run.model.repairs}, {"length_unit", run.model.length_unit}};
+  json["model"] = {{"repairs", run.model.repairs},
+                   {"length_unit", run.model.length_unit},
+                   {"digest", to_hex(hash_bytes(run.model.content))}};
   json["coarse"] = {{"num_tets", run.coarse.mesh.num_tets()},
                     {"max_size", run.coarse.options.max_size},
                     {"tries", run.coarse.tries},

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/run_pipeline.hpp"
 
+#include <algorithm>
+#include <numeric>
 #include <string>
+#include <utility>
 
+#include "tessera/base/error.hpp"
+#include "tessera/base/hash.hpp"
+#include "tessera/fill/ladder.hpp"
 #include "tessera/mesh/lattice.hpp"
-#include "tessera/mesh/skeleton.hpp"
 
+#include "pipeline/count_pieces.hpp"
+#include "pipeline/disk_space.hpp"
 #include "pipeline/resolve_size.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
+#include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/stages/plan_stage.hpp"
 #include "pipeline/stages/verify_stage.hpp"
@@ -16,49 +24,153 @@
 namespace tessera::pipeline {
 namespace {
 
-number::IdLayout number_pieces(const mesh::Skeleton& skeleton, int levels,
-                               const std::vector<PieceSummary>& pieces)
-{
-  std::vector<number::PieceCounts> counts;
-  for (const PieceSummary& piece : pieces) {
-    counts.push_back({piece.num_interior_vertices, piece.num_tets, piece.num_boundary});
-  }
-  return {mesh::UnitLayout(skeleton), mesh::lattice::intervals(levels), counts};
-}
-
 // Of a scaled mesh only the user knows the unit.
 std::string output_length_unit(const RunResult& run)
 {
   return run.resolved.geometry.scale == 1.0 ? run.model.length_unit : std::string{};
 }
 
+// Coarse mesh and subdomains: from the folder of a run that was stopped, or made and kept there.
+void cut_coarse_mesh(RunResult& run, const RunOptions& options, RunContext& context)
+{
+  const auto kept = find_on_root(context.comm, [&]() -> std::optional<Bytes> {
+    return options.state == nullptr ? std::nullopt : options.state->find_coarse();
+  });
+  if (kept) {
+    ByteReader in(*kept);
+    run.coarse = coarse_result_from_bytes(in.get_vector<std::byte>());
+    run.decomposition = decompose_result_from_bytes(in.get_vector<std::byte>());
+    return;
+  }
+  run.coarse = run_coarse_stage(run.resolved, context);
+  run.decomposition = run_decompose_stage(run.resolved, run.coarse.mesh, context);
+  all_or_none(context.comm, [&] {
+    if (options.state == nullptr || context.comm.rank() != 0) return;
+    ByteWriter out;
+    out.put(to_bytes(run.coarse));
+    out.put(to_bytes(run.decomposition));
+    options.state->keep_coarse(std::move(out).take());
+  });
+}
+
+std::vector<LocalIndex> all_subdomains(const CutMesh& cut)
+{
+  std::vector<LocalIndex> all(at(cut.num_subdomains()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+// The plan that a stopped run has left, or a first one.
+Plan first_plan(const RunResult& run, const CutMesh& cut, const RunOptions& options,
+                RunContext& context)
+{
+  const auto kept = find_on_root(context.comm, [&]() -> std::optional<Bytes> {
+    const auto plan = options.state == nullptr ? std::nullopt : options.state->find_plan();
+    return plan ? std::optional(to_bytes(*plan)) : std::nullopt;
+  });
+  if (kept) return plan_from_bytes(*kept);
+  Plan plan{run.kernels, {}};
+  plan.damping = run_plan_stage({.cut = cut,
+                                 .kernels = plan.kernels,
+                                 .levels = run.resolved.refine.levels,
+                                 .subdomains = all_subdomains(cut)},
+                                {}, context);
+  return plan;
+}
+
+// Fills; where even subdivision finds inverted tets, plans anew for it and fills what that touches.
+// Dampings only fall, so it ends.
+void plan_and_fill(RunResult& run, const CutMesh& cut, const std::vector<SubdomainRange>& ranges,
+                   const RunOptions& options, RunContext& context)
+{
+  Plan plan = first_plan(run, cut, options, context);
+  for (;;) {
+    all_or_none(context.comm, [&] {
+      if (options.state != nullptr && context.comm.rank() == 0) options.state->keep_plan(plan);
+    });
+    load_plan(plan.damping, context);
+    run.filled = run_fill_stage(run.resolved, {cut, plan.kernels, plan.damping, ranges}, context);
+    if (run.filled.folded.empty()) break;
+    for (const LocalIndex s : run.filled.folded) plan.kernels[at(s)] = fill::KernelKind::subdivide;
+    plan.damping = run_plan_stage({.cut = cut,
+                                   .kernels = plan.kernels,
+                                   .levels = run.resolved.refine.levels,
+                                   .depth = PlanDepth::all_levels,
+                                   .subdomains = run.filled.folded},
+                                  std::move(plan.damping), context);
+  }
+  run.damping = std::move(plan.damping);
+}
+
+// Part of a mesh has ids only where the number of all other tets is known without making them.
+void require_possible(const std::vector<LocalIndex>& only_subdomains, const CutMesh& cut,
+                      const config::Case& run_case, bool counts_are_known)
+{
+  if (only_subdomains.empty()) return;
+  if (!counts_are_known) {
+    throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\" and no other region");
+  }
+  if (run_case.output.files != 0) throw ConfigError("--only-subdomains excludes output.files");
+  if (only_subdomains.back() >= cut.num_subdomains()) {
+    throw ConfigError("--only-subdomains: there is no subdomain "
+                      + std::to_string(only_subdomains.back()) + ", the last one is "
+                      + std::to_string(cut.num_subdomains() - 1));
+  }
+}
+
 }  // namespace
 
-RunResult run_dry(const config::Case& given, RunContext& context)
+bool are_counts_known(const RunResult& run)
+{
+  return std::all_of(run.kernels.begin(), run.kernels.end(),
+                     [](fill::KernelKind kernel) { return kernel == fill::KernelKind::subdivide; });
+}
+
+RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
 {
   RunResult run;
   run.model = run_model_stage(given, context);
+  all_or_none(context.comm, [&] {
+    if (options.state == nullptr || context.comm.rank() != 0) return;
+    options.state->require_same_model(hash_bytes(run.model.content));
+  });
   run.resolved = resolve_size(given, context);
-  run.coarse = run_coarse_stage(run.resolved, context);
-  run.decomposition = run_decompose_stage(run.resolved, run.coarse.mesh, context);
+  cut_coarse_mesh(run, options, context);
+  all_or_none(context.comm, [&] {
+    run.kernels = fill::kernels_of(run.resolved.fill, run.coarse.mesh.material_names,
+                                   run.decomposition.decomposition.subdomain_material);
+  });
   return run;
 }
 
-RunResult run_pipeline(const config::Case& given, RunContext& context)
+RunResult run_pipeline(const config::Case& given, const RunOptions& options, RunContext& context)
 {
-  RunResult run = run_dry(given, context);
-  const mesh::CoarseMesh& coarse = run.coarse.mesh;
-  const mesh::Decomposition& decomposition = run.decomposition.decomposition;
-  const mesh::Skeleton skeleton = mesh::build_skeleton(coarse, decomposition);
-
-  run.damping = run_plan_stage(run.resolved, coarse, decomposition, skeleton, context);
-  run.filled = run_fill_stage(run.resolved, decomposition, skeleton, context);
-  const number::IdLayout ids =
-      number_pieces(skeleton, run.resolved.refine.levels, run.filled.pieces);
-  run_verify_stage(coarse, decomposition, skeleton, run.filled, context);
+  RunResult run = run_coarse_part(given, options, context);
+  const CutMesh cut(run.coarse.mesh, run.decomposition.decomposition);
+  const bool is_one_pass = are_counts_known(run);
+  all_or_none(context.comm,
+              [&] { require_possible(options.only_subdomains, cut, run.resolved, is_one_pass); });
   const std::string length_unit = output_length_unit(run);
-  run.digests = run_write_stage(run.resolved, run.filled.pieces,
-                                {coarse, skeleton, ids, length_unit}, context);
+  const std::vector<SubdomainRange> files =
+      options.only_subdomains.empty() ? file_ranges(cut.num_subdomains(), run.resolved.output.files)
+                                      : single_ranges(options.only_subdomains);
+
+  // Ids that are known before the fills let the fills write the files themselves.
+  std::vector<number::PieceCounts> counts;
+  if (is_one_pass) counts = count_subdivided_pieces(cut, run.resolved.refine.levels);
+  load_mesh(cut, run.resolved, context);
+  if (is_one_pass) load_numbers(counts, length_unit, run.resolved.output, context);
+  require_disk_space(run, files, context);
+
+  const auto ranges = is_one_pass ? files : single_ranges(all_subdomains(cut));
+  plan_and_fill(run, cut, ranges, options, context);
+  if (!is_one_pass) counts = counts_of(run.filled.pieces);
+  const number::IdLayout ids(mesh::UnitLayout(cut.skeleton),
+                             mesh::lattice::intervals(run.resolved.refine.levels), counts);
+  run_verify_stage(cut, ranges, run.filled, context);
+  const WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit};
+  if (!is_one_pass) run_write_stage(run.resolved, files, mesh, run.filled, context);
+  write_indices(run.resolved, files, mesh, run.filled, context);
   run.num_vertices = ids.num_vertices();
   run.num_tets = ids.num_tets();
   return run;

@@ -3,14 +3,13 @@
 
 #include <vector>
 
-#include "tessera/base/hash.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/mesh/damping.hpp"
 #include "tessera/model/model.hpp"
-#include "tessera/number/id_layout.hpp"
 
 #include "pipeline/run_context.hpp"
+#include "pipeline/run_state.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/fill_stage.hpp"
 
@@ -22,19 +21,31 @@ struct RunResult {
   model::ModelSource model{};
   CoarseResult coarse{};
   decompose::DecomposeResult decomposition{};
+  std::vector<fill::KernelKind> kernels{};  ///< By subdomain, as the case wants them.
   mesh::Damping damping{};
   FilledPieces filled{};
-  std::vector<Hash128> digests{};  ///< By subdomain.
   GlobalIndex num_vertices = 0;
   GlobalIndex num_tets = 0;
+};
+
+/// @brief Whether every subdomain is to be subdivided: then all ids are known before any piece is.
+[[nodiscard]] bool are_counts_known(const RunResult& run);
+
+/// @brief What a run is told besides its case.
+struct RunOptions {
+  const RunState* state = nullptr;            ///< Of the output folder; nullptr: keep nothing.
+  std::vector<LocalIndex> only_subdomains{};  ///< Ascending; empty: all.
 };
 
 /// @brief The stages in their order.
 /// @note Collective. The worker processes of `context.jobs` are those of make_mesh_worker().
 /// @throws what the stages throw, on every rank.
-[[nodiscard]] RunResult run_pipeline(const config::Case& given, RunContext& context);
+[[nodiscard]] RunResult run_pipeline(const config::Case& given, const RunOptions& options,
+                                     RunContext& context);
 
-/// @brief The first stages only: what a run would make, without any fine work.
-[[nodiscard]] RunResult run_dry(const config::Case& given, RunContext& context);
+/// @brief The first stages only, from the model to the subdomains: no fine work.
+/// @note Collective.
+[[nodiscard]] RunResult run_coarse_part(const config::Case& given, const RunOptions& options,
+                                        RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -56,6 +56,25 @@ CoarseResult climb(const config::Case& run_case, RunContext& context)
 
 }  // namespace
 
+Bytes to_bytes(const CoarseResult& result)
+{
+  ByteWriter out;
+  out.put(mesh::to_bytes(result.mesh));
+  out.put(result.options);
+  out.put(result.tries);
+  return std::move(out).take();
+}
+
+CoarseResult coarse_result_from_bytes(std::span<const std::byte> bytes)
+{
+  ByteReader in(bytes);
+  CoarseResult result;
+  result.mesh = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
+  result.options = in.get<coarse::CoarseOptions>();
+  result.tries = in.get<int>();
+  return result;
+}
+
 std::vector<coarse::CoarseOptions> coarse_ladder(const coarse::CoarseOptions& asked)
 {
   std::vector<coarse::CoarseOptions> ladder{asked};
@@ -74,19 +93,8 @@ std::vector<coarse::CoarseOptions> coarse_ladder(const coarse::CoarseOptions& as
 CoarseResult run_coarse_stage(const config::Case& run_case, RunContext& context)
 {
   StageScope stage(context, "coarse");
-  const Bytes bytes = on_root(context.comm, [&] {
-    const CoarseResult climbed = climb(run_case, context);
-    ByteWriter out;
-    out.put(mesh::to_bytes(climbed.mesh));
-    out.put(climbed.options);
-    out.put(climbed.tries);
-    return std::move(out).take();
-  });
-  ByteReader in(bytes);
-  CoarseResult result;
-  result.mesh = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
-  result.options = in.get<coarse::CoarseOptions>();
-  result.tries = in.get<int>();
+  CoarseResult result = coarse_result_from_bytes(
+      on_root(context.comm, [&] { return to_bytes(climb(run_case, context)); }));
   stage.work_is_done();
   stage.finish(std::to_string(result.mesh.num_tets()) + " tets, "
                + std::to_string(result.mesh.num_patches()) + " patches, "

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
@@ -14,6 +18,10 @@ struct CoarseResult {
   coarse::CoarseOptions options{};  ///< Those of the try that succeeded.
   int tries = 0;                    ///< Rungs of the ladder that were needed, from 1.
 };
+
+[[nodiscard]] Bytes to_bytes(const CoarseResult& result);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] CoarseResult coarse_result_from_bytes(std::span<const std::byte> bytes);
 
 /// @brief The tries at a coarse mesh, best first: as asked, then with smaller sizes that grow more
 /// slowly, then with more elements on curved surfaces; a mesh that fails at one size often works at

@@ -1,35 +1,93 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/decompose_stage.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tessera/decompose/graph_partitioner.hpp"
 #include "tessera/decompose/predicted_fine_tets.hpp"
+#include "tessera/fill/ladder.hpp"
 
 #include "pipeline/exit_code.hpp"
 
 namespace tessera::pipeline {
+namespace {
+
+// A job of this size takes half a second and about 100 MB.
+constexpr double kAutoSubdividedTets = 5e5;
+
+// Predicted fine tets of each coarse tet: exact where it will be subdivided.
+std::vector<double> weights_of(const mesh::CoarseMesh& coarse,
+                               const std::vector<fill::KernelKind>& kernels, int levels)
+{
+  std::vector<double> weights = decompose::predicted_fine_tets(coarse, levels);
+  for (std::size_t t = 0; t < weights.size(); ++t) {
+    if (kernels[t] == fill::KernelKind::subdivide) weights[t] = std::ldexp(1.0, 3 * levels);
+  }
+  return weights;
+}
+
+// "auto" means other things to a mesher of skins, which wants few seams, and to subdivision, which
+// wants jobs that fit in memory.
+decompose::DecomposeOptions options_of(const config::Case& run_case,
+                                       const std::vector<fill::KernelKind>& kernels,
+                                       const std::vector<double>& weights)
+{
+  decompose::DecomposeOptions options = run_case.decompose;
+  const bool is_subdivision =
+      std::all_of(kernels.begin(), kernels.end(),
+                  [](fill::KernelKind kernel) { return kernel == fill::KernelKind::subdivide; });
+  if (options.subdomains == 0 && is_subdivision) {
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const double most = static_cast<double>(weights.size());
+    options.subdomains =
+        static_cast<int>(std::clamp(std::ceil(total / kAutoSubdividedTets), 1.0, most));
+  }
+  return options;
+}
+
+decompose::DecomposeResult cut(const config::Case& run_case, const mesh::CoarseMesh& coarse)
+{
+  const std::vector<fill::KernelKind> kernels =
+      fill::kernels_of(run_case.fill, coarse.material_names, coarse.tet_material);
+  const std::vector<double> weights = weights_of(coarse, kernels, run_case.refine.levels);
+  const auto partitioner = decompose::make_metis_partitioner();
+  decompose::DecomposeResult result =
+      decompose::decompose(coarse, options_of(run_case, kernels, weights), weights, *partitioner);
+  decompose::validate(coarse, result.decomposition);
+  result.report.num_requested = run_case.decompose.subdomains;
+  return result;
+}
+
+}  // namespace
+
+Bytes to_bytes(const decompose::DecomposeResult& result)
+{
+  ByteWriter out;
+  out.put(mesh::to_bytes(result.decomposition));
+  out.put(result.report);
+  return std::move(out).take();
+}
+
+decompose::DecomposeResult decompose_result_from_bytes(std::span<const std::byte> bytes)
+{
+  ByteReader in(bytes);
+  decompose::DecomposeResult result;
+  result.decomposition = mesh::decomposition_from_bytes(in.get_vector<std::byte>());
+  result.report = in.get<decompose::DecomposeReport>();
+  return result;
+}
 
 decompose::DecomposeResult run_decompose_stage(const config::Case& run_case,
                                                const mesh::CoarseMesh& coarse, RunContext& context)
 {
   StageScope stage(context, "decompose");
-  const Bytes bytes = on_root(context.comm, [&] {
-    const auto partitioner = decompose::make_metis_partitioner();
-    const decompose::DecomposeResult result = decompose::decompose(
-        coarse, run_case.decompose, decompose::predicted_fine_tets(coarse, run_case.refine.levels),
-        *partitioner);
-    decompose::validate(coarse, result.decomposition);
-    ByteWriter out;
-    out.put(mesh::to_bytes(result.decomposition));
-    out.put(result.report);
-    return std::move(out).take();
-  });
-  ByteReader in(bytes);
-  decompose::DecomposeResult result;
-  result.decomposition = mesh::decomposition_from_bytes(in.get_vector<std::byte>());
-  result.report = in.get<decompose::DecomposeReport>();
+  decompose::DecomposeResult result = decompose_result_from_bytes(
+      on_root(context.comm, [&] { return to_bytes(cut(run_case, coarse)); }));
   stage.work_is_done();
   stage.finish(std::to_string(result.report.num_subdomains) + " subdomains");
   return result;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
+
+#include "tessera/base/bytes.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -9,9 +12,15 @@
 
 namespace tessera::pipeline {
 
+[[nodiscard]] Bytes to_bytes(const decompose::DecomposeResult& result);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] decompose::DecomposeResult decompose_result_from_bytes(
+    std::span<const std::byte> bytes);
+
 /// @brief Cuts the coarse mesh into subdomains on rank 0 and gives the result to all ranks.
 /// @note Collective.
-/// @throws ConfigError on every rank if more subdomains are asked for than there are coarse tets.
+/// @throws ConfigError on every rank if more subdomains are asked for than there are coarse tets,
+/// or if a region names an unknown material.
 [[nodiscard]] decompose::DecomposeResult run_decompose_stage(const config::Case& run_case,
                                                              const mesh::CoarseMesh& coarse,
                                                              RunContext& context);

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <exception>
 #include <numeric>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -17,6 +17,7 @@
 #include "tessera/fill/ladder.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/fill_record.hpp"
 #include "pipeline/mesh_worker.hpp"
 #include "pipeline/stop_signal.hpp"
 
@@ -31,6 +32,13 @@ constexpr double kLeastTime_s = 60.0;
 // A piece with a smaller angle gets one more try, with the points in another order, and the better
 // of the two stays. Most pieces reach 10 to 20 degrees; the last few of many reach 2 to 8.
 constexpr double kPoorAngle_deg = 8.0;
+
+double weight_of(const SubdomainRange& range, const std::vector<double>& subdomain_weight)
+{
+  double weight = 0.0;
+  for (LocalIndex s = range.first; s < range.last; ++s) weight += subdomain_weight[at(s)];
+  return weight;
+}
 
 std::vector<LocalIndex> largest_first(const std::vector<double>& weight)
 {
@@ -76,79 +84,99 @@ bool depends_on_machine(const jobs::JobOutcome& outcome)
          || outcome.status == jobs::JobStatus::out_of_memory || was_killed_from_outside(outcome);
 }
 
-// Climbs the ladder for one subdomain after another; keeps what this rank's pieces sum up to.
+// Climbs the ladder for one range of subdomains after another; keeps what this rank's pieces sum up
+// to.
 class Filler {
  public:
-  Filler(const fill::FillOptions& options, const mesh::Decomposition& decomposition,
-         const mesh::Skeleton& skeleton, RunContext& context)
-      : options_(options), decomposition_(decomposition), context_(context)
+  Filler(const fill::FillOptions& options, const FillWork& work, RunContext& context)
+      : options_(options), work_(work), context_(context)
   {
-    own_.seam_sums.resize(at(skeleton.num_triangles()));
+    own_.seam_sums.resize(at(work.cut.skeleton.num_triangles()));
   }
 
-  /// Fills one subdomain. @throws MeshError if every rung failed, Interrupted if cancelled.
-  void fill(LocalIndex subdomain, const jobs::JobRunner::WaitCallback& on_wait)
+  /// Fills one range. @throws MeshError if every rung failed, Interrupted if cancelled.
+  void fill(const SubdomainRange& range, const jobs::JobRunner::WaitCallback& on_wait)
   {
-    Climb climb{.subdomain = subdomain};
-    for (const fill::FillTry& settings : fill::retry_ladder(options_)) {
+    const Hash128 plan =
+        plan_fingerprint(work_.cut.skeleton, work_.damping, range.first, range.last);
+    if (const auto record = find_record(context_.folder, range.number, plan)) {
+      return keep(record->results);
+    }
+    Climb climb{.range = range, .plan = plan};
+    for (const fill::FillTry& settings :
+         fill::retry_ladder(options_, work_.kernels[at(range.first)])) {
       if (is_done_after(climb, settings, on_wait)) break;
     }
-    if (!climb.best) {
-      throw MeshError("subdomain " + std::to_string(subdomain)
+    if (climb.best.empty()) {
+      throw MeshError("subdomain " + std::to_string(range.first)
                       + " could not be filled; try another decompose.subdomains or a smaller "
                         "coarse.max_size"
                       + climb.failures);
     }
-    climb.best->summary.was_limited = climb.was_limited;
-    keep(*climb.best);
+    keep(climb.best);
   }
 
   [[nodiscard]] FilledPieces take() && { return std::move(own_); }
 
  private:
-  // What the rungs of one subdomain's ladder have given so far.
+  // What the rungs of one range's ladder have given so far.
   struct Climb {
-    LocalIndex subdomain = kNoIndex;
+    SubdomainRange range{};
+    Hash128 plan{};
     LocalIndex tries = 0;
     bool was_limited = false;
-    std::optional<FillResult> best{};
+    std::vector<FillResult> best{};
     std::string failures{};
   };
 
-  // Takes one rung. A failure leads to the next one; a poor result, to one more try.
+  // Takes one rung. A failure leads to the next one; a poor result of NETGEN, to one more try.
   bool is_done_after(Climb& climb, const fill::FillTry& settings,
                      const jobs::JobRunner::WaitCallback& on_wait)
   {
-    const bool had_one = climb.best.has_value();
-    const double angle_to_beat = had_one ? climb.best->summary.tets.min_dihedral_deg : 0.0;
-    const jobs::JobOutcome outcome =
-        run_try(climb.subdomain, fill_request(climb.subdomain, settings, angle_to_beat), on_wait);
+    const bool had_one = !climb.best.empty();
+    const bool is_netgen = settings.kernel == fill::KernelKind::netgen;
+    if (had_one && !is_netgen) return true;
+    const double angle_to_beat = had_one ? climb.best.front().summary.tets.min_dihedral_deg : 0.0;
     ++climb.tries;
+    const jobs::JobOutcome outcome =
+        run_try(climb.range, request_of(climb, settings, angle_to_beat), on_wait);
     throw_unless_of_the_fill(outcome);
     climb.was_limited = climb.was_limited || depends_on_machine(outcome);
     if (outcome.status != jobs::JobStatus::ok) {
-      climb.failures += "\n  try " + std::to_string(climb.tries) + ": " + outcome.message;
+      climb.failures += "\n  try " + std::to_string(climb.tries) + " ("
+                        + std::string(fill::name_of(settings.kernel)) + "): " + outcome.message;
       return had_one;
     }
-    climb.best = fill_result_from_bytes(outcome.result);
-    PieceSummary& summary = climb.best->summary;
-    summary.tries = climb.tries;
-    summary.cpu_s = outcome.cpu_s;
-    context_.log.debug("fill: subdomain {}: {} tets, try {}, {:.2f} s of CPU time", climb.subdomain,
-                       summary.num_tets, summary.tries, summary.cpu_s);
-    return had_one || summary.tets.min_dihedral_deg >= kPoorAngle_deg;
+    climb.best = fill_results_from_bytes(outcome.result);
+    context_.log.debug("fill: subdomain {}: try {}, {:.2f} s of CPU time", climb.range.first,
+                       climb.tries, outcome.cpu_s);
+    return had_one || !is_netgen
+           || climb.best.front().summary.tets.min_dihedral_deg >= kPoorAngle_deg;
+  }
+
+  // The job itself puts into the record how it came to be made: a resumed run has only that.
+  static Bytes request_of(const Climb& climb, const fill::FillTry& settings, double angle_to_beat)
+  {
+    return fill_request({.batch = climb.range.number,
+                         .first = climb.range.first,
+                         .last = climb.range.last,
+                         .plan = climb.plan,
+                         .settings = settings,
+                         .angle_to_beat_deg = angle_to_beat,
+                         .tries = climb.tries,
+                         .was_limited = climb.was_limited});
   }
 
   // The same once more if the job was killed, so that the mesh is the same as without that.
-  jobs::JobOutcome run_try(LocalIndex subdomain, const Bytes& request,
+  jobs::JobOutcome run_try(const SubdomainRange& range, const Bytes& request,
                            const jobs::JobRunner::WaitCallback& on_wait)
   {
     const jobs::JobLimits limits =
-        limits_of(options_, decomposition_.subdomain_weight[at(subdomain)]);
+        limits_of(options_, weight_of(range, work_.cut.decomposition.subdomain_weight));
     jobs::JobOutcome outcome = context_.jobs.run(request, limits, on_wait);
     if (!was_killed_from_outside(outcome) || outcome.loads_are_lost) return outcome;
     context_.progress.clear();
-    context_.log.warn("fill: subdomain {} is filled again: {}", subdomain, outcome.message);
+    context_.log.warn("fill: subdomain {} is filled again: {}", range.first, outcome.message);
     return context_.jobs.run(request, limits, on_wait);
   }
 
@@ -157,20 +185,27 @@ class Filler {
   {
     throw_if_cancelled(outcome);
     if (outcome.error == jobs::ErrorKind::output) throw OutputError(outcome.message);
-    if (outcome.loads_are_lost) throw MeshError(outcome.message + "; run the case again");
+    if (outcome.error == jobs::ErrorKind::config) throw ConfigError(outcome.message);
+    if (outcome.loads_are_lost) throw MeshError(outcome.message + "; go on with --resume");
   }
 
-  void keep(const FillResult& result)
+  void keep(const std::vector<FillResult>& results)
   {
-    own_.pieces.push_back(result.summary);
-    own_.histograms.add(result.histograms);
-    for (const verify::SeamHash& seam : result.seams) {
-      own_.seam_sums[at(seam.triangle)] += seam.hash;
+    for (const FillResult& result : results) {
+      if (result.summary.is_folded) {
+        own_.folded.push_back(result.summary.subdomain);
+        continue;
+      }
+      own_.pieces.push_back(result.summary);
+      own_.histograms.add(result.histograms);
+      for (const verify::SeamHash& seam : result.seams) {
+        own_.seam_sums[at(seam.triangle)] += seam.hash;
+      }
     }
   }
 
   const fill::FillOptions& options_;
-  const mesh::Decomposition& decomposition_;
+  const FillWork& work_;
   RunContext& context_;
   FilledPieces own_{};
 };
@@ -182,15 +217,26 @@ void sum_over_ranks(quality::Histogram& histogram, const comm::Communicator& com
   histogram.set_counts(std::move(counts));
 }
 
+// What all ranks have in their lists, one list behind the other.
+template <class T>
+std::vector<T> gather(const std::vector<T>& own, const comm::Communicator& comm)
+{
+  std::vector<T> all;
+  for (const Bytes& bytes : comm.all_gather(std::as_bytes(std::span(own)))) {
+    const std::size_t first = all.size();
+    all.resize(first + bytes.size() / sizeof(T));
+    if (!bytes.empty()) std::memcpy(&all[first], bytes.data(), bytes.size());
+  }
+  return all;
+}
+
 // Puts what the ranks have together; integers and sums modulo 2^64 only, so in any order the same.
 FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
 {
   FilledPieces all;
-  for (const Bytes& bytes : comm.all_gather(std::as_bytes(std::span(own.pieces)))) {
-    const std::size_t first = all.pieces.size();
-    all.pieces.resize(first + bytes.size() / sizeof(PieceSummary));
-    if (!bytes.empty()) std::memcpy(&all.pieces[first], bytes.data(), bytes.size());
-  }
+  all.pieces = gather(own.pieces, comm);
+  all.folded = gather(own.folded, comm);
+  std::sort(all.folded.begin(), all.folded.end());
   std::sort(all.pieces.begin(), all.pieces.end(),
             [](const PieceSummary& a, const PieceSummary& b) { return a.subdomain < b.subdomain; });
   all.histograms = std::move(own.histograms);
@@ -209,21 +255,25 @@ FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
 
 }  // namespace
 
-FilledPieces run_fill_stage(const config::Case& run_case, const mesh::Decomposition& decomposition,
-                            const mesh::Skeleton& skeleton, RunContext& context)
+FilledPieces run_fill_stage(const config::Case& run_case, const FillWork& work, RunContext& context)
 {
-  StageScope stage(context, "fill", decomposition.num_subdomains(), "subdomains");
-  Filler filler(run_case.fill, decomposition, skeleton, context);
+  const auto num_ranges = static_cast<LocalIndex>(work.ranges.size());
+  StageScope stage(context, "fill", num_ranges, "jobs");
+  Filler filler(run_case.fill, work, context);
   std::exception_ptr defect;
-  comm::WorkQueue queue(context.comm, job_order(decomposition.subdomain_weight));
+  std::vector<double> weights;
+  for (const SubdomainRange& range : work.ranges) {
+    weights.push_back(weight_of(range, work.cut.decomposition.subdomain_weight));
+  }
+  comm::WorkQueue queue(context.comm, job_order(weights));
   const auto on_wait = [&] {
     if (stop_requested()) queue.request_stop();
     context.progress.update(queue.num_handed_out());
     return queue.progress();
   };
-  while (const auto subdomain = queue.next()) {
+  while (const auto range = queue.next()) {
     try {
-      filler.fill(*subdomain, on_wait);
+      filler.fill(work.ranges[at(*range)], on_wait);
     } catch (const Interrupted&) {
       queue.request_stop();
     } catch (const Error&) {

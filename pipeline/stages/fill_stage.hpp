@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "tessera/config/case.hpp"
-#include "tessera/mesh/decomposition.hpp"
-#include "tessera/mesh/skeleton.hpp"
+#include "tessera/mesh/damping.hpp"
 
+#include "pipeline/cut_mesh.hpp"
+#include "pipeline/piece_file.hpp"
 #include "pipeline/piece_summary.hpp"
 #include "pipeline/run_context.hpp"
 
@@ -14,17 +15,26 @@ namespace tessera::pipeline {
 
 /// @brief What is known of all pieces; the same on every rank.
 struct FilledPieces {
-  std::vector<PieceSummary> pieces{};       ///< Shape (num_subdomains), by subdomain.
+  std::vector<PieceSummary> pieces{};  ///< By subdomain; without the folded ones.
+  std::vector<LocalIndex> folded{};    ///< Subdomains that even subdivision could not fill yet.
   quality::QualityHistograms histograms{};  ///< Over all pieces.
   std::vector<Hash128> seam_sums{};         ///< Shape (num skeleton triangles): both sides' hashes.
 };
 
-/// @brief Refines and fills all subdomains, in jobs, largest first, each by the first rung of the
-/// ladder that succeeds. The pieces are in the piece store afterwards.
+/// @brief What the fill stage is to do. Borrowed.
+struct FillWork {
+  const CutMesh& cut;
+  const std::vector<fill::KernelKind>& kernels;  ///< Shape (num_subdomains).
+  const mesh::Damping& damping;                  ///< As loaded into the workers.
+  const std::vector<SubdomainRange>& ranges;     ///< One job each.
+};
+
+/// @brief Refines and fills subdomains, in jobs, largest first, each by the first rung of the
+/// ladder that succeeds. Ranges whose record of the store is valid are not filled again. The pieces
+/// are in the store, or in their files, afterwards.
 /// @note Collective.
 /// @throws MeshError on every rank if all rungs fail for some subdomain; Interrupted on a signal.
-[[nodiscard]] FilledPieces run_fill_stage(const config::Case& run_case,
-                                          const mesh::Decomposition& decomposition,
-                                          const mesh::Skeleton& skeleton, RunContext& context);
+[[nodiscard]] FilledPieces run_fill_stage(const config::Case& run_case, const FillWork& work,
+                                          RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -2,7 +2,6 @@
 #include "pipeline/stages/plan_stage.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,17 +11,28 @@
 
 #include "pipeline/exit_code.hpp"
 #include "pipeline/mesh_worker.hpp"
-#include "pipeline/piece_folder.hpp"
 #include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
 namespace {
 
+constexpr int kFirstLookLevels = 2;
 constexpr jobs::JobLimits kPlanLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory_gib = 8.0};
+
+// Subdivision finds bad children of fine levels by itself, and comes back for a plan of all levels;
+// so that a plan does not cost as much as the subdivision itself, the first looks at coarse ones.
+PlanTest test_of(LocalIndex subdomain, const PlanWork& work)
+{
+  const fill::KernelKind kernel = work.kernels[at(subdomain)];
+  const bool is_first_look =
+      kernel == fill::KernelKind::subdivide && work.depth == PlanDepth::coarse_levels;
+  return {subdomain, kernel, is_first_look ? std::min(work.levels, kFirstLookLevels) : work.levels};
+}
 
 // What this rank's share of the subdomains finds under the dampings so far.
 std::vector<mesh::PointDamping> test_subdomains(const std::vector<LocalIndex>& subdomains,
-                                                const mesh::Damping& damping, RunContext& context)
+                                                const PlanWork& work, const mesh::Damping& damping,
+                                                RunContext& context)
 {
   comm::WorkQueue queue(context.comm, subdomains);
   std::vector<mesh::PointDamping> found;
@@ -33,7 +43,7 @@ std::vector<mesh::PointDamping> test_subdomains(const std::vector<LocalIndex>& s
   };
   while (const auto subdomain = queue.next()) {
     const jobs::JobOutcome outcome =
-        context.jobs.run(plan_request(*subdomain, damping), kPlanLimits, on_wait);
+        context.jobs.run(plan_request(test_of(*subdomain, work), damping), kPlanLimits, on_wait);
     if (outcome.status != jobs::JobStatus::ok) {
       defect = "plan of subdomain " + std::to_string(*subdomain) + ": " + outcome.message;
       queue.request_stop();
@@ -82,35 +92,19 @@ std::vector<LocalIndex> subdomains_around(const std::vector<mesh::PointDamping>&
   return {around.begin(), around.end()};
 }
 
-void load_everywhere(const Bytes& message, RunContext& context)
-{
-  all_or_none(context.comm, [&] {
-    jobs::throw_unless_ok(context.jobs.load(message, kPlanLimits, wait_for_stop_signal()),
-                          "loading the coarse mesh");
-  });
-}
-
 }  // namespace
 
-mesh::Damping run_plan_stage(const config::Case& run_case, const mesh::CoarseMesh& coarse,
-                             const mesh::Decomposition& decomposition,
-                             const mesh::Skeleton& skeleton, RunContext& context)
+mesh::Damping run_plan_stage(const PlanWork& work, mesh::Damping damping, RunContext& context)
 {
   StageScope stage(context, "plan");
-  load_everywhere(load_mesh_message(coarse, decomposition, run_case.refine.levels,
-                                    piece_folder(context.folder)),
-                  context);
-  std::vector<LocalIndex> subdomains(decomposition.subdomain_material.size());
-  std::iota(subdomains.begin(), subdomains.end(), 0);
-  mesh::Damping damping;
+  std::vector<LocalIndex> subdomains = work.subdomains;
   while (!subdomains.empty()) {
-    const auto found = gather(test_subdomains(subdomains, damping, context), context.comm);
+    const auto found = gather(test_subdomains(subdomains, work, damping, context), context.comm);
     std::vector<mesh::PointDamping> all(damping.entries().begin(), damping.entries().end());
     all.insert(all.end(), found.begin(), found.end());
     damping = mesh::Damping(std::move(all));
-    subdomains = subdomains_around(found, skeleton);
+    subdomains = subdomains_around(found, work.cut.skeleton);
   }
-  load_everywhere(load_plan_message(damping), context);
   stage.work_is_done();
   stage.finish(damping.entries().empty()
                    ? "no folds"

@@ -1,26 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tessera/config/case.hpp"
-#include "tessera/mesh/coarse_mesh.hpp"
-#include "tessera/mesh/damping.hpp"
-#include "tessera/mesh/decomposition.hpp"
-#include "tessera/mesh/skeleton.hpp"
+#include <vector>
 
+#include "tessera/fill/options.hpp"
+#include "tessera/mesh/damping.hpp"
+
+#include "pipeline/cut_mesh.hpp"
 #include "pipeline/run_context.hpp"
 
 namespace tessera::pipeline {
 
-/// @brief Loads the mesh into all workers, finds the points whose projection would fold a skin, and
-/// loads the plan that keeps them back.
-///
-/// In synchronous rounds: every subdomain is tested under the dampings so far, all findings are put
-/// together, and those that touch a finding are tested again. Factors only fall, in few steps, so
-/// it ends; rounds depend on subdomains only, so the plan is the same for every number of ranks.
-/// @note Collective.
-[[nodiscard]] mesh::Damping run_plan_stage(const config::Case& run_case,
-                                           const mesh::CoarseMesh& coarse,
-                                           const mesh::Decomposition& decomposition,
-                                           const mesh::Skeleton& skeleton, RunContext& context);
+/// @brief On how many levels a plan tests what will be subdivided.
+enum class PlanDepth : int { coarse_levels, all_levels };
+
+/// @brief What the plan stage is to do. Borrowed.
+struct PlanWork {
+  const CutMesh& cut;
+  const std::vector<fill::KernelKind>& kernels;  ///< Shape (num_subdomains).
+  int levels = 0;                                ///< Of the refinement.
+  PlanDepth depth = PlanDepth::coarse_levels;
+  std::vector<LocalIndex> subdomains{};  ///< To test first; those around what is found follow.
+};
+
+/// @brief Finds the points that must be kept off the geometry so that no skin folds and, where a
+/// subdomain is subdivided, no child is inverted; rounds of jobs in which factors only fall.
+/// @param[in] damping What is known already.
+/// @note Collective; the mesh is loaded in the workers.
+/// @throws MeshError on every rank if a job dies; Interrupted on a signal.
+[[nodiscard]] mesh::Damping run_plan_stage(const PlanWork& work, mesh::Damping damping,
+                                           RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -12,33 +12,47 @@
 namespace tessera::pipeline {
 namespace {
 
-std::optional<std::string> first_defect(const mesh::CoarseMesh& coarse,
-                                        const mesh::Decomposition& decomposition,
-                                        const mesh::Skeleton& skeleton, const FilledPieces& filled)
+std::optional<std::string> first_missing_piece(const std::vector<SubdomainRange>& ranges,
+                                               const std::vector<PieceSummary>& pieces)
 {
-  if (filled.pieces.size() != decomposition.subdomain_material.size()) {
-    return std::to_string(filled.pieces.size()) + " pieces for "
-           + std::to_string(decomposition.subdomain_material.size()) + " subdomains";
+  auto piece = pieces.begin();
+  for (const SubdomainRange& range : ranges) {
+    for (LocalIndex s = range.first; s < range.last; ++s, ++piece) {
+      if (piece == pieces.end() || piece->subdomain != s) {
+        return "piece " + std::to_string(s) + " is missing";
+      }
+    }
   }
+  return piece == pieces.end() ? std::nullopt
+                               : std::optional<std::string>("there are extra pieces");
+}
+
+std::optional<std::string> first_defect(const CutMesh& cut,
+                                        const std::vector<SubdomainRange>& ranges,
+                                        const FilledPieces& filled)
+{
+  if (auto missing = first_missing_piece(ranges, filled.pieces)) return missing;
   const std::vector<GlobalIndex> expected =
-      verify::euler_characteristics(coarse.tet_vertices, decomposition.tet_subdomain);
-  for (std::size_t s = 0; s < expected.size(); ++s) {
-    const GlobalIndex found = filled.pieces[s].euler_characteristic;
-    if (found == expected[s]) continue;
-    return "piece " + std::to_string(s) + " has Euler characteristic " + std::to_string(found)
-           + ", its coarse subdomain " + std::to_string(expected[s]);
+      verify::euler_characteristics(cut.coarse.tet_vertices, cut.decomposition.tet_subdomain);
+  std::vector<char> is_made(at(cut.num_subdomains()), 0);
+  for (const PieceSummary& piece : filled.pieces) {
+    is_made[at(piece.subdomain)] = 1;
+    const GlobalIndex wanted = expected[at(piece.subdomain)];
+    if (piece.euler_characteristic == wanted) continue;
+    return "piece " + std::to_string(piece.subdomain) + " has Euler characteristic "
+           + std::to_string(piece.euler_characteristic) + ", its coarse subdomain "
+           + std::to_string(wanted);
   }
-  return verify::first_open_seam(filled.seam_sums, skeleton);
+  return verify::first_open_seam(filled.seam_sums, cut.skeleton, is_made);
 }
 
 }  // namespace
 
-void run_verify_stage(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
-                      const mesh::Skeleton& skeleton, const FilledPieces& filled,
-                      RunContext& context)
+void run_verify_stage(const CutMesh& cut, const std::vector<SubdomainRange>& ranges,
+                      const FilledPieces& filled, RunContext& context)
 {
   StageScope stage(context, "verify");
-  context.comm.throw_if_any<MeshError>(first_defect(coarse, decomposition, skeleton, filled));
+  context.comm.throw_if_any<MeshError>(first_defect(cut, ranges, filled));
   stage.work_is_done();
   stage.finish("all seams close");
 }

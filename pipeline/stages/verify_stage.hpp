@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tessera/mesh/coarse_mesh.hpp"
-#include "tessera/mesh/decomposition.hpp"
-#include "tessera/mesh/skeleton.hpp"
+#include <vector>
 
+#include "pipeline/cut_mesh.hpp"
+#include "pipeline/piece_file.hpp"
 #include "pipeline/run_context.hpp"
 #include "pipeline/stages/fill_stage.hpp"
 
 namespace tessera::pipeline {
 
-/// @brief Checks what the pieces say of themselves against each other: every seam closes, every
-/// piece has the Euler characteristic of its coarse subdomain, no piece is missing.
+/// @brief Checks what the pieces say of themselves against each other: no piece of the ranges is
+/// missing, every seam with both sides there closes, every piece has the Euler characteristic of
+/// its coarse subdomain.
 /// @note Collective.
 /// @throws MeshError on every rank naming the first defect.
-void run_verify_stage(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
-                      const mesh::Skeleton& skeleton, const FilledPieces& filled,
-                      RunContext& context);
+void run_verify_stage(const CutMesh& cut, const std::vector<SubdomainRange>& ranges,
+                      const FilledPieces& filled, RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -1,83 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/write_stage.hpp"
 
+#include <algorithm>
+#include <exception>
 #include <numeric>
-#include <optional>
 #include <string>
-
-#include <spdlog/fmt/fmt.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/work_queue.hpp"
-#include "tessera/io/piece_store.hpp"
+#include "tessera/io/record_store.hpp"
 #include "tessera/io/vtu.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/fill_record.hpp"
 #include "pipeline/piece_arrays.hpp"
-#include "pipeline/piece_folder.hpp"
 #include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
 namespace {
 
-std::filesystem::path piece_name(const std::string& folder, LocalIndex subdomain)
+// Reads the pieces of one file from the store, one after the other, and writes it.
+void write_file(const SubdomainRange& range, const config::Case& run_case, const WriteContext& mesh,
+                const std::filesystem::path& folder, std::vector<Hash128>& digests)
 {
-  return std::filesystem::path(folder) / fmt::format("piece_{:06}.vtu", subdomain);
-}
-
-void write_piece(LocalIndex subdomain, const config::Case& run_case, const WriteContext& mesh,
-                 const std::filesystem::path& folder, Hash128& digest)
-{
-  const mesh::Piece piece =
-      mesh::piece_from_bytes(io::PieceStore(piece_folder(folder)).get(subdomain));
-  const PieceArrays arrays = piece_arrays(piece, mesh, run_case.output.cell_quality);
-  digest = digest_of(arrays.tets);
-  io::write_vtu(arrays.tets, folder / piece_name("mesh", subdomain), run_case.output.compression);
-  if (arrays.boundary.num_cells() == 0) return;
-  io::write_vtu(arrays.boundary, folder / piece_name("boundary", subdomain),
-                run_case.output.compression);
-}
-
-// An index without pieces is valid: a schema from an empty piece.
-void write_indices(const config::Case& run_case, const WriteContext& mesh,
-                   const std::vector<PieceSummary>& pieces, const std::filesystem::path& folder)
-{
-  std::vector<std::filesystem::path> tets;
-  std::vector<std::filesystem::path> boundary;
-  for (const PieceSummary& piece : pieces) {
-    tets.push_back(piece_name("mesh", piece.subdomain));
-    if (piece.num_boundary > 0) boundary.push_back(piece_name("boundary", piece.subdomain));
+  const io::RecordStore store(store_folder(folder));
+  PieceFile file(mesh, run_case.output);
+  for (LocalIndex s = range.first; s < range.last; ++s) {
+    const FillRecord record = fill_record_from_bytes(store.get(record_name(s)));
+    digests[at(s)] = file.add(mesh::piece_from_bytes(record.piece));
   }
-  const PieceArrays schema = piece_arrays({}, mesh, run_case.output.cell_quality);
-  io::write_pvtu(folder / "mesh.pvtu", tets, schema.tets);
-  io::write_pvtu(folder / "boundary.pvtu", boundary, schema.boundary);
+  file.write(folder, range.number);
+}
+
+void sum_over_ranks(std::vector<Hash128>& hashes, const comm::Communicator& comm)
+{
+  std::vector<std::uint64_t> halves;
+  for (const Hash128& hash : hashes) halves.insert(halves.end(), {hash.low, hash.high});
+  comm.sum_in_place(halves);
+  for (std::size_t i = 0; i < hashes.size(); ++i) hashes[i] = {halves[2 * i], halves[2 * i + 1]};
+}
+
+// Pieces are in the order of subdomains.
+bool has_boundary(const SubdomainRange& range, const std::vector<PieceSummary>& pieces)
+{
+  auto piece = std::lower_bound(
+      pieces.begin(), pieces.end(), range.first,
+      [](const PieceSummary& p, LocalIndex subdomain) { return p.subdomain < subdomain; });
+  for (; piece != pieces.end() && piece->subdomain < range.last; ++piece) {
+    if (piece->num_boundary > 0) return true;
+  }
+  return false;
 }
 
 }  // namespace
 
-std::vector<Hash128> run_write_stage(const config::Case& run_case,
-                                     const std::vector<PieceSummary>& pieces,
-                                     const WriteContext& mesh, RunContext& context)
+void run_write_stage(const config::Case& run_case, const std::vector<SubdomainRange>& files,
+                     const WriteContext& mesh, FilledPieces& filled, RunContext& context)
 {
-  const auto num_pieces = static_cast<LocalIndex>(pieces.size());
-  StageScope stage(context, "write", num_pieces, "pieces");
-  all_or_none(context.comm, [&] {
-    if (context.comm.rank() != 0) return;
-    std::filesystem::create_directories(context.folder / "mesh");
-    std::filesystem::create_directories(context.folder / "boundary");
-  });
-  std::vector<std::uint64_t> halves(2 * pieces.size());
-  std::vector<LocalIndex> order(pieces.size());
+  const auto num_files = static_cast<LocalIndex>(files.size());
+  StageScope stage(context, "write", num_files, "files");
+  std::vector<Hash128> digests(filled.pieces.size());
+  std::vector<LocalIndex> order(files.size());
   std::iota(order.begin(), order.end(), 0);
   std::exception_ptr defect;
   comm::WorkQueue queue(context.comm, order);
-  while (const auto subdomain = queue.next()) {
+  while (const auto file = queue.next()) {
     try {
       if (stop_requested()) throw Interrupted("stopped by a signal");
-      Hash128 digest;
-      write_piece(*subdomain, run_case, mesh, context.folder, digest);
-      halves[2 * at(*subdomain)] = digest.low;
-      halves[2 * at(*subdomain) + 1] = digest.high;
+      write_file(files[at(*file)], run_case, mesh, context.folder, digests);
     } catch (...) {
       defect = std::current_exception();
       queue.request_stop();
@@ -88,17 +78,31 @@ std::vector<Hash128> run_write_stage(const config::Case& run_case,
   static_cast<void>(queue.finish());
   all_or_none(context.comm, [&] {
     if (defect) std::rethrow_exception(defect);
-    if (context.comm.rank() == 0) write_indices(run_case, mesh, pieces, context.folder);
   });
-  all_or_none(context.comm, [&] {
-    if (context.comm.rank() == 0) io::PieceStore(piece_folder(context.folder)).remove_all();
-  });
-  context.comm.sum_in_place(halves);
-  std::vector<Hash128> digests;
-  for (std::size_t i = 0; i < halves.size(); i += 2) digests.push_back({halves[i], halves[i + 1]});
+  sum_over_ranks(digests, context.comm);
+  for (std::size_t s = 0; s < digests.size(); ++s) filled.pieces[s].digest = digests[s];
   stage.work_is_done();
-  stage.finish((context.folder / "mesh.pvtu").string());
-  return digests;
+  stage.finish(std::to_string(num_files) + " files");
+}
+
+// An index without pieces is valid: a schema from an empty piece.
+void write_indices(const config::Case& run_case, const std::vector<SubdomainRange>& files,
+                   const WriteContext& mesh, const FilledPieces& filled, RunContext& context)
+{
+  all_or_none(context.comm, [&] {
+    if (context.comm.rank() != 0) return;
+    std::vector<std::filesystem::path> tets;
+    std::vector<std::filesystem::path> boundary;
+    for (const SubdomainRange& range : files) {
+      tets.push_back(piece_path("mesh", range.number));
+      if (has_boundary(range, filled.pieces)) {
+        boundary.push_back(piece_path("boundary", range.number));
+      }
+    }
+    const PieceArrays schema = piece_arrays({}, mesh, run_case.output.cell_quality);
+    io::write_pvtu(context.folder / "mesh.pvtu", tets, schema.tets);
+    io::write_pvtu(context.folder / "boundary.pvtu", boundary, schema.boundary);
+  });
 }
 
 }  // namespace tessera::pipeline

@@ -9,13 +9,16 @@
 
 namespace tessera::pipeline {
 
-/// @brief Turns every piece of the store into mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu,
-/// writes the indices mesh.pvtu and boundary.pvtu, and empties the store.
+/// @brief Turns the pieces of the store into mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu,
+/// one of each a range, and puts their digests into the summaries.
 /// @note Collective.
 /// @throws OutputError on every rank (disk full, permission).
-/// @return The digest of every piece, shape (num_subdomains), on every rank.
-[[nodiscard]] std::vector<Hash128> run_write_stage(const config::Case& run_case,
-                                                   const std::vector<PieceSummary>& pieces,
-                                                   const WriteContext& mesh, RunContext& context);
+void run_write_stage(const config::Case& run_case, const std::vector<SubdomainRange>& files,
+                     const WriteContext& mesh, FilledPieces& filled, RunContext& context);
+
+/// @brief Writes mesh.pvtu and boundary.pvtu: from now on there is a mesh.
+/// @note Collective. @throws OutputError on every rank.
+void write_indices(const config::Case& run_case, const std::vector<SubdomainRange>& files,
+                   const WriteContext& mesh, const FilledPieces& filled, RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -51,13 +51,11 @@ std::vector<double> vertex_sizes(const mesh::CoarseMesh& coarse)
   return sum;
 }
 
-void add_size_samples(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
-                      LocalIndex subdomain, const std::vector<double>& vertex_size, int levels,
-                      FillInput& input)
+void add_size_samples(const mesh::CoarseMesh& coarse, std::span<const LocalIndex> tets,
+                      const std::vector<double>& vertex_size, int levels, FillInput& input)
 {
   const LocalIndex n = mesh::lattice::intervals(levels);
-  for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
-    if (decomposition.tet_subdomain[at(t)] != subdomain) continue;
+  for (const LocalIndex t : tets) {
     const auto tet = coarse.tet(t);
     for_each_sample(n, [&](const std::array<double, 4>& weights) {
       Vec3 point{};

@@ -96,9 +96,8 @@ void remove_pieces(const fs::path& folder)
 {
   for (const fs::directory_entry& entry : entries_of(folder)) {
     const std::string name = entry.path().filename().string();
-    const bool is_piece =
-        name.starts_with("piece_")
-        && (name.ends_with(".vtu") || name.ends_with(".record") || is_temporary_name(name));
+    const bool is_piece = name.ends_with(".record") || is_temporary_name(name)
+                          || (name.starts_with("piece_") && name.ends_with(".vtu"));
     if (is_piece && !entry.is_directory()) remove_tree(entry.path());
   }
   std::error_code error;

@@ -101,39 +101,38 @@ Complex skin_complex(const Skeleton& skeleton, LocalIndex subdomain)
 
 namespace {
 
-// Places of the skeleton's entities for given vertices, by binary search in its sorted arrays.
-class SkeletonIndex {
- public:
-  explicit SkeletonIndex(const Skeleton& skeleton)
-      : vertices_(skeleton.vertex_coarse),
-        edges_(rows_of<2>(skeleton.edge_vertices)),
-        triangles_(rows_of<3>(skeleton.triangle_vertices))
-  {
+// Row of the sorted flat array that holds these values, or kNoIndex.
+template <std::size_t N>
+LocalIndex find_row(const std::vector<LocalIndex>& flat, const std::array<LocalIndex, N>& values)
+{
+  const auto row = [&](std::size_t r) { return flat.begin() + static_cast<std::ptrdiff_t>(N * r); };
+  std::size_t low = 0;
+  std::size_t high = flat.size() / N;
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    if (std::lexicographical_compare(row(middle), row(middle + 1), values.begin(), values.end())) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
   }
-
-  [[nodiscard]] LocalIndex vertex(LocalIndex coarse) const { return index_in(vertices_, coarse); }
-  [[nodiscard]] LocalIndex edge(const Edge& edge) const { return index_in(edges_, edge); }
-  [[nodiscard]] LocalIndex triangle(const Triangle& t) const { return index_in(triangles_, t); }
-
- private:
-  const std::vector<LocalIndex>& vertices_;
-  std::vector<Edge> edges_;
-  std::vector<Triangle> triangles_;
-};
+  const bool is_found = low < flat.size() / N && std::equal(values.begin(), values.end(), row(low));
+  return is_found ? static_cast<LocalIndex>(low) : kNoIndex;
+}
 
 void tie_to_skeleton(const Skeleton& skeleton, Complex& complex)
 {
-  const SkeletonIndex index(skeleton);
   for (const LocalIndex v : complex.vertex_coarse) {
-    complex.vertex_skeleton.push_back(index.vertex(v));
+    complex.vertex_skeleton.push_back(index_in(skeleton.vertex_coarse, v));
   }
   const auto of_vertex = [&](LocalIndex v) { return complex.vertex_skeleton[at(v)]; };
   for (const Edge& e : rows_of<2>(complex.edge_vertices)) {
-    complex.edge_skeleton.push_back(index.edge({of_vertex(e[0]), of_vertex(e[1])}));
+    complex.edge_skeleton.push_back(
+        find_row<2>(skeleton.edge_vertices, {of_vertex(e[0]), of_vertex(e[1])}));
   }
   for (const Triangle& t : rows_of<3>(complex.triangle_vertices)) {
-    complex.triangle_skeleton.push_back(
-        index.triangle({of_vertex(t[0]), of_vertex(t[1]), of_vertex(t[2])}));
+    complex.triangle_skeleton.push_back(find_row<3>(
+        skeleton.triangle_vertices, {of_vertex(t[0]), of_vertex(t[1]), of_vertex(t[2])}));
   }
 }
 

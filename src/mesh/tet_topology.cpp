@@ -8,18 +8,6 @@
 
 namespace tessera::mesh {
 
-std::array<LocalIndex, 3> sorted_triangle(LocalIndex a, LocalIndex b, LocalIndex c)
-{
-  std::array<LocalIndex, 3> vertices{a, b, c};
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
-}
-
-bool is_even_triangle(LocalIndex a, LocalIndex b, LocalIndex c)
-{
-  return (a < b) + (b < c) + (c < a) == 2;
-}
-
 std::vector<TriangleTets> triangles_of_tets(std::span<const LocalIndex> tet_vertices)
 {
   struct Side {

@@ -56,7 +56,7 @@ class NewPoints {
   {
     if (edge == kNoIndex || skeleton_.edge_patch[at(edge)] == kNoIndex) return;
     for (LocalIndex k = step_; k < n_; k += 2 * step_) {
-      keys.push_back({mesh::LatticeCarrier::edge, edge, k - 1});
+      keys.push_back(mesh::LatticePointKey::on_edge(edge, n_, k));
     }
   }
 
@@ -66,8 +66,7 @@ class NewPoints {
     for (LocalIndex j = step_; j < n_; j += step_) {
       for (LocalIndex i = step_; i + j < n_; i += step_) {
         if ((i / step_) % 2 == 0 && (j / step_) % 2 == 0) continue;
-        keys.push_back(
-            {mesh::LatticeCarrier::triangle, triangle, lattice::inner_triangle_index(n_, i, j)});
+        keys.push_back(mesh::LatticePointKey::on_triangle(triangle, n_, {i, j}));
       }
     }
   }
@@ -87,27 +86,31 @@ double next_factor(double factor)
   return factor > 0.25 ? 0.25 : 0.0;
 }
 
-std::vector<LocalIndex> tets_on_geometry(const mesh::CoarseMesh& coarse,
-                                         const mesh::Skeleton& skeleton,
-                                         const mesh::Decomposition& decomposition,
-                                         LocalIndex subdomain)
+std::vector<char> vertices_on_geometry(const mesh::CoarseMesh& coarse,
+                                       const mesh::Skeleton& skeleton)
 {
-  std::vector<char> on_geometry(coarse.vertex_xyz.size() / 3, 0);
+  std::vector<char> on_geometry(at(coarse.num_vertices()), 0);
   for (LocalIndex e = 0; e < skeleton.num_edges(); ++e) {
     if (skeleton.edge_patch[at(e)] == kNoIndex) continue;
     for (std::size_t end = 0; end < 2; ++end) {
       on_geometry[at(skeleton.vertex_coarse[at(skeleton.edge_vertices[2 * at(e) + end])])] = 1;
     }
   }
-  std::vector<LocalIndex> tets;
-  for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
-    if (decomposition.tet_subdomain[at(t)] != subdomain) continue;
+  return on_geometry;
+}
+
+std::vector<LocalIndex> tets_on_geometry(const mesh::CoarseMesh& coarse,
+                                         std::span<const LocalIndex> tets,
+                                         const std::vector<char>& on_geometry)
+{
+  std::vector<LocalIndex> touching;
+  for (const LocalIndex t : tets) {
     const auto corners = coarse.tet(t);
-    const auto touching = std::count_if(corners.begin(), corners.end(),
-                                        [&](LocalIndex v) { return on_geometry[at(v)] != 0; });
-    if (touching >= 2) tets.push_back(t);
+    const auto num_on_geometry = std::count_if(
+        corners.begin(), corners.end(), [&](LocalIndex v) { return on_geometry[at(v)] != 0; });
+    if (num_on_geometry >= 2) touching.push_back(t);
   }
-  return tets;
+  return touching;
 }
 
 std::vector<mesh::PointDamping> find_folds(const mesh::TetComplex& complex,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -82,12 +83,43 @@ void add_tet(const TetCorners& corners, TetStatistics& statistics, Histogram& me
   mean_ratios.add(eta);
 }
 
+namespace {
+
+// Most bins of one piece are empty: only the others are written.
+void put_sparse(const Histogram& histogram, ByteWriter& out)
+{
+  std::vector<std::uint32_t> bins;
+  std::vector<GlobalIndex> counts;
+  for (std::size_t b = 0; b < histogram.counts().size(); ++b) {
+    if (histogram.counts()[b] == 0) continue;
+    bins.push_back(static_cast<std::uint32_t>(b));
+    counts.push_back(histogram.counts()[b]);
+  }
+  out.put(bins);
+  out.put(counts);
+}
+
+void get_sparse(ByteReader& in, Histogram& histogram)
+{
+  const auto bins = in.get_vector<std::uint32_t>();
+  const auto values = in.get_vector<GlobalIndex>();
+  std::vector<GlobalIndex> counts(histogram.counts().size());
+  if (bins.size() != values.size()) throw InputError("a histogram is cut off");
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    if (bins[i] >= counts.size()) throw InputError("a histogram has more bins than expected");
+    counts[bins[i]] = values[i];
+  }
+  histogram.set_counts(std::move(counts));
+}
+
+}  // namespace
+
 Bytes to_bytes(const QualityHistograms& histograms)
 {
   ByteWriter out;
-  out.put(histograms.mean_ratio.counts());
-  out.put(histograms.seam_mean_ratio.counts());
-  out.put(histograms.log2_edge_length.counts());
+  put_sparse(histograms.mean_ratio, out);
+  put_sparse(histograms.seam_mean_ratio, out);
+  put_sparse(histograms.log2_edge_length, out);
   return std::move(out).take();
 }
 
@@ -95,9 +127,9 @@ QualityHistograms quality_histograms_from_bytes(std::span<const std::byte> bytes
 {
   ByteReader in(bytes);
   QualityHistograms histograms;
-  histograms.mean_ratio.set_counts(in.get_vector<GlobalIndex>());
-  histograms.seam_mean_ratio.set_counts(in.get_vector<GlobalIndex>());
-  histograms.log2_edge_length.set_counts(in.get_vector<GlobalIndex>());
+  get_sparse(in, histograms.mean_ratio);
+  get_sparse(in, histograms.seam_mean_ratio);
+  get_sparse(in, histograms.log2_edge_length);
   return histograms;
 }
 

@@ -130,7 +130,7 @@ class LatticeRefiner {
     const model::SurfacePoint projected = project(chord, parameters);
     if (has_parameters()) edge_parameters_[edge_place(e, k)] = projected.uv;
     return settle(chord, projected,
-                  {mesh::LatticeCarrier::edge, complex_.edge_skeleton[at(e)], k - 1}, project);
+                  mesh::LatticePointKey::on_edge(complex_.edge_skeleton[at(e)], n_, k), project);
   }
 
   void refine_triangle(LocalIndex t, LocalIndex step)
@@ -173,8 +173,7 @@ class LatticeRefiner {
           project(chord, has_parameters() ? guess_uv(t, p, step) : SurfaceParameters{});
       if (has_parameters()) triangle_uv_[triangle_place(t, p)] = projected.uv;
       point = settle(chord, projected,
-                     {mesh::LatticeCarrier::triangle, complex_.triangle_skeleton[at(t)],
-                      lattice::inner_triangle_index(n_, p.i, p.j)},
+                     mesh::LatticePointKey::on_triangle(complex_.triangle_skeleton[at(t)], n_, p),
                      project);
     }
     store(result_.triangle_xyz, triangle_place(t, p), point);

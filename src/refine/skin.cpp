@@ -4,13 +4,15 @@
 #include <cstddef>
 #include <utility>
 
+#include "tessera/mesh/lattice_numbering.hpp"
+
 namespace tessera::refine {
 namespace {
 
 namespace lattice = mesh::lattice;
 using lattice::TrianglePoint;
 
-// Appends skin vertices in the order of LatticeNumbering.
+// Appends skin vertices in the order of mesh::LatticeNumbering.
 class VertexList {
  public:
   explicit VertexList(mesh::Skin& skin) : skin_(skin) {}
@@ -35,6 +37,7 @@ void append_coarse_vertices(const mesh::Complex& complex, const mesh::RefinedLat
     positions[at(complex.edge_vertices[2 * at(e) + 1])] = lattice.edge_point(e, lattice.n);
   }
   for (LocalIndex v = 0; v < complex.num_vertices(); ++v) {
+    if (complex.vertex_skeleton[at(v)] == kNoIndex) continue;
     vertices.append(positions[at(v)], complex.vertex_skeleton[at(v)], 0);
   }
 }
@@ -44,10 +47,12 @@ void append_lattice_points(const mesh::Complex& complex, const mesh::RefinedLatt
 {
   const LocalIndex n = lattice.n;
   for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
+    if (complex.edge_skeleton[at(e)] == kNoIndex) continue;
     const mesh::Unit unit = units.first_edge + complex.edge_skeleton[at(e)];
     for (LocalIndex k = 1; k < n; ++k) vertices.append(lattice.edge_point(e, k), unit, k - 1);
   }
   for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
+    if (complex.triangle_skeleton[at(t)] == kNoIndex) continue;
     const mesh::Unit unit = units.first_triangle + complex.triangle_skeleton[at(t)];
     LocalIndex index = 0;
     for (LocalIndex j = 1; j < n; ++j) {
@@ -61,9 +66,10 @@ void append_lattice_points(const mesh::Complex& complex, const mesh::RefinedLatt
 void append_triangles(const mesh::Complex& complex, LocalIndex n, const mesh::Skeleton& skeleton,
                       LocalIndex subdomain, mesh::Skin& skin)
 {
-  const LatticeNumbering numbering(complex, n);
+  const mesh::LatticeNumbering numbering(complex, n);
   for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
     const LocalIndex parent = complex.triangle_skeleton[at(t)];
+    if (parent == kNoIndex) continue;
     const bool ascending_is_outward = skeleton.triangle_subdomains[2 * at(parent)] == subdomain;
     lattice::for_each_small_triangle(
         n, 1, [&](const TrianglePoint& a, TrianglePoint b, TrianglePoint c) {
@@ -77,34 +83,6 @@ void append_triangles(const mesh::Complex& complex, LocalIndex n, const mesh::Sk
 }
 
 }  // namespace
-
-LatticeNumbering::LatticeNumbering(const mesh::Complex& complex, LocalIndex n)
-    : complex_(complex),
-      n_(n),
-      first_edge_point_(complex.num_vertices()),
-      first_triangle_point_(first_edge_point_
-                            + complex.num_edges() * lattice::num_inner_edge_points(n)),
-      num_points_(first_triangle_point_
-                  + complex.num_triangles() * lattice::num_inner_triangle_points(n))
-{
-}
-
-LocalIndex LatticeNumbering::edge_point(LocalIndex e, LocalIndex k) const
-{
-  if (k == 0) return complex_.edge_vertices[2 * at(e)];
-  if (k == n_) return complex_.edge_vertices[2 * at(e) + 1];
-  return first_edge_point_ + e * lattice::num_inner_edge_points(n_) + k - 1;
-}
-
-LocalIndex LatticeNumbering::triangle_point(LocalIndex t, const TrianglePoint& p) const
-{
-  const LocalIndex* edges = &complex_.triangle_edges[3 * at(t)];
-  if (p.j == 0) return edge_point(edges[0], p.i);
-  if (p.i == 0) return edge_point(edges[1], p.j);
-  if (p.i + p.j == n_) return edge_point(edges[2], p.j);
-  return first_triangle_point_ + t * lattice::num_inner_triangle_points(n_)
-         + lattice::inner_triangle_index(n_, p.i, p.j);
-}
 
 mesh::Skin extract_skin(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
                         const mesh::Skeleton& skeleton, LocalIndex subdomain)

@@ -65,10 +65,15 @@ std::vector<SeamHash> seam_hashes(const mesh::Skin& skin, const mesh::Skeleton& 
 }
 
 std::optional<std::string> first_open_seam(const std::vector<Hash128>& sums,
-                                           const mesh::Skeleton& skeleton)
+                                           const mesh::Skeleton& skeleton,
+                                           const std::vector<char>& is_made)
 {
+  const auto has_piece = [&](std::size_t side) {
+    return is_made.empty() || is_made[at(skeleton.triangle_subdomains[side])] != 0;
+  };
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
     if (!skeleton.is_inside(t) || sums[at(t)] == Hash128{}) continue;
+    if (!has_piece(2 * at(t)) || !has_piece(2 * at(t) + 1)) continue;
     return "subdomains " + std::to_string(skeleton.triangle_subdomains[2 * at(t)]) + " and "
            + std::to_string(skeleton.triangle_subdomains[2 * at(t) + 1])
            + " do not meet on coarse triangle " + std::to_string(t);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
+#include "tessera/fill/options.hpp"
 
 namespace tessera::fill {
 
@@ -18,9 +19,10 @@ struct FillInput {
 
 /// @brief Settings of one try; the ladder of tries is made of these.
 struct FillTry {
-  double grading = 0.3;           ///< Growth of the size away from the skin, in (0, 1].
-  int optimize_steps = 2;         ///< Optimisation rounds after the fill.
-  unsigned point_order_seed = 0;  ///< 0: points as given; else another fixed order.
+  KernelKind kernel = KernelKind::netgen;  ///< The others are settings of NETGEN.
+  double grading = 0.3;                    ///< Growth of the size away from the skin, in (0, 1].
+  int optimize_steps = 2;                  ///< Optimisation rounds after the fill.
+  unsigned point_order_seed = 0;           ///< 0: points as given; else another fixed order.
 };
 
 /// @brief Tets that fill a skin. Vertices [0, num skin vertices) are the skin's, in its order.

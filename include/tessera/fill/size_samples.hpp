@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "tessera/fill/kernel.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
-#include "tessera/mesh/decomposition.hpp"
 
 namespace tessera::fill {
 
@@ -21,9 +21,9 @@ namespace tessera::fill {
 /// are interpolated because NETGEN takes the smallest of neighbouring samples: with one size a tet
 /// the smallest tets around would decide everywhere.
 /// @param[in] vertex_size vertex_sizes() of the mesh.
+/// @param[in] tets The coarse tets of the subdomain.
 /// @note Local.
-void add_size_samples(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
-                      LocalIndex subdomain, const std::vector<double>& vertex_size, int levels,
-                      FillInput& input);
+void add_size_samples(const mesh::CoarseMesh& coarse, std::span<const LocalIndex> tets,
+                      const std::vector<double>& vertex_size, int levels, FillInput& input);
 
 }  // namespace tessera::fill

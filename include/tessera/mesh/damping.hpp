@@ -7,19 +7,39 @@
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/types.hpp"
+#include "tessera/mesh/lattice.hpp"
 
 namespace tessera::mesh {
 
 /// @brief Kinds of skeleton entities that carry inner lattice points.
 enum class LatticeCarrier : std::int32_t { edge, triangle };
 
-/// @brief Names a lattice point that is born on a skeleton edge or triangle.
+/// @brief Names a lattice point that is born on a skeleton edge or triangle: the same point has the
+/// same key at every number of levels, so a plan made on few levels holds for more.
 struct LatticePointKey {
   LatticeCarrier carrier = LatticeCarrier::edge;
   LocalIndex entity = kNoIndex;  ///< Row of the skeleton's edges or triangles.
-  LocalIndex index = 0;          ///< Inner point: k - 1 on an edge, inner_triangle_index() else.
+  LocalIndex index = 0;          ///< Place among the inner points of the finest lattice there is.
+
+  /// @brief Inner point `k` of an edge with `n` intervals.
+  [[nodiscard]] static LatticePointKey on_edge(LocalIndex edge, LocalIndex n, LocalIndex k)
+  {
+    return {LatticeCarrier::edge, edge, k * (kFinest / n) - 1};
+  }
+
+  /// @brief Inner point `p` of a triangle with `n` intervals a side.
+  [[nodiscard]] static LatticePointKey on_triangle(LocalIndex triangle, LocalIndex n,
+                                                   const lattice::TrianglePoint& p)
+  {
+    const LocalIndex scale = kFinest / n;
+    return {LatticeCarrier::triangle, triangle,
+            lattice::inner_triangle_index(kFinest, p.i * scale, p.j * scale)};
+  }
 
   friend auto operator<=>(const LatticePointKey&, const LatticePointKey&) = default;
+
+ private:
+  static constexpr LocalIndex kFinest = lattice::intervals(lattice::kMaxLevels);
 };
 
 /// @brief How far a point goes from its midpoint (0) to its projection (1).

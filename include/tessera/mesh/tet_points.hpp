@@ -25,6 +25,9 @@ class TetPoints {
     return points_[static_cast<std::size_t>(lattice::tet_index(n_, p))];
   }
 
+  /// @brief All points, in the order of lattice::tet_index().
+  [[nodiscard]] const std::vector<Vec3>& all() const { return points_; }
+
   /// @brief The shortest of the coarse tet's three diagonals, as for_each_child() wants it; the
   /// lowest of equal ones.
   [[nodiscard]] std::size_t diagonal() const { return diagonal_; }

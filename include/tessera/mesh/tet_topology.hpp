@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -19,10 +20,19 @@ inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdgeCorners{
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
 /// @brief The three vertices in ascending order: the key of a triangle.
-[[nodiscard]] std::array<LocalIndex, 3> sorted_triangle(LocalIndex a, LocalIndex b, LocalIndex c);
+[[nodiscard]] constexpr std::array<LocalIndex, 3> sorted_triangle(LocalIndex a, LocalIndex b,
+                                                                  LocalIndex c) noexcept
+{
+  const LocalIndex low = std::min({a, b, c});
+  const LocalIndex high = std::max({a, b, c});
+  return {low, a ^ b ^ c ^ low ^ high, high};  // What is left of the three.
+}
 
 /// @brief Whether (a, b, c) is an even permutation of its ascending order. @pre all different.
-[[nodiscard]] bool is_even_triangle(LocalIndex a, LocalIndex b, LocalIndex c);
+[[nodiscard]] constexpr bool is_even_triangle(LocalIndex a, LocalIndex b, LocalIndex c) noexcept
+{
+  return (a < b) + (b < c) + (c < a) == 2;
+}
 
 /// @brief One triangle of a tet mesh and the one or two tets it belongs to.
 struct TriangleTets {

@@ -8,17 +8,20 @@
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/complex.hpp"
 #include "tessera/mesh/damping.hpp"
-#include "tessera/mesh/decomposition.hpp"
 #include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skeleton.hpp"
 
 namespace tessera::plan {
 
-/// @brief The tets of a subdomain that have an edge on the geometry: only these can fold. Local.
+/// @brief Whether each coarse vertex ends an edge on the geometry. Shape (num_vertices). Local.
+[[nodiscard]] std::vector<char> vertices_on_geometry(const mesh::CoarseMesh& coarse,
+                                                     const mesh::Skeleton& skeleton);
+
+/// @brief Those of the tets that have an edge on the geometry: only these can fold. Local.
+/// @param[in] on_geometry vertices_on_geometry() of the mesh.
 [[nodiscard]] std::vector<LocalIndex> tets_on_geometry(const mesh::CoarseMesh& coarse,
-                                                       const mesh::Skeleton& skeleton,
-                                                       const mesh::Decomposition& decomposition,
-                                                       LocalIndex subdomain);
+                                                       std::span<const LocalIndex> tets,
+                                                       const std::vector<char>& on_geometry);
 
 /// @brief New, smaller factors for the points that make a child of some tet flat or inverted.
 ///

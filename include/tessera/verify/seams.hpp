@@ -25,8 +25,11 @@ struct SeamHash {
 
 /// @brief The first skeleton triangle inside the model on which the two sides do not cancel, in
 /// words; nothing if all do.
-/// @param[in] sums Shape (num skeleton triangles): the sum of both sides' hashes. Local.
+/// @param[in] sums Shape (num skeleton triangles): the sum of both sides' hashes.
+/// @param[in] is_made Shape (num_subdomains): triangles beside a subdomain that is not are passed
+/// over; empty: all are. Local.
 [[nodiscard]] std::optional<std::string> first_open_seam(const std::vector<Hash128>& sums,
-                                                         const mesh::Skeleton& skeleton);
+                                                         const mesh::Skeleton& skeleton,
+                                                         const std::vector<char>& is_made = {});
 
 }  // namespace tessera::verify

@@ -144,13 +144,13 @@ TEST_F(CubeFill, TetListedTwiceIsRefused)
   EXPECT_THROW(static_cast<void>(check_fill(skin, tets)), MeshError);
 }
 
-// Two equal tets close each other's faces: only the volume shows them.
+// Two equal tets pair up each other's faces, but the wrong way round.
 TEST_F(CubeFill, TwoEqualTetsApartAreRefused)
 {
   const auto first = static_cast<LocalIndex>(tets.vertex_xyz.size() / 3);
   tets.vertex_xyz.insert(tets.vertex_xyz.end(), {.4, .4, .4, .5, .4, .4, .4, .5, .4, .4, .4, .5});
   for (int times = 0; times < 2; ++times) add_tet({first, first + 1, first + 2, first + 3});
-  expect_refused("is not the skin's volume");
+  expect_refused("boundary is not the skin");
 }
 
 TEST_F(CubeFill, InvertedTetIsRefused)

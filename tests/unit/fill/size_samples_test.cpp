@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/vec3.hpp"
+#include "tessera/mesh/subdomain_tets.hpp"
 
 #include "support/decompositions.hpp"
 #include "support/meshes.hpp"
@@ -19,11 +20,12 @@ namespace {
 struct SamplesOfCube : ::testing::Test {
   const mesh::CoarseMesh cube = testing::kuhn_cube(2);
   const mesh::Decomposition decomposition = testing::slabs(cube, 2);
+  const mesh::SubdomainTets tets = mesh::subdomain_tets(decomposition);
 
   [[nodiscard]] FillInput samples(LocalIndex subdomain, int levels) const
   {
     FillInput input;
-    add_size_samples(cube, decomposition, subdomain, vertex_sizes(cube), levels, input);
+    add_size_samples(cube, tets.of(subdomain), vertex_sizes(cube), levels, input);
     return input;
   }
 
@@ -63,7 +65,7 @@ TEST_F(SamplesOfCube, HalveWithEveryLevel)
   std::size_t fewer = 0;
   for (int levels = 0; levels < 4; ++levels) {
     FillInput input;
-    add_size_samples(cube, decomposition, 0, size, levels, input);
+    add_size_samples(cube, tets.of(0), size, levels, input);
     EXPECT_GT(input.size_h.size(), fewer);
     fewer = input.size_h.size();
     for (const double h : input.size_h) EXPECT_NEAR(h, std::ldexp(0.75, -levels), 1e-15);
@@ -77,7 +79,7 @@ TEST_F(SamplesOfCube, InterpolateBetweenVertices)
   std::vector<double> size;
   for (LocalIndex v = 0; v < cube.num_vertices(); ++v) size.push_back(linear(cube.position(v)));
   FillInput input;
-  add_size_samples(cube, decomposition, 1, size, 2, input);
+  add_size_samples(cube, tets.of(1), size, 2, input);
   for (std::size_t i = 0; i < input.size_h.size(); ++i) {
     const Vec3 p = point_at(std::span<const double>(input.size_xyz), i);
     EXPECT_NEAR(input.size_h[i], 0.25 * linear(p), 1e-15);
@@ -131,14 +133,19 @@ TEST_F(SamplesOfCube, AreAddedToWhatIsThere)
   input.vertex_xyz = {1, 2, 3};
   input.size_xyz = {7, 8, 9};
   input.size_h = {0.5};
-  add_size_samples(cube, decomposition, 0, vertex_sizes(cube), 2, input);
+  add_size_samples(cube, tets.of(0), vertex_sizes(cube), 2, input);
   EXPECT_EQ(input.vertex_xyz, (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(input.size_h.front(), 0.5);
   EXPECT_EQ(input.size_xyz.size(), 3 * input.size_h.size());
   EXPECT_EQ(input.size_h.size(), 1 + samples(0, 2).size_h.size());
 }
 
-TEST_F(SamplesOfCube, OfASubdomainWithoutTetsAreNone) { EXPECT_TRUE(samples(5, 1).size_h.empty()); }
+TEST_F(SamplesOfCube, OfNoTetsAreNone)
+{
+  FillInput input;
+  add_size_samples(cube, {}, vertex_sizes(cube), 1, input);
+  EXPECT_TRUE(input.size_h.empty());
+}
 
 }  // namespace
 }  // namespace tessera::fill

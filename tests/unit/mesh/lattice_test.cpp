@@ -2,7 +2,9 @@
 #include "tessera/mesh/lattice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +134,29 @@ TEST(TetLattice, TheSkinOfTheChildrenIsTheRefinedSkin)
           add([n](const TrianglePoint& p) { return TetPoint{n - p.i - p.j, p.i, p.j}; });
         });
     EXPECT_EQ(open, skin) << "diagonal " << diagonal;
+  }
+}
+
+TEST(TetLattice, IndexedChildrenAreTheSameInTheSameOrder)
+{
+  using Child = std::array<LocalIndex, 4>;
+  for (const LocalIndex n : {1, 2, 4, 8}) {
+    for (std::size_t diagonal = 0; diagonal < 3; ++diagonal) {
+      std::vector<Child> by_points;
+      for_each_child(
+          n, 1, diagonal,
+          [&](const TetPoint& a, const TetPoint& b, const TetPoint& c, const TetPoint& d) {
+            by_points.push_back(
+                {tet_index(n, a), tet_index(n, b), tet_index(n, c), tet_index(n, d)});
+          });
+      std::vector<Child> by_index;
+      for_each_child_index(n, diagonal,
+                           [&](LocalIndex a, LocalIndex b, LocalIndex c, LocalIndex d) {
+                             by_index.push_back({a, b, c, d});
+                           });
+      EXPECT_EQ(by_index, by_points) << n << ' ' << diagonal;
+      EXPECT_EQ(by_index.size(), at(n) * at(n) * at(n));
+    }
   }
 }
 

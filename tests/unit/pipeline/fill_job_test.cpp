@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
-#include "tessera/fill/size_samples.hpp"
 #include "tessera/netgen/factory.hpp"
 
 #include "support/curved_meshes.hpp"
@@ -132,11 +131,9 @@ TEST_F(FillJob, NoDefectOfAKernelPasses)
   const testing::FlatModel model;
   const mesh::Damping damping;
   const refine::RefineContext refine{body().coarse, body().skeleton, model, damping, 1, true};
-  const auto seam_units = mesh::units_on_seams(body().skeleton, body().decomposition);
-  const auto vertex_size = fill::vertex_sizes(body().coarse);
-  const FillContext job{refine, body().decomposition, seam_units, vertex_size};
+  const CutMesh cut(body().coarse, body().decomposition);
   const auto fill = [&](BrokenKernel::Defect defect) {
-    static_cast<void>(fill_subdomain(job, 0, BrokenKernel(defect), {}));
+    static_cast<void>(fill_subdomain(cut, refine, 0, {}, BrokenKernel(defect)));
   };
   EXPECT_THROW(fill(BrokenKernel::Defect::gives_up), NetgenError);
   EXPECT_THROW(fill(BrokenKernel::Defect::returns_nothing), MeshError);
@@ -154,14 +151,11 @@ TEST(FillJobOnACurvedModel, ReportsDistancesAndDampedPoints)
          || body.skeleton.edge_owner[at(edge)] != 0) {
     ++edge;
   }
-  const mesh::Damping damping({{{mesh::LatticeCarrier::edge, edge, 0}, 0.5}});
+  const mesh::Damping damping({{mesh::LatticePointKey::on_edge(edge, 2, 1), 0.5}});
   const refine::RefineContext refine{body.coarse, body.skeleton, lazy, damping, 1, true};
-  const auto seam_units = mesh::units_on_seams(body.skeleton, body.decomposition);
-  const auto vertex_size = fill::vertex_sizes(body.coarse);
+  const CutMesh cut(body.coarse, body.decomposition);
   const auto kernel = netgen::make_fill_kernel();
-  const PieceSummary summary =
-      fill_subdomain({refine, body.decomposition, seam_units, vertex_size}, 0, *kernel, {})
-          .result.summary;
+  const PieceSummary summary = fill_subdomain(cut, refine, 0, {}, *kernel).result.summary;
   EXPECT_EQ(summary.num_damped, 1);
   EXPECT_GT(summary.model_distance, 1e-5);
   EXPECT_LT(summary.model_distance, 0.01 * summary.damped_distance * 10.0);

@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "tessera/fill/size_samples.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/netgen/factory.hpp"
 
@@ -13,16 +12,14 @@
 
 namespace tessera::testing {
 
-pipeline::FilledPiece fill_of(const Body& body, int levels, LocalIndex subdomain)
+pipeline::FilledPiece fill_of(const Body& body, int levels, LocalIndex subdomain,
+                              const fill::FillTry& settings)
 {
   const FlatModel model;
   const mesh::Damping damping;
   const refine::RefineContext refine{body.coarse, body.skeleton, model, damping, levels, true};
-  const auto seam_units = mesh::units_on_seams(body.skeleton, body.decomposition);
-  const auto vertex_size = fill::vertex_sizes(body.coarse);
-  const auto kernel = netgen::make_fill_kernel();
-  return pipeline::fill_subdomain({refine, body.decomposition, seam_units, vertex_size}, subdomain,
-                                  *kernel, {});
+  const pipeline::CutMesh cut(body.coarse, body.decomposition);
+  return pipeline::fill_subdomain(cut, refine, subdomain, settings, *netgen::make_fill_kernel());
 }
 
 void FilledCube::SetUpTestSuite()

@@ -14,8 +14,9 @@
 
 namespace tessera::testing {
 
-/// @brief Fills one subdomain of a body on a flat model, with NETGEN.
-[[nodiscard]] pipeline::FilledPiece fill_of(const Body& body, int levels, LocalIndex subdomain);
+/// @brief Fills one subdomain of a body on a flat model; by default with NETGEN.
+[[nodiscard]] pipeline::FilledPiece fill_of(const Body& body, int levels, LocalIndex subdomain,
+                                            const fill::FillTry& settings = {});
 
 /// @brief two_material_cube(2) in four slabs, refined twice, filled with NETGEN and numbered, as
 /// the stages of the program do it. The pieces are made once for all tests.

@@ -32,7 +32,9 @@ RunResult run_of_two_pieces()
   run.filled.pieces = {piece(0, 20.0, 0.4), piece(1, 8.0, 0.3)};
   run.filled.histograms.mean_ratio.add(0.8);
   run.filled.histograms.log2_edge_length.add(std::log2(2.0));
-  run.digests = {{1, 2}, {10, 20}};
+  run.filled.pieces[0].digest = {1, 2};
+  run.filled.pieces[1].digest = {10, 20};
+  run.kernels = {fill::KernelKind::netgen, fill::KernelKind::netgen};
   run.num_tets = 20;
   run.num_vertices = 11;
   run.decomposition.decomposition.subdomain_weight = {9.0, 11.0};
@@ -80,8 +82,8 @@ TEST(Judge, EveryMissedTargetIsAReasonWithBothFigures)
 TEST(Judge, PointsOffTheGeometryDegrade)
 {
   RunResult run = run_of_two_pieces();
-  run.damping = mesh::Damping(
-      {{{mesh::LatticeCarrier::edge, 1, 0}, 0.5}, {{mesh::LatticeCarrier::edge, 2, 0}, 0.0}});
+  run.damping = mesh::Damping({{mesh::LatticePointKey::on_edge(1, 2, 1), 0.5},
+                               {mesh::LatticePointKey::on_edge(2, 2, 1), 0.0}});
   run.filled.pieces[1].damped_distance = 0.125;
   const Verdict verdict = judge(run);
   EXPECT_EQ(verdict.exit_code, ExitCode::degraded);

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/subdomain_tets.hpp"
 #include "tessera/mesh/tet_lattice.hpp"
 #include "tessera/mesh/tet_points.hpp"
 
@@ -101,12 +102,14 @@ struct Plan {
 // The plan stage in one process: every subdomain by itself, in rounds.
 Plan make_plan(const Body& body, const model::Model& model, int levels, int most_rounds)
 {
+  const auto subdomains = mesh::subdomain_tets(body.decomposition);
+  const auto on_geometry = vertices_on_geometry(body.coarse, body.skeleton);
   Plan plan;
   for (bool found_any = true; found_any && plan.rounds <= most_rounds; ++plan.rounds) {
     std::vector<PointDamping> all(plan.damping.entries().begin(), plan.damping.entries().end());
     found_any = false;
     for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
-      const auto tets = tets_on_geometry(body.coarse, body.skeleton, body.decomposition, s);
+      const auto tets = tets_on_geometry(body.coarse, subdomains.of(s), on_geometry);
       const RefinedTets refined(body, model, plan.damping, levels, tets);
       for (const PointDamping& smaller :
            find_folds(refined.complex, body.skeleton, refined.lattice, plan.damping)) {
@@ -197,7 +200,7 @@ TEST_P(FoldedPlate, DampsOnlyNewPointsOnTheGeometryByListedSteps)
     const bool on_edge = entry.key.carrier == mesh::LatticeCarrier::edge;
     const auto& patch = on_edge ? body.skeleton.edge_patch : body.skeleton.triangle_patch;
     EXPECT_NE(patch.at(at(entry.key.entity)), kNoIndex);
-    const LocalIndex n = mesh::lattice::intervals(levels);
+    const LocalIndex n = mesh::lattice::intervals(mesh::lattice::kMaxLevels);
     EXPECT_LT(entry.key.index, on_edge ? n - 1 : mesh::lattice::num_inner_triangle_points(n));
     EXPECT_TRUE((std::set<double>{0.75, 0.5, 0.25, 0.0}.count(entry.factor))) << entry.factor;
   }
@@ -236,9 +239,11 @@ TEST(FoldTest, TetsOnGeometryAreAllThatHaveAnEdgeThere)
                                cube.face_vertices[3 * at(f) + (c + 1) % 3]));
     }
   }
+  const auto subdomains = mesh::subdomain_tets(body.decomposition);
+  const auto on_geometry = vertices_on_geometry(body.coarse, body.skeleton);
   std::set<LocalIndex> found;
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
-    for (const LocalIndex t : tets_on_geometry(body.coarse, body.skeleton, body.decomposition, s)) {
+    for (const LocalIndex t : tets_on_geometry(body.coarse, subdomains.of(s), on_geometry)) {
       EXPECT_EQ(body.decomposition.tet_subdomain[at(t)], s);
       EXPECT_TRUE(found.insert(t).second);
     }

@@ -15,7 +15,7 @@
 namespace tessera::refine {
 namespace {
 
-using mesh::LatticeCarrier;
+using mesh::LatticePointKey;
 using mesh::lattice::TrianglePoint;
 using testing::bits;
 using testing::Body;
@@ -40,10 +40,8 @@ TEST_F(DampedPoints, GoTheirShareOfTheWay)
   const LocalIndex triangle = 7;
   const TrianglePoint inner{1, 2};  // Between (2, 1) and (0, 3), new at the last level.
   for (const double factor : {0.75, 0.5, 0.25, 0.0}) {
-    const auto lattice = refined({{{LatticeCarrier::edge, edge, 0}, factor},
-                                  {{LatticeCarrier::triangle, triangle,
-                                    mesh::lattice::inner_triangle_index(4, inner.i, inner.j)},
-                                   factor}});
+    const auto lattice = refined({{LatticePointKey::on_edge(edge, 4, 1), factor},
+                                  {LatticePointKey::on_triangle(triangle, 4, inner), factor}});
     const Vec3 on_edge = midpoint(lattice.edge_point(edge, 0), lattice.edge_point(edge, 2));
     EXPECT_NEAR(norm(lattice.edge_point(edge, 1) - on_edge), factor * (1.0 - norm(on_edge)), 1e-15);
     const auto [a, b] = mesh::lattice::parents(inner, 1);
@@ -56,7 +54,7 @@ TEST_F(DampedPoints, GoTheirShareOfTheWay)
 
 TEST_F(DampedPoints, AtZeroAreExactlyTheMidpoint)
 {
-  const auto lattice = refined({{{LatticeCarrier::edge, 0, 1}, 0.0}});
+  const auto lattice = refined({{LatticePointKey::on_edge(0, 4, 2), 0.0}});
   EXPECT_EQ(bits(lattice.edge_point(0, 2)),
             bits(midpoint(lattice.edge_point(0, 0), lattice.edge_point(0, 4))));
 }
@@ -65,7 +63,8 @@ TEST_F(DampedPoints, MoveNoPointButTheirDescendants)
 {
   const LocalIndex edge = 3;
   const auto free = refined({});
-  const auto damped = refined({{{LatticeCarrier::edge, edge, 2}, 0.0}});  // Last level: no child.
+  const auto damped =
+      refined({{LatticePointKey::on_edge(edge, 4, 3), 0.0}});  // Last level: no child.
   for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
     for (LocalIndex k = 0; k <= 4; ++k) {
       const bool same = bits(free.edge_point(e, k)) == bits(damped.edge_point(e, k));
@@ -77,7 +76,7 @@ TEST_F(DampedPoints, MoveNoPointButTheirDescendants)
 // A point that the plan pulled back is where its children start from.
 TEST_F(DampedPoints, OfTheFirstLevelCarryTheirChildrenAlong)
 {
-  const auto lattice = refined({{{LatticeCarrier::edge, 0, 1}, 0.0}});
+  const auto lattice = refined({{LatticePointKey::on_edge(0, 4, 2), 0.0}});
   const Vec3 chord = midpoint(lattice.edge_point(0, 0), lattice.edge_point(0, 2));
   EXPECT_NEAR(norm(lattice.edge_point(0, 1) - (1.0 / norm(chord)) * chord), 0.0, 1e-15);
 }
@@ -87,7 +86,7 @@ TEST_F(DampedPoints, AreSeenAlikeFromTwoSubdomains)
   const Body halves(body.coarse, testing::halves(body.coarse));
   std::vector<mesh::PointDamping> entries;
   for (LocalIndex e = 0; e < halves.skeleton.num_edges(); ++e) {
-    for (LocalIndex k = 0; k < 3; ++k) entries.push_back({{LatticeCarrier::edge, e, k}, 0.5});
+    for (LocalIndex k = 1; k < 4; ++k) entries.push_back({LatticePointKey::on_edge(e, 4, k), 0.5});
   }
   const mesh::Damping damping(entries);
   const auto one = testing::refine_skin(halves, sphere, kLevels, 0, damping);

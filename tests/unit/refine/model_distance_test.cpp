@@ -15,7 +15,6 @@
 namespace tessera::refine {
 namespace {
 
-using mesh::LatticeCarrier;
 using testing::Body;
 
 struct DistanceToModel : ::testing::Test {
@@ -68,7 +67,7 @@ TEST_F(DistanceToModel, ShowsAProjectionOntoRimsThatStopsEarly)
 
 TEST_F(DistanceToModel, KeepsDampedPointsApart)
 {
-  const mesh::Damping damping({{{LatticeCarrier::edge, 2, 0}, 0.25}});
+  const mesh::Damping damping({{mesh::LatticePointKey::on_edge(2, 2, 1), 0.25}});
   const auto lattice = testing::refine_skin(body, sphere, 1, 0, damping, true).lattice;
   EXPECT_LE(lattice.distance.largest, 1e-15);
   EXPECT_EQ(lattice.distance.num_damped, 1);

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/mesh/lattice_numbering.hpp"
+
 #include "support/bodies.hpp"
 #include "support/curved_meshes.hpp"
 #include "support/curved_models.hpp"
@@ -121,7 +123,7 @@ TEST_P(SkinOfLevel, NumberingCountsEveryLatticePointOnce)
   const auto refined = testing::refine_skin(body, testing::SphereModel({1.0}), GetParam(), 0);
   const auto& [complex, lattice] = refined;
   const mesh::Skin skin = extract_skin(complex, lattice, body.skeleton, 0);
-  const LatticeNumbering numbering(complex, lattice.n);
+  const mesh::LatticeNumbering numbering(complex, lattice.n);
   EXPECT_EQ(numbering.num_points(), skin.num_vertices());
 
   std::set<LocalIndex> numbers;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tessera/io/piece_store.hpp"
+#include "tessera/io/record_store.hpp"
 
 #include <array>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <string>
@@ -20,14 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kPrefix = "piece_";
 constexpr std::string_view kSuffix = ".record";
 
-/// First bytes of a record file. It names the piece, so that a file under a wrong name is noticed.
+/// First bytes of a record file. The hash is over name and record, so that a file under a wrong
+/// name is noticed.
 struct Header {
-  std::array<char, 8> magic{'T', 'S', 'R', 'P', 'I', 'E', 'C', 'E'};
-  std::uint32_t version = 1;
-  LocalIndex id = kNoIndex;
+  std::array<char, 8> magic{'T', 'S', 'R', 'E', 'C', 'O', 'R', 'D'};
+  std::uint64_t version = 2;
   std::uint64_t size = 0;
   Hash128 hash{};
 
@@ -35,18 +33,18 @@ struct Header {
 };
 static_assert(sizeof(Header) == 40, "padding would leave bytes that are not set");
 
-[[nodiscard]] Header header_of(LocalIndex id, std::span<const std::byte> record)
+[[nodiscard]] Header header_of(const std::string& name, std::span<const std::byte> record)
 {
   Header header;
-  header.id = id;
   header.size = record.size();
   header.hash = hash_bytes(record);
+  header.hash += hash_bytes(std::as_bytes(std::span(name)));
   return header;
 }
 
 [[nodiscard]] bool is_record_name(const std::string& name)
 {
-  return name.starts_with(kPrefix) && (name.ends_with(kSuffix) || is_temporary_name(name));
+  return name.ends_with(kSuffix) || is_temporary_name(name);
 }
 
 void remove_file(const fs::path& file)
@@ -58,32 +56,30 @@ void remove_file(const fs::path& file)
 
 }  // namespace
 
-PieceStore::PieceStore(fs::path folder) : folder_(std::move(folder))
+RecordStore::RecordStore(fs::path folder) : folder_(std::move(folder))
 {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw OutputError("cannot make folder " + folder_.string() + ": " + error.message());
 }
 
-fs::path PieceStore::file_of(LocalIndex id) const
+fs::path RecordStore::file_of(const std::string& name) const
 {
-  std::array<char, 48> name{};
-  std::snprintf(name.data(), name.size(), "%s%06d%s", kPrefix.data(), id, kSuffix.data());
-  return folder_ / name.data();
+  return folder_ / (name + std::string(kSuffix));
 }
 
-void PieceStore::put(LocalIndex id, std::span<const std::byte> record) const
+void RecordStore::put(const std::string& name, std::span<const std::byte> record) const
 {
-  const Header header = header_of(id, record);
-  AtomicFile file(file_of(id));
+  const Header header = header_of(name, record);
+  AtomicFile file(file_of(name));
   file.write(std::as_bytes(std::span(&header, 1)));
   file.write(record);
   file.commit();
 }
 
-Bytes PieceStore::get(LocalIndex id) const
+Bytes RecordStore::get(const std::string& name) const
 {
-  const fs::path path = file_of(id);
+  const fs::path path = file_of(name);
   std::error_code error;
   const std::uintmax_t file_size = fs::file_size(path, error);
   if (error) throw InputError("cannot read " + path.string() + ": " + error.message());
@@ -98,19 +94,29 @@ Bytes PieceStore::get(LocalIndex id) const
 
   Bytes record(header.size);
   file.read(reinterpret_cast<char*>(record.data()), static_cast<std::streamsize>(record.size()));
-  require(file.good() && header == header_of(id, record));
+  require(file.good() && header == header_of(name, record));
   return record;
 }
 
-bool PieceStore::contains(LocalIndex id) const
+std::optional<Bytes> RecordStore::find(const std::string& name) const
 {
-  std::error_code error;
-  return fs::is_regular_file(file_of(id), error);
+  if (!contains(name)) return std::nullopt;
+  try {
+    return get(name);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
-void PieceStore::remove(LocalIndex id) const { remove_file(file_of(id)); }
+bool RecordStore::contains(const std::string& name) const
+{
+  std::error_code error;
+  return fs::is_regular_file(file_of(name), error);
+}
 
-void PieceStore::remove_all() const
+void RecordStore::remove(const std::string& name) const { remove_file(file_of(name)); }
+
+void RecordStore::remove_all() const
 {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder_, error)) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/batch_filler.hpp"
+
+#include <ctime>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+double cpu_time_s()
+{
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
+
+BatchFiller::BatchFiller(const FillTask& task, const std::filesystem::path& output,
+                         const WriteContext* numbers, const io::OutputOptions& options)
+    : task_(task), output_(output), cpu_before_s_(cpu_time_s())
+{
+  record_.plan = task.plan;
+  if (numbers != nullptr) file_.emplace(*numbers, options);
+}
+
+void BatchFiller::add(FilledPiece filled)
+{
+  PieceSummary& summary = filled.result.summary;
+  is_folded_ = is_folded_ || summary.is_folded;
+  summary.tries = task_.tries;
+  summary.was_limited = task_.was_limited;
+  summary.cpu_s = cpu_time_s() - cpu_before_s_;
+  cpu_before_s_ += summary.cpu_s;
+  if (!summary.is_folded) {
+    if (summary.tets.min_dihedral_deg <= task_.angle_to_beat_deg) {
+      throw MeshError("the fill is not better than the one before");
+    }
+    if (file_) {
+      summary.digest = file_->add(filled.piece);
+    } else {
+      record_.piece = mesh::to_bytes(filled.piece);
+    }
+  }
+  record_.results.push_back(std::move(filled.result));
+}
+
+Bytes BatchFiller::finish() &&
+{
+  if (!is_folded_ && task_.keep) keep();
+  return to_bytes(record_.results);
+}
+
+void BatchFiller::keep()
+{
+  if (file_) {
+    file_->write(output_, task_.batch);
+    record_.files.push_back(measure_file(output_, piece_path("mesh", task_.batch)));
+    if (file_->num_boundary_triangles() > 0) {
+      record_.files.push_back(measure_file(output_, piece_path("boundary", task_.batch)));
+    }
+  }
+  io::RecordStore(store_folder(output_)).put(record_name(task_.batch), to_bytes(record_));
+}
+
+}  // namespace tessera::pipeline

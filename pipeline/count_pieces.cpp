@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/count_pieces.hpp"
+
+#include "tessera/fill/subdivide.hpp"
+#include "tessera/mesh/complex.hpp"
+#include "tessera/mesh/lattice.hpp"
+
+namespace tessera::pipeline {
+
+std::vector<number::PieceCounts> count_subdivided_pieces(const CutMesh& cut, int levels)
+{
+  const LocalIndex n = mesh::lattice::intervals(levels);
+  std::vector<number::PieceCounts> counts;
+  for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
+    const auto inside =
+        fill::count_subdivision(mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets.of(s)), n);
+    GlobalIndex num_owned = 0;
+    for (const LocalIndex t : cut.skeleton.triangles_of(s)) {
+      const bool is_on_geometry = cut.skeleton.triangle_patch[at(t)] != kNoIndex;
+      num_owned += is_on_geometry && cut.skeleton.triangle_owner(t) == s ? 1 : 0;
+    }
+    counts.push_back({inside.interior_vertices, inside.tets, num_owned * n * n});
+  }
+  return counts;
+}
+
+std::vector<number::PieceCounts> counts_of(const std::vector<PieceSummary>& pieces)
+{
+  std::vector<number::PieceCounts> counts;
+  for (const PieceSummary& piece : pieces) {
+    counts.push_back({piece.num_interior_vertices, piece.num_tets, piece.num_boundary});
+  }
+  return counts;
+}
+
+}  // namespace tessera::pipeline

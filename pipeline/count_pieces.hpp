@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "tessera/number/id_layout.hpp"
+
+#include "pipeline/cut_mesh.hpp"
+#include "pipeline/piece_summary.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief What all subdomains will hold if each is subdivided: closed forms, no piece is made.
+/// Local.
+[[nodiscard]] std::vector<number::PieceCounts> count_subdivided_pieces(const CutMesh& cut,
+                                                                       int levels);
+
+/// @brief What finished pieces hold. Local.
+[[nodiscard]] std::vector<number::PieceCounts> counts_of(const std::vector<PieceSummary>& pieces);
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "tessera/io/options.hpp"
+
+#include "pipeline/piece_arrays.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief Subdomains first…last-1 that go together: into one file, or through one job.
+struct SubdomainRange {
+  LocalIndex number = 0;  ///< Of the file or record.
+  LocalIndex first = 0;
+  LocalIndex last = 0;
+};
+
+/// @brief What each piece file holds: contiguous ranges of almost equal length. Depends on the case
+/// only, never on ranks.
+/// @param[in] files output.files; 0, or more than there are subdomains: one a subdomain.
+[[nodiscard]] std::vector<SubdomainRange> file_ranges(LocalIndex num_subdomains, LocalIndex files);
+
+/// @brief One range for each of the given subdomains, under its own number.
+[[nodiscard]] std::vector<SubdomainRange> single_ranges(const std::vector<LocalIndex>& subdomains);
+
+/// @brief Name of a file's tets or boundary triangles, relative to the output folder.
+[[nodiscard]] std::filesystem::path piece_path(const std::string& folder, LocalIndex file);
+
+/// @brief Gathers the pieces of one output file, points that they share once, and writes it.
+class PieceFile {
+ public:
+  /// @brief Both are borrowed.
+  PieceFile(const WriteContext& mesh, const io::OutputOptions& options);
+
+  /// @brief Adds a piece and returns its digest. @pre pieces come in the order of subdomains.
+  Hash128 add(const mesh::Piece& piece);
+
+  /// @brief Writes mesh/piece_NNNNNN.vtu and, unless it is empty, boundary/piece_NNNNNN.vtu below
+  /// `folder`. @throws OutputError
+  void write(const std::filesystem::path& folder, LocalIndex file) const;
+
+  [[nodiscard]] GlobalIndex num_boundary_triangles() const { return arrays_.boundary.num_cells(); }
+
+ private:
+  using PointOfId = std::unordered_map<GlobalIndex, GlobalIndex>;
+
+  const WriteContext& mesh_;
+  const io::OutputOptions& options_;
+  PieceArrays arrays_{};
+  PointOfId tet_points_{};  ///< Points of skins only: no other is shared.
+  PointOfId boundary_points_{};
+};
+
+}  // namespace tessera::pipeline

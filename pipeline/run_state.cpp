@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/run_state.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/version.hpp"
+
+#include "pipeline/fill_record.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+constexpr const char* kWayOut = "; --overwrite starts anew";
+
+// What may differ between a run and its continuation: it bears on no bit of the mesh.
+config::Case without_limits(config::Case run_case)
+{
+  const config::Case plain;
+  run_case.output.directory = plain.output.directory;
+  run_case.coarse.timeout_s = plain.coarse.timeout_s;
+  run_case.fill.timeout_s = plain.fill.timeout_s;
+  run_case.fill.memory_gib = plain.fill.memory_gib;
+  return run_case;
+}
+
+std::string first_difference(const std::string& there, const std::string& here)
+{
+  std::istringstream old_lines(there);
+  std::istringstream new_lines(here);
+  std::string old_line;
+  std::string new_line;
+  do {
+    old_line.clear();
+    new_line.clear();
+    std::getline(old_lines, old_line);
+    std::getline(new_lines, new_line);
+  } while (old_line == new_line && (old_lines || new_lines));
+  return "`" + old_line + "` there, `" + new_line + "` now";
+}
+
+struct Identity {
+  std::string version{};
+  std::string model{};  ///< Hash of what was read of the model file.
+};
+
+// Noted in the report when the run has ended, in a record before.
+std::optional<Identity> identity_of(const std::filesystem::path& output,
+                                    const std::optional<Bytes>& record)
+{
+  if (record) {
+    ByteReader in(*record);
+    Identity identity;
+    identity.version = in.get_string();
+    identity.model = in.get_string();
+    return identity;
+  }
+  std::ifstream file(output / "report.json");
+  const auto report = nlohmann::json::parse(file, nullptr, false);
+  if (!report.is_object() || !report.contains("model")) return std::nullopt;
+  return Identity{report.value("version", ""), report["model"].value("digest", "")};
+}
+
+}  // namespace
+
+Bytes to_bytes(const Plan& plan)
+{
+  ByteWriter out;
+  out.put(plan.kernels);
+  out.put(mesh::to_bytes(plan.damping));
+  return std::move(out).take();
+}
+
+Plan plan_from_bytes(std::span<const std::byte> bytes)
+{
+  ByteReader in(bytes);
+  Plan plan;
+  plan.kernels = in.get_vector<fill::KernelKind>();
+  plan.damping = mesh::damping_from_bytes(in.get_vector<std::byte>());
+  return plan;
+}
+
+io::RecordStore RunState::store() const { return io::RecordStore(store_folder(output_)); }
+
+void RunState::require_same_case(const config::Case& given) const
+{
+  const auto file = output_ / "case.toml";
+  const std::string there = config::to_toml(without_limits(config::load_case(file)));
+  const std::string here = config::to_toml(without_limits(given));
+  if (there != here) {
+    throw InputError("cannot resume " + output_.string() + ": the case has changed, "
+                     + first_difference(there, here) + kWayOut);
+  }
+}
+
+void RunState::require_same_model(const Hash128& model) const
+{
+  const Identity now{std::string(version()), to_hex(model)};
+  const auto noted = identity_of(output_, store().find("run"));
+  if (!noted) {
+    ByteWriter out;
+    out.put(now.version);
+    out.put(now.model);
+    return store().put("run", std::move(out).take());
+  }
+  const std::string what = "cannot resume " + output_.string() + ": ";
+  if (noted->version != now.version) {
+    throw InputError(what + "it was begun by version " + noted->version + ", this is " + now.version
+                     + kWayOut);
+  }
+  if (noted->model != now.model) throw InputError(what + "the model file has changed" + kWayOut);
+}
+
+void RunState::keep_coarse(std::span<const std::byte> coarse) const
+{
+  store().put("coarse", coarse);
+}
+
+std::optional<Bytes> RunState::find_coarse() const { return store().find("coarse"); }
+
+void RunState::keep_plan(const Plan& plan) const { store().put("plan", to_bytes(plan)); }
+
+std::optional<Plan> RunState::find_plan() const
+{
+  const auto bytes = store().find("plan");
+  return bytes ? std::optional(plan_from_bytes(*bytes)) : std::nullopt;
+}
+
+std::optional<ExitCode> RunState::finished() const
+{
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(output_ / "mesh.pvtu", error)) return std::nullopt;
+  std::ifstream file(output_ / "report.json");
+  const auto report = nlohmann::json::parse(file, nullptr, false);
+  if (!report.is_object()) return std::nullopt;
+  const auto code = static_cast<ExitCode>(report.value("exit_code", -1));
+  const bool has_mesh = code == ExitCode::ok || code == ExitCode::degraded;
+  return has_mesh ? std::optional(code) : std::nullopt;
+}
+
+void RunState::clear() const { store().remove_all(); }
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stages/load_stage.hpp"
+
+#include <filesystem>
+
+#include "pipeline/exit_code.hpp"
+#include "pipeline/mesh_worker.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+constexpr jobs::JobLimits kLoadLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory_gib = 16.0};
+
+void load_everywhere(const Bytes& message, RunContext& context)
+{
+  all_or_none(context.comm, [&] {
+    jobs::throw_unless_ok(context.jobs.load(message, kLoadLimits, wait_for_stop_signal()),
+                          "loading the coarse mesh");
+  });
+}
+
+}  // namespace
+
+void load_mesh(const CutMesh& cut, const config::Case& run_case, RunContext& context)
+{
+  load_everywhere(
+      load_mesh_message(cut.coarse, cut.decomposition, run_case.refine.levels, context.folder),
+      context);
+}
+
+void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,
+                  const io::OutputOptions& options, RunContext& context)
+{
+  load_everywhere(load_numbers_message(counts, length_unit, options), context);
+}
+
+void load_plan(const mesh::Damping& damping, RunContext& context)
+{
+  load_everywhere(load_plan_message(damping), context);
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tessera/config/case.hpp"
+#include "tessera/mesh/damping.hpp"
+#include "tessera/number/id_layout.hpp"
+
+#include "pipeline/cut_mesh.hpp"
+#include "pipeline/run_context.hpp"
+
+/// Gives the workers of all ranks what their next jobs start from. All functions are collective and
+/// throw on every rank if a worker dies, or Interrupted on a signal.
+namespace tessera::pipeline {
+
+void load_mesh(const CutMesh& cut, const config::Case& run_case, RunContext& context);
+
+/// @brief From now on fill jobs write the output files themselves. @param[in] counts Of all pieces.
+void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,
+                  const io::OutputOptions& options, RunContext& context);
+
+void load_plan(const mesh::Damping& damping, RunContext& context);
+
+}  // namespace tessera::pipeline
