@@ -258,7 +258,8 @@ FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
 FilledPieces run_fill_stage(const config::Case& run_case, const FillWork& work, RunContext& context)
 {
   const auto num_ranges = static_cast<LocalIndex>(work.ranges.size());
-  StageScope stage(context, "fill", num_ranges, "jobs");
+  const bool is_one_each = num_ranges == work.cut.num_subdomains();
+  StageScope stage(context, "fill", num_ranges, is_one_each ? "subdomains" : "files");
   Filler filler(run_case.fill, work, context);
   std::exception_ptr defect;
   std::vector<double> weights;

@@ -231,7 +231,8 @@ class CannotWrite(OutcomeTest):
         """`limited_from`: 0 the rank processes, 1 the processes that jobs come from."""
         case = self.write_case(max_size=0.3, levels=1)
         process = self.start("mesh", case, "--output", "out", ranks=ranks)
-        program.wait_until((self.folder / "out" / "log" / "run.log").exists, "the run's log")
+        begun = ["pieces/plan.record", "log/run.log"][limited_from]
+        program.wait_until((self.folder / "out" / begun).exists, begun)
         for rank in [process.pid] if ranks is None else program.ranks_of(process):
             self.limit_files([[rank], program.chain_of(rank)][limited_from])
         self.assert_refused(self.finish(process), CANNOT_WRITE, "piece_", "File too large")

@@ -128,7 +128,7 @@ class KilledProcesses(SignalsTest):
         family = program.descendants(process.pid)
         os.kill(chain[link_of_chain], signal.SIGKILL)
         outcome = self.finish(process, QUICK_S)
-        self.assert_refused(outcome, FAILED, "run the case again")
+        self.assert_refused(outcome, FAILED, "go on with --resume")
         self.assert_nothing_is_left(family)
 
     def test_killed_zygote(self):
