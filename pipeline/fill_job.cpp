@@ -65,14 +65,16 @@ void measure_tets(const mesh::Piece& piece, const std::vector<char>& seam_units,
   const auto on_seam = [&](LocalIndex v) {
     return v < piece.num_skin_vertices() && seam_units[at(piece.skin_unit[at(v)])] != 0;
   };
+  quality::ShapeSum all(result.histograms.mean_ratio);
+  quality::ShapeSum on_seams(result.histograms.seam_mean_ratio);
   for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-    const auto corners = piece.corners(t);
-    quality::add_tet(corners, result.summary.tets, result.histograms.mean_ratio);
+    const quality::TetShape shape = quality::shape_of(piece.corners(t));
+    all.add(shape);
     const LocalIndex* v = &piece.tet_vertices[4 * at(t)];
-    if (std::any_of(v, v + 4, on_seam)) {
-      quality::add_tet(corners, result.summary.seam_tets, result.histograms.seam_mean_ratio);
-    }
+    if (std::any_of(v, v + 4, on_seam)) on_seams.add(shape);
   }
+  result.summary.tets = all.statistics();
+  result.summary.seam_tets = on_seams.statistics();
 }
 
 // A skin, and the tets that some kernel put into it, unchecked.
@@ -109,7 +111,7 @@ RawFill subdivide(const CutMesh& cut, const refine::RefineContext& refine, Local
           fill::subdivide(complex, lattice)};
 }
 
-FilledPiece check_and_measure(const CutMesh& cut, LocalIndex subdomain, RawFill raw)
+FilledPiece check_and_measure(const CutMesh& cut, LocalIndex subdomain, RawFill& raw)
 {
   const fill::FillFacts facts = fill::check_fill(input_of(raw.skin), raw.tets);
   FilledPiece filled;
@@ -148,10 +150,12 @@ FilledPiece fill_subdomain(const CutMesh& cut, const refine::RefineContext& refi
   RawFill raw = is_subdivision ? subdivide(cut, refine, subdomain)
                                : remesh(cut, refine, subdomain, settings, netgen);
   FilledPiece filled;
-  if (is_subdivision && !fill::all_positive(raw.tets)) {
+  try {
+    filled = check_and_measure(cut, subdomain, raw);
+  } catch (const MeshError&) {
+    // Of what was subdivided nothing else can be wrong than that it is folded.
+    if (!is_subdivision || fill::all_positive(raw.tets)) throw;
     filled.result.summary.is_folded = true;
-  } else {
-    filled = check_and_measure(cut, subdomain, std::move(raw));
   }
   filled.result.summary.subdomain = subdomain;
   filled.result.summary.kernel = settings.kernel;

@@ -103,9 +103,12 @@ Hash128 PieceFile::add(const mesh::Piece& piece)
   const auto num_boundary = added.boundary.point_ids.size();
   if (arrays_.tets.num_cells() == 0) {
     arrays_ = std::move(added);
-    remember(arrays_.tets, num_skin, tet_points_);
-    remember(arrays_.boundary, num_boundary, boundary_points_);
+    num_skin_of_first_ = num_skin;
     return digest;
+  }
+  if (tet_points_.empty()) {  // Most files hold one piece: only now it is known that this does not.
+    remember(arrays_.tets, num_skin_of_first_, tet_points_);
+    remember(arrays_.boundary, arrays_.boundary.point_ids.size(), boundary_points_);
   }
   append(added.tets, num_skin, tet_points_, arrays_.tets);
   append(added.boundary, num_boundary, boundary_points_, arrays_.boundary);

@@ -51,6 +51,7 @@ class PieceFile {
   const WriteContext& mesh_;
   const io::OutputOptions& options_;
   PieceArrays arrays_{};
+  std::size_t num_skin_of_first_ = 0;
   PointOfId tet_points_{};  ///< Points of skins only: no other is shared.
   PointOfId boundary_points_{};
 };

@@ -13,9 +13,15 @@ namespace tessera::quality {
 
 void Histogram::add(double value)
 {
-  const double scaled = (value - low_) / (high_ - low_) * static_cast<double>(counts_.size());
-  const double last = static_cast<double>(counts_.size() - 1);
-  ++counts_[static_cast<std::size_t>(std::clamp(std::floor(scaled), 0.0, last))];
+  const double place = (value - low_) * bins_a_unit_;
+  const std::size_t last = counts_.size() - 1;
+  if (!(place > 0.0)) {  // Written so that a NaN has a place.
+    ++counts_.front();
+  } else if (place >= static_cast<double>(last)) {
+    ++counts_[last];
+  } else {
+    ++counts_[static_cast<std::size_t>(place)];
+  }
 }
 
 void Histogram::add(const Histogram& other)
@@ -75,12 +81,21 @@ void QualityHistograms::add(const QualityHistograms& other)
   log2_edge_length.add(other.log2_edge_length);
 }
 
-void add_tet(const TetCorners& corners, TetStatistics& statistics, Histogram& mean_ratios)
+void ShapeSum::add(const TetShape& shape)
 {
-  const double eta = mean_ratio(corners);
-  const DihedralRange dihedral = dihedral_range(corners);
-  statistics.add({1, dihedral.min_deg, dihedral.max_deg, eta, eta});
-  mean_ratios.add(eta);
+  ++num_tets_;
+  sum_mean_ratio_ += shape.mean_ratio;
+  worst_.mean_ratio = std::min(worst_.mean_ratio, shape.mean_ratio);
+  worst_.largest_cosine = std::max(worst_.largest_cosine, shape.largest_cosine);
+  worst_.smallest_cosine = std::min(worst_.smallest_cosine, shape.smallest_cosine);
+  mean_ratios_.add(shape.mean_ratio);
+}
+
+TetStatistics ShapeSum::statistics() const
+{
+  if (num_tets_ == 0) return {};
+  return {num_tets_, angle_deg(worst_.largest_cosine), angle_deg(worst_.smallest_cosine),
+          worst_.mean_ratio, sum_mean_ratio_};
 }
 
 namespace {

@@ -24,25 +24,32 @@ double mean_ratio(const TetCorners& corners) noexcept
 
 DihedralRange dihedral_range(const TetCorners& corners) noexcept
 {
-  std::array<Vec3, 4> normals;
-  std::array<double, 4> lengths;
+  const TetShape shape = shape_of(corners);
+  return {angle_deg(shape.largest_cosine), angle_deg(shape.smallest_cosine)};
+}
+
+TetShape shape_of(const TetCorners& corners) noexcept
+{
+  TetShape shape{.mean_ratio = mean_ratio(corners)};
+  std::array<Vec3, 4> normals;  // Of unit length.
   for (std::size_t f = 0; f < 4; ++f) {
     const auto& [a, b, c] = mesh::kTetFaceCorners[f];
-    normals[f] = cross(corners[b] - corners[a], corners[c] - corners[a]);
-    lengths[f] = norm(normals[f]);
-    if (!(lengths[f] > 0.0)) return {0.0, 180.0};
+    const Vec3 normal = cross(corners[b] - corners[a], corners[c] - corners[a]);
+    const double length = norm(normal);
+    if (!(length > 0.0)) return {shape.mean_ratio, 1.0, -1.0};
+    normals[f] = (1.0 / length) * normal;
   }
-  double largest_cosine = -1.0;
-  double smallest_cosine = 1.0;
   for (const auto& [f, g] : mesh::kTetEdgeCorners) {
-    const double cosine = -dot(normals[f], normals[g]) / (lengths[f] * lengths[g]);
-    largest_cosine = std::max(largest_cosine, cosine);
-    smallest_cosine = std::min(smallest_cosine, cosine);
+    const double cosine = -dot(normals[f], normals[g]);
+    shape.largest_cosine = std::max(shape.largest_cosine, cosine);
+    shape.smallest_cosine = std::min(shape.smallest_cosine, cosine);
   }
-  const auto degrees = [](double cosine) {
-    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
-  };
-  return {degrees(largest_cosine), degrees(smallest_cosine)};
+  return shape;
+}
+
+double angle_deg(double cosine) noexcept
+{
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
 }
 
 }  // namespace tessera::quality

@@ -16,7 +16,10 @@ class Histogram {
  public:
   /// @brief `num_bins` equal bins over [low, high]; values outside fall in the first or last.
   Histogram(double low, double high, std::size_t num_bins)
-      : low_(low), high_(high), counts_(num_bins)
+      : low_(low),
+        high_(high),
+        bins_a_unit_(static_cast<double>(num_bins) / (high - low)),
+        counts_(num_bins)
   {
   }
 
@@ -38,6 +41,7 @@ class Histogram {
  private:
   double low_;
   double high_;
+  double bins_a_unit_;
   std::vector<GlobalIndex> counts_;
 };
 
@@ -64,8 +68,22 @@ struct QualityHistograms {
   void add(const QualityHistograms& other);
 };
 
-/// @brief Adds one tet to statistics and to a histogram of the mean ratio.
-void add_tet(const TetCorners& corners, TetStatistics& statistics, Histogram& mean_ratios);
+/// @brief Gathers the shapes of tets, one after the other, into statistics and a histogram.
+class ShapeSum {
+ public:
+  /// @param[in,out] mean_ratios Borrowed.
+  explicit ShapeSum(Histogram& mean_ratios) : mean_ratios_(mean_ratios) {}
+
+  void add(const TetShape& shape);
+
+  [[nodiscard]] TetStatistics statistics() const;
+
+ private:
+  Histogram& mean_ratios_;
+  GlobalIndex num_tets_ = 0;
+  double sum_mean_ratio_ = 0.0;
+  TetShape worst_{.mean_ratio = 1.0};
+};
 
 [[nodiscard]] Bytes to_bytes(const QualityHistograms& histograms);
 /// @throws InputError if the bytes are truncated.

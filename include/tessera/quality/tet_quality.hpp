@@ -29,4 +29,18 @@ struct DihedralRange {
 /// @note Local.
 [[nodiscard]] DihedralRange dihedral_range(const TetCorners& corners) noexcept;
 
+/// @brief Mean ratio and dihedral angles of one tet, computed together; the angles as cosines,
+/// since extremes of many tets need one arc cosine only.
+struct TetShape {
+  double mean_ratio = 0.0;
+  double largest_cosine = -1.0;  ///< Of the smallest dihedral angle.
+  double smallest_cosine = 1.0;  ///< Of the largest one.
+};
+
+/// @brief A face without area counts as cosines 1 and -1. @note Local.
+[[nodiscard]] TetShape shape_of(const TetCorners& corners) noexcept;
+
+/// @brief Degrees in [0, 180]. @note Local.
+[[nodiscard]] double angle_deg(double cosine) noexcept;
+
 }  // namespace tessera::quality

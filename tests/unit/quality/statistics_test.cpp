@@ -156,10 +156,11 @@ TEST(TetStatistics, TakeExtremesOverAllTets)
 {
   const TetCorners regular{{{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}}};
   const TetCorners corner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  TetStatistics statistics;
   Histogram histogram(0.0, 1.0, 10);
-  add_tet(regular, statistics, histogram);
-  add_tet(corner, statistics, histogram);
+  ShapeSum sum(histogram);
+  sum.add(shape_of(regular));
+  sum.add(shape_of(corner));
+  const TetStatistics statistics = sum.statistics();
   EXPECT_EQ(statistics.num_tets, 2);
   EXPECT_EQ(statistics.min_dihedral_deg, dihedral_range(corner).min_deg);
   EXPECT_EQ(statistics.max_dihedral_deg, dihedral_range(corner).max_deg);
@@ -167,6 +168,24 @@ TEST(TetStatistics, TakeExtremesOverAllTets)
   EXPECT_NEAR(statistics.mean_mean_ratio(), 0.5 * (1.0 + mean_ratio(corner)), 1e-15);
   EXPECT_EQ(histogram.counts()[8], 1);
   EXPECT_EQ(histogram.counts()[9], 1);
+}
+
+TEST(TetStatistics, OfASumOfNothingAreNeutral)
+{
+  Histogram histogram(0.0, 1.0, 10);
+  TetStatistics all{4, 20.0, 130.0, 0.3, 2.0};
+  all.add(ShapeSum(histogram).statistics());
+  EXPECT_EQ(all.num_tets, 4);
+  EXPECT_EQ(all.min_dihedral_deg, 20.0);
+  EXPECT_EQ(all.max_dihedral_deg, 130.0);
+  EXPECT_EQ(all.min_mean_ratio, 0.3);
+}
+
+TEST(Histogram, NotANumberHasAPlace)
+{
+  Histogram histogram(0.0, 1.0, 10);
+  histogram.add(std::nan(""));
+  EXPECT_EQ(histogram.total(), 1);
 }
 
 }  // namespace
