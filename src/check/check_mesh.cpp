@@ -7,9 +7,10 @@ namespace tessera::check {
 namespace {
 
 CheckReport check_by_positions(const PieceSource& tets, const PieceSource* boundary,
-                               const comm::Communicator& comm, const Findings* id_findings)
+                               const comm::Communicator& comm, const CheckOptions& options,
+                               const Findings* id_findings)
 {
-  Checker checker(tets, boundary, comm, Identity::kPositions);
+  Checker checker(tets, boundary, comm, {Identity::kPositions, options.is_partial});
   checker.read();
   checker.match();
   checker.measure_quality();
@@ -19,14 +20,14 @@ CheckReport check_by_positions(const PieceSource& tets, const PieceSource* bound
 }  // namespace
 
 CheckReport check_mesh(const PieceSource& tets, const PieceSource* boundary,
-                       const comm::Communicator& comm)
+                       const comm::Communicator& comm, const CheckOptions& options)
 {
-  Checker checker(tets, boundary, comm, Identity::kIds);
+  Checker checker(tets, boundary, comm, {Identity::kIds, options.is_partial});
   checker.read();
-  if (checker.has_mixed_ids()) return check_by_positions(tets, boundary, comm, nullptr);
+  if (checker.has_mixed_ids()) return check_by_positions(tets, boundary, comm, options, nullptr);
   checker.match();
   if (checker.has_unusable_ids())
-    return check_by_positions(tets, boundary, comm, &checker.findings());
+    return check_by_positions(tets, boundary, comm, options, &checker.findings());
   checker.measure_quality();
   return checker.report(nullptr);
 }

@@ -12,10 +12,35 @@
 #include "check/piece_topology.hpp"
 
 namespace tessera::check {
+namespace {
+
+GlobalIndex num_tets(const PieceRecords& records)
+{
+  GlobalIndex num_tets = 0;
+  for (const PieceRecord& record : records.all()) num_tets += record.figures.num_tets;
+  return num_tets;
+}
+
+// Adds to the last figures if they are of the same subdomain.
+void add_to(std::vector<SubdomainFigures>& subdomains, const SubdomainFigures& figures)
+{
+  if (subdomains.empty() || subdomains.back().id != figures.id)
+    subdomains.push_back({figures.id, 0, 0.0, {}});
+  SubdomainFigures& sum = subdomains.back();
+  sum.num_tets += figures.num_tets;
+  sum.volume += figures.volume;
+  sum.digest += figures.digest;
+}
+
+}  // namespace
 
 Checker::Checker(const PieceSource& tets, const PieceSource* boundary,
-                 const comm::Communicator& comm, Identity identity)
-    : tets_(tets), boundary_(boundary), comm_(comm), identity_(identity)
+                 const comm::Communicator& comm, CheckerOptions options)
+    : tets_(tets),
+      boundary_(boundary),
+      comm_(comm),
+      identity_(options.identity),
+      is_partial_(options.is_partial)
 {
 }
 
@@ -53,13 +78,14 @@ void Checker::read_tets(PieceName name)
   PieceMesh mesh = load(name, findings_);
   const PieceTopology topology = analyse_topology(mesh, edge_lengths_, findings_);
   PieceSurface& surface = surfaces_.emplace_back(make_surface(mesh, topology, triangles_));
-  records_.push_back({name.piece, measure(mesh, findings_), 0.0, {}, {}});
+  records_.push_back(measure(mesh, findings_));
 
   if (mesh.has_point_ids) {
     ++counts_.num_pieces_with_point_ids;
     ++counts_.num_tet_pieces_with_point_ids;
   }
   if (mesh.has_cell_ids) ++counts_.num_pieces_with_cell_ids;
+  if (mesh.has_subdomains) ++counts_.num_pieces_with_subdomains;
   counts_.num_other_cells += mesh.arrays.num_other_cells;
   counts_.num_triangles += topology.num_inner_triangles;
   counts_.num_edges += topology.num_edges;
@@ -120,7 +146,10 @@ void Checker::match()
 
 void Checker::match_all_triangles()
 {
-  const TriangleMatch match = match_triangles(triangles_, boundary_ != nullptr, comm_, findings_);
+  const BoundaryFile file = boundary_ == nullptr ? BoundaryFile::kNone
+                            : is_partial_        ? BoundaryFile::kPartial
+                                                 : BoundaryFile::kComplete;
+  const TriangleMatch match = match_triangles(triangles_, file, comm_, findings_);
   auto role = match.roles.begin();
   for (PieceSurface& surface : surfaces_) {
     const auto end = role + static_cast<std::ptrdiff_t>(surface.triangles.size());
@@ -129,8 +158,7 @@ void Checker::match_all_triangles()
     mark_seam_vertices(surface);
   }
   triangles_ = {};
-  for (std::size_t s = 0; s < surfaces_.size(); ++s)
-    records_[s].boundary_area = outside_area(surfaces_[s]);
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) add_outside_areas(surfaces_[s], records_[s]);
 
   counts_.num_triangles += match.counts.num_triangles;
   counts_.num_outside += match.counts.num_outside;
@@ -162,14 +190,14 @@ void Checker::match_ids(const std::vector<PointId>& shared)
 {
   for (const PointId& point : shared)
     append_runs({point.id}, point.piece, point_id_space(), point_ids_, findings_);
-  check_ids(point_ids_, point_id_space(), comm_, findings_);
+  check_ids(point_ids_, point_id_space(!is_partial_), comm_, findings_);
   const GlobalIndex num_defects =
       findings_.count(Kind::kPointIdHole) + findings_.count(Kind::kPointIdTwice);
   has_unusable_ids_ = comm_.sum(num_defects) > 0;
 
   // Where some pieces have no cell ids, the others' need not be dense.
   if (comm_.sum(counts_.num_pieces_with_cell_ids) == tets_.num_pieces)
-    check_ids(cell_ids_, cell_id_space(), comm_, findings_);
+    check_ids(cell_ids_, cell_id_space(!is_partial_), comm_, findings_);
 }
 
 void Checker::match_all_edges()
@@ -192,12 +220,11 @@ void Checker::measure_quality()
   for_each_own_piece(tets_, false, [&](PieceName name) {
     Findings repeated;
     const PieceMesh mesh = only_piece_ ? *std::exchange(only_piece_, {}) : load(name, repeated);
-    PieceRecord& record = records_[s];
-    if (mesh.num_cells() != record.figures.num_tets) throw InputError("changed while it was read");
+    if (mesh.num_cells() != num_tets(records_[s])) throw InputError("changed while it was read");
     std::vector<bool> is_on_seam(static_cast<std::size_t>(mesh.num_points()), false);
     for (const VertexRecord& vertex : surfaces_[s].vertices)
       is_on_seam.at(static_cast<std::size_t>(vertex.point)) = vertex.is_on_seam;
-    measure_shapes(mesh, is_on_seam, record, shape_counts_);
+    measure_shapes(mesh, is_on_seam, records_[s], shape_counts_);
     ++s;
   });
 }
@@ -219,6 +246,10 @@ CheckReport Checker::report(const Findings* id_findings)
   report.defects = all.to_defects();
   report.conforms = report.defects.empty();
   report.notes = notes();
+  if (looks_partial(all))
+    report.notes.emplace_back(
+        "these are the defects of a mesh of which only some pieces were made; --partial accepts "
+        "such a mesh");
   return report;
 }
 
@@ -227,6 +258,7 @@ void Checker::sum_over_ranks(Counts& counts) const
   constexpr std::array kMembers{&Counts::num_pieces_with_point_ids,
                                 &Counts::num_tet_pieces_with_point_ids,
                                 &Counts::num_pieces_with_cell_ids,
+                                &Counts::num_pieces_with_subdomains,
                                 &Counts::num_other_cells,
                                 &Counts::num_boundary_pieces_without_tet,
                                 &Counts::num_boundary_pieces_without_patch,
@@ -250,6 +282,7 @@ void Checker::set_counts(CheckReport& report) const
   report.has_global_ids = counts_.num_tet_pieces_with_point_ids == tets_.num_pieces
                           && counts_.num_pieces_with_cell_ids == tets_.num_pieces;
   report.has_digest = counts_.num_tet_pieces_with_point_ids == tets_.num_pieces;
+  report.is_partial = is_partial_;
   report.matched_by_ids = identity_ == Identity::kIds;
   report.num_vertices = counts_.num_vertices;
   report.num_edges = counts_.num_edges;
@@ -268,7 +301,7 @@ void Checker::set_sums(CheckReport& report)
   ShapeSums shapes;
   ShapeSums seam_shapes;
   for (const PieceRecord& record : all_records(records_, comm_)) {
-    report.pieces.push_back(record.figures);
+    add_to(report.subdomains, record.figures);
     report.num_tets += record.figures.num_tets;
     report.volume += record.figures.volume;
     report.digest += record.figures.digest;
@@ -299,11 +332,27 @@ std::vector<std::string> Checker::notes() const
   note(counts_.num_boundary_pieces_without_tet,
        "boundary pieces have no array \"tet\", so only their triangles were compared");
   note(counts_.num_boundary_pieces_without_patch, "boundary pieces have no array \"patch\"");
+  if (counts_.num_pieces_with_subdomains > 0)
+    note(tets_.num_pieces - counts_.num_pieces_with_subdomains,
+         "pieces have no array \"subdomain\", so the piece's number took its place");
   if (identity_ == Identity::kPositions)
     notes.emplace_back("points of different pieces were matched by the bits of their positions");
   if (boundary_ == nullptr)
     notes.emplace_back("no boundary file: triangles on one tet are taken for the boundary");
   return notes;
+}
+
+// Whether holes in the ids and open seams are all there is.
+bool Checker::looks_partial(const Findings& findings) const
+{
+  constexpr std::array kKinds{Kind::kPointIdHole, Kind::kCellIdHole, Kind::kBoundaryMissing};
+  GlobalIndex num_others = 0;
+  for (std::size_t k = 0; k < kNumKinds; ++k) num_others += findings.count(static_cast<Kind>(k));
+  for (const Kind kind : kKinds) num_others -= findings.count(kind);
+  const bool has_holes =
+      findings.count(Kind::kPointIdHole) > 0 || findings.count(Kind::kCellIdHole) > 0;
+  const bool has_open_seams = boundary_ == nullptr || counts_.num_unlisted > 0;
+  return !is_partial_ && num_others == 0 && has_holes && has_open_seams;
 }
 
 }  // namespace tessera::check

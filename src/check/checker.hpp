@@ -20,12 +20,18 @@
 
 namespace tessera::check {
 
+/// @brief How a run matches points, and whether the mesh may lack pieces.
+struct CheckerOptions {
+  Identity identity = Identity::kIds;
+  bool is_partial = false;
+};
+
 /// @brief One run of the checks, with points matched in one way. Every public function but
 /// findings() is collective; call them in the order of their declaration.
 class Checker {
  public:
   Checker(const PieceSource& tets, const PieceSource* boundary, const comm::Communicator& comm,
-          Identity identity);
+          CheckerOptions options);
 
   /// @brief Reads every piece once and does all that needs one piece only.
   /// @throws InputError on all ranks if a piece cannot be read.
@@ -56,6 +62,7 @@ class Checker {
     GlobalIndex num_pieces_with_point_ids = 0;  // Of both files.
     GlobalIndex num_tet_pieces_with_point_ids = 0;
     GlobalIndex num_pieces_with_cell_ids = 0;
+    GlobalIndex num_pieces_with_subdomains = 0;
     GlobalIndex num_other_cells = 0;
     GlobalIndex num_boundary_pieces_without_tet = 0;
     GlobalIndex num_boundary_pieces_without_patch = 0;
@@ -82,6 +89,7 @@ class Checker {
   void sum_over_ranks(Counts& counts) const;
   [[nodiscard]] GlobalIndex num_pieces() const;
   [[nodiscard]] std::vector<std::string> notes() const;
+  [[nodiscard]] bool looks_partial(const Findings& findings) const;
   void set_counts(CheckReport& report) const;
   void set_sums(CheckReport& report);
 
@@ -89,6 +97,7 @@ class Checker {
   const PieceSource* boundary_;
   const comm::Communicator& comm_;
   Identity identity_;
+  bool is_partial_;
 
   Findings findings_{};
   Counts counts_{};
@@ -99,7 +108,7 @@ class Checker {
   std::vector<TriangleRecord> triangles_{};  // Of all surfaces, one after the other.
   std::vector<PieceSurface> surfaces_{};     // Of this rank's pieces of tets.
   std::vector<PieceSurface> listed_{};       // Of this rank's pieces of the boundary file.
-  std::vector<PieceRecord> records_{};       // Parallel to surfaces_.
+  std::vector<PieceRecords> records_{};      // Parallel to surfaces_.
   std::optional<PieceMesh> only_piece_{};    // If this rank has one piece of tets.
   std::vector<IdRun> point_ids_{};
   std::vector<IdRun> cell_ids_{};

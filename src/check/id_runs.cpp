@@ -39,6 +39,7 @@ void sweep(std::span<const IdRun> runs, GlobalIndex begin, GlobalIndex end, cons
            Findings& findings)
 {
   const auto report_hole = [&](GlobalIndex from, GlobalIndex to) {
+    if (!space.is_dense) return;
     report_ids(space.hole, from, to, findings, [&](GlobalIndex id) {
       return concat("no ", space.of, " has id ", id, ", but higher ids exist");
     });
@@ -93,8 +94,15 @@ std::vector<IdRun> send_to_blocks(std::span<const IdRun> runs, GlobalIndex block
 
 }  // namespace
 
-IdSpace point_id_space() { return {"point", Kind::kPointIdTwice, Kind::kPointIdHole}; }
-IdSpace cell_id_space() { return {"cell", Kind::kCellIdTwice, Kind::kCellIdHole}; }
+IdSpace point_id_space(bool is_dense)
+{
+  return {"point", Kind::kPointIdTwice, Kind::kPointIdHole, is_dense};
+}
+
+IdSpace cell_id_space(bool is_dense)
+{
+  return {"cell", Kind::kCellIdTwice, Kind::kCellIdHole, is_dense};
+}
 
 void append_runs(std::vector<GlobalIndex> ids, LocalIndex piece, const IdSpace& space,
                  std::vector<IdRun>& runs, Findings& findings)

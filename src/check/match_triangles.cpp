@@ -39,12 +39,15 @@ class TriangleGroup {
     return records_[rows_[num_sides_ + i]];
   }
 
-  [[nodiscard]] TriangleRole role() const
+  [[nodiscard]] TriangleRole role(BoundaryFile boundary) const
   {
-    if (num_sides_ == 1) return TriangleRole::kOutside;
+    if (num_sides_ == 1) {
+      return boundary == BoundaryFile::kPartial && num_listed() == 0 ? TriangleRole::kOpenSeam
+                                                                     : TriangleRole::kOutside;
+    }
     if (num_sides_ != 2 || side(0).is_odd == side(1).is_odd) return TriangleRole::kFaulty;
     if (side(0).attribute != side(1).attribute) return TriangleRole::kInterface;
-    return side(0).piece == side(1).piece ? TriangleRole::kInner : TriangleRole::kSeam;
+    return side(0).subdomain == side(1).subdomain ? TriangleRole::kInner : TriangleRole::kSeam;
   }
 
  private:
@@ -75,8 +78,8 @@ void check_listed(const TriangleRecord& listed, const TriangleRecord& side, Find
   if (listed.cell_id != kNoId && side.cell_id != kNoId && listed.cell_id != side.cell_id)
     report(Kind::kBoundaryTet, concat("names tet ", listed.cell_id));
   if (listed.is_odd != side.is_odd) report(Kind::kBoundaryOrientation, "points inwards");
-  if (listed.attribute != kNoSubdomain && listed.attribute != side.piece)
-    report(Kind::kBoundarySubdomain, concat("names subdomain ", listed.attribute));
+  if (listed.subdomain != kNoSubdomain && listed.subdomain != side.subdomain)
+    report(Kind::kBoundarySubdomain, concat("names subdomain ", listed.subdomain));
 }
 
 // The side a listed triangle means: that of the tet it names, or else the one it is turned to.
@@ -121,7 +124,7 @@ void count(const TriangleGroup& group, TriangleRole role, TriangleCounts& counts
   if (role == TriangleRole::kOutside) ++counts.num_outside;
   if (role == TriangleRole::kSeam) ++counts.num_seam;
   if (role == TriangleRole::kInterface) ++counts.num_interface;
-  if (role == TriangleRole::kOutside && group.num_listed() == 0) ++counts.num_unlisted;
+  if (is_open(role) && group.num_listed() == 0) ++counts.num_unlisted;
 }
 
 void link_pieces(const TriangleGroup& group, std::vector<Link>& links)
@@ -135,7 +138,7 @@ void link_pieces(const TriangleGroup& group, std::vector<Link>& links)
 
 }  // namespace
 
-TriangleMatch match_triangles(std::span<const TriangleRecord> records, bool has_boundary,
+TriangleMatch match_triangles(std::span<const TriangleRecord> records, BoundaryFile boundary,
                               const comm::Communicator& comm, Findings& findings)
 {
   const auto key_of = [](const TriangleRecord& record) { return record.key; };
@@ -152,12 +155,12 @@ TriangleMatch match_triangles(std::span<const TriangleRecord> records, bool has_
       },
       [&](std::span<const std::size_t> rows) {
         const TriangleGroup group(received, rows);
-        const TriangleRole role = group.role();
+        const TriangleRole role = group.role(boundary);
         for (const std::size_t row : rows) roles[row] = role;
         count(group, role, match.counts);
         link_pieces(group, match.links);
         if (role == TriangleRole::kFaulty && group.num_sides() > 0) report_fault(group, findings);
-        if (has_boundary) check_boundary(group, role, findings);
+        if (boundary != BoundaryFile::kNone) check_boundary(group, role, findings);
       });
   match.roles = exchange.answer(std::span<const TriangleRole>(roles), comm);
   return match;

@@ -18,8 +18,12 @@ struct TriangleCounts {
   GlobalIndex num_outside = 0;
   GlobalIndex num_seam = 0;
   GlobalIndex num_interface = 0;
-  GlobalIndex num_unlisted = 0;  ///< Outside, but not in the boundary file.
+  GlobalIndex num_unlisted = 0;  ///< On one tet, but not in the boundary file.
 };
+
+/// @brief What the boundary file must hold: nothing, all triangles on one tet, or, if only some
+/// pieces of the mesh were made, nothing but such triangles.
+enum class BoundaryFile { kNone, kComplete, kPartial };
 
 struct TriangleMatch {
   std::vector<TriangleRole> roles{};  ///< Parallel to the records sent.
@@ -29,9 +33,8 @@ struct TriangleMatch {
 
 /// @brief Brings the sides of each triangle together, and the boundary file's triangles with them.
 /// @note Collective.
-/// @param[in] has_boundary Whether there is a boundary file, which must then be complete.
 [[nodiscard]] TriangleMatch match_triangles(std::span<const TriangleRecord> records,
-                                            bool has_boundary, const comm::Communicator& comm,
+                                            BoundaryFile boundary, const comm::Communicator& comm,
                                             Findings& findings);
 
 }  // namespace tessera::check

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <string>
+#include <tuple>
 
 #include "tessera/base/hash.hpp"
 
@@ -56,11 +57,25 @@ void report_volume(const PieceMesh& mesh, LocalIndex cell, double volume, Findin
 
 }  // namespace
 
-PieceFigures measure(const PieceMesh& mesh, Findings& findings)
+PieceRecord& PieceRecords::of(std::int32_t subdomain)
 {
-  PieceFigures figures;
-  figures.num_tets = mesh.num_cells();
+  if (last_ < records_.size() && records_[last_].figures.id == subdomain) return records_[last_];
+  const auto [entry, is_new] = row_.emplace(subdomain, records_.size());
+  last_ = entry->second;
+  if (is_new) {
+    PieceRecord& record = records_.emplace_back();
+    record.figures.id = subdomain;
+    record.piece = piece_;
+  }
+  return records_[last_];
+}
+
+PieceRecords measure(const PieceMesh& mesh, Findings& findings)
+{
+  PieceRecords records(mesh.name.piece);
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
+    SubdomainFigures& figures = records.of(mesh.subdomain_of(c)).figures;
+    ++figures.num_tets;
     if (mesh.is_left_out(c)) continue;
     const auto corners = corner_positions(mesh, c);
     const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
@@ -68,17 +83,18 @@ PieceFigures measure(const PieceMesh& mesh, Findings& findings)
     if (std::isfinite(volume)) figures.volume += volume;
     if (mesh.has_point_ids) figures.digest += digest_of(mesh, c);
   }
-  return figures;
+  return records;
 }
 
-void measure_shapes(const PieceMesh& mesh, const std::vector<bool>& is_on_seam, PieceRecord& record,
-                    ShapeCounts& counts)
+void measure_shapes(const PieceMesh& mesh, const std::vector<bool>& is_on_seam,
+                    PieceRecords& records, ShapeCounts& counts)
 {
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     if (mesh.is_left_out(c)) continue;
     const auto corners = corner_positions(mesh, c);
     if (!is_finite(corners)) continue;
     const TetShape shape = shape_of(corners);
+    PieceRecord& record = records.of(mesh.subdomain_of(c));
     record.shapes.add(shape);
     counts.all.add(shape.mean_ratio);
     const auto tet = mesh.cell(c);
@@ -91,17 +107,21 @@ void measure_shapes(const PieceMesh& mesh, const std::vector<bool>& is_on_seam, 
   }
 }
 
-std::vector<PieceRecord> all_records(std::span<const PieceRecord> own,
+std::vector<PieceRecord> all_records(std::span<const PieceRecords> own,
                                      const comm::Communicator& comm)
 {
+  std::vector<PieceRecord> sent;
+  for (const PieceRecords& records : own)
+    sent.insert(sent.end(), records.all().begin(), records.all().end());
   std::vector<PieceRecord> all;
-  for (const Bytes& bytes : comm.all_gather(std::as_bytes(own))) {
+  for (const Bytes& bytes : comm.all_gather(std::as_bytes(std::span(sent)))) {
     const std::size_t begin = all.size();
     all.resize(begin + bytes.size() / sizeof(PieceRecord));
     std::memcpy(all.data() + begin, bytes.data(), bytes.size());
   }
-  std::sort(all.begin(), all.end(),
-            [](const PieceRecord& a, const PieceRecord& b) { return a.piece < b.piece; });
+  std::sort(all.begin(), all.end(), [](const PieceRecord& a, const PieceRecord& b) {
+    return std::tie(a.figures.id, a.piece) < std::tie(b.figures.id, b.piece);
+  });
   return all;
 }
 

@@ -189,15 +189,16 @@ void set_cells(PieceMesh& mesh, Findings& findings)
   }
 }
 
-}  // namespace
-
-std::int32_t PieceMesh::cell_int(const std::string& array, LocalIndex c,
-                                 std::int32_t otherwise) const
+// Takes a cell array out of the piece. @return `otherwise` for every cell if the piece has none.
+std::vector<std::int32_t> take_ints(mesh::MeshArrays& arrays, const std::string& name,
+                                    std::int32_t otherwise)
 {
-  const auto found = arrays.cell_ints.find(array);
-  if (found == arrays.cell_ints.end()) return otherwise;
-  return found->second[static_cast<std::size_t>(c)];
+  const auto found = arrays.cell_ints.find(name);
+  if (found != arrays.cell_ints.end()) return std::move(found->second);
+  return std::vector<std::int32_t>(static_cast<std::size_t>(arrays.num_cells()), otherwise);
 }
+
+}  // namespace
 
 PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity identity,
                           Findings& findings)
@@ -211,9 +212,10 @@ PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity iden
                               arrays.cell_ids, findings);
   mesh.identity = mesh.has_point_ids ? identity : Identity::kPositions;
   mesh.arrays = std::move(arrays);
-  mesh.attribute.assign(static_cast<std::size_t>(mesh.num_cells()), 0);
-  const auto attribute = mesh.arrays.cell_ints.find("attribute");
-  if (attribute != mesh.arrays.cell_ints.end()) mesh.attribute = std::move(attribute->second);
+  mesh.attribute = take_ints(mesh.arrays, "attribute", 0);
+  mesh.has_subdomains = mesh.arrays.cell_ints.contains("subdomain");
+  mesh.subdomain =
+      take_ints(mesh.arrays, "subdomain", name.is_boundary ? kNoSubdomain : name.piece);
   check_points(mesh, findings);
   set_cells(mesh, findings);
   return mesh;

@@ -133,7 +133,7 @@ std::vector<LocalIndex> boundary_components(const PieceSurface& surface,
                                             LocalIndex& num_components)
 {
   const auto is_outside = [&](LocalIndex t) {
-    return surface.roles[static_cast<std::size_t>(t)] == TriangleRole::kOutside;
+    return is_open(surface.roles[static_cast<std::size_t>(t)]);
   };
   const auto num_triangles = static_cast<LocalIndex>(surface.triangles.size());
   UnionFind sets(num_triangles);
@@ -173,9 +173,11 @@ PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology,
     surface.triangles.push_back({selection.add(v[0], true, false), selection.add(v[1], true, false),
                                  selection.add(v[2], true, false)});
     surface.cells.push_back(triangle.cell);
+    surface.subdomains.push_back(mesh.subdomain_of(triangle.cell));
     TriangleRecord record = record_of_last(surface);
     record.component = triangle.component;
     record.attribute = mesh.material(triangle.cell);
+    record.subdomain = mesh.subdomain_of(triangle.cell);
     record.cell_id = mesh.cell_id(triangle.cell);
     records.push_back(record);
   }
@@ -201,7 +203,7 @@ PieceSurface make_boundary_surface(const PieceMesh& mesh, std::vector<TriangleRe
                                  selection.add(v[2], false, false)});
     surface.cells.push_back(c);
     TriangleRecord record = record_of_last(surface);
-    record.attribute = mesh.cell_int("subdomain", c, kNoSubdomain);
+    record.subdomain = mesh.subdomain_of(c);
     if (tet != mesh.arrays.cell_longs.end())
       record.cell_id = tet->second[static_cast<std::size_t>(c)];
     records.push_back(record);
@@ -212,24 +214,24 @@ PieceSurface make_boundary_surface(const PieceMesh& mesh, std::vector<TriangleRe
 void mark_seam_vertices(PieceSurface& surface)
 {
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    if (surface.roles[t] != TriangleRole::kSeam) continue;
+    const bool is_seam =
+        surface.roles[t] == TriangleRole::kSeam || surface.roles[t] == TriangleRole::kOpenSeam;
+    if (!is_seam) continue;
     for (const LocalIndex v : surface.triangles[t])
       surface.vertices[static_cast<std::size_t>(v)].is_on_seam = true;
   }
 }
 
-double outside_area(const PieceSurface& surface)
+void add_outside_areas(const PieceSurface& surface, PieceRecords& records)
 {
-  double area = 0.0;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     if (surface.roles[t] != TriangleRole::kOutside) continue;
     const auto& v = surface.triangles[t];
     const Vec3& origin = surface.position(v[0]);
-    const double part =
+    const double area =
         0.5 * norm(cross(surface.position(v[1]) - origin, surface.position(v[2]) - origin));
-    if (std::isfinite(part)) area += part;
+    if (std::isfinite(area)) records.of(surface.subdomains[t]).boundary_area += area;
   }
-  return area;
 }
 
 SurfaceEdges append_edges(const PieceSurface& surface, std::vector<EdgeRecord>& records)

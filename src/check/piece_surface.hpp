@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "check/piece_figures.hpp"
 #include "check/piece_mesh.hpp"
 #include "check/piece_topology.hpp"
 #include "check/records.hpp"
@@ -19,6 +20,7 @@ struct PieceSurface {
   std::vector<VertexRecord> vertices{};
   std::vector<std::array<LocalIndex, 3>> triangles{};  ///< Rows of vertices, outward order.
   std::vector<LocalIndex> cells{};                     ///< Tet of each triangle.
+  std::vector<std::int32_t> subdomains{};              ///< Of each triangle's tet.
   std::vector<TriangleRole> roles{};  ///< Of each triangle; known after match_triangles.
 
   [[nodiscard]] const Vec3& position(LocalIndex v) const
@@ -37,11 +39,12 @@ struct PieceSurface {
 [[nodiscard]] PieceSurface make_boundary_surface(const PieceMesh& mesh,
                                                  std::vector<TriangleRecord>& records);
 
-/// @brief Marks the vertices of the seam triangles. Local. @pre roles are set.
+/// @brief Marks the vertices of the triangles on seams, open or not. Local. @pre roles are set.
 void mark_seam_vertices(PieceSurface& surface);
 
-/// @brief Area of the triangles on the outside, added in their order. @pre roles are set.
-[[nodiscard]] double outside_area(const PieceSurface& surface);
+/// @brief Adds the areas of the triangles on the outside, in their order, to the records of their
+/// subdomains. Local. @pre roles are set; each subdomain has its record.
+void add_outside_areas(const PieceSurface& surface, PieceRecords& records);
 
 struct SurfaceEdges {
   GlobalIndex num_edges = 0;               ///< Different ones.

@@ -52,15 +52,22 @@ struct TriangleRecord {
   LocalIndex piece = 0;
   LocalIndex cell = 0;          ///< Row in its piece.
   LocalIndex component = 0;     ///< Of its piece; tets only.
-  std::int32_t attribute = 0;   ///< Material of the tet; in the boundary file: subdomain, or
-                                ///< kNoSubdomain.
+  std::int32_t attribute = 0;   ///< Material of the tet; tets only.
+  std::int32_t subdomain = 0;   ///< Of the tet; in the boundary file: named there, or kNoSubdomain.
   GlobalIndex cell_id = kNoId;  ///< Of the tet; in the boundary file: of the tet named there.
   bool is_odd = false;          ///< Whether the outward order is an odd permutation of the key.
   bool is_listed = false;       ///< From the boundary file.
 };
 
 /// @brief What a triangle turned out to be.
-enum class TriangleRole : std::uint8_t { kInner, kOutside, kSeam, kInterface, kFaulty };
+/// kOpenSeam: on one tet, not in the boundary file of a mesh of which only some pieces were made.
+enum class TriangleRole : std::uint8_t { kInner, kOutside, kOpenSeam, kSeam, kInterface, kFaulty };
+
+/// @brief Whether only one tet has the triangle.
+[[nodiscard]] constexpr bool is_open(TriangleRole role)
+{
+  return role == TriangleRole::kOutside || role == TriangleRole::kOpenSeam;
+}
 
 /// @brief A point of a piece that may be in other pieces as well.
 struct VertexRecord {

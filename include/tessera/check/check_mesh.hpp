@@ -17,6 +17,13 @@ struct PieceSource {
   std::function<mesh::MeshArrays(LocalIndex piece)> read{};
 };
 
+struct CheckOptions {
+  /// Only some pieces of the mesh were made: ids need not be dense, and a triangle on one tet that
+  /// the boundary file lacks is an open seam, counted but no defect. Needs a boundary file to tell
+  /// the two apart.
+  bool is_partial = false;
+};
+
 /// @brief Verifies a tet mesh in pieces, and its boundary file if there is one, from the arrays
 /// alone; trusts nothing of what made them.
 ///
@@ -32,6 +39,9 @@ struct PieceSource {
 /// Positions of inner points are compared within their piece only; that pieces overlap in space
 /// without sharing points is not detected.
 ///
+/// A subdomain is what the cell array "subdomain" says, so a piece may hold several; a piece
+/// without that array is one subdomain, of the piece's number.
+///
 /// A defect of the mesh is not an exception: it is in the report.
 ///
 /// Piece p is read by rank p mod size, twice unless it is the rank's only one. Memory: the largest
@@ -41,6 +51,7 @@ struct PieceSource {
 /// @param[in] boundary Pieces of triangles, or nullptr if there is no boundary file.
 /// @throws InputError on all ranks if a piece cannot be read.
 [[nodiscard]] CheckReport check_mesh(const PieceSource& tets, const PieceSource* boundary,
-                                     const comm::Communicator& comm);
+                                     const comm::Communicator& comm,
+                                     const CheckOptions& options = {});
 
 }  // namespace tessera::check
