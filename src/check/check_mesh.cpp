@@ -11,8 +11,7 @@ CheckReport check_by_positions(const PieceSource& tets, const PieceSource* bound
                                const Findings* id_findings)
 {
   Checker checker(tets, boundary, comm, {Identity::kPositions, options.is_partial});
-  checker.read();
-  checker.match();
+  static_cast<void>(checker.match());  // Ids do not matter.
   checker.measure_quality();
   return checker.report(id_findings);
 }
@@ -23,9 +22,7 @@ CheckReport check_mesh(const PieceSource& tets, const PieceSource* boundary,
                        const comm::Communicator& comm, const CheckOptions& options)
 {
   Checker checker(tets, boundary, comm, {Identity::kIds, options.is_partial});
-  checker.read();
-  if (checker.has_mixed_ids()) return check_by_positions(tets, boundary, comm, options, nullptr);
-  checker.match();
+  if (!checker.match()) return check_by_positions(tets, boundary, comm, options, nullptr);
   if (checker.has_unusable_ids())
     return check_by_positions(tets, boundary, comm, options, &checker.findings());
   checker.measure_quality();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check/checker.hpp"
 
+#include <algorithm>
 #include <array>
 #include <exception>
+#include <set>
 #include <utility>
 
 #include "tessera/base/error.hpp"
@@ -13,6 +15,9 @@
 
 namespace tessera::check {
 namespace {
+
+// Enough for the ranks of a node; few enough that their surfaces fit into memory beside the rest.
+constexpr LocalIndex kPiecesInBatch = 64;
 
 GlobalIndex num_tets(const PieceRecords& records)
 {
@@ -40,16 +45,21 @@ Checker::Checker(const PieceSource& tets, const PieceSource* boundary,
       boundary_(boundary),
       comm_(comm),
       identity_(options.identity),
-      is_partial_(options.is_partial)
+      is_partial_(options.is_partial),
+      triangles_(boundary == nullptr  ? BoundaryFile::kNone
+                 : options.is_partial ? BoundaryFile::kPartial
+                                      : BoundaryFile::kComplete,
+                 comm, findings_),
+      vertices_(comm, findings_)
 {
 }
 
 template <class Visit>
-void Checker::for_each_own_piece(const PieceSource& source, bool is_boundary,
-                                 const Visit& visit) const
+void Checker::for_each_own_piece(Range range, bool is_boundary, const Visit& visit) const
 {
   std::optional<std::string> defect;
-  for (LocalIndex p = comm_.rank(); p < source.num_pieces && !defect; p += comm_.size()) {
+  for (LocalIndex p = range.begin; p < range.end && !defect; ++p) {
+    if (p % comm_.size() != comm_.rank()) continue;
     const PieceName name{p, is_boundary};
     try {
       visit(name);
@@ -60,24 +70,59 @@ void Checker::for_each_own_piece(const PieceSource& source, bool is_boundary,
   comm_.throw_if_any<InputError>(defect);
 }
 
+// The same whatever the number of ranks, since what is reported may depend on it.
+LocalIndex Checker::num_batches() const
+{
+  return std::max<LocalIndex>(1, (tets_.num_pieces + kPiecesInBatch - 1) / kPiecesInBatch);
+}
+
+Checker::Range Checker::batch_of(LocalIndex num_pieces, LocalIndex batch) const
+{
+  const auto cut = [&](GlobalIndex b) {
+    return static_cast<LocalIndex>(b * num_pieces / num_batches());
+  };
+  return {cut(batch), cut(GlobalIndex{batch} + 1)};
+}
+
 PieceMesh Checker::load(PieceName name, Findings& findings) const
 {
   const PieceSource& source = name.is_boundary ? *boundary_ : tets_;
   return make_piece_mesh(name, source.read(name.piece), identity_, findings);
 }
 
-void Checker::read()
+bool Checker::match()
 {
-  for_each_own_piece(tets_, false, [&](PieceName name) { read_tets(name); });
-  if (boundary_ != nullptr)
-    for_each_own_piece(*boundary_, true, [&](PieceName name) { read_boundary(name); });
+  for (LocalIndex batch = 0; batch < num_batches(); ++batch) {
+    if (!read_batch(batch)) return false;
+    match_batch();
+  }
+  match_rest();
+  return true;
+}
+
+// Whether the pieces read so far have point ids, all or none.
+bool Checker::read_batch(LocalIndex batch)
+{
+  const Range tets = batch_of(tets_.num_pieces, batch);
+  GlobalIndex num_read = tets.end;
+  for_each_own_piece(tets, false, [&](PieceName name) { read_tets(name); });
+  if (boundary_ != nullptr) {
+    const Range listed = batch_of(boundary_->num_pieces, batch);
+    num_read += listed.end;
+    for_each_own_piece(listed, true, [&](PieceName name) { read_boundary(name); });
+  }
+  const GlobalIndex num_with_ids = comm_.sum(counts_.num_pieces_with_point_ids);
+  if (identity_ == Identity::kIds && num_with_ids > 0 && num_with_ids < num_read) return false;
+  // Pieces without ids were matched by position as they were read.
+  if (num_with_ids == 0) identity_ = Identity::kPositions;
+  return true;
 }
 
 void Checker::read_tets(PieceName name)
 {
   PieceMesh mesh = load(name, findings_);
   const PieceTopology topology = analyse_topology(mesh, edge_lengths_, findings_);
-  PieceSurface& surface = surfaces_.emplace_back(make_surface(mesh, topology, triangles_));
+  PieceSurface& surface = surfaces_.emplace_back(make_surface(mesh, topology, shown_, seam_keys_));
   records_.push_back(measure(mesh, findings_));
 
   if (mesh.has_point_ids) {
@@ -97,7 +142,7 @@ void Checker::read_tets(PieceName name)
 void Checker::read_boundary(PieceName name)
 {
   const PieceMesh mesh = load(name, findings_);
-  listed_.push_back(make_boundary_surface(mesh, triangles_));
+  append_boundary(mesh, shown_);
   if (mesh.has_point_ids) ++counts_.num_pieces_with_point_ids;
   if (mesh.num_cells() == 0) return;
   if (!mesh.arrays.cell_longs.contains("tet")) ++counts_.num_boundary_pieces_without_tet;
@@ -129,67 +174,102 @@ GlobalIndex Checker::num_pieces() const
   return tets_.num_pieces + (boundary_ == nullptr ? 0 : boundary_->num_pieces);
 }
 
-bool Checker::has_mixed_ids() const
+void Checker::match_batch()
 {
-  const GlobalIndex num_with_ids = comm_.sum(counts_.num_pieces_with_point_ids);
-  return identity_ == Identity::kIds && num_with_ids > 0 && num_with_ids < num_pieces();
+  const auto verdicts = triangles_.add(std::exchange(shown_.triangles, {}));
+  vertices_.add(std::exchange(shown_.vertices, {}), identity_);
+  apply_all(verdicts);
 }
 
-void Checker::match()
+void Checker::apply_all(std::span<const TriangleVerdict> verdicts)
 {
-  // Pieces without ids were matched by position as they were read.
-  if (comm_.sum(counts_.num_pieces_with_point_ids) == 0) identity_ = Identity::kPositions;
-  match_all_triangles();
-  match_all_vertices();
-  match_all_edges();
-}
-
-void Checker::match_all_triangles()
-{
-  const BoundaryFile file = boundary_ == nullptr ? BoundaryFile::kNone
-                            : is_partial_        ? BoundaryFile::kPartial
-                                                 : BoundaryFile::kComplete;
-  const TriangleMatch match = match_triangles(triangles_, file, comm_, findings_);
-  auto role = match.roles.begin();
-  for (PieceSurface& surface : surfaces_) {
-    const auto end = role + static_cast<std::ptrdiff_t>(surface.triangles.size());
-    surface.roles.assign(role, end);
-    role = end;
-    mark_seam_vertices(surface);
+  for (const TriangleVerdict& verdict : verdicts)
+    apply(verdict, surface_of(verdict.piece), seam_keys_);
+  std::set<LocalIndex> pieces;
+  for (const TriangleVerdict& verdict : verdicts) pieces.insert(verdict.piece);
+  for (const LocalIndex piece : pieces) {
+    settle_edges(surface_of(piece), edges_);
+    shrink(surface_of(piece));
   }
-  triangles_ = {};
+  vertices_.mark_seam(std::exchange(seam_keys_, {}));
+}
+
+// Rank r has the pieces r, r + size, …
+PieceSurface& Checker::surface_of(LocalIndex piece)
+{
+  return surfaces_[static_cast<std::size_t>(piece / comm_.size())];
+}
+
+void Checker::match_rest()
+{
+  const auto verdicts = triangles_.finish();
+  for (const TriangleVerdict& verdict : verdicts)
+    apply(verdict, surface_of(verdict.piece), seam_keys_);
+  vertices_.mark_seam(std::exchange(seam_keys_, {}));
+  take_triangles();
+  match_last_edges();
+  match_last_vertices();
+}
+
+void Checker::take_triangles()
+{
   for (std::size_t s = 0; s < surfaces_.size(); ++s) add_outside_areas(surfaces_[s], records_[s]);
-
-  counts_.num_triangles += match.counts.num_triangles;
-  counts_.num_outside += match.counts.num_outside;
-  counts_.num_seam += match.counts.num_seam;
-  counts_.num_interface += match.counts.num_interface;
-  counts_.num_unlisted += match.counts.num_unlisted;
-  num_components_ = count_components(num_components_, match.links, comm_);
+  const TriangleCounts& counts = triangles_.counts();
+  counts_.num_triangles += counts.num_triangles;
+  counts_.num_outside += counts.num_outside;
+  counts_.num_seam += counts.num_seam;
+  counts_.num_interface += counts.num_interface;
+  counts_.num_unlisted += counts.num_unlisted;
+  num_components_ = count_components(num_components_, triangles_.links(), comm_);
 }
 
-void Checker::match_all_vertices()
+// Flags of the vertices of all surfaces, one surface after the other.
+std::vector<VertexFlags> Checker::flags_of_surfaces() const
 {
-  std::vector<VertexRecord> vertices;
+  std::vector<VertexKey> keys;
   for (const PieceSurface& surface : surfaces_)
-    vertices.insert(vertices.end(), surface.vertices.begin(), surface.vertices.end());
-  for (const PieceSurface& surface : listed_)
-    vertices.insert(vertices.end(), surface.vertices.begin(), surface.vertices.end());
-  const VertexMatch match = match_vertices(vertices, identity_, comm_, findings_);
-
-  std::size_t row = 0;
-  for (PieceSurface& surface : surfaces_)
-    for (VertexRecord& vertex : surface.vertices) vertex.is_on_seam = match.is_on_seam[row++] != 0;
-  counts_.num_vertices += match.num_vertices;
-  match_ids(match.ids);
-  has_unusable_ids_ =
-      has_unusable_ids_ || 2 * comm_.sum(match.num_contradicted) > comm_.sum(match.num_shared_ids);
+    for (const VertexRecord& vertex : surface.vertices)
+      keys.push_back(key_of(vertex, surface.identity));
+  return vertices_.flags(keys);
 }
 
-void Checker::match_ids(const std::vector<PointId>& shared)
+void Checker::match_last_edges()
 {
-  for (const PointId& point : shared)
-    append_runs({point.id}, point.piece, point_id_space(), point_ids_, findings_);
+  const std::vector<VertexFlags> all_flags = flags_of_surfaces();
+  std::span<const VertexFlags> left(all_flags);
+  EdgeMatch own;
+  for (PieceSurface& surface : surfaces_) {
+    const auto flags = left.first(surface.vertices.size());
+    left = left.subspan(flags.size());
+    for (std::size_t v = 0; v < flags.size(); ++v) {
+      const VertexRecord& vertex = surface.vertices[v];
+      if (flags[v].is_on_seam && !vertex.is_on_seam) surface.seam_points.push_back(vertex.point);
+    }
+    match_own_edges(settle_last_edges(surface, flags, edges_), own, findings_);
+  }
+  const EdgeMatch shared = match_edges(std::exchange(edges_.shared, {}), comm_, findings_);
+  for (const EdgeMatch& match : {own, shared}) {
+    counts_.num_edges += match.num_edges;
+    counts_.num_edge_halves -= match.num_halves;
+    counts_.num_nonmanifold_edges += match.num_nonmanifold;
+  }
+  counts_.num_edges -= edges_.num_edges;  // They are counted again, once for all pieces.
+  counts_.num_edge_halves += edges_.num_halves;
+  num_boundary_components_ = count_components(edges_.num_boundary_components, shared.links, comm_);
+}
+
+void Checker::match_last_vertices()
+{
+  VertexTotals totals = vertices_.finish();
+  counts_.num_vertices += totals.num_vertices;
+  match_ids(std::move(totals.ids));
+  has_unusable_ids_ = has_unusable_ids_
+                      || 2 * comm_.sum(totals.num_contradicted) > comm_.sum(totals.num_shared_ids);
+}
+
+void Checker::match_ids(std::vector<PointId> shared)
+{
+  append_runs(std::move(shared), point_id_space(), point_ids_, findings_);
   check_ids(point_ids_, point_id_space(!is_partial_), comm_, findings_);
   const GlobalIndex num_defects =
       findings_.count(Kind::kPointIdHole) + findings_.count(Kind::kPointIdTwice);
@@ -200,30 +280,16 @@ void Checker::match_ids(const std::vector<PointId>& shared)
     check_ids(cell_ids_, cell_id_space(!is_partial_), comm_, findings_);
 }
 
-void Checker::match_all_edges()
-{
-  std::vector<EdgeRecord> edges;
-  for (const PieceSurface& surface : surfaces_) {
-    const SurfaceEdges own = append_edges(surface, edges);
-    counts_.num_edges -= own.num_edges;  // They are counted again, once for all pieces.
-    num_boundary_components_ += own.num_boundary_components;
-  }
-  const EdgeMatch match = match_edges(edges, comm_, findings_);
-  counts_.num_edges += match.num_edges;
-  counts_.num_nonmanifold_edges += match.num_nonmanifold;
-  num_boundary_components_ = count_components(num_boundary_components_, match.links, comm_);
-}
-
 void Checker::measure_quality()
 {
   std::size_t s = 0;
-  for_each_own_piece(tets_, false, [&](PieceName name) {
+  for_each_own_piece({0, tets_.num_pieces}, false, [&](PieceName name) {
     Findings repeated;
     const PieceMesh mesh = only_piece_ ? *std::exchange(only_piece_, {}) : load(name, repeated);
     if (mesh.num_cells() != num_tets(records_[s])) throw InputError("changed while it was read");
     std::vector<bool> is_on_seam(static_cast<std::size_t>(mesh.num_points()), false);
-    for (const VertexRecord& vertex : surfaces_[s].vertices)
-      is_on_seam.at(static_cast<std::size_t>(vertex.point)) = vertex.is_on_seam;
+    for (const LocalIndex point : surfaces_[s].seam_points)
+      is_on_seam.at(static_cast<std::size_t>(point)) = true;
     measure_shapes(mesh, is_on_seam, records_[s], shape_counts_);
     ++s;
   });
@@ -264,6 +330,7 @@ void Checker::sum_over_ranks(Counts& counts) const
                                 &Counts::num_boundary_pieces_without_patch,
                                 &Counts::num_vertices,
                                 &Counts::num_edges,
+                                &Counts::num_edge_halves,
                                 &Counts::num_triangles,
                                 &Counts::num_outside,
                                 &Counts::num_seam,
@@ -285,7 +352,7 @@ void Checker::set_counts(CheckReport& report) const
   report.is_partial = is_partial_;
   report.matched_by_ids = identity_ == Identity::kIds;
   report.num_vertices = counts_.num_vertices;
-  report.num_edges = counts_.num_edges;
+  report.num_edges = counts_.num_edges + counts_.num_edge_halves / 2;
   report.num_triangles = counts_.num_triangles;
   report.num_boundary_triangles = counts_.num_outside;
   report.num_interface_triangles = counts_.num_interface;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "check/piece_surface.hpp"
 #include "check/quality.hpp"
 #include "check/records.hpp"
+#include "check/surface_edges.hpp"
 
 namespace tessera::check {
 
@@ -33,15 +35,11 @@ class Checker {
   Checker(const PieceSource& tets, const PieceSource* boundary, const comm::Communicator& comm,
           CheckerOptions options);
 
-  /// @brief Reads every piece once and does all that needs one piece only.
+  /// @brief Reads every piece once, batch by batch, and matches what they share.
+  /// @return Whether the rest makes sense: false as soon as only a part of the pieces has point
+  /// ids, so that none can be matched by them.
   /// @throws InputError on all ranks if a piece cannot be read.
-  void read();
-
-  /// @brief Whether only a part of the pieces has point ids, so that none can be matched by them.
-  [[nodiscard]] bool has_mixed_ids() const;
-
-  /// @brief Does all that needs several pieces.
-  void match();
+  [[nodiscard]] bool match();
 
   /// @brief Whether the point ids turned out to be no names of points.
   [[nodiscard]] bool has_unusable_ids() const { return has_unusable_ids_; }
@@ -68,6 +66,7 @@ class Checker {
     GlobalIndex num_boundary_pieces_without_patch = 0;
     GlobalIndex num_vertices = 0;
     GlobalIndex num_edges = 0;
+    GlobalIndex num_edge_halves = 0;
     GlobalIndex num_triangles = 0;
     GlobalIndex num_outside = 0;
     GlobalIndex num_seam = 0;
@@ -76,16 +75,30 @@ class Checker {
     GlobalIndex num_nonmanifold_edges = 0;
   };
 
+  // Pieces of a file, from begin to end - 1.
+  struct Range {
+    LocalIndex begin = 0;
+    LocalIndex end = 0;
+  };
+
   template <class Visit>
-  void for_each_own_piece(const PieceSource& source, bool is_boundary, const Visit& visit) const;
+  void for_each_own_piece(Range range, bool is_boundary, const Visit& visit) const;
+  [[nodiscard]] Range batch_of(LocalIndex num_pieces, LocalIndex batch) const;
+  [[nodiscard]] LocalIndex num_batches() const;
   [[nodiscard]] PieceMesh load(PieceName name, Findings& findings) const;
   void read_tets(PieceName name);
   void read_boundary(PieceName name);
   void take_ids(const PieceMesh& mesh, const PieceSurface& surface);
-  void match_all_triangles();
-  void match_all_vertices();
-  void match_all_edges();
-  void match_ids(const std::vector<PointId>& shared);
+  [[nodiscard]] bool read_batch(LocalIndex batch);
+  void match_batch();
+  void match_rest();
+  void apply_all(std::span<const TriangleVerdict> verdicts);
+  [[nodiscard]] PieceSurface& surface_of(LocalIndex piece);
+  [[nodiscard]] std::vector<VertexFlags> flags_of_surfaces() const;
+  void take_triangles();
+  void match_last_edges();
+  void match_last_vertices();
+  void match_ids(std::vector<PointId> shared);
   void sum_over_ranks(Counts& counts) const;
   [[nodiscard]] GlobalIndex num_pieces() const;
   [[nodiscard]] std::vector<std::string> notes() const;
@@ -105,11 +118,14 @@ class Checker {
   GlobalIndex num_boundary_components_ = 0;
   bool has_unusable_ids_ = false;
 
-  std::vector<TriangleRecord> triangles_{};  // Of all surfaces, one after the other.
-  std::vector<PieceSurface> surfaces_{};     // Of this rank's pieces of tets.
-  std::vector<PieceSurface> listed_{};       // Of this rank's pieces of the boundary file.
-  std::vector<PieceRecords> records_{};      // Parallel to surfaces_.
-  std::optional<PieceMesh> only_piece_{};    // If this rank has one piece of tets.
+  TriangleMatcher triangles_;
+  VertexMatcher vertices_;
+  SurfaceEdges edges_{};
+  ShownRecords shown_{};                   // Of the batch at hand.
+  std::vector<VertexKey> seam_keys_{};     // Vertices that were found on a seam, to be told.
+  std::vector<PieceSurface> surfaces_{};   // Of this rank's pieces of tets.
+  std::vector<PieceRecords> records_{};    // Parallel to surfaces_.
+  std::optional<PieceMesh> only_piece_{};  // If this rank has one piece of tets.
   std::vector<IdRun> point_ids_{};
   std::vector<IdRun> cell_ids_{};
   EdgeLengths edge_lengths_{};

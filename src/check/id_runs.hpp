@@ -17,6 +17,8 @@ namespace tessera::check {
 struct PointId {
   GlobalIndex id = 0;
   LocalIndex piece = 0;
+
+  friend auto operator<=>(const PointId&, const PointId&) = default;
 };
 
 /// @brief Consecutive ids of one piece. Writers number pieces in ranges, so a mesh has few runs.
@@ -41,6 +43,10 @@ struct IdSpace {
 /// @brief Appends the ids as runs; ids that are negative or above 2^62 are reported instead. Local.
 void append_runs(std::vector<GlobalIndex> ids, LocalIndex piece, const IdSpace& space,
                  std::vector<IdRun>& runs, Findings& findings);
+
+/// @brief Appends ids of any pieces as runs of one piece each. Local.
+void append_runs(std::vector<PointId> ids, const IdSpace& space, std::vector<IdRun>& runs,
+                 Findings& findings);
 
 /// @brief Reports ids that stand in two runs and, of dense ids, those from 0 to the largest that
 /// stand in none.

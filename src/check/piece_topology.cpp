@@ -145,15 +145,24 @@ class TriangleMatcher {
       ++topology_.num_inner_triangles;
       return;
     }
-    for (const Side& side : sides)
-      topology_.surface.push_back({vertices(side), side.cell(), components_.find(side.cell())});
+    const bool is_open = sides.size() == 1;
+    const bool is_seam = !is_open && is_between_regions(sides) && !is_interface(sides);
+    for (const Side& side : sides) {
+      topology_.surface.push_back(
+          {vertices(side), side.cell(), components_.find(side.cell()), is_open, is_seam});
+    }
+  }
+
+  [[nodiscard]] bool is_interface(std::span<const Side> sides) const
+  {
+    return mesh_.material(sides[0].cell()) != mesh_.material(sides[1].cell());
   }
 
   [[nodiscard]] bool is_between_regions(std::span<const Side> sides) const
   {
     const LocalIndex a = sides[0].cell();
     const LocalIndex b = sides[1].cell();
-    return mesh_.material(a) != mesh_.material(b) || mesh_.subdomain_of(a) != mesh_.subdomain_of(b);
+    return is_interface(sides) || mesh_.subdomain_of(a) != mesh_.subdomain_of(b);
   }
 
   [[nodiscard]] bool is_chord(const Side& side) const

@@ -15,6 +15,8 @@ struct SurfaceTriangle {
   std::array<LocalIndex, 3> vertices{};  ///< Of the PieceMesh.
   LocalIndex cell = 0;
   LocalIndex component = 0;  ///< Of the piece.
+  bool is_open = true;       ///< On one tet of the piece.
+  bool is_seam = false;      ///< On two, of two subdomains of one material.
 };
 
 /// @brief What a piece's tets are by themselves, and which triangles other pieces must see.
