@@ -12,7 +12,7 @@ CheckReport check_by_positions(const PieceSource& tets, const PieceSource* bound
 {
   Checker checker(tets, boundary, comm, {Identity::kPositions, options.is_partial});
   static_cast<void>(checker.match());  // Ids do not matter.
-  checker.measure_quality();
+  checker.measure_seams();
   return checker.report(id_findings);
 }
 
@@ -25,7 +25,7 @@ CheckReport check_mesh(const PieceSource& tets, const PieceSource* boundary,
   if (!checker.match()) return check_by_positions(tets, boundary, comm, options, nullptr);
   if (checker.has_unusable_ids())
     return check_by_positions(tets, boundary, comm, options, &checker.findings());
-  checker.measure_quality();
+  checker.measure_seams();
   return checker.report(nullptr);
 }
 

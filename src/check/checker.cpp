@@ -123,7 +123,7 @@ void Checker::read_tets(PieceName name)
   PieceMesh mesh = load(name, findings_);
   const PieceTopology topology = analyse_topology(mesh, edge_lengths_, findings_);
   PieceSurface& surface = surfaces_.emplace_back(make_surface(mesh, topology, shown_, seam_keys_));
-  records_.push_back(measure(mesh, findings_));
+  records_.push_back(measure(mesh, mean_ratios_, findings_));
 
   if (mesh.has_point_ids) {
     ++counts_.num_pieces_with_point_ids;
@@ -136,7 +136,9 @@ void Checker::read_tets(PieceName name)
   counts_.num_edges += topology.num_edges;
   num_components_ += topology.num_components;
   take_ids(mesh, surface);
-  if (comm_.size() >= tets_.num_pieces) only_piece_ = std::move(mesh);
+  if (comm_.size() < tets_.num_pieces) return;
+  mesh.arrays.cell_ints["subdomain"] = std::move(mesh.subdomain);
+  only_piece_ = std::move(mesh.arrays);
 }
 
 void Checker::read_boundary(PieceName name)
@@ -280,18 +282,21 @@ void Checker::match_ids(std::vector<PointId> shared)
     check_ids(cell_ids_, cell_id_space(!is_partial_), comm_, findings_);
 }
 
-void Checker::measure_quality()
+void Checker::measure_seams()
 {
   std::size_t s = 0;
   for_each_own_piece({0, tets_.num_pieces}, false, [&](PieceName name) {
-    Findings repeated;
-    const PieceMesh mesh = only_piece_ ? *std::exchange(only_piece_, {}) : load(name, repeated);
-    if (mesh.num_cells() != num_tets(records_[s])) throw InputError("changed while it was read");
-    std::vector<bool> is_on_seam(static_cast<std::size_t>(mesh.num_points()), false);
-    for (const LocalIndex point : surfaces_[s].seam_points)
-      is_on_seam.at(static_cast<std::size_t>(point)) = true;
-    measure_shapes(mesh, is_on_seam, records_[s], shape_counts_);
+    const std::vector<LocalIndex>& seam_points = surfaces_[s].seam_points;
+    PieceRecords& records = records_[s];
     ++s;
+    if (seam_points.empty()) return;
+    const mesh::MeshArrays mesh =
+        only_piece_ ? *std::exchange(only_piece_, {}) : tets_.read(name.piece);
+    if (mesh.num_cells() != num_tets(records)) throw InputError("changed while it was read");
+    std::vector<bool> is_on_seam(static_cast<std::size_t>(mesh.num_points()), false);
+    for (const LocalIndex point : seam_points)
+      is_on_seam.at(static_cast<std::size_t>(point)) = true;
+    measure_seam_tets(mesh, is_on_seam, records, seam_mean_ratios_);
   });
 }
 
@@ -379,11 +384,11 @@ void Checker::set_sums(CheckReport& report)
   report.euler_characteristic =
       report.num_vertices - report.num_edges + report.num_triangles - report.num_tets;
 
-  comm_.sum_in_place(shape_counts_.all.counts());
-  comm_.sum_in_place(shape_counts_.seam.counts());
+  comm_.sum_in_place(mean_ratios_.counts());
+  comm_.sum_in_place(seam_mean_ratios_.counts());
   comm_.sum_in_place(edge_lengths_.counts());
-  report.quality = quality_figures(shapes, shape_counts_.all);
-  report.seam_quality = quality_figures(seam_shapes, shape_counts_.seam);
+  report.quality = quality_figures(shapes, mean_ratios_);
+  report.seam_quality = quality_figures(seam_shapes, seam_mean_ratios_);
   report.edge_length = edge_lengths_.figures();
 }
 

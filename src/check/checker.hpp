@@ -44,9 +44,9 @@ class Checker {
   /// @brief Whether the point ids turned out to be no names of points.
   [[nodiscard]] bool has_unusable_ids() const { return has_unusable_ids_; }
 
-  /// @brief Reads the pieces again for the shapes of tets, now that the seams are known.
+  /// @brief Reads pieces again for the shapes of their seam tets, now that the seams are known.
   /// @throws InputError on all ranks if a piece cannot be read, or is not what it was.
-  void measure_quality();
+  void measure_seams();
 
   /// @param[in] id_findings What a run that matched by ids found out about the ids, or nullptr.
   [[nodiscard]] CheckReport report(const Findings* id_findings);
@@ -121,15 +121,16 @@ class Checker {
   TriangleMatcher triangles_;
   VertexMatcher vertices_;
   SurfaceEdges edges_{};
-  ShownRecords shown_{};                   // Of the batch at hand.
-  std::vector<VertexKey> seam_keys_{};     // Vertices that were found on a seam, to be told.
-  std::vector<PieceSurface> surfaces_{};   // Of this rank's pieces of tets.
-  std::vector<PieceRecords> records_{};    // Parallel to surfaces_.
-  std::optional<PieceMesh> only_piece_{};  // If this rank has one piece of tets.
+  ShownRecords shown_{};                          // Of the batch at hand.
+  std::vector<VertexKey> seam_keys_{};            // Vertices that were found on a seam, to be told.
+  std::vector<PieceSurface> surfaces_{};          // Of this rank's pieces of tets.
+  std::vector<PieceRecords> records_{};           // Parallel to surfaces_.
+  std::optional<mesh::MeshArrays> only_piece_{};  // If this rank has one piece of tets.
   std::vector<IdRun> point_ids_{};
   std::vector<IdRun> cell_ids_{};
   EdgeLengths edge_lengths_{};
-  ShapeCounts shape_counts_{};
+  MeanRatioCounts mean_ratios_{};
+  MeanRatioCounts seam_mean_ratios_{};
 };
 
 }  // namespace tessera::check

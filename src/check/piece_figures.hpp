@@ -34,6 +34,7 @@ class PieceRecords {
   /// @brief Record of a subdomain, made when it is asked for first. Fast for the one asked for
   /// last.
   [[nodiscard]] PieceRecord& of(std::int32_t subdomain);
+  [[nodiscard]] LocalIndex piece() const { return piece_; }
   [[nodiscard]] const std::vector<PieceRecord>& all() const { return records_; }
 
  private:
@@ -43,20 +44,18 @@ class PieceRecords {
   std::map<std::int32_t, std::size_t> row_{};  // Of each subdomain.
 };
 
-/// @brief Volumes and digests of a piece; reports tets without positive volume. Local.
+/// @brief Volumes, digests and shapes of a piece; reports tets without positive volume. Local.
 /// A digest is that of the cells whose points are in range, and zero if the piece has no ids.
-[[nodiscard]] PieceRecords measure(const PieceMesh& mesh, Findings& findings);
+/// Shapes are those of the finite tets.
+/// @param[in,out] counts Gets their mean ratios.
+[[nodiscard]] PieceRecords measure(const PieceMesh& mesh, MeanRatioCounts& counts,
+                                   Findings& findings);
 
-/// @brief Counts of mean ratios of all tets, and of the seam tets.
-struct ShapeCounts {
-  MeanRatioCounts all{};
-  MeanRatioCounts seam{};
-};
-
-/// @brief Shapes of the finite tets of a piece. Local.
+/// @brief Shapes of the finite tets that have a point on a seam. Local.
 /// @param[in] is_on_seam Shape (num_points).
-void measure_shapes(const PieceMesh& mesh, const std::vector<bool>& is_on_seam,
-                    PieceRecords& records, ShapeCounts& counts);
+/// @param[in,out] counts Gets their mean ratios.
+void measure_seam_tets(const mesh::MeshArrays& arrays, const std::vector<bool>& is_on_seam,
+                       PieceRecords& records, MeanRatioCounts& counts);
 
 /// @brief The records of all ranks in the order of subdomains and pieces, on every rank.
 /// @note Collective.

@@ -2,6 +2,7 @@
 #include "check/piece_mesh.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -74,25 +75,20 @@ void check_sizes(const PieceName& name, mesh::MeshArrays& arrays, Findings& find
   drop_wrong_lengths(name, num_cells, arrays.cell_doubles, findings);
 }
 
-struct KeyedPoint {
-  VertexKey key{};
-  LocalIndex point = 0;
-
-  friend auto operator<=>(const KeyedPoint&, const KeyedPoint&) = default;
-};
-
-// For each point the lowest point with the same key.
+// For each point the lowest point with the same key, by a hash table of points.
 template <class KeyOf>
 std::vector<LocalIndex> lowest_of_equal(LocalIndex num_points, const KeyOf& key_of)
 {
-  std::vector<KeyedPoint> order(static_cast<std::size_t>(num_points));
-  for (LocalIndex p = 0; p < num_points; ++p) order[static_cast<std::size_t>(p)] = {key_of(p), p};
-  std::sort(order.begin(), order.end());
-  std::vector<LocalIndex> lowest(order.size());
-  const KeyedPoint* first = nullptr;
-  for (const KeyedPoint& item : order) {
-    if (first == nullptr || first->key != item.key) first = &item;
-    lowest[static_cast<std::size_t>(item.point)] = first->point;
+  const std::size_t num_slots = std::bit_ceil(2 * static_cast<std::size_t>(num_points) + 1);
+  std::vector<LocalIndex> slots(num_slots, kNoIndex);
+  std::vector<LocalIndex> lowest(static_cast<std::size_t>(num_points));
+  for (LocalIndex p = 0; p < num_points; ++p) {
+    const VertexKey key = key_of(p);
+    std::size_t slot = hash_of(key) & (num_slots - 1);
+    while (slots[slot] != kNoIndex && key_of(slots[slot]) != key)
+      slot = (slot + 1) & (num_slots - 1);
+    if (slots[slot] == kNoIndex) slots[slot] = p;
+    lowest[static_cast<std::size_t>(p)] = slots[slot];
   }
   return lowest;
 }
