@@ -17,7 +17,7 @@ namespace tessera::check {
 namespace {
 
 // Enough for the ranks of a node; few enough that their surfaces fit into memory beside the rest.
-constexpr LocalIndex kPiecesInBatch = 64;
+constexpr LocalIndex kPiecesInBatch = 32;
 
 GlobalIndex num_tets(const PieceRecords& records)
 {

@@ -169,18 +169,14 @@ std::vector<TriangleVerdict> send_to_readers(std::vector<TriangleVerdict> verdic
 
 }  // namespace
 
-std::vector<TriangleVerdict> TriangleMatcher::add(std::span<const TriangleRecord> records)
+std::vector<TriangleVerdict> TriangleMatcher::add(std::vector<TriangleRecord> records)
 {
-  std::vector<TriangleRecord> received;
-  {
-    const RecordExchange<TriangleRecord> exchange(
-        records, [](const TriangleRecord& record) { return hash_of(record.key); }, comm_);
-    received.reserve(open_.size() + exchange.received().size());
-    received.assign(exchange.received().begin(), exchange.received().end());
-  }
-  received.insert(received.end(), open_.begin(), open_.end());
+  RecordExchange<TriangleRecord> exchange(
+      records, [](const TriangleRecord& record) { return hash_of(record.key); }, comm_);
+  records = std::move(exchange).take_received();
+  records.insert(records.end(), open_.begin(), open_.end());
   open_ = {};
-  std::vector<TriangleVerdict> verdicts = match(std::move(received), false);
+  std::vector<TriangleVerdict> verdicts = match(std::move(records), false);
   sort_unique(links_);
   return send_to_readers(std::move(verdicts), comm_);
 }

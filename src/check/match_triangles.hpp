@@ -51,7 +51,7 @@ class TriangleMatcher {
   /// @brief Takes the records of a batch.
   /// @note Collective.
   /// @return What is known now of triangles in the pieces of this rank (piece mod size).
-  [[nodiscard]] std::vector<TriangleVerdict> add(std::span<const TriangleRecord> records);
+  [[nodiscard]] std::vector<TriangleVerdict> add(std::vector<TriangleRecord> records);
 
   /// @brief Decides about all triangles that are left.
   /// @note Collective.

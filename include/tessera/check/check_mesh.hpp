@@ -44,9 +44,12 @@ struct CheckOptions {
 ///
 /// A defect of the mesh is not an exception: it is in the report.
 ///
-/// Piece p is read by rank p mod size, twice unless it is the rank's only one. Memory: the largest
-/// piece about four times, and the triangles, edges and vertices on the surfaces of pieces, spread
-/// over the ranks by hash; all vertices if points are matched by position.
+/// Piece p is read by rank p mod size, twice if it has seam tets and is not the rank's only one.
+/// Memory: the largest piece about four times; the surfaces of 32 pieces, spread over the ranks; of
+/// the surfaces of the pieces before, the triangles on the boundary, at interfaces and towards
+/// pieces not read yet, one record of each different vertex and 16 bytes of each seam triangle; all
+/// vertices if points are matched by position. So it is small where neighbours in space have
+/// neighbouring numbers, and right in any order.
 /// @note Collective.
 /// @param[in] boundary Pieces of triangles, or nullptr if there is no boundary file.
 /// @throws InputError on all ranks if a piece cannot be read.

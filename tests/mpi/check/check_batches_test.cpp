@@ -12,7 +12,7 @@
 namespace tessera::testing {
 namespace {
 
-constexpr int kLevels = 3;  // 512 pieces: eight batches.
+constexpr int kLevels = 3;  // 512 pieces: sixteen batches.
 constexpr GlobalIndex kCells = 8;
 
 MeshFiles box_files()
