@@ -56,6 +56,9 @@ void print(const check::CheckReport& report)
       "materials\n",
       report.num_tets, report.num_vertices, report.num_boundary_triangles,
       report.num_seam_triangles, report.num_interface_triangles);
+  if (report.is_partial)
+    fmt::print("partial check: {} open seam triangles, holes in the ids allowed\n",
+               report.num_open_seam_triangles);
   fmt::print("volume {:.10g}, boundary area {:.10g}\n", report.volume, report.boundary_area);
   fmt::print("Euler characteristic {}, components {}, boundary components {}\n",
              report.euler_characteristic, report.num_components, report.num_boundary_components);
@@ -68,7 +71,8 @@ void print(const check::CheckReport& report)
     fmt::print("DEFECT {}: {} times\n", defect.kind, defect.count);
     for (const std::string& offender : defect.offenders) fmt::print("  {}\n", offender);
   }
-  fmt::print("{}\n", report.conforms ? "the mesh conforms" : "the mesh does NOT conform");
+  const char* const what = report.is_partial ? "the part of the mesh" : "the mesh";
+  fmt::print("{} {}\n", what, report.conforms ? "conforms" : "does NOT conform");
 }
 
 }  // namespace
@@ -83,7 +87,8 @@ ExitCode run_check_command(const CheckCommand& command, const comm::Communicator
     boundary_files = pieces_of(*file, comm);
     boundary = source_of(boundary_files);
   }
-  const check::CheckReport report = check::check_mesh(mesh, boundary ? &*boundary : nullptr, comm);
+  const check::CheckReport report =
+      check::check_mesh(mesh, boundary ? &*boundary : nullptr, comm, {command.is_partial});
   if (comm.rank() == 0) {
     if (command.json) {
       fmt::print("{}\n", check::to_json(report));

@@ -129,6 +129,9 @@ void add_check(CLI::App& app, Parsed& parsed)
   CLI::App* check = app.add_subcommand("check", "Verify a mesh from its files alone");
   check->add_option("MESH.pvtu", parsed.check.mesh_file, "A .pvtu or .vtu file of tets")
       ->required();
+  check->add_flag("--partial", parsed.check.is_partial,
+                  "Only some pieces of the mesh were made: open seams and holes in the ids are no "
+                  "defects");
   check->add_flag("--json", parsed.check.json, "Print the findings as JSON");
 }
 

@@ -32,7 +32,8 @@ struct MeshCommand {
 /// @brief `tessera check`: verify a mesh from its files alone.
 struct CheckCommand {
   std::filesystem::path mesh_file{};
-  bool json = false;  ///< Print the keys of report.json instead of text.
+  bool is_partial = false;  ///< Only some pieces of the mesh were made.
+  bool json = false;        ///< Print the keys of report.json instead of text.
 };
 
 /// @brief `tessera info`: say what a model, case or mesh file holds.

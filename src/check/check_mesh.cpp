@@ -7,27 +7,25 @@ namespace tessera::check {
 namespace {
 
 CheckReport check_by_positions(const PieceSource& tets, const PieceSource* boundary,
-                               const comm::Communicator& comm, const Findings* id_findings)
+                               const comm::Communicator& comm, const CheckOptions& options,
+                               const Findings* id_findings)
 {
-  Checker checker(tets, boundary, comm, Identity::kPositions);
-  checker.read();
-  checker.match();
-  checker.measure_quality();
+  Checker checker(tets, boundary, comm, {Identity::kPositions, options.is_partial});
+  static_cast<void>(checker.match());  // Ids do not matter.
+  checker.measure_seams();
   return checker.report(id_findings);
 }
 
 }  // namespace
 
 CheckReport check_mesh(const PieceSource& tets, const PieceSource* boundary,
-                       const comm::Communicator& comm)
+                       const comm::Communicator& comm, const CheckOptions& options)
 {
-  Checker checker(tets, boundary, comm, Identity::kIds);
-  checker.read();
-  if (checker.has_mixed_ids()) return check_by_positions(tets, boundary, comm, nullptr);
-  checker.match();
+  Checker checker(tets, boundary, comm, {Identity::kIds, options.is_partial});
+  if (!checker.match()) return check_by_positions(tets, boundary, comm, options, nullptr);
   if (checker.has_unusable_ids())
-    return check_by_positions(tets, boundary, comm, &checker.findings());
-  checker.measure_quality();
+    return check_by_positions(tets, boundary, comm, options, &checker.findings());
+  checker.measure_seams();
   return checker.report(nullptr);
 }
 

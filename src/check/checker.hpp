@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,32 +18,35 @@
 #include "check/piece_surface.hpp"
 #include "check/quality.hpp"
 #include "check/records.hpp"
+#include "check/surface_edges.hpp"
 
 namespace tessera::check {
+
+/// @brief How a run matches points, and whether the mesh may lack pieces.
+struct CheckerOptions {
+  Identity identity = Identity::kIds;
+  bool is_partial = false;
+};
 
 /// @brief One run of the checks, with points matched in one way. Every public function but
 /// findings() is collective; call them in the order of their declaration.
 class Checker {
  public:
   Checker(const PieceSource& tets, const PieceSource* boundary, const comm::Communicator& comm,
-          Identity identity);
+          CheckerOptions options);
 
-  /// @brief Reads every piece once and does all that needs one piece only.
+  /// @brief Reads every piece once, batch by batch, and matches what they share.
+  /// @return Whether the rest makes sense: false as soon as only a part of the pieces has point
+  /// ids, so that none can be matched by them.
   /// @throws InputError on all ranks if a piece cannot be read.
-  void read();
-
-  /// @brief Whether only a part of the pieces has point ids, so that none can be matched by them.
-  [[nodiscard]] bool has_mixed_ids() const;
-
-  /// @brief Does all that needs several pieces.
-  void match();
+  [[nodiscard]] bool match();
 
   /// @brief Whether the point ids turned out to be no names of points.
   [[nodiscard]] bool has_unusable_ids() const { return has_unusable_ids_; }
 
-  /// @brief Reads the pieces again for the shapes of tets, now that the seams are known.
+  /// @brief Reads pieces again for the shapes of their seam tets, now that the seams are known.
   /// @throws InputError on all ranks if a piece cannot be read, or is not what it was.
-  void measure_quality();
+  void measure_seams();
 
   /// @param[in] id_findings What a run that matched by ids found out about the ids, or nullptr.
   [[nodiscard]] CheckReport report(const Findings* id_findings);
@@ -56,11 +60,13 @@ class Checker {
     GlobalIndex num_pieces_with_point_ids = 0;  // Of both files.
     GlobalIndex num_tet_pieces_with_point_ids = 0;
     GlobalIndex num_pieces_with_cell_ids = 0;
+    GlobalIndex num_pieces_with_subdomains = 0;
     GlobalIndex num_other_cells = 0;
     GlobalIndex num_boundary_pieces_without_tet = 0;
     GlobalIndex num_boundary_pieces_without_patch = 0;
     GlobalIndex num_vertices = 0;
     GlobalIndex num_edges = 0;
+    GlobalIndex num_edge_halves = 0;
     GlobalIndex num_triangles = 0;
     GlobalIndex num_outside = 0;
     GlobalIndex num_seam = 0;
@@ -69,19 +75,34 @@ class Checker {
     GlobalIndex num_nonmanifold_edges = 0;
   };
 
+  // Pieces of a file, from begin to end - 1.
+  struct Range {
+    LocalIndex begin = 0;
+    LocalIndex end = 0;
+  };
+
   template <class Visit>
-  void for_each_own_piece(const PieceSource& source, bool is_boundary, const Visit& visit) const;
+  void for_each_own_piece(Range range, bool is_boundary, const Visit& visit) const;
+  [[nodiscard]] Range batch_of(LocalIndex num_pieces, LocalIndex batch) const;
+  [[nodiscard]] LocalIndex num_batches() const;
   [[nodiscard]] PieceMesh load(PieceName name, Findings& findings) const;
   void read_tets(PieceName name);
   void read_boundary(PieceName name);
   void take_ids(const PieceMesh& mesh, const PieceSurface& surface);
-  void match_all_triangles();
-  void match_all_vertices();
-  void match_all_edges();
-  void match_ids(const std::vector<PointId>& shared);
+  [[nodiscard]] bool read_batch(LocalIndex batch);
+  void match_batch();
+  void match_rest();
+  void apply_all(std::span<const TriangleVerdict> verdicts);
+  [[nodiscard]] PieceSurface& surface_of(LocalIndex piece);
+  [[nodiscard]] std::vector<VertexFlags> flags_of_surfaces() const;
+  void take_triangles();
+  void match_last_edges();
+  void match_last_vertices();
+  void match_ids(std::vector<PointId> shared);
   void sum_over_ranks(Counts& counts) const;
   [[nodiscard]] GlobalIndex num_pieces() const;
   [[nodiscard]] std::vector<std::string> notes() const;
+  [[nodiscard]] bool looks_partial(const Findings& findings) const;
   void set_counts(CheckReport& report) const;
   void set_sums(CheckReport& report);
 
@@ -89,6 +110,7 @@ class Checker {
   const PieceSource* boundary_;
   const comm::Communicator& comm_;
   Identity identity_;
+  bool is_partial_;
 
   Findings findings_{};
   Counts counts_{};
@@ -96,15 +118,19 @@ class Checker {
   GlobalIndex num_boundary_components_ = 0;
   bool has_unusable_ids_ = false;
 
-  std::vector<TriangleRecord> triangles_{};  // Of all surfaces, one after the other.
-  std::vector<PieceSurface> surfaces_{};     // Of this rank's pieces of tets.
-  std::vector<PieceSurface> listed_{};       // Of this rank's pieces of the boundary file.
-  std::vector<PieceRecord> records_{};       // Parallel to surfaces_.
-  std::optional<PieceMesh> only_piece_{};    // If this rank has one piece of tets.
+  TriangleMatcher triangles_;
+  VertexMatcher vertices_;
+  SurfaceEdges edges_{};
+  ShownRecords shown_{};                          // Of the batch at hand.
+  std::vector<VertexKey> seam_keys_{};            // Vertices that were found on a seam, to be told.
+  std::vector<PieceSurface> surfaces_{};          // Of this rank's pieces of tets.
+  std::vector<PieceRecords> records_{};           // Parallel to surfaces_.
+  std::optional<mesh::MeshArrays> only_piece_{};  // If this rank has one piece of tets.
   std::vector<IdRun> point_ids_{};
   std::vector<IdRun> cell_ids_{};
   EdgeLengths edge_lengths_{};
-  ShapeCounts shape_counts_{};
+  MeanRatioCounts mean_ratios_{};
+  MeanRatioCounts seam_mean_ratios_{};
 };
 
 }  // namespace tessera::check

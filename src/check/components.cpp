@@ -12,12 +12,6 @@
 namespace tessera::check {
 namespace {
 
-void sort_unique(std::vector<Link>& links)
-{
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
-}
-
 LocalIndex row_of(const std::vector<GlobalIndex>& names, GlobalIndex name)
 {
   return static_cast<LocalIndex>(std::lower_bound(names.begin(), names.end(), name)
@@ -40,6 +34,12 @@ GlobalIndex count_joins(const std::vector<Link>& links)
 }
 
 }  // namespace
+
+void sort_unique(std::vector<Link>& links)
+{
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+}
 
 GlobalIndex count_components(GlobalIndex num_local_components, std::vector<Link> links,
                              const comm::Communicator& comm)

@@ -23,6 +23,9 @@ struct Link {
   return static_cast<GlobalIndex>(piece) << 32 | component;
 }
 
+/// @brief Brings links into order and drops repeated ones.
+void sort_unique(std::vector<Link>& links);
+
 /// @brief Number of components after all links are drawn.
 /// @note Collective; every rank holds the different links of all ranks for a moment.
 /// @param[in] num_local_components Of the pieces of this rank.

@@ -39,6 +39,7 @@ void sweep(std::span<const IdRun> runs, GlobalIndex begin, GlobalIndex end, cons
            Findings& findings)
 {
   const auto report_hole = [&](GlobalIndex from, GlobalIndex to) {
+    if (!space.is_dense) return;
     report_ids(space.hole, from, to, findings, [&](GlobalIndex id) {
       return concat("no ", space.of, " has id ", id, ", but higher ids exist");
     });
@@ -91,27 +92,48 @@ std::vector<IdRun> send_to_blocks(std::span<const IdRun> runs, GlobalIndex block
   return received;
 }
 
+// Lengthens the last run by the id, or begins a new one; runs before `num_before` are complete.
+void append_id(const PointId& id, std::size_t num_before, const IdSpace& space,
+               std::vector<IdRun>& runs, Findings& findings)
+{
+  if (id.id < 0 || id.id > kMaxId) {
+    findings.add(space.hole, {id.piece, id.id}, [&] {
+      return concat("piece ", id.piece, ": ", space.of, " id ", id.id, " is out of range");
+    });
+  } else if (runs.size() > num_before && runs.back().end == id.id
+             && runs.back().piece == id.piece) {
+    ++runs.back().end;
+  } else {
+    runs.push_back({id.id, id.id + 1, id.piece});
+  }
+}
+
 }  // namespace
 
-IdSpace point_id_space() { return {"point", Kind::kPointIdTwice, Kind::kPointIdHole}; }
-IdSpace cell_id_space() { return {"cell", Kind::kCellIdTwice, Kind::kCellIdHole}; }
+IdSpace point_id_space(bool is_dense)
+{
+  return {"point", Kind::kPointIdTwice, Kind::kPointIdHole, is_dense};
+}
+
+IdSpace cell_id_space(bool is_dense)
+{
+  return {"cell", Kind::kCellIdTwice, Kind::kCellIdHole, is_dense};
+}
 
 void append_runs(std::vector<GlobalIndex> ids, LocalIndex piece, const IdSpace& space,
                  std::vector<IdRun>& runs, Findings& findings)
 {
   if (!std::is_sorted(ids.begin(), ids.end())) std::sort(ids.begin(), ids.end());
   const std::size_t num_before = runs.size();
-  for (const GlobalIndex id : ids) {
-    if (id < 0 || id > kMaxId) {
-      findings.add(space.hole, {piece, id}, [&] {
-        return concat("piece ", piece, ": ", space.of, " id ", id, " is out of range");
-      });
-    } else if (runs.size() > num_before && runs.back().end == id) {
-      ++runs.back().end;
-    } else {
-      runs.push_back({id, id + 1, piece});
-    }
-  }
+  for (const GlobalIndex id : ids) append_id({id, piece}, num_before, space, runs, findings);
+}
+
+void append_runs(std::vector<PointId> ids, const IdSpace& space, std::vector<IdRun>& runs,
+                 Findings& findings)
+{
+  std::sort(ids.begin(), ids.end());
+  const std::size_t num_before = runs.size();
+  for (const PointId& id : ids) append_id(id, num_before, space, runs, findings);
 }
 
 void check_ids(std::span<const IdRun> runs, const IdSpace& space, const comm::Communicator& comm,

@@ -17,6 +17,8 @@ namespace tessera::check {
 struct PointId {
   GlobalIndex id = 0;
   LocalIndex piece = 0;
+
+  friend auto operator<=>(const PointId&, const PointId&) = default;
 };
 
 /// @brief Consecutive ids of one piece. Writers number pieces in ranges, so a mesh has few runs.
@@ -33,15 +35,21 @@ struct IdSpace {
   std::string of{};  ///< "point" or "cell".
   Kind twice = Kind::kPointIdTwice;
   Kind hole = Kind::kPointIdHole;
+  bool is_dense = true;  ///< Whether a hole is a defect.
 };
-[[nodiscard]] IdSpace point_id_space();
-[[nodiscard]] IdSpace cell_id_space();
+[[nodiscard]] IdSpace point_id_space(bool is_dense = true);
+[[nodiscard]] IdSpace cell_id_space(bool is_dense = true);
 
 /// @brief Appends the ids as runs; ids that are negative or above 2^62 are reported instead. Local.
 void append_runs(std::vector<GlobalIndex> ids, LocalIndex piece, const IdSpace& space,
                  std::vector<IdRun>& runs, Findings& findings);
 
-/// @brief Reports ids that stand in two runs, and those from 0 to the largest that stand in none.
+/// @brief Appends ids of any pieces as runs of one piece each. Local.
+void append_runs(std::vector<PointId> ids, const IdSpace& space, std::vector<IdRun>& runs,
+                 Findings& findings);
+
+/// @brief Reports ids that stand in two runs and, of dense ids, those from 0 to the largest that
+/// stand in none.
 /// @note Collective; each rank looks at an equal range of ids.
 void check_ids(std::span<const IdRun> runs, const IdSpace& space, const comm::Communicator& comm,
                Findings& findings);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check/match_edges.hpp"
 
+#include <algorithm>
 #include <string>
 #include <tuple>
 
@@ -18,13 +19,17 @@ class EdgeGroup {
  public:
   EdgeGroup(std::span<const EdgeRecord> records, std::span<const std::size_t> rows)
   {
-    for (const std::size_t row : rows)
+    for (const std::size_t row : rows) {
+      all_.push_back(&records[row]);
       if (records[row].is_on_boundary) triangles_.push_back(&records[row]);
+    }
   }
 
   void check(EdgeMatch& match, Findings& findings) const
   {
     ++match.num_edges;
+    for (const EdgeRecord* record : all_)
+      if (record->twin != kNoPiece && !has_record_of(record->twin)) ++match.num_halves;
     if (triangles_.size() % 2 == 1)
       report(Kind::kBoundaryEdge, findings);
     else if (triangles_.size() > 2)
@@ -39,6 +44,14 @@ class EdgeGroup {
   }
 
  private:
+  static Vec3 widened(const std::array<float, 3>& x) { return {x[0], x[1], x[2]}; }
+
+  [[nodiscard]] bool has_record_of(LocalIndex piece) const
+  {
+    return std::any_of(all_.begin(), all_.end(),
+                       [&](const EdgeRecord* record) { return record->piece == piece; });
+  }
+
   static GlobalIndex name(const EdgeRecord& record)
   {
     return component_name(record.piece, record.boundary_component);
@@ -48,8 +61,8 @@ class EdgeGroup {
   {
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       for (std::size_t j = i + 1; j < triangles_.size(); ++j) {
-        const Vec3& a = triangles_[i]->inward;
-        const Vec3& b = triangles_[j]->inward;
+        const Vec3 a = widened(triangles_[i]->inward);
+        const Vec3 b = widened(triangles_[j]->inward);
         if (dot(a, b) > 0.5 && norm(a - b) <= kFoldAngle) return true;
       }
     }
@@ -60,7 +73,7 @@ class EdgeGroup {
   {
     const EdgeRecord& first = *triangles_[0];
     findings.add(kind, {first.piece, first.cell}, [&] {
-      const Vec3 near{first.middle[0], first.middle[1], first.middle[2]};
+      const Vec3 near = widened(first.middle);
       std::string text = concat("edge near ", to_text(near), " has ", triangles_.size(),
                                 " boundary triangles, of");
       for (const EdgeRecord* triangle : triangles_) {
@@ -70,7 +83,8 @@ class EdgeGroup {
     });
   }
 
-  std::vector<const EdgeRecord*> triangles_{};
+  std::vector<const EdgeRecord*> all_{};
+  std::vector<const EdgeRecord*> triangles_{};  // Of these, the ones on the boundary.
 };
 
 }  // namespace
@@ -80,13 +94,17 @@ EdgeMatch match_edges(std::span<const EdgeRecord> records, const comm::Communica
 {
   const RecordExchange<EdgeRecord> exchange(
       records, [](const EdgeRecord& record) { return hash_of(record.key); }, comm);
-  const std::span<const EdgeRecord> received = exchange.received();
   EdgeMatch match;
-  for_each_group(
-      received, [](const EdgeRecord& record) { return record.key; },
-      [](const EdgeRecord& r) { return std::make_tuple(r.piece, r.cell, r.inward); },
-      [&](std::span<const std::size_t> rows) { EdgeGroup(received, rows).check(match, findings); });
+  match_own_edges(exchange.received(), match, findings);
   return match;
+}
+
+void match_own_edges(std::span<const EdgeRecord> records, EdgeMatch& match, Findings& findings)
+{
+  for_each_group(
+      records, [](const EdgeRecord& record) { return record.key; },
+      [](const EdgeRecord& r) { return std::make_tuple(r.piece, r.cell, r.inward); },
+      [&](std::span<const std::size_t> rows) { EdgeGroup(records, rows).check(match, findings); });
 }
 
 }  // namespace tessera::check

@@ -14,11 +14,12 @@ namespace tessera::check {
 
 struct EdgeMatch {
   GlobalIndex num_edges = 0;        ///< Different ones of this rank's share.
+  GlobalIndex num_halves = 0;       ///< Halves that pieces counted, but belong to one of these.
   GlobalIndex num_nonmanifold = 0;  ///< With an even number of boundary triangles above 2.
   std::vector<Link> links{};        ///< Components of the boundary joined across pieces.
 };
 
-/// @brief Brings together the boundary triangles at each edge of the surfaces of pieces.
+/// @brief Brings together the boundary triangles at each edge that several pieces may have.
 ///
 /// Reported: edges with an odd number of boundary triangles, and boundary triangles that lie on one
 /// another at their common edge. Such a fold has no volume: it is the rim of a crack, where the
@@ -26,5 +27,8 @@ struct EdgeMatch {
 /// @note Collective.
 [[nodiscard]] EdgeMatch match_edges(std::span<const EdgeRecord> records,
                                     const comm::Communicator& comm, Findings& findings);
+
+/// @brief The same for edges of one piece alone. Local.
+void match_own_edges(std::span<const EdgeRecord> records, EdgeMatch& match, Findings& findings);
 
 }  // namespace tessera::check

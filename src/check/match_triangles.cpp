@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check/match_triangles.hpp"
 
+#include <algorithm>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "check/concat.hpp"
-#include "check/record_exchange.hpp"
 
 namespace tessera::check {
 namespace {
@@ -39,12 +40,15 @@ class TriangleGroup {
     return records_[rows_[num_sides_ + i]];
   }
 
-  [[nodiscard]] TriangleRole role() const
+  [[nodiscard]] TriangleRole role(BoundaryFile boundary) const
   {
-    if (num_sides_ == 1) return TriangleRole::kOutside;
+    if (num_sides_ == 1) {
+      return boundary == BoundaryFile::kPartial && num_listed() == 0 ? TriangleRole::kOpenSeam
+                                                                     : TriangleRole::kOutside;
+    }
     if (num_sides_ != 2 || side(0).is_odd == side(1).is_odd) return TriangleRole::kFaulty;
     if (side(0).attribute != side(1).attribute) return TriangleRole::kInterface;
-    return side(0).piece == side(1).piece ? TriangleRole::kInner : TriangleRole::kSeam;
+    return side(0).subdomain == side(1).subdomain ? TriangleRole::kInner : TriangleRole::kSeam;
   }
 
  private:
@@ -53,11 +57,12 @@ class TriangleGroup {
   std::size_t num_sides_ = 0;
 };
 
-void report_fault(const TriangleGroup& group, Findings& findings)
+// @param is_late Two tets on both sides were there before.
+void report_fault(const TriangleGroup& group, bool is_late, Findings& findings)
 {
   findings.add(Kind::kTriangle, place_of(group.side(0)), [&] {
-    std::string text = group.num_sides() == 2 ? "triangle has two tets on one side:"
-                                              : "triangle has more than two tets:";
+    std::string text = !is_late && group.num_sides() == 2 ? "triangle has two tets on one side:"
+                                                          : "triangle has more than two tets:";
     for (std::size_t i = 0; i < group.num_sides(); ++i)
       text += concat(" ", describe(group.side(i)), ";");
     return text;
@@ -75,8 +80,8 @@ void check_listed(const TriangleRecord& listed, const TriangleRecord& side, Find
   if (listed.cell_id != kNoId && side.cell_id != kNoId && listed.cell_id != side.cell_id)
     report(Kind::kBoundaryTet, concat("names tet ", listed.cell_id));
   if (listed.is_odd != side.is_odd) report(Kind::kBoundaryOrientation, "points inwards");
-  if (listed.attribute != kNoSubdomain && listed.attribute != side.piece)
-    report(Kind::kBoundarySubdomain, concat("names subdomain ", listed.attribute));
+  if (listed.subdomain != kNoSubdomain && listed.subdomain != side.subdomain)
+    report(Kind::kBoundarySubdomain, concat("names subdomain ", listed.subdomain));
 }
 
 // The side a listed triangle means: that of the tet it names, or else the one it is turned to.
@@ -121,7 +126,7 @@ void count(const TriangleGroup& group, TriangleRole role, TriangleCounts& counts
   if (role == TriangleRole::kOutside) ++counts.num_outside;
   if (role == TriangleRole::kSeam) ++counts.num_seam;
   if (role == TriangleRole::kInterface) ++counts.num_interface;
-  if (role == TriangleRole::kOutside && group.num_listed() == 0) ++counts.num_unlisted;
+  if (is_open(role) && group.num_listed() == 0) ++counts.num_unlisted;
 }
 
 void link_pieces(const TriangleGroup& group, std::vector<Link>& links)
@@ -129,38 +134,100 @@ void link_pieces(const TriangleGroup& group, std::vector<Link>& links)
   for (std::size_t i = 1; i < group.num_sides(); ++i) {
     const auto a = component_name(group.side(0).piece, group.side(0).component);
     const auto b = component_name(group.side(i).piece, group.side(i).component);
-    if (a != b && (links.empty() || links.back() != Link{a, b})) links.push_back({a, b});
+    if (a != b) links.push_back({a, b});
   }
+}
+
+void append_verdicts(const TriangleGroup& group, TriangleRole role,
+                     std::vector<TriangleVerdict>& verdicts)
+{
+  for (std::size_t i = 0; i < group.num_sides(); ++i) {
+    const TriangleRecord& side = group.side(i);
+    if (side.row == kNoIndex) continue;
+    const LocalIndex partner = group.num_sides() == 2 ? group.side(1 - i).piece : kNoPiece;
+    verdicts.push_back({side.piece, side.row, partner, role});
+  }
+}
+
+// Whether nothing that may come can change what is to be said of the triangle; but for a third
+// side, which is noticed by the key.
+bool is_final(TriangleRole role)
+{
+  return role == TriangleRole::kInner || role == TriangleRole::kSeam;
+}
+
+std::vector<TriangleVerdict> send_to_readers(std::vector<TriangleVerdict> verdicts,
+                                             const comm::Communicator& comm)
+{
+  const RecordExchange<TriangleVerdict> exchange(
+      verdicts,
+      [](const TriangleVerdict& verdict) { return static_cast<std::uint64_t>(verdict.piece); },
+      comm);
+  const auto received = exchange.received();
+  return {received.begin(), received.end()};
 }
 
 }  // namespace
 
-TriangleMatch match_triangles(std::span<const TriangleRecord> records, bool has_boundary,
-                              const comm::Communicator& comm, Findings& findings)
+std::vector<TriangleVerdict> TriangleMatcher::add(std::vector<TriangleRecord> records)
 {
-  const auto key_of = [](const TriangleRecord& record) { return record.key; };
-  const RecordExchange<TriangleRecord> exchange(
-      records, [&](const TriangleRecord& record) { return hash_of(record.key); }, comm);
-  const std::span<const TriangleRecord> received = exchange.received();
+  RecordExchange<TriangleRecord> exchange(
+      records, [](const TriangleRecord& record) { return hash_of(record.key); }, comm_);
+  records = std::move(exchange).take_received();
+  records.insert(records.end(), open_.begin(), open_.end());
+  open_ = {};
+  std::vector<TriangleVerdict> verdicts = match(std::move(records), false);
+  sort_unique(links_);
+  return send_to_readers(std::move(verdicts), comm_);
+}
 
-  TriangleMatch match;
-  std::vector<TriangleRole> roles(received.size());
+std::vector<TriangleVerdict> TriangleMatcher::finish()
+{
+  return send_to_readers(match(std::exchange(open_, {}), true), comm_);
+}
+
+std::vector<TriangleVerdict> TriangleMatcher::match(std::vector<TriangleRecord> records,
+                                                    bool is_last)
+{
+  std::vector<TriangleVerdict> verdicts;
+  std::vector<TriangleKey> keys;
   for_each_group(
-      received, key_of,
+      std::span<const TriangleRecord>(records),
+      [](const TriangleRecord& record) { return record.key; },
       [](const TriangleRecord& r) {
         return std::make_tuple(r.is_listed, r.piece, r.cell, r.cell_id, r.is_odd);
       },
       [&](std::span<const std::size_t> rows) {
-        const TriangleGroup group(received, rows);
-        const TriangleRole role = group.role();
-        for (const std::size_t row : rows) roles[row] = role;
-        count(group, role, match.counts);
-        link_pieces(group, match.links);
-        if (role == TriangleRole::kFaulty && group.num_sides() > 0) report_fault(group, findings);
-        if (has_boundary) check_boundary(group, role, findings);
+        const TriangleGroup group(records, rows);
+        const bool is_late = group.num_sides() > 0 && is_settled(group.side(0).key);
+        const TriangleRole role = is_late ? TriangleRole::kFaulty : group.role(boundary_);
+        if (!is_last && (is_late || !is_final(role))) {
+          for (const std::size_t row : rows) open_.push_back(records[row]);
+          return;
+        }
+        if (!is_late) count(group, role, counts_);
+        link_pieces(group, links_);
+        append_verdicts(group, role, verdicts);
+        if (role == TriangleRole::kFaulty && group.num_sides() > 0)
+          report_fault(group, is_late, findings_);
+        if (boundary_ != BoundaryFile::kNone) check_boundary(group, role, findings_);
+        if (!is_last) keys.push_back(group.side(0).key);
       });
-  match.roles = exchange.answer(std::span<const TriangleRole>(roles), comm);
-  return match;
+  settle(std::move(keys));
+  return verdicts;
+}
+
+bool TriangleMatcher::is_settled(const TriangleKey& key) const
+{
+  return std::binary_search(settled_.begin(), settled_.end(), key);
+}
+
+void TriangleMatcher::settle(std::vector<TriangleKey> keys)
+{
+  std::sort(keys.begin(), keys.end());
+  const auto num_before = static_cast<std::ptrdiff_t>(settled_.size());
+  settled_.insert(settled_.end(), keys.begin(), keys.end());
+  std::inplace_merge(settled_.begin(), settled_.begin() + num_before, settled_.end());
 }
 
 }  // namespace tessera::check

@@ -5,6 +5,7 @@
 #include <bit>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "check/concat.hpp"
 #include "check/record_exchange.hpp"
@@ -32,123 +33,172 @@ bool is_same_position(const VertexRecord& a, const VertexRecord& b)
   return std::bit_cast<Bits>(a.position) == std::bit_cast<Bits>(b.position);
 }
 
-class VertexMatcher {
- public:
-  VertexMatcher(std::span<const VertexRecord> records, Identity identity, Findings& findings)
-      : records_(records), identity_(identity), findings_(findings), is_on_seam_(records.size(), 0)
-  {
-  }
+// Ids of one block go to one rank: a writer numbers in ranges, which are to stay runs.
+constexpr int kIdBlockBits = 12;
+constexpr std::size_t kMinSlots = 1024;
+// Records that a rank compares by position at a time.
+constexpr GlobalIndex kPositionsAtOnce = GlobalIndex{1} << 18;
 
-  // Rows of the points of the mesh come before those of the boundary file.
-  void match(std::span<const std::size_t> rows)
-  {
-    const VertexRecord& first = records_[rows[0]];
-    bool is_used = false;
-    std::uint8_t is_on_seam = 0;
-    for (const std::size_t row : rows) {
-      is_used = is_used || records_[row].is_used;
-      if (records_[row].is_on_seam) is_on_seam = 1;
-    }
-    for (const std::size_t row : rows) is_on_seam_[row] = is_on_seam;
-    if (is_used) ++match_.num_vertices;
-    if (first.is_listed) {
-      report_stranger(first);
-    } else {
-      compare_positions(rows);
-      check_inner(rows);
-      if (identity_ == Identity::kIds) {
-        match_.ids.push_back({first.id, first.piece});
-        representatives_.push_back(first);
-      }
-    }
-  }
+void compare_positions(VertexRecord& first, const VertexRecord& other, Findings& findings)
+{
+  first.is_shared = first.is_shared || !other.is_listed;
+  if (is_same_position(first, other)) return;
+  first.is_contradicted = first.is_contradicted || !other.is_listed;
+  findings.add(other.is_listed ? Kind::kBoundaryPoint : Kind::kPointPosition, place_of(other),
+               [&] { return concat(describe(other), "; but ", describe(first)); });
+}
 
-  [[nodiscard]] std::span<const std::uint8_t> is_on_seam() const { return is_on_seam_; }
-  [[nodiscard]] std::span<const VertexRecord> representatives() const { return representatives_; }
-  [[nodiscard]] VertexMatch take() && { return std::move(match_); }
-
- private:
-  void report_stranger(const VertexRecord& listed)
-  {
-    findings_.add(Kind::kBoundaryPoint, place_of(listed), [&] {
-      return concat(describe(listed), " is no point on the surface of a piece");
-    });
-  }
-
-  void compare_positions(std::span<const std::size_t> rows)
-  {
-    if (identity_ != Identity::kIds) return;
-    const VertexRecord& first = records_[rows[0]];
-    bool is_shared = false;
-    bool is_contradicted = false;
-    for (const std::size_t row : rows.subspan(1)) {
-      const VertexRecord& other = records_[row];
-      is_shared = is_shared || !other.is_listed;
-      if (is_same_position(first, other)) continue;
-      is_contradicted = is_contradicted || !other.is_listed;
-      findings_.add(other.is_listed ? Kind::kBoundaryPoint : Kind::kPointPosition, place_of(other),
-                    [&] { return concat(describe(other), "; but ", describe(first)); });
-    }
-    if (is_shared) ++match_.num_shared_ids;
-    if (is_contradicted) ++match_.num_contradicted;
-  }
-
-  // A point inside a piece that another piece has as well.
-  void check_inner(std::span<const std::size_t> rows)
-  {
-    for (const std::size_t row : rows.subspan(1)) {
-      const VertexRecord& first = records_[rows[0]];
-      const VertexRecord& other = records_[row];
-      if (!first.is_inner && !other.is_inner) continue;
-      findings_.add(
-          other.is_listed ? Kind::kBoundaryPoint : Kind::kDuplicatePoint, place_of(other),
-          [&] { return concat(describe(other), " is inside another piece: ", describe(first)); });
-    }
-  }
-
-  std::span<const VertexRecord> records_;
-  Identity identity_;
-  Findings& findings_;
-  std::vector<std::uint8_t> is_on_seam_;
-  std::vector<VertexRecord> representatives_{};  // One for each id.
-  VertexMatch match_{};
-};
+// Reports a point inside a piece that another piece has as well.
+void check_inner(const VertexRecord& first, const VertexRecord& other, Findings& findings)
+{
+  if (!first.is_inner && !other.is_inner) return;
+  findings.add(
+      other.is_listed ? Kind::kBoundaryPoint : Kind::kDuplicatePoint, place_of(other),
+      [&] { return concat(describe(other), " is inside another piece: ", describe(first)); });
+}
 
 // Reports different ids at one position in different pieces; those in one piece it has reported.
-void match_positions(std::span<const VertexRecord> representatives, const comm::Communicator& comm,
-                     Findings& findings)
+void compare_ids(std::span<const VertexRecord> received, std::span<const std::size_t> rows,
+                 Findings& findings)
 {
-  const auto key = [](const VertexRecord& record) { return key_of_position(record.position); };
-  const RecordExchange<VertexRecord> exchange(
-      representatives, [&](const VertexRecord& record) { return hash_of(key(record)); }, comm);
-  const std::span<const VertexRecord> received = exchange.received();
-  for_each_group(received, key, order_of, [&](std::span<const std::size_t> rows) {
-    for (const std::size_t row : rows.subspan(1)) {
-      const VertexRecord& first = received[rows[0]];
-      const VertexRecord& other = received[row];
-      if (first.piece == other.piece) continue;
-      findings.add(Kind::kDuplicatePoint, place_of(other),
-                   [&] { return concat(describe(first), " and ", describe(other)); });
-    }
-  });
+  for (const std::size_t row : rows.subspan(1)) {
+    const VertexRecord& first = received[rows[0]];
+    const VertexRecord& other = received[row];
+    if (first.piece == other.piece) continue;
+    findings.add(Kind::kDuplicatePoint, place_of(other),
+                 [&] { return concat(describe(first), " and ", describe(other)); });
+  }
 }
 
 }  // namespace
 
-VertexMatch match_vertices(std::span<const VertexRecord> records, Identity identity,
-                           const comm::Communicator& comm, Findings& findings)
+VertexMatcher::VertexMatcher(const comm::Communicator& comm, Findings& findings)
+    : comm_(comm), findings_(findings), slots_(kMinSlots, kNoIndex)
 {
+}
+
+void VertexMatcher::add(std::span<const VertexRecord> records, Identity identity)
+{
+  identity_ = identity;
   const auto key = [&](const VertexRecord& record) { return key_of(record, identity); };
   const RecordExchange<VertexRecord> exchange(
-      records, [&](const VertexRecord& record) { return hash_of(key(record)); }, comm);
-  VertexMatcher matcher(exchange.received(), identity, findings);
+      records, [&](const VertexRecord& record) { return owner_of(key(record)); }, comm_);
   for_each_group(exchange.received(), key, order_of,
-                 [&](std::span<const std::size_t> rows) { matcher.match(rows); });
-  match_positions(matcher.representatives(), comm, findings);
-  const auto is_on_seam = exchange.answer(matcher.is_on_seam(), comm);
-  VertexMatch match = std::move(matcher).take();
-  match.is_on_seam = is_on_seam;
-  return match;
+                 [&](std::span<const std::size_t> rows) { take(exchange.received(), rows); });
+}
+
+void VertexMatcher::mark_seam(std::span<const VertexKey> keys)
+{
+  const RecordExchange<VertexKey> exchange(
+      keys, [&](const VertexKey& key) { return owner_of(key); }, comm_);
+  for (const VertexKey& key : exchange.received())
+    vertices_[static_cast<std::size_t>(slots_[slot_of(key)])].is_on_seam = true;
+}
+
+std::vector<VertexFlags> VertexMatcher::flags(std::span<const VertexKey> keys) const
+{
+  const RecordExchange<VertexKey> exchange(
+      keys, [&](const VertexKey& key) { return owner_of(key); }, comm_);
+  std::vector<VertexFlags> answers;
+  answers.reserve(exchange.received().size());
+  for (const VertexKey& key : exchange.received()) {
+    const VertexRecord& vertex = vertices_[static_cast<std::size_t>(slots_[slot_of(key)])];
+    answers.push_back({vertex.is_on_seam, vertex.is_shared});
+  }
+  return exchange.answer(std::span<const VertexFlags>(answers), comm_);
+}
+
+VertexTotals VertexMatcher::finish()
+{
+  VertexTotals totals;
+  for (const VertexRecord& vertex : vertices_) {
+    if (vertex.is_used) ++totals.num_vertices;
+    if (vertex.is_listed) {
+      findings_.add(Kind::kBoundaryPoint, place_of(vertex), [&] {
+        return concat(describe(vertex), " is no point on the surface of a piece");
+      });
+    } else if (identity_ == Identity::kIds) {
+      totals.ids.push_back({vertex.id, vertex.piece});
+      if (vertex.is_shared) ++totals.num_shared_ids;
+      if (vertex.is_contradicted) ++totals.num_contradicted;
+    }
+  }
+  match_positions();
+  return totals;
+}
+
+std::uint64_t VertexMatcher::owner_of(const VertexKey& key) const
+{
+  return identity_ == Identity::kIds ? key[0] >> kIdBlockBits : key[0];
+}
+
+// Where the vertex is, or the empty slot where it belongs.
+std::size_t VertexMatcher::slot_of(const VertexKey& key) const
+{
+  std::size_t slot = hash_of(key) & (slots_.size() - 1);
+  while (slots_[slot] != kNoIndex) {
+    const auto row = static_cast<std::size_t>(slots_[slot]);
+    if (key_of(vertices_[row], identity_) == key) break;
+    slot = (slot + 1) & (slots_.size() - 1);
+  }
+  return slot;
+}
+
+// Doubles the table.
+void VertexMatcher::grow()
+{
+  slots_.assign(2 * slots_.size(), kNoIndex);
+  for (std::size_t row = 0; row < vertices_.size(); ++row)
+    slots_[slot_of(key_of(vertices_[row], identity_))] = static_cast<LocalIndex>(row);
+}
+
+// Rows are of one vertex, those of tets before those of the boundary file.
+void VertexMatcher::take(std::span<const VertexRecord> records, std::span<const std::size_t> rows)
+{
+  const std::size_t slot = slot_of(key_of(records[rows[0]], identity_));
+  const bool is_new = slots_[slot] == kNoIndex;
+  if (is_new) {
+    slots_[slot] = static_cast<LocalIndex>(vertices_.size());
+    vertices_.push_back(records[rows[0]]);
+  }
+  VertexRecord& first = vertices_[static_cast<std::size_t>(slots_[slot])];
+  for (const std::size_t row : rows.subspan(is_new ? 1 : 0)) take(first, records[row]);
+  if (4 * vertices_.size() > 3 * slots_.size()) grow();
+}
+
+void VertexMatcher::take(VertexRecord& first, VertexRecord other)
+{
+  const bool is_used = first.is_used || other.is_used;
+  const bool is_on_seam = first.is_on_seam || other.is_on_seam;
+  if (first.is_listed && !other.is_listed) {
+    std::swap(first, other);  // What tets say of a vertex comes before what the boundary says.
+  }
+  first.is_used = is_used;
+  first.is_on_seam = is_on_seam;
+  if (identity_ == Identity::kIds)
+    compare_positions(first, other, findings_);
+  else
+    first.is_shared = first.is_shared || !other.is_listed;
+  check_inner(first, other, findings_);
+}
+
+// In several rounds, so that only a part of the vertices is sent at a time.
+void VertexMatcher::match_positions()
+{
+  if (identity_ != Identity::kIds) return;
+  const auto most = comm_.max(static_cast<double>(vertices_.size()));
+  const auto num_rounds = 1 + static_cast<std::uint64_t>(most) / kPositionsAtOnce;
+  const auto key = [](const VertexRecord& record) { return key_of_position(record.position); };
+  for (std::uint64_t round = 0; round < num_rounds; ++round) {
+    std::vector<VertexRecord> sent;
+    for (const VertexRecord& vertex : vertices_)
+      if (!vertex.is_listed && key(vertex)[1] % num_rounds == round) sent.push_back(vertex);
+    const RecordExchange<VertexRecord> exchange(
+        sent, [&](const VertexRecord& record) { return key(record)[0]; }, comm_);
+    for_each_group(exchange.received(), key, order_of, [&](std::span<const std::size_t> rows) {
+      compare_ids(exchange.received(), rows, findings_);
+    });
+  }
 }
 
 }  // namespace tessera::check

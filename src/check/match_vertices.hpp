@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -13,19 +14,53 @@
 
 namespace tessera::check {
 
-struct VertexMatch {
-  std::vector<std::uint8_t>
-      is_on_seam{};                  ///< Parallel to the records sent: 1 if it is in any piece.
+/// @brief What is known of a vertex from all pieces.
+struct VertexFlags {
+  bool is_on_seam = false;  ///< On a seam triangle of any piece.
+  bool is_shared = false;   ///< In several pieces of tets.
+};
+
+struct VertexTotals {
   GlobalIndex num_vertices = 0;      ///< Different ones that a tet uses, of this rank's share.
   GlobalIndex num_shared_ids = 0;    ///< Ids that stand in several pieces, of this rank's share.
   GlobalIndex num_contradicted = 0;  ///< Of those, with more than one position.
   std::vector<PointId> ids{};        ///< Different ids of this rank's share; matching by ids only.
 };
 
-/// @brief Brings together what different pieces say about the same vertex.
-/// @note Collective.
-[[nodiscard]] VertexMatch match_vertices(std::span<const VertexRecord> records, Identity identity,
-                                         const comm::Communicator& comm, Findings& findings);
+/// @brief Brings together what different pieces say about the same vertex, batch by batch of
+/// pieces. One record stays of every vertex: that of its lowest piece.
+class VertexMatcher {
+ public:
+  VertexMatcher(const comm::Communicator& comm, Findings& findings);
+
+  /// @brief Takes the vertices of a batch.
+  /// @note Collective; the batches in the order of pieces, all of them with the same identity.
+  void add(std::span<const VertexRecord> records, Identity identity);
+
+  /// @brief Notes that vertices are on a seam. @note Collective. @pre they were added.
+  void mark_seam(std::span<const VertexKey> keys);
+
+  /// @brief What is known of some vertices. @note Collective. @pre they were added.
+  [[nodiscard]] std::vector<VertexFlags> flags(std::span<const VertexKey> keys) const;
+
+  /// @brief Compares the positions of different vertices and counts.
+  /// @note Collective; once, at the end.
+  [[nodiscard]] VertexTotals finish();
+
+ private:
+  [[nodiscard]] std::uint64_t owner_of(const VertexKey& key) const;
+  [[nodiscard]] std::size_t slot_of(const VertexKey& key) const;
+  void grow();
+  void take(std::span<const VertexRecord> records, std::span<const std::size_t> rows);
+  void take(VertexRecord& first, VertexRecord other);
+  void match_positions();
+
+  const comm::Communicator& comm_;
+  Findings& findings_;
+  Identity identity_ = Identity::kIds;
+  std::deque<VertexRecord> vertices_{};  // Grows without a second copy.
+  std::vector<LocalIndex> slots_{};      // Hash table of rows of vertices_; kNoIndex where empty.
+};
 
 [[nodiscard]] inline VertexKey key_of(const VertexRecord& record, Identity identity)
 {

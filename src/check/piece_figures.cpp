@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <string>
+#include <tuple>
 
 #include "tessera/base/hash.hpp"
 
@@ -45,6 +46,20 @@ Hash128 digest_of(const PieceMesh& mesh, LocalIndex cell)
   return hash_tet(ids, xyz, mesh.material(cell));
 }
 
+// Whether a cell of four different points that exist has one on a seam.
+bool has_seam_point(std::span<const GlobalIndex, 4> points, const std::vector<bool>& is_on_seam)
+{
+  const auto num_points = static_cast<GlobalIndex>(is_on_seam.size());
+  bool is_seam_tet = false;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (points[i] < 0 || points[i] >= num_points) return false;
+    is_seam_tet = is_seam_tet || is_on_seam[static_cast<std::size_t>(points[i])];
+    for (std::size_t j = 0; j < i; ++j)
+      if (points[i] == points[j]) return false;
+  }
+  return is_seam_tet;
+}
+
 void report_volume(const PieceMesh& mesh, LocalIndex cell, double volume, Findings& findings)
 {
   findings.add(Kind::kNonPositiveVolume, {mesh.name.piece, cell}, [&] {
@@ -56,52 +71,73 @@ void report_volume(const PieceMesh& mesh, LocalIndex cell, double volume, Findin
 
 }  // namespace
 
-PieceFigures measure(const PieceMesh& mesh, Findings& findings)
+PieceRecord& PieceRecords::of(std::int32_t subdomain)
 {
-  PieceFigures figures;
-  figures.num_tets = mesh.num_cells();
+  if (last_ < records_.size() && records_[last_].figures.id == subdomain) return records_[last_];
+  const auto [entry, is_new] = row_.emplace(subdomain, records_.size());
+  last_ = entry->second;
+  if (is_new) {
+    PieceRecord& record = records_.emplace_back();
+    record.figures.id = subdomain;
+    record.piece = piece_;
+  }
+  return records_[last_];
+}
+
+PieceRecords measure(const PieceMesh& mesh, MeanRatioCounts& counts, Findings& findings)
+{
+  PieceRecords records(mesh.name.piece);
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
+    PieceRecord& record = records.of(mesh.subdomain_of(c));
+    ++record.figures.num_tets;
     if (mesh.is_left_out(c)) continue;
     const auto corners = corner_positions(mesh, c);
     const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
     if (!(volume > 0.0)) report_volume(mesh, c, volume, findings);
-    if (std::isfinite(volume)) figures.volume += volume;
-    if (mesh.has_point_ids) figures.digest += digest_of(mesh, c);
-  }
-  return figures;
-}
-
-void measure_shapes(const PieceMesh& mesh, const std::vector<bool>& is_on_seam, PieceRecord& record,
-                    ShapeCounts& counts)
-{
-  for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
-    if (mesh.is_left_out(c)) continue;
-    const auto corners = corner_positions(mesh, c);
+    if (std::isfinite(volume)) record.figures.volume += volume;
+    if (mesh.has_point_ids) record.figures.digest += digest_of(mesh, c);
     if (!is_finite(corners)) continue;
     const TetShape shape = shape_of(corners);
     record.shapes.add(shape);
-    counts.all.add(shape.mean_ratio);
-    const auto tet = mesh.cell(c);
-    const bool is_seam_tet = std::any_of(tet.begin(), tet.end(), [&](LocalIndex v) {
-      return is_on_seam[static_cast<std::size_t>(v)];
-    });
-    if (!is_seam_tet) continue;
-    record.seam_shapes.add(shape);
-    counts.seam.add(shape.mean_ratio);
+    counts.add(shape.mean_ratio);
+  }
+  return records;
+}
+
+void measure_seam_tets(const mesh::MeshArrays& arrays, const std::vector<bool>& is_on_seam,
+                       PieceRecords& records, MeanRatioCounts& counts)
+{
+  const auto subdomain = arrays.cell_ints.find("subdomain");
+  const std::span<const double> xyz(arrays.point_xyz);
+  for (std::size_t c = 0; 4 * c < arrays.cell_points.size(); ++c) {
+    const auto points = std::span(arrays.cell_points).subspan(4 * c).first<4>();
+    if (!has_seam_point(points, is_on_seam)) continue;
+    const std::array corners{point_at(xyz, points[0]), point_at(xyz, points[1]),
+                             point_at(xyz, points[2]), point_at(xyz, points[3])};
+    if (!is_finite(corners)) continue;
+    const TetShape shape = shape_of(corners);
+    const bool has_subdomain = subdomain != arrays.cell_ints.end()
+                               && 4 * subdomain->second.size() == arrays.cell_points.size();
+    records.of(has_subdomain ? subdomain->second[c] : records.piece()).seam_shapes.add(shape);
+    counts.add(shape.mean_ratio);
   }
 }
 
-std::vector<PieceRecord> all_records(std::span<const PieceRecord> own,
+std::vector<PieceRecord> all_records(std::span<const PieceRecords> own,
                                      const comm::Communicator& comm)
 {
+  std::vector<PieceRecord> sent;
+  for (const PieceRecords& records : own)
+    sent.insert(sent.end(), records.all().begin(), records.all().end());
   std::vector<PieceRecord> all;
-  for (const Bytes& bytes : comm.all_gather(std::as_bytes(own))) {
+  for (const Bytes& bytes : comm.all_gather(std::as_bytes(std::span(sent)))) {
     const std::size_t begin = all.size();
     all.resize(begin + bytes.size() / sizeof(PieceRecord));
     std::memcpy(all.data() + begin, bytes.data(), bytes.size());
   }
-  std::sort(all.begin(), all.end(),
-            [](const PieceRecord& a, const PieceRecord& b) { return a.piece < b.piece; });
+  std::sort(all.begin(), all.end(), [](const PieceRecord& a, const PieceRecord& b) {
+    return std::tie(a.figures.id, a.piece) < std::tie(b.figures.id, b.piece);
+  });
   return all;
 }
 

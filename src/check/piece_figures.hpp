@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -9,38 +12,54 @@
 
 #include "check/findings.hpp"
 #include "check/piece_mesh.hpp"
-#include "check/piece_surface.hpp"
 #include "check/quality.hpp"
 
 namespace tessera::check {
 
-/// @brief Figures of one piece; added in the order of pieces, whichever rank has them.
+/// @brief Figures of the tets that a piece has of one subdomain; added in the order of subdomains
+/// and pieces, whichever rank has them.
 struct PieceRecord {
+  SubdomainFigures figures{};
   LocalIndex piece = 0;
-  PieceFigures figures{};
   double boundary_area = 0.0;
   ShapeSums shapes{};
   ShapeSums seam_shapes{};
 };
 
-/// @brief Volume and digest of a piece; reports tets without positive volume. Local.
-/// The digest is that of the cells whose points are in range, and zero if the piece has no ids.
-[[nodiscard]] PieceFigures measure(const PieceMesh& mesh, Findings& findings);
+/// @brief The records of one piece.
+class PieceRecords {
+ public:
+  explicit PieceRecords(LocalIndex piece) : piece_(piece) {}
 
-/// @brief Counts of mean ratios of all tets, and of the seam tets.
-struct ShapeCounts {
-  MeanRatioCounts all{};
-  MeanRatioCounts seam{};
+  /// @brief Record of a subdomain, made when it is asked for first. Fast for the one asked for
+  /// last.
+  [[nodiscard]] PieceRecord& of(std::int32_t subdomain);
+  [[nodiscard]] LocalIndex piece() const { return piece_; }
+  [[nodiscard]] const std::vector<PieceRecord>& all() const { return records_; }
+
+ private:
+  LocalIndex piece_;
+  std::size_t last_ = 0;  // Asked for last.
+  std::vector<PieceRecord> records_{};
+  std::map<std::int32_t, std::size_t> row_{};  // Of each subdomain.
 };
 
-/// @brief Shapes of the finite tets of a piece. Local.
-/// @param[in] is_on_seam Shape (num_points).
-void measure_shapes(const PieceMesh& mesh, const std::vector<bool>& is_on_seam, PieceRecord& record,
-                    ShapeCounts& counts);
+/// @brief Volumes, digests and shapes of a piece; reports tets without positive volume. Local.
+/// A digest is that of the cells whose points are in range, and zero if the piece has no ids.
+/// Shapes are those of the finite tets.
+/// @param[in,out] counts Gets their mean ratios.
+[[nodiscard]] PieceRecords measure(const PieceMesh& mesh, MeanRatioCounts& counts,
+                                   Findings& findings);
 
-/// @brief The records of all ranks in the order of pieces, on every rank.
+/// @brief Shapes of the finite tets that have a point on a seam. Local.
+/// @param[in] is_on_seam Shape (num_points).
+/// @param[in,out] counts Gets their mean ratios.
+void measure_seam_tets(const mesh::MeshArrays& arrays, const std::vector<bool>& is_on_seam,
+                       PieceRecords& records, MeanRatioCounts& counts);
+
+/// @brief The records of all ranks in the order of subdomains and pieces, on every rank.
 /// @note Collective.
-[[nodiscard]] std::vector<PieceRecord> all_records(std::span<const PieceRecord> own,
+[[nodiscard]] std::vector<PieceRecord> all_records(std::span<const PieceRecords> own,
                                                    const comm::Communicator& comm);
 
 }  // namespace tessera::check

@@ -2,6 +2,7 @@
 #include "check/piece_mesh.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -74,25 +75,20 @@ void check_sizes(const PieceName& name, mesh::MeshArrays& arrays, Findings& find
   drop_wrong_lengths(name, num_cells, arrays.cell_doubles, findings);
 }
 
-struct KeyedPoint {
-  VertexKey key{};
-  LocalIndex point = 0;
-
-  friend auto operator<=>(const KeyedPoint&, const KeyedPoint&) = default;
-};
-
-// For each point the lowest point with the same key.
+// For each point the lowest point with the same key, by a hash table of points.
 template <class KeyOf>
 std::vector<LocalIndex> lowest_of_equal(LocalIndex num_points, const KeyOf& key_of)
 {
-  std::vector<KeyedPoint> order(static_cast<std::size_t>(num_points));
-  for (LocalIndex p = 0; p < num_points; ++p) order[static_cast<std::size_t>(p)] = {key_of(p), p};
-  std::sort(order.begin(), order.end());
-  std::vector<LocalIndex> lowest(order.size());
-  const KeyedPoint* first = nullptr;
-  for (const KeyedPoint& item : order) {
-    if (first == nullptr || first->key != item.key) first = &item;
-    lowest[static_cast<std::size_t>(item.point)] = first->point;
+  const std::size_t num_slots = std::bit_ceil(2 * static_cast<std::size_t>(num_points) + 1);
+  std::vector<LocalIndex> slots(num_slots, kNoIndex);
+  std::vector<LocalIndex> lowest(static_cast<std::size_t>(num_points));
+  for (LocalIndex p = 0; p < num_points; ++p) {
+    const VertexKey key = key_of(p);
+    std::size_t slot = hash_of(key) & (num_slots - 1);
+    while (slots[slot] != kNoIndex && key_of(slots[slot]) != key)
+      slot = (slot + 1) & (num_slots - 1);
+    if (slots[slot] == kNoIndex) slots[slot] = p;
+    lowest[static_cast<std::size_t>(p)] = slots[slot];
   }
   return lowest;
 }
@@ -189,15 +185,16 @@ void set_cells(PieceMesh& mesh, Findings& findings)
   }
 }
 
-}  // namespace
-
-std::int32_t PieceMesh::cell_int(const std::string& array, LocalIndex c,
-                                 std::int32_t otherwise) const
+// Takes a cell array out of the piece. @return `otherwise` for every cell if the piece has none.
+std::vector<std::int32_t> take_ints(mesh::MeshArrays& arrays, const std::string& name,
+                                    std::int32_t otherwise)
 {
-  const auto found = arrays.cell_ints.find(array);
-  if (found == arrays.cell_ints.end()) return otherwise;
-  return found->second[static_cast<std::size_t>(c)];
+  const auto found = arrays.cell_ints.find(name);
+  if (found != arrays.cell_ints.end()) return std::move(found->second);
+  return std::vector<std::int32_t>(static_cast<std::size_t>(arrays.num_cells()), otherwise);
 }
+
+}  // namespace
 
 PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity identity,
                           Findings& findings)
@@ -211,9 +208,10 @@ PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity iden
                               arrays.cell_ids, findings);
   mesh.identity = mesh.has_point_ids ? identity : Identity::kPositions;
   mesh.arrays = std::move(arrays);
-  mesh.attribute.assign(static_cast<std::size_t>(mesh.num_cells()), 0);
-  const auto attribute = mesh.arrays.cell_ints.find("attribute");
-  if (attribute != mesh.arrays.cell_ints.end()) mesh.attribute = std::move(attribute->second);
+  mesh.attribute = take_ints(mesh.arrays, "attribute", 0);
+  mesh.has_subdomains = mesh.arrays.cell_ints.contains("subdomain");
+  mesh.subdomain =
+      take_ints(mesh.arrays, "subdomain", name.is_boundary ? kNoSubdomain : name.piece);
   check_points(mesh, findings);
   set_cells(mesh, findings);
   return mesh;

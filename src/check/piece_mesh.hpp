@@ -32,6 +32,9 @@ struct PieceMesh {
                                             ///< the points that are one; -1 in cells left out.
   std::vector<LocalIndex> unused_points{};
   std::vector<std::int32_t> attribute{};  ///< Shape (num_cells); material, 0 if the file has none.
+  std::vector<std::int32_t> subdomain{};  ///< Shape (num_cells); if the file has none, the piece's
+                                          ///< number; in the boundary file kNoSubdomain.
+  bool has_subdomains = false;            ///< The file has them.
 
   [[nodiscard]] LocalIndex num_points() const
   {
@@ -64,9 +67,10 @@ struct PieceMesh {
   {
     return identity == Identity::kIds ? key_of_id(point_id(v)) : key_of_position(position(v));
   }
-  /// @brief Value of a cell array of 32-bit integers, or `otherwise` if the file has none. Slow.
-  [[nodiscard]] std::int32_t cell_int(const std::string& array, LocalIndex c,
-                                      std::int32_t otherwise) const;
+  [[nodiscard]] std::int32_t subdomain_of(LocalIndex c) const
+  {
+    return subdomain[static_cast<std::size_t>(c)];
+  }
 };
 
 /// @brief Takes the arrays of one piece and reports what is wrong with them by themselves: sizes,

@@ -3,20 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <utility>
-
-#include "check/match_vertices.hpp"
-#include "check/union_find.hpp"
 
 namespace tessera::check {
 namespace {
 
-// Gives the points of a piece that are kept new consecutive numbers.
+// Chooses points of a piece and gives them consecutive rows.
 class VertexSelection {
  public:
-  VertexSelection(const PieceMesh& mesh, PieceSurface& surface)
-      : mesh_(mesh), surface_(surface), row_(static_cast<std::size_t>(mesh.num_points()), kNoIndex)
+  VertexSelection(const PieceMesh& mesh, std::vector<VertexRecord>& vertices)
+      : mesh_(mesh),
+        vertices_(vertices),
+        row_(static_cast<std::size_t>(mesh.num_points()), kNoIndex)
   {
   }
 
@@ -24,7 +22,7 @@ class VertexSelection {
   {
     LocalIndex& row = row_[static_cast<std::size_t>(point)];
     if (row != kNoIndex) return row;
-    row = static_cast<LocalIndex>(surface_.vertices.size());
+    row = static_cast<LocalIndex>(vertices_.size());
     VertexRecord record;
     record.position = mesh_.position(point);
     record.id = mesh_.point_id(point);
@@ -33,127 +31,88 @@ class VertexSelection {
     record.is_used = is_used;
     record.is_inner = is_inner;
     record.is_listed = mesh_.name.is_boundary;
-    surface_.vertices.push_back(record);
+    vertices_.push_back(record);
     return row;
   }
 
  private:
   const PieceMesh& mesh_;
-  PieceSurface& surface_;
+  std::vector<VertexRecord>& vertices_;
   std::vector<LocalIndex> row_;
 };
 
-PieceSurface empty_surface(const PieceMesh& mesh)
+// Key, parity and centroid of a triangle.
+TriangleRecord record_of(const PieceMesh& mesh, std::span<const LocalIndex> vertices,
+                         LocalIndex cell)
 {
-  PieceSurface surface;
-  surface.name = mesh.name;
-  surface.identity = mesh.identity;
-  return surface;
-}
-
-// Key, parity and centroid of the last triangle of the surface.
-TriangleRecord record_of_last(const PieceSurface& surface)
-{
-  const auto& vertices = surface.triangles.back();
   TriangleRecord record;
-  for (std::size_t i = 0; i < 3; ++i) record.key[i] = surface.key(vertices[i]);
-  record.is_odd = is_odd(record.key[0], record.key[1], record.key[2]);
-  std::sort(record.key.begin(), record.key.end());
+  std::array<VertexKey, 3> keys{mesh.key(vertices[0]), mesh.key(vertices[1]),
+                                mesh.key(vertices[2])};
+  record.is_odd = is_odd(keys[0], keys[1], keys[2]);
+  std::sort(keys.begin(), keys.end());
+  record.key = key_of_vertices(keys);
   const Vec3 sum =
-      surface.position(vertices[0]) + surface.position(vertices[1]) + surface.position(vertices[2]);
+      mesh.position(vertices[0]) + mesh.position(vertices[1]) + mesh.position(vertices[2]);
   for (std::size_t i = 0; i < 3; ++i) record.centroid[i] = static_cast<float>(sum[i] / 3.0);
-  record.piece = surface.name.piece;
-  record.cell = surface.cells.back();
-  record.is_listed = surface.name.is_boundary;
+  record.piece = mesh.name.piece;
+  record.cell = cell;
+  record.subdomain = mesh.subdomain_of(cell);
+  record.is_listed = mesh.name.is_boundary;
   return record;
 }
 
-// One corner of a surface triangle seen as the edge that starts there.
-struct TriangleEdge {
-  LocalIndex lower = 0;
-  LocalIndex upper = 0;
-  LocalIndex triangle = 0;
-  LocalIndex apex = 0;
-
-  friend auto operator<=>(const TriangleEdge&, const TriangleEdge&) = default;
-};
-
-std::vector<TriangleEdge> sorted_edges(const PieceSurface& surface)
+void add_triangle(PieceSurface& surface, const SurfaceTriangle& triangle,
+                  const std::array<LocalIndex, 3>& vertices, std::int32_t subdomain)
 {
-  std::vector<TriangleEdge> edges;
-  edges.reserve(3 * surface.triangles.size());
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const auto& v = surface.triangles[t];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [lower, upper] = std::minmax(v[i], v[(i + 1) % 3]);
-      edges.push_back({lower, upper, static_cast<LocalIndex>(t), v[(i + 2) % 3]});
+  surface.rows.push_back(static_cast<LocalIndex>(surface.triangles.size()));
+  surface.triangles.push_back(vertices);
+  surface.cells.push_back(triangle.cell);
+  surface.subdomains.push_back(subdomain);
+  surface.roles.push_back(TriangleRole::kUnknown);
+  surface.partners.push_back(kNoPiece);
+  surface.settled_edges.push_back(0);
+}
+
+void mark_seam(PieceSurface& surface, const std::array<LocalIndex, 3>& triangle,
+               std::vector<VertexKey>& seam_keys)
+{
+  for (const LocalIndex v : triangle) {
+    VertexRecord& vertex = surface.vertices[static_cast<std::size_t>(v)];
+    if (vertex.is_on_seam) continue;
+    vertex.is_on_seam = true;
+    surface.seam_points.push_back(vertex.point);
+    seam_keys.push_back(surface.key(v));
+  }
+}
+
+// Keeps the rows of `values` that are marked.
+template <class T>
+void keep(std::vector<T>& values, const std::vector<bool>& is_kept)
+{
+  std::vector<T> kept;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (is_kept[i]) kept.push_back(values[i]);
+  kept.shrink_to_fit();
+  values = std::move(kept);
+}
+
+// Drops the vertices that no triangle has.
+void shrink_vertices(PieceSurface& surface)
+{
+  std::vector<LocalIndex> new_row(surface.vertices.size(), kNoIndex);
+  std::vector<VertexRecord> kept;
+  for (auto& triangle : surface.triangles) {
+    for (LocalIndex& v : triangle) {
+      LocalIndex& row = new_row[static_cast<std::size_t>(v)];
+      if (row == kNoIndex) {
+        row = static_cast<LocalIndex>(kept.size());
+        kept.push_back(surface.vertices[static_cast<std::size_t>(v)]);
+      }
+      v = row;
     }
   }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-// Calls back with the triangles at each edge.
-template <class Visit>
-void for_each_edge(std::span<const TriangleEdge> edges, const Visit& visit)
-{
-  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
-    while (end < edges.size() && edges[end].lower == edges[begin].lower
-           && edges[end].upper == edges[begin].upper)
-      ++end;
-    visit(edges.subspan(begin, end - begin));
-  }
-}
-
-// Unit vector from the edge to the apex, normal to the edge; zero if they are on one line.
-Vec3 inward_of(const PieceSurface& surface, const TriangleEdge& edge)
-{
-  const Vec3 along = surface.position(edge.upper) - surface.position(edge.lower);
-  const Vec3 to_apex = surface.position(edge.apex) - surface.position(edge.lower);
-  const Vec3 across = to_apex - (dot(to_apex, along) / dot(along, along)) * along;
-  const double length = norm(across);
-  return length > 0.0 ? (1.0 / length) * across : Vec3{};
-}
-
-EdgeRecord record_of(const PieceSurface& surface, const TriangleEdge& edge)
-{
-  EdgeRecord record;
-  record.key = {surface.key(edge.lower), surface.key(edge.upper)};
-  std::sort(record.key.begin(), record.key.end());
-  const Vec3 middle = midpoint(surface.position(edge.lower), surface.position(edge.upper));
-  for (std::size_t i = 0; i < 3; ++i) record.middle[i] = static_cast<float>(middle[i]);
-  record.piece = surface.name.piece;
-  record.cell = surface.cells[static_cast<std::size_t>(edge.triangle)];
-  return record;
-}
-
-// Number of the set of boundary triangles each boundary triangle is in; other triangles: -1.
-std::vector<LocalIndex> boundary_components(const PieceSurface& surface,
-                                            std::span<const TriangleEdge> edges,
-                                            LocalIndex& num_components)
-{
-  const auto is_outside = [&](LocalIndex t) {
-    return surface.roles[static_cast<std::size_t>(t)] == TriangleRole::kOutside;
-  };
-  const auto num_triangles = static_cast<LocalIndex>(surface.triangles.size());
-  UnionFind sets(num_triangles);
-  for_each_edge(edges, [&](std::span<const TriangleEdge> triangles) {
-    LocalIndex first = kNoIndex;
-    for (const TriangleEdge& edge : triangles) {
-      if (!is_outside(edge.triangle)) continue;
-      if (first == kNoIndex) first = edge.triangle;
-      sets.join(first, edge.triangle);
-    }
-  });
-  std::vector<LocalIndex> component(surface.triangles.size(), kNoIndex);
-  num_components = 0;
-  for (LocalIndex t = 0; t < num_triangles; ++t) {
-    if (!is_outside(t)) continue;
-    const LocalIndex root = sets.find(t);  // The lowest of its set, so it has its number by now.
-    component[static_cast<std::size_t>(t)] =
-        root == t ? num_components++ : component[static_cast<std::size_t>(root)];
-  }
-  return component;
+  kept.shrink_to_fit();
+  surface.vertices = std::move(kept);
 }
 
 }  // namespace
@@ -163,21 +122,28 @@ VertexKey PieceSurface::key(LocalIndex v) const
   return key_of(vertices[static_cast<std::size_t>(v)], identity);
 }
 
-PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology,
-                          std::vector<TriangleRecord>& records)
+PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology, ShownRecords& shown,
+                          std::vector<VertexKey>& seam_keys)
 {
-  PieceSurface surface = empty_surface(mesh);
-  VertexSelection selection(mesh, surface);
+  PieceSurface surface;
+  surface.name = mesh.name;
+  surface.identity = mesh.identity;
+  VertexSelection selection(mesh, surface.vertices);
   for (const SurfaceTriangle& triangle : topology.surface) {
     const auto& v = triangle.vertices;
-    surface.triangles.push_back({selection.add(v[0], true, false), selection.add(v[1], true, false),
-                                 selection.add(v[2], true, false)});
-    surface.cells.push_back(triangle.cell);
-    TriangleRecord record = record_of_last(surface);
+    const std::array rows{selection.add(v[0], true, false), selection.add(v[1], true, false),
+                          selection.add(v[2], true, false)};
+    TriangleRecord record = record_of(mesh, v, triangle.cell);
     record.component = triangle.component;
     record.attribute = mesh.material(triangle.cell);
     record.cell_id = mesh.cell_id(triangle.cell);
-    records.push_back(record);
+    if (triangle.is_open) {
+      record.row = static_cast<LocalIndex>(surface.triangles.size());
+      add_triangle(surface, triangle, rows, record.subdomain);
+    } else if (triangle.is_seam) {
+      mark_seam(surface, rows, seam_keys);
+    }
+    shown.triangles.push_back(record);
   }
   if (mesh.identity == Identity::kIds) {
     for (const LocalIndex p : mesh.unused_points) selection.add(p, false, false);
@@ -185,72 +151,67 @@ PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology,
     for (const LocalIndex v : mesh.cell_vertices)
       if (v != kNoIndex) selection.add(v, true, true);
   }
+  shown.vertices.insert(shown.vertices.end(), surface.vertices.begin(), surface.vertices.end());
   return surface;
 }
 
-PieceSurface make_boundary_surface(const PieceMesh& mesh, std::vector<TriangleRecord>& records)
+void append_boundary(const PieceMesh& mesh, ShownRecords& shown)
 {
-  PieceSurface surface = empty_surface(mesh);
-  VertexSelection selection(mesh, surface);
+  VertexSelection selection(mesh, shown.vertices);
   const auto tet = mesh.arrays.cell_longs.find("tet");
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     if (mesh.is_left_out(c)) continue;
-    const auto v = mesh.cell(c);
-    surface.triangles.push_back({selection.add(v[0], false, false),
-                                 selection.add(v[1], false, false),
-                                 selection.add(v[2], false, false)});
-    surface.cells.push_back(c);
-    TriangleRecord record = record_of_last(surface);
-    record.attribute = mesh.cell_int("subdomain", c, kNoSubdomain);
+    for (const LocalIndex v : mesh.cell(c)) selection.add(v, false, false);
+    TriangleRecord record = record_of(mesh, mesh.cell(c), c);
     if (tet != mesh.arrays.cell_longs.end())
       record.cell_id = tet->second[static_cast<std::size_t>(c)];
-    records.push_back(record);
-  }
-  return surface;
-}
-
-void mark_seam_vertices(PieceSurface& surface)
-{
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    if (surface.roles[t] != TriangleRole::kSeam) continue;
-    for (const LocalIndex v : surface.triangles[t])
-      surface.vertices[static_cast<std::size_t>(v)].is_on_seam = true;
+    shown.triangles.push_back(record);
   }
 }
 
-double outside_area(const PieceSurface& surface)
+void apply(const TriangleVerdict& verdict, PieceSurface& surface, std::vector<VertexKey>& seam_keys)
 {
-  double area = 0.0;
+  const auto found = std::lower_bound(surface.rows.begin(), surface.rows.end(), verdict.row);
+  const auto t = static_cast<std::size_t>(found - surface.rows.begin());
+  surface.roles[t] = verdict.role;
+  surface.partners[t] = verdict.partner;
+  if (verdict.role == TriangleRole::kSeam || verdict.role == TriangleRole::kOpenSeam)
+    mark_seam(surface, surface.triangles[t], seam_keys);
+}
+
+void add_outside_areas(const PieceSurface& surface, PieceRecords& records)
+{
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     if (surface.roles[t] != TriangleRole::kOutside) continue;
     const auto& v = surface.triangles[t];
     const Vec3& origin = surface.position(v[0]);
-    const double part =
+    const double area =
         0.5 * norm(cross(surface.position(v[1]) - origin, surface.position(v[2]) - origin));
-    if (std::isfinite(part)) area += part;
+    if (std::isfinite(area)) records.of(surface.subdomains[t]).boundary_area += area;
   }
-  return area;
 }
 
-SurfaceEdges append_edges(const PieceSurface& surface, std::vector<EdgeRecord>& records)
+void shrink(PieceSurface& surface)
 {
-  const std::vector<TriangleEdge> edges = sorted_edges(surface);
-  SurfaceEdges counts;
-  const auto component = boundary_components(surface, edges, counts.num_boundary_components);
-  for_each_edge(edges, [&](std::span<const TriangleEdge> triangles) {
-    ++counts.num_edges;
-    const std::size_t num_before = records.size();
-    for (const TriangleEdge& edge : triangles) {
-      const LocalIndex set = component[static_cast<std::size_t>(edge.triangle)];
-      if (set == kNoIndex) continue;
-      EdgeRecord& record = records.emplace_back(record_of(surface, edge));
-      record.inward = inward_of(surface, edge);
-      record.boundary_component = set;
-      record.is_on_boundary = true;
-    }
-    if (records.size() == num_before) records.push_back(record_of(surface, triangles[0]));
-  });
-  return counts;
+  constexpr std::uint8_t kAllEdges = 7;
+  std::vector<bool> is_kept(surface.triangles.size());
+  const auto is_seam_vertex = [&](LocalIndex v) {
+    return surface.vertices[static_cast<std::size_t>(v)].is_on_seam;
+  };
+  for (std::size_t t = 0; t < is_kept.size(); ++t) {
+    const auto& v = surface.triangles[t];
+    is_kept[t] =
+        surface.settled_edges[t] != kAllEdges || !std::all_of(v.begin(), v.end(), is_seam_vertex);
+  }
+  keep(surface.triangles, is_kept);
+  keep(surface.rows, is_kept);
+  keep(surface.cells, is_kept);
+  keep(surface.subdomains, is_kept);
+  keep(surface.roles, is_kept);
+  keep(surface.partners, is_kept);
+  keep(surface.settled_edges, is_kept);
+  surface.seam_points.shrink_to_fit();
+  shrink_vertices(surface);
 }
 
 }  // namespace tessera::check

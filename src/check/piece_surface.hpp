@@ -3,23 +3,40 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "check/match_triangles.hpp"
+#include "check/match_vertices.hpp"
+#include "check/piece_figures.hpp"
 #include "check/piece_mesh.hpp"
 #include "check/piece_topology.hpp"
 #include "check/records.hpp"
 
 namespace tessera::check {
 
-/// @brief What is kept of a piece while other pieces are read: what they may share with it.
+/// @brief What a piece shows to the others, sent once.
+struct ShownRecords {
+  std::vector<TriangleRecord> triangles{};
+  std::vector<VertexRecord> vertices{};
+};
+
+/// @brief What is kept of the surface of a piece of tets while other pieces are read: the triangles
+/// about whose edges something is left to be said. It shrinks as its neighbours are read; on the
+/// boundary of the mesh it stays until the end.
 struct PieceSurface {
   PieceName name{};
   Identity identity = Identity::kIds;
   std::vector<VertexRecord> vertices{};
   std::vector<std::array<LocalIndex, 3>> triangles{};  ///< Rows of vertices, outward order.
-  std::vector<LocalIndex> cells{};                     ///< Tet of each triangle.
-  std::vector<TriangleRole> roles{};  ///< Of each triangle; known after match_triangles.
+  std::vector<LocalIndex> rows{};   ///< As in the TriangleRecord of each triangle; ascending.
+  std::vector<LocalIndex> cells{};  ///< Tet of each triangle.
+  std::vector<std::int32_t> subdomains{};     ///< Of each triangle's tet.
+  std::vector<TriangleRole> roles{};          ///< kUnknown until there is a verdict.
+  std::vector<LocalIndex> partners{};         ///< Piece on the other side of each triangle.
+  std::vector<std::uint8_t> settled_edges{};  ///< Bit i: the edge opposite to corner i.
+  std::vector<LocalIndex> seam_points{};      ///< Points on seam triangles of this piece.
 
   [[nodiscard]] const Vec3& position(LocalIndex v) const
   {
@@ -28,28 +45,26 @@ struct PieceSurface {
   [[nodiscard]] VertexKey key(LocalIndex v) const;
 };
 
-/// @brief Surface of a piece of tets, and the records of its triangles. Local.
-/// @param[in,out] records Gets one record per triangle of the surface, in the same order.
+/// @brief Surface of a piece of tets. Local.
+/// @param[in,out] shown Gets what other pieces must see.
+/// @param[in,out] seam_keys Gets the vertices of seams inside the piece.
 [[nodiscard]] PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology,
-                                        std::vector<TriangleRecord>& records);
+                                        ShownRecords& shown, std::vector<VertexKey>& seam_keys);
 
-/// @brief The same of a piece of the boundary file.
-[[nodiscard]] PieceSurface make_boundary_surface(const PieceMesh& mesh,
-                                                 std::vector<TriangleRecord>& records);
+/// @brief Appends the triangles and points of a piece of the boundary file. Local.
+void append_boundary(const PieceMesh& mesh, ShownRecords& shown);
 
-/// @brief Marks the vertices of the seam triangles. Local. @pre roles are set.
-void mark_seam_vertices(PieceSurface& surface);
+/// @brief Notes what a triangle turned out to be. Local. @pre the surface still has it.
+/// @param[in,out] seam_keys Gets the vertices of which it is new that they are on a seam.
+void apply(const TriangleVerdict& verdict, PieceSurface& surface,
+           std::vector<VertexKey>& seam_keys);
 
-/// @brief Area of the triangles on the outside, added in their order. @pre roles are set.
-[[nodiscard]] double outside_area(const PieceSurface& surface);
+/// @brief Adds the areas of the triangles on the outside, in their order, to the records of their
+/// subdomains. Local. @pre roles are known; each subdomain has its record.
+void add_outside_areas(const PieceSurface& surface, PieceRecords& records);
 
-struct SurfaceEdges {
-  GlobalIndex num_edges = 0;               ///< Different ones.
-  LocalIndex num_boundary_components = 0;  ///< Sets of boundary triangles joined through edges.
-};
-
-/// @brief Appends the edges of the surface. Local. @pre roles are set.
-[[nodiscard]] SurfaceEdges append_edges(const PieceSurface& surface,
-                                        std::vector<EdgeRecord>& records);
+/// @brief Drops triangles of which nothing is open: their edges are settled and their vertices are
+/// known to be on a seam; and vertices of no triangle. Local.
+void shrink(PieceSurface& surface);
 
 }  // namespace tessera::check

@@ -2,7 +2,9 @@
 #include "check/piece_topology.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -137,18 +139,30 @@ class TriangleMatcher {
   void sort_out(std::span<const Side> sides)
   {
     const bool is_shown =
-        sides.size() == 1 || (is_matched(sides) && (is_interface(sides) || is_chord(sides[0])));
+        sides.size() == 1
+        || (is_matched(sides) && (is_between_regions(sides) || is_chord(sides[0])));
     if (!is_shown) {
       ++topology_.num_inner_triangles;
       return;
     }
-    for (const Side& side : sides)
-      topology_.surface.push_back({vertices(side), side.cell(), components_.find(side.cell())});
+    const bool is_open = sides.size() == 1;
+    const bool is_seam = !is_open && is_between_regions(sides) && !is_interface(sides);
+    for (const Side& side : sides) {
+      topology_.surface.push_back(
+          {vertices(side), side.cell(), components_.find(side.cell()), is_open, is_seam});
+    }
   }
 
   [[nodiscard]] bool is_interface(std::span<const Side> sides) const
   {
     return mesh_.material(sides[0].cell()) != mesh_.material(sides[1].cell());
+  }
+
+  [[nodiscard]] bool is_between_regions(std::span<const Side> sides) const
+  {
+    const LocalIndex a = sides[0].cell();
+    const LocalIndex b = sides[1].cell();
+    return is_interface(sides) || mesh_.subdomain_of(a) != mesh_.subdomain_of(b);
   }
 
   [[nodiscard]] bool is_chord(const Side& side) const
@@ -235,12 +249,48 @@ GlobalIndex count_edges(const PieceMesh& mesh, EdgeLengths& lengths)
   return num_edges;
 }
 
+// An edge on the surface of a subdomain.
+struct SubdomainEdge {
+  LocalIndex lower = 0;
+  LocalIndex upper = 0;
+  std::int32_t subdomain = 0;
+
+  friend auto operator<=>(const SubdomainEdge&, const SubdomainEdge&) = default;
+};
+
+// Adds the length of an edge once for each further subdomain of the piece that has it. Every
+// subdomain at such an edge has triangles there that are shown.
+void add_lengths_of_further_subdomains(const PieceMesh& mesh, const PieceTopology& topology,
+                                       EdgeLengths& lengths)
+{
+  std::vector<SubdomainEdge> edges;
+  for (const SurfaceTriangle& triangle : topology.surface) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto [lower, upper] = std::minmax(triangle.vertices[i], triangle.vertices[(i + 1) % 3]);
+      edges.push_back({lower, upper, mesh.subdomain_of(triangle.cell)});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    if (edges[i].lower == edges[i - 1].lower && edges[i].upper == edges[i - 1].upper)
+      lengths.add(norm(mesh.position(edges[i].upper) - mesh.position(edges[i].lower)));
+  }
+}
+
+bool has_several_subdomains(const PieceMesh& mesh)
+{
+  return std::adjacent_find(mesh.subdomain.begin(), mesh.subdomain.end(), std::not_equal_to<>())
+         != mesh.subdomain.end();
+}
+
 }  // namespace
 
 PieceTopology analyse_topology(const PieceMesh& mesh, EdgeLengths& lengths, Findings& findings)
 {
   PieceTopology topology = TriangleMatcher(mesh, findings).match();
   topology.num_edges = count_edges(mesh, lengths);
+  if (has_several_subdomains(mesh)) add_lengths_of_further_subdomains(mesh, topology, lengths);
   return topology;
 }
 

@@ -15,12 +15,14 @@ struct SurfaceTriangle {
   std::array<LocalIndex, 3> vertices{};  ///< Of the PieceMesh.
   LocalIndex cell = 0;
   LocalIndex component = 0;  ///< Of the piece.
+  bool is_open = true;       ///< On one tet of the piece.
+  bool is_seam = false;      ///< On two, of two subdomains of one material.
 };
 
 /// @brief What a piece's tets are by themselves, and which triangles other pieces must see.
 struct PieceTopology {
-  /// Triangles on one tet; both sides of those between two materials; both sides of those with all
-  /// vertices on the former, since a wrong piece may have a third tet there.
+  /// Triangles on one tet; both sides of those between two subdomains or materials; both sides of
+  /// those with all vertices on triangles on one tet: a wrong piece may have a third tet there.
   std::vector<SurfaceTriangle> surface{};
   GlobalIndex num_inner_triangles = 0;  ///< All others.
   GlobalIndex num_edges = 0;
@@ -34,7 +36,7 @@ inline constexpr std::array<std::array<std::size_t, 3>, 4> kOutwardCorners{
 /// @brief Matches the triangles of a piece and counts its edges. Local; O(number of tets).
 ///
 /// Reported: triangles with more than two tets or two on one side, and duplicate tets.
-/// @param[in,out] lengths Gets the length of each edge of the piece once.
+/// @param[in,out] lengths Gets the length of each edge once for each subdomain that has it.
 [[nodiscard]] PieceTopology analyse_topology(const PieceMesh& mesh, EdgeLengths& lengths,
                                              Findings& findings);
 

@@ -2,8 +2,10 @@
 #include "check/quality.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <numeric>
 
@@ -88,14 +90,15 @@ void MeanRatioCounts::add(double mean_ratio)
   ++counts_[std::min(bin, kNumBins - 1)];
 }
 
+// Exponent and first seven bits of the fraction are the bin but for its origin.
 void EdgeLengths::add(double length)
 {
+  static_assert(kBinsPerOctave == 1 << 7, "the shift fits these");
+  constexpr std::int64_t kOriginBits = (1022 - kMaxExponent) * kBinsPerOctave;
   if (!std::isfinite(length) || length <= 0.0) return;
-  int exponent = 0;
-  const double fraction = std::frexp(length, &exponent);  // in [1/2, 1)
-  const int part = static_cast<int>((fraction - 0.5) * 2.0 * kBinsPerOctave);
-  const int bin = (exponent + kMaxExponent) * kBinsPerOctave + part;
-  ++counts_[static_cast<std::size_t>(std::clamp(bin, 0, static_cast<int>(counts_.size()) - 1))];
+  const std::int64_t bin = (std::bit_cast<std::int64_t>(length) >> (52 - 7)) - kOriginBits;
+  const auto last = static_cast<std::int64_t>(counts_.size()) - 1;
+  ++counts_[static_cast<std::size_t>(std::clamp<std::int64_t>(bin, 0, last))];
 }
 
 double EdgeLengths::percentile(double share) const

@@ -45,6 +45,7 @@ class RecordExchange {
   }
 
   [[nodiscard]] std::span<const Record> received() const { return received_; }
+  [[nodiscard]] std::vector<Record> take_received() && { return std::move(received_); }
 
   /// @brief Sends an answer to each received record back.
   /// @note Collective.

@@ -18,14 +18,23 @@ enum class Identity { kIds, kPositions };
 
 /// @brief The same for the same vertex in every piece: (id, 0), or a 128-bit hash of the position.
 using VertexKey = std::array<std::uint64_t, 2>;
-using EdgeKey = std::array<VertexKey, 2>;      ///< Ascending.
-using TriangleKey = std::array<VertexKey, 3>;  ///< Ascending.
+/// @brief 128-bit hash of the vertex keys in ascending order.
+using EdgeKey = std::array<std::uint64_t, 2>;
+using TriangleKey = std::array<std::uint64_t, 2>;
 
 /// @brief Hash of a key that spreads records over ranks.
 template <class Key>
 [[nodiscard]] std::uint64_t hash_of(const Key& key)
 {
   return hash_bytes(std::as_bytes(std::span(&key, 1))).low;
+}
+
+/// @brief Key of an edge or a triangle. @pre vertices are ascending.
+template <std::size_t n>
+[[nodiscard]] std::array<std::uint64_t, 2> key_of_vertices(const std::array<VertexKey, n>& vertices)
+{
+  const Hash128 hash = hash_bytes(std::as_bytes(std::span(vertices)));
+  return {hash.low, hash.high};
 }
 
 [[nodiscard]] inline VertexKey key_of_id(GlobalIndex id)
@@ -42,6 +51,7 @@ template <class Key>
 }
 
 inline constexpr GlobalIndex kNoId = std::numeric_limits<GlobalIndex>::min();
+inline constexpr LocalIndex kNoPiece = -1;
 inline constexpr std::int32_t kNoSubdomain = std::numeric_limits<std::int32_t>::min();
 
 /// @brief One side of a triangle that did not cancel inside its piece, or a triangle of the
@@ -51,37 +61,57 @@ struct TriangleRecord {
   std::array<float, 3> centroid{};  ///< For messages only.
   LocalIndex piece = 0;
   LocalIndex cell = 0;          ///< Row in its piece.
+  LocalIndex row = kNoIndex;    ///< Among the triangles of its PieceSurface, or none.
   LocalIndex component = 0;     ///< Of its piece; tets only.
-  std::int32_t attribute = 0;   ///< Material of the tet; in the boundary file: subdomain, or
-                                ///< kNoSubdomain.
+  std::int32_t attribute = 0;   ///< Material of the tet; tets only.
+  std::int32_t subdomain = 0;   ///< Of the tet; in the boundary file: named there, or kNoSubdomain.
   GlobalIndex cell_id = kNoId;  ///< Of the tet; in the boundary file: of the tet named there.
   bool is_odd = false;          ///< Whether the outward order is an odd permutation of the key.
   bool is_listed = false;       ///< From the boundary file.
 };
 
 /// @brief What a triangle turned out to be.
-enum class TriangleRole : std::uint8_t { kInner, kOutside, kSeam, kInterface, kFaulty };
+/// kOpenSeam: on one tet, not in the boundary file of a mesh of which only some pieces were made.
+/// kUnknown: there is no verdict yet.
+enum class TriangleRole : std::uint8_t {
+  kUnknown,
+  kInner,
+  kOutside,
+  kOpenSeam,
+  kSeam,
+  kInterface,
+  kFaulty
+};
+
+/// @brief Whether only one tet has the triangle.
+[[nodiscard]] constexpr bool is_open(TriangleRole role)
+{
+  return role == TriangleRole::kOutside || role == TriangleRole::kOpenSeam;
+}
 
 /// @brief A point of a piece that may be in other pieces as well.
 struct VertexRecord {
   Vec3 position{};
   GlobalIndex id = kNoId;
   LocalIndex piece = 0;
-  LocalIndex point = 0;     ///< Row in its piece.
-  bool is_used = false;     ///< By a tet.
-  bool is_inner = false;    ///< On no open triangle of its piece: no other piece may have it.
-  bool is_on_seam = false;  ///< On a seam triangle of its piece.
-  bool is_listed = false;   ///< From the boundary file.
+  LocalIndex point = 0;          ///< Row in its piece.
+  bool is_used = false;          ///< By a tet.
+  bool is_inner = false;         ///< On no open triangle of its piece: no other piece may have it.
+  bool is_on_seam = false;       ///< On a seam triangle of its piece.
+  bool is_listed = false;        ///< From the boundary file.
+  bool is_shared = false;        ///< Several pieces of tets have it.
+  bool is_contradicted = false;  ///< And not at one position.
 };
 
 /// @brief An edge on the surface of a piece; once per boundary triangle on it, or once if none is.
 struct EdgeRecord {
   EdgeKey key{};
-  Vec3 inward{};  ///< Unit vector from the edge into the triangle, normal to the edge.
+  std::array<float, 3> inward{};  ///< Unit vector from the edge into the triangle, normal to it.
   std::array<float, 3> middle{};  ///< For messages only.
   LocalIndex piece = 0;
   LocalIndex cell = 0;                ///< Tet of the triangle.
   LocalIndex boundary_component = 0;  ///< Of its piece.
+  LocalIndex twin = kNoPiece;         ///< A piece that may have counted half of the edge.
   bool is_on_boundary = false;
 };
 

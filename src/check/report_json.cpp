@@ -33,7 +33,7 @@ Json quality_to_json(const CheckReport& report)
 
 Json counts_to_json(const CheckReport& report)
 {
-  return {{"num_subdomains", report.pieces.size()},
+  return {{"num_subdomains", report.subdomains.size()},
           {"num_tets", report.num_tets},
           {"num_vertices", report.num_vertices},
           {"num_edges", report.num_edges},
@@ -60,13 +60,12 @@ Json offenders_to_json(const CheckReport& report)
   return json;
 }
 
-Json pieces_to_json(const CheckReport& report)
+Json subdomains_to_json(const CheckReport& report)
 {
   Json json = Json::array();
-  for (std::size_t p = 0; p < report.pieces.size(); ++p) {
-    const PieceFigures& piece = report.pieces[p];
-    Json entry{{"id", p}, {"tets", piece.num_tets}, {"volume", piece.volume}};
-    if (report.has_digest) entry["digest"] = to_hex(piece.digest);
+  for (const SubdomainFigures& subdomain : report.subdomains) {
+    Json entry{{"id", subdomain.id}, {"tets", subdomain.num_tets}, {"volume", subdomain.volume}};
+    if (report.has_digest) entry["digest"] = to_hex(subdomain.digest);
     json.push_back(std::move(entry));
   }
   return json;
@@ -79,12 +78,13 @@ std::string to_json(const CheckReport& report)
   Json json;
   json["schema"] = 1;
   json["conforms"] = report.conforms;
+  json["partial"] = report.is_partial;
   json["offenders"] = offenders_to_json(report);
   json["notes"] = report.notes;
   json.update(counts_to_json(report));
   json["digest"] = report.has_digest ? Json(to_hex(report.digest)) : Json();
   json["quality"] = quality_to_json(report);
-  json["subdomains"] = pieces_to_json(report);
+  json["subdomains"] = subdomains_to_json(report);
   return json.dump(2);
 }
 

@@ -47,9 +47,9 @@ def write_cube(file, cells, cell_type=VTK_TETRA):
     assert writer.Write() == 1
 
 
-def check(test, file, ranks=None):
+def check(test, file, *options, ranks=None):
     """Exit code and findings."""
-    outcome = test.run_program("check", file, "--json", ranks=ranks)
+    outcome = test.run_program("check", file, "--json", *options, ranks=ranks)
     test.assertIn(outcome.code, (program.OK, program.FAILED), outcome.err)
     findings = json.loads(outcome.out)
     test.assertEqual(findings["conforms"], outcome.code == program.OK)
@@ -148,6 +148,39 @@ class CheckOfResults(program.ResultTest):
                 code, _ = self.check_result()
                 self.assertEqual(code, program.OK if array == "patch" else program.FAILED)
                 boundary.write_bytes(before)
+
+    def leave_out_piece(self, number):
+        """As in a run that makes only some subdomains: neither file names the piece."""
+        for index in ("mesh.pvtu", "boundary.pvtu"):
+            lines = (self.out / index).read_text().splitlines(keepends=True)
+            kept = [line for line in lines if f"piece_{number:06}.vtu" not in line]
+            self.assertEqual(len(kept), len(lines) - 1)
+            (self.out / index).write_text("".join(kept))
+
+    def test_part_of_a_mesh_is_accepted_if_asked_for(self):
+        self.leave_out_piece(1)
+        code, refused = self.check_result()
+        self.assertEqual((code, refused["partial"]), (program.FAILED, False))
+        self.assertIn("--partial", refused["notes"][-1])
+
+        code, findings = check(self, self.out / "mesh.pvtu", "--partial", ranks=2)
+        self.assertEqual((code, findings["partial"]), (program.OK, True))
+        self.assertEqual(
+            findings["num_open_seam_triangles"], refused["num_open_seam_triangles"]
+        )
+        self.assertGreater(findings["num_open_seam_triangles"], 0)
+        self.assertEqual([piece["id"] for piece in findings["subdomains"]], [0, 2])
+
+        outcome = self.run_program("check", self.out / "mesh.pvtu", "--partial")
+        self.assertEqual(outcome.code, program.OK)
+        self.assertIn(f"{findings['num_open_seam_triangles']} open seam triangles", outcome.out)
+        self.assertIn("the part of the mesh conforms", outcome.out)
+
+    def test_defect_of_a_part_of_a_mesh_is_noticed(self):
+        self.leave_out_piece(0)
+        flip_bit(self.piece, "Points", 6, bit=2)
+        code, _ = check(self, self.out / "mesh.pvtu", "--partial")
+        self.assertEqual(code, program.FAILED)
 
     def test_missing_piece_is_an_input_error(self):
         self.piece.unlink()

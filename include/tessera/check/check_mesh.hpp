@@ -17,6 +17,13 @@ struct PieceSource {
   std::function<mesh::MeshArrays(LocalIndex piece)> read{};
 };
 
+struct CheckOptions {
+  /// Only some pieces of the mesh were made: ids need not be dense, and a triangle on one tet that
+  /// the boundary file lacks is an open seam, counted but no defect. Needs a boundary file to tell
+  /// the two apart.
+  bool is_partial = false;
+};
+
 /// @brief Verifies a tet mesh in pieces, and its boundary file if there is one, from the arrays
 /// alone; trusts nothing of what made them.
 ///
@@ -32,15 +39,22 @@ struct PieceSource {
 /// Positions of inner points are compared within their piece only; that pieces overlap in space
 /// without sharing points is not detected.
 ///
+/// A subdomain is what the cell array "subdomain" says, so a piece may hold several; a piece
+/// without that array is one subdomain, of the piece's number.
+///
 /// A defect of the mesh is not an exception: it is in the report.
 ///
-/// Piece p is read by rank p mod size, twice unless it is the rank's only one. Memory: the largest
-/// piece about four times, and the triangles, edges and vertices on the surfaces of pieces, spread
-/// over the ranks by hash; all vertices if points are matched by position.
+/// Piece p is read by rank p mod size, twice if it has seam tets and is not the rank's only one.
+/// Memory: the largest piece about four times; the surfaces of 32 pieces, spread over the ranks; of
+/// the surfaces of the pieces before, the triangles on the boundary, at interfaces and towards
+/// pieces not read yet, one record of each different vertex and 16 bytes of each seam triangle; all
+/// vertices if points are matched by position. So it is small where neighbours in space have
+/// neighbouring numbers, and right in any order.
 /// @note Collective.
 /// @param[in] boundary Pieces of triangles, or nullptr if there is no boundary file.
 /// @throws InputError on all ranks if a piece cannot be read.
 [[nodiscard]] CheckReport check_mesh(const PieceSource& tets, const PieceSource* boundary,
-                                     const comm::Communicator& comm);
+                                     const comm::Communicator& comm,
+                                     const CheckOptions& options = {});
 
 }  // namespace tessera::check

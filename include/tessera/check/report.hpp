@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,16 +30,17 @@ struct QualityFigures {
   std::array<GlobalIndex, 20> mean_ratio_histogram{};  ///< Equal bins over [0, 1].
 };
 
-/// @brief Percentiles of the edge length, in the mesh's unit; an edge counts once in each piece
-/// that has it. Middles of bins 1/128 octave wide, so within 0.4 %.
+/// @brief Percentiles of the edge length, in the mesh's unit; an edge counts once in each
+/// subdomain that has it. Middles of bins 1/128 octave wide, so within 0.4 %.
 struct EdgeLengthFigures {
   double p01 = 0.0;
   double median = 0.0;
   double p99 = 0.0;
 };
 
-/// @brief What one piece adds to the sums.
-struct PieceFigures {
+/// @brief What one subdomain adds to the sums.
+struct SubdomainFigures {
+  std::int32_t id = 0;
   GlobalIndex num_tets = 0;
   double volume = 0.0;  ///< Of its finite tets, signed.
   Hash128 digest{};
@@ -50,6 +52,7 @@ struct CheckReport {
   std::vector<Defect> defects{};     ///< Only kinds that occur.
   std::vector<std::string> notes{};  ///< Remarks that are no defects, e.g. that ids are absent.
 
+  bool is_partial = false;      ///< Checked as a mesh of which only some pieces were made.
   bool has_global_ids = false;  ///< Every point and every cell of every piece has an id.
   bool matched_by_ids = false;  ///< Points of different pieces were matched by id, not by position.
   bool has_digest = false;      ///< Every piece has point ids.
@@ -59,21 +62,21 @@ struct CheckReport {
   GlobalIndex num_vertices = 0;  ///< Different points that a tet uses.
   GlobalIndex num_edges = 0;
   GlobalIndex num_triangles = 0;
-  GlobalIndex num_boundary_triangles = 0;   ///< Triangles on one tet.
+  GlobalIndex num_boundary_triangles = 0;   ///< On one tet; without open seams if is_partial.
   GlobalIndex num_interface_triangles = 0;  ///< On two tets of different "attribute".
-  GlobalIndex num_seam_triangles = 0;       ///< On two tets of different pieces, same "attribute".
+  GlobalIndex num_seam_triangles = 0;       ///< Between two subdomains of the same "attribute".
   GlobalIndex num_open_seam_triangles = 0;  ///< On one tet, but not in the boundary file.
   GlobalIndex num_nonmanifold_edges = 0;    ///< Boundary edges with 4, 6, … boundary triangles.
   GlobalIndex euler_characteristic = 0;     ///< V - E + F - T.
   GlobalIndex num_components = 0;           ///< Sets of tets joined through triangles.
-  GlobalIndex num_boundary_components = 0;  ///< Sets of boundary triangles joined through edges.
+  GlobalIndex num_boundary_components = 0;  ///< Sets of triangles on one tet joined through edges.
 
   double volume = 0.0;
   double boundary_area = 0.0;
   EdgeLengthFigures edge_length{};
   QualityFigures quality{};
-  QualityFigures seam_quality{};  ///< Of tets with a vertex on a seam triangle.
-  std::vector<PieceFigures> pieces{};
+  QualityFigures seam_quality{};               ///< Of tets with a vertex on a seam, open or not.
+  std::vector<SubdomainFigures> subdomains{};  ///< Ascending ids.
 };
 
 /// @brief The report as JSON text, with the keys of report.json where they apply. Local.

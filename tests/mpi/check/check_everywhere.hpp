@@ -14,15 +14,16 @@
 namespace tessera::testing {
 
 /// @brief Report of the files by all ranks; the report of one rank alone must have the same bits.
-inline check::CheckReport check_everywhere(const MeshFiles& files)
+inline check::CheckReport check_everywhere(const MeshFiles& files,
+                                           const check::CheckOptions& options = {})
 {
   const check::PieceSource tets = source_of(files.tets);
   const check::PieceSource boundary = source_of(files.boundary);
   const check::PieceSource* boundary_or_none = files.boundary.empty() ? nullptr : &boundary;
   const comm::Communicator world(MPI_COMM_WORLD);
   const comm::Communicator self(MPI_COMM_SELF);
-  const check::CheckReport report = check::check_mesh(tets, boundary_or_none, world);
-  EXPECT_EQ(to_json(report), to_json(check::check_mesh(tets, boundary_or_none, self)));
+  const check::CheckReport report = check::check_mesh(tets, boundary_or_none, world, options);
+  EXPECT_EQ(to_json(report), to_json(check::check_mesh(tets, boundary_or_none, self, options)));
   EXPECT_EQ(report.conforms, report.defects.empty());
   return report;
 }

@@ -79,6 +79,41 @@ void add_boundary_triangle(PieceBuilder& builder, const mesh::CoarseMesh& mesh,
   builder.arrays().cell_longs["tet"].push_back(numbering.tet_ids[at(tet)]);
 }
 
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from)
+{
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+mesh::MeshArrays merge_range(const std::vector<mesh::MeshArrays>& pieces, std::size_t begin,
+                             std::size_t end)
+{
+  mesh::MeshArrays merged;
+  merged.vertices_per_cell = pieces[begin].vertices_per_cell;
+  std::map<GlobalIndex, GlobalIndex> row;
+  for (std::size_t p = begin; p < end; ++p) {
+    const mesh::MeshArrays& piece = pieces[p];
+    for (const GlobalIndex point : piece.cell_points) {
+      const auto i = static_cast<std::size_t>(point);
+      const auto [entry, is_new] = row.emplace(piece.point_ids[i], merged.num_points());
+      if (is_new) {
+        merged.point_ids.push_back(piece.point_ids[i]);
+        merged.point_xyz.insert(merged.point_xyz.end(), &piece.point_xyz[3 * i],
+                                &piece.point_xyz[3 * i] + 3);
+      }
+      merged.cell_points.push_back(entry->second);
+    }
+    append(merged.cell_ids, piece.cell_ids);
+    for (const auto& [name, values] : piece.cell_ints)
+      if (name != "subdomain") append(merged.cell_ints[name], values);
+    for (const auto& [name, values] : piece.cell_longs) append(merged.cell_longs[name], values);
+    merged.cell_ints["subdomain"].insert(merged.cell_ints["subdomain"].end(),
+                                         static_cast<std::size_t>(piece.num_cells()),
+                                         static_cast<std::int32_t>(p));
+  }
+  return merged;
+}
+
 }  // namespace
 
 MeshFiles slice(const mesh::CoarseMesh& mesh, int num_pieces)
@@ -108,6 +143,16 @@ MeshFiles slice(const mesh::CoarseMesh& mesh, int num_pieces)
   for (PieceBuilder& builder : tets) files.tets.push_back(builder.arrays());
   for (PieceBuilder& builder : boundary) files.boundary.push_back(builder.arrays());
   return files;
+}
+
+MeshFiles merge(const MeshFiles& files, const std::vector<std::size_t>& first)
+{
+  MeshFiles merged;
+  for (std::size_t f = 0; f + 1 < first.size(); ++f) {
+    merged.tets.push_back(merge_range(files.tets, first[f], first[f + 1]));
+    merged.boundary.push_back(merge_range(files.boundary, first[f], first[f + 1]));
+  }
+  return merged;
 }
 
 check::PieceSource source_of(const std::vector<mesh::MeshArrays>& pieces)

@@ -19,6 +19,10 @@ struct MeshFiles {
 /// arrays that the checker knows. Ids of points are numbered piece by piece, those of tets as well.
 [[nodiscard]] MeshFiles slice(const mesh::CoarseMesh& mesh, int num_pieces);
 
+/// @brief The same mesh in fewer files: file f has the pieces first[f]…first[f+1]-1, its points
+/// merged, and the cell array "subdomain" that says which piece each cell was.
+[[nodiscard]] MeshFiles merge(const MeshFiles& files, const std::vector<std::size_t>& first);
+
 /// @brief Source that hands out copies. @pre `pieces` outlives it.
 [[nodiscard]] check::PieceSource source_of(const std::vector<mesh::MeshArrays>& pieces);
 

@@ -15,7 +15,8 @@ TEST(CheckReportJson, HasTheKeysOfTheRunReport)
   report.digest = {1, 2};
   report.num_tets = 7;
   report.volume = 0.1;
-  report.pieces.resize(2);
+  report.subdomains.resize(2);
+  report.subdomains[1].id = 100000;
   const auto json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json["schema"], 1);
   EXPECT_EQ(json["num_tets"], 7);
@@ -26,6 +27,8 @@ TEST(CheckReportJson, HasTheKeysOfTheRunReport)
   EXPECT_TRUE(json["quality"]["edge_length"].contains("median"));
   EXPECT_TRUE(json["quality"]["seam"].contains("num_tets"));
   EXPECT_EQ(json["subdomains"].size(), 2U);
+  EXPECT_EQ(json["subdomains"][1]["id"], 100000);
+  EXPECT_EQ(json["partial"], false);
 }
 
 TEST(CheckReportJson, NamesOffendersAndLeavesOutADigestThatIsNone)

@@ -137,6 +137,8 @@ TEST(CommandLine, CheckAndInfo)
   EXPECT_EQ(parsed_as<CheckCommand>({"check", "m.pvtu"}).mesh_file, "m.pvtu");
   EXPECT_FALSE(parsed_as<CheckCommand>({"check", "m.pvtu"}).json);
   EXPECT_TRUE(parsed_as<CheckCommand>({"check", "--json", "m.pvtu"}).json);
+  EXPECT_FALSE(parsed_as<CheckCommand>({"check", "m.pvtu"}).is_partial);
+  EXPECT_TRUE(parsed_as<CheckCommand>({"check", "--partial", "m.pvtu"}).is_partial);
   EXPECT_EQ(parsed_as<InfoCommand>({"info", "--", "-m.geo"}).file, "-m.geo");
 }
 
