@@ -87,6 +87,7 @@ std::vector<IdRun> send_to_blocks(std::span<const IdRun> runs, GlobalIndex block
   for (const comm::Message& message : comm.exchange(std::move(messages))) {
     const std::size_t begin = received.size();
     received.resize(begin + message.bytes.size() / sizeof(IdRun));
+    if (message.bytes.empty()) continue;
     std::memcpy(received.data() + begin, message.bytes.data(), message.bytes.size());
   }
   return received;

@@ -133,6 +133,7 @@ std::vector<PieceRecord> all_records(std::span<const PieceRecords> own,
   for (const Bytes& bytes : comm.all_gather(std::as_bytes(std::span(sent)))) {
     const std::size_t begin = all.size();
     all.resize(begin + bytes.size() / sizeof(PieceRecord));
+    if (bytes.empty()) continue;
     std::memcpy(all.data() + begin, bytes.data(), bytes.size());
   }
   std::sort(all.begin(), all.end(), [](const PieceRecord& a, const PieceRecord& b) {

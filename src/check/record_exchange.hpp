@@ -38,7 +38,8 @@ class RecordExchange {
     for (comm::Message& message : comm.exchange(pack(sent, comm.size()))) {
       const std::size_t begin = received_.size();
       received_.resize(begin + message.bytes.size() / sizeof(Record));
-      std::memcpy(received_.data() + begin, message.bytes.data(), message.bytes.size());
+      if (!message.bytes.empty())
+        std::memcpy(received_.data() + begin, message.bytes.data(), message.bytes.size());
       senders_.push_back({message.rank, begin, received_.size()});
       message.bytes = {};
     }

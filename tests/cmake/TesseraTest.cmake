@@ -5,6 +5,14 @@ set(TESSERA_MPI_ENVIRONMENT
     "OMPI_MCA_rmaps_base_oversubscribe=1;PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe;OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_mpi_yield_when_idle=1"
 )
 
+# tessera_test_timeout(<variable> <seconds>): sanitizers slow third-party code tenfold and more.
+function(tessera_test_timeout variable seconds)
+  if(TESSERA_SANITIZE)
+    math(EXPR seconds "10 * ${seconds}")
+  endif()
+  set(${variable} ${seconds} PARENT_SCOPE)
+endfunction()
+
 # tessera_add_test(<name> SOURCES <file>... TIMEOUT <seconds> [LINK <target>...] [LABEL <label>])
 #
 # One process, no MPI; one ctest entry. The label is "unit" unless said otherwise.
@@ -22,7 +30,8 @@ function(tessera_add_test name)
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE tessera_test_support ${arg_LINK} GTest::gtest_main)
   add_test(NAME ${name} COMMAND test_${name})
-  set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+  tessera_test_timeout(timeout ${arg_TIMEOUT})
+  set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${timeout})
 endfunction()
 
 # tessera_add_mpi_test(<name> SOURCES <file>... RANKS <n>... TIMEOUT <seconds> [LINK <target>...])
@@ -39,6 +48,7 @@ function(tessera_add_mpi_test name)
 
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE tessera_test_support ${arg_LINK} tessera_mpi_gtest_main)
+  tessera_test_timeout(timeout ${arg_TIMEOUT})
   foreach(np IN LISTS arg_RANKS)
     add_test(
       NAME ${name}.np${np}
@@ -51,7 +61,7 @@ function(tessera_add_mpi_test name)
       PROPERTIES
         LABELS mpi
         PROCESSORS ${np}
-        TIMEOUT ${arg_TIMEOUT}
+        TIMEOUT ${timeout}
         ENVIRONMENT "${TESSERA_MPI_ENVIRONMENT}"
     )
   endforeach()
