@@ -125,8 +125,19 @@ class MeshWorker final : public jobs::Worker {
 
   Bytes plan(ByteReader& in)
   {
-    const auto test = in.get<PlanTest>();
+    const auto tests = in.get_vector<PlanTest>();
     const mesh::Damping damping = mesh::damping_from_bytes(in.get_vector<std::byte>());
+    std::vector<mesh::PointDamping> all;
+    for (const PlanTest& test : tests) {
+      const auto folds = folds_of(test, damping);
+      all.insert(all.end(), folds.begin(), folds.end());
+    }
+    return mesh::to_bytes(mesh::Damping(std::move(all)));
+  }
+
+  [[nodiscard]] std::vector<mesh::PointDamping> folds_of(const PlanTest& test,
+                                                         const mesh::Damping& damping) const
+  {
     const auto tets =
         plan::tets_on_geometry(coarse_, cut_->tets.of(test.subdomain), cut_->on_geometry);
     const mesh::TetComplex complex = mesh::tet_complex(coarse_, cut_->skeleton, tets);
@@ -140,7 +151,7 @@ class MeshWorker final : public jobs::Worker {
         && !netgen::skin_overlaps(skin_of(context, test.subdomain))) {
       folds.clear();
     }
-    return mesh::to_bytes(mesh::Damping(std::move(folds)));
+    return folds;
   }
 
   Bytes fill(ByteReader& in)
@@ -236,9 +247,9 @@ Bytes coarse_request(const coarse::CoarseOptions& options)
   return message(Message::coarse, options);
 }
 
-Bytes plan_request(const PlanTest& test, const mesh::Damping& damping)
+Bytes plan_request(const std::vector<PlanTest>& tests, const mesh::Damping& damping)
 {
-  return message(Message::plan, test, mesh::to_bytes(damping));
+  return message(Message::plan, tests, mesh::to_bytes(damping));
 }
 
 Bytes fill_request(const FillTask& task) { return message(Message::fill, task); }

@@ -54,16 +54,16 @@ namespace tessera::pipeline {
 /// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh. Needs the model.
 [[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options);
 
-/// @brief What a plan job tests.
+/// @brief One subdomain that a plan job tests.
 struct PlanTest {
   LocalIndex subdomain = kNoIndex;
   fill::KernelKind kernel = fill::KernelKind::netgen;  ///< That the subdomain is for.
   int levels = 0;                                      ///< On which children must be positive.
 };
 
-/// @brief run: tests one subdomain for folds under the given dampings; result: bytes of a Damping
-/// with the new, smaller factors. Needs model and mesh.
-[[nodiscard]] Bytes plan_request(const PlanTest& test, const mesh::Damping& damping);
+/// @brief run: tests subdomains for folds under the given dampings; result: bytes of a Damping with
+/// the new, smaller factors. Needs model and mesh.
+[[nodiscard]] Bytes plan_request(const std::vector<PlanTest>& tests, const mesh::Damping& damping);
 
 /// @brief What a fill job makes: the pieces of the subdomains first…last-1.
 struct FillTask {

@@ -2,6 +2,8 @@
 #include "pipeline/stages/plan_stage.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +19,10 @@ namespace tessera::pipeline {
 namespace {
 
 constexpr int kFirstLookLevels = 2;
+
+// A fork costs as much as the test of a small subdomain: with many of them a job takes several.
+constexpr std::size_t kMostJobs = 512;
+
 constexpr jobs::JobLimits kPlanLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory_gib = 8.0};
 
 // Subdivision finds bad children of fine levels by itself, and comes back for a plan of all levels;
@@ -29,23 +35,41 @@ PlanTest test_of(LocalIndex subdomain, const PlanWork& work)
   return {subdomain, kernel, is_first_look ? std::min(work.levels, kFirstLookLevels) : work.levels};
 }
 
+// The tests of all jobs, at most kMostJobs.
+std::vector<std::vector<PlanTest>> jobs_of(const std::vector<LocalIndex>& subdomains,
+                                           const PlanWork& work)
+{
+  const std::size_t tests_a_job = (subdomains.size() + kMostJobs - 1) / kMostJobs;
+  std::vector<std::vector<PlanTest>> jobs;
+  for (const LocalIndex s : subdomains) {
+    if (jobs.empty() || jobs.back().size() == tests_a_job) jobs.emplace_back();
+    jobs.back().push_back(test_of(s, work));
+  }
+  return jobs;
+}
+
 // What this rank's share of the subdomains finds under the dampings so far.
 std::vector<mesh::PointDamping> test_subdomains(const std::vector<LocalIndex>& subdomains,
                                                 const PlanWork& work, const mesh::Damping& damping,
                                                 RunContext& context)
 {
-  comm::WorkQueue queue(context.comm, subdomains);
+  const auto jobs = jobs_of(subdomains, work);
+  std::vector<LocalIndex> order(jobs.size());
+  std::iota(order.begin(), order.end(), 0);
+  comm::WorkQueue queue(context.comm, order);
   std::vector<mesh::PointDamping> found;
   std::optional<std::string> defect;
   const auto on_wait = [&] {
     if (stop_requested()) queue.request_stop();
     return queue.progress();
   };
-  while (const auto subdomain = queue.next()) {
+  while (const auto job = queue.next()) {
+    const std::vector<PlanTest>& tests = jobs[at(*job)];
     const jobs::JobOutcome outcome =
-        context.jobs.run(plan_request(test_of(*subdomain, work), damping), kPlanLimits, on_wait);
+        context.jobs.run(plan_request(tests, damping), kPlanLimits, on_wait);
     if (outcome.status != jobs::JobStatus::ok) {
-      defect = "plan of subdomain " + std::to_string(*subdomain) + ": " + outcome.message;
+      defect = "plan from subdomain " + std::to_string(tests.front().subdomain)
+               + " on: " + outcome.message;
       queue.request_stop();
       continue;
     }
