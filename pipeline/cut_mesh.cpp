@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/cut_mesh.hpp"
 
+#include <algorithm>
+
 #include "tessera/fill/size_samples.hpp"
 #include "tessera/plan/fold_test.hpp"
 
 namespace tessera::pipeline {
 
-CutMesh::CutMesh(const mesh::CoarseMesh& coarse_mesh, const mesh::Decomposition& cut)
+CutMesh::CutMesh(const mesh::CoarseMesh& coarse_mesh, const mesh::Decomposition& cut,
+                 double largest_size)
     : coarse(coarse_mesh),
       decomposition(cut),
       skeleton(mesh::build_skeleton(coarse, decomposition)),
@@ -15,6 +18,7 @@ CutMesh::CutMesh(const mesh::CoarseMesh& coarse_mesh, const mesh::Decomposition&
       on_geometry(plan::vertices_on_geometry(coarse, skeleton)),
       vertex_size(fill::vertex_sizes(coarse))
 {
+  for (double& size : vertex_size) size = std::min(size, largest_size);
 }
 
 }  // namespace tessera::pipeline

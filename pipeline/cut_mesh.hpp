@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -21,7 +22,9 @@ struct CutMesh {
   std::vector<char> on_geometry;    ///< plan::vertices_on_geometry().
   std::vector<double> vertex_size;  ///< fill::vertex_sizes().
 
-  CutMesh(const mesh::CoarseMesh& coarse_mesh, const mesh::Decomposition& cut);
+  /// @param[in] largest_size Bounds vertex_size, output length unit.
+  CutMesh(const mesh::CoarseMesh& coarse_mesh, const mesh::Decomposition& cut,
+          double largest_size = std::numeric_limits<double>::infinity());
 
   [[nodiscard]] LocalIndex num_subdomains() const { return decomposition.num_subdomains(); }
 };

@@ -87,8 +87,9 @@ class MeshWorker final : public jobs::Worker {
     coarse_ = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
     decomposition_ = mesh::decomposition_from_bytes(in.get_vector<std::byte>());
     levels_ = in.get<int>();
+    const auto largest_size = in.get<double>();
     output_ = in.get_string();
-    cut_.emplace(coarse_, decomposition_);
+    cut_.emplace(coarse_, decomposition_, largest_size);
   }
 
   void load_numbers(ByteReader& in)
@@ -217,10 +218,10 @@ Bytes load_model_message(const model::ModelSource& source, double scale)
 }
 
 Bytes load_mesh_message(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
-                        int levels, const std::filesystem::path& output)
+                        int levels, double largest_size, const std::filesystem::path& output)
 {
   return message(Message::load_mesh, mesh::to_bytes(coarse), mesh::to_bytes(decomposition), levels,
-                 output.string());
+                 largest_size, output.string());
 }
 
 Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,

@@ -29,10 +29,11 @@ namespace tessera::pipeline {
 /// @brief load: the model. `scale`: output length units per file length unit.
 [[nodiscard]] Bytes load_model_message(const model::ModelSource& source, double scale);
 
-/// @brief load: coarse mesh and decomposition, the number of levels, and the output folder.
+/// @brief load: coarse mesh and decomposition, the number of levels, the largest size of the coarse
+/// mesh that a fill may aim at (output length unit), and the output folder.
 [[nodiscard]] Bytes load_mesh_message(const mesh::CoarseMesh& coarse,
                                       const mesh::Decomposition& decomposition, int levels,
-                                      const std::filesystem::path& output);
+                                      double largest_size, const std::filesystem::path& output);
 
 /// @brief load: the finished plan.
 [[nodiscard]] Bytes load_plan_message(const mesh::Damping& damping);

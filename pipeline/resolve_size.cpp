@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/resolve_size.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tessera/base/vec3.hpp"
+#include "tessera/mesh/tet_edges.hpp"
 
 #include "pipeline/exit_code.hpp"
 #include "pipeline/mesh_worker.hpp"
@@ -14,6 +20,24 @@ constexpr jobs::JobLimits kQueryLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_
 // NETGEN's largest size is more of a middle: on a brick, edges came out with a median of 1.18 and a
 // 99th percentile of 1.94 times it, after refinement too. With this factor they are 0.94 and 1.55.
 constexpr double kSizeForEdge = 0.8;
+
+// In units of the target times 2^levels: the wanted middle of the coarse edges, and the largest
+// size that a fill aims at. Together they bring a brick's fine edges to a median of 0.92 to 0.97 of
+// the target with 99 % below 1.6 of it; without them these were 0.92 to 1.02 and 1.51 to 1.74.
+constexpr double kCoarseMiddle = 0.91;
+constexpr double kCoarseMiddleTolerance = 0.02;
+constexpr double kLargestSize = 0.95;
+
+double median_edge(const mesh::CoarseMesh& coarse)
+{
+  std::vector<double> lengths;
+  mesh::for_each_edge(coarse.tet_vertices, coarse.num_vertices(), [&](LocalIndex a, LocalIndex b) {
+    lengths.push_back(norm(coarse.position(b) - coarse.position(a)));
+  });
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
 
 // A part fills about a third of a cube with its box's diagonal; a regular tet has h^3 / (6 sqrt 2).
 double estimated_tets(double box_diagonal, double target)
@@ -29,6 +53,20 @@ int levels_for(double num_fine_tets)
   if (num_fine_tets < 2e4) return 1;
   if (num_fine_tets < 2e6) return 2;
   return num_fine_tets < 1e8 ? 3 : 4;
+}
+
+std::optional<double> corrected_max_size(const mesh::CoarseMesh& coarse, double max_size,
+                                         double target, int levels)
+{
+  const double middle = median_edge(coarse) / std::ldexp(target, levels);
+  if (middle <= kCoarseMiddle + kCoarseMiddleTolerance) return std::nullopt;
+  return max_size * kCoarseMiddle / middle;
+}
+
+double largest_coarse_size(double target, int levels)
+{
+  if (target == 0.0) return std::numeric_limits<double>::infinity();
+  return kLargestSize * std::ldexp(target, levels);
 }
 
 config::Case resolve_size(const config::Case& given, RunContext& context)

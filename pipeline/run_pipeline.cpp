@@ -30,8 +30,18 @@ std::string output_length_unit(const RunResult& run)
   return run.resolved.geometry.scale == 1.0 ? run.model.length_unit : std::string{};
 }
 
+// Once more, finer, if the coarse mesh came out too coarse for the size that the case asks for.
+void refit_coarse_mesh(RunResult& run, double target, RunContext& context)
+{
+  const auto size = corrected_max_size(run.coarse.mesh, run.coarse.options.max_size, target,
+                                       run.resolved.refine.levels);
+  if (!size) return;
+  run.resolved.coarse.max_size = *size;
+  run.coarse = run_coarse_stage(run.resolved, context);
+}
+
 // Coarse mesh and subdomains: from the folder of a run that was stopped, or made and kept there.
-void cut_coarse_mesh(RunResult& run, const RunOptions& options, RunContext& context)
+void cut_coarse_mesh(RunResult& run, double target, const RunOptions& options, RunContext& context)
 {
   const auto kept = find_on_root(context.comm, [&]() -> std::optional<Bytes> {
     return options.state == nullptr ? std::nullopt : options.state->find_coarse();
@@ -43,6 +53,7 @@ void cut_coarse_mesh(RunResult& run, const RunOptions& options, RunContext& cont
     return;
   }
   run.coarse = run_coarse_stage(run.resolved, context);
+  if (target > 0.0) refit_coarse_mesh(run, target, context);
   run.decomposition = run_decompose_stage(run.resolved, run.coarse.mesh, context);
   all_or_none(context.comm, [&] {
     if (options.state == nullptr || context.comm.rank() != 0) return;
@@ -135,7 +146,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
     options.state->require_same_model(hash_bytes(run.model.content));
   });
   run.resolved = resolve_size(given, context);
-  cut_coarse_mesh(run, options, context);
+  cut_coarse_mesh(run, given.size.target, options, context);
   all_or_none(context.comm, [&] {
     run.kernels = fill::kernels_of(run.resolved.fill, run.coarse.mesh.material_names,
                                    run.decomposition.decomposition.subdomain_material);
@@ -157,16 +168,17 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
 
   // Ids that are known before the fills let the fills write the files themselves.
   std::vector<number::PieceCounts> counts;
-  if (is_one_pass) counts = count_subdivided_pieces(cut, run.resolved.refine.levels);
-  load_mesh(cut, run.resolved, context);
+  const int levels = run.resolved.refine.levels;
+  if (is_one_pass) counts = count_subdivided_pieces(cut, levels);
+  load_mesh(cut, levels, largest_coarse_size(given.size.target, levels), context);
   if (is_one_pass) load_numbers(counts, length_unit, run.resolved.output, context);
   require_disk_space(run, files, context);
 
   const auto ranges = is_one_pass ? files : single_ranges(all_subdomains(cut));
   plan_and_fill(run, cut, ranges, options, context);
   if (!is_one_pass) counts = counts_of(run.filled.pieces);
-  const number::IdLayout ids(mesh::UnitLayout(cut.skeleton),
-                             mesh::lattice::intervals(run.resolved.refine.levels), counts);
+  const number::IdLayout ids(mesh::UnitLayout(cut.skeleton), mesh::lattice::intervals(levels),
+                             counts);
   run_verify_stage(cut, ranges, run.filled, context);
   const WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit};
   if (!is_one_pass) run_write_stage(run.resolved, files, mesh, run.filled, context);

@@ -21,10 +21,10 @@ void load_everywhere(const Bytes& message, RunContext& context)
 
 }  // namespace
 
-void load_mesh(const CutMesh& cut, const config::Case& run_case, RunContext& context)
+void load_mesh(const CutMesh& cut, int levels, double largest_size, RunContext& context)
 {
   load_everywhere(
-      load_mesh_message(cut.coarse, cut.decomposition, run_case.refine.levels, context.folder),
+      load_mesh_message(cut.coarse, cut.decomposition, levels, largest_size, context.folder),
       context);
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tessera/config/case.hpp"
+#include "tessera/io/options.hpp"
 #include "tessera/mesh/damping.hpp"
 #include "tessera/number/id_layout.hpp"
 
@@ -15,7 +15,8 @@
 /// throw on every rank if a worker dies, or Interrupted on a signal.
 namespace tessera::pipeline {
 
-void load_mesh(const CutMesh& cut, const config::Case& run_case, RunContext& context);
+/// @param[in] largest_size largest_coarse_size() of the case.
+void load_mesh(const CutMesh& cut, int levels, double largest_size, RunContext& context);
 
 /// @brief From now on fill jobs write the output files themselves. @param[in] counts Of all pieces.
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,
