@@ -65,9 +65,11 @@ jobs::JobLimits limits_of(const fill::FillOptions& options, double predicted_tet
 {
   jobs::JobLimits limits;
   limits.memory_gib = options.memory_gib;
-  limits.cpu_s = options.timeout_s > 0.0
-                     ? options.timeout_s
-                     : std::max(kLeastTime_s, kTimeMargin * predicted_tets / kSlowTetsPerSecond);
+  limits.cpu_s = std::max(kLeastTime_s, kTimeMargin * predicted_tets / kSlowTetsPerSecond);
+  if (options.timeout_s > 0.0) {
+    limits.cpu_s = options.timeout_s;
+    limits.stall_s = std::min(limits.stall_s, options.timeout_s);
+  }
   return limits;
 }
 
