@@ -90,8 +90,9 @@ class MeshRun {
  private:
   void open_folder()
   {
-    folder_.emplace(given_.output.directory, existing());
     const RunState state(given_.output.directory);
+    if (command_.resume) state.require_begun();
+    folder_.emplace(given_.output.directory, existing());
     if (command_.resume) state.require_same_case(given_);
     std::filesystem::create_directories(given_.output.directory / "log");
     std::filesystem::create_directories(given_.output.directory / "mesh");

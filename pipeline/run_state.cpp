@@ -87,9 +87,19 @@ Plan plan_from_bytes(std::span<const std::byte> bytes)
 
 io::RecordStore RunState::store() const { return io::RecordStore(store_folder(output_)); }
 
+void RunState::require_begun() const
+{
+  std::error_code error;
+  if (std::filesystem::is_directory(output_, error) && !std::filesystem::is_empty(output_, error)) {
+    return;
+  }
+  throw InputError("cannot resume " + output_.string() + ": no run has begun there");
+}
+
 void RunState::require_same_case(const config::Case& given) const
 {
   const auto file = output_ / "case.toml";
+  if (!std::filesystem::exists(file)) return;
   const std::string there = config::to_toml(without_limits(config::load_case(file)));
   const std::string here = config::to_toml(without_limits(given));
   if (there != here) {

@@ -35,8 +35,11 @@ class RunState {
  public:
   explicit RunState(std::filesystem::path output) : output_(std::move(output)) {}
 
-  /// @brief Refuses unless the folder's case is `given`; the output directory and limits of time
-  /// and memory may differ.
+  /// @brief Refuses a folder that is not there or empty. @throws InputError
+  void require_begun() const;
+
+  /// @brief Refuses unless the folder's case is `given`, or it has none because the run was killed
+  /// before it did anything; the output directory and limits of time and memory may differ.
   /// @throws InputError naming the first line that differs.
   void require_same_case(const config::Case& given) const;
 
