@@ -86,6 +86,14 @@ bool depends_on_machine(const jobs::JobOutcome& outcome)
          || outcome.status == jobs::JobStatus::out_of_memory || was_killed_from_outside(outcome);
 }
 
+// Of a poor piece in the store nobody can tell whether the run was killed before its other try: it
+// is made again, so that a resumed run has the bits of one that was never stopped.
+bool is_poor(const std::vector<FillResult>& results)
+{
+  const PieceSummary& first = results.front().summary;
+  return first.kernel == fill::KernelKind::netgen && first.tets.min_dihedral_deg < kPoorAngle_deg;
+}
+
 // Climbs the ladder for one range of subdomains after another; keeps what this rank's pieces sum up
 // to.
 class Filler {
@@ -101,9 +109,8 @@ class Filler {
   {
     const Hash128 plan =
         plan_fingerprint(work_.cut.skeleton, work_.damping, range.first, range.last);
-    if (const auto record = find_record(context_.folder, range.number, plan)) {
-      return keep(record->results);
-    }
+    const auto record = find_record(context_.folder, range.number, plan);
+    if (record && !is_poor(record->results)) return keep(record->results);
     Climb climb{.range = range, .plan = plan};
     for (const fill::FillTry& settings :
          fill::retry_ladder(options_, work_.kernels[at(range.first)])) {
@@ -152,8 +159,7 @@ class Filler {
     climb.best = fill_results_from_bytes(outcome.result);
     context_.log.debug("fill: subdomain {}: try {}, {:.2f} s of CPU time", climb.range.first,
                        climb.tries, outcome.cpu_s);
-    return had_one || !is_netgen
-           || climb.best.front().summary.tets.min_dihedral_deg >= kPoorAngle_deg;
+    return had_one || !is_poor(climb.best);
   }
 
   // The job itself puts into the record how it came to be made: a resumed run has only that.
