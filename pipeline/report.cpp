@@ -73,6 +73,7 @@ Json quality_json(const FilledPieces& filled)
 Json subdomains_json(const RunResult& run)
 {
   Json subdomains = Json::array();
+  const std::vector<FailedTries>& failures = run.filled.failures;
   for (const PieceSummary& piece : run.filled.pieces) {
     subdomains.push_back({{"id", piece.subdomain},
                           {"material", piece.material},
@@ -81,6 +82,10 @@ Json subdomains_json(const RunResult& run)
                           {"tries", piece.tries},
                           {"seconds", piece.cpu_s},
                           {"digest", to_hex(piece.digest)}});
+    const auto failed = std::find_if(failures.begin(), failures.end(), [&](const auto& tries) {
+      return tries.subdomain == piece.subdomain;
+    });
+    if (failed != failures.end()) subdomains.back()["failures"] = failed->messages;
   }
   return subdomains;
 }

@@ -117,10 +117,11 @@ class Filler {
       if (is_done_after(climb, settings, on_wait)) break;
     }
     if (climb.best.empty()) {
-      throw MeshError("subdomain " + std::to_string(range.first)
-                      + " could not be filled; try another decompose.subdomains or a smaller "
-                        "coarse.max_size"
-                      + climb.failures);
+      std::string text = "subdomain " + std::to_string(range.first)
+                         + " could not be filled; try another decompose.subdomains or a smaller "
+                           "coarse.max_size";
+      for (const std::string& failure : climb.failures) text += "\n  " + failure;
+      throw MeshError(text);
     }
     keep(climb.best);
   }
@@ -135,7 +136,7 @@ class Filler {
     LocalIndex tries = 0;
     bool was_limited = false;
     std::vector<FillResult> best{};
-    std::string failures{};
+    std::vector<std::string> failures{};
   };
 
   // Takes one rung. A failure leads to the next one; a poor result of NETGEN, to one more try.
@@ -152,8 +153,9 @@ class Filler {
     throw_unless_of_the_fill(outcome);
     climb.was_limited = climb.was_limited || depends_on_machine(outcome);
     if (outcome.status != jobs::JobStatus::ok) {
-      climb.failures += "\n  try " + std::to_string(climb.tries) + " ("
-                        + std::string(fill::name_of(settings.kernel)) + "): " + outcome.message;
+      climb.failures.push_back("try " + std::to_string(climb.tries) + " ("
+                               + std::string(fill::name_of(settings.kernel))
+                               + "): " + outcome.message);
       return had_one;
     }
     climb.best = fill_results_from_bytes(outcome.result);
@@ -172,7 +174,8 @@ class Filler {
                          .settings = settings,
                          .angle_to_beat_deg = angle_to_beat,
                          .tries = climb.tries,
-                         .was_limited = climb.was_limited});
+                         .was_limited = climb.was_limited,
+                         .failures = climb.failures});
   }
 
   // The same once more if the job was killed, so that the mesh is the same as without that.
@@ -205,6 +208,9 @@ class Filler {
         continue;
       }
       own_.pieces.push_back(result.summary);
+      if (!result.failures.empty()) {
+        own_.failures.push_back({result.summary.subdomain, result.failures});
+      }
       own_.histograms.add(result.histograms);
       for (const verify::SeamHash& seam : result.seams) {
         own_.seam_sums[at(seam.triangle)] += seam.hash;
@@ -238,12 +244,32 @@ std::vector<T> gather(const std::vector<T>& own, const comm::Communicator& comm)
   return all;
 }
 
+std::vector<FailedTries> gather(const std::vector<FailedTries>& own, const comm::Communicator& comm)
+{
+  ByteWriter out;
+  out.put(static_cast<std::uint64_t>(own.size()));
+  for (const FailedTries& failed : own) {
+    out.put(failed.subdomain);
+    out.put(failed.messages);
+  }
+  std::vector<FailedTries> all;
+  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
+    ByteReader in(bytes);
+    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+      const auto subdomain = in.get<LocalIndex>();
+      all.push_back({subdomain, in.get_strings()});
+    }
+  }
+  return all;
+}
+
 // Puts what the ranks have together; integers and sums modulo 2^64 only, so in any order the same.
 FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
 {
   FilledPieces all;
   all.pieces = gather(own.pieces, comm);
   all.folded = gather(own.folded, comm);
+  all.failures = gather(own.failures, comm);
   std::sort(all.folded.begin(), all.folded.end());
   std::sort(all.pieces.begin(), all.pieces.end(),
             [](const PieceSummary& a, const PieceSummary& b) { return a.subdomain < b.subdomain; });
