@@ -32,6 +32,7 @@ void BatchFiller::add(FilledPiece filled)
   is_folded_ = is_folded_ || summary.is_folded;
   summary.tries = task_.tries;
   summary.was_limited = task_.was_limited;
+  filled.result.failures = task_.failures;
   summary.cpu_s = cpu_time_s() - cpu_before_s_;
   cpu_before_s_ += summary.cpu_s;
   if (!summary.is_folded) {

@@ -90,13 +90,18 @@ class MeshRun {
  private:
   void open_folder()
   {
+    if (command_.resume) state().require_begun();
     folder_.emplace(given_.output.directory, existing());
-    const RunState state(given_.output.directory);
-    if (command_.resume) state.require_same_case(given_);
+    if (command_.resume) state().require_same_case(given_);
     std::filesystem::create_directories(given_.output.directory / "log");
     std::filesystem::create_directories(given_.output.directory / "mesh");
     std::filesystem::create_directories(given_.output.directory / "boundary");
     io::write_text_atomically(given_.output.directory / "case.toml", config::to_toml(given_));
+  }
+
+  [[nodiscard]] RunState state() const
+  {
+    return {given_.output.directory, command_.only_subdomains};
   }
 
   [[nodiscard]] io::ExistingFolder existing() const
@@ -109,7 +114,7 @@ class MeshRun {
   std::optional<ExitCode> finished(RunContext& context) const
   {
     if (!command_.resume) return std::nullopt;
-    const RunState state(given_.output.directory);
+    const RunState state = this->state();
     const auto code = find_on_root(comm_, [&]() -> std::optional<Bytes> {
       const auto ended = state.finished();
       if (!ended) return std::nullopt;
@@ -121,7 +126,7 @@ class MeshRun {
     const model::ModelSource model = run_model_stage(given_, context);
     all_or_none(comm_, [&] {
       if (comm_.rank() != 0) return;
-      state.require_same_model(hash_bytes(model.content));
+      state.require_same_run(hash_bytes(model.content));
       state.clear();
     });
     context.log.info("nothing to do: the run in {} has ended", given_.output.directory.string());
@@ -131,7 +136,7 @@ class MeshRun {
   ExitCode mesh(RunContext& context)
   {
     if (const auto code = finished(context)) return *code;
-    const RunState state(given_.output.directory);
+    const RunState state = this->state();
     const RunResult run = run_pipeline(given_, {&state, command_.only_subdomains}, context);
     const Verdict verdict = judge(run);
     const RunFigures run_figures = figures();
@@ -159,8 +164,10 @@ class MeshRun {
     return ExitCode::ok;
   }
 
+  // The report of a run that has ended stays: it is what a refused --resume is judged by.
   void report_failure(const std::exception& error, const RunContext& context) const
   {
+    if (state().finished()) return;
     RunFigures failed = local_figures();
     failed.peak_rss_bytes_max = peak_rss_bytes();
     try {

@@ -32,6 +32,22 @@ enum class Message : int {
   fill
 };
 
+FillTask get_fill_task(ByteReader& in)
+{
+  FillTask task;
+  task.batch = in.get<LocalIndex>();
+  task.first = in.get<LocalIndex>();
+  task.last = in.get<LocalIndex>();
+  task.plan = in.get<Hash128>();
+  task.settings = in.get<fill::FillTry>();
+  task.angle_to_beat_deg = in.get<double>();
+  task.tries = in.get<LocalIndex>();
+  task.was_limited = in.get<bool>();
+  task.keep = in.get<bool>();
+  task.failures = in.get_strings();
+  return task;
+}
+
 // State of the model zygote; jobs are forked from it.
 class MeshWorker final : public jobs::Worker {
  public:
@@ -157,7 +173,7 @@ class MeshWorker final : public jobs::Worker {
 
   Bytes fill(ByteReader& in)
   {
-    const auto task = in.get<FillTask>();
+    const FillTask task = get_fill_task(in);
     const auto kernel = make_faulty_if_asked(netgen::make_fill_kernel(), task.first);
     refine::RefineContext context = refine_context(damping_);
     context.measure_distance = true;
@@ -253,6 +269,10 @@ Bytes plan_request(const std::vector<PlanTest>& tests, const mesh::Damping& damp
   return message(Message::plan, tests, mesh::to_bytes(damping));
 }
 
-Bytes fill_request(const FillTask& task) { return message(Message::fill, task); }
+Bytes fill_request(const FillTask& task)
+{
+  return message(Message::fill, task.batch, task.first, task.last, task.plan, task.settings,
+                 task.angle_to_beat_deg, task.tries, task.was_limited, task.keep, task.failures);
+}
 
 }  // namespace tessera::pipeline

@@ -9,6 +9,7 @@ Bytes to_bytes(const FillResult& result)
 {
   ByteWriter out;
   out.put(result.summary);
+  out.put(result.failures);
   out.put(quality::to_bytes(result.histograms));
   out.put(result.seams);
   return std::move(out).take();
@@ -19,6 +20,7 @@ FillResult fill_result_from_bytes(std::span<const std::byte> bytes)
   ByteReader in(bytes);
   FillResult result;
   result.summary = in.get<PieceSummary>();
+  result.failures = in.get_strings();
   result.histograms = quality::quality_histograms_from_bytes(in.get_vector<std::byte>());
   result.seams = in.get_vector<verify::SeamHash>();
   return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
@@ -39,6 +40,7 @@ struct PieceSummary {
 /// @brief What is kept of one piece besides its tets.
 struct FillResult {
   PieceSummary summary{};
+  std::vector<std::string> failures{};  ///< What the tries before said, in their order.
   quality::QualityHistograms histograms{};
   std::vector<verify::SeamHash> seams{};
 };

@@ -73,6 +73,7 @@ Json quality_json(const FilledPieces& filled)
 Json subdomains_json(const RunResult& run)
 {
   Json subdomains = Json::array();
+  const std::vector<FailedTries>& failures = run.filled.failures;
   for (const PieceSummary& piece : run.filled.pieces) {
     subdomains.push_back({{"id", piece.subdomain},
                           {"material", piece.material},
@@ -81,8 +82,22 @@ Json subdomains_json(const RunResult& run)
                           {"tries", piece.tries},
                           {"seconds", piece.cpu_s},
                           {"digest", to_hex(piece.digest)}});
+    const auto failed = std::find_if(failures.begin(), failures.end(), [&](const auto& tries) {
+      return tries.subdomain == piece.subdomain;
+    });
+    if (failed != failures.end()) subdomains.back()["failures"] = failed->messages;
   }
   return subdomains;
+}
+
+// Which ones they are, if the run was told to fill only some.
+Json only_subdomains_json(const RunResult& run)
+{
+  Json only = Json::array();
+  const auto& pieces = run.filled.pieces;
+  if (pieces.size() == at(run.decomposition.decomposition.num_subdomains())) return only;
+  for (const PieceSummary& piece : pieces) only.push_back(piece.subdomain);
+  return only;
 }
 
 // Who is beside whom, with the area they share: what a solver's partitioner can start from.
@@ -208,6 +223,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   Json json =
       head_json(verdict.exit_code, fmt::format("{}", fmt::join(verdict.reasons, "; ")), figures);
   json["num_subdomains"] = pieces.size();
+  json["only_subdomains"] = only_subdomains_json(run);
   json["num_subdomains_requested"] = run.resolved.decompose.subdomains;
   json["num_tets"] = run.num_tets;
   json["num_vertices"] = run.num_vertices;

@@ -143,7 +143,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   run.model = run_model_stage(given, context);
   all_or_none(context.comm, [&] {
     if (options.state == nullptr || context.comm.rank() != 0) return;
-    options.state->require_same_model(hash_bytes(run.model.content));
+    options.state->require_same_run(hash_bytes(run.model.content));
   });
   run.resolved = resolve_size(given, context);
   cut_coarse_mesh(run, given.size.target, options, context);

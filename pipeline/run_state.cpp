@@ -47,6 +47,7 @@ std::string first_difference(const std::string& there, const std::string& here)
 struct Identity {
   std::string version{};
   std::string model{};  ///< Hash of what was read of the model file.
+  std::vector<LocalIndex> only_subdomains{};
 };
 
 // Noted in the report when the run has ended, in a record before.
@@ -58,12 +59,14 @@ std::optional<Identity> identity_of(const std::filesystem::path& output,
     Identity identity;
     identity.version = in.get_string();
     identity.model = in.get_string();
+    identity.only_subdomains = in.get_vector<LocalIndex>();
     return identity;
   }
   std::ifstream file(output / "report.json");
   const auto report = nlohmann::json::parse(file, nullptr, false);
   if (!report.is_object() || !report.contains("model")) return std::nullopt;
-  return Identity{report.value("version", ""), report["model"].value("digest", "")};
+  return Identity{report.value("version", ""), report["model"].value("digest", ""),
+                  report.value("only_subdomains", std::vector<LocalIndex>())};
 }
 
 }  // namespace
@@ -87,9 +90,19 @@ Plan plan_from_bytes(std::span<const std::byte> bytes)
 
 io::RecordStore RunState::store() const { return io::RecordStore(store_folder(output_)); }
 
+void RunState::require_begun() const
+{
+  std::error_code error;
+  if (std::filesystem::is_directory(output_, error) && !std::filesystem::is_empty(output_, error)) {
+    return;
+  }
+  throw InputError("cannot resume " + output_.string() + ": no run has begun there");
+}
+
 void RunState::require_same_case(const config::Case& given) const
 {
   const auto file = output_ / "case.toml";
+  if (!std::filesystem::exists(file)) return;
   const std::string there = config::to_toml(without_limits(config::load_case(file)));
   const std::string here = config::to_toml(without_limits(given));
   if (there != here) {
@@ -98,14 +111,16 @@ void RunState::require_same_case(const config::Case& given) const
   }
 }
 
-void RunState::require_same_model(const Hash128& model) const
+void RunState::require_same_run(const Hash128& model) const
 {
-  const Identity now{std::string(version()), to_hex(model)};
+  const Identity now{std::string(version()), to_hex(model), only_subdomains_};
   const auto noted = identity_of(output_, store().find("run"));
   if (!noted) {
+    clear();
     ByteWriter out;
     out.put(now.version);
     out.put(now.model);
+    out.put(now.only_subdomains);
     return store().put("run", std::move(out).take());
   }
   const std::string what = "cannot resume " + output_.string() + ": ";
@@ -114,6 +129,9 @@ void RunState::require_same_model(const Hash128& model) const
                      + kWayOut);
   }
   if (noted->model != now.model) throw InputError(what + "the model file has changed" + kWayOut);
+  if (noted->only_subdomains != now.only_subdomains) {
+    throw InputError(what + "it was begun with other --only-subdomains" + kWayOut);
+  }
 }
 
 void RunState::keep_coarse(std::span<const std::byte> coarse) const

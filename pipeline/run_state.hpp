@@ -33,16 +33,24 @@ struct Plan {
 /// local. A record that is damaged counts as absent.
 class RunState {
  public:
-  explicit RunState(std::filesystem::path output) : output_(std::move(output)) {}
+  /// @param[in] only_subdomains That the run is to fill; empty: all.
+  RunState(std::filesystem::path output, std::vector<LocalIndex> only_subdomains)
+      : output_(std::move(output)), only_subdomains_(std::move(only_subdomains))
+  {
+  }
 
-  /// @brief Refuses unless the folder's case is `given`; the output directory and limits of time
-  /// and memory may differ.
+  /// @brief Refuses a folder that is not there or empty. @throws InputError
+  void require_begun() const;
+
+  /// @brief Refuses unless the folder's case is `given`, or it has none because the run was killed
+  /// before it did anything; the output directory and limits of time and memory may differ.
   /// @throws InputError naming the first line that differs.
   void require_same_case(const config::Case& given) const;
 
-  /// @brief Notes version and model of this run, or refuses if others are noted.
+  /// @brief Notes version, model and subdomains of this run, or refuses if others are noted. If
+  /// nothing sound is noted, nothing else there can be trusted, and it is removed.
   /// @throws InputError naming what has changed.
-  void require_same_model(const Hash128& model) const;
+  void require_same_run(const Hash128& model) const;
 
   void keep_coarse(std::span<const std::byte> coarse) const;
   [[nodiscard]] std::optional<Bytes> find_coarse() const;
@@ -60,6 +68,7 @@ class RunState {
   [[nodiscard]] io::RecordStore store() const;
 
   std::filesystem::path output_;
+  std::vector<LocalIndex> only_subdomains_;
 };
 
 }  // namespace tessera::pipeline

@@ -65,9 +65,11 @@ jobs::JobLimits limits_of(const fill::FillOptions& options, double predicted_tet
 {
   jobs::JobLimits limits;
   limits.memory_gib = options.memory_gib;
-  limits.cpu_s = options.timeout_s > 0.0
-                     ? options.timeout_s
-                     : std::max(kLeastTime_s, kTimeMargin * predicted_tets / kSlowTetsPerSecond);
+  limits.cpu_s = std::max(kLeastTime_s, kTimeMargin * predicted_tets / kSlowTetsPerSecond);
+  if (options.timeout_s > 0.0) {
+    limits.cpu_s = options.timeout_s;
+    limits.stall_s = std::min(limits.stall_s, options.timeout_s);
+  }
   return limits;
 }
 
@@ -82,6 +84,14 @@ bool depends_on_machine(const jobs::JobOutcome& outcome)
   return outcome.status == jobs::JobStatus::out_of_time
          || outcome.status == jobs::JobStatus::stalled
          || outcome.status == jobs::JobStatus::out_of_memory || was_killed_from_outside(outcome);
+}
+
+// Of a poor piece in the store nobody can tell whether the run was killed before its other try: it
+// is made again, so that a resumed run has the bits of one that was never stopped.
+bool is_poor(const std::vector<FillResult>& results)
+{
+  const PieceSummary& first = results.front().summary;
+  return first.kernel == fill::KernelKind::netgen && first.tets.min_dihedral_deg < kPoorAngle_deg;
 }
 
 // Climbs the ladder for one range of subdomains after another; keeps what this rank's pieces sum up
@@ -99,19 +109,19 @@ class Filler {
   {
     const Hash128 plan =
         plan_fingerprint(work_.cut.skeleton, work_.damping, range.first, range.last);
-    if (const auto record = find_record(context_.folder, range.number, plan)) {
-      return keep(record->results);
-    }
+    const auto record = find_record(context_.folder, range.number, plan);
+    if (record && !is_poor(record->results)) return keep(record->results);
     Climb climb{.range = range, .plan = plan};
     for (const fill::FillTry& settings :
          fill::retry_ladder(options_, work_.kernels[at(range.first)])) {
       if (is_done_after(climb, settings, on_wait)) break;
     }
     if (climb.best.empty()) {
-      throw MeshError("subdomain " + std::to_string(range.first)
-                      + " could not be filled; try another decompose.subdomains or a smaller "
-                        "coarse.max_size"
-                      + climb.failures);
+      std::string text = "subdomain " + std::to_string(range.first)
+                         + " could not be filled; try another decompose.subdomains or a smaller "
+                           "coarse.max_size";
+      for (const std::string& failure : climb.failures) text += "\n  " + failure;
+      throw MeshError(text);
     }
     keep(climb.best);
   }
@@ -126,7 +136,7 @@ class Filler {
     LocalIndex tries = 0;
     bool was_limited = false;
     std::vector<FillResult> best{};
-    std::string failures{};
+    std::vector<std::string> failures{};
   };
 
   // Takes one rung. A failure leads to the next one; a poor result of NETGEN, to one more try.
@@ -143,15 +153,15 @@ class Filler {
     throw_unless_of_the_fill(outcome);
     climb.was_limited = climb.was_limited || depends_on_machine(outcome);
     if (outcome.status != jobs::JobStatus::ok) {
-      climb.failures += "\n  try " + std::to_string(climb.tries) + " ("
-                        + std::string(fill::name_of(settings.kernel)) + "): " + outcome.message;
+      climb.failures.push_back("try " + std::to_string(climb.tries) + " ("
+                               + std::string(fill::name_of(settings.kernel))
+                               + "): " + outcome.message);
       return had_one;
     }
     climb.best = fill_results_from_bytes(outcome.result);
     context_.log.debug("fill: subdomain {}: try {}, {:.2f} s of CPU time", climb.range.first,
                        climb.tries, outcome.cpu_s);
-    return had_one || !is_netgen
-           || climb.best.front().summary.tets.min_dihedral_deg >= kPoorAngle_deg;
+    return had_one || !is_poor(climb.best);
   }
 
   // The job itself puts into the record how it came to be made: a resumed run has only that.
@@ -164,7 +174,8 @@ class Filler {
                          .settings = settings,
                          .angle_to_beat_deg = angle_to_beat,
                          .tries = climb.tries,
-                         .was_limited = climb.was_limited});
+                         .was_limited = climb.was_limited,
+                         .failures = climb.failures});
   }
 
   // The same once more if the job was killed, so that the mesh is the same as without that.
@@ -197,6 +208,9 @@ class Filler {
         continue;
       }
       own_.pieces.push_back(result.summary);
+      if (!result.failures.empty()) {
+        own_.failures.push_back({result.summary.subdomain, result.failures});
+      }
       own_.histograms.add(result.histograms);
       for (const verify::SeamHash& seam : result.seams) {
         own_.seam_sums[at(seam.triangle)] += seam.hash;
@@ -230,12 +244,32 @@ std::vector<T> gather(const std::vector<T>& own, const comm::Communicator& comm)
   return all;
 }
 
+std::vector<FailedTries> gather(const std::vector<FailedTries>& own, const comm::Communicator& comm)
+{
+  ByteWriter out;
+  out.put(static_cast<std::uint64_t>(own.size()));
+  for (const FailedTries& failed : own) {
+    out.put(failed.subdomain);
+    out.put(failed.messages);
+  }
+  std::vector<FailedTries> all;
+  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
+    ByteReader in(bytes);
+    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+      const auto subdomain = in.get<LocalIndex>();
+      all.push_back({subdomain, in.get_strings()});
+    }
+  }
+  return all;
+}
+
 // Puts what the ranks have together; integers and sums modulo 2^64 only, so in any order the same.
 FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
 {
   FilledPieces all;
   all.pieces = gather(own.pieces, comm);
   all.folded = gather(own.folded, comm);
+  all.failures = gather(own.failures, comm);
   std::sort(all.folded.begin(), all.folded.end());
   std::sort(all.pieces.begin(), all.pieces.end(),
             [](const PieceSummary& a, const PieceSummary& b) { return a.subdomain < b.subdomain; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tessera/config/case.hpp"
@@ -13,10 +14,17 @@
 
 namespace tessera::pipeline {
 
+/// @brief What the tries said that did not fill a subdomain.
+struct FailedTries {
+  LocalIndex subdomain = kNoIndex;
+  std::vector<std::string> messages{};  ///< One a try, in their order.
+};
+
 /// @brief What is known of all pieces; the same on every rank.
 struct FilledPieces {
-  std::vector<PieceSummary> pieces{};  ///< By subdomain; without the folded ones.
-  std::vector<LocalIndex> folded{};    ///< Subdomains that even subdivision could not fill yet.
+  std::vector<PieceSummary> pieces{};   ///< By subdomain; without the folded ones.
+  std::vector<LocalIndex> folded{};     ///< Subdomains that even subdivision could not fill yet.
+  std::vector<FailedTries> failures{};  ///< Of those in `pieces`; any order.
   quality::QualityHistograms histograms{};  ///< Over all pieces.
   std::vector<Hash128> seam_sums{};         ///< Shape (num skeleton triangles): both sides' hashes.
 };

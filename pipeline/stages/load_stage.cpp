@@ -14,8 +14,10 @@ constexpr jobs::JobLimits kLoadLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory
 void load_everywhere(const Bytes& message, RunContext& context)
 {
   all_or_none(context.comm, [&] {
-    jobs::throw_unless_ok(context.jobs.load(message, kLoadLimits, wait_for_stop_signal()),
-                          "loading the coarse mesh");
+    const jobs::JobOutcome outcome =
+        context.jobs.load(message, kLoadLimits, wait_for_stop_signal());
+    throw_if_cancelled(outcome);
+    jobs::throw_unless_ok(outcome, "loading the coarse mesh");
   });
 }
 

@@ -104,7 +104,8 @@ constexpr Key kKeys[] = {
      .rule = RealRule{[](Case& c) -> double& { return c.fill.timeout_s; }, 0.0, Bound::inclusive,
                       kHuge, Bound::inclusive},
      .unit = "seconds of CPU time",
-     .meaning = "Limit of one fill job; 0 derives it from the predicted number of tets.",
+     .meaning = "Limit of one fill job; 0 derives it from the predicted number of tets. A job that "
+                "sleeps as long, or 120 s, is ended too.",
      .reason = "the derived limit is generous (at least 20 times the prediction), so that only a "
                "hanging job meets it"},
     {.name = "fill.memory_gib",

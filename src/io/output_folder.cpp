@@ -104,17 +104,44 @@ void remove_pieces(const fs::path& folder)
   fs::remove(folder, error);  // Fails, as it should, when a foreign file is in it.
 }
 
+void remove_unless_folder(const fs::path& path)
+{
+  if (!fs::is_directory(fs::symlink_status(path))) remove_tree(path);
+}
+
+/// @brief Removes what an earlier run made, in an order in which a kill leaves nothing that a later
+/// run could take for more than it is: without a report the run has not ended, and only a folder
+/// that has no case is one in which nothing has been done.
 void remove_earlier_run(const fs::path& folder)
 {
+  remove_unless_folder(folder / "report.json");
   for (const fs::directory_entry& entry : entries_of(folder)) {
     const std::string name = entry.path().filename().string();
     const bool is_folder = entry.is_directory() && !entry.is_symlink();
+    if (name == "case.toml") continue;
     if (is_folder && has_name(kPieceFolders, name)) {
       remove_pieces(entry.path());
     } else if (is_folder ? has_name(kOwnFolders, name)
                          : has_name(kRunFiles, name) || has_name(kPieceFolders, name)
                                || has_name(kOwnFolders, name) || is_temporary_name(name)) {
       remove_tree(entry.path());
+    }
+  }
+  remove_unless_folder(folder / "case.toml");
+}
+
+/// @brief Removes what writers that were killed have left half written.
+void remove_temporaries(const fs::path& folder)
+{
+  std::vector<fs::path> folders{folder};
+  for (const char* const name : kPieceFolders) {
+    if (fs::is_directory(fs::symlink_status(folder / name))) folders.push_back(folder / name);
+  }
+  for (const fs::path& each : folders) {
+    for (const fs::directory_entry& entry : entries_of(each)) {
+      if (!entry.is_directory() && is_temporary_name(entry.path().filename().string())) {
+        remove_tree(entry.path());
+      }
     }
   }
 }
@@ -128,6 +155,7 @@ OutputFolder::OutputFolder(fs::path folder, ExistingFolder existing) : folder_(s
   lock_ = std::make_unique<FolderLock>(folder_);
   require_usable(folder_, existing);  // Again: another run may have come and gone in between.
   if (existing == ExistingFolder::overwrite) remove_earlier_run(folder_);
+  if (existing == ExistingFolder::resume) remove_temporaries(folder_);
 }
 
 OutputFolder::~OutputFolder() = default;

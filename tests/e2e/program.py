@@ -2,6 +2,7 @@
 """What the end-to-end tests share: starting the program, tiny models and cases, its processes."""
 import contextlib
 import dataclasses
+import hashlib
 import json
 import os
 import pathlib
@@ -24,6 +25,12 @@ HANG_S = 90.0
 OK, FAILED, DEGRADED, WRONG_INPUT, INTERNAL, CANNOT_WRITE, STOPPED = 0, 2, 3, 64, 70, 73, 75
 
 BALL = "algebraic3d\nsolid ball = sphere (0, 0, 0; 1);\ntlo ball;\n"
+
+# A ball of one material in a shell of another.
+TWO_MATERIALS = (
+    "algebraic3d\nsolid core = sphere (0, 0, 0; 1);\nsolid all = sphere (0, 0, 0; 2);\n"
+    "solid shell = all and not core;\ntlo core;\ntlo shell;\n"
+)
 
 CUBE_CORNERS = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
 CUBE_TRIANGLES = [  # Rows of CUBE_CORNERS, normals outwards.
@@ -145,6 +152,25 @@ class ResultTest(ProgramTest):
         super().setUp()
         self.out = shutil.copytree(self.result, self.folder / "out")
         self.report = json.loads((self.out / "report.json").read_text())
+
+
+def mesh_files(folder):
+    """Hash of every file of the mesh."""
+    files = [*folder.glob("*.pvtu"), *folder.glob("mesh/*"), *folder.glob("boundary/*")]
+    return {
+        file.relative_to(folder).as_posix(): hashlib.sha256(file.read_bytes()).hexdigest()
+        for file in files
+    }
+
+
+def figures(folder):
+    """The report without what is allowed to differ: times, memory, ranks."""
+    report = json.loads((folder / "report.json").read_text())
+    for key in ("wall_time_s", "tets_per_second", "peak_rss_bytes_max", "stages", "num_ranks"):
+        del report[key]
+    for subdomain in report["subdomains"]:
+        del subdomain["seconds"]
+    return report
 
 
 def wait_until(condition, what, within_s=HANG_S):

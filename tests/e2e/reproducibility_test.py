@@ -1,31 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The same bits for every number of ranks, from run to run, and in whatever order jobs run."""
-import hashlib
-import json
 import os
 import re
 import unittest
 
 import program
-
-
-def mesh_files(folder):
-    """Hash of every file of the mesh."""
-    files = [*folder.glob("*.pvtu"), *folder.glob("mesh/*"), *folder.glob("boundary/*")]
-    return {
-        file.relative_to(folder).as_posix(): hashlib.sha256(file.read_bytes()).hexdigest()
-        for file in files
-    }
-
-
-def figures(folder):
-    """The report without what is allowed to differ: times, memory, ranks."""
-    report = json.loads((folder / "report.json").read_text())
-    for key in ("wall_time_s", "tets_per_second", "peak_rss_bytes_max", "stages", "num_ranks"):
-        del report[key]
-    for subdomain in report["subdomains"]:
-        del subdomain["seconds"]
-    return report
+from program import figures, mesh_files
 
 
 def fill_order(folder):

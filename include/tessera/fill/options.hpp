@@ -20,7 +20,8 @@ struct FillRegion {
 struct FillOptions {
   KernelKind kernel = KernelKind::netgen;
   std::vector<FillRegion> regions{};  ///< In place of `kernel`; no material twice.
-  double timeout_s = 0.0;   ///< CPU seconds a job; 0: many times what its predicted tets take.
+  double timeout_s = 0.0;   ///< CPU seconds a job, or of sleep (at most 120); 0: many times what
+                            ///< its predicted tets take.
   double memory_gib = 4.0;  ///< Resident memory of a job, GiB, > 0.
   int optimize_steps = 2;   ///< NETGEN's optimisation rounds, >= 0.
   double grading = 0.3;     ///< Growth of the size away from the skin, in (0, 1].

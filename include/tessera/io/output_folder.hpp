@@ -11,7 +11,7 @@ namespace tessera::io {
 enum class ExistingFolder : int {
   refuse,     ///< It is an error.
   overwrite,  ///< Remove what a Tessera run made; refuse a folder that no Tessera run has used.
-  resume,     ///< Keep everything; refuse a folder that no Tessera run has used.
+  resume,     ///< Keep everything but half-written files; refuse a folder that no run has used.
 };
 
 /// @brief The output folder of one run, held by a lock for as long as this object lives.

@@ -149,6 +149,16 @@ TEST(OutputFolder, ResumeKeepsEverything)
   EXPECT_TRUE(fs::exists(folder / "run/report.json"));
 }
 
+TEST(OutputFolder, ResumeRemovesWhatKilledWritersLeft)
+{
+  const TemporaryFolder folder;
+  make_earlier_run(folder / "run");
+  EXPECT_EQ(refusal(folder / "run", ExistingFolder::resume), "");
+  EXPECT_FALSE(fs::exists(folder / "run/mesh/piece_000001.vtu.tmp-12-3"));
+  EXPECT_FALSE(fs::exists(folder / "run/report.json.tmp-4-0"));
+  EXPECT_TRUE(fs::exists(folder / "run/mesh/piece_000000.vtu"));
+}
+
 TEST(OutputFolder, OverwriteFollowsNoSymbolicLink)
 {
   const TemporaryFolder folder;

@@ -16,6 +16,7 @@ FillResult some_result()
   result.summary.volume = 0.1;
   result.summary.was_limited = true;
   result.summary.seam_tets = {3, 10.0, 150.0, 0.2, 1.5};
+  result.failures = {"try 1 (netgen): used too much", "try 2 (netgen): gave up"};
   result.histograms.mean_ratio.add(0.7);
   result.histograms.log2_edge_length.add(-3.0);
   result.seams = {{4, {1, 2}}, {9, {3, 4}}};
@@ -30,6 +31,7 @@ TEST(FillResult, ComesBackFromBytes)
   EXPECT_EQ(got.summary.num_tets, 5'000'000'000);
   EXPECT_EQ(got.summary.volume, 0.1);
   EXPECT_TRUE(got.summary.was_limited);
+  EXPECT_EQ(got.failures, sent.failures);
   EXPECT_EQ(got.summary.seam_tets.num_tets, 3);
   EXPECT_EQ(got.summary.seam_tets.sum_mean_ratio, 1.5);
   EXPECT_EQ(quality::to_bytes(got.histograms), quality::to_bytes(sent.histograms));

@@ -51,6 +51,14 @@ Json report_of(const RunResult& run)
   return Json::parse(report_json(run, judge(run), {"shaft.toml", 2, 10.0, 1000}, {}));
 }
 
+TEST(Report, NamesTheSubdomainsOfAPartOfAMesh)
+{
+  RunResult run = run_of_two_pieces();
+  EXPECT_EQ(report_of(run)["only_subdomains"], Json::array());
+  run.filled.pieces.erase(run.filled.pieces.begin());
+  EXPECT_EQ(report_of(run)["only_subdomains"], Json::array({1}));
+}
+
 TEST(Judge, ARunWithoutTargetsIsOk)
 {
   const Verdict verdict = judge(run_of_two_pieces());

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Killing a run at a chosen moment: when a stage begins, some time into it, or while a file is half written."""
+import contextlib
+import os
+import re
+import signal
+import time
+
+import program
+
+STAGES = ("model", "coarse", "decompose", "plan", "fill", "verify", "write")
+
+# One of each kind of process that a run has; "all": mpirun and everything below it.
+VICTIMS = ("rank", "zygote", "model zygote", "job", "all")
+
+_STAGE_LINE = re.compile(rf" info ({'|'.join(STAGES)}) +(?!\d+ of )", re.MULTILINE)
+
+
+class Watch:
+    """Looks at what a run that has just been started says and writes."""
+
+    def __init__(self, process, folder):
+        self.process = process
+        self.folder = folder
+        self.log = folder / "log" / "run.log"
+        # A resumed run goes on in the log of the one before.
+        self.old_size = self.log.stat().st_size if self.log.exists() else 0
+
+    def ended_stages(self):
+        with contextlib.suppress(FileNotFoundError), self.log.open() as log:
+            log.seek(self.old_size)
+            return _STAGE_LINE.findall(log.read())
+        return []
+
+    def wait_for_stage(self, stage, stages=STAGES):
+        """Until `stage` of a run with these stages has begun, "end": the last is over; False if the run has ended."""
+        order = [*stages, "end"]
+        before = order.index(stage) - 1
+        return self.wait_for(lambda: before < 0 and self.log.exists() or stages[before] in self.ended_stages())
+
+    def wait_for_half_written_file(self, subfolder):
+        """Until there is a file that has not got its final name; False if the run has ended first."""
+        return self.wait_for(lambda: any(".tmp-" in name for name in _names_in(self.folder / subfolder)))
+
+    def wait(self, seconds):
+        """False if the run has ended by then."""
+        end = time.monotonic() + seconds
+        return self.wait_for(lambda: time.monotonic() >= end)
+
+    def victims(self, kind, which=0):
+        """Processes to kill: of rank number `which`, wrapping round. Waits until there is one of the kind; to
+        be asked before the moment of the kill, for the answer takes some milliseconds."""
+        found = []
+
+        def look():
+            if kind == "all":
+                found[:] = [self.process.pid, *program.descendants(self.process.pid)]
+                return True
+            ranks = program.ranks_of(self.process) or [self.process.pid]
+            rank = ranks[which % len(ranks)]
+            found[:] = [rank, *program.chain_of(rank)][VICTIMS.index(kind):][:1]
+            return bool(found)
+
+        self.wait_for(look)
+        return found
+
+    def kill(self, victims):
+        """SIGKILL to all of them, at once; waits until the whole run is gone; its exit code."""
+        for pid in victims:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        self.process.communicate(timeout=program.HANG_S)
+        program.wait_until(lambda: not self._processes(), "the end of all processes")
+        return self.process.returncode
+
+    def _processes(self):
+        """Those of the run, also the ones that have lost their parents: they work in the same folder."""
+        working = []
+        for pid in filter(str.isdigit, os.listdir("/proc")):
+            with contextlib.suppress(OSError):
+                if program.is_program(pid) and os.path.samefile(f"/proc/{pid}/cwd", self.folder.parent):
+                    working.append(pid)
+        return working
+
+    def has_ended(self):
+        return self.process.poll() is not None
+
+    def wait_for(self, condition):
+        """False if the run has ended first. Polls without sleep: what is waited for may last a millisecond."""
+        end = time.monotonic() + program.HANG_S
+        while time.monotonic() < end:
+            if condition():
+                return True
+            if self.has_ended():
+                return False
+        raise AssertionError(f"waited {program.HANG_S} s in vain")
+
+
+def _names_in(folder):
+    with contextlib.suppress(FileNotFoundError):
+        return os.listdir(folder)
+    return []
