@@ -109,7 +109,8 @@ Json stages_json(const std::vector<StageTime>& times)
     stages.push_back({{"name", time.name},
                       {"wall_time_s", time.wall_s},
                       {"rank_min_s", time.rank_min_s},
-                      {"rank_max_s", time.rank_max_s}});
+                      {"rank_max_s", time.rank_max_s},
+                      {"cpu_s", time.cpu_s}});
   }
   return stages;
 }
