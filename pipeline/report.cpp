@@ -115,6 +115,18 @@ Json stages_json(const std::vector<StageTime>& times)
   return stages;
 }
 
+Json prediction_json(const std::vector<PredictedFigure>& figures)
+{
+  Json json = Json::object();
+  for (const PredictedFigure& figure : figures) {
+    json[figure.name] = {{"predicted", figure.predicted}, {"actual", figure.actual}};
+    if (figure.actual > 0.0) {
+      json[figure.name]["error"] = figure.predicted / figure.actual - 1.0;
+    }
+  }
+  return json;
+}
+
 Json libraries_json()
 {
   return {{"netgen", netgen::netgen_version()},
@@ -222,6 +234,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   add_figures(json, figures);
   json["tets_per_second"] = static_cast<double>(run.num_tets) / figures.wall_time_s;
   json["stages"] = stages_json(times);
+  if (!figures.predicted.empty()) json["prediction"] = prediction_json(figures.predicted);
   json["quality"] = quality_json(run.filled);
   json["model"] = {{"repairs", run.model.repairs},
                    {"length_unit", run.model.length_unit},
