@@ -56,7 +56,9 @@ RunOutline outline_run(const CutMesh& cut, const std::vector<fill::KernelKind>& 
           .num_vertices();
   for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
     if (kernels[at(s)] == fill::KernelKind::subdivide) continue;
-    const double tets = fill::expected_tets(cut.coarse, cut.tets.of(s), cut.vertex_size, levels);
+    const auto num_triangles = static_cast<LocalIndex>(cut.skeleton.triangles_of(s).size());
+    const double tets =
+        fill::expected_tets(cut.coarse, cut.tets.of(s), num_triangles, cut.vertex_size, levels);
     outline.pieces[at(s)].tets = std::llround(tets);
     outline.pieces[at(s)].interior_vertices = std::llround(kInteriorVerticesATet * tets);
   }
