@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/batch_filler.hpp"
 
-#include <ctime>
 #include <utility>
 
 #include "tessera/base/error.hpp"
 
+#include "pipeline/run_context.hpp"
+
 namespace tessera::pipeline {
-namespace {
-
-double cpu_time_s()
-{
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-}  // namespace
 
 BatchFiller::BatchFiller(const FillTask& task, const std::filesystem::path& output,
                          const WriteContext* numbers, const io::OutputOptions& options)
-    : task_(task), output_(output), cpu_before_s_(cpu_time_s())
+    : task_(task), output_(output), cpu_before_s_(process_cpu_s())
 {
   record_.plan = task.plan;
   if (numbers != nullptr) file_.emplace(*numbers, options);
@@ -33,7 +24,7 @@ void BatchFiller::add(FilledPiece filled)
   summary.tries = task_.tries;
   summary.was_limited = task_.was_limited;
   filled.result.failures = task_.failures;
-  summary.cpu_s = cpu_time_s() - cpu_before_s_;
+  summary.cpu_s = process_cpu_s() - cpu_before_s_;
   cpu_before_s_ += summary.cpu_s;
   if (!summary.is_folded) {
     if (summary.tets.min_dihedral_deg <= task_.angle_to_beat_deg) {

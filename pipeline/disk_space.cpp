@@ -10,65 +10,54 @@
 #include "pipeline/exit_code.hpp"
 
 namespace tessera::pipeline {
-namespace {
-
-// Measured on subdivided and re-meshed shaft, mesh and boundary files together.
-double file_bytes_a_tet(io::Compression compression)
+FolderSize size_of_folders(const std::filesystem::path& parent,
+                           const std::vector<std::string>& names)
 {
-  switch (compression) {
-    case io::Compression::none:
-      return 52.0;
-    case io::Compression::zlib:
-      return 13.0;
-    case io::Compression::lz4:
-      return 25.0;
-  }
-  return 52.0;
-}
-
-constexpr double kStoreBytesATet = 28.0;
-constexpr double kQualityBytesATet = 8.0;
-
-// What an earlier try has left there need not be written again.
-double bytes_in(const std::filesystem::path& folder)
-{
+  FolderSize size;
   std::error_code error;
-  double bytes = 0.0;
-  for (std::filesystem::recursive_directory_iterator entry(folder, error), end;
-       !error && entry != end; entry.increment(error)) {
-    if (entry->is_regular_file(error)) bytes += static_cast<double>(entry->file_size(error));
-  }
-  return bytes;
-}
-
-}  // namespace
-
-DiskNeed predict_disk_need(double num_tets, bool is_one_pass, const io::OutputOptions& options)
-{
-  const double a_tet =
-      file_bytes_a_tet(options.compression) + (options.cell_quality ? kQualityBytesATet : 0.0);
-  return {.files = a_tet * num_tets, .store = is_one_pass ? 0.0 : kStoreBytesATet * num_tets};
-}
-
-void require_disk_space(const RunResult& run, const std::vector<SubdomainRange>& ranges,
-                        RunContext& context)
-{
-  double num_tets = 0.0;
-  for (const SubdomainRange& range : ranges) {
-    for (LocalIndex s = range.first; s < range.last; ++s) {
-      num_tets += run.decomposition.decomposition.subdomain_weight[at(s)];
+  for (const std::string& name : names) {
+    for (std::filesystem::recursive_directory_iterator entry(parent / name, error), end;
+         !error && entry != end; entry.increment(error)) {
+      if (!entry->is_regular_file(error)) continue;
+      size.num_files += 1.0;
+      size.bytes += static_cast<double>(entry->file_size(error));
     }
   }
-  const DiskNeed need = predict_disk_need(num_tets, are_counts_known(run), run.resolved.output);
+  return size;
+}
+
+DiskNeed disk_need(const RunOutline& outline, const Rates& rates)
+{
+  DiskNeed need;
+  for (const SubdomainRange& file : outline.files) {
+    for (LocalIndex s = file.first; s < file.last; ++s) {
+      const KernelRates& kernel = rates.of(outline.kernels[at(s)]);
+      const auto tets = static_cast<double>(outline.pieces[at(s)].tets);
+      need.file_bytes += kernel.file_bytes_per_tet * tets;
+      if (!outline.is_one_pass) need.store_bytes += kernel.store_bytes_per_tet * tets;
+    }
+    const GlobalIndex triangles = outline.boundary_triangles_of(file);
+    need.num_files += triangles > 0 ? 2 : 1;
+    need.file_bytes += rates.file_bytes_per_boundary_triangle * static_cast<double>(triangles);
+  }
+  need.file_bytes += rates.file_header_bytes * static_cast<double>(need.num_files);
+  return need;
+}
+
+void require_disk_space(const RunOutline& outline, const io::OutputOptions& options,
+                        RunContext& context)
+{
+  const DiskNeed need = disk_need(outline, built_in_rates(options));
   all_or_none(context.comm, [&] {
     if (context.comm.rank() != 0) return;
+    // What an earlier try has left there need not be written again.
     const double free = static_cast<double>(std::filesystem::space(context.folder).available)
-                        + bytes_in(context.folder);
-    if (need.files + need.store <= free) return;
+                        + size_of_folders(context.folder, {"mesh", "boundary", "pieces"}).bytes;
+    if (need.file_bytes + need.store_bytes <= free) return;
     throw OutputError(fmt::format(
-        "{}: about {:.3g} GB are needed for {:.3g} tets and {:.3g} GB are free; choose another "
-        "output.directory, output.compression = \"zlib\", or fewer refine.levels",
-        context.folder.string(), 1e-9 * (need.files + need.store), num_tets, 1e-9 * free));
+        "{}: about {:.3g} GB are needed and {:.3g} GB are free; choose another output.directory, "
+        "output.compression = \"zlib\", or fewer refine.levels",
+        context.folder.string(), 1e-9 * (need.file_bytes + need.store_bytes), 1e-9 * free));
   });
 }
 

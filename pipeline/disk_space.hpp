@@ -1,29 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "tessera/io/options.hpp"
 
-#include "pipeline/piece_file.hpp"
-#include "pipeline/run_pipeline.hpp"
+#include "pipeline/predict/rates.hpp"
+#include "pipeline/predict/run_outline.hpp"
+#include "pipeline/run_context.hpp"
 
 namespace tessera::pipeline {
 
-/// @brief Bytes on disk that so many tets will take when written, and while they wait in the store.
+/// @brief What a run writes.
 struct DiskNeed {
-  double files = 0.0;
-  double store = 0.0;
+  GlobalIndex num_files = 0;  ///< In mesh/ and boundary/.
+  double file_bytes = 0.0;    ///< Of those files.
+  double store_bytes = 0.0;   ///< Of the pieces that wait for their ids; gone at the end.
 };
 
-/// @brief Estimate from the number of tets and of vertices. Local.
-[[nodiscard]] DiskNeed predict_disk_need(double num_tets, bool is_one_pass,
-                                         const io::OutputOptions& options);
+/// @brief What is in some folders.
+struct FolderSize {
+  double num_files = 0.0;
+  double bytes = 0.0;
+};
 
-/// @brief Refuses to begin what cannot be finished: the free space must hold what is predicted for
-/// the ranges that are to be filled.
+/// @brief Sizes up the folders of these names below `parent`; one that is missing is empty. Local.
+[[nodiscard]] FolderSize size_of_folders(const std::filesystem::path& parent,
+                                         const std::vector<std::string>& names);
+
+/// @brief Adds up the files of an outline. Local.
+[[nodiscard]] DiskNeed disk_need(const RunOutline& outline, const Rates& rates);
+
+/// @brief Refuses to begin what cannot be finished: the free space must hold what the outline needs
+/// at the built-in rates.
 /// @note Collective. @throws OutputError on every rank, with both numbers and what to change.
-void require_disk_space(const RunResult& run, const std::vector<SubdomainRange>& ranges,
+void require_disk_space(const RunOutline& outline, const io::OutputOptions& options,
                         RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cstring>
-#include <numeric>
 #include <optional>
 
 #include <spdlog/fmt/fmt.h>
@@ -16,7 +15,10 @@
 #include "tessera/io/output_folder.hpp"
 #include "tessera/jobs/process_memory.hpp"
 
+#include "pipeline/disk_space.hpp"
 #include "pipeline/log.hpp"
+#include "pipeline/predict/dry_run.hpp"
+#include "pipeline/predict/prediction_file.hpp"
 #include "pipeline/report.hpp"
 #include "pipeline/run_pipeline.hpp"
 #include "pipeline/run_state.hpp"
@@ -74,7 +76,7 @@ class MeshRun {
   ExitCode run()
   {
     const auto log = make_log(
-        comm_.rank() == 0 ? given_.output.directory / "log" / "run.log" : std::filesystem::path(),
+        comm_.rank() == 0 ? given_.output.directory / "log" / log_name() : std::filesystem::path(),
         command_.verbosity);
     Progress progress(progress_style(command_, comm_), log);
     RunContext context{comm_, jobs_, progress, *log, given_.output.directory};
@@ -92,8 +94,10 @@ class MeshRun {
   {
     if (command_.resume) state().require_begun();
     folder_.emplace(given_.output.directory, existing());
-    if (command_.resume) state().require_same_case(given_);
+    std::filesystem::remove_all(sample_folder(given_.output.directory));
     std::filesystem::create_directories(given_.output.directory / "log");
+    if (command_.dry_run) return;
+    if (command_.resume) state().require_same_case(given_);
     std::filesystem::create_directories(given_.output.directory / "mesh");
     std::filesystem::create_directories(given_.output.directory / "boundary");
     io::write_text_atomically(given_.output.directory / "case.toml", config::to_toml(given_));
@@ -104,8 +108,10 @@ class MeshRun {
     return {given_.output.directory, command_.only_subdomains};
   }
 
+  // A dry run removes nothing that a run has left, and leaves nothing in the way of one.
   [[nodiscard]] io::ExistingFolder existing() const
   {
+    if (command_.dry_run) return io::ExistingFolder::resume;
     if (command_.overwrite) return io::ExistingFolder::overwrite;
     return command_.resume ? io::ExistingFolder::resume : io::ExistingFolder::refuse;
   }
@@ -139,9 +145,10 @@ class MeshRun {
     const RunState state = this->state();
     const RunResult run = run_pipeline(given_, {&state, command_.only_subdomains}, context);
     const Verdict verdict = judge(run);
-    const RunFigures run_figures = figures();
+    RunFigures run_figures = figures();
     all_or_none(comm_, [&] {
       if (comm_.rank() != 0) return;
+      run_figures.predicted = predicted(run, run_figures, context);
       io::write_text_atomically(given_.output.directory / "report.json",
                                 report_json(run, verdict, run_figures, context.times));
       state.clear();
@@ -154,20 +161,46 @@ class MeshRun {
     return verdict.exit_code;
   }
 
+  [[nodiscard]] const char* log_name() const
+  {
+    return command_.dry_run ? "dry_run.log" : "run.log";
+  }
+
   ExitCode predict(RunContext& context)
   {
-    const RunResult run = run_coarse_part(given_, {}, context);
-    const auto& weights = run.decomposition.decomposition.subdomain_weight;
-    context.log.info("about {:.3g} tets in {} subdomains, {} levels from {} coarse tets",
-                     std::accumulate(weights.begin(), weights.end(), 0.0), weights.size(),
-                     run.resolved.refine.levels, run.coarse.mesh.num_tets());
+    const int num_ranks = command_.predicted_ranks.value_or(comm_.size());
+    const std::string table =
+        dry_run(given_, {nullptr, command_.only_subdomains}, num_ranks, context);
+    if (comm_.rank() == 0 && command_.verbosity != Verbosity::quiet) fmt::print("{}", table);
     return ExitCode::ok;
+  }
+
+  // Held against the prediction of a dry run, if there was one of this run.
+  [[nodiscard]] std::vector<PredictedFigure> predicted(const RunResult& run,
+                                                       const RunFigures& run_figures,
+                                                       const RunContext& context) const
+  {
+    GlobalIndex num_boundary = 0;
+    for (const PieceSummary& piece : run.filled.pieces) num_boundary += piece.num_boundary;
+    const FolderSize size = size_of_folders(given_.output.directory, {"mesh", "boundary"});
+    const ActualRun actual{
+        .num_ranks = comm_.size(),
+        .tets = static_cast<double>(run.num_tets),
+        .vertices = static_cast<double>(run.num_vertices),
+        .boundary_triangles = static_cast<double>(num_boundary),
+        .files = size.num_files,
+        .disk_bytes = size.bytes,
+        .memory_per_rank_bytes = static_cast<double>(run_figures.peak_rss_bytes_max),
+        .wall_time_s = run_figures.wall_time_s,
+        .stages = context.times};
+    return compare_with_prediction(given_.output.directory, PredictedRun(given_, run.model),
+                                   actual);
   }
 
   // The report of a run that has ended stays: it is what a refused --resume is judged by.
   void report_failure(const std::exception& error, const RunContext& context) const
   {
-    if (state().finished()) return;
+    if (command_.dry_run || state().finished()) return;
     RunFigures failed = local_figures();
     failed.peak_rss_bytes_max = peak_rss_bytes();
     try {

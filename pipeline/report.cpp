@@ -124,9 +124,22 @@ Json stages_json(const std::vector<StageTime>& times)
     stages.push_back({{"name", time.name},
                       {"wall_time_s", time.wall_s},
                       {"rank_min_s", time.rank_min_s},
-                      {"rank_max_s", time.rank_max_s}});
+                      {"rank_max_s", time.rank_max_s},
+                      {"cpu_s", time.cpu_s}});
   }
   return stages;
+}
+
+Json prediction_json(const std::vector<PredictedFigure>& figures)
+{
+  Json json = Json::object();
+  for (const PredictedFigure& figure : figures) {
+    json[figure.name] = {{"predicted", figure.predicted}, {"actual", figure.actual}};
+    if (figure.actual > 0.0) {
+      json[figure.name]["error"] = figure.predicted / figure.actual - 1.0;
+    }
+  }
+  return json;
 }
 
 Json libraries_json()
@@ -237,6 +250,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   add_figures(json, figures);
   json["tets_per_second"] = static_cast<double>(run.num_tets) / figures.wall_time_s;
   json["stages"] = stages_json(times);
+  if (!figures.predicted.empty()) json["prediction"] = prediction_json(figures.predicted);
   json["quality"] = quality_json(run.filled);
   json["model"] = {{"repairs", run.model.repairs},
                    {"length_unit", run.model.length_unit},

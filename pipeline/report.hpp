@@ -20,12 +20,20 @@ struct Verdict {
 /// @brief Holds a finished run against the targets of its case.
 [[nodiscard]] Verdict judge(const RunResult& run);
 
+/// @brief What a dry run has foretold, and what it became.
+struct PredictedFigure {
+  std::string name{};
+  double predicted = 0.0;
+  double actual = 0.0;
+};
+
 /// @brief Figures of the whole run that no stage knows.
 struct RunFigures {
   std::string case_name{};
   int num_ranks = 1;
   double wall_time_s = 0.0;
-  std::size_t peak_rss_bytes_max = 0;  ///< Of a rank with its job processes.
+  std::size_t peak_rss_bytes_max = 0;        ///< Of a rank with its job processes.
+  std::vector<PredictedFigure> predicted{};  ///< Empty if there was no dry run of this run.
 };
 
 /// @brief report.json of a finished run.

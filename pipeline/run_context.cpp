@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/run_context.hpp"
 
+#include <cmath>
+#include <ctime>
 #include <utility>
 
 #include "tessera/base/error.hpp"
@@ -16,8 +18,12 @@ constexpr const char* kStopped = "stopped by a signal";
 
 StageScope::StageScope(RunContext& context, std::string name, std::int64_t total,
                        const std::string& unit)
-    : context_(context), name_(std::move(name)), start_(std::chrono::steady_clock::now())
+    : context_(context),
+      name_(std::move(name)),
+      start_(std::chrono::steady_clock::now()),
+      cpu_before_s_(process_cpu_s())
 {
+  context_.jobs.restart_usage();
   context_.progress.begin(name_, total, unit);
 }
 
@@ -26,14 +32,41 @@ double StageScope::elapsed_s() const
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
+double StageScope::used_cpu_s() const
+{
+  return process_cpu_s() - cpu_before_s_ + context_.jobs.usage().cpu_s;
+}
+
+void StageScope::work_is_done()
+{
+  work_s_ = elapsed_s();
+  work_cpu_s_ = used_cpu_s();
+}
+
 void StageScope::finish(const std::string& summary)
 {
-  const double own_s = work_s_ < 0.0 ? elapsed_s() : work_s_;
-  const double min_s = context_.comm.min(own_s);
-  const double max_s = context_.comm.max(own_s);
-  context_.times.push_back({name_, elapsed_s(), min_s, max_s});
+  if (work_s_ < 0.0) work_is_done();
+  const comm::Communicator& comm = context_.comm;
+  constexpr double kTicks = 1e6;  // A sum of integers is the same in any order.
+  const GlobalIndex cpu_ticks = comm.sum(std::llround(kTicks * work_cpu_s_));
+  StageTime time{
+      .name = name_,
+      .rank_min_s = comm.min(work_s_),
+      .rank_max_s = comm.max(work_s_),
+      .cpu_s = static_cast<double>(cpu_ticks) / kTicks,
+      .rank_max_cpu_s = comm.max(work_cpu_s_),
+      .jobs_peak_rss_bytes = comm.max(static_cast<double>(context_.jobs.usage().peak_rss_bytes))};
+  time.wall_s = elapsed_s();
+  context_.times.push_back(std::move(time));
   context_.progress.end(summary);
-  throw_if_stopped(context_.comm);
+  throw_if_stopped(comm);
+}
+
+double process_cpu_s()
+{
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 jobs::JobRunner::WaitCallback wait_for_stop_signal()

@@ -13,12 +13,16 @@
 
 namespace tessera::pipeline {
 
-/// @brief Wall time of one stage, seconds.
+/// @brief What one stage took. CPU time counts ranks with their jobs; on a machine that is busy
+/// with other things it says more than wall time.
 struct StageTime {
   std::string name{};
-  double wall_s = 0.0;      ///< On rank 0, waiting included.
-  double rank_min_s = 0.0;  ///< Smallest time that a rank was at work.
+  double wall_s = 0.0;      ///< On rank 0, waiting included, seconds.
+  double rank_min_s = 0.0;  ///< Smallest time that a rank was at work, seconds.
   double rank_max_s = 0.0;
+  double cpu_s = 0.0;                ///< Of all ranks together, seconds.
+  double rank_max_cpu_s = 0.0;       ///< Of the rank that used most, seconds.
+  double jobs_peak_rss_bytes = 0.0;  ///< Largest of a rank's worker processes together.
 };
 
 /// @brief What every stage may use. Owned by the mesh command, borrowed by the stages.
@@ -38,19 +42,25 @@ class StageScope {
              const std::string& unit = "");
 
   /// @brief Marks the end of this rank's own work; what follows is waiting for others.
-  void work_is_done() { work_s_ = elapsed_s(); }
+  void work_is_done();
 
   /// @brief Ends the stage. @note Collective.
   void finish(const std::string& summary);
 
  private:
   [[nodiscard]] double elapsed_s() const;
+  [[nodiscard]] double used_cpu_s() const;
 
   RunContext& context_;
   std::string name_;
   std::chrono::steady_clock::time_point start_;
+  double cpu_before_s_;
   double work_s_ = -1.0;
+  double work_cpu_s_ = 0.0;
 };
+
+/// @brief CPU time of the calling process so far, seconds. Local.
+[[nodiscard]] double process_cpu_s();
 
 /// @brief Callback for jobs that one rank runs while the others wait: cancels on a stop signal.
 [[nodiscard]] jobs::JobRunner::WaitCallback wait_for_stop_signal();

@@ -13,6 +13,7 @@
 
 #include "pipeline/count_pieces.hpp"
 #include "pipeline/disk_space.hpp"
+#include "pipeline/predict/run_outline.hpp"
 #include "pipeline/resolve_size.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
@@ -23,12 +24,6 @@
 
 namespace tessera::pipeline {
 namespace {
-
-// Of a scaled mesh only the user knows the unit.
-std::string output_length_unit(const RunResult& run)
-{
-  return run.resolved.geometry.scale == 1.0 ? run.model.length_unit : std::string{};
-}
 
 // Once more, finer, if the coarse mesh came out too coarse for the size that the case asks for.
 void refit_coarse_mesh(RunResult& run, double target, RunContext& context)
@@ -113,28 +108,30 @@ void plan_and_fill(RunResult& run, const CutMesh& cut, const std::vector<Subdoma
   run.damping = std::move(plan.damping);
 }
 
-// Part of a mesh has ids only where the number of all other tets is known without making them.
-void require_possible(const std::vector<LocalIndex>& only_subdomains, const CutMesh& cut,
-                      const config::Case& run_case, bool counts_are_known)
-{
-  if (only_subdomains.empty()) return;
-  if (!counts_are_known) {
-    throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\" and no other region");
-  }
-  if (run_case.output.files != 0) throw ConfigError("--only-subdomains excludes output.files");
-  if (only_subdomains.back() >= cut.num_subdomains()) {
-    throw ConfigError("--only-subdomains: there is no subdomain "
-                      + std::to_string(only_subdomains.back()) + ", the last one is "
-                      + std::to_string(cut.num_subdomains() - 1));
-  }
-}
-
 }  // namespace
 
-bool are_counts_known(const RunResult& run)
+// Of a scaled mesh only the user knows the unit.
+std::string output_length_unit(const RunResult& run)
 {
-  return std::all_of(run.kernels.begin(), run.kernels.end(),
-                     [](fill::KernelKind kernel) { return kernel == fill::KernelKind::subdivide; });
+  return run.resolved.geometry.scale == 1.0 ? run.model.length_unit : std::string{};
+}
+
+std::vector<SubdomainRange> output_ranges(const RunResult& run, const RunOptions& options)
+{
+  const LocalIndex num_subdomains = run.decomposition.decomposition.num_subdomains();
+  const std::vector<LocalIndex>& only = options.only_subdomains;
+  if (only.empty()) return file_ranges(num_subdomains, run.resolved.output.files);
+  if (!are_counts_known(run.kernels)) {
+    throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\" and no other region");
+  }
+  if (run.resolved.output.files != 0) {
+    throw ConfigError("--only-subdomains excludes output.files");
+  }
+  if (only.back() >= num_subdomains) {
+    throw ConfigError("--only-subdomains: there is no subdomain " + std::to_string(only.back())
+                      + ", the last one is " + std::to_string(num_subdomains - 1));
+  }
+  return single_ranges(only);
 }
 
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
@@ -146,6 +143,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
     options.state->require_same_run(hash_bytes(run.model.content));
   });
   run.resolved = resolve_size(given, context);
+  run.largest_size = largest_coarse_size(given.size.target, run.resolved.refine.levels);
   cut_coarse_mesh(run, given.size.target, options, context);
   all_or_none(context.comm, [&] {
     run.kernels = fill::kernels_of(run.resolved.fill, run.coarse.mesh.material_names,
@@ -158,28 +156,23 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
 {
   RunResult run = run_coarse_part(given, options, context);
   const CutMesh cut(run.coarse.mesh, run.decomposition.decomposition);
-  const bool is_one_pass = are_counts_known(run);
-  all_or_none(context.comm,
-              [&] { require_possible(options.only_subdomains, cut, run.resolved, is_one_pass); });
+  std::vector<SubdomainRange> files;
+  all_or_none(context.comm, [&] { files = output_ranges(run, options); });
+  const RunOutline outline = outline_run(cut, run.kernels, run.resolved.refine.levels, files);
+  const bool is_one_pass = outline.is_one_pass;
   const std::string length_unit = output_length_unit(run);
-  const std::vector<SubdomainRange> files =
-      options.only_subdomains.empty() ? file_ranges(cut.num_subdomains(), run.resolved.output.files)
-                                      : single_ranges(options.only_subdomains);
 
-  // Ids that are known before the fills let the fills write the files themselves.
-  std::vector<number::PieceCounts> counts;
   const int levels = run.resolved.refine.levels;
-  if (is_one_pass) counts = count_subdivided_pieces(cut, levels);
-  load_mesh(cut, levels, largest_coarse_size(given.size.target, levels), context);
-  if (is_one_pass) load_numbers(counts, length_unit, run.resolved.output, context);
-  require_disk_space(run, files, context);
+  load_mesh(cut, levels, run.largest_size, context);
+  // Ids that are known before the fills let the fills write the files themselves.
+  if (is_one_pass) load_numbers(outline.pieces, length_unit, run.resolved.output, context);
+  require_disk_space(outline, run.resolved.output, context);
 
-  const auto ranges = is_one_pass ? files : single_ranges(all_subdomains(cut));
-  plan_and_fill(run, cut, ranges, options, context);
-  if (!is_one_pass) counts = counts_of(run.filled.pieces);
+  plan_and_fill(run, cut, outline.jobs, options, context);
+  const auto counts = is_one_pass ? outline.pieces : counts_of(run.filled.pieces);
   const number::IdLayout ids(mesh::UnitLayout(cut.skeleton), mesh::lattice::intervals(levels),
                              counts);
-  run_verify_stage(cut, ranges, run.filled, context);
+  run_verify_stage(cut, outline.jobs, run.filled, context);
   const WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit};
   if (!is_one_pass) run_write_stage(run.resolved, files, mesh, run.filled, context);
   write_indices(run.resolved, files, mesh, run.filled, context);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "tessera/config/case.hpp"
@@ -18,6 +19,7 @@ namespace tessera::pipeline {
 /// @brief What a run has made; the same on every rank. The mesh itself is in the output folder.
 struct RunResult {
   config::Case resolved{};  ///< With size and levels as chosen.
+  double largest_size = std::numeric_limits<double>::infinity();  ///< largest_coarse_size().
   model::ModelSource model{};
   CoarseResult coarse{};
   decompose::DecomposeResult decomposition{};
@@ -28,14 +30,20 @@ struct RunResult {
   GlobalIndex num_tets = 0;
 };
 
-/// @brief Whether every subdomain is to be subdivided: then all ids are known before any piece is.
-[[nodiscard]] bool are_counts_known(const RunResult& run);
-
 /// @brief What a run is told besides its case.
 struct RunOptions {
   const RunState* state = nullptr;            ///< Of the output folder; nullptr: keep nothing.
   std::vector<LocalIndex> only_subdomains{};  ///< Ascending; empty: all.
 };
+
+/// @brief What each file of the run holds: output.files, or the subdomains asked for. Local.
+/// @throws ConfigError if only some subdomains are asked for and that is not possible: part of a
+/// mesh has ids only where the number of all other tets is known without making them.
+[[nodiscard]] std::vector<SubdomainRange> output_ranges(const RunResult& run,
+                                                        const RunOptions& options);
+
+/// @brief Unit of the output's lengths; empty if nobody knows it. Local.
+[[nodiscard]] std::string output_length_unit(const RunResult& run);
 
 /// @brief The stages in their order.
 /// @note Collective. The worker processes of `context.jobs` are those of make_mesh_worker().

@@ -18,17 +18,6 @@ namespace {
 
 constexpr const char* kWayOut = "; --overwrite starts anew";
 
-// What may differ between a run and its continuation: it bears on no bit of the mesh.
-config::Case without_limits(config::Case run_case)
-{
-  const config::Case plain;
-  run_case.output.directory = plain.output.directory;
-  run_case.coarse.timeout_s = plain.coarse.timeout_s;
-  run_case.fill.timeout_s = plain.fill.timeout_s;
-  run_case.fill.memory_gib = plain.fill.memory_gib;
-  return run_case;
-}
-
 std::string first_difference(const std::string& there, const std::string& here)
 {
   std::istringstream old_lines(there);
@@ -70,6 +59,16 @@ std::optional<Identity> identity_of(const std::filesystem::path& output,
 }
 
 }  // namespace
+
+config::Case without_limits(config::Case run_case)
+{
+  const config::Case plain;
+  run_case.output.directory = plain.output.directory;
+  run_case.coarse.timeout_s = plain.coarse.timeout_s;
+  run_case.fill.timeout_s = plain.fill.timeout_s;
+  run_case.fill.memory_gib = plain.fill.memory_gib;
+  return run_case;
+}
 
 Bytes to_bytes(const Plan& plan)
 {

@@ -18,6 +18,10 @@
 
 namespace tessera::pipeline {
 
+/// @brief The case without what may differ between a run and its continuation, or its prediction:
+/// the output directory and limits of time and memory bear on no bit of the mesh.
+[[nodiscard]] config::Case without_limits(config::Case run_case);
+
 /// @brief The plan as it stands: what a round of fills works from.
 struct Plan {
   std::vector<fill::KernelKind> kernels{};  ///< Shape (num_subdomains); subdivide where folded.

@@ -15,7 +15,7 @@
 /// throw on every rank if a worker dies, or Interrupted on a signal.
 namespace tessera::pipeline {
 
-/// @param[in] largest_size largest_coarse_size() of the case.
+/// @param[in] largest_size RunResult::largest_size.
 void load_mesh(const CutMesh& cut, int levels, double largest_size, RunContext& context);
 
 /// @brief From now on fill jobs write the output files themselves. @param[in] counts Of all pieces.

@@ -19,19 +19,6 @@
 namespace tessera::pipeline {
 namespace {
 
-// Reads the pieces of one file from the store, one after the other, and writes it.
-void write_file(const SubdomainRange& range, const config::Case& run_case, const WriteContext& mesh,
-                const std::filesystem::path& folder, std::vector<Hash128>& digests)
-{
-  const io::RecordStore store(store_folder(folder));
-  PieceFile file(mesh, run_case.output);
-  for (LocalIndex s = range.first; s < range.last; ++s) {
-    const FillRecord record = fill_record_from_bytes(store.get(record_name(s)));
-    digests[at(s)] = file.add(mesh::piece_from_bytes(record.piece));
-  }
-  file.write(folder, range.number);
-}
-
 void sum_over_ranks(std::vector<Hash128>& hashes, const comm::Communicator& comm)
 {
   std::vector<std::uint64_t> halves;
@@ -54,6 +41,20 @@ bool has_boundary(const SubdomainRange& range, const std::vector<PieceSummary>& 
 
 }  // namespace
 
+std::vector<Hash128> write_file(const SubdomainRange& range, const io::OutputOptions& options,
+                                const WriteContext& mesh, const std::filesystem::path& folder)
+{
+  const io::RecordStore store(store_folder(folder));
+  PieceFile file(mesh, options);
+  std::vector<Hash128> digests;
+  for (LocalIndex s = range.first; s < range.last; ++s) {
+    const FillRecord record = fill_record_from_bytes(store.get(record_name(s)));
+    digests.push_back(file.add(mesh::piece_from_bytes(record.piece)));
+  }
+  file.write(folder, range.number);
+  return digests;
+}
+
 void run_write_stage(const config::Case& run_case, const std::vector<SubdomainRange>& files,
                      const WriteContext& mesh, FilledPieces& filled, RunContext& context)
 {
@@ -67,7 +68,9 @@ void run_write_stage(const config::Case& run_case, const std::vector<SubdomainRa
   while (const auto file = queue.next()) {
     try {
       if (stop_requested()) throw Interrupted("stopped by a signal");
-      write_file(files[at(*file)], run_case, mesh, context.folder, digests);
+      const SubdomainRange& range = files[at(*file)];
+      std::ranges::copy(write_file(range, run_case.output, mesh, context.folder),
+                        digests.begin() + range.first);
     } catch (...) {
       defect = std::current_exception();
       queue.request_stop();

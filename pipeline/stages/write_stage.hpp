@@ -9,6 +9,12 @@
 
 namespace tessera::pipeline {
 
+/// @brief Reads the pieces of one file from the store, one after the other, and writes it. Local.
+/// @return Their digests, in the order of subdomains.
+/// @throws OutputError (disk full, permission); InputError if a record is damaged.
+std::vector<Hash128> write_file(const SubdomainRange& range, const io::OutputOptions& options,
+                                const WriteContext& mesh, const std::filesystem::path& folder);
+
 /// @brief Turns the pieces of the store into mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu,
 /// one of each a range, and puts their digests into the summaries.
 /// @note Collective.

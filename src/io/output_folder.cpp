@@ -21,7 +21,11 @@ namespace fs = std::filesystem;
 /// Files and folders that a run makes; nothing else is ever removed.
 constexpr std::array kRunFiles{"mesh.pvtu", "boundary.pvtu", "case.toml", "report.json"};
 constexpr std::array kPieceFolders{"mesh", "boundary", "pieces"};
-constexpr std::array kOwnFolders{"log", "failure"};
+constexpr std::array kOwnFolders{"log", "failure", "dry_run"};
+
+/// What a dry run makes: no reason to refuse the run that it predicts. It outlives an overwriting
+/// run, for it may be of that one.
+constexpr std::array kDryRunNames{"prediction.json", "log", "dry_run"};
 
 template <class Names>
 [[nodiscard]] bool has_name(const Names& names, const std::string& name)
@@ -55,10 +59,13 @@ void make_folder(const fs::path& folder)
   return entries;
 }
 
-[[nodiscard]] bool is_empty_but_for_lock(const fs::path& folder)
+/// @brief Whether there is nothing but a lock, or what a dry run has left.
+[[nodiscard]] bool holds_no_run(const fs::path& folder)
 {
-  return std::ranges::all_of(entries_of(folder), [](const fs::directory_entry& entry) {
-    return entry.path().filename() == kLockName;
+  const bool is_locked = fs::is_regular_file(folder / kLockName);
+  return std::ranges::all_of(entries_of(folder), [&](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name == kLockName || (is_locked && has_name(kDryRunNames, name));
   });
 }
 
@@ -71,7 +78,7 @@ void make_folder(const fs::path& folder)
 
 void require_usable(const fs::path& folder, ExistingFolder existing)
 {
-  if (is_empty_but_for_lock(folder)) return;
+  if (holds_no_run(folder)) return;
   if (existing == ExistingFolder::refuse) {
     throw OutputError("folder " + folder.string()
                       + " exists and is not empty; --overwrite replaces what a run left there");

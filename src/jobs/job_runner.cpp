@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/jobs/job_runner.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -40,6 +41,14 @@ std::pair<FileDescriptor, FileDescriptor> make_socket_pair()
 
 struct JobRunner::State {
   ZygoteLink link{};
+  double cpu_s = 0.0;                  // Since the last restart_usage(), as link.peak_bytes.
+  std::size_t earlier_peak_bytes = 0;  // Before it.
+
+  JobOutcome counted(JobOutcome outcome)
+  {
+    cpu_s += outcome.cpu_s;
+    return outcome;
+  }
 };
 
 JobRunner::JobRunner(const std::function<std::unique_ptr<Worker>()>& make_worker)
@@ -76,15 +85,30 @@ void JobRunner::set_log_file(const std::filesystem::path& file)
 JobOutcome JobRunner::load(std::span<const std::byte> message, const JobLimits& limits,
                            const WaitCallback& on_wait)
 {
-  return Call(state_->link, PacketKind::load, message, limits, on_wait).wait();
+  return state_->counted(Call(state_->link, PacketKind::load, message, limits, on_wait).wait());
 }
 
 JobOutcome JobRunner::run(std::span<const std::byte> request, const JobLimits& limits,
                           const WaitCallback& on_wait)
 {
-  return Call(state_->link, PacketKind::run, request, limits, on_wait).wait();
+  return state_->counted(Call(state_->link, PacketKind::run, request, limits, on_wait).wait());
 }
 
-std::size_t JobRunner::peak_rss_bytes() const { return state_->link.peak_bytes; }
+std::size_t JobRunner::peak_rss_bytes() const
+{
+  return std::max(state_->earlier_peak_bytes, state_->link.peak_bytes);
+}
+
+JobUsage JobRunner::usage() const
+{
+  return {state_->cpu_s, state_->link.peak_bytes, state_->link.loaded_bytes};
+}
+
+void JobRunner::restart_usage()
+{
+  state_->earlier_peak_bytes = peak_rss_bytes();
+  state_->link.peak_bytes = 0;
+  state_->cpu_s = 0.0;
+}
 
 }  // namespace tessera::jobs

@@ -25,7 +25,7 @@ struct ZygoteLink {
   std::uint32_t num_calls = 0;
   std::filesystem::path log_file{};
 
-  std::size_t peak_bytes = 0;    ///< Of all worker processes together.
+  std::size_t peak_bytes = 0;    ///< Of all worker processes together, since it was last zeroed.
   std::size_t loaded_bytes = 0;  ///< Of the zygotes together after the last load.
   std::size_t model_bytes = 0;   ///< Of the model zygote after the last load.
 

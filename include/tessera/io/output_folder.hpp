@@ -7,7 +7,8 @@
 
 namespace tessera::io {
 
-/// @brief What to do with an output folder that already holds something.
+/// @brief What to do with an output folder that already holds something, other than what a dry run
+/// has left: that is in nobody's way.
 enum class ExistingFolder : int {
   refuse,     ///< It is an error.
   overwrite,  ///< Remove what a Tessera run made; refuse a folder that no Tessera run has used.

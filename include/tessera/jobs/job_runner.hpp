@@ -58,6 +58,13 @@ struct JobOutcome {
   std::size_t peak_rss_bytes = 0;  ///< Largest resident memory seen of the job process.
 };
 
+/// @brief What the worker processes of one rank have used.
+struct JobUsage {
+  double cpu_s = 0.0;              ///< CPU time of all loads and jobs, seconds.
+  std::size_t peak_rss_bytes = 0;  ///< As JobRunner::peak_rss_bytes().
+  std::size_t loaded_bytes = 0;    ///< Of the zygotes alone, after the last load.
+};
+
 /// @brief Throws the tessera error that a `failed` outcome names, NetgenError for a process that
 /// died or was killed, Interrupted for `cancelled`; returns on `ok`. `what` is put before the text.
 void throw_unless_ok(const JobOutcome& outcome, const std::string& what);
@@ -105,6 +112,12 @@ class JobRunner {
   /// private pages of a job, and what it gave back since its peak. Of a process that died only its
   /// peak is known; less the size of the model zygote that is a lower bound.
   [[nodiscard]] std::size_t peak_rss_bytes() const;
+
+  /// @brief What was used since the last restart_usage(), or ever. Local.
+  [[nodiscard]] JobUsage usage() const;
+
+  /// @brief Begins a new measurement for usage(); peak_rss_bytes() stays over all. Local.
+  void restart_usage();
 
  private:
   struct State;

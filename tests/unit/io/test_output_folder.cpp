@@ -268,5 +268,30 @@ TEST(WriteText, AFullDiskKeepsTheOlderFile)
   EXPECT_EQ(folder.num_entries(), 1U);
 }
 
+TEST(OutputFolder, WhatADryRunHasLeftIsInNobodysWay)
+{
+  const TemporaryFolder folder;
+  {
+    const OutputFolder output(folder.path(), ExistingFolder::refuse);
+    fs::create_directories(folder / "log");
+    fs::create_directories(folder / "dry_run/mesh");
+    testing::write_bytes(folder / "prediction.json", "x");
+  }
+  EXPECT_NO_THROW(OutputFolder(folder.path(), ExistingFolder::refuse));
+  testing::write_bytes(folder / "mesh.pvtu", "x");
+  EXPECT_NE(refusal(folder.path(), ExistingFolder::refuse), "");
+  const OutputFolder output(folder.path(), ExistingFolder::overwrite);
+  EXPECT_TRUE(fs::exists(folder / "prediction.json")) << "it may be that of the run to come";
+  EXPECT_FALSE(fs::exists(folder / "dry_run"));
+}
+
+TEST(OutputFolder, AForeignFolderWithNamesOfADryRunIsRefused)
+{
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "log");
+  EXPECT_NE(refusal(folder.path(), ExistingFolder::refuse), "");
+  EXPECT_NE(refusal(folder.path(), ExistingFolder::overwrite), "");
+}
+
 }  // namespace
 }  // namespace tessera::io

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/predict/calibrate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+#include "tessera/io/vtu.hpp"
+#include "tessera/mesh/lattice.hpp"
+
+#include "pipeline/exit_code.hpp"
+#include "pipeline/fill_record.hpp"
+#include "pipeline/log.hpp"
+#include "pipeline/predict/choose_samples.hpp"
+#include "pipeline/stages/load_stage.hpp"
+#include "pipeline/stages/plan_stage.hpp"
+#include "pipeline/stages/write_stage.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where the samples write, as a run writes into its output folder. Made and removed by rank 0.
+class ScratchFolder {
+ public:
+  ScratchFolder(fs::path folder, const comm::Communicator& comm)
+      : folder_(std::move(folder)), is_mine_(comm.rank() == 0)
+  {
+    all_or_none(comm, [&] {
+      if (!is_mine_) return;
+      fs::remove_all(folder_);
+      fs::create_directories(folder_ / "mesh");
+      fs::create_directories(folder_ / "boundary");
+    });
+  }
+  ~ScratchFolder()
+  {
+    std::error_code ignored;
+    if (is_mine_) fs::remove_all(folder_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+ private:
+  fs::path folder_;
+  bool is_mine_;
+};
+
+double size_of(const fs::path& file)
+{
+  std::error_code error;
+  const auto size = fs::file_size(file, error);
+  return error ? 0.0 : static_cast<double>(size);
+}
+
+// What the files of the sampled jobs have taken.
+struct FileCosts {
+  double mesh_bytes = 0.0;      ///< Without headers.
+  double boundary_bytes = 0.0;  ///< Without headers.
+  double store_bytes = 0.0;
+  double header_bytes = 0.0;
+  double write_cpu_s = 0.0;
+};
+
+void divide(double& rate, double cost, double number)
+{
+  if (number > 0.0) rate = std::max(0.0, cost) / number;
+}
+
+// Samples one kernel after the other; keeps what they measure as rates.
+class Sampler {
+ public:
+  Sampler(const RunResult& run, const CutMesh& cut, const RunOutline& outline,
+          const fs::path& folder, RunContext& context)
+      : run_(run),
+        cut_(cut),
+        outline_(outline),
+        context_(context),
+        length_unit_(output_length_unit(run)),
+        silent_(Progress::Style::silent, make_log({}, Verbosity::quiet)),
+        own_{context.comm, context.jobs, silent_, context.log, folder},
+        calibration_{built_in_rates(run.resolved.output), {}}
+  {
+  }
+
+  void sample(fill::KernelKind kernel)
+  {
+    SampleSet set = choose(kernel);
+    if (set.jobs.empty()) return;
+    const RunOutline outline = outline_run(cut_, run_.kernels, set.levels, outline_.files);
+    own_.times.clear();
+    fill(set, outline);
+    note_work(set, outline);
+    note_files(set, outline);
+    calibration_.samples.push_back(std::move(set));
+  }
+
+  [[nodiscard]] Calibration take() && { return std::move(calibration_); }
+
+ private:
+  [[nodiscard]] SampleSet choose(fill::KernelKind kernel) const
+  {
+    std::vector<SubdomainRange> jobs;
+    std::vector<double> cost_s;
+    for (const SubdomainRange& job : outline_.jobs) {
+      if (run_.kernels[at(job.first)] != kernel) continue;
+      jobs.push_back(job);
+      cost_s.push_back(calibration_.rates.of(kernel).fill_cpu_s_per_tet
+                       * static_cast<double>(outline_.tets_of(job)));
+    }
+    const SampleChoice choice = choose_samples(cost_s, outline_.levels);
+    SampleSet set{.kernel = kernel, .levels = choice.levels};
+    for (const std::size_t row : choice.jobs) set.jobs.push_back(jobs[row]);
+    return set;
+  }
+
+  // As run_pipeline() does it, with the sampled jobs in place of all.
+  void fill(SampleSet& set, const RunOutline& outline)
+  {
+    config::Case run_case = run_.resolved;
+    run_case.refine.levels = set.levels;
+    load_mesh(cut_, set.levels, run_.largest_size, own_);
+    if (outline.is_one_pass) {
+      load_numbers(outline.pieces, length_unit_, run_case.output, own_);
+    }
+    PlanWork plan{.cut = cut_, .kernels = run_.kernels, .levels = set.levels};
+    for (const SubdomainRange& job : set.jobs) {
+      for (LocalIndex s = job.first; s < job.last; ++s) plan.subdomains.push_back(s);
+    }
+    std::ranges::sort(plan.subdomains);
+    const mesh::Damping damping = run_plan_stage(plan, {}, own_);
+    load_plan(damping, own_);
+    FilledPieces filled = run_fill_stage(run_case, {cut_, run_.kernels, damping, set.jobs}, own_);
+    set.pieces = std::move(filled.pieces);
+  }
+
+  void note_work(SampleSet& set, const RunOutline& outline)
+  {
+    const StageTime& plan = own_.times.front();
+    const StageTime& fill = own_.times.back();
+    set.cpu_s = plan.cpu_s + fill.cpu_s;
+    GlobalIndex tets = 0;
+    GlobalIndex expected = 0;
+    GlobalIndex interior = 0;
+    for (const PieceSummary& piece : set.pieces) {
+      tets += piece.num_tets;
+      interior += piece.num_interior_vertices;
+      expected += outline.pieces[at(piece.subdomain)].tets;
+    }
+    GlobalIndex planned = 0;
+    for (const SubdomainRange& job : set.jobs) planned += outline.tets_of(job);
+    KernelRates& rates = calibration_.rates.of(set.kernel);
+    if (set.kernel == fill::KernelKind::netgen) {
+      divide(rates.tets_per_expected, static_cast<double>(tets), static_cast<double>(expected));
+    }
+    divide(rates.interior_vertices_per_tet, static_cast<double>(interior),
+           static_cast<double>(tets));
+    divide(rates.fill_cpu_s_per_tet, fill.cpu_s, static_cast<double>(tets));
+    divide(rates.plan_cpu_s_per_tet, plan.cpu_s, static_cast<double>(planned));
+    note_memory(set, rates);
+  }
+
+  void note_memory(const SampleSet& set, KernelRates& rates)
+  {
+    const double loaded =
+        context_.comm.max(static_cast<double>(context_.jobs.usage().loaded_bytes));
+    const double jobs_peak = own_.times.back().jobs_peak_rss_bytes;
+    const GlobalIndex largest = largest_job(set);
+    context_.log.debug("samples: {:.1f} MB are loaded, {:.1f} MB with a job of {} tets",
+                       1e-6 * loaded, 1e-6 * jobs_peak, largest);
+    divide(rates.job_bytes_per_tet, jobs_peak - loaded - kJobBytes, static_cast<double>(largest));
+  }
+
+  [[nodiscard]] static const PieceSummary* find(const SampleSet& set, LocalIndex subdomain)
+  {
+    const auto found = std::ranges::find(set.pieces, subdomain, &PieceSummary::subdomain);
+    return found == set.pieces.end() ? nullptr : &*found;
+  }
+
+  [[nodiscard]] static GlobalIndex largest_job(const SampleSet& set)
+  {
+    GlobalIndex largest = 0;
+    for (const SubdomainRange& job : set.jobs) {
+      GlobalIndex tets = 0;
+      for (LocalIndex s = job.first; s < job.last; ++s) {
+        if (const PieceSummary* piece = find(set, s)) tets += piece->num_tets;
+      }
+      largest = std::max(largest, tets);
+    }
+    return largest;
+  }
+
+  void note_files(const SampleSet& set, const RunOutline& outline)
+  {
+    GlobalIndex tets = 0;
+    GlobalIndex boundary = 0;
+    for (const SubdomainRange& job : whole_jobs(set)) {
+      for (LocalIndex s = job.first; s < job.last; ++s) {
+        tets += find(set, s)->num_tets;
+        boundary += find(set, s)->num_boundary;
+      }
+    }
+    const Bytes bytes = on_root(context_.comm, [&] {
+      ByteWriter out;
+      out.put(measure_files(set, outline));
+      return std::move(out).take();
+    });
+    const auto costs = ByteReader(bytes).get<FileCosts>();
+    KernelRates& rates = calibration_.rates.of(set.kernel);
+    divide(rates.file_bytes_per_tet, costs.mesh_bytes, static_cast<double>(tets));
+    divide(rates.store_bytes_per_tet, costs.store_bytes, static_cast<double>(tets));
+    divide(rates.write_cpu_s_per_tet, costs.write_cpu_s, static_cast<double>(tets));
+    divide(calibration_.rates.file_bytes_per_boundary_triangle, costs.boundary_bytes,
+           static_cast<double>(boundary));
+    calibration_.rates.file_header_bytes = costs.header_bytes;
+  }
+
+  // Jobs of which every piece is there; folded ones have left no record.
+  [[nodiscard]] static std::vector<SubdomainRange> whole_jobs(const SampleSet& set)
+  {
+    std::vector<SubdomainRange> whole;
+    for (const SubdomainRange& job : set.jobs) {
+      bool all_there = true;
+      for (LocalIndex s = job.first; s < job.last; ++s) all_there = all_there && find(set, s);
+      if (all_there) whole.push_back(job);
+    }
+    return whole;
+  }
+
+  // On rank 0: writes the samples, unless their jobs have done so, and looks at what there is.
+  [[nodiscard]] FileCosts measure_files(const SampleSet& set, const RunOutline& outline) const
+  {
+    std::vector<number::PieceCounts> counts = outline.pieces;
+    for (const PieceSummary& piece : set.pieces) {
+      counts[at(piece.subdomain)] = {piece.num_interior_vertices, piece.num_tets,
+                                     piece.num_boundary};
+    }
+    const number::IdLayout ids(mesh::UnitLayout(cut_.skeleton),
+                               mesh::lattice::intervals(set.levels), counts);
+    const WriteContext mesh{cut_.coarse, cut_.skeleton, ids, length_unit_};
+    const io::OutputOptions& options = run_.resolved.output;
+    FileCosts costs;
+    const fs::path empty = own_.folder / "header.vtu";
+    io::write_vtu(piece_arrays({}, mesh, options.cell_quality).tets, empty, options.compression);
+    costs.header_bytes = size_of(empty);
+    for (const SubdomainRange& job : whole_jobs(set)) {
+      if (!outline.is_one_pass) {
+        const double before_s = process_cpu_s();
+        write_file(job, options, mesh, own_.folder);
+        costs.write_cpu_s += process_cpu_s() - before_s;
+        costs.store_bytes +=
+            size_of(store_folder(own_.folder) / (record_name(job.number) + ".record"));
+      }
+      const double boundary = size_of(own_.folder / piece_path("boundary", job.number));
+      costs.boundary_bytes += std::max(0.0, boundary - costs.header_bytes);
+      costs.mesh_bytes +=
+          size_of(own_.folder / piece_path("mesh", job.number)) - costs.header_bytes;
+    }
+    return costs;
+  }
+
+  const RunResult& run_;
+  const CutMesh& cut_;
+  const RunOutline& outline_;
+  RunContext& context_;
+  std::string length_unit_;
+  Progress silent_;
+  RunContext own_;
+  Calibration calibration_;
+};
+
+}  // namespace
+
+Calibration calibrate(const RunResult& run, const CutMesh& cut, const RunOutline& outline,
+                      const fs::path& folder, RunContext& context)
+{
+  const ScratchFolder scratch(folder, context.comm);
+  context.progress.begin("samples", 0, "");
+  Sampler sampler(run, cut, outline, folder, context);
+  sampler.sample(fill::KernelKind::netgen);
+  sampler.sample(fill::KernelKind::subdivide);
+  Calibration calibration = std::move(sampler).take();
+  std::size_t num_pieces = 0;
+  for (const SampleSet& set : calibration.samples) num_pieces += set.pieces.size();
+  context.progress.end(std::to_string(num_pieces) + " pieces made and removed again");
+  return calibration;
+}
+
+RunOutline corrected(RunOutline outline, const Calibration& calibration)
+{
+  const KernelRates& netgen = calibration.rates.netgen;
+  for (std::size_t s = 0; s < outline.pieces.size(); ++s) {
+    if (outline.kernels[s] != fill::KernelKind::netgen) continue;
+    number::PieceCounts& piece = outline.pieces[s];
+    const double tets = netgen.tets_per_expected * static_cast<double>(piece.tets);
+    piece.tets = std::llround(tets);
+    piece.interior_vertices = std::llround(netgen.interior_vertices_per_tet * tets);
+  }
+  for (const SampleSet& set : calibration.samples) {
+    if (set.levels != outline.levels) continue;
+    for (const PieceSummary& piece : set.pieces) {
+      outline.pieces[at(piece.subdomain)].tets = piece.num_tets;
+      outline.pieces[at(piece.subdomain)].interior_vertices = piece.num_interior_vertices;
+    }
+  }
+  return outline;
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/predict/dry_run.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "tessera/io/files.hpp"
+#include "tessera/jobs/process_memory.hpp"
+
+#include "pipeline/exit_code.hpp"
+#include "pipeline/predict/calibrate.hpp"
+#include "pipeline/predict/prediction.hpp"
+#include "pipeline/predict/prediction_file.hpp"
+#include "pipeline/stages/load_stage.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+RankMemory memory_before_fills(const RunContext& context)
+{
+  const jobs::JobUsage usage = context.jobs.usage();
+  const auto largest = [&](std::size_t bytes) {
+    return context.comm.max(static_cast<double>(bytes));
+  };
+  return {.process = largest(jobs::peak_rss_of_this_process()),
+          .loaded = largest(usage.loaded_bytes),
+          .jobs_peak = largest(context.jobs.peak_rss_bytes())};
+}
+
+}  // namespace
+
+std::filesystem::path sample_folder(const std::filesystem::path& output)
+{
+  return output / "dry_run";
+}
+
+std::string dry_run(const config::Case& given, const RunOptions& options, int num_ranks,
+                    RunContext& context)
+{
+  const RunResult run = run_coarse_part(given, {}, context);
+  StageScope prepare(context, "prepare");
+  const CutMesh cut(run.coarse.mesh, run.decomposition.decomposition);
+  std::vector<SubdomainRange> files;
+  all_or_none(context.comm, [&] { files = output_ranges(run, options); });
+  RunOutline outline = outline_run(cut, run.kernels, run.resolved.refine.levels, files);
+  load_mesh(cut, run.resolved.refine.levels, run.largest_size, context);
+  prepare.finish("");
+
+  PredictionBasis basis{.memory = memory_before_fills(context),
+                        .serial_stages = context.times,
+                        .num_ranks = num_ranks};
+  DryRun found;
+  found.calibration = calibrate(run, cut, outline, sample_folder(context.folder), context);
+  basis.outline = corrected(std::move(outline), found.calibration);
+  basis.rates = found.calibration.rates;
+  found.prediction = predict(basis);
+  all_or_none(context.comm, [&] {
+    if (context.comm.rank() != 0) return;
+    found.resources = resources_of_this_machine(context.folder, run.resolved.fill.memory_gib);
+    found.advice = advise(found.prediction, found.resources);
+    io::write_text_atomically(context.folder / "prediction.json",
+                              prediction_json(found, PredictedRun(given, run.model)));
+  });
+  return prediction_table(found);
+}
+
+}  // namespace tessera::pipeline

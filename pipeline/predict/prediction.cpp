@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/predict/prediction.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+#include "pipeline/disk_space.hpp"
+#include "pipeline/predict/schedule.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+// Fork, messages, and what a rank does between two jobs.
+constexpr double kJobOverhead_s = 0.003;
+
+using TetRate = double KernelRates::*;
+
+// Tets of a range, each weighted with a rate of its subdomain's kernel.
+double cost_of(const SubdomainRange& range, const PredictionBasis& basis, TetRate rate)
+{
+  double cost = 0.0;
+  for (LocalIndex s = range.first; s < range.last; ++s) {
+    cost += basis.rates.of(basis.outline.kernels[at(s)]).*rate
+            * static_cast<double>(basis.outline.pieces[at(s)].tets);
+  }
+  return cost;
+}
+
+double largest_cost(const std::vector<SubdomainRange>& ranges, const PredictionBasis& basis,
+                    TetRate rate)
+{
+  double largest = 0.0;
+  for (const SubdomainRange& range : ranges) {
+    largest = std::max(largest, cost_of(range, basis, rate));
+  }
+  return largest;
+}
+
+// What adds up over the stages that ranks share.
+struct SharedTime {
+  double work_s = 0.0;
+  double makespan_s = 0.0;
+};
+
+void add_shared_stage(const std::string& name, std::vector<double> job_s, Prediction& prediction,
+                      SharedTime& shared)
+{
+  std::ranges::sort(job_s, std::greater<>());
+  const double cpu_s = std::accumulate(job_s.begin(), job_s.end(), 0.0);
+  for (double& duration : job_s) duration += kJobOverhead_s;
+  const Schedule schedule = simulate_schedule(job_s, prediction.num_ranks);
+  prediction.stages.push_back({name, schedule.makespan_s, cpu_s, false});
+  shared.work_s += schedule.work_s;
+  shared.makespan_s += schedule.makespan_s;
+}
+
+std::vector<double> durations(const std::vector<SubdomainRange>& ranges,
+                              const PredictionBasis& basis, TetRate rate)
+{
+  std::vector<double> job_s;
+  for (const SubdomainRange& range : ranges) job_s.push_back(cost_of(range, basis, rate));
+  return job_s;
+}
+
+void add_times(const PredictionBasis& basis, Prediction& prediction)
+{
+  double serial_s = 0.0;
+  for (const StageTime& time : basis.serial_stages) {
+    prediction.stages.push_back({time.name, time.rank_max_cpu_s, time.cpu_s, true});
+    serial_s += time.rank_max_cpu_s;
+  }
+  const RunOutline& outline = basis.outline;
+  std::vector<SubdomainRange> subdomains;
+  for (LocalIndex s = 0; s < static_cast<LocalIndex>(outline.kernels.size()); ++s) {
+    subdomains.push_back({s, s, s + 1});
+  }
+  SharedTime shared;
+  add_shared_stage("plan", durations(subdomains, basis, &KernelRates::plan_cpu_s_per_tet),
+                   prediction, shared);
+  add_shared_stage("fill", durations(outline.jobs, basis, &KernelRates::fill_cpu_s_per_tet),
+                   prediction, shared);
+  if (!outline.is_one_pass) {
+    add_shared_stage("write", durations(outline.files, basis, &KernelRates::write_cpu_s_per_tet),
+                     prediction, shared);
+  }
+  prediction.wall_s = serial_s + shared.makespan_s;
+  prediction.serial_share = serial_s / prediction.wall_s;
+  prediction.busy_share = shared.work_s / (prediction.num_ranks * shared.makespan_s);
+}
+
+void add_numbers(const RunOutline& outline, Prediction& prediction)
+{
+  prediction.levels = outline.levels;
+  prediction.num_coarse_tets = outline.num_coarse_tets;
+  prediction.num_subdomains = static_cast<GlobalIndex>(outline.pieces.size());
+  prediction.num_vertices = outline.num_skeleton_vertices;
+  for (const number::PieceCounts& piece : outline.pieces) {
+    prediction.num_tets += piece.tets;
+    prediction.num_vertices += piece.interior_vertices;
+    prediction.num_boundary_triangles += piece.boundary_triangles;
+  }
+}
+
+void add_disk(const PredictionBasis& basis, Prediction& prediction)
+{
+  const DiskNeed need = disk_need(basis.outline, basis.rates);
+  prediction.num_files = need.num_files;
+  prediction.disk_bytes = need.file_bytes;
+  prediction.disk_peak_bytes = need.file_bytes + need.store_bytes;
+}
+
+void add_memory(const PredictionBasis& basis, Prediction& prediction)
+{
+  const RunOutline& outline = basis.outline;
+  const double job = kJobBytes + largest_cost(outline.jobs, basis, &KernelRates::job_bytes_per_tet);
+  const double jobs = std::max(basis.memory.jobs_peak, basis.memory.loaded + job);
+  GlobalIndex largest_file = 0;
+  for (const SubdomainRange& file : outline.files) {
+    largest_file = std::max(largest_file, outline.tets_of(file));
+  }
+  const double writer =
+      outline.is_one_pass ? 0.0 : kWriterBytesPerTet * static_cast<double>(largest_file);
+  prediction.largest_job_bytes = basis.memory.loaded + job;
+  prediction.memory_per_rank_bytes = basis.memory.process + writer + jobs;
+}
+
+}  // namespace
+
+Prediction predict(const PredictionBasis& basis)
+{
+  Prediction prediction{.num_ranks = basis.num_ranks};
+  add_numbers(basis.outline, prediction);
+  add_disk(basis, prediction);
+  add_memory(basis, prediction);
+  add_times(basis, prediction);
+  return prediction;
+}
+
+}  // namespace tessera::pipeline

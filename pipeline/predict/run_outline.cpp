@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/predict/run_outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tessera/fill/expected_tets.hpp"
+#include "tessera/mesh/lattice.hpp"
+
+#include "pipeline/count_pieces.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+// Core and torus: 0.10 and 0.11 with two levels; it grows with the piece. Samples tell better.
+constexpr double kInteriorVerticesATet = 0.11;
+
+template <class Count>
+GlobalIndex sum_over(const SubdomainRange& range, Count&& count)
+{
+  GlobalIndex sum = 0;
+  for (LocalIndex s = range.first; s < range.last; ++s) sum += count(s);
+  return sum;
+}
+
+}  // namespace
+
+bool are_counts_known(const std::vector<fill::KernelKind>& kernels)
+{
+  return std::ranges::all_of(
+      kernels, [](fill::KernelKind kernel) { return kernel == fill::KernelKind::subdivide; });
+}
+
+GlobalIndex RunOutline::tets_of(const SubdomainRange& range) const
+{
+  return sum_over(range, [&](LocalIndex s) { return pieces[at(s)].tets; });
+}
+
+GlobalIndex RunOutline::boundary_triangles_of(const SubdomainRange& range) const
+{
+  return sum_over(range, [&](LocalIndex s) { return pieces[at(s)].boundary_triangles; });
+}
+
+RunOutline outline_run(const CutMesh& cut, const std::vector<fill::KernelKind>& kernels, int levels,
+                       const std::vector<SubdomainRange>& files)
+{
+  RunOutline outline{.levels = levels,
+                     .num_coarse_tets = cut.coarse.num_tets(),
+                     .kernels = kernels,
+                     .pieces = count_subdivided_pieces(cut, levels),
+                     .files = files};
+  outline.is_one_pass = are_counts_known(kernels);
+  const std::vector<number::PieceCounts> nothing(outline.pieces.size());
+  outline.num_skeleton_vertices =
+      number::IdLayout(mesh::UnitLayout(cut.skeleton), mesh::lattice::intervals(levels), nothing)
+          .num_vertices();
+  for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
+    if (kernels[at(s)] == fill::KernelKind::subdivide) continue;
+    const auto num_triangles = static_cast<LocalIndex>(cut.skeleton.triangles_of(s).size());
+    const double tets =
+        fill::expected_tets(cut.coarse, cut.tets.of(s), num_triangles, cut.vertex_size, levels);
+    outline.pieces[at(s)].tets = std::llround(tets);
+    outline.pieces[at(s)].interior_vertices = std::llround(kInteriorVerticesATet * tets);
+  }
+  if (outline.is_one_pass) {
+    outline.jobs = files;
+  } else {
+    for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) outline.jobs.push_back({s, s, s + 1});
+  }
+  return outline;
+}
+
+}  // namespace tessera::pipeline

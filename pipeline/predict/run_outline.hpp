@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "tessera/fill/options.hpp"
+#include "tessera/number/id_layout.hpp"
+
+#include "pipeline/cut_mesh.hpp"
+#include "pipeline/piece_file.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief Whether every subdomain is to be subdivided: then all ids are known before any piece is.
+[[nodiscard]] bool are_counts_known(const std::vector<fill::KernelKind>& kernels);
+
+/// @brief What is known or expected of the fine mesh before any of it is made.
+struct RunOutline {
+  int levels = 0;
+  LocalIndex num_coarse_tets = 0;
+  std::vector<fill::KernelKind> kernels{};    ///< Shape (num_subdomains).
+  std::vector<number::PieceCounts> pieces{};  ///< Shape (num_subdomains). Tets and interior
+                                              ///< vertices are exact where subdivided, else
+                                              ///< expected; boundary triangles are exact.
+  GlobalIndex num_skeleton_vertices = 0;      ///< Fine vertices on all skins; exact.
+  bool is_one_pass = false;                   ///< Fill jobs write the files themselves.
+  std::vector<SubdomainRange> jobs{};         ///< What each fill job makes.
+  std::vector<SubdomainRange> files{};        ///< What each file holds.
+
+  [[nodiscard]] GlobalIndex tets_of(const SubdomainRange& range) const;
+  [[nodiscard]] GlobalIndex boundary_triangles_of(const SubdomainRange& range) const;
+};
+
+/// @brief The outline of a run with so many levels. Local; O(coarse tets).
+/// @param[in] ranges output.files, or those asked for; see run_pipeline().
+[[nodiscard]] RunOutline outline_run(const CutMesh& cut,
+                                     const std::vector<fill::KernelKind>& kernels, int levels,
+                                     const std::vector<SubdomainRange>& files);
+
+}  // namespace tessera::pipeline
