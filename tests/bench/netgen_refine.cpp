@@ -8,6 +8,7 @@
 // before NETGEN lets go of it, so both refine the same tets, for CSG, CAD files and STL alike.
 // The last line printed is one JSON object: tets, CPU seconds of each refinement (one core, nothing
 // else timed), qualities of the refined mesh by Tessera's own measure.
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
@@ -27,13 +28,17 @@
 namespace tessera {
 namespace {
 
-struct Refined {
-  std::size_t num_coarse_tets = 0;
-  std::vector<double> cpu_s{};  ///< Of each level.
+struct Quality {
   std::size_t num_tets = 0;
-  std::size_t num_inverted = 0;  ///< No positive volume.
+  std::size_t num_inverted = 0;  // No positive volume.
   double min_mean_ratio = 1.0;
   double mean_mean_ratio = 0.0;
+};
+
+struct Refined {
+  Quality coarse{};
+  std::vector<double> cpu_s{};  // Of each level.
+  Quality fine{};
 };
 
 // CPU time, so that what else runs on the machine does not matter.
@@ -49,53 +54,63 @@ quality::TetCorners corners_of(const ::netgen::Mesh& mesh, const ::netgen::Eleme
   return corners;
 }
 
-void measure(const ::netgen::Mesh& mesh, Refined& refined)
+Quality quality_of(const ::netgen::Mesh& mesh)
 {
+  Quality quality;
   double sum = 0.0;
   for (const auto& element : mesh.VolumeElements()) {
-    if (element.IsDeleted()) throw std::runtime_error("a refined mesh has deleted elements");
+    if (element.IsDeleted()) throw std::runtime_error("NETGEN's mesh has deleted elements");
     const double mean_ratio = quality::mean_ratio(corners_of(mesh, element));
     sum += mean_ratio;
-    refined.min_mean_ratio = std::min(refined.min_mean_ratio, mean_ratio);
-    if (!(mean_ratio > 0.0)) ++refined.num_inverted;
+    quality.min_mean_ratio = std::min(quality.min_mean_ratio, mean_ratio);
+    if (!(mean_ratio > 0.0)) ++quality.num_inverted;
   }
-  refined.num_tets = static_cast<std::size_t>(mesh.GetNE());
-  refined.mean_mean_ratio = sum / static_cast<double>(refined.num_tets);
+  quality.num_tets = static_cast<std::size_t>(mesh.GetNE());
+  quality.mean_mean_ratio = sum / static_cast<double>(quality.num_tets);
+  return quality;
 }
 
 Refined refine(const std::string& file, int levels, const coarse::CoarseOptions& options)
 {
   const auto model = netgen::load_model(netgen::import_model(file, {}));
-  Refined refined;
   const auto& loaded = dynamic_cast<const netgen::LoadedModel&>(*model);
+  Refined refined;
   const mesh::CoarseMesh coarse = loaded.generate(
       options, [&](const ::netgen::NetgenGeometry& geometry, ::netgen::Mesh& mesh) {
+        refined.coarse = quality_of(mesh);
         const ::netgen::Refinement& refinement = geometry.GetRefinement();
         for (int level = 0; level < levels; ++level) {
           const double begin = cpu_seconds();
           refinement.Refine(mesh);
           refined.cpu_s.push_back(cpu_seconds() - begin);
         }
-        measure(mesh, refined);
+        refined.fine = quality_of(mesh);
       });
-  refined.num_coarse_tets = static_cast<std::size_t>(coarse.num_tets());
-  if (refined.num_tets != refined.num_coarse_tets << (3 * levels)) {
+  const auto num_coarse_tets = static_cast<std::size_t>(coarse.num_tets());
+  if (refined.coarse.num_tets != num_coarse_tets
+      || refined.fine.num_tets != num_coarse_tets << (3 * levels)) {
     throw std::runtime_error("NETGEN refined another mesh than the coarse one");
   }
   return refined;
+}
+
+nlohmann::ordered_json to_json(const Quality& quality)
+{
+  return {{"num_tets", quality.num_tets},
+          {"mean_ratio", {{"min", quality.min_mean_ratio}, {"mean", quality.mean_mean_ratio}}},
+          {"num_inverted", quality.num_inverted}};
 }
 
 nlohmann::ordered_json to_json(const Refined& refined)
 {
   double seconds = 0.0;
   for (const double level : refined.cpu_s) seconds += level;
-  return {{"num_coarse_tets", refined.num_coarse_tets},
-          {"num_tets", refined.num_tets},
-          {"cpu_s_by_level", refined.cpu_s},
-          {"cpu_s", seconds},
-          {"tets_per_s", static_cast<double>(refined.num_tets) / seconds},
-          {"mean_ratio", {{"min", refined.min_mean_ratio}, {"mean", refined.mean_mean_ratio}}},
-          {"num_inverted", refined.num_inverted}};
+  nlohmann::ordered_json json = to_json(refined.fine);
+  json["coarse"] = to_json(refined.coarse);
+  json["cpu_s_by_level"] = refined.cpu_s;
+  json["cpu_s"] = seconds;
+  json["tets_per_s"] = static_cast<double>(refined.fine.num_tets) / seconds;
+  return json;
 }
 
 }  // namespace
@@ -103,7 +118,7 @@ nlohmann::ordered_json to_json(const Refined& refined)
 
 int main(int argc, char** argv)
 {
-  if (argc < 4 || argc > 6) {
+  if (argc < 4 || argc > 6 || std::atoi(argv[2]) < 1) {
     std::cerr << "usage: netgen_refine MODEL LEVELS MAX_SIZE [GRADING [CURVATURE]]\n";
     return 64;
   }
