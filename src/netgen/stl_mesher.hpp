@@ -24,7 +24,6 @@ namespace tessera::netgen {
 [[nodiscard]] mesh::CoarseMesh mesh_stl_surface(const model::TriangleSurface& surface,
                                                 const model::SurfaceFeatures& features,
                                                 const coarse::CoarseOptions& options,
-                                                const std::string& name,
-                                                const NetgenMeshUser& use);
+                                                const std::string& name, const NetgenMeshUser& use);
 
 }  // namespace tessera::netgen

@@ -75,8 +75,8 @@ Refined refine(const std::string& file, int levels, const coarse::CoarseOptions&
   const auto model = netgen::load_model(netgen::import_model(file, {}));
   const auto& loaded = dynamic_cast<const netgen::LoadedModel&>(*model);
   Refined refined;
-  const mesh::CoarseMesh coarse = loaded.generate(
-      options, [&](const ::netgen::NetgenGeometry& geometry, ::netgen::Mesh& mesh) {
+  const mesh::CoarseMesh coarse =
+      loaded.generate(options, [&](const ::netgen::NetgenGeometry& geometry, ::netgen::Mesh& mesh) {
         refined.coarse = quality_of(mesh);
         const ::netgen::Refinement& refinement = geometry.GetRefinement();
         for (int level = 0; level < levels; ++level) {
