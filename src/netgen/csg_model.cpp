@@ -150,7 +150,9 @@ class CsgModel final : public LoadedModel {
       LocalIndex surface, const Vec3& point, const model::SurfaceParameters& guess) const override;
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
                                                    double guess) const override;
-  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override;
+  using LoadedModel::generate;
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
+                                          const NetgenMeshUser& use) const override;
 
  private:
   [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
@@ -233,7 +235,8 @@ GeometryNumbers numbers_of(const Geometry& geometry)
   return numbers;
 }
 
-mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options) const
+mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options,
+                                    const NetgenMeshUser& use) const
 {
   // NETGEN adds points to the geometry that it meshes and takes names out of it: a fresh one for
   // every try makes each a pure function of the options.
@@ -245,7 +248,10 @@ mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options) const
   });
   if (failed != 0)
     throw NetgenError(file_name_ + ": coarse mesh: NETGEN gave up; " + session.words());
-  return to_coarse_mesh(*mesh, numbers_of(*geometry), file_name_ + ": coarse mesh");
+  mesh::CoarseMesh coarse =
+      to_coarse_mesh(*mesh, numbers_of(*geometry), file_name_ + ": coarse mesh");
+  session.run(file_name_, [&] { use(*geometry, *mesh); });
+  return coarse;
 }
 
 }  // namespace

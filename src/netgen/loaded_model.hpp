@@ -2,15 +2,36 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/model/model.hpp"
 
+namespace netgen {
+class Mesh;
+class NetgenGeometry;
+}  // namespace netgen
+
 namespace tessera::netgen {
 
+/// @brief What is done with NETGEN's own form of a coarse mesh, while its geometry still lives.
+using NetgenMeshUser = std::function<void(const ::netgen::NetgenGeometry&, ::netgen::Mesh&)>;
+
 /// @brief A loaded model of any format: projection, and one try at a coarse mesh.
-class LoadedModel : public model::Model, public coarse::CoarseMesher {};
+class LoadedModel : public model::Model, public coarse::CoarseMesher {
+ public:
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const final
+  {
+    return generate(options, [](const auto&, auto&) {});
+  }
+
+  /// @brief As generate(), and lets `use` go on with the mesh in NETGEN, which can do what Tessera
+  /// does otherwise (refine it): that is how the two are compared on one coarse mesh.
+  /// @throws Also what `use` throws.
+  [[nodiscard]] virtual mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
+                                                  const NetgenMeshUser& use) const = 0;
+};
 
 // One pair of functions a format; the contracts are those of import_model() and load_model().
 [[nodiscard]] model::ModelSource import_csg(const std::filesystem::path& file);

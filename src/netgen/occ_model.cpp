@@ -46,7 +46,9 @@ class OccModel final : public LoadedModel {
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
                                                    double guess) const override;
   [[nodiscard]] double box_diagonal() const override { return box_diagonal_; }
-  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override;
+  using LoadedModel::generate;
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
+                                          const NetgenMeshUser& use) const override;
 
  private:
   [[nodiscard]] const OccSurface& surface_at(LocalIndex surface) const;
@@ -149,7 +151,8 @@ GeometryNumbers OccModel::numbers_for(const ::netgen::OCCGeometry& geometry) con
   return numbers;
 }
 
-mesh::CoarseMesh OccModel::generate(const coarse::CoarseOptions& options) const
+mesh::CoarseMesh OccModel::generate(const coarse::CoarseOptions& options,
+                                    const NetgenMeshUser& use) const
 {
   NetgenSession session(coarse_parameters(options));
   return session.run("coarse mesh of " + file_name_, [&] {
@@ -165,6 +168,7 @@ mesh::CoarseMesh OccModel::generate(const coarse::CoarseOptions& options) const
     mesh::CoarseMesh coarse = to_coarse_mesh(*mesh, numbers_for(geometry), file_name_);
     locate_face_corners(coarse);
     locate_segment_ends(coarse);
+    use(geometry, *mesh);
     return coarse;
   });
 }

@@ -71,7 +71,7 @@ class StlMeshing {
   {
   }
 
-  mesh::CoarseMesh run()
+  mesh::CoarseMesh run(const NetgenMeshUser& use)
   {
     session_.run(name_ + ": loading into NETGEN", [&] { give_triangles(); });
     give_feature_edges();
@@ -88,6 +88,7 @@ class StlMeshing {
     take_own_numbers();
     mesh::CoarseMesh mesh = to_coarse_mesh(*mesh_, numbers(), name_);
     for (double& x : mesh.vertex_xyz) x /= scale_;
+    session_.run(name_, [&] { use(geometry_, *mesh_); });
     return mesh;
   }
 
@@ -212,9 +213,10 @@ class StlMeshing {
 
 mesh::CoarseMesh mesh_stl_surface(const model::TriangleSurface& surface,
                                   const model::SurfaceFeatures& features,
-                                  const coarse::CoarseOptions& options, const std::string& name)
+                                  const coarse::CoarseOptions& options, const std::string& name,
+                                  const NetgenMeshUser& use)
 {
-  return StlMeshing(surface, features, options, name).run();
+  return StlMeshing(surface, features, options, name).run(use);
 }
 
 }  // namespace tessera::netgen

@@ -8,6 +8,8 @@
 #include "tessera/model/surface_features.hpp"
 #include "tessera/model/triangle_surface.hpp"
 
+#include "netgen/loaded_model.hpp"
+
 namespace tessera::netgen {
 
 /// @brief Coarse mesh of an STL surface by NETGEN's STL mesher, with our patches and curves.
@@ -16,11 +18,12 @@ namespace tessera::netgen {
 /// its own; what edges it adds inside a patch, to start a face or to unroll it, are not segments of
 /// the result.
 /// @param name  What messages call the model.
+/// @param use   Gets NETGEN's mesh, scaled by a power of two.
 /// @note May crash or hang inside NETGEN.
 /// @throws NetgenError if NETGEN gives up or the result is not a valid mesh.
 [[nodiscard]] mesh::CoarseMesh mesh_stl_surface(const model::TriangleSurface& surface,
                                                 const model::SurfaceFeatures& features,
                                                 const coarse::CoarseOptions& options,
-                                                const std::string& name);
+                                                const std::string& name, const NetgenMeshUser& use);
 
 }  // namespace tessera::netgen

@@ -83,9 +83,11 @@ class StlModel final : public LoadedModel {
     return {found(search.nearest(point)), 0.0};
   }
 
-  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override
+  using LoadedModel::generate;
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
+                                          const NetgenMeshUser& use) const override
   {
-    return mesh_stl_surface(surface_, features_, options, name_);
+    return mesh_stl_surface(surface_, features_, options, name_, use);
   }
 
  private:
