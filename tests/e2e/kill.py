@@ -167,4 +167,9 @@ class RestartTest(program.ProgramTest):
 
     def has_pieces(self, number):
         """A moment: when there are so many finished pieces."""
-        return lambda watch: watch.wait_for(lambda: len(list(self.out.glob("pieces/piece_*.record"))) >= number)
+
+        def count():
+            names = _names_in(self.out / "pieces")
+            return sum(name.startswith("piece_") and name.endswith(".record") for name in names)
+
+        return lambda watch: watch.wait_for(lambda: count() >= number)
