@@ -88,13 +88,14 @@ class Watch:
         return self.process.poll() is not None
 
     def wait_for(self, condition):
-        """False if the run has ended first. Polls without sleep: what is waited for may last a millisecond."""
+        """False if the run has ended first. Polls often: what is waited for may last a millisecond."""
         end = time.monotonic() + program.HANG_S
         while time.monotonic() < end:
             if condition():
                 return True
             if self.has_ended():
                 return False
+            time.sleep(2e-4)
         raise AssertionError(f"waited {program.HANG_S} s in vain")
 
 
