@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The same for a run of NETGEN, whose pieces wait in the store until all are there."""
+import os
 import signal
 import unittest
 
@@ -23,6 +24,19 @@ class Netgen(kill.RestartTest):
         """It takes what it had loaded with it: the run ends."""
         self.kill_run(lambda watch: watch.wait_for_stage("fill"), "model zygote", ranks=2)
         self.resume()
+
+    def test_coarse_job_killed(self):
+        """The same is tried again: a finer coarse mesh, the next rung, would be another mesh."""
+        case = self.write_case(max_size=0.13, levels=0)
+        self.arguments = [case]
+        reference = self.mesh(case, "undisturbed")
+        watch = self.start_run()
+        self.assertTrue(watch.wait_for_stage("coarse"))
+        os.kill(watch.victims("job")[0], signal.SIGKILL)
+        outcome = self.finish(watch.process)
+        self.assertEqual(outcome.code, program.OK, outcome.err)
+        self.assertRegex(outcome.out, "warning: coarse: done again: .*Killed.* from outside")
+        self.assertEqual(program.mesh_files(self.out), program.mesh_files(reference))
 
     def test_all_killed_in_the_coarse_mesh(self):
         self.kill_run(lambda watch: watch.wait_for_stage("coarse"), ranks=2)
