@@ -2,6 +2,7 @@
 #include "pipeline/run_context.hpp"
 
 #include <cmath>
+#include <csignal>
 #include <ctime>
 #include <utility>
 
@@ -72,6 +73,21 @@ double process_cpu_s()
 jobs::JobRunner::WaitCallback wait_for_stop_signal()
 {
   return [] { return !stop_requested(); };
+}
+
+bool was_killed_from_outside(const jobs::JobOutcome& outcome)
+{
+  return outcome.status == jobs::JobStatus::crashed && outcome.code == SIGKILL;
+}
+
+jobs::JobOutcome run_job(const JobRequest& job, const jobs::JobRunner::WaitCallback& on_wait,
+                         RunContext& context)
+{
+  jobs::JobOutcome outcome = context.jobs.run(job.request, job.limits, on_wait);
+  if (!was_killed_from_outside(outcome) || outcome.loads_are_lost) return outcome;
+  context.progress.clear();
+  context.log.warn("{}: done again: {}", job.name, outcome.message);
+  return context.jobs.run(job.request, job.limits, on_wait);
 }
 
 void throw_if_cancelled(const jobs::JobOutcome& outcome)

@@ -65,6 +65,23 @@ class StageScope {
 /// @brief Callback for jobs that one rank runs while the others wait: cancels on a stop signal.
 [[nodiscard]] jobs::JobRunner::WaitCallback wait_for_stop_signal();
 
+/// @brief Whether somebody else ended the job, by hand or for lack of memory: it says nothing about
+/// what the job was to do. Local.
+[[nodiscard]] bool was_killed_from_outside(const jobs::JobOutcome& outcome);
+
+/// @brief What to run under which name in the log.
+struct JobRequest {
+  std::string name{};
+  const Bytes& request;
+  const jobs::JobLimits& limits;
+};
+
+/// @brief Runs a job; the same once more if it was killed from outside, so that the mesh is the
+/// same as without that. Local.
+[[nodiscard]] jobs::JobOutcome run_job(const JobRequest& job,
+                                       const jobs::JobRunner::WaitCallback& on_wait,
+                                       RunContext& context);
+
 /// @brief Throws Interrupted if the outcome says that the callback cancelled the job. Local.
 void throw_if_cancelled(const jobs::JobOutcome& outcome);
 

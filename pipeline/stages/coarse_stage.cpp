@@ -36,7 +36,7 @@ CoarseResult climb(const config::Case& run_case, RunContext& context)
   CoarseResult result;
   for (const coarse::CoarseOptions& options : coarse_ladder(run_case.coarse)) {
     const jobs::JobOutcome outcome =
-        context.jobs.run(coarse_request(options), limits, wait_for_stop_signal());
+        run_job({"coarse", coarse_request(options), limits}, wait_for_stop_signal(), context);
     ++result.tries;
     if (outcome.status == jobs::JobStatus::ok) {
       result.mesh = mesh::coarse_mesh_from_bytes(outcome.result);
@@ -44,6 +44,10 @@ CoarseResult climb(const config::Case& run_case, RunContext& context)
       return result;
     }
     throw_if_cancelled(outcome);
+    // Another rung would be another mesh, and nothing is wrong with this one.
+    if (was_killed_from_outside(outcome)) {
+      throw MeshError("coarse: " + outcome.message + "; go on with --resume");
+    }
     if (is_final(outcome)) jobs::throw_unless_ok(outcome, run_case.geometry.file.string());
     context.log.warn("coarse: try {} with max_size {} failed: {}", result.tries, options.max_size,
                      outcome.message);

@@ -2,7 +2,6 @@
 #include "pipeline/stages/fill_stage.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -71,12 +70,6 @@ jobs::JobLimits limits_of(const fill::FillOptions& options, double predicted_tet
     limits.stall_s = std::min(limits.stall_s, options.timeout_s);
   }
   return limits;
-}
-
-// By hand, or by a system that is short of memory: it says nothing about the skin.
-bool was_killed_from_outside(const jobs::JobOutcome& outcome)
-{
-  return outcome.status == jobs::JobStatus::crashed && outcome.code == SIGKILL;
 }
 
 bool depends_on_machine(const jobs::JobOutcome& outcome)
@@ -178,17 +171,13 @@ class Filler {
                          .failures = climb.failures});
   }
 
-  // The same once more if the job was killed, so that the mesh is the same as without that.
   jobs::JobOutcome run_try(const SubdomainRange& range, const Bytes& request,
                            const jobs::JobRunner::WaitCallback& on_wait)
   {
     const jobs::JobLimits limits =
         limits_of(options_, weight_of(range, work_.cut.decomposition.subdomain_weight));
-    jobs::JobOutcome outcome = context_.jobs.run(request, limits, on_wait);
-    if (!was_killed_from_outside(outcome) || outcome.loads_are_lost) return outcome;
-    context_.progress.clear();
-    context_.log.warn("fill: subdomain {} is filled again: {}", range.first, outcome.message);
-    return context_.jobs.run(request, limits, on_wait);
+    const std::string name = "fill: subdomain " + std::to_string(range.first);
+    return run_job({name, request, limits}, on_wait, context_);
   }
 
   // A stop, a full disk and a lost worker end the run; no other rung helps there.

@@ -34,8 +34,8 @@ model::ModelSource run_model_stage(const config::Case& run_case, RunContext& con
   const std::filesystem::path& file = run_case.geometry.file;
   const Bytes bytes = on_root(context.comm, [&] {
     const jobs::JobOutcome outcome =
-        context.jobs.run(import_request(file, {run_case.coarse.feature_angle_deg}), kModelLimits,
-                         wait_for_stop_signal());
+        run_job({"model", import_request(file, {run_case.coarse.feature_angle_deg}), kModelLimits},
+                wait_for_stop_signal(), context);
     throw_unless_read(outcome, file);
     return outcome.result;
   });

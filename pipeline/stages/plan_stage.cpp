@@ -66,7 +66,7 @@ std::vector<mesh::PointDamping> test_subdomains(const std::vector<LocalIndex>& s
   while (const auto job = queue.next()) {
     const std::vector<PlanTest>& tests = jobs[at(*job)];
     const jobs::JobOutcome outcome =
-        context.jobs.run(plan_request(tests, damping), kPlanLimits, on_wait);
+        run_job({"plan", plan_request(tests, damping), kPlanLimits}, on_wait, context);
     if (outcome.status != jobs::JobStatus::ok) {
       defect = "plan from subdomain " + std::to_string(tests.front().subdomain)
                + " on: " + outcome.message;

@@ -3,10 +3,12 @@
 import contextlib
 import os
 import re
+import shutil
 import signal
 import time
 
 import program
+from program import OK
 
 STAGES = ("model", "coarse", "decompose", "plan", "fill", "verify", "write")
 
@@ -86,13 +88,14 @@ class Watch:
         return self.process.poll() is not None
 
     def wait_for(self, condition):
-        """False if the run has ended first. Polls without sleep: what is waited for may last a millisecond."""
+        """False if the run has ended first. Polls often: what is waited for may last a millisecond."""
         end = time.monotonic() + program.HANG_S
         while time.monotonic() < end:
             if condition():
                 return True
             if self.has_ended():
                 return False
+            time.sleep(2e-4)
         raise AssertionError(f"waited {program.HANG_S} s in vain")
 
 
@@ -100,3 +103,74 @@ def _names_in(folder):
     with contextlib.suppress(FileNotFoundError):
         return os.listdir(folder)
     return []
+
+
+# On a busy machine a moment of some milliseconds can be missed; then the same is tried again.
+TRIES = 5
+
+
+class RestartTest(program.ProgramTest):
+    """`make_arguments(maker)` says what is meshed; `reference` is the result of a run that was not disturbed."""
+
+    @classmethod
+    def setUpClass(cls):
+        maker = program.ProgramTest()
+        maker.setUp()
+        cls.addClassCleanup(maker.doCleanups)
+        cls.arguments = cls.make_arguments(maker)
+        cls.reference = maker.mesh(cls.arguments[0], "reference", *cls.arguments[1:], ranks=2)
+
+    def setUp(self):
+        super().setUp()
+        self.out = self.folder / "out"
+
+    def start_run(self, ranks=None):
+        shutil.rmtree(self.out, ignore_errors=True)
+        process = self.start(
+            "mesh", *self.arguments, "--output", "out", "--progress", "never", ranks=ranks
+        )
+        return Watch(process, self.out)
+
+    def kill_run(self, moment, kind="all", ranks=None):
+        """Starts a run and kills the processes at the moment that `moment(watch)` waits for."""
+        for _ in range(TRIES):
+            watch = self.start_run(ranks)
+            program.wait_until(lambda: watch.log.exists() or watch.has_ended(), "the log")
+            victims = watch.victims(kind, which=1)
+            if moment(watch) and watch.kill(victims) != OK and not (self.out / "mesh.pvtu").exists():
+                return
+        self.fail(f"{TRIES} runs have ended before they could be killed")
+
+    def resume(self, ranks=None):
+        """Compares the end with the reference; the output of the resumed run."""
+        outcome = self.run_program(
+            "mesh", *self.arguments, "--output", "out", "--progress", "never", "--resume", ranks=ranks
+        )
+        self.assertEqual(outcome.code, OK, outcome.err)
+        self.assertEqual(program.figures(self.out), program.figures(self.reference))
+        self.assertEqual(program.mesh_files(self.out), program.mesh_files(self.reference))
+        self.assertFalse((self.out / "pieces").exists())
+        return outcome.out
+
+    def assert_signal_is_resumable(self, number, stage, stages):
+        for _ in range(TRIES):
+            watch = self.start_run()
+            if watch.wait_for_stage(stage, stages):
+                watch.process.send_signal(number)
+            outcome = self.finish(watch.process)
+            if outcome.code != OK:
+                break
+        self.assert_refused(outcome, program.STOPPED, "stopped by a signal")
+        self.resume()
+
+    def record(self, name):
+        return self.out / "pieces" / f"{name}.record"
+
+    def has_pieces(self, number):
+        """A moment: when there are so many finished pieces."""
+
+        def count():
+            names = _names_in(self.out / "pieces")
+            return sum(name.startswith("piece_") and name.endswith(".record") for name in names)
+
+        return lambda watch: watch.wait_for(lambda: count() >= number)

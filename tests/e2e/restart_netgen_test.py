@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The same for a run of NETGEN, whose pieces wait in the store until all are there."""
+import os
+import signal
+import unittest
+
+import kill
+import program
+
+
+
+class Netgen(kill.RestartTest):
+    """Pieces wait in the store until all are there."""
+
+    @staticmethod
+    def make_arguments(maker):
+        return [maker.write_case(max_size=0.5, subdomains=8, levels=2)]
+
+    def test_rank_killed_while_filling(self):
+        self.kill_run(self.has_pieces(2), "rank", ranks=2)
+        self.resume(ranks=3)
+
+    def test_model_zygote_killed_while_filling(self):
+        """It takes what it had loaded with it: the run ends."""
+        self.kill_run(lambda watch: watch.wait_for_stage("fill"), "model zygote", ranks=2)
+        self.resume()
+
+    def test_coarse_job_killed(self):
+        """The same is tried again: a finer coarse mesh, the next rung, would be another mesh."""
+        case = self.write_case(max_size=0.13, levels=0)
+        self.arguments = [case]
+        reference = self.mesh(case, "undisturbed")
+        watch = self.start_run()
+        self.assertTrue(watch.wait_for_stage("coarse"))
+        os.kill(watch.victims("job")[0], signal.SIGKILL)
+        outcome = self.finish(watch.process)
+        self.assertEqual(outcome.code, program.OK, outcome.err)
+        self.assertRegex(outcome.out, "warning: coarse: done again: .*Killed.* from outside")
+        self.assertEqual(program.mesh_files(self.out), program.mesh_files(reference))
+
+    def test_all_killed_in_the_coarse_mesh(self):
+        self.kill_run(lambda watch: watch.wait_for_stage("coarse"), ranks=2)
+        self.resume(ranks=2)
+
+    def test_all_killed_while_the_mesh_is_written(self):
+        self.kill_run(lambda watch: watch.wait_for_half_written_file("mesh"), ranks=2)
+        out = self.resume(ranks=2)
+        self.assertNotRegex(out, r"(?m)^(coarse|decompose|plan) ", "stages that were done")
+
+    def test_signals_while_the_mesh_is_written(self):
+        for number in (signal.SIGTERM, signal.SIGUSR1):
+            self.assert_signal_is_resumable(number, "write", kill.STAGES)
+
+
+class PoorPiece(kill.RestartTest):
+    """NETGEN gets a second try at a piece with a small angle: the first one is not the last word."""
+
+    @staticmethod
+    def make_arguments(maker):
+        core = program.CONFIGS / "geometry" / "core.geo"
+        return [maker.write_case(geometry=core, max_size=2.5, subdomains=30, levels=1)]
+
+    def test_killed_between_two_tries(self):
+        tries = {s["id"]: s["tries"] for s in program.figures(self.reference)["subdomains"]}
+        poor = next(s for s, number in tries.items() if number == 2)
+        record = self.record(f"piece_{poor:06}")
+        self.kill_run(lambda watch: watch.wait_for(record.exists))
+        killed = (self.out / "log" / "run.log").read_text()
+        self.resume()
+        self.assertNotIn(f"fill: subdomain {poor}: try 2", killed, "the kill came too late")
+
+
+if __name__ == "__main__":
+    unittest.main()
