@@ -176,8 +176,10 @@ class Sampler {
 
   [[nodiscard]] static const PieceSummary* find(const SampleSet& set, LocalIndex subdomain)
   {
-    const auto found = std::ranges::find(set.pieces, subdomain, &PieceSummary::subdomain);
-    return found == set.pieces.end() ? nullptr : &*found;
+    const auto found =
+        std::ranges::lower_bound(set.pieces, subdomain, {}, &PieceSummary::subdomain);
+    const bool is_there = found != set.pieces.end() && found->subdomain == subdomain;
+    return is_there ? &*found : nullptr;
   }
 
   [[nodiscard]] static GlobalIndex largest_job(const SampleSet& set)

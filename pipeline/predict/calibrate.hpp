@@ -14,7 +14,7 @@ struct SampleSet {
   fill::KernelKind kernel = fill::KernelKind::netgen;
   int levels = 0;  ///< At which they were filled.
   std::vector<SubdomainRange> jobs{};
-  std::vector<PieceSummary> pieces{};  ///< Of the subdomains that could be filled at once.
+  std::vector<PieceSummary> pieces{};  ///< By subdomain; without those that were folded.
   double cpu_s = 0.0;
 };
 

@@ -44,7 +44,7 @@ std::vector<std::size_t> candidates(const std::vector<double>& cost_s)
 SampleChoice choose_samples(const std::vector<double>& cost_s, int levels)
 {
   const std::vector<std::size_t> wanted = candidates(cost_s);
-  const std::size_t least = std::min(kLeastSamples, wanted.size());
+  std::size_t least = std::min(kLeastSamples, wanted.size());
   const std::size_t most = std::min(wanted.size(), std::max(least, cost_s.size() / 2));
   const double all_s = std::accumulate(cost_s.begin(), cost_s.end(), 0.0);
   const double budget_s = std::clamp(kShare * all_s, kLeastBudget_s, kMostBudget_s);
@@ -52,6 +52,11 @@ SampleChoice choose_samples(const std::vector<double>& cost_s, int levels)
   SampleChoice choice{levels, {}};
   double spent_s = 0.0;
   for (std::size_t i = 0; i < least; ++i) spent_s += cost_s[wanted[i]];
+  // Two jobs in full tell more than three coarser ones: pieces with fewer levels are mostly skin.
+  if (least == kLeastSamples && spent_s > budget_s
+      && spent_s - cost_s[wanted[2]] <= kMostBudget_s) {
+    return {levels, {wanted[0], wanted[1]}};
+  }
   for (; choice.levels > 0 && spent_s > budget_s; --choice.levels) spent_s /= 8.0;
   choice.jobs.assign(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(least));
   for (std::size_t i = least; i < most; ++i) {

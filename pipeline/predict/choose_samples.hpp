@@ -15,8 +15,9 @@ struct SampleChoice {
 
 /// @brief Chooses the largest job, whose memory and time bound the run's, then the median, the
 /// quartiles and the octiles, as far as the budget goes: a fifth of all work, but 5 s to 20 s of
-/// CPU time. At least three jobs, or all if there are fewer; at most eight, or half of them. A pure
-/// function of the coarse mesh, so it is the same for any number of ranks. Local.
+/// CPU time. At least three jobs, or two where only two fit, or all if there are fewer; at most
+/// eight, or half of them. A pure function of the coarse mesh, so it is the same for any number of
+/// ranks. Local.
 /// @param[in] cost_s CPU time that each job should take with all levels, seconds, > 0.
 [[nodiscard]] SampleChoice choose_samples(const std::vector<double>& cost_s, int levels);
 

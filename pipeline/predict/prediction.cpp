@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 #include "pipeline/disk_space.hpp"
 #include "pipeline/predict/schedule.hpp"
@@ -37,7 +38,8 @@ double largest_cost(const std::vector<SubdomainRange>& ranges, const PredictionB
   return largest;
 }
 
-// What adds up over the stages that ranks share.
+// What adds up over the stages that ranks share. Their jobs come in the order of the run: only fill
+// takes the largest first.
 struct SharedTime {
   double work_s = 0.0;
   double makespan_s = 0.0;
@@ -46,7 +48,6 @@ struct SharedTime {
 void add_shared_stage(const std::string& name, std::vector<double> job_s, Prediction& prediction,
                       SharedTime& shared)
 {
-  std::ranges::sort(job_s, std::greater<>());
   const double cpu_s = std::accumulate(job_s.begin(), job_s.end(), 0.0);
   for (double& duration : job_s) duration += kJobOverhead_s;
   const Schedule schedule = simulate_schedule(job_s, prediction.num_ranks);
@@ -78,8 +79,9 @@ void add_times(const PredictionBasis& basis, Prediction& prediction)
   SharedTime shared;
   add_shared_stage("plan", durations(subdomains, basis, &KernelRates::plan_cpu_s_per_tet),
                    prediction, shared);
-  add_shared_stage("fill", durations(outline.jobs, basis, &KernelRates::fill_cpu_s_per_tet),
-                   prediction, shared);
+  std::vector<double> fill_s = durations(outline.jobs, basis, &KernelRates::fill_cpu_s_per_tet);
+  std::ranges::sort(fill_s, std::greater<>());
+  add_shared_stage("fill", std::move(fill_s), prediction, shared);
   if (!outline.is_one_pass) {
     add_shared_stage("write", durations(outline.files, basis, &KernelRates::write_cpu_s_per_tet),
                      prediction, shared);
@@ -98,7 +100,9 @@ void add_numbers(const RunOutline& outline, Prediction& prediction)
   for (const number::PieceCounts& piece : outline.pieces) {
     prediction.num_tets += piece.tets;
     prediction.num_vertices += piece.interior_vertices;
-    prediction.num_boundary_triangles += piece.boundary_triangles;
+  }
+  for (const SubdomainRange& file : outline.files) {
+    prediction.num_boundary_triangles += outline.boundary_triangles_of(file);
   }
 }
 

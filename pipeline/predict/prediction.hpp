@@ -26,11 +26,11 @@ struct Prediction {
   GlobalIndex num_subdomains = 0;
   GlobalIndex num_tets = 0;
   GlobalIndex num_vertices = 0;
-  GlobalIndex num_boundary_triangles = 0;
-  GlobalIndex num_files = 0;           ///< In mesh/ and boundary/.
-  double disk_bytes = 0.0;             ///< Of those files.
-  double disk_peak_bytes = 0.0;        ///< With the pieces that wait in the store.
-  double memory_per_rank_bytes = 0.0;  ///< Largest of a rank with its worker processes.
+  GlobalIndex num_boundary_triangles = 0;  ///< Of what is written.
+  GlobalIndex num_files = 0;               ///< In mesh/ and boundary/.
+  double disk_bytes = 0.0;                 ///< Of those files.
+  double disk_peak_bytes = 0.0;            ///< With the pieces that wait in the store.
+  double memory_per_rank_bytes = 0.0;      ///< Largest of a rank with its worker processes.
   double largest_job_bytes = 0.0;  ///< Resident memory of one fill job, with what it shares with
                                    ///< its zygotes; fill.memory_gib bounds it.
   std::vector<StagePrediction> stages{};

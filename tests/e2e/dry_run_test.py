@@ -2,10 +2,11 @@
 """`tessera mesh --dry-run`: what it predicts becomes true, and it is in no run's way."""
 import json
 import shutil
+import signal
 import unittest
 
 import program
-from program import CANNOT_WRITE, OK, WRONG_INPUT
+from program import CANNOT_WRITE, OK, STOPPED, WRONG_INPUT
 
 SUBDIVIDE = ("--set", "fill.kernel=subdivide")
 
@@ -134,6 +135,20 @@ class Folder(DryRunTest):
         self.dry_run(case, "out", "--set", "refine.levels=2")
         report = json.loads((self.mesh(case, "out") / "report.json").read_text())
         self.assertNotIn("prediction", report)
+
+    def test_what_a_stopped_dry_run_leaves_is_in_no_runs_way(self):
+        case = self.write_case(max_size=0.2, subdomains=4, levels=2)
+        for how, code in ((signal.SIGTERM, STOPPED), (signal.SIGKILL, -signal.SIGKILL)):
+            with self.subTest(signal=how):
+                process = self.start("mesh", case, "--dry-run", "--output", "out")
+                samples = self.folder / "out" / "dry_run"
+                program.wait_until(samples.exists, "the samples")
+                process.send_signal(how)
+                self.assertEqual(self.finish(process).code, code)
+                self.assertEqual(samples.exists(), how == signal.SIGKILL)
+        self.assertFalse((self.folder / "out" / "prediction.json").exists())
+        out = self.mesh(case, "out", "--set", "refine.levels=0")
+        self.assertFalse((out / "dry_run").exists())
 
     def test_a_foreign_folder_is_refused(self):
         self.write_case()

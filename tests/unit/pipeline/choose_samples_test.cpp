@@ -71,6 +71,13 @@ TEST(ChooseSamples, StaysWithinItsBudget)
   EXPECT_LE(total(long_jobs, some, 3), 20.0);
 }
 
+TEST(ChooseSamples, TwoJobsInFullAreBetterThanThreeCoarserOnes)
+{
+  const SampleChoice choice = choose_samples(std::vector(12, 9.0), 3);
+  EXPECT_EQ(choice.levels, 3);
+  EXPECT_EQ(choice.jobs.size(), 2U);
+}
+
 TEST(ChooseSamples, TakesFewerLevelsWhereEvenThreeJobsAreTooLong)
 {
   const auto cost_s = costs(100, 10.0);
