@@ -56,7 +56,7 @@ class Progress(program.ProgramTest):
         self.assertEqual([word for word in first_words if word in STAGES], STAGES)
 
     def assert_has_bars(self, output):
-        self.assertRegex(output, r"\r\x1b\[Kfill +\[=* *\] \d/4 jobs")
+        self.assertRegex(output, r"\r\x1b\[Kfill +\[=* *\] \d/4 subdomains")
         # What is left when every bar has been wiped out is the same as in a batch log.
         self.assert_is_plain(re.sub(r"\r\x1b\[K[^\r\n]*(?=\r)|\r\x1b\[K", "", output))
 
