@@ -4,7 +4,8 @@
 namespace tessera::pipeline {
 namespace {
 
-// Measured on torus and shaft, subdivided and re-meshed: lz4 23 to 27, with small pieces 30.
+// Measured on torus, subdivided and re-meshed: lz4 23 to 28, with small pieces 31. The other two
+// are older measurements on shaft, less the boundary files that they included.
 double file_bytes_per_tet(io::Compression compression)
 {
   switch (compression) {

@@ -15,7 +15,7 @@ namespace tessera::fill {
 /// with a size that varies inside a coarse tet, its smaller end decides. On bracket, core, torus,
 /// blocks and shaft (L = 2, 72 subdomains) it was 0.95 to 1.13 of the truth for the whole mesh,
 /// with a relative standard deviation of 5 % to 11 % between the subdomains of one mesh; on torus
-/// 0.98, 1.03 and 0.95 with 0, 1 and 2 levels.
+/// about 0.89, 1.04 and 0.95 with 0, 1 and 2 levels.
 /// @param[in] tets The coarse tets of the subdomain.
 /// @param[in] num_skin_triangles Coarse triangles of its skin.
 /// @param[in] vertex_size vertex_sizes().
