@@ -151,6 +151,7 @@ class MeshRun {
       run_figures.predicted = predicted(run, run_figures, context);
       io::write_text_atomically(given_.output.directory / "report.json",
                                 report_json(run, verdict, run_figures, context.times));
+      folder_->remove_half_written();  // Of jobs that were killed and done again.
       state.clear();
     });
     if (comm_.rank() == 0) {

@@ -162,8 +162,10 @@ OutputFolder::OutputFolder(fs::path folder, ExistingFolder existing) : folder_(s
   lock_ = std::make_unique<FolderLock>(folder_);
   require_usable(folder_, existing);  // Again: another run may have come and gone in between.
   if (existing == ExistingFolder::overwrite) remove_earlier_run(folder_);
-  if (existing == ExistingFolder::resume) remove_temporaries(folder_);
+  if (existing == ExistingFolder::resume) remove_half_written();
 }
+
+void OutputFolder::remove_half_written() const { remove_temporaries(folder_); }
 
 OutputFolder::~OutputFolder() = default;
 OutputFolder::OutputFolder(OutputFolder&&) noexcept = default;

@@ -58,7 +58,8 @@ class Watch:
             if kind == "all":
                 found[:] = [self.process.pid, *program.descendants(self.process.pid)]
                 return True
-            ranks = program.ranks_of(self.process) or [self.process.pid]
+            own = self.process.pid
+            ranks = [own] if program.is_program(own) else program.ranks_of(self.process) or [own]
             rank = ranks[which % len(ranks)]
             found[:] = [rank, *program.chain_of(rank)][VICTIMS.index(kind):][:1]
             return bool(found)

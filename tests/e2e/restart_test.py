@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A one-pass run that was killed or stopped at any moment ends, with --resume, with the bits of one that never was."""
+import contextlib
+import os
 import shutil
 import signal
 import unittest
 
 import kill
+import program
 
 ONE_PASS_STAGES = tuple(stage for stage in kill.STAGES if stage != "write")
 
@@ -22,6 +25,21 @@ class OnePass(kill.RestartTest):
     def test_all_killed_while_a_file_is_written(self):
         self.kill_run(lambda watch: watch.wait_for_half_written_file("mesh"), ranks=2)
         self.resume(ranks=3)
+
+    def test_job_killed_while_it_writes(self):
+        """The run goes on by itself, and leaves no half-written file."""
+        for _ in range(kill.TRIES):
+            watch = self.start_run()
+            self.assertTrue(watch.wait_for_half_written_file("mesh"))
+            with contextlib.suppress(OSError, StopIteration):  # The file has got its name meanwhile.
+                half_written = next(self.out.glob("mesh/*.tmp-*"))
+                os.kill(int(half_written.name.split("-")[-2]), signal.SIGKILL)
+            outcome = self.finish(watch.process)
+            self.assertEqual(outcome.code, program.OK, outcome.err)
+            self.assertEqual(program.mesh_files(self.out), program.mesh_files(self.reference))
+            if "done again: ended by signal 9" in outcome.out:
+                return
+        self.fail("no job could be killed while it wrote")
 
     def test_finished_pieces_are_not_made_again(self):
         self.kill_run(self.has_pieces(3))

@@ -34,6 +34,10 @@ class OutputFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return folder_; }
 
+  /// @brief Removes the half-written files of writers that were killed. @pre nobody writes.
+  /// @throws OutputError
+  void remove_half_written() const;
+
   /// @brief Bytes that this user may still write to the folder's file system. @throws OutputError
   [[nodiscard]] std::uintmax_t free_bytes() const;
 
