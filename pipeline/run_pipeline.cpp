@@ -75,13 +75,37 @@ Plan first_plan(const RunResult& run, const CutMesh& cut, const RunOptions& opti
     return plan ? std::optional(to_bytes(*plan)) : std::nullopt;
   });
   if (kept) return plan_from_bytes(*kept);
-  Plan plan{run.kernels, {}};
+  Plan plan{.kernels = run.kernels};
   plan.damping = run_plan_stage({.cut = cut,
                                  .kernels = plan.kernels,
                                  .levels = run.resolved.refine.levels,
                                  .subdomains = all_subdomains(cut)},
                                 {}, context);
   return plan;
+}
+
+// Makes the plan anew for subdomains that were folded under it: they will be subdivided.
+// @throws MeshError if there is nothing left to hold back: then the coarse tets themselves are
+// flat.
+void plan_for_folded(const std::vector<FoldedSubdomain>& folded, const CutMesh& cut, int levels,
+                     Plan& plan, RunContext& context)
+{
+  const Bytes before = to_bytes(plan);
+  PlanWork work{
+      .cut = cut, .kernels = plan.kernels, .levels = levels, .depth = PlanDepth::all_levels};
+  for (const FoldedSubdomain& one : folded) {
+    plan.kernels[at(one.subdomain)] = fill::KernelKind::subdivide;
+    if (one.was_limited) plan.limited.push_back(one.subdomain);
+    work.subdomains.push_back(one.subdomain);
+  }
+  std::ranges::sort(plan.limited);
+  plan.damping = run_plan_stage(work, std::move(plan.damping), context);
+  all_or_none(context.comm, [&] {
+    if (to_bytes(plan) != before) return;
+    throw MeshError("subdomain " + std::to_string(folded.front().subdomain)
+                    + " has coarse tets that are too flat to be subdivided; try another "
+                      "coarse.max_size");
+  });
 }
 
 // Fills; where even subdivision finds inverted tets, plans anew for it and fills what that touches.
@@ -97,13 +121,10 @@ void plan_and_fill(RunResult& run, const CutMesh& cut, const std::vector<Subdoma
     load_plan(plan.damping, context);
     run.filled = run_fill_stage(run.resolved, {cut, plan.kernels, plan.damping, ranges}, context);
     if (run.filled.folded.empty()) break;
-    for (const LocalIndex s : run.filled.folded) plan.kernels[at(s)] = fill::KernelKind::subdivide;
-    plan.damping = run_plan_stage({.cut = cut,
-                                   .kernels = plan.kernels,
-                                   .levels = run.resolved.refine.levels,
-                                   .depth = PlanDepth::all_levels,
-                                   .subdomains = run.filled.folded},
-                                  std::move(plan.damping), context);
+    plan_for_folded(run.filled.folded, cut, run.resolved.refine.levels, plan, context);
+  }
+  for (PieceSummary& piece : run.filled.pieces) {
+    if (std::ranges::binary_search(plan.limited, piece.subdomain)) piece.was_limited = true;
   }
   run.damping = std::move(plan.damping);
 }

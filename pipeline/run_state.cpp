@@ -75,6 +75,7 @@ Bytes to_bytes(const Plan& plan)
   ByteWriter out;
   out.put(plan.kernels);
   out.put(mesh::to_bytes(plan.damping));
+  out.put(plan.limited);
   return std::move(out).take();
 }
 
@@ -84,6 +85,7 @@ Plan plan_from_bytes(std::span<const std::byte> bytes)
   Plan plan;
   plan.kernels = in.get_vector<fill::KernelKind>();
   plan.damping = mesh::damping_from_bytes(in.get_vector<std::byte>());
+  plan.limited = in.get_vector<LocalIndex>();
   return plan;
 }
 

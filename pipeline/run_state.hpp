@@ -26,6 +26,7 @@ namespace tessera::pipeline {
 struct Plan {
   std::vector<fill::KernelKind> kernels{};  ///< Shape (num_subdomains); subdivide where folded.
   mesh::Damping damping{};
+  std::vector<LocalIndex> limited{};  ///< Folded ones that lost a try for time or memory.
 };
 
 [[nodiscard]] Bytes to_bytes(const Plan& plan);

@@ -193,7 +193,7 @@ class Filler {
   {
     for (const FillResult& result : results) {
       if (result.summary.is_folded) {
-        own_.folded.push_back(result.summary.subdomain);
+        own_.folded.push_back({result.summary.subdomain, result.summary.was_limited});
         continue;
       }
       own_.pieces.push_back(result.summary);
@@ -259,7 +259,7 @@ FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
   all.pieces = gather(own.pieces, comm);
   all.folded = gather(own.folded, comm);
   all.failures = gather(own.failures, comm);
-  std::sort(all.folded.begin(), all.folded.end());
+  std::ranges::sort(all.folded, {}, &FoldedSubdomain::subdomain);
   std::sort(all.pieces.begin(), all.pieces.end(),
             [](const PieceSummary& a, const PieceSummary& b) { return a.subdomain < b.subdomain; });
   all.histograms = std::move(own.histograms);

@@ -20,11 +20,17 @@ struct FailedTries {
   std::vector<std::string> messages{};  ///< One a try, in their order.
 };
 
+/// @brief One that even subdivision could not fill under this plan.
+struct FoldedSubdomain {
+  LocalIndex subdomain = kNoIndex;
+  bool was_limited = false;  ///< A try before ended for time or memory.
+};
+
 /// @brief What is known of all pieces; the same on every rank.
 struct FilledPieces {
-  std::vector<PieceSummary> pieces{};   ///< By subdomain; without the folded ones.
-  std::vector<LocalIndex> folded{};     ///< Subdomains that even subdivision could not fill yet.
-  std::vector<FailedTries> failures{};  ///< Of those in `pieces`; any order.
+  std::vector<PieceSummary> pieces{};       ///< By subdomain; without the folded ones.
+  std::vector<FoldedSubdomain> folded{};    ///< By subdomain.
+  std::vector<FailedTries> failures{};      ///< Of those in `pieces`; any order.
   quality::QualityHistograms histograms{};  ///< Over all pieces.
   std::vector<Hash128> seam_sums{};         ///< Shape (num skeleton triangles): both sides' hashes.
 };

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Subdivision as a kernel: alone, beside NETGEN, in few files, and of some subdomains only."""
+import os
 import unittest
 
 import program
-from program import OK, WRONG_INPUT
+from program import DEGRADED, OK, WRONG_INPUT
 
 SUBDIVIDE = ("--set", "fill.kernel=subdivide")
 
@@ -60,6 +61,53 @@ class Alone(SubdivideTest):
         ):
             outcome = self.run_program("mesh", self.case, "--output", "out", "--overwrite", *arguments)
             self.assert_refused(outcome, WRONG_INPUT, *words)
+
+
+class Folded(SubdivideTest):
+    """A thin shell of few coarse tets: on the sphere its children would be inverted on fine levels."""
+
+    SHELL = """algebraic3d
+solid outer = sphere (0, 0, 0; 1);
+solid inner = sphere (0, 0, 0; 0.93);
+solid shell = outer and not inner;
+tlo shell;
+"""
+    COARSE = ("--set", "coarse.curvature=1", "--set", "coarse.grading=1.0")
+
+    def setUp(self):
+        super().setUp()
+        self.write("shell.geo", self.SHELL)
+        self.case = self.write_case(geometry="shell.geo", max_size=1, subdomains=4, levels=3)
+
+    def degraded(self, output, *arguments, ranks=None, env=None):
+        outcome = self.run_program("mesh", self.case, "--output", output, "--progress", "never",
+                                   *self.COARSE, *arguments, ranks=ranks, env=env)
+        self.assertEqual(outcome.code, DEGRADED, outcome.err + outcome.out)
+        self.assert_conforms(self.folder / output)
+        return self.folder / output, outcome.out
+
+    def test_points_are_held_back_until_every_child_is_positive(self):
+        alone, text = self.degraded("alone", *SUBDIVIDE)
+        self.assertGreater(text.count("points kept off the geometry\n"), 1, "no second plan")
+        figures = program.figures(alone)
+        self.assertGreater(figures["num_points_off_geometry"], 0)
+        self.assertGreater(figures["quality"]["mean_ratio"]["min"], 0)
+        for ranks in (1, 3):
+            other, _ = self.degraded(f"ranks_{ranks}", *SUBDIVIDE, ranks=ranks)
+            self.assertEqual(program.figures(other), figures)
+            self.assertEqual(program.mesh_files(other), program.mesh_files(alone))
+
+    def test_in_place_of_netgen(self):
+        for fault, is_reproducible in (("throw", True), ("loop", False)):
+            with self.subTest(fault=fault):
+                folder, _ = self.degraded(
+                    fault, "--set", "refine.levels=2", "--set", "fill.timeout_s=4", ranks=2,
+                    env=os.environ | {"TESSERA_TEST_FAULT": f"fill={fault}@1"})
+                report = program.figures(folder)
+                self.assertEqual([s["kernel"] for s in report["subdomains"]],
+                                 ["netgen", "subdivide", "netgen", "netgen"])
+                self.assertGreater(report["num_points_off_geometry"], 0)
+                self.assertIs(report["reproducible"], is_reproducible)
 
 
 class Mixed(SubdivideTest):
