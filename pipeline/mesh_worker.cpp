@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/mesh_worker.hpp"
 
+#include <limits>
 #include <optional>
 #include <utility>
+
+#include <malloc.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
@@ -226,7 +229,15 @@ Bytes message(Message kind, const Values&... values)
 
 }  // namespace
 
-std::unique_ptr<jobs::Worker> make_mesh_worker() { return std::make_unique<MeshWorker>(); }
+std::unique_ptr<jobs::Worker> make_mesh_worker()
+{
+  // A job's arrays come and go: what one gives back serves the next, instead of pages that the
+  // kernel takes away and clears anew.
+  constexpr int kLargestThreshold = 32 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLargestThreshold);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  return std::make_unique<MeshWorker>();
+}
 
 Bytes load_model_message(const model::ModelSource& source, double scale)
 {
