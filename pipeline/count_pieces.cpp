@@ -24,12 +24,15 @@ std::vector<number::PieceCounts> count_subdivided_pieces(const CutMesh& cut, int
   return counts;
 }
 
+number::PieceCounts counts_of(const PieceSummary& piece)
+{
+  return {piece.num_interior_vertices, piece.num_tets, piece.num_boundary};
+}
+
 std::vector<number::PieceCounts> counts_of(const std::vector<PieceSummary>& pieces)
 {
   std::vector<number::PieceCounts> counts;
-  for (const PieceSummary& piece : pieces) {
-    counts.push_back({piece.num_interior_vertices, piece.num_tets, piece.num_boundary});
-  }
+  for (const PieceSummary& piece : pieces) counts.push_back(counts_of(piece));
   return counts;
 }
 

@@ -16,6 +16,7 @@ namespace tessera::pipeline {
                                                                        int levels);
 
 /// @brief What finished pieces hold. Local.
+[[nodiscard]] number::PieceCounts counts_of(const PieceSummary& piece);
 [[nodiscard]] std::vector<number::PieceCounts> counts_of(const std::vector<PieceSummary>& pieces);
 
 }  // namespace tessera::pipeline

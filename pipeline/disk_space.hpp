@@ -8,8 +8,8 @@
 #include "tessera/io/options.hpp"
 
 #include "pipeline/predict/rates.hpp"
-#include "pipeline/predict/run_outline.hpp"
 #include "pipeline/run_context.hpp"
+#include "pipeline/run_outline.hpp"
 
 namespace tessera::pipeline {
 

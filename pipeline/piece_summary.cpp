@@ -5,6 +5,28 @@
 
 namespace tessera::pipeline {
 
+Bytes to_bytes(const std::vector<FailedTries>& failures)
+{
+  ByteWriter out;
+  out.put(static_cast<std::uint64_t>(failures.size()));
+  for (const FailedTries& failed : failures) {
+    out.put(failed.subdomain);
+    out.put(failed.messages);
+  }
+  return std::move(out).take();
+}
+
+std::vector<FailedTries> failed_tries_from_bytes(std::span<const std::byte> bytes)
+{
+  ByteReader in(bytes);
+  std::vector<FailedTries> failures;
+  for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+    const auto subdomain = in.get<LocalIndex>();
+    failures.push_back({subdomain, in.get_strings()});
+  }
+  return failures;
+}
+
 Bytes to_bytes(const FillResult& result)
 {
   ByteWriter out;

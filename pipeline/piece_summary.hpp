@@ -45,6 +45,16 @@ struct FillResult {
   std::vector<verify::SeamHash> seams{};
 };
 
+/// @brief What the tries said that did not fill a subdomain.
+struct FailedTries {
+  LocalIndex subdomain = kNoIndex;
+  std::vector<std::string> messages{};  ///< One a try, in their order.
+};
+
+[[nodiscard]] Bytes to_bytes(const std::vector<FailedTries>& failures);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] std::vector<FailedTries> failed_tries_from_bytes(std::span<const std::byte> bytes);
+
 [[nodiscard]] Bytes to_bytes(const FillResult& result);
 /// @throws InputError if the bytes are truncated.
 [[nodiscard]] FillResult fill_result_from_bytes(std::span<const std::byte> bytes);

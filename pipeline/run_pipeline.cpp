@@ -2,6 +2,7 @@
 #include "pipeline/run_pipeline.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -13,8 +14,8 @@
 
 #include "pipeline/count_pieces.hpp"
 #include "pipeline/disk_space.hpp"
-#include "pipeline/predict/run_outline.hpp"
 #include "pipeline/resolve_size.hpp"
+#include "pipeline/run_outline.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
@@ -87,22 +88,25 @@ Plan first_plan(const RunResult& run, const CutMesh& cut, const RunOptions& opti
 // Makes the plan anew for subdomains that were folded under it: they will be subdivided.
 // @throws MeshError if there is nothing left to hold back: then the coarse tets themselves are
 // flat.
-void plan_for_folded(const std::vector<FoldedSubdomain>& folded, const CutMesh& cut, int levels,
-                     Plan& plan, RunContext& context)
+void plan_for_folded(const FilledPieces& filled, const CutMesh& cut, int levels, Plan& plan,
+                     RunContext& context)
 {
   const Bytes before = to_bytes(plan);
   PlanWork work{
       .cut = cut, .kernels = plan.kernels, .levels = levels, .depth = PlanDepth::all_levels};
-  for (const FoldedSubdomain& one : folded) {
+  for (const FoldedSubdomain& one : filled.folded) {
     plan.kernels[at(one.subdomain)] = fill::KernelKind::subdivide;
     if (one.was_limited) plan.limited.push_back(one.subdomain);
     work.subdomains.push_back(one.subdomain);
   }
   std::ranges::sort(plan.limited);
+  std::ranges::copy_if(filled.failures, std::back_inserter(plan.failures), [&](const auto& tries) {
+    return std::ranges::binary_search(work.subdomains, tries.subdomain);
+  });
   plan.damping = run_plan_stage(work, std::move(plan.damping), context);
   all_or_none(context.comm, [&] {
     if (to_bytes(plan) != before) return;
-    throw MeshError("subdomain " + std::to_string(folded.front().subdomain)
+    throw MeshError("subdomain " + std::to_string(filled.folded.front().subdomain)
                     + " has coarse tets that are too flat to be subdivided; try another "
                       "coarse.max_size");
   });
@@ -121,11 +125,12 @@ void plan_and_fill(RunResult& run, const CutMesh& cut, const std::vector<Subdoma
     load_plan(plan.damping, context);
     run.filled = run_fill_stage(run.resolved, {cut, plan.kernels, plan.damping, ranges}, context);
     if (run.filled.folded.empty()) break;
-    plan_for_folded(run.filled.folded, cut, run.resolved.refine.levels, plan, context);
+    plan_for_folded(run.filled, cut, run.resolved.refine.levels, plan, context);
   }
   for (PieceSummary& piece : run.filled.pieces) {
     if (std::ranges::binary_search(plan.limited, piece.subdomain)) piece.was_limited = true;
   }
+  std::ranges::move(plan.failures, std::back_inserter(run.filled.failures));
   run.damping = std::move(plan.damping);
 }
 

@@ -39,6 +39,13 @@ struct Identity {
   std::vector<LocalIndex> only_subdomains{};
 };
 
+// The report that a run has left there; no object if there is none.
+nlohmann::json report_in(const std::filesystem::path& output)
+{
+  std::ifstream file(output / "report.json");
+  return nlohmann::json::parse(file, nullptr, false);
+}
+
 // Noted in the report when the run has ended, in a record before.
 std::optional<Identity> identity_of(const std::filesystem::path& output,
                                     const std::optional<Bytes>& record)
@@ -51,8 +58,7 @@ std::optional<Identity> identity_of(const std::filesystem::path& output,
     identity.only_subdomains = in.get_vector<LocalIndex>();
     return identity;
   }
-  std::ifstream file(output / "report.json");
-  const auto report = nlohmann::json::parse(file, nullptr, false);
+  const nlohmann::json report = report_in(output);
   if (!report.is_object() || !report.contains("model")) return std::nullopt;
   return Identity{report.value("version", ""), report["model"].value("digest", ""),
                   report.value("only_subdomains", std::vector<LocalIndex>())};
@@ -76,6 +82,7 @@ Bytes to_bytes(const Plan& plan)
   out.put(plan.kernels);
   out.put(mesh::to_bytes(plan.damping));
   out.put(plan.limited);
+  out.put(to_bytes(plan.failures));
   return std::move(out).take();
 }
 
@@ -86,6 +93,7 @@ Plan plan_from_bytes(std::span<const std::byte> bytes)
   plan.kernels = in.get_vector<fill::KernelKind>();
   plan.damping = mesh::damping_from_bytes(in.get_vector<std::byte>());
   plan.limited = in.get_vector<LocalIndex>();
+  plan.failures = failed_tries_from_bytes(in.get_vector<std::byte>());
   return plan;
 }
 
@@ -154,8 +162,7 @@ std::optional<ExitCode> RunState::finished() const
 {
   std::error_code error;
   if (!std::filesystem::is_regular_file(output_ / "mesh.pvtu", error)) return std::nullopt;
-  std::ifstream file(output_ / "report.json");
-  const auto report = nlohmann::json::parse(file, nullptr, false);
+  const nlohmann::json report = report_in(output_);
   if (!report.is_object()) return std::nullopt;
   const auto code = static_cast<ExitCode>(report.value("exit_code", -1));
   const bool has_mesh = code == ExitCode::ok || code == ExitCode::degraded;

@@ -15,6 +15,7 @@
 #include "tessera/mesh/damping.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/piece_summary.hpp"
 
 namespace tessera::pipeline {
 
@@ -26,7 +27,8 @@ namespace tessera::pipeline {
 struct Plan {
   std::vector<fill::KernelKind> kernels{};  ///< Shape (num_subdomains); subdivide where folded.
   mesh::Damping damping{};
-  std::vector<LocalIndex> limited{};  ///< Folded ones that lost a try for time or memory.
+  std::vector<LocalIndex> limited{};    ///< Folded ones that lost a try for time or memory.
+  std::vector<FailedTries> failures{};  ///< Of folded ones, before subdivision took their place.
 };
 
 [[nodiscard]] Bytes to_bytes(const Plan& plan);

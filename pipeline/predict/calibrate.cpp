@@ -10,6 +10,7 @@
 #include "tessera/io/vtu.hpp"
 #include "tessera/mesh/lattice.hpp"
 
+#include "pipeline/count_pieces.hpp"
 #include "pipeline/exit_code.hpp"
 #include "pipeline/fill_record.hpp"
 #include "pipeline/log.hpp"
@@ -236,10 +237,7 @@ class Sampler {
   [[nodiscard]] FileCosts measure_files(const SampleSet& set, const RunOutline& outline) const
   {
     std::vector<number::PieceCounts> counts = outline.pieces;
-    for (const PieceSummary& piece : set.pieces) {
-      counts[at(piece.subdomain)] = {piece.num_interior_vertices, piece.num_tets,
-                                     piece.num_boundary};
-    }
+    for (const PieceSummary& piece : set.pieces) counts[at(piece.subdomain)] = counts_of(piece);
     const number::IdLayout ids(mesh::UnitLayout(cut_.skeleton),
                                mesh::lattice::intervals(set.levels), counts);
     const WriteContext mesh{cut_.coarse, cut_.skeleton, ids, length_unit_};

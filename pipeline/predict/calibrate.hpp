@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "pipeline/predict/rates.hpp"
-#include "pipeline/predict/run_outline.hpp"
+#include "pipeline/run_outline.hpp"
 #include "pipeline/run_pipeline.hpp"
 
 namespace tessera::pipeline {

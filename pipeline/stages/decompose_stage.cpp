@@ -13,6 +13,7 @@
 #include "tessera/fill/ladder.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/run_outline.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -38,10 +39,7 @@ decompose::DecomposeOptions options_of(const config::Case& run_case,
                                        const std::vector<double>& weights)
 {
   decompose::DecomposeOptions options = run_case.decompose;
-  const bool is_subdivision =
-      std::all_of(kernels.begin(), kernels.end(),
-                  [](fill::KernelKind kernel) { return kernel == fill::KernelKind::subdivide; });
-  if (options.subdomains == 0 && is_subdivision) {
+  if (options.subdomains == 0 && are_counts_known(kernels)) {
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     const double most = static_cast<double>(weights.size());
     options.subdomains =

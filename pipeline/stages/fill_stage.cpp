@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <string>
@@ -192,14 +193,14 @@ class Filler {
   void keep(const std::vector<FillResult>& results)
   {
     for (const FillResult& result : results) {
+      if (!result.failures.empty()) {
+        own_.failures.push_back({result.summary.subdomain, result.failures});
+      }
       if (result.summary.is_folded) {
         own_.folded.push_back({result.summary.subdomain, result.summary.was_limited});
         continue;
       }
       own_.pieces.push_back(result.summary);
-      if (!result.failures.empty()) {
-        own_.failures.push_back({result.summary.subdomain, result.failures});
-      }
       own_.histograms.add(result.histograms);
       for (const verify::SeamHash& seam : result.seams) {
         own_.seam_sums[at(seam.triangle)] += seam.hash;
@@ -235,20 +236,11 @@ std::vector<T> gather(const std::vector<T>& own, const comm::Communicator& comm)
 
 std::vector<FailedTries> gather(const std::vector<FailedTries>& own, const comm::Communicator& comm)
 {
-  ByteWriter out;
-  out.put(static_cast<std::uint64_t>(own.size()));
-  for (const FailedTries& failed : own) {
-    out.put(failed.subdomain);
-    out.put(failed.messages);
-  }
   std::vector<FailedTries> all;
-  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
-    ByteReader in(bytes);
-    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
-      const auto subdomain = in.get<LocalIndex>();
-      all.push_back({subdomain, in.get_strings()});
-    }
+  for (const Bytes& bytes : comm.all_gather(to_bytes(own))) {
+    std::ranges::move(failed_tries_from_bytes(bytes), std::back_inserter(all));
   }
+  std::ranges::sort(all, {}, &FailedTries::subdomain);
   return all;
 }
 
@@ -266,13 +258,8 @@ FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
   sum_over_ranks(all.histograms.mean_ratio, comm);
   sum_over_ranks(all.histograms.seam_mean_ratio, comm);
   sum_over_ranks(all.histograms.log2_edge_length, comm);
-
-  std::vector<std::uint64_t> halves;
-  for (const Hash128& hash : own.seam_sums) halves.insert(halves.end(), {hash.low, hash.high});
-  comm.sum_in_place(halves);
-  for (std::size_t i = 0; i < halves.size(); i += 2) {
-    all.seam_sums.push_back({halves[i], halves[i + 1]});
-  }
+  all.seam_sums = std::move(own.seam_sums);
+  comm.sum_in_place(all.seam_sums);
   return all;
 }
 

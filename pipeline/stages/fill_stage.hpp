@@ -14,12 +14,6 @@
 
 namespace tessera::pipeline {
 
-/// @brief What the tries said that did not fill a subdomain.
-struct FailedTries {
-  LocalIndex subdomain = kNoIndex;
-  std::vector<std::string> messages{};  ///< One a try, in their order.
-};
-
 /// @brief One that even subdivision could not fill under this plan.
 struct FoldedSubdomain {
   LocalIndex subdomain = kNoIndex;
@@ -30,7 +24,7 @@ struct FoldedSubdomain {
 struct FilledPieces {
   std::vector<PieceSummary> pieces{};       ///< By subdomain; without the folded ones.
   std::vector<FoldedSubdomain> folded{};    ///< By subdomain.
-  std::vector<FailedTries> failures{};      ///< Of those in `pieces`; any order.
+  std::vector<FailedTries> failures{};      ///< Of all these; by subdomain.
   quality::QualityHistograms histograms{};  ///< Over all pieces.
   std::vector<Hash128> seam_sums{};         ///< Shape (num skeleton triangles): both sides' hashes.
 };

@@ -19,14 +19,6 @@
 namespace tessera::pipeline {
 namespace {
 
-void sum_over_ranks(std::vector<Hash128>& hashes, const comm::Communicator& comm)
-{
-  std::vector<std::uint64_t> halves;
-  for (const Hash128& hash : hashes) halves.insert(halves.end(), {hash.low, hash.high});
-  comm.sum_in_place(halves);
-  for (std::size_t i = 0; i < hashes.size(); ++i) hashes[i] = {halves[2 * i], halves[2 * i + 1]};
-}
-
 // Pieces are in the order of subdomains.
 bool has_boundary(const SubdomainRange& range, const std::vector<PieceSummary>& pieces)
 {
@@ -82,7 +74,7 @@ void run_write_stage(const config::Case& run_case, const std::vector<SubdomainRa
   all_or_none(context.comm, [&] {
     if (defect) std::rethrow_exception(defect);
   });
-  sum_over_ranks(digests, context.comm);
+  context.comm.sum_in_place(digests);
   for (std::size_t s = 0; s < digests.size(); ++s) filled.pieces[s].digest = digests[s];
   stage.work_is_done();
   stage.finish(std::to_string(num_files) + " files");

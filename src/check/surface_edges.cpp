@@ -26,7 +26,7 @@ std::vector<TriangleEdge> sorted_unsettled_edges(const PieceSurface& surface)
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& v = surface.triangles[t];
     for (std::size_t i = 0; i < 3; ++i) {
-      if ((surface.settled_edges[t] >> i & 1U) != 0) continue;
+      if ((static_cast<unsigned>(surface.settled_edges[t]) >> i & 1U) != 0) continue;
       const auto [lower, upper] = std::minmax(v[(i + 1) % 3], v[(i + 2) % 3]);
       edges.push_back({lower, upper, static_cast<LocalIndex>(t), static_cast<LocalIndex>(i)});
     }

@@ -106,6 +106,7 @@ tlo shell;
                 report = program.figures(folder)
                 self.assertEqual([s["kernel"] for s in report["subdomains"]],
                                  ["netgen", "subdivide", "netgen", "netgen"])
+                self.assertEqual(len(report["subdomains"][1]["failures"]), 4)
                 self.assertGreater(report["num_points_off_geometry"], 0)
                 self.assertIs(report["reproducible"], is_reproducible)
 

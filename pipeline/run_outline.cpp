@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/predict/run_outline.hpp"
+#include "pipeline/run_outline.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,11 +62,7 @@ RunOutline outline_run(const CutMesh& cut, const std::vector<fill::KernelKind>& 
     outline.pieces[at(s)].tets = std::llround(tets);
     outline.pieces[at(s)].interior_vertices = std::llround(kInteriorVerticesATet * tets);
   }
-  if (outline.is_one_pass) {
-    outline.jobs = files;
-  } else {
-    for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) outline.jobs.push_back({s, s, s + 1});
-  }
+  outline.jobs = outline.is_one_pass ? files : file_ranges(cut.num_subdomains(), 0);
   return outline;
 }
 
