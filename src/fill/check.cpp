@@ -2,10 +2,7 @@
 #include "tessera/fill/check.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <sstream>
 #include <string>
@@ -13,7 +10,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
-#include "tessera/mesh/tet_topology.hpp"
+#include "tessera/mesh/surface_match.hpp"
 
 namespace tessera::fill {
 namespace {
@@ -77,100 +74,23 @@ double positive_volume(const FillOutput& tets)
   return sum;
 }
 
-using Triangle = std::array<LocalIndex, 3>;
-
-// Hash of a triangle by its ascending vertices.
-std::uint64_t hash_of(const Triangle& t)
-{
-  const auto mixed = [](std::uint64_t x) {  // The finaliser of splitmix64: a good bijection.
-    x ^= x >> 30;
-    x *= 0xbf58476d1ce4e5b9U;
-    x ^= x >> 27;
-    x *= 0x94d049bb133111ebU;
-    return x ^ (x >> 31);
-  };
-  const auto word = [](LocalIndex i) { return static_cast<std::uint64_t>(i); };
-  return mixed(mixed(word(t[0]) << 32 | word(t[1])) + word(t[2]));
-}
-
-// The skin's triangles by their vertices, and the tet found behind each. Open addressing: most
-// faces of tets are looked up, so it has to be quick.
-class SkinTable {
- public:
-  explicit SkinTable(const FillInput& skin)
-      : skin_(skin),
-        triangle_tet_(skin.triangle_vertices.size() / 3, kNoIndex),
-        slots_(std::bit_ceil(2 * triangle_tet_.size() + 1), kNoIndex)
-  {
-    for (LocalIndex t = 0; t < static_cast<LocalIndex>(triangle_tet_.size()); ++t) {
-      slots_[slot_of(sorted(t))] = t;
-    }
-  }
-
-  /// Takes the face of a tet as the skin's. False if it is not in the skin, if it is the wrong way
-  /// round, or if another tet is behind that triangle already.
-  bool take(const Triangle& face, bool is_even, LocalIndex tet)
-  {
-    const LocalIndex t = slots_[slot_of(face)];
-    if (t == kNoIndex || triangle_tet_[at(t)] != kNoIndex) return false;
-    const LocalIndex* v = &skin_.triangle_vertices[3 * at(t)];
-    if (mesh::is_even_triangle(v[0], v[1], v[2]) != is_even) return false;
-    triangle_tet_[at(t)] = tet;
-    return true;
-  }
-
-  [[nodiscard]] std::vector<LocalIndex> triangle_tet() && { return std::move(triangle_tet_); }
-
- private:
-  [[nodiscard]] Triangle sorted(LocalIndex t) const
-  {
-    const LocalIndex* v = &skin_.triangle_vertices[3 * at(t)];
-    return mesh::sorted_triangle(v[0], v[1], v[2]);
-  }
-
-  // Where the triangle stands, or the free place where it would.
-  [[nodiscard]] std::size_t slot_of(const Triangle& triangle) const
-  {
-    std::size_t slot = hash_of(triangle) & (slots_.size() - 1);
-    while (slots_[slot] != kNoIndex && sorted(slots_[slot]) != triangle) {
-      slot = (slot + 1) & (slots_.size() - 1);
-    }
-    return slot;
-  }
-
-  const FillInput& skin_;
-  std::vector<LocalIndex> triangle_tet_;
-  std::vector<LocalIndex> slots_;
-};
-
-// Every face of a tet is a triangle of the skin, seen from the right side, or one of two that face
-// each other: those are hashed with opposite signs and must cancel. Together with positive tets of
-// the skin's volume that leaves no room for gaps or overlaps.
+// Together with positive tets of the skin's volume a matching boundary leaves no room for gaps or
+// overlaps.
 std::vector<LocalIndex> match_boundary(const FillInput& skin, const FillOutput& tets)
 {
-  SkinTable table(skin);
   const auto num_skin_vertices = static_cast<LocalIndex>(skin.vertex_xyz.size() / 3);
-  std::uint64_t unmatched = 0;
-  for (std::size_t t = 0; 4 * t < tets.tet_vertices.size(); ++t) {
-    const LocalIndex* v = &tets.tet_vertices[4 * t];
-    for (const auto& [a, b, c] : mesh::kTetFaceCorners) {
-      const Triangle face = mesh::sorted_triangle(v[a], v[b], v[c]);
-      const bool is_even = mesh::is_even_triangle(v[a], v[b], v[c]);
-      const bool may_be_skin = face[2] < num_skin_vertices;
-      if (may_be_skin && table.take(face, is_even, static_cast<LocalIndex>(t))) continue;
-      unmatched += is_even ? hash_of(face) : 0 - hash_of(face);
-    }
-  }
-  std::vector<LocalIndex> triangle_tet = std::move(table).triangle_tet();
+  mesh::SurfaceMatch match =
+      mesh::match_surface(skin.triangle_vertices, num_skin_vertices, tets.tet_vertices);
+  const auto& triangle_tet = match.triangle_tet;
   const auto bare = std::find(triangle_tet.begin(), triangle_tet.end(), kNoIndex);
   if (bare != triangle_tet.end()) {
     throw MeshError("the fill's boundary is not the skin: no tet is behind skin triangle "
                     + std::to_string(bare - triangle_tet.begin()));
   }
-  if (unmatched != 0) {
+  if (!match.is_closed) {
     throw MeshError("the fill's boundary is not the skin: there are faces off it on one tet only");
   }
-  return triangle_tet;
+  return std::move(match.triangle_tet);
 }
 
 }  // namespace

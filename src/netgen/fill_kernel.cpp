@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <meshing.hpp>
 
@@ -10,7 +11,6 @@
 #include "tessera/base/vec3.hpp"
 #include "tessera/netgen/factory.hpp"
 
-#include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
 #include "netgen/skin_mesh.hpp"
 
@@ -20,7 +20,6 @@ namespace {
 using fill::FillInput;
 using fill::FillOutput;
 using fill::FillTry;
-using ::netgen::PointIndex;
 
 // Distance of neighbouring interior points, as a part of the wanted edge length.
 //
@@ -127,29 +126,6 @@ void set_sizes(::netgen::Mesh& mesh, const FillInput& input, double grading)
   return parameters;
 }
 
-FillOutput output_of(const ::netgen::Mesh& mesh, const std::vector<LocalIndex>& order)
-{
-  FillOutput output;
-  const std::size_t num_skin = order.size();
-  if (mesh.GetNP() < num_skin) throw NetgenError("fill: NETGEN dropped vertices of the skin");
-  output.vertex_xyz.resize(3 * mesh.GetNP());
-  const auto vertex = [&](int number) {
-    const auto at = static_cast<std::size_t>(number - PointIndex::BASE);
-    return at < num_skin ? order[at] : static_cast<LocalIndex>(at);
-  };
-  for (int p = PointIndex::BASE; p < static_cast<int>(mesh.GetNP()) + PointIndex::BASE; ++p) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto at = 3 * static_cast<std::size_t>(vertex(p)) + static_cast<std::size_t>(axis);
-      output.vertex_xyz[at] = mesh[PointIndex(p)](axis);
-    }
-  }
-  output.tet_vertices.reserve(4 * mesh.GetNE());
-  for (const auto& element : mesh.VolumeElements()) {
-    for (const int c : kNetgenTetOrder) output.tet_vertices.push_back(vertex(element[c]));
-  }
-  return output;
-}
-
 class FillKernel final : public fill::Kernel {
  public:
   [[nodiscard]] FillOutput fill(const FillInput& input, const FillTry& settings) const override
@@ -164,7 +140,7 @@ class FillKernel final : public fill::Kernel {
     const auto num_skin = static_cast<LocalIndex>(input.vertex_xyz.size() / 3);
     const std::vector<LocalIndex> order = point_order(num_skin, settings.point_order_seed);
     ::netgen::Mesh mesh;
-    add_skin(mesh, input, order);
+    add_surface(mesh, input.vertex_xyz, input.triangle_vertices, order);
     set_sizes(mesh, input, settings.grading);
     if (::netgen::MeshVolume(session.parameters(), mesh) != ::netgen::MESHING3_OK) {
       throw NetgenError("fill: NETGEN gave up; " + session.words());
@@ -172,7 +148,8 @@ class FillKernel final : public fill::Kernel {
     ::netgen::RemoveIllegalElements(mesh);
     if (settings.optimize_steps > 0) ::netgen::OptimizeVolume(session.parameters(), mesh);
     mesh.Compress();
-    return output_of(mesh, order);
+    OrderedTets tets = tets_of(mesh, order);
+    return {std::move(tets.vertex_xyz), std::move(tets.tet_vertices)};
   }
 };
 

@@ -7,7 +7,6 @@
 
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
-#include "tessera/fill/kernel.hpp"
 
 namespace tessera::netgen {
 
@@ -18,8 +17,19 @@ namespace tessera::netgen {
 // Seed 0: as given; else another fixed order.
 [[nodiscard]] std::vector<LocalIndex> point_order(LocalIndex num_vertices, unsigned seed);
 
-// Makes the skin the surface of an empty NETGEN mesh, with domain 1 inside.
-void add_skin(::netgen::Mesh& mesh, const fill::FillInput& input,
-              const std::vector<LocalIndex>& order);
+// Makes a closed triangle surface that of an empty NETGEN mesh, with domain 1 inside. The vertices
+// are the rows of `vertex_xyz` that `order` names; shape of the triangles (n, 3).
+void add_surface(::netgen::Mesh& mesh, const std::vector<double>& vertex_xyz,
+                 const std::vector<LocalIndex>& triangle_vertices,
+                 const std::vector<LocalIndex>& order);
+
+// Vertices and tets of a NETGEN mesh, as ours: number i of NETGEN's is order[i] where there is one.
+struct OrderedTets {
+  std::vector<double> vertex_xyz{};
+  std::vector<LocalIndex> tet_vertices{};
+};
+
+// Throws NetgenError if the mesh has fewer vertices than `order`.
+[[nodiscard]] OrderedTets tets_of(const ::netgen::Mesh& mesh, const std::vector<LocalIndex>& order);
 
 }  // namespace tessera::netgen

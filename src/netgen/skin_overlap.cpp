@@ -13,7 +13,8 @@ bool skin_overlaps(const fill::FillInput& skin)
   NetgenSession session{::netgen::MeshingParameters()};
   return session.run("overlap test", [&] {
     ::netgen::Mesh mesh;
-    add_skin(mesh, skin, point_order(static_cast<LocalIndex>(skin.vertex_xyz.size() / 3), 0));
+    add_surface(mesh, skin.vertex_xyz, skin.triangle_vertices,
+                point_order(static_cast<LocalIndex>(skin.vertex_xyz.size() / 3), 0));
     mesh.FindOpenElements();
     return mesh.CheckOverlappingBoundary() != 0;
   });

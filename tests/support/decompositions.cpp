@@ -21,6 +21,21 @@ mesh::Decomposition slabs(const mesh::CoarseMesh& coarse, int slabs_a_material)
   return decomposition;
 }
 
+mesh::Decomposition octants(const mesh::CoarseMesh& coarse)
+{
+  mesh::Decomposition decomposition;
+  decomposition.subdomain_material.assign(8, 1);
+  decomposition.subdomain_weight.assign(8, 1.0);
+  for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
+    Vec3 middle{};
+    for (const LocalIndex v : coarse.tet(t)) middle = middle + 0.25 * coarse.position(v);
+    const LocalIndex octant = (middle[0] > 0.5) + 2 * (middle[1] > 0.5) + 4 * (middle[2] > 0.5);
+    decomposition.tet_subdomain.push_back(octant);
+    decomposition.subdomain_material[at(octant)] = coarse.tet_material[at(t)];
+  }
+  return decomposition;
+}
+
 mesh::Decomposition one_subdomain_a_material(const mesh::CoarseMesh& coarse)
 {
   mesh::Decomposition decomposition;

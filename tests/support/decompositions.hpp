@@ -11,6 +11,10 @@ namespace tessera::testing {
 /// @pre the mesh is a cube of tests/support/meshes.hpp whose n is a multiple of slabs_a_material.
 [[nodiscard]] mesh::Decomposition slabs(const mesh::CoarseMesh& coarse, int slabs_a_material);
 
+/// @brief Cuts the unit cube into its eight octants by the tets' middles, numbered x, y, z (x
+/// fastest). Without the graph. @pre a cube of tests/support/meshes.hpp with an even n.
+[[nodiscard]] mesh::Decomposition octants(const mesh::CoarseMesh& coarse);
+
 /// @brief Every material is one subdomain. Without the graph.
 [[nodiscard]] mesh::Decomposition one_subdomain_a_material(const mesh::CoarseMesh& coarse);
 

@@ -7,6 +7,7 @@
 
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/fill/kernel.hpp"
+#include "tessera/improve/optimizer.hpp"
 #include "tessera/model/model.hpp"
 
 /// The only door to NETGEN and OpenCASCADE; free of their types. Everything behind it may crash,
@@ -28,6 +29,9 @@ namespace tessera::netgen {
 
 /// @brief NETGEN's volume mesher as a fill kernel.
 [[nodiscard]] std::unique_ptr<fill::Kernel> make_fill_kernel();
+
+/// @brief NETGEN's mesh optimiser.
+[[nodiscard]] std::unique_ptr<improve::Optimizer> make_optimizer();
 
 /// @brief Whether triangles of a skin that share no edge cut each other: NETGEN cannot fill it
 /// then.

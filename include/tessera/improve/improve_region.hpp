@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tessera/improve/optimizer.hpp"
+#include "tessera/improve/patch.hpp"
+#include "tessera/improve/region_mesh.hpp"
+
+namespace tessera::improve {
+
+/// @brief Shapes of some tets, as they are compared before and after.
+struct ShapeSummary {
+  double min_dihedral_deg = 180.0;
+  double min_mean_ratio = 1.0;
+  double mean_mean_ratio = 0.0;
+};
+
+/// @brief Measures tets; the measure itself is another module's (quality).
+using MeasureShapes = std::function<ShapeSummary(const TetMesh&)>;
+
+/// @brief What became of a region.
+struct RegionOutcome {
+  bool is_accepted = false;
+  std::string reason{};       ///< Why the region keeps its old tets; empty if accepted.
+  LocalIndex num_splits = 0;  ///< Vertices put in because tets could not be given to a subdomain.
+  ShapeSummary before{};
+  ShapeSummary after{};  ///< Of the optimised tets, accepted or not.
+  Patch patch{};         ///< Empty unless accepted.
+};
+
+/// @brief Why the new tets are not better than the old ones, in words; empty if they are.
+///
+/// The worst tet may not become worse (smallest dihedral angle, smallest mean ratio) unless it
+/// stays better than 15 degrees and 0.4, and the mean of the mean ratio must rise.
+[[nodiscard]] std::string refusal(const ShapeSummary& before, const ShapeSummary& after);
+
+/// @brief Optimises a region's tets, gives them back to its subdomains, checks and judges them.
+///
+/// A tet goes to the subdomain of the nearest old tet among those that hold all of its fixed
+/// vertices, so no vertex outside the region changes its identity; a tet behind a triangle on the
+/// region's boundary that faces none of its pieces stays where it was, so triangles on the geometry
+/// stay in their pieces. Where no subdomain may have a tet, it is split.
+/// @note Local; a pure function of its arguments. The optimiser may crash: call it in a job.
+/// @throws NetgenError, MeshError if the optimiser gives up or breaks a promise: the boundary is
+/// the old one, fixed vertices have not moved, all tets are positive, the volume is the same (rel.
+/// 1e-9), every subdomain keeps tets in the region. The region then keeps its old tets, too.
+[[nodiscard]] RegionOutcome improve_region(const RegionMesh& mesh, const Optimizer& optimizer,
+                                           const OptimizeSettings& settings,
+                                           const MeasureShapes& measure);
+
+}  // namespace tessera::improve

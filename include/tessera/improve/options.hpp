@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace tessera::improve {
+
+/// @brief Options of the improvement; table `[improve]` of a case file.
+struct ImproveOptions {
+  bool seams = true;  ///< Optimise the tets around the seams between subdomains.
+  int rounds = 1;     ///< NETGEN's optimisation rounds there, >= 1.
+
+  friend bool operator==(const ImproveOptions&, const ImproveOptions&) = default;
+};
+
+}  // namespace tessera::improve

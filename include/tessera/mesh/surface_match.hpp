@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+
+namespace tessera::mesh {
+
+/// @brief What the faces of some tets have to do with a triangle surface.
+struct SurfaceMatch {
+  std::vector<LocalIndex> triangle_tet{};  ///< Shape (num_triangles); the tet behind each, kNoIndex
+                                           ///< where there is none.
+  bool is_closed = true;                   ///< No other face of the tets stands alone.
+};
+
+/// @brief Matches the boundary of tets with an outward surface, triangle for triangle.
+///
+/// Every face of a tet is a triangle of the surface, seen from the right side, or one of two that
+/// face each other: those are hashed with opposite signs and must cancel. Together with positive
+/// tets of the surface's volume that leaves no room for gaps or overlaps.
+/// @param[in] triangle_vertices Shape (num_triangles, 3), no triangle twice.
+/// @param[in] num_surface_vertices All vertices of triangles are below it.
+/// @param[in] tet_vertices Shape (num_tets, 4).
+/// @note Local; linear.
+[[nodiscard]] SurfaceMatch match_surface(std::span<const LocalIndex> triangle_vertices,
+                                         LocalIndex num_surface_vertices,
+                                         std::span<const LocalIndex> tet_vertices);
+
+}  // namespace tessera::mesh

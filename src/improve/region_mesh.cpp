@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/improve/region_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+
+#include "improve/owner_set.hpp"
+
+namespace tessera::improve {
+namespace {
+
+// A vertex that several pieces may hold, as one of them does.
+struct SharedVertex {
+  mesh::Unit unit = 0;
+  LocalIndex index = 0;
+  PieceVertex place{};
+
+  [[nodiscard]] bool is_same(const SharedVertex& other) const
+  {
+    return unit == other.unit && index == other.index;
+  }
+
+  friend bool operator<(const SharedVertex& a, const SharedVertex& b)
+  {
+    if (a.unit != b.unit) return a.unit < b.unit;
+    if (a.index != b.index) return a.index < b.index;
+    return a.place.owner < b.place.owner;
+  }
+};
+
+struct BoundaryFace {
+  std::array<LocalIndex, 3> vertices{};  ///< Ascending.
+  LocalIndex triangle = kNoIndex;
+
+  friend bool operator<(const BoundaryFace& a, const BoundaryFace& b)
+  {
+    return a.vertices < b.vertices;
+  }
+};
+
+class Extractor {
+ public:
+  Extractor(std::span<const LabelledPiece> pieces, LocalIndex region)
+      : pieces_(pieces), region_(region)
+  {
+  }
+
+  void run(RegionMesh& mesh)
+  {
+    mark_used();
+    glue_shared();
+    add_interior();
+    add_tets(mesh);
+    find_boundary(mesh);
+    number_vertices(mesh);
+    find_outside(mesh);
+  }
+
+ private:
+  // Whether tet `t` of piece `p` is the region's.
+  [[nodiscard]] bool is_inside(std::size_t p, LocalIndex t) const
+  {
+    return pieces_[p].labels[at(t)] == region_;
+  }
+
+  void mark_used()
+  {
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const mesh::Piece& piece = pieces_[p].piece;
+      std::vector<char>& used = used_.emplace_back(at(piece.num_vertices()), 0);
+      number_.emplace_back(at(piece.num_vertices()), kNoIndex);
+      for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
+        if (!is_inside(p, t)) continue;
+        for (std::size_t c = 0; c < 4; ++c) used[at(piece.tet_vertices[4 * at(t) + c])] = 1;
+      }
+    }
+  }
+
+  // All pieces that hold a vertex of the region count, whether their tets of the region use it or
+  // not.
+  void glue_shared()
+  {
+    std::vector<SharedVertex> shared;
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const mesh::Piece& piece = pieces_[p].piece;
+      for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
+        shared.push_back(
+            {piece.skin_unit[at(v)], piece.skin_index[at(v)], {static_cast<LocalIndex>(p), v}});
+      }
+    }
+    std::sort(shared.begin(), shared.end());
+    for (auto first = shared.begin(); first != shared.end();) {
+      const auto last = std::find_if(first, shared.end(),
+                                     [&](const SharedVertex& v) { return !v.is_same(*first); });
+      if (std::any_of(first, last, [&](const SharedVertex& v) { return is_used(v.place); })) {
+        for (auto v = first; v != last; ++v) add_place(v->place);
+        offsets_.push_back(places_.size());
+      }
+      first = last;
+    }
+  }
+
+  void add_interior()
+  {
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const mesh::Piece& piece = pieces_[p].piece;
+      for (LocalIndex v = piece.num_skin_vertices(); v < piece.num_vertices(); ++v) {
+        const PieceVertex place{static_cast<LocalIndex>(p), v};
+        if (!is_used(place)) continue;
+        add_place(place);
+        offsets_.push_back(places_.size());
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_used(const PieceVertex& place) const
+  {
+    return used_[at(place.owner)][at(place.vertex)] != 0;
+  }
+
+  [[nodiscard]] const double* xyz_of(const PieceVertex& place) const
+  {
+    return &pieces_[at(place.owner)].piece.vertex_xyz[3 * at(place.vertex)];
+  }
+
+  // One more place of the vertex that is being numbered.
+  void add_place(const PieceVertex& place)
+  {
+    if (places_.size() > offsets_.back()
+        && std::memcmp(xyz_of(places_.back()), xyz_of(place), 3 * sizeof(double)) != 0) {
+      throw MeshError("two pieces disagree about the position of a vertex");
+    }
+    number_[at(place.owner)][at(place.vertex)] = static_cast<LocalIndex>(offsets_.size()) - 1;
+    places_.push_back(place);
+  }
+
+  void add_tets(RegionMesh& mesh) const
+  {
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      const mesh::Piece& piece = pieces_[p].piece;
+      for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
+        if (!is_inside(p, t)) continue;
+        for (std::size_t c = 0; c < 4; ++c) {
+          mesh.tet_vertices.push_back(number_[p][at(piece.tet_vertices[4 * at(t) + c])]);
+        }
+        mesh.tet_owner.push_back(static_cast<LocalIndex>(p));
+      }
+    }
+  }
+
+  static void find_boundary(RegionMesh& mesh)
+  {
+    for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {
+      if (triangle.tets[1] != kNoIndex) continue;
+      const std::size_t tet = at(triangle.tets[0]);
+      for (const std::size_t c : mesh::kTetFaceCorners[at(triangle.corners[0])]) {
+        mesh.triangle_vertices.push_back(mesh.tet_vertices[4 * tet + c]);
+      }
+      mesh.triangle_owner.push_back(mesh.tet_owner[tet]);
+    }
+  }
+
+  // Fixed vertices first; apart from that they keep their order.
+  void number_vertices(RegionMesh& mesh)
+  {
+    std::vector<LocalIndex> new_number(offsets_.size() - 1, kNoIndex);
+    for (const LocalIndex v : mesh.triangle_vertices) new_number[at(v)] = 0;
+    mesh.fixed_offsets.push_back(0);
+    std::vector<std::size_t> free;
+    LocalIndex next = 0;
+    for (std::size_t v = 0; v < new_number.size(); ++v) {
+      if (new_number[v] == kNoIndex) {
+        free.push_back(v);
+        continue;
+      }
+      new_number[v] = next++;
+      add_position(v, mesh);
+      mesh.fixed_places.insert(mesh.fixed_places.end(), &places_[offsets_[v]],
+                               places_.data() + offsets_[v + 1]);
+      mesh.fixed_offsets.push_back(static_cast<LocalIndex>(mesh.fixed_places.size()));
+    }
+    for (const std::size_t v : free) {
+      new_number[v] = next++;
+      add_position(v, mesh);
+    }
+    for (LocalIndex& v : mesh.tet_vertices) v = new_number[at(v)];
+    for (LocalIndex& v : mesh.triangle_vertices) v = new_number[at(v)];
+    for (auto& numbers : number_) {
+      for (LocalIndex& v : numbers) v = v == kNoIndex ? kNoIndex : new_number[at(v)];
+    }
+  }
+
+  void add_position(std::size_t v, RegionMesh& mesh) const
+  {
+    const double* xyz = xyz_of(places_[offsets_[v]]);
+    mesh.vertex_xyz.insert(mesh.vertex_xyz.end(), xyz, xyz + 3);
+  }
+
+  // Tets of the pieces that are not of the region, but have a face on its boundary.
+  void find_outside(RegionMesh& mesh) const
+  {
+    std::vector<BoundaryFace> faces;
+    for (LocalIndex i = 0; i < mesh.num_triangles(); ++i) {
+      const LocalIndex* v = &mesh.triangle_vertices[3 * at(i)];
+      faces.push_back({mesh::sorted_triangle(v[0], v[1], v[2]), i});
+    }
+    std::sort(faces.begin(), faces.end());
+    mesh.triangle_outside.assign(at(mesh.num_triangles()), kNoIndex);
+    for (std::size_t p = 0; p < pieces_.size(); ++p) {
+      for (LocalIndex t = 0; t < pieces_[p].piece.num_tets(); ++t) {
+        if (!is_inside(p, t)) note_outside(p, t, faces, mesh);
+      }
+    }
+  }
+
+  void note_outside(std::size_t p, LocalIndex t, const std::vector<BoundaryFace>& faces,
+                    RegionMesh& mesh) const
+  {
+    std::array<LocalIndex, 4> v;
+    for (std::size_t c = 0; c < 4; ++c) {
+      v[c] = number_[p][at(pieces_[p].piece.tet_vertices[4 * at(t) + c])];
+    }
+    if (std::count(v.begin(), v.end(), kNoIndex) > 1) return;
+    for (const auto& [a, b, c] : mesh::kTetFaceCorners) {
+      if (v[a] == kNoIndex || v[b] == kNoIndex || v[c] == kNoIndex) continue;
+      const BoundaryFace wanted{mesh::sorted_triangle(v[a], v[b], v[c]), kNoIndex};
+      const auto found = std::lower_bound(faces.begin(), faces.end(), wanted);
+      if (found != faces.end() && found->vertices == wanted.vertices) {
+        mesh.triangle_outside[at(found->triangle)] = static_cast<LocalIndex>(p);
+      }
+    }
+  }
+
+  std::span<const LabelledPiece> pieces_;
+  LocalIndex region_;
+  std::vector<std::vector<char>> used_{};          ///< By piece and its vertex.
+  std::vector<std::vector<LocalIndex>> number_{};  ///< By piece and its vertex: the region's.
+  std::vector<std::size_t> offsets_{0};            ///< Places of each vertex of the region.
+  std::vector<PieceVertex> places_{};
+};
+
+}  // namespace
+
+RegionMesh extract_region(std::span<const LabelledPiece> pieces, const Regions& regions,
+                          LocalIndex region)
+{
+  const auto subdomains = regions.subdomains_of(region);
+  if (subdomains.size() > kMaxOwners) {
+    throw MeshError(std::to_string(subdomains.size()) + " subdomains meet in one place; at most "
+                    + std::to_string(kMaxOwners) + " are supported");
+  }
+  RegionMesh mesh;
+  mesh.region = region;
+  mesh.unit = regions.unit_of(region);
+  mesh.subdomains.assign(subdomains.begin(), subdomains.end());
+  Extractor(pieces, region).run(mesh);
+  return mesh;
+}
+
+}  // namespace tessera::improve
