@@ -28,13 +28,15 @@ FolderSize size_of_folders(const std::filesystem::path& parent,
 
 DiskNeed disk_need(const RunOutline& outline, const Rates& rates)
 {
+  // While seams are improved a piece is there as it was filled, and before and after the phase.
+  const double copies = outline.improves_seams() ? 3.0 : 1.0;
   DiskNeed need;
   for (const SubdomainRange& file : outline.files) {
     for (LocalIndex s = file.first; s < file.last; ++s) {
       const KernelRates& kernel = rates.of(outline.kernels[at(s)]);
       const auto tets = static_cast<double>(outline.pieces[at(s)].tets);
       need.file_bytes += kernel.file_bytes_per_tet * tets;
-      if (!outline.is_one_pass) need.store_bytes += kernel.store_bytes_per_tet * tets;
+      if (!outline.is_one_pass) need.store_bytes += copies * kernel.store_bytes_per_tet * tets;
     }
     const GlobalIndex triangles = outline.boundary_triangles_of(file);
     need.num_files += triangles > 0 ? 2 : 1;

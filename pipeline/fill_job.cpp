@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/fill_job.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "tessera/fill/check.hpp"
 #include "tessera/fill/size_samples.hpp"
 #include "tessera/fill/subdivide.hpp"
-#include "tessera/mesh/tet_edges.hpp"
-#include "tessera/mesh/tet_topology.hpp"
 #include "tessera/refine/skin.hpp"
+
+#include "pipeline/measure_piece.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -45,36 +43,21 @@ double outside_area(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
   return area;
 }
 
-// Edge lengths, and the Euler characteristic with the edges' number.
-void measure_edges(const mesh::Piece& piece, LocalIndex num_skin_triangles, FillResult& result)
+// From the closed surface and the number of edges.
+GlobalIndex euler_characteristic(const mesh::Piece& piece, GlobalIndex num_edges,
+                                 GlobalIndex num_skin_triangles)
 {
-  const std::span<const double> xyz(piece.vertex_xyz);
-  GlobalIndex num_edges = 0;
-  mesh::for_each_edge(piece.tet_vertices, piece.num_vertices(), [&](LocalIndex a, LocalIndex b) {
-    ++num_edges;
-    const Vec3 edge = point_at(xyz, b) - point_at(xyz, a);
-    result.histograms.log2_edge_length.add(0.5 * std::log2(dot(edge, edge)));
-  });
   const GlobalIndex num_tets = piece.num_tets();
   const GlobalIndex num_triangles = (4 * num_tets + num_skin_triangles) / 2;
-  result.summary.euler_characteristic = piece.num_vertices() - num_edges + num_triangles - num_tets;
+  return piece.num_vertices() - num_edges + num_triangles - num_tets;
 }
 
-void measure_tets(const mesh::Piece& piece, const std::vector<char>& seam_units, FillResult& result)
+std::vector<char> vertices_on_seams(const mesh::Skin& skin, const std::vector<char>& seam_units)
 {
-  const auto on_seam = [&](LocalIndex v) {
-    return v < piece.num_skin_vertices() && seam_units[at(piece.skin_unit[at(v)])] != 0;
-  };
-  quality::ShapeSum all(result.histograms.mean_ratio);
-  quality::ShapeSum on_seams(result.histograms.seam_mean_ratio);
-  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-    const quality::TetShape shape = quality::shape_of(piece.corners(t));
-    all.add(shape);
-    const LocalIndex* v = &piece.tet_vertices[4 * at(t)];
-    if (std::any_of(v, v + 4, on_seam)) on_seams.add(shape);
-  }
-  result.summary.tets = all.statistics();
-  result.summary.seam_tets = on_seams.statistics();
+  std::vector<char> on_seam;
+  on_seam.reserve(skin.vertex_unit.size());
+  for (const mesh::Unit unit : skin.vertex_unit) on_seam.push_back(seam_units[at(unit)]);
+  return on_seam;
 }
 
 // A skin, and the tets that some kernel put into it, unchecked.
@@ -134,8 +117,10 @@ FilledPiece check_and_measure(const CutMesh& cut, LocalIndex subdomain, RawFill&
   summary.damped_distance = raw.distance.largest_damped;
   summary.volume = facts.volume;
   summary.boundary_area = outside_area(raw.skin, cut.skeleton);
-  measure_edges(piece, raw.skin.num_triangles(), filled.result);
-  measure_tets(piece, cut.seam_units, filled.result);
+  summary.outside = verify::outside_hash(raw.skin, cut.skeleton);
+  summary.euler_characteristic = euler_characteristic(
+      piece, measure_edges(piece, filled.result.histograms), raw.skin.num_triangles());
+  measure_tets(piece, vertices_on_seams(raw.skin, cut.seam_units), filled.result);
   filled.result.seams = verify::seam_hashes(raw.skin, cut.skeleton);
   return filled;
 }

@@ -18,6 +18,8 @@
 #include "pipeline/batch_filler.hpp"
 #include "pipeline/cut_mesh.hpp"
 #include "pipeline/fill_job.hpp"
+#include "pipeline/fill_record.hpp"
+#include "pipeline/improve_job.hpp"
 #include "pipeline/test_fault.hpp"
 
 namespace tessera::pipeline {
@@ -28,11 +30,13 @@ enum class Message : int {
   load_mesh,
   load_plan,
   load_numbers,
+  load_improvement,
   import,
   box,
   coarse,
   plan,
-  fill
+  fill,
+  improve
 };
 
 FillTask get_fill_task(ByteReader& in)
@@ -67,6 +71,10 @@ class MeshWorker final : public jobs::Worker {
         return;
       case Message::load_numbers:
         return load_numbers(in);
+      case Message::load_improvement:
+        improve_options_ = in.get<improve::ImproveOptions>();
+        regions_.emplace(cut_->skeleton, decomposition_);
+        return;
       default:
         throw Error("load message of an unknown kind");
     }
@@ -86,6 +94,8 @@ class MeshWorker final : public jobs::Worker {
         return plan(in);
       case Message::fill:
         return fill(in);
+      case Message::improve:
+        return improve(in);
       default:
         throw Error("job request of an unknown kind");
     }
@@ -189,6 +199,17 @@ class MeshWorker final : public jobs::Worker {
     return std::move(batch).finish();
   }
 
+  Bytes improve(ByteReader& in)
+  {
+    const auto region = in.get<LocalIndex>();
+    const auto generation = in.get<int>();
+    const io::RecordStore store(store_folder(output_));
+    const auto optimizer = make_faulty_if_asked(netgen::make_optimizer(), region);
+    improve_stored_region({*cut_, *regions_, store, generation}, region, improve_options_.rounds,
+                          *optimizer);
+    return {};
+  }
+
   [[nodiscard]] fill::FillInput skin_of(const refine::RefineContext& context,
                                         LocalIndex subdomain) const
   {
@@ -216,6 +237,8 @@ class MeshWorker final : public jobs::Worker {
   std::optional<number::IdLayout> ids_{};  ///< If they are known before the pieces are.
   std::string length_unit_{};
   io::OutputOptions output_options_{};
+  improve::ImproveOptions improve_options_{};
+  std::optional<improve::Regions> regions_{};  ///< If seams are to be improved.
 };
 
 template <class... Values>
@@ -284,6 +307,16 @@ Bytes fill_request(const FillTask& task)
 {
   return message(Message::fill, task.batch, task.first, task.last, task.plan, task.settings,
                  task.angle_to_beat_deg, task.tries, task.was_limited, task.keep, task.failures);
+}
+
+Bytes load_improvement_message(const improve::ImproveOptions& options)
+{
+  return message(Message::load_improvement, options);
+}
+
+Bytes improve_request(LocalIndex region, int generation)
+{
+  return message(Message::improve, region, generation);
 }
 
 }  // namespace tessera::pipeline

@@ -11,6 +11,7 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/fill/kernel.hpp"
+#include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
 #include "tessera/jobs/job_runner.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -43,6 +44,9 @@ namespace tessera::pipeline {
 [[nodiscard]] Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
                                          const std::string& length_unit,
                                          const io::OutputOptions& options);
+
+/// @brief load: that seams are to be improved, and how. Needs the mesh.
+[[nodiscard]] Bytes load_improvement_message(const improve::ImproveOptions& options);
 
 /// @brief run: reads a CAD file; result: bytes of a ModelSource. Needs no load.
 [[nodiscard]] Bytes import_request(const std::filesystem::path& file,
@@ -83,5 +87,9 @@ struct FillTask {
 /// @brief run: refines, fills and checks subdomains and stores their record; result: bytes of their
 /// FillResults. If one is folded there is no record. Needs model, mesh and plan.
 [[nodiscard]] Bytes fill_request(const FillTask& task);
+
+/// @brief run: improves one region of pieces of a generation and stores its record; see
+/// improve_job.hpp. Needs model, mesh and improvement; the result is empty.
+[[nodiscard]] Bytes improve_request(LocalIndex region, int generation);
 
 }  // namespace tessera::pipeline

@@ -34,12 +34,9 @@ mesh::MeshArrays with_names(const WriteContext& mesh)
   return arrays;
 }
 
-void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshArrays& arrays)
+void number_by_unit(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshArrays& arrays)
 {
-  arrays.point_xyz = piece.vertex_xyz;
   auto& owner = arrays.point_ints["owner"];
-  owner.reserve(at(piece.num_vertices()));
-  arrays.point_ids.reserve(at(piece.num_vertices()));
   for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
     arrays.point_ids.push_back(mesh.ids.vertex_id(piece.skin_unit[at(v)], piece.skin_index[at(v)]));
     owner.push_back(owner_of_unit(mesh.skeleton, piece.skin_unit[at(v)]));
@@ -48,6 +45,25 @@ void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshAr
     arrays.point_ids.push_back(mesh.ids.interior_vertex_id(piece.subdomain, i));
     owner.push_back(piece.subdomain);
   }
+}
+
+void number_by_owner(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshArrays& arrays)
+{
+  auto& owner = arrays.point_ints["owner"];
+  for (const VertexPlace& place : mesh.improved->places_of(piece)) {
+    arrays.point_ids.push_back(mesh.ids.interior_vertex_id(place.owner, place.index));
+    owner.push_back(place.owner);
+  }
+}
+
+void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshArrays& arrays)
+{
+  arrays.point_xyz = piece.vertex_xyz;
+  arrays.point_ints["owner"].reserve(at(piece.num_vertices()));
+  arrays.point_ids.reserve(at(piece.num_vertices()));
+  const bool has_points = piece.num_vertices() > 0;
+  if (mesh.improved != nullptr && has_points) return number_by_owner(piece, mesh, arrays);
+  number_by_unit(piece, mesh, arrays);
 }
 
 mesh::MeshArrays tet_arrays(const mesh::Piece& piece, const WriteContext& mesh, bool with_quality)

@@ -10,6 +10,8 @@
 #include "tessera/mesh/skeleton.hpp"
 #include "tessera/number/id_layout.hpp"
 
+#include "pipeline/improved_pieces.hpp"
+
 namespace tessera::pipeline {
 
 /// @brief What the write stage needs to turn pieces into files. Borrowed.
@@ -18,6 +20,9 @@ struct WriteContext {
   const mesh::Skeleton& skeleton;
   const number::IdLayout& ids;
   const std::string& length_unit;  ///< Of the output; empty if nobody knows it.
+  /// Where the pieces are and who owns their vertices, if seams were improved: `ids` is by owner
+  /// then. Else nullptr.
+  const ImprovedPieces* improved = nullptr;
 };
 
 /// @brief What the files of one piece hold.

@@ -21,20 +21,22 @@ struct PieceSummary {
   LocalIndex tries = 0;       ///< Rungs of the ladder that were needed, from 1.
   LocalIndex num_damped = 0;  ///< Skin points that the plan left off the geometry.
   GlobalIndex num_tets = 0;
-  GlobalIndex num_interior_vertices = 0;
-  GlobalIndex num_boundary = 0;          ///< Triangles on the geometry that this piece owns.
-  GlobalIndex euler_characteristic = 0;  ///< V - E + F - T of the piece; 1 for a ball.
-  double volume = 0.0;                   ///< Output length unit cubed.
-  double boundary_area = 0.0;            ///< Outside of the model only; output length unit squared.
-  double model_distance = 0.0;           ///< Largest, of the undamped points; output length unit.
-  double damped_distance = 0.0;          ///< Largest, of the damped points; output length unit.
-  double cpu_s = 0.0;                    ///< Of the try that succeeded.
-  bool was_limited = false;              ///< A try ended for time or memory: not reproducible.
+  GlobalIndex num_interior_vertices = 0;  ///< After improvement: all vertices it owns.
+  GlobalIndex num_boundary = 0;           ///< Triangles on the geometry that this piece owns.
+  GlobalIndex euler_characteristic = 0;   ///< V - E + F - T of the piece; 1 for a ball.
+  double volume = 0.0;                    ///< Output length unit cubed.
+  double boundary_area = 0.0;    ///< Outside of the model only; output length unit squared.
+  double model_distance = 0.0;   ///< Largest, of the undamped points; output length unit.
+  double damped_distance = 0.0;  ///< Largest, of the damped points; output length unit.
+  double cpu_s = 0.0;            ///< Of the try that succeeded.
+  bool was_limited = false;      ///< A try ended for time or memory: not reproducible.
   bool is_folded = false;  ///< A coarse tet has children that are not positive: there is no piece.
   quality::TetStatistics tets{};
   quality::TetStatistics
-      seam_tets{};   ///< Tets with a vertex between two subdomains of one material.
-  Hash128 digest{};  ///< Sum of hash_tet(); known when the piece is written.
+      seam_tets{};    ///< Tets with a vertex between two subdomains of one material.
+  Hash128 outside{};  ///< verify::outside_hash() of its skin.
+  Hash128 surface{};  ///< verify::surface_hash() of the improved piece.
+  Hash128 digest{};   ///< Sum of hash_tet(); known when the piece is written.
 };
 
 /// @brief What is kept of one piece besides its tets.

@@ -187,6 +187,20 @@ void add_figures(Json& json, const RunFigures& figures)
   json["peak_rss_bytes_max"] = figures.peak_rss_bytes_max;
 }
 
+bool is_reproducible(const FilledPieces& filled)
+{
+  return filled.improvement.num_limited == 0
+         && std::none_of(filled.pieces.begin(), filled.pieces.end(),
+                         [](const PieceSummary& piece) { return piece.was_limited; });
+}
+
+Json improvement_json(const Improvement& improvement)
+{
+  return {{"regions", improvement.num_regions},
+          {"improved", improvement.num_improved},
+          {"failed", improvement.num_failed}};
+}
+
 // Where the ladder ended at another kernel than the case wants.
 std::vector<LocalIndex> substituted_subdomains(const RunResult& run)
 {
@@ -244,8 +258,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   json["boundary_area"] = sum(pieces, &PieceSummary::boundary_area);
   json["model_distance_max"] = largest(pieces, &PieceSummary::model_distance);
   json["num_points_off_geometry"] = run.damping.entries().size();
-  json["reproducible"] = std::none_of(pieces.begin(), pieces.end(),
-                                      [](const PieceSummary& piece) { return piece.was_limited; });
+  json["reproducible"] = is_reproducible(run.filled);
   json["digest"] = to_hex(digest);
   add_figures(json, figures);
   json["tets_per_second"] = static_cast<double>(run.num_tets) / figures.wall_time_s;
@@ -263,6 +276,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
                        {"min_seam_dihedral_deg", run.decomposition.report.min_seam_dihedral_deg},
                        {"splits", run.decomposition.report.num_splits},
                        {"moves", run.decomposition.report.num_moves}};
+  json["improve"] = improvement_json(run.filled.improvement);
   json["subdomains"] = subdomains_json(run);
   json["subdomain_graph"] = graph_json(run.decomposition.decomposition);
   json["libraries"] = libraries_json();

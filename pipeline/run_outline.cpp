@@ -15,6 +15,14 @@ namespace {
 // Core and torus: 0.10 and 0.11 with two levels; it grows with the piece. Samples tell better.
 constexpr double kInteriorVerticesATet = 0.11;
 
+// On the geometry there are those between materials, and they are no seams.
+GlobalIndex num_seam_triangles(const mesh::Skeleton& skeleton, LocalIndex subdomain)
+{
+  return std::ranges::count_if(skeleton.triangles_of(subdomain), [&](LocalIndex t) {
+    return skeleton.triangle_patch[at(t)] == kNoIndex;
+  });
+}
+
 template <class Count>
 GlobalIndex sum_over(const SubdomainRange& range, Count&& count)
 {
@@ -41,8 +49,13 @@ GlobalIndex RunOutline::boundary_triangles_of(const SubdomainRange& range) const
   return sum_over(range, [&](LocalIndex s) { return pieces[at(s)].boundary_triangles; });
 }
 
+bool RunOutline::improves_seams() const
+{
+  return std::ranges::any_of(seam_triangles, [](GlobalIndex count) { return count > 0; });
+}
+
 RunOutline outline_run(const CutMesh& cut, const std::vector<fill::KernelKind>& kernels, int levels,
-                       const std::vector<SubdomainRange>& files)
+                       const std::vector<SubdomainRange>& files, bool improve_seams)
 {
   RunOutline outline{.levels = levels,
                      .num_coarse_tets = cut.coarse.num_tets(),
@@ -61,6 +74,11 @@ RunOutline outline_run(const CutMesh& cut, const std::vector<fill::KernelKind>& 
         fill::expected_tets(cut.coarse, cut.tets.of(s), num_triangles, cut.vertex_size, levels);
     outline.pieces[at(s)].tets = std::llround(tets);
     outline.pieces[at(s)].interior_vertices = std::llround(kInteriorVerticesATet * tets);
+  }
+  outline.seam_triangles.resize(kernels.size());
+  for (LocalIndex s = 0; improve_seams && s < cut.num_subdomains(); ++s) {
+    if (kernels[at(s)] == fill::KernelKind::subdivide) continue;
+    outline.seam_triangles[at(s)] = num_seam_triangles(cut.skeleton, s) << 2 * levels;
   }
   outline.jobs = outline.is_one_pass ? files : file_ranges(cut.num_subdomains(), 0);
   return outline;

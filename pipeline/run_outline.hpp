@@ -23,18 +23,23 @@ struct RunOutline {
                                               ///< vertices are exact where subdivided, else
                                               ///< expected; boundary triangles are exact.
   GlobalIndex num_skeleton_vertices = 0;      ///< Fine vertices on all skins; exact.
-  bool is_one_pass = false;                   ///< Fill jobs write the files themselves.
-  std::vector<SubdomainRange> jobs{};         ///< What each fill job makes.
-  std::vector<SubdomainRange> files{};        ///< What each file holds.
+  std::vector<GlobalIndex>
+      seam_triangles{};                 ///< Shape (num_subdomains). Fine triangles between the
+                                        ///< subdomain and others, where seams are improved.
+  bool is_one_pass = false;             ///< Fill jobs write the files themselves.
+  std::vector<SubdomainRange> jobs{};   ///< What each fill job makes.
+  std::vector<SubdomainRange> files{};  ///< What each file holds.
 
   [[nodiscard]] GlobalIndex tets_of(const SubdomainRange& range) const;
   [[nodiscard]] GlobalIndex boundary_triangles_of(const SubdomainRange& range) const;
+  [[nodiscard]] bool improves_seams() const;
 };
 
 /// @brief The outline of a run with so many levels. Local; O(coarse tets).
-/// @param[in] ranges output.files, or those asked for; see run_pipeline().
+/// @param[in] files output.files, or those asked for; see run_pipeline().
+/// @param[in] improve_seams improve.seams.
 [[nodiscard]] RunOutline outline_run(const CutMesh& cut,
                                      const std::vector<fill::KernelKind>& kernels, int levels,
-                                     const std::vector<SubdomainRange>& files);
+                                     const std::vector<SubdomainRange>& files, bool improve_seams);
 
 }  // namespace tessera::pipeline

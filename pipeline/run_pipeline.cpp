@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "pipeline/resolve_size.hpp"
 #include "pipeline/run_outline.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
+#include "pipeline/stages/improve_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/stages/plan_stage.hpp"
@@ -134,6 +136,25 @@ void plan_and_fill(RunResult& run, const CutMesh& cut, const std::vector<Subdoma
   run.damping = std::move(plan.damping);
 }
 
+// Ids of vertices follow from closed forms, unless pieces have exchanged tets.
+number::IdLayout number_mesh(const CutMesh& cut, int levels, const RunOutline& outline,
+                             const FilledPieces& filled)
+{
+  if (filled.improvement.generation > 0) {
+    return number::IdLayout::by_owner(counts_of(filled.pieces));
+  }
+  return {mesh::UnitLayout(cut.skeleton), mesh::lattice::intervals(levels),
+          outline.is_one_pass ? outline.pieces : counts_of(filled.pieces)};
+}
+
+std::unique_ptr<ImprovedPieces> improved_pieces(const CutMesh& cut, const FilledPieces& filled,
+                                                const RunContext& context)
+{
+  const int generation = filled.improvement.generation;
+  if (generation == 0) return nullptr;
+  return std::make_unique<ImprovedPieces>(context.folder, cut.skeleton, generation);
+}
+
 }  // namespace
 
 // Of a scaled mesh only the user knows the unit.
@@ -184,7 +205,8 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   const CutMesh cut(run.coarse.mesh, run.decomposition.decomposition);
   std::vector<SubdomainRange> files;
   all_or_none(context.comm, [&] { files = output_ranges(run, options); });
-  const RunOutline outline = outline_run(cut, run.kernels, run.resolved.refine.levels, files);
+  const RunOutline outline =
+      outline_run(cut, run.kernels, run.resolved.refine.levels, files, run.resolved.improve.seams);
   const bool is_one_pass = outline.is_one_pass;
   const std::string length_unit = output_length_unit(run);
 
@@ -195,11 +217,13 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   require_disk_space(outline, run.resolved.output, context);
 
   plan_and_fill(run, cut, outline.jobs, options, context);
-  const auto counts = is_one_pass ? outline.pieces : counts_of(run.filled.pieces);
-  const number::IdLayout ids(mesh::UnitLayout(cut.skeleton), mesh::lattice::intervals(levels),
-                             counts);
+  if (!is_one_pass && run.resolved.improve.seams) {
+    run.filled = run_improve_stage(run.resolved, cut, run.kernels, std::move(run.filled), context);
+  }
   run_verify_stage(cut, outline.jobs, run.filled, context);
-  const WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit};
+  const number::IdLayout ids = number_mesh(cut, levels, outline, run.filled);
+  const auto improved = improved_pieces(cut, run.filled, context);
+  const WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit, improved.get()};
   if (!is_one_pass) run_write_stage(run.resolved, files, mesh, run.filled, context);
   write_indices(run.resolved, files, mesh, run.filled, context);
   run.num_vertices = ids.num_vertices();

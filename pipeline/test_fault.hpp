@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "tessera/fill/kernel.hpp"
+#include "tessera/improve/optimizer.hpp"
 
 namespace tessera::pipeline {
 
@@ -13,5 +14,9 @@ namespace tessera::pipeline {
 /// @throws ConfigError if the variable has no such form.
 [[nodiscard]] std::unique_ptr<fill::Kernel> make_faulty_if_asked(
     std::unique_ptr<fill::Kernel> kernel, LocalIndex subdomain);
+
+/// @brief The same for the improvement of seams: "improve=KIND@REGION".
+[[nodiscard]] std::unique_ptr<improve::Optimizer> make_faulty_if_asked(
+    std::unique_ptr<improve::Optimizer> optimizer, LocalIndex region);
 
 }  // namespace tessera::pipeline

@@ -91,7 +91,8 @@ class Sampler {
   {
     SampleSet set = choose(kernel);
     if (set.jobs.empty()) return;
-    const RunOutline outline = outline_run(cut_, run_.kernels, set.levels, outline_.files);
+    const RunOutline outline =
+        outline_run(cut_, run_.kernels, set.levels, outline_.files, run_.resolved.improve.seams);
     own_.times.clear();
     fill(set, outline);
     note_work(set, outline);

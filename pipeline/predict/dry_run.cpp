@@ -42,7 +42,8 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
   const CutMesh cut(run.coarse.mesh, run.decomposition.decomposition);
   std::vector<SubdomainRange> files;
   all_or_none(context.comm, [&] { files = output_ranges(run, options); });
-  RunOutline outline = outline_run(cut, run.kernels, run.resolved.refine.levels, files);
+  RunOutline outline =
+      outline_run(cut, run.kernels, run.resolved.refine.levels, files, run.resolved.improve.seams);
   load_mesh(cut, run.resolved.refine.levels, run.largest_size, context);
   prepare.finish("");
 

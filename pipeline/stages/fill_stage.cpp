@@ -3,31 +3,20 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
-#include <exception>
-#include <iterator>
 #include <numeric>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "tessera/base/error.hpp"
-#include "tessera/comm/work_queue.hpp"
 #include "tessera/fill/ladder.hpp"
 
-#include "pipeline/exit_code.hpp"
 #include "pipeline/fill_record.hpp"
 #include "pipeline/mesh_worker.hpp"
-#include "pipeline/stop_signal.hpp"
+#include "pipeline/share_out.hpp"
 
 namespace tessera::pipeline {
 namespace {
-
-// The slowest fills measured make 7 k tets/s; 20 times the time that takes is a hang.
-constexpr double kSlowTetsPerSecond = 7000.0;
-constexpr double kTimeMargin = 20.0;
-constexpr double kLeastTime_s = 60.0;
 
 // A piece with a smaller angle gets one more try, with the points in another order, and the better
 // of the two stays. Most pieces reach 10 to 20 degrees; the last few of many reach 2 to 8.
@@ -38,46 +27,6 @@ double weight_of(const SubdomainRange& range, const std::vector<double>& subdoma
   double weight = 0.0;
   for (LocalIndex s = range.first; s < range.last; ++s) weight += subdomain_weight[at(s)];
   return weight;
-}
-
-std::vector<LocalIndex> largest_first(const std::vector<double>& weight)
-{
-  std::vector<LocalIndex> order(weight.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](LocalIndex a, LocalIndex b) { return weight[at(a)] > weight[at(b)]; });
-  return order;
-}
-
-// The order in which jobs are handed out. TESSERA_TEST_FILL_ORDER=reverse turns it round: the tests
-// show with it that no bit of the mesh depends on the order. No option, for no user needs it.
-std::vector<LocalIndex> job_order(const std::vector<double>& weight)
-{
-  std::vector<LocalIndex> order = largest_first(weight);
-  const char* asked = std::getenv("TESSERA_TEST_FILL_ORDER");
-  if (asked != nullptr && std::string_view(asked) == "reverse") {
-    std::reverse(order.begin(), order.end());
-  }
-  return order;
-}
-
-jobs::JobLimits limits_of(const fill::FillOptions& options, double predicted_tets)
-{
-  jobs::JobLimits limits;
-  limits.memory_gib = options.memory_gib;
-  limits.cpu_s = std::max(kLeastTime_s, kTimeMargin * predicted_tets / kSlowTetsPerSecond);
-  if (options.timeout_s > 0.0) {
-    limits.cpu_s = options.timeout_s;
-    limits.stall_s = std::min(limits.stall_s, options.timeout_s);
-  }
-  return limits;
-}
-
-bool depends_on_machine(const jobs::JobOutcome& outcome)
-{
-  return outcome.status == jobs::JobStatus::out_of_time
-         || outcome.status == jobs::JobStatus::stalled
-         || outcome.status == jobs::JobStatus::out_of_memory || was_killed_from_outside(outcome);
 }
 
 // Of a poor piece in the store nobody can tell whether the run was killed before its other try: it
@@ -144,7 +93,7 @@ class Filler {
     ++climb.tries;
     const jobs::JobOutcome outcome =
         run_try(climb.range, request_of(climb, settings, angle_to_beat), on_wait);
-    throw_unless_of_the_fill(outcome);
+    throw_unless_of_the_job(outcome);
     climb.was_limited = climb.was_limited || depends_on_machine(outcome);
     if (outcome.status != jobs::JobStatus::ok) {
       climb.failures.push_back("try " + std::to_string(climb.tries) + " ("
@@ -176,36 +125,14 @@ class Filler {
                            const jobs::JobRunner::WaitCallback& on_wait)
   {
     const jobs::JobLimits limits =
-        limits_of(options_, weight_of(range, work_.cut.decomposition.subdomain_weight));
+        job_limits(options_, weight_of(range, work_.cut.decomposition.subdomain_weight));
     const std::string name = "fill: subdomain " + std::to_string(range.first);
     return run_job({name, request, limits}, on_wait, context_);
   }
 
-  // A stop, a full disk and a lost worker end the run; no other rung helps there.
-  static void throw_unless_of_the_fill(const jobs::JobOutcome& outcome)
-  {
-    throw_if_cancelled(outcome);
-    if (outcome.error == jobs::ErrorKind::output) throw OutputError(outcome.message);
-    if (outcome.error == jobs::ErrorKind::config) throw ConfigError(outcome.message);
-    if (outcome.loads_are_lost) throw MeshError(outcome.message + "; go on with --resume");
-  }
-
   void keep(const std::vector<FillResult>& results)
   {
-    for (const FillResult& result : results) {
-      if (!result.failures.empty()) {
-        own_.failures.push_back({result.summary.subdomain, result.failures});
-      }
-      if (result.summary.is_folded) {
-        own_.folded.push_back({result.summary.subdomain, result.summary.was_limited});
-        continue;
-      }
-      own_.pieces.push_back(result.summary);
-      own_.histograms.add(result.histograms);
-      for (const verify::SeamHash& seam : result.seams) {
-        own_.seam_sums[at(seam.triangle)] += seam.hash;
-      }
-    }
+    for (const FillResult& result : results) own_.add(result);
   }
 
   const fill::FillOptions& options_;
@@ -213,55 +140,6 @@ class Filler {
   RunContext& context_;
   FilledPieces own_{};
 };
-
-void sum_over_ranks(quality::Histogram& histogram, const comm::Communicator& comm)
-{
-  std::vector<GlobalIndex> counts = histogram.counts();
-  comm.sum_in_place(counts);
-  histogram.set_counts(std::move(counts));
-}
-
-// What all ranks have in their lists, one list behind the other.
-template <class T>
-std::vector<T> gather(const std::vector<T>& own, const comm::Communicator& comm)
-{
-  std::vector<T> all;
-  for (const Bytes& bytes : comm.all_gather(std::as_bytes(std::span(own)))) {
-    const std::size_t first = all.size();
-    all.resize(first + bytes.size() / sizeof(T));
-    if (!bytes.empty()) std::memcpy(&all[first], bytes.data(), bytes.size());
-  }
-  return all;
-}
-
-std::vector<FailedTries> gather(const std::vector<FailedTries>& own, const comm::Communicator& comm)
-{
-  std::vector<FailedTries> all;
-  for (const Bytes& bytes : comm.all_gather(to_bytes(own))) {
-    std::ranges::move(failed_tries_from_bytes(bytes), std::back_inserter(all));
-  }
-  std::ranges::sort(all, {}, &FailedTries::subdomain);
-  return all;
-}
-
-// Puts what the ranks have together; integers and sums modulo 2^64 only, so in any order the same.
-FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
-{
-  FilledPieces all;
-  all.pieces = gather(own.pieces, comm);
-  all.folded = gather(own.folded, comm);
-  all.failures = gather(own.failures, comm);
-  std::ranges::sort(all.folded, {}, &FoldedSubdomain::subdomain);
-  std::sort(all.pieces.begin(), all.pieces.end(),
-            [](const PieceSummary& a, const PieceSummary& b) { return a.subdomain < b.subdomain; });
-  all.histograms = std::move(own.histograms);
-  sum_over_ranks(all.histograms.mean_ratio, comm);
-  sum_over_ranks(all.histograms.seam_mean_ratio, comm);
-  sum_over_ranks(all.histograms.log2_edge_length, comm);
-  all.seam_sums = std::move(own.seam_sums);
-  comm.sum_in_place(all.seam_sums);
-  return all;
-}
 
 }  // namespace
 
@@ -271,33 +149,14 @@ FilledPieces run_fill_stage(const config::Case& run_case, const FillWork& work, 
   const bool is_one_each = num_ranges == work.cut.num_subdomains();
   StageScope stage(context, "fill", num_ranges, is_one_each ? "subdomains" : "files");
   Filler filler(run_case.fill, work, context);
-  std::exception_ptr defect;
   std::vector<double> weights;
   for (const SubdomainRange& range : work.ranges) {
     weights.push_back(weight_of(range, work.cut.decomposition.subdomain_weight));
   }
-  comm::WorkQueue queue(context.comm, job_order(weights));
-  const auto on_wait = [&] {
-    if (stop_requested()) queue.request_stop();
-    context.progress.update(queue.num_handed_out());
-    return queue.progress();
-  };
-  while (const auto range = queue.next()) {
-    try {
-      filler.fill(work.ranges[at(*range)], on_wait);
-    } catch (const Interrupted&) {
-      queue.request_stop();
-    } catch (const Error&) {
-      defect = std::current_exception();
-      queue.request_stop();
-    }
-  }
-  stage.work_is_done();
-  static_cast<void>(queue.finish());
-  throw_if_stopped(context.comm);
-  all_or_none(context.comm, [&] {
-    if (defect) std::rethrow_exception(defect);
-  });
+  share_out(
+      heaviest_first(weights),
+      [&](LocalIndex range, const auto& on_wait) { filler.fill(work.ranges[at(range)], on_wait); },
+      stage, context);
 
   FilledPieces all = combine(std::move(filler).take(), context.comm);
   GlobalIndex num_tets = 0;

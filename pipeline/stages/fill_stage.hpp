@@ -1,33 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "tessera/config/case.hpp"
 #include "tessera/mesh/damping.hpp"
 
 #include "pipeline/cut_mesh.hpp"
+#include "pipeline/filled_pieces.hpp"
 #include "pipeline/piece_file.hpp"
-#include "pipeline/piece_summary.hpp"
 #include "pipeline/run_context.hpp"
 
 namespace tessera::pipeline {
-
-/// @brief One that even subdivision could not fill under this plan.
-struct FoldedSubdomain {
-  LocalIndex subdomain = kNoIndex;
-  bool was_limited = false;  ///< A try before ended for time or memory.
-};
-
-/// @brief What is known of all pieces; the same on every rank.
-struct FilledPieces {
-  std::vector<PieceSummary> pieces{};       ///< By subdomain; without the folded ones.
-  std::vector<FoldedSubdomain> folded{};    ///< By subdomain.
-  std::vector<FailedTries> failures{};      ///< Of all these; by subdomain.
-  quality::QualityHistograms histograms{};  ///< Over all pieces.
-  std::vector<Hash128> seam_sums{};         ///< Shape (num skeleton triangles): both sides' hashes.
-};
 
 /// @brief What the fill stage is to do. Borrowed.
 struct FillWork {

@@ -36,6 +36,11 @@ void load_numbers(const std::vector<number::PieceCounts>& counts, const std::str
   load_everywhere(load_numbers_message(counts, length_unit, options), context);
 }
 
+void load_improvement(const improve::ImproveOptions& options, RunContext& context)
+{
+  load_everywhere(load_improvement_message(options), context);
+}
+
 void load_plan(const mesh::Damping& damping, RunContext& context)
 {
   load_everywhere(load_plan_message(damping), context);

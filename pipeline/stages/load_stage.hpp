@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
 #include "tessera/mesh/damping.hpp"
 #include "tessera/number/id_layout.hpp"
@@ -21,6 +22,8 @@ void load_mesh(const CutMesh& cut, int levels, double largest_size, RunContext& 
 /// @brief From now on fill jobs write the output files themselves. @param[in] counts Of all pieces.
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,
                   const io::OutputOptions& options, RunContext& context);
+
+void load_improvement(const improve::ImproveOptions& options, RunContext& context);
 
 void load_plan(const mesh::Damping& damping, RunContext& context);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/verify_stage.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -27,6 +28,26 @@ std::optional<std::string> first_missing_piece(const std::vector<SubdomainRange>
                                : std::optional<std::string>("there are extra pieces");
 }
 
+// After an exchange of tets between subdomains: the faces of all tets cancel but for the outside,
+// which is what it was, and so is the volume.
+std::optional<std::string> first_defect_of_improvement(const FilledPieces& filled)
+{
+  if (filled.improvement.generation == 0) return std::nullopt;
+  constexpr double kTolerance = 1e-9;
+  Hash128 open;
+  double volume = 0.0;
+  for (const PieceSummary& piece : filled.pieces) {
+    open += piece.surface;
+    open -= piece.outside;
+    volume += piece.volume;
+  }
+  if (open != Hash128{}) return "pieces do not meet after the improvement of their seams";
+  const double before = filled.improvement.volume_before;
+  if (std::abs(volume - before) <= kTolerance * before) return std::nullopt;
+  return "the improvement of seams has changed the volume from " + std::to_string(before) + " to "
+         + std::to_string(volume);
+}
+
 std::optional<std::string> first_defect(const CutMesh& cut,
                                         const std::vector<SubdomainRange>& ranges,
                                         const FilledPieces& filled)
@@ -43,7 +64,8 @@ std::optional<std::string> first_defect(const CutMesh& cut,
            + std::to_string(piece.euler_characteristic) + ", its coarse subdomain "
            + std::to_string(wanted);
   }
-  return verify::first_open_seam(filled.seam_sums, cut.skeleton, is_made);
+  if (auto open = verify::first_open_seam(filled.seam_sums, cut.skeleton, is_made)) return open;
+  return first_defect_of_improvement(filled);
 }
 
 }  // namespace

@@ -2,19 +2,17 @@
 #include "pipeline/stages/write_stage.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <numeric>
 #include <string>
+#include <utility>
 
-#include "tessera/base/error.hpp"
-#include "tessera/comm/work_queue.hpp"
 #include "tessera/io/record_store.hpp"
 #include "tessera/io/vtu.hpp"
 
 #include "pipeline/exit_code.hpp"
 #include "pipeline/fill_record.hpp"
 #include "pipeline/piece_arrays.hpp"
-#include "pipeline/stop_signal.hpp"
+#include "pipeline/share_out.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -40,8 +38,8 @@ std::vector<Hash128> write_file(const SubdomainRange& range, const io::OutputOpt
   PieceFile file(mesh, options);
   std::vector<Hash128> digests;
   for (LocalIndex s = range.first; s < range.last; ++s) {
-    const FillRecord record = fill_record_from_bytes(store.get(record_name(s)));
-    digests.push_back(file.add(mesh::piece_from_bytes(record.piece)));
+    digests.push_back(
+        file.add(mesh.improved == nullptr ? stored_piece(store, s, 0) : mesh.improved->piece(s)));
   }
   file.write(folder, range.number);
   return digests;
@@ -55,28 +53,16 @@ void run_write_stage(const config::Case& run_case, const std::vector<SubdomainRa
   std::vector<Hash128> digests(filled.pieces.size());
   std::vector<LocalIndex> order(files.size());
   std::iota(order.begin(), order.end(), 0);
-  std::exception_ptr defect;
-  comm::WorkQueue queue(context.comm, order);
-  while (const auto file = queue.next()) {
-    try {
-      if (stop_requested()) throw Interrupted("stopped by a signal");
-      const SubdomainRange& range = files[at(*file)];
-      std::ranges::copy(write_file(range, run_case.output, mesh, context.folder),
-                        digests.begin() + range.first);
-    } catch (...) {
-      defect = std::current_exception();
-      queue.request_stop();
-    }
-    static_cast<void>(queue.progress());
-    context.progress.update(queue.num_handed_out());
-  }
-  static_cast<void>(queue.finish());
-  all_or_none(context.comm, [&] {
-    if (defect) std::rethrow_exception(defect);
-  });
+  share_out(
+      std::move(order),
+      [&](LocalIndex file, const auto& /*on_wait*/) {
+        const SubdomainRange& range = files[at(file)];
+        std::ranges::copy(write_file(range, run_case.output, mesh, context.folder),
+                          digests.begin() + range.first);
+      },
+      stage, context);
   context.comm.sum_in_place(digests);
   for (std::size_t s = 0; s < digests.size(); ++s) filled.pieces[s].digest = digests[s];
-  stage.work_is_done();
   stage.finish(std::to_string(num_files) + " files");
 }
 

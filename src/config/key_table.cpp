@@ -128,6 +128,16 @@ constexpr Key kKeys[] = {
                 "values grow slowly.",
      .reason = "NETGEN's own default"},
 
+    {.name = "improve.seams",
+     .rule = FlagRule{[](Case& c) -> bool& { return c.improve.seams; }},
+     .meaning = "Whether NETGEN optimises the tets around the seams between subdomains once more, "
+                "across the seams. What is subdivided stays as it is.",
+     .reason = "without it quality falls as subdomains are added"},
+    {.name = "improve.rounds",
+     .rule = IntegerRule{[](Case& c) -> int& { return c.improve.rounds; }, 1, 10},
+     .meaning = "NETGEN's rounds of optimisation around a seam.",
+     .reason = "what a second round adds is not worth its time"},
+
     {.name = "quality.min_dihedral_deg",
      .rule = RealRule{[](Case& c) -> double& { return c.quality.min_dihedral_deg; }, 0.0,
                       Bound::inclusive, 70.5, Bound::inclusive},

@@ -2,6 +2,7 @@
 #include "tessera/mesh/skeleton.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -262,6 +263,33 @@ std::vector<char> units_on_seams(const Skeleton& skeleton, const Decomposition& 
     }
   }
   return on_seam;
+}
+
+std::vector<std::vector<LocalIndex>> neighbours_by_vertex(const Skeleton& skeleton)
+{
+  std::vector<std::vector<LocalIndex>> around(at(skeleton.num_vertices()));
+  const auto num_subdomains = skeleton.subdomain_offsets.size() - 1;
+  for (std::size_t s = 0; s < num_subdomains; ++s) {
+    const auto subdomain = static_cast<LocalIndex>(s);
+    for (const LocalIndex t : skeleton.triangles_of(subdomain)) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        auto& there = around[at(skeleton.triangle_vertices[3 * at(t) + c])];
+        if (there.empty() || there.back() != subdomain) there.push_back(subdomain);
+      }
+    }
+  }
+  std::vector<std::vector<LocalIndex>> neighbours(num_subdomains);
+  for (const auto& there : around) {
+    for (const LocalIndex s : there) {
+      std::ranges::copy_if(there, std::back_inserter(neighbours[at(s)]),
+                           [&](LocalIndex other) { return other != s; });
+    }
+  }
+  for (auto& list : neighbours) {
+    std::ranges::sort(list);
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+  return neighbours;
 }
 
 }  // namespace tessera::mesh

@@ -5,6 +5,9 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <span>
+
+#include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::verify {
 namespace {
@@ -22,46 +25,85 @@ struct VertexImage {
 };
 static_assert(sizeof(VertexImage) == 32);
 
-struct TriangleImage {
-  std::array<VertexImage, 3> vertices;
-  bool is_even = true;
+// Signed: what one side adds, the other one takes away.
+class SignedSum {
+ public:
+  void add(std::array<VertexImage, 3> triangle)
+  {
+    const auto& [a, b, c] = triangle;
+    const bool is_even = (a < b) + (b < c) + (c < a) == 2;
+    std::sort(triangle.begin(), triangle.end());
+    const Hash128 hash = hash_bytes(std::as_bytes(std::span(triangle)));
+    if (is_even) {
+      sum_ += hash;
+    } else {
+      sum_ -= hash;
+    }
+  }
+
+  [[nodiscard]] const Hash128& sum() const { return sum_; }
+
+ private:
+  Hash128 sum_{};
 };
 
-TriangleImage image_of(const mesh::Skin& skin, LocalIndex triangle)
+VertexImage image(mesh::Unit unit, LocalIndex index, const double* xyz)
 {
-  TriangleImage image;
+  VertexImage vertex{.unit = unit, .index = index, .xyz = {}};
+  std::memcpy(vertex.xyz, xyz, sizeof(vertex.xyz));
+  return vertex;
+}
+
+std::array<VertexImage, 3> triangle_of(const mesh::Skin& skin, LocalIndex triangle)
+{
+  std::array<VertexImage, 3> images;
   for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t v = at(skin.triangle_vertices[3 * at(triangle) + c]);
-    VertexImage& vertex = image.vertices[c];
-    vertex.unit = skin.vertex_unit[v];
-    vertex.index = skin.vertex_index[v];
-    std::memcpy(vertex.xyz, &skin.vertex_xyz[3 * v], sizeof(vertex.xyz));
+    images[c] = image(skin.vertex_unit[v], skin.vertex_index[v], &skin.vertex_xyz[3 * v]);
   }
-  const auto& [a, b, c] = image.vertices;
-  image.is_even = (a < b) + (b < c) + (c < a) == 2;
-  std::sort(image.vertices.begin(), image.vertices.end());
-  return image;
+  return images;
 }
 
 }  // namespace
 
 std::vector<SeamHash> seam_hashes(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
 {
-  std::map<LocalIndex, Hash128> sums;
+  std::map<LocalIndex, SignedSum> sums;
   for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
     const LocalIndex parent = skin.triangle_parent[at(t)];
-    if (!skeleton.is_inside(parent)) continue;
-    const TriangleImage image = image_of(skin, t);
-    const Hash128 hash = hash_bytes(std::as_bytes(std::span(image.vertices)));
-    if (image.is_even) {
-      sums[parent] += hash;
-    } else {
-      sums[parent] -= hash;
-    }
+    if (skeleton.is_inside(parent)) sums[parent].add(triangle_of(skin, t));
   }
   std::vector<SeamHash> hashes;
-  for (const auto& [triangle, hash] : sums) hashes.push_back({triangle, hash});
+  for (const auto& [triangle, sum] : sums) hashes.push_back({triangle, sum.sum()});
   return hashes;
+}
+
+Hash128 surface_hash(const mesh::Piece& piece)
+{
+  std::vector<VertexImage> vertices;
+  for (LocalIndex v = 0; v < piece.num_vertices(); ++v) {
+    const bool is_shared = v < piece.num_skin_vertices();
+    vertices.push_back(image(is_shared ? piece.skin_unit[at(v)] : kNoIndex,
+                             is_shared ? piece.skin_index[at(v)] : v,
+                             &piece.vertex_xyz[3 * at(v)]));
+  }
+  SignedSum sum;
+  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
+    const LocalIndex* v = &piece.tet_vertices[4 * at(t)];
+    for (const auto& [a, b, c] : mesh::kTetFaceCorners) {
+      sum.add({vertices[at(v[a])], vertices[at(v[b])], vertices[at(v[c])]});
+    }
+  }
+  return sum.sum();
+}
+
+Hash128 outside_hash(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
+{
+  SignedSum sum;
+  for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
+    if (!skeleton.is_inside(skin.triangle_parent[at(t)])) sum.add(triangle_of(skin, t));
+  }
+  return sum.sum();
 }
 
 std::optional<std::string> first_open_seam(const std::vector<Hash128>& sums,

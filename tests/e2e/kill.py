@@ -10,7 +10,7 @@ import time
 import program
 from program import OK
 
-STAGES = ("model", "coarse", "decompose", "plan", "fill", "verify", "write")
+STAGES = ("model", "coarse", "decompose", "plan", "fill", "improve", "verify", "write")
 
 # One of each kind of process that a run has; "all": mpirun and everything below it.
 VICTIMS = ("rank", "zygote", "model zygote", "job", "all")

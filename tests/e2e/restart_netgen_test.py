@@ -47,6 +47,13 @@ class Netgen(kill.RestartTest):
         out = self.resume(ranks=2)
         self.assertNotRegex(out, r"(?m)^(coarse|decompose|plan) ", "stages that were done")
 
+    def test_all_killed_while_seams_are_improved(self):
+        """In the midst of a phase, and when it is over but for what it leaves behind."""
+        for record in ("region_000003", "improved_1_000004", "phase_0", "improved_2_000001", "shared_000002"):
+            with self.subTest(record=record):
+                self.kill_run(lambda watch: watch.wait_for(self.record(record).exists), ranks=2)
+                self.resume(ranks=3)
+
     def test_signals_while_the_mesh_is_written(self):
         for number in (signal.SIGTERM, signal.SIGUSR1):
             self.assert_signal_is_resumable(number, "write", kill.STAGES)

@@ -28,7 +28,7 @@ REPORT_KEYS = {
     "subdomains": list,
     "libraries": {"netgen": str, "metis": str, "vtk": str, "mpi": str},
 }  # fmt: skip
-STAGES = ["model", "coarse", "decompose", "plan", "fill", "verify", "write"]
+STAGES = ["model", "coarse", "decompose", "plan", "fill", "improve", "verify", "write"]
 NUM_SUBDOMAINS = 4
 
 

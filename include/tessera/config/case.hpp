@@ -9,6 +9,7 @@
 #include "tessera/coarse/options.hpp"
 #include "tessera/decompose/options.hpp"
 #include "tessera/fill/options.hpp"
+#include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
 #include "tessera/quality/options.hpp"
 #include "tessera/refine/options.hpp"
@@ -43,6 +44,7 @@ struct Case {
   decompose::DecomposeOptions decompose{};
   refine::RefineOptions refine{};
   fill::FillOptions fill{};
+  improve::ImproveOptions improve{};
   quality::QualityTargets quality{};
   io::OutputOptions output{};
 

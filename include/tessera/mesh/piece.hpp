@@ -16,7 +16,9 @@ namespace tessera::mesh {
 ///
 /// Vertices are numbered locally, those of the skin first. Global ids are not known before all
 /// pieces are: a skin vertex refers to (unit, index), interior vertex i to (the piece's own unit,
-/// i).
+/// i). Once seams were improved, "skin vertices" are those that several pieces may hold: a vertex
+/// of the refined skeleton that now lies inside the piece stays one, and new ones have units of
+/// their own (improve::Regions::unit_of()).
 struct Piece {
   LocalIndex subdomain = 0;
   LocalIndex material = 1;

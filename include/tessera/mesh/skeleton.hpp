@@ -79,4 +79,8 @@ struct Skeleton {
 [[nodiscard]] std::vector<char> units_on_seams(const Skeleton& skeleton,
                                                const Decomposition& decomposition);
 
+/// @brief For each subdomain the others that share a vertex of the skeleton with it, ascending.
+/// Local.
+[[nodiscard]] std::vector<std::vector<LocalIndex>> neighbours_by_vertex(const Skeleton& skeleton);
+
 }  // namespace tessera::mesh

@@ -25,6 +25,13 @@ class IdLayout {
   /// @param[in] pieces Counts of all subdomains, in their order. @param[in] n Intervals of an edge.
   IdLayout(const mesh::UnitLayout& units, LocalIndex n, const std::vector<PieceCounts>& pieces);
 
+  /// @brief The layout where `interior_vertices` counts all vertices that a piece owns, and no unit
+  /// of the skeleton has any of its own.
+  [[nodiscard]] static IdLayout by_owner(const std::vector<PieceCounts>& pieces)
+  {
+    return IdLayout(mesh::UnitLayout(mesh::Skeleton{}), 1, pieces);
+  }
+
   [[nodiscard]] GlobalIndex vertex_id(mesh::Unit unit, LocalIndex index) const;
   [[nodiscard]] GlobalIndex interior_vertex_id(LocalIndex subdomain, LocalIndex index) const
   {

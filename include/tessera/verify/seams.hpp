@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tessera/base/hash.hpp"
+#include "tessera/mesh/piece.hpp"
 #include "tessera/mesh/skeleton.hpp"
 #include "tessera/mesh/skin.hpp"
 
@@ -22,6 +23,15 @@ struct SeamHash {
 /// @param[in] skin The boundary of the piece's tets, as check_fill() has shown.
 [[nodiscard]] std::vector<SeamHash> seam_hashes(const mesh::Skin& skin,
                                                 const mesh::Skeleton& skeleton);
+
+/// @brief The signed hashes of all faces of a piece's tets, summed: inner faces cancel by
+/// themselves, so it is that of the piece's surface. Local; linear.
+[[nodiscard]] Hash128 surface_hash(const mesh::Piece& piece);
+
+/// @brief The signed hashes of the skin's triangles on the outside of the model, summed. Over all
+/// pieces that is what their surface_hash() must sum up to, whatever the pieces have exchanged.
+/// Local.
+[[nodiscard]] Hash128 outside_hash(const mesh::Skin& skin, const mesh::Skeleton& skeleton);
 
 /// @brief The first skeleton triangle inside the model on which the two sides do not cancel, in
 /// words; nothing if all do.

@@ -216,7 +216,7 @@ struct OutlineOfACube : ::testing::Test {
 
   [[nodiscard]] RunOutline outline(const std::vector<KernelKind>& kernels, int levels) const
   {
-    return outline_run(cut, kernels, levels, file_ranges(cut.num_subdomains(), 0));
+    return outline_run(cut, kernels, levels, file_ranges(cut.num_subdomains(), 0), true);
   }
 };
 

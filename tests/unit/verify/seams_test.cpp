@@ -194,5 +194,70 @@ TEST(Seams, OfOneSubdomainAreNone)
   EXPECT_EQ(first_open_seam(sums_of({skin}, body.skeleton), body.skeleton), std::nullopt);
 }
 
+// Two tets that share a face: the second one on the other side of it.
+struct SurfaceOfTwo : ::testing::Test {
+  static mesh::Piece tet(std::vector<double> xyz, std::vector<LocalIndex> index)
+  {
+    mesh::Piece piece;
+    piece.vertex_xyz = std::move(xyz);
+    piece.skin_unit.assign(index.size(), 3);
+    piece.skin_index = std::move(index);
+    piece.tet_vertices = {0, 1, 2, 3};
+    return piece;
+  }
+  const mesh::Piece below =
+      tet({0, 0, -1, 0, 0, 0, 0, 1, 0, 1, 0, 0}, {9, 0, 1, 2});  // Face 0 1 2 is its corner 0's.
+  mesh::Piece above = tet({0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0}, {8, 0, 2, 1});
+
+  [[nodiscard]] mesh::Piece both() const
+  {
+    mesh::Piece piece = below;
+    piece.vertex_xyz.insert(piece.vertex_xyz.end(), {0, 0, 1});
+    piece.skin_unit.push_back(3);
+    piece.skin_index.push_back(8);
+    piece.tet_vertices.insert(piece.tet_vertices.end(), {4, 1, 3, 2});
+    return piece;
+  }
+
+  [[nodiscard]] bool cancels() const
+  {
+    Hash128 sum = surface_hash(below);
+    sum += surface_hash(above);
+    return sum == surface_hash(both());
+  }
+};
+
+TEST_F(SurfaceOfTwo, InnerFacesCancelWithinAPieceAndBetweenPieces) { EXPECT_TRUE(cancels()); }
+
+TEST_F(SurfaceOfTwo, OtherPositionIsNoticed)
+{
+  above.vertex_xyz[3] = 1e-300;
+  EXPECT_FALSE(cancels());
+}
+
+TEST_F(SurfaceOfTwo, OtherVertexIsNoticed)
+{
+  above.skin_index[1] = 5;
+  EXPECT_FALSE(cancels());
+}
+
+TEST_F(SeamOfBall, OutsideDependsOnNothingInside)
+{
+  std::vector<char> is_outside(at(skin.num_vertices()), 0);
+  for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
+    if (body.skeleton.is_inside(skin.triangle_parent[at(t)])) continue;
+    for (std::size_t c = 0; c < 3; ++c) is_outside[at(skin.triangle_vertices[3 * at(t) + c])] = 1;
+  }
+  const auto move_one = [&](char outside) {
+    const auto v = std::find(is_outside.begin(), is_outside.end(), outside) - is_outside.begin();
+    skin.vertex_xyz.at(3 * static_cast<std::size_t>(v)) += 1e-12;
+  };
+  const Hash128 before = outside_hash(skin, body.skeleton);
+  move_one(0);
+  EXPECT_TRUE(outside_hash(skin, body.skeleton) == before);
+  move_one(1);
+  EXPECT_FALSE(outside_hash(skin, body.skeleton) == before);
+}
+
 }  // namespace
 }  // namespace tessera::verify

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <compare>
+#include <span>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/mesh/piece.hpp"
+
+/// Who holds a vertex that several pieces share, when no closed form says it: pieces list their
+/// shared vertices, and each is *owned* by the lowest piece that lists it.
+namespace tessera::number {
+
+/// @brief What a shared vertex is called in every piece that holds it.
+struct VertexKey {
+  mesh::Unit unit = 0;
+  LocalIndex index = 0;
+
+  friend auto operator<=>(const VertexKey&, const VertexKey&) = default;
+};
+
+/// @brief The shared vertices of a piece, ascending. Local.
+[[nodiscard]] std::vector<VertexKey> shared_vertices(const mesh::Piece& piece);
+
+/// @brief What one piece says of its vertices.
+struct VertexList {
+  LocalIndex subdomain = kNoIndex;
+  LocalIndex material = 0;
+  std::vector<VertexKey> vertices{};  ///< Ascending.
+};
+
+/// @brief What the lists of its neighbours say of a piece's shared vertices.
+struct SharedBy {
+  std::vector<VertexKey> owned{};  ///< Those that no lower piece holds, ascending.
+  std::vector<char> on_seam{};     ///< Shape (num vertices): whether two pieces of one material
+                                   ///< hold it.
+};
+
+/// @brief Compares a piece's list with those of all pieces that may share a vertex with it. Local;
+/// linear in the lists.
+[[nodiscard]] SharedBy compare_lists(const VertexList& own, std::span<const VertexList> neighbours);
+
+}  // namespace tessera::number

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stages/improve_stage.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+
+#include "pipeline/exit_code.hpp"
+#include "pipeline/fill_record.hpp"
+#include "pipeline/improve_job.hpp"
+#include "pipeline/improved_pieces.hpp"
+#include "pipeline/measure_piece.hpp"
+#include "pipeline/mesh_worker.hpp"
+#include "pipeline/share_out.hpp"
+#include "pipeline/stages/load_stage.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+std::string phase_name(int phase) { return "phase_" + std::to_string(phase); }
+
+// How the regions of one phase have ended: tried, improved, failed, limited.
+using Counts = std::vector<GlobalIndex>;
+
+Counts counts_of(const RegionRecord& record)
+{
+  return {1, record.is_improved ? 1 : 0, record.has_failed ? 1 : 0, record.was_limited ? 1 : 0};
+}
+
+void add(const Counts& counts, Counts& sum)
+{
+  std::ranges::transform(counts, sum, sum.begin(), std::plus<>());
+}
+
+double volume_of(const std::vector<PieceSummary>& pieces)
+{
+  double volume = 0.0;
+  for (const PieceSummary& piece : pieces) volume += piece.volume;
+  return volume;
+}
+
+double volume_of(const mesh::Piece& piece)
+{
+  double volume = 0.0;
+  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
+    const auto& [a, b, c, d] = piece.corners(t);
+    volume += tet_volume(a, b, c, d);
+  }
+  return volume;
+}
+
+// The regions of each phase that are to be improved.
+std::array<std::vector<LocalIndex>, improve::kNumPhases> wanted_regions(
+    const improve::Regions& regions, const std::vector<fill::KernelKind>& kernels)
+{
+  std::array<std::vector<LocalIndex>, improve::kNumPhases> wanted;
+  for (LocalIndex region = 0; region < regions.num_regions(); ++region) {
+    const LocalIndex subdomain = regions.subdomains_of(region).front();
+    if (kernels[at(subdomain)] == fill::KernelKind::subdivide) continue;
+    wanted[static_cast<std::size_t>(regions.phase_of(region))].push_back(region);
+  }
+  return wanted;
+}
+
+class SeamImprover {
+ public:
+  SeamImprover(const config::Case& run_case, const CutMesh& cut, const improve::Regions& regions,
+               FilledPieces filled, RunContext& context, StageScope& stage)
+      : run_case_(run_case),
+        cut_(cut),
+        regions_(regions),
+        filled_(std::move(filled)),
+        context_(context),
+        stage_(stage),
+        store_(store_folder(context.folder))
+  {
+    filled_.improvement.volume_before = volume_of(filled_.pieces);
+  }
+
+  // Makes the next generation of pieces, unless a stopped run has done so.
+  void run_phase(int phase, const std::vector<LocalIndex>& wanted)
+  {
+    const int before = filled_.improvement.generation;
+    const auto kept = find_on_root(context_.comm, [&] { return store_.find(phase_name(phase)); });
+    Counts counts(4, 0);
+    if (kept) {
+      counts = ByteReader(*kept).get_vector<GlobalIndex>();
+      num_done_ += std::ssize(wanted);
+    } else {
+      counts = improve_regions(wanted);
+      merge(phase);
+      finish_phase(phase, before, counts);
+    }
+    Improvement& improvement = filled_.improvement;
+    improvement.generation = phase + 1;
+    improvement.num_regions += counts[0];
+    improvement.num_improved += counts[1];
+    improvement.num_failed += counts[2];
+    improvement.num_limited += counts[3];
+  }
+
+  // Who owns which vertex, and the figures of the pieces as they are now.
+  [[nodiscard]] FilledPieces settle() &&
+  {
+    const ImprovedPieces pieces(context_.folder, cut_.skeleton, filled_.improvement.generation);
+    for_each_subdomain([&](LocalIndex s) { pieces.keep_list(pieces.piece(s)); });
+    FilledPieces own;
+    own.seam_sums.resize(filled_.seam_sums.size());
+    for_each_subdomain([&](LocalIndex s) { own.add(measure(pieces.piece(s), pieces.settle(s))); });
+    FilledPieces all = combine(std::move(own), context_.comm);
+    all.seam_sums = std::move(filled_.seam_sums);
+    all.failures = std::move(filled_.failures);
+    all.improvement = filled_.improvement;
+    return all;
+  }
+
+ private:
+  [[nodiscard]] ImproveContext phase_context() const
+  {
+    return {cut_, regions_, store_, filled_.improvement.generation};
+  }
+
+  void for_each_subdomain(const std::function<void(LocalIndex)>& work)
+  {
+    std::vector<LocalIndex> order(filled_.pieces.size());
+    std::iota(order.begin(), order.end(), 0);
+    share_out(
+        std::move(order), [&](LocalIndex s, const auto& /*on_wait*/) { work(s); }, stage_, context_,
+        num_done_);
+  }
+
+  [[nodiscard]] double num_tets_around(LocalIndex region) const
+  {
+    double sum = 0.0;
+    for (const LocalIndex s : regions_.subdomains_of(region)) {
+      sum += static_cast<double>(filled_.pieces[at(s)].num_tets);
+    }
+    return sum;
+  }
+
+  [[nodiscard]] Counts improve_regions(const std::vector<LocalIndex>& wanted)
+  {
+    std::vector<double> weights;
+    for (const LocalIndex region : wanted) weights.push_back(num_tets_around(region));
+    Counts counts(4, 0);
+    share_out(
+        heaviest_first(weights),
+        [&](LocalIndex row, const auto& on_wait) {
+          const LocalIndex region = wanted[at(row)];
+          add(counts_of(improve(region, weights[at(row)], on_wait)), counts);
+        },
+        stage_, context_, num_done_);
+    num_done_ += std::ssize(wanted);
+    context_.comm.sum_in_place(counts);
+    return counts;
+  }
+
+  // A region that fails keeps its tets: they are those of valid pieces.
+  RegionRecord improve(LocalIndex region, double num_tets,
+                       const jobs::JobRunner::WaitCallback& on_wait)
+  {
+    if (const auto kept = store_.find(region_name(region))) return region_record_from_bytes(*kept);
+    const std::string name = "improve: region " + std::to_string(region);
+    const jobs::JobOutcome outcome =
+        run_job({name, improve_request(region, filled_.improvement.generation),
+                 job_limits(run_case_.fill, num_tets)},
+                on_wait, context_);
+    throw_unless_of_the_job(outcome);
+    RegionRecord record;
+    if (outcome.status == jobs::JobStatus::ok) {
+      record = region_record_from_bytes(store_.get(region_name(region)));
+    } else {
+      record = {.has_failed = true,
+                .was_limited = depends_on_machine(outcome),
+                .reason = outcome.message};
+      store_.put(region_name(region), to_bytes(record));
+    }
+    if (!record.is_improved) context_.log.debug("{} stays as it is: {}", name, record.reason);
+    return record;
+  }
+
+  void merge(int phase)
+  {
+    const ImproveContext phase_work = phase_context();
+    for_each_subdomain([&](LocalIndex s) {
+      const std::string name = improved_name(s, phase + 1);
+      if (store_.find(name)) return;
+      store_.put(name, mesh::to_bytes(merge_regions(phase_work, s, phase)));
+    });
+  }
+
+  // From here on the phase counts as done: what only it needed can go. The pieces as they were
+  // filled stay, for a resumed run asks for them.
+  void finish_phase(int phase, int before, const Counts& counts)
+  {
+    all_or_none(context_.comm, [&] {
+      if (context_.comm.rank() != 0) return;
+      ByteWriter out;
+      out.put(counts);
+      store_.put(phase_name(phase), std::move(out).take());
+      for (LocalIndex r = regions_.first_of_phase(phase); r < regions_.first_of_phase(phase + 1);
+           ++r) {
+        store_.remove(region_name(r));
+      }
+      for (const PieceSummary& piece : filled_.pieces) {
+        if (before > 0) store_.remove(improved_name(piece.subdomain, before));
+      }
+    });
+  }
+
+  [[nodiscard]] FillResult measure(const mesh::Piece& piece, const number::SharedBy& shared) const
+  {
+    FillResult result;
+    PieceSummary& summary = result.summary;
+    summary = filled_.pieces[at(piece.subdomain)];
+    summary.num_tets = piece.num_tets();
+    summary.num_interior_vertices =
+        piece.num_interior_vertices() + static_cast<GlobalIndex>(shared.owned.size());
+    summary.num_boundary = piece.num_boundary();
+    summary.volume = volume_of(piece);
+    summary.surface = verify::surface_hash(piece);
+    measure_edges(piece, result.histograms);
+    measure_tets(piece, seam_vertices(piece, shared), result);
+    return result;
+  }
+
+  // From the order of the list to that of the piece.
+  static std::vector<char> seam_vertices(const mesh::Piece& piece, const number::SharedBy& shared)
+  {
+    const std::vector<number::VertexKey> keys = number::shared_vertices(piece);
+    std::vector<char> on_seam;
+    for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
+      const number::VertexKey key{piece.skin_unit[at(v)], piece.skin_index[at(v)]};
+      const auto found = std::ranges::lower_bound(keys, key);
+      on_seam.push_back(shared.on_seam[static_cast<std::size_t>(found - keys.begin())]);
+    }
+    return on_seam;
+  }
+
+  const config::Case& run_case_;
+  const CutMesh& cut_;
+  const improve::Regions& regions_;
+  FilledPieces filled_;
+  RunContext& context_;
+  StageScope& stage_;
+  io::RecordStore store_;
+  std::int64_t num_done_ = 0;
+};
+
+}  // namespace
+
+FilledPieces run_improve_stage(const config::Case& run_case, const CutMesh& cut,
+                               const std::vector<fill::KernelKind>& kernels, FilledPieces filled,
+                               RunContext& context)
+{
+  const improve::Regions regions(cut.skeleton, cut.decomposition);
+  const auto wanted = wanted_regions(regions, kernels);
+  std::int64_t num_regions = 0;
+  for (const auto& phase : wanted) num_regions += std::ssize(phase);
+  if (num_regions == 0) return filled;
+  StageScope stage(context, "improve", num_regions, "regions");
+  load_improvement(run_case.improve, context);
+  SeamImprover improver(run_case, cut, regions, std::move(filled), context, stage);
+  for (int phase = 0; phase < improve::kNumPhases; ++phase) {
+    const auto& regions_of_phase = wanted[static_cast<std::size_t>(phase)];
+    if (!regions_of_phase.empty()) improver.run_phase(phase, regions_of_phase);
+  }
+  FilledPieces all = std::move(improver).settle();
+  stage.finish(std::to_string(all.improvement.num_improved) + " of " + std::to_string(num_regions)
+               + " regions are better");
+  return all;
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "tessera/config/case.hpp"
+
+#include "pipeline/cut_mesh.hpp"
+#include "pipeline/filled_pieces.hpp"
+#include "pipeline/run_context.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief Optimises the tets around the seams, in jobs, across the seams: phase by phase, first
+/// around the faces between two subdomains, then around the curves where several meet, then around
+/// the ends of these. Subdomains exchange tets and get new vertices; the geometry and the faces
+/// between materials stay as they are. A region whose job fails, or finds nothing better, keeps its
+/// tets.
+///
+/// Pieces are read from the store, never changed there: each phase leaves a new generation.
+/// Records of a run that was stopped are taken up again. Does nothing if no two subdomains of a
+/// material that NETGEN fills meet.
+/// @param[in] kernels By subdomain, as the case wants them: what is subdivided stays as it is.
+/// @param[in] filled As the fill stage returned it; all pieces are in the store.
+/// @return `filled` with the figures of the improved pieces.
+/// @note Collective. @throws OutputError, Interrupted on every rank.
+[[nodiscard]] FilledPieces run_improve_stage(const config::Case& run_case, const CutMesh& cut,
+                                             const std::vector<fill::KernelKind>& kernels,
+                                             FilledPieces filled, RunContext& context);
+
+}  // namespace tessera::pipeline
