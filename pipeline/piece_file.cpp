@@ -78,6 +78,15 @@ std::vector<SubdomainRange> file_ranges(LocalIndex num_subdomains, LocalIndex fi
   return ranges;
 }
 
+std::vector<SubdomainRange> part_ranges(const std::vector<LocalIndex>& offsets)
+{
+  std::vector<SubdomainRange> ranges;
+  for (std::size_t part = 0; part + 1 < offsets.size(); ++part) {
+    ranges.push_back({static_cast<LocalIndex>(part), offsets[part], offsets[part + 1]});
+  }
+  return ranges;
+}
+
 std::vector<SubdomainRange> single_ranges(const std::vector<LocalIndex>& subdomains)
 {
   std::vector<SubdomainRange> ranges;

@@ -24,6 +24,9 @@ struct SubdomainRange {
 /// @param[in] files output.files; 0, or more than there are subdomains: one a subdomain.
 [[nodiscard]] std::vector<SubdomainRange> file_ranges(LocalIndex num_subdomains, LocalIndex files);
 
+/// @brief One range for each part. @param[in] offsets mesh::Decomposition::part_offsets.
+[[nodiscard]] std::vector<SubdomainRange> part_ranges(const std::vector<LocalIndex>& offsets);
+
 /// @brief One range for each of the given subdomains, under its own number.
 [[nodiscard]] std::vector<SubdomainRange> single_ranges(const std::vector<LocalIndex>& subdomains);
 

@@ -100,6 +100,24 @@ Json only_subdomains_json(const RunResult& run)
   return only;
 }
 
+// Tets of each part of the output, and the largest over the average.
+Json parts_json(const RunResult& run)
+{
+  const std::vector<LocalIndex>& offsets = run.decomposition.decomposition.part_offsets;
+  Json tets = Json::array();
+  GlobalIndex largest = 0;
+  for (std::size_t part = 0; part + 1 < offsets.size(); ++part) {
+    GlobalIndex sum = 0;
+    for (LocalIndex s = offsets[part]; s < offsets[part + 1]; ++s) {
+      sum += run.filled.pieces[at(s)].num_tets;
+    }
+    largest = std::max(largest, sum);
+    tets.push_back(sum);
+  }
+  const double average = static_cast<double>(run.num_tets) / static_cast<double>(tets.size());
+  return {{"tets", std::move(tets)}, {"balance", static_cast<double>(largest) / average}};
+}
+
 // Who is beside whom, with the area they share: what a solver's partitioner can start from.
 Json graph_json(const mesh::Decomposition& decomposition)
 {
@@ -277,6 +295,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
                        {"splits", run.decomposition.report.num_splits},
                        {"moves", run.decomposition.report.num_moves}};
   json["improve"] = improvement_json(run.filled.improvement);
+  if (run.resolved.output.parts > 0) json["parts"] = parts_json(run);
   json["subdomains"] = subdomains_json(run);
   json["subdomain_graph"] = graph_json(run.decomposition.decomposition);
   json["libraries"] = libraries_json();

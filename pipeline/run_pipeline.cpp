@@ -167,12 +167,14 @@ std::vector<SubdomainRange> output_ranges(const RunResult& run, const RunOptions
 {
   const LocalIndex num_subdomains = run.decomposition.decomposition.num_subdomains();
   const std::vector<LocalIndex>& only = options.only_subdomains;
+  const std::vector<LocalIndex>& part_offsets = run.decomposition.decomposition.part_offsets;
+  if (only.empty() && !part_offsets.empty()) return part_ranges(part_offsets);
   if (only.empty()) return file_ranges(num_subdomains, run.resolved.output.files);
   if (!are_counts_known(run.kernels)) {
     throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\" and no other region");
   }
-  if (run.resolved.output.files != 0) {
-    throw ConfigError("--only-subdomains excludes output.files");
+  if (run.resolved.output.files != 0 || !part_offsets.empty()) {
+    throw ConfigError("--only-subdomains excludes output.files and output.parts");
   }
   if (only.back() >= num_subdomains) {
     throw ConfigError("--only-subdomains: there is no subdomain " + std::to_string(only.back())

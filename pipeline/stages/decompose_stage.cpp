@@ -39,6 +39,7 @@ decompose::DecomposeOptions options_of(const config::Case& run_case,
                                        const std::vector<double>& weights)
 {
   decompose::DecomposeOptions options = run_case.decompose;
+  options.parts = run_case.output.parts;
   if (options.subdomains == 0 && are_counts_known(kernels)) {
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     const double most = static_cast<double>(weights.size());

@@ -169,6 +169,9 @@ void check_required(const Case& loaded, const std::string& where)
   if (loaded.size.target == 0.0 && loaded.coarse.max_size == 0.0) {
     fail(where, "no size; give either size.target or coarse.max_size");
   }
+  if (loaded.output.parts > 0 && loaded.output.files > 0) {
+    fail(where, "output.parts excludes output.files: each part is one file; give either of them");
+  }
 }
 
 void resolve_paths(const fs::path& case_file, Case& loaded)

@@ -36,13 +36,16 @@ void check_arguments(const mesh::CoarseMesh& mesh, const DecomposeOptions& optio
   }
 }
 
-LocalIndex automatic_number(const mesh::CoarseMesh& mesh, std::span<const double> tet_weight)
+LocalIndex automatic_number(const mesh::CoarseMesh& mesh, std::span<const double> tet_weight,
+                            LocalIndex num_parts)
 {
   const double fine_tets = std::accumulate(tet_weight.begin(), tet_weight.end(), 0.0);
   const double by_fine_tets =
       std::min(fine_tets / kAutoFineTets, static_cast<double>(mesh.num_tets()));
   const LocalIndex by_coarse_tets = mesh.num_tets() / kAutoCoarseTets;
-  return std::max(1, std::min(by_coarse_tets, static_cast<LocalIndex>(by_fine_tets)));
+  const LocalIndex number = std::min(by_coarse_tets, static_cast<LocalIndex>(by_fine_tets));
+  const LocalIndex for_parts = std::min(kAutoSubdomainsAPart * num_parts, mesh.num_tets());
+  return std::max({1, number, for_parts});
 }
 
 void measure(const TetGraph& graph, const mesh::Decomposition& decomposition,
@@ -72,8 +75,9 @@ DecomposeResult decompose(const mesh::CoarseMesh& mesh, const DecomposeOptions& 
   DecomposeResult result;
   DecomposeReport& report = result.report;
   report.num_requested = options.subdomains;
-  const LocalIndex number =
-      options.subdomains > 0 ? options.subdomains : automatic_number(mesh, tet_weight);
+  const LocalIndex number = options.subdomains > 0
+                                ? options.subdomains
+                                : automatic_number(mesh, tet_weight, options.parts);
   report.num_wanted = std::max(number, static_cast<LocalIndex>(pieces.size()));
 
   Labelling labelling = partition_pieces(graph, pieces, report.num_wanted, partitioner);
@@ -82,7 +86,7 @@ DecomposeResult decompose(const mesh::CoarseMesh& mesh, const DecomposeOptions& 
   report.num_splits = repairs.num_splits;
   report.num_merges = merge_small(graph, labelling, report.num_wanted);
 
-  result.decomposition = number_subdomains(graph, labelling, partitioner);
+  result.decomposition = number_subdomains(graph, labelling, options.parts, partitioner);
   measure(graph, result.decomposition, report);
   return result;
 }

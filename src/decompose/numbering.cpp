@@ -5,9 +5,13 @@
 #include <cstddef>
 #include <numeric>
 #include <span>
+#include <string>
 #include <utility>
 
+#include "tessera/base/error.hpp"
+
 #include "decompose/checked_partition.hpp"
+#include "decompose/parts.hpp"
 
 namespace tessera::decompose {
 namespace {
@@ -56,9 +60,18 @@ class HierarchicalOrder {
   }
 
   // Numbers from 0 in the final order.
-  std::vector<LocalIndex> run()
+  Numbering run(LocalIndex num_parts)
   {
+    Numbering result;
     std::vector<Block> blocks{{0, order_.size()}};
+    if (num_parts > 0) {
+      result.part_offsets = sort_by_part(num_parts);
+      blocks.clear();
+      for (std::size_t p = result.part_offsets.size() - 1; p > 0; --p) {
+        blocks.push_back({static_cast<std::size_t>(result.part_offsets[p - 1]),
+                          static_cast<std::size_t>(result.part_offsets[p])});
+      }
+    }
     while (!blocks.empty()) {
       const Block block = blocks.back();
       blocks.pop_back();
@@ -67,11 +80,11 @@ class HierarchicalOrder {
       blocks.push_back({middle, block.end});
       blocks.push_back({block.begin, middle});
     }
-    std::vector<LocalIndex> number(order_.size());
+    result.number.resize(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) {
-      number[static_cast<std::size_t>(order_[i])] = static_cast<LocalIndex>(i);
+      result.number[static_cast<std::size_t>(order_[i])] = static_cast<LocalIndex>(i);
     }
-    return number;
+    return result;
   }
 
  private:
@@ -80,6 +93,20 @@ class HierarchicalOrder {
     std::size_t begin;
     std::size_t end;
   };
+
+  // Where each part begins in the order.
+  std::vector<LocalIndex> sort_by_part(LocalIndex num_parts)
+  {
+    const auto part = balanced_parts(graph_of(order_), num_parts, *partitioner_);
+    std::ranges::stable_sort(order_, {}, [&](LocalIndex s) { return part[at(s)]; });
+    std::vector<LocalIndex> offsets(at(num_parts) + 1, 0);
+    for (const LocalIndex p : part) ++offsets[at(p) + 1];
+    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+    for (const LocalIndex s : order_) {
+      block_begin_[at(s)] = static_cast<std::size_t>(offsets[at(part[at(s)])]);
+    }
+    return offsets;
+  }
 
   std::size_t bisect(const Block& block)
   {
@@ -198,14 +225,14 @@ mesh::Decomposition make_decomposition(const TetGraph& graph, std::vector<LocalI
   return result;
 }
 
-std::vector<LocalIndex> hierarchical_numbers(const mesh::Decomposition& decomposition,
-                                             const GraphPartitioner& partitioner)
+Numbering hierarchical_numbers(const mesh::Decomposition& decomposition, LocalIndex num_parts,
+                               const GraphPartitioner& partitioner)
 {
-  return HierarchicalOrder(decomposition, partitioner).run();
+  return HierarchicalOrder(decomposition, partitioner).run(num_parts);
 }
 
 mesh::Decomposition number_subdomains(const TetGraph& graph, const Labelling& labelling,
-                                      const GraphPartitioner& partitioner)
+                                      LocalIndex num_parts, const GraphPartitioner& partitioner)
 {
   std::vector<LocalIndex> compact(static_cast<std::size_t>(labelling.num_labels()), kNoIndex);
   std::vector<LocalIndex> tet_subdomain(static_cast<std::size_t>(graph.num_tets()));
@@ -216,9 +243,16 @@ mesh::Decomposition number_subdomains(const TetGraph& graph, const Labelling& la
     tet_subdomain[static_cast<std::size_t>(t)] = number;
   }
   mesh::Decomposition provisional = make_decomposition(graph, std::move(tet_subdomain));
-  const auto number = hierarchical_numbers(provisional, partitioner);
-  for (LocalIndex& s : provisional.tet_subdomain) s = number[static_cast<std::size_t>(s)];
-  return make_decomposition(graph, std::move(provisional.tet_subdomain));
+  if (provisional.num_subdomains() < num_parts) {
+    throw ConfigError("output.parts is " + std::to_string(num_parts) + " but there are only "
+                      + std::to_string(provisional.num_subdomains())
+                      + " subdomains; ask for more of them (decompose.subdomains)");
+  }
+  Numbering numbering = hierarchical_numbers(provisional, num_parts, partitioner);
+  for (LocalIndex& s : provisional.tet_subdomain) s = numbering.number[static_cast<std::size_t>(s)];
+  mesh::Decomposition numbered = make_decomposition(graph, std::move(provisional.tet_subdomain));
+  numbered.part_offsets = std::move(numbering.part_offsets);
+  return numbered;
 }
 
 }  // namespace tessera::decompose

@@ -18,12 +18,21 @@ namespace tessera::decompose {
 /// @brief New number of each subdomain: recursive bisection of the weighted graph, each time the
 /// half nearer to what is already numbered first. So every aligned range is a connected, cheaply
 /// cut part wherever the partitioner finds one.
-[[nodiscard]] std::vector<LocalIndex> hierarchical_numbers(const mesh::Decomposition& decomposition,
-                                                           const GraphPartitioner& partitioner);
+struct Numbering {
+  std::vector<LocalIndex> number{};        ///< Shape (num_subdomains).
+  std::vector<LocalIndex> part_offsets{};  ///< As in mesh::Decomposition.
+};
 
-/// @brief The used labels as subdomains, numbered hierarchically.
+/// @param[in] num_parts Parts that are numbered one after the other; 0: none.
+[[nodiscard]] Numbering hierarchical_numbers(const mesh::Decomposition& decomposition,
+                                             LocalIndex num_parts,
+                                             const GraphPartitioner& partitioner);
+
+/// @brief The used labels as subdomains, numbered hierarchically, part by part.
+/// @throws ConfigError if there are fewer subdomains than parts.
 [[nodiscard]] mesh::Decomposition number_subdomains(const TetGraph& graph,
                                                     const Labelling& labelling,
+                                                    LocalIndex num_parts,
                                                     const GraphPartitioner& partitioner);
 
 }  // namespace tessera::decompose

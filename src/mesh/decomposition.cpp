@@ -9,6 +9,7 @@ Bytes to_bytes(const Decomposition& decomposition)
   out.put(decomposition.tet_subdomain);
   out.put(decomposition.subdomain_material);
   out.put(decomposition.subdomain_weight);
+  out.put(decomposition.part_offsets);
   out.put(decomposition.neighbour_offsets);
   out.put(decomposition.neighbours);
   out.put(decomposition.neighbour_triangles);
@@ -23,6 +24,7 @@ Decomposition decomposition_from_bytes(std::span<const std::byte> bytes)
   decomposition.tet_subdomain = in.get_vector<LocalIndex>();
   decomposition.subdomain_material = in.get_vector<LocalIndex>();
   decomposition.subdomain_weight = in.get_vector<double>();
+  decomposition.part_offsets = in.get_vector<LocalIndex>();
   decomposition.neighbour_offsets = in.get_vector<LocalIndex>();
   decomposition.neighbours = in.get_vector<LocalIndex>();
   decomposition.neighbour_triangles = in.get_vector<LocalIndex>();

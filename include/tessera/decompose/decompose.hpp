@@ -19,6 +19,10 @@ inline constexpr LocalIndex kAutoCoarseTets = 100;
 /// skins of 3 k to 15 k tets (12-14 k tets/s a core), below that the cost of a job shows.
 inline constexpr double kAutoFineTets = 3000.0;
 
+/// @brief "auto" asks for at least this many subdomains a part of the output: parts are made of
+/// whole subdomains, and 16 of them can be shared out to within some per cent.
+inline constexpr LocalIndex kAutoSubdomainsAPart = 16;
+
 /// @brief What the decomposition was asked for and what it became. A *seam* triangle lies between
 /// two subdomains of one material.
 struct DecomposeReport {

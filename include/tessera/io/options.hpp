@@ -17,6 +17,7 @@ struct OutputOptions {
   std::vector<std::string> formats{"pvtu"};
   Compression compression = Compression::lz4;
   LocalIndex files = 0;       ///< Number of piece files; 0: one for each subdomain.
+  LocalIndex parts = 0;       ///< Number of balanced, connected parts, a file each; 0: see `files`.
   bool cell_quality = false;  ///< Also write the mean ratio of every tet.
 
   friend bool operator==(const OutputOptions&, const OutputOptions&) = default;

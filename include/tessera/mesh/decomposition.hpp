@@ -18,6 +18,10 @@ struct Decomposition {
   std::vector<LocalIndex> subdomain_material{};  ///< Shape (num_subdomains); from 1.
   std::vector<double> subdomain_weight{};        ///< Shape (num_subdomains); predicted fine tets.
 
+  /// Shape (num_parts + 1): the parts of the output are ranges of subdomains. Empty: there are
+  /// none.
+  std::vector<LocalIndex> part_offsets{};
+
   std::vector<LocalIndex> neighbour_offsets{};  ///< Shape (num_subdomains + 1).
   std::vector<LocalIndex> neighbours{};  ///< Subdomains that share a coarse triangle, ascending.
   std::vector<LocalIndex> neighbour_triangles{};  ///< Coarse triangles shared with that neighbour.

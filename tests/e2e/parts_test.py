@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""output.parts: balanced parts of whole subdomains, one file each, the same for any number of ranks."""
+import unittest
+
+import program
+from program import OK, WRONG_INPUT
+
+
+class Parts(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.case = self.write_case(max_size=0.5, subdomains=40)
+
+    def test_any_number_of_ranks(self):
+        alone = self.mesh(self.case, "alone", "--set", "output.parts=3")
+        figures = program.figures(alone)
+        self.assertEqual(len(figures["parts"]["tets"]), 3)
+        self.assertEqual(sum(figures["parts"]["tets"]), figures["num_tets"])
+        self.assertLess(figures["parts"]["balance"], 1.15)
+        self.assertEqual(sorted(f.name for f in (alone / "mesh").iterdir()), [f"piece_{i:06}.vtu" for i in range(3)])
+        for ranks in (2, 3):
+            other = self.mesh(self.case, f"ranks_{ranks}", "--set", "output.parts=3", ranks=ranks)
+            self.assertEqual(program.figures(other), figures)
+            self.assertEqual(program.mesh_files(other), program.mesh_files(alone))
+        outcome = self.run_program("check", alone / "mesh.pvtu")
+        self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
+
+    def test_subdivision_writes_parts_in_one_pass(self):
+        out = self.mesh(self.case, "out", "--set", "output.parts=4", "--set", "fill.kernel=subdivide", ranks=2)
+        parts = program.figures(out)["parts"]
+        self.assertEqual(len(parts["tets"]), 4)
+        self.assertLess(parts["balance"], 1.1)
+        outcome = self.run_program("check", out / "mesh.pvtu", ranks=2)
+        self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
+
+    def test_automatic_subdomains_are_enough_for_the_parts(self):
+        out = self.mesh(self.case, "out", "--set", "output.parts=2", "--set", "decompose.subdomains=auto")
+        self.assertGreaterEqual(program.figures(out)["num_subdomains"], 32)
+
+    def test_what_cannot_be_had(self):
+        for arguments, words in (
+            (("output.parts=41", "decompose.subdomains=2"), ("output.parts is 41", "decompose.subdomains")),
+            (("output.parts=2", "output.files=2"), ("output.parts excludes output.files",)),
+        ):
+            sets = [word for argument in arguments for word in ("--set", argument)]
+            outcome = self.run_program("mesh", self.case, "--output", "out", *sets, "--overwrite")
+            self.assert_refused(outcome, WRONG_INPUT, *words)
+
+
+if __name__ == "__main__":
+    unittest.main()
