@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "tessera/comm/record_exchange.hpp"
 #include "tessera/comm/communicator.hpp"
 
 #include "check/components.hpp"
 #include "check/findings.hpp"
-#include "check/record_exchange.hpp"
 #include "check/records.hpp"
 
 namespace tessera::check {
