@@ -2,66 +2,13 @@
 #include "migrate/sharer_lists.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <cstddef>
 #include <span>
 
-#include "tessera/base/error.hpp"
-
-#include "migrate/rank_buckets.hpp"
-#include "migrate/traffic.hpp"
+#include "migrate/list_streams.hpp"
 
 namespace tessera::migrate {
 namespace {
-
-// Lists for and from other ranks, each behind its length.
-class ListStreams {
- public:
-  explicit ListStreams(const comm::Communicator& comm) : comm_(comm), streams_(comm.size()) {}
-
-  void put(Rank rank, std::span<const LocalIndex> list)
-  {
-    std::vector<LocalIndex>& values = streams_[rank].values;
-    values.push_back(static_cast<LocalIndex>(list.size()));
-    values.insert(values.end(), list.begin(), list.end());
-  }
-
-  // Next list from a rank; it stays valid until the next exchange.
-  [[nodiscard]] std::span<const LocalIndex> get(Rank rank)
-  {
-    Stream& stream = streams_[rank];
-    const auto rest = std::span<const LocalIndex>(stream.values).subspan(stream.next);
-    if (rest.empty() || std::cmp_greater_equal(rest[0], rest.size())) {
-      throw Error("the ranks do not agree about the vertices they share");
-    }
-    stream.next += 1 + at(rest[0]);
-    return rest.subspan(1, at(rest[0]));
-  }
-
-  // Sends what was put; then get() gives what came. Collective.
-  void exchange(Traffic& traffic)
-  {
-    std::vector<comm::Message> messages;
-    for (const Rank rank : streams_.ranks()) {
-      const auto bytes = std::as_bytes(std::span(streams_[rank].values));
-      messages.push_back({rank, Bytes(bytes.begin(), bytes.end())});
-    }
-    streams_ = RankBuckets<Stream>(comm_.size());
-    for (const comm::Message& message : migrate::exchange(comm_, std::move(messages), traffic)) {
-      std::vector<LocalIndex>& values = streams_[message.rank].values;
-      values.resize(message.bytes.size() / sizeof(LocalIndex));
-      std::memcpy(values.data(), message.bytes.data(), values.size() * sizeof(LocalIndex));
-    }
-  }
-
- private:
-  struct Stream {
-    std::vector<LocalIndex> values{};
-    std::size_t next = 0;
-  };
-
-  const comm::Communicator& comm_;
-  RankBuckets<Stream> streams_;
-};
 
 void append(IndexLists& lists, std::span<const LocalIndex> list)
 {
@@ -73,7 +20,7 @@ void append(IndexLists& lists, std::span<const LocalIndex> list)
 IndexLists unite_at_owners(const comm::Communicator& comm, const DistributedMesh& mesh,
                            const IndexLists& lists, Traffic& traffic)
 {
-  ListStreams streams(comm);
+  ListStreams<LocalIndex> streams(comm);
   for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
     const Rank owner = mesh.owner(v, comm.rank());
     if (owner != comm.rank()) streams.put(owner, lists[v]);
@@ -102,7 +49,7 @@ IndexLists unite_at_owners(const comm::Communicator& comm, const DistributedMesh
 IndexLists lists_from_owners(const comm::Communicator& comm, const DistributedMesh& mesh,
                              const IndexLists& lists, Traffic& traffic)
 {
-  ListStreams streams(comm);
+  ListStreams<LocalIndex> streams(comm);
   for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
     const auto sharers = mesh.vertex_sharers[v];
     if (sharers.empty() || sharers.front() != comm.rank()) continue;
@@ -118,6 +65,24 @@ IndexLists lists_from_owners(const comm::Communicator& comm, const DistributedMe
     all.end_list();
   }
   return all;
+}
+
+std::vector<GlobalIndex> values_from_owners(const comm::Communicator& comm,
+                                            const DistributedMesh& mesh,
+                                            std::vector<GlobalIndex> values, Traffic& traffic)
+{
+  ListStreams<GlobalIndex> streams(comm);
+  for (LocalIndex v = 0; v < mesh.vertex_sharers.num_lists(); ++v) {
+    const auto sharers = mesh.vertex_sharers[v];
+    if (sharers.empty() || sharers.front() != comm.rank()) continue;
+    for (const Rank sharer : sharers.subspan(1)) streams.put(sharer, values[at(v)]);
+  }
+  streams.exchange(traffic);
+  for (LocalIndex v = 0; v < mesh.vertex_sharers.num_lists(); ++v) {
+    const Rank owner = mesh.owner(v, comm.rank());
+    if (owner != comm.rank()) values[at(v)] = streams.get(owner).front();
+  }
+  return values;
 }
 
 }  // namespace tessera::migrate

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "tessera/base/index_lists.hpp"
 #include "tessera/comm/communicator.hpp"
 #include "tessera/migrate/distributed_mesh.hpp"
@@ -23,5 +25,14 @@ namespace tessera::migrate {
 [[nodiscard]] IndexLists lists_from_owners(const comm::Communicator& comm,
                                            const DistributedMesh& mesh, const IndexLists& lists,
                                            Traffic& traffic);
+
+/// @brief The values of the owners, at all sharers.
+/// @note Collective.
+/// @param[in] values One of each vertex; only those at owners matter.
+/// @pre Two ranks have the vertices that they share in the same order; ids need not be there.
+[[nodiscard]] std::vector<GlobalIndex> values_from_owners(const comm::Communicator& comm,
+                                                          const DistributedMesh& mesh,
+                                                          std::vector<GlobalIndex> values,
+                                                          Traffic& traffic);
 
 }  // namespace tessera::migrate

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tessera/base/index_lists.hpp"
+#include "tessera/migrate/assemble.hpp"
+#include "tessera/migrate/distributed_mesh.hpp"
+
+#include "pipeline/piece_arrays.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief A mesh that is ready to be written part by part. Borrowed.
+struct PartContext {
+  const migrate::DistributedMesh& mesh;
+  const IndexLists& vertex_parts;  ///< migrate::parts_of_vertices().
+  const std::vector<migrate::TetColumn>& columns;
+  const std::map<std::string, std::vector<std::string>>& field_texts;
+};
+
+/// @brief What the files of one part hold. Local; linear in the rank's mesh.
+[[nodiscard]] PieceArrays part_arrays(const PartContext& context, LocalIndex part);
+
+}  // namespace tessera::pipeline
