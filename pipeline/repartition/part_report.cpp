@@ -97,6 +97,7 @@ std::string repartition_json(ExitCode exit_code, const std::string& reason,
     json["cut_triangles"] = figures.num_cut_triangles();
     json["disconnected_parts"] = figures.num_disconnected();
     json["components"] = figures.num_components;
+    json["partition"] = {{"tries", figures.cut.num_tries}, {"rounds", figures.cut.num_rounds}};
     json["migration"] = {{"messages", figures.traffic.num_messages},
                          {"bytes", figures.traffic.num_bytes}};
     json["parts"] = parts_json(figures);

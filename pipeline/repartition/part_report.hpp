@@ -6,6 +6,7 @@
 
 #include "tessera/base/hash.hpp"
 #include "tessera/base/types.hpp"
+#include "tessera/migrate/cut_into_parts.hpp"
 #include "tessera/migrate/migrate.hpp"
 #include "tessera/migrate/part_figures.hpp"
 
@@ -27,7 +28,8 @@ struct RepartitionFigures {
   GlobalIndex num_vertices = 0;
   GlobalIndex num_components = 0;  ///< Of the whole mesh.
   Hash128 tets_digest{};           ///< migrate::digest_of_tets() over all ranks.
-  migrate::Traffic traffic{};      ///< Of migrations, over all ranks.
+  migrate::CutFigures cut{};
+  migrate::Traffic traffic{};  ///< Of migrations, over all ranks.
   std::vector<migrate::PartFigures> parts{};
   std::vector<std::string> notes{};
   std::vector<StepTime> steps{};

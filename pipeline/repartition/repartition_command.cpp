@@ -16,7 +16,7 @@
 #include "tessera/io/output_folder.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/migrate/assemble.hpp"
-#include "tessera/migrate/migrate.hpp"
+#include "tessera/migrate/cut_into_parts.hpp"
 #include "tessera/migrate/partition.hpp"
 
 #include "pipeline/piece_file.hpp"
@@ -118,14 +118,13 @@ class Repartition {
   ExitCode cut()
   {
     read();
-    const migrate::TetNeighbours neighbours = migrate::find_neighbours(comm_, mesh_.mesh);
-    end_step("assemble");
-    std::vector<LocalIndex> tet_part =
-        migrate::partition_tets(comm_, mesh_.mesh, neighbours, command_.num_parts);
+    migrate::CutMesh cut = migrate::cut_into_parts(
+        comm_, std::move(mesh_.mesh), {command_.num_parts, kMaxBalance}, figures_.traffic);
+    mesh_.mesh = std::move(cut.mesh);
+    figures_.cut = cut.figures;
     end_step("partition");
-    migrate_to(std::move(tet_part));
     measure();
-    end_step("migrate");
+    end_step("measure");
     write();
     end_step("write");
     return finish();
@@ -139,22 +138,11 @@ class Repartition {
     mesh_ = migrate::assemble(comm_, std::move(pieces));
     figures_.notes = mesh_.notes;
     figures_.tets_digest = sum_over_ranks(migrate::digest_of_tets(mesh_.mesh), comm_);
+    end_step("assemble");
     const GlobalIndex num_tets = comm_.sum(mesh_.mesh.num_tets());
     if (num_tets >= command_.num_parts) return;
     throw_on_all_ranks(ExitCode::wrong_input, fmt::format("--parts {}: the mesh has only {} tets",
                                                           command_.num_parts, num_tets));
-  }
-
-  void migrate_to(std::vector<LocalIndex> tet_part)
-  {
-    throw_if_stopped(comm_);
-    mesh_.mesh.tet_part = std::move(tet_part);
-    std::vector<Rank> tet_rank;
-    tet_rank.reserve(mesh_.mesh.tet_part.size());
-    for (const LocalIndex part : mesh_.mesh.tet_part) {
-      tet_rank.push_back(migrate::rank_of_part(part, command_.num_parts, comm_.size()));
-    }
-    mesh_.mesh = migrate::migrate(comm_, mesh_.mesh, tet_rank, &figures_.traffic);
   }
 
   void measure()

@@ -69,14 +69,13 @@ DualGraph make_graph(const comm::Communicator& comm, const DistributedMesh& mesh
 }
 
 // One thread and a fixed seed: the result must not depend on when a message comes.
-Handle<SCOTCH_Context> make_context()
+Handle<SCOTCH_Context> make_context(int seed)
 {
   Handle<SCOTCH_Context> context(SCOTCH_contextAlloc());
   SCOTCH_contextInit(context.get());
   SCOTCH_contextOptionSetNum(context.get(), SCOTCH_OPTIONNUMDETERMINISTIC, 1);
-  SCOTCH_contextOptionSetNum(context.get(), SCOTCH_OPTIONNUMRANDOMFIXEDSEED, 1);
   SCOTCH_contextThreadSpawn(context.get(), 1, nullptr);
-  SCOTCH_contextRandomSeed(context.get(), 1);
+  SCOTCH_contextRandomSeed(context.get(), seed);
   SCOTCH_contextRandomReset(context.get());
   return context;
 }
@@ -89,10 +88,10 @@ Handle<SCOTCH_Dgraph> alloc_graph(const comm::Communicator& comm)
 }
 
 // @return Whether it went well.
-bool part_graph(const comm::Communicator& comm, DualGraph& dual, LocalIndex num_parts,
+bool part_graph(const comm::Communicator& comm, DualGraph& dual, LocalIndex num_parts, int seed,
                 std::vector<SCOTCH_Num>& part)
 {
-  const auto context = make_context();
+  const auto context = make_context(seed);
   const auto graph = alloc_graph(comm);
   const auto bound = alloc_graph(comm);
   const auto num_tets = static_cast<SCOTCH_Num>(dual.offsets.size()) - 1;
@@ -117,13 +116,14 @@ bool part_graph(const comm::Communicator& comm, DualGraph& dual, LocalIndex num_
 }  // namespace
 
 std::vector<LocalIndex> partition_tets(const comm::Communicator& comm, const DistributedMesh& mesh,
-                                       const TetNeighbours& neighbours, LocalIndex num_parts)
+                                       const TetNeighbours& neighbours, LocalIndex num_parts,
+                                       int seed)
 {
   std::vector<LocalIndex> tet_part(mesh.tet_ids.size(), 0);
   if (num_parts == 1) return tet_part;
   DualGraph graph = make_graph(comm, mesh, neighbours);
   std::vector<SCOTCH_Num> part;
-  const bool is_good = part_graph(comm, graph, num_parts, part);
+  const bool is_good = part_graph(comm, graph, num_parts, seed, part);
   comm.throw_if_any<MeshError>(is_good ? std::nullopt
                                        : std::optional<std::string>("PT-Scotch failed"));
   for (std::size_t t = 0; t < tet_part.size(); ++t) tet_part[t] = static_cast<LocalIndex>(part[t]);

@@ -17,13 +17,14 @@ namespace tessera::migrate {
 /// Parts need not be connected, and in a small mesh not balanced. For a given number of ranks
 /// the result is always the same.
 /// @note Collective.
+/// @param[in] seed Other seeds give other parts.
 /// @return Shape (num_tets): part of each tet, in [0, num_parts).
 /// @pre 1 <= num_parts <= number of tets on all ranks.
 /// @throws MeshError on all ranks if PT-Scotch gives up.
 [[nodiscard]] std::vector<LocalIndex> partition_tets(const comm::Communicator& comm,
                                                      const DistributedMesh& mesh,
                                                      const TetNeighbours& neighbours,
-                                                     LocalIndex num_parts);
+                                                     LocalIndex num_parts, int seed);
 
 /// @brief Rank that holds a part: ranks hold consecutive parts, as evenly as possible. Local.
 [[nodiscard]] Rank rank_of_part(LocalIndex part, LocalIndex num_parts, int num_ranks);
