@@ -62,12 +62,17 @@ GlobalIndex RepartitionFigures::num_cut_triangles() const
   return num_sides / 2;
 }
 
+GlobalIndex RepartitionFigures::largest_part() const
+{
+  GlobalIndex largest = 0;
+  for (const migrate::PartFigures& part : parts) largest = std::max(largest, part.num_tets);
+  return largest;
+}
+
 double RepartitionFigures::balance() const
 {
-  if (parts.empty()) return 1.0;
-  const auto largest = std::ranges::max(parts, {}, &migrate::PartFigures::num_tets).num_tets;
   const double average = static_cast<double>(num_tets()) / static_cast<double>(parts.size());
-  return static_cast<double>(largest) / average;
+  return static_cast<double>(largest_part()) / average;
 }
 
 GlobalIndex RepartitionFigures::num_disconnected() const
@@ -96,7 +101,6 @@ std::string repartition_json(ExitCode exit_code, const std::string& reason,
     json["balance"] = figures.balance();
     json["cut_triangles"] = figures.num_cut_triangles();
     json["disconnected_parts"] = figures.num_disconnected();
-    json["components"] = figures.num_components;
     json["partition"] = {{"tries", figures.cut.num_tries}, {"rounds", figures.cut.num_rounds}};
     json["migration"] = {{"messages", figures.traffic.num_messages},
                          {"bytes", figures.traffic.num_bytes}};

@@ -26,8 +26,7 @@ struct RepartitionFigures {
   int num_ghost_layers = 0;
   double wall_time_s = 0.0;
   GlobalIndex num_vertices = 0;
-  GlobalIndex num_components = 0;  ///< Of the whole mesh.
-  Hash128 tets_digest{};           ///< migrate::digest_of_tets() over all ranks.
+  Hash128 tets_digest{};  ///< migrate::digest_of_tets() over all ranks.
   migrate::CutFigures cut{};
   migrate::Traffic traffic{};  ///< Of migrations, over all ranks.
   std::vector<migrate::PartFigures> parts{};
@@ -36,6 +35,7 @@ struct RepartitionFigures {
 
   [[nodiscard]] GlobalIndex num_tets() const;
   [[nodiscard]] GlobalIndex num_cut_triangles() const;  ///< Between two parts.
+  [[nodiscard]] GlobalIndex largest_part() const;       ///< Its tets.
   [[nodiscard]] double balance() const;                 ///< Largest part over the average.
   [[nodiscard]] GlobalIndex num_disconnected() const;   ///< Parts of several components.
 };

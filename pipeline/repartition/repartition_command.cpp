@@ -204,8 +204,13 @@ class Repartition {
   ExitCode finish()
   {
     std::string reason;
-    if (figures_.balance() > kMaxBalance) {
+    if (figures_.largest_part()
+        > migrate::largest_allowed(figures_.num_tets(), command_.num_parts, kMaxBalance)) {
       reason = fmt::format("the largest part is {:.3f} of the average", figures_.balance());
+    }
+    if (figures_.num_disconnected() > 0) {
+      figures_.notes.push_back(
+          fmt::format("{} parts are not connected", figures_.num_disconnected()));
     }
     const ExitCode code = reason.empty() ? ExitCode::ok : ExitCode::degraded;
     figures_.wall_time_s = seconds_since(start_);

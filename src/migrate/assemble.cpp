@@ -36,46 +36,59 @@ auto on_all(const comm::Communicator& comm, const Work& work)
   return result;
 }
 
-// Columns that all pieces with tets have, on all ranks.
-std::vector<TetColumn> common_columns(const comm::Communicator& comm, const MeshPieces& pieces)
-{
-  static const std::set<std::string> kOwnMeaning{"attribute", "subdomain"};
-  std::map<TetColumn, GlobalIndex> num_pieces_with;
-  GlobalIndex num_pieces = 0;
-  for (const mesh::MeshArrays& piece : pieces.tets) {
-    if (piece.num_cells() == 0) continue;
+// How many pieces have a column.
+struct ColumnCounts {
+  GlobalIndex num_pieces = 0;  // With tets.
+  std::map<TetColumn, GlobalIndex> num_with{};
+
+  void add(const mesh::MeshArrays& piece)
+  {
+    static const std::set<std::string> kOwnMeaning{"attribute", "subdomain"};
+    if (piece.num_cells() == 0) return;
     ++num_pieces;
     const auto count = [&](const auto& arrays, ColumnType type) {
       for (const auto& [name, values] : arrays) {
-        if (!kOwnMeaning.contains(name)) ++num_pieces_with[{name, type}];
+        if (!kOwnMeaning.contains(name)) ++num_with[{name, type}];
       }
     };
     count(piece.cell_ints, ColumnType::int32);
     count(piece.cell_longs, ColumnType::int64);
     count(piece.cell_doubles, ColumnType::float64);
   }
-  ByteWriter out;
-  out.put(num_pieces);
-  out.put(static_cast<std::uint64_t>(num_pieces_with.size()));
-  for (const auto& [column, count] : num_pieces_with) {
-    out.put(column.name);
-    out.put(column.type);
-    out.put(count);
-  }
-  num_pieces = 0;
-  num_pieces_with.clear();
-  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
+
+  void add(const Bytes& bytes)
+  {
     ByteReader in(bytes);
-    num_pieces += in.get<GlobalIndex>();
-    for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+    for (num_pieces += in.get<GlobalIndex>(); !in.at_end();) {
       std::string name = in.get_string();
       const auto type = in.get<ColumnType>();
-      num_pieces_with[{std::move(name), type}] += in.get<GlobalIndex>();
+      num_with[{std::move(name), type}] += in.get<GlobalIndex>();
     }
   }
+
+  [[nodiscard]] Bytes to_bytes() const
+  {
+    ByteWriter out;
+    out.put(num_pieces);
+    for (const auto& [column, count] : num_with) {
+      out.put(column.name);
+      out.put(column.type);
+      out.put(count);
+    }
+    return std::move(out).take();
+  }
+};
+
+// Columns that all pieces with tets have, on all ranks.
+std::vector<TetColumn> common_columns(const comm::Communicator& comm, const MeshPieces& pieces)
+{
+  ColumnCounts mine;
+  for (const mesh::MeshArrays& piece : pieces.tets) mine.add(piece);
+  ColumnCounts all;
+  for (const Bytes& bytes : comm.all_gather(mine.to_bytes())) all.add(bytes);
   std::vector<TetColumn> columns;
-  for (const auto& [column, count] : num_pieces_with) {
-    if (count == num_pieces) columns.push_back(column);
+  for (const auto& [column, count] : all.num_with) {
+    if (count == all.num_pieces) columns.push_back(column);
   }
   return columns;
 }
@@ -128,7 +141,8 @@ bool all_have_point_ids(const comm::Communicator& comm, const MeshPieces& pieces
   return comm.sum(num_without) == 0;
 }
 
-// Vertices in the order of their keys, tets in the order of the pieces; ids are still to come.
+// Of no use if by ids and contradicted. Vertices in the order of their keys, tets in the order of
+// the pieces; ids are still to come.
 struct Draft {
   Identity identity = Identity::ids;
   JoinedTets joined{};
@@ -140,7 +154,12 @@ Draft join(const comm::Communicator& comm, const MeshPieces& pieces, Identity id
 {
   Draft draft{.identity = identity};
   draft.joined = on_all(comm, [&] { return join_tets(pieces.tets, identity); });
-  draft.behind = on_all(comm, [&] { return tets_behind_faces(draft.joined.block); });
+  draft.found.has_contradiction = comm.sum(draft.joined.has_contradiction ? 1 : 0) > 0;
+  if (draft.found.has_contradiction && identity == Identity::ids) return draft;
+  draft.behind = on_all(comm, [&] {
+    require_tets(draft.joined.block);
+    return tets_behind_faces(draft.joined.block);
+  });
   draft.found = find_sharers(comm, draft.joined, draft.behind);
   return draft;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -22,6 +24,9 @@ constexpr int kMaxRounds = 200;
 
 // A new partition keeps the cut small, giving tets away does not: 35 % more triangles in one case.
 constexpr int kMaxTries = 5;
+
+// The better one of two: over seeds the cut of 613 k tets in 11 parts was 0.96 to 1.13 of METIS's.
+constexpr int kGoodTries = 2;
 
 // For each part of this rank its largest component; of equal ones the first.
 std::map<LocalIndex, LocalIndex> main_components(const DistributedMesh& mesh,
@@ -78,13 +83,30 @@ GlobalIndex largest_of(const comm::Communicator& comm, const DistributedMesh& me
   return largest_allowed(comm.sum(mesh.num_tets()), request.num_parts, request.max_balance);
 }
 
-bool is_balanced(const comm::Communicator& comm, const DistributedMesh& mesh,
-                 const PartRequest& request)
+// What is better comes first: no part too large, then few triangles cut.
+struct Merit {
+  GlobalIndex excess = std::numeric_limits<GlobalIndex>::max();  // Of the largest part.
+  GlobalIndex num_cut_sides = 0;
+
+  friend auto operator<=>(const Merit&, const Merit&) = default;
+};
+
+Merit merit_of(const comm::Communicator& comm, const TetNeighbours& neighbours,
+               const DistributedMesh& mesh, const PartRequest& request)
 {
+  const PartView view(comm, neighbours, mesh.tet_part);
   std::vector<GlobalIndex> sizes(at(request.num_parts), 0);
-  for (const LocalIndex part : mesh.tet_part) ++sizes[at(part)];
+  GlobalIndex num_cut_sides = 0;
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    ++sizes[at(view.part(t))];
+    for (std::size_t c = 0; c < 4; ++c) {
+      const LocalIndex other = view.part_behind(t, c);
+      if (other != kNoPart && other != view.part(t)) ++num_cut_sides;
+    }
+  }
   comm.sum_in_place(sizes);
-  return std::ranges::max(sizes) <= largest_of(comm, mesh, request);
+  const GlobalIndex excess = std::ranges::max(sizes) - largest_of(comm, mesh, request);
+  return {std::max<GlobalIndex>(excess, 0), comm.sum(num_cut_sides)};
 }
 
 using Pairs = std::set<std::pair<LocalIndex, LocalIndex>>;
@@ -152,7 +174,8 @@ CutMesh cut_into_parts(const comm::Communicator& comm, DistributedMesh mesh,
 {
   CutFigures figures;
   const auto move = [&] { mesh = migrate_to_parts(comm, mesh, request.num_parts, traffic); };
-  const auto connect = [&](TetNeighbours neighbours) {
+  const auto connect = [&] {
+    TetNeighbours neighbours = find_neighbours(comm, mesh);
     while (figures.num_rounds < kMaxRounds && move_strays(comm, neighbours, mesh)) {
       ++figures.num_rounds;
       move();
@@ -160,19 +183,28 @@ CutMesh cut_into_parts(const comm::Communicator& comm, DistributedMesh mesh,
     }
     return neighbours;
   };
+
+  DistributedMesh best;
+  Merit best_merit;
   TetNeighbours neighbours = find_neighbours(comm, mesh);
-  do {
+  for (int num_good = 0; num_good < kGoodTries && figures.num_tries < kMaxTries;) {
     mesh.tet_part = partition_tets(comm, mesh, neighbours, request.num_parts, ++figures.num_tries);
     move();
-    figures.num_rounds = 0;
-    neighbours = connect(find_neighbours(comm, mesh));
-  } while (figures.num_tries < kMaxTries && !is_balanced(comm, mesh, request));
+    neighbours = connect();
+    const Merit merit = merit_of(comm, neighbours, mesh, request);
+    if (merit.excess == 0) ++num_good;
+    if (merit >= best_merit) continue;
+    best_merit = merit;
+    best = mesh;
+  }
+  mesh = std::move(best);
 
+  neighbours = find_neighbours(comm, mesh);
   Pairs banned;
   while (figures.num_rounds < kMaxRounds && move_excess(comm, neighbours, request, mesh, banned)) {
     ++figures.num_rounds;
     move();
-    neighbours = connect(find_neighbours(comm, mesh));
+    neighbours = connect();
   }
   return {std::move(mesh), figures};
 }

@@ -80,16 +80,6 @@ void add_materials(const mesh::MeshArrays& piece, MeshBlock& block)
   }
 }
 
-void require_tets(const MeshBlock& block)
-{
-  for (LocalIndex t = 0; t < block.num_tets(); ++t) {
-    const auto v = block.tet(t);
-    const bool is_good = v[0] != v[1] && v[0] != v[2] && v[0] != v[3] && v[1] != v[2]
-                         && v[1] != v[3] && v[2] != v[3];
-    if (!is_good) throw InputError("the mesh has a tet with the same corner twice");
-  }
-}
-
 }  // namespace
 
 VertexKey key_of_point(const mesh::MeshArrays& piece, std::size_t p, Identity identity)
@@ -114,8 +104,17 @@ JoinedTets join_tets(std::span<const mesh::MeshArrays> pieces, Identity identity
   block.tet_part.assign(corners.size() / 4, 0);
   block.tet_vertices = std::move(corners);
   for (const mesh::MeshArrays& piece : pieces) add_materials(piece, block);
-  require_tets(block);
   return joined;
+}
+
+void require_tets(const MeshBlock& block)
+{
+  for (LocalIndex t = 0; t < block.num_tets(); ++t) {
+    const auto v = block.tet(t);
+    const bool is_good = v[0] != v[1] && v[0] != v[2] && v[0] != v[3] && v[1] != v[2]
+                         && v[1] != v[3] && v[2] != v[3];
+    if (!is_good) throw InputError("the mesh has a tet with the same corner twice");
+  }
 }
 
 }  // namespace tessera::migrate

@@ -26,7 +26,10 @@ struct JoinedTets {
 };
 
 /// @brief Joins the points of the pieces that have the same key. Local.
-/// @throws InputError if a tet has a vertex twice, or there are more than 2^29 tets.
+/// @throws InputError if there are more than 2^29 tets.
 [[nodiscard]] JoinedTets join_tets(std::span<const mesh::MeshArrays> pieces, Identity identity);
+
+/// @throws InputError if a tet has a vertex twice.
+void require_tets(const MeshBlock& block);
 
 }  // namespace tessera::migrate

@@ -28,7 +28,7 @@ struct PartRequest {
 /// @brief How cut_into_parts() came to its result; the same on all ranks.
 struct CutFigures {
   int num_tries = 0;   ///< Partitions that were made.
-  int num_rounds = 0;  ///< Migrations that mended the last one.
+  int num_rounds = 0;  ///< Migrations that mended parts.
 };
 
 struct CutMesh {
@@ -40,9 +40,10 @@ struct CutMesh {
 /// them, and moves each part to its rank.
 ///
 /// Of a part in several components all but the largest go to the neighbour with which they share
-/// most triangles. If that leaves a part too large, the mesh is cut anew from where it is now;
-/// after some tries parts that are too large give tets from their surface to smaller neighbours,
-/// so that both stay connected. A part stays in several components if no other part touches them.
+/// most triangles. The mesh is cut several times, until two results are balanced, and the better
+/// one is taken. If none is balanced after some tries, parts that are too large give tets from
+/// their surface to smaller neighbours, so that both stay connected. A part stays in several
+/// components if no other part touches them.
 /// @note Collective. For a given number of ranks the result is always the same.
 /// @param[in,out] traffic What this rank sends in migrations is added to it.
 /// @pre 1 <= num_parts <= number of tets on all ranks.
