@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/repartition/part_arrays.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 
@@ -86,6 +87,56 @@ mesh::MeshArrays tet_arrays(const PartContext& context, LocalIndex part)
   return arrays;
 }
 
+// Rows of the ghosts' vertices: of points that are there, or of new ones.
+std::vector<GlobalIndex> add_ghost_points(const migrate::GhostTets& ghosts,
+                                          mesh::MeshArrays& arrays)
+{
+  const migrate::MeshBlock& block = ghosts.block;
+  const auto num_own = arrays.num_points();
+  std::vector<GlobalIndex> rows;
+  for (LocalIndex v = 0; v < block.num_vertices(); ++v) {
+    const auto own_end = arrays.point_ids.begin() + num_own;
+    const auto own = std::lower_bound(arrays.point_ids.begin(), own_end, block.vertex_ids[at(v)]);
+    if (own != own_end && *own == block.vertex_ids[at(v)]) {
+      rows.push_back(own - arrays.point_ids.begin());
+      continue;
+    }
+    rows.push_back(arrays.num_points());
+    arrays.point_ids.push_back(block.vertex_ids[at(v)]);
+    for (const double x : block.position(v)) arrays.point_xyz.push_back(x);
+    arrays.point_ints["owner"].push_back(ghosts.vertex_owner[at(v)]);
+  }
+  return rows;
+}
+
+void add_ghosts(const PartContext& context, const migrate::GhostTets& ghosts,
+                mesh::MeshArrays& arrays)
+{
+  const migrate::MeshBlock& block = ghosts.block;
+  const std::vector<GlobalIndex> rows = add_ghost_points(ghosts, arrays);
+  std::vector<LocalIndex> tets;
+  for (LocalIndex t = 0; t < block.num_tets(); ++t) {
+    tets.push_back(t);
+    for (const LocalIndex v : block.tet(t)) arrays.cell_points.push_back(rows[at(v)]);
+    arrays.cell_ids.push_back(block.tet_ids[at(t)]);
+    arrays.cell_ints["attribute"].push_back(block.tet_material[at(t)]);
+    arrays.cell_ints["subdomain"].push_back(block.tet_part[at(t)]);
+  }
+  for (std::size_t c = 0; c < context.columns.size(); ++c) {
+    add_column(block.tet_columns[c], context.columns[c], tets, arrays);
+  }
+}
+
+// Exactly one piece has each cell, and each point, that is no ghost.
+void mark_ghosts(GlobalIndex num_own, LocalIndex part, mesh::MeshArrays& arrays)
+{
+  for (const std::int32_t owner : arrays.point_ints["owner"]) {
+    arrays.point_ghost.push_back(owner == part ? 0 : 1);
+  }
+  arrays.cell_ghost.assign(static_cast<std::size_t>(arrays.num_cells()), 1);
+  std::fill_n(arrays.cell_ghost.begin(), num_own, std::uint8_t{0});
+}
+
 mesh::MeshArrays boundary_arrays(const PartContext& context, LocalIndex part)
 {
   const migrate::DistributedMesh& mesh = context.mesh;
@@ -114,9 +165,16 @@ mesh::MeshArrays boundary_arrays(const PartContext& context, LocalIndex part)
 
 }  // namespace
 
-PieceArrays part_arrays(const PartContext& context, LocalIndex part)
+PieceArrays part_arrays(const PartContext& context, LocalIndex part,
+                        const migrate::GhostTets* ghosts)
 {
-  return {.tets = tet_arrays(context, part), .boundary = boundary_arrays(context, part)};
+  PieceArrays arrays{.tets = tet_arrays(context, part), .boundary = boundary_arrays(context, part)};
+  arrays.tets.num_ghost_layers = context.num_ghost_layers;
+  if (context.num_ghost_layers == 0) return arrays;
+  const GlobalIndex num_own = arrays.tets.num_cells();
+  if (ghosts != nullptr) add_ghosts(context, *ghosts, arrays.tets);
+  mark_ghosts(num_own, part, arrays.tets);
+  return arrays;
 }
 
 }  // namespace tessera::pipeline

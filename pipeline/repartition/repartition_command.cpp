@@ -24,6 +24,7 @@
 #include "pipeline/repartition/part_arrays.hpp"
 #include "pipeline/repartition/part_report.hpp"
 #include "pipeline/run_context.hpp"
+#include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -163,22 +164,23 @@ class Repartition {
   void write()
   {
     const IndexLists vertex_parts = migrate::parts_of_vertices(comm_, mesh_.mesh);
-    const PartContext context{mesh_.mesh, vertex_parts, mesh_.columns, texts_};
+    const PartContext context{mesh_.mesh, vertex_parts, mesh_.columns, texts_,
+                              command_.num_ghost_layers};
+    const std::vector<migrate::GhostTets> parts = migrate::find_ghosts(
+        comm_, mesh_.mesh, vertex_parts, command_.num_parts, command_.num_ghost_layers);
     all_or_none(comm_, [&] {
-      for (LocalIndex part = 0; part < command_.num_parts; ++part) {
-        if (migrate::rank_of_part(part, command_.num_parts, comm_.size()) == comm_.rank()) {
-          write_part(context, part);
-        }
-      }
+      for (const migrate::GhostTets& ghosts : parts) write_part(context, ghosts);
     });
     all_or_none(comm_, [&] {
       if (comm_.rank() == 0) write_indices(context);
     });
   }
 
-  void write_part(const PartContext& context, LocalIndex part) const
+  void write_part(const PartContext& context, const migrate::GhostTets& ghosts) const
   {
-    const PieceArrays arrays = part_arrays(context, part);
+    if (stop_requested()) throw Interrupted("stopped by a signal");
+    const LocalIndex part = ghosts.part;
+    const PieceArrays arrays = part_arrays(context, part, &ghosts);
     io::write_vtu(arrays.tets, command_.output / piece_path("mesh", part), io::Compression::lz4);
     if (arrays.boundary.num_cells() == 0) return;
     io::write_vtu(arrays.boundary, command_.output / piece_path("boundary", part),
@@ -196,7 +198,7 @@ class Repartition {
       }
     }
     constexpr LocalIndex kNoPart = -1;  // Nothing but the names of arrays.
-    const PieceArrays schema = part_arrays(context, kNoPart);
+    const PieceArrays schema = part_arrays(context, kNoPart, nullptr);
     io::write_pvtu(command_.output / "mesh.pvtu", tets, schema.tets);
     io::write_pvtu(command_.output / "boundary.pvtu", boundary, schema.boundary);
   }

@@ -138,6 +138,53 @@ class Repartition(program.ResultTest):
         self.assertEqual([part["tets"] for part in report["parts"]], [1] * 6)
         self.assertEqual(check(self, new / "mesh.pvtu")[0], program.OK)
 
+    def test_ghost_layers(self):
+        _, before = check(self, self.out / "mesh.pvtu")
+        for layers in (1, 2):
+            with self.subTest(layers=layers):
+                folder, _ = self.repartition(f"new{layers}", 3, "--ghost-layers", layers, ranks=2)
+                code, after = check(self, folder / "mesh.pvtu")
+                self.assertEqual((code, after["digest"]), (program.OK, before["digest"]))
+                grid, said = read(folder / "mesh.pvtu")
+                self.assertEqual(said, "")
+                self.assert_ghosts(grid, layers)
+
+    def assert_ghosts(self, whole, layers):
+        """Each piece has the tets within `layers` of its own, worked out from the whole mesh."""
+        corners, part_of = {}, {}
+        is_ghost = values(whole.GetCellData().GetArray("vtkGhostType"))
+        ids = values(whole.GetCellData().GetGlobalIds())
+        part = values(whole.GetCellData().GetArray("subdomain"))
+        owner_of = {}
+        for c, points in enumerate(corners_of_cells(whole)):
+            if not is_ghost[c]:
+                self.assertNotIn(ids[c], corners)
+                corners[ids[c]], part_of[ids[c]] = frozenset(points), part[c]
+                for point in points:
+                    owner_of[point] = min(owner_of.get(point, part[c]), part[c])
+        self.assertEqual(sorted(corners), list(range(self.report["num_tets"])))
+        for p in range(3):
+            grid, _ = read(self.folder / f"new{layers}" / "mesh" / f"piece_{p:06}.vtu")
+            own = {tet for tet in corners if part_of[tet] == p}
+            expected = set(own)
+            for _ in range(layers):
+                near = frozenset().union(*(corners[tet] for tet in expected))
+                expected = {tet for tet in corners if corners[tet] & near}
+            cells = values(grid.GetCellData().GetGlobalIds())
+            ghost = values(grid.GetCellData().GetArray("vtkGhostType"))
+            self.assertEqual(len(cells), len(set(cells)))
+            self.assertEqual(set(cells), expected)
+            self.assertEqual([g == 0 for g in ghost], [tet in own for tet in cells])
+            self.assertEqual(values(grid.GetCellData().GetArray("subdomain")), [part_of[tet] for tet in cells])
+            self.assertEqual([frozenset(c) for c in corners_of_cells(grid)], [corners[tet] for tet in cells])
+            points = values(grid.GetPointData().GetGlobalIds())
+            self.assertEqual(len(points), len(set(points)))
+            self.assertEqual(values(grid.GetPointData().GetArray("owner")), [owner_of[v] for v in points])
+            self.assertEqual(
+                values(grid.GetPointData().GetArray("vtkGhostType")),
+                [int(owner_of[v] != p) for v in points],
+            )
+
     def refuse(self, code, *words, parts=2, mesh=None, output="new", ranks=2):
         outcome = self.run_program(
             "repartition", mesh or self.out / "mesh.pvtu", "--parts", parts, "--output", output, ranks=ranks
