@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "tessera/comm/record_exchange.hpp"
 #include "tessera/comm/communicator.hpp"
+#include "tessera/comm/record_exchange.hpp"
 
 #include "check/components.hpp"
 #include "check/findings.hpp"

@@ -71,6 +71,26 @@ std::vector<LocalIndex> add_vertices(const DistributedMesh& mesh, const IndexLis
   return rows;
 }
 
+// Room for the tets and vertices to come: most of them stay, and growing would copy them again.
+void reserve(std::span<const Rank> tet_rank, const IndexLists& destinations, int num_ranks,
+             Packets& packets)
+{
+  std::vector<std::size_t> num_tets(static_cast<std::size_t>(num_ranks), 0);
+  std::vector<std::size_t> num_vertices(num_tets.size(), 0);
+  for (const Rank rank : tet_rank) ++num_tets[at(rank)];
+  for (const Rank rank : destinations.values) ++num_vertices[at(rank)];
+  for (std::size_t r = 0; r < num_tets.size(); ++r) {
+    if (num_tets[r] == 0) continue;
+    MeshBlock& block = packets[static_cast<Rank>(r)].block;
+    block.vertex_ids.reserve(num_vertices[r]);
+    block.vertex_xyz.reserve(3 * num_vertices[r]);
+    block.tet_ids.reserve(num_tets[r]);
+    block.tet_vertices.reserve(4 * num_tets[r]);
+    block.tet_material.reserve(num_tets[r]);
+    block.tet_part.reserve(num_tets[r]);
+  }
+}
+
 // @return Row of each tet in its packet.
 std::vector<LocalIndex> add_tets(const DistributedMesh& mesh, std::span<const Rank> tet_rank,
                                  const IndexLists& destinations, Packets& packets)
@@ -188,6 +208,7 @@ DistributedMesh migrate(const comm::Communicator& comm, const DistributedMesh& m
   const IndexLists new_sharers = unite_at_owners(comm, mesh, destinations, counted);
   Packets packets(comm.size());
   add_sharers(mesh, new_sharers, packets);
+  reserve(tet_rank, destinations, comm.size(), packets);
   const std::vector<LocalIndex> tet_rows = add_tets(mesh, tet_rank, destinations, packets);
   add_boundary(mesh, tet_rank, tet_rows, packets);
   std::vector<Packet> received = deliver(comm, packets, counted);

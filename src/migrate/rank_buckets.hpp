@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <deque>
+#include <memory>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -23,9 +23,9 @@ class RankBuckets {
     if (row == kNoIndex) {
       row = static_cast<LocalIndex>(ranks_.size());
       ranks_.push_back(rank);
-      buckets_.emplace_back();
+      buckets_.push_back(std::make_unique<T>());
     }
-    return buckets_[at(row)];
+    return *buckets_[at(row)];
   }
 
   /// @brief Ranks that were asked for, ascending.
@@ -39,7 +39,7 @@ class RankBuckets {
  private:
   std::vector<LocalIndex> row_;
   std::vector<Rank> ranks_{};
-  std::deque<T> buckets_{};  // References stay valid as it grows.
+  std::vector<std::unique_ptr<T>> buckets_{};  // References stay valid as it grows.
 };
 
 }  // namespace tessera::migrate

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <random>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ namespace tessera {
 namespace {
 
 constexpr int kPercent = 10;
+
+// Waiting for messages included, but not the time that others have the core.
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 // The first pieces of a box of 8^levels, one a rank: neighbours in space have neighbouring numbers.
 migrate::DistributedMesh make_mesh(const comm::Communicator& comm, GlobalIndex n)
@@ -89,13 +93,17 @@ void run(bool is_random, GlobalIndex n)
       ranks.size() - static_cast<std::size_t>(std::ranges::count(ranks, comm.rank()));
   constexpr int kRepetitions = 5;
   double best = 1e300;
+  double best_cpu = 1e300;
   migrate::Traffic traffic;
   for (int i = 0; i < kRepetitions; ++i) {
     comm.barrier();
     traffic = {};
     const double begin = MPI_Wtime();
+    const double cpu_begin = cpu_seconds();
     const auto migrated = migrate::migrate(comm, mesh, ranks, &traffic);
+    const double cpu = cpu_seconds() - cpu_begin;
     best = std::min(best, comm.max(MPI_Wtime() - begin));
+    best_cpu = std::min(best_cpu, comm.max(cpu));
   }
   const auto neighbours = comm.max(static_cast<double>(num_neighbour_ranks(mesh)));
   const double messages = comm.max(static_cast<double>(traffic.num_messages));
@@ -103,11 +111,11 @@ void run(bool is_random, GlobalIndex n)
   const auto moved = static_cast<double>(comm.sum(static_cast<GlobalIndex>(num_moved)));
   if (comm.rank() != 0) return;
   std::printf(
-      "%d ranks, %d tets each, %.0f moved in all: best of %d %.3f s, %.2f M moved tets/s a rank; "
-      "at "
-      "most %.0f neighbours, %.0f messages, %.2f MB sent by a rank\n",
-      comm.size(), mesh.num_tets(), moved, kRepetitions, best, 1e-6 * moved / best / comm.size(),
-      neighbours, messages, 1e-6 * bytes);
+      "%d ranks, %d tets each, %.0f moved in all: best of %d %.3f s, %.3f s of CPU, %.2f M moved "
+      "tets/s a rank and second of CPU; at most %.0f neighbours, %.0f messages, %.2f MB sent by a "
+      "rank\n",
+      comm.size(), mesh.num_tets(), moved, kRepetitions, best, best_cpu,
+      1e-6 * moved / best_cpu / comm.size(), neighbours, messages, 1e-6 * bytes);
 }
 
 }  // namespace
