@@ -19,6 +19,13 @@ endfunction()
 tessera_import_library(xxhash::xxhash xxhash.h xxhash)
 tessera_import_library(metis::metis metis.h metis)
 
+# PT-Scotch with 64-bit numbers, as meshes have more than 2^31 faces.
+find_path(ptscotch_INCLUDE_DIR ptscotch.h PATH_SUFFIXES scotch-int64 REQUIRED)
+find_library(ptscotch_LIBRARY ptscotch PATH_SUFFIXES scotch-int64 REQUIRED)
+add_library(ptscotch::ptscotch INTERFACE IMPORTED)
+target_include_directories(ptscotch::ptscotch SYSTEM INTERFACE ${ptscotch_INCLUDE_DIR})
+target_link_libraries(ptscotch::ptscotch INTERFACE ${ptscotch_LIBRARY} MPI::MPI_CXX)
+
 # NETGEN with OpenCASCADE. Debian's NetgenConfig.cmake insists on the GUI program being installed and
 # lists the definitions of GUI and Python; only the four below change what the headers declare.
 find_path(NETGEN_INCLUDE_DIR netgen/meshing/meshing.hpp REQUIRED)

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/check_command.hpp"
 
-#include <cstring>
 #include <filesystem>
 #include <optional>
-#include <system_error>
 #include <vector>
 
 #include <spdlog/fmt/fmt.h>
@@ -13,40 +11,16 @@
 #include "tessera/check/check_mesh.hpp"
 #include "tessera/io/vtu.hpp"
 
+#include "pipeline/repartition/mesh_input.hpp"
+
 namespace tessera::pipeline {
 namespace {
-
-// Rank 0 reads the index; the others get the list, so no rank can see another one.
-std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& index,
-                                             const comm::Communicator& comm)
-{
-  const Bytes bytes = on_root(comm, [&] {
-    std::vector<std::string> names;
-    for (const auto& piece : io::piece_files(index)) names.push_back(piece.string());
-    ByteWriter out;
-    out.put(names);
-    return std::move(out).take();
-  });
-  std::vector<std::filesystem::path> pieces;
-  for (const std::string& name : ByteReader(bytes).get_strings()) pieces.emplace_back(name);
-  return pieces;
-}
 
 check::PieceSource source_of(const std::vector<std::filesystem::path>& files)
 {
   return {static_cast<LocalIndex>(files.size()), [&files](LocalIndex piece) {
             return io::read_vtu(files[static_cast<std::size_t>(piece)]);
           }};
-}
-
-// boundary.pvtu beside mesh.pvtu belongs to it.
-std::optional<std::filesystem::path> boundary_beside(const std::filesystem::path& mesh)
-{
-  if (mesh.filename() != "mesh.pvtu") return std::nullopt;
-  std::filesystem::path boundary = mesh.parent_path() / "boundary.pvtu";
-  std::error_code error;  // What cannot be looked at is as good as absent.
-  if (!std::filesystem::exists(boundary, error)) return std::nullopt;
-  return boundary;
 }
 
 void print(const check::CheckReport& report)

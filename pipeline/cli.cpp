@@ -26,6 +26,7 @@ struct Parsed {
   bool quiet = false;
   bool verbose = false;
   CheckCommand check{};
+  RepartitionCommand repartition{};
   InfoCommand info{};
 };
 
@@ -42,13 +43,13 @@ std::optional<Integer> whole_number(std::string_view text, Integer low, Integer 
   return number;
 }
 
-int read_ranks(const std::string& text)
+int read_count(const std::string& option, const std::string& text, int low, int high)
 {
-  constexpr int kMost = 1'000'000;
-  const auto ranks = whole_number(text, 1, kMost);
-  if (ranks) return *ranks;
-  throw CLI::ValidationError("--ranks " + text,
-                             "must be a whole number from 1 to " + std::to_string(kMost));
+  const auto count = whole_number(text, low, high);
+  if (count) return *count;
+  throw CLI::ValidationError(
+      option + " " + text,
+      "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
 }
 
 std::vector<LocalIndex> read_subdomains(const std::string& text)
@@ -76,7 +77,8 @@ CLI::Option* add_dry_run(CLI::App& mesh, MeshCommand& command)
   CLI::Option* dry_run = mesh.add_flag("--dry-run", command.dry_run,
                                        "Predict size, time and memory; mesh nothing finely");
   const auto take_ranks = [&command](const std::string& text) {
-    command.predicted_ranks = read_ranks(text);
+    constexpr int kMost = 1'000'000;
+    command.predicted_ranks = read_count("--ranks", text, 1, kMost);
   };
   mesh.add_option_function<std::string>("--ranks", take_ranks,
                                         "With --dry-run: predict for so many ranks")
@@ -135,6 +137,35 @@ void add_check(CLI::App& app, Parsed& parsed)
   check->add_flag("--json", parsed.check.json, "Print the findings as JSON");
 }
 
+void add_repartition(CLI::App& app, RepartitionCommand& command)
+{
+  CLI::App* repartition =
+      app.add_subcommand("repartition", "Cut a mesh anew into balanced, connected pieces");
+  repartition->add_option("MESH.pvtu", command.mesh_file, "A .pvtu or .vtu file of tets")
+      ->required();
+  const auto take_parts = [&command](const std::string& text) {
+    constexpr int kMost = 10'000'000;
+    command.num_parts = read_count("--parts", text, 1, kMost);
+  };
+  repartition->add_option_function<std::string>("--parts", take_parts, "Number of pieces")
+      ->type_name("P")
+      ->required();
+  repartition->add_option("--output", command.output, "Folder of the new mesh")
+      ->type_name("DIR")
+      ->required();
+  const auto take_layers = [&command](const std::string& text) {
+    constexpr int kMost = 100;
+    command.num_ghost_layers = read_count("--ghost-layers", text, 0, kMost);
+  };
+  repartition
+      ->add_option_function<std::string>(
+          "--ghost-layers", take_layers,
+          "Layers of copies of the neighbours' tets in each piece (vtkGhostType)")
+      ->type_name("N");
+  repartition->add_flag("--overwrite", command.overwrite,
+                        "Use the output folder even if it is not empty");
+}
+
 void add_info(CLI::App& app, Parsed& parsed)
 {
   CLI::App* info = app.add_subcommand("info", "Say what a file holds");
@@ -151,6 +182,7 @@ void set_up(CLI::App& app, Parsed& parsed)
       "`tessera COMMAND --help` says more.");
   add_mesh(app, parsed);
   add_check(app, parsed);
+  add_repartition(app, parsed.repartition);
   add_info(app, parsed);
   for (CLI::App* command : app.get_subcommands({})) command->footer("");
 }
@@ -158,6 +190,7 @@ void set_up(CLI::App& app, Parsed& parsed)
 Command to_command(const CLI::App& app, Parsed parsed)
 {
   if (app.got_subcommand("check")) return parsed.check;
+  if (app.got_subcommand("repartition")) return parsed.repartition;
   if (app.got_subcommand("info")) return parsed.info;
   parsed.mesh.progress = kProgressWords.at(parsed.progress);
   if (parsed.quiet) parsed.mesh.verbosity = Verbosity::quiet;

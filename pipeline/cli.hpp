@@ -36,6 +36,15 @@ struct CheckCommand {
   bool json = false;        ///< Print the keys of report.json instead of text.
 };
 
+/// @brief `tessera repartition`: cut a mesh anew into balanced pieces.
+struct RepartitionCommand {
+  std::filesystem::path mesh_file{};
+  std::filesystem::path output{};
+  LocalIndex num_parts = 0;
+  int num_ghost_layers = 0;
+  bool overwrite = false;  ///< Use an output folder that is not empty.
+};
+
 /// @brief `tessera info`: say what a model, case or mesh file holds.
 struct InfoCommand {
   std::filesystem::path file{};
@@ -46,7 +55,8 @@ struct PrintCommand {
   std::string text{};
 };
 
-using Command = std::variant<MeshCommand, CheckCommand, InfoCommand, PrintCommand>;
+using Command =
+    std::variant<MeshCommand, CheckCommand, RepartitionCommand, InfoCommand, PrintCommand>;
 
 /// @brief Read the command line. Pure: prints nothing and never ends the process, since every rank
 /// parses and only one may speak. Local.

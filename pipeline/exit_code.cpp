@@ -22,6 +22,20 @@ ExitCode exit_code_of(const std::exception& error)
   return ExitCode::internal;
 }
 
+std::string status_name(ExitCode code)
+{
+  switch (code) {
+    case ExitCode::ok:
+      return "ok";
+    case ExitCode::degraded:
+      return "degraded";
+    case ExitCode::stopped:
+      return "stopped";
+    default:
+      return "failed";
+  }
+}
+
 void throw_on_all_ranks(ExitCode code, const std::string& message)
 {
   switch (code) {

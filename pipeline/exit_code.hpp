@@ -25,6 +25,9 @@ enum class ExitCode : int {
 /// @brief The exit code an exception stands for.
 [[nodiscard]] ExitCode exit_code_of(const std::exception& error);
 
+/// @brief The code's name in report.json.
+[[nodiscard]] std::string status_name(ExitCode code);
+
 /// @brief Throws the error that `code` and `message` stand for as one that all ranks throw.
 /// @pre all ranks call it with the same arguments.
 [[noreturn]] void throw_on_all_ranks(ExitCode code, const std::string& message);

@@ -16,6 +16,7 @@
 #include "pipeline/info_command.hpp"
 #include "pipeline/mesh_command.hpp"
 #include "pipeline/mesh_worker.hpp"
+#include "pipeline/repartition/repartition_command.hpp"
 #include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
@@ -34,6 +35,9 @@ ExitCode run(const Command& command, const comm::Communicator& comm, jobs::JobRu
   }
   if (const auto* check = std::get_if<CheckCommand>(&command))
     return run_check_command(*check, comm);
+  if (const auto* repartition = std::get_if<RepartitionCommand>(&command)) {
+    return run_repartition_command(*repartition, comm);
+  }
   if (const auto* info = std::get_if<InfoCommand>(&command)) {
     return run_info_command(*info, comm, jobs);
   }

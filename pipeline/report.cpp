@@ -174,20 +174,6 @@ std::string text_of(const Json& json)
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string status_name(ExitCode code)
-{
-  switch (code) {
-    case ExitCode::ok:
-      return "ok";
-    case ExitCode::degraded:
-      return "degraded";
-    case ExitCode::stopped:
-      return "stopped";
-    default:
-      return "failed";
-  }
-}
-
 Json head_json(ExitCode exit_code, const std::string& reason, const RunFigures& figures)
 {
   return {{"schema", 1},

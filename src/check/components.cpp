@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "tessera/base/bytes.hpp"
-
-#include "check/union_find.hpp"
+#include "tessera/base/union_find.hpp"
 
 namespace tessera::check {
 namespace {

@@ -5,8 +5,9 @@
 #include <string>
 #include <tuple>
 
+#include "tessera/comm/record_exchange.hpp"
+
 #include "check/concat.hpp"
-#include "check/record_exchange.hpp"
 
 namespace tessera::check {
 namespace {
@@ -92,7 +93,7 @@ class EdgeGroup {
 EdgeMatch match_edges(std::span<const EdgeRecord> records, const comm::Communicator& comm,
                       Findings& findings)
 {
-  const RecordExchange<EdgeRecord> exchange(
+  const comm::RecordExchange<EdgeRecord> exchange(
       records, [](const EdgeRecord& record) { return hash_of(record.key); }, comm);
   EdgeMatch match;
   match_own_edges(exchange.received(), match, findings);
@@ -101,7 +102,7 @@ EdgeMatch match_edges(std::span<const EdgeRecord> records, const comm::Communica
 
 void match_own_edges(std::span<const EdgeRecord> records, EdgeMatch& match, Findings& findings)
 {
-  for_each_group(
+  comm::for_each_group(
       records, [](const EdgeRecord& record) { return record.key; },
       [](const EdgeRecord& r) { return std::make_tuple(r.piece, r.cell, r.inward); },
       [&](std::span<const std::size_t> rows) { EdgeGroup(records, rows).check(match, findings); });

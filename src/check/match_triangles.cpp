@@ -159,7 +159,7 @@ bool is_final(TriangleRole role)
 std::vector<TriangleVerdict> send_to_readers(std::vector<TriangleVerdict> verdicts,
                                              const comm::Communicator& comm)
 {
-  const RecordExchange<TriangleVerdict> exchange(
+  const comm::RecordExchange<TriangleVerdict> exchange(
       verdicts,
       [](const TriangleVerdict& verdict) { return static_cast<std::uint64_t>(verdict.piece); },
       comm);
@@ -171,7 +171,7 @@ std::vector<TriangleVerdict> send_to_readers(std::vector<TriangleVerdict> verdic
 
 std::vector<TriangleVerdict> TriangleMatcher::add(std::vector<TriangleRecord> records)
 {
-  RecordExchange<TriangleRecord> exchange(
+  comm::RecordExchange<TriangleRecord> exchange(
       records, [](const TriangleRecord& record) { return hash_of(record.key); }, comm_);
   records = std::move(exchange).take_received();
   records.insert(records.end(), open_.begin(), open_.end());
@@ -191,7 +191,7 @@ std::vector<TriangleVerdict> TriangleMatcher::match(std::vector<TriangleRecord> 
 {
   std::vector<TriangleVerdict> verdicts;
   std::vector<TriangleKey> keys;
-  for_each_group(
+  comm::for_each_group(
       std::span<const TriangleRecord>(records),
       [](const TriangleRecord& record) { return record.key; },
       [](const TriangleRecord& r) {

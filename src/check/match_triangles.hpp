@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "tessera/comm/communicator.hpp"
+#include "tessera/comm/record_exchange.hpp"
 
 #include "check/components.hpp"
 #include "check/findings.hpp"
-#include "check/record_exchange.hpp"
 #include "check/records.hpp"
 
 namespace tessera::check {

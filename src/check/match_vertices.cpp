@@ -7,8 +7,9 @@
 #include <tuple>
 #include <utility>
 
+#include "tessera/comm/record_exchange.hpp"
+
 #include "check/concat.hpp"
-#include "check/record_exchange.hpp"
 
 namespace tessera::check {
 namespace {
@@ -81,15 +82,15 @@ void VertexMatcher::add(std::span<const VertexRecord> records, Identity identity
 {
   identity_ = identity;
   const auto key = [&](const VertexRecord& record) { return key_of(record, identity); };
-  const RecordExchange<VertexRecord> exchange(
+  const comm::RecordExchange<VertexRecord> exchange(
       records, [&](const VertexRecord& record) { return owner_of(key(record)); }, comm_);
-  for_each_group(exchange.received(), key, order_of,
-                 [&](std::span<const std::size_t> rows) { take(exchange.received(), rows); });
+  comm::for_each_group(exchange.received(), key, order_of,
+                       [&](std::span<const std::size_t> rows) { take(exchange.received(), rows); });
 }
 
 void VertexMatcher::mark_seam(std::span<const VertexKey> keys)
 {
-  const RecordExchange<VertexKey> exchange(
+  const comm::RecordExchange<VertexKey> exchange(
       keys, [&](const VertexKey& key) { return owner_of(key); }, comm_);
   for (const VertexKey& key : exchange.received())
     vertices_[static_cast<std::size_t>(slots_[slot_of(key)])].is_on_seam = true;
@@ -97,7 +98,7 @@ void VertexMatcher::mark_seam(std::span<const VertexKey> keys)
 
 std::vector<VertexFlags> VertexMatcher::flags(std::span<const VertexKey> keys) const
 {
-  const RecordExchange<VertexKey> exchange(
+  const comm::RecordExchange<VertexKey> exchange(
       keys, [&](const VertexKey& key) { return owner_of(key); }, comm_);
   std::vector<VertexFlags> answers;
   answers.reserve(exchange.received().size());
@@ -193,11 +194,12 @@ void VertexMatcher::match_positions()
     std::vector<VertexRecord> sent;
     for (const VertexRecord& vertex : vertices_)
       if (!vertex.is_listed && key(vertex)[1] % num_rounds == round) sent.push_back(vertex);
-    const RecordExchange<VertexRecord> exchange(
+    const comm::RecordExchange<VertexRecord> exchange(
         sent, [&](const VertexRecord& record) { return key(record)[0]; }, comm_);
-    for_each_group(exchange.received(), key, order_of, [&](std::span<const std::size_t> rows) {
-      compare_ids(exchange.received(), rows, findings_);
-    });
+    comm::for_each_group(exchange.received(), key, order_of,
+                         [&](std::span<const std::size_t> rows) {
+                           compare_ids(exchange.received(), rows, findings_);
+                         });
   }
 }
 

@@ -8,8 +8,9 @@
 #include <span>
 #include <string>
 
+#include "tessera/base/union_find.hpp"
+
 #include "check/concat.hpp"
-#include "check/union_find.hpp"
 
 namespace tessera::check {
 namespace {

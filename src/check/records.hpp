@@ -2,12 +2,10 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 
-#include "tessera/base/hash.hpp"
+#include "tessera/base/entity_key.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -16,39 +14,9 @@ namespace tessera::check {
 /// @brief By what points of different pieces are recognised as the same vertex.
 enum class Identity { kIds, kPositions };
 
-/// @brief The same for the same vertex in every piece: (id, 0), or a 128-bit hash of the position.
-using VertexKey = std::array<std::uint64_t, 2>;
 /// @brief 128-bit hash of the vertex keys in ascending order.
 using EdgeKey = std::array<std::uint64_t, 2>;
 using TriangleKey = std::array<std::uint64_t, 2>;
-
-/// @brief Hash of a key that spreads records over ranks.
-template <class Key>
-[[nodiscard]] std::uint64_t hash_of(const Key& key)
-{
-  return hash_bytes(std::as_bytes(std::span(&key, 1))).low;
-}
-
-/// @brief Key of an edge or a triangle. @pre vertices are ascending.
-template <std::size_t n>
-[[nodiscard]] std::array<std::uint64_t, 2> key_of_vertices(const std::array<VertexKey, n>& vertices)
-{
-  const Hash128 hash = hash_bytes(std::as_bytes(std::span(vertices)));
-  return {hash.low, hash.high};
-}
-
-[[nodiscard]] inline VertexKey key_of_id(GlobalIndex id)
-{
-  return {static_cast<std::uint64_t>(id), 0};
-}
-
-/// @brief Key by the bits of the position; the two zeros are one.
-[[nodiscard]] inline VertexKey key_of_position(const Vec3& position)
-{
-  const Vec3 one_zero = position + Vec3{0.0, 0.0, 0.0};
-  const Hash128 hash = hash_bytes(std::as_bytes(std::span(one_zero)));
-  return {hash.low, hash.high};
-}
 
 inline constexpr GlobalIndex kNoId = std::numeric_limits<GlobalIndex>::min();
 inline constexpr LocalIndex kNoPiece = -1;

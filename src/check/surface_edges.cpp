@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <compare>
 
-#include "check/union_find.hpp"
+#include "tessera/base/union_find.hpp"
 
 namespace tessera::check {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "arrays.hpp"
 #include "mesh_file.hpp"
+#include "vtu_ghosts.hpp"
 #include "xml.hpp"
 
 namespace tessera::io {
@@ -56,7 +57,8 @@ void put_texts(std::ostream& out, const std::string& name, const std::vector<std
   out << "<?xml version=\"1.0\"?>\n"
          "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\">\n"
-         "  <PUnstructuredGrid GhostLevel=\"0\">\n";
+         "  <PUnstructuredGrid GhostLevel=\""
+      << schema.num_ghost_layers << "\">\n";
   if (!schema.field_texts.empty()) {
     out << "    <FieldData>\n";
     for (const auto& [name, texts] : schema.field_texts) put_texts(out, name, texts);
@@ -64,11 +66,13 @@ void put_texts(std::ostream& out, const std::string& name, const std::vector<std
   }
   put_ids(out, "PPointData", kPointIdsName, has_point_ids(schema));
   put_arrays(out, "Int32", schema.point_ints);
+  if (schema.num_ghost_layers > 0) put_array(out, "UInt8", kGhostName);
   out << "    </PPointData>\n";
   put_ids(out, "PCellData", kCellIdsName, has_cell_ids(schema));
   put_arrays(out, "Int32", schema.cell_ints);
   put_arrays(out, "Int64", schema.cell_longs);
   put_arrays(out, "Float64", schema.cell_doubles);
+  if (schema.num_ghost_layers > 0) put_array(out, "UInt8", kGhostName);
   out << "    </PCellData>\n"
          "    <PPoints>\n"
          "      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n"

@@ -17,6 +17,7 @@
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -26,6 +27,7 @@
 #include "arrays.hpp"
 #include "atomic_file.hpp"
 #include "vtk_messages.hpp"
+#include "vtu_ghosts.hpp"
 
 namespace tessera::io {
 namespace {
@@ -63,6 +65,10 @@ void require_consistent(const MeshArrays& piece)
           "more than 32-bit indices can hold; use more subdomains");
   require(is_optional(piece.point_ids, num_points), "size of point ids");
   require(is_optional(piece.cell_ids, num_cells), "size of cell ids");
+  const bool has_ghosts = piece.num_ghost_layers > 0;
+  require(std::cmp_equal(piece.point_ghost.size(), has_ghosts ? num_points : 0)
+              && std::cmp_equal(piece.cell_ghost.size(), has_ghosts ? num_cells : 0),
+          "size of ghosts");
   require_size(piece.point_ints, num_points);
   require_size(piece.cell_ints, num_cells);
   require_size(piece.cell_longs, num_cells);
@@ -142,6 +148,10 @@ void add_texts(vtkFieldData& data, const std::map<std::string, std::vector<std::
   add_arrays<vtkIntArray>(cell_data, piece.cell_ints);
   add_arrays<vtkLongLongArray>(cell_data, piece.cell_longs);
   add_arrays<vtkDoubleArray>(cell_data, piece.cell_doubles);
+  if (piece.num_ghost_layers > 0) {
+    point_data.AddArray(view_of<vtkUnsignedCharArray>(kGhostName, piece.point_ghost));
+    cell_data.AddArray(view_of<vtkUnsignedCharArray>(kGhostName, piece.cell_ghost));
+  }
   add_texts(*grid->GetFieldData(), piece.field_texts);
   return grid;
 }

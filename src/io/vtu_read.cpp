@@ -9,6 +9,7 @@
 #include "arrays.hpp"
 #include "data_array.hpp"
 #include "mesh_file.hpp"
+#include "vtu_ghosts.hpp"
 #include "xml.hpp"
 
 namespace tessera::io {
@@ -255,6 +256,7 @@ struct RawPiece {
   if (const XmlElement* const data = raw.element->child("CellData")) {
     read_cell_data(*data, encoding, selection, mesh);
   }
+  drop_ghosts(mesh);
   return mesh;
 }
 

@@ -33,6 +33,7 @@ QUARANTINE = {  # third-party header -> the only places that may include it
     r"mpi\.h": ("include/tessera/comm/", "src/comm/"),
     r"metis\.h": ("src/decompose/metis_",),
     r"(nglib\.h|netgen/.*|meshing\.hpp|csg\.hpp|stlgeom\.hpp|occgeom\.hpp|mystdlib\.h|[A-Z]\w+\.hxx)": ("src/netgen/",),
+    r"(pt)?scotch\.h": ("src/migrate/scotch_",),
     r"vtk.*": ("src/io/vtk_",),
     r"toml.*": ("src/config/",),
     r"CLI/.*": ("pipeline/cli.cpp",),

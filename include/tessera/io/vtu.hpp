@@ -42,6 +42,7 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::filesy
 ///
 /// - Cells: the linear tets; in a file without any, the linear triangles. Cells of all other kinds
 ///   are counted in `num_other_cells` and left out. A file without cells counts as one of tets.
+/// - Ghosts, cells that "vtkGhostType" says are copies of another piece's, are left out.
 /// - Ids: the array that the attribute GlobalIds names; else one of the usual names.
 /// - Positions and cell arrays of 32-bit floating point are widened.
 /// - Integer arrays with one component: up to 32 bits (and UInt32 or 64 bits on points) become

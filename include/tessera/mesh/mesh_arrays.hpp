@@ -26,8 +26,11 @@ struct MeshArrays {
       cell_longs{};                                           ///< E.g. "tet": id of the tet behind.
   std::map<std::string, std::vector<double>> cell_doubles{};  ///< E.g. "mean_ratio".
   std::map<std::string, std::vector<std::string>>
-      field_texts{};                ///< E.g. "patch_names", "length_unit".
-  GlobalIndex num_other_cells = 0;  ///< Cells of other kinds that a reader left out.
+      field_texts{};                        ///< E.g. "patch_names", "length_unit".
+  int num_ghost_layers = 0;                 ///< For a writer; a reader leaves ghosts out.
+  std::vector<std::uint8_t> point_ghost{};  ///< Shape (num_points); 1: another piece owns it.
+  std::vector<std::uint8_t> cell_ghost{};   ///< Shape (num_cells); 1: a copy of another piece's.
+  GlobalIndex num_other_cells = 0;          ///< Cells of other kinds that a reader left out.
 
   [[nodiscard]] GlobalIndex num_points() const
   {

@@ -124,6 +124,14 @@ TEST(Communicator, MaxAndMinAreThoseOfAllRanks)
   EXPECT_EQ(comm.min(1.5 * comm.rank()), 0.0);
 }
 
+TEST(Communicator, SumOfLowerRanksLeavesOutTheOwnValue)
+{
+  const Communicator comm(MPI_COMM_WORLD);
+  GlobalIndex expected = 0;
+  for (Rank rank = 0; rank < comm.rank(); ++rank) expected += 10 + rank;
+  EXPECT_EQ(comm.sum_of_lower_ranks(10 + comm.rank()), expected);
+}
+
 TEST(Communicator, FirstMessageIsThatOfTheLowestRank)
 {
   const Communicator comm(MPI_COMM_WORLD);

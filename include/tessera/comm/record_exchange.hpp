@@ -12,12 +12,11 @@
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/base/entity_key.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/comm/communicator.hpp"
 
-#include "check/records.hpp"
-
-namespace tessera::check {
+namespace tessera::comm {
 
 /// @brief Records that were sent to the ranks that own their keys, and the way back for answers.
 template <class Record>
@@ -28,14 +27,14 @@ class RecordExchange {
   /// @brief Sends record r to rank `hash(r)` mod size.
   /// @note Collective.
   template <class Hash>
-  RecordExchange(std::span<const Record> sent, const Hash& hash, const comm::Communicator& comm)
+  RecordExchange(std::span<const Record> sent, const Hash& hash, const Communicator& comm)
   {
     const auto num_ranks = static_cast<std::uint64_t>(comm.size());
     destinations_.reserve(sent.size());
     for (const Record& record : sent)
       destinations_.push_back(static_cast<Rank>(hash(record) % num_ranks));
 
-    for (comm::Message& message : comm.exchange(pack(sent, comm.size()))) {
+    for (Message& message : comm.exchange(pack(sent, comm.size()))) {
       const std::size_t begin = received_.size();
       received_.resize(begin + message.bytes.size() / sizeof(Record));
       if (!message.bytes.empty())
@@ -54,15 +53,15 @@ class RecordExchange {
   /// @return Answers to this rank's records, in the order in which it sent them.
   template <class Answer>
   [[nodiscard]] std::vector<Answer> answer(std::span<const Answer> answers,
-                                           const comm::Communicator& comm) const
+                                           const Communicator& comm) const
   {
-    std::vector<comm::Message> messages;
+    std::vector<Message> messages;
     for (const Sender& sender : senders_) {
       const auto bytes = std::as_bytes(answers.subspan(sender.begin, sender.end - sender.begin));
       messages.push_back({sender.rank, Bytes(bytes.begin(), bytes.end())});
     }
     std::vector<Bytes> from_rank(static_cast<std::size_t>(comm.size()));
-    for (comm::Message& message : comm.exchange(std::move(messages)))
+    for (Message& message : comm.exchange(std::move(messages)))
       from_rank[static_cast<std::size_t>(message.rank)] = std::move(message.bytes);
 
     std::vector<std::size_t> next(from_rank.size(), 0);
@@ -83,7 +82,7 @@ class RecordExchange {
   };
 
   // One message for each rank that gets a record.
-  [[nodiscard]] std::vector<comm::Message> pack(std::span<const Record> sent, int num_ranks) const
+  [[nodiscard]] std::vector<Message> pack(std::span<const Record> sent, int num_ranks) const
   {
     std::vector<std::size_t> num_records(static_cast<std::size_t>(num_ranks), 0);
     for (const Rank rank : destinations_) ++num_records[static_cast<std::size_t>(rank)];
@@ -96,7 +95,7 @@ class RecordExchange {
       std::memcpy(to_rank[rank].data() + next[rank], &sent[i], sizeof(Record));
       next[rank] += sizeof(Record);
     }
-    std::vector<comm::Message> messages;
+    std::vector<Message> messages;
     for (std::size_t r = 0; r < to_rank.size(); ++r)
       if (!to_rank[r].empty()) messages.push_back({static_cast<Rank>(r), std::move(to_rank[r])});
     return messages;
@@ -137,4 +136,4 @@ void for_each_group(std::span<const Record> records, const KeyOf& key_of, const 
   }
 }
 
-}  // namespace tessera::check
+}  // namespace tessera::comm

@@ -8,7 +8,7 @@
 
 #include "tessera/base/types.hpp"
 
-namespace tessera::check {
+namespace tessera {
 
 /// @brief Disjoint sets of 0…n-1; the lowest member stands for its set.
 class UnionFind {
@@ -44,4 +44,4 @@ class UnionFind {
   std::vector<LocalIndex> parent_;
 };
 
-}  // namespace tessera::check
+}  // namespace tessera

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/repartition/mesh_input.hpp"
+
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+#include "tessera/io/vtu.hpp"
+
+#include "pipeline/exit_code.hpp"
+#include "pipeline/stop_signal.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+std::vector<mesh::MeshArrays> read_own(const std::vector<std::filesystem::path>& files,
+                                       int vertices_per_cell, const comm::Communicator& comm)
+{
+  const auto first_of = [&](int rank) {
+    return files.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm.size());
+  };
+  std::vector<mesh::MeshArrays> pieces;
+  for (std::size_t f = first_of(comm.rank()); f < first_of(comm.rank() + 1); ++f) {
+    if (stop_requested()) throw Interrupted("stopped by a signal");
+    mesh::MeshArrays piece = io::read_vtu(files[f]);
+    if (piece.num_cells() > 0 && piece.vertices_per_cell != vertices_per_cell) {
+      throw InputError(files[f].string() + ": it has no "
+                       + (vertices_per_cell == 4 ? "tets" : "triangles"));
+    }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& index,
+                                             const comm::Communicator& comm)
+{
+  const Bytes bytes = on_root(comm, [&] {
+    std::vector<std::string> names;
+    for (const auto& piece : io::piece_files(index)) names.push_back(piece.string());
+    ByteWriter out;
+    out.put(names);
+    return std::move(out).take();
+  });
+  std::vector<std::filesystem::path> pieces;
+  for (const std::string& name : ByteReader(bytes).get_strings()) pieces.emplace_back(name);
+  return pieces;
+}
+
+std::optional<std::filesystem::path> boundary_beside(const std::filesystem::path& mesh)
+{
+  if (mesh.filename() != "mesh.pvtu") return std::nullopt;
+  std::filesystem::path boundary = mesh.parent_path() / "boundary.pvtu";
+  std::error_code error;  // What cannot be looked at is as good as absent.
+  if (!std::filesystem::exists(boundary, error)) return std::nullopt;
+  return boundary;
+}
+
+migrate::MeshPieces read_pieces(const std::filesystem::path& index, const comm::Communicator& comm)
+{
+  migrate::MeshPieces pieces;
+  const auto tet_files = pieces_of(index, comm);
+  std::vector<std::filesystem::path> boundary_files;
+  const bool has_boundary = comm.sum(boundary_beside(index) ? 1 : 0) > 0;
+  if (has_boundary) boundary_files = pieces_of(index.parent_path() / "boundary.pvtu", comm);
+  all_or_none(comm, [&] {
+    pieces.tets = read_own(tet_files, 4, comm);
+    pieces.boundary = read_own(boundary_files, 3, comm);
+  });
+  pieces.has_boundary = has_boundary;
+  return pieces;
+}
+
+}  // namespace tessera::pipeline
