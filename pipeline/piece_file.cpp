@@ -22,12 +22,12 @@ void append(std::map<std::string, std::vector<T>>& to,
 
 // Appends the points that are not there yet; the first `num_shared` may be.
 template <class PointOfId>
-std::vector<GlobalIndex> append_points(const mesh::MeshArrays& from, std::size_t num_shared,
-                                       PointOfId& known, mesh::MeshArrays& to)
+std::vector<LocalIndex> append_points(const mesh::MeshArrays& from, std::size_t num_shared,
+                                      PointOfId& known, mesh::MeshArrays& to)
 {
-  std::vector<GlobalIndex> place(from.point_ids.size());
+  std::vector<LocalIndex> place(from.point_ids.size());
   for (std::size_t p = 0; p < place.size(); ++p) {
-    const GlobalIndex next = to.num_points();
+    const auto next = static_cast<LocalIndex>(to.num_points());
     if (p < num_shared) {
       const auto [found, is_new] = known.emplace(from.point_ids[p], next);
       place[p] = found->second;
@@ -46,10 +46,10 @@ template <class PointOfId>
 void append(const mesh::MeshArrays& from, std::size_t num_shared, PointOfId& known,
             mesh::MeshArrays& to)
 {
-  const std::vector<GlobalIndex> place = append_points(from, num_shared, known, to);
+  const std::vector<LocalIndex> place = append_points(from, num_shared, known, to);
   to.cell_points.reserve(to.cell_points.size() + from.cell_points.size());
-  for (const GlobalIndex point : from.cell_points) {
-    to.cell_points.push_back(place[static_cast<std::size_t>(point)]);
+  for (const LocalIndex point : from.cell_points) {
+    to.cell_points.push_back(place[at(point)]);
   }
   to.cell_ids.insert(to.cell_ids.end(), from.cell_ids.begin(), from.cell_ids.end());
   append(to.cell_ints, from.cell_ints);
@@ -61,7 +61,7 @@ template <class PointOfId>
 void remember(const mesh::MeshArrays& first, std::size_t num_shared, PointOfId& known)
 {
   for (std::size_t p = 0; p < num_shared; ++p) {
-    known.emplace(first.point_ids[p], static_cast<GlobalIndex>(p));
+    known.emplace(first.point_ids[p], static_cast<LocalIndex>(p));
   }
 }
 

@@ -49,7 +49,7 @@ class PieceFile {
   [[nodiscard]] GlobalIndex num_boundary_triangles() const { return arrays_.boundary.num_cells(); }
 
  private:
-  using PointOfId = std::unordered_map<GlobalIndex, GlobalIndex>;
+  using PointOfId = std::unordered_map<GlobalIndex, LocalIndex>;
 
   const WriteContext& mesh_;
   const io::OutputOptions& options_;

@@ -66,6 +66,8 @@ Json quality_json(const FilledPieces& filled)
   if (seam.num_tets > 0) {
     json["seam"]["min_dihedral_deg"] = seam.min_dihedral_deg;
     json["seam"]["mean_ratio"] = mean_ratio_json(seam, filled.histograms.seam_mean_ratio);
+    json["seam"]["ks_distance"] =
+        quality::ks_distance(filled.histograms.seam_mean_ratio, filled.histograms.mean_ratio);
   }
   return json;
 }

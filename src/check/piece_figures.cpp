@@ -37,8 +37,7 @@ Hash128 digest_of(const PieceMesh& mesh, LocalIndex cell)
   std::array<GlobalIndex, 4> ids{};
   std::array<double, 12> xyz{};
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto p =
-        static_cast<LocalIndex>(mesh.arrays.cell_points[4 * static_cast<std::size_t>(cell) + i]);
+    const LocalIndex p = mesh.arrays.cell_points[4 * static_cast<std::size_t>(cell) + i];
     ids[i] = mesh.point_id(p);
     const Vec3 x = mesh.position(p);
     std::copy(x.begin(), x.end(), xyz.begin() + static_cast<std::ptrdiff_t>(3 * i));
@@ -47,7 +46,7 @@ Hash128 digest_of(const PieceMesh& mesh, LocalIndex cell)
 }
 
 // Whether a cell of four different points that exist has one on a seam.
-bool has_seam_point(std::span<const GlobalIndex, 4> points, const std::vector<bool>& is_on_seam)
+bool has_seam_point(std::span<const LocalIndex, 4> points, const std::vector<bool>& is_on_seam)
 {
   const auto num_points = static_cast<GlobalIndex>(is_on_seam.size());
   bool is_seam_tet = false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -36,9 +38,9 @@ using mesh::MeshArrays;
 
 static_assert(sizeof(vtkIdType) == sizeof(GlobalIndex), "ids are written without conversion");
 
-void require(bool condition, const std::string& what)
+void require(bool condition, std::string_view what)
 {
-  if (!condition) throw MeshError("arrays of a piece do not fit together: " + what);
+  if (!condition) throw MeshError("arrays of a piece do not fit together: " + std::string(what));
 }
 
 template <class T>
@@ -63,6 +65,9 @@ void require_consistent(const MeshArrays& piece)
   require(std::cmp_less_equal(piece.cell_points.size(), std::numeric_limits<std::int32_t>::max())
               && num_points <= std::numeric_limits<std::int32_t>::max(),
           "more than 32-bit indices can hold; use more subdomains");
+  const auto is_point = [&](LocalIndex point) { return point >= 0 && point < num_points; };
+  require(std::all_of(piece.cell_points.begin(), piece.cell_points.end(), is_point),
+          "a cell has a point that does not exist");
   require(is_optional(piece.point_ids, num_points), "size of point ids");
   require(is_optional(piece.cell_ids, num_cells), "size of cell ids");
   const bool has_ghosts = piece.num_ghost_layers > 0;
@@ -110,21 +115,13 @@ void add_texts(vtkFieldData& data, const std::map<std::string, std::vector<std::
 [[nodiscard]] vtkSmartPointer<vtkCellArray> make_cells(const MeshArrays& piece)
 {
   const vtkNew<vtkCellArray::ArrayType32> offsets;
-  const vtkNew<vtkCellArray::ArrayType32> connectivity;
   const auto num_cells = piece.num_cells();
   offsets->SetNumberOfValues(num_cells + 1);
-  connectivity->SetNumberOfValues(static_cast<vtkIdType>(piece.cell_points.size()));
   for (GlobalIndex cell = 0; cell <= num_cells; ++cell) {
     offsets->SetValue(cell, static_cast<vtkTypeInt32>(cell * piece.vertices_per_cell));
   }
-  const GlobalIndex num_points = piece.num_points();
-  vtkTypeInt32* to = connectivity->GetPointer(0);
-  for (const GlobalIndex point : piece.cell_points) {
-    require(point >= 0 && point < num_points, "a cell has a point that does not exist");
-    *to++ = static_cast<vtkTypeInt32>(point);
-  }
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets, connectivity);
+  cells->SetData(offsets, view_of<vtkCellArray::ArrayType32>("connectivity", piece.cell_points));
   return cells;
 }
 

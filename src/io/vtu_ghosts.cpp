@@ -42,10 +42,10 @@ void drop_cells(mesh::MeshArrays& mesh, const std::vector<bool>& is_kept)
 
 void drop_points(mesh::MeshArrays& mesh, const std::vector<bool>& is_kept)
 {
-  std::vector<GlobalIndex> place;
-  GlobalIndex next = 0;
+  std::vector<LocalIndex> place;
+  LocalIndex next = 0;
   for (const bool kept : is_kept) place.push_back(kept ? next++ : kNoIndex);
-  for (GlobalIndex& point : mesh.cell_points) point = place[static_cast<std::size_t>(point)];
+  for (LocalIndex& point : mesh.cell_points) point = place[static_cast<std::size_t>(point)];
   keep_rows(mesh.point_ids, is_kept);
   keep_rows_of_all(mesh.point_ints, is_kept);
   keep_rows(mesh.point_xyz, is_kept, 3);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -20,9 +21,11 @@ using mesh::MeshArrays;
 constexpr std::uint8_t kVtkTriangle = 5;
 constexpr std::uint8_t kVtkTetra = 10;
 
-void require(bool condition, const std::string& what)
+constexpr std::string_view kTooManyPoints = "it has more than 2^31 points; split it";
+
+void require(bool condition, std::string_view what)  // No std::string: this stands in inner loops.
 {
-  if (!condition) throw InputError(what);
+  if (!condition) throw InputError(std::string(what));
 }
 
 [[nodiscard]] std::string name_of(const XmlElement& element)
@@ -107,13 +110,14 @@ void keep_cells(const MixedCells& cells, const Selection& selection, MeshArrays&
 {
   const auto num_corners = static_cast<std::size_t>(mesh.vertices_per_cell);
   const GlobalIndex num_points = mesh.num_points();
+  require(num_points <= std::numeric_limits<LocalIndex>::max(), kTooManyPoints);
   mesh.cell_points.reserve(selection.kept.size() * num_corners);
   for (const std::size_t cell : selection.kept) {
     const auto points = cells.points_of(cell);
     require(points.size() == num_corners, "a cell has not the number of points of its type");
     for (const GlobalIndex point : points) {
       require(point >= 0 && point < num_points, "a cell has a point that does not exist");
-      mesh.cell_points.push_back(point);
+      mesh.cell_points.push_back(static_cast<LocalIndex>(point));
     }
   }
 }
@@ -297,11 +301,13 @@ void append(MeshArrays& to, const MeshArrays& from)
     to = from;
     return;
   }
-  const GlobalIndex first_point = to.num_points();
+  require(to.num_points() + from.num_points() <= std::numeric_limits<LocalIndex>::max(),
+          kTooManyPoints);
+  const auto first_point = static_cast<LocalIndex>(to.num_points());
   append_ids(to.point_ids, first_point, from.point_ids, from.num_points());
   append_ids(to.cell_ids, to.num_cells(), from.cell_ids, from.num_cells());
   append(to.point_xyz, from.point_xyz);
-  for (const GlobalIndex point : from.cell_points) to.cell_points.push_back(first_point + point);
+  for (const LocalIndex point : from.cell_points) to.cell_points.push_back(first_point + point);
   append(to.point_ints, from.point_ints);
   append(to.cell_ints, from.cell_ints);
   append(to.cell_longs, from.cell_longs);

@@ -31,7 +31,7 @@ std::vector<UsedPoint> used_points(std::span<const mesh::MeshArrays> pieces, Ide
   std::vector<UsedPoint> used;
   for (const mesh::MeshArrays& piece : pieces) {
     std::vector<LocalIndex> row(static_cast<std::size_t>(piece.num_points()), kNoIndex);
-    for (const GlobalIndex point : piece.cell_points) {
+    for (const LocalIndex point : piece.cell_points) {
       const auto p = static_cast<std::size_t>(point);
       if (row[p] == kNoIndex) {
         row[p] = static_cast<LocalIndex>(used.size());

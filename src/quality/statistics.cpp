@@ -60,6 +60,23 @@ std::vector<GlobalIndex> Histogram::coarsened(std::size_t num_bins) const
   return coarse;
 }
 
+double ks_distance(const Histogram& part, const Histogram& whole)
+{
+  const auto num_part = static_cast<double>(part.total());
+  const double num_others = static_cast<double>(whole.total()) - num_part;
+  if (num_part == 0.0 || num_others == 0.0) return 0.0;
+  GlobalIndex part_below = 0;
+  GlobalIndex others_below = 0;
+  double largest = 0.0;
+  for (std::size_t b = 0; b < part.counts().size(); ++b) {
+    part_below += part.counts()[b];
+    others_below += whole.counts()[b] - part.counts()[b];
+    largest = std::max(largest, std::abs(static_cast<double>(part_below) / num_part
+                                         - static_cast<double>(others_below) / num_others));
+  }
+  return largest;
+}
+
 void TetStatistics::add(const TetStatistics& other)
 {
   num_tets += other.num_tets;

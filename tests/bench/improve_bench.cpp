@@ -50,21 +50,6 @@ struct Settings {
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-// Largest difference between the shares below any value.
-double distance_of(const quality::Histogram& a, const quality::Histogram& b)
-{
-  double largest = 0.0;
-  double below_a = 0.0;
-  double below_b = 0.0;
-  if (a.total() == 0 || b.total() == 0) return 0.0;
-  for (std::size_t bin = 0; bin < a.counts().size(); ++bin) {
-    below_a += static_cast<double>(a.counts()[bin]) / static_cast<double>(a.total());
-    below_b += static_cast<double>(b.counts()[bin]) / static_cast<double>(b.total());
-    largest = std::max(largest, std::abs(below_a - below_b));
-  }
-  return largest;
-}
-
 void print_shapes(const quality::TetStatistics& shapes, const quality::Histogram& mean_ratios)
 {
   std::printf(" | %8lld  %.4f %.4f %.4f %6.2f", static_cast<long long>(shapes.num_tets),
@@ -76,10 +61,8 @@ void print_state(const std::string& name, const std::vector<mesh::Piece>& pieces
 {
   quality::Histogram all(0.0, 1.0, 2000);
   quality::Histogram seam(0.0, 1.0, 2000);
-  quality::Histogram others(0.0, 1.0, 2000);
   quality::ShapeSum sum_all(all);
   quality::ShapeSum sum_seam(seam);
-  quality::ShapeSum sum_others(others);
   const auto on_seam = testing::vertices_on_seams(pieces);
   for (std::size_t s = 0; s < pieces.size(); ++s) {
     for (LocalIndex t = 0; t < pieces[s].num_tets(); ++t) {
@@ -87,13 +70,13 @@ void print_state(const std::string& name, const std::vector<mesh::Piece>& pieces
       const LocalIndex* v = &pieces[s].tet_vertices[4 * at(t)];
       const bool is_seam = std::any_of(v, v + 4, [&](LocalIndex i) { return on_seam[s][at(i)]; });
       sum_all.add(shape);
-      (is_seam ? sum_seam : sum_others).add(shape);
+      if (is_seam) sum_seam.add(shape);
     }
   }
   std::printf("  %-8s", name.c_str());
   print_shapes(sum_all.statistics(), all);
   print_shapes(sum_seam.statistics(), seam);
-  std::printf(" | KS %.3f | %6.2f s", distance_of(seam, others), seconds);
+  std::printf(" | KS %.3f | %6.2f s", quality::ks_distance(seam, all), seconds);
 }
 
 void print_regions(const testing::PhaseCount& count)

@@ -21,9 +21,9 @@ class PointRows {
  public:
   explicit PointRows(mesh::MeshArrays& arrays) : arrays_(arrays) {}
 
-  GlobalIndex row(GlobalIndex id, const Vec3& position)
+  LocalIndex row(GlobalIndex id, const Vec3& position)
   {
-    const auto [entry, is_new] = row_.emplace(id, arrays_.num_points());
+    const auto [entry, is_new] = row_.emplace(id, static_cast<LocalIndex>(arrays_.num_points()));
     if (is_new) {
       arrays_.point_ids.push_back(id);
       arrays_.point_xyz.insert(arrays_.point_xyz.end(), position.begin(), position.end());
@@ -33,7 +33,7 @@ class PointRows {
 
  private:
   mesh::MeshArrays& arrays_;
-  std::unordered_map<GlobalIndex, GlobalIndex> row_{};
+  std::unordered_map<GlobalIndex, LocalIndex> row_{};
 };
 
 }  // namespace

@@ -15,11 +15,11 @@ namespace tessera::mesh {
 /// Plain exchange struct between the file format (io) and its users. Optional arrays are empty when
 /// the file has none. Cells are all of one kind: tets (4 vertices) or triangles (3).
 struct MeshArrays {
-  int vertices_per_cell = 4;               ///< 4: tets, 3: boundary triangles.
-  std::vector<double> point_xyz{};         ///< Shape (num_points, 3).
-  std::vector<GlobalIndex> cell_points{};  ///< Shape (num_cells, vertices_per_cell), local, from 0.
-  std::vector<GlobalIndex> point_ids{};    ///< Shape (num_points); GLOBAL_IDS. Optional.
-  std::vector<GlobalIndex> cell_ids{};     ///< Shape (num_cells); GLOBAL_IDS. Optional.
+  int vertices_per_cell = 4;              ///< 4: tets, 3: boundary triangles.
+  std::vector<double> point_xyz{};        ///< Shape (num_points, 3).
+  std::vector<LocalIndex> cell_points{};  ///< Shape (num_cells, vertices_per_cell), from 0.
+  std::vector<GlobalIndex> point_ids{};   ///< Shape (num_points); GLOBAL_IDS. Optional.
+  std::vector<GlobalIndex> cell_ids{};    ///< Shape (num_cells); GLOBAL_IDS. Optional.
   std::map<std::string, std::vector<std::int32_t>> point_ints{};  ///< E.g. "owner".
   std::map<std::string, std::vector<std::int32_t>> cell_ints{};   ///< E.g. "attribute", "patch".
   std::map<std::string, std::vector<GlobalIndex>>

@@ -91,7 +91,7 @@ void copy_tet(const mesh::MeshArrays& from, mesh::MeshArrays& to, GlobalIndex id
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const auto row = static_cast<std::size_t>(from.cell_points[corner]);
     const auto found = std::find(to.point_ids.begin(), to.point_ids.end(), from.point_ids[row]);
-    to.cell_points.push_back(found - to.point_ids.begin());
+    to.cell_points.push_back(static_cast<LocalIndex>(found - to.point_ids.begin()));
     if (found != to.point_ids.end()) continue;
     to.point_ids.push_back(from.point_ids[row]);
     to.point_xyz.insert(to.point_xyz.end(), &from.point_xyz[3 * row], &from.point_xyz[3 * row] + 3);

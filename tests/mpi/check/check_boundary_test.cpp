@@ -77,7 +77,7 @@ TEST(CheckBoundary, TriangleThatIsNoFaceOfATet)
 {
   MeshFiles files = good_files();
   mesh::MeshArrays& piece = files.boundary[0];
-  const GlobalIndex last = piece.num_points() - 1;
+  const auto last = static_cast<LocalIndex>(piece.num_points() - 1);
   piece.cell_points.insert(piece.cell_points.end(), {0, last / 2, last});
   piece.cell_ints["patch"].push_back(0);
   piece.cell_ints["subdomain"].push_back(0);

@@ -28,7 +28,7 @@ void remove_last_tet(mesh::MeshArrays& piece)
   piece.cell_ints["attribute"].pop_back();
 }
 
-void add_tet(mesh::MeshArrays& piece, const std::array<GlobalIndex, 4>& points, GlobalIndex id)
+void add_tet(mesh::MeshArrays& piece, const std::array<LocalIndex, 4>& points, GlobalIndex id)
 {
   piece.cell_points.insert(piece.cell_points.end(), points.begin(), points.end());
   piece.cell_ids.push_back(id);
@@ -36,11 +36,11 @@ void add_tet(mesh::MeshArrays& piece, const std::array<GlobalIndex, 4>& points, 
 }
 
 // Adds a point that no cell uses yet. @return its row.
-GlobalIndex add_point(mesh::MeshArrays& piece, const Vec3& position, GlobalIndex id)
+LocalIndex add_point(mesh::MeshArrays& piece, const Vec3& position, GlobalIndex id)
 {
   piece.point_xyz.insert(piece.point_xyz.end(), position.begin(), position.end());
   piece.point_ids.push_back(id);
-  return piece.num_points() - 1;
+  return static_cast<LocalIndex>(piece.num_points() - 1);
 }
 
 TEST(CheckDefects, GoodFilesHaveNone)
@@ -185,7 +185,7 @@ TEST(CheckDefects, TetWithAnInnerPointInAnotherPieceAsWell)
     files.boundary.clear();
     mesh::MeshArrays copy;
     const auto rows = std::span(files.tets[0].cell_points).last(4);
-    for (const GlobalIndex row : rows)
+    for (const LocalIndex row : rows)
       add_point(copy, point_at(std::span<const double>(files.tets[0].point_xyz), row),
                 files.tets[0].point_ids[static_cast<std::size_t>(row)]);
     add_tet(copy, {0, 1, 2, 3}, 384);
@@ -238,19 +238,19 @@ TEST(CheckDefects, HangingNodeAtASeam)
   MeshFiles files = slice(kuhn_cube(2), 2);
   files.boundary.clear();
   mesh::MeshArrays& piece = files.tets[0];
-  const auto point = [&](GlobalIndex row) {
+  const auto point = [&](LocalIndex row) {
     return point_at(std::span<const double>(piece.point_xyz), row);
   };
-  const GlobalIndex centre = add_point(piece, {0.5, 0.25, 0.25}, 27);
+  const LocalIndex centre = add_point(piece, {0.5, 0.25, 0.25}, 27);
   const Vec3 a{0.5, 0.0, 0.0};
   const Vec3 b{0.5, 0.5, 0.5};
   const GlobalIndex num_tets = piece.num_cells();
   for (GlobalIndex t = 0; t < num_tets; ++t) {
-    std::array<GlobalIndex, 4> first{};
-    std::array<GlobalIndex, 4> second{};
+    std::array<LocalIndex, 4> first{};
+    std::array<LocalIndex, 4> second{};
     int num_ends = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      const GlobalIndex row = piece.cell_points[4 * static_cast<std::size_t>(t) + i];
+      const LocalIndex row = piece.cell_points[4 * static_cast<std::size_t>(t) + i];
       first[i] = point(row) == a ? centre : row;
       second[i] = point(row) == b ? centre : row;
       if (first[i] != row || second[i] != row) ++num_ends;
@@ -290,7 +290,7 @@ TEST(CheckDefects, PositionsThatAreNotFinite)
 TEST(CheckDefects, ConnectivityOutOfRangeOrNotDifferent)
 {
   MeshFiles files = good_files();
-  files.tets[0].cell_points[9] = files.tets[0].num_points();
+  files.tets[0].cell_points[9] = static_cast<LocalIndex>(files.tets[0].num_points());
   files.tets[1].cell_points[5] = -1;
   files.tets[2].cell_points[1] = files.tets[2].cell_points[0];
   const check::CheckReport report = check_everywhere(files);

@@ -21,7 +21,7 @@ class PieceBuilder {
 
   void add_corner(LocalIndex v)
   {
-    const auto [entry, is_new] = row_.emplace(v, arrays_.num_points());
+    const auto [entry, is_new] = row_.emplace(v, static_cast<LocalIndex>(arrays_.num_points()));
     if (is_new) {
       const Vec3 x = mesh_.position(v);
       arrays_.point_xyz.insert(arrays_.point_xyz.end(), x.begin(), x.end());
@@ -35,7 +35,7 @@ class PieceBuilder {
  private:
   const mesh::CoarseMesh& mesh_;
   const std::vector<GlobalIndex>& vertex_ids_;
-  std::map<LocalIndex, GlobalIndex> row_{};
+  std::map<LocalIndex, LocalIndex> row_{};
   mesh::MeshArrays arrays_{};
 };
 
@@ -90,12 +90,13 @@ mesh::MeshArrays merge_range(const std::vector<mesh::MeshArrays>& pieces, std::s
 {
   mesh::MeshArrays merged;
   merged.vertices_per_cell = pieces[begin].vertices_per_cell;
-  std::map<GlobalIndex, GlobalIndex> row;
+  std::map<GlobalIndex, LocalIndex> row;
   for (std::size_t p = begin; p < end; ++p) {
     const mesh::MeshArrays& piece = pieces[p];
-    for (const GlobalIndex point : piece.cell_points) {
+    for (const LocalIndex point : piece.cell_points) {
       const auto i = static_cast<std::size_t>(point);
-      const auto [entry, is_new] = row.emplace(piece.point_ids[i], merged.num_points());
+      const auto next = static_cast<LocalIndex>(merged.num_points());
+      const auto [entry, is_new] = row.emplace(piece.point_ids[i], next);
       if (is_new) {
         merged.point_ids.push_back(piece.point_ids[i]);
         merged.point_xyz.insert(merged.point_xyz.end(), &piece.point_xyz[3 * i],

@@ -71,10 +71,10 @@ TEST(PieceTopology, TetsThatTouchInAnEdgeAreTwoComponents)
   mesh::MeshArrays arrays = arrays_of(testing::kuhn_cube(1));
   // Tets of opposite orders of the axes share the diagonal only.
   const auto& all = arrays.cell_points;
-  std::vector<GlobalIndex> two(all.begin(), all.begin() + 4);
+  std::vector<LocalIndex> two(all.begin(), all.begin() + 4);
   for (std::size_t t = 1; t < 6 && two.size() == 4; ++t) {
     const auto tet = all.begin() + static_cast<std::ptrdiff_t>(4 * t);
-    const auto num_shared = std::count_if(tet, tet + 4, [&](GlobalIndex p) {
+    const auto num_shared = std::count_if(tet, tet + 4, [&](LocalIndex p) {
       return std::find(two.begin(), two.begin() + 4, p) != two.begin() + 4;
     });
     if (num_shared == 2) two.insert(two.end(), tet, tet + 4);

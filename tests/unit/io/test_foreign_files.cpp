@@ -159,7 +159,7 @@ TEST(ReadVtu, LeavesOutCellsOfOtherKindsWithTheirData)
   const MeshArrays mesh = read_vtu(folder / "a.vtu");
   EXPECT_EQ(mesh.vertices_per_cell, 4);
   EXPECT_EQ(mesh.num_other_cells, 3);
-  EXPECT_EQ(mesh.cell_points, (std::vector<GlobalIndex>{0, 1, 2, 3, 4, 5, 6, 9}));
+  EXPECT_EQ(mesh.cell_points, (std::vector<LocalIndex>{0, 1, 2, 3, 4, 5, 6, 9}));
   EXPECT_EQ(mesh.cell_ids, (std::vector<GlobalIndex>{1, 4}));
   EXPECT_EQ(mesh.cell_ints.at("attribute"), (std::vector<std::int32_t>{1, 4}));
   EXPECT_EQ(mesh.cell_ints.at("byte"), (std::vector<std::int32_t>{1, 4}));
@@ -175,7 +175,7 @@ TEST(ReadVtu, ReadsTrianglesWhereThereAreNoTets)
   const MeshArrays mesh = read_vtu(folder / "a.vtu");
   EXPECT_EQ(mesh.vertices_per_cell, 3);
   EXPECT_EQ(mesh.num_other_cells, 2);
-  EXPECT_EQ(mesh.cell_points, (std::vector<GlobalIndex>{0, 1, 2}));
+  EXPECT_EQ(mesh.cell_points, (std::vector<LocalIndex>{0, 1, 2}));
   EXPECT_TRUE(mesh.point_ids.empty());
 }
 
@@ -218,7 +218,7 @@ TEST(ReadVtu, JoinsThePiecesOfOneFile)
   testing::write_bytes(folder / "a.vtu", two_piece_text(R"(<PointData GlobalIds="ids">
     <DataArray type="Int64" Name="ids" format="ascii">3 4 5 6</DataArray></PointData>)"));
   const MeshArrays mesh = read_vtu(folder / "a.vtu");
-  EXPECT_EQ(mesh.cell_points, (std::vector<GlobalIndex>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(mesh.cell_points, (std::vector<LocalIndex>{0, 1, 2, 3, 4, 5, 6, 7}));
   EXPECT_EQ(mesh.point_ids, (std::vector<GlobalIndex>{0, 1, 2, 3, 3, 4, 5, 6}));
 }
 

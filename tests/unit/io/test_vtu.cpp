@@ -129,7 +129,7 @@ TEST(WriteVtu, RefusesArraysThatDoNotFitTogether)
   wrong_size.cell_ints["attribute"].pop_back();
   EXPECT_THROW(write_vtu(wrong_size, folder / "a.vtu", Compression::none), MeshError);
   MeshArrays wrong_point = testing::sample_tets(1);
-  wrong_point.cell_points[3] = wrong_point.num_points();
+  wrong_point.cell_points[3] = static_cast<LocalIndex>(wrong_point.num_points());
   EXPECT_THROW(write_vtu(wrong_point, folder / "a.vtu", Compression::none), MeshError);
   EXPECT_EQ(folder.num_entries(), 0U);
 }

@@ -64,6 +64,28 @@ TEST(Histogram, PercentilesAreThoseOfTheSortedValuesToABin)
   }
 }
 
+// Histogram of values 0.5, 1.5, ... taken so often.
+Histogram histogram_of(const std::vector<GlobalIndex>& counts)
+{
+  Histogram histogram(0.0, static_cast<double>(counts.size()), counts.size());
+  histogram.set_counts(counts);
+  return histogram;
+}
+
+TEST(Histogram, DistanceOfAPartFromTheOthers)
+{
+  // Shares below: 1/2, 1/2, 1 of the part; 1/4, 3/4, 1 of the others.
+  EXPECT_DOUBLE_EQ(ks_distance(histogram_of({1, 0, 1}), histogram_of({2, 2, 2})), 0.25);
+  EXPECT_DOUBLE_EQ(ks_distance(histogram_of({5, 0, 0}), histogram_of({5, 0, 7})), 1.0);
+  EXPECT_DOUBLE_EQ(ks_distance(histogram_of({1, 2, 3}), histogram_of({3, 6, 9})), 0.0);
+}
+
+TEST(Histogram, NothingHasNoDistance)
+{
+  EXPECT_EQ(ks_distance(histogram_of({0, 0}), histogram_of({3, 4})), 0.0);
+  EXPECT_EQ(ks_distance(histogram_of({3, 4}), histogram_of({3, 4})), 0.0);
+}
+
 TEST(Histogram, PercentilesPassEmptyBins)
 {
   Histogram histogram(0.0, 4.0, 4);
