@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/mesh_worker.hpp"
 
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include <malloc.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
@@ -250,15 +254,30 @@ Bytes message(Message kind, const Values&... values)
   return std::move(out).take();
 }
 
+// A job's arrays come and go: what one gives back serves the next, instead of pages that the kernel
+// takes away and clears anew; and of huge pages a job touches hundreds of times fewer. Both are
+// matters of speed only, so nothing is done about a refusal.
+void keep_heap()
+{
+  constexpr int kLargestThreshold = 32 << 20;  // What is larger, malloc maps on its own.
+  constexpr int kReserved = 512 << 20;         // Addresses, not memory; more is ordinary heap.
+  constexpr std::uintptr_t kHugePage = 2 << 20;
+  mallopt(M_MMAP_THRESHOLD, kLargestThreshold);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_TOP_PAD, kReserved);
+  void* volatile grown = std::malloc(kLargestThreshold / 2);  // Makes the heap longer by the pad.
+  const auto begin = (reinterpret_cast<std::uintptr_t>(grown) + kHugePage - 1) & ~(kHugePage - 1);
+  const auto end = reinterpret_cast<std::uintptr_t>(::sbrk(0)) & ~(kHugePage - 1);
+  if (begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  std::free(grown);
+  mallopt(M_TOP_PAD, kLargestThreshold);
+}
+
 }  // namespace
 
 std::unique_ptr<jobs::Worker> make_mesh_worker()
 {
-  // A job's arrays come and go: what one gives back serves the next, instead of pages that the
-  // kernel takes away and clears anew.
-  constexpr int kLargestThreshold = 32 << 20;
-  mallopt(M_MMAP_THRESHOLD, kLargestThreshold);
-  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  keep_heap();
   return std::make_unique<MeshWorker>();
 }
 
