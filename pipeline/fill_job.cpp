@@ -72,8 +72,33 @@ fill::FillInput input_of(const mesh::Skin& skin)
   return {.vertex_xyz = skin.vertex_xyz, .triangle_vertices = skin.triangle_vertices};
 }
 
-RawFill remesh(const CutMesh& cut, const refine::RefineContext& refine, LocalIndex subdomain,
-               const fill::FillTry& settings, const fill::Kernel& netgen)
+RawFill subdivide(const CutMesh& cut, const refine::RefineContext& refine, LocalIndex subdomain)
+{
+  const mesh::TetComplex complex =
+      mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets.of(subdomain));
+  const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, refine);
+  return {refine::extract_skin(complex.faces, lattice, cut.skeleton, subdomain), lattice.distance,
+          fill::subdivide(complex, lattice)};
+}
+
+// The children of the coarse tets, made better by NETGEN.
+RawFill improve_children(const CutMesh& cut, const refine::RefineContext& refine,
+                         LocalIndex subdomain, const fill::FillTry& settings,
+                         const fill::Kernel& netgen)
+{
+  RawFill raw = subdivide(cut, refine, subdomain);
+  if (!fill::all_positive(raw.tets)) {
+    throw MeshError("children of coarse tets are folded: nothing to begin with");
+  }
+  fill::FillInput input = input_of(raw.skin);
+  input.start = std::move(raw.tets);
+  raw.tets = netgen.fill(input, settings);
+  return raw;
+}
+
+// What NETGEN makes of the skin alone.
+RawFill mesh_skin(const CutMesh& cut, const refine::RefineContext& refine, LocalIndex subdomain,
+                  const fill::FillTry& settings, const fill::Kernel& netgen)
 {
   const mesh::Complex complex = mesh::skin_complex(cut.skeleton, subdomain);
   const mesh::RefinedLattice lattice = refine::refine_lattice(complex, refine);
@@ -85,13 +110,12 @@ RawFill remesh(const CutMesh& cut, const refine::RefineContext& refine, LocalInd
   return raw;
 }
 
-RawFill subdivide(const CutMesh& cut, const refine::RefineContext& refine, LocalIndex subdomain)
+RawFill raw_fill(const CutMesh& cut, const refine::RefineContext& refine, LocalIndex subdomain,
+                 const fill::FillTry& settings, const fill::Kernel& netgen)
 {
-  const mesh::TetComplex complex =
-      mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets.of(subdomain));
-  const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, refine);
-  return {refine::extract_skin(complex.faces, lattice, cut.skeleton, subdomain), lattice.distance,
-          fill::subdivide(complex, lattice)};
+  if (settings.kernel == fill::KernelKind::subdivide) return subdivide(cut, refine, subdomain);
+  const auto start = settings.start == fill::FillStart::children ? improve_children : mesh_skin;
+  return start(cut, refine, subdomain, settings, netgen);
 }
 
 FilledPiece check_and_measure(const CutMesh& cut, LocalIndex subdomain, RawFill& raw)
@@ -131,14 +155,13 @@ FilledPiece fill_subdomain(const CutMesh& cut, const refine::RefineContext& refi
                            LocalIndex subdomain, const fill::FillTry& settings,
                            const fill::Kernel& netgen)
 {
-  const bool is_subdivision = settings.kernel == fill::KernelKind::subdivide;
-  RawFill raw = is_subdivision ? subdivide(cut, refine, subdomain)
-                               : remesh(cut, refine, subdomain, settings, netgen);
+  RawFill raw = raw_fill(cut, refine, subdomain, settings, netgen);
   FilledPiece filled;
   try {
     filled = check_and_measure(cut, subdomain, raw);
   } catch (const MeshError&) {
     // Of what was subdivided nothing else can be wrong than that it is folded.
+    const bool is_subdivision = settings.kernel == fill::KernelKind::subdivide;
     if (!is_subdivision || fill::all_positive(raw.tets)) throw;
     filled.result.summary.is_folded = true;
   }

@@ -2,18 +2,13 @@
 #include "pipeline/run_outline.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "tessera/fill/expected_tets.hpp"
 #include "tessera/mesh/lattice.hpp"
 
 #include "pipeline/count_pieces.hpp"
 
 namespace tessera::pipeline {
 namespace {
-
-// Core and torus: 0.10 and 0.11 with two levels; it grows with the piece. Samples tell better.
-constexpr double kInteriorVerticesATet = 0.11;
 
 // On the geometry there are those between materials, and they are no seams.
 GlobalIndex num_seam_triangles(const mesh::Skeleton& skeleton, LocalIndex subdomain)
@@ -67,14 +62,6 @@ RunOutline outline_run(const CutMesh& cut, const std::vector<fill::KernelKind>& 
   outline.num_skeleton_vertices =
       number::IdLayout(mesh::UnitLayout(cut.skeleton), mesh::lattice::intervals(levels), nothing)
           .num_vertices();
-  for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
-    if (kernels[at(s)] == fill::KernelKind::subdivide) continue;
-    const auto num_triangles = static_cast<LocalIndex>(cut.skeleton.triangles_of(s).size());
-    const double tets =
-        fill::expected_tets(cut.coarse, cut.tets.of(s), num_triangles, cut.vertex_size, levels);
-    outline.pieces[at(s)].tets = std::llround(tets);
-    outline.pieces[at(s)].interior_vertices = std::llround(kInteriorVerticesATet * tets);
-  }
   outline.seam_triangles.resize(kernels.size());
   for (LocalIndex s = 0; improve_seams && s < cut.num_subdomains(); ++s) {
     if (kernels[at(s)] == fill::KernelKind::subdivide) continue;

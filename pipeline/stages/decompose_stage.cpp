@@ -21,17 +21,6 @@ namespace {
 // A job of this size takes half a second and about 100 MB.
 constexpr double kAutoSubdividedTets = 5e5;
 
-// Predicted fine tets of each coarse tet: exact where it will be subdivided.
-std::vector<double> weights_of(const mesh::CoarseMesh& coarse,
-                               const std::vector<fill::KernelKind>& kernels, int levels)
-{
-  std::vector<double> weights = decompose::predicted_fine_tets(coarse, levels);
-  for (std::size_t t = 0; t < weights.size(); ++t) {
-    if (kernels[t] == fill::KernelKind::subdivide) weights[t] = std::ldexp(1.0, 3 * levels);
-  }
-  return weights;
-}
-
 // "auto" means other things to a mesher of skins, which wants few seams, and to subdivision, which
 // wants jobs that fit in memory.
 decompose::DecomposeOptions options_of(const config::Case& run_case,
@@ -53,7 +42,8 @@ decompose::DecomposeResult cut(const config::Case& run_case, const mesh::CoarseM
 {
   const std::vector<fill::KernelKind> kernels =
       fill::kernels_of(run_case.fill, coarse.material_names, coarse.tet_material);
-  const std::vector<double> weights = weights_of(coarse, kernels, run_case.refine.levels);
+  const std::vector<double> weights =
+      decompose::predicted_fine_tets(coarse, run_case.refine.levels);
   const auto partitioner = decompose::make_metis_partitioner();
   decompose::DecomposeResult result =
       decompose::decompose(coarse, options_of(run_case, kernels, weights), weights, *partitioner);

@@ -13,14 +13,15 @@ std::vector<FillTry> retry_ladder(const FillOptions& options, KernelKind kernel)
   const FillTry subdivision{.kernel = KernelKind::subdivide};
   if (kernel == KernelKind::subdivide) return {subdivision};
   const FillTry asked{.grading = options.grading, .optimize_steps = options.optimize_steps};
-  FillTry reordered = asked;
+  FillTry anew = asked;
+  anew.start = FillStart::skin;
+  FillTry reordered = anew;
   reordered.point_order_seed = 1;
-  FillTry relaxed{.grading = std::min(1.0, 2.0 * options.grading),
-                  .optimize_steps = std::min(1, options.optimize_steps),
-                  .point_order_seed = 2};
-  FillTry plain = relaxed;
-  plain.point_order_seed = 3;
-  return {asked, reordered, relaxed, plain, subdivision};
+  const FillTry relaxed{.start = FillStart::skin,
+                        .grading = std::min(1.0, 2.0 * options.grading),
+                        .optimize_steps = std::min(1, options.optimize_steps),
+                        .point_order_seed = 2};
+  return {asked, anew, reordered, relaxed, subdivision};
 }
 
 std::vector<KernelKind> kernels_of(const FillOptions& options,

@@ -9,7 +9,7 @@ from program import DEGRADED, OK, WRONG_INPUT
 FAULTY = 2  # Number of the subdomain.
 
 # Limits that the sound subdomains, of some hundred tets each, are far from.
-LIMITS = ("--set", "fill.timeout_s=1", "--set", "fill.memory_gib=0.5")
+LIMITS = ("--set", "fill.timeout_s=1", "--set", "fill.memory_gib=0.25")
 
 
 class Ladder(program.ProgramTest):
@@ -77,7 +77,7 @@ class Ladder(program.ProgramTest):
         self.assert_depends_on_machine("sleep", "no CPU time for 1 s")
 
     def test_memory(self):
-        self.assert_depends_on_machine("memory", "more than 0.5 GiB")
+        self.assert_depends_on_machine("memory", "more than 0.25 GiB")
 
     def test_sound_run_has_no_failures(self):
         report = program.figures(self.mesh(self.case, "sound"))

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/netgen/factory.hpp"
+#include "tessera/quality/tet_quality.hpp"
 
 #include "skins.hpp"
 
@@ -142,6 +144,29 @@ TEST(FillKernel, KeepsTheSkinForEveryTryOfTheLadder)
   for (const double grading : {0.1, 1.0}) expect_fills(skin, fill_skin(skin, {.grading = grading}));
 }
 
+double mean_of_mean_ratio(const FillOutput& tets)
+{
+  const std::span<const double> xyz(tets.vertex_xyz);
+  double sum = 0.0;
+  for (std::size_t t = 0; t < tets.tet_vertices.size(); t += 4) {
+    const LocalIndex* v = &tets.tet_vertices[t];
+    sum += quality::mean_ratio(
+        {point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]), point_at(xyz, v[3])});
+  }
+  return 4.0 * sum / static_cast<double>(tets.tet_vertices.size());
+}
+
+TEST(FillKernel, MakesGivenTetsBetter)
+{
+  FillInput skin = cube_skin(5);
+  const FillOutput rough = fill_skin(skin, {.optimize_steps = 0});
+  skin.start = rough;
+  const FillOutput better = fill_skin(skin);
+  expect_fills(skin, better);
+  EXPECT_GT(mean_of_mean_ratio(better), mean_of_mean_ratio(rough) + 0.05);
+  EXPECT_EQ(fill_skin(skin, {.optimize_steps = 0}).tet_vertices, rough.tet_vertices);
+}
+
 TEST(FillKernel, SeedGivesAnotherMesh)
 {
   const FillInput skin = cube_skin(4);
@@ -174,7 +199,7 @@ TEST(FillKernel, MeetsTheWantedSize)
 {
   for (const FillInput& skin : {cube_skin(10), sphere_skin(3)}) {
     const double h = testing::mean_edge(skin);
-    const std::vector<double> lengths = edge_lengths(fill_skin(skin));
+    const std::vector<double> lengths = edge_lengths(fill_skin(skin, {.optimize_steps = 2}));
     EXPECT_NEAR(lengths[lengths.size() / 2], h, 0.1 * h);
     const auto long_edges =
         lengths.end() - std::lower_bound(lengths.begin(), lengths.end(), 1.6 * h);

@@ -74,7 +74,7 @@ class Regions {
 /// mean ratio became 0.841, 0.844, 0.846, its 1st percentile 0.621, 0.631, 0.633,
 /// in 8.5, 10.7, 11.8 CPU seconds (shaft, L = 2, 64 subdomains of 2.2 k tets; 0.806, 0.497 as
 /// filled in 13).
-inline constexpr int kDefaultLayers = 4;
+inline constexpr int kDefaultLayers = 3;
 
 /// @brief The region of a phase that each tet of a piece belongs to: the nearest one, the lowest of
 /// equally near ones; kNoIndex beyond `layers`. Shape (num_tets). So every tet is in one job of a

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -21,24 +22,29 @@ TEST(RetryLadder, BeginsAsAsked)
   EXPECT_EQ(ladder[0].point_order_seed, 0U);
 }
 
-TEST(RetryLadder, FirstChangesOnlyTheOrderOfPoints)
+TEST(RetryLadder, ThenChangesOnlyTheStartThenOnlyTheOrderOfPoints)
 {
   const auto ladder = retry_ladder({}, KernelKind::netgen);
-  ASSERT_GE(ladder.size(), 2U);
-  EXPECT_EQ(ladder[1].grading, ladder[0].grading);
-  EXPECT_EQ(ladder[1].optimize_steps, ladder[0].optimize_steps);
-  EXPECT_NE(ladder[1].point_order_seed, 0U);
+  ASSERT_GE(ladder.size(), 3U);
+  EXPECT_EQ(ladder[0].start, FillStart::children);
+  for (const std::size_t rung : {1U, 2U}) {
+    EXPECT_EQ(ladder[rung].start, FillStart::skin);
+    EXPECT_EQ(ladder[rung].grading, ladder[0].grading);
+    EXPECT_EQ(ladder[rung].optimize_steps, ladder[0].optimize_steps);
+  }
+  EXPECT_EQ(ladder[1].point_order_seed, ladder[0].point_order_seed);
+  EXPECT_NE(ladder[2].point_order_seed, ladder[0].point_order_seed);
 }
 
 TEST(RetryLadder, TriesNothingTwiceAndStaysInRange)
 {
   for (const double grading : {0.01, 0.3, 0.7, 1.0}) {
     for (const int steps : {0, 1, 3}) {
-      std::set<unsigned> seeds;
+      std::set<std::pair<FillStart, unsigned>> begun;
       for (const FillTry& rung :
            retry_ladder({.optimize_steps = steps, .grading = grading}, KernelKind::netgen)) {
         if (rung.kernel != KernelKind::netgen) continue;
-        EXPECT_TRUE(seeds.insert(rung.point_order_seed).second);
+        EXPECT_TRUE(begun.insert({rung.start, rung.point_order_seed}).second);
         EXPECT_GE(rung.grading, grading);
         EXPECT_LE(rung.grading, 1.0);
         EXPECT_GE(rung.optimize_steps, 0);

@@ -105,6 +105,16 @@ TEST_F(FillJob, GivesTheSameBytesAgainAndAfterOtherJobs)
   EXPECT_EQ(mesh::to_bytes(again.piece), mesh::to_bytes(pieces()[2].piece));
 }
 
+TEST_F(FillJob, FillsTheSameSkinFromTheSkinAlone)
+{
+  const PieceSummary children = pieces()[1].result.summary;
+  const FilledPiece anew = testing::fill_of(body(), kLevels, 1, {.start = fill::FillStart::skin});
+  EXPECT_EQ(anew.piece.boundary_vertices, pieces()[1].piece.boundary_vertices);
+  EXPECT_EQ(anew.result.summary.euler_characteristic, children.euler_characteristic);
+  EXPECT_NEAR(anew.result.summary.volume, children.volume, 1e-12);
+  EXPECT_NE(anew.piece.tet_vertices, pieces()[1].piece.tet_vertices);
+}
+
 // Kernels that go wrong, as NETGEN can.
 class BrokenKernel final : public fill::Kernel {
  public:
