@@ -9,6 +9,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/coarse/settle_vertices.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/model/scaled_model.hpp"
 #include "tessera/netgen/factory.hpp"
@@ -138,9 +139,14 @@ class MeshWorker final : public jobs::Worker {
     auto options = in.get<coarse::CoarseOptions>();
     options.max_size /= scale_;
     mesh::CoarseMesh mesh = netgen::make_coarse_mesher(*netgen_model_)->generate(options);
+    coarse::VertexDistance distance = coarse::settle_vertices(mesh, *netgen_model_);
+    distance.largest *= scale_;
     for (double& x : mesh.vertex_xyz) x *= scale_;
     mesh::validate(mesh);
-    return mesh::to_bytes(mesh);
+    ByteWriter out;
+    out.put(mesh::to_bytes(mesh));
+    out.put(distance);
+    return std::move(out).take();
   }
 
   Bytes plan(ByteReader& in)

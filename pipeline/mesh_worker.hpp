@@ -52,7 +52,8 @@ namespace tessera::pipeline {
 /// model.
 [[nodiscard]] Bytes box_request();
 
-/// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh. Needs the model.
+/// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh and a VertexDistance.
+/// Needs the model.
 [[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options);
 
 /// @brief One subdomain that a plan job tests.
