@@ -2,8 +2,10 @@
 #include "tessera/coarse/patch_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tessera/base/error.hpp"
 
@@ -33,6 +35,33 @@ std::vector<Side> sides_of(const PatchSurface& surface)
   return sides;
 }
 
+// Splits the triangles of one patch at an edge; `middle` is the new vertex.
+void split_in_patch(PatchSurface& surface, const Side& side, LocalIndex middle)
+{
+  const auto [a, b] = side.edge;
+  const std::size_t num_triangles = surface.triangles.size();
+  for (std::size_t t = 0; t < num_triangles; ++t) {
+    PatchSurface::Triangle& v = surface.triangles[t];
+    const auto* const at_a = std::ranges::find(v, a);
+    const auto* const at_b = std::ranges::find(v, b);
+    if (surface.triangle_patch[t] != side.patch || at_a == v.end() || at_b == v.end()) continue;
+    const auto corner_a = static_cast<std::size_t>(at_a - v.begin());
+    const auto corner_b = static_cast<std::size_t>(at_b - v.begin());
+    PatchSurface::Triangle other = v;
+    other[corner_a] = middle;
+    v[corner_b] = middle;
+    surface.triangles.push_back(other);
+    surface.triangle_patch.push_back(side.patch);
+    if (surface.triangle_uv.empty()) continue;
+    auto uv = surface.triangle_uv[t];
+    const std::array<double, 2> uv_middle{0.5 * (uv[corner_a][0] + uv[corner_b][0]),
+                                          0.5 * (uv[corner_a][1] + uv[corner_b][1])};
+    surface.triangle_uv[t][corner_b] = uv_middle;
+    uv[corner_a] = uv_middle;
+    surface.triangle_uv.push_back(uv);
+  }
+}
+
 [[noreturn]] void throw_at(const PatchSurface& surface, const Edge& edge, std::size_t count)
 {
   const Vec3& a = surface.vertex_xyz[at(edge[0])];
@@ -44,6 +73,22 @@ std::vector<Side> sides_of(const PatchSurface& surface)
 }
 
 }  // namespace
+
+void separate_patches(PatchSurface& surface)
+{
+  std::vector<Side> sides = sides_of(surface);
+  const auto rest = std::ranges::unique(sides);
+  sides.erase(rest.begin(), rest.end());  // One a patch.
+  for (std::size_t s = 1; s < sides.size(); ++s) {
+    if (sides[s].edge != sides[s - 1].edge) continue;
+    if (std::ranges::binary_search(surface.edges, sides[s].edge)) continue;
+    const auto [a, b] = sides[s].edge;
+    const auto middle = static_cast<LocalIndex>(surface.vertex_xyz.size());
+    surface.vertex_xyz.push_back(midpoint(surface.vertex_xyz[at(a)], surface.vertex_xyz[at(b)]));
+    surface.vertex_is_fixed.push_back(0);
+    split_in_patch(surface, sides[s], middle);
+  }
+}
 
 void validate(const PatchSurface& surface)
 {

@@ -23,6 +23,7 @@ constexpr double kTooShort = 0.7;
 constexpr int kRounds = 5;
 constexpr int kMostSweeps = 30;  // Of one kind within a round; each halves the longest edges.
 constexpr int kFlipSweeps = 4;
+constexpr int kFewSteps = 200;  // A sweep that took fewer than one step in so many vertices ends.
 
 // Shapes from 0, flat, to 1, equilateral. A step may leave no triangle worse than this, unless one
 // was worse before.
@@ -83,11 +84,12 @@ class Remesher {
   }
 
  private:
+  // Until hardly anything is left to do: the next round does the rest.
   template <class Pass>
-  static void sweep(const Pass& pass, int most)
+  void sweep(const Pass& pass, int most) const
   {
     for (int i = 0; i < most; ++i) {
-      if (pass() == 0) return;
+      if (kFewSteps * pass() <= surface_.num_vertices()) return;
     }
   }
 

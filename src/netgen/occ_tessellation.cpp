@@ -194,6 +194,7 @@ PatchSurface tessellation_of(const TopoDS_Shape& shape, double size)
 {
   triangulate(shape, size);
   PatchSurface surface = Tessellation(shape).run();
+  coarse::separate_patches(surface);
   try {
     coarse::validate(surface);
   } catch (const MeshError& error) {

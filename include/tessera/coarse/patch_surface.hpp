@@ -38,6 +38,10 @@ struct PatchSurface {
   }
 };
 
+/// @brief Puts a vertex of its own into each edge on no curve that triangles of several patches
+/// have: two faces that both cut the same corner of the curve between them. Local.
+void separate_patches(PatchSurface& surface);
+
 /// @brief Throws MeshError unless every edge has the triangles that PatchSurface promises, naming
 /// the first that has not. Local.
 void validate(const PatchSurface& surface);
