@@ -41,12 +41,17 @@ struct InfoCommand {
   std::filesystem::path file{};
 };
 
+/// @brief `tessera replay`: run a job that failed once more, in this process.
+struct ReplayCommand {
+  std::filesystem::path folder{};  ///< DIR/failure/JOB.
+};
+
 /// @brief `--help` or `--version`: print this to standard output and end with exit code 0.
 struct PrintCommand {
   std::string text{};
 };
 
-using Command = std::variant<MeshCommand, CheckCommand, InfoCommand, PrintCommand>;
+using Command = std::variant<MeshCommand, CheckCommand, InfoCommand, ReplayCommand, PrintCommand>;
 
 /// @brief Read the command line. Pure: prints nothing and never ends the process, since every rank
 /// parses and only one may speak. Local.

@@ -16,6 +16,7 @@
 #include "pipeline/info_command.hpp"
 #include "pipeline/mesh_command.hpp"
 #include "pipeline/mesh_worker.hpp"
+#include "pipeline/replay_command.hpp"
 #include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
@@ -36,6 +37,9 @@ ExitCode run(const Command& command, const comm::Communicator& comm, jobs::JobRu
     return run_check_command(*check, comm);
   if (const auto* info = std::get_if<InfoCommand>(&command)) {
     return run_info_command(*info, comm, jobs);
+  }
+  if (const auto* replay = std::get_if<ReplayCommand>(&command)) {
+    return run_replay_command(*replay, comm);
   }
   return run_mesh_command(std::get<MeshCommand>(command), comm, jobs);
 }

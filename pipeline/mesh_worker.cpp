@@ -33,7 +33,8 @@ enum class Message : int {
   box,
   coarse,
   plan,
-  fill
+  fill,
+  skin
 };
 
 FillTask get_fill_task(ByteReader& in)
@@ -87,6 +88,8 @@ class MeshWorker final : public jobs::Worker {
         return plan(in);
       case Message::fill:
         return fill(in);
+      case Message::skin:
+        return skin(in);
       default:
         throw Error("job request of an unknown kind");
     }
@@ -195,6 +198,15 @@ class MeshWorker final : public jobs::Worker {
     return std::move(batch).finish();
   }
 
+  [[nodiscard]] Bytes skin(ByteReader& in) const
+  {
+    const fill::FillInput skin = skin_of(refine_context(damping_), in.get<LocalIndex>());
+    ByteWriter out;
+    out.put(skin.vertex_xyz);
+    out.put(skin.triangle_vertices);
+    return std::move(out).take();
+  }
+
   [[nodiscard]] fill::FillInput skin_of(const refine::RefineContext& context,
                                         LocalIndex subdomain) const
   {
@@ -285,6 +297,8 @@ Bytes plan_request(const std::vector<PlanTest>& tests, const mesh::Damping& damp
 {
   return message(Message::plan, tests, mesh::to_bytes(damping));
 }
+
+Bytes skin_request(LocalIndex subdomain) { return message(Message::skin, subdomain); }
 
 Bytes fill_request(const FillTask& task)
 {

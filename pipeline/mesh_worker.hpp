@@ -85,4 +85,8 @@ struct FillTask {
 /// FillResults. If one is folded there is no record. Needs model, mesh and plan.
 [[nodiscard]] Bytes fill_request(const FillTask& task);
 
+/// @brief run: the skin of a subdomain; result: its vertex_xyz and triangle_vertices. Needs model,
+/// mesh and plan.
+[[nodiscard]] Bytes skin_request(LocalIndex subdomain);
+
 }  // namespace tessera::pipeline

@@ -8,6 +8,7 @@
 #include "tessera/base/error.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/failed_jobs.hpp"
 #include "pipeline/mesh_worker.hpp"
 
 namespace tessera::pipeline {
@@ -54,8 +55,10 @@ CoarseResult climb(const config::Case& run_case, RunContext& context)
     // NETGEN's surface mesher that did not end once would not end at another size either.
     const bool is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen;
     if (was_endless && is_netgen) continue;
-    const jobs::JobOutcome outcome =
-        run_job({"coarse", coarse_request(options), limits}, wait_for_stop_signal(), context);
+    const Bytes request = coarse_request(options);
+    const JobRequest job{"coarse", request, limits};
+    const jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
+    keep_if_failed(job, outcome, context);
     ++result.tries;
     if (outcome.status == jobs::JobStatus::ok) {
       take_result(outcome, options, result);
