@@ -17,9 +17,19 @@ using Edge = PatchSurface::Edge;
 struct Side {
   Edge edge{};
   LocalIndex patch = kNoIndex;
+  std::array<double, 2> uv_middle{};  // Tells sheets of one patch apart, left and right of a seam.
 
   friend auto operator<=>(const Side&, const Side&) = default;
 };
+
+// Of the corners `a` and `b` of a triangle; the same bits for either order.
+std::array<double, 2> uv_middle(const PatchSurface& surface, std::size_t t, std::size_t a,
+                                std::size_t b)
+{
+  if (surface.triangle_uv.empty()) return {};
+  const auto& uv = surface.triangle_uv[t];
+  return {0.5 * (uv[a][0] + uv[b][0]), 0.5 * (uv[a][1] + uv[b][1])};
+}
 
 std::vector<Side> sides_of(const PatchSurface& surface)
 {
@@ -28,14 +38,15 @@ std::vector<Side> sides_of(const PatchSurface& surface)
     const PatchSurface::Triangle& v = surface.triangles[t];
     for (std::size_t c = 0; c < 3; ++c) {
       const auto [low, high] = std::minmax(v[c], v[(c + 1) % 3]);
-      sides.push_back({{low, high}, surface.triangle_patch[t]});
+      sides.push_back(
+          {{low, high}, surface.triangle_patch[t], uv_middle(surface, t, c, (c + 1) % 3)});
     }
   }
   std::ranges::sort(sides);
   return sides;
 }
 
-// Splits the triangles of one patch at an edge; `middle` is the new vertex.
+// Splits the triangles on one sheet of a patch at an edge; `middle` is the new vertex.
 void split_in_patch(PatchSurface& surface, const Side& side, LocalIndex middle)
 {
   const auto [a, b] = side.edge;
@@ -47,6 +58,8 @@ void split_in_patch(PatchSurface& surface, const Side& side, LocalIndex middle)
     if (surface.triangle_patch[t] != side.patch || at_a == v.end() || at_b == v.end()) continue;
     const auto corner_a = static_cast<std::size_t>(at_a - v.begin());
     const auto corner_b = static_cast<std::size_t>(at_b - v.begin());
+    const std::array<double, 2> uv_new = uv_middle(surface, t, corner_a, corner_b);
+    if (uv_new != side.uv_middle) continue;
     PatchSurface::Triangle other = v;
     other[corner_a] = middle;
     v[corner_b] = middle;
@@ -54,10 +67,8 @@ void split_in_patch(PatchSurface& surface, const Side& side, LocalIndex middle)
     surface.triangle_patch.push_back(side.patch);
     if (surface.triangle_uv.empty()) continue;
     auto uv = surface.triangle_uv[t];
-    const std::array<double, 2> uv_middle{0.5 * (uv[corner_a][0] + uv[corner_b][0]),
-                                          0.5 * (uv[corner_a][1] + uv[corner_b][1])};
-    surface.triangle_uv[t][corner_b] = uv_middle;
-    uv[corner_a] = uv_middle;
+    surface.triangle_uv[t][corner_b] = uv_new;
+    uv[corner_a] = uv_new;
     surface.triangle_uv.push_back(uv);
   }
 }
@@ -78,7 +89,7 @@ void separate_patches(PatchSurface& surface)
 {
   std::vector<Side> sides = sides_of(surface);
   const auto rest = std::ranges::unique(sides);
-  sides.erase(rest.begin(), rest.end());  // One a patch.
+  sides.erase(rest.begin(), rest.end());  // One a sheet.
   for (std::size_t s = 1; s < sides.size(); ++s) {
     if (sides[s].edge != sides[s - 1].edge) continue;
     if (std::ranges::binary_search(surface.edges, sides[s].edge)) continue;
