@@ -38,8 +38,8 @@ struct PatchSurface {
   }
 };
 
-/// @brief Puts a vertex of its own into each edge on no curve that triangles of several patches
-/// have: two faces that both cut the same corner of the curve between them. Local.
+/// @brief Puts a vertex of its own into each edge on no curve that several sheets have, of one
+/// patch or of two: they cut the same corner of the curve between them. Local.
 void separate_patches(PatchSurface& surface);
 
 /// @brief Throws MeshError unless every edge has the triangles that PatchSurface promises, naming
