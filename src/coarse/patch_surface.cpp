@@ -46,10 +46,13 @@ std::vector<Side> sides_of(const PatchSurface& surface)
   return sides;
 }
 
-// Splits the triangles on one sheet of a patch at an edge; `middle` is the new vertex.
-void split_in_patch(PatchSurface& surface, const Side& side, LocalIndex middle)
+// Splits the triangles on one sheet of a patch at an edge.
+void split_sheet(PatchSurface& surface, const Side& side)
 {
   const auto [a, b] = side.edge;
+  const auto middle = static_cast<LocalIndex>(surface.vertex_xyz.size());
+  surface.vertex_xyz.push_back(midpoint(surface.vertex_xyz[at(a)], surface.vertex_xyz[at(b)]));
+  surface.vertex_is_fixed.push_back(0);
   const std::size_t num_triangles = surface.triangles.size();
   for (std::size_t t = 0; t < num_triangles; ++t) {
     PatchSurface::Triangle& v = surface.triangles[t];
@@ -87,17 +90,17 @@ void split_in_patch(PatchSurface& surface, const Side& side, LocalIndex middle)
 
 void separate_patches(PatchSurface& surface)
 {
-  std::vector<Side> sides = sides_of(surface);
-  const auto rest = std::ranges::unique(sides);
-  sides.erase(rest.begin(), rest.end());  // One a sheet.
-  for (std::size_t s = 1; s < sides.size(); ++s) {
-    if (sides[s].edge != sides[s - 1].edge) continue;
-    if (std::ranges::binary_search(surface.edges, sides[s].edge)) continue;
-    const auto [a, b] = sides[s].edge;
-    const auto middle = static_cast<LocalIndex>(surface.vertex_xyz.size());
-    surface.vertex_xyz.push_back(midpoint(surface.vertex_xyz[at(a)], surface.vertex_xyz[at(b)]));
-    surface.vertex_is_fixed.push_back(0);
-    split_in_patch(surface, sides[s], middle);
+  const std::vector<Side> sides = sides_of(surface);
+  for (std::size_t first = 0; first < sides.size();) {
+    std::size_t last = first;
+    while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+    // Two triangles of one patch belong together, also at a pole, where their parameters differ.
+    const bool is_one_sheet = last - first == 2 && sides[first].patch == sides[last - 1].patch;
+    const bool is_on_curve = std::ranges::binary_search(surface.edges, sides[first].edge);
+    for (std::size_t s = first + 1; s < last && !is_one_sheet && !is_on_curve; ++s) {
+      if (sides[s] != sides[s - 1]) split_sheet(surface, sides[s]);
+    }
+    first = last;
   }
 }
 
