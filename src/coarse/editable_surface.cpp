@@ -51,6 +51,8 @@ EditableSurface::EditableSurface(const PatchSurface& surface, std::vector<double
   }
   std::vector<std::vector<LocalIndex>> curves_of(xyz_.size());
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    // A tessellation may drop a sliver between two pieces of a curve, and one of them with it.
+    if (!has_edge(surface.edges[e][0], surface.edges[e][1])) continue;
     curves_[surface.edges[e]] = surface.edge_curve[e];
     for (const LocalIndex v : surface.edges[e]) {
       curves_of[at(v)].push_back(surface.edge_curve[e]);
