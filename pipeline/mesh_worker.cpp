@@ -9,6 +9,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/coarse/settle_vertices.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/model/scaled_model.hpp"
 #include "tessera/netgen/factory.hpp"
@@ -36,7 +37,8 @@ enum class Message : int {
   coarse,
   plan,
   fill,
-  improve
+  improve,
+  skin
 };
 
 FillTask get_fill_task(ByteReader& in)
@@ -96,6 +98,8 @@ class MeshWorker final : public jobs::Worker {
         return fill(in);
       case Message::improve:
         return improve(in);
+      case Message::skin:
+        return skin(in);
       default:
         throw Error("job request of an unknown kind");
     }
@@ -148,9 +152,14 @@ class MeshWorker final : public jobs::Worker {
     auto options = in.get<coarse::CoarseOptions>();
     options.max_size /= scale_;
     mesh::CoarseMesh mesh = netgen::make_coarse_mesher(*netgen_model_)->generate(options);
+    coarse::VertexDistance distance = coarse::settle_vertices(mesh, *netgen_model_);
+    distance.largest *= scale_;
     for (double& x : mesh.vertex_xyz) x *= scale_;
     mesh::validate(mesh);
-    return mesh::to_bytes(mesh);
+    ByteWriter out;
+    out.put(mesh::to_bytes(mesh));
+    out.put(distance);
+    return std::move(out).take();
   }
 
   Bytes plan(ByteReader& in)
@@ -208,6 +217,15 @@ class MeshWorker final : public jobs::Worker {
     improve_stored_region({*cut_, *regions_, store, generation}, region, improve_options_.rounds,
                           *optimizer);
     return {};
+  }
+
+  [[nodiscard]] Bytes skin(ByteReader& in) const
+  {
+    const fill::FillInput skin = skin_of(refine_context(damping_), in.get<LocalIndex>());
+    ByteWriter out;
+    out.put(skin.vertex_xyz);
+    out.put(skin.triangle_vertices);
+    return std::move(out).take();
   }
 
   [[nodiscard]] fill::FillInput skin_of(const refine::RefineContext& context,
@@ -302,6 +320,8 @@ Bytes plan_request(const std::vector<PlanTest>& tests, const mesh::Damping& damp
 {
   return message(Message::plan, tests, mesh::to_bytes(damping));
 }
+
+Bytes skin_request(LocalIndex subdomain) { return message(Message::skin, subdomain); }
 
 Bytes fill_request(const FillTask& task)
 {

@@ -56,7 +56,8 @@ namespace tessera::pipeline {
 /// model.
 [[nodiscard]] Bytes box_request();
 
-/// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh. Needs the model.
+/// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh and a VertexDistance.
+/// Needs the model.
 [[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options);
 
 /// @brief One subdomain that a plan job tests.
@@ -91,5 +92,9 @@ struct FillTask {
 /// @brief run: improves one region of pieces of a generation and stores its record; see
 /// improve_job.hpp. Needs model, mesh and improvement; the result is empty.
 [[nodiscard]] Bytes improve_request(LocalIndex region, int generation);
+
+/// @brief run: the skin of a subdomain; result: its vertex_xyz and triangle_vertices. Needs model,
+/// mesh and plan.
+[[nodiscard]] Bytes skin_request(LocalIndex subdomain);
 
 }  // namespace tessera::pipeline

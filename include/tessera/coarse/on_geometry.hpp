@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/coarse/surface_reference.hpp"
+#include "tessera/model/model.hpp"
+
+namespace tessera::coarse {
+
+/// @brief Moves the vertices of a surface that followed a tessellation onto the model itself, those
+/// on curves onto the curves. One that would go farther than half its shortest edge, or turn a
+/// triangle, stays: the search found another sheet. Local.
+/// @param[in] reference  The tessellation; its patch and curve numbers are the model's.
+/// @throws GeometryError if a projection fails.
+void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
+                     const model::Model& model);
+
+}  // namespace tessera::coarse
