@@ -65,8 +65,8 @@ std::vector<double> durations(const std::vector<SubdomainRange>& ranges,
 }
 
 // A region's job takes as long as a fill of so many tets for each fine triangle of the seam, seen
-// from both sides. Measured on shaft: 4.6 to 5.4 with 16 and 64 subdomains, 1 and 2 levels.
-constexpr double kFilledTetsPerSeamTriangle = 4.8;
+// from both sides. Measured on shaft, 2 levels: 7.4, 7.4 and 6.0 with 8, 32 and 64 subdomains.
+constexpr double kFilledTetsPerSeamTriangle = 7.0;
 
 std::vector<double> improvement_durations(const PredictionBasis& basis)
 {

@@ -37,9 +37,9 @@ constexpr double kMaxBalance = 1.03;
 
 Hash128 sum_over_ranks(const Hash128& hash, const comm::Communicator& comm)
 {
-  std::vector<std::uint64_t> halves{hash.low, hash.high};
-  comm.sum_in_place(halves);
-  return {halves[0], halves[1]};
+  std::vector<Hash128> sum{hash};
+  comm.sum_in_place(sum);
+  return sum.front();
 }
 
 // The texts of the first piece that has any, on all ranks; those that every mesh of ours has.

@@ -132,11 +132,13 @@ constexpr Key kKeys[] = {
      .rule = FlagRule{[](Case& c) -> bool& { return c.improve.seams; }},
      .meaning = "Whether NETGEN optimises the tets around the seams between subdomains once more, "
                 "across the seams. What is subdivided stays as it is.",
-     .reason = "without it quality falls as subdomains are added"},
+     .reason = "on shaft the mean ratio is 0.866 with 1 subdomain; with 64 it is 0.808 without and "
+               "0.846 with improvement"},
     {.name = "improve.rounds",
      .rule = IntegerRule{[](Case& c) -> int& { return c.improve.rounds; }, 1, 10},
      .meaning = "NETGEN's rounds of optimisation around a seam.",
-     .reason = "what a second round adds is not worth its time"},
+     .reason = "one round takes as long as the fill itself on shaft with 64 subdomains, a quarter "
+               "of it with 8"},
 
     {.name = "quality.min_dihedral_deg",
      .rule = RealRule{[](Case& c) -> double& { return c.quality.min_dihedral_deg; }, 0.0,
@@ -175,7 +177,8 @@ constexpr Key kKeys[] = {
     {.name = "output.parts",
      .rule = IntegerRule{[](Case& c) -> int& { return c.output.parts; }, 0, 1'000'000},
      .meaning = "Number of parts for a solver on so many ranks, one piece file each: balanced, "
-                "connected where the model is, and made of whole subdomains. 0: none.",
+                "connected where the model is, and made of whole subdomains. 0: none. Excludes "
+                "output.files.",
      .reason = "readers can share out subdomains as they like"},
     {.name = "output.files",
      .rule = IntegerRule{[](Case& c) -> int& { return c.output.files; }, 0, 1'000'000},

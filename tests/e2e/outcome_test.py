@@ -227,15 +227,15 @@ class CannotWrite(OutcomeTest):
         for pid in pids:
             resource.prlimit(pid, resource.RLIMIT_FSIZE, (num_bytes, num_bytes))
 
-    def assert_reports_full_disk(self, ranks, limited_from):
+    def assert_reports_full_disk(self, ranks, limited_from, file, *arguments):
         """`limited_from`: 0 the rank processes, 1 the processes that jobs come from."""
         case = self.write_case(max_size=0.3, levels=1)
-        process = self.start("mesh", case, "--output", "out", ranks=ranks)
+        process = self.start("mesh", case, "--output", "out", *arguments, ranks=ranks)
         begun = ["pieces/plan.record", "log/run.log"][limited_from]
         program.wait_until((self.folder / "out" / begun).exists, begun)
         for rank in [process.pid] if ranks is None else program.ranks_of(process):
             self.limit_files([[rank], program.chain_of(rank)][limited_from])
-        self.assert_refused(self.finish(process), CANNOT_WRITE, "piece_", "File too large")
+        self.assert_refused(self.finish(process), CANNOT_WRITE, f"cannot write out/{file}", "File too large")
         self.assertFalse((self.folder / "out" / "mesh.pvtu").exists())
         self.assertEqual(list((self.folder / "out").glob("*/*.tmp-*")), [])
 
@@ -243,13 +243,19 @@ class CannotWrite(OutcomeTest):
         for ranks in RANKS:
             with self.subTest(ranks=ranks):
                 shutil.rmtree(self.folder / "out", ignore_errors=True)
-                self.assert_reports_full_disk(ranks, 1)
+                self.assert_reports_full_disk(ranks, 1, "pieces/piece_")
+
+    def test_disk_full_when_seams_are_improved(self):
+        for ranks in RANKS:
+            with self.subTest(ranks=ranks):
+                shutil.rmtree(self.folder / "out", ignore_errors=True)
+                self.assert_reports_full_disk(ranks, 0, "pieces/improved_")
 
     def test_disk_full_when_the_mesh_is_written(self):
         for ranks in RANKS:
             with self.subTest(ranks=ranks):
                 shutil.rmtree(self.folder / "out", ignore_errors=True)
-                self.assert_reports_full_disk(ranks, 0)
+                self.assert_reports_full_disk(ranks, 0, "mesh/piece_", "--set", "improve.seams=false")
 
 
 class WrongMesh(OutcomeTest):

@@ -16,7 +16,8 @@ class Parts(program.ProgramTest):
         figures = program.figures(alone)
         self.assertEqual(len(figures["parts"]["tets"]), 3)
         self.assertEqual(sum(figures["parts"]["tets"]), figures["num_tets"])
-        self.assertLess(figures["parts"]["balance"], 1.15)
+        # Shared out by predicted tets, which for pieces of some hundred are a fifth off.
+        self.assertLess(figures["parts"]["balance"], 1.3)
         self.assertEqual(sorted(f.name for f in (alone / "mesh").iterdir()), [f"piece_{i:06}.vtu" for i in range(3)])
         for ranks in (2, 3):
             other = self.mesh(self.case, f"ranks_{ranks}", "--set", "output.parts=3", ranks=ranks)

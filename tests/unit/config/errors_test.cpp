@@ -62,11 +62,11 @@ TEST(ConfigErrors, UnknownTableIsNamedEvenIfEmpty)
             std::string::npos);
 }
 
-TEST(ConfigErrors, KeysOfLaterVersionsAreUnknown)
+TEST(ConfigErrors, PartsExcludeFiles)
 {
-  for (const char* key : {"improve.seams=2", "output.parts=4"}) {
-    EXPECT_NE(error_of_override(key).find("unknown key"), std::string::npos) << key;
-  }
+  EXPECT_NE(
+      error_of_key("[output]\nparts = 2\nfiles = 3").find("output.parts excludes output.files"),
+      std::string::npos);
 }
 
 TEST(ConfigErrors, WrongTypeNamesTheValueAndWhatIsAllowed)

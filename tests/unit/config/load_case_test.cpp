@@ -35,6 +35,10 @@ timeout_s = 30
 memory_gib = 1.5
 optimize_steps = 0
 grading = 0.7
+[improve]
+seams = false
+rounds = 3
+
 [quality]
 min_dihedral_deg = 5
 min_mean_ratio = 0.25
@@ -77,6 +81,8 @@ TEST(LoadCase, EveryKeyReachesItsOwnOption)
   EXPECT_EQ(loaded.fill.memory_gib, 1.5);
   EXPECT_EQ(loaded.fill.optimize_steps, 0);
   EXPECT_EQ(loaded.fill.grading, 0.7);
+  EXPECT_FALSE(loaded.improve.seams);
+  EXPECT_EQ(loaded.improve.rounds, 3);
   EXPECT_EQ(loaded.quality.min_dihedral_deg, 5.0);
   EXPECT_EQ(loaded.quality.min_mean_ratio, 0.25);
   EXPECT_EQ(loaded.output.directory, "out dir");
