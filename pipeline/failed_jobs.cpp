@@ -79,13 +79,13 @@ std::vector<std::string> write_loads(const fs::path& failure, const RunContext& 
   return names;
 }
 
-// Runs `write` and makes a warning of what it cannot write.
+// Runs `write` and makes a warning of what it cannot do.
 template <class Write>
 void try_to_keep(const RunContext& context, const Write& write)
 {
   try {
     write();
-  } catch (const OutputError& error) {
+  } catch (const Error& error) {
     context.log.warn("failure: {}", error.what());
   } catch (const fs::filesystem_error& error) {
     context.log.warn("failure: {}", error.what());
@@ -122,6 +122,17 @@ void write_skin(const fs::path& file, const Bytes& skin)
   arrays.point_xyz = in.get_vector<double>();
   const auto triangles = in.get_vector<LocalIndex>();
   arrays.cell_points.assign(triangles.begin(), triangles.end());
+  io::write_vtu(arrays, file, io::Compression::none);
+}
+
+void write_region(const fs::path& file, const improve::RegionMesh& region)
+{
+  mesh::MeshArrays arrays;
+  arrays.point_xyz = region.vertex_xyz;
+  arrays.cell_points.assign(region.tet_vertices.begin(), region.tet_vertices.end());
+  for (const LocalIndex owner : region.tet_owner) {
+    arrays.cell_ints["subdomain"].push_back(region.subdomains[at(owner)]);
+  }
   io::write_vtu(arrays, file, io::Compression::none);
 }
 
@@ -169,6 +180,18 @@ void keep_meshes_of_failed_fill(const fs::path& kept, LocalIndex subdomain,
   try_to_keep(context, [&] {
     write_coarse(kept.parent_path() / "coarse.vtu", coarse, decomposition);
     if (skin.status == jobs::JobStatus::ok) write_skin(kept / "skin.vtu", skin.result);
+  });
+}
+
+void keep_meshes_of_failed_region(const fs::path& kept,
+                                  const std::function<improve::RegionMesh()>& extract,
+                                  const mesh::CoarseMesh& coarse,
+                                  const mesh::Decomposition& decomposition, RunContext& context)
+{
+  if (kept.empty()) return;
+  try_to_keep(context, [&] {
+    write_coarse(kept.parent_path() / "coarse.vtu", coarse, decomposition);
+    write_region(kept / "region.vtu", extract());
   });
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/improve/region_mesh.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/decomposition.hpp"
 
@@ -42,6 +43,14 @@ void keep_meshes_of_failed_fill(const std::filesystem::path& kept, LocalIndex su
                                 const mesh::CoarseMesh& coarse,
                                 const mesh::Decomposition& decomposition,
                                 const jobs::JobRunner::WaitCallback& on_wait, RunContext& context);
+
+/// @brief Adds to a kept job of the improvement what it was about: the tets of its region, as
+/// `region.vtu`, and for all jobs DIR/failure/coarse.vtu. Local; warns as keep_failed_job().
+/// @param[in] extract Takes the region out of its pieces; not called if the job was not kept.
+void keep_meshes_of_failed_region(const std::filesystem::path& kept,
+                                  const std::function<improve::RegionMesh()>& extract,
+                                  const mesh::CoarseMesh& coarse,
+                                  const mesh::Decomposition& decomposition, RunContext& context);
 
 /// @brief Reads a kept job. Local.
 /// @throws InputError naming the file: missing, truncated, of another version of the program.

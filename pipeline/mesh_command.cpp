@@ -158,8 +158,8 @@ class MeshRun {
                                 report_json(run, verdict, run_figures, context.times));
       folder_->remove_half_written();  // Of jobs that were killed and done again.
       state.clear();
-      // What a later try made good needs no diagnosis.
-      if (verdict.exit_code == ExitCode::ok) {
+      // What a later try made good needs no diagnosis; a region that failed has had but one.
+      if (verdict.exit_code == ExitCode::ok && run.filled.improvement.num_failed == 0) {
         std::filesystem::remove_all(given_.output.directory / "failure");
       }
     });

@@ -38,6 +38,7 @@ enum class Message : int {
   plan,
   fill,
   improve,
+  improve_pieces,
   skin
 };
 
@@ -98,6 +99,8 @@ class MeshWorker final : public jobs::Worker {
         return fill(in);
       case Message::improve:
         return improve(in);
+      case Message::improve_pieces:
+        return improve_pieces(in);
       case Message::skin:
         return skin(in);
       default:
@@ -213,10 +216,26 @@ class MeshWorker final : public jobs::Worker {
     const auto region = in.get<LocalIndex>();
     const auto generation = in.get<int>();
     const io::RecordStore store(store_folder(output_));
-    const auto optimizer = make_faulty_if_asked(netgen::make_optimizer(), region);
-    improve_stored_region({*cut_, *regions_, store, generation}, region, improve_options_.rounds,
-                          *optimizer);
+    const auto pieces = pieces_around({*cut_, *regions_, store, generation}, region);
+    store.put(region_name(region), improved(region, pieces));
     return {};
+  }
+
+  Bytes improve_pieces(ByteReader& in)
+  {
+    const auto region = in.get<LocalIndex>();
+    std::vector<mesh::Piece> pieces;
+    for (auto left = in.get<LocalIndex>(); left > 0; --left) {
+      pieces.push_back(mesh::piece_from_bytes(in.get_vector<std::byte>()));
+    }
+    return improved(region, pieces);
+  }
+
+  [[nodiscard]] Bytes improved(LocalIndex region, const std::vector<mesh::Piece>& pieces) const
+  {
+    const auto optimizer = make_faulty_if_asked(netgen::make_optimizer(), region);
+    return to_bytes(
+        improve_tets(region_mesh(pieces, *regions_, region), improve_options_.rounds, *optimizer));
   }
 
   [[nodiscard]] Bytes skin(ByteReader& in) const
@@ -337,6 +356,16 @@ Bytes load_improvement_message(const improve::ImproveOptions& options)
 Bytes improve_request(LocalIndex region, int generation)
 {
   return message(Message::improve, region, generation);
+}
+
+Bytes improve_pieces_request(LocalIndex region, const std::vector<mesh::Piece>& pieces)
+{
+  ByteWriter out;
+  out.put(Message::improve_pieces);
+  out.put(region);
+  out.put(static_cast<LocalIndex>(pieces.size()));
+  for (const mesh::Piece& piece : pieces) out.put(mesh::to_bytes(piece));
+  return std::move(out).take();
 }
 
 }  // namespace tessera::pipeline

@@ -17,6 +17,7 @@
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/damping.hpp"
 #include "tessera/mesh/decomposition.hpp"
+#include "tessera/mesh/piece.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/number/id_layout.hpp"
 
@@ -92,6 +93,11 @@ struct FillTask {
 /// @brief run: improves one region of pieces of a generation and stores its record; see
 /// improve_job.hpp. Needs model, mesh and improvement; the result is empty.
 [[nodiscard]] Bytes improve_request(LocalIndex region, int generation);
+
+/// @brief run: the same on pieces that come with the request, those of pieces_around(); nothing is
+/// read or stored. Result: bytes of a RegionRecord.
+[[nodiscard]] Bytes improve_pieces_request(LocalIndex region,
+                                           const std::vector<mesh::Piece>& pieces);
 
 /// @brief run: the skin of a subdomain; result: its vertex_xyz and triangle_vertices. Needs model,
 /// mesh and plan.

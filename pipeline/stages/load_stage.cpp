@@ -39,7 +39,7 @@ void load_numbers(const std::vector<number::PieceCounts>& counts, const std::str
 
 void load_improvement(const improve::ImproveOptions& options, RunContext& context)
 {
-  load_everywhere(load_improvement_message(options), context);
+  load_everywhere("improvement", load_improvement_message(options), context);
 }
 
 void load_plan(const mesh::Damping& damping, RunContext& context)

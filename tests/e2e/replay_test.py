@@ -60,6 +60,33 @@ class Replay(program.ProgramTest):
         self.assertEqual(program.mesh_files(output), before)
         self.assertEqual(sorted(output.rglob("*")), files)
 
+    def test_failed_improvement_is_kept_though_the_run_ends_ok(self):
+        fault = os.environ | {"TESSERA_TEST_FAULT": "improve=segv@1"}
+        output = self.mesh(self.write_case(), "out", ranks=2, env=fault)
+        self.assertEqual(program.figures(output)["improve"]["failed"], 1)
+        job = output / "failure" / "improve_region_1"
+        self.assertIn("Segmentation fault", (job / "log.txt").read_text())
+        region = self.run_program("info", job / "region.vtu")
+        self.assertRegex(region.out, r"1 pieces, [1-9]\d+ cells, [1-9]\d+ points")
+        coarse = self.run_program("check", output / "failure" / "coarse.vtu", "--partial")
+        self.assertRegex(coarse.out, r"[1-9]\d+ tets")
+
+    def test_improvement_is_replayed_without_the_pieces_of_the_run(self):
+        for kind in ("throw", "drop"):
+            with self.subTest(fault=kind):
+                fault = os.environ | {"TESSERA_TEST_FAULT": f"improve={kind}@1"}
+                output = self.mesh(self.write_case(), kind, env=fault)
+                self.assertEqual(list((output / "pieces").glob("*")), [])
+                files = sorted(output.rglob("*"))
+                job = output / "failure" / "improve_region_1"
+                again = self.run_program("replay", job, env=fault)
+                self.assertEqual(again.code, FAILED, again.err)
+                self.assertIn(again.out.split("failed: ")[1].strip(), (job / "log.txt").read_text())
+                sound = self.run_program("replay", job, ranks=2)
+                self.assertEqual(sound.code, OK, sound.err)
+                self.assertIn("improve: region 1: succeeded", sound.out)
+                self.assertEqual(sorted(output.rglob("*")), files)
+
     def test_sound_run_leaves_no_folder(self):
         self.assertFalse((self.mesh(self.write_case(), "sound") / "failure").exists())
 
