@@ -72,17 +72,20 @@ struct PlanTest {
 /// the new, smaller factors. Needs model and mesh.
 [[nodiscard]] Bytes plan_request(const std::vector<PlanTest>& tests, const mesh::Damping& damping);
 
+/// @brief An angle that every piece beats, also one that has a tet without any.
+inline constexpr double kAnyAngle = -1.0;
+
 /// @brief What a fill job makes: the pieces of the subdomains first…last-1.
 struct FillTask {
   LocalIndex batch = 0;  ///< Number of the record, and of the file if numbers are loaded.
   LocalIndex first = 0;
   LocalIndex last = 0;
-  Hash128 plan{};                  ///< plan_fingerprint() of them.
-  fill::FillTry settings{};        ///< The same for all.
-  double angle_to_beat_deg = 0.0;  ///< A piece whose smallest angle does not is an error.
-  LocalIndex tries = 1;            ///< Which rung of the ladder this is.
-  bool was_limited = false;        ///< A rung before it ended for time or memory.
-  bool keep = true;                ///< false: measure only and store nothing, for a prediction.
+  Hash128 plan{};                        ///< plan_fingerprint() of them.
+  fill::FillTry settings{};              ///< The same for all.
+  double angle_to_beat_deg = kAnyAngle;  ///< A piece whose smallest angle does not is an error.
+  LocalIndex tries = 1;                  ///< Which rung of the ladder this is.
+  bool was_limited = false;              ///< A rung before it ended for time or memory.
+  bool keep = true;  ///< false: measure only and store nothing, for a prediction.
   std::vector<std::string> failures{};  ///< What the rungs before said, for the report.
 };
 

@@ -90,7 +90,8 @@ class Filler {
     const bool had_one = !climb.best.empty();
     const bool is_netgen = settings.kernel == fill::KernelKind::netgen;
     if (had_one && !is_netgen) return true;
-    const double angle_to_beat = had_one ? climb.best.front().summary.tets.min_dihedral_deg : 0.0;
+    const double angle_to_beat =
+        had_one ? climb.best.front().summary.tets.min_dihedral_deg : kAnyAngle;
     ++climb.tries;
     const jobs::JobOutcome outcome =
         run_try(climb.range, request_of(climb, settings, angle_to_beat), on_wait);
@@ -113,7 +114,7 @@ class Filler {
   void keep_failure(const Climb& climb, const fill::FillTry& settings,
                     const jobs::JobOutcome& outcome, const jobs::JobRunner::WaitCallback& on_wait)
   {
-    const Bytes request = request_of(climb, settings, 0.0, false);
+    const Bytes request = request_of(climb, settings, kAnyAngle, false);
     const jobs::JobLimits limits;
     const JobRequest job{name_of(climb.range), request, limits};
     keep_meshes_of_failed_fill(keep_failed_job(job, request, outcome, context_), climb.range.first,

@@ -5,12 +5,20 @@
 #include <limits>
 #include <vector>
 
+#include "tessera/coarse/remesh.hpp"
+#include "tessera/coarse/surface_overlap.hpp"
+
 namespace tessera::coarse {
 namespace {
 
 // A triangle whose normal turns by more than this cosine says was folded by the move.
 constexpr double kLeastCosine = 0.5;
 constexpr double kMostOfEdge = 0.5;
+
+// Each halves the edges where the surface cuts itself. Faces that lie in each other would be made
+// finer and finer all over: they are given up when there are so many times more triangles.
+constexpr std::size_t kMostGrowth = 3;
+constexpr int kFinerRounds = 5;
 
 class Mover {
  public:
@@ -83,12 +91,37 @@ class Mover {
   std::vector<LocalIndex> curve_;                 // Of each vertex that lies on one.
 };
 
+std::vector<std::size_t> cut_triangles(const PatchSurface& surface)
+{
+  std::vector<std::size_t> triangles;
+  for (const Overlap& overlap : find_overlaps(surface)) {
+    triangles.push_back(overlap.first);
+    triangles.push_back(overlap.second);
+  }
+  return triangles;
+}
+
 }  // namespace
 
 void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
                      const model::Model& model)
 {
   Mover(surface, reference, model).run();
+}
+
+PatchSurface remesh_on_geometry(const SurfaceReference& reference, const model::Model& model,
+                                const CoarseOptions& options)
+{
+  PatchSurface surface = remesh(reference, options);
+  put_on_geometry(surface, reference, model);
+  const std::size_t most_triangles = kMostGrowth * surface.triangles.size();
+  for (int round = 0; round < kFinerRounds; ++round) {
+    const std::vector<std::size_t> cut = cut_triangles(surface);
+    if (cut.empty() || surface.triangles.size() > most_triangles) break;
+    surface = remesh_finer(reference, surface, cut, options);
+    put_on_geometry(surface, reference, model);
+  }
+  return surface;
 }
 
 }  // namespace tessera::coarse

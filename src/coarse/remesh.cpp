@@ -62,9 +62,8 @@ double quality(const Corners& p)
 
 class Remesher {
  public:
-  Remesher(const SurfaceReference& reference, const CoarseOptions& options)
-      : reference_(reference),
-        surface_(reference.surface(), surface_sizes(reference.surface(), options))
+  Remesher(const SurfaceReference& reference, const PatchSurface& start, std::vector<double> sizes)
+      : reference_(reference), surface_(start, std::move(sizes))
   {
   }
 
@@ -283,7 +282,14 @@ class Remesher {
 
 PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options)
 {
-  return Remesher(reference, options).run();
+  const PatchSurface& start = reference.surface();
+  return Remesher(reference, start, surface_sizes(start, options)).run();
+}
+
+PatchSurface remesh_finer(const SurfaceReference& reference, const PatchSurface& surface,
+                          const std::vector<std::size_t>& triangles, const CoarseOptions& options)
+{
+  return Remesher(reference, surface, finer_sizes(surface, triangles, options.grading)).run();
 }
 
 }  // namespace tessera::coarse

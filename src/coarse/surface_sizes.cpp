@@ -31,22 +31,70 @@ double angle_between(const Vec3& a, const Vec3& b)
   return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
+using EdgeTriangles = std::map<Edge, std::vector<std::size_t>>;
+using Neighbours = std::vector<std::vector<LocalIndex>>;
+
+EdgeTriangles triangles_by_edge(const PatchSurface& surface)
+{
+  EdgeTriangles triangles;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const PatchSurface::Triangle& v = surface.triangles[t];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [low, high] = std::minmax(v[c], v[(c + 1) % 3]);
+      triangles[{low, high}].push_back(t);
+    }
+  }
+  return triangles;
+}
+
+Neighbours neighbours_of(const PatchSurface& surface, const EdgeTriangles& edges)
+{
+  Neighbours neighbours(surface.vertex_xyz.size());
+  for (const auto& [edge, triangles] : edges) {
+    neighbours[at(edge[0])].push_back(edge[1]);
+    neighbours[at(edge[1])].push_back(edge[0]);
+  }
+  return neighbours;
+}
+
+// Smallest sizes first; what they allow their neighbours is final when these are taken.
+void grade(const PatchSurface& surface, const Neighbours& neighbours, double grading,
+           std::vector<double>& sizes)
+{
+  using Entry = std::pair<double, LocalIndex>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::size_t v = 0; v < sizes.size(); ++v) {
+    queue.emplace(sizes[v], static_cast<LocalIndex>(v));
+  }
+  while (!queue.empty()) {
+    const auto [size, v] = queue.top();
+    queue.pop();
+    if (size > sizes[at(v)]) continue;
+    for (const LocalIndex other : neighbours[at(v)]) {
+      const double apart = norm(surface.vertex_xyz[at(other)] - surface.vertex_xyz[at(v)]);
+      const double allowed = size + grading * apart;
+      if (allowed >= sizes[at(other)]) continue;
+      sizes[at(other)] = allowed;
+      queue.emplace(allowed, other);
+    }
+  }
+}
+
 class SizeField {
  public:
   SizeField(const PatchSurface& surface, const CoarseOptions& options)
       : surface_(surface),
         options_(options),
         sizes_(surface.vertex_xyz.size(), options.max_size),
-        neighbours_(surface.vertex_xyz.size())
+        edge_triangles_(triangles_by_edge(surface))
   {
   }
 
   std::vector<double> run() &&
   {
-    collect_edges();
     for (const auto& [edge, triangles] : edge_triangles_) bend_surface(edge, triangles);
     bend_and_shorten_curves();
-    grade();
+    grade(surface_, neighbours_of(surface_, edge_triangles_), options_.grading, sizes_);
     return std::move(sizes_);
   }
 
@@ -58,21 +106,6 @@ class SizeField {
   {
     const double least = kLeastSize * options_.max_size;
     sizes_[at(v)] = std::max(least, std::min(sizes_[at(v)], size));
-  }
-
-  void collect_edges()
-  {
-    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-      const PatchSurface::Triangle& v = surface_.triangles[t];
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto [low, high] = std::minmax(v[c], v[(c + 1) % 3]);
-        edge_triangles_[{low, high}].push_back(t);
-      }
-    }
-    for (const auto& [edge, triangles] : edge_triangles_) {
-      neighbours_[at(edge[0])].push_back(edge[1]);
-      neighbours_[at(edge[1])].push_back(edge[0]);
-    }
   }
 
   // Two triangles that meet inside a patch: their angle over the distance of their middles is the
@@ -125,35 +158,32 @@ class SizeField {
     restrict(v, 0.5 * (norm(to) + norm(from)) / turn / options_.curvature);
   }
 
-  // Smallest sizes first; what they allow their neighbours is final when these are taken.
-  void grade()
-  {
-    using Entry = std::pair<double, LocalIndex>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (std::size_t v = 0; v < sizes_.size(); ++v) {
-      queue.emplace(sizes_[v], static_cast<LocalIndex>(v));
-    }
-    while (!queue.empty()) {
-      const auto [size, v] = queue.top();
-      queue.pop();
-      if (size > sizes_[at(v)]) continue;
-      for (const LocalIndex other : neighbours_[at(v)]) {
-        const double allowed = size + options_.grading * norm(xyz(other) - xyz(v));
-        if (allowed >= sizes_[at(other)]) continue;
-        sizes_[at(other)] = allowed;
-        queue.emplace(allowed, other);
-      }
-    }
-  }
-
   const PatchSurface& surface_;
   const CoarseOptions& options_;
   std::vector<double> sizes_;
-  std::vector<std::vector<LocalIndex>> neighbours_;
-  std::map<Edge, std::vector<std::size_t>> edge_triangles_{};
+  std::map<Edge, std::vector<std::size_t>> edge_triangles_;
 };
 
 }  // namespace
+
+std::vector<double> finer_sizes(const PatchSurface& surface,
+                                const std::vector<std::size_t>& triangles, double grading)
+{
+  const Neighbours neighbours = neighbours_of(surface, triangles_by_edge(surface));
+  std::vector<double> sizes(surface.vertex_xyz.size(), 0.0);
+  for (std::size_t v = 0; v < sizes.size(); ++v) {
+    for (const LocalIndex other : neighbours[v]) {
+      const double length = norm(surface.vertex_xyz[at(other)] - surface.vertex_xyz[v]);
+      sizes[v] += length / static_cast<double>(neighbours[v].size());
+    }
+  }
+  const std::vector<double> before = sizes;
+  for (const std::size_t t : triangles) {
+    for (const LocalIndex v : surface.triangles[t]) sizes[at(v)] = 0.5 * before[at(v)];
+  }
+  grade(surface, neighbours, grading, sizes);
+  return sizes;
+}
 
 std::vector<double> surface_sizes(const PatchSurface& surface, const CoarseOptions& options)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "tessera/coarse/options.hpp"
@@ -12,5 +13,11 @@ namespace tessera::coarse {
 /// bends or a curve is short, and growing from there with the grading. Local.
 [[nodiscard]] std::vector<double> surface_sizes(const PatchSurface& surface,
                                                 const CoarseOptions& options);
+
+/// @brief Sizes of a surface as it is, the mean of the edges at each vertex, but half of that at
+/// some triangles, and growing from there with the grading. Local.
+[[nodiscard]] std::vector<double> finer_sizes(const PatchSurface& surface,
+                                              const std::vector<std::size_t>& triangles,
+                                              double grading);
 
 }  // namespace tessera::coarse

@@ -12,7 +12,6 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/on_geometry.hpp"
-#include "tessera/coarse/remesh.hpp"
 
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
@@ -165,8 +164,7 @@ GeometryNumbers OccModel::numbers_for(const ::netgen::OCCGeometry& geometry) con
 mesh::CoarseMesh OccModel::remesh(const coarse::CoarseOptions& options) const
 {
   const coarse::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
-  coarse::PatchSurface surface = coarse::remesh(reference, options);
-  coarse::put_on_geometry(surface, reference, *this);
+  const coarse::PatchSurface surface = coarse::remesh_on_geometry(reference, *this, options);
   const SurfaceNames names{
       [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
       [this](LocalIndex material) { return solid_name(material); }};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
-#include "tessera/coarse/remesh.hpp"
+#include "tessera/coarse/on_geometry.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/stl_file.hpp"
 #include "tessera/model/surface_features.hpp"
@@ -124,7 +124,8 @@ class StlModel final : public LoadedModel {
     const SurfaceNames names{
         [this](LocalIndex patch) { return features_.patch_names[at(patch)]; },
         [this](LocalIndex material) { return surface_.material_names[at(material - 1)]; }};
-    return mesh_volume(coarse::remesh(reference, options), options, names, name_);
+    return mesh_volume(coarse::remesh_on_geometry(reference, *this, options), options, names,
+                       name_);
   }
 
   // Nothing is near a point that is not finite.

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/volume_mesher.hpp"
 
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include <meshing.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/surface_overlap.hpp"
 
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
@@ -50,12 +55,38 @@ GeometryNumbers numbers_of(const SurfaceNames& names)
   return numbers;
 }
 
+std::string name_of(const coarse::PatchSurface& surface, const SurfaceNames& names,
+                    std::size_t triangle)
+{
+  const LocalIndex patch = surface.triangle_patch[triangle];
+  std::string text = "face " + std::to_string(patch);
+  if (const std::string name = names.patch(patch); !name.empty()) text += " '" + name + "'";
+  return text;
+}
+
+// NETGEN would say only that there is such a place.
+void require_apart(const coarse::PatchSurface& surface, const SurfaceNames& names,
+                   const std::string& what)
+{
+  const std::vector<coarse::Overlap> overlaps = coarse::find_overlaps(surface);
+  if (overlaps.empty()) return;
+  const auto& [first, second, place] = overlaps.front();
+  std::ostringstream text;
+  text << what << ": the surface cuts itself at " << overlaps.size()
+       << " pairs of triangles, first " << name_of(surface, names, first) << " and "
+       << name_of(surface, names, second) << " at (" << place[0] << ", " << place[1] << ", "
+       << place[2]
+       << "); cut overlapping bodies apart in the CAD program, or try a smaller coarse.max_size";
+  throw NetgenError(text.str());
+}
+
 }  // namespace
 
 mesh::CoarseMesh mesh_volume(const coarse::PatchSurface& surface,
                              const coarse::CoarseOptions& options, const SurfaceNames& names,
                              const std::string& what)
 {
+  require_apart(surface, names, what);
   NetgenSession session(coarse_parameters(options));
   return session.run(what, [&] {
     ::netgen::Mesh mesh;

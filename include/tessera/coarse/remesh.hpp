@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/patch_surface.hpp"
 #include "tessera/coarse/surface_reference.hpp"
@@ -17,5 +20,12 @@ namespace tessera::coarse {
 /// arguments give the same bits. Local.
 /// @pre validate() accepts the reference's surface.
 [[nodiscard]] PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options);
+
+/// @brief A remeshed surface once more, with edges of half their length around some triangles.
+/// Local. @pre `surface` is what remesh() made of the same reference.
+[[nodiscard]] PatchSurface remesh_finer(const SurfaceReference& reference,
+                                        const PatchSurface& surface,
+                                        const std::vector<std::size_t>& triangles,
+                                        const CoarseOptions& options);
 
 }  // namespace tessera::coarse
