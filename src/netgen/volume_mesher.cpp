@@ -76,7 +76,8 @@ void require_apart(const coarse::PatchSurface& surface, const SurfaceNames& name
        << " pairs of triangles, first " << name_of(surface, names, first) << " and "
        << name_of(surface, names, second) << " at (" << place[0] << ", " << place[1] << ", "
        << place[2]
-       << "); cut overlapping bodies apart in the CAD program, or try a smaller coarse.max_size";
+       << "); part bodies that overlap or touch without a common face in the CAD program; "
+       << "for a thin wall try a smaller coarse.max_size";
   throw NetgenError(text.str());
 }
 
