@@ -28,6 +28,7 @@ struct Parsed {
   CheckCommand check{};
   RepartitionCommand repartition{};
   InfoCommand info{};
+  ReplayCommand replay{};
 };
 
 // CLI11's own conversion takes 010 for eight.
@@ -172,6 +173,14 @@ void add_info(CLI::App& app, Parsed& parsed)
   info->add_option("FILE", parsed.info.file, "A CAD model, case or mesh")->required();
 }
 
+void add_replay(CLI::App& app, Parsed& parsed)
+{
+  CLI::App* replay = app.add_subcommand(
+      "replay", "Run a job that failed once more, in this process, for a debugger");
+  replay->add_option("DIR/failure/JOB", parsed.replay.folder, "What the run has kept of the job")
+      ->required();
+}
+
 void set_up(CLI::App& app, Parsed& parsed)
 {
   app.set_help_flag("-h,--help", "Print this help");
@@ -184,6 +193,7 @@ void set_up(CLI::App& app, Parsed& parsed)
   add_check(app, parsed);
   add_repartition(app, parsed.repartition);
   add_info(app, parsed);
+  add_replay(app, parsed);
   for (CLI::App* command : app.get_subcommands({})) command->footer("");
 }
 
@@ -192,6 +202,7 @@ Command to_command(const CLI::App& app, Parsed parsed)
   if (app.got_subcommand("check")) return parsed.check;
   if (app.got_subcommand("repartition")) return parsed.repartition;
   if (app.got_subcommand("info")) return parsed.info;
+  if (app.got_subcommand("replay")) return parsed.replay;
   parsed.mesh.progress = kProgressWords.at(parsed.progress);
   if (parsed.quiet) parsed.mesh.verbosity = Verbosity::quiet;
   if (parsed.verbose) parsed.mesh.verbosity = Verbosity::verbose;

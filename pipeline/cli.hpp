@@ -50,13 +50,18 @@ struct InfoCommand {
   std::filesystem::path file{};
 };
 
+/// @brief `tessera replay`: run a job that failed once more, in this process.
+struct ReplayCommand {
+  std::filesystem::path folder{};  ///< DIR/failure/JOB.
+};
+
 /// @brief `--help` or `--version`: print this to standard output and end with exit code 0.
 struct PrintCommand {
   std::string text{};
 };
 
-using Command =
-    std::variant<MeshCommand, CheckCommand, RepartitionCommand, InfoCommand, PrintCommand>;
+using Command = std::variant<MeshCommand, CheckCommand, RepartitionCommand, InfoCommand,
+                             ReplayCommand, PrintCommand>;
 
 /// @brief Read the command line. Pure: prints nothing and never ends the process, since every rank
 /// parses and only one may speak. Local.

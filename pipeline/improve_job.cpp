@@ -55,20 +55,31 @@ RegionRecord region_record_from_bytes(std::span<const std::byte> bytes)
 
 std::string region_name(LocalIndex region) { return fmt::format("region_{:06}", region); }
 
-void improve_stored_region(const ImproveContext& context, LocalIndex region, int rounds,
-                           const improve::Optimizer& optimizer)
+std::vector<mesh::Piece> pieces_around(const ImproveContext& context, LocalIndex region)
 {
-  const improve::Regions& regions = context.regions;
-  const int phase = regions.phase_of(region);
   std::vector<mesh::Piece> pieces;
-  std::vector<std::vector<LocalIndex>> labels;
-  for (const LocalIndex s : regions.subdomains_of(region)) {
+  for (const LocalIndex s : context.regions.subdomains_of(region)) {
     pieces.push_back(stored_piece(context.store, s, context.generation));
-    labels.push_back(improve::label_tets(pieces.back(), regions, phase, improve::kDefaultLayers));
+  }
+  return pieces;
+}
+
+improve::RegionMesh region_mesh(const std::vector<mesh::Piece>& pieces,
+                                const improve::Regions& regions, LocalIndex region)
+{
+  const int phase = regions.phase_of(region);
+  std::vector<std::vector<LocalIndex>> labels;
+  for (const mesh::Piece& piece : pieces) {
+    labels.push_back(improve::label_tets(piece, regions, phase, improve::kDefaultLayers));
   }
   std::vector<improve::LabelledPiece> labelled;
   for (std::size_t i = 0; i < pieces.size(); ++i) labelled.push_back({pieces[i], labels[i]});
-  const improve::RegionMesh mesh = improve::extract_region(labelled, regions, region);
+  return improve::extract_region(labelled, regions, region);
+}
+
+RegionRecord improve_tets(const improve::RegionMesh& mesh, int rounds,
+                          const improve::Optimizer& optimizer)
+{
   RegionRecord record;
   if (mesh.num_tets() == 0) {
     record.reason = "other regions have all its tets";
@@ -81,7 +92,7 @@ void improve_stored_region(const ImproveContext& context, LocalIndex region, int
     record.reason = std::move(outcome.reason);
     record.patch = std::move(outcome.patch);
   }
-  context.store.put(region_name(region), to_bytes(record));
+  return record;
 }
 
 mesh::Piece merge_regions(const ImproveContext& context, LocalIndex subdomain, int phase)

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tessera/improve/improve_region.hpp"
 #include "tessera/improve/options.hpp"
@@ -38,12 +39,21 @@ struct ImproveContext {
   int generation = 0;  ///< Of the pieces that the phase starts from.
 };
 
-/// @brief The job of one region: takes its tets out of the pieces in the store, optimises them,
-/// judges the result and keeps it as the region's record.
-/// @note Local; the optimiser may crash: call it in a job process.
-/// @throws NetgenError, MeshError if the try failed; then there is no record.
-void improve_stored_region(const ImproveContext& context, LocalIndex region, int rounds,
-                           const improve::Optimizer& optimizer);
+/// @brief The pieces that a region lies in, from the store: regions.subdomains_of(region), in that
+/// order. Local.
+[[nodiscard]] std::vector<mesh::Piece> pieces_around(const ImproveContext& context,
+                                                     LocalIndex region);
+
+/// @brief A region's tets, taken out of its pieces_around(). Local; a pure function.
+/// @throws MeshError as improve::extract_region().
+[[nodiscard]] improve::RegionMesh region_mesh(const std::vector<mesh::Piece>& pieces,
+                                              const improve::Regions& regions, LocalIndex region);
+
+/// @brief The job of one region: optimises its tets and judges the result.
+/// @note Local; a pure function. The optimiser may crash: call it in a job process.
+/// @throws NetgenError, MeshError if the try failed.
+[[nodiscard]] RegionRecord improve_tets(const improve::RegionMesh& mesh, int rounds,
+                                        const improve::Optimizer& optimizer);
 
 /// @brief The piece of a subdomain with what the regions of one phase have become. Local; runs our
 /// own code only.

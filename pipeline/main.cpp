@@ -17,6 +17,7 @@
 #include "pipeline/mesh_command.hpp"
 #include "pipeline/mesh_worker.hpp"
 #include "pipeline/repartition/repartition_command.hpp"
+#include "pipeline/replay_command.hpp"
 #include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
@@ -40,6 +41,9 @@ ExitCode run(const Command& command, const comm::Communicator& comm, jobs::JobRu
   }
   if (const auto* info = std::get_if<InfoCommand>(&command)) {
     return run_info_command(*info, comm, jobs);
+  }
+  if (const auto* replay = std::get_if<ReplayCommand>(&command)) {
+    return run_replay_command(*replay, comm);
   }
   return run_mesh_command(std::get<MeshCommand>(command), comm, jobs);
 }

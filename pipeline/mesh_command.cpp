@@ -70,7 +70,7 @@ class MeshRun {
       if (comm.rank() == 0) open_folder();
     });
     comm.barrier();
-    jobs.set_log_file(given_.output.directory / "log" / fmt::format("rank_{:06}.log", comm.rank()));
+    jobs.set_log_file(jobs_log());
   }
 
   ExitCode run()
@@ -79,7 +79,7 @@ class MeshRun {
         comm_.rank() == 0 ? given_.output.directory / "log" / log_name() : std::filesystem::path(),
         command_.verbosity);
     Progress progress(progress_style(command_, comm_), log);
-    RunContext context{comm_, jobs_, progress, *log, given_.output.directory};
+    RunContext context{comm_, jobs_, progress, *log, given_.output.directory, jobs_log()};
     try {
       return command_.dry_run ? predict(context) : mesh(context);
     } catch (const comm::ThrownOnAllRanks& thrown) {
@@ -90,6 +90,11 @@ class MeshRun {
   }
 
  private:
+  [[nodiscard]] std::filesystem::path jobs_log() const
+  {
+    return given_.output.directory / "log" / fmt::format("rank_{:06}.log", comm_.rank());
+  }
+
   void open_folder()
   {
     if (command_.resume) state().require_begun();
@@ -153,6 +158,10 @@ class MeshRun {
                                 report_json(run, verdict, run_figures, context.times));
       folder_->remove_half_written();  // Of jobs that were killed and done again.
       state.clear();
+      // What a later try made good needs no diagnosis; a region that failed has had but one.
+      if (verdict.exit_code == ExitCode::ok && run.filled.improvement.num_failed == 0) {
+        std::filesystem::remove_all(given_.output.directory / "failure");
+      }
     });
     if (comm_.rank() == 0) {
       for (const std::string& reason : verdict.reasons) context.log.warn("degraded: {}", reason);

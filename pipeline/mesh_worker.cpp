@@ -13,6 +13,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/coarse/settle_vertices.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/model/scaled_model.hpp"
 #include "tessera/netgen/factory.hpp"
@@ -40,7 +41,9 @@ enum class Message : int {
   coarse,
   plan,
   fill,
-  improve
+  improve,
+  improve_pieces,
+  skin
 };
 
 FillTask get_fill_task(ByteReader& in)
@@ -100,6 +103,10 @@ class MeshWorker final : public jobs::Worker {
         return fill(in);
       case Message::improve:
         return improve(in);
+      case Message::improve_pieces:
+        return improve_pieces(in);
+      case Message::skin:
+        return skin(in);
       default:
         throw Error("job request of an unknown kind");
     }
@@ -152,9 +159,14 @@ class MeshWorker final : public jobs::Worker {
     auto options = in.get<coarse::CoarseOptions>();
     options.max_size /= scale_;
     mesh::CoarseMesh mesh = netgen::make_coarse_mesher(*netgen_model_)->generate(options);
+    coarse::VertexDistance distance = coarse::settle_vertices(mesh, *netgen_model_);
+    distance.largest *= scale_;
     for (double& x : mesh.vertex_xyz) x *= scale_;
     mesh::validate(mesh);
-    return mesh::to_bytes(mesh);
+    ByteWriter out;
+    out.put(mesh::to_bytes(mesh));
+    out.put(distance);
+    return std::move(out).take();
   }
 
   Bytes plan(ByteReader& in)
@@ -208,10 +220,35 @@ class MeshWorker final : public jobs::Worker {
     const auto region = in.get<LocalIndex>();
     const auto generation = in.get<int>();
     const io::RecordStore store(store_folder(output_));
-    const auto optimizer = make_faulty_if_asked(netgen::make_optimizer(), region);
-    improve_stored_region({*cut_, *regions_, store, generation}, region, improve_options_.rounds,
-                          *optimizer);
+    const auto pieces = pieces_around({*cut_, *regions_, store, generation}, region);
+    store.put(region_name(region), improved(region, pieces));
     return {};
+  }
+
+  Bytes improve_pieces(ByteReader& in)
+  {
+    const auto region = in.get<LocalIndex>();
+    std::vector<mesh::Piece> pieces;
+    for (auto left = in.get<LocalIndex>(); left > 0; --left) {
+      pieces.push_back(mesh::piece_from_bytes(in.get_vector<std::byte>()));
+    }
+    return improved(region, pieces);
+  }
+
+  [[nodiscard]] Bytes improved(LocalIndex region, const std::vector<mesh::Piece>& pieces) const
+  {
+    const auto optimizer = make_faulty_if_asked(netgen::make_optimizer(), region);
+    return to_bytes(
+        improve_tets(region_mesh(pieces, *regions_, region), improve_options_.rounds, *optimizer));
+  }
+
+  [[nodiscard]] Bytes skin(ByteReader& in) const
+  {
+    const fill::FillInput skin = skin_of(refine_context(damping_), in.get<LocalIndex>());
+    ByteWriter out;
+    out.put(skin.vertex_xyz);
+    out.put(skin.triangle_vertices);
+    return std::move(out).take();
   }
 
   [[nodiscard]] fill::FillInput skin_of(const refine::RefineContext& context,
@@ -322,6 +359,8 @@ Bytes plan_request(const std::vector<PlanTest>& tests, const mesh::Damping& damp
   return message(Message::plan, tests, mesh::to_bytes(damping));
 }
 
+Bytes skin_request(LocalIndex subdomain) { return message(Message::skin, subdomain); }
+
 Bytes fill_request(const FillTask& task)
 {
   return message(Message::fill, task.batch, task.first, task.last, task.plan, task.settings,
@@ -336,6 +375,16 @@ Bytes load_improvement_message(const improve::ImproveOptions& options)
 Bytes improve_request(LocalIndex region, int generation)
 {
   return message(Message::improve, region, generation);
+}
+
+Bytes improve_pieces_request(LocalIndex region, const std::vector<mesh::Piece>& pieces)
+{
+  ByteWriter out;
+  out.put(Message::improve_pieces);
+  out.put(region);
+  out.put(static_cast<LocalIndex>(pieces.size()));
+  for (const mesh::Piece& piece : pieces) out.put(mesh::to_bytes(piece));
+  return std::move(out).take();
 }
 
 }  // namespace tessera::pipeline

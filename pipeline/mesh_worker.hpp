@@ -17,6 +17,7 @@
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/damping.hpp"
 #include "tessera/mesh/decomposition.hpp"
+#include "tessera/mesh/piece.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/number/id_layout.hpp"
 
@@ -56,7 +57,8 @@ namespace tessera::pipeline {
 /// model.
 [[nodiscard]] Bytes box_request();
 
-/// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh. Needs the model.
+/// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh and a VertexDistance.
+/// Needs the model.
 [[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options);
 
 /// @brief One subdomain that a plan job tests.
@@ -70,17 +72,20 @@ struct PlanTest {
 /// the new, smaller factors. Needs model and mesh.
 [[nodiscard]] Bytes plan_request(const std::vector<PlanTest>& tests, const mesh::Damping& damping);
 
+/// @brief An angle that every piece beats, also one that has a tet without any.
+inline constexpr double kAnyAngle = -1.0;
+
 /// @brief What a fill job makes: the pieces of the subdomains first…last-1.
 struct FillTask {
   LocalIndex batch = 0;  ///< Number of the record, and of the file if numbers are loaded.
   LocalIndex first = 0;
   LocalIndex last = 0;
-  Hash128 plan{};                  ///< plan_fingerprint() of them.
-  fill::FillTry settings{};        ///< The same for all.
-  double angle_to_beat_deg = 0.0;  ///< A piece whose smallest angle does not is an error.
-  LocalIndex tries = 1;            ///< Which rung of the ladder this is.
-  bool was_limited = false;        ///< A rung before it ended for time or memory.
-  bool keep = true;                ///< false: measure only and store nothing, for a prediction.
+  Hash128 plan{};                        ///< plan_fingerprint() of them.
+  fill::FillTry settings{};              ///< The same for all.
+  double angle_to_beat_deg = kAnyAngle;  ///< A piece whose smallest angle does not is an error.
+  LocalIndex tries = 1;                  ///< Which rung of the ladder this is.
+  bool was_limited = false;              ///< A rung before it ended for time or memory.
+  bool keep = true;  ///< false: measure only and store nothing, for a prediction.
   std::vector<std::string> failures{};  ///< What the rungs before said, for the report.
 };
 
@@ -91,5 +96,14 @@ struct FillTask {
 /// @brief run: improves one region of pieces of a generation and stores its record; see
 /// improve_job.hpp. Needs model, mesh and improvement; the result is empty.
 [[nodiscard]] Bytes improve_request(LocalIndex region, int generation);
+
+/// @brief run: the same on pieces that come with the request, those of pieces_around(); nothing is
+/// read or stored. Result: bytes of a RegionRecord.
+[[nodiscard]] Bytes improve_pieces_request(LocalIndex region,
+                                           const std::vector<mesh::Piece>& pieces);
+
+/// @brief run: the skin of a subdomain; result: its vertex_xyz and triangle_vertices. Needs model,
+/// mesh and plan.
+[[nodiscard]] Bytes skin_request(LocalIndex subdomain);
 
 }  // namespace tessera::pipeline

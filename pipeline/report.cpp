@@ -2,6 +2,7 @@
 #include "pipeline/report.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -207,6 +208,11 @@ Json improvement_json(const Improvement& improvement)
           {"failed", improvement.num_failed}};
 }
 
+std::string_view surface_mesher_name(coarse::SurfaceMesher mesher)
+{
+  return mesher == coarse::SurfaceMesher::remesh ? "remesh" : "netgen";
+}
+
 // Where the ladder ended at another kernel than the case wants.
 std::vector<LocalIndex> substituted_subdomains(const RunResult& run)
 {
@@ -238,6 +244,12 @@ Verdict judge(const RunResult& run)
         "at most {:.3g}; a smaller coarse.max_size may help",
         run.damping.entries().size(), largest(run.filled.pieces, &PieceSummary::damped_distance)));
   }
+  if (const coarse::VertexDistance& off = run.coarse.distance; off.num_off > 0) {
+    verdict.reasons.push_back(fmt::format(
+        "{} vertices of the coarse mesh could not be put on the geometry and are off it by at most "
+        "{:.3g}",
+        off.num_off, off.largest));
+  }
   if (const auto substituted = substituted_subdomains(run); !substituted.empty()) {
     verdict.reasons.push_back(
         fmt::format("NETGEN could not fill {} subdomains, they were subdivided: {}",
@@ -262,8 +274,10 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   json["num_vertices"] = run.num_vertices;
   json["volume"] = sum(pieces, &PieceSummary::volume);
   json["boundary_area"] = sum(pieces, &PieceSummary::boundary_area);
-  json["model_distance_max"] = largest(pieces, &PieceSummary::model_distance);
-  json["num_points_off_geometry"] = run.damping.entries().size();
+  json["model_distance_max"] =
+      std::max(largest(pieces, &PieceSummary::model_distance), run.coarse.distance.largest);
+  json["num_points_off_geometry"] =
+      run.damping.entries().size() + static_cast<std::size_t>(run.coarse.distance.num_off);
   json["reproducible"] = is_reproducible(run.filled);
   json["digest"] = to_hex(digest);
   add_figures(json, figures);
@@ -276,7 +290,9 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
                    {"digest", to_hex(hash_bytes(run.model.content))}};
   json["coarse"] = {{"num_tets", run.coarse.mesh.num_tets()},
                     {"max_size", run.coarse.options.max_size},
+                    {"surface_mesher", surface_mesher_name(run.coarse.options.surface_mesher)},
                     {"tries", run.coarse.tries},
+                    {"failures", run.coarse.failures},
                     {"levels", run.resolved.refine.levels}};
   json["decompose"] = {{"seam_area", run.decomposition.report.seam_area},
                        {"min_seam_dihedral_deg", run.decomposition.report.min_seam_dihedral_deg},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <csignal>
 #include <ctime>
+#include <system_error>
 #include <utility>
 
 #include "tessera/base/error.hpp"
@@ -83,11 +84,28 @@ bool was_killed_from_outside(const jobs::JobOutcome& outcome)
 jobs::JobOutcome run_job(const JobRequest& job, const jobs::JobRunner::WaitCallback& on_wait,
                          RunContext& context)
 {
+  std::error_code error;  // Without a log the job has said nothing.
+  const std::uintmax_t log_size = std::filesystem::file_size(context.jobs_log, error);
+  context.job_log_begin = error ? 0 : log_size;
   jobs::JobOutcome outcome = context.jobs.run(job.request, job.limits, on_wait);
   if (!was_killed_from_outside(outcome) || outcome.loads_are_lost) return outcome;
   context.progress.clear();
   context.log.warn("{}: done again: {}", job.name, outcome.message);
   return context.jobs.run(job.request, job.limits, on_wait);
+}
+
+jobs::JobOutcome run_load(const std::string& kind, Bytes message, const jobs::JobLimits& limits,
+                          RunContext& context)
+{
+  jobs::JobOutcome outcome = context.jobs.load(message, limits, wait_for_stop_signal());
+  if (outcome.status != jobs::JobStatus::ok) return outcome;
+  for (auto& [known, loaded] : context.loads) {
+    if (known != kind) continue;
+    loaded = std::move(message);
+    return outcome;
+  }
+  context.loads.emplace_back(kind, std::move(message));
+  return outcome;
 }
 
 void throw_if_cancelled(const jobs::JobOutcome& outcome)

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tessera/comm/communicator.hpp"
@@ -30,9 +32,15 @@ struct RunContext {
   const comm::Communicator& comm;
   jobs::JobRunner& jobs;
   Progress& progress;
-  spdlog::logger& log;           ///< Console and log/run.log; rank 0 speaks, others are silent.
-  std::filesystem::path folder;  ///< The output folder.
+  spdlog::logger& log;               ///< Console and log/run.log; rank 0 speaks, others are silent.
+  std::filesystem::path folder;      ///< The output folder.
+  std::filesystem::path jobs_log{};  ///< What this rank's jobs print goes there.
   std::vector<StageTime> times{};
+  /// What this rank's jobs start from, by kind, in the order of the loads: a failed job is kept
+  /// with it.
+  std::vector<std::pair<std::string, Bytes>> loads{};
+  std::uintmax_t job_log_begin = 0;  ///< Where in jobs_log the last job's words begin.
+  std::size_t num_failed_jobs_kept = 0;
 };
 
 /// @brief Times one stage and speaks of it: begins with the object, ends with finish().
@@ -81,6 +89,10 @@ struct JobRequest {
 [[nodiscard]] jobs::JobOutcome run_job(const JobRequest& job,
                                        const jobs::JobRunner::WaitCallback& on_wait,
                                        RunContext& context);
+
+/// @brief Loads a message of some kind, in place of an earlier one of that kind. Local.
+[[nodiscard]] jobs::JobOutcome run_load(const std::string& kind, Bytes message,
+                                        const jobs::JobLimits& limits, RunContext& context);
 
 /// @brief Throws Interrupted if the outcome says that the callback cancelled the job. Local.
 void throw_if_cancelled(const jobs::JobOutcome& outcome);

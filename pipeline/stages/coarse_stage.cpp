@@ -8,6 +8,7 @@
 #include "tessera/base/error.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/failed_jobs.hpp"
 #include "pipeline/mesh_worker.hpp"
 
 namespace tessera::pipeline {
@@ -16,7 +17,7 @@ namespace {
 constexpr double kStall_s = 120.0;
 constexpr double kMemory_gib = 16.0;
 
-// The model will not get better on another rung, nor will a mesher that does not end.
+// The model will not get better on another rung.
 bool is_final(const jobs::JobOutcome& outcome)
 {
   return outcome.error == jobs::ErrorKind::geometry || outcome.error == jobs::ErrorKind::input
@@ -29,18 +30,38 @@ bool is_endless(const jobs::JobOutcome& outcome)
          || outcome.status == jobs::JobStatus::stalled;
 }
 
+std::string name_of(const coarse::CoarseOptions& options)
+{
+  const bool is_remesh = options.surface_mesher == coarse::SurfaceMesher::remesh;
+  return std::string(is_remesh ? "remeshed triangles, " : "") + "max_size "
+         + std::to_string(options.max_size);
+}
+
+void take_result(const jobs::JobOutcome& outcome, const coarse::CoarseOptions& options,
+                 CoarseResult& result)
+{
+  ByteReader in(outcome.result);
+  result.mesh = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
+  result.distance = in.get<coarse::VertexDistance>();
+  result.options = options;
+}
+
 CoarseResult climb(const config::Case& run_case, RunContext& context)
 {
   const jobs::JobLimits limits{run_case.coarse.timeout_s, kStall_s, kMemory_gib};
-  std::string failures;
   CoarseResult result;
+  bool was_endless = false;
   for (const coarse::CoarseOptions& options : coarse_ladder(run_case.coarse)) {
-    const jobs::JobOutcome outcome =
-        run_job({"coarse", coarse_request(options), limits}, wait_for_stop_signal(), context);
+    // NETGEN's surface mesher that did not end once would not end at another size either.
+    const bool is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen;
+    if (was_endless && is_netgen) continue;
+    const Bytes request = coarse_request(options);
+    const JobRequest job{"coarse", request, limits};
+    const jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
+    keep_if_failed(job, outcome, context);
     ++result.tries;
     if (outcome.status == jobs::JobStatus::ok) {
-      result.mesh = mesh::coarse_mesh_from_bytes(outcome.result);
-      result.options = options;
+      take_result(outcome, options, result);
       return result;
     }
     throw_if_cancelled(outcome);
@@ -49,11 +70,12 @@ CoarseResult climb(const config::Case& run_case, RunContext& context)
       throw MeshError("coarse: " + outcome.message + "; go on with --resume");
     }
     if (is_final(outcome)) jobs::throw_unless_ok(outcome, run_case.geometry.file.string());
-    context.log.warn("coarse: try {} with max_size {} failed: {}", result.tries, options.max_size,
-                     outcome.message);
-    failures += "\n  max_size " + std::to_string(options.max_size) + ": " + outcome.message;
-    if (is_endless(outcome)) break;
+    result.failures.push_back(name_of(options) + ": " + outcome.message);
+    context.log.warn("coarse: try {} failed: {}", result.tries, result.failures.back());
+    was_endless = was_endless || is_endless(outcome);
   }
+  std::string failures;
+  for (const std::string& failure : result.failures) failures += "\n  " + failure;
   throw MeshError(run_case.geometry.file.string() + ": no coarse mesh could be made; try another "
                   + "coarse.max_size, a longer coarse.timeout_s, or repair the model" + failures);
 }
@@ -66,6 +88,8 @@ Bytes to_bytes(const CoarseResult& result)
   out.put(mesh::to_bytes(result.mesh));
   out.put(result.options);
   out.put(result.tries);
+  out.put(result.distance);
+  out.put(result.failures);
   return std::move(out).take();
 }
 
@@ -76,6 +100,8 @@ CoarseResult coarse_result_from_bytes(std::span<const std::byte> bytes)
   result.mesh = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
   result.options = in.get<coarse::CoarseOptions>();
   result.tries = in.get<int>();
+  result.distance = in.get<coarse::VertexDistance>();
+  result.failures = in.get_strings();
   return result;
 }
 
@@ -91,6 +117,12 @@ std::vector<coarse::CoarseOptions> coarse_ladder(const coarse::CoarseOptions& as
   coarse::CoarseOptions rounder = asked;
   rounder.curvature *= 2.0;
   ladder.push_back(rounder);
+  for (const double factor : {1.0, 0.5}) {
+    coarse::CoarseOptions remeshed = asked;
+    remeshed.max_size *= factor;
+    remeshed.surface_mesher = coarse::SurfaceMesher::remesh;
+    ladder.push_back(remeshed);
+  }
   return ladder;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/coarse/settle_vertices.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
@@ -15,8 +16,10 @@ namespace tessera::pipeline {
 /// @brief The coarse mesh and how it was got.
 struct CoarseResult {
   mesh::CoarseMesh mesh{};
-  coarse::CoarseOptions options{};  ///< Those of the try that succeeded.
-  int tries = 0;                    ///< Rungs of the ladder that were needed, from 1.
+  coarse::CoarseOptions options{};      ///< Those of the try that succeeded.
+  int tries = 0;                        ///< Rungs of the ladder that were needed, from 1.
+  coarse::VertexDistance distance{};    ///< Output length unit.
+  std::vector<std::string> failures{};  ///< What the rungs before said, for the report.
 };
 
 [[nodiscard]] Bytes to_bytes(const CoarseResult& result);
@@ -24,8 +27,8 @@ struct CoarseResult {
 [[nodiscard]] CoarseResult coarse_result_from_bytes(std::span<const std::byte> bytes);
 
 /// @brief The tries at a coarse mesh, best first: as asked, then with smaller sizes that grow more
-/// slowly, then with more elements on curved surfaces; a mesh that fails at one size often works at
-/// another.
+/// slowly, then with more elements on curved surfaces, since a mesh that fails at one size often
+/// works at another; last, on the triangles of the model instead of its faces.
 [[nodiscard]] std::vector<coarse::CoarseOptions> coarse_ladder(const coarse::CoarseOptions& asked);
 
 /// @brief Makes the coarse mesh in jobs of rank 0 and gives it to all ranks.

@@ -11,6 +11,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/fill/ladder.hpp"
 
+#include "pipeline/failed_jobs.hpp"
 #include "pipeline/fill_record.hpp"
 #include "pipeline/mesh_worker.hpp"
 #include "pipeline/share_out.hpp"
@@ -89,13 +90,15 @@ class Filler {
     const bool had_one = !climb.best.empty();
     const bool is_netgen = settings.kernel == fill::KernelKind::netgen;
     if (had_one && !is_netgen) return true;
-    const double angle_to_beat = had_one ? climb.best.front().summary.tets.min_dihedral_deg : 0.0;
+    const double angle_to_beat =
+        had_one ? climb.best.front().summary.tets.min_dihedral_deg : kAnyAngle;
     ++climb.tries;
     const jobs::JobOutcome outcome =
         run_try(climb.range, request_of(climb, settings, angle_to_beat), on_wait);
     throw_unless_of_the_job(outcome);
     climb.was_limited = climb.was_limited || depends_on_machine(outcome);
     if (outcome.status != jobs::JobStatus::ok) {
+      if (!had_one) keep_failure(climb, settings, outcome, on_wait);
       climb.failures.push_back("try " + std::to_string(climb.tries) + " ("
                                + std::string(fill::name_of(settings.kernel))
                                + "): " + outcome.message);
@@ -107,8 +110,25 @@ class Filler {
     return had_one || !is_poor(climb.best);
   }
 
+  // As a job that measures only: its replay must not touch the run's folder.
+  void keep_failure(const Climb& climb, const fill::FillTry& settings,
+                    const jobs::JobOutcome& outcome, const jobs::JobRunner::WaitCallback& on_wait)
+  {
+    const Bytes request = request_of(climb, settings, kAnyAngle, false);
+    const jobs::JobLimits limits;
+    const JobRequest job{name_of(climb.range), request, limits};
+    keep_meshes_of_failed_fill(keep_failed_job(job, request, outcome, context_), climb.range.first,
+                               work_.cut.coarse, work_.cut.decomposition, on_wait, context_);
+  }
+
+  static std::string name_of(const SubdomainRange& range)
+  {
+    return "fill: subdomain " + std::to_string(range.first);
+  }
+
   // The job itself puts into the record how it came to be made: a resumed run has only that.
-  static Bytes request_of(const Climb& climb, const fill::FillTry& settings, double angle_to_beat)
+  static Bytes request_of(const Climb& climb, const fill::FillTry& settings, double angle_to_beat,
+                          bool keep = true)
   {
     return fill_request({.batch = climb.range.number,
                          .first = climb.range.first,
@@ -118,6 +138,7 @@ class Filler {
                          .angle_to_beat_deg = angle_to_beat,
                          .tries = climb.tries,
                          .was_limited = climb.was_limited,
+                         .keep = keep,
                          .failures = climb.failures});
   }
 
@@ -126,8 +147,7 @@ class Filler {
   {
     const jobs::JobLimits limits =
         job_limits(options_, weight_of(range, work_.cut.decomposition.subdomain_weight));
-    const std::string name = "fill: subdomain " + std::to_string(range.first);
-    return run_job({name, request, limits}, on_wait, context_);
+    return run_job({name_of(range), request, limits}, on_wait, context_);
   }
 
   void keep(const std::vector<FillResult>& results)

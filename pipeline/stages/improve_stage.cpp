@@ -10,6 +10,7 @@
 #include "tessera/base/error.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/failed_jobs.hpp"
 #include "pipeline/fill_record.hpp"
 #include "pipeline/improve_job.hpp"
 #include "pipeline/improved_pieces.hpp"
@@ -177,10 +178,23 @@ class SeamImprover {
       record = {.has_failed = true,
                 .was_limited = depends_on_machine(outcome),
                 .reason = outcome.message};
+      keep_failure(region, name, outcome);
       store_.put(region_name(region), to_bytes(record));
     }
     if (!record.is_improved) context_.log.debug("{} stays as it is: {}", name, record.reason);
     return record;
+  }
+
+  // With its pieces: those in the store go when the run is over.
+  void keep_failure(LocalIndex region, const std::string& name, const jobs::JobOutcome& outcome)
+  {
+    const std::vector<mesh::Piece> pieces = pieces_around(phase_context(), region);
+    const Bytes request = improve_pieces_request(region, pieces);
+    const jobs::JobLimits limits;
+    const auto kept = keep_failed_job({name, request, limits}, request, outcome, context_);
+    keep_meshes_of_failed_region(
+        kept, [&] { return region_mesh(pieces, regions_, region); }, cut_.coarse,
+        cut_.decomposition, context_);
   }
 
   void merge(int phase)

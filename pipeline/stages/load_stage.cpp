@@ -2,6 +2,7 @@
 #include "pipeline/stages/load_stage.hpp"
 
 #include <filesystem>
+#include <utility>
 
 #include "pipeline/exit_code.hpp"
 #include "pipeline/mesh_worker.hpp"
@@ -11,11 +12,10 @@ namespace {
 
 constexpr jobs::JobLimits kLoadLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory_gib = 16.0};
 
-void load_everywhere(const Bytes& message, RunContext& context)
+void load_everywhere(const std::string& kind, Bytes message, RunContext& context)
 {
   all_or_none(context.comm, [&] {
-    const jobs::JobOutcome outcome =
-        context.jobs.load(message, kLoadLimits, wait_for_stop_signal());
+    const jobs::JobOutcome outcome = run_load(kind, std::move(message), kLoadLimits, context);
     throw_if_cancelled(outcome);
     jobs::throw_unless_ok(outcome, "loading the coarse mesh");
   });
@@ -26,6 +26,7 @@ void load_everywhere(const Bytes& message, RunContext& context)
 void load_mesh(const CutMesh& cut, int levels, double largest_size, RunContext& context)
 {
   load_everywhere(
+      "mesh",
       load_mesh_message(cut.coarse, cut.decomposition, levels, largest_size, context.folder),
       context);
 }
@@ -33,17 +34,17 @@ void load_mesh(const CutMesh& cut, int levels, double largest_size, RunContext& 
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,
                   const io::OutputOptions& options, RunContext& context)
 {
-  load_everywhere(load_numbers_message(counts, length_unit, options), context);
+  load_everywhere("numbers", load_numbers_message(counts, length_unit, options), context);
 }
 
 void load_improvement(const improve::ImproveOptions& options, RunContext& context)
 {
-  load_everywhere(load_improvement_message(options), context);
+  load_everywhere("improvement", load_improvement_message(options), context);
 }
 
 void load_plan(const mesh::Damping& damping, RunContext& context)
 {
-  load_everywhere(load_plan_message(damping), context);
+  load_everywhere("plan", load_plan_message(damping), context);
 }
 
 }  // namespace tessera::pipeline

@@ -4,6 +4,7 @@
 #include "tessera/base/error.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/failed_jobs.hpp"
 #include "pipeline/mesh_worker.hpp"
 
 namespace tessera::pipeline {
@@ -33,16 +34,17 @@ model::ModelSource run_model_stage(const config::Case& run_case, RunContext& con
   StageScope stage(context, "model");
   const std::filesystem::path& file = run_case.geometry.file;
   const Bytes bytes = on_root(context.comm, [&] {
-    const jobs::JobOutcome outcome =
-        run_job({"model", import_request(file, {run_case.coarse.feature_angle_deg}), kModelLimits},
-                wait_for_stop_signal(), context);
+    const Bytes request = import_request(file, {run_case.coarse.feature_angle_deg});
+    const JobRequest job{"model", request, kModelLimits};
+    const jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
+    keep_if_failed(job, outcome, context);
     throw_unless_read(outcome, file);
     return outcome.result;
   });
   model::ModelSource source = model::model_source_from_bytes(bytes);
   all_or_none(context.comm, [&] {
-    throw_unless_read(context.jobs.load(load_model_message(source, run_case.geometry.scale),
-                                        kModelLimits, wait_for_stop_signal()),
+    throw_unless_read(run_load("model", load_model_message(source, run_case.geometry.scale),
+                               kModelLimits, context),
                       file);
   });
   stage.work_is_done();

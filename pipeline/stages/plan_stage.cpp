@@ -12,6 +12,7 @@
 #include "tessera/comm/work_queue.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/failed_jobs.hpp"
 #include "pipeline/mesh_worker.hpp"
 #include "pipeline/stop_signal.hpp"
 
@@ -65,8 +66,10 @@ std::vector<mesh::PointDamping> test_subdomains(const std::vector<LocalIndex>& s
   };
   while (const auto job = queue.next()) {
     const std::vector<PlanTest>& tests = jobs[at(*job)];
-    const jobs::JobOutcome outcome =
-        run_job({"plan", plan_request(tests, damping), kPlanLimits}, on_wait, context);
+    const Bytes request = plan_request(tests, damping);
+    const JobRequest plan{"plan", request, kPlanLimits};
+    const jobs::JobOutcome outcome = run_job(plan, on_wait, context);
+    keep_if_failed(plan, outcome, context);
     if (outcome.status != jobs::JobStatus::ok) {
       defect = "plan from subdomain " + std::to_string(tests.front().subdomain)
                + " on: " + outcome.message;

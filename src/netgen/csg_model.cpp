@@ -238,6 +238,9 @@ GeometryNumbers numbers_of(const Geometry& geometry)
 mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options,
                                     const NetgenMeshUser& use) const
 {
+  if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
+    throw NetgenError("a .geo model has no triangles that could be remeshed");
+  }
   // NETGEN adds points to the geometry that it meshes and takes names out of it: a fresh one for
   // every try makes each a pure function of the options.
   const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/occ_glue.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepBndLib.hxx>
+#include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
 #include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS_Compound.hxx>
@@ -13,6 +20,10 @@
 
 namespace tessera::netgen {
 namespace {
+
+// Gaps and overlaps that count as touching, in fractions of the box diagonal: what OpenCASCADE
+// takes by itself; wider ones only where solids would be cut into films.
+constexpr std::array<double, 4> kGlueGaps{0.0, 1e-7, 1e-6, 1e-5};
 
 Bnd_Box box_of(const TopoDS_Shape& shape)
 {
@@ -56,6 +67,42 @@ int count_shared_faces(const TopoDS_Shape& shape)
   return num_shared;
 }
 
+// A solid that is no more than the rounding between two faces that were meant to be one.
+bool is_film(const TopoDS_Shape& solid, double diagonal)
+{
+  constexpr double kThinnest = 1e-6;  // Of the diagonal.
+  GProp_GProps volume;
+  GProp_GProps area;
+  BRepGProp::VolumeProperties(solid, volume);
+  BRepGProp::SurfaceProperties(solid, area);
+  return 2.0 * std::abs(volume.Mass()) < kThinnest * diagonal * area.Mass();
+}
+
+// Whether solids were cut where they overlap by next to nothing.
+bool left_films(const TopoDS_Shape& fused, int num_given, double diagonal)
+{
+  const std::vector<TopoDS_Shape> solids = parts_of(fused, TopAbs_SOLID);
+  return static_cast<int>(solids.size()) > num_given
+         && std::ranges::any_of(
+             solids, [&](const TopoDS_Shape& solid) { return is_film(solid, diagonal); });
+}
+
+using Fuse = BRepAlgoAPI_BuilderAlgo;
+
+// What lies closer than `gap` counts as touching.
+std::unique_ptr<Fuse> fuse_solids(const std::vector<TopoDS_Shape>& solids, double gap)
+{
+  TopTools_ListOfShape arguments;
+  for (const TopoDS_Shape& solid : solids) arguments.Append(solid);
+  auto fuse = std::make_unique<Fuse>();
+  fuse->SetArguments(arguments);
+  fuse->SetNonDestructive(Standard_True);
+  fuse->SetRunParallel(Standard_False);
+  fuse->SetFuzzyValue(gap);
+  fuse->Build();
+  return fuse;
+}
+
 }  // namespace
 
 void follow_names(const TopoDS_Shape& shape, ShapeNames& names,
@@ -77,29 +124,28 @@ TopoDS_Shape glued(const std::vector<TopoDS_Shape>& solids, CadFile& cad)
 {
   const TopoDS_Compound apart = compound_of(solids);
   if (!any_boxes_touch(solids)) return apart;
-  TopTools_ListOfShape arguments;
-  for (const TopoDS_Shape& solid : solids) arguments.Append(solid);
-  BRepAlgoAPI_BuilderAlgo fuse;
-  fuse.SetArguments(arguments);
-  fuse.SetNonDestructive(Standard_True);
-  fuse.SetRunParallel(Standard_False);
-  fuse.Build();
   const int num_given = count_solids(apart);
-  if (fuse.HasErrors() || count_solids(fuse.Shape()) < num_given) {
+  const double diagonal = box_diagonal_of(apart);
+  std::unique_ptr<Fuse> fuse;
+  for (const double gap : kGlueGaps) {
+    fuse = fuse_solids(solids, gap * diagonal);
+    if (fuse->HasErrors() || !left_films(fuse->Shape(), num_given, diagonal)) break;
+  }
+  if (fuse->HasErrors() || count_solids(fuse->Shape()) < num_given) {
     cad.repairs.push_back("solids that may touch could not be glued");
     return apart;
   }
-  const int num_solids = count_solids(fuse.Shape());
-  const int num_shared = count_shared_faces(fuse.Shape());
+  const int num_solids = count_solids(fuse->Shape());
+  const int num_shared = count_shared_faces(fuse->Shape());
   if (num_solids == num_given && num_shared == count_shared_faces(apart)) return apart;
-  follow_names(apart, cad.names, [&](const TopoDS_Shape& part) { return fuse.Modified(part); });
+  follow_names(apart, cad.names, [&](const TopoDS_Shape& part) { return fuse->Modified(part); });
   cad.repairs.push_back("touching solids were glued: " + std::to_string(num_shared)
                         + " shared faces");
   if (num_solids != num_given) {
     cad.repairs.push_back("overlapping solids were cut: " + std::to_string(num_given) + " became "
                           + std::to_string(num_solids));
   }
-  return fuse.Shape();
+  return fuse->Shape();
 }
 
 }  // namespace tessera::netgen

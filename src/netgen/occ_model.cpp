@@ -11,6 +11,7 @@
 #include <occgeom.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/on_geometry.hpp"
 
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
@@ -21,6 +22,8 @@
 #include "netgen/occ_error.hpp"
 #include "netgen/occ_shape.hpp"
 #include "netgen/occ_surface.hpp"
+#include "netgen/occ_tessellation.hpp"
+#include "netgen/volume_mesher.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -54,6 +57,9 @@ class OccModel final : public LoadedModel {
   [[nodiscard]] const OccSurface& surface_at(LocalIndex surface) const;
   [[nodiscard]] const OccCurve& curve_at(LocalIndex curve) const;
   [[nodiscard]] GeometryNumbers numbers_for(const ::netgen::OCCGeometry& geometry) const;
+  [[nodiscard]] std::string solid_name(LocalIndex material) const;
+  [[nodiscard]] mesh::CoarseMesh remesh(const coarse::CoarseOptions& options) const;
+  static void guess_parameters(const coarse::SurfaceReference& reference, mesh::CoarseMesh& mesh);
   void triangulate() const;
   void locate_face_corners(mesh::CoarseMesh& mesh) const;
   void locate_segment_ends(mesh::CoarseMesh& mesh) const;
@@ -125,6 +131,12 @@ void OccModel::triangulate() const
   }
 }
 
+std::string OccModel::solid_name(LocalIndex material) const
+{
+  const auto at = static_cast<std::size_t>(material - 1);
+  return at < content_.solid_names.size() ? content_.solid_names[at] : std::string();
+}
+
 GeometryNumbers OccModel::numbers_for(const ::netgen::OCCGeometry& geometry) const
 {
   GeometryNumbers numbers;
@@ -137,10 +149,7 @@ GeometryNumbers OccModel::numbers_for(const ::netgen::OCCGeometry& geometry) con
   numbers.curve = [&](const ::netgen::Segment& segment) {
     return edges_.FindIndex(geometry.emap(segment.epgeominfo[0].edgenr)) - 1;
   };
-  numbers.material_name = [this](int domain) {
-    const auto at = static_cast<std::size_t>(domain - 1);
-    return at < content_.solid_names.size() ? content_.solid_names[at] : std::string();
-  };
+  numbers.material_name = [this](int domain) { return solid_name(domain); };
   numbers.uv = [](const ::netgen::Element2d& element, int corner) {
     const ::netgen::PointGeomInfo& info = element.GeomInfoPi(corner + 1);
     return model::SurfaceParameters{info.u, info.v};
@@ -151,9 +160,51 @@ GeometryNumbers OccModel::numbers_for(const ::netgen::OCCGeometry& geometry) con
   return numbers;
 }
 
+// Where NETGEN cannot mesh a face: OpenCASCADE's triangles, made well-shaped and put on the faces.
+mesh::CoarseMesh OccModel::remesh(const coarse::CoarseOptions& options) const
+{
+  const coarse::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
+  const coarse::PatchSurface surface = coarse::remesh_on_geometry(reference, *this, options);
+  const SurfaceNames names{
+      [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
+      [this](LocalIndex material) { return solid_name(material); }};
+  mesh::CoarseMesh mesh = mesh_volume(surface, options, names, file_name_);
+  guess_parameters(reference, mesh);
+  locate_face_corners(mesh);
+  locate_segment_ends(mesh);
+  return mesh;
+}
+
+// Those of the tessellation, a little inside each face and segment: at a seam that is their side.
+void OccModel::guess_parameters(const coarse::SurfaceReference& reference, mesh::CoarseMesh& mesh)
+{
+  constexpr double kInside = 0.1;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
+    const Vec3 middle =
+        (1.0 / 3.0) * (mesh.position(v[0]) + mesh.position(v[1]) + mesh.position(v[2]));
+    const LocalIndex surface = mesh.patch_surface[at(mesh.face_patch[at(f)])];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 corner = mesh.position(v[c]);
+      const auto uv = reference.parameters(surface, corner + kInside * (middle - corner));
+      mesh.face_uv.insert(mesh.face_uv.end(), uv.begin(), uv.end());
+    }
+  }
+  for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {
+    const Vec3 a = mesh.position(mesh.segment_vertices[2 * at(s)]);
+    const Vec3 b = mesh.position(mesh.segment_vertices[2 * at(s) + 1]);
+    const LocalIndex curve = mesh.segment_curve[at(s)];
+    mesh.segment_t.push_back(reference.curve_parameter(curve, a + kInside * (b - a)));
+    mesh.segment_t.push_back(reference.curve_parameter(curve, b + kInside * (a - b)));
+  }
+}
+
 mesh::CoarseMesh OccModel::generate(const coarse::CoarseOptions& options,
                                     const NetgenMeshUser& use) const
 {
+  if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
+    return with_occ_errors(file_name_, [&] { return remesh(options); });
+  }
   NetgenSession session(coarse_parameters(options));
   return session.run("coarse mesh of " + file_name_, [&] {
     triangulate();

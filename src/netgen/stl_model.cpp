@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/on_geometry.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/stl_file.hpp"
 #include "tessera/model/surface_features.hpp"
@@ -12,6 +13,7 @@
 
 #include "netgen/loaded_model.hpp"
 #include "netgen/stl_mesher.hpp"
+#include "netgen/volume_mesher.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -42,6 +44,29 @@ std::vector<model::SegmentSearch> searches_of_curves(const model::TriangleSurfac
     searches.emplace_back(segments);
   }
   return searches;
+}
+
+coarse::PatchSurface patches_of(const model::TriangleSurface& surface,
+                                const model::SurfaceFeatures& features)
+{
+  coarse::PatchSurface patches;
+  for (LocalIndex v = 0; v < surface.num_vertices(); ++v) {
+    patches.vertex_xyz.push_back(surface.position(v));
+  }
+  patches.vertex_is_fixed.assign(patches.vertex_xyz.size(), 0);
+  patches.patch_materials.resize(at(features.num_patches()));
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+    const LocalIndex* v = &surface.triangle_vertices[3 * at(t)];
+    const LocalIndex patch = features.triangle_patch[at(t)];
+    patches.triangles.push_back({v[0], v[1], v[2]});
+    patches.triangle_patch.push_back(patch);
+    patches.patch_materials[at(patch)] = {surface.triangle_material[at(t)], 0};
+  }
+  for (std::size_t e = 0; e < features.edge_curve.size(); ++e) {
+    patches.edges.push_back({features.edge_vertices[2 * e], features.edge_vertices[2 * e + 1]});
+  }
+  patches.edge_curve = features.edge_curve;
+  return patches;
 }
 
 // Projection of our own: NETGEN's depends on the order of its arguments and needs charts that exist
@@ -87,10 +112,22 @@ class StlModel final : public LoadedModel {
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                           const NetgenMeshUser& use) const override
   {
+    if (options.surface_mesher == coarse::SurfaceMesher::remesh) return remesh(options);
     return mesh_stl_surface(surface_, features_, options, name_, use);
   }
 
  private:
+  // Where NETGEN cannot mesh the surface or never ends: our own triangles, made well-shaped.
+  [[nodiscard]] mesh::CoarseMesh remesh(const coarse::CoarseOptions& options) const
+  {
+    const coarse::SurfaceReference reference(patches_of(surface_, features_));
+    const SurfaceNames names{
+        [this](LocalIndex patch) { return features_.patch_names[at(patch)]; },
+        [this](LocalIndex material) { return surface_.material_names[at(material - 1)]; }};
+    return mesh_volume(coarse::remesh_on_geometry(reference, *this, options), options, names,
+                       name_);
+  }
+
   // Nothing is near a point that is not finite.
   [[nodiscard]] Vec3 found(const model::NearestPoint& nearest) const
   {

@@ -20,10 +20,13 @@ namespace tessera::testing {
   return netgen::load_model(netgen::import_model(own_model(name), {}));
 }
 
-[[nodiscard]] inline mesh::CoarseMesh coarse_mesh_of(const model::Model& model, double max_size)
+[[nodiscard]] inline mesh::CoarseMesh coarse_mesh_of(
+    const model::Model& model, double max_size,
+    coarse::SurfaceMesher mesher = coarse::SurfaceMesher::netgen)
 {
   coarse::CoarseOptions options;
   options.max_size = max_size;
+  options.surface_mesher = mesher;
   return netgen::make_coarse_mesher(model)->generate(options);
 }
 

@@ -188,5 +188,19 @@ TEST_F(OccImport, TouchingSolidsAreGluedAndReported)
   EXPECT_TRUE(contains(source.repairs[0], "glued")) << source.repairs[0];
 }
 
+TEST_F(OccImport, OverlapOfNextToNothingBecomesAFaceAndNoSolid)
+{
+  constexpr double kOverlap = 1e-6;
+  TopoDS_Compound boxes;
+  BRep_Builder().MakeCompound(boxes);
+  BRep_Builder().Add(boxes, BRepPrimAPI_MakeBox(1.0, 1.0, 1.0).Shape());
+  BRep_Builder().Add(boxes,
+                     BRepPrimAPI_MakeBox(gp_Pnt(1.0 - kOverlap, 0.2, 0.2), 1, 0.6, 0.6).Shape());
+  const model::ModelSource source = netgen::import_model(write_brep(boxes), {});
+  EXPECT_EQ(source.repairs, std::vector<std::string>{"touching solids were glued: 1 shared faces"});
+  const auto model = netgen::load_model(source);
+  EXPECT_EQ(testing::coarse_mesh_of(*model, 0.5).num_materials(), 2);
+}
+
 }  // namespace
 }  // namespace tessera

@@ -220,6 +220,47 @@ TEST(StlModel, CavityStaysEmpty)
   EXPECT_NEAR(volume_of(mesh), 26.0, 1e-10);
 }
 
+// A ball with a ball-shaped hole that leaves a wall of 0.03 at one side.
+model::TriangleSoup thin_walled_ball()
+{
+  model::TriangleSoup hole = sphere_soup(5);
+  for (double& x : hole.corner_xyz) x *= 0.6;
+  for (std::size_t i = 0; i < hole.corner_xyz.size(); i += 3) hole.corner_xyz[i] += 0.37;
+  return joined(sphere_soup(5), hole);
+}
+
+coarse::CoarseOptions rough_remesh()
+{
+  coarse::CoarseOptions options;
+  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  options.max_size = 0.8;
+  options.curvature = 0.5;
+  return options;
+}
+
+TEST(StlModel, RemeshedWallThinnerThanItsTrianglesIsRefinedUntilItIsSound)
+{
+  const auto model = load(thin_walled_ball());
+  const mesh::CoarseMesh mesh = model->generate(rough_remesh());
+  expect_on_model(*model, mesh);
+  const double exact = 4.0 / 3.0 * std::numbers::pi * (1.0 - std::pow(0.6, 3));
+  EXPECT_LT(volume_of(mesh), exact);
+  EXPECT_GT(volume_of(mesh), 0.75 * exact) << "chords of 0.8 in a ball of radius 1";
+}
+
+TEST(StlModel, RemeshedBodiesThatOverlapAreRefusedWithTheirFacesAndThePlace)
+{
+  model::TriangleSoup both = joined(cube_soup(), cube_soup({0.6, 0.7, 0.8}, 1.0));
+  both.solid_names = {"left", "right"};
+  try {
+    (void)load(both)->generate(rough_remesh());
+    FAIL() << "bodies that overlap were meshed";
+  } catch (const MeshError& error) {
+    EXPECT_TRUE(std::string(error.what()).find("the surface cuts itself at") != std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(StlModel, OwnModelsGiveGoodCoarseMeshes)
 {
   for (const auto* name : {"plate_with_hole.stl", "bracket.stl"}) {

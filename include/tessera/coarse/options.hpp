@@ -3,6 +3,12 @@
 
 namespace tessera::coarse {
 
+/// @brief Who makes the coarse surface. Not a key of a case file: the ladder decides.
+enum class SurfaceMesher : int {
+  netgen,  ///< NETGEN, on the geometry itself.
+  remesh,  ///< remesh(), on OpenCASCADE's triangles or those of the STL file.
+};
+
 /// @brief Options of the coarse mesh; table `[coarse]` of a case file.
 struct CoarseOptions {
   double max_size = 0.0;   ///< Largest edge, output length unit, > 0; 0: size.target says it.
@@ -10,6 +16,8 @@ struct CoarseOptions {
   double curvature = 2.0;  ///< Elements per curvature radius, > 0.
   /// STL: dihedral angle from which an edge is a feature, degrees, in (0, 180).
   double feature_angle_deg = 30.0;
+
+  SurfaceMesher surface_mesher = SurfaceMesher::netgen;
 
   double timeout_s = 300.0;  ///< CPU seconds of one try, > 0.
 

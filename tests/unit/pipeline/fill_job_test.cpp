@@ -9,6 +9,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/netgen/factory.hpp"
 
+#include "pipeline/batch_filler.hpp"
 #include "support/curved_meshes.hpp"
 #include "support/curved_models.hpp"
 #include "support/decompositions.hpp"
@@ -35,6 +36,20 @@ TEST_F(FillJob, PiecesSumUpToTheCube)
   }
   EXPECT_NEAR(volume, 1.0, 1e-12);
   EXPECT_NEAR(area, 6.0, 1e-12);
+}
+
+TEST_F(FillJob, FirstFillNeedNotBeatAnyAngle)
+{
+  FilledPiece flat = pieces().front();
+  flat.result.summary.tets.min_dihedral_deg = 0.0;  // A needle's, by rounding.
+  const std::filesystem::path nowhere;
+  FillTask task;
+  task.keep = false;
+  BatchFiller first(task, nowhere, nullptr, {});
+  EXPECT_NO_THROW(first.add(flat));
+  task.angle_to_beat_deg = 0.0;
+  BatchFiller second(task, nowhere, nullptr, {});
+  EXPECT_THROW(second.add(flat), MeshError);
 }
 
 TEST_F(FillJob, SummaryIsThatOfThePiece)

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/coarse/options.hpp"
+#include "tessera/coarse/surface_reference.hpp"
+#include "tessera/model/model.hpp"
+
+namespace tessera::coarse {
+
+/// @brief Moves the vertices of a surface that followed a tessellation onto the model itself, those
+/// on curves onto the curves. One that would go farther than half its shortest edge, or turn a
+/// triangle, stays: the search found another sheet. Local.
+/// @param[in] reference  The tessellation; its patch and curve numbers are the model's.
+/// @throws GeometryError if a projection fails.
+void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
+                     const model::Model& model);
+
+/// @brief Remeshes a tessellation and puts it on the geometry; where the surface then cuts itself,
+/// as at a gap that is narrower than its triangles are long, the same again with shorter edges, a
+/// few times. It may still cut itself in the end: find_overlaps() says where. Local.
+/// @param[in] reference  As put_on_geometry().
+/// @throws GeometryError if a projection fails.
+[[nodiscard]] PatchSurface remesh_on_geometry(const SurfaceReference& reference,
+                                              const model::Model& model,
+                                              const CoarseOptions& options);
+
+}  // namespace tessera::coarse

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "tessera/coarse/patch_surface.hpp"
+
+namespace tessera::coarse {
+
+/// @brief Where a vertex may go.
+enum class Freedom : char { patch, curve, none };
+
+/// @brief A PatchSurface that can be changed, one edge at a time: its topology, and no judgement of
+/// shapes. Numbers of vertices and triangles stay; what was removed leaves a gap.
+class EditableSurface {
+ public:
+  using Edge = PatchSurface::Edge;
+  using Triangle = PatchSurface::Triangle;
+
+  /// @param[in] sizes  Wanted edge length at each vertex.
+  EditableSurface(const PatchSurface& surface, std::vector<double> sizes);
+
+  [[nodiscard]] std::vector<Edge> edges() const;  ///< Ascending.
+  [[nodiscard]] LocalIndex num_vertices() const { return static_cast<LocalIndex>(xyz_.size()); }
+  [[nodiscard]] bool is_vertex(LocalIndex v) const { return !around_[at(v)].empty(); }
+  [[nodiscard]] const Vec3& xyz(LocalIndex v) const { return xyz_[at(v)]; }
+  [[nodiscard]] double size(LocalIndex v) const { return sizes_[at(v)]; }
+  [[nodiscard]] Freedom freedom(LocalIndex v) const { return freedom_[at(v)]; }
+  [[nodiscard]] const Triangle& triangle(LocalIndex t) const { return triangles_[at(t)]; }
+  [[nodiscard]] LocalIndex patch(LocalIndex t) const { return patch_[at(t)]; }
+  [[nodiscard]] const std::vector<LocalIndex>& triangles_of(LocalIndex v) const
+  {
+    return around_[at(v)];
+  }
+  [[nodiscard]] std::vector<LocalIndex> triangles_at(const Edge& edge) const;
+  [[nodiscard]] std::vector<LocalIndex> neighbours(LocalIndex v) const;  ///< Ascending.
+  [[nodiscard]] bool has_edge(LocalIndex a, LocalIndex b) const;
+  /// @brief Curve of an edge, kNoIndex if it is on none.
+  [[nodiscard]] LocalIndex curve(LocalIndex a, LocalIndex b) const;
+  /// @brief The vertices before and after one that lies on a curve.
+  [[nodiscard]] std::vector<LocalIndex> curve_neighbours(LocalIndex v) const;
+
+  void move(LocalIndex v, const Vec3& xyz) { xyz_[at(v)] = xyz; }
+
+  /// @brief Puts a vertex at `xyz` into an edge; returns it.
+  LocalIndex split(const Edge& edge, const Vec3& xyz);
+
+  /// @brief Whether `gone` may be joined with `kept` without tearing or pinching the surface.
+  [[nodiscard]] bool can_collapse(LocalIndex gone, LocalIndex kept) const;
+  /// @pre can_collapse(gone, kept)
+  void collapse(LocalIndex gone, LocalIndex kept);
+
+  /// @brief The two triangles that would take the place of those at an edge on no curve; nothing if
+  /// the other diagonal exists already. In the order of triangles_at().
+  [[nodiscard]] std::optional<std::array<Triangle, 2>> flipped(const Edge& edge) const;
+  /// @pre `triangles` are flipped(edge).
+  void flip(const Edge& edge, const std::array<Triangle, 2>& triangles);
+
+  /// @brief What there is now, without gaps; the materials are the given surface's.
+  [[nodiscard]] PatchSurface take(const PatchSurface& given) const;
+
+ private:
+  void detach(LocalIndex t, LocalIndex v);
+  void replace(LocalIndex t, LocalIndex old, LocalIndex by);
+
+  std::vector<Vec3> xyz_;
+  std::vector<double> sizes_;
+  std::vector<Freedom> freedom_{};
+  std::vector<Triangle> triangles_;  // Corner 0 of a removed one is kNoIndex.
+  std::vector<LocalIndex> patch_;
+  std::vector<std::vector<LocalIndex>> around_{};  // Triangles of each vertex.
+  std::map<Edge, LocalIndex> curves_{};
+};
+
+}  // namespace tessera::coarse

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/coarse/on_geometry.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "tessera/coarse/remesh.hpp"
+#include "tessera/coarse/surface_overlap.hpp"
+
+namespace tessera::coarse {
+namespace {
+
+// A triangle whose normal turns by more than this cosine says was folded by the move.
+constexpr double kLeastCosine = 0.5;
+constexpr double kMostOfEdge = 0.5;
+
+// Each halves the edges where the surface cuts itself. Faces that lie in each other would be made
+// finer and finer all over: they are given up when there are so many times more triangles.
+constexpr std::size_t kMostGrowth = 3;
+constexpr int kFinerRounds = 5;
+
+class Mover {
+ public:
+  Mover(PatchSurface& surface, const SurfaceReference& reference, const model::Model& model)
+      : surface_(surface),
+        reference_(reference),
+        model_(model),
+        around_(surface.vertex_xyz.size()),
+        curve_(surface.vertex_xyz.size(), kNoIndex)
+  {
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      for (const LocalIndex v : surface_.triangles[t]) around_[at(v)].push_back(t);
+    }
+    for (std::size_t e = 0; e < surface_.edges.size(); ++e) {
+      for (const LocalIndex v : surface_.edges[e]) curve_[at(v)] = surface_.edge_curve[e];
+    }
+  }
+
+  void run()
+  {
+    for (std::size_t v = 0; v < around_.size(); ++v) {
+      if (surface_.vertex_is_fixed[v] == 0 && !around_[v].empty()) move(v, target(v));
+    }
+  }
+
+ private:
+  [[nodiscard]] Vec3 target(std::size_t v) const
+  {
+    const Vec3& point = surface_.vertex_xyz[v];
+    if (curve_[v] != kNoIndex) {
+      return model_.project_to_curve(curve_[v], point, reference_.curve_parameter(curve_[v], point))
+          .xyz;
+    }
+    const LocalIndex patch = surface_.triangle_patch[around_[v].front()];
+    return model_.project_to_surface(patch, point, reference_.parameters(patch, point)).xyz;
+  }
+
+  void move(std::size_t v, const Vec3& target)
+  {
+    const Vec3 before = surface_.vertex_xyz[v];
+    double shortest = std::numeric_limits<double>::infinity();
+    std::vector<Vec3> normals;
+    for (const std::size_t t : around_[v]) {
+      normals.push_back(normal(t));
+      for (const Vec3& corner : surface_.corners(t)) {
+        const double length = norm(corner - before);
+        if (length > 0.0) shortest = std::min(shortest, length);
+      }
+    }
+    if (norm(target - before) > kMostOfEdge * shortest) return;
+    surface_.vertex_xyz[v] = target;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const Vec3 after = normal(around_[v][i]);
+      if (dot(after, normals[i]) >= kLeastCosine * norm(after) * norm(normals[i])) continue;
+      surface_.vertex_xyz[v] = before;
+      return;
+    }
+  }
+
+  [[nodiscard]] Vec3 normal(std::size_t t) const
+  {
+    const auto corners = surface_.corners(t);
+    return cross(corners[1] - corners[0], corners[2] - corners[0]);
+  }
+
+  PatchSurface& surface_;
+  const SurfaceReference& reference_;
+  const model::Model& model_;
+  std::vector<std::vector<std::size_t>> around_;  // Triangles of each vertex.
+  std::vector<LocalIndex> curve_;                 // Of each vertex that lies on one.
+};
+
+std::vector<std::size_t> cut_triangles(const PatchSurface& surface)
+{
+  std::vector<std::size_t> triangles;
+  for (const Overlap& overlap : find_overlaps(surface)) {
+    triangles.push_back(overlap.first);
+    triangles.push_back(overlap.second);
+  }
+  return triangles;
+}
+
+}  // namespace
+
+void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
+                     const model::Model& model)
+{
+  Mover(surface, reference, model).run();
+}
+
+PatchSurface remesh_on_geometry(const SurfaceReference& reference, const model::Model& model,
+                                const CoarseOptions& options)
+{
+  PatchSurface surface = remesh(reference, options);
+  put_on_geometry(surface, reference, model);
+  const std::size_t most_triangles = kMostGrowth * surface.triangles.size();
+  for (int round = 0; round < kFinerRounds; ++round) {
+    const std::vector<std::size_t> cut = cut_triangles(surface);
+    if (cut.empty() || surface.triangles.size() > most_triangles) break;
+    surface = remesh_finer(reference, surface, cut, options);
+    put_on_geometry(surface, reference, model);
+  }
+  return surface;
+}
+
+}  // namespace tessera::coarse

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/coarse/remesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "coarse/editable_surface.hpp"
+#include "coarse/surface_sizes.hpp"
+
+namespace tessera::coarse {
+namespace {
+
+using Edge = PatchSurface::Edge;
+using Triangle = PatchSurface::Triangle;
+
+// Edges outside these parts of the wanted length are split and collapsed: 4/3 and 4/5 in the
+// original method; wider apart a size field is followed with fewer steps back and forth.
+constexpr double kTooLong = 1.4;
+constexpr double kTooShort = 0.7;
+
+constexpr int kRounds = 5;
+constexpr int kMostSweeps = 30;  // Of one kind within a round; each halves the longest edges.
+constexpr int kFlipSweeps = 4;
+constexpr int kFewSteps = 200;  // A sweep that took fewer than one step in so many vertices ends.
+
+// Shapes from 0, flat, to 1, equilateral. A step may leave no triangle worse than this, unless one
+// was worse before.
+constexpr double kFairShape = 0.3;
+
+// Among triangles better than this, smoothing need not make the worst better.
+constexpr double kGoodShape = 0.6;
+
+constexpr double kTurnedOver = -1.0;
+constexpr double kUnknown = -2.0;
+
+// A triangle whose normal is more than 60 degrees off the reference's is turned over or cuts a
+// corner.
+constexpr double kLeastCosine = 0.5;
+
+// A new edge of a curve may leave the curve by this part of its length.
+constexpr double kMostSagitta = 0.2;
+
+using Corners = std::array<Vec3, 3>;
+
+// A triangle that a step would make.
+struct Candidate {
+  Corners corners{};
+  LocalIndex patch = kNoIndex;
+};
+
+// 4 sqrt(3) area over the sum of the squared edges: 1 for an equilateral triangle, 0 for a flat
+// one.
+double quality(const Corners& p)
+{
+  const std::array<Vec3, 3> sides{p[1] - p[0], p[2] - p[1], p[0] - p[2]};
+  const double squares =
+      dot(sides[0], sides[0]) + dot(sides[1], sides[1]) + dot(sides[2], sides[2]);
+  return squares > 0.0 ? 2.0 * std::sqrt(3.0) * norm(cross(sides[0], sides[1])) / squares : 0.0;
+}
+
+class Remesher {
+ public:
+  Remesher(const SurfaceReference& reference, const PatchSurface& start, std::vector<double> sizes)
+      : reference_(reference), surface_(start, std::move(sizes))
+  {
+  }
+
+  PatchSurface run()
+  {
+    for (int round = 0; round < kRounds; ++round) {
+      sweep([this] { return flip_edges(); }, kFlipSweeps);
+      sweep([this] { return collapse_short_edges(); }, kMostSweeps);
+      sweep([this] { return flip_edges(); }, kFlipSweeps);
+      sweep([this] { return split_long_edges(); }, kMostSweeps);
+      sweep([this] { return flip_edges(); }, kFlipSweeps);
+      for (LocalIndex v = 0; v < surface_.num_vertices(); ++v) smooth(v);
+    }
+    sweep([this] { return flip_edges(); }, kFlipSweeps);
+    for (LocalIndex v = 0; v < surface_.num_vertices(); ++v) smooth(v);
+    return surface_.take(reference_.surface());
+  }
+
+ private:
+  // Until hardly anything is left to do: the next round does the rest.
+  template <class Pass>
+  void sweep(const Pass& pass, int most) const
+  {
+    for (int i = 0; i < most; ++i) {
+      if (kFewSteps * pass() <= surface_.num_vertices()) return;
+    }
+  }
+
+  [[nodiscard]] double length(const Edge& edge) const
+  {
+    return norm(surface_.xyz(edge[1]) - surface_.xyz(edge[0]));
+  }
+
+  // Length over the wanted one.
+  [[nodiscard]] double relative_length(const Edge& edge) const
+  {
+    return length(edge) / (0.5 * (surface_.size(edge[0]) + surface_.size(edge[1])));
+  }
+
+  [[nodiscard]] Corners corners(const Triangle& v) const
+  {
+    return {surface_.xyz(v[0]), surface_.xyz(v[1]), surface_.xyz(v[2])};
+  }
+
+  [[nodiscard]] bool is_upright(const Corners& p, LocalIndex patch) const
+  {
+    const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
+    const Vec3 middle = (1.0 / 3.0) * (p[0] + p[1] + p[2]);
+    return dot(n, reference_.normal(patch, middle)) >= kLeastCosine * norm(n);
+  }
+
+  // quality() of a triangle; kTurnedOver if it does not look the reference's way. Kept until the
+  // triangle changes: most are asked for often and change seldom.
+  [[nodiscard]] double shape(LocalIndex t)
+  {
+    if (at(t) >= shapes_.size()) shapes_.resize(at(t) + 1, kUnknown);
+    double& known = shapes_[at(t)];
+    if (known == kUnknown) {
+      const Corners p = corners(surface_.triangle(t));
+      known = is_upright(p, surface_.patch(t)) ? quality(p) : kTurnedOver;
+    }
+    return known;
+  }
+
+  void forget(const std::vector<LocalIndex>& triangles)
+  {
+    for (const LocalIndex t : triangles) {
+      if (at(t) < shapes_.size()) shapes_[at(t)] = kUnknown;
+    }
+  }
+
+  [[nodiscard]] double worst_shape(const std::vector<LocalIndex>& triangles)
+  {
+    double worst = 1.0;
+    for (const LocalIndex t : triangles) worst = std::min(worst, shape(t));
+    return worst;
+  }
+
+  // Whether all have a better shape than `least`; looks at the reference only if that can be.
+  [[nodiscard]] bool all_better(const std::vector<Candidate>& candidates, double least) const
+  {
+    for (const Candidate& one : candidates) {
+      if (quality(one.corners) <= least) return false;
+    }
+    return std::ranges::all_of(
+        candidates, [this](const Candidate& one) { return is_upright(one.corners, one.patch); });
+  }
+
+  int flip_edges()
+  {
+    constexpr double kGain = 1e-3;  // Against flips back and forth.
+    int count = 0;
+    for (const Edge& edge : surface_.edges()) {
+      const auto triangles = surface_.flipped(edge);
+      if (!triangles) continue;
+      const std::vector<LocalIndex> two = surface_.triangles_at(edge);
+      const LocalIndex patch = surface_.patch(two[0]);
+      const double before = std::max(worst_shape(two), 0.0);
+      if (!all_better({{corners((*triangles)[0]), patch}, {corners((*triangles)[1]), patch}},
+                      before + kGain)) {
+        continue;
+      }
+      surface_.flip(edge, *triangles);
+      forget(two);
+      ++count;
+    }
+    return count;
+  }
+
+  int split_long_edges()
+  {
+    std::vector<std::pair<double, Edge>> longest;
+    for (const Edge& edge : surface_.edges()) {
+      const double relative = relative_length(edge);
+      if (relative > kTooLong) longest.emplace_back(-relative, edge);
+    }
+    std::ranges::sort(longest);
+    for (const auto& [relative, edge] : longest) {
+      const Vec3 chord = midpoint(surface_.xyz(edge[0]), surface_.xyz(edge[1]));
+      forget(surface_.triangles_of(surface_.split(edge, on_reference(edge, chord))));
+    }
+    return static_cast<int>(longest.size());
+  }
+
+  [[nodiscard]] Vec3 on_reference(const Edge& edge, const Vec3& point) const
+  {
+    const LocalIndex curve = surface_.curve(edge[0], edge[1]);
+    if (curve != kNoIndex) return reference_.on_curve(curve, point);
+    return reference_.on_patch(surface_.patch(surface_.triangles_at(edge).front()), point);
+  }
+
+  int collapse_short_edges()
+  {
+    std::vector<std::pair<double, Edge>> shortest;
+    for (const Edge& edge : surface_.edges()) {
+      const double relative = relative_length(edge);
+      if (relative < kTooShort) shortest.emplace_back(relative, edge);
+    }
+    std::ranges::sort(shortest);
+    int count = 0;
+    for (const auto& [relative, edge] : shortest) {
+      const auto [a, b] = edge;
+      if (!surface_.is_vertex(a) || !surface_.is_vertex(b) || !surface_.has_edge(a, b)) continue;
+      count += collapse(a, b) || collapse(b, a) ? 1 : 0;
+    }
+    return count;
+  }
+
+  bool collapse(LocalIndex gone, LocalIndex kept)
+  {
+    if (!surface_.can_collapse(gone, kept) || !keeps_curve(gone, kept)) return false;
+    std::vector<Candidate> candidates;
+    for (const LocalIndex t : surface_.triangles_of(gone)) {
+      Triangle v = surface_.triangle(t);
+      if (std::ranges::find(v, kept) != v.end()) continue;
+      std::ranges::replace(v, gone, kept);
+      candidates.push_back({corners(v), surface_.patch(t)});
+    }
+    for (const LocalIndex other : surface_.neighbours(gone)) {
+      if (other != kept && relative_length({other, kept}) > kTooLong) return false;
+    }
+    const double before = worst_shape(surface_.triangles_of(gone));
+    if (!all_better(candidates, std::clamp(before, 0.0, kFairShape))) return false;
+    surface_.collapse(gone, kept);
+    forget(surface_.triangles_of(kept));
+    return true;
+  }
+
+  [[nodiscard]] bool keeps_curve(LocalIndex gone, LocalIndex kept) const
+  {
+    const LocalIndex curve = surface_.curve(gone, kept);
+    if (curve == kNoIndex) return true;
+    for (const LocalIndex other : surface_.curve_neighbours(gone)) {
+      if (other == kept) continue;
+      const Vec3 middle = midpoint(surface_.xyz(other), surface_.xyz(kept));
+      const double off = norm(reference_.on_curve(curve, middle) - middle);
+      if (off > kMostSagitta * length({other, kept})) return false;
+    }
+    return true;
+  }
+
+  void smooth(LocalIndex v)
+  {
+    if (!surface_.is_vertex(v) || surface_.freedom(v) == Freedom::none) return;
+    const bool is_on_curve = surface_.freedom(v) == Freedom::curve;
+    const std::vector<LocalIndex> around =
+        is_on_curve ? surface_.curve_neighbours(v) : surface_.neighbours(v);
+    Vec3 sum{};
+    for (const LocalIndex other : around) sum = sum + surface_.xyz(other);
+    const Vec3 middle = (1.0 / static_cast<double>(around.size())) * sum;
+    const LocalIndex curve = is_on_curve ? surface_.curve(v, around.front()) : kNoIndex;
+    const LocalIndex patch = surface_.patch(surface_.triangles_of(v).front());
+    const Vec3 before = surface_.xyz(v);
+    const double worst = worst_shape(surface_.triangles_of(v));
+    for (const double step : {1.0, 0.5, 0.25}) {
+      const Vec3 wanted = before + step * (middle - before);
+      surface_.move(
+          v, is_on_curve ? reference_.on_curve(curve, wanted) : reference_.on_patch(patch, wanted));
+      std::vector<Candidate> candidates;
+      for (const LocalIndex t : surface_.triangles_of(v)) {
+        candidates.push_back({corners(surface_.triangle(t)), surface_.patch(t)});
+      }
+      if (!all_better(candidates, std::clamp(worst, 0.0, kGoodShape))) continue;
+      forget(surface_.triangles_of(v));
+      return;
+    }
+    surface_.move(v, before);
+  }
+
+  const SurfaceReference& reference_;
+  EditableSurface surface_;
+  std::vector<double> shapes_{};  // Of the triangles.
+};
+
+}  // namespace
+
+PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options)
+{
+  const PatchSurface& start = reference.surface();
+  return Remesher(reference, start, surface_sizes(start, options)).run();
+}
+
+PatchSurface remesh_finer(const SurfaceReference& reference, const PatchSurface& surface,
+                          const std::vector<std::size_t>& triangles, const CoarseOptions& options)
+{
+  return Remesher(reference, surface, finer_sizes(surface, triangles, options.grading)).run();
+}
+
+}  // namespace tessera::coarse

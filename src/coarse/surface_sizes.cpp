@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse/surface_sizes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <queue>
+#include <utility>
+
+namespace tessera::coarse {
+namespace {
+
+using Edge = PatchSurface::Edge;
+
+// Of the largest size: smaller radii and curves are not resolved. This mesher is for models with
+// defects, where radii of nothing would make millions of triangles.
+constexpr double kLeastSize = 0.1;
+
+// A triangle that is flatter has no normal that says anything.
+constexpr double kFlat = 1e-3;
+
+// A closed curve gets this many edges at least, whatever its radius.
+constexpr double kEdgesOfLoop = 6.0;
+
+// Below it, in radians, the angle of two triangles or edges is the tessellation's noise.
+constexpr double kLeastTurn = 1e-3;
+
+double angle_between(const Vec3& a, const Vec3& b)
+{
+  return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
+using EdgeTriangles = std::map<Edge, std::vector<std::size_t>>;
+using Neighbours = std::vector<std::vector<LocalIndex>>;
+
+EdgeTriangles triangles_by_edge(const PatchSurface& surface)
+{
+  EdgeTriangles triangles;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const PatchSurface::Triangle& v = surface.triangles[t];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [low, high] = std::minmax(v[c], v[(c + 1) % 3]);
+      triangles[{low, high}].push_back(t);
+    }
+  }
+  return triangles;
+}
+
+Neighbours neighbours_of(const PatchSurface& surface, const EdgeTriangles& edges)
+{
+  Neighbours neighbours(surface.vertex_xyz.size());
+  for (const auto& [edge, triangles] : edges) {
+    neighbours[at(edge[0])].push_back(edge[1]);
+    neighbours[at(edge[1])].push_back(edge[0]);
+  }
+  return neighbours;
+}
+
+// Smallest sizes first; what they allow their neighbours is final when these are taken.
+void grade(const PatchSurface& surface, const Neighbours& neighbours, double grading,
+           std::vector<double>& sizes)
+{
+  using Entry = std::pair<double, LocalIndex>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::size_t v = 0; v < sizes.size(); ++v) {
+    queue.emplace(sizes[v], static_cast<LocalIndex>(v));
+  }
+  while (!queue.empty()) {
+    const auto [size, v] = queue.top();
+    queue.pop();
+    if (size > sizes[at(v)]) continue;
+    for (const LocalIndex other : neighbours[at(v)]) {
+      const double apart = norm(surface.vertex_xyz[at(other)] - surface.vertex_xyz[at(v)]);
+      const double allowed = size + grading * apart;
+      if (allowed >= sizes[at(other)]) continue;
+      sizes[at(other)] = allowed;
+      queue.emplace(allowed, other);
+    }
+  }
+}
+
+class SizeField {
+ public:
+  SizeField(const PatchSurface& surface, const CoarseOptions& options)
+      : surface_(surface),
+        options_(options),
+        sizes_(surface.vertex_xyz.size(), options.max_size),
+        edge_triangles_(triangles_by_edge(surface))
+  {
+  }
+
+  std::vector<double> run() &&
+  {
+    for (const auto& [edge, triangles] : edge_triangles_) bend_surface(edge, triangles);
+    bend_and_shorten_curves();
+    grade(surface_, neighbours_of(surface_, edge_triangles_), options_.grading, sizes_);
+    return std::move(sizes_);
+  }
+
+ private:
+  [[nodiscard]] const Vec3& xyz(LocalIndex v) const { return surface_.vertex_xyz[at(v)]; }
+  [[nodiscard]] double length(const Edge& edge) const { return norm(xyz(edge[1]) - xyz(edge[0])); }
+
+  void restrict(LocalIndex v, double size)
+  {
+    const double least = kLeastSize * options_.max_size;
+    sizes_[at(v)] = std::max(least, std::min(sizes_[at(v)], size));
+  }
+
+  // Two triangles that meet inside a patch: their angle over the distance of their middles is the
+  // curvature across the edge.
+  void bend_surface(const Edge& edge, const std::vector<std::size_t>& triangles)
+  {
+    if (triangles.size() != 2 || std::ranges::binary_search(surface_.edges, edge)) return;
+    std::array<Vec3, 2> normals{};
+    double heights = 0.0;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto corners = surface_.corners(triangles[side]);
+      normals[side] = cross(corners[1] - corners[0], corners[2] - corners[0]);
+      heights += norm(normals[side]) / length(edge);
+    }
+    const double turn = angle_between(normals[0], normals[1]);
+    if (turn < kLeastTurn || heights < kFlat * length(edge)) return;
+    const double radius = 0.5 * heights / turn;
+    for (const LocalIndex v : edge) restrict(v, radius / options_.curvature);
+  }
+
+  void bend_and_shorten_curves()
+  {
+    std::map<std::pair<LocalIndex, LocalIndex>, std::vector<LocalIndex>> next;  // curve, vertex
+    std::map<LocalIndex, double> lengths;
+    for (std::size_t e = 0; e < surface_.edges.size(); ++e) {
+      const auto [a, b] = surface_.edges[e];
+      const LocalIndex curve = surface_.edge_curve[e];
+      next[{curve, a}].push_back(b);
+      next[{curve, b}].push_back(a);
+      lengths[curve] += length(surface_.edges[e]);
+    }
+    std::map<LocalIndex, bool> is_loop;
+    for (const auto& [place, others] : next) {
+      const bool goes_on = others.size() == 2;
+      is_loop.try_emplace(place.first, true).first->second &= goes_on;
+      if (goes_on) bend_curve(place.second, others);
+    }
+    for (const auto& [place, others] : next) {
+      const double least_edges = is_loop[place.first] ? kEdgesOfLoop : 1.0;
+      restrict(place.second, lengths[place.first] / least_edges);
+    }
+  }
+
+  void bend_curve(LocalIndex v, const std::vector<LocalIndex>& others)
+  {
+    const Vec3 to = xyz(v) - xyz(others[0]);
+    const Vec3 from = xyz(others[1]) - xyz(v);
+    const double turn = angle_between(to, from);
+    if (turn < kLeastTurn || surface_.vertex_is_fixed[at(v)] != 0) return;
+    restrict(v, 0.5 * (norm(to) + norm(from)) / turn / options_.curvature);
+  }
+
+  const PatchSurface& surface_;
+  const CoarseOptions& options_;
+  std::vector<double> sizes_;
+  std::map<Edge, std::vector<std::size_t>> edge_triangles_;
+};
+
+}  // namespace
+
+std::vector<double> finer_sizes(const PatchSurface& surface,
+                                const std::vector<std::size_t>& triangles, double grading)
+{
+  const Neighbours neighbours = neighbours_of(surface, triangles_by_edge(surface));
+  std::vector<double> sizes(surface.vertex_xyz.size(), 0.0);
+  for (std::size_t v = 0; v < sizes.size(); ++v) {
+    for (const LocalIndex other : neighbours[v]) {
+      const double length = norm(surface.vertex_xyz[at(other)] - surface.vertex_xyz[v]);
+      sizes[v] += length / static_cast<double>(neighbours[v].size());
+    }
+  }
+  const std::vector<double> before = sizes;
+  for (const std::size_t t : triangles) {
+    for (const LocalIndex v : surface.triangles[t]) sizes[at(v)] = 0.5 * before[at(v)];
+  }
+  grade(surface, neighbours, grading, sizes);
+  return sizes;
+}
+
+std::vector<double> surface_sizes(const PatchSurface& surface, const CoarseOptions& options)
+{
+  return SizeField(surface, options).run();
+}
+
+}  // namespace tessera::coarse
