@@ -31,12 +31,12 @@ TEST(CorrectedMaxSize, BringsTheMiddleOfTheCoarseEdgesDown)
     return std::sqrt(2.0) * 0.25 / (4.0 * target);  // Levels: 2.
   };
   const double coarse_enough = 0.2;
-  ASSERT_LT(middle_over_target(coarse_enough), 0.91);
+  ASSERT_LT(middle_over_target(coarse_enough), 0.94);
   EXPECT_EQ(corrected_max_size(cube, 1.0, coarse_enough, 2), std::nullopt);
   const double too_fine = 0.05;
   const auto smaller = corrected_max_size(cube, 1.0, too_fine, 2);
   ASSERT_TRUE(smaller.has_value());
-  EXPECT_NEAR(*smaller, 0.91 / middle_over_target(too_fine), 1e-12);
+  EXPECT_NEAR(*smaller, 0.94 / middle_over_target(too_fine), 1e-12);
 }
 
 }  // namespace
