@@ -191,8 +191,8 @@ class MeshWorker final : public jobs::Worker {
     context.levels = test.levels;
     const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, context);
     auto folds = plan::find_folds(complex, cut_->skeleton, lattice, damping);
-    // Bad children do not matter to a kernel that meshes anew, as long as the skin is sound: points
-    // are kept off the geometry only where it is not.
+    // With bad children NETGEN begins with the skin alone, as long as that is sound: points are
+    // kept off the geometry only where it is not.
     if (test.kernel == fill::KernelKind::netgen && !folds.empty()
         && !netgen::skin_overlaps(skin_of(context, test.subdomain))) {
       folds.clear();
