@@ -108,10 +108,9 @@ void write_coarse(const fs::path& file, const mesh::CoarseMesh& coarse,
   if (fs::exists(fs::symlink_status(file))) return;
   mesh::MeshArrays arrays;
   arrays.point_xyz = coarse.vertex_xyz;
-  arrays.cell_points.assign(coarse.tet_vertices.begin(), coarse.tet_vertices.end());
-  arrays.cell_ints["attribute"].assign(coarse.tet_material.begin(), coarse.tet_material.end());
-  arrays.cell_ints["subdomain"].assign(decomposition.tet_subdomain.begin(),
-                                       decomposition.tet_subdomain.end());
+  arrays.cell_points = coarse.tet_vertices;
+  arrays.cell_ints["attribute"] = coarse.tet_material;
+  arrays.cell_ints["subdomain"] = decomposition.tet_subdomain;
   io::write_vtu(arrays, file, io::Compression::none);
 }
 
@@ -120,8 +119,7 @@ void write_skin(const fs::path& file, const Bytes& skin)
   ByteReader in(skin);
   mesh::MeshArrays arrays{.vertices_per_cell = 3};
   arrays.point_xyz = in.get_vector<double>();
-  const auto triangles = in.get_vector<LocalIndex>();
-  arrays.cell_points.assign(triangles.begin(), triangles.end());
+  arrays.cell_points = in.get_vector<LocalIndex>();
   io::write_vtu(arrays, file, io::Compression::none);
 }
 
@@ -129,7 +127,7 @@ void write_region(const fs::path& file, const improve::RegionMesh& region)
 {
   mesh::MeshArrays arrays;
   arrays.point_xyz = region.vertex_xyz;
-  arrays.cell_points.assign(region.tet_vertices.begin(), region.tet_vertices.end());
+  arrays.cell_points = region.tet_vertices;
   for (const LocalIndex owner : region.tet_owner) {
     arrays.cell_ints["subdomain"].push_back(region.subdomains[at(owner)]);
   }

@@ -70,7 +70,7 @@ mesh::MeshArrays tet_arrays(const mesh::Piece& piece, const WriteContext& mesh, 
 {
   mesh::MeshArrays arrays = with_names(mesh);
   add_points(piece, mesh, arrays);
-  arrays.cell_points.assign(piece.tet_vertices.begin(), piece.tet_vertices.end());
+  arrays.cell_points = piece.tet_vertices;
   arrays.cell_ids.resize(at(piece.num_tets()));
   std::iota(arrays.cell_ids.begin(), arrays.cell_ids.end(), mesh.ids.first_tet(piece.subdomain));
   arrays.cell_ints["attribute"].assign(at(piece.num_tets()), piece.material);
@@ -107,7 +107,7 @@ mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArray
   arrays.cell_ids.resize(at(piece.num_boundary()));
   std::iota(arrays.cell_ids.begin(), arrays.cell_ids.end(),
             mesh.ids.first_boundary_triangle(piece.subdomain));
-  arrays.cell_ints["patch"].assign(piece.boundary_patch.begin(), piece.boundary_patch.end());
+  arrays.cell_ints["patch"] = piece.boundary_patch;
   arrays.cell_ints["subdomain"].assign(at(piece.num_boundary()), piece.subdomain);
   auto& tet = arrays.cell_longs["tet"];
   for (const LocalIndex t : piece.boundary_tet) tet.push_back(tets.cell_ids[at(t)]);

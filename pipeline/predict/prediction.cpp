@@ -65,7 +65,7 @@ std::vector<double> durations(const std::vector<SubdomainRange>& ranges,
 }
 
 // A region's job takes as long as a fill of so many tets for each fine triangle of the seam, seen
-// from both sides.
+// from both sides. Measured on shaft, 2 levels: 10.5 and 11.9 with 8 and 64 subdomains.
 constexpr double kFilledTetsPerSeamTriangle = 11.0;
 
 std::vector<double> improvement_durations(const PredictionBasis& basis)

@@ -23,7 +23,8 @@ constexpr double kQualityBytes = 8.0;
 
 }  // namespace
 
-// Measured on torus and core with pieces of 1e4 to 3e5 tets.
+// Measured on torus and core with pieces of 1e4 to 3e5 tets; NETGEN from skins alone, which is its
+// slowest start.
 Rates built_in_rates(const io::OutputOptions& options)
 {
   const double file_bytes =

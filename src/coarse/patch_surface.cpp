@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -44,6 +45,18 @@ std::vector<Side> sides_of(const PatchSurface& surface)
   }
   std::ranges::sort(sides);
   return sides;
+}
+
+// Calls visit(those of one edge) for each edge of sorted sides.
+template <class Visit>
+void for_each_edge(std::span<const Side> sides, const Visit& visit)
+{
+  for (std::size_t first = 0; first < sides.size();) {
+    std::size_t last = first;
+    while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+    visit(sides.subspan(first, last - first));
+    first = last;
+  }
 }
 
 // Splits the triangles on one sheet of a patch at an edge.
@@ -90,34 +103,25 @@ void split_sheet(PatchSurface& surface, const Side& side)
 
 void separate_patches(PatchSurface& surface)
 {
-  const std::vector<Side> sides = sides_of(surface);
-  for (std::size_t first = 0; first < sides.size();) {
-    std::size_t last = first;
-    while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+  const std::vector<Side> all = sides_of(surface);
+  for_each_edge(all, [&surface](std::span<const Side> sides) {
     // Two triangles of one patch belong together, also at a pole, where their parameters differ.
-    const bool is_one_sheet = last - first == 2 && sides[first].patch == sides[last - 1].patch;
-    const bool is_on_curve = std::ranges::binary_search(surface.edges, sides[first].edge);
-    for (std::size_t s = first + 1; s < last && !is_one_sheet && !is_on_curve; ++s) {
+    const bool is_one_sheet = sides.size() == 2 && sides[0].patch == sides[1].patch;
+    if (is_one_sheet || std::ranges::binary_search(surface.edges, sides[0].edge)) return;
+    for (std::size_t s = 1; s < sides.size(); ++s) {
       if (sides[s] != sides[s - 1]) split_sheet(surface, sides[s]);
     }
-    first = last;
-  }
+  });
 }
 
 void validate(const PatchSurface& surface)
 {
-  const std::vector<Side> sides = sides_of(surface);
-  for (std::size_t first = 0; first < sides.size();) {
-    std::size_t last = first;
-    while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
-    const bool is_on_curve = std::ranges::binary_search(surface.edges, sides[first].edge);
-    const bool is_inside =
-        last - first == 2 && sides[first].patch == sides[last - 1].patch && !is_on_curve;
-    if (!is_inside && !(is_on_curve && last - first >= 2)) {
-      throw_at(surface, sides[first].edge, last - first);
-    }
-    first = last;
-  }
+  for_each_edge(sides_of(surface), [&surface](std::span<const Side> sides) {
+    const bool is_on_curve = std::ranges::binary_search(surface.edges, sides[0].edge);
+    const bool is_one_sheet = sides.size() == 2 && sides[0].patch == sides[1].patch;
+    const bool is_closed = is_on_curve ? sides.size() >= 2 : is_one_sheet;
+    if (!is_closed) throw_at(surface, sides[0].edge, sides.size());
+  });
 }
 
 }  // namespace tessera::coarse

@@ -99,7 +99,7 @@ constexpr Key kKeys[] = {
      .meaning =
          "What turns a subdomain into tets: \"subdivide\" splits each of its coarse tets into 8^L; "
          "\"netgen\" begins with these and optimises them.",
-     .reason = "subdivision keeps the shapes of the coarse tets: on shaft the mean ratio is 0.79 "
+     .reason = "subdivision keeps the shapes of the coarse tets: on shaft the mean ratio is 0.75 "
                "with it and 0.87 with NETGEN"},
     {.name = "fill.timeout_s",
      .rule = RealRule{[](Case& c) -> double& { return c.fill.timeout_s; }, 0.0, Bound::inclusive,
@@ -114,8 +114,9 @@ constexpr Key kKeys[] = {
                       1e6, Bound::inclusive},
      .unit = "GiB",
      .meaning = "Limit of one fill job's resident memory.",
-     .reason = "filling one skin with 485 k tets took 0.7 GiB; a job that needs more than this is "
-               "running away, or wants more subdomains"},
+     .reason =
+         "filling one skin alone with 485 k tets took 0.7 GiB; a job that needs more than this is "
+         "running away, or wants more subdomains"},
     {.name = "fill.optimize_steps",
      .rule = IntegerRule{[](Case& c) -> int& { return c.fill.optimize_steps; }, 0, 100},
      .meaning = "NETGEN's rounds of optimisation of a fill.",
@@ -135,11 +136,12 @@ constexpr Key kKeys[] = {
      .meaning = "Whether NETGEN optimises the tets around the seams between subdomains once more, "
                 "across the seams. What is subdivided stays as it is.",
      .reason = "on shaft the mean ratio is 0.870 with 1 subdomain; with 64 it is 0.844 without and "
-               "0.866 with improvement"},
+               "0.865 with improvement"},
     {.name = "improve.rounds",
      .rule = IntegerRule{[](Case& c) -> int& { return c.improve.rounds; }, 1, 10},
      .meaning = "NETGEN's rounds of optimisation around a seam.",
-     .reason = "one round takes 1.4 times as long as the fill itself on shaft with 64 subdomains"},
+     .reason = "one round takes 1.4 to 1.9 times as long as the fill itself on shaft with 64 "
+               "subdomains"},
 
     {.name = "quality.min_dihedral_deg",
      .rule = RealRule{[](Case& c) -> double& { return c.quality.min_dihedral_deg; }, 0.0,

@@ -124,7 +124,7 @@ void set_sizes(::netgen::Mesh& mesh, const FillInput& input, double grading)
 
 // NETGEN's steps for tets that are there: s and t swap, m smooths, c combines.
 //
-// On shaft (L = 2, 1 subdomain; as subdivided 0.79, 0.52, 13 deg): stm 0.821 mean, 0.599 1st
+// On shaft (L = 2, 1 subdomain; as subdivided 0.751, 0.471, 7.0 deg): stm 0.821 mean, 0.599 1st
 // percentile of the mean ratio, 11.9 deg, 3.0 s; these 0.870, 0.675, 19.4 deg, 7.7 s; twice these
 // 0.883, 0.695, 20.7 deg, 14.6 s.
 constexpr const char* kStepsForStart = "stmcstmstm";

@@ -28,18 +28,21 @@ class Replay(program.ProgramTest):
     def failed_jobs(self, output):
         return sorted(path.name for path in (output / "failure").glob("fill*"))
 
+    def assert_is_kept(self, job, words, mesh):
+        """With the words of the job, the mesh that it was about and the coarse mesh."""
+        self.assertIn(words, (job / "log.txt").read_text())
+        about = self.run_program("info", job / mesh)
+        self.assertRegex(about.out, r"1 pieces, [1-9]\d+ cells, [1-9]\d+ points")
+        coarse = self.run_program("check", job.parent / "coarse.vtu", "--partial")
+        self.assertRegex(coarse.out, r"[1-9]\d+ tets")
+
     def test_degraded_run_keeps_every_try_that_failed(self):
         output = self.mesh_with("throw", ranks=2)
         self.assertEqual(
             self.failed_jobs(output),
             ["fill_subdomain_2", "fill_subdomain_2.2", "fill_subdomain_2.3", "fill_subdomain_2.4"],
         )
-        job = output / "failure" / "fill_subdomain_2"
-        self.assertIn("thrown for a test", (job / "log.txt").read_text())
-        skin = self.run_program("info", job / "skin.vtu")
-        self.assertRegex(skin.out, r"1 pieces, [1-9]\d+ cells, [1-9]\d+ points")
-        coarse = self.run_program("check", output / "failure" / "coarse.vtu", "--partial")
-        self.assertRegex(coarse.out, r"[1-9]\d+ tets")
+        self.assert_is_kept(output / "failure" / "fill_subdomain_2", "thrown for a test", "skin.vtu")
 
     def test_replay_repeats_the_failure_in_the_process_itself(self):
         job = self.mesh_with("throw") / "failure" / "fill_subdomain_2"
@@ -64,12 +67,7 @@ class Replay(program.ProgramTest):
         fault = os.environ | {"TESSERA_TEST_FAULT": "improve=segv@1"}
         output = self.mesh(self.write_case(), "out", ranks=2, env=fault)
         self.assertEqual(program.figures(output)["improve"]["failed"], 1)
-        job = output / "failure" / "improve_region_1"
-        self.assertIn("Segmentation fault", (job / "log.txt").read_text())
-        region = self.run_program("info", job / "region.vtu")
-        self.assertRegex(region.out, r"1 pieces, [1-9]\d+ cells, [1-9]\d+ points")
-        coarse = self.run_program("check", output / "failure" / "coarse.vtu", "--partial")
-        self.assertRegex(coarse.out, r"[1-9]\d+ tets")
+        self.assert_is_kept(output / "failure" / "improve_region_1", "Segmentation fault", "region.vtu")
 
     def test_improvement_is_replayed_without_the_pieces_of_the_run(self):
         for kind in ("throw", "drop"):

@@ -9,7 +9,8 @@ namespace tessera::decompose {
 
 /// @brief Fine tets to expect in place of each coarse tet: 8^levels. Shape (num_tets). Local.
 ///
-/// Exact for subdivision. NETGEN begins with the same tets and makes them 1 % fewer to 4 % more.
+/// Exact for subdivision. NETGEN begins with the same tets and makes them up to 7 % fewer (18
+/// meshes).
 /// @pre levels >= 0.
 [[nodiscard]] std::vector<double> predicted_fine_tets(const mesh::CoarseMesh& mesh, int levels);
 

@@ -70,10 +70,8 @@ class Regions {
   mesh::Unit first_unit_ = 0;
 };
 
-/// @brief How many layers of tets around a seam are optimised, >= 1. With 2, 3, 4 the mean of the
-/// mean ratio became 0.841, 0.844, 0.846, its 1st percentile 0.621, 0.631, 0.633,
-/// in 8.5, 10.7, 11.8 CPU seconds (shaft, L = 2, 64 subdomains of 2.2 k tets; 0.806, 0.497 as
-/// filled in 13).
+/// @brief How many layers of tets around a seam are optimised, >= 1; improve::OptimizeSettings says
+/// what 2, 3 and 4 gave.
 inline constexpr int kDefaultLayers = 3;
 
 /// @brief The region of a phase that each tet of a piece belongs to: the nearest one, the lowest of
