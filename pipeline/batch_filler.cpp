@@ -31,7 +31,7 @@ void BatchFiller::add(FilledPiece filled)
       throw MeshError("the fill is not better than the one before");
     }
     if (file_) {
-      summary.digest = file_->add(filled.piece);
+      summary.digest = file_->add(std::move(filled.piece));
     } else {
       record_.piece = mesh::to_bytes(filled.piece);
     }

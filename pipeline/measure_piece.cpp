@@ -16,7 +16,9 @@ GlobalIndex measure_edges(const mesh::Piece& piece, quality::QualityHistograms& 
   mesh::for_each_edge(piece.tet_vertices, piece.num_vertices(), [&](LocalIndex a, LocalIndex b) {
     ++num_edges;
     const Vec3 edge = point_at(xyz, b) - point_at(xyz, a);
-    histograms.log2_edge_length.add(0.5 * std::log2(dot(edge, edge)));
+    // Single precision is a thousand times finer than a bin, and twice as fast.
+    const auto squared_length = static_cast<float>(dot(edge, edge));
+    histograms.log2_edge_length.add(0.5 * static_cast<double>(std::log2(squared_length)));
   });
   return num_edges;
 }

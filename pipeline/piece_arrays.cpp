@@ -3,6 +3,7 @@
 
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "tessera/base/version.hpp"
 #include "tessera/quality/tet_quality.hpp"
@@ -58,7 +59,6 @@ void number_by_owner(const mesh::Piece& piece, const WriteContext& mesh, mesh::M
 
 void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshArrays& arrays)
 {
-  arrays.point_xyz = piece.vertex_xyz;
   arrays.point_ints["owner"].reserve(at(piece.num_vertices()));
   arrays.point_ids.reserve(at(piece.num_vertices()));
   const bool has_points = piece.num_vertices() > 0;
@@ -66,11 +66,11 @@ void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshAr
   number_by_unit(piece, mesh, arrays);
 }
 
+// All but the positions and corners, which the piece itself gives away.
 mesh::MeshArrays tet_arrays(const mesh::Piece& piece, const WriteContext& mesh, bool with_quality)
 {
   mesh::MeshArrays arrays = with_names(mesh);
   add_points(piece, mesh, arrays);
-  arrays.cell_points = piece.tet_vertices;
   arrays.cell_ids.resize(at(piece.num_tets()));
   std::iota(arrays.cell_ids.begin(), arrays.cell_ids.end(), mesh.ids.first_tet(piece.subdomain));
   arrays.cell_ints["attribute"].assign(at(piece.num_tets()), piece.material);
@@ -116,11 +116,13 @@ mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArray
 
 }  // namespace
 
-PieceArrays piece_arrays(const mesh::Piece& piece, const WriteContext& mesh, bool with_quality)
+PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh, bool with_quality)
 {
   PieceArrays arrays;
   arrays.tets = tet_arrays(piece, mesh, with_quality);
   arrays.boundary = boundary_arrays(piece, arrays.tets, mesh);
+  arrays.tets.point_xyz = std::move(piece.vertex_xyz);
+  arrays.tets.cell_points = std::move(piece.tet_vertices);
   return arrays;
 }
 

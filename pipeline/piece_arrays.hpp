@@ -34,7 +34,7 @@ struct PieceArrays {
 /// @brief A piece with global ids, owners, material, patches and names; an empty piece gives the
 /// schema. Local.
 /// @param[in] with_quality Add the mean ratio of every tet.
-[[nodiscard]] PieceArrays piece_arrays(const mesh::Piece& piece, const WriteContext& mesh,
+[[nodiscard]] PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh,
                                        bool with_quality);
 
 /// @brief Sum of hash_tet() over the cells. Local. @pre ids and "attribute" are there.

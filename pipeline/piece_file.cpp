@@ -104,11 +104,11 @@ PieceFile::PieceFile(const WriteContext& mesh, const io::OutputOptions& options)
 {
 }
 
-Hash128 PieceFile::add(const mesh::Piece& piece)
+Hash128 PieceFile::add(mesh::Piece piece)
 {
-  PieceArrays added = piece_arrays(piece, mesh_, options_.cell_quality);
-  const Hash128 digest = digest_of(added.tets);
   const auto num_skin = at(piece.num_skin_vertices());
+  PieceArrays added = piece_arrays(std::move(piece), mesh_, options_.cell_quality);
+  const Hash128 digest = digest_of(added.tets);
   const auto num_boundary = added.boundary.point_ids.size();
   if (arrays_.tets.num_cells() == 0) {
     arrays_ = std::move(added);

@@ -40,7 +40,7 @@ class PieceFile {
   PieceFile(const WriteContext& mesh, const io::OutputOptions& options);
 
   /// @brief Adds a piece and returns its digest. @pre pieces come in the order of subdomains.
-  Hash128 add(const mesh::Piece& piece);
+  Hash128 add(mesh::Piece piece);
 
   /// @brief Writes mesh/piece_NNNNNN.vtu and, unless it is empty, boundary/piece_NNNNNN.vtu below
   /// `folder`. @throws OutputError

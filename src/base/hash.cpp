@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#define XXH_INLINE_ALL  // A tet is 136 bytes: knowing the length pays.
 #include <xxhash.h>
 
 namespace tessera {

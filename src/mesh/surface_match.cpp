@@ -17,15 +17,13 @@ using Triangle = std::array<LocalIndex, 3>;
 // Hash of a triangle by its ascending vertices.
 std::uint64_t hash_of(const Triangle& t)
 {
-  const auto mixed = [](std::uint64_t x) {  // The finaliser of splitmix64: a good bijection.
-    x ^= x >> 30;
-    x *= 0xbf58476d1ce4e5b9U;
-    x ^= x >> 27;
-    x *= 0x94d049bb133111ebU;
-    return x ^ (x >> 31);
-  };
   const auto word = [](LocalIndex i) { return static_cast<std::uint64_t>(i); };
-  return mixed(mixed(word(t[0]) << 32 | word(t[1])) + word(t[2]));
+  std::uint64_t x = (word(t[0]) << 32 | word(t[1])) * 0x9e3779b97f4a7c15U + word(t[2]);
+  x ^= x >> 30;  // From here the finaliser of splitmix64: a good bijection.
+  x *= 0xbf58476d1ce4e5b9U;
+  x ^= x >> 27;
+  x *= 0x94d049bb133111ebU;
+  return x ^ (x >> 31);
 }
 
 // The surface's triangles by their vertices, and the tet found behind each. Open addressing: most

@@ -16,6 +16,7 @@
 #include "migrate/dense_ids.hpp"
 #include "migrate/find_sharers.hpp"
 #include "migrate/join_points.hpp"
+#include "migrate/rows.hpp"
 #include "migrate/sharer_lists.hpp"
 
 namespace tessera::migrate {
@@ -194,18 +195,6 @@ std::vector<LocalIndex> ascending(const std::vector<GlobalIndex>& ids)
   return order;
 }
 
-template <class T>
-void reorder(std::vector<T>& values, const std::vector<LocalIndex>& order, std::size_t width = 1)
-{
-  std::vector<T> sorted;
-  sorted.reserve(values.size());
-  for (const LocalIndex i : order) {
-    const auto row = values.begin() + static_cast<std::ptrdiff_t>(width * at(i));
-    sorted.insert(sorted.end(), row, row + static_cast<std::ptrdiff_t>(width));
-  }
-  values = std::move(sorted);
-}
-
 std::vector<LocalIndex> inverse(const std::vector<LocalIndex>& order)
 {
   std::vector<LocalIndex> place(order.size());
@@ -217,8 +206,8 @@ void sort_vertices(DistributedMesh& mesh)
 {
   const auto order = ascending(mesh.vertex_ids);
   const auto place = inverse(order);
-  reorder(mesh.vertex_ids, order);
-  reorder(mesh.vertex_xyz, order, 3);
+  mesh.vertex_ids = rows_of(mesh.vertex_ids, order);
+  mesh.vertex_xyz = rows_of<3>(mesh.vertex_xyz, order);
   for (LocalIndex& v : mesh.tet_vertices) v = place[at(v)];
   IndexLists sharers;
   for (const LocalIndex v : order) {
@@ -233,21 +222,21 @@ void sort_tets(DistributedMesh& mesh)
 {
   const auto order = ascending(mesh.tet_ids);
   const auto place = inverse(order);
-  reorder(mesh.tet_ids, order);
-  reorder(mesh.tet_vertices, order, 4);
-  reorder(mesh.tet_material, order);
-  reorder(mesh.tet_part, order);
-  for (auto& column : mesh.tet_columns) reorder(column, order);
+  mesh.tet_ids = rows_of(mesh.tet_ids, order);
+  mesh.tet_vertices = rows_of<4>(mesh.tet_vertices, order);
+  mesh.tet_material = rows_of(mesh.tet_material, order);
+  mesh.tet_part = rows_of(mesh.tet_part, order);
+  for (auto& column : mesh.tet_columns) column = rows_of(column, order);
   for (LocalIndex& t : mesh.boundary_tet) t = place[at(t)];
 }
 
 void sort_boundary(DistributedMesh& mesh)
 {
   const auto order = ascending(mesh.boundary_ids);
-  reorder(mesh.boundary_ids, order);
-  reorder(mesh.boundary_tet, order);
-  reorder(mesh.boundary_corner, order);
-  reorder(mesh.boundary_patch, order);
+  mesh.boundary_ids = rows_of(mesh.boundary_ids, order);
+  mesh.boundary_tet = rows_of(mesh.boundary_tet, order);
+  mesh.boundary_corner = rows_of(mesh.boundary_corner, order);
+  mesh.boundary_patch = rows_of(mesh.boundary_patch, order);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "migrate/rows.hpp"
+
 namespace tessera::migrate {
 namespace {
 
@@ -22,8 +24,9 @@ std::vector<GlobalIndex> union_of(std::vector<std::span<const GlobalIndex>> list
     std::ranges::set_union(lists[next], lists[next + 1], std::back_inserter(both));
     lists.emplace_back(both);
   }
+  if (!made.empty()) return std::move(made.back());
   if (lists.empty()) return {};
-  return {lists.back().begin(), lists.back().end()};
+  return {lists.front().begin(), lists.front().end()};
 }
 
 template <class Member>
@@ -32,17 +35,6 @@ std::vector<GlobalIndex> union_of_ids(std::span<const MeshBlock> blocks, Member 
   std::vector<std::span<const GlobalIndex>> lists;
   for (const MeshBlock& block : blocks) lists.emplace_back(block.*ids);
   return union_of(std::move(lists));
-}
-
-// Copies rows of `width` values to their places.
-template <class T>
-void scatter(const std::vector<T>& from, std::span<const LocalIndex> place, std::size_t width,
-             std::vector<T>& to)
-{
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(width * i), width,
-                to.begin() + static_cast<std::ptrdiff_t>(width * at(place[i])));
-  }
 }
 
 void allocate(std::span<const MeshBlock> blocks, MeshBlock& merged)
@@ -65,27 +57,26 @@ void allocate(std::span<const MeshBlock> blocks, MeshBlock& merged)
 void copy_into(const MeshBlock& block, MeshBlock& merged)
 {
   const auto vertex_place = places_of(block.vertex_ids, merged.vertex_ids);
-  scatter(block.vertex_xyz, vertex_place, 3, merged.vertex_xyz);
+  put_rows<3>(block.vertex_xyz, vertex_place, merged.vertex_xyz);
 
   const auto tet_place = places_of(block.tet_ids, merged.tet_ids);
   for (std::size_t t = 0; t < tet_place.size(); ++t) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      merged.tet_vertices[4 * at(tet_place[t]) + c] =
-          vertex_place[at(block.tet_vertices[4 * t + c])];
-    }
+    const LocalIndex* from = &block.tet_vertices[4 * t];
+    LocalIndex* to = &merged.tet_vertices[4 * at(tet_place[t])];
+    for (std::size_t c = 0; c < 4; ++c) to[c] = vertex_place[at(from[c])];
   }
-  scatter(block.tet_material, tet_place, 1, merged.tet_material);
-  scatter(block.tet_part, tet_place, 1, merged.tet_part);
+  put_rows(block.tet_material, tet_place, merged.tet_material);
+  put_rows(block.tet_part, tet_place, merged.tet_part);
   for (std::size_t c = 0; c < block.tet_columns.size(); ++c) {
-    scatter(block.tet_columns[c], tet_place, 1, merged.tet_columns[c]);
+    put_rows(block.tet_columns[c], tet_place, merged.tet_columns[c]);
   }
 
   const auto boundary_place = places_of(block.boundary_ids, merged.boundary_ids);
   for (std::size_t b = 0; b < boundary_place.size(); ++b) {
     merged.boundary_tet[at(boundary_place[b])] = tet_place[at(block.boundary_tet[b])];
   }
-  scatter(block.boundary_corner, boundary_place, 1, merged.boundary_corner);
-  scatter(block.boundary_patch, boundary_place, 1, merged.boundary_patch);
+  put_rows(block.boundary_corner, boundary_place, merged.boundary_corner);
+  put_rows(block.boundary_patch, boundary_place, merged.boundary_patch);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "migrate/block_merge.hpp"
 #include "migrate/rank_buckets.hpp"
+#include "migrate/rows.hpp"
 #include "migrate/sharer_lists.hpp"
 #include "migrate/traffic.hpp"
 
@@ -52,83 +53,71 @@ void add_sharers(const DistributedMesh& mesh, const IndexLists& new_sharers, Pac
   }
 }
 
-// Adds each vertex to the packets of the ranks that its tets go to.
-// @return Row in that packet, parallel to destinations.values.
-std::vector<LocalIndex> add_vertices(const DistributedMesh& mesh, const IndexLists& destinations,
-                                     Packets& packets)
+// What of this rank's mesh goes to one rank: ascending rows.
+struct Leaving {
+  std::vector<LocalIndex> vertices{};
+  std::vector<LocalIndex> tets{};
+  std::vector<LocalIndex> boundary{};
+};
+
+RankBuckets<Leaving> rows_by_rank(const DistributedMesh& mesh, std::span<const Rank> tet_rank,
+                                  const IndexLists& destinations, int num_ranks)
 {
-  std::vector<LocalIndex> rows;
-  rows.reserve(destinations.values.size());
+  RankBuckets<Leaving> leaving(num_ranks);
   for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
-    for (const Rank rank : destinations[v]) {
-      MeshBlock& block = packets[rank].block;
-      rows.push_back(block.num_vertices());
-      block.vertex_ids.push_back(mesh.vertex_ids[at(v)]);
-      const auto xyz = mesh.vertex_xyz.begin() + static_cast<std::ptrdiff_t>(3 * at(v));
-      block.vertex_xyz.insert(block.vertex_xyz.end(), xyz, xyz + 3);
-    }
+    for (const Rank rank : destinations[v]) leaving[rank].vertices.push_back(v);
   }
-  return rows;
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) leaving[tet_rank[at(t)]].tets.push_back(t);
+  for (LocalIndex b = 0; b < mesh.num_boundary(); ++b) {
+    leaving[tet_rank[at(mesh.boundary_tet[at(b)])]].boundary.push_back(b);
+  }
+  return leaving;
 }
 
-// Room for the tets and vertices to come: most of them stay, and growing would copy them again.
-void reserve(std::span<const Rank> tet_rank, const IndexLists& destinations, int num_ranks,
-             Packets& packets)
-{
-  std::vector<std::size_t> num_tets(static_cast<std::size_t>(num_ranks), 0);
-  std::vector<std::size_t> num_vertices(num_tets.size(), 0);
-  for (const Rank rank : tet_rank) ++num_tets[at(rank)];
-  for (const Rank rank : destinations.values) ++num_vertices[at(rank)];
-  for (std::size_t r = 0; r < num_tets.size(); ++r) {
-    if (num_tets[r] == 0) continue;
-    MeshBlock& block = packets[static_cast<Rank>(r)].block;
-    block.vertex_ids.reserve(num_vertices[r]);
-    block.vertex_xyz.reserve(3 * num_vertices[r]);
-    block.tet_ids.reserve(num_tets[r]);
-    block.tet_vertices.reserve(4 * num_tets[r]);
-    block.tet_material.reserve(num_tets[r]);
-    block.tet_part.reserve(num_tets[r]);
+// Cuts blocks out of a mesh; the places of vertices and tets in a block are kept in arrays that all
+// blocks use one after the other.
+class BlockCutter {
+ public:
+  explicit BlockCutter(const DistributedMesh& mesh)
+      : mesh_(mesh), vertex_row_(mesh.vertex_ids.size()), tet_row_(mesh.tet_ids.size())
+  {
   }
-}
 
-// @return Row of each tet in its packet.
-std::vector<LocalIndex> add_tets(const DistributedMesh& mesh, std::span<const Rank> tet_rank,
-                                 const IndexLists& destinations, Packets& packets)
-{
-  const std::vector<LocalIndex> vertex_rows = add_vertices(mesh, destinations, packets);
-  std::vector<LocalIndex> tet_rows;
-  tet_rows.reserve(tet_rank.size());
-  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
-    MeshBlock& block = packets[tet_rank[at(t)]].block;
-    for (const LocalIndex v : mesh.tet(t)) {
-      auto entry = at(destinations.offsets[at(v)]);
-      while (destinations.values[entry] != tet_rank[at(t)]) ++entry;
-      block.tet_vertices.push_back(vertex_rows[entry]);
+  [[nodiscard]] MeshBlock cut(const Leaving& leaving)
+  {
+    number(leaving.vertices, vertex_row_);
+    number(leaving.tets, tet_row_);
+    MeshBlock block;
+    block.vertex_ids = rows_of(mesh_.vertex_ids, leaving.vertices);
+    block.vertex_xyz = rows_of<3>(mesh_.vertex_xyz, leaving.vertices);
+    block.tet_ids = rows_of(mesh_.tet_ids, leaving.tets);
+    block.tet_vertices = rows_of<4>(mesh_.tet_vertices, leaving.tets);
+    block.tet_material = rows_of(mesh_.tet_material, leaving.tets);
+    block.tet_part = rows_of(mesh_.tet_part, leaving.tets);
+    for (const auto& column : mesh_.tet_columns) {
+      block.tet_columns.push_back(rows_of(column, leaving.tets));
     }
-    tet_rows.push_back(block.num_tets());
-    block.tet_ids.push_back(mesh.tet_ids[at(t)]);
-    block.tet_material.push_back(mesh.tet_material[at(t)]);
-    block.tet_part.push_back(mesh.tet_part[at(t)]);
-    block.tet_columns.resize(mesh.tet_columns.size());
-    for (std::size_t c = 0; c < mesh.tet_columns.size(); ++c) {
-      block.tet_columns[c].push_back(mesh.tet_columns[c][at(t)]);
+    block.boundary_ids = rows_of(mesh_.boundary_ids, leaving.boundary);
+    block.boundary_tet = rows_of(mesh_.boundary_tet, leaving.boundary);
+    block.boundary_corner = rows_of(mesh_.boundary_corner, leaving.boundary);
+    block.boundary_patch = rows_of(mesh_.boundary_patch, leaving.boundary);
+    for (LocalIndex& v : block.tet_vertices) v = vertex_row_[at(v)];
+    for (LocalIndex& t : block.boundary_tet) t = tet_row_[at(t)];
+    return block;
+  }
+
+ private:
+  static void number(std::span<const LocalIndex> rows, std::vector<LocalIndex>& row_in_block)
+  {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      row_in_block[at(rows[i])] = static_cast<LocalIndex>(i);
     }
   }
-  return tet_rows;
-}
 
-void add_boundary(const DistributedMesh& mesh, std::span<const Rank> tet_rank,
-                  std::span<const LocalIndex> tet_rows, Packets& packets)
-{
-  for (std::size_t b = 0; b < mesh.boundary_ids.size(); ++b) {
-    const LocalIndex tet = mesh.boundary_tet[b];
-    MeshBlock& block = packets[tet_rank[at(tet)]].block;
-    block.boundary_ids.push_back(mesh.boundary_ids[b]);
-    block.boundary_tet.push_back(tet_rows[at(tet)]);
-    block.boundary_corner.push_back(mesh.boundary_corner[b]);
-    block.boundary_patch.push_back(mesh.boundary_patch[b]);
-  }
-}
+  const DistributedMesh& mesh_;
+  std::vector<LocalIndex> vertex_row_;
+  std::vector<LocalIndex> tet_row_;
+};
 
 Bytes to_bytes(const Packet& packet)
 {
@@ -208,12 +197,13 @@ DistributedMesh migrate(const comm::Communicator& comm, const DistributedMesh& m
   const IndexLists new_sharers = unite_at_owners(comm, mesh, destinations, counted);
   Packets packets(comm.size());
   add_sharers(mesh, new_sharers, packets);
-  reserve(tet_rank, destinations, comm.size(), packets);
-  const std::vector<LocalIndex> tet_rows = add_tets(mesh, tet_rank, destinations, packets);
-  add_boundary(mesh, tet_rank, tet_rows, packets);
+  auto leaving = rows_by_rank(mesh, tet_rank, destinations, comm.size());
+  BlockCutter cutter(mesh);
+  for (const Rank rank : leaving.ranks()) packets[rank].block = cutter.cut(leaving[rank]);
   std::vector<Packet> received = deliver(comm, packets, counted);
 
   std::vector<MeshBlock> blocks;
+  blocks.reserve(received.size());
   for (Packet& packet : received) blocks.push_back(std::move(packet.block));
   DistributedMesh migrated{merge_blocks(blocks)};
   migrated.tet_columns.resize(mesh.tet_columns.size());

@@ -11,19 +11,6 @@
 
 namespace tessera::quality {
 
-void Histogram::add(double value)
-{
-  const double place = (value - low_) * bins_a_unit_;
-  const std::size_t last = counts_.size() - 1;
-  if (!(place > 0.0)) {  // Written so that a NaN has a place.
-    ++counts_.front();
-  } else if (place >= static_cast<double>(last)) {
-    ++counts_[last];
-  } else {
-    ++counts_[static_cast<std::size_t>(place)];
-  }
-}
-
 void Histogram::add(const Histogram& other)
 {
   for (std::size_t b = 0; b < counts_.size(); ++b) counts_[b] += other.counts_[b];
@@ -96,16 +83,6 @@ void QualityHistograms::add(const QualityHistograms& other)
   mean_ratio.add(other.mean_ratio);
   seam_mean_ratio.add(other.seam_mean_ratio);
   log2_edge_length.add(other.log2_edge_length);
-}
-
-void ShapeSum::add(const TetShape& shape)
-{
-  ++num_tets_;
-  sum_mean_ratio_ += shape.mean_ratio;
-  worst_.mean_ratio = std::min(worst_.mean_ratio, shape.mean_ratio);
-  worst_.largest_cosine = std::max(worst_.largest_cosine, shape.largest_cosine);
-  worst_.smallest_cosine = std::min(worst_.smallest_cosine, shape.smallest_cosine);
-  mean_ratios_.add(shape.mean_ratio);
 }
 
 TetStatistics ShapeSum::statistics() const

@@ -9,17 +9,31 @@
 
 namespace tessera::quality {
 
-double mean_ratio(const TetCorners& corners) noexcept
+namespace {
+
+double sum_of_squared_lengths(const TetCorners& corners)
 {
-  double squared_lengths = 0.0;
+  double sum = 0.0;
   for (const auto& [a, b] : mesh::kTetEdgeCorners) {
     const Vec3 edge = corners[b] - corners[a];
-    squared_lengths += dot(edge, edge);
+    sum += dot(edge, edge);
   }
+  return sum;
+}
+
+double mean_ratio_of(double volume, const TetCorners& corners)
+{
+  const double squared_lengths = sum_of_squared_lengths(corners);
   if (squared_lengths == 0.0) return 0.0;
-  const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
   const double cube_root = std::cbrt(3.0 * std::abs(volume));
   return std::copysign(12.0 * cube_root * cube_root / squared_lengths, volume);
+}
+
+}  // namespace
+
+double mean_ratio(const TetCorners& corners) noexcept
+{
+  return mean_ratio_of(tet_volume(corners[0], corners[1], corners[2], corners[3]), corners);
 }
 
 DihedralRange dihedral_range(const TetCorners& corners) noexcept
@@ -30,14 +44,17 @@ DihedralRange dihedral_range(const TetCorners& corners) noexcept
 
 TetShape shape_of(const TetCorners& corners) noexcept
 {
-  TetShape shape{.mean_ratio = mean_ratio(corners)};
-  std::array<Vec3, 4> normals;  // Of unit length.
+  std::array<Vec3, 4> normals;
   for (std::size_t f = 0; f < 4; ++f) {
     const auto& [a, b, c] = mesh::kTetFaceCorners[f];
-    const Vec3 normal = cross(corners[b] - corners[a], corners[c] - corners[a]);
+    normals[f] = cross(corners[b] - corners[a], corners[c] - corners[a]);
+  }
+  const double volume = dot(normals[3], corners[0] - corners[3]) / 6.0;  // As tet_volume().
+  TetShape shape{.mean_ratio = mean_ratio_of(volume, corners)};
+  for (Vec3& normal : normals) {
     const double length = norm(normal);
     if (!(length > 0.0)) return {shape.mean_ratio, 1.0, -1.0};
-    normals[f] = (1.0 / length) * normal;
+    normal = (1.0 / length) * normal;
   }
   for (const auto& [f, g] : mesh::kTetEdgeCorners) {
     const double cosine = -dot(normals[f], normals[g]);

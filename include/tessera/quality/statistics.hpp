@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -23,7 +24,18 @@ class Histogram {
   {
   }
 
-  void add(double value);
+  void add(double value)
+  {
+    const double place = (value - low_) * bins_a_unit_;
+    const std::size_t last = counts_.size() - 1;
+    if (!(place > 0.0)) {  // Written so that a NaN has a place.
+      ++counts_.front();
+    } else if (place >= static_cast<double>(last)) {
+      ++counts_[last];
+    } else {
+      ++counts_[static_cast<std::size_t>(place)];
+    }
+  }
   void add(const Histogram& other);  ///< @pre the same bins.
 
   [[nodiscard]] GlobalIndex total() const;
@@ -79,7 +91,15 @@ class ShapeSum {
   /// @param[in,out] mean_ratios Borrowed.
   explicit ShapeSum(Histogram& mean_ratios) : mean_ratios_(mean_ratios) {}
 
-  void add(const TetShape& shape);
+  void add(const TetShape& shape)
+  {
+    ++num_tets_;
+    sum_mean_ratio_ += shape.mean_ratio;
+    worst_.mean_ratio = std::min(worst_.mean_ratio, shape.mean_ratio);
+    worst_.largest_cosine = std::max(worst_.largest_cosine, shape.largest_cosine);
+    worst_.smallest_cosine = std::min(worst_.smallest_cosine, shape.smallest_cosine);
+    mean_ratios_.add(shape.mean_ratio);
+  }
 
   [[nodiscard]] TetStatistics statistics() const;
 
