@@ -111,7 +111,7 @@ void RunState::require_begun() const
 void RunState::require_same_case(const config::Case& given) const
 {
   const auto file = output_ / "case.toml";
-  if (!std::filesystem::exists(file)) return;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file))) return;
   const std::string there = config::to_toml(without_limits(config::load_case(file)));
   const std::string here = config::to_toml(without_limits(given));
   if (there != here) {

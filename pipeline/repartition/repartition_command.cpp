@@ -112,8 +112,8 @@ class Repartition {
     }
     folder_.emplace(
         folder, command_.overwrite ? io::ExistingFolder::overwrite : io::ExistingFolder::refuse);
-    fs::create_directories(folder / "mesh");
-    fs::create_directories(folder / "boundary");
+    io::make_own_folder(folder / "mesh");
+    io::make_own_folder(folder / "boundary");
   }
 
   ExitCode cut()
