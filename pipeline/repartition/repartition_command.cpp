@@ -243,7 +243,7 @@ class Repartition {
       io::write_text_atomically(command_.output / "report.json",
                                 repartition_json(exit_code_of(error), error.what(), figures_));
     } catch (const Error& second) {
-      fmt::print(stderr, "tessera: report.json is missing: {}\n", second.what());
+      fmt::print(stderr, "warning: report.json is missing: {}\n", second.what());
     }
   }
 

@@ -28,7 +28,7 @@ def content_of(folder):
 
 class Names(program.ProgramTest):
     def assert_works(self, *arguments, code=OK, **options):
-        outcome = self.run_program(*arguments, ranks=2, **options)
+        outcome = self.run_program(*arguments, **options)
         self.assertEqual(outcome.code, code, outcome.err + outcome.out)
         return outcome
 
@@ -43,9 +43,9 @@ class Names(program.ProgramTest):
         shutil.copy(model, home)
         case, out, parts = home / f"{name}.toml", home / name, home / f"{name} 2"
         fault = os.environ | {"TESSERA_TEST_FAULT": "fill=throw@1"}
-        self.assert_works("mesh", case, "--output", out, code=DEGRADED, env=fault)
+        self.assert_works("mesh", case, "--output", out, code=DEGRADED, ranks=2, env=fault)
         self.assert_works("replay", out / "failure" / "fill_subdomain_1")
-        self.assert_works("mesh", case, "--output", out, "--overwrite")
+        self.assert_works("mesh", case, "--output", out, "--overwrite", ranks=2)
         self.assert_works("check", out / "mesh.pvtu")
         self.assertIn("2 pieces", self.assert_works("info", out / "mesh.pvtu").out)
         self.assertIn("box diagonal", self.assert_works("info", home / model.name).out)
@@ -94,7 +94,7 @@ class NothingElseIsWritten(program.ProgramTest):
             folder.mkdir(parents=True)
         shutil.copy(model, inputs)
         (inputs / "case.toml").write_text(
-            f"geometry.file = '{model.name}'\ndecompose.subdomains = 3\nrefine.levels = 0\n"
+            f"geometry.file = '{model.name}'\ncoarse.max_size = 1000\ndecompose.subdomains = 2\nrefine.levels = 1\n"
         )
         before = {path: path.stat().st_mtime_ns for path in (inputs, *inputs.iterdir())}
         environment = os.environ | {
@@ -137,6 +137,7 @@ class SymbolicLinks(program.ProgramTest):
         "pieces/run.record", "pieces/coarse.record", "pieces/piece_000000.record", "pieces/region_000000.record",
         "mesh/piece_000000.vtu", "boundary/piece_000000.vtu", "failure/coarse.vtu", "failure/fill_subdomain_1",
     )  # fmt: skip
+    LEFT_ALONE = {"log/rank_000000.log", "failure/coarse.vtu", "failure/fill_subdomain_1"}
     FOLDERS = ("mesh", "boundary", "log", "pieces")
 
     def setUp(self):
@@ -145,16 +146,22 @@ class SymbolicLinks(program.ProgramTest):
         self.out = self.folder / "out"
         self.elsewhere = self.folder / "elsewhere"
 
-    def prepare(self, name, *, is_folder):
-        """A folder that a run has begun in, in which `name` leads out of it."""
+    def prepare(self, names, *, is_folder):
+        """A folder that a run has begun in, in which `names` lead out of it."""
         for folder in (self.out, self.elsewhere):
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir()
-        for file in ("piece_000000.vtu", "run.record", "run.log", "precious", "job.bin", "a.tmp-1-2"):
-            (self.elsewhere / file).write_text("precious")
         (self.out / ".tessera.lock").touch()
-        (self.out / name).parent.mkdir(exist_ok=True)
-        (self.out / name).symlink_to(self.elsewhere if is_folder else self.elsewhere / "precious")
+        for number, name in enumerate(names):
+            target = self.elsewhere / str(number)
+            (self.out / name).parent.mkdir(exist_ok=True)
+            (self.out / name).symlink_to(target)
+            if is_folder:
+                target.mkdir()
+                for file in ("piece_000000.vtu", "run.record", "run.log", "precious", "job.bin", "a.tmp-1-2"):
+                    (target / file).write_text("precious")
+            else:
+                target.write_text("precious")
         return content_of(self.elsewhere)
 
     def run_mesh(self, *arguments, **options):
@@ -164,59 +171,55 @@ class SymbolicLinks(program.ProgramTest):
 
     def test_files(self):
         fault = os.environ | {"TESSERA_TEST_FAULT": "fill=throw@1"}
-        for name in self.FILES:
-            with self.subTest(name):
-                before = self.prepare(name, is_folder=False)
-                outcome = self.run_mesh("--resume", env=fault)
-                self.assertEqual(outcome.code, DEGRADED, outcome.err)
-                self.assertEqual(content_of(self.elsewhere), before)
-                if not name.startswith(("pieces", "failure", "log/rank")):
-                    self.assertFalse((self.out / name).is_symlink())
+        before = self.prepare(self.FILES, is_folder=False)
+        outcome = self.run_mesh("--resume", env=fault)
+        self.assertEqual(outcome.code, DEGRADED, outcome.err)
+        self.assertEqual(content_of(self.elsewhere), before)
+        self.assertEqual({name for name in self.FILES if (self.out / name).is_symlink()}, self.LEFT_ALONE)
 
     def test_links_into_nothing(self):
-        for name in ("log/run.log", "log/rank_000000.log", "report.json"):
-            with self.subTest(name):
-                self.prepare(name, is_folder=False)
-                (self.elsewhere / "precious").unlink()
-                self.assertEqual(self.run_mesh("--resume").code, OK)
-                self.assertFalse((self.elsewhere / "precious").exists())
+        self.prepare(self.FILES, is_folder=False)
+        for target in self.elsewhere.iterdir():
+            target.unlink()
+        outcome = self.run_mesh("--resume")
+        self.assertEqual(outcome.code, OK, outcome.err)
+        self.assertEqual(list(self.elsewhere.iterdir()), [])
 
     def test_folders_are_refused(self):
         for name in self.FOLDERS:
             with self.subTest(name):
-                before = self.prepare(name, is_folder=True)
+                before = self.prepare([name], is_folder=True)
                 self.assert_refused(self.run_mesh("--resume"), CANNOT_WRITE, f"out/{name} is a symbolic link")
                 self.assertEqual(content_of(self.elsewhere), before)
 
     def test_folders_are_replaced_when_asked_to(self):
-        for name in (*self.FOLDERS, "failure", "dry_run"):
-            with self.subTest(name):
-                before = self.prepare(name, is_folder=True)
-                outcome = self.run_mesh("--overwrite")
-                self.assertEqual(outcome.code, OK, outcome.err)
-                self.assertFalse((self.out / name).is_symlink())
-                self.assertEqual(content_of(self.elsewhere), before)
+        names = (*self.FOLDERS, "failure", "dry_run")
+        before = self.prepare(names, is_folder=True)
+        outcome = self.run_mesh("--overwrite")
+        self.assertEqual(outcome.code, OK, outcome.err)
+        self.assertEqual([name for name in names if (self.out / name).is_symlink()], [])
+        self.assertEqual(content_of(self.elsewhere), before)
 
     def test_folder_of_failed_jobs(self):
         fault = os.environ | {"TESSERA_TEST_FAULT": "fill=throw@1"}
         for name in ("failure", "failure/inputs"):
             with self.subTest(name):
-                before = self.prepare(name, is_folder=True)
+                before = self.prepare([name], is_folder=True)
                 outcome = self.run_mesh("--resume", env=fault)
                 self.assertEqual(outcome.code, DEGRADED, outcome.err)
                 self.assertIn(f"out/{name} is a symbolic link", outcome.out)
                 self.assertEqual(content_of(self.elsewhere), before)
 
     def test_samples_of_a_dry_run(self):
-        before = self.prepare("dry_run", is_folder=True)
+        before = self.prepare(["dry_run"], is_folder=True)
         outcome = self.run_mesh("--dry-run")
         self.assertEqual(outcome.code, OK, outcome.err)
         self.assertEqual(content_of(self.elsewhere), before)
 
     def test_lock(self):
-        before = self.prepare("precious", is_folder=True)
+        before = self.prepare(["log"], is_folder=True)
         (self.out / ".tessera.lock").unlink()
-        (self.out / ".tessera.lock").symlink_to(self.elsewhere / "precious")
+        (self.out / ".tessera.lock").symlink_to(self.elsewhere / "0" / "precious")
         for how in ("--resume", "--overwrite"):
             self.assert_refused(self.run_mesh(how), CANNOT_WRITE, "cannot write to folder out")
         self.assertEqual(content_of(self.elsewhere), before)
@@ -241,12 +244,10 @@ class SymbolicLinks(program.ProgramTest):
 
     def test_repartition(self):
         mesh = self.mesh(self.case, "mesh") / "mesh.pvtu"
-        for name, is_folder in (("mesh", True), ("boundary", True), ("mesh.pvtu", False), ("report.json", False)):
-            with self.subTest(name):
-                before = self.prepare(name, is_folder=is_folder)
-                outcome = self.run_program(
-                    "repartition", mesh, "--parts", 2, "--output", "out", "--overwrite", ranks=2
-                )
+        for names, is_folder in ((("mesh", "boundary"), True), (("mesh.pvtu", "boundary.pvtu", "report.json"), False)):
+            with self.subTest(names):
+                before = self.prepare(names, is_folder=is_folder)
+                outcome = self.run_program("repartition", mesh, "--parts", 2, "--output", "out", "--overwrite")
                 self.assertEqual(outcome.code, OK, outcome.err)
                 self.assertEqual(content_of(self.elsewhere), before)
 
