@@ -195,6 +195,52 @@ class FullDisk(WritesTest):
                     self.assertEqual(done.stderr.decode(), "tessera: cannot write to standard output\n")
 
 
+# A run on a disk of its own of $SIZE, then on the same disk with room. If $FILL, somebody else takes all that is left
+# when the run has a plan.
+ON_A_SMALL_DISK = """
+mkdir out && mount -t tmpfs -o size=$SIZE none out || exit 99
+test -z "$FILL" || (until test -e out/pieces/plan.record; do sleep 0.002; done; cat /dev/zero > out/log/filler 2>&-) &
+"$@"; echo "ended with $?"
+find out -name '*.tmp-*' -o -name mesh.pvtu
+kill $! 2>&-; wait
+rm -f out/log/filler
+mount -o remount,size=64m out
+"$@" --resume > resumed.txt 2>&1; echo "resumed with $?"
+cp -r out copy
+"""
+
+
+def can_mount():
+    """Whether a user may have a disk of his own here."""
+    command = ["unshare", "-rm", "mount", "-t", "tmpfs", "none", "/mnt"]
+    return subprocess.run(command, stderr=subprocess.DEVNULL, check=False).returncode == 0
+
+
+@unittest.skipUnless(can_mount(), "no small disk to be had; FullDisk has the same failures, one file at a time")
+class SmallDisk(WritesTest):
+    def assert_ends_and_resumes(self, size, *, is_filled):
+        home = self.folder / f"disk_{size}"
+        home.mkdir()
+        run = [program.PROGRAM, "mesh", self.case, "--output", "out", "--progress", "never"]
+        outcome = self.finish(self.start_command(
+            ["env", "-C", home, "unshare", "-rm", "sh", "-c", ON_A_SMALL_DISK, "sh", *run],
+            env=without_files_of_mpi(self.folder) | {"SIZE": size, "FILL": "1" if is_filled else ""},
+        ))  # fmt: skip
+        self.assertEqual(re.findall(r"^(?:ended|resumed) with .*|^out/.*", outcome.out, re.MULTILINE),
+                         [f"ended with {CANNOT_WRITE}", f"resumed with {OK}"], outcome.err + outcome.out)
+        self.assertEqual(len(outcome.messages), 1, outcome.err)
+        self.assertRegex(outcome.messages[0], r"out/\S+: (No|no) space left|\d GB are needed")
+        self.assertEqual(program.mesh_files(home / "copy"), program.mesh_files(self.reference))
+
+    def test_disk_is_too_small(self):
+        for size in ("4k", "12k", "24k", "40k", "64k"):
+            with self.subTest(size):
+                self.assert_ends_and_resumes(size, is_filled=False)
+
+    def test_disk_gets_full_on_the_way(self):
+        self.assert_ends_and_resumes("16m", is_filled=True)
+
+
 class NoPlaceForAFile(WritesTest):
     """A folder where the file belongs: each file has its turn, however small it is."""
 
