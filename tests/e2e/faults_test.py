@@ -27,7 +27,7 @@ NO_RESULT = tuple(kind for kind in CAUSES if kind != "garbage")
 BOTH_RANKS = (0, 1)
 
 # Runs at a time: they wait more than they work.
-AT_A_TIME = 2
+AT_A_TIME = 3
 
 
 @dataclasses.dataclass(frozen=True)
