@@ -65,7 +65,7 @@ ExitCode run_check_command(const CheckCommand& command, const comm::Communicator
       check::check_mesh(mesh, boundary ? &*boundary : nullptr, comm, {command.is_partial});
   if (comm.rank() == 0) {
     if (command.json) {
-      fmt::print("{}\n", check::to_json(report));
+      std::fputs((check::to_json(report) + "\n").c_str(), stdout);
     } else {
       print(report);
     }

@@ -31,15 +31,6 @@ std::string_view text_of(const Bytes& bytes)
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// A symbolic link would lead out of the output folder.
-void make_own_folder(const fs::path& folder)
-{
-  fs::create_directory(folder);
-  if (!fs::is_directory(fs::symlink_status(folder))) {
-    throw OutputError(folder.string() + ": is no folder of this run's own");
-  }
-}
-
 // "fill: subdomain 2" becomes fill_subdomain_2, and fill_subdomain_2.2 for the second such job.
 fs::path make_job_folder(const fs::path& failure, const std::string& name)
 {
@@ -70,7 +61,7 @@ std::string tail_of_log(const RunContext& context)
 std::vector<std::string> write_loads(const fs::path& failure, const RunContext& context)
 {
   std::vector<std::string> names;
-  make_own_folder(failure / "inputs");
+  io::make_own_folder(failure / "inputs");
   for (const auto& [kind, message] : context.loads) {
     names.push_back(kind + "_" + to_hex(hash_bytes(message)) + ".bin");
     const fs::path file = failure / "inputs" / names.back();
@@ -143,7 +134,7 @@ fs::path keep_failed_job(const JobRequest& job, const Bytes& request,
   if (context.num_failed_jobs_kept == kMostKept) return kept;
   try_to_keep(context, [&] {
     const fs::path failure = context.folder / "failure";
-    make_own_folder(failure);
+    io::make_own_folder(failure);
     const std::vector<std::string> loads = write_loads(failure, context);
     const fs::path folder = make_job_folder(failure, job.name);
     ByteWriter out;

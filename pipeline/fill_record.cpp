@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 bool is_whole(const fs::path& folder, const WrittenFile& file)
 {
   std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(folder / file.path, error))) return false;
   if (fs::file_size(folder / file.path, error) != file.size || error) return false;
   return measure_file(folder, file.path).hash == file.hash;
 }

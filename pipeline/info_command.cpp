@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/info_command.hpp"
 
+#include <cstdio>
 #include <string>
 #include <system_error>
 
@@ -13,6 +14,7 @@
 
 #include "pipeline/mesh_worker.hpp"
 #include "pipeline/run_context.hpp"
+#include "pipeline/stages/model_stage.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -42,18 +44,17 @@ std::string describe_mesh(const std::filesystem::path& file)
 // The model is read in a job: the CAD libraries may crash on it.
 std::string describe_model(const std::filesystem::path& file, jobs::JobRunner& jobs)
 {
-  const jobs::JobOutcome read =
+  jobs::JobOutcome read =
       jobs.run(import_request(file, model::ImportOptions{}), kInfoLimits, wait_for_stop_signal());
-  jobs::throw_unless_ok(read, file.string());
-  const model::ModelSource source = model::model_source_from_bytes(read.result);
-  jobs::throw_unless_ok(
-      jobs.load(load_model_message(source, 1.0), kInfoLimits, wait_for_stop_signal()),
-      file.string());
-  const jobs::JobOutcome box = jobs.run(box_request(), kInfoLimits, wait_for_stop_signal());
-  jobs::throw_unless_ok(box, file.string());
-  std::string text = fmt::format("model: box diagonal {:.6g} {}\n",
-                                 ByteReader(box.result).get<double>(), source.length_unit);
-  for (const std::string& repair : source.repairs) text += "repair: " + repair + "\n";
+  const auto source = read_result(read, model::model_source_from_bytes);
+  throw_unless_read(read, file);
+  throw_unless_read(
+      jobs.load(load_model_message(*source, 1.0), kInfoLimits, wait_for_stop_signal()), file);
+  jobs::JobOutcome box = jobs.run(box_request(), kInfoLimits, wait_for_stop_signal());
+  const auto diagonal = read_result(box, box_diagonal_from_bytes);
+  throw_unless_read(box, file);
+  std::string text = fmt::format("model: box diagonal {:.6g} {}\n", *diagonal, source->length_unit);
+  for (const std::string& repair : source->repairs) text += "repair: " + repair + "\n";
   return text;
 }
 
@@ -79,7 +80,7 @@ ExitCode run_info_command(const InfoCommand& command, const comm::Communicator& 
     out.put(describe(command.file, jobs));
     return std::move(out).take();
   });
-  if (comm.rank() == 0) fmt::print("{}", ByteReader(text).get_string());
+  if (comm.rank() == 0) std::fputs(ByteReader(text).get_string().c_str(), stdout);
   return ExitCode::ok;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/log.hpp"
 
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,15 @@ spdlog::sink_ptr console_sink(Verbosity verbosity)
   return sink;
 }
 
+// A log that cannot be written is no reason to end a run, and is said once.
+auto warn_once()
+{
+  return [was_said = false](const std::string& message) mutable {
+    if (!was_said) std::fprintf(stderr, "warning: the log is incomplete: %s\n", message.c_str());
+    was_said = true;
+  };
+}
+
 }  // namespace
 
 std::shared_ptr<spdlog::logger> make_log(const std::filesystem::path& file, Verbosity verbosity)
@@ -53,6 +63,8 @@ std::shared_ptr<spdlog::logger> make_log(const std::filesystem::path& file, Verb
     log->set_level(spdlog::level::off);
     return log;
   }
+  // The sink would follow a link out of the output folder.
+  if (std::filesystem::is_symlink(file)) std::filesystem::remove(file);
   try {
     auto sink = std::make_shared<spdlog::sinks::basic_file_sink_st>(file.string());
     sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
@@ -60,6 +72,7 @@ std::shared_ptr<spdlog::logger> make_log(const std::filesystem::path& file, Verb
   } catch (const spdlog::spdlog_ex& error) {
     throw OutputError(file.string() + ": cannot write the log: " + error.what());
   }
+  log->set_error_handler(warn_once());
   log->set_level(spdlog::level::debug);
   log->flush_on(spdlog::level::info);
   return log;

@@ -19,6 +19,7 @@
 #include "pipeline/repartition/repartition_command.hpp"
 #include "pipeline/replay_command.hpp"
 #include "pipeline/stop_signal.hpp"
+#include "pipeline/test_fault.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -48,12 +49,26 @@ ExitCode run(const Command& command, const comm::Communicator& comm, jobs::JobRu
   return run_mesh_command(std::get<MeshCommand>(command), comm, jobs);
 }
 
+// Of the commands that answer there; a mesh is in its folder, whatever becomes of the progress.
+void require_answered(const Command& command)
+{
+  const auto* const mesh = std::get_if<MeshCommand>(&command);
+  if (std::holds_alternative<RepartitionCommand>(command)) return;
+  if (mesh != nullptr && !mesh->dump_config && !mesh->dry_run) return;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw OutputError("cannot write to standard output");
+}
+
 // Errors that all ranks threw end the program in order; on any other one the other ranks may wait
 // in a collective for ever, so it ends all of them.
 ExitCode run_guarded(int argc, char** argv, const comm::Communicator& comm, jobs::JobRunner& jobs)
 {
   try {
-    return run(parse_command_line(argc, argv), comm, jobs);
+    obey_test_environment(jobs);
+    const Command command = parse_command_line(argc, argv);
+    const ExitCode code = run(command, comm, jobs);
+    all_or_none(comm, [&] { require_answered(command); });
+    return code;
   } catch (const ConfigError& error) {
     say(comm, error.what());
     return ExitCode::wrong_input;

@@ -75,9 +75,12 @@ class MeshRun {
 
   ExitCode run()
   {
-    const auto log = make_log(
-        comm_.rank() == 0 ? given_.output.directory / "log" / log_name() : std::filesystem::path(),
-        command_.verbosity);
+    std::shared_ptr<spdlog::logger> log;
+    all_or_none(comm_, [&] {
+      const bool speaks = comm_.rank() == 0;
+      log =
+          make_log(speaks ? given_.output.directory / "log" / log_name() : "", command_.verbosity);
+    });
     Progress progress(progress_style(command_, comm_), log);
     RunContext context{comm_, jobs_, progress, *log, given_.output.directory, jobs_log()};
     try {
@@ -100,11 +103,11 @@ class MeshRun {
     if (command_.resume) state().require_begun();
     folder_.emplace(given_.output.directory, existing());
     std::filesystem::remove_all(sample_folder(given_.output.directory));
-    std::filesystem::create_directories(given_.output.directory / "log");
+    io::make_own_folder(given_.output.directory / "log");
     if (command_.dry_run) return;
     if (command_.resume) state().require_same_case(given_);
-    std::filesystem::create_directories(given_.output.directory / "mesh");
-    std::filesystem::create_directories(given_.output.directory / "boundary");
+    io::make_own_folder(given_.output.directory / "mesh");
+    io::make_own_folder(given_.output.directory / "boundary");
     io::write_text_atomically(given_.output.directory / "case.toml", config::to_toml(given_));
   }
 
@@ -181,7 +184,8 @@ class MeshRun {
     const int num_ranks = command_.predicted_ranks.value_or(comm_.size());
     const std::string table =
         dry_run(given_, {nullptr, command_.only_subdomains}, num_ranks, context);
-    if (comm_.rank() == 0 && command_.verbosity != Verbosity::quiet) fmt::print("{}", table);
+    if (comm_.rank() == 0 && command_.verbosity != Verbosity::quiet)
+      std::fputs(table.c_str(), stdout);
     return ExitCode::ok;
   }
 
@@ -259,7 +263,7 @@ ExitCode run_mesh_command(const MeshCommand& command, const comm::Communicator& 
 {
   config::Case given = read_case(command, comm);
   if (command.dump_config) {
-    if (comm.rank() == 0) fmt::print("{}", config::to_toml(given));
+    if (comm.rank() == 0) std::fputs(config::to_toml(given).c_str(), stdout);
     return ExitCode::ok;
   }
   return MeshRun(command, std::move(given), comm, jobs).run();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/mesh_worker.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -117,6 +118,7 @@ class MeshWorker final : public jobs::Worker {
   {
     scale_ = in.get<double>();
     const Bytes source = in.get_vector<std::byte>();
+    fail_if_asked("load");
     netgen_model_ = netgen::load_model(model::model_source_from_bytes(source));
     scaled_model_ = std::make_unique<model::ScaledModel>(*netgen_model_, scale_);
   }
@@ -144,21 +146,25 @@ class MeshWorker final : public jobs::Worker {
   static Bytes import(ByteReader& in)
   {
     const std::filesystem::path file = in.get_string();
-    return model::to_bytes(netgen::import_model(file, in.get<model::ImportOptions>()));
+    fail_if_asked("import");
+    return garbled_if_asked(
+        "import", model::to_bytes(netgen::import_model(file, in.get<model::ImportOptions>())));
   }
 
   [[nodiscard]] Bytes box() const
   {
+    fail_if_asked("box");
     ByteWriter out;
     out.put(scaled_model_->box_diagonal());
-    return std::move(out).take();
+    return garbled_if_asked("box", std::move(out).take());
   }
 
   Bytes coarse(ByteReader& in)
   {
     auto options = in.get<coarse::CoarseOptions>();
     options.max_size /= scale_;
-    mesh::CoarseMesh mesh = netgen::make_coarse_mesher(*netgen_model_)->generate(options);
+    const auto mesher = make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
+    mesh::CoarseMesh mesh = mesher->generate(options);
     coarse::VertexDistance distance = coarse::settle_vertices(mesh, *netgen_model_);
     distance.largest *= scale_;
     for (double& x : mesh.vertex_xyz) x *= scale_;
@@ -166,7 +172,7 @@ class MeshWorker final : public jobs::Worker {
     ByteWriter out;
     out.put(mesh::to_bytes(mesh));
     out.put(distance);
-    return std::move(out).take();
+    return garbled_if_asked(stage_of(options), std::move(out).take());
   }
 
   Bytes plan(ByteReader& in)
@@ -178,12 +184,14 @@ class MeshWorker final : public jobs::Worker {
       const auto folds = folds_of(test, damping);
       all.insert(all.end(), folds.begin(), folds.end());
     }
-    return mesh::to_bytes(mesh::Damping(std::move(all)));
+    return garbled_if_asked("plan", mesh::to_bytes(mesh::Damping(std::move(all))),
+                            tests.front().subdomain);
   }
 
   [[nodiscard]] std::vector<mesh::PointDamping> folds_of(const PlanTest& test,
                                                          const mesh::Damping& damping) const
   {
+    fail_if_asked("plan", test.subdomain);
     const auto tets =
         plan::tets_on_geometry(coarse_, cut_->tets.of(test.subdomain), cut_->on_geometry);
     const mesh::TetComplex complex = mesh::tet_complex(coarse_, cut_->skeleton, tets);
@@ -212,7 +220,9 @@ class MeshWorker final : public jobs::Worker {
     for (LocalIndex s = task.first; s < task.last; ++s) {
       batch.add(fill_subdomain(*cut_, context, s, task.settings, *kernel));
     }
-    return std::move(batch).finish();
+    Bytes result = std::move(batch).finish();
+    if (task.settings.kernel == fill::KernelKind::subdivide) return result;  // No third-party code.
+    return garbled_if_asked("fill", std::move(result), task.first);
   }
 
   Bytes improve(ByteReader& in)
@@ -244,11 +254,13 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] Bytes skin(ByteReader& in) const
   {
-    const fill::FillInput skin = skin_of(refine_context(damping_), in.get<LocalIndex>());
+    const auto subdomain = in.get<LocalIndex>();
+    fail_if_asked("skin", subdomain);
+    const fill::FillInput skin = skin_of(refine_context(damping_), subdomain);
     ByteWriter out;
     out.put(skin.vertex_xyz);
     out.put(skin.triangle_vertices);
-    return std::move(out).take();
+    return garbled_if_asked("skin", std::move(out).take(), subdomain);
   }
 
   [[nodiscard]] fill::FillInput skin_of(const refine::RefineContext& context,
@@ -348,6 +360,13 @@ Bytes import_request(const std::filesystem::path& file, const model::ImportOptio
 }
 
 Bytes box_request() { return message(Message::box); }
+
+double box_diagonal_from_bytes(std::span<const std::byte> result)
+{
+  const auto diagonal = ByteReader(result).get<double>();
+  if (diagonal > 0.0 && std::isfinite(diagonal)) return diagonal;
+  throw InputError("the model's box has no size");
+}
 
 Bytes coarse_request(const coarse::CoarseOptions& options)
 {

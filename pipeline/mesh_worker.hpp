@@ -57,6 +57,9 @@ namespace tessera::pipeline {
 /// model.
 [[nodiscard]] Bytes box_request();
 
+/// @brief Reads the result of a box_request(). @throws InputError if it is no length.
+[[nodiscard]] double box_diagonal_from_bytes(std::span<const std::byte> result);
+
 /// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh and a VertexDistance.
 /// Needs the model.
 [[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options);

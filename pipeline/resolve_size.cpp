@@ -10,6 +10,7 @@
 #include "tessera/mesh/tet_edges.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/failed_jobs.hpp"
 #include "pipeline/mesh_worker.hpp"
 
 namespace tessera::pipeline {
@@ -47,6 +48,20 @@ double estimated_tets(double box_diagonal, double target)
   return std::pow(side / target, 3.0) * 6.0 * std::sqrt(2.0) / 3.0;
 }
 
+// The job's result, that can be read.
+Bytes measure_box(const config::Case& given, RunContext& context)
+{
+  const Bytes request = box_request();
+  const JobRequest job{"box", request, kQueryLimits};
+  jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
+  static_cast<void>(read_result(outcome, box_diagonal_from_bytes));
+  keep_if_failed(job, outcome, context);
+  throw_if_cancelled(outcome);
+  outcome.message += way_on(outcome);
+  jobs::throw_unless_ok(outcome, given.geometry.file.string() + ": size of the model");
+  return outcome.result;
+}
+
 }  // namespace
 
 int levels_for(double num_fine_tets)
@@ -73,13 +88,8 @@ double largest_coarse_size(double target, int levels)
 config::Case resolve_size(const config::Case& given, RunContext& context)
 {
   if (given.size.target == 0.0) return given;
-  const Bytes bytes = on_root(context.comm, [&] {
-    const jobs::JobOutcome outcome =
-        context.jobs.run(box_request(), kQueryLimits, wait_for_stop_signal());
-    jobs::throw_unless_ok(outcome, given.geometry.file.string());
-    return outcome.result;
-  });
-  const auto box_diagonal = ByteReader(bytes).get<double>();
+  const Bytes bytes = on_root(context.comm, [&] { return measure_box(given, context); });
+  const double box_diagonal = box_diagonal_from_bytes(bytes);
   config::Case resolved = given;
   resolved.refine.levels = levels_for(estimated_tets(box_diagonal, given.size.target));
   resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, resolved.refine.levels);

@@ -108,6 +108,11 @@ jobs::JobOutcome run_load(const std::string& kind, Bytes message, const jobs::Jo
   return outcome;
 }
 
+std::string way_on(const jobs::JobOutcome& outcome)
+{
+  return was_killed_from_outside(outcome) || outcome.loads_are_lost ? "; go on with --resume" : "";
+}
+
 void throw_if_cancelled(const jobs::JobOutcome& outcome)
 {
   if (outcome.status == jobs::JobStatus::cancelled) throw Interrupted(kStopped);

@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tessera/base/error.hpp"
 #include "tessera/comm/communicator.hpp"
 #include "tessera/jobs/job_runner.hpp"
 
@@ -90,9 +92,30 @@ struct JobRequest {
                                        const jobs::JobRunner::WaitCallback& on_wait,
                                        RunContext& context);
 
+/// @brief What `read` makes of the result of a job, if that has ended well. A result that cannot be
+/// read becomes a failure of the job: third-party code may have damaged its memory. Local.
+template <class Read>
+auto read_result(jobs::JobOutcome& outcome, const Read& read)
+    -> std::optional<decltype(read(outcome.result))>
+{
+  if (outcome.status != jobs::JobStatus::ok) return std::nullopt;
+  try {
+    return read(outcome.result);
+  } catch (const InputError& error) {
+    outcome.status = jobs::JobStatus::failed;
+    outcome.error = jobs::ErrorKind::netgen;
+    outcome.message = std::string("gave a result that cannot be used: ") + error.what();
+    return std::nullopt;
+  }
+}
+
 /// @brief Loads a message of some kind, in place of an earlier one of that kind. Local.
 [[nodiscard]] jobs::JobOutcome run_load(const std::string& kind, Bytes message,
                                         const jobs::JobLimits& limits, RunContext& context);
+
+/// @brief What to add to a job's message where the same run could go well: nothing was wrong with
+/// the job, or what had been loaded for it is lost. Local.
+[[nodiscard]] std::string way_on(const jobs::JobOutcome& outcome);
 
 /// @brief Throws Interrupted if the outcome says that the callback cancelled the job. Local.
 void throw_if_cancelled(const jobs::JobOutcome& outcome);

@@ -39,9 +39,17 @@ struct Identity {
   std::vector<LocalIndex> only_subdomains{};
 };
 
+// A folder in its place could not be read, and a link leads elsewhere.
+bool is_own_file(const std::filesystem::path& file)
+{
+  std::error_code error;
+  return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error));
+}
+
 // The report that a run has left there; no object if there is none.
 nlohmann::json report_in(const std::filesystem::path& output)
 {
+  if (!is_own_file(output / "report.json")) return {};
   std::ifstream file(output / "report.json");
   return nlohmann::json::parse(file, nullptr, false);
 }
@@ -111,7 +119,7 @@ void RunState::require_begun() const
 void RunState::require_same_case(const config::Case& given) const
 {
   const auto file = output_ / "case.toml";
-  if (!std::filesystem::exists(file)) return;
+  if (!is_own_file(file)) return;
   const std::string there = config::to_toml(without_limits(config::load_case(file)));
   const std::string here = config::to_toml(without_limits(given));
   if (there != here) {
@@ -160,8 +168,7 @@ std::optional<Plan> RunState::find_plan() const
 
 std::optional<ExitCode> RunState::finished() const
 {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(output_ / "mesh.pvtu", error)) return std::nullopt;
+  if (!is_own_file(output_ / "mesh.pvtu")) return std::nullopt;
   const nlohmann::json report = report_in(output_);
   if (!report.is_object()) return std::nullopt;
   const auto code = static_cast<ExitCode>(report.value("exit_code", -1));

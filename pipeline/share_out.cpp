@@ -88,7 +88,7 @@ void throw_unless_of_the_job(const jobs::JobOutcome& outcome)
   throw_if_cancelled(outcome);
   if (outcome.error == jobs::ErrorKind::output) throw OutputError(outcome.message);
   if (outcome.error == jobs::ErrorKind::config) throw ConfigError(outcome.message);
-  if (outcome.loads_are_lost) throw MeshError(outcome.message + "; go on with --resume");
+  if (outcome.loads_are_lost) throw MeshError(outcome.message + way_on(outcome));
 }
 
 }  // namespace tessera::pipeline

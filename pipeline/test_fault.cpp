@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/test_fault.hpp"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
-#include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -15,6 +17,51 @@
 
 namespace tessera::pipeline {
 namespace {
+
+constexpr std::array<std::string_view, 9> kStages{"import", "load", "box",     "coarse", "remesh",
+                                                  "plan",   "fill", "improve", "skin"};
+constexpr std::array<std::string_view, 8> kKinds{"throw", "segv",   "exit", "loop",
+                                                 "sleep", "memory", "drop", "garbage"};
+
+struct Fault {
+  std::string stage{};
+  std::string kind{};
+  std::string item{};  ///< Empty: all of them.
+};
+
+Fault parse_fault(const std::string& word)
+{
+  const std::size_t equals = std::min(word.find('='), word.size());
+  const std::size_t at_sign = std::min(word.find('@', equals), word.size());
+  Fault fault;
+  fault.stage = word.substr(0, equals);
+  if (equals < at_sign) fault.kind = word.substr(equals + 1, at_sign - equals - 1);
+  if (at_sign < word.size()) fault.item = word.substr(at_sign + 1);
+  const bool is_known = std::ranges::find(kStages, fault.stage) != kStages.end()
+                        && std::ranges::find(kKinds, fault.kind) != kKinds.end();
+  if (is_known) return fault;
+  throw ConfigError("TESSERA_TEST_FAULT must be STAGE=KIND or STAGE=KIND@ITEM, and is " + word);
+}
+
+std::vector<Fault> asked_faults()
+{
+  std::vector<Fault> faults;
+  const char* const asked = std::getenv("TESSERA_TEST_FAULT");
+  if (asked == nullptr) return faults;
+  std::istringstream words(asked);
+  for (std::string word; words >> word;) faults.push_back(parse_fault(word));
+  return faults;
+}
+
+// The kind of fault that is asked for at this place; empty if there is none.
+std::string kind_at(std::string_view stage, LocalIndex item)
+{
+  for (const Fault& fault : asked_faults()) {
+    const bool is_here = fault.item.empty() || fault.item == std::to_string(item);
+    if (fault.stage == stage && is_here) return fault.kind;
+  }
+  return {};
+}
 
 [[noreturn]] void loop_for_ever()
 {
@@ -37,8 +84,7 @@ void touch_no_mans_land()
   *static_cast<volatile char*>(page) = 1;
 }
 
-// Fails as asked, unless the fault is one of the result.
-void fail(const std::string& kind)
+void fail(std::string_view kind)
 {
   if (kind == "throw") throw NetgenError("thrown for a test");
   if (kind == "segv") touch_no_mans_land();
@@ -46,13 +92,32 @@ void fail(const std::string& kind)
   if (kind == "loop") loop_for_ever();
   if (kind == "sleep") std::this_thread::sleep_for(std::chrono::hours(24));
   if (kind == "memory") take_all_memory();
-  if (kind != "drop") throw ConfigError("TESSERA_TEST_FAULT: no fault is called " + kind);
 }
 
 void drop_a_tet(std::vector<LocalIndex>& tet_vertices)
 {
   tet_vertices.resize(tet_vertices.size() - 4);
 }
+
+class FaultyMesher final : public coarse::CoarseMesher {
+ public:
+  explicit FaultyMesher(std::unique_ptr<coarse::CoarseMesher> sound) : sound_(std::move(sound)) {}
+
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override
+  {
+    const std::string kind = kind_at(stage_of(options), kNoIndex);
+    fail(kind);
+    mesh::CoarseMesh mesh = sound_->generate(options);
+    if (kind == "drop") {
+      drop_a_tet(mesh.tet_vertices);
+      mesh.tet_material.pop_back();
+    }
+    return mesh;
+  }
+
+ private:
+  std::unique_ptr<coarse::CoarseMesher> sound_;
+};
 
 class FaultyKernel final : public fill::Kernel {
  public:
@@ -66,7 +131,7 @@ class FaultyKernel final : public fill::Kernel {
   {
     fail(kind_);
     fill::FillOutput output = sound_->fill(input, settings);
-    drop_a_tet(output.tet_vertices);
+    if (kind_ == "drop") drop_a_tet(output.tet_vertices);
     return output;
   }
 
@@ -87,7 +152,7 @@ class FaultyOptimizer final : public improve::Optimizer {
   {
     fail(kind_);
     improve::TetMesh output = sound_->optimize(input, settings);
-    drop_a_tet(output.tet_vertices);
+    if (kind_ == "drop") drop_a_tet(output.tet_vertices);
     return output;
   }
 
@@ -96,39 +161,56 @@ class FaultyOptimizer final : public improve::Optimizer {
   std::string kind_;
 };
 
-// The kind of fault that is asked for at this place, if any.
-std::optional<std::string> asked_fault(const std::string& stage, LocalIndex item)
+}  // namespace
+
+void obey_test_environment(jobs::JobRunner& jobs)
 {
-  const char* asked = std::getenv("TESSERA_TEST_FAULT");
-  if (asked == nullptr) return std::nullopt;
-  const std::string text = asked;
-  const std::size_t equals = text.find('=');
-  const std::size_t at_sign = text.find('@');
-  if (equals == std::string::npos || at_sign == std::string::npos || at_sign < equals) {
-    throw ConfigError("TESSERA_TEST_FAULT must be fill=KIND@SUBDOMAIN or improve=KIND@REGION");
+  static_cast<void>(asked_faults());
+  const char* const asked = std::getenv("TESSERA_TEST_LIMITS");
+  if (asked == nullptr) return;
+  jobs::JobLimits limits;
+  std::istringstream words(asked);
+  if (!(words >> limits.cpu_s >> limits.stall_s >> limits.memory_gib)) {
+    throw ConfigError("TESSERA_TEST_LIMITS must be three numbers");
   }
-  const bool is_here =
-      text.substr(0, equals) == stage && text.substr(at_sign + 1) == std::to_string(item);
-  if (!is_here) return std::nullopt;
-  return text.substr(equals + 1, at_sign - equals - 1);
+  jobs.cap_limits(limits);
 }
 
-}  // namespace
+void fail_if_asked(std::string_view stage, LocalIndex item) { fail(kind_at(stage, item)); }
+
+Bytes garbled_if_asked(std::string_view stage, Bytes result, LocalIndex item)
+{
+  if (kind_at(stage, item) != "garbage") return result;
+  for (std::byte& byte : result) byte = ~byte;
+  return result;
+}
+
+std::string_view stage_of(const coarse::CoarseOptions& options)
+{
+  return options.surface_mesher == coarse::SurfaceMesher::remesh ? "remesh" : "coarse";
+}
+
+std::unique_ptr<coarse::CoarseMesher> make_faulty_if_asked(
+    std::unique_ptr<coarse::CoarseMesher> mesher)
+{
+  if (asked_faults().empty()) return mesher;
+  return std::make_unique<FaultyMesher>(std::move(mesher));
+}
 
 std::unique_ptr<fill::Kernel> make_faulty_if_asked(std::unique_ptr<fill::Kernel> kernel,
                                                    LocalIndex subdomain)
 {
-  const auto fault = asked_fault("fill", subdomain);
-  if (!fault) return kernel;
-  return std::make_unique<FaultyKernel>(std::move(kernel), *fault);
+  const std::string kind = kind_at("fill", subdomain);
+  if (kind.empty()) return kernel;
+  return std::make_unique<FaultyKernel>(std::move(kernel), kind);
 }
 
 std::unique_ptr<improve::Optimizer> make_faulty_if_asked(
     std::unique_ptr<improve::Optimizer> optimizer, LocalIndex region)
 {
-  const auto fault = asked_fault("improve", region);
-  if (!fault) return optimizer;
-  return std::make_unique<FaultyOptimizer>(std::move(optimizer), *fault);
+  const std::string kind = kind_at("improve", region);
+  if (kind.empty()) return optimizer;
+  return std::make_unique<FaultyOptimizer>(std::move(optimizer), kind);
 }
 
 }  // namespace tessera::pipeline

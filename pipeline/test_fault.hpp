@@ -2,20 +2,50 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 
+#include "tessera/base/bytes.hpp"
+#include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/fill/kernel.hpp"
 #include "tessera/improve/optimizer.hpp"
+#include "tessera/jobs/job_runner.hpp"
 
+/// Failures for the tests: where third-party code is called, a job fails for real as the
+/// environment variable TESSERA_TEST_FAULT asks. No option, for no user needs it.
+///
+/// Its value is words "STAGE=KIND", for every job of the stage, or "STAGE=KIND@ITEM".
+/// - STAGE: import, load, box, coarse, remesh (the coarse mesh from the CAD system's triangles),
+///   plan, fill, improve, skin.
+/// - KIND: throw, segv, exit, loop, sleep, memory; drop (a tet of the result is lost: coarse,
+/// remesh,
+///   fill, improve), garbage (the bytes of the result are no longer what they were).
+/// - ITEM: the subdomain; of improve the region.
 namespace tessera::pipeline {
 
-/// @brief The kernel itself, or one that fails for real as the environment variable
-/// TESSERA_TEST_FAULT asks: "fill=KIND@SUBDOMAIN" with KIND in throw, segv, exit, loop, sleep,
-/// memory, drop (loses a tet). For the tests of the ladder: no option, for no user needs it.
-/// @throws ConfigError if the variable has no such form.
+/// @brief Checks TESSERA_TEST_FAULT, and lets no job have more than TESSERA_TEST_LIMITS allows, if
+/// that is set: "CPU_S STALL_S MEMORY_GIB". Local.
+/// @throws ConfigError else a misspelt name would make tests pass.
+void obey_test_environment(jobs::JobRunner& jobs);
+
+/// @brief Throws, dies or never returns if that is asked for at this place.
+void fail_if_asked(std::string_view stage, LocalIndex item = kNoIndex);
+
+/// @brief The result itself, or garbage if that is asked for at this place.
+[[nodiscard]] Bytes garbled_if_asked(std::string_view stage, Bytes result,
+                                     LocalIndex item = kNoIndex);
+
+/// @brief coarse or remesh.
+[[nodiscard]] std::string_view stage_of(const coarse::CoarseOptions& options);
+
+/// @brief The mesher itself, or one that fails.
+[[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_faulty_if_asked(
+    std::unique_ptr<coarse::CoarseMesher> mesher);
+
+/// @brief The kernel itself, or one that fails.
 [[nodiscard]] std::unique_ptr<fill::Kernel> make_faulty_if_asked(
     std::unique_ptr<fill::Kernel> kernel, LocalIndex subdomain);
 
-/// @brief The same for the improvement of seams: "improve=KIND@REGION".
+/// @brief The optimiser itself, or one that fails.
 [[nodiscard]] std::unique_ptr<improve::Optimizer> make_faulty_if_asked(
     std::unique_ptr<improve::Optimizer> optimizer, LocalIndex region);
 

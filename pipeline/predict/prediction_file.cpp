@@ -220,6 +220,7 @@ std::vector<PredictedFigure> compare_with_prediction(const std::filesystem::path
                                                      const PredictedRun& run,
                                                      const ActualRun& actual)
 {
+  if (!std::filesystem::is_regular_file(folder / "prediction.json")) return {};
   std::ifstream file(folder / "prediction.json");
   const auto prediction = Json::parse(file, nullptr, false);
   if (!prediction.is_object() || prediction.value("case", "") != run.case_hash

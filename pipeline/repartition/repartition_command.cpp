@@ -112,8 +112,8 @@ class Repartition {
     }
     folder_.emplace(
         folder, command_.overwrite ? io::ExistingFolder::overwrite : io::ExistingFolder::refuse);
-    fs::create_directories(folder / "mesh");
-    fs::create_directories(folder / "boundary");
+    io::make_own_folder(folder / "mesh");
+    io::make_own_folder(folder / "boundary");
   }
 
   ExitCode cut()
@@ -243,7 +243,7 @@ class Repartition {
       io::write_text_atomically(command_.output / "report.json",
                                 repartition_json(exit_code_of(error), error.what(), figures_));
     } catch (const Error& second) {
-      fmt::print(stderr, "tessera: report.json is missing: {}\n", second.what());
+      fmt::print(stderr, "warning: report.json is missing: {}\n", second.what());
     }
   }
 

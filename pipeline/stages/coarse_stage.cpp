@@ -37,13 +37,18 @@ std::string name_of(const coarse::CoarseOptions& options)
          + std::to_string(options.max_size);
 }
 
-void take_result(const jobs::JobOutcome& outcome, const coarse::CoarseOptions& options,
-                 CoarseResult& result)
+struct MeshOfJob {
+  mesh::CoarseMesh mesh{};
+  coarse::VertexDistance distance{};
+};
+
+MeshOfJob mesh_from_bytes(std::span<const std::byte> bytes)
 {
-  ByteReader in(outcome.result);
-  result.mesh = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
-  result.distance = in.get<coarse::VertexDistance>();
-  result.options = options;
+  ByteReader in(bytes);
+  MeshOfJob made;
+  made.mesh = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
+  made.distance = in.get<coarse::VertexDistance>();
+  return made;
 }
 
 CoarseResult climb(const config::Case& run_case, RunContext& context)
@@ -57,17 +62,20 @@ CoarseResult climb(const config::Case& run_case, RunContext& context)
     if (was_endless && is_netgen) continue;
     const Bytes request = coarse_request(options);
     const JobRequest job{"coarse", request, limits};
-    const jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
+    jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
+    auto made = read_result(outcome, mesh_from_bytes);
     keep_if_failed(job, outcome, context);
     ++result.tries;
-    if (outcome.status == jobs::JobStatus::ok) {
-      take_result(outcome, options, result);
+    if (made) {
+      result.mesh = std::move(made->mesh);
+      result.distance = made->distance;
+      result.options = options;
       return result;
     }
     throw_if_cancelled(outcome);
     // Another rung would be another mesh, and nothing is wrong with this one.
     if (was_killed_from_outside(outcome)) {
-      throw MeshError("coarse: " + outcome.message + "; go on with --resume");
+      throw MeshError("coarse: " + outcome.message + way_on(outcome));
     }
     if (is_final(outcome)) jobs::throw_unless_ok(outcome, run_case.geometry.file.string());
     result.failures.push_back(name_of(options) + ": " + outcome.message);

@@ -93,18 +93,19 @@ class Filler {
     const double angle_to_beat =
         had_one ? climb.best.front().summary.tets.min_dihedral_deg : kAnyAngle;
     ++climb.tries;
-    const jobs::JobOutcome outcome =
+    jobs::JobOutcome outcome =
         run_try(climb.range, request_of(climb, settings, angle_to_beat), on_wait);
+    auto made = read_result(outcome, fill_results_from_bytes);
     throw_unless_of_the_job(outcome);
     climb.was_limited = climb.was_limited || depends_on_machine(outcome);
-    if (outcome.status != jobs::JobStatus::ok) {
+    if (!made) {
       if (!had_one) keep_failure(climb, settings, outcome, on_wait);
       climb.failures.push_back("try " + std::to_string(climb.tries) + " ("
                                + std::string(fill::name_of(settings.kernel))
                                + "): " + outcome.message);
       return had_one;
     }
-    climb.best = fill_results_from_bytes(outcome.result);
+    climb.best = std::move(*made);
     context_.log.debug("fill: subdomain {}: try {}, {:.2f} s of CPU time", climb.range.first,
                        climb.tries, outcome.cpu_s);
     return had_one || !is_poor(climb.best);

@@ -166,14 +166,16 @@ class SeamImprover {
   {
     if (const auto kept = store_.find(region_name(region))) return region_record_from_bytes(*kept);
     const std::string name = "improve: region " + std::to_string(region);
-    const jobs::JobOutcome outcome =
+    jobs::JobOutcome outcome =
         run_job({name, improve_request(region, filled_.improvement.generation),
                  job_limits(run_case_.fill, num_tets)},
                 on_wait, context_);
     throw_unless_of_the_job(outcome);
     RegionRecord record;
-    if (outcome.status == jobs::JobStatus::ok) {
-      record = region_record_from_bytes(store_.get(region_name(region)));
+    if (auto made = read_result(outcome, [&](const Bytes& /*empty*/) {
+          return region_record_from_bytes(store_.get(region_name(region)));
+        })) {
+      record = std::move(*made);
     } else {
       record = {.has_failed = true,
                 .was_limited = depends_on_machine(outcome),

@@ -13,21 +13,23 @@ namespace {
 // Reading and healing take seconds even for large models; minutes mean a hang.
 constexpr jobs::JobLimits kModelLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
 
-// A death in the reader says that the file is bad, not that the program is.
+}  // namespace
+
 void throw_unless_read(const jobs::JobOutcome& outcome, const std::filesystem::path& file)
 {
-  using jobs::JobStatus;
   throw_if_cancelled(outcome);
-  if (outcome.status == JobStatus::crashed || outcome.status == JobStatus::exited
-      || outcome.status == JobStatus::out_of_time || outcome.status == JobStatus::stalled
-      || outcome.status == JobStatus::out_of_memory) {
+  if (was_killed_from_outside(outcome)) {
+    throw MeshError(file.string() + ": " + outcome.message + way_on(outcome));
+  }
+  const bool is_of_the_library =
+      outcome.status != jobs::JobStatus::ok
+      && (outcome.status != jobs::JobStatus::failed || outcome.error == jobs::ErrorKind::netgen);
+  if (is_of_the_library) {
     throw GeometryError(file.string() + ": the CAD library cannot read this model: "
                         + outcome.message + "; repair it in a CAD program or export it anew");
   }
   jobs::throw_unless_ok(outcome, file.string());
 }
-
-}  // namespace
 
 model::ModelSource run_model_stage(const config::Case& run_case, RunContext& context)
 {
@@ -36,7 +38,8 @@ model::ModelSource run_model_stage(const config::Case& run_case, RunContext& con
   const Bytes bytes = on_root(context.comm, [&] {
     const Bytes request = import_request(file, {run_case.coarse.feature_angle_deg});
     const JobRequest job{"model", request, kModelLimits};
-    const jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
+    jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
+    static_cast<void>(read_result(outcome, model::model_source_from_bytes));
     keep_if_failed(job, outcome, context);
     throw_unless_read(outcome, file);
     return outcome.result;

@@ -68,16 +68,17 @@ std::vector<mesh::PointDamping> test_subdomains(const std::vector<LocalIndex>& s
     const std::vector<PlanTest>& tests = jobs[at(*job)];
     const Bytes request = plan_request(tests, damping);
     const JobRequest plan{"plan", request, kPlanLimits};
-    const jobs::JobOutcome outcome = run_job(plan, on_wait, context);
+    jobs::JobOutcome outcome = run_job(plan, on_wait, context);
+    const auto smaller = read_result(outcome, mesh::damping_from_bytes);
     keep_if_failed(plan, outcome, context);
-    if (outcome.status != jobs::JobStatus::ok) {
+    if (outcome.status == jobs::JobStatus::cancelled) continue;  // Another rank says why.
+    if (!smaller) {
       defect = "plan from subdomain " + std::to_string(tests.front().subdomain)
-               + " on: " + outcome.message;
+               + " on: " + outcome.message + way_on(outcome);
       queue.request_stop();
       continue;
     }
-    const mesh::Damping smaller = mesh::damping_from_bytes(outcome.result);
-    found.insert(found.end(), smaller.entries().begin(), smaller.entries().end());
+    found.insert(found.end(), smaller->entries().begin(), smaller->entries().end());
   }
   static_cast<void>(queue.finish());
   throw_if_stopped(context.comm);

@@ -85,4 +85,17 @@ void write_text_atomically(const std::filesystem::path& path, std::string_view t
   file.commit();
 }
 
+void make_own_folder(const std::filesystem::path& folder)
+{
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_symlink(fs::symlink_status(folder, error))) {
+    throw OutputError(folder.string()
+                      + " is a symbolic link: a run writes into folders of its own");
+  }
+  fs::create_directories(folder, error);
+  if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
+  if (error) throw OutputError("cannot make folder " + folder.string() + ": " + error.message());
+}
+
 }  // namespace tessera::io

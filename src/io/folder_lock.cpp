@@ -63,7 +63,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
 FolderLock::~FolderLock()
 {
   // Emptied before it is given up: the next owner must not find this one's name.
-  [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, 0);
+  forget_owner();
   ::close(descriptor_);
 }
 
@@ -91,12 +91,24 @@ void FolderLock::write_owner() const
 {
   const std::string owner =
       host_line() + "process " + std::to_string(::getpid()) + "\nsince " + now_utc() + "\n";
-  const bool written =
-      ::ftruncate(descriptor_, 0) == 0
-      && ::pwrite(descriptor_, owner.data(), owner.size(), 0) == static_cast<ssize_t>(owner.size());
-  if (!written) {
-    throw OutputError("cannot write " + file_.string() + ": " + system_error_text(errno));
+  int error_number = ::ftruncate(descriptor_, 0) == 0 ? 0 : errno;
+  for (std::size_t done = 0; error_number == 0 && done < owner.size();) {
+    const ssize_t written =
+        ::pwrite(descriptor_, owner.data() + done, owner.size() - done, static_cast<off_t>(done));
+    if (written < 0)
+      error_number = errno;
+    else
+      done += static_cast<std::size_t>(written);
   }
+  if (error_number == 0) return;
+  forget_owner();
+  throw OutputError("cannot write " + file_.string() + ": " + system_error_text(error_number));
+}
+
+// Half of a name would be that of a stranger.
+void FolderLock::forget_owner() const
+{
+  [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, 0);
 }
 
 std::string FolderLock::read_owner() const

@@ -25,6 +25,7 @@ class FolderLock {
   void acquire();
   void refuse_owner_on_other_host() const;
   void write_owner() const;
+  void forget_owner() const;
   [[nodiscard]] std::string read_owner() const;
 
   std::filesystem::path folder_;

@@ -25,7 +25,7 @@ constexpr std::array kOwnFolders{"log", "failure", "dry_run"};
 
 /// What a dry run makes: no reason to refuse the run that it predicts. It outlives an overwriting
 /// run, for it may be of that one.
-constexpr std::array kDryRunNames{"prediction.json", "log", "dry_run"};
+constexpr std::array kDryRunNames{"prediction.json", "log", "dry_run", "failure"};
 
 template <class Names>
 [[nodiscard]] bool has_name(const Names& names, const std::string& name)

@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
+#include "tessera/io/files.hpp"
 
 #include "atomic_file.hpp"
 
@@ -56,12 +57,7 @@ void remove_file(const fs::path& file)
 
 }  // namespace
 
-RecordStore::RecordStore(fs::path folder) : folder_(std::move(folder))
-{
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) throw OutputError("cannot make folder " + folder_.string() + ": " + error.message());
-}
+RecordStore::RecordStore(fs::path folder) : folder_(std::move(folder)) { make_own_folder(folder_); }
 
 fs::path RecordStore::file_of(const std::string& name) const
 {
@@ -111,7 +107,7 @@ std::optional<Bytes> RecordStore::find(const std::string& name) const
 bool RecordStore::contains(const std::string& name) const
 {
   std::error_code error;
-  return fs::is_regular_file(file_of(name), error);
+  return fs::is_regular_file(fs::symlink_status(file_of(name), error));
 }
 
 void RecordStore::remove(const std::string& name) const { remove_file(file_of(name)); }

@@ -124,6 +124,7 @@ void Call::receive_control()
   if (!link_.zygote_is_gone || outcome_) return;
   finish(JobStatus::crashed,
          "the worker process of this rank is gone, killed from outside; no more jobs can be run");
+  outcome_->code = SIGKILL;
   outcome_->loads_are_lost = true;
 }
 

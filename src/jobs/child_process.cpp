@@ -64,8 +64,8 @@ void redirect_output(const std::filesystem::path& log_file)
 {
   FileDescriptor output;
   if (!log_file.empty())
-    output =
-        FileDescriptor(::open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+    output = FileDescriptor(
+        ::open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0644));
   if (output.get() < 0) output = FileDescriptor(::open("/dev/null", O_WRONLY | O_CLOEXEC));
   ::dup2(output.get(), STDOUT_FILENO);
   ::dup2(output.get(), STDERR_FILENO);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -37,15 +38,26 @@ std::pair<FileDescriptor, FileDescriptor> make_socket_pair()
   return {FileDescriptor(ends[0]), FileDescriptor(ends[1])};
 }
 
+JobLimits smaller_of(const JobLimits& a, const JobLimits& b)
+{
+  return {.cpu_s = std::min(a.cpu_s, b.cpu_s),
+          .stall_s = std::min(a.stall_s, b.stall_s),
+          .memory_gib = std::min(a.memory_gib, b.memory_gib)};
+}
+
 }  // namespace
 
 struct JobRunner::State {
   ZygoteLink link{};
+  std::optional<JobLimits> largest{};
   double cpu_s = 0.0;                  // Since the last restart_usage(), as link.peak_bytes.
   std::size_t earlier_peak_bytes = 0;  // Before it.
 
-  JobOutcome counted(JobOutcome outcome)
+  JobOutcome call(PacketKind kind, std::span<const std::byte> message, JobLimits limits,
+                  const WaitCallback& on_wait)
   {
+    if (largest) limits = smaller_of(limits, *largest);
+    JobOutcome outcome = Call(link, kind, message, limits, on_wait).wait();
     cpu_s += outcome.cpu_s;
     return outcome;
   }
@@ -82,16 +94,18 @@ void JobRunner::set_log_file(const std::filesystem::path& file)
   state_->link.log_file = std::filesystem::absolute(file);
 }
 
+void JobRunner::cap_limits(const JobLimits& largest) { state_->largest = largest; }
+
 JobOutcome JobRunner::load(std::span<const std::byte> message, const JobLimits& limits,
                            const WaitCallback& on_wait)
 {
-  return state_->counted(Call(state_->link, PacketKind::load, message, limits, on_wait).wait());
+  return state_->call(PacketKind::load, message, limits, on_wait);
 }
 
 JobOutcome JobRunner::run(std::span<const std::byte> request, const JobLimits& limits,
                           const WaitCallback& on_wait)
 {
-  return state_->counted(Call(state_->link, PacketKind::run, request, limits, on_wait).wait());
+  return state_->call(PacketKind::run, request, limits, on_wait);
 }
 
 std::size_t JobRunner::peak_rss_bytes() const

@@ -4,7 +4,7 @@ import os
 import unittest
 
 import program
-from program import DEGRADED, OK, WRONG_INPUT
+from program import DEGRADED, OK
 
 FAULTY = 2  # Number of the subdomain.
 
@@ -85,12 +85,6 @@ class Ladder(program.ProgramTest):
         self.assertTrue(report["reproducible"])
         for subdomain in report["subdomains"]:
             self.assertNotIn("failures", subdomain)
-
-    def test_unknown_fault_is_refused(self):
-        """Else a misspelt name would make every test here pass."""
-        environment = os.environ | {"TESSERA_TEST_FAULT": f"fill=loup@{FAULTY}"}
-        outcome = self.run_program("mesh", self.case, "--output", "out", env=environment)
-        self.assert_refused(outcome, WRONG_INPUT, "loup")
 
 
 if __name__ == "__main__":

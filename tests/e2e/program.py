@@ -95,8 +95,12 @@ class ProgramTest(unittest.TestCase):
 
     def start(self, *arguments, ranks=None, **options):
         """Starts the program in the folder; what it leaves running ends with the test."""
+        return self.start_command(command_line(arguments, ranks), **options)
+
+    def start_command(self, command, **options):
+        """The same with a command of its own."""
         process = subprocess.Popen(
-            command_line(arguments, ranks),
+            command,
             cwd=self.folder,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,

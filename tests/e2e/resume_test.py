@@ -116,7 +116,7 @@ class Disk(program.ProgramTest):
         case = self.write_case(subdomains=8, levels=4)
         process = self.start("mesh", case, "--output", disk / "out", *SUBDIVIDE)
         watch = kill.Watch(process, disk / "out")
-        self.assertTrue(watch.wait_for_stage("plan"))
+        self.assertTrue(watch.wait_for((disk / "out" / "pieces" / "plan.record").exists))
         filler = disk / "filler"
         with filler.open("wb") as file:
             os.posix_fallocate(file.fileno(), 0, shutil.disk_usage(disk).free - (4 << 20))

@@ -10,6 +10,9 @@ LONGEST_FILE = 450
 LONGEST_FUNCTION = 60  # The aim is 40; what is between is named, but does not fail.
 AIM_FUNCTION = 40
 OPEN_WORK = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b")
+# A shell would read file names as commands; no process of the program becomes another program.
+STARTS_PROGRAM = re.compile(r"\b(system|popen|wordexp|exec[lv]p?e?|execvpe|fexecve|posix_spawnp?)\(")
+PROGRAM_FOLDERS = ("include/", "src/", "pipeline/")
 FOLDERS = ("include", "src", "pipeline", "tests", "cmake", ".ci", "configs")
 TEXT = {".hpp", ".cpp", ".py", ".cmake", ".txt", ".in", ".toml", ""}
 
@@ -44,6 +47,8 @@ def problems(root: pathlib.Path):
         for number, line in enumerate(lines, 1):
             if OPEN_WORK.search(line) and file.name != pathlib.Path(__file__).name:
                 yield here, number, "open work belongs in an issue, not in the code"
+            if is_cpp and here.startswith(PROGRAM_FOLDERS) and STARTS_PROGRAM.search(line):
+                yield here, number, "starts a shell or another program"
             if line != line.rstrip():
                 yield here, number, "blanks at the end of the line"
         for number, length in functions(lines) if is_cpp else ():

@@ -97,6 +97,9 @@ class JobRunner {
   /// relative path starts at the working directory of this call. Without it they go to /dev/null.
   void set_log_file(const std::filesystem::path& file);
 
+  /// @brief No later load or job gets more than this, whatever it is given. Local.
+  void cap_limits(const JobLimits& largest);
+
   /// @brief Runs Worker::load(message) in the model zygote. Local.
   [[nodiscard]] JobOutcome load(std::span<const std::byte> message, const JobLimits& limits,
                                 const WaitCallback& on_wait);

@@ -235,6 +235,16 @@ TEST(OutputFolder, OfAnOwnerOnAnotherHostNamesTheLockToRemove)
   EXPECT_EQ(refusal(folder.path(), ExistingFolder::resume), "");
 }
 
+TEST(OutputFolder, WhoseLockCannotBeWrittenNamesNoStranger)
+{
+  const TemporaryFolder folder;
+  {
+    const FullDisk full_disk(6);  // Ends in the name of the host.
+    EXPECT_THROW(OutputFolder(folder / "out", ExistingFolder::refuse), OutputError);
+  }
+  EXPECT_NO_THROW(OutputFolder(folder / "out", ExistingFolder::refuse));
+}
+
 TEST(OutputFolder, ThatCannotBeWrittenSaysWhereAndWhy)
 {
   const TemporaryFolder folder;

@@ -112,6 +112,22 @@ TEST(RecordStore, AFullDiskIsAnOutputErrorAndLeavesNothingNew)
   EXPECT_EQ(testing::file_bytes(only_file(store)).size(), 140U);
 }
 
+TEST(RecordStore, FollowsNoSymbolicLink)
+{
+  const TemporaryFolder folder;
+  const RecordStore elsewhere(folder / "elsewhere");
+  elsewhere.put("piece_1", record_of(100));
+  const RecordStore store(folder / "pieces");
+  std::filesystem::create_symlink(only_file(elsewhere), folder / "pieces/piece_1.record");
+  EXPECT_FALSE(store.contains("piece_1"));
+  store.put("piece_1", record_of(10));
+  EXPECT_EQ(store.get("piece_1"), record_of(10));
+  EXPECT_EQ(elsewhere.get("piece_1"), record_of(100));
+
+  std::filesystem::create_directory_symlink(folder / "elsewhere", folder / "link");
+  EXPECT_THROW(RecordStore(folder / "link"), OutputError);
+}
+
 TEST(RecordStore, RemovesRecordsAndLeavesForeignFilesAlone)
 {
   const TemporaryFolder folder;

@@ -42,6 +42,14 @@ class JobLimitsTest : public ::testing::Test {
   JobRunner runner_{[] { return std::make_unique<FailingWorker>(); }};
 };
 
+TEST_F(JobLimitsTest, NothingGetsMoreThanTheCap)
+{
+  runner_.cap_limits({.cpu_s = 0.3, .stall_s = 0.3, .memory_gib = 64.0});
+  EXPECT_EQ(run("loop").message, "used more than 0.3 s of CPU time");
+  EXPECT_EQ(run("loop", {.cpu_s = 0.2}).message, "used more than 0.2 s of CPU time");
+  EXPECT_EQ(load("loop").status, JobStatus::out_of_time);
+}
+
 TEST_F(JobLimitsTest, EndlessLoopEndsAtTheCpuLimit)
 {
   const JobLimits limits{.cpu_s = 0.3};
