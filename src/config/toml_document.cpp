@@ -18,12 +18,21 @@ namespace {
 
 using TomlValue = toml::basic_value<toml::discard_comments, std::map>;
 
-// toml11 parses nested lists by recursion: some ten thousand open brackets overflow the stack. No
-// case file has this number of brackets in all: a hundred fill regions have 200.
+// toml11 follows nested lists, and the parts of a dotted key, by recursion: some ten thousand open
+// brackets or dots overflow the stack. No case file has this number of brackets in all (a hundred
+// fill regions have 200), or of dots in a line.
 bool is_too_deep(std::string_view text)
 {
-  constexpr std::ptrdiff_t kMostBrackets = 1000;
-  return std::ranges::count_if(text, [](char c) { return c == '[' || c == '{'; }) > kMostBrackets;
+  constexpr std::ptrdiff_t kMost = 1000;
+  std::ptrdiff_t num_brackets = 0;
+  std::ptrdiff_t num_dots = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') ++num_brackets;
+    if (c == '.') ++num_dots;
+    if (c == '\n') num_dots = 0;
+    if (num_brackets > kMost || num_dots > kMost) return true;
+  }
+  return false;
 }
 
 TomlValue parse(std::string_view text, const std::string& file_name)
@@ -142,17 +151,18 @@ std::string without_prefix(const std::string& headline)
   return std::string(trimmed(std::regex_replace(headline, prefix, "")));
 }
 
-std::vector<std::string> split_lines(const std::string& text)
+std::vector<std::string> first_of_lines(const std::string& text)
 {
   std::vector<std::string> lines;
   std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  constexpr std::size_t kLongest = 500;  // The recursion of std::regex is as deep as a line is long.
+  for (std::string line; std::getline(stream, line);) lines.push_back(line.substr(0, kLongest));
   return lines;
 }
 
 std::string one_line_message(const std::string& file_name, const toml::exception& error)
 {
-  const std::vector<std::string> lines = split_lines(error.what());
+  const std::vector<std::string> lines = first_of_lines(error.what());
   const std::string headline = lines.empty() ? "" : without_prefix(lines.front());
   const std::vector<Place> places = places_in(lines);
   if (places.empty()) {
@@ -197,7 +207,7 @@ std::string value_text(const Value& value)
 
 std::vector<Entry> parse_toml(std::string_view text, const std::string& file_name)
 {
-  if (is_too_deep(text)) throw ConfigError(file_name + ": has too many brackets for a case file");
+  if (is_too_deep(text)) throw ConfigError(file_name + ": has too many brackets or dots for a case file");
   try {
     return entries_of(parse(text, file_name), "", OriginOf());
   } catch (const toml::exception& error) {
