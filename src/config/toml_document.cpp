@@ -155,7 +155,8 @@ std::vector<std::string> first_of_lines(const std::string& text)
 {
   std::vector<std::string> lines;
   std::istringstream stream(text);
-  constexpr std::size_t kLongest = 500;  // The recursion of std::regex is as deep as a line is long.
+  // The recursion of std::regex is as deep as a line is long.
+  constexpr std::size_t kLongest = 500;
   for (std::string line; std::getline(stream, line);) lines.push_back(line.substr(0, kLongest));
   return lines;
 }
@@ -207,7 +208,9 @@ std::string value_text(const Value& value)
 
 std::vector<Entry> parse_toml(std::string_view text, const std::string& file_name)
 {
-  if (is_too_deep(text)) throw ConfigError(file_name + ": has too many brackets or dots for a case file");
+  if (is_too_deep(text)) {
+    throw ConfigError(file_name + ": has too many brackets or dots for a case file");
+  }
   try {
     return entries_of(parse(text, file_name), "", OriginOf());
   } catch (const toml::exception& error) {

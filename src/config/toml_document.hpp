@@ -25,8 +25,7 @@ struct Table {
 
 /// @brief One value of a TOML file, free of toml11's types.
 struct Value {
-  std::variant<bool, std::int64_t, double, std::string, std::vector<Value>, Table, OtherValue>
-      data;
+  std::variant<bool, std::int64_t, double, std::string, std::vector<Value>, Table, OtherValue> data;
 };
 
 /// @brief The value as a user would write it, on one line.

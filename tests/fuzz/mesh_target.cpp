@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "support/temporary_file.hpp"
-
 #include "tessera/base/error.hpp"
 #include "tessera/check/check_mesh.hpp"
 #include "tessera/comm/environment.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/migrate/assemble.hpp"
+
+#include "support/temporary_file.hpp"
 
 #include "fuzz_target.hpp"
 

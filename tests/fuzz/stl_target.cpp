@@ -3,13 +3,13 @@
 #include <array>
 #include <vector>
 
-#include "support/temporary_file.hpp"
-
 #include "tessera/base/error.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/stl_file.hpp"
 #include "tessera/model/surface_features.hpp"
 #include "tessera/model/triangle_surface.hpp"
+
+#include "support/temporary_file.hpp"
 
 #include "fuzz_target.hpp"
 

@@ -6,9 +6,8 @@
 #include <random>
 #include <vector>
 
-#include <sys/resource.h>
-
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/io/vtu.hpp"
