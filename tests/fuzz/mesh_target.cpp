@@ -5,6 +5,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/check/check_mesh.hpp"
+#include "tessera/check/report.hpp"
 #include "tessera/comm/environment.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/migrate/assemble.hpp"
