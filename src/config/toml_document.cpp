@@ -35,6 +35,19 @@ bool is_too_deep(std::string_view text)
   return false;
 }
 
+// toml11 reads past the end of the text where a character is cut off in a string.
+void require_utf8(std::string_view text, const std::string& file_name)
+{
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    if (!is_utf8(line)) {
+      throw ConfigError(file_name + ":" + std::to_string(number)
+                        + ": not valid TOML: holds bytes that are not UTF-8");
+    }
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+}
+
 TomlValue parse(std::string_view text, const std::string& file_name)
 {
   std::istringstream stream{std::string(text)};
@@ -211,6 +224,7 @@ std::vector<Entry> parse_toml(std::string_view text, const std::string& file_nam
   if (is_too_deep(text)) {
     throw ConfigError(file_name + ": has too many brackets or dots for a case file");
   }
+  require_utf8(text, file_name);
   try {
     return entries_of(parse(text, file_name), "", OriginOf());
   } catch (const toml::exception& error) {
@@ -221,7 +235,8 @@ std::vector<Entry> parse_toml(std::string_view text, const std::string& file_nam
 std::optional<Entry> parse_toml_value(std::string_view text, const std::string& name,
                                       const std::string& origin)
 {
-  if (text.find('\n') != std::string_view::npos || is_too_deep(text)) return std::nullopt;
+  const bool is_one_line = text.find('\n') == std::string_view::npos;
+  if (!is_one_line || is_too_deep(text) || !is_utf8(text)) return std::nullopt;
   try {
     const TomlValue table = parse("value = " + std::string(text), "");
     Value value = to_value(table.as_table().at("value"), name, OriginOf(origin));

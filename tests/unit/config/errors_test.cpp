@@ -189,6 +189,8 @@ TEST(ConfigErrors, BytesThatAreNoUtf8AreRefused)
 {
   EXPECT_NE(error_of("[geometry]\nfile = \"gr\xFC\xDF.geo\"").find("case.toml:2: not valid TOML"),
             std::string::npos);
+  EXPECT_EQ(error_of("a = 1\nb = {c = 'd\xF5\xFF\xFF\xFF'}"),
+            "case.toml:2: not valid TOML: holds bytes that are not UTF-8");
 }
 
 TEST(ConfigErrors, SizeTargetExcludesWhatItChooses)
