@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/base/error.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
 #include "tessera/decompose/predicted_fine_tets.hpp"
 #include "tessera/fill/ladder.hpp"
@@ -38,10 +39,19 @@ decompose::DecomposeOptions options_of(const config::Case& run_case,
   return options;
 }
 
+std::vector<fill::KernelKind> kernels_of_tets(const config::Case& run_case,
+                                              const mesh::CoarseMesh& coarse)
+{
+  try {
+    return fill::kernels_of(run_case.fill, coarse.material_names, coarse.tet_material);
+  } catch (const ConfigError& error) {
+    throw ConfigError(run_case.geometry.file.string() + ": " + error.what());
+  }
+}
+
 decompose::DecomposeResult cut(const config::Case& run_case, const mesh::CoarseMesh& coarse)
 {
-  const std::vector<fill::KernelKind> kernels =
-      fill::kernels_of(run_case.fill, coarse.material_names, coarse.tet_material);
+  const std::vector<fill::KernelKind> kernels = kernels_of_tets(run_case, coarse);
   const std::vector<double> weights =
       decompose::predicted_fine_tets(coarse, run_case.refine.levels);
   const auto partitioner = decompose::make_metis_partitioner();

@@ -192,12 +192,13 @@ std::string read_text(const fs::path& file)
 
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail(name, std::string("cannot read the case file: ") + std::strerror(errno));
-  constexpr std::size_t kLargest = 1U << 20U;  // Far above any case file; a model is often larger.
+  // Far above any case file; a model is often larger. The time of toml11 grows with the square.
+  constexpr std::size_t kLargest = 1U << 16U;
   std::string text(kLargest + 1, '\0');
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) fail(name, "cannot read the case file: input or output error");
   text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > kLargest) fail(name, "is larger than 1 MiB, so it is no case file");
+  if (text.size() > kLargest) fail(name, "is larger than 64 KiB, so it is no case file");
   return text;
 }
 

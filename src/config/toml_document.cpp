@@ -18,12 +18,34 @@ namespace {
 
 using TomlValue = toml::basic_value<toml::discard_comments, std::map>;
 
-// toml11 parses nested lists by recursion: some ten thousand open brackets overflow the stack. No
-// case file has this number of brackets in all: a hundred fill regions have 200.
+// toml11 follows nested lists, and the parts of a dotted key, by recursion: some ten thousand open
+// brackets or dots overflow the stack. No case file has this number of brackets in all (a hundred
+// fill regions have 200), or of dots in a line.
 bool is_too_deep(std::string_view text)
 {
-  constexpr std::ptrdiff_t kMostBrackets = 1000;
-  return std::ranges::count_if(text, [](char c) { return c == '[' || c == '{'; }) > kMostBrackets;
+  constexpr std::ptrdiff_t kMost = 1000;
+  std::ptrdiff_t num_brackets = 0;
+  std::ptrdiff_t num_dots = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') ++num_brackets;
+    if (c == '.') ++num_dots;
+    if (c == '\n') num_dots = 0;
+    if (num_brackets > kMost || num_dots > kMost) return true;
+  }
+  return false;
+}
+
+// toml11 reads past the end of the text where a character is cut off in a string.
+void require_utf8(std::string_view text, const std::string& file_name)
+{
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    if (!is_utf8(line)) {
+      throw ConfigError(file_name + ":" + std::to_string(number)
+                        + ": not valid TOML: holds bytes that are not UTF-8");
+    }
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
 }
 
 TomlValue parse(std::string_view text, const std::string& file_name)
@@ -142,17 +164,19 @@ std::string without_prefix(const std::string& headline)
   return std::string(trimmed(std::regex_replace(headline, prefix, "")));
 }
 
-std::vector<std::string> split_lines(const std::string& text)
+std::vector<std::string> first_of_lines(const std::string& text)
 {
   std::vector<std::string> lines;
   std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  // The recursion of std::regex is as deep as a line is long.
+  constexpr std::size_t kLongest = 500;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line.substr(0, kLongest));
   return lines;
 }
 
 std::string one_line_message(const std::string& file_name, const toml::exception& error)
 {
-  const std::vector<std::string> lines = split_lines(error.what());
+  const std::vector<std::string> lines = first_of_lines(error.what());
   const std::string headline = lines.empty() ? "" : without_prefix(lines.front());
   const std::vector<Place> places = places_in(lines);
   if (places.empty()) {
@@ -197,7 +221,10 @@ std::string value_text(const Value& value)
 
 std::vector<Entry> parse_toml(std::string_view text, const std::string& file_name)
 {
-  if (is_too_deep(text)) throw ConfigError(file_name + ": has too many brackets for a case file");
+  if (is_too_deep(text)) {
+    throw ConfigError(file_name + ": has too many brackets or dots for a case file");
+  }
+  require_utf8(text, file_name);
   try {
     return entries_of(parse(text, file_name), "", OriginOf());
   } catch (const toml::exception& error) {
@@ -208,7 +235,8 @@ std::vector<Entry> parse_toml(std::string_view text, const std::string& file_nam
 std::optional<Entry> parse_toml_value(std::string_view text, const std::string& name,
                                       const std::string& origin)
 {
-  if (text.find('\n') != std::string_view::npos || is_too_deep(text)) return std::nullopt;
+  const bool is_one_line = text.find('\n') == std::string_view::npos;
+  if (!is_one_line || is_too_deep(text) || !is_utf8(text)) return std::nullopt;
   try {
     const TomlValue table = parse("value = " + std::string(text), "");
     Value value = to_value(table.as_table().at("value"), name, OriginOf(origin));

@@ -15,18 +15,17 @@ struct OtherValue {
   std::string kind{};
 };
 
-struct Entry;
+struct Entry;  // No initializers where it is incomplete: they would need its destructor.
 
 /// @brief A table that stands in a list, such as one `[[fill.region]]`.
 struct Table {
-  std::vector<Entry> entries{};  ///< In the order of their lines.
-  std::string origin{};          ///< Where it begins.
+  std::vector<Entry> entries;  ///< In the order of their lines.
+  std::string origin{};        ///< Where it begins.
 };
 
 /// @brief One value of a TOML file, free of toml11's types.
 struct Value {
-  std::variant<bool, std::int64_t, double, std::string, std::vector<Value>, Table, OtherValue>
-      data{};
+  std::variant<bool, std::int64_t, double, std::string, std::vector<Value>, Table, OtherValue> data;
 };
 
 /// @brief The value as a user would write it, on one line.

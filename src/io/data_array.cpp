@@ -17,7 +17,6 @@ namespace {
 /// No compressor of VTK packs better (zlib 1032, LZ4 255, LZMA a few thousand); a block that claims
 /// to is corrupt, and its size must not be allocated.
 constexpr std::size_t kMaxCompressionRatio = 8192;
-constexpr std::size_t kSmallBlock = 65536;
 
 void require(bool condition, const char* what)
 {
@@ -146,21 +145,18 @@ template <class Word>
     const std::size_t size = header[3 + i];
     require(size <= SIZE_MAX / kMaxCompressionRatio - num_compressed, kCutOff);
     num_compressed += size;
-    require(block_size <= kSmallBlock || block_size / kMaxCompressionRatio <= size, kCutOff);
   }
   const Bytes compressed = source.take(num_compressed);
-  Bytes bytes((num_blocks - 1) * block_size + last_size);
   std::vector<CompressedBlock> blocks;
-  auto from = std::span(compressed);
-  auto to = std::span(bytes);
+  auto rest = std::span(compressed);
   for (std::size_t i = 0; i < num_blocks; ++i) {
-    const std::size_t size = i + 1 == num_blocks ? last_size : block_size;
-    blocks.push_back({from.first(header[3 + i]), to.first(size)});
-    from = from.subspan(header[3 + i]);
-    to = to.subspan(size);
+    const CompressedBlock block{rest.first(header[3 + i]),
+                                i + 1 == num_blocks ? last_size : block_size};
+    require(block.size / kMaxCompressionRatio <= block.from.size(), kCutOff);
+    blocks.push_back(block);
+    rest = rest.subspan(block.from.size());
   }
-  decompress(encoding.compressor, blocks);
-  return bytes;
+  return decompress(encoding.compressor, blocks);
 }
 
 template <class T>

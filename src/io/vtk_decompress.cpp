@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include <vtkDataCompressor.h>
 #include <vtkLZ4DataCompressor.h>
 #include <vtkLZMADataCompressor.h>
@@ -21,20 +23,37 @@ namespace {
   throw InputError("compressor " + name + " is not known");
 }
 
+/// @brief The sizes that the blocks claim, but no more than meshes are compressed: the rest is
+/// believed when it is there.
+[[nodiscard]] std::size_t likely_size(const std::vector<CompressedBlock>& blocks)
+{
+  constexpr std::size_t kUsualRatio = 16;
+  std::size_t likely = 0;
+  for (const CompressedBlock& block : blocks) {
+    likely += std::min(block.size, kUsualRatio * block.from.size());
+  }
+  return likely;
+}
+
 }  // namespace
 
-void decompress(const std::string& compressor, const std::vector<CompressedBlock>& blocks)
+Bytes decompress(const std::string& compressor, const std::vector<CompressedBlock>& blocks)
 {
   const auto implementation = make_compressor(compressor);
   const VtkMessages messages(*implementation);
+  Bytes bytes;
+  bytes.reserve(likely_size(blocks));
   for (const CompressedBlock& block : blocks) {
+    const std::size_t at = bytes.size();
+    bytes.resize(at + block.size);
     const std::size_t size = implementation->Uncompress(
         reinterpret_cast<const unsigned char*>(block.from.data()), block.from.size(),
-        reinterpret_cast<unsigned char*>(block.to.data()), block.to.size());
-    if (size != block.to.size()) {
+        reinterpret_cast<unsigned char*>(bytes.data() + at), block.size);
+    if (size != block.size) {
       throw InputError("a compressed block is corrupt " + messages.text());
     }
   }
+  return bytes;
 }
 
 }  // namespace tessera::io

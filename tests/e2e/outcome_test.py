@@ -101,6 +101,12 @@ class WrongCase(OutcomeTest):
         case = self.write_case(subdomains=100000)
         self.assert_refuses_case(case, WRONG_INPUT, "decompose.subdomains is 100000", "tets", "fewer")
 
+    def test_region_of_an_unknown_material(self):
+        case = self.write_case()
+        region = "[[fill.region]]\nmaterial = 'steel'\nkernel = 'subdivide'\n"
+        case.write_text(case.read_text() + region)
+        self.assert_refuses_case(case, WRONG_INPUT, "/ball.geo: fill.region", "steel", "ball")
+
 
 class WrongModel(OutcomeTest):
     def assert_refuses_model(self, name, content, code, *words, ranks=RANKS):

@@ -160,14 +160,37 @@ TEST(ConfigErrors, BrokenTomlNamesItsLineInOneCleanLine)
 TEST(ConfigErrors, EndlessNestingIsRefusedInsteadOfOverflowingTheStack)
 {
   const std::string deep(100'000, '[');
-  EXPECT_EQ(error_of("a = " + deep), "case.toml: has too many brackets for a case file");
+  EXPECT_EQ(error_of("a = " + deep), "case.toml: has too many brackets or dots for a case file");
   EXPECT_NE(error_of_override("output.formats=" + deep).find("must be a list"), std::string::npos);
+}
+
+TEST(ConfigErrors, AKeyOfEndlessPartsIsRefusedInsteadOfOverflowingTheStack)
+{
+  std::string key = "a";
+  for (int part = 0; part < 30'000; ++part) key += ".a";
+  for (const std::string& line : {key + " = 1", "[" + key + "]"}) {
+    EXPECT_EQ(error_of(line), "case.toml: has too many brackets or dots for a case file");
+  }
+}
+
+TEST(ConfigErrors, ALineOfAnyLengthGivesAShortMessage)
+{
+  const std::string text(60'000, 'x');
+  for (const std::string& line :
+       {"size = " + text, "[geometry]\nfile = \"" + text, text + " = 1\n" + text + " = 2"}) {
+    const std::string message = error_of(line);
+    EXPECT_TRUE(message.starts_with("case.toml:")) << message;
+    EXPECT_TRUE(is_one_clean_line(message)) << message;
+    EXPECT_LT(message.size(), 1000U) << message;
+  }
 }
 
 TEST(ConfigErrors, BytesThatAreNoUtf8AreRefused)
 {
   EXPECT_NE(error_of("[geometry]\nfile = \"gr\xFC\xDF.geo\"").find("case.toml:2: not valid TOML"),
             std::string::npos);
+  EXPECT_EQ(error_of("a = 1\nb = {c = 'd\xF5\xFF\xFF\xFF'}"),
+            "case.toml:2: not valid TOML: holds bytes that are not UTF-8");
 }
 
 TEST(ConfigErrors, SizeTargetExcludesWhatItChooses)

@@ -206,8 +206,8 @@ TEST_F(CaseFiles, UnusableFilesAreNamedWithTheReason)
                                                            "ELF\0\0",
                                                            6));
   EXPECT_EQ(error_of(binary), binary.string() + ": is a binary file, not a case file (TOML)");
-  const fs::path large = write("large.toml", std::string((1U << 20U) + 1, '#'));
-  EXPECT_EQ(error_of(large), large.string() + ": is larger than 1 MiB, so it is no case file");
+  const fs::path large = write("large.toml", std::string((1U << 16U) + 1, '#'));
+  EXPECT_EQ(error_of(large), large.string() + ": is larger than 64 KiB, so it is no case file");
   const fs::path loop = folder_ / "loop.toml";
   fs::create_symlink(loop, loop);
   EXPECT_NE(error_of(loop).find("cannot read the case file: "), std::string::npos);

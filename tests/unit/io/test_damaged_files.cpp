@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/io/vtu.hpp"
@@ -163,6 +166,44 @@ TEST(ReadVtu, SizesThatNoFileCanHoldAreInputErrors)
       testing::write_bytes(folder / "a.vtu", damaged);
       EXPECT_FALSE(read_damaged(folder / "a.vtu").has_value()) << attribute << value;
     }
+  }
+}
+
+/// @brief A header of compressed data: 32-bit words, low byte first.
+[[nodiscard]] std::string header_of(const std::vector<std::uint32_t>& words)
+{
+  std::string bytes;
+  for (const std::uint32_t word : words) {
+    for (unsigned shift = 0; shift < 32; shift += 8) bytes += static_cast<char>(word >> shift);
+  }
+  return bytes;
+}
+
+[[nodiscard]] long peak_memory_kib()
+{
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+TEST(ReadVtu, BlocksThatAreNotThereTakeNoMemory)
+{
+  const TemporaryFolder folder;
+  constexpr std::uint32_t kNumBlocks = 200'000;
+  for (const std::uint32_t block_size : {8191U, 65536U}) {  // 1.6 and 13 GB in all.
+    std::vector<std::uint32_t> header(3 + kNumBlocks, 0);
+    header[0] = kNumBlocks;
+    header[1] = block_size;
+    testing::write_bytes(
+        folder / "a.vtu",
+        "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\"><UnstructuredGrid>"
+        "<Piece NumberOfPoints=\"0\" NumberOfCells=\"1\"><Cells><DataArray Name=\"connectivity\" "
+        "type=\"Int64\" format=\"appended\" offset=\"0\"/></Cells></Piece></UnstructuredGrid>"
+        "<AppendedData encoding=\"raw\">_"
+            + header_of(header) + "</AppendedData></VTKFile>");
+    const long before = peak_memory_kib();
+    EXPECT_FALSE(read_damaged(folder / "a.vtu").has_value());
+    EXPECT_LT(peak_memory_kib() - before, 200 * 1024) << block_size;
   }
 }
 

@@ -101,6 +101,19 @@ TEST_P(EveryEncoding, GivesTheSameArrays)
   testing::expect_same_bits(actual, expected);
 }
 
+TEST(ReadVtu, BlocksMayBeMuchLargerThanTheData)
+{
+  const TemporaryFolder folder;
+  const MeshArrays mesh = testing::sample_tets(2);
+  const vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetFileName((folder / "a.vtu").c_str());
+  writer->SetInputData(vtk_grid_of(mesh));
+  writer->SetCompressorType(vtkXMLWriter::ZLIB);
+  writer->SetBlockSize(std::size_t{1} << 28U);
+  ASSERT_EQ(writer->Write(), 1);
+  EXPECT_EQ(read_vtu(folder / "a.vtu").cell_points, mesh.cell_points);
+}
+
 void insert_cell(vtkUnstructuredGrid& grid, int type, const std::vector<vtkIdType>& points)
 {
   grid.InsertNextCell(type, static_cast<vtkIdType>(points.size()), points.data());
