@@ -46,9 +46,9 @@ Checker::Checker(const PieceSource& tets, const PieceSource* boundary,
       comm_(comm),
       identity_(options.identity),
       is_partial_(options.is_partial),
-      triangles_(boundary == nullptr  ? BoundaryFile::kNone
-                 : options.is_partial ? BoundaryFile::kPartial
-                                      : BoundaryFile::kComplete,
+      triangles_(boundary == nullptr  ? BoundaryFile::none
+                 : options.is_partial ? BoundaryFile::partial
+                                      : BoundaryFile::complete,
                  comm, findings_),
       vertices_(comm, findings_)
 {
@@ -112,9 +112,9 @@ bool Checker::read_batch(LocalIndex batch)
     for_each_own_piece(listed, true, [&](PieceName name) { read_boundary(name); });
   }
   const GlobalIndex num_with_ids = comm_.sum(counts_.num_pieces_with_point_ids);
-  if (identity_ == Identity::kIds && num_with_ids > 0 && num_with_ids < num_read) return false;
+  if (identity_ == Identity::ids && num_with_ids > 0 && num_with_ids < num_read) return false;
   // Pieces without ids were matched by position as they were read.
-  if (num_with_ids == 0) identity_ = Identity::kPositions;
+  if (num_with_ids == 0) identity_ = Identity::positions;
   return true;
 }
 
@@ -165,7 +165,7 @@ void Checker::take_ids(const PieceMesh& mesh, const PieceSurface& surface)
     inner_ids.push_back(mesh.point_id(v));
   }
   const LocalIndex piece = mesh.name.piece;
-  if (mesh.identity == Identity::kIds)
+  if (mesh.identity == Identity::ids)
     append_runs(std::move(inner_ids), piece, point_id_space(), point_ids_, findings_);
   if (mesh.has_cell_ids)
     append_runs(mesh.arrays.cell_ids, piece, cell_id_space(), cell_ids_, findings_);
@@ -274,7 +274,7 @@ void Checker::match_ids(std::vector<PointId> shared)
   append_runs(std::move(shared), point_id_space(), point_ids_, findings_);
   check_ids(point_ids_, point_id_space(!is_partial_), comm_, findings_);
   const GlobalIndex num_defects =
-      findings_.count(Kind::kPointIdHole) + findings_.count(Kind::kPointIdTwice);
+      findings_.count(Kind::point_id_hole) + findings_.count(Kind::point_id_twice);
   has_unusable_ids_ = comm_.sum(num_defects) > 0;
 
   // Where some pieces have no cell ids, the others' need not be dense.
@@ -302,14 +302,14 @@ void Checker::measure_seams()
 
 CheckReport Checker::report(const Findings* id_findings)
 {
-  constexpr std::array kIdKinds{Kind::kPointPosition, Kind::kPointIdTwice, Kind::kPointIdHole};
+  constexpr std::array kIdKinds{Kind::point_position, Kind::point_id_twice, Kind::point_id_hole};
   if (id_findings != nullptr) findings_.merge(*id_findings, kIdKinds);
   sum_over_ranks(counts_);
   CheckReport report;
   set_counts(report);
   set_sums(report);
   if (report.num_tets == 0 && comm_.rank() == 0)
-    findings_.add(Kind::kNoTets, {}, [] { return "the mesh has no tets"; });
+    findings_.add(Kind::no_tets, {}, [] { return "the mesh has no tets"; });
 
   Findings all;
   const Bytes own = findings_.to_bytes();
@@ -344,6 +344,7 @@ void Checker::sum_over_ranks(Counts& counts) const
                                 &Counts::num_nonmanifold_edges};
   static_assert(sizeof(Counts) == kMembers.size() * sizeof(GlobalIndex), "a member is missing");
   std::vector<GlobalIndex> values;
+  values.reserve(kMembers.size());
   for (const auto member : kMembers) values.push_back(counts.*member);
   comm_.sum_in_place(values);
   for (std::size_t i = 0; i < kMembers.size(); ++i) counts.*kMembers[i] = values[i];
@@ -355,7 +356,7 @@ void Checker::set_counts(CheckReport& report) const
                           && counts_.num_pieces_with_cell_ids == tets_.num_pieces;
   report.has_digest = counts_.num_tet_pieces_with_point_ids == tets_.num_pieces;
   report.is_partial = is_partial_;
-  report.matched_by_ids = identity_ == Identity::kIds;
+  report.matched_by_ids = identity_ == Identity::ids;
   report.num_vertices = counts_.num_vertices;
   report.num_edges = counts_.num_edges + counts_.num_edge_halves / 2;
   report.num_triangles = counts_.num_triangles;
@@ -407,7 +408,7 @@ std::vector<std::string> Checker::notes() const
   if (counts_.num_pieces_with_subdomains > 0)
     note(tets_.num_pieces - counts_.num_pieces_with_subdomains,
          "pieces have no array \"subdomain\", so the piece's number took its place");
-  if (identity_ == Identity::kPositions)
+  if (identity_ == Identity::positions)
     notes.emplace_back("points of different pieces were matched by the bits of their positions");
   if (boundary_ == nullptr)
     notes.emplace_back("no boundary file: triangles on one tet are taken for the boundary");
@@ -417,12 +418,12 @@ std::vector<std::string> Checker::notes() const
 // Whether holes in the ids and open seams are all there is.
 bool Checker::looks_partial(const Findings& findings) const
 {
-  constexpr std::array kKinds{Kind::kPointIdHole, Kind::kCellIdHole, Kind::kBoundaryMissing};
+  constexpr std::array kKinds{Kind::point_id_hole, Kind::cell_id_hole, Kind::boundary_missing};
   GlobalIndex num_others = 0;
   for (std::size_t k = 0; k < kNumKinds; ++k) num_others += findings.count(static_cast<Kind>(k));
   for (const Kind kind : kKinds) num_others -= findings.count(kind);
   const bool has_holes =
-      findings.count(Kind::kPointIdHole) > 0 || findings.count(Kind::kCellIdHole) > 0;
+      findings.count(Kind::point_id_hole) > 0 || findings.count(Kind::cell_id_hole) > 0;
   const bool has_open_seams = boundary_ == nullptr || counts_.num_unlisted > 0;
   return !is_partial_ && num_others == 0 && has_holes && has_open_seams;
 }

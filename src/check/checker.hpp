@@ -24,7 +24,7 @@ namespace tessera::check {
 
 /// @brief How a run matches points, and whether the mesh may lack pieces.
 struct CheckerOptions {
-  Identity identity = Identity::kIds;
+  Identity identity = Identity::ids;
   bool is_partial = false;
 };
 

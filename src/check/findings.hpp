@@ -16,32 +16,32 @@ namespace tessera::check {
 
 /// @brief Kinds of defects, in the order of the report.
 enum class Kind {
-  kNoTets,
-  kArrays,
-  kCellPoints,
-  kNonFinitePoint,
-  kNonPositiveVolume,
-  kUnusedPoint,
-  kDuplicatePoint,
-  kDuplicateTet,
-  kPointPosition,
-  kPointIdTwice,
-  kPointIdHole,
-  kCellIdTwice,
-  kCellIdHole,
-  kTriangle,
-  kBoundaryEdge,
-  kFoldedBoundary,
-  kBoundaryMissing,
-  kBoundaryExtra,
-  kBoundaryTwice,
-  kBoundaryTet,
-  kBoundaryOrientation,
-  kBoundarySubdomain,
-  kBoundaryPoint,
-  kNumKinds
+  no_tets,
+  arrays,
+  cell_points,
+  non_finite_point,
+  non_positive_volume,
+  unused_point,
+  duplicate_point,
+  duplicate_tet,
+  point_position,
+  point_id_twice,
+  point_id_hole,
+  cell_id_twice,
+  cell_id_hole,
+  triangle,
+  boundary_edge,
+  folded_boundary,
+  boundary_missing,
+  boundary_extra,
+  boundary_twice,
+  boundary_tet,
+  boundary_orientation,
+  boundary_subdomain,
+  boundary_point,
+  num_kinds
 };
-inline constexpr auto kNumKinds = static_cast<std::size_t>(Kind::kNumKinds);
+inline constexpr auto kNumKinds = static_cast<std::size_t>(Kind::num_kinds);
 
 /// @brief Order of the offenders of one kind; independent of the rank that finds them.
 struct Place {

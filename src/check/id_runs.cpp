@@ -113,12 +113,12 @@ void append_id(const PointId& id, std::size_t num_before, const IdSpace& space,
 
 IdSpace point_id_space(bool is_dense)
 {
-  return {"point", Kind::kPointIdTwice, Kind::kPointIdHole, is_dense};
+  return {"point", Kind::point_id_twice, Kind::point_id_hole, is_dense};
 }
 
 IdSpace cell_id_space(bool is_dense)
 {
-  return {"cell", Kind::kCellIdTwice, Kind::kCellIdHole, is_dense};
+  return {"cell", Kind::cell_id_twice, Kind::cell_id_hole, is_dense};
 }
 
 void append_runs(std::vector<GlobalIndex> ids, LocalIndex piece, const IdSpace& space,

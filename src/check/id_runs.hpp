@@ -33,8 +33,8 @@ struct IdRun {
 /// @brief What the ids are of, and how their defects are called.
 struct IdSpace {
   std::string of{};  ///< "point" or "cell".
-  Kind twice = Kind::kPointIdTwice;
-  Kind hole = Kind::kPointIdHole;
+  Kind twice = Kind::point_id_twice;
+  Kind hole = Kind::point_id_hole;
   bool is_dense = true;  ///< Whether a hole is a defect.
 };
 [[nodiscard]] IdSpace point_id_space(bool is_dense = true);

@@ -32,10 +32,10 @@ class EdgeGroup {
     for (const EdgeRecord* record : all_)
       if (record->twin != kNoPiece && !has_record_of(record->twin)) ++match.num_halves;
     if (triangles_.size() % 2 == 1)
-      report(Kind::kBoundaryEdge, findings);
+      report(Kind::boundary_edge, findings);
     else if (triangles_.size() > 2)
       ++match.num_nonmanifold;
-    if (has_fold()) report(Kind::kFoldedBoundary, findings);
+    if (has_fold()) report(Kind::folded_boundary, findings);
     for (std::size_t i = 1; i < triangles_.size(); ++i) {
       const GlobalIndex a = name(*triangles_[0]);
       const GlobalIndex b = name(*triangles_[i]);

@@ -43,12 +43,12 @@ class TriangleGroup {
   [[nodiscard]] TriangleRole role(BoundaryFile boundary) const
   {
     if (num_sides_ == 1) {
-      return boundary == BoundaryFile::kPartial && num_listed() == 0 ? TriangleRole::kOpenSeam
-                                                                     : TriangleRole::kOutside;
+      return boundary == BoundaryFile::partial && num_listed() == 0 ? TriangleRole::open_seam
+                                                                    : TriangleRole::outside;
     }
-    if (num_sides_ != 2 || side(0).is_odd == side(1).is_odd) return TriangleRole::kFaulty;
-    if (side(0).attribute != side(1).attribute) return TriangleRole::kInterface;
-    return side(0).subdomain == side(1).subdomain ? TriangleRole::kInner : TriangleRole::kSeam;
+    if (num_sides_ != 2 || side(0).is_odd == side(1).is_odd) return TriangleRole::faulty;
+    if (side(0).attribute != side(1).attribute) return TriangleRole::interface;
+    return side(0).subdomain == side(1).subdomain ? TriangleRole::inner : TriangleRole::seam;
   }
 
  private:
@@ -60,7 +60,7 @@ class TriangleGroup {
 // @param is_late Two tets on both sides were there before.
 void report_fault(const TriangleGroup& group, bool is_late, Findings& findings)
 {
-  findings.add(Kind::kTriangle, place_of(group.side(0)), [&] {
+  findings.add(Kind::triangle, place_of(group.side(0)), [&] {
     std::string text = !is_late && group.num_sides() == 2 ? "triangle has two tets on one side:"
                                                           : "triangle has more than two tets:";
     for (std::size_t i = 0; i < group.num_sides(); ++i)
@@ -78,10 +78,10 @@ void check_listed(const TriangleRecord& listed, const TriangleRecord& side, Find
     });
   };
   if (listed.cell_id != kNoId && side.cell_id != kNoId && listed.cell_id != side.cell_id)
-    report(Kind::kBoundaryTet, concat("names tet ", listed.cell_id));
-  if (listed.is_odd != side.is_odd) report(Kind::kBoundaryOrientation, "points inwards");
+    report(Kind::boundary_tet, concat("names tet ", listed.cell_id));
+  if (listed.is_odd != side.is_odd) report(Kind::boundary_orientation, "points inwards");
   if (listed.subdomain != kNoSubdomain && listed.subdomain != side.subdomain)
-    report(Kind::kBoundarySubdomain, concat("names subdomain ", listed.subdomain));
+    report(Kind::boundary_subdomain, concat("names subdomain ", listed.subdomain));
 }
 
 // The side a listed triangle means: that of the tet it names, or else the one it is turned to.
@@ -97,22 +97,22 @@ const TriangleRecord& side_meant(const TriangleGroup& group, const TriangleRecor
 void check_boundary(const TriangleGroup& group, TriangleRole role, Findings& findings)
 {
   if (group.num_listed() == 0) {
-    if (role != TriangleRole::kOutside) return;
-    findings.add(Kind::kBoundaryMissing, place_of(group.side(0)), [&] {
+    if (role != TriangleRole::outside) return;
+    findings.add(Kind::boundary_missing, place_of(group.side(0)), [&] {
       return concat("the boundary file lacks the outer triangle of ", describe(group.side(0)));
     });
     return;
   }
   for (std::size_t i = 1; i < group.num_listed(); ++i) {
-    findings.add(Kind::kBoundaryTwice, place_of(group.listed(i)), [&] {
+    findings.add(Kind::boundary_twice, place_of(group.listed(i)), [&] {
       return concat(describe(group.listed(0)), " and ", describe(group.listed(i)));
     });
   }
   const TriangleRecord& listed = group.listed(0);
-  if (role == TriangleRole::kOutside || role == TriangleRole::kInterface) {
+  if (role == TriangleRole::outside || role == TriangleRole::interface) {
     check_listed(listed, side_meant(group, listed), findings);
   } else {
-    findings.add(Kind::kBoundaryExtra, place_of(listed), [&] {
+    findings.add(Kind::boundary_extra, place_of(listed), [&] {
       return concat(describe(listed),
                     " is neither an outer triangle of the mesh nor between two materials");
     });
@@ -123,9 +123,9 @@ void count(const TriangleGroup& group, TriangleRole role, TriangleCounts& counts
 {
   if (group.num_sides() == 0) return;
   ++counts.num_triangles;
-  if (role == TriangleRole::kOutside) ++counts.num_outside;
-  if (role == TriangleRole::kSeam) ++counts.num_seam;
-  if (role == TriangleRole::kInterface) ++counts.num_interface;
+  if (role == TriangleRole::outside) ++counts.num_outside;
+  if (role == TriangleRole::seam) ++counts.num_seam;
+  if (role == TriangleRole::interface) ++counts.num_interface;
   if (is_open(role) && group.num_listed() == 0) ++counts.num_unlisted;
 }
 
@@ -153,7 +153,7 @@ void append_verdicts(const TriangleGroup& group, TriangleRole role,
 // side, which is noticed by the key.
 bool is_final(TriangleRole role)
 {
-  return role == TriangleRole::kInner || role == TriangleRole::kSeam;
+  return role == TriangleRole::inner || role == TriangleRole::seam;
 }
 
 std::vector<TriangleVerdict> send_to_readers(std::vector<TriangleVerdict> verdicts,
@@ -200,7 +200,7 @@ std::vector<TriangleVerdict> TriangleMatcher::match(std::vector<TriangleRecord> 
       [&](std::span<const std::size_t> rows) {
         const TriangleGroup group(records, rows);
         const bool is_late = group.num_sides() > 0 && is_settled(group.side(0).key);
-        const TriangleRole role = is_late ? TriangleRole::kFaulty : group.role(boundary_);
+        const TriangleRole role = is_late ? TriangleRole::faulty : group.role(boundary_);
         if (!is_last && (is_late || !is_final(role))) {
           for (const std::size_t row : rows) open_.push_back(records[row]);
           return;
@@ -208,9 +208,9 @@ std::vector<TriangleVerdict> TriangleMatcher::match(std::vector<TriangleRecord> 
         if (!is_late) count(group, role, counts_);
         link_pieces(group, links_);
         append_verdicts(group, role, verdicts);
-        if (role == TriangleRole::kFaulty && group.num_sides() > 0)
+        if (role == TriangleRole::faulty && group.num_sides() > 0)
           report_fault(group, is_late, findings_);
-        if (boundary_ != BoundaryFile::kNone) check_boundary(group, role, findings_);
+        if (boundary_ != BoundaryFile::none) check_boundary(group, role, findings_);
         if (!is_last) keys.push_back(group.side(0).key);
       });
   settle(std::move(keys));

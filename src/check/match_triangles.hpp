@@ -24,7 +24,7 @@ struct TriangleCounts {
 
 /// @brief What the boundary file must hold: nothing, all triangles on one tet, or, if only some
 /// pieces of the mesh were made, nothing but such triangles.
-enum class BoundaryFile { kNone, kComplete, kPartial };
+enum class BoundaryFile { none, complete, partial };
 
 /// @brief What a triangle on the surface of a piece turned out to be.
 struct TriangleVerdict {
@@ -32,7 +32,7 @@ struct TriangleVerdict {
   LocalIndex row = 0;  ///< As in its TriangleRecord.
   LocalIndex partner =
       kNoPiece;  ///< Piece of the tet on the other side; kNoPiece if there is none.
-  TriangleRole role = TriangleRole::kInner;
+  TriangleRole role = TriangleRole::inner;
 };
 
 /// @brief Brings the sides of each triangle together, and the boundary file's triangles with them,

@@ -45,7 +45,7 @@ void compare_positions(VertexRecord& first, const VertexRecord& other, Findings&
   first.is_shared = first.is_shared || !other.is_listed;
   if (is_same_position(first, other)) return;
   first.is_contradicted = first.is_contradicted || !other.is_listed;
-  findings.add(other.is_listed ? Kind::kBoundaryPoint : Kind::kPointPosition, place_of(other),
+  findings.add(other.is_listed ? Kind::boundary_point : Kind::point_position, place_of(other),
                [&] { return concat(describe(other), "; but ", describe(first)); });
 }
 
@@ -54,7 +54,7 @@ void check_inner(const VertexRecord& first, const VertexRecord& other, Findings&
 {
   if (!first.is_inner && !other.is_inner) return;
   findings.add(
-      other.is_listed ? Kind::kBoundaryPoint : Kind::kDuplicatePoint, place_of(other),
+      other.is_listed ? Kind::boundary_point : Kind::duplicate_point, place_of(other),
       [&] { return concat(describe(other), " is inside another piece: ", describe(first)); });
 }
 
@@ -66,7 +66,7 @@ void compare_ids(std::span<const VertexRecord> received, std::span<const std::si
     const VertexRecord& first = received[rows[0]];
     const VertexRecord& other = received[row];
     if (first.piece == other.piece) continue;
-    findings.add(Kind::kDuplicatePoint, place_of(other),
+    findings.add(Kind::duplicate_point, place_of(other),
                  [&] { return concat(describe(first), " and ", describe(other)); });
   }
 }
@@ -115,10 +115,10 @@ VertexTotals VertexMatcher::finish()
   for (const VertexRecord& vertex : vertices_) {
     if (vertex.is_used) ++totals.num_vertices;
     if (vertex.is_listed) {
-      findings_.add(Kind::kBoundaryPoint, place_of(vertex), [&] {
+      findings_.add(Kind::boundary_point, place_of(vertex), [&] {
         return concat(describe(vertex), " is no point on the surface of a piece");
       });
-    } else if (identity_ == Identity::kIds) {
+    } else if (identity_ == Identity::ids) {
       totals.ids.push_back({vertex.id, vertex.piece});
       if (vertex.is_shared) ++totals.num_shared_ids;
       if (vertex.is_contradicted) ++totals.num_contradicted;
@@ -130,7 +130,7 @@ VertexTotals VertexMatcher::finish()
 
 std::uint64_t VertexMatcher::owner_of(const VertexKey& key) const
 {
-  return identity_ == Identity::kIds ? key[0] >> kIdBlockBits : key[0];
+  return identity_ == Identity::ids ? key[0] >> kIdBlockBits : key[0];
 }
 
 // Where the vertex is, or the empty slot where it belongs.
@@ -176,7 +176,7 @@ void VertexMatcher::take(VertexRecord& first, VertexRecord other)
   }
   first.is_used = is_used;
   first.is_on_seam = is_on_seam;
-  if (identity_ == Identity::kIds)
+  if (identity_ == Identity::ids)
     compare_positions(first, other, findings_);
   else
     first.is_shared = first.is_shared || !other.is_listed;
@@ -186,7 +186,7 @@ void VertexMatcher::take(VertexRecord& first, VertexRecord other)
 // In several rounds, so that only a part of the vertices is sent at a time.
 void VertexMatcher::match_positions()
 {
-  if (identity_ != Identity::kIds) return;
+  if (identity_ != Identity::ids) return;
   const auto most = comm_.max(static_cast<double>(vertices_.size()));
   const auto num_rounds = 1 + static_cast<std::uint64_t>(most) / kPositionsAtOnce;
   const auto key = [](const VertexRecord& record) { return key_of_position(record.position); };

@@ -57,14 +57,14 @@ class VertexMatcher {
 
   const comm::Communicator& comm_;
   Findings& findings_;
-  Identity identity_ = Identity::kIds;
+  Identity identity_ = Identity::ids;
   std::deque<VertexRecord> vertices_{};  // Grows without a second copy.
   std::vector<LocalIndex> slots_{};      // Hash table of rows of vertices_; kNoIndex where empty.
 };
 
 [[nodiscard]] inline VertexKey key_of(const VertexRecord& record, Identity identity)
 {
-  return identity == Identity::kIds ? key_of_id(record.id) : key_of_position(record.position);
+  return identity == Identity::ids ? key_of_id(record.id) : key_of_position(record.position);
 }
 
 }  // namespace tessera::check

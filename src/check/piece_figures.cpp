@@ -61,7 +61,7 @@ bool has_seam_point(std::span<const LocalIndex, 4> points, const std::vector<boo
 
 void report_volume(const PieceMesh& mesh, LocalIndex cell, double volume, Findings& findings)
 {
-  findings.add(Kind::kNonPositiveVolume, {mesh.name.piece, cell}, [&] {
+  findings.add(Kind::non_positive_volume, {mesh.name.piece, cell}, [&] {
     std::string text = concat(describe_cell(mesh, cell), " has volume ", volume, ":");
     for (const LocalIndex v : mesh.cell(cell)) text += concat(" [", describe_point(mesh, v), "]");
     return text;

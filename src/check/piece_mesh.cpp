@@ -19,7 +19,7 @@ constexpr GlobalIndex kMaxCells = GlobalIndex{1} << 29;
 
 void add_array_defect(const PieceName& name, const std::string& what, Findings& findings)
 {
-  findings.add(Kind::kArrays, {name.piece, 0}, [&] { return concat(to_text(name), ": ", what); });
+  findings.add(Kind::arrays, {name.piece, 0}, [&] { return concat(to_text(name), ": ", what); });
 }
 
 // Removes the arrays of a map whose length is not the number of cells.
@@ -98,7 +98,7 @@ void check_points(const PieceMesh& mesh, Findings& findings)
   for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
     const Vec3 x = mesh.position(p);
     if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])) continue;
-    findings.add(Kind::kNonFinitePoint, {mesh.name.piece, p},
+    findings.add(Kind::non_finite_point, {mesh.name.piece, p},
                  [&] { return concat(to_text(mesh.name), ": ", describe_point(mesh, p)); });
   }
 }
@@ -118,15 +118,15 @@ std::vector<LocalIndex> match_points(const PieceMesh& mesh, Findings& findings)
   const auto by_position = lowest_of_equal(
       mesh.num_points(), [&](LocalIndex p) { return key_of_position(mesh.position(p)); });
   std::vector<LocalIndex> vertex = by_position;
-  if (mesh.identity == Identity::kIds) {
+  if (mesh.identity == Identity::ids) {
     vertex = lowest_of_equal(mesh.num_points(), [&](LocalIndex p) { return mesh.key(p); });
   }
   for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
     const auto i = static_cast<std::size_t>(p);
-    if (mesh.identity == Identity::kIds && vertex[i] != p)
-      report_equal_points(mesh, Kind::kPointIdTwice, p, vertex[i], findings);
+    if (mesh.identity == Identity::ids && vertex[i] != p)
+      report_equal_points(mesh, Kind::point_id_twice, p, vertex[i], findings);
     else if (by_position[i] != p)
-      report_equal_points(mesh, Kind::kDuplicatePoint, p, by_position[i], findings);
+      report_equal_points(mesh, Kind::duplicate_point, p, by_position[i], findings);
   }
   return vertex;
 }
@@ -172,7 +172,7 @@ void set_cells(PieceMesh& mesh, Findings& findings)
   mesh.cell_vertices.assign(mesh.arrays.cell_points.size(), kNoIndex);
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     if (set_cell_vertices(mesh, c, vertex_of, is_used)) continue;
-    findings.add(Kind::kCellPoints, {mesh.name.piece, c}, [&] {
+    findings.add(Kind::cell_points, {mesh.name.piece, c}, [&] {
       return concat(describe_cell(mesh, c), ": points ", describe_corners(mesh, c), " of ",
                     mesh.num_points(), " are out of range or not different");
     });
@@ -180,7 +180,7 @@ void set_cells(PieceMesh& mesh, Findings& findings)
   for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
     if (is_used[static_cast<std::size_t>(p)]) continue;
     mesh.unused_points.push_back(p);
-    findings.add(Kind::kUnusedPoint, {mesh.name.piece, p},
+    findings.add(Kind::unused_point, {mesh.name.piece, p},
                  [&] { return concat(to_text(mesh.name), ": ", describe_point(mesh, p)); });
   }
 }
@@ -206,7 +206,7 @@ PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity iden
                                arrays.point_ids, findings);
   mesh.has_cell_ids = has_ids(name, "cells", static_cast<std::size_t>(arrays.num_cells()),
                               arrays.cell_ids, findings);
-  mesh.identity = mesh.has_point_ids ? identity : Identity::kPositions;
+  mesh.identity = mesh.has_point_ids ? identity : Identity::positions;
   mesh.arrays = std::move(arrays);
   mesh.attribute = take_ints(mesh.arrays, "attribute", 0);
   mesh.has_subdomains = mesh.arrays.cell_ints.contains("subdomain");

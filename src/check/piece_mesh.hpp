@@ -18,13 +18,13 @@ namespace tessera::check {
 struct PieceName {
   LocalIndex piece = 0;
   bool is_boundary = false;
-  LocalIndex vertices_per_cell() const { return is_boundary ? 3 : 4; }
+  [[nodiscard]] LocalIndex vertices_per_cell() const { return is_boundary ? 3 : 4; }
 };
 
 /// @brief Arrays of a piece in which every index is in range, and which of its points are the same.
 struct PieceMesh {
   PieceName name{};
-  Identity identity = Identity::kIds;
+  Identity identity = Identity::ids;
   mesh::MeshArrays arrays{};
   bool has_point_ids = false;
   bool has_cell_ids = false;
@@ -65,7 +65,7 @@ struct PieceMesh {
   }
   [[nodiscard]] VertexKey key(LocalIndex v) const
   {
-    return identity == Identity::kIds ? key_of_id(point_id(v)) : key_of_position(position(v));
+    return identity == Identity::ids ? key_of_id(point_id(v)) : key_of_position(position(v));
   }
   [[nodiscard]] std::int32_t subdomain_of(LocalIndex c) const
   {

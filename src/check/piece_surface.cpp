@@ -68,7 +68,7 @@ void add_triangle(PieceSurface& surface, const SurfaceTriangle& triangle,
   surface.triangles.push_back(vertices);
   surface.cells.push_back(triangle.cell);
   surface.subdomains.push_back(subdomain);
-  surface.roles.push_back(TriangleRole::kUnknown);
+  surface.roles.push_back(TriangleRole::unknown);
   surface.partners.push_back(kNoPiece);
   surface.settled_edges.push_back(0);
 }
@@ -145,7 +145,7 @@ PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology, 
     }
     shown.triangles.push_back(record);
   }
-  if (mesh.identity == Identity::kIds) {
+  if (mesh.identity == Identity::ids) {
     for (const LocalIndex p : mesh.unused_points) selection.add(p, false, false);
   } else {
     for (const LocalIndex v : mesh.cell_vertices)
@@ -175,14 +175,14 @@ void apply(const TriangleVerdict& verdict, PieceSurface& surface, std::vector<Ve
   const auto t = static_cast<std::size_t>(found - surface.rows.begin());
   surface.roles[t] = verdict.role;
   surface.partners[t] = verdict.partner;
-  if (verdict.role == TriangleRole::kSeam || verdict.role == TriangleRole::kOpenSeam)
+  if (verdict.role == TriangleRole::seam || verdict.role == TriangleRole::open_seam)
     mark_seam(surface, surface.triangles[t], seam_keys);
 }
 
 void add_outside_areas(const PieceSurface& surface, PieceRecords& records)
 {
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    if (surface.roles[t] != TriangleRole::kOutside) continue;
+    if (surface.roles[t] != TriangleRole::outside) continue;
     const auto& v = surface.triangles[t];
     const Vec3& origin = surface.position(v[0]);
     const double area =

@@ -27,7 +27,7 @@ struct ShownRecords {
 /// boundary of the mesh it stays until the end.
 struct PieceSurface {
   PieceName name{};
-  Identity identity = Identity::kIds;
+  Identity identity = Identity::ids;
   std::vector<VertexRecord> vertices{};
   std::vector<std::array<LocalIndex, 3>> triangles{};  ///< Rows of vertices, outward order.
   std::vector<LocalIndex> rows{};   ///< As in the TriangleRecord of each triangle; ascending.

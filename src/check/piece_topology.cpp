@@ -176,7 +176,7 @@ class TriangleMatcher {
   void report(std::span<const Side> sides)
   {
     const LocalIndex piece = mesh_.name.piece;
-    findings_.add(Kind::kTriangle, {piece, sides[0].cell()}, [&] {
+    findings_.add(Kind::triangle, {piece, sides[0].cell()}, [&] {
       std::string text = "triangle of";
       for (const LocalIndex v : vertices(sides[0]))
         text += concat(" [", describe_point(mesh_, v), "]");
@@ -194,7 +194,7 @@ class TriangleMatcher {
     const auto a = mesh_.cell(first.cell());
     const auto b = mesh_.cell(second.cell());
     if (first.corner() != 0 || !std::is_permutation(a.begin(), a.end(), b.begin())) return;
-    findings_.add(Kind::kDuplicateTet, {mesh_.name.piece, second.cell()}, [&] {
+    findings_.add(Kind::duplicate_tet, {mesh_.name.piece, second.cell()}, [&] {
       return concat(describe_cell(mesh_, first.cell()), " and ",
                     describe_cell(mesh_, second.cell()));
     });

@@ -94,7 +94,7 @@ void MeanRatioCounts::add(double mean_ratio)
 void EdgeLengths::add(double length)
 {
   static_assert(kBinsPerOctave == 1 << 7, "the shift fits these");
-  constexpr std::int64_t kOriginBits = (1022 - kMaxExponent) * kBinsPerOctave;
+  constexpr std::int64_t kOriginBits = std::int64_t{1022 - kMaxExponent} * kBinsPerOctave;
   if (!std::isfinite(length) || length <= 0.0) return;
   const std::int64_t bin = (std::bit_cast<std::int64_t>(length) >> (52 - 7)) - kOriginBits;
   const auto last = static_cast<std::int64_t>(counts_.size()) - 1;
@@ -128,10 +128,10 @@ QualityFigures quality_figures(const ShapeSums& sums, const MeanRatioCounts& cou
   const std::vector<GlobalIndex>& fine = counts.counts();
   figures.mean_ratio_p01 = (static_cast<double>(bin_of_share(fine, 0.01)) + 0.5)
                            / static_cast<double>(MeanRatioCounts::kNumBins);
-  constexpr std::size_t bins_per_bar =
+  constexpr std::size_t kBinsPerBar =
       MeanRatioCounts::kNumBins / std::tuple_size_v<decltype(figures.mean_ratio_histogram)>;
   for (std::size_t bin = 0; bin < fine.size(); ++bin)
-    figures.mean_ratio_histogram[bin / bins_per_bar] += fine[bin];
+    figures.mean_ratio_histogram[bin / kBinsPerBar] += fine[bin];
   return figures;
 }
 

@@ -12,7 +12,7 @@
 namespace tessera::check {
 
 /// @brief By what points of different pieces are recognised as the same vertex.
-enum class Identity { kIds, kPositions };
+enum class Identity { ids, positions };
 
 /// @brief 128-bit hash of the vertex keys in ascending order.
 using EdgeKey = std::array<std::uint64_t, 2>;
@@ -42,19 +42,19 @@ struct TriangleRecord {
 /// kOpenSeam: on one tet, not in the boundary file of a mesh of which only some pieces were made.
 /// kUnknown: there is no verdict yet.
 enum class TriangleRole : std::uint8_t {
-  kUnknown,
-  kInner,
-  kOutside,
-  kOpenSeam,
-  kSeam,
-  kInterface,
-  kFaulty
+  unknown,
+  inner,
+  outside,
+  open_seam,
+  seam,
+  interface,
+  faulty
 };
 
 /// @brief Whether only one tet has the triangle.
 [[nodiscard]] constexpr bool is_open(TriangleRole role)
 {
-  return role == TriangleRole::kOutside || role == TriangleRole::kOpenSeam;
+  return role == TriangleRole::outside || role == TriangleRole::open_seam;
 }
 
 /// @brief A point of a piece that may be in other pieces as well.

@@ -58,7 +58,7 @@ class EdgeFan {
   [[nodiscard]] bool is_known() const
   {
     return std::all_of(triangles_.begin(), triangles_.end(), [&](const TriangleEdge& edge) {
-      return role(edge) != TriangleRole::kUnknown;
+      return role(edge) != TriangleRole::unknown;
     });
   }
 
@@ -111,7 +111,7 @@ class EdgeFan {
   }
   [[nodiscard]] bool has_partner(const TriangleEdge& edge) const
   {
-    return role(edge) != TriangleRole::kFaulty && partner(edge) != kNoPiece;
+    return role(edge) != TriangleRole::faulty && partner(edge) != kNoPiece;
   }
 
   // The other piece, if the triangle is the first of exactly two towards it.

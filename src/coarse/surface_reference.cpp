@@ -76,6 +76,7 @@ void SurfaceReference::add_curves()
 void SurfaceReference::add_patch(const std::vector<LocalIndex>& triangles)
 {
   std::vector<std::array<Vec3, 3>> corners;
+  corners.reserve(triangles.size());
   for (const LocalIndex t : triangles) corners.push_back(surface_.corners(at(t)));
   patches_.push_back({triangles, model::TriangleSearch(corners)});
 }

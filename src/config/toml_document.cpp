@@ -124,6 +124,7 @@ std::vector<Entry> entries_of(const TomlValue& table, const std::string& prefix,
   flatten(table, prefix, origin_of, lined);
   std::ranges::stable_sort(lined, {}, &LinedEntry::line);
   std::vector<Entry> entries;
+  entries.reserve(lined.size());
   for (LinedEntry& item : lined) entries.push_back(std::move(item.entry));
   return entries;
 }

@@ -60,7 +60,7 @@ class Merger {
 
  private:
   // Those worth a try, lightest first.
-  std::vector<LocalIndex> small_labels() const
+  [[nodiscard]] std::vector<LocalIndex> small_labels() const
   {
     std::vector<LocalIndex> labels;
     for (LocalIndex label = 0; label < labelling_->num_labels(); ++label) {
@@ -76,7 +76,7 @@ class Merger {
   }
 
   // Neighbour labels, the one with the most expensive seam first.
-  std::vector<LocalIndex> neighbours_of(std::span<const LocalIndex> tets) const
+  [[nodiscard]] std::vector<LocalIndex> neighbours_of(std::span<const LocalIndex> tets) const
   {
     struct Contact {
       LocalIndex label;
@@ -99,6 +99,7 @@ class Merger {
       return a.price != b.price ? a.price > b.price : a.label < b.label;
     });
     std::vector<LocalIndex> labels;
+    labels.reserve(contacts.size());
     for (const Contact& contact : contacts) labels.push_back(contact.label);
     return labels;
   }

@@ -135,7 +135,8 @@ class HierarchicalOrder {
   }
 
   // Contact with what comes before the block minus contact with what comes after it.
-  std::int64_t pull_forwards(std::span<const LocalIndex> half, const Block& block) const
+  [[nodiscard]] std::int64_t pull_forwards(std::span<const LocalIndex> half,
+                                           const Block& block) const
   {
     std::int64_t pull = 0;
     for_each_neighbour(half, [&](LocalIndex, LocalIndex neighbour, std::int32_t area) {

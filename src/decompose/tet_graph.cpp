@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "tessera/base/vec3.hpp"
@@ -10,10 +11,25 @@
 namespace tessera::decompose {
 namespace {
 
-// Price of making this triangle part of a seam. The one place to make bad cuts expensive.
+// 1 for an equilateral triangle, 0 for a flat one: area over squared sides, scaled.
+double triangle_quality(const mesh::CoarseMesh& mesh, const mesh::TriangleTets& triangle)
+{
+  double squared_sides = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 side =
+        mesh.position(triangle.vertices[(i + 1) % 3]) - mesh.position(triangle.vertices[i]);
+    squared_sides += dot(side, side);
+  }
+  return 4.0 * std::numbers::sqrt3 * triangle_area(mesh, triangle) / squared_sides;
+}
+
+// Price of making this triangle part of a seam. The one place to make bad cuts expensive: a
+// triangle of half the quality costs four times its area.
 double seam_price(const mesh::CoarseMesh& mesh, const mesh::TriangleTets& triangle)
 {
-  return triangle_area(mesh, triangle);
+  constexpr double kLeastSquare = 0.02;  // A needle does not outweigh a whole cut.
+  const double quality = triangle_quality(mesh, triangle);
+  return triangle_area(mesh, triangle) / std::max(quality * quality, kLeastSquare);
 }
 
 void connect_tets(TetGraph& graph)
@@ -64,14 +80,14 @@ double triangle_area(const mesh::CoarseMesh& mesh, const mesh::TriangleTets& tri
 
 std::vector<std::int32_t> quantise(std::span<const double> values)
 {
-  constexpr double wanted_mean = 1000.0;  // three digits: finer than any balance that is asked for
-  constexpr double max_sum = 5e8;         // leaves METIS room to add up in 32 bits
-  constexpr double max_value = 1e8;
+  constexpr double kWantedMean = 1000.0;  // three digits: finer than any balance that is asked for
+  constexpr double kMaxSum = 5e8;         // leaves METIS room to add up in 32 bits
+  constexpr double kMaxValue = 1e8;
   const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-  const double scale = std::min(wanted_mean * static_cast<double>(values.size()), max_sum) / sum;
+  const double scale = std::min(kWantedMean * static_cast<double>(values.size()), kMaxSum) / sum;
   std::vector<std::int32_t> integers(values.size());
   const auto to_integer = [&](double value) {
-    return static_cast<std::int32_t>(std::lround(std::clamp(scale * value, 1.0, max_value)));
+    return static_cast<std::int32_t>(std::lround(std::clamp(scale * value, 1.0, kMaxValue)));
   };
   std::transform(values.begin(), values.end(), integers.begin(), to_integer);
   return integers;

@@ -40,6 +40,7 @@ std::vector<KernelKind> kernels_of(const FillOptions& options,
     by_material[static_cast<std::size_t>(found - material_names.begin())] = region.kernel;
   }
   std::vector<KernelKind> kernels;
+  kernels.reserve(materials.size());
   for (const LocalIndex material : materials) {
     kernels.push_back(by_material[at(material - 1)]);
   }

@@ -129,10 +129,11 @@ class Extractor {
     return &pieces_[at(place.owner)].piece.vertex_xyz[3 * at(place.vertex)];
   }
 
-  // One more place of the vertex that is being numbered.
+  // One more place of the vertex that is being numbered. The bits are compared, not the numbers.
   void add_place(const PieceVertex& place)
   {
     if (places_.size() > offsets_.back()
+        // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
         && std::memcmp(xyz_of(places_.back()), xyz_of(place), 3 * sizeof(double)) != 0) {
       throw MeshError("two pieces disagree about the position of a vertex");
     }

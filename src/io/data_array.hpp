@@ -101,6 +101,7 @@ template <class T>
     if constexpr (std::is_same_v<T, From>) {
       if (!values.empty()) std::memcpy(result->data(), values.data(), values.size_bytes());
     } else {
+      // NOLINTNEXTLINE(bugprone-signed-char-misuse): Int8 holds numbers here
       for (std::size_t i = 0; i < values.size(); ++i) (*result)[i] = static_cast<T>(values[i]);
     }
     return result;

@@ -34,14 +34,14 @@ void put_ids(std::ostream& out, std::string_view element, std::string_view name,
   if (has_ids) out << " GlobalIds=\"" << name << '"';
   out << ">\n";
   if (has_ids) {
-    out << "      <PDataArray type=\"Int64\" IdType=\"1\" Name=\"" << name << "\"/>\n";
+    out << R"(      <PDataArray type="Int64" IdType="1" Name=")" << name << "\"/>\n";
   }
 }
 
 /// @brief A text array: the codes of its characters as VTK writes them, each text ended by a 0.
 void put_texts(std::ostream& out, const std::string& name, const std::vector<std::string>& texts)
 {
-  out << "      <Array type=\"String\" Name=\"" << xml_escape(name) << "\" NumberOfTuples=\""
+  out << R"(      <Array type="String" Name=")" << xml_escape(name) << "\" NumberOfTuples=\""
       << texts.size() << "\" format=\"ascii\">\n";
   for (const std::string& text : texts) {
     for (const char character : text) out << int{static_cast<signed char>(character)} << ' ';

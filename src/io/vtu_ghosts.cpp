@@ -43,6 +43,7 @@ void drop_cells(mesh::MeshArrays& mesh, const std::vector<bool>& is_kept)
 void drop_points(mesh::MeshArrays& mesh, const std::vector<bool>& is_kept)
 {
   std::vector<LocalIndex> place;
+  place.reserve(is_kept.size());
   LocalIndex next = 0;
   for (const bool kept : is_kept) place.push_back(kept ? next++ : kNoIndex);
   for (LocalIndex& point : mesh.cell_points) point = place[static_cast<std::size_t>(point)];

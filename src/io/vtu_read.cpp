@@ -136,7 +136,7 @@ template <class T>
 template <class Names>
 [[nodiscard]] std::string ids_name(const XmlElement& data, const Names& usual_names)
 {
-  const std::string flagged = data.attribute_or("GlobalIds", "");
+  std::string flagged = data.attribute_or("GlobalIds", "");
   if (!flagged.empty()) return flagged;
   for (const std::string_view name : usual_names) {
     for (const XmlElement& element : data.children) {

@@ -32,8 +32,7 @@ double seconds_between(std::chrono::steady_clock::time_point from,
 
 std::string signal_message(int signal)
 {
-  const std::string text =
-      "ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
+  std::string text = "ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
   if (signal != SIGKILL) return text;
   return text + " from outside: by hand, or because the system ran out of memory";
 }

@@ -15,7 +15,7 @@ namespace {
 
 // Fits the default send buffer of a local socket (208 KiB) three times, so that sender and receiver
 // overlap.
-constexpr std::size_t kMaxPayload = 64 * 1024;
+constexpr std::size_t kMaxPayload = std::size_t{64} * 1024;
 
 enum class Sent { yes, would_wait, never };
 

@@ -23,8 +23,8 @@ template <class Key>
 }
 
 /// @brief Key of an edge or a triangle: 128-bit hash of its vertices' keys. @pre they ascend.
-template <std::size_t n>
-[[nodiscard]] std::array<std::uint64_t, 2> key_of_vertices(const std::array<VertexKey, n>& vertices)
+template <std::size_t N>
+[[nodiscard]] std::array<std::uint64_t, 2> key_of_vertices(const std::array<VertexKey, N>& vertices)
 {
   const Hash128 hash = hash_bytes(std::as_bytes(std::span(vertices)));
   return {hash.low, hash.high};

@@ -56,8 +56,7 @@ inline constexpr std::array<std::array<TetPoint, 6>, 3> kOctahedra{
 template <class Visit>
 constexpr void for_each_child(LocalIndex n, LocalIndex step, std::size_t diagonal, Visit&& visit)
 {
-  constexpr TetPoint e1{1, 0, 0}, e2{0, 1, 0}, e3{0, 0, 1}, e12{1, 1, 0}, e13{1, 0, 1},
-      e23{0, 1, 1};
+  const TetPoint e1{1, 0, 0}, e2{0, 1, 0}, e3{0, 0, 1}, e12{1, 1, 0}, e13{1, 0, 1}, e23{0, 1, 1};
   const auto moved = [step](const TetPoint& p, const TetPoint& by) {
     return TetPoint{p.i + step * by.i, p.j + step * by.j, p.k + step * by.k};
   };

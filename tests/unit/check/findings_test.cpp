@@ -19,8 +19,8 @@ TEST(Findings, KeepTheFirstPlacesInWhateverOrderTheyCome)
   Findings up;
   Findings down;
   for (GlobalIndex i = 0; i < 50; ++i) {
-    add(up, Kind::kTriangle, i / 7, i % 7);
-    add(down, Kind::kTriangle, (49 - i) / 7, (49 - i) % 7);
+    add(up, Kind::triangle, i / 7, i % 7);
+    add(down, Kind::triangle, (49 - i) / 7, (49 - i) % 7);
   }
   const std::vector<Defect> defects = up.to_defects();
   ASSERT_EQ(defects.size(), 1U);
@@ -37,7 +37,7 @@ TEST(Findings, MergedPartsEqualTheWhole)
   Findings whole;
   std::array<Findings, 3> parts;
   for (GlobalIndex i = 0; i < 40; ++i) {
-    const Kind kind = i % 2 == 0 ? Kind::kUnusedPoint : Kind::kArrays;
+    const Kind kind = i % 2 == 0 ? Kind::unused_point : Kind::arrays;
     add(whole, kind, i % 5, i);
     add(parts[static_cast<std::size_t>(i) % 3], kind, i % 5, i);
   }
@@ -49,12 +49,12 @@ TEST(Findings, MergedPartsEqualTheWhole)
 TEST(Findings, MergeOfChosenKindsLeavesTheOthers)
 {
   Findings from;
-  add(from, Kind::kArrays, 0, 0);
-  add(from, Kind::kPointIdHole, 0, 1);
+  add(from, Kind::arrays, 0, 0);
+  add(from, Kind::point_id_hole, 0, 1);
   Findings into;
-  into.merge(from, std::array{Kind::kPointIdHole});
-  EXPECT_EQ(into.count(Kind::kArrays), 0);
-  EXPECT_EQ(into.count(Kind::kPointIdHole), 1);
+  into.merge(from, std::array{Kind::point_id_hole});
+  EXPECT_EQ(into.count(Kind::arrays), 0);
+  EXPECT_EQ(into.count(Kind::point_id_hole), 1);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(IdRuns, IdsOutOfRangeAreReported)
   Findings findings;
   append_runs({-3, std::numeric_limits<GlobalIndex>::max()}, 0, point_id_space(), runs, findings);
   EXPECT_TRUE(runs.empty());
-  EXPECT_EQ(findings.count(Kind::kPointIdHole), 2);
+  EXPECT_EQ(findings.count(Kind::point_id_hole), 2);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ mesh::MeshArrays arrays_of(const mesh::CoarseMesh& coarse)
 PieceTopology topology_of(const mesh::MeshArrays& arrays, Findings& findings)
 {
   EdgeLengths lengths;
-  const PieceMesh mesh = make_piece_mesh({0, false}, arrays, Identity::kIds, findings);
+  const PieceMesh mesh = make_piece_mesh({0, false}, arrays, Identity::ids, findings);
   return analyse_topology(mesh, lengths, findings);
 }
 
@@ -85,7 +85,7 @@ TEST(PieceTopology, TetsThatTouchInAnEdgeAreTwoComponents)
   const PieceTopology topology = topology_of(arrays, findings);
   EXPECT_EQ(topology.num_components, 2);
   EXPECT_EQ(topology.num_edges, 11);
-  EXPECT_EQ(findings.count(Kind::kUnusedPoint), 2);
+  EXPECT_EQ(findings.count(Kind::unused_point), 2);
 }
 
 TEST(PieceTopology, EveryOrderOfATriangleHasTheParityOfItsPermutation)
