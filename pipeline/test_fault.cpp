@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kStages{"import", "load", "box",     "coarse", "remesh",
                                                   "plan",   "fill", "improve", "skin"};
-constexpr std::array<std::string_view, 8> kKinds{"throw", "segv",   "exit", "loop",
-                                                 "sleep", "memory", "drop", "garbage"};
+constexpr std::array<std::string_view, 9> kKinds{"throw",  "segv", "exit",    "loop", "sleep",
+                                                 "memory", "drop", "garbage", "flat"};
 
 struct Fault {
   std::string stage{};
@@ -99,6 +99,28 @@ void drop_a_tet(std::vector<LocalIndex>& tet_vertices)
   tet_vertices.resize(tet_vertices.size() - 4);
 }
 
+// Cuts the first tet into four by a point near one of its faces: sound, but one of them is flat.
+void add_flat_tet(fill::FillOutput& tets)
+{
+  std::array<LocalIndex, 4> tet;
+  std::copy_n(tets.tet_vertices.begin(), 4, tet.begin());
+  const auto point = static_cast<LocalIndex>(tets.vertex_xyz.size() / 3);
+  constexpr std::array<double, 4> kWeights{0.33, 0.33, 0.33, 0.01};
+  for (std::size_t d = 0; d < 3; ++d) {
+    double place = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      place += kWeights[c] * tets.vertex_xyz[3 * at(tet[c]) + d];
+    }
+    tets.vertex_xyz.push_back(place);
+  }
+  tets.tet_vertices[3] = point;
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::array<LocalIndex, 4> part = tet;
+    part[c] = point;
+    tets.tet_vertices.insert(tets.tet_vertices.end(), part.begin(), part.end());
+  }
+}
+
 class FaultyMesher final : public coarse::CoarseMesher {
  public:
   explicit FaultyMesher(std::unique_ptr<coarse::CoarseMesher> sound) : sound_(std::move(sound)) {}
@@ -132,6 +154,7 @@ class FaultyKernel final : public fill::Kernel {
     fail(kind_);
     fill::FillOutput output = sound_->fill(input, settings);
     if (kind_ == "drop") drop_a_tet(output.tet_vertices);
+    if (kind_ == "flat" && settings.start == fill::FillStart::children) add_flat_tet(output);
     return output;
   }
 

@@ -17,8 +17,8 @@
 /// - STAGE: import, load, box, coarse, remesh (the coarse mesh from the CAD system's triangles),
 ///   plan, fill, improve, skin.
 /// - KIND: throw, segv, exit, loop, sleep, memory; drop (a tet of the result is lost: coarse,
-/// remesh,
-///   fill, improve), garbage (the bytes of the result are no longer what they were).
+///   remesh, fill, improve), garbage (the bytes of the result are no longer what they were), flat
+///   (the first try of a fill has a flat tet).
 /// - ITEM: the subdomain; of improve the region.
 namespace tessera::pipeline {
 
