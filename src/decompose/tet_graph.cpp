@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "tessera/base/vec3.hpp"
@@ -11,25 +10,10 @@
 namespace tessera::decompose {
 namespace {
 
-// 1 for an equilateral triangle, 0 for a flat one: area over squared sides, scaled.
-double triangle_quality(const mesh::CoarseMesh& mesh, const mesh::TriangleTets& triangle)
-{
-  double squared_sides = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 side =
-        mesh.position(triangle.vertices[(i + 1) % 3]) - mesh.position(triangle.vertices[i]);
-    squared_sides += dot(side, side);
-  }
-  return 4.0 * std::numbers::sqrt3 * triangle_area(mesh, triangle) / squared_sides;
-}
-
-// Price of making this triangle part of a seam. The one place to make bad cuts expensive: a
-// triangle of half the quality costs four times its area.
+// Price of making this triangle part of a seam. The one place to make bad cuts expensive.
 double seam_price(const mesh::CoarseMesh& mesh, const mesh::TriangleTets& triangle)
 {
-  constexpr double kLeastSquare = 0.02;  // A needle does not outweigh a whole cut.
-  const double quality = triangle_quality(mesh, triangle);
-  return triangle_area(mesh, triangle) / std::max(quality * quality, kLeastSquare);
+  return triangle_area(mesh, triangle);
 }
 
 void connect_tets(TetGraph& graph)
