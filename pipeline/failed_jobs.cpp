@@ -41,7 +41,7 @@ fs::path make_job_folder(const fs::path& failure, const std::string& name)
     if (!is_plain && !word.empty() && word.back() != '_') word += '_';
   }
   for (int number = 1;; ++number) {
-    const fs::path folder = failure / (number == 1 ? word : word + "." + std::to_string(number));
+    fs::path folder = failure / (number == 1 ? word : word + "." + std::to_string(number));
     if (fs::create_directory(folder)) return folder;
   }
 }

@@ -136,7 +136,7 @@ class Repartition {
     migrate::MeshPieces pieces = read_pieces(command_.mesh_file, comm_);
     texts_ = field_texts_of(pieces, comm_);
     end_step("read");
-    mesh_ = migrate::assemble(comm_, std::move(pieces));
+    mesh_ = migrate::assemble(comm_, pieces);
     figures_.notes = mesh_.notes;
     figures_.tets_digest = sum_over_ranks(migrate::digest_of_tets(mesh_.mesh), comm_);
     end_step("assemble");

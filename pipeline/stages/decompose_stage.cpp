@@ -32,7 +32,7 @@ decompose::DecomposeOptions options_of(const config::Case& run_case,
   options.parts = run_case.output.parts;
   if (options.subdomains == 0 && are_counts_known(kernels)) {
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    const double most = static_cast<double>(weights.size());
+    const auto most = static_cast<double>(weights.size());
     options.subdomains =
         static_cast<int>(std::clamp(std::ceil(total / kAutoSubdividedTets), 1.0, most));
   }

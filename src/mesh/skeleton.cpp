@@ -157,7 +157,7 @@ void set_owners(Skeleton& out)
 // The lowest triangle on the geometry gives an edge its patch and the parameters of its ends.
 void set_edge_patches(Skeleton& out)
 {
-  constexpr std::array<std::array<std::size_t, 2>, 3> side_corners{{{0, 1}, {0, 2}, {1, 2}}};
+  constexpr std::array<std::array<std::size_t, 2>, 3> kSideCorners{{{0, 1}, {0, 2}, {1, 2}}};
   for (LocalIndex t = 0; t < out.num_triangles(); ++t) {
     if (out.triangle_patch[at(t)] == kNoIndex) continue;
     for (std::size_t side = 0; side < 3; ++side) {
@@ -165,7 +165,7 @@ void set_edge_patches(Skeleton& out)
       if (out.edge_patch[edge] != kNoIndex) continue;
       out.edge_patch[edge] = out.triangle_patch[at(t)];
       for (std::size_t end = 0; end < 2; ++end) {
-        const double* uv = &out.triangle_uv[2 * (3 * at(t) + side_corners[side][end])];
+        const double* uv = &out.triangle_uv[2 * (3 * at(t) + kSideCorners[side][end])];
         std::copy_n(uv, 2, &out.edge_parameters[2 * (2 * edge + end)]);
       }
     }

@@ -44,12 +44,12 @@ struct ColumnCounts {
 
   void add(const mesh::MeshArrays& piece)
   {
-    static const std::set<std::string> kOwnMeaning{"attribute", "subdomain"};
+    static const std::set<std::string> own_meaning{"attribute", "subdomain"};
     if (piece.num_cells() == 0) return;
     ++num_pieces;
     const auto count = [&](const auto& arrays, ColumnType type) {
       for (const auto& [name, values] : arrays) {
-        if (!kOwnMeaning.contains(name)) ++num_with[{name, type}];
+        if (!own_meaning.contains(name)) ++num_with[{name, type}];
       }
     };
     count(piece.cell_ints, ColumnType::int32);
@@ -241,7 +241,7 @@ void sort_boundary(DistributedMesh& mesh)
 
 }  // namespace
 
-AssembledMesh assemble(const comm::Communicator& comm, MeshPieces pieces)
+AssembledMesh assemble(const comm::Communicator& comm, const MeshPieces& pieces)
 {
   AssembledMesh assembled;
   const bool has_ids = all_have_point_ids(comm, pieces);

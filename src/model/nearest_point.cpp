@@ -83,8 +83,8 @@ template <class Part>
 typename NearestPointSearch<Part>::Box NearestPointSearch<Part>::padded_box(
     std::span<const Part> parts, LocalIndex first, LocalIndex last) const
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
   for (LocalIndex i = first; i < last; ++i) {
     for (const Vec3& corner : parts[at(numbers_[at(i)])]) {
       for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -98,8 +98,8 @@ class AsciiReader {
 
   static std::string printable(std::string_view word)
   {
-    constexpr std::size_t longest = 40;
-    std::string text(word.substr(0, longest));
+    constexpr std::size_t kLongest = 40;
+    std::string text(word.substr(0, kLongest));
     for (char& c : text) {
       if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
     }

@@ -56,27 +56,27 @@ std::size_t promised_size(std::string_view bytes)
 
 bool looks_like_text(std::string_view bytes)
 {
-  constexpr std::size_t enough = 1000;
-  const std::string_view front = bytes.substr(0, enough);
+  constexpr std::size_t kEnough = 1000;
+  const std::string_view front = bytes.substr(0, kEnough);
   const bool no_control_characters = std::all_of(front.begin(), front.end(), [](char c) {
     return static_cast<unsigned char>(c) >= 0x20 || (c >= '\t' && c <= '\r');
   });
   const auto first = front.find_first_not_of(" \t\r\n");
   if (!no_control_characters || first == std::string_view::npos) return false;
-  constexpr std::string_view solid = "solid";
+  constexpr std::string_view kSolid = "solid";
   return std::equal(
-      solid.begin(), solid.end(), front.begin() + static_cast<std::ptrdiff_t>(first),
-      front.begin() + static_cast<std::ptrdiff_t>(std::min(first + solid.size(), front.size())),
+      kSolid.begin(), kSolid.end(), front.begin() + static_cast<std::ptrdiff_t>(first),
+      front.begin() + static_cast<std::ptrdiff_t>(std::min(first + kSolid.size(), front.size())),
       [](char a, char b) { return a == (b | 0x20); });
 }
 
 // Binary files that begin with "solid" name the solid there, as ASCII files do.
 std::string name_in_header(std::string_view bytes)
 {
-  constexpr std::string_view solid = "solid ";
+  constexpr std::string_view kSolid = "solid ";
   std::string_view header = bytes.substr(0, kHeaderSize);
-  if (!header.starts_with(solid)) return {};
-  header.remove_prefix(solid.size());
+  if (!header.starts_with(kSolid)) return {};
+  header.remove_prefix(kSolid.size());
   const auto last = std::find_if(header.begin(), header.end(),
                                  [](char c) { return static_cast<unsigned char>(c) < 0x20; });
   std::string name(header.begin(), last);
@@ -129,8 +129,8 @@ TriangleSoup read_stl(const std::filesystem::path& file)
 
   TriangleSoup soup = binary ? parse_binary_stl(bytes, name) : parse_ascii_stl(bytes, name);
   if (soup.triangle_solid.empty()) throw InputError(name + ": holds no triangle");
-  constexpr auto largest = static_cast<std::size_t>(std::numeric_limits<LocalIndex>::max()) / 3;
-  if (soup.triangle_solid.size() > largest) throw InputError(name + ": has too many triangles");
+  constexpr auto kLargest = static_cast<std::size_t>(std::numeric_limits<LocalIndex>::max()) / 3;
+  if (soup.triangle_solid.size() > kLargest) throw InputError(name + ": has too many triangles");
   for (double& x : soup.corner_xyz) x += 0.0;  // -0 and 0 are one position
   return soup;
 }

@@ -177,10 +177,10 @@ void nest(const TriangleSurface& surface, std::vector<Shell>& shells)
 
 bool is_inside_out(const TriangleSurface& surface, const Shell& shell, const std::string& name)
 {
-  constexpr double flat = 1e-12;  // far below what single precision leaves of a flat shell
+  constexpr double kFlat = 1e-12;  // far below what single precision leaves of a flat shell
   const Box box = box_of(surface, shell);
   const double volume = enclosed_volume(surface, shell);
-  if (std::abs(volume) <= flat * std::pow(norm(box.high - box.low), 3)) {
+  if (std::abs(volume) <= kFlat * std::pow(norm(box.high - box.low), 3)) {
     throw GeometryError(name + ": shell of " + std::to_string(shell.triangles.size())
                         + " triangles encloses no volume");
   }

@@ -101,8 +101,8 @@ LocalIndex weld_open_vertices(TriangleSurface& surface, double tolerance)
 {
   // Near points are near along any direction; along this one, unlike along an axis, the points of a
   // flat side do not all coincide, so few pairs have to be looked at.
-  constexpr Vec3 direction{0.4082, 0.5345, 0.7401};
-  const auto along = [&](LocalIndex v) { return dot(direction, surface.position(v)); };
+  constexpr Vec3 kDirection{0.4082, 0.5345, 0.7401};
+  const auto along = [&](LocalIndex v) { return dot(kDirection, surface.position(v)); };
   std::vector<LocalIndex> open = open_vertices(surface);
   std::sort(open.begin(), open.end(), [&](LocalIndex a, LocalIndex b) {
     return std::pair(along(a), a) < std::pair(along(b), b);

@@ -32,13 +32,13 @@ template <class Predicate>
 std::string describe_edges(const TriangleSurface& surface, const HalfEdgesOfEdges& edges,
                            Predicate bad)
 {
-  constexpr LocalIndex num_shown = 3;
+  constexpr LocalIndex kNumShown = 3;
   LocalIndex count = 0;
   std::ostringstream shown;
   shown.precision(9);
   for (LocalIndex e = 0; e < edges.num_edges(); ++e) {
     if (!bad(edges.of(e).size())) continue;
-    if (count++ >= num_shown) continue;
+    if (count++ >= kNumShown) continue;
     const LocalIndex h = edges.of(e)[0];
     shown << (count == 1 ? ", first " : ", ");
     put_point(shown, surface.position(surface.triangle_vertices[at(h)]));
@@ -46,7 +46,7 @@ std::string describe_edges(const TriangleSurface& surface, const HalfEdgesOfEdge
     put_point(shown, surface.position(surface.triangle_vertices[at(next_in_triangle(h))]));
   }
   if (count == 0) return {};
-  return counted(count, "edge", "edges") + shown.str() + (count > num_shown ? ", …" : "");
+  return counted(count, "edge", "edges") + shown.str() + (count > kNumShown ? ", …" : "");
 }
 
 std::string open_edges(const TriangleSurface& surface)

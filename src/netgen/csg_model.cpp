@@ -17,8 +17,9 @@
 
 // Defined in libcsg.so and declared in no header of NETGEN 6.2.1905.
 namespace netgen {
+// NOLINTNEXTLINE(readability-identifier-naming): NETGEN's
 CSGeometry* ParseCSG(std::istream& text, CSGeometry* instance);
-}
+}  // namespace netgen
 
 namespace tessera::netgen {
 namespace {

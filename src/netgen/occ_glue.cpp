@@ -132,18 +132,18 @@ TopoDS_Shape glued(const std::vector<TopoDS_Shape>& solids, CadFile& cad)
     if (fuse->HasErrors() || !left_films(fuse->Shape(), num_given, diagonal)) break;
   }
   if (fuse->HasErrors() || count_solids(fuse->Shape()) < num_given) {
-    cad.repairs.push_back("solids that may touch could not be glued");
+    cad.repairs.emplace_back("solids that may touch could not be glued");
     return apart;
   }
   const int num_solids = count_solids(fuse->Shape());
   const int num_shared = count_shared_faces(fuse->Shape());
   if (num_solids == num_given && num_shared == count_shared_faces(apart)) return apart;
   follow_names(apart, cad.names, [&](const TopoDS_Shape& part) { return fuse->Modified(part); });
-  cad.repairs.push_back("touching solids were glued: " + std::to_string(num_shared)
-                        + " shared faces");
+  cad.repairs.emplace_back("touching solids were glued: " + std::to_string(num_shared)
+                           + " shared faces");
   if (num_solids != num_given) {
-    cad.repairs.push_back("overlapping solids were cut: " + std::to_string(num_given) + " became "
-                          + std::to_string(num_solids));
+    cad.repairs.emplace_back("overlapping solids were cut: " + std::to_string(num_given)
+                             + " became " + std::to_string(num_solids));
   }
   return fuse->Shape();
 }

@@ -207,7 +207,7 @@ TopoDS_Shape outward(const TopoDS_Shape& shape, CadFile& cad)
   if (volume_of(solid) > 0.0) return solid;
   BRepLib::OrientClosedSolid(solid);
   if (volume_of(solid) < 0.0) solid = TopoDS::Solid(solid.Reversed());
-  cad.repairs.push_back("a solid was inside out and was turned");
+  cad.repairs.emplace_back("a solid was inside out and was turned");
   return solid;
 }
 
@@ -230,7 +230,7 @@ std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
   std::vector<TopoDS_Shape> given = parts_of(cad.shape, TopAbs_SOLID);
   const auto num_empty = std::erase_if(
       given, [](const TopoDS_Shape& solid) { return count(solid, TopAbs_FACE) == 0; });
-  if (num_empty > 0) cad.repairs.push_back("solids without faces were left out");
+  if (num_empty > 0) cad.repairs.emplace_back("solids without faces were left out");
   if (given.empty()) {
     if (count(cad.shape, TopAbs_FACE) == 0) {
       throw GeometryError("no solid and no face to make one of; the file holds "
@@ -249,7 +249,7 @@ std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
     }
   }
   TopExp_Explorer loose(cad.shape, TopAbs_FACE, TopAbs_SOLID);
-  if (loose.More()) cad.repairs.push_back("faces that belong to no solid were left out");
+  if (loose.More()) cad.repairs.emplace_back("faces that belong to no solid were left out");
   return solids;
 }
 

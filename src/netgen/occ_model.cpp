@@ -122,7 +122,7 @@ void OccModel::triangulate() const
 {
   constexpr double kDeflection = 0.01;  // Of an edge's length; what NETGEN takes.
   BRepTools::Clean(content_.shape);
-  BRepMesh_IncrementalMesh(content_.shape, kDeflection, Standard_True);
+  const BRepMesh_IncrementalMesh triangulation(content_.shape, kDeflection, Standard_True);
   for (int i = 1; i <= faces_.Extent(); ++i) {
     TopLoc_Location place;
     if (!BRep_Tool::Triangulation(TopoDS::Face(faces_(i)), place).IsNull()) continue;

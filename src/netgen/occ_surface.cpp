@@ -267,7 +267,8 @@ OccSurface::Descent OccSurface::nearest_boundary(const Vec3& point) const
 std::vector<OccSurface::Uv> OccSurface::descent_starts(const Vec3& point) const
 {
   const gp_Pnt target = to_occ(point);
-  const auto [rows, columns] = num_samples_;
+  const int rows = num_samples_[0];
+  const int columns = num_samples_[1];
   const auto sample = [&](int i, int j) {
     const auto& [u, v] = directions_;
     return Uv{u.face_first + u.span() * (i + 0.5) / rows,
@@ -282,7 +283,7 @@ std::vector<OccSurface::Uv> OccSurface::descent_starts(const Vec3& point) const
   }
   const auto distance_at = [&](int i, int j) {
     const bool outside = i < 0 || j < 0 || i >= rows || j >= columns;
-    return outside ? kFarAway : distances[static_cast<std::size_t>(i * columns + j)];
+    return outside ? kFarAway : distances[at(i * columns + j)];
   };
   std::vector<Uv> starts;
   for (int i = 0; i < rows; ++i) {

@@ -54,7 +54,7 @@ bool OccTrim::contains(const Uv& uv) const
 {
   const Place place = place_of(uv);
   if (is_on_grid(place)) {
-    const Cell state = cells_[static_cast<std::size_t>(place[0] * kNumCells + place[1])];
+    const Cell state = cells_[index_of(place)];
     if (state == Cell::inside || state == Cell::outside) return state == Cell::inside;
   }
   return is_in(*classifier_, uv);
@@ -83,10 +83,7 @@ bool OccTrim::is_on_grid(const Place& place)
   return std::all_of(place.begin(), place.end(), [](int i) { return i >= 0 && i < kNumCells; });
 }
 
-OccTrim::Cell& OccTrim::cell(const Place& place)
-{
-  return cells_[static_cast<std::size_t>(place[0] * kNumCells + place[1])];
-}
+OccTrim::Cell& OccTrim::cell(const Place& place) { return cells_[index_of(place)]; }
 
 // Marks the cells round a piece of an edge, in steps no longer than half a cell.
 void OccTrim::mark_boundary(const Handle(Geom2d_Curve) & curve, double first, double last,

@@ -36,6 +36,10 @@ class OccTrim {
   [[nodiscard]] Place place_of(const Uv& uv) const;
   [[nodiscard]] Uv centre_of(const Place& place) const;
   [[nodiscard]] static bool is_on_grid(const Place& place);
+  [[nodiscard]] static std::size_t index_of(const Place& place)
+  {
+    return at(place[0] * kNumCells + place[1]);
+  }
   [[nodiscard]] Cell& cell(const Place& place);
   void mark_boundary(const Handle(Geom2d_Curve) & curve, double first, double last, int depth);
   void mark_around(const Place& place);

@@ -35,7 +35,7 @@ migrate::DistributedMesh make_mesh(const comm::Communicator& comm, GlobalIndex n
   const testing::BoxPieces box(levels, n);
   migrate::MeshPieces pieces;
   pieces.tets.push_back(box.tets(comm.rank()));
-  return migrate::assemble(comm, std::move(pieces)).mesh;
+  return migrate::assemble(comm, pieces).mesh;
 }
 
 std::vector<Rank> to_random_ranks(const comm::Communicator& comm, LocalIndex num_tets,

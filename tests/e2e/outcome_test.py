@@ -243,7 +243,9 @@ class CannotWrite(OutcomeTest):
             self.limit_files([[rank], program.chain_of(rank)][limited_from])
         self.assert_refused(self.finish(process), CANNOT_WRITE, f"cannot write out/{file}", "File too large")
         self.assertFalse((self.folder / "out" / "mesh.pvtu").exists())
-        self.assertEqual(list((self.folder / "out").glob("*/*.tmp-*")), [])
+        # A job of another rank, cancelled while it was writing, leaves its file to --resume.
+        half_written = list((self.folder / "out").glob("*/*.tmp-*"))
+        self.assertLess(len(half_written), ranks or 1, half_written)
 
     def test_disk_full_when_a_job_ends(self):
         for ranks in RANKS:

@@ -44,6 +44,6 @@ struct AssembledMesh {
 /// @throws InputError on all ranks if the pieces do not make up a mesh: a tet with a corner twice,
 /// a triangle on three tets, a boundary triangle without tet or a triangle on one tet that the
 /// boundary file lacks.
-[[nodiscard]] AssembledMesh assemble(const comm::Communicator& comm, MeshPieces pieces);
+[[nodiscard]] AssembledMesh assemble(const comm::Communicator& comm, const MeshPieces& pieces);
 
 }  // namespace tessera::migrate

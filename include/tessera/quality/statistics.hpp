@@ -80,7 +80,7 @@ struct QualityHistograms {
   Histogram mean_ratio{0.0, 1.0, 2000};       ///< Of all tets; bins of 0.0005.
   Histogram seam_mean_ratio{0.0, 1.0, 2000};  ///< Of the seam tets.
   /// Of log2(edge length / output length unit): 64 bins an octave (1.1 % wide), from -40 to 40.
-  Histogram log2_edge_length{-40.0, 40.0, 80 * 64};
+  Histogram log2_edge_length{-40.0, 40.0, std::size_t{80} * 64};
 
   void add(const QualityHistograms& other);
 };

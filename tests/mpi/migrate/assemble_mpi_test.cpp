@@ -133,7 +133,7 @@ TEST(Assemble, PatchesAreOnTheRightFaces)
   for (const bool with_ids : {true, false}) {
     MeshPieces pieces = box_pieces(comm);
     if (!with_ids) drop_ids(pieces);
-    const DistributedMesh mesh = assemble(comm, std::move(pieces)).mesh;
+    const DistributedMesh mesh = assemble(comm, pieces).mesh;
     for (LocalIndex b = 0; b < mesh.num_boundary(); ++b) {
       const std::int32_t patch = mesh.boundary_patch[at(b)];  // x=0, x=1, y=0, …
       for (LocalIndex c = 0; c < 4; ++c) {
@@ -150,7 +150,7 @@ TEST(Assemble, PiecesWithoutIdsAreMatchedByPosition)
   const comm::Communicator comm(MPI_COMM_WORLD);
   MeshPieces pieces = box_pieces(comm);
   drop_ids(pieces);
-  const AssembledMesh assembled = assemble(comm, std::move(pieces));
+  const AssembledMesh assembled = assemble(comm, pieces);
   EXPECT_EQ(assembled.notes.size(), 1U);
   expect_box(comm, assembled.mesh);
 }
@@ -165,7 +165,7 @@ TEST(Assemble, IdsThatEachPieceCountsForItselfAreNotUsed)
     GlobalIndex next = 0;
     for (GlobalIndex& id : piece.point_ids) id = next++;
   }
-  const AssembledMesh assembled = assemble(comm, std::move(pieces));
+  const AssembledMesh assembled = assemble(comm, pieces);
   EXPECT_EQ(assembled.notes.size(), 1U);
   expect_box(comm, assembled.mesh);  // With a boundary that was not given.
 }
@@ -175,7 +175,7 @@ TEST(Assemble, MissingPieceIsAnErrorOnAllRanks)
   const comm::Communicator comm(MPI_COMM_WORLD);
   MeshPieces pieces = box_pieces(comm);
   if (comm.rank() == 0) pieces.tets.pop_back();
-  EXPECT_THROW(static_cast<void>(assemble(comm, std::move(pieces))), comm::Collective<InputError>);
+  EXPECT_THROW(static_cast<void>(assemble(comm, pieces)), comm::Collective<InputError>);
 }
 
 TEST(Assemble, BoundaryTriangleThatIsListedTwiceIsAnError)
@@ -183,7 +183,7 @@ TEST(Assemble, BoundaryTriangleThatIsListedTwiceIsAnError)
   const comm::Communicator comm(MPI_COMM_WORLD);
   MeshPieces pieces = box_pieces(comm);
   if (comm.rank() == 0) pieces.boundary.push_back(pieces.boundary.front());
-  EXPECT_THROW(static_cast<void>(assemble(comm, std::move(pieces))), comm::Collective<InputError>);
+  EXPECT_THROW(static_cast<void>(assemble(comm, pieces)), comm::Collective<InputError>);
 }
 
 TEST(CutIntoParts, PartsAreConnectedBalancedAndComplete)
@@ -219,8 +219,7 @@ TEST(CutIntoParts, TwoBodiesInOnePartStayApart)
     }
   }
   Traffic traffic;
-  const CutMesh cut =
-      cut_into_parts(comm, assemble(comm, std::move(pieces)).mesh, {1, 1.03}, traffic);
+  const CutMesh cut = cut_into_parts(comm, assemble(comm, pieces).mesh, {1, 1.03}, traffic);
   const auto parts = measure_parts(comm, cut.mesh, find_neighbours(comm, cut.mesh), 1);
   EXPECT_EQ(parts[0].num_components, 2);
   EXPECT_EQ(parts[0].num_tets, 96);
