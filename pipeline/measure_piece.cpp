@@ -16,7 +16,7 @@ GlobalIndex measure_edges(const mesh::Piece& piece, quality::QualityHistograms& 
   mesh::for_each_edge(piece.tet_vertices, piece.num_vertices(), [&](LocalIndex a, LocalIndex b) {
     ++num_edges;
     const Vec3 edge = point_at(xyz, b) - point_at(xyz, a);
-    // Single precision is a thousand times finer than a bin, and twice as fast.
+    // Single precision is a thousand times finer than a bin, and 1.1 to 1.5 times as fast.
     const auto squared_length = static_cast<float>(dot(edge, edge));
     histograms.log2_edge_length.add(0.5 * static_cast<double>(std::log2(squared_length)));
   });

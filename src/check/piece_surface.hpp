@@ -33,7 +33,7 @@ struct PieceSurface {
   std::vector<LocalIndex> rows{};   ///< As in the TriangleRecord of each triangle; ascending.
   std::vector<LocalIndex> cells{};  ///< Tet of each triangle.
   std::vector<std::int32_t> subdomains{};     ///< Of each triangle's tet.
-  std::vector<TriangleRole> roles{};          ///< kUnknown until there is a verdict.
+  std::vector<TriangleRole> roles{};          ///< unknown until there is a verdict.
   std::vector<LocalIndex> partners{};         ///< Piece on the other side of each triangle.
   std::vector<std::uint8_t> settled_edges{};  ///< Bit i: the edge opposite to corner i.
   std::vector<LocalIndex> seam_points{};      ///< Points on seam triangles of this piece.

@@ -39,8 +39,8 @@ struct TriangleRecord {
 };
 
 /// @brief What a triangle turned out to be.
-/// kOpenSeam: on one tet, not in the boundary file of a mesh of which only some pieces were made.
-/// kUnknown: there is no verdict yet.
+/// open_seam: on one tet, not in the boundary file of a mesh of which only some pieces were made.
+/// unknown: there is no verdict yet.
 enum class TriangleRole : std::uint8_t {
   unknown,
   inner,

@@ -115,9 +115,7 @@ class RestartTest(program.ProgramTest):
 
     @classmethod
     def setUpClass(cls):
-        maker = program.ProgramTest()
-        maker.setUp()
-        cls.addClassCleanup(maker.doCleanups)
+        maker = cls.make_maker()
         cls.arguments = cls.make_arguments(maker)
         cls.reference = maker.mesh(cls.arguments[0], "reference", *cls.arguments[1:], ranks=2)
 

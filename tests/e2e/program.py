@@ -77,6 +77,14 @@ class ProgramTest(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tessera_e2e_"))
         self.addCleanup(shutil.rmtree, self.folder)
 
+    @classmethod
+    def make_maker(cls):
+        """A test whose folder lasts as long as the class, for what all of its tests share."""
+        maker = ProgramTest()
+        maker.setUp()
+        cls.addClassCleanup(maker.doCleanups)
+        return maker
+
     def write(self, name, content):
         """Writes a text or bytes into the folder."""
         file = self.folder / name

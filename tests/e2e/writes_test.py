@@ -57,9 +57,7 @@ class WritesTest(program.ProgramTest):
 
     @classmethod
     def setUpClass(cls):
-        maker = program.ProgramTest()
-        maker.setUp()
-        cls.addClassCleanup(maker.doCleanups)
+        maker = cls.make_maker()
         cls.case = maker.write_case(max_size=0.9, subdomains=3)
         cls.reference = maker.mesh(cls.case, "reference")
 
