@@ -34,6 +34,7 @@ void BatchFiller::add(FilledPiece filled)
       summary.digest = file_->add(std::move(filled.piece));
     } else {
       record_.piece = mesh::to_bytes(filled.piece);
+      summary.content = hash_bytes(record_.piece);
     }
   }
   record_.results.push_back(std::move(filled.result));

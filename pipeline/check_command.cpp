@@ -55,12 +55,9 @@ ExitCode run_check_command(const CheckCommand& command, const comm::Communicator
 {
   const auto mesh_files = pieces_of(command.mesh_file, comm);
   const check::PieceSource mesh = source_of(mesh_files);
-  std::vector<std::filesystem::path> boundary_files;
+  const auto boundary_files = boundary_pieces_of(command.mesh_file, comm);
   std::optional<check::PieceSource> boundary;
-  if (const auto file = boundary_beside(command.mesh_file)) {
-    boundary_files = pieces_of(*file, comm);
-    boundary = source_of(boundary_files);
-  }
+  if (boundary_files) boundary = source_of(*boundary_files);
   const check::CheckReport report =
       check::check_mesh(mesh, boundary ? &*boundary : nullptr, comm, {command.is_partial});
   if (comm.rank() == 0) {

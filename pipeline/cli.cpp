@@ -88,10 +88,19 @@ CLI::Option* add_dry_run(CLI::App& mesh, MeshCommand& command)
   return dry_run;
 }
 
+CLI::Validator not_empty()
+{
+  return {[](const std::string& text) {
+            return text.empty() ? std::string("the name is empty") : std::string();
+          },
+          ""};
+}
+
 void add_folder_options(CLI::App& mesh, MeshCommand& command, CLI::Option* dry_run)
 {
   mesh.add_option("--output", command.output, "Folder of the results, instead of output.directory")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
   CLI::Option* overwrite = mesh.add_flag("--overwrite", command.overwrite,
                                          "Use the output folder even if it is not empty");
   mesh.add_flag("--resume", command.resume,
@@ -116,14 +125,15 @@ void add_mesh(CLI::App& app, Parsed& parsed)
   const auto take_subdomains = [&parsed](const std::string& text) {
     parsed.mesh.only_subdomains = read_subdomains(text);
   };
-  mesh->add_option_function<std::string>("--only-subdomains", take_subdomains,
-                                         "Make and write these subdomains only")
+  mesh->add_option_function<std::string>(
+          "--only-subdomains", take_subdomains,
+          "Make and write these subdomains only; for fill.kernel=subdivide")
       ->type_name("I,J,...");
   mesh->add_option("--progress", parsed.progress, "Progress bars: on a terminal, always or never")
       ->type_name("auto|always|never")
       ->check(CLI::IsMember(kProgressWords).description(""))
       ->capture_default_str();
-  CLI::Option* quiet = mesh->add_flag("-q,--quiet", parsed.quiet, "Print errors only");
+  CLI::Option* quiet = mesh->add_flag("-q,--quiet", parsed.quiet, "Print warnings and errors only");
   mesh->add_flag("-v,--verbose", parsed.verbose, "Print more")->excludes(quiet);
 }
 
@@ -153,6 +163,7 @@ void add_repartition(CLI::App& app, RepartitionCommand& command)
       ->required();
   repartition->add_option("--output", command.output, "Folder of the new mesh")
       ->type_name("DIR")
+      ->check(not_empty())
       ->required();
   const auto take_layers = [&command](const std::string& text) {
     constexpr int kMost = 100;
@@ -187,7 +198,9 @@ void set_up(CLI::App& app, Parsed& parsed)
   app.set_version_flag("--version", "tessera " + std::string(version()), "Print the version");
   app.require_subcommand(1);
   app.footer(
-      "Every command runs alone or under `mpirun -np N`, with the same result.\n"
+      "Every command runs alone or under `mpirun -np N`, with the same result; but for "
+      "repartition,\n"
+      "whose result depends on N.\n"
       "`tessera COMMAND --help` says more.");
   add_mesh(app, parsed);
   add_check(app, parsed);

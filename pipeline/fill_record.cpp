@@ -83,10 +83,18 @@ std::optional<FillRecord> find_record(const fs::path& output, LocalIndex batch, 
   return all_whole ? std::optional(std::move(record)) : std::nullopt;
 }
 
-Hash128 plan_fingerprint(const mesh::Skeleton& skeleton, const mesh::Damping& damping,
-                         LocalIndex first, LocalIndex last)
+Hash128 cut_fingerprint(const CutMesh& cut)
 {
-  if (damping.entries().empty()) return {};
+  ByteWriter out;
+  out.put(mesh::to_bytes(cut.coarse));
+  out.put(mesh::to_bytes(cut.decomposition));
+  return hash_bytes(std::move(out).take());
+}
+
+Hash128 plan_fingerprint(const Hash128& cut, const mesh::Skeleton& skeleton,
+                         const mesh::Damping& damping, LocalIndex first, LocalIndex last)
+{
+  if (damping.entries().empty()) return cut;
   std::set<LocalIndex> edges;
   std::set<LocalIndex> triangles;
   for (LocalIndex s = first; s < last; ++s) {
@@ -98,6 +106,7 @@ Hash128 plan_fingerprint(const mesh::Skeleton& skeleton, const mesh::Damping& da
     }
   }
   ByteWriter out;
+  out.put(cut);
   for (const mesh::PointDamping& entry : damping.entries()) {
     const bool is_on_edge = entry.key.carrier == mesh::LatticeCarrier::edge;
     if ((is_on_edge ? edges : triangles).contains(entry.key.entity)) {

@@ -13,6 +13,7 @@
 #include "tessera/mesh/piece.hpp"
 #include "tessera/mesh/skeleton.hpp"
 
+#include "pipeline/cut_mesh.hpp"
 #include "pipeline/piece_summary.hpp"
 
 namespace tessera::pipeline {
@@ -51,9 +52,14 @@ struct FillRecord {
 [[nodiscard]] std::optional<FillRecord> find_record(const std::filesystem::path& output,
                                                     LocalIndex batch, const Hash128& plan);
 
+/// @brief Hash of the coarse mesh and its subdomains. Local.
+[[nodiscard]] Hash128 cut_fingerprint(const CutMesh& cut);
+
 /// @brief What of the plan bears on the subdomains first…last-1: their pieces are valid as long as
 /// it stays the same. Local.
-[[nodiscard]] Hash128 plan_fingerprint(const mesh::Skeleton& skeleton, const mesh::Damping& damping,
-                                       LocalIndex first, LocalIndex last);
+/// @param[in] cut cut_fingerprint().
+[[nodiscard]] Hash128 plan_fingerprint(const Hash128& cut, const mesh::Skeleton& skeleton,
+                                       const mesh::Damping& damping, LocalIndex first,
+                                       LocalIndex last);
 
 }  // namespace tessera::pipeline

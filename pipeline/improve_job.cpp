@@ -100,9 +100,9 @@ mesh::Piece merge_regions(const ImproveContext& context, LocalIndex subdomain, i
   mesh::Piece piece = stored_piece(context.store, subdomain, context.generation);
   std::vector<improve::Patch> patches;
   for (const LocalIndex region : context.regions.regions_of(subdomain, phase)) {
-    const auto bytes = context.store.find(region_name(region));
-    if (!bytes) continue;  // A region that is not to be improved.
-    RegionRecord record = region_record_from_bytes(*bytes);
+    const std::string name = region_name(region);
+    if (!context.store.contains(name)) continue;  // A region that is not to be improved.
+    RegionRecord record = region_record_from_bytes(context.store.get(name));
     if (record.is_improved) patches.push_back(std::move(record.patch));
   }
   if (patches.empty()) return piece;

@@ -89,7 +89,7 @@ ExitCode run_guarded(int argc, char** argv, const comm::Communicator& comm, jobs
 int main(int argc, char** argv)
 {
   using namespace tessera;
-  pipeline::ignore_file_size_signal();
+  pipeline::ignore_write_signals();
   // Before MPI starts: MPI must not be in the processes that jobs are forked from.
   jobs::JobRunner jobs(pipeline::make_mesh_worker);
   const comm::Environment mpi(argc, argv);

@@ -88,8 +88,8 @@ struct FillTask {
   double angle_to_beat_deg = kAnyAngle;  ///< A piece whose smallest angle does not is an error.
   LocalIndex tries = 1;                  ///< Which rung of the ladder this is.
   bool was_limited = false;              ///< A rung before it ended for time or memory.
-  bool keep = true;  ///< false: measure only and store nothing, for a prediction.
-  std::vector<std::string> failures{};  ///< What the rungs before said, for the report.
+  bool keep = true;                      ///< false: measure only and store nothing, for a replay.
+  std::vector<std::string> failures{};   ///< What the rungs before said, for the report.
 };
 
 /// @brief run: refines, fills and checks subdomains and stores their record; result: bytes of their

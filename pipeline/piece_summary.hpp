@@ -36,6 +36,7 @@ struct PieceSummary {
       seam_tets{};    ///< Tets with a vertex between two subdomains of one material.
   Hash128 outside{};  ///< verify::outside_hash() of its skin.
   Hash128 surface{};  ///< verify::surface_hash() of the improved piece.
+  Hash128 content{};  ///< Of the piece as filled, where it waits in the store.
   Hash128 digest{};   ///< Sum of hash_tet(); known when the piece is written.
 };
 

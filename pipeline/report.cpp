@@ -93,32 +93,50 @@ Json subdomains_json(const RunResult& run)
   return subdomains;
 }
 
-// Which ones they are, if the run was told to fill only some.
-Json only_subdomains_json(const RunResult& run)
+// What was made, and of which mesh if that is not all of it.
+void add_counts(Json& json, const RunResult& run)
 {
-  Json only = Json::array();
-  const auto& pieces = run.filled.pieces;
-  if (pieces.size() == at(run.decomposition.decomposition.num_subdomains())) return only;
-  for (const PieceSummary& piece : pieces) only.push_back(piece.subdomain);
-  return only;
+  json["num_subdomains"] = run.filled.pieces.size();
+  json["only_subdomains"] = run.only_subdomains;
+  json["num_subdomains_requested"] = run.resolved.decompose.subdomains;
+  json["num_tets"] = num_tets_made(run);
+  if (run.only_subdomains.empty()) {
+    json["num_vertices"] = run.num_vertices;
+    return;
+  }
+  json["whole_mesh"] = {{"num_subdomains", run.decomposition.decomposition.num_subdomains()},
+                        {"num_tets", run.num_tets},
+                        {"num_vertices", run.num_vertices}};
 }
 
-// Tets of each part of the output, and the largest over the average.
-Json parts_json(const RunResult& run)
+std::vector<GlobalIndex> tets_of_parts(const RunResult& run)
 {
   const std::vector<LocalIndex>& offsets = run.decomposition.decomposition.part_offsets;
-  Json tets = Json::array();
-  GlobalIndex largest = 0;
+  std::vector<GlobalIndex> tets;
   for (std::size_t part = 0; part + 1 < offsets.size(); ++part) {
-    GlobalIndex sum = 0;
+    GlobalIndex& sum = tets.emplace_back(0);
     for (LocalIndex s = offsets[part]; s < offsets[part + 1]; ++s) {
       sum += run.filled.pieces[at(s)].num_tets;
     }
-    largest = std::max(largest, sum);
-    tets.push_back(sum);
   }
-  const double average = static_cast<double>(run.num_tets) / static_cast<double>(tets.size());
-  return {{"tets", std::move(tets)}, {"balance", static_cast<double>(largest) / average}};
+  return tets;
+}
+
+Json model_json(const model::ModelSource& model)
+{
+  return {{"repairs", model.repairs},
+          {"length_unit", model.length_unit},
+          {"digest", to_hex(hash_bytes(model.content))}};
+}
+
+Json decompose_json(const decompose::DecomposeReport& report)
+{
+  return {{"seam_area", report.seam_area},
+          {"min_seam_dihedral_deg", report.min_seam_dihedral_deg},
+          {"heaviest_over_average", report.max_weight / report.mean_weight},
+          {"merges", report.num_merges},
+          {"splits", report.num_splits},
+          {"moves", report.num_moves}};
 }
 
 // Who is beside whom, with the area they share: what a solver's partitioner can start from.
@@ -194,10 +212,11 @@ void add_figures(Json& json, const RunFigures& figures)
   json["peak_rss_bytes_max"] = figures.peak_rss_bytes_max;
 }
 
-bool is_reproducible(const FilledPieces& filled)
+bool is_reproducible(const RunResult& run)
 {
-  return filled.improvement.num_limited == 0
-         && std::none_of(filled.pieces.begin(), filled.pieces.end(),
+  const std::vector<PieceSummary>& pieces = run.filled.pieces;
+  return !run.coarse.was_limited && run.filled.improvement.num_limited == 0
+         && std::none_of(pieces.begin(), pieces.end(),
                          [](const PieceSummary& piece) { return piece.was_limited; });
 }
 
@@ -213,6 +232,16 @@ std::string_view surface_mesher_name(coarse::SurfaceMesher mesher)
   return mesher == coarse::SurfaceMesher::remesh ? "remesh" : "netgen";
 }
 
+Json coarse_json(const RunResult& run)
+{
+  return {{"num_tets", run.coarse.mesh.num_tets()},
+          {"max_size", run.coarse.options.max_size},
+          {"surface_mesher", surface_mesher_name(run.coarse.options.surface_mesher)},
+          {"tries", run.coarse.tries},
+          {"failures", run.coarse.failures},
+          {"levels", run.resolved.refine.levels}};
+}
+
 // Where the ladder ended at another kernel than the case wants.
 std::vector<LocalIndex> substituted_subdomains(const RunResult& run)
 {
@@ -224,6 +253,21 @@ std::vector<LocalIndex> substituted_subdomains(const RunResult& run)
 }
 
 }  // namespace
+
+GlobalIndex num_tets_made(const RunResult& run)
+{
+  GlobalIndex num_tets = 0;
+  for (const PieceSummary& piece : run.filled.pieces) num_tets += piece.num_tets;
+  return num_tets;
+}
+
+double balance_of_parts(const RunResult& run)
+{
+  const std::vector<GlobalIndex> tets = tets_of_parts(run);
+  if (tets.empty()) return 1.0;
+  const double average = static_cast<double>(run.num_tets) / static_cast<double>(tets.size());
+  return static_cast<double>(*std::ranges::max_element(tets)) / average;
+}
 
 Verdict judge(const RunResult& run)
 {
@@ -267,39 +311,28 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   for (const PieceSummary& piece : pieces) digest += piece.digest;
   Json json =
       head_json(verdict.exit_code, fmt::format("{}", fmt::join(verdict.reasons, "; ")), figures);
-  json["num_subdomains"] = pieces.size();
-  json["only_subdomains"] = only_subdomains_json(run);
-  json["num_subdomains_requested"] = run.resolved.decompose.subdomains;
-  json["num_tets"] = run.num_tets;
-  json["num_vertices"] = run.num_vertices;
+  add_counts(json, run);
   json["volume"] = sum(pieces, &PieceSummary::volume);
   json["boundary_area"] = sum(pieces, &PieceSummary::boundary_area);
   json["model_distance_max"] =
       std::max(largest(pieces, &PieceSummary::model_distance), run.coarse.distance.largest);
   json["num_points_off_geometry"] =
       run.damping.entries().size() + static_cast<std::size_t>(run.coarse.distance.num_off);
-  json["reproducible"] = is_reproducible(run.filled);
+  json["reproducible"] = is_reproducible(run);
   json["digest"] = to_hex(digest);
   add_figures(json, figures);
-  json["tets_per_second"] = static_cast<double>(run.num_tets) / figures.wall_time_s;
+  json["resumed"] = figures.is_resumed;
+  json["tets_per_second"] = static_cast<double>(num_tets_made(run)) / figures.wall_time_s;
   json["stages"] = stages_json(times);
   if (!figures.predicted.empty()) json["prediction"] = prediction_json(figures.predicted);
   json["quality"] = quality_json(run.filled);
-  json["model"] = {{"repairs", run.model.repairs},
-                   {"length_unit", run.model.length_unit},
-                   {"digest", to_hex(hash_bytes(run.model.content))}};
-  json["coarse"] = {{"num_tets", run.coarse.mesh.num_tets()},
-                    {"max_size", run.coarse.options.max_size},
-                    {"surface_mesher", surface_mesher_name(run.coarse.options.surface_mesher)},
-                    {"tries", run.coarse.tries},
-                    {"failures", run.coarse.failures},
-                    {"levels", run.resolved.refine.levels}};
-  json["decompose"] = {{"seam_area", run.decomposition.report.seam_area},
-                       {"min_seam_dihedral_deg", run.decomposition.report.min_seam_dihedral_deg},
-                       {"splits", run.decomposition.report.num_splits},
-                       {"moves", run.decomposition.report.num_moves}};
+  json["model"] = model_json(run.model);
+  json["coarse"] = coarse_json(run);
+  json["decompose"] = decompose_json(run.decomposition.report);
   json["improve"] = improvement_json(run.filled.improvement);
-  if (run.resolved.output.parts > 0) json["parts"] = parts_json(run);
+  if (run.resolved.output.parts > 0) {
+    json["parts"] = {{"tets", tets_of_parts(run)}, {"balance", balance_of_parts(run)}};
+  }
   json["subdomains"] = subdomains_json(run);
   json["subdomain_graph"] = graph_json(run.decomposition.decomposition);
   json["libraries"] = libraries_json();

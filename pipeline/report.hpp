@@ -31,10 +31,17 @@ struct PredictedFigure {
 struct RunFigures {
   std::string case_name{};
   int num_ranks = 1;
+  bool is_resumed = false;
   double wall_time_s = 0.0;
   std::size_t peak_rss_bytes_max = 0;        ///< Of a rank with its job processes.
   std::vector<PredictedFigure> predicted{};  ///< Empty if there was no dry run of this run.
 };
+
+/// @brief Tets of the pieces that were made: all, or those of the subdomains asked for. Local.
+[[nodiscard]] GlobalIndex num_tets_made(const RunResult& run);
+
+/// @brief Tets of the largest part of the output over the average; 1 without parts. Local.
+[[nodiscard]] double balance_of_parts(const RunResult& run);
 
 /// @brief report.json of a finished run.
 [[nodiscard]] std::string report_json(const RunResult& run, const Verdict& verdict,

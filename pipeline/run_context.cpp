@@ -14,7 +14,7 @@
 namespace tessera::pipeline {
 namespace {
 
-constexpr const char* kStopped = "stopped by a signal";
+constexpr const char* kStopped = "stopped by a signal; --resume goes on";
 
 }  // namespace
 

@@ -72,7 +72,7 @@ class StageScope {
 /// @brief CPU time of the calling process so far, seconds. Local.
 [[nodiscard]] double process_cpu_s();
 
-/// @brief Callback for jobs that one rank runs while the others wait: cancels on a stop signal.
+/// @brief Callback for jobs beside which this rank has nothing to do: cancels on a stop signal.
 [[nodiscard]] jobs::JobRunner::WaitCallback wait_for_stop_signal();
 
 /// @brief Whether somebody else ended the job, by hand or for lack of memory: it says nothing about

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "tessera/config/case.hpp"
 #include "tessera/fill/options.hpp"
 #include "tessera/number/id_layout.hpp"
 
@@ -41,5 +44,10 @@ struct RunOutline {
 [[nodiscard]] RunOutline outline_run(const CutMesh& cut,
                                      const std::vector<fill::KernelKind>& kernels, int levels,
                                      const std::vector<SubdomainRange>& files, bool improve_seams);
+
+/// @brief What to say if a file would hold more than its 32-bit indices reach: the first such file
+/// and the key to change. Local.
+[[nodiscard]] std::optional<std::string> file_too_large(const RunOutline& outline,
+                                                        const config::Case& run_case);
 
 }  // namespace tessera::pipeline

@@ -35,7 +35,11 @@ void refit_coarse_mesh(RunResult& run, double target, RunContext& context)
                                        run.resolved.refine.levels);
   if (!size) return;
   run.resolved.coarse.max_size = *size;
-  run.coarse = run_coarse_stage(run.resolved, context);
+  const CoarseResult first = std::exchange(run.coarse, run_coarse_stage(run.resolved, context));
+  run.coarse.tries += first.tries;
+  run.coarse.failures.insert(run.coarse.failures.begin(), first.failures.begin(),
+                             first.failures.end());
+  run.coarse.was_limited = run.coarse.was_limited || first.was_limited;
 }
 
 // Coarse mesh and subdomains: from the folder of a run that was stopped, or made and kept there.
@@ -173,9 +177,6 @@ std::vector<SubdomainRange> output_ranges(const RunResult& run, const RunOptions
   if (!are_counts_known(run.kernels)) {
     throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\" and no other region");
   }
-  if (run.resolved.output.files != 0 || !part_offsets.empty()) {
-    throw ConfigError("--only-subdomains excludes output.files and output.parts");
-  }
   if (only.back() >= num_subdomains) {
     throw ConfigError("--only-subdomains: there is no subdomain " + std::to_string(only.back())
                       + ", the last one is " + std::to_string(num_subdomains - 1));
@@ -209,6 +210,9 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   all_or_none(context.comm, [&] { files = output_ranges(run, options); });
   const RunOutline outline =
       outline_run(cut, run.kernels, run.resolved.refine.levels, files, run.resolved.improve.seams);
+  all_or_none(context.comm, [&] {
+    if (const auto defect = file_too_large(outline, run.resolved)) throw ConfigError(*defect);
+  });
   const bool is_one_pass = outline.is_one_pass;
   const std::string length_unit = output_length_unit(run);
 
@@ -228,6 +232,7 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   const WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit, improved.get()};
   if (!is_one_pass) run_write_stage(run.resolved, files, mesh, run.filled, context);
   write_indices(run.resolved, files, mesh, run.filled, context);
+  run.only_subdomains = options.only_subdomains;
   run.num_vertices = ids.num_vertices();
   run.num_tets = ids.num_tets();
   return run;

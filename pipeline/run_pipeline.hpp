@@ -26,7 +26,8 @@ struct RunResult {
   std::vector<fill::KernelKind> kernels{};  ///< By subdomain, as the case wants them.
   mesh::Damping damping{};
   FilledPieces filled{};
-  GlobalIndex num_vertices = 0;
+  std::vector<LocalIndex> only_subdomains{};  ///< As asked for; empty: all.
+  GlobalIndex num_vertices = 0;               ///< Of the whole mesh, made or not.
   GlobalIndex num_tets = 0;
 };
 

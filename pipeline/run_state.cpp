@@ -46,12 +46,18 @@ bool is_own_file(const std::filesystem::path& file)
   return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error));
 }
 
-// The report that a run has left there; no object if there is none.
-nlohmann::json report_in(const std::filesystem::path& output)
+// What `read` finds in the report that a run has left there; nothing in one that is damaged.
+template <class Read>
+auto read_report(const std::filesystem::path& output, const Read& read)
+    -> std::optional<decltype(read(nlohmann::json()))>
 {
-  if (!is_own_file(output / "report.json")) return {};
+  if (!is_own_file(output / "report.json")) return std::nullopt;
   std::ifstream file(output / "report.json");
-  return nlohmann::json::parse(file, nullptr, false);
+  try {
+    return read(nlohmann::json::parse(file));
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
 }
 
 // Noted in the report when the run has ended, in a record before.
@@ -66,10 +72,10 @@ std::optional<Identity> identity_of(const std::filesystem::path& output,
     identity.only_subdomains = in.get_vector<LocalIndex>();
     return identity;
   }
-  const nlohmann::json report = report_in(output);
-  if (!report.is_object() || !report.contains("model")) return std::nullopt;
-  return Identity{report.value("version", ""), report["model"].value("digest", ""),
-                  report.value("only_subdomains", std::vector<LocalIndex>())};
+  return read_report(output, [](const nlohmann::json& report) {
+    return Identity{report.at("version"), report.at("model").at("digest"),
+                    report.at("only_subdomains").get<std::vector<LocalIndex>>()};
+  });
 }
 
 }  // namespace
@@ -169,11 +175,11 @@ std::optional<Plan> RunState::find_plan() const
 std::optional<ExitCode> RunState::finished() const
 {
   if (!is_own_file(output_ / "mesh.pvtu")) return std::nullopt;
-  const nlohmann::json report = report_in(output_);
-  if (!report.is_object()) return std::nullopt;
-  const auto code = static_cast<ExitCode>(report.value("exit_code", -1));
+  const auto code = read_report(output_, [](const nlohmann::json& report) {
+    return static_cast<ExitCode>(report.at("exit_code").get<int>());
+  });
   const bool has_mesh = code == ExitCode::ok || code == ExitCode::degraded;
-  return has_mesh ? std::optional(code) : std::nullopt;
+  return has_mesh ? code : std::nullopt;
 }
 
 void RunState::clear() const { store().remove_all(); }

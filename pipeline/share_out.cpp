@@ -2,8 +2,10 @@
 #include "pipeline/share_out.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <exception>
+#include <future>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -21,6 +23,8 @@ namespace {
 constexpr double kSlowTetsPerSecond = 7000.0;
 constexpr double kTimeMargin = 20.0;
 constexpr double kLeastTime_s = 60.0;
+
+constexpr std::chrono::milliseconds kLookAtQueue{1};
 
 }  // namespace
 
@@ -51,6 +55,16 @@ void share_out(std::vector<LocalIndex> order, const ItemWork& work, StageScope& 
   all_or_none(context.comm, [&] {
     if (defect) std::rethrow_exception(defect);
   });
+}
+
+ItemWork in_thread(std::function<void(LocalIndex item)> work)
+{
+  return [work = std::move(work)](LocalIndex item, const auto& on_wait) {
+    std::future<void> done = std::async(std::launch::async, work, item);
+    // What is begun is ended: a stop counts from the next item on.
+    while (done.wait_for(kLookAtQueue) != std::future_status::ready) static_cast<void>(on_wait());
+    done.get();
+  };
 }
 
 std::vector<LocalIndex> heaviest_first(const std::vector<double>& weight)

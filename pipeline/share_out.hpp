@@ -23,6 +23,11 @@ using ItemWork = std::function<void(LocalIndex item, const jobs::JobRunner::Wait
 void share_out(std::vector<LocalIndex> order, const ItemWork& work, StageScope& stage,
                RunContext& context, std::int64_t num_before = 0);
 
+/// @brief What this process does itself with an item, as an ItemWork: in a thread, so that rank 0
+/// answers the others meanwhile.
+/// @param[in] work Must not communicate; it is never called twice at a time.
+[[nodiscard]] ItemWork in_thread(std::function<void(LocalIndex item)> work);
+
 /// @brief Items 0…num_items-1 by weight, the heaviest first: so no rank is left with a heavy one
 /// while all others have nothing to do. TESSERA_TEST_FILL_ORDER=reverse turns it round: the tests
 /// show with it that no bit of the mesh depends on the order. No option, for no user needs it.

@@ -25,7 +25,10 @@ void catch_stop_signals()
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) std::signal(signal, note_stop);
 }
 
-void ignore_file_size_signal() { std::signal(SIGXFSZ, SIG_IGN); }
+void ignore_write_signals()
+{
+  for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+}
 
 bool stop_requested() { return stop_flag != 0; }
 

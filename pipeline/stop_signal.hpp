@@ -7,9 +7,10 @@ namespace tessera::pipeline {
 /// second SIGINT ends the process at once.
 void catch_stop_signals();
 
-/// @brief From now on a file that grows beyond the limit of the user is an error of the write, as a
-/// full disk is, and not the end of the process. Processes forked later inherit it.
-void ignore_file_size_signal();
+/// @brief From now on a file that grows beyond the limit of the user, or a pipe that nobody reads,
+/// is an error of the write, as a full disk is, and not the end of the process. Processes forked
+/// later inherit it.
+void ignore_write_signals();
 
 /// @brief Whether one of them has come to this rank. Local, cheap.
 [[nodiscard]] bool stop_requested();

@@ -59,6 +59,9 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
     if (context.comm.rank() != 0) return;
     found.resources = resources_of_this_machine(context.folder, run.resolved.fill.memory_gib);
     found.advice = advise(found.prediction, found.resources);
+    if (auto defect = file_too_large(basis.outline, run.resolved)) {
+      found.advice.must.push_back(*std::move(defect));
+    }
     io::write_text_atomically(context.folder / "prediction.json",
                               prediction_json(found, PredictedRun(given, run.model)));
   });

@@ -135,7 +135,7 @@ void add_times(const Json& prediction, const ActualRun& actual,
 {
   const bool has_same_ranks = prediction.value("ranks", 0) == actual.num_ranks;
   double cpu_s = 0.0;
-  for (const Json& stage : prediction["stages"]) {
+  for (const Json& stage : prediction.at("stages")) {
     const auto name = stage.value("name", "");
     // Only a dry run times what a run does between its stages.
     if (std::ranges::find(actual.stages, name, &StageTime::name) == actual.stages.end()) continue;
@@ -222,16 +222,19 @@ std::vector<PredictedFigure> compare_with_prediction(const std::filesystem::path
 {
   if (!std::filesystem::is_regular_file(folder / "prediction.json")) return {};
   std::ifstream file(folder / "prediction.json");
-  const auto prediction = Json::parse(file, nullptr, false);
-  if (!prediction.is_object() || prediction.value("case", "") != run.case_hash
-      || prediction.value("model", "") != run.model_hash
-      || prediction.value("version", "") != version()) {
-    return {};
+  try {
+    const Json prediction = Json::parse(file);
+    const bool is_of_this_run = prediction.at("case") == run.case_hash
+                                && prediction.at("model") == run.model_hash
+                                && prediction.at("version") == version();
+    if (!is_of_this_run) return {};
+    std::vector<PredictedFigure> figures = actual_figures(actual);
+    for (PredictedFigure& figure : figures) figure.predicted = prediction.at(figure.name);
+    if (!actual.is_resumed) add_times(prediction, actual, figures);
+    return figures;
+  } catch (const Json::exception&) {
+    return {};  // Damaged: as if there were none.
   }
-  std::vector<PredictedFigure> figures = actual_figures(actual);
-  for (PredictedFigure& figure : figures) figure.predicted = prediction.value(figure.name, 0.0);
-  add_times(prediction, actual, figures);
-  return figures;
 }
 
 }  // namespace tessera::pipeline

@@ -49,6 +49,7 @@ struct DryRun {
 /// @brief What a run turned out to be, of the quantities that prediction.json has.
 struct ActualRun {
   int num_ranks = 1;
+  bool is_resumed = false;  ///< Its times are not those of the whole work.
   double tets = 0.0;
   double vertices = 0.0;
   double boundary_triangles = 0.0;

@@ -50,27 +50,29 @@ std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& index,
   return pieces;
 }
 
-std::optional<std::filesystem::path> boundary_beside(const std::filesystem::path& mesh)
+std::optional<std::vector<std::filesystem::path>> boundary_pieces_of(
+    const std::filesystem::path& mesh, const comm::Communicator& comm)
 {
-  if (mesh.filename() != "mesh.pvtu") return std::nullopt;
-  std::filesystem::path boundary = mesh.parent_path() / "boundary.pvtu";
-  std::error_code error;  // What cannot be looked at is as good as absent.
-  if (!std::filesystem::exists(boundary, error)) return std::nullopt;
-  return boundary;
+  const std::filesystem::path boundary = mesh.parent_path() / "boundary.pvtu";
+  bool is_there = false;
+  if (comm.rank() == 0 && mesh.filename() == "mesh.pvtu") {
+    std::error_code error;  // What cannot be looked at is as good as absent.
+    is_there = std::filesystem::exists(boundary, error);
+  }
+  if (comm.sum(is_there ? 1 : 0) == 0) return std::nullopt;
+  return pieces_of(boundary, comm);
 }
 
 migrate::MeshPieces read_pieces(const std::filesystem::path& index, const comm::Communicator& comm)
 {
   migrate::MeshPieces pieces;
   const auto tet_files = pieces_of(index, comm);
-  std::vector<std::filesystem::path> boundary_files;
-  const bool has_boundary = comm.sum(boundary_beside(index) ? 1 : 0) > 0;
-  if (has_boundary) boundary_files = pieces_of(index.parent_path() / "boundary.pvtu", comm);
+  const auto boundary_files = boundary_pieces_of(index, comm);
   all_or_none(comm, [&] {
     pieces.tets = read_own(tet_files, 4, comm);
-    pieces.boundary = read_own(boundary_files, 3, comm);
+    if (boundary_files) pieces.boundary = read_own(*boundary_files, 3, comm);
   });
-  pieces.has_boundary = has_boundary;
+  pieces.has_boundary = boundary_files.has_value();
   return pieces;
 }
 

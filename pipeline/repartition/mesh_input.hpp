@@ -15,9 +15,10 @@ namespace tessera::pipeline {
 [[nodiscard]] std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& index,
                                                            const comm::Communicator& comm);
 
-/// @brief boundary.pvtu beside mesh.pvtu, which belongs to it, if it is there. Local.
-[[nodiscard]] std::optional<std::filesystem::path> boundary_beside(
-    const std::filesystem::path& mesh);
+/// @brief The piece files of boundary.pvtu beside mesh.pvtu, to which it belongs, if it is there.
+/// @note Collective. @throws InputError on all ranks.
+[[nodiscard]] std::optional<std::vector<std::filesystem::path>> boundary_pieces_of(
+    const std::filesystem::path& mesh, const comm::Communicator& comm);
 
 /// @brief Reads the pieces of a mesh and of its boundary, each rank some that stand together.
 /// @note Collective. @throws InputError on all ranks.

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -136,14 +137,34 @@ class Repartition {
     migrate::MeshPieces pieces = read_pieces(command_.mesh_file, comm_);
     texts_ = field_texts_of(pieces, comm_);
     end_step("read");
-    mesh_ = migrate::assemble(comm_, pieces);
+    assemble(pieces);
     figures_.notes = mesh_.notes;
     figures_.tets_digest = sum_over_ranks(migrate::digest_of_tets(mesh_.mesh), comm_);
     end_step("assemble");
     const GlobalIndex num_tets = comm_.sum(mesh_.mesh.num_tets());
-    if (num_tets >= command_.num_parts) return;
-    throw_on_all_ranks(ExitCode::wrong_input, fmt::format("--parts {}: the mesh has only {} tets",
-                                                          command_.num_parts, num_tets));
+    if (num_tets < command_.num_parts) {
+      throw_on_all_ranks(ExitCode::wrong_input, fmt::format("--parts {}: the mesh has only {} tets",
+                                                            command_.num_parts, num_tets));
+    }
+    constexpr GlobalIndex kMostTets = std::numeric_limits<LocalIndex>::max() / 4;
+    if (num_tets <= static_cast<GlobalIndex>(kMostTets / kMaxBalance) * command_.num_parts) return;
+    throw_on_all_ranks(
+        ExitCode::wrong_input,
+        fmt::format("--parts {}: the mesh has {} tets, and a part's 32-bit indices reach to {}; "
+                    "choose more parts",
+                    command_.num_parts, num_tets, kMostTets));
+  }
+
+  void assemble(const migrate::MeshPieces& pieces)
+  {
+    try {
+      mesh_ = migrate::assemble(comm_, pieces);
+    } catch (const comm::ThrownOnAllRanks& thrown) {
+      const auto& error = dynamic_cast<const std::exception&>(thrown);
+      throw_on_all_ranks(exit_code_of(error),
+                         fmt::format("{0}: {1}; `tessera check {0}` says where",
+                                     command_.mesh_file.string(), error.what()));
+    }
   }
 
   void measure()

@@ -10,6 +10,7 @@
 #include "pipeline/exit_code.hpp"
 #include "pipeline/failed_jobs.hpp"
 #include "pipeline/mesh_worker.hpp"
+#include "pipeline/share_out.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -81,6 +82,7 @@ CoarseResult climb(const config::Case& run_case, RunContext& context)
     result.failures.push_back(name_of(options) + ": " + outcome.message);
     context.log.warn("coarse: try {} failed: {}", result.tries, result.failures.back());
     was_endless = was_endless || is_endless(outcome);
+    result.was_limited = result.was_limited || depends_on_machine(outcome);
   }
   std::string failures;
   for (const std::string& failure : result.failures) failures += "\n  " + failure;
@@ -98,6 +100,7 @@ Bytes to_bytes(const CoarseResult& result)
   out.put(result.tries);
   out.put(result.distance);
   out.put(result.failures);
+  out.put(result.was_limited);
   return std::move(out).take();
 }
 
@@ -110,6 +113,7 @@ CoarseResult coarse_result_from_bytes(std::span<const std::byte> bytes)
   result.tries = in.get<int>();
   result.distance = in.get<coarse::VertexDistance>();
   result.failures = in.get_strings();
+  result.was_limited = in.get<bool>();
   return result;
 }
 

@@ -20,6 +20,7 @@ struct CoarseResult {
   int tries = 0;                        ///< Rungs of the ladder that were needed, from 1.
   coarse::VertexDistance distance{};    ///< Output length unit.
   std::vector<std::string> failures{};  ///< What the rungs before said, for the report.
+  bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
 };
 
 [[nodiscard]] Bytes to_bytes(const CoarseResult& result);

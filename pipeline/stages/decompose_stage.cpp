@@ -58,7 +58,6 @@ decompose::DecomposeResult cut(const config::Case& run_case, const mesh::CoarseM
   decompose::DecomposeResult result =
       decompose::decompose(coarse, options_of(run_case, kernels, weights), weights, *partitioner);
   decompose::validate(coarse, result.decomposition);
-  result.report.num_requested = run_case.decompose.subdomains;
   return result;
 }
 

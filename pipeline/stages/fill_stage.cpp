@@ -43,7 +43,10 @@ bool is_poor(const std::vector<FillResult>& results)
 class Filler {
  public:
   Filler(const fill::FillOptions& options, const FillWork& work, RunContext& context)
-      : options_(options), work_(work), context_(context)
+      : options_(options),
+        work_(work),
+        context_(context),
+        cut_fingerprint_(cut_fingerprint(work.cut))
   {
     own_.seam_sums.resize(at(work.cut.skeleton.num_triangles()));
   }
@@ -51,8 +54,8 @@ class Filler {
   /// Fills one range. @throws MeshError if every rung failed, Interrupted if cancelled.
   void fill(const SubdomainRange& range, const jobs::JobRunner::WaitCallback& on_wait)
   {
-    const Hash128 plan =
-        plan_fingerprint(work_.cut.skeleton, work_.damping, range.first, range.last);
+    const Hash128 plan = plan_fingerprint(cut_fingerprint_, work_.cut.skeleton, work_.damping,
+                                          range.first, range.last);
     const auto record = find_record(context_.folder, range.number, plan);
     if (record && !is_poor(record->results)) return keep(record->results);
     Climb climb{.range = range, .plan = plan};
@@ -64,8 +67,14 @@ class Filler {
       std::string text = "subdomain " + std::to_string(range.first)
                          + " could not be filled; try another decompose.subdomains or a smaller "
                            "coarse.max_size";
+      if (climb.was_limited) text += ", or a larger fill.memory_gib or fill.timeout_s";
       for (const std::string& failure : climb.failures) text += "\n  " + failure;
       throw MeshError(text);
+    }
+    for (FillResult& result : climb.best) {  // A try after it may have failed.
+      result.summary.was_limited = climb.was_limited;
+      result.summary.tries = climb.tries;
+      result.failures = climb.failures;
     }
     keep(climb.best);
   }
@@ -159,6 +168,7 @@ class Filler {
   const fill::FillOptions& options_;
   const FillWork& work_;
   RunContext& context_;
+  Hash128 cut_fingerprint_;
   FilledPieces own_{};
 };
 

@@ -80,6 +80,9 @@ class SeamImprover {
         store_(store_folder(context.folder))
   {
     filled_.improvement.volume_before = volume_of(filled_.pieces);
+    all_or_none(context_.comm, [&] {
+      if (context_.comm.rank() == 0) drop_records_of_other_pieces();
+    });
   }
 
   // Makes the next generation of pieces, unless a stopped run has done so.
@@ -90,7 +93,7 @@ class SeamImprover {
     Counts counts(4, 0);
     if (kept) {
       counts = ByteReader(*kept).get_vector<GlobalIndex>();
-      num_done_ += std::ssize(wanted);
+      num_done_ += std::ssize(wanted) + std::ssize(filled_.pieces);
     } else {
       counts = improve_regions(wanted);
       merge(phase);
@@ -120,6 +123,30 @@ class SeamImprover {
   }
 
  private:
+  // Patches name vertices by their numbers in the pieces. A resumed run may have other ones: a poor
+  // piece is filled again, and where a limit had ended its second try, now better.
+  void drop_records_of_other_pieces() const
+  {
+    const std::string name = "improve";
+    ByteWriter out;
+    for (const PieceSummary& piece : filled_.pieces) out.put(piece.content);
+    const Bytes pieces = std::move(out).take();
+    if (store_.find(name) == pieces) return;
+    if (store_.contains(name)) remove_records();
+    store_.put(name, pieces);
+  }
+
+  void remove_records() const
+  {
+    for (LocalIndex r = 0; r < regions_.num_regions(); ++r) store_.remove(region_name(r));
+    for (int phase = 0; phase < improve::kNumPhases; ++phase) {
+      store_.remove(phase_name(phase));
+      for (const PieceSummary& piece : filled_.pieces) {
+        store_.remove(improved_name(piece.subdomain, phase + 1));
+      }
+    }
+  }
+
   [[nodiscard]] ImproveContext phase_context() const
   {
     return {cut_, regions_, store_, filled_.improvement.generation};
@@ -129,9 +156,8 @@ class SeamImprover {
   {
     std::vector<LocalIndex> order(filled_.pieces.size());
     std::iota(order.begin(), order.end(), 0);
-    share_out(
-        std::move(order), [&](LocalIndex s, const auto& /*on_wait*/) { work(s); }, stage_, context_,
-        num_done_);
+    share_out(std::move(order), in_thread(work), stage_, context_, num_done_);
+    num_done_ += std::ssize(filled_.pieces);
   }
 
   [[nodiscard]] double num_tets_around(LocalIndex region) const
@@ -171,6 +197,9 @@ class SeamImprover {
                  job_limits(run_case_.fill, num_tets)},
                 on_wait, context_);
     throw_unless_of_the_job(outcome);
+    // A piece that cannot be read is no fault of the region.
+    if (outcome.error == jobs::ErrorKind::input)
+      throw InputError(outcome.message + way_on(outcome));
     RegionRecord record;
     if (auto made = read_result(outcome, [&](const Bytes& /*empty*/) {
           return region_record_from_bytes(store_.get(region_name(region)));
@@ -276,9 +305,14 @@ FilledPieces run_improve_stage(const config::Case& run_case, const CutMesh& cut,
   const improve::Regions regions(cut.skeleton, cut.decomposition);
   const auto wanted = wanted_regions(regions, kernels);
   std::int64_t num_regions = 0;
-  for (const auto& phase : wanted) num_regions += std::ssize(phase);
+  std::int64_t num_passes = 2;  // Over all pieces: those of settle(), and one a phase.
+  for (const auto& phase : wanted) {
+    num_regions += std::ssize(phase);
+    num_passes += phase.empty() ? 0 : 1;
+  }
   if (num_regions == 0) return filled;
-  StageScope stage(context, "improve", num_regions, "regions");
+  const std::int64_t num_steps = num_regions + num_passes * std::ssize(filled.pieces);
+  StageScope stage(context, "improve", num_steps, "regions and pieces");
   load_improvement(run_case.improve, context);
   SeamImprover improver(run_case, cut, regions, std::move(filled), context, stage);
   for (int phase = 0; phase < improve::kNumPhases; ++phase) {

@@ -3,18 +3,15 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "tessera/base/error.hpp"
-#include "tessera/comm/work_queue.hpp"
 
-#include "pipeline/exit_code.hpp"
 #include "pipeline/failed_jobs.hpp"
 #include "pipeline/mesh_worker.hpp"
-#include "pipeline/stop_signal.hpp"
+#include "pipeline/share_out.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -52,37 +49,27 @@ std::vector<std::vector<PlanTest>> jobs_of(const std::vector<LocalIndex>& subdom
 // What this rank's share of the subdomains finds under the dampings so far.
 std::vector<mesh::PointDamping> test_subdomains(const std::vector<LocalIndex>& subdomains,
                                                 const PlanWork& work, const mesh::Damping& damping,
-                                                RunContext& context)
+                                                StageScope& stage, RunContext& context)
 {
   const auto jobs = jobs_of(subdomains, work);
   std::vector<LocalIndex> order(jobs.size());
   std::iota(order.begin(), order.end(), 0);
-  comm::WorkQueue queue(context.comm, order);
   std::vector<mesh::PointDamping> found;
-  std::optional<std::string> defect;
-  const auto on_wait = [&] {
-    if (stop_requested()) queue.request_stop();
-    return queue.progress();
-  };
-  while (const auto job = queue.next()) {
-    const std::vector<PlanTest>& tests = jobs[at(*job)];
+  const auto test = [&](LocalIndex job, const jobs::JobRunner::WaitCallback& on_wait) {
+    const std::vector<PlanTest>& tests = jobs[at(job)];
     const Bytes request = plan_request(tests, damping);
     const JobRequest plan{"plan", request, kPlanLimits};
     jobs::JobOutcome outcome = run_job(plan, on_wait, context);
     const auto smaller = read_result(outcome, mesh::damping_from_bytes);
     keep_if_failed(plan, outcome, context);
-    if (outcome.status == jobs::JobStatus::cancelled) continue;  // Another rank says why.
+    throw_if_cancelled(outcome);
     if (!smaller) {
-      defect = "plan from subdomain " + std::to_string(tests.front().subdomain)
-               + " on: " + outcome.message + way_on(outcome);
-      queue.request_stop();
-      continue;
+      throw MeshError("plan from subdomain " + std::to_string(tests.front().subdomain)
+                      + " on: " + outcome.message + way_on(outcome));
     }
     found.insert(found.end(), smaller->entries().begin(), smaller->entries().end());
-  }
-  static_cast<void>(queue.finish());
-  throw_if_stopped(context.comm);
-  context.comm.throw_if_any<MeshError>(defect);
+  };
+  share_out(std::move(order), test, stage, context);
   return found;
 }
 
@@ -127,13 +114,13 @@ mesh::Damping run_plan_stage(const PlanWork& work, mesh::Damping damping, RunCon
   StageScope stage(context, "plan");
   std::vector<LocalIndex> subdomains = work.subdomains;
   while (!subdomains.empty()) {
-    const auto found = gather(test_subdomains(subdomains, work, damping, context), context.comm);
+    const auto found =
+        gather(test_subdomains(subdomains, work, damping, stage, context), context.comm);
     std::vector<mesh::PointDamping> all(damping.entries().begin(), damping.entries().end());
     all.insert(all.end(), found.begin(), found.end());
     damping = mesh::Damping(std::move(all));
     subdomains = subdomains_around(found, work.cut.skeleton);
   }
-  stage.work_is_done();
   stage.finish(damping.entries().empty()
                    ? "no folds"
                    : std::to_string(damping.entries().size()) + " points kept off the geometry");

@@ -53,14 +53,12 @@ void run_write_stage(const config::Case& run_case, const std::vector<SubdomainRa
   std::vector<Hash128> digests(filled.pieces.size());
   std::vector<LocalIndex> order(files.size());
   std::iota(order.begin(), order.end(), 0);
-  share_out(
-      std::move(order),
-      [&](LocalIndex file, const auto& /*on_wait*/) {
-        const SubdomainRange& range = files[at(file)];
-        std::ranges::copy(write_file(range, run_case.output, mesh, context.folder),
-                          digests.begin() + range.first);
-      },
-      stage, context);
+  share_out(std::move(order), in_thread([&](LocalIndex file) {
+              const SubdomainRange& range = files[at(file)];
+              std::ranges::copy(write_file(range, run_case.output, mesh, context.folder),
+                                digests.begin() + range.first);
+            }),
+            stage, context);
   context.comm.sum_in_place(digests);
   for (std::size_t s = 0; s < digests.size(); ++s) filled.pieces[s].digest = digests[s];
   stage.finish(std::to_string(num_files) + " files");

@@ -296,6 +296,8 @@ def write_png(renderer, arguments):
     writer.SetCompressionLevel(9)
     writer.SetInputConnection(smaller.GetOutputPort())
     writer.Write()
+    if writer.GetErrorCode() != 0:
+        sys.exit(f"picture: cannot write {arguments.png}")
 
 
 def main():

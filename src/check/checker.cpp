@@ -30,7 +30,7 @@ GlobalIndex num_tets(const PieceRecords& records)
 void add_to(std::vector<SubdomainFigures>& subdomains, const SubdomainFigures& figures)
 {
   if (subdomains.empty() || subdomains.back().id != figures.id)
-    subdomains.push_back({figures.id, 0, 0.0, {}});
+    subdomains.push_back({.id = figures.id, .material = figures.material});
   SubdomainFigures& sum = subdomains.back();
   sum.num_tets += figures.num_tets;
   sum.volume += figures.volume;
@@ -390,6 +390,7 @@ void Checker::set_sums(CheckReport& report)
   comm_.sum_in_place(edge_lengths_.counts());
   report.quality = quality_figures(shapes, mean_ratios_);
   report.seam_quality = quality_figures(seam_shapes, seam_mean_ratios_);
+  report.seam_ks_distance = ks_distance(seam_mean_ratios_, mean_ratios_);
   report.edge_length = edge_lengths_.figures();
 }
 

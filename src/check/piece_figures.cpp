@@ -88,7 +88,7 @@ PieceRecords measure(const PieceMesh& mesh, MeanRatioCounts& counts, Findings& f
   PieceRecords records(mesh.name.piece);
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     PieceRecord& record = records.of(mesh.subdomain_of(c));
-    ++record.figures.num_tets;
+    if (record.figures.num_tets++ == 0) record.figures.material = mesh.material(c);
     if (mesh.is_left_out(c)) continue;
     const auto corners = corner_positions(mesh, c);
     const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);

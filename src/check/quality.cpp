@@ -90,6 +90,26 @@ void MeanRatioCounts::add(double mean_ratio)
   ++counts_[std::min(bin, kNumBins - 1)];
 }
 
+double ks_distance(const MeanRatioCounts& part, const MeanRatioCounts& whole)
+{
+  std::array<GlobalIndex, 2> total{};
+  for (std::size_t bin = 0; bin < MeanRatioCounts::kNumBins; ++bin) {
+    total[0] += part.counts()[bin];
+    total[1] += whole.counts()[bin] - part.counts()[bin];
+  }
+  if (total[0] == 0 || total[1] == 0) return 0.0;
+  std::array<GlobalIndex, 2> below{};
+  double distance = 0.0;
+  for (std::size_t bin = 0; bin < MeanRatioCounts::kNumBins; ++bin) {
+    below[0] += part.counts()[bin];
+    below[1] += whole.counts()[bin] - part.counts()[bin];
+    const double share = static_cast<double>(below[0]) / static_cast<double>(total[0]);
+    const double other = static_cast<double>(below[1]) / static_cast<double>(total[1]);
+    distance = std::max(distance, std::abs(share - other));
+  }
+  return distance;
+}
+
 // Exponent and first seven bits of the fraction are the bin but for its origin.
 void EdgeLengths::add(double length)
 {

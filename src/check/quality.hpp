@@ -46,6 +46,11 @@ class MeanRatioCounts {
   std::vector<GlobalIndex> counts_ = std::vector<GlobalIndex>(kNumBins, 0);
 };
 
+/// @brief Largest difference between the shares below any mean ratio, of `part` and of the others
+/// of `whole`: Kolmogorov and Smirnov's distance, to the width of a bin; 0 if either is empty.
+/// Local.
+[[nodiscard]] double ks_distance(const MeanRatioCounts& part, const MeanRatioCounts& whole);
+
 /// @brief Counts of edge lengths in bins that split each octave into 128 equal parts.
 class EdgeLengths {
  public:

@@ -28,6 +28,7 @@ Json quality_to_json(const CheckReport& report)
                          {"median", report.edge_length.median},
                          {"p99", report.edge_length.p99}};
   json["seam"] = to_json(report.seam_quality);
+  json["seam"]["ks_distance"] = report.seam_ks_distance;
   return json;
 }
 
@@ -64,7 +65,10 @@ Json subdomains_to_json(const CheckReport& report)
 {
   Json json = Json::array();
   for (const SubdomainFigures& subdomain : report.subdomains) {
-    Json entry{{"id", subdomain.id}, {"tets", subdomain.num_tets}, {"volume", subdomain.volume}};
+    Json entry{{"id", subdomain.id},
+               {"material", subdomain.material},
+               {"tets", subdomain.num_tets},
+               {"volume", subdomain.volume}};
     if (report.has_digest) entry["digest"] = to_hex(subdomain.digest);
     json.push_back(std::move(entry));
   }

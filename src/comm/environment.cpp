@@ -3,7 +3,12 @@
 
 namespace tessera::comm {
 
-Environment::Environment(int& argc, char**& argv) { MPI_Init(&argc, &argv); }
+// Other threads than the main one work too, but do not communicate.
+Environment::Environment(int& argc, char**& argv)
+{
+  int provided = MPI_THREAD_SINGLE;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+}
 
 Environment::~Environment() { MPI_Finalize(); }
 

@@ -74,7 +74,6 @@ DecomposeResult decompose(const mesh::CoarseMesh& mesh, const DecomposeOptions& 
 
   DecomposeResult result;
   DecomposeReport& report = result.report;
-  report.num_requested = options.subdomains;
   const LocalIndex number = options.subdomains > 0
                                 ? options.subdomains
                                 : automatic_number(mesh, tet_weight, options.parts);

@@ -23,8 +23,8 @@ constexpr std::array kRunFiles{"mesh.pvtu", "boundary.pvtu", "case.toml", "repor
 constexpr std::array kPieceFolders{"mesh", "boundary", "pieces"};
 constexpr std::array kOwnFolders{"log", "failure", "dry_run"};
 
-/// What a dry run makes: no reason to refuse the run that it predicts. It outlives an overwriting
-/// run, for it may be of that one.
+/// What a dry run makes: no reason to refuse the run that it predicts. The prediction outlives an
+/// overwriting run, for it may be of that one.
 constexpr std::array kDryRunNames{"prediction.json", "log", "dry_run", "failure"};
 
 template <class Names>
@@ -79,15 +79,19 @@ void make_folder(const fs::path& folder)
 void require_usable(const fs::path& folder, ExistingFolder existing)
 {
   if (holds_no_run(folder)) return;
-  if (existing == ExistingFolder::refuse) {
-    throw OutputError("folder " + folder.string()
-                      + " exists and is not empty; --overwrite replaces what a run left there");
-  }
   if (!is_of_a_run(folder)) {
     throw OutputError("folder " + folder.string()
                       + " is not empty and no Tessera run has used it (it has no " + kLockName
                       + "); choose another folder, or empty it");
   }
+  if (existing != ExistingFolder::refuse) return;
+  if (fs::exists(folder / "pieces")) {
+    throw OutputError("folder " + folder.string()
+                      + " holds a run that is not finished; --resume goes on with it, --overwrite "
+                        "replaces what it left there");
+  }
+  throw OutputError("folder " + folder.string()
+                    + " exists and is not empty; --overwrite replaces what a run left there");
 }
 
 /// @brief Removes one file, link (not what it points to) or folder with all that is in it.
@@ -170,13 +174,5 @@ void OutputFolder::remove_half_written() const { remove_temporaries(folder_); }
 OutputFolder::~OutputFolder() = default;
 OutputFolder::OutputFolder(OutputFolder&&) noexcept = default;
 OutputFolder& OutputFolder::operator=(OutputFolder&&) noexcept = default;
-
-std::uintmax_t OutputFolder::free_bytes() const
-{
-  std::error_code error;
-  const fs::space_info space = fs::space(folder_, error);
-  if (error) fail("cannot ask for the free space of", folder_, error);
-  return space.available;
-}
 
 }  // namespace tessera::io

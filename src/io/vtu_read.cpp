@@ -178,6 +178,12 @@ void read_point_data(const XmlElement& data, const Encoding& encoding, MeshArray
   return type == ScalarType::i64 || type == ScalarType::u64 || type == ScalarType::u32;
 }
 
+/// @brief Whether these numbers have 32 bits in our files. Other tools write what they have.
+[[nodiscard]] bool is_narrow(std::string_view name)
+{
+  return name == "attribute" || name == "subdomain" || name == "patch";
+}
+
 void read_cell_data(const XmlElement& data, const Encoding& encoding, const Selection& selection,
                     MeshArrays& mesh)
 {
@@ -188,13 +194,13 @@ void read_cell_data(const XmlElement& data, const Encoding& encoding, const Sele
     const std::string name = name_of(element);
     if (array->is_floating()) {
       mesh.cell_doubles[name] = selected(*values_as<double>(*array), selection);
-    } else if (name == ids || is_wide(array->type)) {
-      auto values = values_as<GlobalIndex>(*array);
-      if (!values) continue;
-      (name == ids ? mesh.cell_ids : mesh.cell_longs[name]) =
-          selected(*std::move(values), selection);
-    } else if (auto values = values_as<std::int32_t>(*array)) {
+      continue;
+    }
+    const bool stays_wide = name == ids || (is_wide(array->type) && !is_narrow(name));
+    if (auto values = stays_wide ? std::nullopt : values_as<std::int32_t>(*array)) {
       mesh.cell_ints[name] = selected(*std::move(values), selection);
+    } else if (auto wide = values_as<GlobalIndex>(*array)) {
+      (name == ids ? mesh.cell_ids : mesh.cell_longs[name]) = selected(*std::move(wide), selection);
     }
   }
 }

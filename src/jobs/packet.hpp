@@ -26,7 +26,7 @@ enum class PacketKind : std::uint32_t {
   job_ended,      ///< model zygote → rank: ProcessEnd
   usage,          ///< model zygote after a load, or job → rank: UsageReport
   result,         ///< model zygote after a load, or job → rank: bytes
-  failure,        ///< model zygote after a load, or job → rank: see put_failure()
+  failure,        ///< model zygote after a load, or job → rank: bytes of a Failure
 };
 
 /// @brief How a process ended.

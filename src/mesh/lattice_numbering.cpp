@@ -13,7 +13,6 @@ LatticeNumbering::LatticeNumbering(const Complex& complex, LocalIndex n)
       first_of_triangle_(at(complex.num_triangles()))
 {
   number(true);
-  num_skeleton_points_ = num_points_;
   number(false);
 }
 

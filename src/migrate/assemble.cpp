@@ -187,6 +187,23 @@ void number_vertices(const comm::Communicator& comm, const Draft& draft, Distrib
   mesh.vertex_ids = values_from_owners(comm, mesh, std::move(mesh.vertex_ids), traffic);
 }
 
+// Equal positions need not have equal bits (0 and -0): all ranks take the owner's.
+void take_positions_of_owners(const comm::Communicator& comm, DistributedMesh& mesh)
+{
+  for (std::size_t d = 0; d < 3; ++d) {
+    std::vector<GlobalIndex> bits;
+    bits.reserve(mesh.vertex_ids.size());
+    for (std::size_t i = d; i < mesh.vertex_xyz.size(); i += 3) {
+      bits.push_back(std::bit_cast<GlobalIndex>(mesh.vertex_xyz[i]));
+    }
+    Traffic traffic;
+    bits = values_from_owners(comm, mesh, std::move(bits), traffic);
+    for (std::size_t v = 0; v < bits.size(); ++v) {
+      mesh.vertex_xyz[3 * v + d] = std::bit_cast<double>(bits[v]);
+    }
+  }
+}
+
 std::vector<LocalIndex> ascending(const std::vector<GlobalIndex>& ids)
 {
   std::vector<LocalIndex> order(ids.size());
@@ -271,6 +288,7 @@ AssembledMesh assemble(const comm::Communicator& comm, const MeshPieces& pieces)
                   mesh);
   mesh.tet_ids = dense_ids(comm, std::move(tet_ids), mesh.tet_ids.size());
   number_vertices(comm, draft, mesh);
+  take_positions_of_owners(comm, mesh);
   sort_vertices(mesh);
   sort_tets(mesh);
   sort_boundary(mesh);

@@ -14,6 +14,7 @@ namespace tessera::migrate {
 ///
 /// Both sides know in which order they come, so ids need not be sent.
 /// @note Collective.
+/// @pre Any two ranks have the vertices that they share in the same order.
 /// @param[in] lists One of each vertex, ascending.
 /// @return The union of the sharers' lists of each vertex that this rank owns; of others none.
 [[nodiscard]] IndexLists unite_at_owners(const comm::Communicator& comm,
@@ -21,7 +22,7 @@ namespace tessera::migrate {
                                          Traffic& traffic);
 
 /// @brief The lists of the owners, at all sharers; the way back of unite_at_owners().
-/// @note Collective.
+/// @note Collective. @pre as there.
 [[nodiscard]] IndexLists lists_from_owners(const comm::Communicator& comm,
                                            const DistributedMesh& mesh, const IndexLists& lists,
                                            Traffic& traffic);

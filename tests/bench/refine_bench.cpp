@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast skins are refined, and which share of that is projection, on one core.
+// How fast skins are refined, and which share of that is projection, on one core:
+//   refine_bench [--benchmark_filter=REGEX]
 #include <memory>
 #include <vector>
 

@@ -114,6 +114,10 @@ class Prediction(DryRunTest):
         self.assertGreater(predicted["tets"], 1e11)
         self.assertIn("WILL NOT FIT", said)
         self.assertTrue(any("output.directory" in words for words in predicted["must_change"]))
+        self.assertTrue(any("decompose.subdomains" in words for words in predicted["must_change"]))
+        for key, arguments in (("decompose.subdomains", ()), ("output.files", ("--set", "output.files=2"))):
+            outcome = self.run_program("mesh", case, "--output", "real", "--overwrite", *SUBDIVIDE, *arguments)
+            self.assert_refused(outcome, WRONG_INPUT, f"{key}: file 0 of", "choose more")
 
 
 class Folder(DryRunTest):
@@ -135,6 +139,19 @@ class Folder(DryRunTest):
         self.dry_run(case, "out", "--set", "refine.levels=2")
         report = json.loads((self.mesh(case, "out") / "report.json").read_text())
         self.assertNotIn("prediction", report)
+
+    def test_a_damaged_prediction_counts_for_nothing(self):
+        case = self.write_case()
+        for text in ("{", "[]", '{"stages": 3}'):
+            (self.folder / "out").mkdir(exist_ok=True)
+            self.dry_run(case, "out", "--overwrite")
+            file = self.folder / "out" / "prediction.json"
+            intact = json.loads(file.read_text())
+            intact.update({"stages": "none"})
+            for damaged in (text, json.dumps(intact)):
+                file.write_text(damaged)
+                report = json.loads((self.mesh(case, "out", "--overwrite") / "report.json").read_text())
+                self.assertNotIn("prediction", report, damaged)
 
     def test_what_a_stopped_dry_run_leaves_is_in_no_runs_way(self):
         case = self.write_case(max_size=0.2, subdomains=4, levels=2)

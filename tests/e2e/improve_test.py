@@ -22,6 +22,13 @@ class Improve(program.ProgramTest):
         for key in ("digest", "num_tets", "num_vertices"):
             self.assertEqual(found[key], report[key], key)
         self.assertEqual(found["quality"]["seam"]["num_tets"], report["quality"]["seam"]["num_tets"])
+        self.assertAlmostEqual(
+            found["quality"]["seam"]["ks_distance"], report["quality"]["seam"]["ks_distance"], places=3
+        )
+        self.assertEqual(
+            [part["material"] for part in found["subdomains"]],
+            [part["material"] for part in report["subdomains"]],
+        )
         for tets, reported in ((found["quality"], report["quality"]),
                                (found["quality"]["seam"], report["quality"]["seam"])):
             self.assertEqual(tets["mean_ratio"]["histogram"], reported["mean_ratio"]["histogram"])

@@ -202,11 +202,17 @@ class CannotWrite(OutcomeTest):
     def test_output_folder_is_not_empty(self):
         case = self.write_case()
         self.write("precious", "")
-        self.assert_refuses(["mesh", case, "--output", "."], CANNOT_WRITE, "not empty", "--overwrite")
-        self.assert_refuses(
-            ["mesh", case, "--output", ".", "--overwrite"], CANNOT_WRITE, "choose another", ranks=[None]
-        )
+        for arguments in ([], ["--overwrite"]):
+            self.assert_refuses(
+                ["mesh", case, "--output", ".", *arguments], CANNOT_WRITE, "not empty", "choose another"
+            )
         self.assertTrue((self.folder / "precious").exists())
+        self.assert_refuses(["mesh", case, "--output", ""], WRONG_INPUT, "--output", "empty", ranks=[None])
+
+    def test_output_folder_of_another_run(self):
+        case = self.write_case()
+        self.mesh(case, "out")
+        self.assert_refuses(["mesh", case, "--output", "out"], CANNOT_WRITE, "not empty", "--overwrite")
 
     def test_output_folder_cannot_be_made(self):
         case = self.write_case()

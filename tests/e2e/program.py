@@ -176,9 +176,9 @@ def mesh_files(folder):
 
 
 def figures(folder):
-    """The report without what is allowed to differ: times, memory, ranks."""
+    """The report without what is allowed to differ: times, memory, ranks, whether it was resumed."""
     report = json.loads((folder / "report.json").read_text())
-    for key in ("wall_time_s", "tets_per_second", "peak_rss_bytes_max", "stages", "num_ranks"):
+    for key in ("wall_time_s", "tets_per_second", "peak_rss_bytes_max", "stages", "num_ranks", "resumed"):
         del report[key]
     for subdomain in report["subdomains"]:
         del subdomain["seconds"]

@@ -54,6 +54,15 @@ class Netgen(kill.RestartTest):
                 self.kill_run(lambda watch: watch.wait_for(self.record(record).exists), ranks=2)
                 self.resume(ranks=3)
 
+    def test_records_of_other_pieces_are_not_taken(self):
+        """What was improved is of no use once the pieces are others, as after a try that a limit had ended."""
+        self.kill_run(lambda watch: watch.wait_for(self.record("improved_1_000004").exists), ranks=2)
+        # Another run's patches: of these pieces they are wrong.
+        for name, other in (("region_000000", "region_000001"), ("improved_1_000004", "region_000002")):
+            self.record(name).write_bytes(self.record(other).read_bytes())
+        self.record("improve").write_bytes(b"damaged")
+        self.resume(ranks=2)
+
     def test_signals_while_the_mesh_is_written(self):
         for number in (signal.SIGTERM, signal.SIGUSR1):
             self.assert_signal_is_resumable(number, "write", kill.STAGES)

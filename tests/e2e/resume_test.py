@@ -95,12 +95,13 @@ class Refusals(program.ProgramTest):
 
 class Disk(program.ProgramTest):
     def test_too_little_space_is_seen_before_the_work(self):
-        """10^12 tets fit no disk that a test runs on."""
-        case = self.write_case(max_size=0.25, subdomains=40, levels=10)
+        """10^11 tets, uncompressed, fit no disk that a test runs on."""
+        case = self.write_case(max_size=0.25, subdomains=600, levels=9)
         for ranks in (None, 2):
             outcome = self.run_program(
-                "mesh", case, "--output", "out", "--overwrite", *SUBDIVIDE, ranks=ranks
-            )
+                "mesh", case, "--output", "out", "--overwrite", *SUBDIVIDE,
+                "--set", "output.compression=none", ranks=ranks,
+            )  # fmt: skip
             self.assert_refused(outcome, CANNOT_WRITE, "GB are needed", "GB are free", "refine.levels")
             self.assertEqual(os.listdir(self.folder / "out" / "mesh"), [])
 

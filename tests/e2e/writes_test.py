@@ -24,6 +24,7 @@ FILES = (
     "pieces/coarse.record",
     "pieces/plan.record",
     "pieces/piece_000001.record",
+    "pieces/improve.record",
     "pieces/region_000000.record",
     "pieces/improved_1_000001.record",
     "pieces/phase_0.record",
@@ -191,6 +192,18 @@ class FullDisk(WritesTest):
                     )
                     self.assertEqual(done.returncode, CANNOT_WRITE)
                     self.assertEqual(done.stderr.decode(), "tessera: cannot write to standard output\n")
+
+    def test_nobody_reads_the_progress(self):
+        """As of `tessera mesh CASE | head`: the mesh is in its folder all the same."""
+        reading, writing = os.pipe()
+        os.close(reading)
+        with open(writing, "wb") as nobody:
+            done = subprocess.run(
+                [program.PROGRAM, "mesh", self.case, "--output", "unread"], stdout=nobody, stderr=subprocess.PIPE,
+                check=False, cwd=self.folder
+            )  # fmt: skip
+        self.assertEqual(done.returncode, OK, done.stderr)
+        self.assertEqual(program.mesh_files(self.folder / "unread"), program.mesh_files(self.reference))
 
 
 # A run on a disk of its own of $SIZE, then on the same disk with room. If $FILL, somebody else takes all that is left

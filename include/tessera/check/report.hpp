@@ -41,6 +41,7 @@ struct EdgeLengthFigures {
 /// @brief What one subdomain adds to the sums.
 struct SubdomainFigures {
   std::int32_t id = 0;
+  std::int32_t material = 0;  ///< "attribute" of its first tet, or 0.
   GlobalIndex num_tets = 0;
   double volume = 0.0;  ///< Of its finite tets, signed.
   Hash128 digest{};
@@ -75,7 +76,8 @@ struct CheckReport {
   double boundary_area = 0.0;
   EdgeLengthFigures edge_length{};
   QualityFigures quality{};
-  QualityFigures seam_quality{};               ///< Of tets with a vertex on a seam, open or not.
+  QualityFigures seam_quality{};  ///< Of tets with a vertex on a seam, open or not.
+  double seam_ks_distance = 0.0;  ///< Kolmogorov-Smirnov, mean ratios of these and the other tets.
   std::vector<SubdomainFigures> subdomains{};  ///< Ascending ids.
 };
 

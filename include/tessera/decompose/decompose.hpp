@@ -26,7 +26,6 @@ inline constexpr LocalIndex kAutoSubdomainsAPart = 16;
 /// @brief What the decomposition was asked for and what it became. A *seam* triangle lies between
 /// two subdomains of one material.
 struct DecomposeReport {
-  LocalIndex num_requested = 0;  ///< As in the options; 0: auto.
   LocalIndex num_wanted = 0;  ///< After "auto", and at least one a connected piece of a material.
   LocalIndex num_subdomains = 0;         ///< What it became; >= num_wanted.
   LocalIndex num_moves = 0;              ///< Repair moves of one tet that were accepted.

@@ -38,9 +38,6 @@ class OutputFolder {
   /// @throws OutputError
   void remove_half_written() const;
 
-  /// @brief Bytes that this user may still write to the folder's file system. @throws OutputError
-  [[nodiscard]] std::uintmax_t free_bytes() const;
-
  private:
   std::filesystem::path folder_;
   std::unique_ptr<class FolderLock> lock_;

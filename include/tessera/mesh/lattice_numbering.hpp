@@ -20,7 +20,6 @@ class LatticeNumbering {
   LatticeNumbering(const Complex& complex, LocalIndex n);
 
   [[nodiscard]] LocalIndex num_points() const { return num_points_; }
-  [[nodiscard]] LocalIndex num_skeleton_points() const { return num_skeleton_points_; }
 
   [[nodiscard]] LocalIndex vertex(LocalIndex v) const { return vertex_[at(v)]; }
 
@@ -39,7 +38,6 @@ class LatticeNumbering {
   std::vector<LocalIndex> first_of_edge_{};      ///< Shape (num_edges); of its inner points.
   std::vector<LocalIndex> first_of_triangle_{};  ///< Shape (num_triangles); of its inner points.
   LocalIndex num_points_ = 0;
-  LocalIndex num_skeleton_points_ = 0;
 };
 
 }  // namespace tessera::mesh

@@ -170,6 +170,31 @@ TEST(Assemble, IdsThatEachPieceCountsForItselfAreNotUsed)
   expect_box(comm, assembled.mesh);  // With a boundary that was not given.
 }
 
+TEST(Assemble, ZerosOfDifferentSignBecomeTheOwners)
+{
+  const comm::Communicator comm(MPI_COMM_WORLD);
+  MeshPieces pieces = box_pieces(comm);
+  for (mesh::MeshArrays& piece : pieces.tets) {
+    for (double& x : piece.point_xyz) x = x == 0.0 && comm.rank() % 2 == 1 ? -0.0 : x;
+  }
+  const AssembledMesh assembled = assemble(comm, pieces);
+  EXPECT_TRUE(assembled.notes.empty());
+  std::map<GlobalIndex, std::set<std::array<std::uint64_t, 3>>> bits;
+  ByteWriter out;
+  out.put(assembled.mesh.vertex_ids);
+  out.put(assembled.mesh.vertex_xyz);
+  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
+    ByteReader in(bytes);
+    const auto ids = in.get_vector<GlobalIndex>();
+    const auto xyz = in.get_vector<double>();
+    for (std::size_t v = 0; v < ids.size(); ++v) {
+      const std::array position{xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
+      bits[ids[v]].insert(std::bit_cast<std::array<std::uint64_t, 3>>(position));
+    }
+  }
+  for (const auto& [id, positions] : bits) EXPECT_EQ(positions.size(), 1U) << id;
+}
+
 TEST(Assemble, MissingPieceIsAnErrorOnAllRanks)
 {
   const comm::Communicator comm(MPI_COMM_WORLD);

@@ -225,6 +225,24 @@ TEST(ReadVtu, PrefersTheFlaggedIdsToOthersWithAUsualName)
          + begin + points + cells + second_ids + "</Piece></UnstructuredGrid></VTKFile>\n";
 }
 
+TEST(ReadVtu, NarrowsTheNumbersThatHave32BitsHere)
+{
+  const TemporaryFolder folder;
+  const auto grid = mixed_grid(true);
+  add_numbers<vtkLongLongArray>(*grid->GetCellData(), "attribute", 5, 1);
+  add_numbers<vtkLongLongArray>(*grid->GetCellData(), "other", 5, 1);
+  const vtkNew<vtkLongLongArray> large;
+  large->SetName("patch");
+  for (int i = 0; i < 5; ++i) large->InsertNextValue(1LL << 40);
+  grid->GetCellData()->AddArray(large);
+  write_with_vtk(grid, folder / "a.vtu");
+  const MeshArrays mesh = read_vtu(folder / "a.vtu");
+  EXPECT_TRUE(mesh.cell_ints.contains("attribute"));
+  EXPECT_FALSE(mesh.cell_longs.contains("attribute"));
+  EXPECT_TRUE(mesh.cell_longs.contains("patch")) << "they do not fit";
+  EXPECT_TRUE(mesh.cell_longs.contains("other"));
+}
+
 TEST(ReadVtu, JoinsThePiecesOfOneFile)
 {
   const TemporaryFolder folder;

@@ -85,16 +85,25 @@ TEST(OutputFolder, IsMadeWithItsParents)
   const OutputFolder output(folder / "a b/ü/run", ExistingFolder::refuse);
   EXPECT_TRUE(fs::is_directory(folder / "a b/ü/run"));
   EXPECT_EQ(output.path(), folder / "a b/ü/run");
-  EXPECT_GT(output.free_bytes(), 0U);
 }
 
 TEST(OutputFolder, IsRefusedIfItIsNotEmpty)
 {
   const TemporaryFolder folder;
   make_earlier_run(folder / "run");
+  fs::remove_all(folder / "run/pieces");
   const std::string message = refusal(folder / "run", ExistingFolder::refuse);
   EXPECT_NE(message.find("not empty"), std::string::npos) << message;
   EXPECT_TRUE(fs::exists(folder / "run/mesh/piece_000000.vtu"));
+}
+
+TEST(OutputFolder, OfAnUnfinishedRunNamesBothWaysOn)
+{
+  const TemporaryFolder folder;
+  make_earlier_run(folder / "run");
+  const std::string message = refusal(folder / "run", ExistingFolder::refuse);
+  EXPECT_NE(message.find("--resume"), std::string::npos) << message;
+  EXPECT_NE(message.find("--overwrite"), std::string::npos) << message;
 }
 
 TEST(OutputFolder, OfARunThatWroteNothingCountsAsEmpty)

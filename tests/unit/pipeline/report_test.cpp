@@ -48,7 +48,10 @@ RunResult run_of_two_pieces()
 
 Json report_of(const RunResult& run)
 {
-  return Json::parse(report_json(run, judge(run), {"shaft.toml", 2, 10.0, 1000}, {}));
+  return Json::parse(report_json(
+      run, judge(run),
+      {.case_name = "shaft.toml", .num_ranks = 2, .wall_time_s = 10.0, .peak_rss_bytes_max = 1000},
+      {}));
 }
 
 TEST(Report, NamesTheSubdomainsOfAPartOfAMesh)
@@ -56,7 +59,22 @@ TEST(Report, NamesTheSubdomainsOfAPartOfAMesh)
   RunResult run = run_of_two_pieces();
   EXPECT_EQ(report_of(run)["only_subdomains"], Json::array());
   run.filled.pieces.erase(run.filled.pieces.begin());
-  EXPECT_EQ(report_of(run)["only_subdomains"], Json::array({1}));
+  run.only_subdomains = {1};
+  const Json report = report_of(run);
+  EXPECT_EQ(report["only_subdomains"], Json::array({1}));
+  EXPECT_EQ(report["num_tets"], 10);
+  EXPECT_EQ(report["whole_mesh"]["num_tets"], 20);
+}
+
+TEST(Report, IsNotReproducibleIfALimitEndedATry)
+{
+  EXPECT_EQ(report_of(run_of_two_pieces())["reproducible"], true);
+  RunResult coarse = run_of_two_pieces();
+  coarse.coarse.was_limited = true;
+  EXPECT_EQ(report_of(coarse)["reproducible"], false);
+  RunResult piece = run_of_two_pieces();
+  piece.filled.pieces[1].was_limited = true;
+  EXPECT_EQ(report_of(piece)["reproducible"], false);
 }
 
 TEST(Judge, ARunWithoutTargetsIsOk)
@@ -207,8 +225,10 @@ TEST(Report, TextThatIsNotUnicodeDoesNoHarm)
 
 TEST(Report, OfAFailureSaysWhy)
 {
-  const Json report = Json::parse(failure_json(ExitCode::stopped, "stopped \xE4 by a signal",
-                                               {"a.toml", 3, 1.5, 7}, {{"model", 0.5, 0.1, 0.4}}));
+  const Json report = Json::parse(failure_json(
+      ExitCode::stopped, "stopped \xE4 by a signal",
+      {.case_name = "a.toml", .num_ranks = 3, .wall_time_s = 1.5, .peak_rss_bytes_max = 7},
+      {{"model", 0.5, 0.1, 0.4}}));
   EXPECT_EQ(report["status"], "stopped");
   EXPECT_EQ(report["exit_code"], 75);
   EXPECT_EQ(report["num_ranks"], 3);
