@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
+#include <csignal>
 #include <cstddef>
 #include <string>
 
@@ -39,9 +40,15 @@ class MetisPartitioner final : public GraphPartitioner {
     idx_t parts = num_parts;
     idx_t cut = 0;
     std::vector<idx_t> part(static_cast<std::size_t>(num_vertices));
-    const int status = METIS_PartGraphRecursive(
-        &num_vertices, &num_constraints, offsets.data(), neighbours.data(), vertex_weight.data(),
-        nullptr, edge_weight.data(), &parts, nullptr, nullptr, options.data(), &cut, part.data());
+    const auto run = [&] {
+      return METIS_PartGraphRecursive(
+          &num_vertices, &num_constraints, offsets.data(), neighbours.data(), vertex_weight.data(),
+          nullptr, edge_weight.data(), &parts, nullptr, nullptr, options.data(), &cut, part.data());
+    };
+    int status = run();
+    // METIS takes a SIGTERM that comes while it works for an error of its own. What goes well the
+    // second time was that, and whoever waits for the signal gets it.
+    if (status == METIS_ERROR && (status = run()) == METIS_OK) std::raise(SIGTERM);
     if (status != METIS_OK) {
       throw MeshError("METIS failed with code " + std::to_string(status) + " on a graph of "
                       + std::to_string(num_vertices) + " vertices and " + std::to_string(num_parts)

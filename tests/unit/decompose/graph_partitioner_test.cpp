@@ -2,10 +2,14 @@
 #include "tessera/decompose/graph_partitioner.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <memory>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 namespace tessera::decompose {
 namespace {
@@ -88,6 +92,27 @@ TEST_P(AnyPartitioner, AcceptsAGraphInTwoPieces)
 
 INSTANTIATE_TEST_SUITE_P(Both, AnyPartitioner,
                          ::testing::Values(&make_metis_partitioner, &make_block_partitioner));
+
+volatile std::sig_atomic_t num_signals = 0;
+
+TEST(MetisPartitioner, ASignalWhileItWorksChangesNothingAndIsNotLost)
+{
+  const Graph graph = path(200'000, [](LocalIndex) { return 1; });
+  const auto metis = make_metis_partitioner();
+  const auto undisturbed = metis->partition(graph, 64);
+  num_signals = 0;
+  const auto before = std::signal(SIGTERM, [](int) { num_signals = num_signals + 1; });
+  const pthread_t main_thread = pthread_self();
+  std::thread sender([main_thread] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    pthread_kill(main_thread, SIGTERM);
+  });
+  const auto disturbed = metis->partition(graph, 64);
+  sender.join();
+  std::signal(SIGTERM, before);
+  EXPECT_EQ(disturbed, undisturbed);
+  EXPECT_EQ(num_signals, 1);
+}
 
 TEST(BlockPartitioner, LeavesNoPartEmpty)
 {
