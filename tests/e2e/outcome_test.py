@@ -123,8 +123,8 @@ class WrongModel(OutcomeTest):
 
     @unittest.skipIf(os.geteuid() == 0, "root may read everything")
     def test_unreadable_model(self):
-        self.write("ball.geo", program.BALL).chmod(0)
-        self.assert_refuses_model("ball.geo", None, WRONG_INPUT, "permission")
+        self.write("closed.geo", program.BALL).chmod(0)
+        self.assert_refuses_model("closed.geo", None, WRONG_INPUT, "permission")
 
     def test_folder_as_model(self):
         (self.folder / "model.geo").mkdir()
