@@ -10,7 +10,7 @@ import program
 from program import FAILED, OK, STOPPED
 
 # To stop a run takes a tick of some milliseconds; the rest is for a busy machine.
-QUICK_S = 20.0
+QUICK_S = 10.0
 
 
 class SignalsTest(program.ProgramTest):
