@@ -198,9 +198,8 @@ void set_up(CLI::App& app, Parsed& parsed)
   app.set_version_flag("--version", "tessera " + std::string(version()), "Print the version");
   app.require_subcommand(1);
   app.footer(
-      "Every command runs alone or under `mpirun -np N`, with the same result; but for "
-      "repartition,\n"
-      "whose result depends on N.\n"
+      "Every command runs alone or under `mpirun -np N`, with the same result;\n"
+      "that of repartition depends on N.\n"
       "`tessera COMMAND --help` says more.");
   add_mesh(app, parsed);
   add_check(app, parsed);

@@ -42,6 +42,13 @@ std::vector<FailedTries> gather(const std::vector<FailedTries>& own, const comm:
 
 }  // namespace
 
+GlobalIndex FilledPieces::num_tets() const
+{
+  GlobalIndex num_tets = 0;
+  for (const PieceSummary& piece : pieces) num_tets += piece.num_tets;
+  return num_tets;
+}
+
 void FilledPieces::add(const FillResult& result)
 {
   if (!result.failures.empty()) failures.push_back({result.summary.subdomain, result.failures});

@@ -35,6 +35,9 @@ struct FilledPieces {
                                      ///< pieces were filled.
   Improvement improvement{};
 
+  /// @brief Of the pieces that were made: all, or those of the subdomains asked for. Local.
+  [[nodiscard]] GlobalIndex num_tets() const;
+
   /// @brief Adds one piece of this rank's. @pre seam_sums has its shape.
   void add(const FillResult& result);
 };

@@ -190,7 +190,7 @@ class MeshRun {
             "decompose.subdomains make smaller units to share out",
             balance);
       }
-      context.log.info("{} tets in {} pieces, {:.1f} s: {}", num_tets_made(run),
+      context.log.info("{} tets in {} pieces, {:.1f} s: {}", run.filled.num_tets(),
                        run.filled.pieces.size(), run_figures.wall_time_s,
                        given_.output.directory.string());
     }
@@ -222,7 +222,7 @@ class MeshRun {
     const FolderSize size = size_of_folders(given_.output.directory, {"mesh", "boundary"});
     const ActualRun actual{
         .num_ranks = comm_.size(),
-        .is_resumed = command_.resume,
+        .is_resumed = run_figures.is_resumed,
         .tets = static_cast<double>(run.num_tets),
         .vertices = static_cast<double>(run.num_vertices),
         .boundary_triangles = static_cast<double>(num_boundary),

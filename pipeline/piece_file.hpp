@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -11,6 +12,9 @@
 #include "pipeline/piece_arrays.hpp"
 
 namespace tessera::pipeline {
+
+/// @brief A file has no more tets: the indices of their corners have 32 bits.
+inline constexpr GlobalIndex kMostTetsOfFile = std::numeric_limits<LocalIndex>::max() / 4;
 
 /// @brief Subdomains first…last-1 that go together: into one file, or through one job.
 struct SubdomainRange {

@@ -99,7 +99,7 @@ void add_counts(Json& json, const RunResult& run)
   json["num_subdomains"] = run.filled.pieces.size();
   json["only_subdomains"] = run.only_subdomains;
   json["num_subdomains_requested"] = run.resolved.decompose.subdomains;
-  json["num_tets"] = num_tets_made(run);
+  json["num_tets"] = run.filled.num_tets();
   if (run.only_subdomains.empty()) {
     json["num_vertices"] = run.num_vertices;
     return;
@@ -254,13 +254,6 @@ std::vector<LocalIndex> substituted_subdomains(const RunResult& run)
 
 }  // namespace
 
-GlobalIndex num_tets_made(const RunResult& run)
-{
-  GlobalIndex num_tets = 0;
-  for (const PieceSummary& piece : run.filled.pieces) num_tets += piece.num_tets;
-  return num_tets;
-}
-
 double balance_of_parts(const RunResult& run)
 {
   const std::vector<GlobalIndex> tets = tets_of_parts(run);
@@ -322,7 +315,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   json["digest"] = to_hex(digest);
   add_figures(json, figures);
   json["resumed"] = figures.is_resumed;
-  json["tets_per_second"] = static_cast<double>(num_tets_made(run)) / figures.wall_time_s;
+  json["tets_per_second"] = static_cast<double>(run.filled.num_tets()) / figures.wall_time_s;
   json["stages"] = stages_json(times);
   if (!figures.predicted.empty()) json["prediction"] = prediction_json(figures.predicted);
   json["quality"] = quality_json(run.filled);

@@ -37,9 +37,6 @@ struct RunFigures {
   std::vector<PredictedFigure> predicted{};  ///< Empty if there was no dry run of this run.
 };
 
-/// @brief Tets of the pieces that were made: all, or those of the subdomains asked for. Local.
-[[nodiscard]] GlobalIndex num_tets_made(const RunResult& run);
-
 /// @brief Tets of the largest part of the output over the average; 1 without parts. Local.
 [[nodiscard]] double balance_of_parts(const RunResult& run);
 

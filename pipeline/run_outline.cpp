@@ -2,7 +2,6 @@
 #include "pipeline/run_outline.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -76,16 +75,15 @@ RunOutline outline_run(const CutMesh& cut, const std::vector<fill::KernelKind>& 
 
 std::optional<std::string> file_too_large(const RunOutline& outline, const config::Case& run_case)
 {
-  constexpr GlobalIndex kMostTets = std::numeric_limits<LocalIndex>::max() / 4;
   for (const SubdomainRange& file : outline.files) {
     const GlobalIndex num_tets = outline.tets_of(file);
-    if (num_tets <= kMostTets) continue;
+    if (num_tets <= kMostTetsOfFile) continue;
     const char* const key = run_case.output.parts > 0   ? "output.parts"
                             : run_case.output.files > 0 ? "output.files"
                                                         : "decompose.subdomains";
     return fmt::format(
         "{}: file {} of {} would hold {} tets, and its 32-bit indices reach to {}; choose more",
-        key, file.number, outline.files.size(), num_tets, kMostTets);
+        key, file.number, outline.files.size(), num_tets, kMostTetsOfFile);
   }
   return std::nullopt;
 }

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -146,13 +145,13 @@ class Repartition {
       throw_on_all_ranks(ExitCode::wrong_input, fmt::format("--parts {}: the mesh has only {} tets",
                                                             command_.num_parts, num_tets));
     }
-    constexpr GlobalIndex kMostTets = std::numeric_limits<LocalIndex>::max() / 4;
-    if (num_tets <= static_cast<GlobalIndex>(kMostTets / kMaxBalance) * command_.num_parts) return;
+    constexpr auto kMostOnAverage = static_cast<GlobalIndex>(kMostTetsOfFile / kMaxBalance);
+    if (num_tets <= kMostOnAverage * command_.num_parts) return;
     throw_on_all_ranks(
         ExitCode::wrong_input,
         fmt::format("--parts {}: the mesh has {} tets, and a part's 32-bit indices reach to {}; "
                     "choose more parts",
-                    command_.num_parts, num_tets, kMostTets));
+                    command_.num_parts, num_tets, kMostTetsOfFile));
   }
 
   void assemble(const migrate::MeshPieces& pieces)

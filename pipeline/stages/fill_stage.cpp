@@ -190,9 +190,7 @@ FilledPieces run_fill_stage(const config::Case& run_case, const FillWork& work, 
       stage, context);
 
   FilledPieces all = combine(std::move(filler).take(), context.comm);
-  GlobalIndex num_tets = 0;
-  for (const PieceSummary& piece : all.pieces) num_tets += piece.num_tets;
-  stage.finish(std::to_string(num_tets) + " tets");
+  stage.finish(std::to_string(all.num_tets()) + " tets");
   return all;
 }
 
