@@ -86,8 +86,8 @@ std::optional<FillRecord> find_record(const fs::path& output, LocalIndex batch, 
 Hash128 cut_fingerprint(const CutMesh& cut)
 {
   ByteWriter out;
-  out.put(mesh::to_bytes(cut.coarse));
-  out.put(mesh::to_bytes(cut.decomposition));
+  out.put(hash_bytes(mesh::to_bytes(cut.coarse)));
+  out.put(hash_bytes(mesh::to_bytes(cut.decomposition)));
   return hash_bytes(std::move(out).take());
 }
 

@@ -73,9 +73,8 @@ ExitCode run_guarded(int argc, char** argv, const comm::Communicator& comm, jobs
     say(comm, error.what());
     return ExitCode::wrong_input;
   } catch (const comm::ThrownOnAllRanks& thrown) {
-    const auto& error = dynamic_cast<const std::exception&>(thrown);
-    say(comm, error.what());
-    return exit_code_of(error);
+    say(comm, thrown.error().what());
+    return exit_code_of(thrown.error());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "tessera: internal error on rank %d, please report it: %s\n", comm.rank(),
                  error.what());

@@ -103,7 +103,7 @@ class MeshRun {
       return command_.dry_run ? predict(context) : mesh(context);
     } catch (const comm::ThrownOnAllRanks& thrown) {
       progress.clear();
-      if (comm_.rank() == 0) report_failure(dynamic_cast<const std::exception&>(thrown), context);
+      if (comm_.rank() == 0) report_failure(thrown.error(), context);
       throw;
     }
   }

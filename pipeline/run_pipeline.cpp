@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "pipeline/disk_space.hpp"
 #include "pipeline/resolve_size.hpp"
 #include "pipeline/run_outline.hpp"
+#include "pipeline/share_out.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/improve_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
@@ -66,13 +66,6 @@ void cut_coarse_mesh(RunResult& run, double target, const RunOptions& options, R
   });
 }
 
-std::vector<LocalIndex> all_subdomains(const CutMesh& cut)
-{
-  std::vector<LocalIndex> all(at(cut.num_subdomains()));
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
 // The plan that a stopped run has left, or a first one.
 Plan first_plan(const RunResult& run, const CutMesh& cut, const RunOptions& options,
                 RunContext& context)
@@ -86,7 +79,7 @@ Plan first_plan(const RunResult& run, const CutMesh& cut, const RunOptions& opti
   plan.damping = run_plan_stage({.cut = cut,
                                  .kernels = plan.kernels,
                                  .levels = run.resolved.refine.levels,
-                                 .subdomains = all_subdomains(cut)},
+                                 .subdomains = in_order(at(cut.num_subdomains()))},
                                 {}, context);
   return plan;
 }

@@ -67,10 +67,16 @@ ItemWork in_thread(std::function<void(LocalIndex item)> work)
   };
 }
 
+std::vector<LocalIndex> in_order(std::size_t num_items)
+{
+  std::vector<LocalIndex> order(num_items);
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
 std::vector<LocalIndex> heaviest_first(const std::vector<double>& weight)
 {
-  std::vector<LocalIndex> order(weight.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<LocalIndex> order = in_order(weight.size());
   std::ranges::stable_sort(
       order, [&](LocalIndex a, LocalIndex b) { return weight[at(a)] > weight[at(b)]; });
   const char* asked = std::getenv("TESSERA_TEST_FILL_ORDER");

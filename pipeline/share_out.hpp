@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -27,6 +28,9 @@ void share_out(std::vector<LocalIndex> order, const ItemWork& work, StageScope& 
 /// answers the others meanwhile.
 /// @param[in] work Must not communicate; it is never called twice at a time.
 [[nodiscard]] ItemWork in_thread(std::function<void(LocalIndex item)> work);
+
+/// @brief Items 0…num_items-1 as they come.
+[[nodiscard]] std::vector<LocalIndex> in_order(std::size_t num_items);
 
 /// @brief Items 0…num_items-1 by weight, the heaviest first: so no rank is left with a heavy one
 /// while all others have nothing to do. TESSERA_TEST_FILL_ORDER=reverse turns it round: the tests

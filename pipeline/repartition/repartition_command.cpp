@@ -94,7 +94,7 @@ class Repartition {
     try {
       return cut();
     } catch (const comm::ThrownOnAllRanks& thrown) {
-      if (comm_.rank() == 0) report_failure(dynamic_cast<const std::exception&>(thrown));
+      if (comm_.rank() == 0) report_failure(thrown.error());
       throw;
     }
   }
@@ -159,10 +159,9 @@ class Repartition {
     try {
       mesh_ = migrate::assemble(comm_, pieces);
     } catch (const comm::ThrownOnAllRanks& thrown) {
-      const auto& error = dynamic_cast<const std::exception&>(thrown);
-      throw_on_all_ranks(exit_code_of(error),
+      throw_on_all_ranks(exit_code_of(thrown.error()),
                          fmt::format("{0}: {1}; `tessera check {0}` says where",
-                                     command_.mesh_file.string(), error.what()));
+                                     command_.mesh_file.string(), thrown.error().what()));
     }
   }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -154,9 +153,7 @@ class SeamImprover {
 
   void for_each_subdomain(const std::function<void(LocalIndex)>& work)
   {
-    std::vector<LocalIndex> order(filled_.pieces.size());
-    std::iota(order.begin(), order.end(), 0);
-    share_out(std::move(order), in_thread(work), stage_, context_, num_done_);
+    share_out(in_order(filled_.pieces.size()), in_thread(work), stage_, context_, num_done_);
     num_done_ += std::ssize(filled_.pieces);
   }
 

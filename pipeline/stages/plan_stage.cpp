@@ -2,7 +2,6 @@
 #include "pipeline/stages/plan_stage.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <string>
 #include <vector>
@@ -52,8 +51,6 @@ std::vector<mesh::PointDamping> test_subdomains(const std::vector<LocalIndex>& s
                                                 StageScope& stage, RunContext& context)
 {
   const auto jobs = jobs_of(subdomains, work);
-  std::vector<LocalIndex> order(jobs.size());
-  std::iota(order.begin(), order.end(), 0);
   std::vector<mesh::PointDamping> found;
   const auto test = [&](LocalIndex job, const jobs::JobRunner::WaitCallback& on_wait) {
     const std::vector<PlanTest>& tests = jobs[at(job)];
@@ -69,7 +66,7 @@ std::vector<mesh::PointDamping> test_subdomains(const std::vector<LocalIndex>& s
     }
     found.insert(found.end(), smaller->entries().begin(), smaller->entries().end());
   };
-  share_out(std::move(order), test, stage, context);
+  share_out(in_order(jobs.size()), test, stage, context);
   return found;
 }
 

@@ -2,7 +2,6 @@
 #include "pipeline/stages/write_stage.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -51,9 +50,7 @@ void run_write_stage(const config::Case& run_case, const std::vector<SubdomainRa
   const auto num_files = static_cast<LocalIndex>(files.size());
   StageScope stage(context, "write", num_files, "files");
   std::vector<Hash128> digests(filled.pieces.size());
-  std::vector<LocalIndex> order(files.size());
-  std::iota(order.begin(), order.end(), 0);
-  share_out(std::move(order), in_thread([&](LocalIndex file) {
+  share_out(in_order(files.size()), in_thread([&](LocalIndex file) {
               const SubdomainRange& range = files[at(file)];
               std::ranges::copy(write_file(range, run_case.output, mesh, context.folder),
                                 digests.begin() + range.first);

@@ -179,9 +179,10 @@ constexpr Key kKeys[] = {
      .reason = "lz4 wrote 10 M tets/s at 19 bytes a tet; none 11 M at 33; zlib 2 M at 7.5"},
     {.name = "output.parts",
      .rule = IntegerRule{[](Case& c) -> int& { return c.output.parts; }, 0, 1'000'000},
-     .meaning = "Number of parts for a solver on so many ranks, one piece file each: balanced, "
-                "connected where the model is, and made of whole subdomains. 0: none. Excludes "
-                "output.files.",
+     .meaning =
+         "Number of parts for a solver on so many ranks, one piece file each: balanced, "
+         "connected where the model is, and made of whole subdomains, which are numbered part "
+         "by part. 0: none. Excludes output.files.",
      .reason = "readers can share out subdomains as they like"},
     {.name = "output.files",
      .rule = IntegerRule{[](Case& c) -> int& { return c.output.files; }, 0, 1'000'000},
