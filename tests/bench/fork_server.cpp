@@ -53,6 +53,7 @@ int serve(int /*argc*/, char** /*argv*/, char** /*environment*/)
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier): glibc calls it before main().
 extern "C" int __libc_start_main(Main main, int argc, char** argv, void (*init)(), void (*fini)(),
                                  void (*rtld_fini)(), void* stack_end)
 {

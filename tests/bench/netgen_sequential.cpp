@@ -129,11 +129,11 @@ int run(const std::string& model, const std::string& output)
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   const std::size_t peak = peak_rss_bytes();
   const Quality quality = quality_of(*mesh);
-  std::cout << "{ \"num_tets\": " << mesh->GetNE() << ", \"num_vertices\": " << mesh->GetNP()
-            << ", \"wall_time_s\": " << wall.count() << ", \"peak_rss_bytes\": " << peak
-            << ", \"mean_ratio\": { \"min\": " << quality.mean_ratio_min
-            << ", \"mean\": " << quality.mean_ratio_mean
-            << " }, \"min_dihedral_deg\": " << quality.min_dihedral_deg << " }\n";
+  std::cout << R"({ "num_tets": )" << mesh->GetNE() << R"(, "num_vertices": )" << mesh->GetNP()
+            << R"(, "wall_time_s": )" << wall.count() << R"(, "peak_rss_bytes": )" << peak
+            << R"(, "mean_ratio": { "min": )" << quality.mean_ratio_min << R"(, "mean": )"
+            << quality.mean_ratio_mean << R"( }, "min_dihedral_deg": )" << quality.min_dihedral_deg
+            << " }\n";
   return EXIT_SUCCESS;
 }
 

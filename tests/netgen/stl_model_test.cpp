@@ -201,7 +201,7 @@ TEST(StlModel, BodiesOfTwoSolidsBecomeTwoMaterials)
 {
   model::TriangleSoup both = joined(cube_soup(), sphere_soup(3));
   both.solid_names = {"box", "ball"};
-  for (std::size_t i = 9 * 12; i < both.corner_xyz.size(); i += 3) both.corner_xyz[i] += 4.0;
+  for (std::size_t i = 9UL * 12; i < both.corner_xyz.size(); i += 3) both.corner_xyz[i] += 4.0;
   const auto model = load(both);
   const mesh::CoarseMesh mesh = mesh_of(*model, 0.5);
   expect_on_model(*model, mesh);

@@ -13,10 +13,10 @@ namespace {
 // The angle of a point in the branch next to the guess.
 double angle_near(const Vec3& point, double guess)
 {
-  constexpr double turn = 2.0 * std::numbers::pi;
+  constexpr double kTurn = 2.0 * std::numbers::pi;
   const double angle = std::atan2(point[1], point[0]);
-  const double found = angle + turn * std::round((guess - angle) / turn);
-  if (std::abs(found - guess) > 0.25 * turn) {
+  const double found = angle + kTurn * std::round((guess - angle) / kTurn);
+  if (std::abs(found - guess) > 0.25 * kTurn) {
     throw GeometryError("the guess of an angle is more than a quarter turn off");
   }
   return found;

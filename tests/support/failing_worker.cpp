@@ -39,7 +39,7 @@ constexpr std::size_t kMiB = std::size_t{1} << 20;
 }
 
 // UBSan would report the null pointer before it is used.
-[[gnu::no_sanitize_undefined]] void write_nowhere()
+__attribute__((no_sanitize("undefined"))) void write_nowhere()
 {
   volatile int* volatile nowhere = nullptr;
   *nowhere = 1;

@@ -89,16 +89,16 @@ mesh::CoarseMesh cube_tets(int n)
 
   // Each tet walks from corner (0,0,0) to (1,1,1) of its cell along the axes in one of 3! orders;
   // odd orders swap the last two corners so that all volumes are positive.
-  constexpr std::array<std::array<std::size_t, 3>, 6> orders{
+  constexpr std::array<std::array<std::size_t, 3>, 6> kOrders{
       {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
   for (int k = 0; k < n; ++k) {
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) {
-        for (std::size_t o = 0; o < orders.size(); ++o) {
+        for (std::size_t o = 0; o < kOrders.size(); ++o) {
           std::array<int, 3> at{i, j, k};
           std::array<LocalIndex, 4> tet{vertex(i, j, k), 0, 0, 0};
           for (std::size_t step = 0; step < 3; ++step) {
-            ++at[orders[o][step]];
+            ++at[kOrders[o][step]];
             tet[step + 1] = vertex(at[0], at[1], at[2]);
           }
           if (o >= 3) std::swap(tet[2], tet[3]);

@@ -252,9 +252,9 @@ improve::ShapeSummary measure_shapes(const improve::TetMesh& tets)
 std::string first_flaw(const std::vector<mesh::Piece>& pieces)
 {
   for (const mesh::Piece& piece : pieces) {
-    if (const std::string flaw = flaw_of_piece(piece); !flaw.empty()) return flaw;
+    if (std::string flaw = flaw_of_piece(piece); !flaw.empty()) return flaw;
   }
-  const std::string flaw = flaw_of_shared_vertices(pieces);
+  std::string flaw = flaw_of_shared_vertices(pieces);
   return flaw.empty() ? flaw_of_triangles(pieces) : flaw;
 }
 

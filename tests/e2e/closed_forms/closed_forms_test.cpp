@@ -39,44 +39,44 @@ struct ClosedForm {
 
 ClosedForm sphere()
 {
-  constexpr double radius = 10.0;
+  constexpr double kRadius = 10.0;
   return {"sphere",
           "algebraic3d\nsolid body = sphere (0, 0, 0; 10);\ntlo body;\n",
           8.0,
-          4.0 / 3.0 * kPi * std::pow(radius, 3),
-          2.0 * radius * std::sqrt(3.0),
-          [](const Vec3& p) { return std::abs(norm(p) - radius); },
+          4.0 / 3.0 * kPi * std::pow(kRadius, 3),
+          2.0 * kRadius * std::sqrt(3.0),
+          [](const Vec3& p) { return std::abs(norm(p) - kRadius); },
           {}};
 }
 
 ClosedForm torus()
 {
-  constexpr double ring = 10.0;
-  constexpr double tube = 3.0;
+  constexpr double kRing = 10.0;
+  constexpr double kTube = 3.0;
   return {"torus",
           "algebraic3d\nsolid body = torus (0, 0, 0; 0, 0, 1; 10; 3);\ntlo body;\n",
           3.0,
-          2.0 * kPi * kPi * ring * tube * tube,
-          2.0 * std::hypot(ring + tube, ring + tube, tube),
+          2.0 * kPi * kPi * kRing * kTube * kTube,
+          2.0 * std::hypot(kRing + kTube, kRing + kTube, kTube),
           [](const Vec3& p) {
-            return std::abs(std::hypot(std::hypot(p[0], p[1]) - ring, p[2]) - tube);
+            return std::abs(std::hypot(std::hypot(p[0], p[1]) - kRing, p[2]) - kTube);
           },
           {}};
 }
 
 ClosedForm cylinder()
 {
-  constexpr double radius = 5.0;
-  constexpr double height = 20.0;
-  const auto from_mantle = [](const Vec3& p) { return std::abs(std::hypot(p[0], p[1]) - radius); };
+  constexpr double kRadius = 5.0;
+  constexpr double kHeight = 20.0;
+  const auto from_mantle = [](const Vec3& p) { return std::abs(std::hypot(p[0], p[1]) - kRadius); };
   const auto from_ends = [](const Vec3& p) {
-    return std::min(std::abs(p[2]), std::abs(p[2] - height));
+    return std::min(std::abs(p[2]), std::abs(p[2] - kHeight));
   };
   return {"cylinder",
           // Planes first: their triangles come first at the rims, and only the curves say "circle".
           "algebraic3d\nsolid body = plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 20; 0, 0, 1)\n"
           "  and cylinder (0, 0, 0; 0, 0, 20; 5);\ntlo body;\n",
-          5.0, kPi * radius * radius * height, std::hypot(2.0 * radius, 2.0 * radius, height),
+          5.0, kPi * kRadius * kRadius * kHeight, std::hypot(2.0 * kRadius, 2.0 * kRadius, kHeight),
           [=](const Vec3& p) { return std::min(from_mantle(p), from_ends(p)); },
           [=](const Vec3& p) { return std::max(from_mantle(p), from_ends(p)); }};
 }
@@ -103,9 +103,9 @@ model::ModelSource import(const TestBody& body)
 
 class ClosedForms : public ::testing::TestWithParam<TestBody> {
  protected:
-  const ClosedForm& form = GetParam().form;
-  const std::unique_ptr<model::Model> model = netgen::load_model(import(GetParam()));
-  const testing::Body body = mesh_of(*model, form.coarse_size);
+  const ClosedForm& form_ = GetParam().form;
+  const std::unique_ptr<model::Model> model_ = netgen::load_model(import(GetParam()));
+  const testing::Body body_ = mesh_of(*model_, form_.coarse_size);
 
   static testing::Body mesh_of(const model::Model& model, double max_size)
   {
@@ -118,14 +118,14 @@ class ClosedForms : public ::testing::TestWithParam<TestBody> {
 
   [[nodiscard]] mesh::Skin skin(int levels) const
   {
-    return testing::skin_of(body, *model, levels, 0);
+    return testing::skin_of(body_, *model_, levels, 0);
   }
 
   [[nodiscard]] double volume_error(int levels) const
   {
     const mesh::Skin refined = skin(levels);
     return std::abs(testing::volume_inside(refined.vertex_xyz, refined.triangle_vertices)
-                    - form.volume);
+                    - form_.volume);
   }
 };
 
@@ -147,9 +147,9 @@ TEST_P(ClosedForms, EveryVertexOfTheBoundaryLiesOnTheFormula)
     double largest = 0.0;
     for (LocalIndex v = 0; v < refined.num_vertices(); ++v) {
       const Vec3 p = point_at(std::span<const double>(refined.vertex_xyz), v);
-      largest = std::max(largest, form.distance(p));
+      largest = std::max(largest, form_.distance(p));
     }
-    EXPECT_LE(largest, 1e-8 * form.box_diagonal) << levels << " levels";
+    EXPECT_LE(largest, 1e-8 * form_.box_diagonal) << levels << " levels";
   }
 }
 
@@ -169,13 +169,13 @@ using ClosedFormsWithRims = ClosedForms;
 
 TEST_P(ClosedFormsWithRims, RimVerticesLieOnTheCircles)
 {
-  const auto [complex, lattice] = testing::refine_skin(body, *model, kMostLevels, 0);
+  const auto [complex, lattice] = testing::refine_skin(body_, *model_, kMostLevels, 0);
   double length = 0.0;
   for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
     const LocalIndex edge = complex.edge_skeleton[at(e)];
-    if (!is_on_rim(body, edge)) continue;
+    if (!is_on_rim(body_, edge)) continue;
     for (LocalIndex k = 0; k <= lattice.n; ++k) {
-      EXPECT_LE(form.distance_from_rim(lattice.edge_point(e, k)), 1e-8 * form.box_diagonal);
+      EXPECT_LE(form_.distance_from_rim(lattice.edge_point(e, k)), 1e-8 * form_.box_diagonal);
       if (k > 0) length += norm(lattice.edge_point(e, k) - lattice.edge_point(e, k - 1));
     }
   }
@@ -187,7 +187,7 @@ TEST_P(ClosedForms, SkinIsClosedAndOfTheRightKind)
   const mesh::Skin refined = skin(2);
   const auto topology = testing::topology_of(refined.triangle_vertices);
   EXPECT_EQ(topology.num_unmatched_edges, 0);
-  EXPECT_EQ(topology.euler, form.name == "torus" ? 0 : 2);
+  EXPECT_EQ(topology.euler, form_.name == "torus" ? 0 : 2);
 }
 
 std::string name_of(const ::testing::TestParamInfo<TestBody>& tested)

@@ -28,7 +28,7 @@ MeshFiles box_files()
 
 void expect_figures_of_the_box(const check::CheckReport& report)
 {
-  constexpr GlobalIndex n = kCells;
+  const GlobalIndex n = kCells;
   EXPECT_TRUE(report.conforms) << to_json(report);
   EXPECT_TRUE(report.matched_by_ids);
   EXPECT_EQ(report.num_tets, 6 * n * n * n);

@@ -117,7 +117,7 @@ TEST(ConfigErrors, NumbersOutsideTheirRangeAreRefused)
 
 TEST(ConfigErrors, WordListsRefuseUnknownRepeatedAndNoWords)
 {
-  for (const char* formats : {"[]", "[\"vtk\"]", "[\"pvtu\", \"pvtu\"]", "\"pvtu\"", "[1]"}) {
+  for (const char* formats : {"[]", R"(["vtk"])", R"(["pvtu", "pvtu"])", R"("pvtu")", "[1]"}) {
     EXPECT_NE(error_of_key(std::string("[output]\nformats = ") + formats).find("must be a list"),
               std::string::npos)
         << formats;

@@ -169,13 +169,13 @@ class CaseFiles : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  fs::path write(const std::string& name, const std::string& text) const
+  [[nodiscard]] fs::path write(const std::string& name, const std::string& text) const
   {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
   }
 
-  std::string error_of(const fs::path& file) const
+  [[nodiscard]] std::string error_of(const fs::path& file) const
   {
     try {
       (void)load_case(file);

@@ -129,8 +129,8 @@ TEST(Decompose, RefusesMoreSubdomainsThanTets)
   } catch (const ConfigError& error) {
     const std::string message = error.what();
     EXPECT_NE(message.find("decompose.subdomains"), std::string::npos);
-    EXPECT_NE(message.find("7"), std::string::npos);
-    EXPECT_NE(message.find("6"), std::string::npos);
+    EXPECT_NE(message.find('7'), std::string::npos);
+    EXPECT_NE(message.find('6'), std::string::npos);
   }
 }
 

@@ -73,7 +73,7 @@ TEST(Repair, EndsForACheckerboard)
 {
   const int n = 4;
   const auto mesh = testing::kuhn_cube(n);
-  const testing::FakePartitioner cells([n](LocalIndex t, LocalIndex) {
+  const testing::FakePartitioner cells([](LocalIndex t, LocalIndex) {
     const auto [i, j, k] = cell_of(t, n);
     return (i + j + k) % 2;
   });
@@ -86,7 +86,7 @@ TEST(Repair, OpensAPartThatEnclosesAnother)
 {
   const int n = 6;
   const auto mesh = testing::kuhn_cube(n);
-  const testing::FakePartitioner core([n](LocalIndex t, LocalIndex) {
+  const testing::FakePartitioner core([](LocalIndex t, LocalIndex) {
     const auto cell = cell_of(t, n);
     const bool is_inside =
         std::all_of(cell.begin(), cell.end(), [](int c) { return c >= 2 && c < 4; });
@@ -131,7 +131,7 @@ mesh::CoarseMesh carve(const mesh::CoarseMesh& cube, const Keep& keep)
 TEST(Repair, OpensAVoidOfTheModel)
 {
   const int n = 5;
-  const auto mesh = carve(testing::kuhn_cube(n), [n](LocalIndex t) {
+  const auto mesh = carve(testing::kuhn_cube(n), [](LocalIndex t) {
     return cell_of(t, n) != std::array<int, 3>{2, 2, 2};
   });
   const auto result = decompose_checked(mesh, 1, *make_metis_partitioner());
@@ -157,11 +157,11 @@ TEST(Repair, PartsBlocksThatTouchAtAnEdgeOrAVertex)
 {
   const int n = 4;
   const auto mesh = testing::kuhn_cube(n);
-  const testing::FakePartitioner at_edge([n](LocalIndex t, LocalIndex) {
+  const testing::FakePartitioner at_edge([](LocalIndex t, LocalIndex) {
     const auto [i, j, k] = cell_of(t, n);
     return (i < 2) == (j < 2) ? 0 : 1;
   });
-  const testing::FakePartitioner at_vertex([n](LocalIndex t, LocalIndex) {
+  const testing::FakePartitioner at_vertex([](LocalIndex t, LocalIndex) {
     const auto [i, j, k] = cell_of(t, n);
     const bool low = i < 2 && j < 2 && k < 2;
     const bool high = i >= 2 && j >= 2 && k >= 2;

@@ -226,7 +226,7 @@ TEST(OutputFolder, IsFreeAgainWhenItsRunEnds)
   std::optional<OutputFolder> output(std::in_place, folder / "run", ExistingFolder::refuse);
   EXPECT_NE(refusal(folder / "run", ExistingFolder::refuse), "") << "this very process holds it";
   OutputFolder moved = *std::move(output);
-  output.reset();
+  output.reset();  // NOLINT(bugprone-use-after-move): the folder is moved, not the optional.
   EXPECT_NE(refusal(folder / "run", ExistingFolder::refuse), "") << "moved, not given up";
   moved = OutputFolder(folder / "other", ExistingFolder::refuse);
   EXPECT_EQ(testing::file_bytes(folder / "run" / kLock), "");

@@ -62,8 +62,10 @@ TEST(Watch, WaitingForACoreIsNoSleep)
 TEST(Watch, WorkInBetweenStartsTheStallAnew)
 {
   Watch watch(kLimits, 0.0);
-  for (int look = 0; look < 100; ++look)
-    EXPECT_EQ(watch.look(sample(0.01 * (look / 4)), 0.7), std::nullopt);
+  for (int look = 0; look < 100; ++look) {
+    const int hundredths = look / 4;
+    EXPECT_EQ(watch.look(sample(0.01 * hundredths), 0.7), std::nullopt);
+  }
 }
 
 TEST(Watch, TimeInWhichNobodyLookedProvesLittle)

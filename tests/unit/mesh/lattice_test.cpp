@@ -131,7 +131,7 @@ TEST(TetLattice, TheSkinOfTheChildrenIsTheRefinedSkin)
           add([](const TrianglePoint& p) { return TetPoint{p.i, p.j, 0}; });
           add([](const TrianglePoint& p) { return TetPoint{p.i, 0, p.j}; });
           add([](const TrianglePoint& p) { return TetPoint{0, p.i, p.j}; });
-          add([n](const TrianglePoint& p) { return TetPoint{n - p.i - p.j, p.i, p.j}; });
+          add([&](const TrianglePoint& p) { return TetPoint{n - p.i - p.j, p.i, p.j}; });
         });
     EXPECT_EQ(open, skin) << "diagonal " << diagonal;
   }

@@ -162,14 +162,14 @@ TEST(TriangleSurface, GapWiderThanTheToleranceStaysAnError)
 TEST(TriangleSurface, OneSidedSurfaceIsRefused)
 {
   // The projective plane with six vertices: closed, every edge has two triangles, one-sided.
-  constexpr int triangles[10][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},
-                                    {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
-  constexpr double xyz[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, 2, 3}};
+  constexpr int kTriangles[10][3] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}, {0, 5, 1},
+                                     {1, 2, 4}, {2, 3, 5}, {3, 4, 1}, {4, 5, 2}, {5, 1, 3}};
+  constexpr double kXyz[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}, {1, 2, 3}};
   TriangleSoup soup;
   soup.solid_names = {""};
-  for (const auto& triangle : triangles) {
+  for (const auto& triangle : kTriangles) {
     for (const int v : triangle) {
-      soup.corner_xyz.insert(soup.corner_xyz.end(), xyz[v], xyz[v] + 3);
+      soup.corner_xyz.insert(soup.corner_xyz.end(), kXyz[v], kXyz[v] + 3);
     }
     soup.triangle_solid.push_back(0);
   }

@@ -116,11 +116,11 @@ TEST(CommandLine, SubdomainsThatAreNoListOfNumbersAreRefused)
 TEST(CommandLine, OverridesArriveAsTheyWereWritten)
 {
   const auto mesh = parsed_as<MeshCommand>(
-      {"mesh", "case.toml", "--set", "output.formats=[\"pvtu\"]", "--set", "[x,y]", "--set",
-       "a.b='q'", "--set", "fill.region=[{material=\"a\",kernel=\"netgen\"}]"});
+      {"mesh", "case.toml", "--set", R"(output.formats=["pvtu"])", "--set", "[x,y]", "--set",
+       "a.b='q'", "--set", R"(fill.region=[{material="a",kernel="netgen"}])"});
   EXPECT_EQ(mesh.overrides,
-            (std::vector<std::string>{"output.formats=[\"pvtu\"]", "[x,y]", "a.b='q'",
-                                      "fill.region=[{material=\"a\",kernel=\"netgen\"}]"}));
+            (std::vector<std::string>{R"(output.formats=["pvtu"])", "[x,y]", "a.b='q'",
+                                      R"(fill.region=[{material="a",kernel="netgen"}])"}));
 }
 
 TEST(CommandLine, QuietAndProgressWords)

@@ -166,36 +166,36 @@ void PrintTo(const Bulge& bulge, std::ostream* out)
 class FoldedPlate : public ::testing::TestWithParam<Bulge> {
  protected:
   static constexpr int kCells = 2;
-  const mesh::CoarseMesh plate = thin_plate(kCells, 0.2);
-  const testing::GraphModel model = bulging_bottom(kCells, GetParam().height);
-  const int levels = GetParam().levels;
+  const mesh::CoarseMesh plate_ = thin_plate(kCells, 0.2);
+  const testing::GraphModel model_ = bulging_bottom(kCells, GetParam().height);
+  const int levels_ = GetParam().levels;
 };
 
 TEST_P(FoldedPlate, FoldsAndIsUnfolded)
 {
-  const Body body(plate, testing::slabs(plate, 2));
-  ASSERT_LE(worst_child(body, model, {}, levels), 0.0);
+  const Body body(plate_, testing::slabs(plate_, 2));
+  ASSERT_LE(worst_child(body, model_, {}, levels_), 0.0);
 
-  const Plan plan = make_plan(body, model, levels, 200);
+  const Plan plan = make_plan(body, model_, levels_, 200);
   EXPECT_LT(plan.rounds, 200);
   EXPECT_FALSE(plan.damping.entries().empty());
-  EXPECT_GT(worst_child(body, model, plan.damping, levels), 0.0);
+  EXPECT_GT(worst_child(body, model_, plan.damping, levels_), 0.0);
 }
 
 TEST_P(FoldedPlate, IsUnfoldedWhateverTheSubdomains)
 {
   for (const auto& decomposition :
-       {testing::one_subdomain_a_material(plate), testing::slabs(plate, 2)}) {
-    const Body body(plate, decomposition);
-    const Plan plan = make_plan(body, model, levels, 200);
-    EXPECT_GT(worst_child(body, model, plan.damping, levels), 0.0);
+       {testing::one_subdomain_a_material(plate_), testing::slabs(plate_, 2)}) {
+    const Body body(plate_, decomposition);
+    const Plan plan = make_plan(body, model_, levels_, 200);
+    EXPECT_GT(worst_child(body, model_, plan.damping, levels_), 0.0);
   }
 }
 
 TEST_P(FoldedPlate, DampsOnlyNewPointsOnTheGeometryByListedSteps)
 {
-  const Body body(plate, testing::one_subdomain_a_material(plate));
-  const Plan plan = make_plan(body, model, levels, 200);
+  const Body body(plate_, testing::one_subdomain_a_material(plate_));
+  const Plan plan = make_plan(body, model_, levels_, 200);
   for (const PointDamping& entry : plan.damping.entries()) {
     const bool on_edge = entry.key.carrier == mesh::LatticeCarrier::edge;
     const auto& patch = on_edge ? body.skeleton.edge_patch : body.skeleton.triangle_patch;
@@ -208,10 +208,10 @@ TEST_P(FoldedPlate, DampsOnlyNewPointsOnTheGeometryByListedSteps)
 
 TEST_P(FoldedPlate, FindingsDependOnTheArgumentsOnly)
 {
-  const Body body(plate, testing::one_subdomain_a_material(plate));
+  const Body body(plate_, testing::one_subdomain_a_material(plate_));
   const Damping none;
   const auto find = [&](const std::vector<LocalIndex>& tets) {
-    const RefinedTets refined(body, model, none, levels, tets);
+    const RefinedTets refined(body, model_, none, levels_, tets);
     return mesh::to_bytes(
         Damping(find_folds(refined.complex, body.skeleton, refined.lattice, none)));
   };

@@ -28,8 +28,8 @@ TEST(Histogram, CountsLowerBoundsInTheirBinAndTheUpperEndInTheLast)
 TEST(Histogram, CountsWhatIsOutsideAtTheEnds)
 {
   Histogram histogram(0.0, 1.0, 2);
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  for (const double x : {-1e-9, -1e300, -inf, 1.0 + 1e-9, 1e300, inf}) histogram.add(x);
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  for (const double x : {-1e-9, -1e300, -kInf, 1.0 + 1e-9, 1e300, kInf}) histogram.add(x);
   EXPECT_EQ(histogram.counts(), (std::vector<GlobalIndex>{3, 3}));
   EXPECT_EQ(histogram.total(), 6);
 }

@@ -41,7 +41,8 @@ void for_each_point(LocalIndex n, const Visit& visit)
 std::map<std::array<LocalIndex, 3>, Bits> points_of(const RefinedComplex& refined)
 {
   std::map<std::array<LocalIndex, 3>, Bits> points;
-  const auto& [complex, lattice] = refined;
+  const auto& complex = refined.complex;
+  const auto& lattice = refined.lattice;
   for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
     const LocalIndex entity = complex.edge_skeleton[at(e)];
     if (entity == kNoIndex) continue;
@@ -138,8 +139,12 @@ TEST_P(LatticeOfLevel, SidesOfTrianglesAreTheirEdges)
 
 TEST_P(LatticeOfLevel, OldPointsStayWhereTheyAreInTheNextLevel)
 {
-  for (const auto& [name, made] : bodies()) {
-    const auto [complex, coarse] = testing::refine_skin(made.body, *made.model, GetParam(), 0);
+  for (const auto& named : bodies()) {
+    const auto& name = named.first;
+    const auto& made = named.second;
+    const auto refined = testing::refine_skin(made.body, *made.model, GetParam(), 0);
+    const auto& complex = refined.complex;
+    const auto& coarse = refined.lattice;
     const auto fine = testing::refine_skin(made.body, *made.model, GetParam() + 1, 0).lattice;
     ASSERT_EQ(fine.n, 2 * coarse.n);
     for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
