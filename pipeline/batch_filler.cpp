@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/jobs/this_process.hpp"
 
 #include "pipeline/run_context.hpp"
 
@@ -11,7 +12,7 @@ namespace tessera::pipeline {
 
 BatchFiller::BatchFiller(const FillTask& task, const std::filesystem::path& output,
                          const WriteContext* numbers, const io::OutputOptions& options)
-    : task_(task), output_(output), cpu_before_s_(process_cpu_s())
+    : task_(task), output_(output), cpu_before_s_(jobs::cpu_time_of_this_process())
 {
   record_.plan = task.plan;
   if (numbers != nullptr) file_.emplace(*numbers, options);
@@ -24,7 +25,7 @@ void BatchFiller::add(FilledPiece filled)
   summary.tries = task_.tries;
   summary.was_limited = task_.was_limited;
   filled.result.failures = task_.failures;
-  summary.cpu_s = process_cpu_s() - cpu_before_s_;
+  summary.cpu_s = jobs::cpu_time_of_this_process() - cpu_before_s_;
   cpu_before_s_ += summary.cpu_s;
   if (!summary.is_folded) {
     if (summary.tets.min_dihedral_deg <= task_.angle_to_beat_deg) {

@@ -12,6 +12,7 @@
 #include "tessera/io/vtu.hpp"
 
 #include "pipeline/repartition/mesh_input.hpp"
+#include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -19,6 +20,7 @@ namespace {
 check::PieceSource source_of(const std::vector<std::filesystem::path>& files)
 {
   return {static_cast<LocalIndex>(files.size()), [&files](LocalIndex piece) {
+            throw_if_stop_requested();
             return io::read_vtu(files[static_cast<std::size_t>(piece)]);
           }};
 }

@@ -15,6 +15,7 @@
 #include "pipeline/mesh_worker.hpp"
 #include "pipeline/run_context.hpp"
 #include "pipeline/stages/model_stage.hpp"
+#include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -28,6 +29,7 @@ std::string describe_mesh(const std::filesystem::path& file)
   std::string names;
   const auto pieces = io::piece_files(file);
   for (const auto& path : pieces) {
+    throw_if_stop_requested();
     const mesh::MeshArrays piece = io::read_vtu(path);
     num_points += piece.num_points();
     num_cells += piece.num_cells();

@@ -13,7 +13,8 @@
 #include "tessera/config/case.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/io/output_folder.hpp"
-#include "tessera/jobs/process_memory.hpp"
+#include "tessera/jobs/this_process.hpp"
+#include "tessera/netgen/factory.hpp"
 
 #include "pipeline/disk_space.hpp"
 #include "pipeline/log.hpp"
@@ -38,7 +39,7 @@ Bytes bytes_of(const std::string& text)
   return bytes;
 }
 
-std::string text_of(const Bytes& bytes)
+std::string_view text_of(const Bytes& bytes)
 {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -46,12 +47,12 @@ std::string text_of(const Bytes& bytes)
 // Rank 0 reads the file; the others get the resolved text, so no rank can see another case.
 config::Case read_case(const MeshCommand& command, const comm::Communicator& comm)
 {
-  const std::string text = text_of(on_root(comm, [&] {
+  const Bytes text = on_root(comm, [&] {
     config::Case given = config::load_case(command.case_file, command.overrides);
     if (command.output) given.output.directory = *command.output;
     return bytes_of(config::to_toml(given));
-  }));
-  return config::parse_case(text, command.case_file);
+  });
+  return config::parse_case(text_of(text), command.case_file);
 }
 
 // Before anything is done: what the case alone decides. All ranks have the same one.
@@ -104,6 +105,10 @@ class MeshRun {
     } catch (const comm::ThrownOnAllRanks& thrown) {
       progress.clear();
       if (comm_.rank() == 0) report_failure(thrown.error(), context);
+      const ExitCode code = exit_code_of(thrown.error());
+      if (code == ExitCode::stopped && !command_.dry_run) {
+        throw_on_all_ranks(code, std::string(thrown.error().what()) + "; --resume goes on");
+      }
       throw;
     }
   }
@@ -117,6 +122,7 @@ class MeshRun {
   void open_folder()
   {
     if (command_.resume) state().require_begun();
+    netgen::require_model_file(given_.geometry.file);  // A mistyped name leaves no folder behind.
     folder_.emplace(given_.output.directory, existing());
     std::filesystem::remove_all(sample_folder(given_.output.directory));
     io::make_own_folder(given_.output.directory / "log");
@@ -179,7 +185,9 @@ class MeshRun {
       state.clear();
       // What a later try made good needs no diagnosis; a region that failed has had but one.
       if (verdict.exit_code == ExitCode::ok && run.filled.improvement.num_failed == 0) {
-        std::filesystem::remove_all(given_.output.directory / "failure");
+        std::error_code error;  // The mesh is whole and the report says so, whatever stays here.
+        std::filesystem::remove_all(given_.output.directory / "failure", error);
+        if (error) context.log.warn("failure: cannot be removed: {}", error.message());
       }
     });
     if (comm_.rank() == 0) {
@@ -231,8 +239,8 @@ class MeshRun {
         .memory_per_rank_bytes = static_cast<double>(run_figures.peak_rss_bytes_max),
         .wall_time_s = run_figures.wall_time_s,
         .stages = context.times};
-    return compare_with_prediction(given_.output.directory, PredictedRun(given_, run.model),
-                                   actual);
+    return compare_with_prediction(given_.output.directory,
+                                   PredictedRun(given_, run.model, run.only_subdomains), actual);
   }
 
   // The report of a run that has ended stays: it is what a refused --resume is judged by.

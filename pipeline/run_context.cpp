@@ -3,18 +3,18 @@
 
 #include <cmath>
 #include <csignal>
-#include <ctime>
 #include <system_error>
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/jobs/this_process.hpp"
 
 #include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
 namespace {
 
-constexpr const char* kStopped = "stopped by a signal; --resume goes on";
+constexpr const char* kStopped = "stopped by a signal";
 
 }  // namespace
 
@@ -23,7 +23,7 @@ StageScope::StageScope(RunContext& context, std::string name, std::int64_t total
     : context_(context),
       name_(std::move(name)),
       start_(std::chrono::steady_clock::now()),
-      cpu_before_s_(process_cpu_s())
+      cpu_before_s_(jobs::cpu_time_of_this_process())
 {
   context_.jobs.restart_usage();
   context_.progress.begin(name_, total, unit);
@@ -36,7 +36,7 @@ double StageScope::elapsed_s() const
 
 double StageScope::used_cpu_s() const
 {
-  return process_cpu_s() - cpu_before_s_ + context_.jobs.usage().cpu_s;
+  return jobs::cpu_time_of_this_process() - cpu_before_s_ + context_.jobs.usage().cpu_s;
 }
 
 void StageScope::work_is_done()
@@ -62,13 +62,6 @@ void StageScope::finish(const std::string& summary)
   context_.times.push_back(std::move(time));
   context_.progress.end(summary);
   throw_if_stopped(comm);
-}
-
-double process_cpu_s()
-{
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 jobs::JobRunner::WaitCallback wait_for_stop_signal()

@@ -69,9 +69,6 @@ class StageScope {
   double work_cpu_s_ = 0.0;
 };
 
-/// @brief CPU time of the calling process so far, seconds. Local.
-[[nodiscard]] double process_cpu_s();
-
 /// @brief Callback for jobs beside which this rank has nothing to do: cancels on a stop signal.
 [[nodiscard]] jobs::JobRunner::WaitCallback wait_for_stop_signal();
 

@@ -4,6 +4,8 @@
 #include <csignal>
 #include <initializer_list>
 
+#include "tessera/base/error.hpp"
+
 namespace tessera::pipeline {
 namespace {
 
@@ -31,5 +33,10 @@ void ignore_write_signals()
 }
 
 bool stop_requested() { return stop_flag != 0; }
+
+void throw_if_stop_requested()
+{
+  if (stop_requested()) throw Interrupted("stopped by a signal");
+}
 
 }  // namespace tessera::pipeline

@@ -15,4 +15,7 @@ void ignore_write_signals();
 /// @brief Whether one of them has come to this rank. Local, cheap.
 [[nodiscard]] bool stop_requested();
 
+/// @brief Throws Interrupted if so. Local: within what all_or_none() runs, or the like.
+void throw_if_stop_requested();
+
 }  // namespace tessera::pipeline

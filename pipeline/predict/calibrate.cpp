@@ -8,6 +8,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/io/vtu.hpp"
+#include "tessera/jobs/this_process.hpp"
 #include "tessera/mesh/lattice.hpp"
 
 #include "pipeline/count_pieces.hpp"
@@ -249,9 +250,9 @@ class Sampler {
     costs.header_bytes = size_of(empty);
     for (const SubdomainRange& job : whole_jobs(set)) {
       if (!outline.is_one_pass) {
-        const double before_s = process_cpu_s();
+        const double before_s = jobs::cpu_time_of_this_process();
         write_file(job, options, mesh, own_.folder);
-        costs.write_cpu_s += process_cpu_s() - before_s;
+        costs.write_cpu_s += jobs::cpu_time_of_this_process() - before_s;
         costs.store_bytes +=
             size_of(store_folder(own_.folder) / (record_name(job.number) + ".record"));
       }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tessera/io/files.hpp"
-#include "tessera/jobs/process_memory.hpp"
+#include "tessera/jobs/this_process.hpp"
 
 #include "pipeline/exit_code.hpp"
 #include "pipeline/predict/calibrate.hpp"
@@ -62,8 +62,9 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
     if (auto defect = file_too_large(basis.outline, run.resolved)) {
       found.advice.must.push_back(*std::move(defect));
     }
-    io::write_text_atomically(context.folder / "prediction.json",
-                              prediction_json(found, PredictedRun(given, run.model)));
+    io::write_text_atomically(
+        context.folder / "prediction.json",
+        prediction_json(found, PredictedRun(given, run.model, run.only_subdomains)));
   });
   return prediction_table(found);
 }

@@ -156,11 +156,14 @@ void add_times(const Json& prediction, const ActualRun& actual,
 
 }  // namespace
 
-PredictedRun::PredictedRun(const config::Case& given, const model::ModelSource& model)
+PredictedRun::PredictedRun(const config::Case& given, const model::ModelSource& model,
+                           const std::vector<LocalIndex>& only_subdomains)
     : model_hash(to_hex(hash_bytes(model.content)))
 {
-  const std::string text = config::to_toml(without_limits(given));
-  case_hash = to_hex(hash_bytes(std::as_bytes(std::span(text))));
+  ByteWriter out;
+  out.put(config::to_toml(without_limits(given)));
+  out.put(only_subdomains);
+  case_hash = to_hex(hash_bytes(std::move(out).take()));
 }
 
 std::string prediction_json(const DryRun& dry_run, const PredictedRun& predicted)

@@ -25,12 +25,14 @@
 /// and "should_change": sentences. Times are those of free cores.
 namespace tessera::pipeline {
 
-/// @brief Whose prediction it is: a run of another case, model or version is not that run.
+/// @brief Whose prediction it is: a run of another case, model or version, or of other subdomains,
+/// is not that run.
 struct PredictedRun {
   std::string case_hash{};
   std::string model_hash{};
 
-  PredictedRun(const config::Case& given, const model::ModelSource& model);
+  PredictedRun(const config::Case& given, const model::ModelSource& model,
+               const std::vector<LocalIndex>& only_subdomains);
 };
 
 /// @brief All that a dry run has found.

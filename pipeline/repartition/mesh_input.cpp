@@ -22,7 +22,7 @@ std::vector<mesh::MeshArrays> read_own(const std::vector<std::filesystem::path>&
   };
   std::vector<mesh::MeshArrays> pieces;
   for (std::size_t f = first_of(comm.rank()); f < first_of(comm.rank() + 1); ++f) {
-    if (stop_requested()) throw Interrupted("stopped by a signal");
+    throw_if_stop_requested();
     mesh::MeshArrays piece = io::read_vtu(files[f]);
     if (piece.num_cells() > 0 && piece.vertices_per_cell != vertices_per_cell) {
       throw InputError(files[f].string() + ": it has no "

@@ -197,7 +197,7 @@ class Repartition {
 
   void write_part(const PartContext& context, const migrate::GhostTets& ghosts) const
   {
-    if (stop_requested()) throw Interrupted("stopped by a signal");
+    throw_if_stop_requested();
     const LocalIndex part = ghosts.part;
     const PieceArrays arrays = part_arrays(context, part, &ghosts);
     io::write_vtu(arrays.tets, command_.output / piece_path("mesh", part), io::Compression::lz4);

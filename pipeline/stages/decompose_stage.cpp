@@ -33,8 +33,9 @@ decompose::DecomposeOptions options_of(const config::Case& run_case,
   if (options.subdomains == 0 && are_counts_known(kernels)) {
     const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     const auto most = static_cast<double>(weights.size());
-    options.subdomains =
-        static_cast<int>(std::clamp(std::ceil(total / kAutoSubdividedTets), 1.0, most));
+    const double for_parts = 1.0 * decompose::kAutoSubdomainsAPart * options.parts;
+    options.subdomains = static_cast<int>(
+        std::clamp(std::max(std::ceil(total / kAutoSubdividedTets), for_parts), 1.0, most));
   }
   return options;
 }

@@ -130,9 +130,19 @@ class SeamImprover {
     ByteWriter out;
     for (const PieceSummary& piece : filled_.pieces) out.put(piece.content);
     const Bytes pieces = std::move(out).take();
-    if (store_.find(name) == pieces) return;
+    if (store_.find(name) == pieces && newest_pieces_are_whole()) return;
     if (store_.contains(name)) remove_records();
     store_.put(name, pieces);
+  }
+
+  // Of the last phase that is done; those before it are gone.
+  [[nodiscard]] bool newest_pieces_are_whole() const
+  {
+    int generation = improve::kNumPhases;
+    while (generation > 0 && !store_.contains(phase_name(generation - 1))) --generation;
+    return generation == 0 || std::ranges::all_of(filled_.pieces, [&](const PieceSummary& piece) {
+             return store_.find(improved_name(piece.subdomain, generation)).has_value();
+           });
   }
 
   void remove_records() const

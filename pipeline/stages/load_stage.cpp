@@ -15,9 +15,10 @@ constexpr jobs::JobLimits kLoadLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory
 void load_everywhere(const std::string& kind, Bytes message, RunContext& context)
 {
   all_or_none(context.comm, [&] {
-    const jobs::JobOutcome outcome = run_load(kind, std::move(message), kLoadLimits, context);
+    jobs::JobOutcome outcome = run_load(kind, std::move(message), kLoadLimits, context);
     throw_if_cancelled(outcome);
-    jobs::throw_unless_ok(outcome, "loading the coarse mesh");
+    outcome.message += way_on(outcome);
+    jobs::throw_unless_ok(outcome, "loading the " + kind);
   });
 }
 

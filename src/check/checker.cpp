@@ -57,16 +57,20 @@ Checker::Checker(const PieceSource& tets, const PieceSource* boundary,
 template <class Visit>
 void Checker::for_each_own_piece(Range range, bool is_boundary, const Visit& visit) const
 {
+  std::optional<std::string> stopped;
   std::optional<std::string> defect;
-  for (LocalIndex p = range.begin; p < range.end && !defect; ++p) {
+  for (LocalIndex p = range.begin; p < range.end && !stopped && !defect; ++p) {
     if (p % comm_.size() != comm_.rank()) continue;
     const PieceName name{p, is_boundary};
     try {
       visit(name);
+    } catch (const Interrupted& interrupted) {
+      stopped = interrupted.what();
     } catch (const std::exception& error) {
       defect = concat(to_text(name), ": ", error.what());
     }
   }
+  comm_.throw_if_any<Interrupted>(stopped);
   comm_.throw_if_any<InputError>(defect);
 }
 

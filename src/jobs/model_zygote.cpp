@@ -10,6 +10,8 @@
 
 #include <unistd.h>
 
+#include "tessera/jobs/this_process.hpp"
+
 #include "jobs/child_process.hpp"
 #include "jobs/failure.hpp"
 #include "jobs/packet.hpp"

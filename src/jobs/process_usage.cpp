@@ -9,7 +9,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "tessera/jobs/process_memory.hpp"
+#include "tessera/jobs/this_process.hpp"
 
 #include "jobs/file_descriptor.hpp"
 

@@ -29,7 +29,4 @@ struct ProcessSample {
 /// @brief Largest resident memory of a process so far, bytes. 0 if there is no such process.
 [[nodiscard]] std::size_t peak_rss_bytes(pid_t pid);
 
-/// @brief CPU time of the calling process, seconds.
-[[nodiscard]] double cpu_time_of_this_process();
-
 }  // namespace tessera::jobs

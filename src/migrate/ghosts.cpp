@@ -210,7 +210,7 @@ std::vector<GhostTets> find_ghosts(const comm::Communicator& comm, const Distrib
                                    int num_layers)
 {
   std::vector<Surroundings> parts = own_parts(comm, mesh, vertex_parts, num_parts);
-  const IndexLists tets_around = tets_around_vertices(mesh);
+  const IndexLists tets_around = num_layers > 0 ? tets_around_vertices(mesh) : IndexLists{};
   for (int layer = 0; layer < num_layers; ++layer) {
     add_layer(comm, mesh, vertex_parts, tets_around, num_parts, parts);
   }

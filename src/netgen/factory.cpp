@@ -74,10 +74,13 @@ void require_readable(const fs::path& file)
   if (status.type() == fs::file_type::directory) {
     throw InputError(file.string() + ": is a folder; name a CAD file in it");
   }
+  if (fs::is_other(status) && status.type() != fs::file_type::unknown) {
+    throw InputError(file.string() + ": is a pipe or a device; name a CAD file");
+  }
   if (!std::ifstream(file, std::ios::binary)) {
     throw InputError(file.string() + ": cannot be read; check its permissions");
   }
-  if (status.type() == fs::file_type::regular && fs::file_size(file, error) == 0 && !error) {
+  if (fs::file_size(file, error) == 0 && !error) {
     throw InputError(file.string() + ": is empty; export the model again");
   }
 }
@@ -98,11 +101,16 @@ class MesherOfModel final : public coarse::CoarseMesher {
 
 }  // namespace
 
+void require_model_file(const fs::path& file)
+{
+  static_cast<void>(kind_of(file));
+  require_readable(file);
+}
+
 model::ModelSource import_model(const fs::path& file, const ImportOptions& options)
 {
-  const FileKind& kind = kind_of(file);
-  require_readable(file);
-  return kind.import(file, options);
+  require_model_file(file);
+  return kind_of(file).import(file, options);
 }
 
 std::unique_ptr<model::Model> load_model(const ModelSource& source)

@@ -117,6 +117,7 @@ class WrongModel(OutcomeTest):
 
     def test_missing_model(self):
         self.assert_refuses_model("none.geo", None, WRONG_INPUT, "no such file", "geometry.file")
+        self.assertFalse((self.folder / "out").exists(), "in the way of the next try")
 
     def test_unknown_kind_of_model(self):
         self.assert_refuses_model("model.dwg", "x", WRONG_INPUT, ".step", ".stl", ranks=[None])

@@ -35,8 +35,10 @@ class Parts(program.ProgramTest):
         self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
 
     def test_automatic_subdomains_are_enough_for_the_parts(self):
-        out = self.mesh(self.case, "out", "--set", "output.parts=2", "--set", "decompose.subdomains=auto")
-        self.assertGreaterEqual(program.figures(out)["num_subdomains"], 32)
+        for kernel in ("netgen", "subdivide"):
+            out = self.mesh(self.case, kernel, "--set", "output.parts=2", "--set",
+                            "decompose.subdomains=auto", "--set", f"fill.kernel={kernel}")
+            self.assertGreaterEqual(program.figures(out)["num_subdomains"], 32)
 
     def test_what_cannot_be_had(self):
         for arguments, words in (

@@ -63,6 +63,14 @@ class Netgen(kill.RestartTest):
         self.record("improve").write_bytes(b"damaged")
         self.resume(ranks=2)
 
+    def test_damaged_piece_of_a_phase_that_is_done(self):
+        """The pieces before it are gone, so the improvement begins anew."""
+        self.kill_run(lambda watch: watch.wait_for(self.record("phase_0").exists), ranks=2)
+        num_done = len(list(self.record("phase_0").parent.glob("phase_*")))
+        piece = self.record(f"improved_{num_done}_000004")
+        piece.write_bytes(piece.read_bytes()[:-1])
+        self.resume(ranks=2)
+
     def test_signals_while_the_mesh_is_written(self):
         for number in (signal.SIGTERM, signal.SIGUSR1):
             self.assert_signal_is_resumable(number, "write", kill.STAGES)

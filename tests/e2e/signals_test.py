@@ -13,6 +13,13 @@ from program import FAILED, OK, STOPPED
 QUICK_S = 10.0
 
 
+def catches(pid, number):
+    """Whether the process has a handler of its own for the signal."""
+    with open(f"/proc/{pid}/status", encoding="ascii") as status:
+        caught = next(line.split()[1] for line in status if line.startswith("SigCgt:"))
+    return int(caught, 16) >> (number - 1) & 1
+
+
 class SignalsTest(program.ProgramTest):
     def start_run(self, case, ranks=None):
         return self.start("mesh", case, "--output", "out", "--progress", "never", ranks=ranks)
@@ -69,6 +76,16 @@ class StopSignals(SignalsTest):
         time.sleep(0.5)  # Past the import, which takes milliseconds.
         process.terminate()
         self.assert_refused(self.finish(process, QUICK_S), STOPPED, "stopped by a signal")
+
+    def test_check(self):
+        mesh = self.mesh(self.case, "out", "--set", "fill.kernel=subdivide", "--set", "refine.levels=5")
+        for ranks in (None, 2):
+            process = self.start("check", mesh / "mesh.pvtu", ranks=ranks)
+            rank = process.pid if ranks is None else program.wait_until(
+                lambda: program.ranks_of(process), "ranks")[0]
+            program.wait_until(lambda: catches(rank, signal.SIGTERM), "a rank that can be stopped")
+            os.kill(rank, signal.SIGTERM)
+            self.assert_refused(self.finish(process, QUICK_S), STOPPED, "stopped by a signal")
 
     def test_folder_can_be_used_again(self):
         process = self.start_run(self.case)

@@ -98,10 +98,13 @@ tlo shell;
             self.assertEqual(program.mesh_files(other), program.mesh_files(alone))
 
     def test_in_place_of_netgen(self):
-        for fault, is_reproducible in (("throw", True), ("loop", False)):
+        for fault, limit, is_reproducible in (
+            ("throw", [], True),
+            ("loop", ["--set", "fill.timeout_s=4"], False),
+        ):
             with self.subTest(fault=fault):
                 folder, _ = self.degraded(
-                    fault, "--set", "refine.levels=2", "--set", "fill.timeout_s=4", ranks=2,
+                    fault, "--set", "refine.levels=2", *limit, ranks=2,
                     env=os.environ | {"TESSERA_TEST_FAULT": f"fill={fault}@1"})
                 report = program.figures(folder)
                 self.assertEqual([s["kernel"] for s in report["subdomains"]],

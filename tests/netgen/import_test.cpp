@@ -3,6 +3,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/netgen/factory.hpp"
@@ -48,6 +49,14 @@ TEST(Import, FolderIsNamed)
   const auto folder = file.folder() / "folder.geo";
   std::filesystem::create_directory(folder);
   expect_in_order(refusal<InputError>(folder), "folder.geo", "folder");
+}
+
+TEST(Import, PipeIsNamedAndNotWaitedFor)
+{
+  const TemporaryFile file("inner.geo", kBall);
+  const auto pipe = file.folder() / "pipe.geo";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expect_in_order(refusal<InputError>(pipe), "pipe.geo", "pipe");
 }
 
 TEST(Import, EmptyFileIsNamed)

@@ -11,12 +11,16 @@
 #include "tessera/model/model.hpp"
 
 /// The only door to NETGEN and OpenCASCADE; free of their types. Everything behind it may crash,
-/// exit or hang, so the program calls it in jobs only.
+/// exit or hang, so the program calls it in jobs only, unless it says otherwise.
 namespace tessera::netgen {
+
+/// @brief Looks at a CAD file's name and kind, reads nothing and calls no library: for any process.
+/// @note Local. @throws InputError if the file is missing, unreadable, empty or of an unknown kind.
+void require_model_file(const std::filesystem::path& file);
 
 /// @brief Reads a CAD file by its extension (.geo .stl .step .stp .iges .igs .brep) and checks it.
 /// @note Local.
-/// @throws InputError if the file is missing, unreadable or of an unknown kind.
+/// @throws InputError as require_model_file().
 /// @throws GeometryError if it holds no closed solid (names the open edges, the missing solid, …).
 [[nodiscard]] model::ModelSource import_model(const std::filesystem::path& file,
                                               const model::ImportOptions& options);

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/jobs/job_runner.hpp"
-#include "tessera/jobs/process_memory.hpp"
+#include "tessera/jobs/this_process.hpp"
 
 #include "support/failing_worker.hpp"
 

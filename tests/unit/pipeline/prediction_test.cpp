@@ -254,6 +254,7 @@ struct PredictionFile : ::testing::Test {
   const testing::TemporaryFolder folder{};
   config::Case run_case{};
   model::ModelSource model{};
+  std::vector<LocalIndex> only_subdomains{};
   ActualRun actual{.num_ranks = 2,
                    .tets = 11'000.0,
                    .vertices = 1400.0,
@@ -271,13 +272,15 @@ struct PredictionFile : ::testing::Test {
   {
     DryRun dry_run{.prediction = predict(basis_of(4, KernelKind::netgen, 2))};
     dry_run.advice.must = {"more disk"};
-    io::write_text_atomically(folder.path() / "prediction.json",
-                              prediction_json(dry_run, PredictedRun(run_case, model)));
+    io::write_text_atomically(
+        folder.path() / "prediction.json",
+        prediction_json(dry_run, PredictedRun(run_case, model, only_subdomains)));
   }
 
   [[nodiscard]] std::vector<PredictedFigure> compare() const
   {
-    return compare_with_prediction(folder.path(), PredictedRun(run_case, model), actual);
+    return compare_with_prediction(folder.path(), PredictedRun(run_case, model, only_subdomains),
+                                   actual);
   }
 };
 
@@ -322,6 +325,9 @@ TEST_F(PredictionFile, OfAnotherRunSaysNothing)
   run_case.refine.levels += 1;
   EXPECT_TRUE(compare().empty());
   run_case.refine.levels -= 1;
+  only_subdomains = {3};
+  EXPECT_TRUE(compare().empty());
+  only_subdomains = {};
   model.content.push_back(std::byte{1});
   EXPECT_TRUE(compare().empty());
 }
