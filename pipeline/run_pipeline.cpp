@@ -14,6 +14,7 @@
 
 #include "pipeline/count_pieces.hpp"
 #include "pipeline/disk_space.hpp"
+#include "pipeline/naming_model.hpp"
 #include "pipeline/resolve_size.hpp"
 #include "pipeline/run_outline.hpp"
 #include "pipeline/share_out.hpp"
@@ -200,11 +201,14 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   RunResult run = run_coarse_part(given, options, context);
   const CutMesh cut(run.coarse.mesh, run.decomposition.decomposition);
   std::vector<SubdomainRange> files;
-  all_or_none(context.comm, [&] { files = output_ranges(run, options); });
+  all_or_none(context.comm,
+              [&] { naming_model(given, [&] { files = output_ranges(run, options); }); });
   const RunOutline outline =
       outline_run(cut, run.kernels, run.resolved.refine.levels, files, run.resolved.improve.seams);
   all_or_none(context.comm, [&] {
-    if (const auto defect = file_too_large(outline, run.resolved)) throw ConfigError(*defect);
+    naming_model(given, [&] {
+      if (const auto defect = file_too_large(outline, run.resolved)) throw ConfigError(*defect);
+    });
   });
   const bool is_one_pass = outline.is_one_pass;
   const std::string length_unit = output_length_unit(run);

@@ -14,6 +14,7 @@
 #include "tessera/fill/ladder.hpp"
 
 #include "pipeline/exit_code.hpp"
+#include "pipeline/naming_model.hpp"
 #include "pipeline/run_outline.hpp"
 
 namespace tessera::pipeline {
@@ -40,19 +41,10 @@ decompose::DecomposeOptions options_of(const config::Case& run_case,
   return options;
 }
 
-std::vector<fill::KernelKind> kernels_of_tets(const config::Case& run_case,
-                                              const mesh::CoarseMesh& coarse)
-{
-  try {
-    return fill::kernels_of(run_case.fill, coarse.material_names, coarse.tet_material);
-  } catch (const ConfigError& error) {
-    throw ConfigError(run_case.geometry.file.string() + ": " + error.what());
-  }
-}
-
 decompose::DecomposeResult cut(const config::Case& run_case, const mesh::CoarseMesh& coarse)
 {
-  const std::vector<fill::KernelKind> kernels = kernels_of_tets(run_case, coarse);
+  const std::vector<fill::KernelKind> kernels =
+      fill::kernels_of(run_case.fill, coarse.material_names, coarse.tet_material);
   const std::vector<double> weights =
       decompose::predicted_fine_tets(coarse, run_case.refine.levels);
   const auto partitioner = decompose::make_metis_partitioner();
@@ -85,8 +77,9 @@ decompose::DecomposeResult run_decompose_stage(const config::Case& run_case,
                                                const mesh::CoarseMesh& coarse, RunContext& context)
 {
   StageScope stage(context, "decompose");
-  decompose::DecomposeResult result = decompose_result_from_bytes(
-      on_root(context.comm, [&] { return to_bytes(cut(run_case, coarse)); }));
+  decompose::DecomposeResult result = decompose_result_from_bytes(on_root(context.comm, [&] {
+    return naming_model(run_case, [&] { return to_bytes(cut(run_case, coarse)); });
+  }));
   stage.work_is_done();
   stage.finish(std::to_string(result.report.num_subdomains) + " subdomains");
   return result;

@@ -105,7 +105,8 @@ constexpr Key kKeys[] = {
      .rule = RealRule{[](Case& c) -> double& { return c.fill.timeout_s; }, 0.0, Bound::inclusive,
                       kHuge, Bound::inclusive},
      .unit = "seconds of CPU time",
-     .meaning = "Limit of one fill job; 0 derives it from the predicted number of tets. A job that "
+     .meaning = "Limit of one job of fill or improvement; 0 derives it from the predicted number "
+                "of tets. A job that "
                 "sleeps as long, or 120 s, is ended too.",
      .reason = "the derived limit is generous (at least 20 times the prediction), so that only a "
                "hanging job meets it"},
@@ -113,7 +114,7 @@ constexpr Key kKeys[] = {
      .rule = RealRule{[](Case& c) -> double& { return c.fill.memory_gib; }, 0.0, Bound::exclusive,
                       1e6, Bound::inclusive},
      .unit = "GiB",
-     .meaning = "Limit of one fill job's resident memory.",
+     .meaning = "Limit of the resident memory of one job of fill or improvement.",
      .reason =
          "filling one skin alone with 485 k tets took 0.7 GiB; a job that needs more than this is "
          "running away, or wants more subdomains"},

@@ -99,7 +99,7 @@ class WrongCase(OutcomeTest):
 
     def test_more_subdomains_than_coarse_tets(self):
         case = self.write_case(subdomains=100000)
-        self.assert_refuses_case(case, WRONG_INPUT, "decompose.subdomains is 100000", "tets", "fewer")
+        self.assert_refuses_case(case, WRONG_INPUT, "/ball.geo: decompose.subdomains is 100000", "tets", "fewer")
 
     def test_region_of_an_unknown_material(self):
         case = self.write_case()

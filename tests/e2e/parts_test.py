@@ -42,7 +42,7 @@ class Parts(program.ProgramTest):
 
     def test_what_cannot_be_had(self):
         for arguments, words in (
-            (("output.parts=41", "decompose.subdomains=2"), ("output.parts is 41", "decompose.subdomains")),
+            (("output.parts=41", "decompose.subdomains=2"), ("/ball.geo: output.parts is 41", "decompose.subdomains")),
             (("output.parts=2", "output.files=2"), ("output.parts excludes output.files",)),
         ):
             sets = [word for argument in arguments for word in ("--set", argument)]
