@@ -6,8 +6,6 @@
 #include "tessera/base/error.hpp"
 #include "tessera/jobs/this_process.hpp"
 
-#include "pipeline/run_context.hpp"
-
 namespace tessera::pipeline {
 
 BatchFiller::BatchFiller(const FillTask& task, const std::filesystem::path& output,

@@ -9,14 +9,10 @@
 #include "tessera/base/error.hpp"
 #include "tessera/jobs/this_process.hpp"
 
+#include "pipeline/exit_code.hpp"
 #include "pipeline/stop_signal.hpp"
 
 namespace tessera::pipeline {
-namespace {
-
-constexpr const char* kStopped = "stopped by a signal";
-
-}  // namespace
 
 StageScope::StageScope(RunContext& context, std::string name, std::int64_t total,
                        const std::string& unit)
@@ -113,9 +109,7 @@ void throw_if_cancelled(const jobs::JobOutcome& outcome)
 
 void throw_if_stopped(const comm::Communicator& comm)
 {
-  std::optional<std::string> stopped;
-  if (stop_requested()) stopped = kStopped;
-  comm.throw_if_any<Interrupted>(stopped);
+  all_or_none(comm, throw_if_stop_requested);
 }
 
 }  // namespace tessera::pipeline

@@ -36,7 +36,7 @@ bool stop_requested() { return stop_flag != 0; }
 
 void throw_if_stop_requested()
 {
-  if (stop_requested()) throw Interrupted("stopped by a signal");
+  if (stop_requested()) throw Interrupted(kStopped);
 }
 
 }  // namespace tessera::pipeline

@@ -15,6 +15,9 @@ void ignore_write_signals();
 /// @brief Whether one of them has come to this rank. Local, cheap.
 [[nodiscard]] bool stop_requested();
 
+/// @brief What a run says that one of them has ended.
+inline constexpr const char* kStopped = "stopped by a signal";
+
 /// @brief Throws Interrupted if so. Local: within what all_or_none() runs, or the like.
 void throw_if_stop_requested();
 

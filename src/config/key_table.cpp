@@ -106,8 +106,7 @@ constexpr Key kKeys[] = {
                       kHuge, Bound::inclusive},
      .unit = "seconds of CPU time",
      .meaning = "Limit of one job of fill or improvement; 0 derives it from the predicted number "
-                "of tets. A job that "
-                "sleeps as long, or 120 s, is ended too.",
+                "of tets. A job that sleeps as long, or 120 s, is ended too.",
      .reason = "the derived limit is generous (at least 20 times the prediction), so that only a "
                "hanging job meets it"},
     {.name = "fill.memory_gib",
