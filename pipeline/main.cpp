@@ -10,16 +10,16 @@
 #include "tessera/comm/environment.hpp"
 #include "tessera/jobs/job_runner.hpp"
 
-#include "pipeline/check_command.hpp"
-#include "pipeline/cli.hpp"
-#include "pipeline/exit_code.hpp"
-#include "pipeline/info_command.hpp"
-#include "pipeline/mesh_command.hpp"
-#include "pipeline/mesh_worker.hpp"
-#include "pipeline/repartition/repartition_command.hpp"
-#include "pipeline/replay_command.hpp"
-#include "pipeline/stop_signal.hpp"
-#include "pipeline/test_fault.hpp"
+#include "pipeline/commands/check_command.hpp"
+#include "pipeline/commands/cli.hpp"
+#include "pipeline/commands/info_command.hpp"
+#include "pipeline/commands/mesh_command.hpp"
+#include "pipeline/commands/repartition_command.hpp"
+#include "pipeline/commands/replay_command.hpp"
+#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/jobs/test_fault.hpp"
+#include "pipeline/runtime/exit_code.hpp"
+#include "pipeline/runtime/stop_signal.hpp"
 
 namespace tessera::pipeline {
 namespace {

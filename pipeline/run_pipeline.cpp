@@ -2,29 +2,30 @@
 #include "pipeline/run_pipeline.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
-#include <memory>
 #include <string>
 #include <utility>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
-#include "tessera/fill/ladder.hpp"
+#include "tessera/fill/fallbacks.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/subdomain/count_pieces.hpp"
 
-#include "pipeline/count_pieces.hpp"
-#include "pipeline/disk_space.hpp"
-#include "pipeline/naming_model.hpp"
-#include "pipeline/resolve_size.hpp"
-#include "pipeline/run_outline.hpp"
-#include "pipeline/share_out.hpp"
+#include "pipeline/estimate/disk_space.hpp"
+#include "pipeline/estimate/run_outline.hpp"
+#include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/runtime/with_file_context.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/improve_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
-#include "pipeline/stages/plan_stage.hpp"
+#include "pipeline/stages/size_stage.hpp"
+#include "pipeline/stages/untangle_stage.hpp"
 #include "pipeline/stages/verify_stage.hpp"
 #include "pipeline/stages/write_stage.hpp"
+#include "pipeline/store/improved_pieces.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -68,8 +69,8 @@ void cut_coarse_mesh(RunResult& run, double target, const RunOptions& options, R
 }
 
 // The plan that a stopped run has left, or a first one.
-Plan first_plan(const RunResult& run, const CutMesh& cut, const RunOptions& options,
-                RunContext& context)
+Plan first_plan(const RunResult& run, const subdomain::PartitionedMesh& cut,
+                const RunOptions& options, RunContext& context)
 {
   const auto kept = find_on_root(context.comm, [&]() -> std::optional<Bytes> {
     const auto plan = options.state == nullptr ? std::nullopt : options.state->find_plan();
@@ -77,23 +78,23 @@ Plan first_plan(const RunResult& run, const CutMesh& cut, const RunOptions& opti
   });
   if (kept) return plan_from_bytes(*kept);
   Plan plan{.kernels = run.kernels};
-  plan.damping = run_plan_stage({.cut = cut,
-                                 .kernels = plan.kernels,
-                                 .levels = run.resolved.refine.levels,
-                                 .subdomains = in_order(at(cut.num_subdomains()))},
-                                {}, context);
+  plan.limiter = run_untangle_stage({.cut = cut,
+                                     .kernels = plan.kernels,
+                                     .levels = run.resolved.refine.levels,
+                                     .subdomains = in_order(at(cut.num_subdomains()))},
+                                    {}, context);
   return plan;
 }
 
 // Makes the plan anew for subdomains that were folded under it: they will be subdivided.
 // @throws MeshError if there is nothing left to hold back: then the coarse tets themselves are
 // flat.
-void plan_for_folded(const FilledPieces& filled, const CutMesh& cut, int levels, Plan& plan,
-                     RunContext& context)
+void plan_for_folded(const FilledPieces& filled, const subdomain::PartitionedMesh& cut, int levels,
+                     Plan& plan, RunContext& context)
 {
   const Bytes before = to_bytes(plan);
-  PlanWork work{
-      .cut = cut, .kernels = plan.kernels, .levels = levels, .depth = PlanDepth::all_levels};
+  UntangleWork work{
+      .cut = cut, .kernels = plan.kernels, .levels = levels, .depth = UntangleDepth::all_levels};
   for (const FoldedSubdomain& one : filled.folded) {
     plan.kernels[at(one.subdomain)] = fill::KernelKind::subdivide;
     if (one.was_limited) plan.limited.push_back(one.subdomain);
@@ -103,7 +104,7 @@ void plan_for_folded(const FilledPieces& filled, const CutMesh& cut, int levels,
   std::ranges::copy_if(filled.failures, std::back_inserter(plan.failures), [&](const auto& tries) {
     return std::ranges::binary_search(work.subdomains, tries.subdomain);
   });
-  plan.damping = run_plan_stage(work, std::move(plan.damping), context);
+  plan.limiter = run_untangle_stage(work, std::move(plan.limiter), context);
   all_or_none(context.comm, [&] {
     if (to_bytes(plan) != before) return;
     throw MeshError("subdomain " + std::to_string(filled.folded.front().subdomain)
@@ -113,44 +114,47 @@ void plan_for_folded(const FilledPieces& filled, const CutMesh& cut, int levels,
 }
 
 // Fills; where even subdivision finds inverted tets, plans anew for it and fills what that touches.
-// Dampings only fall, so it ends.
-void plan_and_fill(RunResult& run, const CutMesh& cut, const std::vector<SubdomainRange>& ranges,
-                   const RunOptions& options, RunContext& context)
+// Limits only fall, so it ends.
+void plan_and_fill(RunResult& run, const subdomain::PartitionedMesh& cut,
+                   const std::vector<subdomain::SubdomainRange>& ranges, const RunOptions& options,
+                   RunContext& context)
 {
   Plan plan = first_plan(run, cut, options, context);
   for (;;) {
     all_or_none(context.comm, [&] {
       if (options.state != nullptr && context.comm.rank() == 0) options.state->keep_plan(plan);
     });
-    load_plan(plan.damping, context);
-    run.filled = run_fill_stage(run.resolved, {cut, plan.kernels, plan.damping, ranges}, context);
+    load_limiter(plan.limiter, context);
+    run.filled = run_fill_stage(run.resolved, {cut, plan.kernels, plan.limiter, ranges}, context);
     if (run.filled.folded.empty()) break;
     plan_for_folded(run.filled, cut, run.resolved.refine.levels, plan, context);
   }
-  for (PieceSummary& piece : run.filled.pieces) {
+  for (subdomain::PieceSummary& piece : run.filled.pieces) {
     if (std::ranges::binary_search(plan.limited, piece.subdomain)) piece.was_limited = true;
   }
   std::ranges::move(plan.failures, std::back_inserter(run.filled.failures));
-  run.damping = std::move(plan.damping);
+  run.limiter = std::move(plan.limiter);
 }
 
 // Ids of vertices follow from closed forms, unless pieces have exchanged tets.
-number::IdLayout number_mesh(const CutMesh& cut, int levels, const RunOutline& outline,
-                             const FilledPieces& filled)
+number::IdLayout number_mesh(const subdomain::PartitionedMesh& cut, int levels,
+                             const RunOutline& outline, const FilledPieces& filled)
 {
   if (filled.improvement.generation > 0) {
-    return number::IdLayout::by_owner(counts_of(filled.pieces));
+    return number::IdLayout::by_owner(subdomain::counts_of(filled.pieces));
   }
-  return {mesh::UnitLayout(cut.skeleton), mesh::lattice::intervals(levels),
-          outline.is_one_pass ? outline.pieces : counts_of(filled.pieces)};
+  return {mesh::HostLayout(cut.skeleton), mesh::lattice::intervals(levels),
+          outline.is_one_pass ? outline.pieces : subdomain::counts_of(filled.pieces)};
 }
 
-std::unique_ptr<ImprovedPieces> improved_pieces(const CutMesh& cut, const FilledPieces& filled,
-                                                const RunContext& context)
+// Who owns which vertex, once pieces have exchanged tets.
+std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of_vertices(
+    const subdomain::PartitionedMesh& cut, const FilledPieces& filled, const RunContext& context)
 {
   const int generation = filled.improvement.generation;
-  if (generation == 0) return nullptr;
-  return std::make_unique<ImprovedPieces>(context.folder, cut.skeleton, generation);
+  if (generation == 0) return {};
+  return [pieces = ImprovedPieces(context.folder, cut.skeleton, generation)](
+             const mesh::Piece& piece) { return pieces.places_of(piece); };
 }
 
 }  // namespace
@@ -161,13 +165,14 @@ std::string output_length_unit(const RunResult& run)
   return run.resolved.geometry.scale == 1.0 ? run.model.length_unit : std::string{};
 }
 
-std::vector<SubdomainRange> output_ranges(const RunResult& run, const RunOptions& options)
+std::vector<subdomain::SubdomainRange> output_ranges(const RunResult& run,
+                                                     const RunOptions& options)
 {
   const LocalIndex num_subdomains = run.decomposition.decomposition.num_subdomains();
   const std::vector<LocalIndex>& only = options.only_subdomains;
   const std::vector<LocalIndex>& part_offsets = run.decomposition.decomposition.part_offsets;
-  if (only.empty() && !part_offsets.empty()) return part_ranges(part_offsets);
-  if (only.empty()) return file_ranges(num_subdomains, run.resolved.output.files);
+  if (only.empty() && !part_offsets.empty()) return subdomain::part_ranges(part_offsets);
+  if (only.empty()) return subdomain::file_ranges(num_subdomains, run.resolved.output.files);
   if (!are_counts_known(run.kernels)) {
     throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\" and no other region");
   }
@@ -175,7 +180,7 @@ std::vector<SubdomainRange> output_ranges(const RunResult& run, const RunOptions
     throw ConfigError("--only-subdomains: there is no subdomain " + std::to_string(only.back())
                       + ", the last one is " + std::to_string(num_subdomains - 1));
   }
-  return single_ranges(only);
+  return subdomain::single_ranges(only);
 }
 
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
@@ -199,14 +204,14 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
 RunResult run_pipeline(const config::Case& given, const RunOptions& options, RunContext& context)
 {
   RunResult run = run_coarse_part(given, options, context);
-  const CutMesh cut(run.coarse.mesh, run.decomposition.decomposition);
-  std::vector<SubdomainRange> files;
+  const subdomain::PartitionedMesh cut(run.coarse.mesh, run.decomposition.decomposition);
+  std::vector<subdomain::SubdomainRange> files;
   all_or_none(context.comm,
-              [&] { naming_model(given, [&] { files = output_ranges(run, options); }); });
+              [&] { with_file_context(given, [&] { files = output_ranges(run, options); }); });
   const RunOutline outline =
       outline_run(cut, run.kernels, run.resolved.refine.levels, files, run.resolved.improve.seams);
   all_or_none(context.comm, [&] {
-    naming_model(given, [&] {
+    with_file_context(given, [&] {
       if (const auto defect = file_too_large(outline, run.resolved)) throw ConfigError(*defect);
     });
   });
@@ -225,8 +230,8 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   }
   run_verify_stage(cut, outline.jobs, run.filled, context);
   const number::IdLayout ids = number_mesh(cut, levels, outline, run.filled);
-  const auto improved = improved_pieces(cut, run.filled, context);
-  const WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit, improved.get()};
+  const subdomain::WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit,
+                                     places_of_vertices(cut, run.filled, context)};
   if (!is_one_pass) run_write_stage(run.resolved, files, mesh, run.filled, context);
   write_indices(run.resolved, files, mesh, run.filled, context);
   run.only_subdomains = options.only_subdomains;

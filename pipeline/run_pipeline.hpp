@@ -6,13 +6,13 @@
 
 #include "tessera/config/case.hpp"
 #include "tessera/decompose/decompose.hpp"
-#include "tessera/mesh/damping.hpp"
+#include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/model/model.hpp"
 
-#include "pipeline/run_context.hpp"
-#include "pipeline/run_state.hpp"
+#include "pipeline/runtime/run_context.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/fill_stage.hpp"
+#include "pipeline/store/run_state.hpp"
 
 namespace tessera::pipeline {
 
@@ -24,7 +24,7 @@ struct RunResult {
   CoarseResult coarse{};
   decompose::DecomposeResult decomposition{};
   std::vector<fill::KernelKind> kernels{};  ///< By subdomain, as the case wants them.
-  mesh::Damping damping{};
+  mesh::ProjectionLimiter limiter{};
   FilledPieces filled{};
   std::vector<LocalIndex> only_subdomains{};  ///< As asked for; empty: all.
   GlobalIndex num_vertices = 0;               ///< Of the whole mesh, made or not.
@@ -40,10 +40,10 @@ struct RunOptions {
 /// @brief What each file of the run holds: output.files, or the subdomains asked for. Local.
 /// @throws ConfigError if only some subdomains are asked for and that is not possible: part of a
 /// mesh has ids only where the number of all other tets is known without making them.
-[[nodiscard]] std::vector<SubdomainRange> output_ranges(const RunResult& run,
-                                                        const RunOptions& options);
+[[nodiscard]] std::vector<subdomain::SubdomainRange> output_ranges(const RunResult& run,
+                                                                   const RunOptions& options);
 
-/// @brief Unit of the output's lengths; empty if nobody knows it. Local.
+/// @brief HostEntity of the output's lengths; empty if nobody knows it. Local.
 [[nodiscard]] std::string output_length_unit(const RunResult& run);
 
 /// @brief The stages in their order.

@@ -10,15 +10,15 @@
 #include "tessera/io/vtu.hpp"
 #include "tessera/jobs/this_process.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/subdomain/count_pieces.hpp"
 
-#include "pipeline/count_pieces.hpp"
-#include "pipeline/exit_code.hpp"
-#include "pipeline/fill_record.hpp"
-#include "pipeline/log.hpp"
 #include "pipeline/predict/choose_samples.hpp"
+#include "pipeline/runtime/exit_code.hpp"
+#include "pipeline/runtime/log.hpp"
 #include "pipeline/stages/load_stage.hpp"
-#include "pipeline/stages/plan_stage.hpp"
+#include "pipeline/stages/untangle_stage.hpp"
 #include "pipeline/stages/write_stage.hpp"
+#include "pipeline/store/fill_record.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -75,7 +75,7 @@ void divide(double& rate, double cost, double number)
 // Samples one kernel after the other; keeps what they measure as rates.
 class Sampler {
  public:
-  Sampler(const RunResult& run, const CutMesh& cut, const RunOutline& outline,
+  Sampler(const RunResult& run, const subdomain::PartitionedMesh& cut, const RunOutline& outline,
           const fs::path& folder, RunContext& context)
       : run_(run),
         cut_(cut),
@@ -106,9 +106,9 @@ class Sampler {
  private:
   [[nodiscard]] SampleSet choose(fill::KernelKind kernel) const
   {
-    std::vector<SubdomainRange> jobs;
+    std::vector<subdomain::SubdomainRange> jobs;
     std::vector<double> cost_s;
-    for (const SubdomainRange& job : outline_.jobs) {
+    for (const subdomain::SubdomainRange& job : outline_.jobs) {
       if (run_.kernels[at(job.first)] != kernel) continue;
       jobs.push_back(job);
       cost_s.push_back(calibration_.rates.of(kernel).fill_cpu_s_per_tet
@@ -129,14 +129,14 @@ class Sampler {
     if (outline.is_one_pass) {
       load_numbers(outline.pieces, length_unit_, run_case.output, own_);
     }
-    PlanWork plan{.cut = cut_, .kernels = run_.kernels, .levels = set.levels};
-    for (const SubdomainRange& job : set.jobs) {
+    UntangleWork plan{.cut = cut_, .kernels = run_.kernels, .levels = set.levels};
+    for (const subdomain::SubdomainRange& job : set.jobs) {
       for (LocalIndex s = job.first; s < job.last; ++s) plan.subdomains.push_back(s);
     }
     std::ranges::sort(plan.subdomains);
-    const mesh::Damping damping = run_plan_stage(plan, {}, own_);
-    load_plan(damping, own_);
-    FilledPieces filled = run_fill_stage(run_case, {cut_, run_.kernels, damping, set.jobs}, own_);
+    const mesh::ProjectionLimiter limiter = run_untangle_stage(plan, {}, own_);
+    load_limiter(limiter, own_);
+    FilledPieces filled = run_fill_stage(run_case, {cut_, run_.kernels, limiter, set.jobs}, own_);
     set.pieces = std::move(filled.pieces);
   }
 
@@ -148,13 +148,13 @@ class Sampler {
     GlobalIndex tets = 0;
     GlobalIndex expected = 0;
     GlobalIndex interior = 0;
-    for (const PieceSummary& piece : set.pieces) {
+    for (const subdomain::PieceSummary& piece : set.pieces) {
       tets += piece.num_tets;
       interior += piece.num_interior_vertices;
       expected += outline.pieces[at(piece.subdomain)].tets;
     }
     GlobalIndex planned = 0;
-    for (const SubdomainRange& job : set.jobs) planned += outline.tets_of(job);
+    for (const subdomain::SubdomainRange& job : set.jobs) planned += outline.tets_of(job);
     KernelRates& rates = calibration_.rates.of(set.kernel);
     if (set.kernel == fill::KernelKind::netgen) {
       divide(rates.tets_per_expected, static_cast<double>(tets), static_cast<double>(expected));
@@ -177,10 +177,11 @@ class Sampler {
     divide(rates.job_bytes_per_tet, jobs_peak - loaded - kJobBytes, static_cast<double>(largest));
   }
 
-  [[nodiscard]] static const PieceSummary* find(const SampleSet& set, LocalIndex subdomain)
+  [[nodiscard]] static const subdomain::PieceSummary* find(const SampleSet& set,
+                                                           LocalIndex subdomain)
   {
     const auto found =
-        std::ranges::lower_bound(set.pieces, subdomain, {}, &PieceSummary::subdomain);
+        std::ranges::lower_bound(set.pieces, subdomain, {}, &subdomain::PieceSummary::subdomain);
     const bool is_there = found != set.pieces.end() && found->subdomain == subdomain;
     return is_there ? &*found : nullptr;
   }
@@ -188,10 +189,10 @@ class Sampler {
   [[nodiscard]] static GlobalIndex largest_job(const SampleSet& set)
   {
     GlobalIndex largest = 0;
-    for (const SubdomainRange& job : set.jobs) {
+    for (const subdomain::SubdomainRange& job : set.jobs) {
       GlobalIndex tets = 0;
       for (LocalIndex s = job.first; s < job.last; ++s) {
-        if (const PieceSummary* piece = find(set, s)) tets += piece->num_tets;
+        if (const subdomain::PieceSummary* piece = find(set, s)) tets += piece->num_tets;
       }
       largest = std::max(largest, tets);
     }
@@ -202,7 +203,7 @@ class Sampler {
   {
     GlobalIndex tets = 0;
     GlobalIndex boundary = 0;
-    for (const SubdomainRange& job : whole_jobs(set)) {
+    for (const subdomain::SubdomainRange& job : whole_jobs(set)) {
       for (LocalIndex s = job.first; s < job.last; ++s) {
         tets += find(set, s)->num_tets;
         boundary += find(set, s)->num_boundary;
@@ -224,10 +225,10 @@ class Sampler {
   }
 
   // Jobs of which every piece is there; folded ones have left no record.
-  [[nodiscard]] static std::vector<SubdomainRange> whole_jobs(const SampleSet& set)
+  [[nodiscard]] static std::vector<subdomain::SubdomainRange> whole_jobs(const SampleSet& set)
   {
-    std::vector<SubdomainRange> whole;
-    for (const SubdomainRange& job : set.jobs) {
+    std::vector<subdomain::SubdomainRange> whole;
+    for (const subdomain::SubdomainRange& job : set.jobs) {
       bool all_there = true;
       for (LocalIndex s = job.first; s < job.last; ++s) all_there = all_there && find(set, s);
       if (all_there) whole.push_back(job);
@@ -239,33 +240,35 @@ class Sampler {
   [[nodiscard]] FileCosts measure_files(const SampleSet& set, const RunOutline& outline) const
   {
     std::vector<number::PieceCounts> counts = outline.pieces;
-    for (const PieceSummary& piece : set.pieces) counts[at(piece.subdomain)] = counts_of(piece);
-    const number::IdLayout ids(mesh::UnitLayout(cut_.skeleton),
+    for (const subdomain::PieceSummary& piece : set.pieces)
+      counts[at(piece.subdomain)] = subdomain::counts_of(piece);
+    const number::IdLayout ids(mesh::HostLayout(cut_.skeleton),
                                mesh::lattice::intervals(set.levels), counts);
-    const WriteContext mesh{cut_.coarse, cut_.skeleton, ids, length_unit_};
+    const subdomain::WriteContext mesh{cut_.coarse, cut_.skeleton, ids, length_unit_};
     const io::OutputOptions& options = run_.resolved.output;
     FileCosts costs;
     const fs::path empty = own_.folder / "header.vtu";
-    io::write_vtu(piece_arrays({}, mesh, options.cell_quality).tets, empty, options.compression);
+    io::write_vtu(subdomain::piece_arrays({}, mesh, options.cell_quality).tets, empty,
+                  options.compression);
     costs.header_bytes = size_of(empty);
-    for (const SubdomainRange& job : whole_jobs(set)) {
+    for (const subdomain::SubdomainRange& job : whole_jobs(set)) {
       if (!outline.is_one_pass) {
         const double before_s = jobs::cpu_time_of_this_process();
-        write_file(job, options, mesh, own_.folder);
+        write_file(job, options, mesh, {.folder = own_.folder});
         costs.write_cpu_s += jobs::cpu_time_of_this_process() - before_s;
         costs.store_bytes +=
             size_of(store_folder(own_.folder) / (record_name(job.number) + ".record"));
       }
-      const double boundary = size_of(own_.folder / piece_path("boundary", job.number));
+      const double boundary = size_of(own_.folder / subdomain::piece_path("boundary", job.number));
       costs.boundary_bytes += std::max(0.0, boundary - costs.header_bytes);
       costs.mesh_bytes +=
-          size_of(own_.folder / piece_path("mesh", job.number)) - costs.header_bytes;
+          size_of(own_.folder / subdomain::piece_path("mesh", job.number)) - costs.header_bytes;
     }
     return costs;
   }
 
   const RunResult& run_;
-  const CutMesh& cut_;
+  const subdomain::PartitionedMesh& cut_;
   const RunOutline& outline_;
   RunContext& context_;
   std::string length_unit_;
@@ -276,8 +279,8 @@ class Sampler {
 
 }  // namespace
 
-Calibration calibrate(const RunResult& run, const CutMesh& cut, const RunOutline& outline,
-                      const fs::path& folder, RunContext& context)
+Calibration calibrate(const RunResult& run, const subdomain::PartitionedMesh& cut,
+                      const RunOutline& outline, const fs::path& folder, RunContext& context)
 {
   const ScratchFolder scratch(folder, context.comm);
   context.progress.begin("samples", 0, "");
@@ -303,7 +306,7 @@ RunOutline corrected(RunOutline outline, const Calibration& calibration)
   }
   for (const SampleSet& set : calibration.samples) {
     if (set.levels != outline.levels) continue;
-    for (const PieceSummary& piece : set.pieces) {
+    for (const subdomain::PieceSummary& piece : set.pieces) {
       outline.pieces[at(piece.subdomain)].tets = piece.num_tets;
       outline.pieces[at(piece.subdomain)].interior_vertices = piece.num_interior_vertices;
     }

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "pipeline/predict/rates.hpp"
-#include "pipeline/run_outline.hpp"
+#include "pipeline/estimate/rates.hpp"
+#include "pipeline/estimate/run_outline.hpp"
 #include "pipeline/run_pipeline.hpp"
 
 namespace tessera::pipeline {
@@ -13,8 +13,8 @@ namespace tessera::pipeline {
 struct SampleSet {
   fill::KernelKind kernel = fill::KernelKind::netgen;
   int levels = 0;  ///< At which they were filled.
-  std::vector<SubdomainRange> jobs{};
-  std::vector<PieceSummary> pieces{};  ///< By subdomain; without those that were folded.
+  std::vector<subdomain::SubdomainRange> jobs{};
+  std::vector<subdomain::PieceSummary> pieces{};  ///< By subdomain; without those that were folded.
   double cpu_s = 0.0;
 };
 
@@ -30,7 +30,7 @@ struct Calibration {
 /// @param[in] folder Where the samples may write for a while.
 /// @note Collective. The sampled jobs are the same for every number of ranks.
 /// @throws what the stages throw, on every rank.
-[[nodiscard]] Calibration calibrate(const RunResult& run, const CutMesh& cut,
+[[nodiscard]] Calibration calibrate(const RunResult& run, const subdomain::PartitionedMesh& cut,
                                     const RunOutline& outline, const std::filesystem::path& folder,
                                     RunContext& context);
 

@@ -7,10 +7,10 @@
 #include "tessera/io/files.hpp"
 #include "tessera/jobs/this_process.hpp"
 
-#include "pipeline/exit_code.hpp"
 #include "pipeline/predict/calibrate.hpp"
 #include "pipeline/predict/prediction.hpp"
 #include "pipeline/predict/prediction_file.hpp"
+#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/stages/load_stage.hpp"
 
 namespace tessera::pipeline {
@@ -39,8 +39,8 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
 {
   const RunResult run = run_coarse_part(given, {}, context);
   StageScope prepare(context, "prepare");
-  const CutMesh cut(run.coarse.mesh, run.decomposition.decomposition);
-  std::vector<SubdomainRange> files;
+  const subdomain::PartitionedMesh cut(run.coarse.mesh, run.decomposition.decomposition);
+  std::vector<subdomain::SubdomainRange> files;
   all_or_none(context.comm, [&] { files = output_ranges(run, options); });
   RunOutline outline =
       outline_run(cut, run.kernels, run.resolved.refine.levels, files, run.resolved.improve.seams);

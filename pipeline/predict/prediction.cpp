@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "pipeline/disk_space.hpp"
+#include "pipeline/estimate/disk_space.hpp"
 #include "pipeline/predict/schedule.hpp"
 
 namespace tessera::pipeline {
@@ -18,7 +18,7 @@ constexpr double kJobOverhead_s = 0.003;
 using TetRate = double KernelRates::*;
 
 // Tets of a range, each weighted with a rate of its subdomain's kernel.
-double cost_of(const SubdomainRange& range, const PredictionBasis& basis, TetRate rate)
+double cost_of(const subdomain::SubdomainRange& range, const PredictionBasis& basis, TetRate rate)
 {
   double cost = 0.0;
   for (LocalIndex s = range.first; s < range.last; ++s) {
@@ -28,11 +28,11 @@ double cost_of(const SubdomainRange& range, const PredictionBasis& basis, TetRat
   return cost;
 }
 
-double largest_cost(const std::vector<SubdomainRange>& ranges, const PredictionBasis& basis,
-                    TetRate rate)
+double largest_cost(const std::vector<subdomain::SubdomainRange>& ranges,
+                    const PredictionBasis& basis, TetRate rate)
 {
   double largest = 0.0;
-  for (const SubdomainRange& range : ranges) {
+  for (const subdomain::SubdomainRange& range : ranges) {
     largest = std::max(largest, cost_of(range, basis, rate));
   }
   return largest;
@@ -56,11 +56,12 @@ void add_shared_stage(const std::string& name, std::vector<double> job_s, Predic
   shared.makespan_s += schedule.makespan_s;
 }
 
-std::vector<double> durations(const std::vector<SubdomainRange>& ranges,
+std::vector<double> durations(const std::vector<subdomain::SubdomainRange>& ranges,
                               const PredictionBasis& basis, TetRate rate)
 {
   std::vector<double> job_s;
-  for (const SubdomainRange& range : ranges) job_s.push_back(cost_of(range, basis, rate));
+  for (const subdomain::SubdomainRange& range : ranges)
+    job_s.push_back(cost_of(range, basis, rate));
   return job_s;
 }
 
@@ -86,7 +87,7 @@ void add_times(const PredictionBasis& basis, Prediction& prediction)
     serial_s += time.rank_max_cpu_s;
   }
   const RunOutline& outline = basis.outline;
-  std::vector<SubdomainRange> subdomains;
+  std::vector<subdomain::SubdomainRange> subdomains;
   for (LocalIndex s = 0; s < static_cast<LocalIndex>(outline.kernels.size()); ++s) {
     subdomains.push_back({s, s, s + 1});
   }
@@ -118,7 +119,7 @@ void add_numbers(const RunOutline& outline, Prediction& prediction)
     prediction.num_tets += piece.tets;
     prediction.num_vertices += piece.interior_vertices;
   }
-  for (const SubdomainRange& file : outline.files) {
+  for (const subdomain::SubdomainRange& file : outline.files) {
     prediction.num_boundary_triangles += outline.boundary_triangles_of(file);
   }
 }
@@ -137,7 +138,7 @@ void add_memory(const PredictionBasis& basis, Prediction& prediction)
   const double job = kJobBytes + largest_cost(outline.jobs, basis, &KernelRates::job_bytes_per_tet);
   const double jobs = std::max(basis.memory.jobs_peak, basis.memory.loaded + job);
   GlobalIndex largest_file = 0;
-  for (const SubdomainRange& file : outline.files) {
+  for (const subdomain::SubdomainRange& file : outline.files) {
     largest_file = std::max(largest_file, outline.tets_of(file));
   }
   const double writer =

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/predict/rates.hpp"
-#include "pipeline/run_context.hpp"
-#include "pipeline/run_outline.hpp"
+#include "pipeline/estimate/rates.hpp"
+#include "pipeline/estimate/run_outline.hpp"
+#include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
 

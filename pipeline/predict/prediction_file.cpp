@@ -10,9 +10,9 @@
 
 #include "tessera/base/hash.hpp"
 #include "tessera/base/version.hpp"
-#include "tessera/fill/ladder.hpp"
+#include "tessera/fill/fallbacks.hpp"
 
-#include "pipeline/run_state.hpp"
+#include "pipeline/store/run_state.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -65,7 +65,7 @@ Json samples_json(const std::vector<SampleSet>& sets)
   Json samples = Json::array();
   for (const SampleSet& set : sets) {
     std::vector<LocalIndex> subdomains;
-    for (const SubdomainRange& job : set.jobs) {
+    for (const subdomain::SubdomainRange& job : set.jobs) {
       for (LocalIndex s = job.first; s < job.last; ++s) subdomains.push_back(s);
     }
     samples.push_back({{"kernel", fill::name_of(set.kernel)},

@@ -9,7 +9,6 @@
 
 #include "pipeline/predict/calibrate.hpp"
 #include "pipeline/predict/prediction.hpp"
-#include "pipeline/report.hpp"
 
 /// What a dry run says: `DIR/prediction.json`, a table for people, and later the block "prediction"
 /// of report.json.
@@ -24,6 +23,13 @@
 /// "samples": "kernel", "levels", "subdomains", "cpu_s"; "rates" by kernel; "fits"; "must_change"
 /// and "should_change": sentences. Times are those of free cores.
 namespace tessera::pipeline {
+
+/// @brief What a dry run has foretold, and what it became.
+struct PredictedFigure {
+  std::string name{};
+  double predicted = 0.0;
+  double actual = 0.0;
+};
 
 /// @brief Whose prediction it is: a run of another case, model or version, or of other subdomains,
 /// is not that run.

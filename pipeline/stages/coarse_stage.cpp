@@ -7,10 +7,10 @@
 
 #include "tessera/base/error.hpp"
 
-#include "pipeline/exit_code.hpp"
-#include "pipeline/failed_jobs.hpp"
-#include "pipeline/mesh_worker.hpp"
-#include "pipeline/share_out.hpp"
+#include "pipeline/jobs/failed_jobs.hpp"
+#include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 constexpr double kStall_s = 120.0;
 constexpr double kMemory_gib = 16.0;
 
-// The model will not get better on another rung.
+// The model will not get better in another try.
 bool is_final(const jobs::JobOutcome& outcome)
 {
   return outcome.error == jobs::ErrorKind::geometry || outcome.error == jobs::ErrorKind::input
@@ -52,12 +52,12 @@ MeshOfJob mesh_from_bytes(std::span<const std::byte> bytes)
   return made;
 }
 
-CoarseResult climb(const config::Case& run_case, RunContext& context)
+CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
 {
   const jobs::JobLimits limits{run_case.coarse.timeout_s, kStall_s, kMemory_gib};
   CoarseResult result;
   bool was_endless = false;
-  for (const coarse::CoarseOptions& options : coarse_ladder(run_case.coarse)) {
+  for (const coarse::CoarseOptions& options : coarse_fallbacks(run_case.coarse)) {
     // NETGEN's surface mesher that did not end once would not end at another size either.
     const bool is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen;
     if (was_endless && is_netgen) continue;
@@ -74,7 +74,7 @@ CoarseResult climb(const config::Case& run_case, RunContext& context)
       return result;
     }
     throw_if_cancelled(outcome);
-    // Another rung would be another mesh, and nothing is wrong with this one.
+    // Another try would be another mesh, and nothing is wrong with this one.
     if (was_killed_from_outside(outcome)) {
       throw MeshError("coarse: " + outcome.message + way_on(outcome));
     }
@@ -117,32 +117,32 @@ CoarseResult coarse_result_from_bytes(std::span<const std::byte> bytes)
   return result;
 }
 
-std::vector<coarse::CoarseOptions> coarse_ladder(const coarse::CoarseOptions& asked)
+std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions& asked)
 {
-  std::vector<coarse::CoarseOptions> ladder{asked};
+  std::vector<coarse::CoarseOptions> fallbacks{asked};
   for (const double factor : {0.7, 0.5}) {
     coarse::CoarseOptions finer = asked;
     finer.max_size *= factor;
     finer.grading = std::min(finer.grading, 0.2);
-    ladder.push_back(finer);
+    fallbacks.push_back(finer);
   }
   coarse::CoarseOptions rounder = asked;
   rounder.curvature *= 2.0;
-  ladder.push_back(rounder);
+  fallbacks.push_back(rounder);
   for (const double factor : {1.0, 0.5}) {
     coarse::CoarseOptions remeshed = asked;
     remeshed.max_size *= factor;
     remeshed.surface_mesher = coarse::SurfaceMesher::remesh;
-    ladder.push_back(remeshed);
+    fallbacks.push_back(remeshed);
   }
-  return ladder;
+  return fallbacks;
 }
 
 CoarseResult run_coarse_stage(const config::Case& run_case, RunContext& context)
 {
   StageScope stage(context, "coarse");
   CoarseResult result = coarse_result_from_bytes(
-      on_root(context.comm, [&] { return to_bytes(climb(run_case, context)); }));
+      on_root(context.comm, [&] { return to_bytes(first_that_works(run_case, context)); }));
   stage.work_is_done();
   stage.finish(std::to_string(result.mesh.num_tets()) + " tets, "
                + std::to_string(result.mesh.num_patches()) + " patches, "

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
-#include "tessera/coarse/settle_vertices.hpp"
+#include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
-#include "pipeline/run_context.hpp"
+#include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
 
@@ -17,9 +17,9 @@ namespace tessera::pipeline {
 struct CoarseResult {
   mesh::CoarseMesh mesh{};
   coarse::CoarseOptions options{};      ///< Those of the try that succeeded.
-  int tries = 0;                        ///< Rungs of the ladder that were needed, from 1.
+  int tries = 0;                        ///< Tries that were needed, from 1.
   coarse::VertexDistance distance{};    ///< Output length unit.
-  std::vector<std::string> failures{};  ///< What the rungs before said, for the report.
+  std::vector<std::string> failures{};  ///< What the tries before said, for the report.
   bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
 };
 
@@ -30,7 +30,8 @@ struct CoarseResult {
 /// @brief The tries at a coarse mesh, best first: as asked, then with smaller sizes that grow more
 /// slowly, then with more elements on curved surfaces, since a mesh that fails at one size often
 /// works at another; last, on the triangles of the model instead of its faces.
-[[nodiscard]] std::vector<coarse::CoarseOptions> coarse_ladder(const coarse::CoarseOptions& asked);
+[[nodiscard]] std::vector<coarse::CoarseOptions> coarse_fallbacks(
+    const coarse::CoarseOptions& asked);
 
 /// @brief Makes the coarse mesh in jobs of rank 0 and gives it to all ranks.
 /// @note Collective.

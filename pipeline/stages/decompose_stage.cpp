@@ -11,11 +11,11 @@
 #include "tessera/base/error.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
 #include "tessera/decompose/predicted_fine_tets.hpp"
-#include "tessera/fill/ladder.hpp"
+#include "tessera/fill/fallbacks.hpp"
 
-#include "pipeline/exit_code.hpp"
-#include "pipeline/naming_model.hpp"
-#include "pipeline/run_outline.hpp"
+#include "pipeline/estimate/run_outline.hpp"
+#include "pipeline/runtime/exit_code.hpp"
+#include "pipeline/runtime/with_file_context.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -78,7 +78,7 @@ decompose::DecomposeResult run_decompose_stage(const config::Case& run_case,
 {
   StageScope stage(context, "decompose");
   decompose::DecomposeResult result = decompose_result_from_bytes(on_root(context.comm, [&] {
-    return naming_model(run_case, [&] { return to_bytes(cut(run_case, coarse)); });
+    return with_file_context(run_case, [&] { return to_bytes(cut(run_case, coarse)); });
   }));
   stage.work_is_done();
   stage.finish(std::to_string(result.report.num_subdomains) + " subdomains");

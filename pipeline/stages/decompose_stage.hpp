@@ -8,7 +8,7 @@
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
-#include "pipeline/run_context.hpp"
+#include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
 

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
-#include "tessera/fill/ladder.hpp"
+#include "tessera/fill/fallbacks.hpp"
 
-#include "pipeline/failed_jobs.hpp"
-#include "pipeline/fill_record.hpp"
-#include "pipeline/mesh_worker.hpp"
-#include "pipeline/share_out.hpp"
+#include "pipeline/jobs/failed_jobs.hpp"
+#include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/store/fill_record.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -23,7 +23,8 @@ namespace {
 // of the two stays. Most pieces reach 10 to 20 degrees; the last few of many reach 2 to 8.
 constexpr double kPoorAngle_deg = 8.0;
 
-double weight_of(const SubdomainRange& range, const std::vector<double>& subdomain_weight)
+double weight_of(const subdomain::SubdomainRange& range,
+                 const std::vector<double>& subdomain_weight)
 {
   double weight = 0.0;
   for (LocalIndex s = range.first; s < range.last; ++s) weight += subdomain_weight[at(s)];
@@ -32,14 +33,14 @@ double weight_of(const SubdomainRange& range, const std::vector<double>& subdoma
 
 // Of a poor piece in the store nobody can tell whether the run was killed before its other try: it
 // is made again, so that a resumed run has the bits of one that was never stopped.
-bool is_poor(const std::vector<FillResult>& results)
+bool is_poor(const std::vector<subdomain::FillResult>& results)
 {
-  const PieceSummary& first = results.front().summary;
+  const subdomain::PieceSummary& first = results.front().summary;
   return first.kernel == fill::KernelKind::netgen && first.tets.min_dihedral_deg < kPoorAngle_deg;
 }
 
-// Climbs the ladder for one range of subdomains after another; keeps what this rank's pieces sum up
-// to.
+// Fills one range of subdomains after another, each by its sequence of fallbacks; keeps what this
+// rank's pieces sum up to.
 class Filler {
  public:
   Filler(const fill::FillOptions& options, const FillWork& work, RunContext& context)
@@ -51,108 +52,108 @@ class Filler {
     own_.seam_sums.resize(at(work.cut.skeleton.num_triangles()));
   }
 
-  /// Fills one range. @throws MeshError if every rung failed, Interrupted if cancelled.
-  void fill(const SubdomainRange& range, const jobs::JobRunner::WaitCallback& on_wait)
+  /// Fills one range. @throws MeshError if every try failed, Interrupted if cancelled.
+  void fill(const subdomain::SubdomainRange& range, const jobs::JobRunner::WaitCallback& on_wait)
   {
-    const Hash128 plan = plan_fingerprint(cut_fingerprint_, work_.cut.skeleton, work_.damping,
+    const Hash128 plan = plan_fingerprint(cut_fingerprint_, work_.cut.skeleton, work_.limiter,
                                           range.first, range.last);
     const auto record = find_record(context_.folder, range.number, plan);
     if (record && !is_poor(record->results)) return keep(record->results);
-    Climb climb{.range = range, .plan = plan};
+    Tries tries{.range = range, .plan = plan};
     for (const fill::FillTry& settings :
-         fill::retry_ladder(options_, work_.kernels[at(range.first)])) {
-      if (is_done_after(climb, settings, on_wait)) break;
+         fill::fallback_sequence(options_, work_.kernels[at(range.first)])) {
+      if (is_done_after(tries, settings, on_wait)) break;
     }
-    if (climb.best.empty()) {
+    if (tries.best.empty()) {
       std::string text = "subdomain " + std::to_string(range.first)
                          + " could not be filled; try another decompose.subdomains or a smaller "
                            "coarse.max_size";
-      if (climb.was_limited) text += ", or a larger fill.memory_gib or fill.timeout_s";
-      for (const std::string& failure : climb.failures) text += "\n  " + failure;
+      if (tries.was_limited) text += ", or a larger fill.memory_gib or fill.timeout_s";
+      for (const std::string& failure : tries.failures) text += "\n  " + failure;
       throw MeshError(text);
     }
-    for (FillResult& result : climb.best) {  // A try after it may have failed.
-      result.summary.was_limited = climb.was_limited;
-      result.summary.tries = climb.tries;
-      result.failures = climb.failures;
+    for (subdomain::FillResult& result : tries.best) {  // A try after it may have failed.
+      result.summary.was_limited = tries.was_limited;
+      result.summary.tries = tries.count;
+      result.failures = tries.failures;
     }
-    keep(climb.best);
+    keep(tries.best);
   }
 
   [[nodiscard]] FilledPieces take() && { return std::move(own_); }
 
  private:
-  // What the rungs of one range's ladder have given so far.
-  struct Climb {
-    SubdomainRange range{};
+  // What the tries at one range have given so far.
+  struct Tries {
+    subdomain::SubdomainRange range{};
     Hash128 plan{};
-    LocalIndex tries = 0;
+    LocalIndex count = 0;
     bool was_limited = false;
-    std::vector<FillResult> best{};
+    std::vector<subdomain::FillResult> best{};
     std::vector<std::string> failures{};
   };
 
-  // Takes one rung. A failure leads to the next one; a poor result of NETGEN, to one more try.
-  bool is_done_after(Climb& climb, const fill::FillTry& settings,
+  // One try. A failure leads to the next one; a poor result of NETGEN, to one more try.
+  bool is_done_after(Tries& tries, const fill::FillTry& settings,
                      const jobs::JobRunner::WaitCallback& on_wait)
   {
-    const bool had_one = !climb.best.empty();
+    const bool had_one = !tries.best.empty();
     const bool is_netgen = settings.kernel == fill::KernelKind::netgen;
     if (had_one && !is_netgen) return true;
     const double angle_to_beat =
-        had_one ? climb.best.front().summary.tets.min_dihedral_deg : kAnyAngle;
-    ++climb.tries;
+        had_one ? tries.best.front().summary.tets.min_dihedral_deg : kAnyAngle;
+    ++tries.count;
     jobs::JobOutcome outcome =
-        run_try(climb.range, request_of(climb, settings, angle_to_beat), on_wait);
-    auto made = read_result(outcome, fill_results_from_bytes);
+        run_try(tries.range, request_of(tries, settings, angle_to_beat), on_wait);
+    auto made = read_result(outcome, subdomain::fill_results_from_bytes);
     throw_unless_of_the_job(outcome);
-    climb.was_limited = climb.was_limited || depends_on_machine(outcome);
+    tries.was_limited = tries.was_limited || depends_on_machine(outcome);
     if (!made) {
-      if (!had_one) keep_failure(climb, settings, outcome, on_wait);
-      climb.failures.push_back("try " + std::to_string(climb.tries) + " ("
+      if (!had_one) keep_failure(tries, settings, outcome, on_wait);
+      tries.failures.push_back("try " + std::to_string(tries.count) + " ("
                                + std::string(fill::name_of(settings.kernel))
                                + "): " + outcome.message);
       return had_one;
     }
-    climb.best = std::move(*made);
-    context_.log.debug("fill: subdomain {}: try {}, {:.2f} s of CPU time", climb.range.first,
-                       climb.tries, outcome.cpu_s);
-    return had_one || !is_poor(climb.best);
+    tries.best = std::move(*made);
+    context_.log.debug("fill: subdomain {}: try {}, {:.2f} s of CPU time", tries.range.first,
+                       tries.count, outcome.cpu_s);
+    return had_one || !is_poor(tries.best);
   }
 
   // As a job that measures only: its replay must not touch the run's folder.
-  void keep_failure(const Climb& climb, const fill::FillTry& settings,
+  void keep_failure(const Tries& tries, const fill::FillTry& settings,
                     const jobs::JobOutcome& outcome, const jobs::JobRunner::WaitCallback& on_wait)
   {
-    const Bytes request = request_of(climb, settings, kAnyAngle, false);
+    const Bytes request = request_of(tries, settings, kAnyAngle, false);
     const jobs::JobLimits limits;
-    const JobRequest job{name_of(climb.range), request, limits};
-    keep_meshes_of_failed_fill(keep_failed_job(job, request, outcome, context_), climb.range.first,
+    const JobRequest job{name_of(tries.range), request, limits};
+    keep_meshes_of_failed_fill(keep_failed_job(job, request, outcome, context_), tries.range.first,
                                work_.cut.coarse, work_.cut.decomposition, on_wait, context_);
   }
 
-  static std::string name_of(const SubdomainRange& range)
+  static std::string name_of(const subdomain::SubdomainRange& range)
   {
     return "fill: subdomain " + std::to_string(range.first);
   }
 
   // The job itself puts into the record how it came to be made: a resumed run has only that.
-  static Bytes request_of(const Climb& climb, const fill::FillTry& settings, double angle_to_beat,
+  static Bytes request_of(const Tries& tries, const fill::FillTry& settings, double angle_to_beat,
                           bool keep = true)
   {
-    return fill_request({.batch = climb.range.number,
-                         .first = climb.range.first,
-                         .last = climb.range.last,
-                         .plan = climb.plan,
+    return fill_request({.batch = tries.range.number,
+                         .first = tries.range.first,
+                         .last = tries.range.last,
+                         .plan = tries.plan,
                          .settings = settings,
                          .angle_to_beat_deg = angle_to_beat,
-                         .tries = climb.tries,
-                         .was_limited = climb.was_limited,
+                         .tries = tries.count,
+                         .was_limited = tries.was_limited,
                          .keep = keep,
-                         .failures = climb.failures});
+                         .failures = tries.failures});
   }
 
-  jobs::JobOutcome run_try(const SubdomainRange& range, const Bytes& request,
+  jobs::JobOutcome run_try(const subdomain::SubdomainRange& range, const Bytes& request,
                            const jobs::JobRunner::WaitCallback& on_wait)
   {
     const jobs::JobLimits limits =
@@ -160,9 +161,9 @@ class Filler {
     return run_job({name_of(range), request, limits}, on_wait, context_);
   }
 
-  void keep(const std::vector<FillResult>& results)
+  void keep(const std::vector<subdomain::FillResult>& results)
   {
-    for (const FillResult& result : results) own_.add(result);
+    for (const subdomain::FillResult& result : results) own_.add(result);
   }
 
   const fill::FillOptions& options_;
@@ -181,10 +182,10 @@ FilledPieces run_fill_stage(const config::Case& run_case, const FillWork& work, 
   StageScope stage(context, "fill", num_ranges, is_one_each ? "subdomains" : "files");
   Filler filler(run_case.fill, work, context);
   std::vector<double> weights;
-  for (const SubdomainRange& range : work.ranges) {
+  for (const subdomain::SubdomainRange& range : work.ranges) {
     weights.push_back(weight_of(range, work.cut.decomposition.subdomain_weight));
   }
-  share_out(
+  for_each_dynamic(
       heaviest_first(weights),
       [&](LocalIndex range, const auto& on_wait) { filler.fill(work.ranges[at(range)], on_wait); },
       stage, context);

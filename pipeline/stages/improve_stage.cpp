@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/subdomain/measure_piece.hpp"
 
-#include "pipeline/exit_code.hpp"
-#include "pipeline/failed_jobs.hpp"
-#include "pipeline/fill_record.hpp"
-#include "pipeline/improve_job.hpp"
-#include "pipeline/improved_pieces.hpp"
-#include "pipeline/measure_piece.hpp"
-#include "pipeline/mesh_worker.hpp"
-#include "pipeline/share_out.hpp"
+#include "pipeline/jobs/failed_jobs.hpp"
+#include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/stages/load_stage.hpp"
+#include "pipeline/store/fill_record.hpp"
+#include "pipeline/store/improved_pieces.hpp"
+#include "pipeline/store/region_records.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -26,7 +26,7 @@ std::string phase_name(int phase) { return "phase_" + std::to_string(phase); }
 // How the regions of one phase have ended: tried, improved, failed, limited.
 using Counts = std::vector<GlobalIndex>;
 
-Counts counts_of(const RegionRecord& record)
+Counts counts_of(const subdomain::RegionRecord& record)
 {
   return {1, record.is_improved ? 1 : 0, record.has_failed ? 1 : 0, record.was_limited ? 1 : 0};
 }
@@ -36,10 +36,10 @@ void add(const Counts& counts, Counts& sum)
   std::ranges::transform(counts, sum, sum.begin(), std::plus<>());
 }
 
-double volume_of(const std::vector<PieceSummary>& pieces)
+double volume_of(const std::vector<subdomain::PieceSummary>& pieces)
 {
   double volume = 0.0;
-  for (const PieceSummary& piece : pieces) volume += piece.volume;
+  for (const subdomain::PieceSummary& piece : pieces) volume += piece.volume;
   return volume;
 }
 
@@ -55,7 +55,7 @@ double volume_of(const mesh::Piece& piece)
 
 // The regions of each phase that are to be improved.
 std::array<std::vector<LocalIndex>, improve::kNumPhases> wanted_regions(
-    const improve::Regions& regions, const std::vector<fill::KernelKind>& kernels)
+    const improve::SeamRegions& regions, const std::vector<fill::KernelKind>& kernels)
 {
   std::array<std::vector<LocalIndex>, improve::kNumPhases> wanted;
   for (LocalIndex region = 0; region < regions.num_regions(); ++region) {
@@ -68,8 +68,9 @@ std::array<std::vector<LocalIndex>, improve::kNumPhases> wanted_regions(
 
 class SeamImprover {
  public:
-  SeamImprover(const config::Case& run_case, const CutMesh& cut, const improve::Regions& regions,
-               FilledPieces filled, RunContext& context, StageScope& stage)
+  SeamImprover(const config::Case& run_case, const subdomain::PartitionedMesh& cut,
+               const improve::SeamRegions& regions, FilledPieces filled, RunContext& context,
+               StageScope& stage)
       : run_case_(run_case),
         cut_(cut),
         regions_(regions),
@@ -107,13 +108,14 @@ class SeamImprover {
   }
 
   // Who owns which vertex, and the figures of the pieces as they are now.
-  [[nodiscard]] FilledPieces settle() &&
+  [[nodiscard]] FilledPieces number_shared_vertices() &&
   {
     const ImprovedPieces pieces(context_.folder, cut_.skeleton, filled_.improvement.generation);
     for_each_subdomain([&](LocalIndex s) { pieces.keep_list(pieces.piece(s)); });
     FilledPieces own;
     own.seam_sums.resize(filled_.seam_sums.size());
-    for_each_subdomain([&](LocalIndex s) { own.add(measure(pieces.piece(s), pieces.settle(s))); });
+    for_each_subdomain(
+        [&](LocalIndex s) { own.add(measure(pieces.piece(s), pieces.own_vertices(s))); });
     FilledPieces all = combine(std::move(own), context_.comm);
     all.seam_sums = std::move(filled_.seam_sums);
     all.failures = std::move(filled_.failures);
@@ -122,13 +124,13 @@ class SeamImprover {
   }
 
  private:
-  // Patches name vertices by their numbers in the pieces. A resumed run may have other ones: a poor
+  // Updates name vertices by their numbers in the pieces. A resumed run may have other ones: a poor
   // piece is filled again, and where a limit had ended its second try, now better.
   void drop_records_of_other_pieces() const
   {
     const std::string name = "improve";
     ByteWriter out;
-    for (const PieceSummary& piece : filled_.pieces) out.put(piece.content);
+    for (const subdomain::PieceSummary& piece : filled_.pieces) out.put(piece.content);
     const Bytes pieces = std::move(out).take();
     if (store_.find(name) == pieces && newest_pieces_are_whole()) return;
     if (store_.contains(name)) remove_records();
@@ -140,9 +142,10 @@ class SeamImprover {
   {
     int generation = improve::kNumPhases;
     while (generation > 0 && !store_.contains(phase_name(generation - 1))) --generation;
-    return generation == 0 || std::ranges::all_of(filled_.pieces, [&](const PieceSummary& piece) {
-             return store_.find(improved_name(piece.subdomain, generation)).has_value();
-           });
+    return generation == 0
+           || std::ranges::all_of(filled_.pieces, [&](const subdomain::PieceSummary& piece) {
+                return store_.find(improved_name(piece.subdomain, generation)).has_value();
+              });
   }
 
   void remove_records() const
@@ -150,7 +153,7 @@ class SeamImprover {
     for (LocalIndex r = 0; r < regions_.num_regions(); ++r) store_.remove(region_name(r));
     for (int phase = 0; phase < improve::kNumPhases; ++phase) {
       store_.remove(phase_name(phase));
-      for (const PieceSummary& piece : filled_.pieces) {
+      for (const subdomain::PieceSummary& piece : filled_.pieces) {
         store_.remove(improved_name(piece.subdomain, phase + 1));
       }
     }
@@ -163,7 +166,7 @@ class SeamImprover {
 
   void for_each_subdomain(const std::function<void(LocalIndex)>& work)
   {
-    share_out(in_order(filled_.pieces.size()), in_thread(work), stage_, context_, num_done_);
+    for_each_dynamic(in_order(filled_.pieces.size()), in_thread(work), stage_, context_, num_done_);
     num_done_ += std::ssize(filled_.pieces);
   }
 
@@ -181,7 +184,7 @@ class SeamImprover {
     std::vector<double> weights;
     for (const LocalIndex region : wanted) weights.push_back(num_tets_around(region));
     Counts counts(4, 0);
-    share_out(
+    for_each_dynamic(
         heaviest_first(weights),
         [&](LocalIndex row, const auto& on_wait) {
           const LocalIndex region = wanted[at(row)];
@@ -194,10 +197,11 @@ class SeamImprover {
   }
 
   // A region that fails keeps its tets: they are those of valid pieces.
-  RegionRecord improve(LocalIndex region, double num_tets,
-                       const jobs::JobRunner::WaitCallback& on_wait)
+  subdomain::RegionRecord improve(LocalIndex region, double num_tets,
+                                  const jobs::JobRunner::WaitCallback& on_wait)
   {
-    if (const auto kept = store_.find(region_name(region))) return region_record_from_bytes(*kept);
+    if (const auto kept = store_.find(region_name(region)))
+      return subdomain::region_record_from_bytes(*kept);
     const std::string name = "improve: region " + std::to_string(region);
     jobs::JobOutcome outcome =
         run_job({name, improve_request(region, filled_.improvement.generation),
@@ -207,9 +211,9 @@ class SeamImprover {
     // A piece that cannot be read is no fault of the region.
     if (outcome.error == jobs::ErrorKind::input)
       throw InputError(outcome.message + way_on(outcome));
-    RegionRecord record;
+    subdomain::RegionRecord record;
     if (auto made = read_result(outcome, [&](const Bytes& /*empty*/) {
-          return region_record_from_bytes(store_.get(region_name(region)));
+          return subdomain::region_record_from_bytes(store_.get(region_name(region)));
         })) {
       record = std::move(*made);
     } else {
@@ -231,7 +235,7 @@ class SeamImprover {
     const jobs::JobLimits limits;
     const auto kept = keep_failed_job({name, request, limits}, request, outcome, context_);
     keep_meshes_of_failed_region(
-        kept, [&] { return region_mesh(pieces, regions_, region); }, cut_.coarse,
+        kept, [&] { return subdomain::region_mesh(pieces, regions_, region); }, cut_.coarse,
         cut_.decomposition, context_);
   }
 
@@ -258,16 +262,17 @@ class SeamImprover {
            ++r) {
         store_.remove(region_name(r));
       }
-      for (const PieceSummary& piece : filled_.pieces) {
+      for (const subdomain::PieceSummary& piece : filled_.pieces) {
         if (before > 0) store_.remove(improved_name(piece.subdomain, before));
       }
     });
   }
 
-  [[nodiscard]] FillResult measure(const mesh::Piece& piece, const number::SharedBy& shared) const
+  [[nodiscard]] subdomain::FillResult measure(const mesh::Piece& piece,
+                                              const number::SharedBy& shared) const
   {
-    FillResult result;
-    PieceSummary& summary = result.summary;
+    subdomain::FillResult result;
+    subdomain::PieceSummary& summary = result.summary;
     summary = filled_.pieces[at(piece.subdomain)];
     summary.num_tets = piece.num_tets();
     summary.num_interior_vertices =
@@ -275,18 +280,18 @@ class SeamImprover {
     summary.num_boundary = piece.num_boundary();
     summary.volume = volume_of(piece);
     summary.surface = verify::surface_hash(piece);
-    measure_edges(piece, result.histograms);
-    measure_tets(piece, seam_vertices(piece, shared), result);
+    subdomain::measure_edges(piece, result.histograms);
+    subdomain::measure_tets(piece, seam_vertices(piece, shared), result);
     return result;
   }
 
   // From the order of the list to that of the piece.
   static std::vector<char> seam_vertices(const mesh::Piece& piece, const number::SharedBy& shared)
   {
-    const std::vector<number::VertexKey> keys = number::shared_vertices(piece);
+    const std::vector<number::SharedVertexKey> keys = number::shared_vertices(piece);
     std::vector<char> on_seam;
     for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-      const number::VertexKey key{piece.skin_unit[at(v)], piece.skin_index[at(v)]};
+      const number::SharedVertexKey key{piece.skin_host[at(v)], piece.skin_index[at(v)]};
       const auto found = std::ranges::lower_bound(keys, key);
       on_seam.push_back(shared.on_seam[static_cast<std::size_t>(found - keys.begin())]);
     }
@@ -294,8 +299,8 @@ class SeamImprover {
   }
 
   const config::Case& run_case_;
-  const CutMesh& cut_;
-  const improve::Regions& regions_;
+  const subdomain::PartitionedMesh& cut_;
+  const improve::SeamRegions& regions_;
   FilledPieces filled_;
   RunContext& context_;
   StageScope& stage_;
@@ -305,14 +310,15 @@ class SeamImprover {
 
 }  // namespace
 
-FilledPieces run_improve_stage(const config::Case& run_case, const CutMesh& cut,
+FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::PartitionedMesh& cut,
                                const std::vector<fill::KernelKind>& kernels, FilledPieces filled,
                                RunContext& context)
 {
-  const improve::Regions regions(cut.skeleton, cut.decomposition);
+  const improve::SeamRegions regions(cut.skeleton, cut.decomposition);
   const auto wanted = wanted_regions(regions, kernels);
   std::int64_t num_regions = 0;
-  std::int64_t num_passes = 2;  // Over all pieces: those of settle(), and one a phase.
+  std::int64_t num_passes =
+      2;  // Over all pieces: those of number_shared_vertices(), and one a phase.
   for (const auto& phase : wanted) {
     num_regions += std::ssize(phase);
     num_passes += phase.empty() ? 0 : 1;
@@ -326,7 +332,7 @@ FilledPieces run_improve_stage(const config::Case& run_case, const CutMesh& cut,
     const auto& regions_of_phase = wanted[static_cast<std::size_t>(phase)];
     if (!regions_of_phase.empty()) improver.run_phase(phase, regions_of_phase);
   }
-  FilledPieces all = std::move(improver).settle();
+  FilledPieces all = std::move(improver).number_shared_vertices();
   stage.finish(std::to_string(all.improvement.num_improved) + " of " + std::to_string(num_regions)
                + " regions are better");
   return all;

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "tessera/config/case.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
 
-#include "pipeline/cut_mesh.hpp"
-#include "pipeline/filled_pieces.hpp"
-#include "pipeline/run_context.hpp"
+#include "pipeline/runtime/run_context.hpp"
+#include "pipeline/store/filled_pieces.hpp"
 
 namespace tessera::pipeline {
 
@@ -24,7 +24,8 @@ namespace tessera::pipeline {
 /// @param[in] filled As the fill stage returned it; all pieces are in the store.
 /// @return `filled` with the figures of the improved pieces.
 /// @note Collective. @throws OutputError, Interrupted on every rank.
-[[nodiscard]] FilledPieces run_improve_stage(const config::Case& run_case, const CutMesh& cut,
+[[nodiscard]] FilledPieces run_improve_stage(const config::Case& run_case,
+                                             const subdomain::PartitionedMesh& cut,
                                              const std::vector<fill::KernelKind>& kernels,
                                              FilledPieces filled, RunContext& context);
 

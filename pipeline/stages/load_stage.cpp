@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "pipeline/exit_code.hpp"
-#include "pipeline/mesh_worker.hpp"
+#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -24,7 +24,8 @@ void load_everywhere(const std::string& kind, Bytes message, RunContext& context
 
 }  // namespace
 
-void load_mesh(const CutMesh& cut, int levels, double largest_size, RunContext& context)
+void load_mesh(const subdomain::PartitionedMesh& cut, int levels, double largest_size,
+               RunContext& context)
 {
   load_everywhere(
       "mesh",
@@ -43,9 +44,9 @@ void load_improvement(const improve::ImproveOptions& options, RunContext& contex
   load_everywhere("improvement", load_improvement_message(options), context);
 }
 
-void load_plan(const mesh::Damping& damping, RunContext& context)
+void load_limiter(const mesh::ProjectionLimiter& limiter, RunContext& context)
 {
-  load_everywhere("plan", load_plan_message(damping), context);
+  load_everywhere("plan", load_limiter_message(limiter), context);
 }
 
 }  // namespace tessera::pipeline

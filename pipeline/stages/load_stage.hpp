@@ -6,18 +6,19 @@
 
 #include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
-#include "tessera/mesh/damping.hpp"
+#include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/number/id_layout.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
 
-#include "pipeline/cut_mesh.hpp"
-#include "pipeline/run_context.hpp"
+#include "pipeline/runtime/run_context.hpp"
 
 /// Gives the workers of all ranks what their next jobs start from. All functions are collective and
 /// throw on every rank if a worker dies, or Interrupted on a signal.
 namespace tessera::pipeline {
 
 /// @param[in] largest_size RunResult::largest_size.
-void load_mesh(const CutMesh& cut, int levels, double largest_size, RunContext& context);
+void load_mesh(const subdomain::PartitionedMesh& cut, int levels, double largest_size,
+               RunContext& context);
 
 /// @brief From now on fill jobs write the output files themselves. @param[in] counts Of all pieces.
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,
@@ -25,6 +26,6 @@ void load_numbers(const std::vector<number::PieceCounts>& counts, const std::str
 
 void load_improvement(const improve::ImproveOptions& options, RunContext& context);
 
-void load_plan(const mesh::Damping& damping, RunContext& context);
+void load_limiter(const mesh::ProjectionLimiter& limiter, RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -3,9 +3,9 @@
 
 #include "tessera/base/error.hpp"
 
-#include "pipeline/exit_code.hpp"
-#include "pipeline/failed_jobs.hpp"
-#include "pipeline/mesh_worker.hpp"
+#include "pipeline/jobs/failed_jobs.hpp"
+#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera::pipeline {
 namespace {

@@ -4,7 +4,7 @@
 #include "tessera/config/case.hpp"
 #include "tessera/model/model.hpp"
 
-#include "pipeline/run_context.hpp"
+#include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
 

@@ -13,11 +13,11 @@
 namespace tessera::pipeline {
 namespace {
 
-std::optional<std::string> first_missing_piece(const std::vector<SubdomainRange>& ranges,
-                                               const std::vector<PieceSummary>& pieces)
+std::optional<std::string> first_missing_piece(const std::vector<subdomain::SubdomainRange>& ranges,
+                                               const std::vector<subdomain::PieceSummary>& pieces)
 {
   auto piece = pieces.begin();
-  for (const SubdomainRange& range : ranges) {
+  for (const subdomain::SubdomainRange& range : ranges) {
     for (LocalIndex s = range.first; s < range.last; ++s, ++piece) {
       if (piece == pieces.end() || piece->subdomain != s) {
         return "piece " + std::to_string(s) + " is missing";
@@ -36,7 +36,7 @@ std::optional<std::string> first_defect_of_improvement(const FilledPieces& fille
   constexpr double kTolerance = 1e-9;
   Hash128 open;
   double volume = 0.0;
-  for (const PieceSummary& piece : filled.pieces) {
+  for (const subdomain::PieceSummary& piece : filled.pieces) {
     open += piece.surface;
     open -= piece.outside;
     volume += piece.volume;
@@ -48,15 +48,15 @@ std::optional<std::string> first_defect_of_improvement(const FilledPieces& fille
          + std::to_string(volume);
 }
 
-std::optional<std::string> first_defect(const CutMesh& cut,
-                                        const std::vector<SubdomainRange>& ranges,
+std::optional<std::string> first_defect(const subdomain::PartitionedMesh& cut,
+                                        const std::vector<subdomain::SubdomainRange>& ranges,
                                         const FilledPieces& filled)
 {
   if (auto missing = first_missing_piece(ranges, filled.pieces)) return missing;
   const std::vector<GlobalIndex> expected =
       verify::euler_characteristics(cut.coarse.tet_vertices, cut.decomposition.tet_subdomain);
   std::vector<char> is_made(at(cut.num_subdomains()), 0);
-  for (const PieceSummary& piece : filled.pieces) {
+  for (const subdomain::PieceSummary& piece : filled.pieces) {
     is_made[at(piece.subdomain)] = 1;
     const GlobalIndex wanted = expected[at(piece.subdomain)];
     if (piece.euler_characteristic == wanted) continue;
@@ -70,7 +70,8 @@ std::optional<std::string> first_defect(const CutMesh& cut,
 
 }  // namespace
 
-void run_verify_stage(const CutMesh& cut, const std::vector<SubdomainRange>& ranges,
+void run_verify_stage(const subdomain::PartitionedMesh& cut,
+                      const std::vector<subdomain::SubdomainRange>& ranges,
                       const FilledPieces& filled, RunContext& context)
 {
   StageScope stage(context, "verify");

@@ -3,9 +3,10 @@
 
 #include <vector>
 
-#include "pipeline/cut_mesh.hpp"
-#include "pipeline/piece_file.hpp"
-#include "pipeline/run_context.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
+#include "tessera/subdomain/piece_file.hpp"
+
+#include "pipeline/runtime/run_context.hpp"
 #include "pipeline/stages/fill_stage.hpp"
 
 namespace tessera::pipeline {
@@ -15,7 +16,8 @@ namespace tessera::pipeline {
 /// its coarse subdomain.
 /// @note Collective.
 /// @throws MeshError on every rank naming the first defect.
-void run_verify_stage(const CutMesh& cut, const std::vector<SubdomainRange>& ranges,
+void run_verify_stage(const subdomain::PartitionedMesh& cut,
+                      const std::vector<subdomain::SubdomainRange>& ranges,
                       const FilledPieces& filled, RunContext& context);
 
 }  // namespace tessera::pipeline

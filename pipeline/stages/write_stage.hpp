@@ -1,30 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tessera/config/case.hpp"
+#include <filesystem>
+#include <vector>
 
-#include "pipeline/piece_arrays.hpp"
-#include "pipeline/run_context.hpp"
+#include "tessera/config/case.hpp"
+#include "tessera/subdomain/piece_arrays.hpp"
+
+#include "pipeline/runtime/run_context.hpp"
 #include "pipeline/stages/fill_stage.hpp"
 
 namespace tessera::pipeline {
 
+/// @brief Where finished pieces wait to be written.
+struct PieceStore {
+  std::filesystem::path folder{};  ///< The output folder.
+  int generation = 0;              ///< Of the pieces; see stored_piece().
+};
+
 /// @brief Reads the pieces of one file from the store, one after the other, and writes it. Local.
 /// @return Their digests, in the order of subdomains.
 /// @throws OutputError (disk full, permission); InputError if a record is damaged.
-std::vector<Hash128> write_file(const SubdomainRange& range, const io::OutputOptions& options,
-                                const WriteContext& mesh, const std::filesystem::path& folder);
+std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,
+                                const io::OutputOptions& options,
+                                const subdomain::WriteContext& mesh, const PieceStore& pieces);
 
 /// @brief Turns the pieces of the store into mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu,
 /// one of each a range, and puts their digests into the summaries.
 /// @note Collective.
 /// @throws OutputError on every rank (disk full, permission).
-void run_write_stage(const config::Case& run_case, const std::vector<SubdomainRange>& files,
-                     const WriteContext& mesh, FilledPieces& filled, RunContext& context);
+void run_write_stage(const config::Case& run_case,
+                     const std::vector<subdomain::SubdomainRange>& files,
+                     const subdomain::WriteContext& mesh, FilledPieces& filled,
+                     RunContext& context);
 
 /// @brief Writes mesh.pvtu and boundary.pvtu: from now on there is a mesh.
 /// @note Collective. @throws OutputError on every rank.
-void write_indices(const config::Case& run_case, const std::vector<SubdomainRange>& files,
-                   const WriteContext& mesh, const FilledPieces& filled, RunContext& context);
+void write_indices(const config::Case& run_case,
+                   const std::vector<subdomain::SubdomainRange>& files,
+                   const subdomain::WriteContext& mesh, const FilledPieces& filled,
+                   RunContext& context);
 
 }  // namespace tessera::pipeline

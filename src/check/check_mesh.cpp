@@ -10,7 +10,7 @@ CheckReport check_by_positions(const PieceSource& tets, const PieceSource* bound
                                const comm::Communicator& comm, const CheckOptions& options,
                                const Findings* id_findings)
 {
-  Checker checker(tets, boundary, comm, {Identity::positions, options.is_partial});
+  Checker checker(tets, boundary, comm, {VertexIdentity::positions, options.is_partial});
   static_cast<void>(checker.match());  // Ids do not matter.
   checker.measure_seams();
   return checker.report(id_findings);
@@ -21,7 +21,7 @@ CheckReport check_by_positions(const PieceSource& tets, const PieceSource* bound
 CheckReport check_mesh(const PieceSource& tets, const PieceSource* boundary,
                        const comm::Communicator& comm, const CheckOptions& options)
 {
-  Checker checker(tets, boundary, comm, {Identity::ids, options.is_partial});
+  Checker checker(tets, boundary, comm, {VertexIdentity::ids, options.is_partial});
   if (!checker.match()) return check_by_positions(tets, boundary, comm, options, nullptr);
   if (checker.has_unusable_ids())
     return check_by_positions(tets, boundary, comm, options, &checker.findings());

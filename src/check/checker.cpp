@@ -116,9 +116,9 @@ bool Checker::read_batch(LocalIndex batch)
     for_each_own_piece(listed, true, [&](PieceName name) { read_boundary(name); });
   }
   const GlobalIndex num_with_ids = comm_.sum(counts_.num_pieces_with_point_ids);
-  if (identity_ == Identity::ids && num_with_ids > 0 && num_with_ids < num_read) return false;
+  if (identity_ == VertexIdentity::ids && num_with_ids > 0 && num_with_ids < num_read) return false;
   // Pieces without ids were matched by position as they were read.
-  if (num_with_ids == 0) identity_ = Identity::positions;
+  if (num_with_ids == 0) identity_ = VertexIdentity::positions;
   return true;
 }
 
@@ -169,7 +169,7 @@ void Checker::take_ids(const PieceMesh& mesh, const PieceSurface& surface)
     inner_ids.push_back(mesh.point_id(v));
   }
   const LocalIndex piece = mesh.name.piece;
-  if (mesh.identity == Identity::ids)
+  if (mesh.identity == VertexIdentity::ids)
     append_runs(std::move(inner_ids), piece, point_id_space(), point_ids_, findings_);
   if (mesh.has_cell_ids)
     append_runs(mesh.arrays.cell_ids, piece, cell_id_space(), cell_ids_, findings_);
@@ -194,7 +194,7 @@ void Checker::apply_all(std::span<const TriangleVerdict> verdicts)
   std::set<LocalIndex> pieces;
   for (const TriangleVerdict& verdict : verdicts) pieces.insert(verdict.piece);
   for (const LocalIndex piece : pieces) {
-    settle_edges(surface_of(piece), edges_);
+    close_edges(surface_of(piece), edges_);
     shrink(surface_of(piece));
   }
   vertices_.mark_seam(std::exchange(seam_keys_, {}));
@@ -251,7 +251,7 @@ void Checker::match_last_edges()
       const VertexRecord& vertex = surface.vertices[v];
       if (flags[v].is_on_seam && !vertex.is_on_seam) surface.seam_points.push_back(vertex.point);
     }
-    match_own_edges(settle_last_edges(surface, flags, edges_), own, findings_);
+    match_own_edges(close_last_edges(surface, flags, edges_), own, findings_);
   }
   const EdgeMatch shared = match_edges(std::exchange(edges_.shared, {}), comm_, findings_);
   for (const EdgeMatch& match : {own, shared}) {
@@ -360,7 +360,7 @@ void Checker::set_counts(CheckReport& report) const
                           && counts_.num_pieces_with_cell_ids == tets_.num_pieces;
   report.has_digest = counts_.num_tet_pieces_with_point_ids == tets_.num_pieces;
   report.is_partial = is_partial_;
-  report.matched_by_ids = identity_ == Identity::ids;
+  report.matched_by_ids = identity_ == VertexIdentity::ids;
   report.num_vertices = counts_.num_vertices;
   report.num_edges = counts_.num_edges + counts_.num_edge_halves / 2;
   report.num_triangles = counts_.num_triangles;
@@ -413,7 +413,7 @@ std::vector<std::string> Checker::notes() const
   if (counts_.num_pieces_with_subdomains > 0)
     note(tets_.num_pieces - counts_.num_pieces_with_subdomains,
          "pieces have no array \"subdomain\", so the piece's number took its place");
-  if (identity_ == Identity::positions)
+  if (identity_ == VertexIdentity::positions)
     notes.emplace_back("points of different pieces were matched by the bits of their positions");
   if (boundary_ == nullptr)
     notes.emplace_back("no boundary file: triangles on one tet are taken for the boundary");

@@ -24,7 +24,7 @@ namespace tessera::check {
 
 /// @brief How a run matches points, and whether the mesh may lack pieces.
 struct CheckerOptions {
-  Identity identity = Identity::ids;
+  VertexIdentity identity = VertexIdentity::ids;
   bool is_partial = false;
 };
 
@@ -109,7 +109,7 @@ class Checker {
   const PieceSource& tets_;
   const PieceSource* boundary_;
   const comm::Communicator& comm_;
-  Identity identity_;
+  VertexIdentity identity_;
   bool is_partial_;
 
   Findings findings_{};

@@ -199,7 +199,7 @@ std::vector<TriangleVerdict> TriangleMatcher::match(std::vector<TriangleRecord> 
       },
       [&](std::span<const std::size_t> rows) {
         const TriangleGroup group(records, rows);
-        const bool is_late = group.num_sides() > 0 && is_settled(group.side(0).key);
+        const bool is_late = group.num_sides() > 0 && is_complete(group.side(0).key);
         const TriangleRole role = is_late ? TriangleRole::faulty : group.role(boundary_);
         if (!is_last && (is_late || !is_final(role))) {
           for (const std::size_t row : rows) open_.push_back(records[row]);
@@ -213,21 +213,21 @@ std::vector<TriangleVerdict> TriangleMatcher::match(std::vector<TriangleRecord> 
         if (boundary_ != BoundaryFile::none) check_boundary(group, role, findings_);
         if (!is_last) keys.push_back(group.side(0).key);
       });
-  settle(std::move(keys));
+  complete(std::move(keys));
   return verdicts;
 }
 
-bool TriangleMatcher::is_settled(const TriangleKey& key) const
+bool TriangleMatcher::is_complete(const TriangleKey& key) const
 {
-  return std::binary_search(settled_.begin(), settled_.end(), key);
+  return std::binary_search(complete_.begin(), complete_.end(), key);
 }
 
-void TriangleMatcher::settle(std::vector<TriangleKey> keys)
+void TriangleMatcher::complete(std::vector<TriangleKey> keys)
 {
   std::sort(keys.begin(), keys.end());
-  const auto num_before = static_cast<std::ptrdiff_t>(settled_.size());
-  settled_.insert(settled_.end(), keys.begin(), keys.end());
-  std::inplace_merge(settled_.begin(), settled_.begin() + num_before, settled_.end());
+  const auto num_before = static_cast<std::ptrdiff_t>(complete_.size());
+  complete_.insert(complete_.end(), keys.begin(), keys.end());
+  std::inplace_merge(complete_.begin(), complete_.begin() + num_before, complete_.end());
 }
 
 }  // namespace tessera::check

@@ -64,14 +64,14 @@ class TriangleMatcher {
  private:
   [[nodiscard]] std::vector<TriangleVerdict> match(std::vector<TriangleRecord> records,
                                                    bool is_last);
-  [[nodiscard]] bool is_settled(const TriangleKey& key) const;
-  void settle(std::vector<TriangleKey> keys);
+  [[nodiscard]] bool is_complete(const TriangleKey& key) const;
+  void complete(std::vector<TriangleKey> keys);
 
   BoundaryFile boundary_;
   const comm::Communicator& comm_;
   Findings& findings_;
   std::vector<TriangleRecord> open_{};
-  std::vector<TriangleKey> settled_{};  // Ascending.
+  std::vector<TriangleKey> complete_{};  // Ascending.
   TriangleCounts counts_{};
   std::vector<Link> links_{};
 };

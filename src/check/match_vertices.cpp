@@ -78,7 +78,7 @@ VertexMatcher::VertexMatcher(const comm::Communicator& comm, Findings& findings)
 {
 }
 
-void VertexMatcher::add(std::span<const VertexRecord> records, Identity identity)
+void VertexMatcher::add(std::span<const VertexRecord> records, VertexIdentity identity)
 {
   identity_ = identity;
   const auto key = [&](const VertexRecord& record) { return key_of(record, identity); };
@@ -118,7 +118,7 @@ VertexTotals VertexMatcher::finish()
       findings_.add(Kind::boundary_point, place_of(vertex), [&] {
         return concat(describe(vertex), " is no point on the surface of a piece");
       });
-    } else if (identity_ == Identity::ids) {
+    } else if (identity_ == VertexIdentity::ids) {
       totals.ids.push_back({vertex.id, vertex.piece});
       if (vertex.is_shared) ++totals.num_shared_ids;
       if (vertex.is_contradicted) ++totals.num_contradicted;
@@ -130,7 +130,7 @@ VertexTotals VertexMatcher::finish()
 
 std::uint64_t VertexMatcher::owner_of(const VertexKey& key) const
 {
-  return identity_ == Identity::ids ? key[0] >> kIdBlockBits : key[0];
+  return identity_ == VertexIdentity::ids ? key[0] >> kIdBlockBits : key[0];
 }
 
 // Where the vertex is, or the empty slot where it belongs.
@@ -176,7 +176,7 @@ void VertexMatcher::take(VertexRecord& first, VertexRecord other)
   }
   first.is_used = is_used;
   first.is_on_seam = is_on_seam;
-  if (identity_ == Identity::ids)
+  if (identity_ == VertexIdentity::ids)
     compare_positions(first, other, findings_);
   else
     first.is_shared = first.is_shared || !other.is_listed;
@@ -186,7 +186,7 @@ void VertexMatcher::take(VertexRecord& first, VertexRecord other)
 // In several rounds, so that only a part of the vertices is sent at a time.
 void VertexMatcher::match_positions()
 {
-  if (identity_ != Identity::ids) return;
+  if (identity_ != VertexIdentity::ids) return;
   const auto most = comm_.max(static_cast<double>(vertices_.size()));
   const auto num_rounds = 1 + static_cast<std::uint64_t>(most) / kPositionsAtOnce;
   const auto key = [](const VertexRecord& record) { return key_of_position(record.position); };

@@ -35,7 +35,7 @@ class VertexMatcher {
 
   /// @brief Takes the vertices of a batch.
   /// @note Collective; the batches in the order of pieces, all of them with the same identity.
-  void add(std::span<const VertexRecord> records, Identity identity);
+  void add(std::span<const VertexRecord> records, VertexIdentity identity);
 
   /// @brief Notes that vertices are on a seam. @note Collective. @pre they were added.
   void mark_seam(std::span<const VertexKey> keys);
@@ -57,14 +57,14 @@ class VertexMatcher {
 
   const comm::Communicator& comm_;
   Findings& findings_;
-  Identity identity_ = Identity::ids;
+  VertexIdentity identity_ = VertexIdentity::ids;
   std::deque<VertexRecord> vertices_{};  // Grows without a second copy.
   std::vector<LocalIndex> slots_{};      // Hash table of rows of vertices_; kNoIndex where empty.
 };
 
-[[nodiscard]] inline VertexKey key_of(const VertexRecord& record, Identity identity)
+[[nodiscard]] inline VertexKey key_of(const VertexRecord& record, VertexIdentity identity)
 {
-  return identity == Identity::ids ? key_of_id(record.id) : key_of_position(record.position);
+  return identity == VertexIdentity::ids ? key_of_id(record.id) : key_of_position(record.position);
 }
 
 }  // namespace tessera::check

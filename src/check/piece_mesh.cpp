@@ -118,12 +118,12 @@ std::vector<LocalIndex> match_points(const PieceMesh& mesh, Findings& findings)
   const auto by_position = lowest_of_equal(
       mesh.num_points(), [&](LocalIndex p) { return key_of_position(mesh.position(p)); });
   std::vector<LocalIndex> vertex = by_position;
-  if (mesh.identity == Identity::ids) {
+  if (mesh.identity == VertexIdentity::ids) {
     vertex = lowest_of_equal(mesh.num_points(), [&](LocalIndex p) { return mesh.key(p); });
   }
   for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
     const auto i = static_cast<std::size_t>(p);
-    if (mesh.identity == Identity::ids && vertex[i] != p)
+    if (mesh.identity == VertexIdentity::ids && vertex[i] != p)
       report_equal_points(mesh, Kind::point_id_twice, p, vertex[i], findings);
     else if (by_position[i] != p)
       report_equal_points(mesh, Kind::duplicate_point, p, by_position[i], findings);
@@ -196,7 +196,7 @@ std::vector<std::int32_t> take_ints(mesh::MeshArrays& arrays, const std::string&
 
 }  // namespace
 
-PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity identity,
+PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, VertexIdentity identity,
                           Findings& findings)
 {
   check_sizes(name, arrays, findings);
@@ -206,7 +206,7 @@ PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity iden
                                arrays.point_ids, findings);
   mesh.has_cell_ids = has_ids(name, "cells", static_cast<std::size_t>(arrays.num_cells()),
                               arrays.cell_ids, findings);
-  mesh.identity = mesh.has_point_ids ? identity : Identity::positions;
+  mesh.identity = mesh.has_point_ids ? identity : VertexIdentity::positions;
   mesh.arrays = std::move(arrays);
   mesh.attribute = take_ints(mesh.arrays, "attribute", 0);
   mesh.has_subdomains = mesh.arrays.cell_ints.contains("subdomain");

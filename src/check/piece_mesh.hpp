@@ -24,7 +24,7 @@ struct PieceName {
 /// @brief Arrays of a piece in which every index is in range, and which of its points are the same.
 struct PieceMesh {
   PieceName name{};
-  Identity identity = Identity::ids;
+  VertexIdentity identity = VertexIdentity::ids;
   mesh::MeshArrays arrays{};
   bool has_point_ids = false;
   bool has_cell_ids = false;
@@ -65,7 +65,7 @@ struct PieceMesh {
   }
   [[nodiscard]] VertexKey key(LocalIndex v) const
   {
-    return identity == Identity::ids ? key_of_id(point_id(v)) : key_of_position(position(v));
+    return identity == VertexIdentity::ids ? key_of_id(point_id(v)) : key_of_position(position(v));
   }
   [[nodiscard]] std::int32_t subdomain_of(LocalIndex c) const
   {
@@ -77,8 +77,8 @@ struct PieceMesh {
 /// ranges, points that are not finite, used twice or never. Local.
 /// @param[in] identity Points are matched by position, whatever is asked, if the piece has no ids.
 /// @throws InputError if the piece has 2^29 cells or 2^31 points.
-[[nodiscard]] PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, Identity identity,
-                                        Findings& findings);
+[[nodiscard]] PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays,
+                                        VertexIdentity identity, Findings& findings);
 
 /// @brief "piece 3" or "boundary piece 3".
 [[nodiscard]] std::string to_text(const PieceName& name);

@@ -70,7 +70,7 @@ void add_triangle(PieceSurface& surface, const SurfaceTriangle& triangle,
   surface.subdomains.push_back(subdomain);
   surface.roles.push_back(TriangleRole::unknown);
   surface.partners.push_back(kNoPiece);
-  surface.settled_edges.push_back(0);
+  surface.closed_edges.push_back(0);
 }
 
 void mark_seam(PieceSurface& surface, const std::array<LocalIndex, 3>& triangle,
@@ -145,7 +145,7 @@ PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology, 
     }
     shown.triangles.push_back(record);
   }
-  if (mesh.identity == Identity::ids) {
+  if (mesh.identity == VertexIdentity::ids) {
     for (const LocalIndex p : mesh.unused_points) selection.add(p, false, false);
   } else {
     for (const LocalIndex v : mesh.cell_vertices)
@@ -201,7 +201,7 @@ void shrink(PieceSurface& surface)
   for (std::size_t t = 0; t < is_kept.size(); ++t) {
     const auto& v = surface.triangles[t];
     is_kept[t] =
-        surface.settled_edges[t] != kAllEdges || !std::all_of(v.begin(), v.end(), is_seam_vertex);
+        surface.closed_edges[t] != kAllEdges || !std::all_of(v.begin(), v.end(), is_seam_vertex);
   }
   keep(surface.triangles, is_kept);
   keep(surface.rows, is_kept);
@@ -209,7 +209,7 @@ void shrink(PieceSurface& surface)
   keep(surface.subdomains, is_kept);
   keep(surface.roles, is_kept);
   keep(surface.partners, is_kept);
-  keep(surface.settled_edges, is_kept);
+  keep(surface.closed_edges, is_kept);
   surface.seam_points.shrink_to_fit();
   shrink_vertices(surface);
 }

@@ -27,16 +27,16 @@ struct ShownRecords {
 /// boundary of the mesh it stays until the end.
 struct PieceSurface {
   PieceName name{};
-  Identity identity = Identity::ids;
+  VertexIdentity identity = VertexIdentity::ids;
   std::vector<VertexRecord> vertices{};
   std::vector<std::array<LocalIndex, 3>> triangles{};  ///< Rows of vertices, outward order.
   std::vector<LocalIndex> rows{};   ///< As in the TriangleRecord of each triangle; ascending.
   std::vector<LocalIndex> cells{};  ///< Tet of each triangle.
-  std::vector<std::int32_t> subdomains{};     ///< Of each triangle's tet.
-  std::vector<TriangleRole> roles{};          ///< unknown until there is a verdict.
-  std::vector<LocalIndex> partners{};         ///< Piece on the other side of each triangle.
-  std::vector<std::uint8_t> settled_edges{};  ///< Bit i: the edge opposite to corner i.
-  std::vector<LocalIndex> seam_points{};      ///< Points on seam triangles of this piece.
+  std::vector<std::int32_t> subdomains{};    ///< Of each triangle's tet.
+  std::vector<TriangleRole> roles{};         ///< unknown until there is a verdict.
+  std::vector<LocalIndex> partners{};        ///< Piece on the other side of each triangle.
+  std::vector<std::uint8_t> closed_edges{};  ///< Bit i: the edge opposite to corner i.
+  std::vector<LocalIndex> seam_points{};     ///< Points on seam triangles of this piece.
 
   [[nodiscard]] const Vec3& position(LocalIndex v) const
   {
@@ -63,7 +63,7 @@ void apply(const TriangleVerdict& verdict, PieceSurface& surface,
 /// subdomains. Local. @pre roles are known; each subdomain has its record.
 void add_outside_areas(const PieceSurface& surface, PieceRecords& records);
 
-/// @brief Drops triangles of which nothing is open: their edges are settled and their vertices are
+/// @brief Drops triangles of which nothing is open: their edges are closed and their vertices are
 /// known to be on a seam; and vertices of no triangle. Local.
 void shrink(PieceSurface& surface);
 

@@ -12,7 +12,7 @@
 namespace tessera::check {
 
 /// @brief By what points of different pieces are recognised as the same vertex.
-enum class Identity { ids, positions };
+enum class VertexIdentity { ids, positions };
 
 /// @brief 128-bit hash of the vertex keys in ascending order.
 using EdgeKey = std::array<std::uint64_t, 2>;
@@ -74,7 +74,8 @@ struct VertexRecord {
 /// @brief An edge on the surface of a piece; once per boundary triangle on it, or once if none is.
 struct EdgeRecord {
   EdgeKey key{};
-  std::array<float, 3> inward{};  ///< Unit vector from the edge into the triangle, normal to it.
+  std::array<float, 3>
+      inward{};  ///< HostEntity vector from the edge into the triangle, normal to it.
   std::array<float, 3> middle{};  ///< For messages only.
   LocalIndex piece = 0;
   LocalIndex cell = 0;                ///< Tet of the triangle.

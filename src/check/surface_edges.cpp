@@ -19,14 +19,14 @@ struct TriangleEdge {
   friend auto operator<=>(const TriangleEdge&, const TriangleEdge&) = default;
 };
 
-std::vector<TriangleEdge> sorted_unsettled_edges(const PieceSurface& surface)
+std::vector<TriangleEdge> sorted_open_edges(const PieceSurface& surface)
 {
   std::vector<TriangleEdge> edges;
   edges.reserve(3 * surface.triangles.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& v = surface.triangles[t];
     for (std::size_t i = 0; i < 3; ++i) {
-      if ((static_cast<unsigned>(surface.settled_edges[t]) >> i & 1U) != 0) continue;
+      if ((static_cast<unsigned>(surface.closed_edges[t]) >> i & 1U) != 0) continue;
       const auto [lower, upper] = std::minmax(v[(i + 1) % 3], v[(i + 2) % 3]);
       edges.push_back({lower, upper, static_cast<LocalIndex>(t), static_cast<LocalIndex>(i)});
     }
@@ -69,10 +69,10 @@ class EdgeFan {
            && partner(triangles_[0]) == partner(triangles_[1]);
   }
 
-  void settle()
+  void close()
   {
     for (const TriangleEdge& edge : triangles_)
-      surface_.settled_edges[static_cast<std::size_t>(edge.triangle)] |=
+      surface_.closed_edges[static_cast<std::size_t>(edge.triangle)] |=
           static_cast<std::uint8_t>(1U << static_cast<unsigned>(edge.corner));
   }
 
@@ -127,7 +127,7 @@ class EdgeFan {
     return is_first_of_two ? partner(edge) : kNoPiece;
   }
 
-  // Unit vector from the edge to the apex, normal to the edge; zero if they are on one line.
+  // HostEntity vector from the edge to the apex, normal to the edge; zero if they are on one line.
   [[nodiscard]] std::array<float, 3> inward_of(const TriangleEdge& edge) const
   {
     const LocalIndex apex = surface_.triangles[static_cast<std::size_t>(edge.triangle)]
@@ -191,10 +191,10 @@ std::vector<LocalIndex> boundary_components(const PieceSurface& surface,
 
 }  // namespace
 
-void settle_edges(PieceSurface& surface, SurfaceEdges& edges)
+void close_edges(PieceSurface& surface, SurfaceEdges& edges)
 {
-  const std::vector<TriangleEdge> unsettled = sorted_unsettled_edges(surface);
-  for_each_edge(unsettled, [&](std::span<const TriangleEdge> triangles) {
+  const std::vector<TriangleEdge> open = sorted_open_edges(surface);
+  for_each_edge(open, [&](std::span<const TriangleEdge> triangles) {
     EdgeFan fan(surface, triangles);
     if (!fan.is_known()) return;
     ++edges.num_edges;
@@ -202,24 +202,24 @@ void settle_edges(PieceSurface& surface, SurfaceEdges& edges)
       ++edges.num_halves;
     else
       fan.append_records({}, edges.shared);
-    fan.settle();
+    fan.close();
   });
 }
 
-std::vector<EdgeRecord> settle_last_edges(PieceSurface& surface, std::span<const VertexFlags> flags,
-                                          SurfaceEdges& edges)
+std::vector<EdgeRecord> close_last_edges(PieceSurface& surface, std::span<const VertexFlags> flags,
+                                         SurfaceEdges& edges)
 {
-  const std::vector<TriangleEdge> unsettled = sorted_unsettled_edges(surface);
-  const auto component = boundary_components(surface, unsettled, edges.num_boundary_components);
+  const std::vector<TriangleEdge> open = sorted_open_edges(surface);
+  const auto component = boundary_components(surface, open, edges.num_boundary_components);
   std::vector<EdgeRecord> own;
-  for_each_edge(unsettled, [&](std::span<const TriangleEdge> triangles) {
+  for_each_edge(open, [&](std::span<const TriangleEdge> triangles) {
     EdgeFan fan(surface, triangles);
     ++edges.num_edges;
     if (fan.is_half())
       ++edges.num_halves;
     else
       fan.append_records(component, fan.has_end_that_is_not_shared(flags) ? own : edges.shared);
-    fan.settle();
+    fan.close();
   });
   return own;
 }

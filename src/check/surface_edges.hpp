@@ -16,19 +16,19 @@ struct SurfaceEdges {
   std::vector<EdgeRecord> shared{};         ///< Those that other pieces may have as well.
 };
 
-/// @brief Settles the edges at all of whose triangles there is a verdict. Local.
+/// @brief Closes the edges at all of whose triangles there is a verdict. Local.
 ///
 /// An edge of a piece at two triangles, both towards the same other piece, is in general at two
 /// triangles of that piece too: then the tets around it are all in these two, each counts one half,
 /// and nobody else need know. Where the other piece has more triangles at it, that piece says so in
 /// its record (`twin`).
-void settle_edges(PieceSurface& surface, SurfaceEdges& edges);
+void close_edges(PieceSurface& surface, SurfaceEdges& edges);
 
-/// @brief Settles the edges that are left. Local. @pre there is a verdict on all triangles.
+/// @brief Closes the edges that are left. Local. @pre there is a verdict on all triangles.
 /// @param[in] flags Of the surface's vertices.
 /// @return The edges that no other piece has, since no other has both ends.
-[[nodiscard]] std::vector<EdgeRecord> settle_last_edges(PieceSurface& surface,
-                                                        std::span<const VertexFlags> flags,
-                                                        SurfaceEdges& edges);
+[[nodiscard]] std::vector<EdgeRecord> close_last_edges(PieceSurface& surface,
+                                                       std::span<const VertexFlags> flags,
+                                                       SurfaceEdges& edges);
 
 }  // namespace tessera::check

@@ -79,13 +79,13 @@ DecomposeResult decompose(const mesh::CoarseMesh& mesh, const DecomposeOptions& 
                                 : automatic_number(mesh, tet_weight, options.parts);
   report.num_wanted = std::max(number, static_cast<LocalIndex>(pieces.size()));
 
-  Labelling labelling = partition_pieces(graph, pieces, report.num_wanted, partitioner);
-  const RepairCounts repairs = repair(graph, labelling);
+  TetPartition partition = partition_pieces(graph, pieces, report.num_wanted, partitioner);
+  const RepairCounts repairs = repair(graph, partition);
   report.num_moves = repairs.num_moves;
   report.num_splits = repairs.num_splits;
-  report.num_merges = merge_small(graph, labelling, report.num_wanted);
+  report.num_merges = merge_small(graph, partition, report.num_wanted);
 
-  result.decomposition = number_subdomains(graph, labelling, options.parts, partitioner);
+  result.decomposition = number_subdomains(graph, partition, options.parts, partitioner);
   measure(graph, result.decomposition, report);
   return result;
 }

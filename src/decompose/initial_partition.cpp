@@ -40,11 +40,11 @@ std::vector<LocalIndex> parts_of_pieces(const TetGraph& graph,
   return tet_part;
 }
 
-// Halves the heaviest label until there are `num_wanted`. Partitioners leave parts empty when there
+// Halves the heaviest part until there are `num_wanted`. Partitioners leave parts empty when there
 // are nearly as many parts as tets.
-void raise_number(const TetGraph& graph, Labelling& labelling, LocalIndex num_wanted)
+void raise_number(const TetGraph& graph, TetPartition& partition, LocalIndex num_wanted)
 {
-  if (labelling.num_used() >= num_wanted) return;
+  if (partition.num_used() >= num_wanted) return;
   struct Candidate {
     double weight;
     std::vector<LocalIndex> tets;
@@ -57,20 +57,20 @@ void raise_number(const TetGraph& graph, Labelling& labelling, LocalIndex num_wa
   const auto offer = [&](std::span<const LocalIndex> tets) {
     if (tets.size() > 1) heaviest.push({weight_of(graph, tets), {tets.begin(), tets.end()}});
   };
-  const LabelTets label_tets = tets_of_labels(graph, labelling);
-  for (LocalIndex label = 0; label < labelling.num_labels(); ++label) offer(label_tets.of(label));
+  const PartTets label_tets = tets_of_parts(graph, partition);
+  for (LocalIndex part = 0; part < partition.num_parts(); ++part) offer(label_tets.of(part));
 
   RegionSearch search(graph);
-  while (labelling.num_used() < num_wanted) {
+  while (partition.num_used() < num_wanted) {
     const std::vector<LocalIndex> tets = heaviest.top().tets;
     heaviest.pop();
     const auto second = search.halve(tets);
-    const LocalIndex old_label = labelling.of(tets.front());
-    const LocalIndex new_label = labelling.add_label();
-    for (const LocalIndex t : second) labelling.assign(t, new_label);
+    const LocalIndex old_part = partition.of(tets.front());
+    const LocalIndex new_part = partition.add_part();
+    for (const LocalIndex t : second) partition.assign(t, new_part);
     std::vector<LocalIndex> first;
     for (const LocalIndex t : tets) {
-      if (labelling.of(t) == old_label) first.push_back(t);
+      if (partition.of(t) == old_part) first.push_back(t);
     }
     offer(first);
     offer(second);
@@ -113,15 +113,15 @@ std::vector<LocalIndex> allot_parts(const TetGraph& graph,
   return allotted;
 }
 
-Labelling partition_pieces(const TetGraph& graph,
-                           const std::vector<std::vector<LocalIndex>>& pieces, LocalIndex num_parts,
-                           const GraphPartitioner& partitioner)
+TetPartition partition_pieces(const TetGraph& graph,
+                              const std::vector<std::vector<LocalIndex>>& pieces,
+                              LocalIndex num_parts, const GraphPartitioner& partitioner)
 {
   const auto allotted = allot_parts(graph, pieces, num_parts);
   const auto tet_part = parts_of_pieces(graph, pieces, allotted, partitioner);
-  Labelling labelling = connect_parts(graph, tet_part, num_parts);
-  raise_number(graph, labelling, num_parts);
-  return labelling;
+  TetPartition partition = connect_parts(graph, tet_part, num_parts);
+  raise_number(graph, partition, num_parts);
+  return partition;
 }
 
 }  // namespace tessera::decompose

@@ -5,7 +5,7 @@
 
 #include "tessera/decompose/graph_partitioner.hpp"
 
-#include "decompose/labelling.hpp"
+#include "decompose/tet_partition.hpp"
 
 namespace tessera::decompose {
 
@@ -18,10 +18,11 @@ namespace tessera::decompose {
     const TetGraph& graph, const std::vector<std::vector<LocalIndex>>& pieces,
     LocalIndex num_parts);
 
-/// @brief Face-connected labels, `num_parts` or more: the partitioner on each piece; what is left
+/// @brief Face-connected parts, `num_parts` or more: the partitioner on each piece; what is left
 /// over of a part in small bits goes to a neighbour; the heaviest are halved while too few.
-[[nodiscard]] Labelling partition_pieces(const TetGraph& graph,
-                                         const std::vector<std::vector<LocalIndex>>& pieces,
-                                         LocalIndex num_parts, const GraphPartitioner& partitioner);
+[[nodiscard]] TetPartition partition_pieces(const TetGraph& graph,
+                                            const std::vector<std::vector<LocalIndex>>& pieces,
+                                            LocalIndex num_parts,
+                                            const GraphPartitioner& partitioner);
 
 }  // namespace tessera::decompose

@@ -232,14 +232,14 @@ Numbering hierarchical_numbers(const mesh::Decomposition& decomposition, LocalIn
   return HierarchicalOrder(decomposition, partitioner).run(num_parts);
 }
 
-mesh::Decomposition number_subdomains(const TetGraph& graph, const Labelling& labelling,
+mesh::Decomposition number_subdomains(const TetGraph& graph, const TetPartition& partition,
                                       LocalIndex num_parts, const GraphPartitioner& partitioner)
 {
-  std::vector<LocalIndex> compact(static_cast<std::size_t>(labelling.num_labels()), kNoIndex);
+  std::vector<LocalIndex> compact(static_cast<std::size_t>(partition.num_parts()), kNoIndex);
   std::vector<LocalIndex> tet_subdomain(static_cast<std::size_t>(graph.num_tets()));
   LocalIndex next = 0;
   for (LocalIndex t = 0; t < graph.num_tets(); ++t) {
-    LocalIndex& number = compact[static_cast<std::size_t>(labelling.of(t))];
+    LocalIndex& number = compact[static_cast<std::size_t>(partition.of(t))];
     if (number == kNoIndex) number = next++;
     tet_subdomain[static_cast<std::size_t>(t)] = number;
   }

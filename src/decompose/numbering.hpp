@@ -6,7 +6,7 @@
 #include "tessera/decompose/graph_partitioner.hpp"
 #include "tessera/mesh/decomposition.hpp"
 
-#include "decompose/labelling.hpp"
+#include "decompose/tet_partition.hpp"
 
 namespace tessera::decompose {
 
@@ -28,10 +28,10 @@ struct Numbering {
                                              LocalIndex num_parts,
                                              const GraphPartitioner& partitioner);
 
-/// @brief The used labels as subdomains, numbered hierarchically, part by part.
+/// @brief The used parts as subdomains, numbered hierarchically, part by part.
 /// @throws ConfigError if there are fewer subdomains than parts.
 [[nodiscard]] mesh::Decomposition number_subdomains(const TetGraph& graph,
-                                                    const Labelling& labelling,
+                                                    const TetPartition& partition,
                                                     LocalIndex num_parts,
                                                     const GraphPartitioner& partitioner);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "decompose/labelling.hpp"
+#include "decompose/tet_partition.hpp"
 
 namespace tessera::decompose {
 
@@ -10,9 +10,9 @@ struct RepairCounts {
   LocalIndex num_splits = 0;
 };
 
-/// @brief Makes every label's skin one closed manifold surface: moves tets over seams, and splits a
-/// label that no move helps. Ends, because moves end and a label of one tet is never split.
-/// @pre Labels are face-connected; they stay so.
-RepairCounts repair(const TetGraph& graph, Labelling& labelling);
+/// @brief Makes every part's skin one closed manifold surface: moves tets over seams, and splits a
+/// part that no move helps. Ends, because moves end and a part of one tet is never split.
+/// @pre Parts are face-connected; they stay so.
+RepairCounts repair(const TetGraph& graph, TetPartition& partition);
 
 }  // namespace tessera::decompose

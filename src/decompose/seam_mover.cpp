@@ -20,10 +20,11 @@ bool share_a_vertex(std::span<const LocalIndex, 4> a, std::span<const LocalIndex
 
 }  // namespace
 
-SeamMover::SeamMover(const TetGraph& graph, Labelling& labelling, Spots& spots)
+SeamMover::SeamMover(const TetGraph& graph, TetPartition& partition,
+                     NonManifoldVertices& non_manifold)
     : graph_(&graph),
-      labelling_(&labelling),
-      spots_(&spots),
+      partition_(&partition),
+      non_manifold_(&non_manifold),
       is_queued_(static_cast<std::size_t>(graph.num_tets()), false),
       visit_(static_cast<std::size_t>(graph.num_tets()), 0)
 {
@@ -38,7 +39,7 @@ void SeamMover::push(LocalIndex t)
 
 LocalIndex SeamMover::run(std::span<const LocalIndex> tets)
 {
-  mean_weight_ = labelling_->mean_weight();
+  mean_weight_ = partition_->mean_weight();
   for (const LocalIndex t : tets) push(t);
   LocalIndex num_moves = 0;
   while (!queue_.empty()) {
@@ -56,79 +57,79 @@ LocalIndex SeamMover::run(std::span<const LocalIndex> tets)
 
 bool SeamMover::try_move(LocalIndex t)
 {
-  if (labelling_->num_tets(labelling_->of(t)) == 1) return false;
+  if (partition_->num_tets(partition_->of(t)) == 1) return false;
   const Change change = best_change(t);
   if (change.to == kNoIndex || !keeps_connected(t)) return false;
-  labelling_->assign(t, change.to);
-  spots_->refresh(std::span(&t, 1));
+  partition_->assign(t, change.to);
+  non_manifold_->refresh(std::span(&t, 1));
   return true;
 }
 
 SeamMover::Change SeamMover::best_change(LocalIndex t)
 {
-  const LocalIndex from = labelling_->of(t);
+  const LocalIndex from = partition_->of(t);
   const auto neighbours = graph_->neighbours(t);
   const auto face_cost = graph_->face_cost(t);
-  const auto price_towards = [&](LocalIndex label) {
+  const auto price_towards = [&](LocalIndex part) {
     std::int64_t price = 0;
     for (std::size_t face = 0; face < 4; ++face) {
       const bool is_shared =
-          neighbours[face] != kNoIndex && labelling_->of(neighbours[face]) == label;
+          neighbours[face] != kNoIndex && partition_->of(neighbours[face]) == part;
       if (is_shared) price += face_cost[face];
     }
     return price;
   };
-  const bool near_spot = is_near_spot(t);
+  const bool near_non_manifold = is_near_non_manifold(t);
   Change best;
   for (const LocalIndex neighbour : neighbours) {
     if (neighbour == kNoIndex) continue;
-    const LocalIndex to = labelling_->of(neighbour);
+    const LocalIndex to = partition_->of(neighbour);
     if (to == from || to == best.to) continue;
     Change change{to, 0, price_towards(from) - price_towards(to)};
-    if (!near_spot && change.price >= 0) continue;
-    change.spots = spots_change(t, to);
+    if (!near_non_manifold && change.price >= 0) continue;
+    change.non_manifold = non_manifold_change(t, to);
     const auto is_less = [](const Change& a, const Change& b) {
-      return a.spots != b.spots ? a.spots < b.spots : a.price < b.price;
+      return a.non_manifold != b.non_manifold ? a.non_manifold < b.non_manifold : a.price < b.price;
     };
     if (!is_less(change, best)) continue;
-    if (change.spots < 0 || keeps_balance(t, to)) best = change;
+    if (change.non_manifold < 0 || keeps_balance(t, to)) best = change;
   }
   return best;
 }
 
-int SeamMover::spots_change(LocalIndex t, LocalIndex to)
+int SeamMover::non_manifold_change(LocalIndex t, LocalIndex to)
 {
-  const LocalIndex from = labelling_->of(t);
-  const int before = spots_->count_at_tet(t, from, to);
-  labelling_->pretend(t, to);
-  const int after = spots_->count_at_tet(t, from, to);
-  labelling_->pretend(t, from);
+  const LocalIndex from = partition_->of(t);
+  const int before = non_manifold_->count_at_tet(t, from, to);
+  partition_->pretend(t, to);
+  const int after = non_manifold_->count_at_tet(t, from, to);
+  partition_->pretend(t, from);
   return after - before;
 }
 
-bool SeamMover::is_near_spot(LocalIndex t) const
+bool SeamMover::is_near_non_manifold(LocalIndex t) const
 {
   const auto vertices = graph_->vertices(t);
   return std::any_of(vertices.begin(), vertices.end(),
-                     [&](LocalIndex v) { return spots_->total(v) > 0; });
+                     [&](LocalIndex v) { return non_manifold_->total(v) > 0; });
 }
 
 bool SeamMover::keeps_balance(LocalIndex t, LocalIndex to) const
 {
-  const double from_before = labelling_->weight(labelling_->of(t));
-  const double to_after = labelling_->weight(to) + graph_->weight(t);
+  const double from_before = partition_->weight(partition_->of(t));
+  const double to_after = partition_->weight(to) + graph_->weight(t);
   if (to_after <= from_before) return true;
   return from_before - graph_->weight(t) >= kLightestShare * mean_weight_
          && to_after <= kHeaviestShare * mean_weight_;
 }
 
-// Without `t`, its neighbours of its own label must still reach each other, here through tets that
+// Without `t`, its neighbours of its own part must still reach each other, here through tets that
 // touch `t`: a way around elsewhere would be a ring that the move cuts open, which is no loss to
 // refuse.
 bool SeamMover::keeps_connected(LocalIndex t)
 {
-  const LocalIndex label = labelling_->of(t);
-  const auto is_own = [&](LocalIndex n) { return n != kNoIndex && labelling_->of(n) == label; };
+  const LocalIndex part = partition_->of(t);
+  const auto is_own = [&](LocalIndex n) { return n != kNoIndex && partition_->of(n) == part; };
   const auto neighbours = graph_->neighbours(t);
   auto missing = std::count_if(neighbours.begin(), neighbours.end(), is_own);
   if (missing < 2) return true;

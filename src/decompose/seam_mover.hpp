@@ -6,16 +6,16 @@
 #include <span>
 #include <vector>
 
-#include "decompose/labelling.hpp"
-#include "decompose/spots.hpp"
+#include "decompose/non_manifold_vertices.hpp"
+#include "decompose/tet_partition.hpp"
 
 namespace tessera::decompose {
 
-/// @brief Moves single tets over seams while (number of spots, price of the seams) falls
-/// lexicographically. Both are integers, so it ends. Labels stay face-connected and not empty.
+/// @brief Moves single tets over seams while (number of non_manifold, price of the seams) falls
+/// lexicographically. Both are integers, so it ends. Parts stay face-connected and not empty.
 class SeamMover {
  public:
-  SeamMover(const TetGraph& graph, Labelling& labelling, Spots& spots);
+  SeamMover(const TetGraph& graph, TetPartition& partition, NonManifoldVertices& non_manifold);
 
   /// @brief Tries these tets, and those around each accepted move, until no move is accepted.
   /// @return Number of moves.
@@ -24,20 +24,20 @@ class SeamMover {
  private:
   struct Change {
     LocalIndex to = kNoIndex;
-    int spots = 0;
+    int non_manifold = 0;
     std::int64_t price = 0;
   };
   [[nodiscard]] bool try_move(LocalIndex t);
   [[nodiscard]] Change best_change(LocalIndex t);
-  [[nodiscard]] int spots_change(LocalIndex t, LocalIndex to);
+  [[nodiscard]] int non_manifold_change(LocalIndex t, LocalIndex to);
   [[nodiscard]] bool keeps_balance(LocalIndex t, LocalIndex to) const;
   [[nodiscard]] bool keeps_connected(LocalIndex t);
-  [[nodiscard]] bool is_near_spot(LocalIndex t) const;
+  [[nodiscard]] bool is_near_non_manifold(LocalIndex t) const;
   void push(LocalIndex t);
 
   const TetGraph* graph_;
-  Labelling* labelling_;
-  Spots* spots_;
+  TetPartition* partition_;
+  NonManifoldVertices* non_manifold_;
   std::deque<LocalIndex> queue_{};
   std::vector<bool> is_queued_;
   std::vector<LocalIndex> visit_;  // shape (num_tets): number of the last search that came here

@@ -23,14 +23,14 @@ LocalIndex SkinComponents::root_of(LocalIndex vertex)
   return static_cast<LocalIndex>(at);
 }
 
-void SkinComponents::collect(const Labelling& labelling, std::span<const LocalIndex> tets)
+void SkinComponents::collect(const TetPartition& partition, std::span<const LocalIndex> tets)
 {
   for (const LocalIndex t : tets) {
     const auto vertices = graph_->vertices(t);
     const auto neighbours = graph_->neighbours(t);
     for (std::size_t face = 0; face < 4; ++face) {
       const bool is_inner =
-          neighbours[face] != kNoIndex && labelling.of(neighbours[face]) == labelling.of(t);
+          neighbours[face] != kNoIndex && partition.of(neighbours[face]) == partition.of(t);
       if (is_inner) continue;
       const LocalIndex first = vertices[face == 0 ? 1 : 0];
       skin_.push_back({t, first});
@@ -44,12 +44,12 @@ void SkinComponents::collect(const Labelling& labelling, std::span<const LocalIn
   }
 }
 
-std::vector<LocalIndex> SkinComponents::tets_at_cavity(const Labelling& labelling,
+std::vector<LocalIndex> SkinComponents::tets_at_cavity(const TetPartition& partition,
                                                        std::span<const LocalIndex> tets)
 {
   skin_.clear();
   touched_.clear();
-  collect(labelling, tets);
+  collect(partition, tets);
   const auto size_of = [&](LocalIndex root) -> LocalIndex& {
     return num_triangles_[static_cast<std::size_t>(root)];
   };

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "decompose/labelling.hpp"
+#include "decompose/tet_partition.hpp"
 
 namespace tessera::decompose {
 
@@ -16,8 +16,9 @@ class SkinComponents {
 
   /// @brief Tets with a triangle on each surface but the one with most triangles; empty if there is
   /// only one surface: then nothing is enclosed. Ascending; of the first enclosed surface only.
-  /// @pre `tets` are all tets of one label, ascending. Two surfaces do not touch (Spots is zero).
-  [[nodiscard]] std::vector<LocalIndex> tets_at_cavity(const Labelling& labelling,
+  /// @pre `tets` are all tets of one part, ascending. Two surfaces do not touch
+  /// (NonManifoldVertices is zero).
+  [[nodiscard]] std::vector<LocalIndex> tets_at_cavity(const TetPartition& partition,
                                                        std::span<const LocalIndex> tets);
 
  private:
@@ -26,7 +27,7 @@ class SkinComponents {
     LocalIndex vertex;
   };
   [[nodiscard]] LocalIndex root_of(LocalIndex vertex);
-  void collect(const Labelling& labelling, std::span<const LocalIndex> tets);
+  void collect(const TetPartition& partition, std::span<const LocalIndex> tets);
 
   const TetGraph* graph_;
   std::vector<LocalIndex> parent_;         // shape (num_vertices): union-find; itself between calls

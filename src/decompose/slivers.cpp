@@ -152,8 +152,8 @@ bool join_slivers(const TetGraph& graph, Components& components, double limit)
 
 }  // namespace
 
-Labelling connect_parts(const TetGraph& graph, const std::vector<LocalIndex>& tet_part,
-                        LocalIndex num_parts)
+TetPartition connect_parts(const TetGraph& graph, const std::vector<LocalIndex>& tet_part,
+                           LocalIndex num_parts)
 {
   Components components = find_components(graph, tet_part, num_parts);
   double total = 0.0;
@@ -161,8 +161,8 @@ Labelling connect_parts(const TetGraph& graph, const std::vector<LocalIndex>& te
   const double limit = kSliverShare * total / num_parts;
   while (join_slivers(graph, components, limit)) {
   }
-  const auto num_labels = static_cast<LocalIndex>(components.weight.size());
-  return Labelling(graph, std::move(components.tet_component), num_labels);
+  const auto num_components = static_cast<LocalIndex>(components.weight.size());
+  return TetPartition(graph, std::move(components.tet_component), num_components);
 }
 
 }  // namespace tessera::decompose

@@ -3,17 +3,17 @@
 
 #include <vector>
 
-#include "decompose/labelling.hpp"
+#include "decompose/tet_partition.hpp"
 
 namespace tessera::decompose {
 
-/// @brief Face-connected labels from parts that may be in several components.
+/// @brief Face-connected parts from parts that may be in several components.
 ///
 /// The heaviest component of a part stays; of the others, light ones (slivers) join the component
-/// with which they share the most expensive seam, heavy ones become labels of their own.
+/// with which they share the most expensive seam, heavy ones become parts of their own.
 /// @param[in] tet_part Shape (num_tets), in [0, num_parts).
-[[nodiscard]] Labelling connect_parts(const TetGraph& graph,
-                                      const std::vector<LocalIndex>& tet_part,
-                                      LocalIndex num_parts);
+[[nodiscard]] TetPartition connect_parts(const TetGraph& graph,
+                                         const std::vector<LocalIndex>& tet_part,
+                                         LocalIndex num_parts);
 
 }  // namespace tessera::decompose

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "improve/make_patch.hpp"
+#include "improve/make_update.hpp"
 #include "improve/owners.hpp"
 #include "improve/region_check.hpp"
 #include "improve/split_tets.hpp"
@@ -55,7 +55,7 @@ RegionOutcome improve_region(const RegionMesh& mesh, const Optimizer& optimizer,
   outcome.after = measure(tets);
   outcome.reason = refusal(outcome.before, outcome.after);
   outcome.is_accepted = outcome.reason.empty();
-  if (outcome.is_accepted) outcome.patch = make_patch(mesh, tets, owners);
+  if (outcome.is_accepted) outcome.update = make_update(mesh, tets, owners);
   return outcome;
 }
 

@@ -2,17 +2,18 @@
 #include <algorithm>
 #include <array>
 
-#include "tessera/improve/regions.hpp"
+#include "tessera/improve/seam_regions.hpp"
 
 namespace tessera::improve {
 namespace {
 
 // Region of each vertex on a seam of the phase, kNoIndex at the others.
-std::vector<LocalIndex> seed_vertices(const mesh::Piece& piece, const Regions& regions, int phase)
+std::vector<LocalIndex> seed_vertices(const mesh::Piece& piece, const SeamRegions& regions,
+                                      int phase)
 {
   std::vector<LocalIndex> vertex_region(at(piece.num_vertices()), kNoIndex);
   for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-    const LocalIndex region = regions.region_of(piece.skin_unit[at(v)], piece.material);
+    const LocalIndex region = regions.region_of(piece.skin_host[at(v)], piece.material);
     if (region >= regions.first_of_phase(phase) && region < regions.first_of_phase(phase + 1)) {
       vertex_region[at(v)] = region;
     }
@@ -33,7 +34,7 @@ LocalIndex lowest_at_corners(const LocalIndex* corners, const std::vector<LocalI
 
 }  // namespace
 
-std::vector<LocalIndex> label_tets(const mesh::Piece& piece, const Regions& regions, int phase,
+std::vector<LocalIndex> label_tets(const mesh::Piece& piece, const SeamRegions& regions, int phase,
                                    int layers)
 {
   std::vector<LocalIndex> vertex_region = seed_vertices(piece, regions, phase);

@@ -17,18 +17,18 @@ namespace {
 
 // A vertex that several pieces may hold, as one of them does.
 struct SharedVertex {
-  mesh::Unit unit = 0;
+  mesh::HostEntity host = 0;
   LocalIndex index = 0;
   PieceVertex place{};
 
   [[nodiscard]] bool is_same(const SharedVertex& other) const
   {
-    return unit == other.unit && index == other.index;
+    return host == other.host && index == other.index;
   }
 
   friend bool operator<(const SharedVertex& a, const SharedVertex& b)
   {
-    if (a.unit != b.unit) return a.unit < b.unit;
+    if (a.host != b.host) return a.host < b.host;
     if (a.index != b.index) return a.index < b.index;
     return a.place.owner < b.place.owner;
   }
@@ -91,7 +91,7 @@ class Extractor {
       const mesh::Piece& piece = pieces_[p].piece;
       for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
         shared.push_back(
-            {piece.skin_unit[at(v)], piece.skin_index[at(v)], {static_cast<LocalIndex>(p), v}});
+            {piece.skin_host[at(v)], piece.skin_index[at(v)], {static_cast<LocalIndex>(p), v}});
       }
     }
     std::sort(shared.begin(), shared.end());
@@ -248,7 +248,7 @@ class Extractor {
 
 }  // namespace
 
-RegionMesh extract_region(std::span<const LabelledPiece> pieces, const Regions& regions,
+RegionMesh extract_region(std::span<const LabelledPiece> pieces, const SeamRegions& regions,
                           LocalIndex region)
 {
   const auto subdomains = regions.subdomains_of(region);
@@ -258,7 +258,7 @@ RegionMesh extract_region(std::span<const LabelledPiece> pieces, const Regions& 
   }
   RegionMesh mesh;
   mesh.region = region;
-  mesh.unit = regions.unit_of(region);
+  mesh.host = regions.host_of(region);
   mesh.subdomains.assign(subdomains.begin(), subdomains.end());
   Extractor(pieces, region).run(mesh);
   return mesh;

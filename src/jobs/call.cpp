@@ -37,7 +37,7 @@ std::string signal_message(int signal)
   return text + " from outside: by hand, or because the system ran out of memory";
 }
 
-std::string with_unit(double value, const char* unit)
+std::string with_host(double value, const char* unit)
 {
   std::ostringstream text;
   text << value << " " << unit;
@@ -283,11 +283,11 @@ std::string Call::killed_message(JobStatus reason) const
 {
   switch (reason) {
     case JobStatus::out_of_time:
-      return "used more than " + with_unit(limits_.cpu_s, "s of CPU time");
+      return "used more than " + with_host(limits_.cpu_s, "s of CPU time");
     case JobStatus::stalled:
-      return "used no CPU time for " + with_unit(limits_.stall_s, "s");
+      return "used no CPU time for " + with_host(limits_.stall_s, "s");
     case JobStatus::out_of_memory:
-      return "used more than " + with_unit(limits_.memory_gib, "GiB of memory");
+      return "used more than " + with_host(limits_.memory_gib, "GiB of memory");
     default:
       return "cancelled";
   }

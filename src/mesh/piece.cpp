@@ -9,7 +9,7 @@ Bytes to_bytes(const Piece& piece)
   out.put(piece.subdomain);
   out.put(piece.material);
   out.put(piece.vertex_xyz);
-  out.put(piece.skin_unit);
+  out.put(piece.skin_host);
   out.put(piece.skin_index);
   out.put(piece.tet_vertices);
   out.put(piece.boundary_vertices);
@@ -25,7 +25,7 @@ Piece piece_from_bytes(std::span<const std::byte> bytes)
   piece.subdomain = in.get<LocalIndex>();
   piece.material = in.get<LocalIndex>();
   piece.vertex_xyz = in.get_vector<double>();
-  piece.skin_unit = in.get_vector<Unit>();
+  piece.skin_host = in.get_vector<HostEntity>();
   piece.skin_index = in.get_vector<LocalIndex>();
   piece.tet_vertices = in.get_vector<LocalIndex>();
   piece.boundary_vertices = in.get_vector<LocalIndex>();

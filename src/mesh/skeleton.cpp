@@ -245,7 +245,7 @@ Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposi
   return skeleton;
 }
 
-std::vector<char> units_on_seams(const Skeleton& skeleton, const Decomposition& decomposition)
+std::vector<char> hosts_on_seams(const Skeleton& skeleton, const Decomposition& decomposition)
 {
   const std::size_t first_edge = at(skeleton.num_vertices());
   const std::size_t first_triangle = first_edge + at(skeleton.num_edges());

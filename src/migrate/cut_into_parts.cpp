@@ -169,8 +169,8 @@ GlobalIndex largest_allowed(GlobalIndex num_tets, LocalIndex num_parts, double m
                   (num_tets + num_parts - 1) / num_parts);
 }
 
-CutMesh cut_into_parts(const comm::Communicator& comm, DistributedMesh mesh,
-                       const PartRequest& request, Traffic& traffic)
+RepartitionResult cut_into_parts(const comm::Communicator& comm, DistributedMesh mesh,
+                                 const PartRequest& request, Traffic& traffic)
 {
   CutFigures figures;
   const auto move = [&] { mesh = migrate_to_parts(comm, mesh, request.num_parts, traffic); };

@@ -25,7 +25,7 @@ Vec3 position_of(const mesh::MeshArrays& piece, std::size_t p)
 
 // The points that tets use, once a piece, in the order of their first use.
 // @param[out] corner_point Row among them of each corner of all tets.
-std::vector<UsedPoint> used_points(std::span<const mesh::MeshArrays> pieces, Identity identity,
+std::vector<UsedPoint> used_points(std::span<const mesh::MeshArrays> pieces, PointIdentity identity,
                                    std::vector<LocalIndex>& corner_point)
 {
   std::vector<UsedPoint> used;
@@ -82,13 +82,13 @@ void add_materials(const mesh::MeshArrays& piece, MeshBlock& block)
 
 }  // namespace
 
-VertexKey key_of_point(const mesh::MeshArrays& piece, std::size_t p, Identity identity)
+VertexKey key_of_point(const mesh::MeshArrays& piece, std::size_t p, PointIdentity identity)
 {
-  return identity == Identity::ids ? key_of_id(piece.point_ids[p])
-                                   : key_of_position(position_of(piece, p));
+  return identity == PointIdentity::ids ? key_of_id(piece.point_ids[p])
+                                        : key_of_position(position_of(piece, p));
 }
 
-JoinedTets join_tets(std::span<const mesh::MeshArrays> pieces, Identity identity)
+JoinedTets join_tets(std::span<const mesh::MeshArrays> pieces, PointIdentity identity)
 {
   JoinedTets joined;
   std::vector<LocalIndex> corners;

@@ -5,16 +5,16 @@
 
 namespace tessera::number {
 
-IdLayout::IdLayout(const mesh::UnitLayout& units, LocalIndex n,
+IdLayout::IdLayout(const mesh::HostLayout& hosts, LocalIndex n,
                    const std::vector<PieceCounts>& pieces)
-    : units_(units),
+    : hosts_(hosts),
       edge_points_(mesh::lattice::num_inner_edge_points(n)),
       triangle_points_(mesh::lattice::num_inner_triangle_points(n)),
-      first_triangle_id_(units.first_edge
-                         + edge_points_ * (units.first_triangle - units.first_edge))
+      first_triangle_id_(hosts.first_edge
+                         + edge_points_ * (hosts.first_triangle - hosts.first_edge))
 {
   const GlobalIndex skeleton_vertices =
-      first_triangle_id_ + triangle_points_ * (units.first_piece - units.first_triangle);
+      first_triangle_id_ + triangle_points_ * (hosts.first_piece - hosts.first_triangle);
   interior_offset_.push_back(skeleton_vertices);
   tet_offset_.push_back(0);
   boundary_offset_.push_back(0);
@@ -25,16 +25,16 @@ IdLayout::IdLayout(const mesh::UnitLayout& units, LocalIndex n,
   }
 }
 
-GlobalIndex IdLayout::vertex_id(mesh::Unit unit, LocalIndex index) const
+GlobalIndex IdLayout::vertex_id(mesh::HostEntity host, LocalIndex index) const
 {
-  if (unit < units_.first_edge) return unit;
-  if (unit < units_.first_triangle) {
-    return units_.first_edge + edge_points_ * (unit - units_.first_edge) + index;
+  if (host < hosts_.first_edge) return host;
+  if (host < hosts_.first_triangle) {
+    return hosts_.first_edge + edge_points_ * (host - hosts_.first_edge) + index;
   }
-  if (unit < units_.first_piece) {
-    return first_triangle_id_ + triangle_points_ * (unit - units_.first_triangle) + index;
+  if (host < hosts_.first_piece) {
+    return first_triangle_id_ + triangle_points_ * (host - hosts_.first_triangle) + index;
   }
-  return interior_vertex_id(unit - units_.first_piece, index);
+  return interior_vertex_id(host - hosts_.first_piece, index);
 }
 
 }  // namespace tessera::number

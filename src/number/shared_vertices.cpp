@@ -5,12 +5,12 @@
 
 namespace tessera::number {
 
-std::vector<VertexKey> shared_vertices(const mesh::Piece& piece)
+std::vector<SharedVertexKey> shared_vertices(const mesh::Piece& piece)
 {
-  std::vector<VertexKey> keys;
+  std::vector<SharedVertexKey> keys;
   keys.reserve(at(piece.num_skin_vertices()));
   for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-    keys.push_back({piece.skin_unit[at(v)], piece.skin_index[at(v)]});
+    keys.push_back({piece.skin_host[at(v)], piece.skin_index[at(v)]});
   }
   std::ranges::sort(keys);
   return keys;

@@ -129,8 +129,8 @@ class LatticeRefiner {
     };
     const model::SurfacePoint projected = project(chord, parameters);
     if (has_parameters()) edge_parameters_[edge_place(e, k)] = projected.uv;
-    return settle(chord, projected,
-                  mesh::LatticePointKey::on_edge(complex_.edge_skeleton[at(e)], n_, k), project);
+    return limit(chord, projected,
+                 mesh::LatticePointKey::on_edge(complex_.edge_skeleton[at(e)], n_, k), project);
   }
 
   void refine_triangle(LocalIndex t, LocalIndex step)
@@ -172,9 +172,9 @@ class LatticeRefiner {
       const model::SurfacePoint projected =
           project(chord, has_parameters() ? guess_uv(t, p, step) : SurfaceParameters{});
       if (has_parameters()) triangle_uv_[triangle_place(t, p)] = projected.uv;
-      point = settle(chord, projected,
-                     mesh::LatticePointKey::on_triangle(complex_.triangle_skeleton[at(t)], n_, p),
-                     project);
+      point = limit(chord, projected,
+                    mesh::LatticePointKey::on_triangle(complex_.triangle_skeleton[at(t)], n_, p),
+                    project);
     }
     store(result_.triangle_xyz, triangle_place(t, p), point);
   }
@@ -197,19 +197,20 @@ class LatticeRefiner {
     return context_.coarse.patch_surface[at(patch)];
   }
 
-  // Where the plan lets a projected point go; measures how far off the geometry that is.
+  // As far towards its projection as the limiter lets a point go; measures how far off the geometry
+  // that is.
   template <class Project>
-  Vec3 settle(const Vec3& chord, const model::SurfacePoint& projected,
-              const mesh::LatticePointKey& key, const Project& project)
+  Vec3 limit(const Vec3& chord, const model::SurfacePoint& projected,
+             const mesh::LatticePointKey& key, const Project& project)
   {
-    const double factor = context_.damping.factor(key);
+    const double factor = context_.limiter.factor(key);
     const Vec3 point = factor == 1.0 ? projected.xyz : chord + factor * (projected.xyz - chord);
     if (context_.measure_distance) {
       mesh::ModelDistance& distance = result_.distance;
       const double off = norm(project(point, projected.uv).xyz - point);
-      double& largest = factor == 1.0 ? distance.largest : distance.largest_damped;
+      double& largest = factor == 1.0 ? distance.largest : distance.largest_held_back;
       largest = std::max(largest, off);
-      distance.num_damped += factor == 1.0 ? 0 : 1;
+      distance.num_held_back += factor == 1.0 ? 0 : 1;
     }
     return point;
   }

@@ -17,10 +17,10 @@ class VertexList {
  public:
   explicit VertexList(mesh::Skin& skin) : skin_(skin) {}
 
-  void append(const Vec3& point, mesh::Unit unit, LocalIndex index)
+  void append(const Vec3& point, mesh::HostEntity host, LocalIndex index)
   {
     skin_.vertex_xyz.insert(skin_.vertex_xyz.end(), point.begin(), point.end());
-    skin_.vertex_unit.push_back(unit);
+    skin_.vertex_host.push_back(host);
     skin_.vertex_index.push_back(index);
   }
 
@@ -43,21 +43,21 @@ void append_coarse_vertices(const mesh::Complex& complex, const mesh::RefinedLat
 }
 
 void append_lattice_points(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
-                           const mesh::UnitLayout& units, VertexList& vertices)
+                           const mesh::HostLayout& hosts, VertexList& vertices)
 {
   const LocalIndex n = lattice.n;
   for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
     if (complex.edge_skeleton[at(e)] == kNoIndex) continue;
-    const mesh::Unit unit = units.first_edge + complex.edge_skeleton[at(e)];
-    for (LocalIndex k = 1; k < n; ++k) vertices.append(lattice.edge_point(e, k), unit, k - 1);
+    const mesh::HostEntity host = hosts.first_edge + complex.edge_skeleton[at(e)];
+    for (LocalIndex k = 1; k < n; ++k) vertices.append(lattice.edge_point(e, k), host, k - 1);
   }
   for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
     if (complex.triangle_skeleton[at(t)] == kNoIndex) continue;
-    const mesh::Unit unit = units.first_triangle + complex.triangle_skeleton[at(t)];
+    const mesh::HostEntity host = hosts.first_triangle + complex.triangle_skeleton[at(t)];
     LocalIndex index = 0;
     for (LocalIndex j = 1; j < n; ++j) {
       for (LocalIndex i = 1; i + j < n; ++i) {
-        vertices.append(lattice.triangle_point(t, {i, j}), unit, index++);
+        vertices.append(lattice.triangle_point(t, {i, j}), host, index++);
       }
     }
   }
@@ -90,7 +90,7 @@ mesh::Skin extract_skin(const mesh::Complex& complex, const mesh::RefinedLattice
   mesh::Skin skin;
   VertexList vertices(skin);
   append_coarse_vertices(complex, lattice, vertices);
-  append_lattice_points(complex, lattice, mesh::UnitLayout(skeleton), vertices);
+  append_lattice_points(complex, lattice, mesh::HostLayout(skeleton), vertices);
   append_triangles(complex, lattice.n, skeleton, subdomain, skin);
   return skin;
 }

@@ -26,9 +26,9 @@
 #include "tessera/decompose/predicted_fine_tets.hpp"
 #include "tessera/netgen/factory.hpp"
 #include "tessera/quality/statistics.hpp"
+#include "tessera/subdomain/fill_subdomain.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
 
-#include "pipeline/cut_mesh.hpp"
-#include "pipeline/fill_job.hpp"
 #include "support/piece_sets.hpp"
 
 #include "subject.hpp"
@@ -89,17 +89,17 @@ void print_regions(const testing::PhaseCount& count)
   for (const auto& [reason, times] : reasons) std::printf("      %d: %s\n", times, reason.c_str());
 }
 
-std::vector<mesh::Piece> fill_all(const testing::Subject& subject, const pipeline::CutMesh& cut,
-                                  const Settings& settings)
+std::vector<mesh::Piece> fill_all(const testing::Subject& subject,
+                                  const subdomain::PartitionedMesh& cut, const Settings& settings)
 {
-  const mesh::Damping no_damping;
-  const refine::RefineContext refine{subject.coarse, cut.skeleton, *subject.model, no_damping,
+  const mesh::ProjectionLimiter no_limits;
+  const refine::RefineContext refine{subject.coarse, cut.skeleton, *subject.model, no_limits,
                                      settings.levels};
   const auto kernel = netgen::make_fill_kernel();
   std::vector<mesh::Piece> pieces;
   for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
     pieces.push_back(
-        pipeline::fill_subdomain(cut, refine, s, {.optimize_steps = settings.fill_steps}, *kernel)
+        subdomain::fill_subdomain(cut, refine, s, {.optimize_steps = settings.fill_steps}, *kernel)
             .piece);
   }
   return pieces;
@@ -115,7 +115,7 @@ void require_sound(const std::vector<mesh::Piece>& pieces, double volume)
 }
 
 // Runs the three phases on copies of the filled pieces.
-void print_phases(const improve::Regions& regions, const Settings& settings,
+void print_phases(const improve::SeamRegions& regions, const Settings& settings,
                   const std::string& steps, std::vector<mesh::Piece> pieces)
 {
   const double volume = testing::volume_of(pieces);
@@ -143,14 +143,14 @@ void print_table(const testing::Subject& subject, const Settings& settings)
       decompose::decompose(subject.coarse, {.subdomains = num_subdomains},
                            decompose::predicted_fine_tets(subject.coarse, settings.levels),
                            *decompose::make_metis_partitioner());
-  const pipeline::CutMesh cut(subject.coarse, result.decomposition);
+  const subdomain::PartitionedMesh cut(subject.coarse, result.decomposition);
   std::printf("%s: %d coarse tets, %d subdomains\n", subject.file.c_str(),
               subject.coarse.num_tets(), cut.num_subdomains());
   const double start = cpu_seconds();
   const std::vector<mesh::Piece> pieces = fill_all(subject, cut, settings);
   print_state("filled", pieces, cpu_seconds() - start);
   std::printf("\n");
-  const improve::Regions regions(cut.skeleton, cut.decomposition);
+  const improve::SeamRegions regions(cut.skeleton, cut.decomposition);
   for (const std::string& steps : settings.steps) {
     std::printf("  steps %s, %d layers, power %g\n", steps.c_str(), settings.layers,
                 settings.error_power);

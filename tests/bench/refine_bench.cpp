@@ -30,8 +30,8 @@ void refine_skin(benchmark::State& state, const testing::Subject& subject,
                  const model::Model& model)
 {
   const mesh::Complex skin = mesh::skin_complex(subject.skeleton, 0);
-  const mesh::Damping no_damping;
-  const refine::RefineContext context{subject.coarse, subject.skeleton, model, no_damping, kLevels};
+  const mesh::ProjectionLimiter no_limits;
+  const refine::RefineContext context{subject.coarse, subject.skeleton, model, no_limits, kLevels};
   for (auto _ : state) {
     benchmark::DoNotOptimize(refine::refine_lattice(skin, context));
   }

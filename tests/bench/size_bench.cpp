@@ -94,10 +94,10 @@ class SampleGrid {
 std::vector<double> ratios_of(const testing::Subject& subject, const mesh::Skeleton& skeleton,
                               std::span<const LocalIndex> tets, LocalIndex subdomain, int levels)
 {
-  const mesh::Damping no_damping;
+  const mesh::ProjectionLimiter no_limits;
   const mesh::Complex complex = mesh::skin_complex(skeleton, subdomain);
   const auto lattice = refine::refine_lattice(
-      complex, {subject.coarse, skeleton, *subject.model, no_damping, levels});
+      complex, {subject.coarse, skeleton, *subject.model, no_limits, levels});
   mesh::Skin skin = refine::extract_skin(complex, lattice, skeleton, subdomain);
   fill::FillInput input{.vertex_xyz = std::move(skin.vertex_xyz),
                         .triangle_vertices = std::move(skin.triangle_vertices)};

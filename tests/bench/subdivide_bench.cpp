@@ -40,8 +40,8 @@ std::vector<std::vector<LocalIndex>> batches_of(const Subject& subject, int leve
 
 void subdivide(benchmark::State& state, const Subject& subject, int levels)
 {
-  const mesh::Damping no_damping;
-  const refine::RefineContext context{subject.coarse, subject.skeleton, *subject.model, no_damping,
+  const mesh::ProjectionLimiter no_limits;
+  const refine::RefineContext context{subject.coarse, subject.skeleton, *subject.model, no_limits,
                                       levels};
   const auto batches = batches_of(subject, levels);
   std::size_t next = 0;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Whatever third-party code does in a job, at any stage and on any rank: a documented end with the cause, no hang.
 
-All faults of a fill are in ladder_test.py, those of an improvement in improve_test.py as well."""
+All faults of a fill are in fallbacks_test.py, those of an improvement in improve_test.py as well."""
 import concurrent.futures
 import dataclasses
 import json

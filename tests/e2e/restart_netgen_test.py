@@ -26,7 +26,7 @@ class Netgen(kill.RestartTest):
         self.resume()
 
     def test_coarse_job_killed(self):
-        """The same is tried again: a finer coarse mesh, the next rung, would be another mesh."""
+        """The same is tried again: a finer coarse mesh, the next fallback, would be another mesh."""
         case = self.write_case(max_size=0.13, levels=0)
         self.arguments = [case]
         reference = self.mesh(case, "undisturbed")

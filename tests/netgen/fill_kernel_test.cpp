@@ -134,7 +134,7 @@ TEST(FillKernel, KeepsTheSkinWithoutSizeSamples)
   expect_fills(skin, fill_skin(skin));
 }
 
-TEST(FillKernel, KeepsTheSkinForEveryTryOfTheLadder)
+TEST(FillKernel, KeepsTheSkinForEveryFallback)
 {
   const FillInput skin = cube_skin(4);
   for (const unsigned seed : {1U, 2U, 77U}) {

@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tessera/mesh/damping.hpp"
+#include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/netgen/factory.hpp"
+#include "tessera/subdomain/fill_subdomain.hpp"
 
-#include "pipeline/fill_job.hpp"
 #include "support/bodies.hpp"
 #include "support/decompositions.hpp"
 #include "support/flat_model.hpp"
@@ -27,14 +27,14 @@ using testing::Body;
 std::vector<mesh::Piece> filled_pieces(const Body& body, int levels)
 {
   const testing::FlatModel model;
-  const mesh::Damping damping;
-  const refine::RefineContext refine{body.coarse, body.skeleton, model, damping, levels};
-  const pipeline::CutMesh cut(body.coarse, body.decomposition);
+  const mesh::ProjectionLimiter limiter;
+  const refine::RefineContext refine{body.coarse, body.skeleton, model, limiter, levels};
+  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition);
   const auto kernel = netgen::make_fill_kernel();
   const fill::FillTry settings{.start = fill::FillStart::skin, .optimize_steps = 2};
   std::vector<mesh::Piece> pieces;
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
-    pieces.push_back(pipeline::fill_subdomain(cut, refine, s, settings, *kernel).piece);
+    pieces.push_back(subdomain::fill_subdomain(cut, refine, s, settings, *kernel).piece);
   }
   return pieces;
 }
@@ -78,7 +78,7 @@ improve::ShapeSummary shapes_at_seams(const std::vector<mesh::Piece>& pieces)
 
 std::vector<mesh::Piece> improve_all(const Body& body, std::vector<mesh::Piece> pieces)
 {
-  const improve::Regions regions(body.skeleton, body.decomposition);
+  const improve::SeamRegions regions(body.skeleton, body.decomposition);
   const auto optimizer = netgen::make_optimizer();
   const testing::ImproveSetup setup{*optimizer};
   const double volume = testing::volume_of(pieces);

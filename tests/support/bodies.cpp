@@ -15,19 +15,19 @@ Body::Body(mesh::CoarseMesh given, mesh::Decomposition cut)
 }
 
 RefinedComplex refine_skin(const Body& body, const model::Model& model, int levels,
-                           LocalIndex subdomain, const mesh::Damping& damping,
+                           LocalIndex subdomain, const mesh::ProjectionLimiter& limiter,
                            bool measure_distance)
 {
   RefinedComplex refined{mesh::skin_complex(body.skeleton, subdomain), {}};
   refined.lattice = refine::refine_lattice(
-      refined.complex, {body.coarse, body.skeleton, model, damping, levels, measure_distance});
+      refined.complex, {body.coarse, body.skeleton, model, limiter, levels, measure_distance});
   return refined;
 }
 
 mesh::Skin skin_of(const Body& body, const model::Model& model, int levels, LocalIndex subdomain,
-                   const mesh::Damping& damping)
+                   const mesh::ProjectionLimiter& limiter)
 {
-  const RefinedComplex refined = refine_skin(body, model, levels, subdomain, damping);
+  const RefinedComplex refined = refine_skin(body, model, levels, subdomain, limiter);
   return refine::extract_skin(refined.complex, refined.lattice, body.skeleton, subdomain);
 }
 

@@ -16,16 +16,16 @@
 namespace tessera::testing {
 namespace {
 
-using VertexKey = std::pair<mesh::Unit, LocalIndex>;
+using SharedVertexKey = std::pair<mesh::HostEntity, LocalIndex>;
 
-// A vertex of a set of pieces: its unit, and its index in it; interior ones are keyed by piece.
-VertexKey key_of(const mesh::Piece& piece, LocalIndex v)
+// A vertex of a set of pieces: its host, and its index in it; interior ones are keyed by piece.
+SharedVertexKey key_of(const mesh::Piece& piece, LocalIndex v)
 {
-  if (v < piece.num_skin_vertices()) return {piece.skin_unit[at(v)], piece.skin_index[at(v)]};
+  if (v < piece.num_skin_vertices()) return {piece.skin_host[at(v)], piece.skin_index[at(v)]};
   return {-1 - piece.subdomain, v};
 }
 
-using TriangleKey = std::array<VertexKey, 3>;
+using TriangleKey = std::array<SharedVertexKey, 3>;
 
 struct Sides {
   int even = 0;
@@ -105,9 +105,9 @@ std::string flaw_of_piece(const mesh::Piece& piece)
 
 std::string flaw_of_shared_vertices(const std::vector<mesh::Piece>& pieces)
 {
-  std::map<VertexKey, std::array<std::uint64_t, 3>> positions;
+  std::map<SharedVertexKey, std::array<std::uint64_t, 3>> positions;
   for (const mesh::Piece& piece : pieces) {
-    std::map<VertexKey, int> times;
+    std::map<SharedVertexKey, int> times;
     for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
       if (++times[key_of(piece, v)] > 1) return "a piece has a shared vertex twice";
       const auto here = bits(point_at(std::span(piece.vertex_xyz), v));
@@ -129,7 +129,7 @@ std::string flaw_of_triangles(const std::vector<mesh::Piece>& pieces)
   return count.first_flaw();
 }
 
-improve::RegionOutcome improve_one(const improve::Regions& regions, LocalIndex region,
+improve::RegionOutcome improve_one(const improve::SeamRegions& regions, LocalIndex region,
                                    const ImproveSetup& setup,
                                    const std::vector<mesh::Piece>& pieces,
                                    const std::vector<std::vector<LocalIndex>>& labels)
@@ -158,7 +158,7 @@ std::map<LocalIndex, LocalIndex> add_vertices(const Body& body, std::span<const 
         const Vec3 p = body.coarse.position(v);
         piece.vertex_xyz.insert(piece.vertex_xyz.end(), p.begin(), p.end());
         if (!is_skin) continue;
-        piece.skin_unit.push_back(static_cast<mesh::Unit>(place - on_skeleton.begin()));
+        piece.skin_host.push_back(static_cast<mesh::HostEntity>(place - on_skeleton.begin()));
         piece.skin_index.push_back(0);
       }
     }
@@ -206,7 +206,7 @@ std::vector<mesh::Piece> coarse_pieces(const Body& body)
   return pieces;
 }
 
-PhaseCount improve_phase(const improve::Regions& regions, int phase, const ImproveSetup& setup,
+PhaseCount improve_phase(const improve::SeamRegions& regions, int phase, const ImproveSetup& setup,
                          std::vector<mesh::Piece>& pieces)
 {
   std::vector<std::vector<LocalIndex>> labels;
@@ -214,7 +214,7 @@ PhaseCount improve_phase(const improve::Regions& regions, int phase, const Impro
     labels.push_back(improve::label_tets(piece, regions, phase, setup.layers));
   }
   PhaseCount count;
-  std::vector<std::vector<improve::Patch>> patches(pieces.size());
+  std::vector<std::vector<improve::RegionUpdate>> updates(pieces.size());
   for (LocalIndex r = regions.first_of_phase(phase); r < regions.first_of_phase(phase + 1); ++r) {
     try {
       const improve::RegionOutcome outcome = improve_one(regions, r, setup, pieces, labels);
@@ -224,13 +224,13 @@ PhaseCount improve_phase(const improve::Regions& regions, int phase, const Impro
       }
       ++count.num_accepted;
       count.num_splits += outcome.num_splits;
-      for (const LocalIndex s : regions.subdomains_of(r)) patches[at(s)].push_back(outcome.patch);
+      for (const LocalIndex s : regions.subdomains_of(r)) updates[at(s)].push_back(outcome.update);
     } catch (const MeshError& error) {
       count.refusals.emplace_back(error.what());
     }
   }
   for (std::size_t s = 0; s < pieces.size(); ++s) {
-    pieces[s] = improve::apply_patches(pieces[s], labels[s], patches[s]);
+    pieces[s] = improve::apply_updates(pieces[s], labels[s], updates[s]);
   }
   return count;
 }
@@ -272,9 +272,9 @@ double volume_of(const std::vector<mesh::Piece>& pieces)
 
 std::vector<std::vector<char>> vertices_on_seams(const std::vector<mesh::Piece>& pieces)
 {
-  std::map<std::tuple<LocalIndex, mesh::Unit, LocalIndex>, int> num_holders;
+  std::map<std::tuple<LocalIndex, mesh::HostEntity, LocalIndex>, int> num_holders;
   const auto key = [](const mesh::Piece& piece, LocalIndex v) {
-    return std::tuple{piece.material, piece.skin_unit[at(v)], piece.skin_index[at(v)]};
+    return std::tuple{piece.material, piece.skin_host[at(v)], piece.skin_index[at(v)]};
   };
   for (const mesh::Piece& piece : pieces) {
     for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) ++num_holders[key(piece, v)];

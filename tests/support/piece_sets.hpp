@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tessera/improve/improve_region.hpp"
-#include "tessera/improve/regions.hpp"
+#include "tessera/improve/seam_regions.hpp"
 #include "tessera/mesh/piece.hpp"
 
 #include "support/bodies.hpp"
@@ -36,7 +36,7 @@ struct PhaseCount {
 /// @brief Runs one phase over all pieces, as jobs and merges of a run would: every region sees the
 /// pieces as the phase before left them.
 /// @param[in,out] pieces Shape (num_subdomains).
-[[nodiscard]] PhaseCount improve_phase(const improve::Regions& regions, int phase,
+[[nodiscard]] PhaseCount improve_phase(const improve::SeamRegions& regions, int phase,
                                        const ImproveSetup& setup, std::vector<mesh::Piece>& pieces);
 
 /// @brief The first way in which pieces do not make one mesh, in words; empty if they do: all tets

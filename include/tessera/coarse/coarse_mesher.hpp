@@ -11,7 +11,7 @@ class CoarseMesher {
  public:
   virtual ~CoarseMesher() = default;
 
-  /// @brief One try with these options; the ladder of tries is the caller's.
+  /// @brief One try with these options; the caller has the sequence of fallbacks.
   /// @note Local; may crash, exit or hang inside third-party code: run it in a job.
   /// @throws NetgenError with NETGEN's own words if it gives up or the result is not a valid mesh.
   /// @throws GeometryError if the model has no closed solid.

@@ -3,7 +3,8 @@
 
 namespace tessera::coarse {
 
-/// @brief Who makes the coarse surface. Not a key of a case file: the ladder decides.
+/// @brief Who makes the coarse surface. Not a key of a case file: the sequence of fallbacks
+/// decides.
 enum class SurfaceMesher : int {
   netgen,  ///< NETGEN, on the geometry itself.
   remesh,  ///< remesh(), on OpenCASCADE's triangles or those of the STL file.

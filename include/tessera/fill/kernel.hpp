@@ -34,7 +34,7 @@ struct FillInput {
 /// 0.866 / 0.846, 26.1 / 17.5 s.
 enum class FillStart : int { children, skin };
 
-/// @brief Settings of one try; the ladder of tries is made of these.
+/// @brief Settings of one try; a fallback_sequence() is made of these.
 struct FillTry {
   KernelKind kernel = KernelKind::netgen;  ///< The others are settings of NETGEN.
   FillStart start = FillStart::children;

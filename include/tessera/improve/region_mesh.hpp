@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
-#include "tessera/improve/regions.hpp"
+#include "tessera/improve/seam_regions.hpp"
 #include "tessera/mesh/piece.hpp"
 
 namespace tessera::improve {
@@ -31,7 +31,7 @@ struct PieceVertex {
 /// `subdomains`.
 struct RegionMesh {
   LocalIndex region = kNoIndex;
-  mesh::Unit unit = 0;                      ///< Regions::unit_of() it.
+  mesh::HostEntity host = 0;                ///< SeamRegions::host_of() it.
   std::vector<LocalIndex> subdomains{};     ///< Shape (num_owners), ascending.
   std::vector<double> vertex_xyz{};         ///< Shape (num_vertices, 3).
   std::vector<LocalIndex> tet_vertices{};   ///< Shape (num_tets, 4); positive, VTK's order.
@@ -69,6 +69,6 @@ struct RegionMesh {
 /// @note Local; O(n log n) in the region's tets, linear in the pieces'.
 /// @throws MeshError if a triangle would belong to three tets, or if more than 64 subdomains meet.
 [[nodiscard]] RegionMesh extract_region(std::span<const LabelledPiece> pieces,
-                                        const Regions& regions, LocalIndex region);
+                                        const SeamRegions& regions, LocalIndex region);
 
 }  // namespace tessera::improve

@@ -15,15 +15,15 @@ namespace tessera::mesh {
 /// @brief The tets of one subdomain, finished and immutable.
 ///
 /// Vertices are numbered locally, those of the skin first. Global ids are not known before all
-/// pieces are: a skin vertex refers to (unit, index), interior vertex i to (the piece's own unit,
+/// pieces are: a skin vertex refers to (host, index), interior vertex i to (the piece's own host,
 /// i). Once seams were improved, "skin vertices" are those that several pieces may hold: a vertex
-/// of the refined skeleton that now lies inside the piece stays one, and new ones have units of
-/// their own (improve::Regions::unit_of()).
+/// of the refined skeleton that now lies inside the piece stays one, and new ones have hosts of
+/// their own (improve::SeamRegions::host_of()).
 struct Piece {
   LocalIndex subdomain = 0;
   LocalIndex material = 1;
   std::vector<double> vertex_xyz{};             ///< Shape (num_vertices, 3).
-  std::vector<Unit> skin_unit{};                ///< Shape (num_skin_vertices).
+  std::vector<HostEntity> skin_host{};          ///< Shape (num_skin_vertices).
   std::vector<LocalIndex> skin_index{};         ///< Shape (num_skin_vertices).
   std::vector<LocalIndex> tet_vertices{};       ///< Shape (num_tets, 4); positive, VTK's order.
   std::vector<LocalIndex> boundary_vertices{};  ///< Shape (num_boundary, 3): triangles on the
@@ -32,7 +32,7 @@ struct Piece {
   std::vector<LocalIndex> boundary_tet{};       ///< Shape (num_boundary); local tet behind it.
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
-  [[nodiscard]] LocalIndex num_skin_vertices() const { return count(skin_unit.size(), 1); }
+  [[nodiscard]] LocalIndex num_skin_vertices() const { return count(skin_host.size(), 1); }
   [[nodiscard]] LocalIndex num_interior_vertices() const
   {
     return num_vertices() - num_skin_vertices();

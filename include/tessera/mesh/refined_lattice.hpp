@@ -13,9 +13,9 @@ namespace tessera::mesh {
 
 /// @brief How far the points on the geometry are from it, each measured by a second projection.
 struct ModelDistance {
-  double largest = 0.0;         ///< Over the points that were not damped; output length unit.
-  double largest_damped = 0.0;  ///< Over the points that the plan left off the geometry.
-  LocalIndex num_damped = 0;    ///< Their number.
+  double largest = 0.0;            ///< Over the points that were not held back; output length unit.
+  double largest_held_back = 0.0;  ///< Over the points that the plan left off the geometry.
+  LocalIndex num_held_back = 0;    ///< Their number.
 };
 
 /// @brief Positions of all lattice points of a complex.

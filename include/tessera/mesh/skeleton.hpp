@@ -73,10 +73,10 @@ struct Skeleton {
 /// @pre validate(coarse) holds and the decomposition belongs to that mesh.
 [[nodiscard]] Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposition);
 
-/// @brief Which units (skeleton vertices, edges, triangles, in this order) lie between two
+/// @brief Which hosts (skeleton vertices, edges, triangles, in this order) lie between two
 /// subdomains of one material. Tets that touch one are *seam tets*. Shape (vertices + edges +
 /// triangles). Local.
-[[nodiscard]] std::vector<char> units_on_seams(const Skeleton& skeleton,
+[[nodiscard]] std::vector<char> hosts_on_seams(const Skeleton& skeleton,
                                                const Decomposition& decomposition);
 
 /// @brief For each subdomain the others that share a vertex of the skeleton with it, ascending.

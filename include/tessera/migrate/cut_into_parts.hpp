@@ -31,7 +31,7 @@ struct CutFigures {
   int num_rounds = 0;  ///< Migrations that mended parts.
 };
 
-struct CutMesh {
+struct RepartitionResult {
   DistributedMesh mesh{};  ///< With the parts, each on its rank.
   CutFigures figures{};
 };
@@ -48,7 +48,7 @@ struct CutMesh {
 /// @param[in,out] traffic What this rank sends in migrations is added to it.
 /// @pre 1 <= num_parts <= number of tets on all ranks.
 /// @throws MeshError on all ranks if PT-Scotch gives up.
-[[nodiscard]] CutMesh cut_into_parts(const comm::Communicator& comm, DistributedMesh mesh,
-                                     const PartRequest& request, Traffic& traffic);
+[[nodiscard]] RepartitionResult cut_into_parts(const comm::Communicator& comm, DistributedMesh mesh,
+                                               const PartRequest& request, Traffic& traffic);
 
 }  // namespace tessera::migrate

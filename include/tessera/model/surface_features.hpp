@@ -50,8 +50,8 @@ struct SurfaceFeatures {
 [[nodiscard]] SurfaceFeatures find_features(const TriangleSurface& surface,
                                             double feature_angle_deg);
 
-/// @brief Unit normal of each triangle. One whose height is below 1e-6 of the box diagonal, so that
-/// its own normal is noise, takes the normal of its neighbour over the longest edge. Local.
+/// @brief HostEntity normal of each triangle. One whose height is below 1e-6 of the box diagonal,
+/// so that its own normal is noise, takes the normal of its neighbour over the longest edge. Local.
 /// @pre The surface passed check_surface().
 [[nodiscard]] std::vector<Vec3> triangle_normals(const TriangleSurface& surface);
 

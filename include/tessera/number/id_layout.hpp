@@ -17,22 +17,22 @@ struct PieceCounts {
 
 /// @brief Dense 64-bit ids 0…N-1 of vertices, tets and boundary triangles.
 ///
-/// Vertices are counted unit by unit: skeleton vertices, edges, triangles (closed forms, 1, n - 1
+/// Vertices are counted host by host: skeleton vertices, edges, triangles (closed forms, 1, n - 1
 /// and (n - 1)(n - 2)/2 points each), then the interiors of the pieces (a prefix sum). Tets and
 /// boundary triangles are counted piece by piece. The same for every number of ranks.
 class IdLayout {
  public:
   /// @param[in] pieces Counts of all subdomains, in their order. @param[in] n Intervals of an edge.
-  IdLayout(const mesh::UnitLayout& units, LocalIndex n, const std::vector<PieceCounts>& pieces);
+  IdLayout(const mesh::HostLayout& hosts, LocalIndex n, const std::vector<PieceCounts>& pieces);
 
-  /// @brief The layout where `interior_vertices` counts all vertices that a piece owns, and no unit
+  /// @brief The layout where `interior_vertices` counts all vertices that a piece owns, and no host
   /// of the skeleton has any of its own.
   [[nodiscard]] static IdLayout by_owner(const std::vector<PieceCounts>& pieces)
   {
-    return IdLayout(mesh::UnitLayout(mesh::Skeleton{}), 1, pieces);
+    return IdLayout(mesh::HostLayout(mesh::Skeleton{}), 1, pieces);
   }
 
-  [[nodiscard]] GlobalIndex vertex_id(mesh::Unit unit, LocalIndex index) const;
+  [[nodiscard]] GlobalIndex vertex_id(mesh::HostEntity host, LocalIndex index) const;
   [[nodiscard]] GlobalIndex interior_vertex_id(LocalIndex subdomain, LocalIndex index) const
   {
     return interior_offset_[static_cast<std::size_t>(subdomain)] + index;
@@ -51,7 +51,7 @@ class IdLayout {
   [[nodiscard]] GlobalIndex num_boundary_triangles() const { return boundary_offset_.back(); }
 
  private:
-  mesh::UnitLayout units_;
+  mesh::HostLayout hosts_;
   GlobalIndex edge_points_;
   GlobalIndex triangle_points_;
   GlobalIndex first_triangle_id_;

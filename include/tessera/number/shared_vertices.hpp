@@ -13,28 +13,28 @@
 namespace tessera::number {
 
 /// @brief What a shared vertex is called in every piece that holds it.
-struct VertexKey {
-  mesh::Unit unit = 0;
+struct SharedVertexKey {
+  mesh::HostEntity host = 0;
   LocalIndex index = 0;
 
-  friend auto operator<=>(const VertexKey&, const VertexKey&) = default;
+  friend auto operator<=>(const SharedVertexKey&, const SharedVertexKey&) = default;
 };
 
 /// @brief The shared vertices of a piece, ascending. Local.
-[[nodiscard]] std::vector<VertexKey> shared_vertices(const mesh::Piece& piece);
+[[nodiscard]] std::vector<SharedVertexKey> shared_vertices(const mesh::Piece& piece);
 
 /// @brief What one piece says of its vertices.
 struct VertexList {
   LocalIndex subdomain = kNoIndex;
   LocalIndex material = 0;
-  std::vector<VertexKey> vertices{};  ///< Ascending.
+  std::vector<SharedVertexKey> vertices{};  ///< Ascending.
 };
 
 /// @brief What the lists of its neighbours say of a piece's shared vertices.
 struct SharedBy {
-  std::vector<VertexKey> owned{};  ///< Those that no lower piece holds, ascending.
-  std::vector<char> on_seam{};     ///< Shape (num vertices): whether two pieces of one material
-                                   ///< hold it.
+  std::vector<SharedVertexKey> owned{};  ///< Those that no lower piece holds, ascending.
+  std::vector<char> on_seam{};  ///< Shape (num vertices): whether two pieces of one material
+                                ///< hold it.
 };
 
 /// @brief Compares a piece's list with those of all pieces that may share a vertex with it. Local;

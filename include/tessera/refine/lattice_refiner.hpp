@@ -3,7 +3,7 @@
 
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/complex.hpp"
-#include "tessera/mesh/damping.hpp"
+#include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skeleton.hpp"
 #include "tessera/model/model.hpp"
@@ -15,7 +15,7 @@ struct RefineContext {
   const mesh::CoarseMesh& coarse;
   const mesh::Skeleton& skeleton;
   const model::Model& model;
-  const mesh::Damping& damping;
+  const mesh::ProjectionLimiter& limiter;
   int levels = 0;
   bool measure_distance = false;  ///< Fill mesh::RefinedLattice::distance; twice the projections.
 };

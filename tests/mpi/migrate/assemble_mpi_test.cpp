@@ -217,7 +217,7 @@ TEST(CutIntoParts, PartsAreConnectedBalancedAndComplete)
   const DistributedMesh mesh = assemble(comm, box_pieces(comm)).mesh;
   for (const LocalIndex num_parts : {1, 2, 5, 12}) {
     Traffic traffic;
-    const CutMesh cut = cut_into_parts(comm, mesh, {num_parts, 1.03}, traffic);
+    const RepartitionResult cut = cut_into_parts(comm, mesh, {num_parts, 1.03}, traffic);
     const auto neighbours = find_neighbours(comm, cut.mesh);
     const auto parts = measure_parts(comm, cut.mesh, neighbours, num_parts);
     GlobalIndex num_tets = 0;
@@ -244,7 +244,8 @@ TEST(CutIntoParts, TwoBodiesInOnePartStayApart)
     }
   }
   Traffic traffic;
-  const CutMesh cut = cut_into_parts(comm, assemble(comm, pieces).mesh, {1, 1.03}, traffic);
+  const RepartitionResult cut =
+      cut_into_parts(comm, assemble(comm, pieces).mesh, {1, 1.03}, traffic);
   const auto parts = measure_parts(comm, cut.mesh, find_neighbours(comm, cut.mesh), 1);
   EXPECT_EQ(parts[0].num_components, 2);
   EXPECT_EQ(parts[0].num_tets, 96);

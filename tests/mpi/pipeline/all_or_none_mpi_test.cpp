@@ -9,7 +9,7 @@
 
 #include "tessera/base/error.hpp"
 
-#include "pipeline/exit_code.hpp"
+#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera::pipeline {
 namespace {

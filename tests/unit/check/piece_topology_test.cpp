@@ -23,7 +23,7 @@ mesh::MeshArrays arrays_of(const mesh::CoarseMesh& coarse)
 PieceTopology topology_of(const mesh::MeshArrays& arrays, Findings& findings)
 {
   EdgeLengths lengths;
-  const PieceMesh mesh = make_piece_mesh({0, false}, arrays, Identity::ids, findings);
+  const PieceMesh mesh = make_piece_mesh({0, false}, arrays, VertexIdentity::ids, findings);
   return analyse_topology(mesh, lengths, findings);
 }
 

@@ -36,7 +36,7 @@ struct Subdivided {
   {
     const mesh::SubdomainTets tets_of = mesh::subdomain_tets(body.decomposition);
     complex = mesh::tet_complex(body.coarse, body.skeleton, tets_of.of(subdomain));
-    const mesh::Damping none;
+    const mesh::ProjectionLimiter none;
     const auto lattice =
         refine::refine_lattice(complex.faces, {body.coarse, body.skeleton, model, none, levels});
     skin = refine::extract_skin(complex.faces, lattice, body.skeleton, subdomain);
@@ -82,12 +82,12 @@ TEST(Subdivide, HasBitForBitTheSkinThatOtherKernelsGet)
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
     const Subdivided filled(body, sphere, 2, s);
     const mesh::Skin other = testing::skin_of(body, sphere, 2, s);
-    EXPECT_EQ(filled.skin.vertex_unit, other.vertex_unit);
+    EXPECT_EQ(filled.skin.vertex_host, other.vertex_host);
     EXPECT_EQ(filled.skin.vertex_index, other.vertex_index);
     EXPECT_EQ(filled.skin.triangle_vertices, other.triangle_vertices);
     EXPECT_EQ(filled.skin.triangle_parent, other.triangle_parent);
     ASSERT_EQ(filled.skin.vertex_xyz.size(), other.vertex_xyz.size());
-    for (std::size_t v = 0; v < other.vertex_unit.size(); ++v) {
+    for (std::size_t v = 0; v < other.vertex_host.size(); ++v) {
       EXPECT_EQ(testing::bits(point_at(std::span<const double>(filled.skin.vertex_xyz), v)),
                 testing::bits(point_at(std::span<const double>(other.vertex_xyz), v)));
     }

@@ -25,7 +25,7 @@ using testing::Body;
 // had to be put in so that all tets have a subdomain.
 [[nodiscard]] LocalIndex change_all(const Body& body, int layers)
 {
-  const Regions regions(body.skeleton, body.decomposition);
+  const SeamRegions regions(body.skeleton, body.decomposition);
   std::vector<mesh::Piece> pieces = testing::coarse_pieces(body);
   EXPECT_EQ(testing::first_flaw(pieces), "");
   const testing::FlippingOptimizer optimizer;
@@ -72,7 +72,7 @@ TEST(ImproveRegion, KeepsTheInterfaceOfTwoMaterials)
 // The region between two halves of a cube.
 struct OneRegion : ::testing::Test {
   const Body body{testing::kuhn_cube(4), testing::slabs(testing::kuhn_cube(4), 2)};
-  const Regions regions{body.skeleton, body.decomposition};
+  const SeamRegions regions{body.skeleton, body.decomposition};
   const std::vector<mesh::Piece> pieces = testing::coarse_pieces(body);
   RegionMesh mesh{};
 
@@ -130,7 +130,7 @@ TEST_F(OneRegion, KeepsItsTetsWithAReasonIfTheNewOnesAreNotBetter)
   const RegionOutcome outcome = improve_region(mesh, nothing, {}, testing::measure_shapes);
   EXPECT_FALSE(outcome.is_accepted);
   EXPECT_NE(outcome.reason, "");
-  EXPECT_EQ(outcome.patch, Patch{});
+  EXPECT_EQ(outcome.update, RegionUpdate{});
 }
 
 TEST_F(OneRegion, IsAPureFunction)
@@ -139,7 +139,7 @@ TEST_F(OneRegion, IsAPureFunction)
   const auto once = improve_region(mesh, optimizer, {}, testing::always_better());
   const auto again = improve_region(mesh, optimizer, {}, testing::always_better());
   EXPECT_TRUE(once.is_accepted);
-  EXPECT_EQ(to_bytes(once.patch), to_bytes(again.patch));
+  EXPECT_EQ(to_bytes(once.update), to_bytes(again.update));
 }
 
 TEST(Refusal, WantsABetterMeanAndNoWorseWorst)

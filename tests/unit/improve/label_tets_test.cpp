@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tessera/improve/regions.hpp"
+#include "tessera/improve/seam_regions.hpp"
 
 #include "support/bodies.hpp"
 #include "support/decompositions.hpp"
@@ -17,14 +17,14 @@ namespace {
 // The octants of a cube of 8^3 cells.
 struct LabelsOfOctants : ::testing::Test {
   const testing::Body body{testing::kuhn_cube(8), testing::octants(testing::kuhn_cube(8))};
-  const Regions regions{body.skeleton, body.decomposition};
+  const SeamRegions regions{body.skeleton, body.decomposition};
   const std::vector<mesh::Piece> pieces = testing::coarse_pieces(body);
 
   // The region of a phase that a vertex of a piece is on.
   [[nodiscard]] LocalIndex seed(const mesh::Piece& piece, LocalIndex v, int phase) const
   {
     if (v >= piece.num_skin_vertices()) return kNoIndex;
-    const LocalIndex region = regions.region_of(piece.skin_unit[at(v)], piece.material);
+    const LocalIndex region = regions.region_of(piece.skin_host[at(v)], piece.material);
     return region != kNoIndex && regions.phase_of(region) == phase ? region : kNoIndex;
   }
 };
@@ -94,7 +94,7 @@ TEST_F(LabelsOfOctants, VerticesOfAnEarlierPhaseAreNoSeeds)
 {
   mesh::Piece piece = pieces[0];
   for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-    if (seed(piece, v, 0) != kNoIndex) piece.skin_unit[at(v)] = regions.unit_of(0);
+    if (seed(piece, v, 0) != kNoIndex) piece.skin_host[at(v)] = regions.host_of(0);
   }
   const auto labels = label_tets(piece, regions, 0, 3);
   EXPECT_EQ(std::count(labels.begin(), labels.end(), kNoIndex), piece.num_tets());

@@ -23,7 +23,7 @@ using testing::Body;
 
 struct RegionsOfOctants : ::testing::Test {
   const Body body{testing::kuhn_cube(8), testing::octants(testing::kuhn_cube(8))};
-  const Regions regions{body.skeleton, body.decomposition};
+  const SeamRegions regions{body.skeleton, body.decomposition};
   std::vector<mesh::Piece> pieces = testing::coarse_pieces(body);
 
   [[nodiscard]] RegionMesh extract(LocalIndex region, int layers) const

@@ -79,7 +79,7 @@ TEST_F(SkeletonOfCube, SegmentsPutTheirEdgesOnCurves)
 
 TEST_F(SkeletonOfCube, OnlySeamsOfOneMaterialCountAsSeams)
 {
-  const std::vector<char> on_seam = units_on_seams(skeleton, decomposition);
+  const std::vector<char> on_seam = hosts_on_seams(skeleton, decomposition);
   const std::size_t first_triangle = at(skeleton.num_vertices() + skeleton.num_edges());
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
     const bool between_subdomains_of_one_material =

@@ -19,11 +19,11 @@ struct PointsOfCube : ::testing::Test {
   Decomposition decomposition = testing::slabs(coarse, 2);
   Skeleton skeleton = build_skeleton(coarse, decomposition);
   testing::FlatModel model{};
-  Damping damping{};
+  ProjectionLimiter limiter{};
   std::vector<LocalIndex> tets{0, 5, 17, 40};
   TetComplex complex = tet_complex(coarse, skeleton, tets);
   RefinedLattice lattice =
-      refine::refine_lattice(complex.faces, {coarse, skeleton, model, damping, 3});
+      refine::refine_lattice(complex.faces, {coarse, skeleton, model, limiter, 3});
 };
 
 // On a flat-sided model every lattice point is the affine image of its indices.

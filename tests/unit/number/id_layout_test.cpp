@@ -22,13 +22,13 @@ namespace {
 
 using testing::Body;
 
-mesh::UnitLayout units_of(LocalIndex vertices, LocalIndex edges, LocalIndex triangles)
+mesh::HostLayout hosts_of(LocalIndex vertices, LocalIndex edges, LocalIndex triangles)
 {
   mesh::Skeleton skeleton;
   skeleton.vertex_coarse.resize(at(vertices));
   skeleton.edge_owner.resize(at(edges));
   skeleton.triangle_patch.resize(at(triangles));
-  return mesh::UnitLayout(skeleton);
+  return mesh::HostLayout(skeleton);
 }
 
 class IdsOfIntervals : public ::testing::TestWithParam<LocalIndex> {};
@@ -36,23 +36,23 @@ class IdsOfIntervals : public ::testing::TestWithParam<LocalIndex> {};
 TEST_P(IdsOfIntervals, CountEveryVertexOfAllUnitsOnce)
 {
   const LocalIndex n = GetParam();
-  const mesh::UnitLayout units = units_of(5, 9, 7);
+  const mesh::HostLayout hosts = hosts_of(5, 9, 7);
   const std::vector<PieceCounts> pieces{{3, 10, 4}, {0, 1, 0}, {8, 30, 2}};
-  const IdLayout ids(units, n, pieces);
+  const IdLayout ids(hosts, n, pieces);
   std::vector<int> times(static_cast<std::size_t>(ids.num_vertices()), 0);
-  const auto count_unit = [&](mesh::Unit unit, GlobalIndex points) {
+  const auto count_host = [&](mesh::HostEntity host, GlobalIndex points) {
     for (LocalIndex i = 0; i < points; ++i)
-      ++times.at(static_cast<std::size_t>(ids.vertex_id(unit, i)));
+      ++times.at(static_cast<std::size_t>(ids.vertex_id(host, i)));
   };
-  for (mesh::Unit unit = 0; unit < units.first_edge; ++unit) count_unit(unit, 1);
-  for (mesh::Unit unit = units.first_edge; unit < units.first_triangle; ++unit) {
-    count_unit(unit, mesh::lattice::num_inner_edge_points(n));
+  for (mesh::HostEntity host = 0; host < hosts.first_edge; ++host) count_host(host, 1);
+  for (mesh::HostEntity host = hosts.first_edge; host < hosts.first_triangle; ++host) {
+    count_host(host, mesh::lattice::num_inner_edge_points(n));
   }
-  for (mesh::Unit unit = units.first_triangle; unit < units.first_piece; ++unit) {
-    count_unit(unit, mesh::lattice::num_inner_triangle_points(n));
+  for (mesh::HostEntity host = hosts.first_triangle; host < hosts.first_piece; ++host) {
+    count_host(host, mesh::lattice::num_inner_triangle_points(n));
   }
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    count_unit(units.first_piece + static_cast<mesh::Unit>(p), pieces[p].interior_vertices);
+    count_host(hosts.first_piece + static_cast<mesh::HostEntity>(p), pieces[p].interior_vertices);
   }
   for (const int count : times) EXPECT_EQ(count, 1);
   EXPECT_EQ(ids.num_tets(), 41);
@@ -66,13 +66,13 @@ TEST_P(IdsOfIntervals, OfSkinsAreDenseAndShared)
   while (mesh::lattice::intervals(levels) < GetParam()) ++levels;
   const mesh::CoarseMesh cube = testing::two_material_cube(2);
   const Body body(cube, testing::slabs(cube, 2));
-  const IdLayout ids(mesh::UnitLayout(body.skeleton), GetParam(), std::vector<PieceCounts>(4));
+  const IdLayout ids(mesh::HostLayout(body.skeleton), GetParam(), std::vector<PieceCounts>(4));
   std::map<GlobalIndex, std::array<std::uint64_t, 3>> position_of;
   std::set<std::array<std::uint64_t, 3>> positions;
   for (LocalIndex s = 0; s < 4; ++s) {
     const mesh::Skin skin = testing::skin_of(body, testing::FlatModel(), levels, s);
     for (LocalIndex v = 0; v < skin.num_vertices(); ++v) {
-      const auto id = ids.vertex_id(skin.vertex_unit[at(v)], skin.vertex_index[at(v)]);
+      const auto id = ids.vertex_id(skin.vertex_host[at(v)], skin.vertex_index[at(v)]);
       const auto point = testing::bits(point_at(std::span<const double>(skin.vertex_xyz), v));
       EXPECT_EQ(position_of.emplace(id, point).first->second, point);
       positions.insert(point);
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Intervals, IdsOfIntervals, ::testing::Values(1, 2, 4, 8
 
 TEST(IdLayout, CellsArePrefixSums)
 {
-  const IdLayout ids(units_of(1, 1, 1), 1, {{0, 10, 4}, {0, 0, 0}, {0, 5, 1}});
+  const IdLayout ids(hosts_of(1, 1, 1), 1, {{0, 10, 4}, {0, 0, 0}, {0, 5, 1}});
   EXPECT_EQ(ids.first_tet(0), 0);
   EXPECT_EQ(ids.first_tet(1), 10);
   EXPECT_EQ(ids.first_tet(2), 10);
@@ -99,10 +99,10 @@ TEST(IdLayout, CellsArePrefixSums)
 
 TEST(IdLayout, WithoutPiecesHasTheSkeletonOnly)
 {
-  const IdLayout ids(units_of(4, 6, 4), 4, {});
+  const IdLayout ids(hosts_of(4, 6, 4), 4, {});
   EXPECT_EQ(ids.num_vertices(), 4 + 6 * 3 + 4 * 3);
   EXPECT_EQ(ids.num_tets(), 0);
-  EXPECT_EQ(IdLayout(units_of(0, 0, 0), 1, {}).num_vertices(), 0);
+  EXPECT_EQ(IdLayout(hosts_of(0, 0, 0), 1, {}).num_vertices(), 0);
 }
 
 TEST(IdLayout, CountsBeyond32Bits)
@@ -111,12 +111,12 @@ TEST(IdLayout, CountsBeyond32Bits)
   const LocalIndex n = mesh::lattice::intervals(mesh::lattice::kMaxLevels);
   const LocalIndex num_edges = 15'000'000;
   const LocalIndex num_triangles = 10'000'000;
-  const IdLayout ids(units_of(5'000'000, num_edges, num_triangles), n,
+  const IdLayout ids(hosts_of(5'000'000, num_edges, num_triangles), n,
                      {{kMany, 2 * kMany, kMany}, {kMany, 2 * kMany, kMany}});
   const GlobalIndex of_edges = GlobalIndex{1023} * num_edges;
   const GlobalIndex of_triangles = GlobalIndex{1023 * 1022 / 2} * num_triangles;
   const GlobalIndex on_skeleton = 5'000'000 + of_edges + of_triangles;
-  const mesh::Unit first_edge = 5'000'000;
+  const mesh::HostEntity first_edge = 5'000'000;
   EXPECT_EQ(ids.vertex_id(first_edge + num_edges - 1, 1022), 5'000'000 + of_edges - 1);
   EXPECT_EQ(ids.vertex_id(first_edge + num_edges, 0), 5'000'000 + of_edges);
   EXPECT_EQ(ids.vertex_id(first_edge + num_edges + num_triangles - 1, 1023 * 1022 / 2 - 1),

@@ -9,16 +9,16 @@
 namespace tessera::number {
 namespace {
 
-constexpr VertexKey kA{0, 0};
-constexpr VertexKey kB{0, 1};
-constexpr VertexKey kC{7, 0};
-constexpr VertexKey kD{7, 5};
+constexpr SharedVertexKey kA{0, 0};
+constexpr SharedVertexKey kB{0, 1};
+constexpr SharedVertexKey kC{7, 0};
+constexpr SharedVertexKey kD{7, 5};
 
 TEST(SharedVertices, AreListedAscending)
 {
   mesh::Piece piece;
   piece.vertex_xyz.resize(3 * 4);
-  piece.skin_unit = {7, 0, 0};
+  piece.skin_host = {7, 0, 0};
   piece.skin_index = {5, 1, 0};
   EXPECT_EQ(shared_vertices(piece), (std::vector{kA, kB, kD}));
 }
@@ -33,11 +33,11 @@ TEST(CompareLists, LowestPieceThatHoldsAVertexOwnsIt)
 TEST(CompareLists, EveryVertexHasOneOwner)
 {
   const std::vector<VertexList> lists{{0, 1, {kA, kC}}, {1, 1, {kA, kB, kD}}, {2, 1, {kA, kB, kC}}};
-  std::vector<VertexKey> owned;
+  std::vector<SharedVertexKey> owned;
   for (std::size_t i = 0; i < lists.size(); ++i) {
     std::vector<VertexList> others = lists;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    for (const VertexKey& key : compare_lists(lists[i], others).owned) owned.push_back(key);
+    for (const SharedVertexKey& key : compare_lists(lists[i], others).owned) owned.push_back(key);
   }
   std::sort(owned.begin(), owned.end());
   EXPECT_EQ(owned, (std::vector{kA, kB, kC, kD}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/cli.hpp"
+#include "pipeline/commands/cli.hpp"
 
 #include <string>
 #include <vector>

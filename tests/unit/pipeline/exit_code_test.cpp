@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/exit_code.hpp"
+#include "pipeline/runtime/exit_code.hpp"
 
 #include <filesystem>
 #include <new>

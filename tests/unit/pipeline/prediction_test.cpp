@@ -13,9 +13,9 @@
 #include "pipeline/predict/calibrate.hpp"
 #include "pipeline/predict/prediction_file.hpp"
 #include "support/decompositions.hpp"
+#include "support/filled_cube.hpp"
 #include "support/meshes.hpp"
 
-#include "filled_cube.hpp"
 #include "unit/io/temporary_folder.hpp"
 
 namespace tessera::pipeline {
@@ -34,7 +34,7 @@ RunOutline outline_of(LocalIndex count, KernelKind kernel)
     outline.pieces.push_back({100 * (s + 1), 1000 * (s + 1), 100});
     outline.jobs.push_back({s, s, s + 1});
   }
-  outline.files = file_ranges(count, outline.is_one_pass ? 0 : 2);
+  outline.files = subdomain::file_ranges(count, outline.is_one_pass ? 0 : 2);
   if (outline.is_one_pass) outline.jobs = outline.files;
   return outline;
 }
@@ -171,9 +171,9 @@ TEST(Advise, TooManyRanksAreTold)
             std::string::npos);
 }
 
-PieceSummary summary_of(LocalIndex subdomain, GlobalIndex tets, GlobalIndex interior)
+subdomain::PieceSummary summary_of(LocalIndex subdomain, GlobalIndex tets, GlobalIndex interior)
 {
-  PieceSummary piece;
+  subdomain::PieceSummary piece;
   piece.subdomain = subdomain;
   piece.num_tets = tets;
   piece.num_interior_vertices = interior;
@@ -212,11 +212,11 @@ TEST(Corrected, LeavesWhatIsKnownExactly)
 struct OutlineOfACube : ::testing::Test {
   const mesh::CoarseMesh cube = testing::two_material_cube(4);
   const mesh::Decomposition decomposition = testing::slabs(cube, 2);
-  const CutMesh cut{cube, decomposition};
+  const subdomain::PartitionedMesh cut{cube, decomposition};
 
   [[nodiscard]] RunOutline outline(const std::vector<KernelKind>& kernels, int levels) const
   {
-    return outline_run(cut, kernels, levels, file_ranges(cut.num_subdomains(), 0), true);
+    return outline_run(cut, kernels, levels, subdomain::file_ranges(cut.num_subdomains(), 0), true);
   }
 };
 
@@ -244,7 +244,7 @@ TEST_F(OutlineOfACube, OfAFillIsNearTheTruth)
   const testing::Body body(cube, decomposition);
   for (LocalIndex s = 0; s < 4; ++s) {
     const auto expected = static_cast<double>(outline.pieces[at(s)].tets);
-    const FilledPiece filled = fill_of(body, 1, s);
+    const subdomain::FilledPiece filled = fill_of(body, 1, s);
     EXPECT_NEAR(expected / static_cast<double>(filled.result.summary.num_tets), 1.0, 0.1);
     EXPECT_EQ(outline.pieces[at(s)].boundary_triangles, filled.result.summary.num_boundary);
   }

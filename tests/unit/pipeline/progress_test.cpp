@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/progress.hpp"
+#include "pipeline/runtime/progress.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/report.hpp"
+#include "pipeline/commands/report.hpp"
 
 #include <cmath>
 #include <string>
@@ -12,9 +12,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-PieceSummary piece(LocalIndex subdomain, double min_dihedral_deg, double min_mean_ratio)
+subdomain::PieceSummary piece(LocalIndex subdomain, double min_dihedral_deg, double min_mean_ratio)
 {
-  PieceSummary summary;
+  subdomain::PieceSummary summary;
   summary.subdomain = subdomain;
   summary.material = 1;
   summary.tries = 1;
@@ -108,9 +108,9 @@ TEST(Judge, EveryMissedTargetIsAReasonWithBothFigures)
 TEST(Judge, PointsOffTheGeometryDegrade)
 {
   RunResult run = run_of_two_pieces();
-  run.damping = mesh::Damping({{mesh::LatticePointKey::on_edge(1, 2, 1), 0.5},
-                               {mesh::LatticePointKey::on_edge(2, 2, 1), 0.0}});
-  run.filled.pieces[1].damped_distance = 0.125;
+  run.limiter = mesh::ProjectionLimiter({{mesh::LatticePointKey::on_edge(1, 2, 1), 0.5},
+                                         {mesh::LatticePointKey::on_edge(2, 2, 1), 0.0}});
+  run.filled.pieces[1].held_back_distance = 0.125;
   const Verdict verdict = judge(run);
   EXPECT_EQ(verdict.exit_code, ExitCode::degraded);
   ASSERT_EQ(verdict.reasons.size(), 1U);

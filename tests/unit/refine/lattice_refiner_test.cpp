@@ -109,7 +109,7 @@ TEST_P(LatticeOfLevel, PointsOfTetsAreTheSameBitsAsThoseOfSkins)
 {
   for (const auto& [name, made] : bodies()) {
     const Body& body = made.body;
-    const mesh::Damping none;
+    const mesh::ProjectionLimiter none;
     std::vector<LocalIndex> tets(at(body.coarse.num_tets()));
     std::iota(tets.begin(), tets.end(), 0);
     RefinedComplex of_tets{mesh::tet_complex(body.coarse, body.skeleton, tets).faces, {}};
@@ -265,7 +265,7 @@ TEST(LatticeRefiner, DoesNotDependOnWhatElseIsRefined)
 {
   const BodyOnModel made = bodies().at("cylinder");
   const Body& body = made.body;
-  const mesh::Damping none;
+  const mesh::ProjectionLimiter none;
   const auto all = points_of(testing::refine_skin(body, *made.model, 3, 0));
   std::size_t compared = 0;
   for (const LocalIndex tet : {0, 7, 21}) {
@@ -286,7 +286,7 @@ TEST(LatticeRefiner, DoesNotDependOnWhatElseIsRefined)
 TEST(LatticeRefiner, ComplexWithoutEntitiesGivesNoPoints)
 {
   const BodyOnModel made = bodies().at("cylinder");
-  const mesh::Damping none;
+  const mesh::ProjectionLimiter none;
   const auto lattice = refine_lattice(
       mesh::Complex{}, {made.body.coarse, made.body.skeleton, *made.model, none, 2, true});
   EXPECT_EQ(lattice.n, 4);

@@ -22,9 +22,9 @@ struct DistanceToModel : ::testing::Test {
   const testing::SphereModel sphere{{1.0}};
 
   [[nodiscard]] mesh::ModelDistance distance(const model::Model& model, int levels,
-                                             const mesh::Damping& damping = {}) const
+                                             const mesh::ProjectionLimiter& limiter = {}) const
   {
-    return testing::refine_skin(body, model, levels, 0, damping, true).lattice.distance;
+    return testing::refine_skin(body, model, levels, 0, limiter, true).lattice.distance;
   }
 
   // Distance of the longest chord's midpoint from the sphere at level 1.
@@ -44,8 +44,8 @@ TEST_F(DistanceToModel, OfAnExactProjectionIsRounding)
 {
   const mesh::ModelDistance found = distance(sphere, 3);
   EXPECT_LE(found.largest, 1e-15);
-  EXPECT_EQ(found.largest_damped, 0.0);
-  EXPECT_EQ(found.num_damped, 0);
+  EXPECT_EQ(found.largest_held_back, 0.0);
+  EXPECT_EQ(found.num_held_back, 0);
 }
 
 TEST_F(DistanceToModel, ShowsAProjectionThatStopsEarly)
@@ -65,14 +65,14 @@ TEST_F(DistanceToModel, ShowsAProjectionOntoRimsThatStopsEarly)
   EXPECT_NEAR(found.largest, 0.25 * (1.0 - std::cos(std::acos(-1.0) / 8.0)), 1e-12);
 }
 
-TEST_F(DistanceToModel, KeepsDampedPointsApart)
+TEST_F(DistanceToModel, KeepsHeldBackPointsApart)
 {
-  const mesh::Damping damping({{mesh::LatticePointKey::on_edge(2, 2, 1), 0.25}});
-  const auto lattice = testing::refine_skin(body, sphere, 1, 0, damping, true).lattice;
+  const mesh::ProjectionLimiter limiter({{mesh::LatticePointKey::on_edge(2, 2, 1), 0.25}});
+  const auto lattice = testing::refine_skin(body, sphere, 1, 0, limiter, true).lattice;
   EXPECT_LE(lattice.distance.largest, 1e-15);
-  EXPECT_EQ(lattice.distance.num_damped, 1);
-  EXPECT_NEAR(lattice.distance.largest_damped, 1.0 - norm(lattice.edge_point(2, 1)), 1e-15);
-  EXPECT_GT(lattice.distance.largest_damped, 1e-3);
+  EXPECT_EQ(lattice.distance.num_held_back, 1);
+  EXPECT_NEAR(lattice.distance.largest_held_back, 1.0 - norm(lattice.edge_point(2, 1)), 1e-15);
+  EXPECT_GT(lattice.distance.largest_held_back, 1e-3);
 }
 
 TEST_F(DistanceToModel, IsNotMeasuredUnlessAsked)

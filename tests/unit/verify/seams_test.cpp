@@ -129,7 +129,7 @@ TEST_F(SeamOfBall, AWrongUnitOrIndexOpensIt)
   ++skin.vertex_index[v];
   EXPECT_TRUE(is_open());
   --skin.vertex_index[v];
-  ++skin.vertex_unit[v];
+  ++skin.vertex_host[v];
   EXPECT_TRUE(is_open());
 }
 
@@ -139,7 +139,7 @@ TEST_F(SeamOfBall, TwoSwappedIndicesOpenIt)
   const auto v = at(skin.triangle_vertices[3 * t]);
   const auto w = at(skin.triangle_vertices[3 * t + 1]);
   std::swap(skin.vertex_index[v], skin.vertex_index[w]);
-  std::swap(skin.vertex_unit[v], skin.vertex_unit[w]);
+  std::swap(skin.vertex_host[v], skin.vertex_host[w]);
   EXPECT_TRUE(is_open());
 }
 
@@ -200,7 +200,7 @@ struct SurfaceOfTwo : ::testing::Test {
   {
     mesh::Piece piece;
     piece.vertex_xyz = std::move(xyz);
-    piece.skin_unit.assign(index.size(), 3);
+    piece.skin_host.assign(index.size(), 3);
     piece.skin_index = std::move(index);
     piece.tet_vertices = {0, 1, 2, 3};
     return piece;
@@ -213,7 +213,7 @@ struct SurfaceOfTwo : ::testing::Test {
   {
     mesh::Piece piece = below;
     piece.vertex_xyz.insert(piece.vertex_xyz.end(), {0, 0, 1});
-    piece.skin_unit.push_back(3);
+    piece.skin_host.push_back(3);
     piece.skin_index.push_back(8);
     piece.tet_vertices.insert(piece.tet_vertices.end(), {4, 1, 3, 2});
     return piece;

@@ -30,7 +30,7 @@ double mesh_cube(int levels)
                                         decompose::predicted_fine_tets(coarse, levels),
                                         *decompose::make_metis_partitioner());
   const mesh::Skeleton skeleton = mesh::build_skeleton(coarse, cut.decomposition);
-  const mesh::Damping no_damping;
+  const mesh::ProjectionLimiter no_limits;
   const mesh::SubdomainTets tets_of = mesh::subdomain_tets(cut.decomposition);
   const std::vector<double> sizes = fill::vertex_sizes(coarse);
   const auto kernel = netgen::make_fill_kernel();
@@ -39,7 +39,7 @@ double mesh_cube(int levels)
   for (LocalIndex s = 0; s < cut.decomposition.num_subdomains(); ++s) {
     const mesh::Complex complex = mesh::skin_complex(skeleton, s);
     const auto lattice =
-        refine::refine_lattice(complex, {coarse, skeleton, *model, no_damping, levels});
+        refine::refine_lattice(complex, {coarse, skeleton, *model, no_limits, levels});
     mesh::Skin skin = refine::extract_skin(complex, lattice, skeleton, s);
     fill::FillInput input{.vertex_xyz = std::move(skin.vertex_xyz),
                           .triangle_vertices = std::move(skin.triangle_vertices)};

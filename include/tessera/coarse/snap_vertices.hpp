@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/model/model.hpp"
+
+namespace tessera::coarse {
+
+/// @brief How far the vertices of a coarse mesh are from the surfaces and curves they belong to.
+struct VertexDistance {
+  double largest = 0.0;    ///< Over all vertices on the geometry.
+  LocalIndex num_off = 0;  ///< Vertices farther off than the entity's own tolerance.
+};
+
+/// @brief Moves vertices that are off their patch or curve by more than its tolerance onto it, as
+/// far as the tets around stay sound, and measures what is left. A vertex between patches or at the
+/// end of curves is measured only: no single projection says where it belongs. Local.
+/// @throws GeometryError if a projection fails.
+VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model);
+
+}  // namespace tessera::coarse

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/mesh/decomposition.hpp"
+#include "tessera/mesh/piece.hpp"
+#include "tessera/mesh/skeleton.hpp"
+#include "tessera/mesh/skin.hpp"
+
+/// Tets around the seams between subdomains are optimised once more, so that their quality does not
+/// depend on how many subdomains there are: first those around the faces between two subdomains,
+/// then around the curves where several meet, then around the ends of these.
+namespace tessera::improve {
+
+/// @brief Phases by dimension: 0 faces between two subdomains, 1 curves, 2 points.
+inline constexpr int kNumPhases = 3;
+
+/// @brief The places where subdomains of one material meet. All hosts of the skeleton that lie in
+/// the same two or more subdomains of a material are one *region*: the work of one job.
+///
+/// SeamRegions are numbered by phase, then by their subdomains; the same in every process.
+class SeamRegions {
+ public:
+  /// @note Local; O(n log n) in the skeleton's triangles.
+  SeamRegions(const mesh::Skeleton& skeleton, const mesh::Decomposition& decomposition);
+
+  [[nodiscard]] LocalIndex num_regions() const { return phase_offsets_[kNumPhases]; }
+
+  /// @brief The regions of phase p are first_of_phase(p) … first_of_phase(p + 1) - 1.
+  [[nodiscard]] LocalIndex first_of_phase(int phase) const
+  {
+    return phase_offsets_[static_cast<std::size_t>(phase)];
+  }
+
+  [[nodiscard]] int phase_of(LocalIndex region) const;
+
+  /// @brief Region of the subdomains of `material` that host `host` lies in; kNoIndex if that is
+  /// at most one, or if the host is none of the skeleton's.
+  [[nodiscard]] LocalIndex region_of(mesh::HostEntity host, LocalIndex material) const;
+
+  /// @brief The subdomains that meet in a region, ascending; at least two, of one material.
+  [[nodiscard]] std::span<const LocalIndex> subdomains_of(LocalIndex region) const;
+
+  /// @brief The regions of one phase that a subdomain takes part in, ascending.
+  [[nodiscard]] std::span<const LocalIndex> regions_of(LocalIndex subdomain, int phase) const;
+
+  /// @brief HostEntity of the vertices that a region's improvement makes and several pieces share:
+  /// behind those of the pieces (mesh::HostLayout).
+  [[nodiscard]] mesh::HostEntity host_of(LocalIndex region) const { return first_host_ + region; }
+
+ private:
+  struct HostRegion {
+    LocalIndex material = 0;
+    LocalIndex region = kNoIndex;
+  };
+
+  void list_subdomain_regions(LocalIndex num_subdomains);
+
+  std::array<LocalIndex, kNumPhases + 1> phase_offsets_{};
+  std::vector<LocalIndex> host_offsets_{};    ///< Shape (num_skeleton_hosts + 1).
+  std::vector<HostRegion> host_regions_{};    ///< Ascending by material in each host.
+  std::vector<LocalIndex> region_offsets_{};  ///< Shape (num_regions + 1).
+  std::vector<LocalIndex> region_subdomains_{};
+  std::vector<LocalIndex> subdomain_offsets_{};  ///< Shape (num_subdomains + 1).
+  std::vector<LocalIndex> subdomain_regions_{};  ///< Ascending in each subdomain.
+  mesh::HostEntity first_host_ = 0;
+};
+
+/// @brief How many layers of tets around a seam are optimised, >= 1; improve::OptimizeSettings says
+/// what 2, 3 and 4 gave.
+inline constexpr int kDefaultLayers = 3;
+
+/// @brief The region of a phase that each tet of a piece belongs to: the nearest one, the lowest of
+/// equally near ones; kNoIndex beyond `layers`. Shape (num_tets). So every tet is in one job of a
+/// phase at most, and jobs do not meet.
+///
+/// Distance is counted in tets: those with a vertex on one of the region's hosts are layer 1. A
+/// pure function of the piece: a region's job and the merge of a piece see the same labels.
+/// @note Local; linear.
+[[nodiscard]] std::vector<LocalIndex> label_tets(const mesh::Piece& piece,
+                                                 const SeamRegions& regions, int phase, int layers);
+
+}  // namespace tessera::improve

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <compare>
+#include <span>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/base/types.hpp"
+#include "tessera/mesh/lattice.hpp"
+
+namespace tessera::mesh {
+
+/// @brief Kinds of skeleton entities that carry inner lattice points.
+enum class LatticeCarrier : std::int32_t { edge, triangle };
+
+/// @brief Names a lattice point that is born on a skeleton edge or triangle: the same point has the
+/// same key at every number of levels, so a plan made on few levels holds for more.
+struct LatticePointKey {
+  LatticeCarrier carrier = LatticeCarrier::edge;
+  LocalIndex entity = kNoIndex;  ///< Row of the skeleton's edges or triangles.
+  LocalIndex index = 0;          ///< Place among the inner points of the finest lattice there is.
+
+  /// @brief Inner point `k` of an edge with `n` intervals.
+  [[nodiscard]] static LatticePointKey on_edge(LocalIndex edge, LocalIndex n, LocalIndex k)
+  {
+    return {LatticeCarrier::edge, edge, k * (kFinest / n) - 1};
+  }
+
+  /// @brief Inner point `p` of a triangle with `n` intervals a side.
+  [[nodiscard]] static LatticePointKey on_triangle(LocalIndex triangle, LocalIndex n,
+                                                   const lattice::TrianglePoint& p)
+  {
+    const LocalIndex scale = kFinest / n;
+    return {LatticeCarrier::triangle, triangle,
+            lattice::inner_triangle_index(kFinest, p.i * scale, p.j * scale)};
+  }
+
+  friend auto operator<=>(const LatticePointKey&, const LatticePointKey&) = default;
+
+ private:
+  static constexpr LocalIndex kFinest = lattice::intervals(lattice::kMaxLevels);
+};
+
+/// @brief How far a point goes from its midpoint (0) to its projection (1).
+struct PointLimit {
+  LatticePointKey key{};
+  double factor = 1.0;
+};
+
+/// @brief The result of the plan stage: a sparse list of points whose projection is held back so
+/// that no skin folds. Points that are not listed go all the way.
+class ProjectionLimiter {
+ public:
+  ProjectionLimiter() = default;
+
+  /// @brief Keeps the smallest factor of each point. Entries in any order.
+  explicit ProjectionLimiter(std::vector<PointLimit> entries);
+
+  /// @brief Factor of a point, 1 if it is not listed. O(log n); O(1) when the list is empty.
+  [[nodiscard]] double factor(const LatticePointKey& key) const;
+
+  [[nodiscard]] std::span<const PointLimit> entries() const { return entries_; }
+
+ private:
+  std::vector<PointLimit> entries_{};  ///< By ascending key.
+};
+
+/// @brief Byte image and back, for messages between processes. Local.
+[[nodiscard]] Bytes to_bytes(const ProjectionLimiter& limiter);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] ProjectionLimiter projection_limiter_from_bytes(std::span<const std::byte> bytes);
+
+}  // namespace tessera::mesh

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/improve/improve_region.hpp"
+#include "tessera/improve/seam_regions.hpp"
+#include "tessera/mesh/piece.hpp"
+
+namespace tessera::subdomain {
+
+/// @brief What the improvement of one seam region has ended with.
+struct RegionRecord {
+  bool is_improved = false;
+  bool has_failed = false;         ///< The job died, or what it found was not valid.
+  bool was_limited = false;        ///< It died for time or memory: not reproducible.
+  std::string reason{};            ///< Why the region keeps its tets; empty if it is improved.
+  improve::RegionUpdate update{};  ///< Empty unless it is improved.
+};
+
+[[nodiscard]] Bytes to_bytes(const RegionRecord& record);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] RegionRecord region_record_from_bytes(std::span<const std::byte> bytes);
+
+/// @brief A region's tets, taken out of the pieces it lies in. Local; a pure function.
+/// @param[in] pieces Of regions.subdomains_of(region), in that order.
+/// @throws MeshError as improve::extract_region().
+[[nodiscard]] improve::RegionMesh region_mesh(const std::vector<mesh::Piece>& pieces,
+                                              const improve::SeamRegions& regions,
+                                              LocalIndex region);
+
+/// @brief Optimises the tets of one region and judges the result.
+/// @note Local; a pure function. The optimiser may crash: call it in a job process.
+/// @throws NetgenError, MeshError if the try failed.
+[[nodiscard]] RegionRecord improve_tets(const improve::RegionMesh& mesh, int rounds,
+                                        const improve::Optimizer& optimizer);
+
+}  // namespace tessera::subdomain

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tessera/base/hash.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/mesh_arrays.hpp"
+#include "tessera/mesh/piece.hpp"
+#include "tessera/mesh/skeleton.hpp"
+#include "tessera/number/id_layout.hpp"
+
+namespace tessera::subdomain {
+
+/// @brief Who numbers a vertex.
+struct VertexPlace {
+  LocalIndex owner = kNoIndex;  ///< Subdomain.
+  LocalIndex index = 0;         ///< Among the vertices that it owns.
+};
+
+/// @brief What the write stage needs to turn pieces into files. Borrowed.
+struct WriteContext {
+  const mesh::CoarseMesh& coarse;
+  const mesh::Skeleton& skeleton;
+  const number::IdLayout& ids;
+  const std::string& length_unit;  ///< Of the output; empty if nobody knows it.
+  /// Who owns the vertices of a piece, shape (num_vertices), if seams were improved: `ids` is by
+  /// owner then. Else empty: vertices are numbered by their hosts.
+  std::function<std::vector<VertexPlace>(const mesh::Piece&)> places_of{};
+};
+
+/// @brief What the files of one piece hold.
+struct PieceArrays {
+  mesh::MeshArrays tets{};
+  mesh::MeshArrays boundary{};
+};
+
+/// @brief A piece with global ids, owners, material, patches and names; an empty piece gives the
+/// schema. Local.
+/// @param[in] with_quality Add the mean ratio of every tet.
+[[nodiscard]] PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh,
+                                       bool with_quality);
+
+/// @brief Sum of hash_tet() over the cells. Local. @pre ids and "attribute" are there.
+[[nodiscard]] Hash128 digest_of(const mesh::MeshArrays& tets);
+
+}  // namespace tessera::subdomain

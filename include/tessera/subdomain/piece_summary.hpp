@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/base/hash.hpp"
+#include "tessera/base/types.hpp"
+#include "tessera/fill/options.hpp"
+#include "tessera/quality/statistics.hpp"
+#include "tessera/verify/seams.hpp"
+
+namespace tessera::subdomain {
+
+/// @brief The scalars that a run keeps of every finished piece: O(subdomains) on every rank.
+struct PieceSummary {
+  LocalIndex subdomain = kNoIndex;
+  LocalIndex material = 0;
+  fill::KernelKind kernel = fill::KernelKind::netgen;  ///< What made the piece.
+  LocalIndex tries = 0;                                ///< Tries that were needed, from 1.
+  LocalIndex num_held_back = 0;  ///< Skin points that the plan left off the geometry.
+  GlobalIndex num_tets = 0;
+  GlobalIndex num_interior_vertices = 0;  ///< After improvement: all vertices it owns.
+  GlobalIndex num_boundary = 0;           ///< Triangles on the geometry that this piece owns.
+  GlobalIndex euler_characteristic = 0;   ///< V - E + F - T of the piece; 1 for a ball.
+  double volume = 0.0;                    ///< Output length unit cubed.
+  double boundary_area = 0.0;       ///< Outside of the model only; output length unit squared.
+  double model_distance = 0.0;      ///< Largest, of the points not held back; output length unit.
+  double held_back_distance = 0.0;  ///< Largest, of the held-back points; output length unit.
+  double cpu_s = 0.0;               ///< Of the try that succeeded.
+  bool was_limited = false;         ///< A try ended for time or memory: not reproducible.
+  bool is_folded = false;  ///< A coarse tet has children that are not positive: there is no piece.
+  quality::TetStatistics tets{};
+  quality::TetStatistics
+      seam_tets{};    ///< Tets with a vertex between two subdomains of one material.
+  Hash128 outside{};  ///< verify::outside_hash() of its skin.
+  Hash128 surface{};  ///< verify::surface_hash() of the improved piece.
+  Hash128 content{};  ///< Of the piece as filled, where it waits in the store.
+  Hash128 digest{};   ///< Sum of hash_tet(); known when the piece is written.
+};
+
+/// @brief What is kept of one piece besides its tets.
+struct FillResult {
+  PieceSummary summary{};
+  std::vector<std::string> failures{};  ///< What the tries before said, in their order.
+  quality::QualityHistograms histograms{};
+  std::vector<verify::SeamHash> seams{};
+};
+
+/// @brief What the tries said that did not fill a subdomain.
+struct FailedTries {
+  LocalIndex subdomain = kNoIndex;
+  std::vector<std::string> messages{};  ///< One a try, in their order.
+};
+
+[[nodiscard]] Bytes to_bytes(const std::vector<FailedTries>& failures);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] std::vector<FailedTries> failed_tries_from_bytes(std::span<const std::byte> bytes);
+
+[[nodiscard]] Bytes to_bytes(const FillResult& result);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] FillResult fill_result_from_bytes(std::span<const std::byte> bytes);
+
+[[nodiscard]] Bytes to_bytes(const std::vector<FillResult>& results);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] std::vector<FillResult> fill_results_from_bytes(std::span<const std::byte> bytes);
+
+}  // namespace tessera::subdomain

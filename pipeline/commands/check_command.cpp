@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/commands/check_command.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/check/check_mesh.hpp"
+#include "tessera/io/vtu.hpp"
+
+#include "pipeline/commands/mesh_input.hpp"
+#include "pipeline/runtime/stop_signal.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+check::PieceSource source_of(const std::vector<std::filesystem::path>& files)
+{
+  return {static_cast<LocalIndex>(files.size()), [&files](LocalIndex piece) {
+            throw_if_stop_requested();
+            return io::read_vtu(files[static_cast<std::size_t>(piece)]);
+          }};
+}
+
+void print(const check::CheckReport& report)
+{
+  fmt::print(
+      "{} tets, {} vertices, {} boundary triangles, {} between subdomains, {} between "
+      "materials\n",
+      report.num_tets, report.num_vertices, report.num_boundary_triangles,
+      report.num_seam_triangles, report.num_interface_triangles);
+  if (report.is_partial)
+    fmt::print("partial check: {} open seam triangles, holes in the ids allowed\n",
+               report.num_open_seam_triangles);
+  fmt::print("volume {:.10g}, boundary area {:.10g}\n", report.volume, report.boundary_area);
+  fmt::print("Euler characteristic {}, components {}, boundary components {}\n",
+             report.euler_characteristic, report.num_components, report.num_boundary_components);
+  fmt::print("dihedral angles {:.2f} to {:.2f} deg, mean ratio: smallest {:.4f}, mean {:.4f}\n",
+             report.quality.min_dihedral_deg, report.quality.max_dihedral_deg,
+             report.quality.mean_ratio_min, report.quality.mean_ratio_mean);
+  if (report.has_digest) fmt::print("digest {}\n", to_hex(report.digest));
+  for (const std::string& note : report.notes) fmt::print("note: {}\n", note);
+  for (const check::Defect& defect : report.defects) {
+    fmt::print("DEFECT {}: {} times\n", defect.kind, defect.count);
+    for (const std::string& offender : defect.offenders) fmt::print("  {}\n", offender);
+  }
+  const char* const what = report.is_partial ? "the part of the mesh" : "the mesh";
+  fmt::print("{} {}\n", what, report.conforms ? "conforms" : "does NOT conform");
+}
+
+}  // namespace
+
+ExitCode run_check_command(const CheckCommand& command, const comm::Communicator& comm)
+{
+  const auto mesh_files = pieces_of(command.mesh_file, comm);
+  const check::PieceSource mesh = source_of(mesh_files);
+  const auto boundary_files = boundary_pieces_of(command.mesh_file, comm);
+  std::optional<check::PieceSource> boundary;
+  if (boundary_files) boundary = source_of(*boundary_files);
+  const check::CheckReport report =
+      check::check_mesh(mesh, boundary ? &*boundary : nullptr, comm, {command.is_partial});
+  if (comm.rank() == 0) {
+    if (command.json) {
+      std::fputs((check::to_json(report) + "\n").c_str(), stdout);
+    } else {
+      print(report);
+    }
+  }
+  return report.conforms ? ExitCode::ok : ExitCode::failed;
+}
+
+}  // namespace tessera::pipeline

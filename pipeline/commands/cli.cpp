@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/commands/cli.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <map>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/version.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+const std::map<std::string, ProgressMode> kProgressWords{{"auto", ProgressMode::automatic},
+                                                         {"always", ProgressMode::always},
+                                                         {"never", ProgressMode::never}};
+
+// What CLI11 writes into; becomes a Command when all went well.
+struct Parsed {
+  MeshCommand mesh{};
+  std::string progress = "auto";
+  bool quiet = false;
+  bool verbose = false;
+  CheckCommand check{};
+  RepartitionCommand repartition{};
+  InfoCommand info{};
+  ReplayCommand replay{};
+};
+
+// CLI11's own conversion takes 010 for eight.
+template <class Integer>
+std::optional<Integer> whole_number(std::string_view text, Integer low, Integer high)
+{
+  Integer number = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end || number < low || number > high) {
+    return std::nullopt;
+  }
+  return number;
+}
+
+int read_count(const std::string& option, const std::string& text, int low, int high)
+{
+  const auto count = whole_number(text, low, high);
+  if (count) return *count;
+  throw CLI::ValidationError(
+      option + " " + text,
+      "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+}
+
+std::vector<LocalIndex> read_subdomains(const std::string& text)
+{
+  const auto fail = [&](const std::string& what) {
+    throw CLI::ValidationError("--only-subdomains " + text, what);
+  };
+  std::vector<LocalIndex> subdomains;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const auto subdomain = whole_number(std::string_view(text).substr(begin, end - begin),
+                                        LocalIndex{0}, std::numeric_limits<LocalIndex>::max());
+    if (!subdomain) fail("must be whole numbers >= 0 with commas between, such as 0,7,8");
+    subdomains.push_back(*subdomain);
+    begin = end + 1;
+  }
+  std::ranges::sort(subdomains);
+  const auto repeated = std::ranges::adjacent_find(subdomains);
+  if (repeated != subdomains.end()) fail("names " + std::to_string(*repeated) + " twice");
+  return subdomains;
+}
+
+CLI::Option* add_dry_run(CLI::App& mesh, MeshCommand& command)
+{
+  CLI::Option* dry_run = mesh.add_flag("--dry-run", command.dry_run,
+                                       "Predict size, time and memory; mesh nothing finely");
+  const auto take_ranks = [&command](const std::string& text) {
+    constexpr int kMost = 1'000'000;
+    command.predicted_ranks = read_count("--ranks", text, 1, kMost);
+  };
+  mesh.add_option_function<std::string>("--ranks", take_ranks,
+                                        "With --dry-run: predict for so many ranks")
+      ->type_name("N")
+      ->needs(dry_run);
+  return dry_run;
+}
+
+CLI::Validator not_empty()
+{
+  return {[](const std::string& text) {
+            return text.empty() ? std::string("the name is empty") : std::string();
+          },
+          ""};
+}
+
+void add_folder_options(CLI::App& mesh, MeshCommand& command, CLI::Option* dry_run)
+{
+  mesh.add_option("--output", command.output, "Folder of the results, instead of output.directory")
+      ->type_name("DIR")
+      ->check(not_empty());
+  CLI::Option* overwrite = mesh.add_flag("--overwrite", command.overwrite,
+                                         "Use the output folder even if it is not empty");
+  mesh.add_flag("--resume", command.resume,
+                "Go on with the stopped run of this case in the output folder")
+      ->excludes(overwrite)
+      ->excludes(dry_run);
+}
+
+void add_mesh(CLI::App& app, Parsed& parsed)
+{
+  CLI::App* mesh = app.add_subcommand("mesh", "Make a mesh from a case file");
+  mesh->add_option("CASE.toml", parsed.mesh.case_file,
+                   "The case; configs/reference.toml has all keys")
+      ->required();
+  // One value an occurrence: otherwise `--set a.b=1 case.toml` would swallow the case file.
+  mesh->add_option("--set", parsed.mesh.overrides, "Override a key of the case; may be repeated")
+      ->type_name("TABLE.KEY=VALUE")
+      ->allow_extra_args(false);
+  mesh->add_flag("--dump-config", parsed.mesh.dump_config, "Print the resolved case and stop");
+  CLI::Option* dry_run = add_dry_run(*mesh, parsed.mesh);
+  add_folder_options(*mesh, parsed.mesh, dry_run);
+  const auto take_subdomains = [&parsed](const std::string& text) {
+    parsed.mesh.only_subdomains = read_subdomains(text);
+  };
+  mesh->add_option_function<std::string>(
+          "--only-subdomains", take_subdomains,
+          "Make and write these subdomains only; for fill.kernel=subdivide")
+      ->type_name("I,J,...");
+  mesh->add_option("--progress", parsed.progress, "Progress bars: on a terminal, always or never")
+      ->type_name("auto|always|never")
+      ->check(CLI::IsMember(kProgressWords).description(""))
+      ->capture_default_str();
+  CLI::Option* quiet = mesh->add_flag("-q,--quiet", parsed.quiet, "Print warnings and errors only");
+  mesh->add_flag("-v,--verbose", parsed.verbose, "Print more")->excludes(quiet);
+}
+
+void add_check(CLI::App& app, Parsed& parsed)
+{
+  CLI::App* check = app.add_subcommand("check", "Verify a mesh from its files alone");
+  check->add_option("MESH.pvtu", parsed.check.mesh_file, "A .pvtu or .vtu file of tets")
+      ->required();
+  check->add_flag("--partial", parsed.check.is_partial,
+                  "Only some pieces of the mesh were made: open seams and holes in the ids are no "
+                  "defects");
+  check->add_flag("--json", parsed.check.json, "Print the findings as JSON");
+}
+
+void add_repartition(CLI::App& app, RepartitionCommand& command)
+{
+  CLI::App* repartition =
+      app.add_subcommand("repartition", "Cut a mesh anew into balanced, connected pieces");
+  repartition->add_option("MESH.pvtu", command.mesh_file, "A .pvtu or .vtu file of tets")
+      ->required();
+  const auto take_parts = [&command](const std::string& text) {
+    constexpr int kMost = 10'000'000;
+    command.num_parts = read_count("--parts", text, 1, kMost);
+  };
+  repartition->add_option_function<std::string>("--parts", take_parts, "Number of pieces")
+      ->type_name("P")
+      ->required();
+  repartition->add_option("--output", command.output, "Folder of the new mesh")
+      ->type_name("DIR")
+      ->check(not_empty())
+      ->required();
+  const auto take_layers = [&command](const std::string& text) {
+    constexpr int kMost = 100;
+    command.num_ghost_layers = read_count("--ghost-layers", text, 0, kMost);
+  };
+  repartition
+      ->add_option_function<std::string>(
+          "--ghost-layers", take_layers,
+          "Layers of copies of the neighbours' tets in each piece (vtkGhostType)")
+      ->type_name("N");
+  repartition->add_flag("--overwrite", command.overwrite,
+                        "Use the output folder even if it is not empty");
+}
+
+void add_info(CLI::App& app, Parsed& parsed)
+{
+  CLI::App* info = app.add_subcommand("info", "Say what a file holds");
+  info->add_option("FILE", parsed.info.file, "A CAD model, case or mesh")->required();
+}
+
+void add_replay(CLI::App& app, Parsed& parsed)
+{
+  CLI::App* replay = app.add_subcommand(
+      "replay", "Run a job that failed once more, in this process, for a debugger");
+  replay->add_option("DIR/failure/JOB", parsed.replay.folder, "What the run has kept of the job")
+      ->required();
+}
+
+void set_up(CLI::App& app, Parsed& parsed)
+{
+  app.set_help_flag("-h,--help", "Print this help");
+  app.set_version_flag("--version", "tessera " + std::string(version()), "Print the version");
+  app.require_subcommand(1);
+  app.footer(
+      "Every command runs alone or under `mpirun -np N`, with the same result;\n"
+      "that of repartition depends on N.\n"
+      "`tessera COMMAND --help` says more.");
+  add_mesh(app, parsed);
+  add_check(app, parsed);
+  add_repartition(app, parsed.repartition);
+  add_info(app, parsed);
+  add_replay(app, parsed);
+  for (CLI::App* command : app.get_subcommands({})) command->footer("");
+}
+
+Command to_command(const CLI::App& app, Parsed parsed)
+{
+  if (app.got_subcommand("check")) return parsed.check;
+  if (app.got_subcommand("repartition")) return parsed.repartition;
+  if (app.got_subcommand("info")) return parsed.info;
+  if (app.got_subcommand("replay")) return parsed.replay;
+  parsed.mesh.progress = kProgressWords.at(parsed.progress);
+  if (parsed.quiet) parsed.mesh.verbosity = Verbosity::quiet;
+  if (parsed.verbose) parsed.mesh.verbosity = Verbosity::verbose;
+  return parsed.mesh;
+}
+
+std::string usage_message(const CLI::App& app, const CLI::ParseError& error)
+{
+  const auto commands = app.get_subcommands();
+  const std::vector<std::string> strangers = app.remaining();
+  std::string text = error.what();
+  if (commands.empty() && !strangers.empty()) {
+    text = "there is no command or option " + strangers.front();
+  }
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const std::string command = commands.empty() ? "" : " " + commands.front()->get_name();
+  return "wrong command line: " + text + " (see `tessera" + command + " --help`)";
+}
+
+}  // namespace
+
+Command parse_command_line(int argc, const char* const* argv)
+{
+  CLI::App app("Tessera turns a CAD model into a partitioned tetrahedral mesh.", "tessera");
+  Parsed parsed;
+  set_up(app, parsed);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return PrintCommand{app.help()};
+  } catch (const CLI::CallForVersion& version) {
+    return PrintCommand{version.what() + std::string("\n")};
+  } catch (const CLI::ParseError& error) {
+    throw ConfigError(usage_message(app, error));
+  }
+  return to_command(app, std::move(parsed));
+}
+
+}  // namespace tessera::pipeline

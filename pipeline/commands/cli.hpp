@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+
+#include "pipeline/runtime/log.hpp"
+
+namespace tessera::pipeline {
+
+enum class ProgressMode : int { automatic, always, never };
+
+/// @brief `tessera mesh`: make a mesh from a case file.
+struct MeshCommand {
+  std::filesystem::path case_file{};
+  std::vector<std::string> overrides{};           ///< "table.key=value", unchecked.
+  std::optional<std::filesystem::path> output{};  ///< In place of output.directory.
+  bool overwrite = false;                         ///< Use an output folder that is not empty.
+  bool resume = false;                            ///< Go on with a run that was stopped.
+  bool dump_config = false;                       ///< Print the resolved case and stop.
+  bool dry_run = false;                           ///< Predict the run instead of running.
+  std::optional<int> predicted_ranks{};           ///< With dry_run; nothing: those that run.
+  std::vector<LocalIndex> only_subdomains{};      ///< Ascending; empty: all.
+  ProgressMode progress = ProgressMode::automatic;
+  Verbosity verbosity = Verbosity::normal;
+};
+
+/// @brief `tessera check`: verify a mesh from its files alone.
+struct CheckCommand {
+  std::filesystem::path mesh_file{};
+  bool is_partial = false;  ///< Only some pieces of the mesh were made.
+  bool json = false;        ///< Print the keys of report.json instead of text.
+};
+
+/// @brief `tessera repartition`: cut a mesh anew into balanced pieces.
+struct RepartitionCommand {
+  std::filesystem::path mesh_file{};
+  std::filesystem::path output{};
+  LocalIndex num_parts = 0;
+  int num_ghost_layers = 0;
+  bool overwrite = false;  ///< Use an output folder that is not empty.
+};
+
+/// @brief `tessera info`: say what a model, case or mesh file holds.
+struct InfoCommand {
+  std::filesystem::path file{};
+};
+
+/// @brief `tessera replay`: run a job that failed once more, in this process.
+struct ReplayCommand {
+  std::filesystem::path folder{};  ///< DIR/failure/JOB.
+};
+
+/// @brief `--help` or `--version`: print this to standard output and end with exit code 0.
+struct PrintCommand {
+  std::string text{};
+};
+
+using Command = std::variant<MeshCommand, CheckCommand, RepartitionCommand, InfoCommand,
+                             ReplayCommand, PrintCommand>;
+
+/// @brief Read the command line. Pure: prints nothing and never ends the process, since every rank
+/// parses and only one may speak. Local.
+/// @throws ConfigError with one message that says how to get help.
+[[nodiscard]] Command parse_command_line(int argc, const char* const* argv);
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/commands/repartition_command.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/version.hpp"
+#include "tessera/io/files.hpp"
+#include "tessera/io/output_folder.hpp"
+#include "tessera/io/vtu.hpp"
+#include "tessera/migrate/assemble.hpp"
+#include "tessera/migrate/cut_into_parts.hpp"
+#include "tessera/migrate/partition.hpp"
+#include "tessera/subdomain/part_arrays.hpp"
+#include "tessera/subdomain/piece_file.hpp"
+
+#include "pipeline/commands/mesh_input.hpp"
+#include "pipeline/commands/part_report.hpp"
+#include "pipeline/runtime/run_context.hpp"
+#include "pipeline/runtime/stop_signal.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+using Texts = std::map<std::string, std::vector<std::string>>;
+
+// What a solver may rely on.
+constexpr double kMaxBalance = 1.03;
+
+Hash128 sum_over_ranks(const Hash128& hash, const comm::Communicator& comm)
+{
+  std::vector<Hash128> sum{hash};
+  comm.sum_in_place(sum);
+  return sum.front();
+}
+
+// The texts of the first piece that has any, on all ranks; those that every mesh of ours has.
+Texts field_texts_of(const migrate::MeshPieces& pieces, const comm::Communicator& comm)
+{
+  ByteWriter out;
+  for (const mesh::MeshArrays& piece : pieces.tets) {
+    if (piece.field_texts.empty()) continue;
+    for (const auto& [name, texts] : piece.field_texts) {
+      out.put(name);
+      out.put(texts);
+    }
+    break;
+  }
+  Texts all{{"material_names", {}}, {"patch_names", {}}, {"length_unit", {}}};
+  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
+    if (bytes.empty()) continue;
+    for (ByteReader in(bytes); !in.at_end();) {
+      std::string name = in.get_string();
+      all[std::move(name)] = in.get_strings();
+    }
+    break;
+  }
+  all["tessera_version"] = {std::string(version())};
+  return all;
+}
+
+bool is_inside(const fs::path& path, const fs::path& folder)
+{
+  const fs::path relative =
+      fs::weakly_canonical(path).lexically_relative(fs::weakly_canonical(folder));
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+// One repartition in its folder, which is locked as long as this lives.
+class Repartition {
+ public:
+  Repartition(const RepartitionCommand& command, const comm::Communicator& comm)
+      : command_(command), comm_(comm)
+  {
+    figures_.mesh_file = command.mesh_file.string();
+    figures_.num_ranks = comm.size();
+    figures_.num_ghost_layers = command.num_ghost_layers;
+    all_or_none(comm, [&] {
+      if (comm.rank() == 0) open_folder();
+    });
+    comm.barrier();
+  }
+
+  ExitCode run()
+  {
+    try {
+      return cut();
+    } catch (const comm::ThrownOnAllRanks& thrown) {
+      if (comm_.rank() == 0) report_failure(thrown.error());
+      throw;
+    }
+  }
+
+ private:
+  void open_folder()
+  {
+    const fs::path& folder = command_.output;
+    if (!fs::exists(command_.mesh_file)) {
+      throw InputError(command_.mesh_file.string() + ": no such file");
+    }
+    if (is_inside(command_.mesh_file, folder)) {
+      throw InputError("the mesh is in the output folder " + folder.string()
+                       + "; choose another one");
+    }
+    folder_.emplace(
+        folder, command_.overwrite ? io::ExistingFolder::overwrite : io::ExistingFolder::refuse);
+    io::make_own_folder(folder / "mesh");
+    io::make_own_folder(folder / "boundary");
+  }
+
+  ExitCode cut()
+  {
+    read();
+    migrate::RepartitionResult cut = migrate::cut_into_parts(
+        comm_, std::move(mesh_.mesh), {command_.num_parts, kMaxBalance}, figures_.traffic);
+    mesh_.mesh = std::move(cut.mesh);
+    figures_.cut = cut.figures;
+    end_step("partition");
+    measure();
+    end_step("measure");
+    write();
+    end_step("write");
+    return finish();
+  }
+
+  void read()
+  {
+    migrate::MeshPieces pieces = read_pieces(command_.mesh_file, comm_);
+    texts_ = field_texts_of(pieces, comm_);
+    end_step("read");
+    assemble(pieces);
+    figures_.notes = mesh_.notes;
+    figures_.tets_digest = sum_over_ranks(migrate::digest_of_tets(mesh_.mesh), comm_);
+    end_step("assemble");
+    const GlobalIndex num_tets = comm_.sum(mesh_.mesh.num_tets());
+    if (num_tets < command_.num_parts) {
+      throw_on_all_ranks(ExitCode::wrong_input, fmt::format("--parts {}: the mesh has only {} tets",
+                                                            command_.num_parts, num_tets));
+    }
+    constexpr auto kMostOnAverage =
+        static_cast<GlobalIndex>(subdomain::kMostTetsOfFile / kMaxBalance);
+    if (num_tets <= kMostOnAverage * command_.num_parts) return;
+    throw_on_all_ranks(
+        ExitCode::wrong_input,
+        fmt::format("--parts {}: the mesh has {} tets, and a part's 32-bit indices reach to {}; "
+                    "choose more parts",
+                    command_.num_parts, num_tets, subdomain::kMostTetsOfFile));
+  }
+
+  void assemble(const migrate::MeshPieces& pieces)
+  {
+    try {
+      mesh_ = migrate::assemble(comm_, pieces);
+    } catch (const comm::ThrownOnAllRanks& thrown) {
+      throw_on_all_ranks(exit_code_of(thrown.error()),
+                         fmt::format("{0}: {1}; `tessera check {0}` says where",
+                                     command_.mesh_file.string(), thrown.error().what()));
+    }
+  }
+
+  void measure()
+  {
+    const migrate::TetNeighbours neighbours = migrate::find_neighbours(comm_, mesh_.mesh);
+    figures_.parts = migrate::measure_parts(comm_, mesh_.mesh, neighbours, command_.num_parts);
+    GlobalIndex num_owned = 0;
+    for (LocalIndex v = 0; v < mesh_.mesh.num_vertices(); ++v) {
+      if (mesh_.mesh.owner(v, comm_.rank()) == comm_.rank()) ++num_owned;
+    }
+    figures_.num_vertices = comm_.sum(num_owned);
+    figures_.traffic.num_messages = comm_.sum(figures_.traffic.num_messages);
+    figures_.traffic.num_bytes = comm_.sum(figures_.traffic.num_bytes);
+    if (sum_over_ranks(migrate::digest_of_tets(mesh_.mesh), comm_) == figures_.tets_digest) return;
+    throw_on_all_ranks(ExitCode::internal, "the migration has lost or changed tets");
+  }
+
+  void write()
+  {
+    const IndexLists vertex_parts = migrate::parts_of_vertices(comm_, mesh_.mesh);
+    const subdomain::PartContext context{mesh_.mesh, vertex_parts, mesh_.columns, texts_,
+                                         command_.num_ghost_layers};
+    const std::vector<migrate::GhostTets> parts = migrate::find_ghosts(
+        comm_, mesh_.mesh, vertex_parts, command_.num_parts, command_.num_ghost_layers);
+    all_or_none(comm_, [&] {
+      for (const migrate::GhostTets& ghosts : parts) write_part(context, ghosts);
+    });
+    all_or_none(comm_, [&] {
+      if (comm_.rank() == 0) write_indices(context);
+    });
+  }
+
+  void write_part(const subdomain::PartContext& context, const migrate::GhostTets& ghosts) const
+  {
+    throw_if_stop_requested();
+    const LocalIndex part = ghosts.part;
+    const subdomain::PieceArrays arrays = subdomain::part_arrays(context, part, &ghosts);
+    io::write_vtu(arrays.tets, command_.output / subdomain::piece_path("mesh", part),
+                  io::Compression::lz4);
+    if (arrays.boundary.num_cells() == 0) return;
+    io::write_vtu(arrays.boundary, command_.output / subdomain::piece_path("boundary", part),
+                  io::Compression::lz4);
+  }
+
+  void write_indices(const subdomain::PartContext& context) const
+  {
+    std::vector<fs::path> tets;
+    std::vector<fs::path> boundary;
+    for (LocalIndex part = 0; part < command_.num_parts; ++part) {
+      tets.push_back(subdomain::piece_path("mesh", part));
+      if (figures_.parts[at(part)].num_boundary > 0) {
+        boundary.push_back(subdomain::piece_path("boundary", part));
+      }
+    }
+    constexpr LocalIndex kNoPart = -1;  // Nothing but the names of arrays.
+    const subdomain::PieceArrays schema = subdomain::part_arrays(context, kNoPart, nullptr);
+    io::write_pvtu(command_.output / "mesh.pvtu", tets, schema.tets);
+    io::write_pvtu(command_.output / "boundary.pvtu", boundary, schema.boundary);
+  }
+
+  ExitCode finish()
+  {
+    std::string reason;
+    if (figures_.largest_part()
+        > migrate::largest_allowed(figures_.num_tets(), command_.num_parts, kMaxBalance)) {
+      reason = fmt::format("the largest part is {:.3f} of the average", figures_.balance());
+    }
+    if (figures_.num_disconnected() > 0) {
+      figures_.notes.push_back(
+          fmt::format("{} parts are not connected", figures_.num_disconnected()));
+    }
+    const ExitCode code = reason.empty() ? ExitCode::ok : ExitCode::degraded;
+    figures_.wall_time_s = seconds_since(start_);
+    all_or_none(comm_, [&] {
+      if (comm_.rank() != 0) return;
+      io::write_text_atomically(command_.output / "report.json",
+                                repartition_json(code, reason, figures_));
+    });
+    if (comm_.rank() == 0) say(reason);
+    return code;
+  }
+
+  void say(const std::string& reason) const
+  {
+    if (!reason.empty()) fmt::print(stderr, "tessera: degraded: {}\n", reason);
+    for (const std::string& note : figures_.notes) fmt::print("note: {}\n", note);
+    fmt::print(
+        "{} tets in {} parts, largest {:.4f} of the average, {} triangles cut, {:.1f} s: {}\n",
+        figures_.num_tets(), figures_.parts.size(), figures_.balance(),
+        figures_.num_cut_triangles(), figures_.wall_time_s, command_.output.string());
+  }
+
+  void report_failure(const std::exception& error)
+  {
+    figures_.wall_time_s = seconds_since(start_);
+    figures_.parts.clear();
+    try {
+      io::write_text_atomically(command_.output / "report.json",
+                                repartition_json(exit_code_of(error), error.what(), figures_));
+    } catch (const Error& second) {
+      fmt::print(stderr, "warning: report.json is missing: {}\n", second.what());
+    }
+  }
+
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] static double seconds_since(Clock::time_point begin)
+  {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  void end_step(const std::string& name)
+  {
+    throw_if_stopped(comm_);
+    figures_.steps.push_back({name, seconds_since(step_start_)});
+    step_start_ = Clock::now();
+  }
+
+  const RepartitionCommand& command_;
+  const comm::Communicator& comm_;
+  std::optional<io::OutputFolder> folder_{};
+  migrate::AssembledMesh mesh_{};
+  Texts texts_{};
+  RepartitionFigures figures_{};
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point step_start_ = start_;
+};
+
+}  // namespace
+
+ExitCode run_repartition_command(const RepartitionCommand& command, const comm::Communicator& comm)
+{
+  return Repartition(command, comm).run();
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/commands/replay_command.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include "tessera/base/error.hpp"
+
+#include "pipeline/jobs/failed_jobs.hpp"
+#include "pipeline/jobs/mesh_worker.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+ExitCode replay(const RecordedJob& job)
+{
+  fmt::print("replay of {}: {} loads\n", job.name, job.loads.size());
+  std::fflush(stdout);
+  const auto worker = make_mesh_worker();
+  try {
+    for (const Bytes& load : job.loads) worker->load(load);
+    const Bytes result = worker->run(job.request);
+    fmt::print("{}: succeeded, {} bytes\n", job.name, result.size());
+    return ExitCode::ok;
+  } catch (const Error& error) {
+    fmt::print("{}: failed: {}\n", job.name, error.what());
+    return ExitCode::failed;
+  }
+}
+
+}  // namespace
+
+ExitCode run_replay_command(const ReplayCommand& command, const comm::Communicator& comm)
+{
+  const Bytes code = on_root(comm, [&] {
+    const RecordedJob job = read_failed_job(command.folder);
+    ByteWriter out;
+    out.put(replay(job));
+    return std::move(out).take();
+  });
+  return ByteReader(code).get<ExitCode>();
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/commands/report.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/fmt/fmt.h>
+
+#include "tessera/base/version.hpp"
+#include "tessera/comm/mpi_version.hpp"
+#include "tessera/decompose/graph_partitioner.hpp"
+#include "tessera/fill/fallbacks.hpp"
+#include "tessera/io/vtu.hpp"
+#include "tessera/netgen/factory.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kReportBins = 20;
+
+quality::TetStatistics statistics_of(const std::vector<subdomain::PieceSummary>& pieces,
+                                     quality::TetStatistics subdomain::PieceSummary::*part)
+{
+  quality::TetStatistics all;
+  for (const subdomain::PieceSummary& piece : pieces) all.add(piece.*part);
+  return all;
+}
+
+double largest(const std::vector<subdomain::PieceSummary>& pieces,
+               double subdomain::PieceSummary::*member)
+{
+  double largest = 0.0;
+  for (const subdomain::PieceSummary& piece : pieces) largest = std::max(largest, piece.*member);
+  return largest;
+}
+
+double sum(const std::vector<subdomain::PieceSummary>& pieces,
+           double subdomain::PieceSummary::*member)
+{
+  double sum = 0.0;
+  for (const subdomain::PieceSummary& piece : pieces) sum += piece.*member;
+  return sum;
+}
+
+Json mean_ratio_json(const quality::TetStatistics& tets, const quality::Histogram& histogram)
+{
+  return {{"min", tets.min_mean_ratio},
+          {"p01", histogram.percentile(0.01)},
+          {"mean", tets.mean_mean_ratio()},
+          {"histogram", histogram.coarsened(kReportBins)}};
+}
+
+Json quality_json(const FilledPieces& filled)
+{
+  const auto tets = statistics_of(filled.pieces, &subdomain::PieceSummary::tets);
+  const auto seam = statistics_of(filled.pieces, &subdomain::PieceSummary::seam_tets);
+  const quality::Histogram& edges = filled.histograms.log2_edge_length;
+  const auto edge_length = [&](double share) { return std::exp2(edges.percentile(share)); };
+  Json json{
+      {"min_dihedral_deg", tets.min_dihedral_deg},
+      {"max_dihedral_deg", tets.max_dihedral_deg},
+      {"edge_length",
+       {{"p01", edge_length(0.01)}, {"median", edge_length(0.5)}, {"p99", edge_length(0.99)}}},
+      {"mean_ratio", mean_ratio_json(tets, filled.histograms.mean_ratio)},
+      {"seam", {{"num_tets", seam.num_tets}}}};
+  if (seam.num_tets > 0) {
+    json["seam"]["min_dihedral_deg"] = seam.min_dihedral_deg;
+    json["seam"]["mean_ratio"] = mean_ratio_json(seam, filled.histograms.seam_mean_ratio);
+    json["seam"]["ks_distance"] =
+        quality::ks_distance(filled.histograms.seam_mean_ratio, filled.histograms.mean_ratio);
+  }
+  return json;
+}
+
+Json subdomains_json(const RunResult& run)
+{
+  Json subdomains = Json::array();
+  const std::vector<subdomain::FailedTries>& failures = run.filled.failures;
+  for (const subdomain::PieceSummary& piece : run.filled.pieces) {
+    subdomains.push_back({{"id", piece.subdomain},
+                          {"material", piece.material},
+                          {"tets", piece.num_tets},
+                          {"kernel", fill::name_of(piece.kernel)},
+                          {"tries", piece.tries},
+                          {"seconds", piece.cpu_s},
+                          {"digest", to_hex(piece.digest)}});
+    const auto failed = std::find_if(failures.begin(), failures.end(), [&](const auto& tries) {
+      return tries.subdomain == piece.subdomain;
+    });
+    if (failed != failures.end()) subdomains.back()["failures"] = failed->messages;
+  }
+  return subdomains;
+}
+
+// What was made, and of which mesh if that is not all of it.
+void add_counts(Json& json, const RunResult& run)
+{
+  json["num_subdomains"] = run.filled.pieces.size();
+  json["only_subdomains"] = run.only_subdomains;
+  json["num_subdomains_requested"] = run.resolved.decompose.subdomains;
+  json["num_tets"] = run.filled.num_tets();
+  if (run.only_subdomains.empty()) {
+    json["num_vertices"] = run.num_vertices;
+    return;
+  }
+  json["whole_mesh"] = {{"num_subdomains", run.decomposition.decomposition.num_subdomains()},
+                        {"num_tets", run.num_tets},
+                        {"num_vertices", run.num_vertices}};
+}
+
+std::vector<GlobalIndex> tets_of_parts(const RunResult& run)
+{
+  const std::vector<LocalIndex>& offsets = run.decomposition.decomposition.part_offsets;
+  std::vector<GlobalIndex> tets;
+  for (std::size_t part = 0; part + 1 < offsets.size(); ++part) {
+    GlobalIndex& sum = tets.emplace_back(0);
+    for (LocalIndex s = offsets[part]; s < offsets[part + 1]; ++s) {
+      sum += run.filled.pieces[at(s)].num_tets;
+    }
+  }
+  return tets;
+}
+
+Json model_json(const model::ModelSource& model)
+{
+  return {{"repairs", model.repairs},
+          {"length_unit", model.length_unit},
+          {"digest", to_hex(hash_bytes(model.content))}};
+}
+
+Json decompose_json(const decompose::DecomposeReport& report)
+{
+  return {{"seam_area", report.seam_area},
+          {"min_seam_dihedral_deg", report.min_seam_dihedral_deg},
+          {"heaviest_over_average", report.max_weight / report.mean_weight},
+          {"merges", report.num_merges},
+          {"splits", report.num_splits},
+          {"moves", report.num_moves}};
+}
+
+// Who is beside whom, with the area they share: what a solver's partitioner can start from.
+Json graph_json(const mesh::Decomposition& decomposition)
+{
+  Json edges = Json::array();
+  for (LocalIndex s = 0; s < decomposition.num_subdomains(); ++s) {
+    const auto first = decomposition.neighbour_offsets[static_cast<std::size_t>(s)];
+    const auto last = decomposition.neighbour_offsets[static_cast<std::size_t>(s) + 1];
+    for (auto e = static_cast<std::size_t>(first); e < static_cast<std::size_t>(last); ++e) {
+      if (decomposition.neighbours[e] < s) continue;
+      edges.push_back({s, decomposition.neighbours[e], decomposition.neighbour_triangles[e],
+                       decomposition.neighbour_area[e]});
+    }
+  }
+  return {{"vertex_weight", decomposition.subdomain_weight},
+          {"edges_as_a_b_coarse_triangles_area", std::move(edges)}};
+}
+
+Json stages_json(const std::vector<StageTime>& times)
+{
+  Json stages = Json::array();
+  for (const StageTime& time : times) {
+    stages.push_back({{"name", time.name},
+                      {"wall_time_s", time.wall_s},
+                      {"rank_min_s", time.rank_min_s},
+                      {"rank_max_s", time.rank_max_s},
+                      {"cpu_s", time.cpu_s}});
+  }
+  return stages;
+}
+
+Json prediction_json(const std::vector<PredictedFigure>& figures)
+{
+  Json json = Json::object();
+  for (const PredictedFigure& figure : figures) {
+    json[figure.name] = {{"predicted", figure.predicted}, {"actual", figure.actual}};
+    if (figure.actual > 0.0) {
+      json[figure.name]["error"] = figure.predicted / figure.actual - 1.0;
+    }
+  }
+  return json;
+}
+
+Json libraries_json()
+{
+  return {{"netgen", netgen::netgen_version()},
+          {"metis", decompose::metis_version()},
+          {"vtk", io::vtk_version()},
+          {"mpi", comm::mpi_version()}};
+}
+
+// Names from CAD files are in any encoding: what is not UTF-8 is replaced, not refused.
+std::string text_of(const Json& json)
+{
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json head_json(ExitCode exit_code, const std::string& reason, const RunFigures& figures)
+{
+  return {{"schema", 1},
+          {"version", version()},
+          {"status", status_name(exit_code)},
+          {"exit_code", static_cast<int>(exit_code)},
+          {"reason", reason},
+          {"case", figures.case_name},
+          {"num_ranks", figures.num_ranks}};
+}
+
+void add_figures(Json& json, const RunFigures& figures)
+{
+  json["wall_time_s"] = figures.wall_time_s;
+  json["peak_rss_bytes_max"] = figures.peak_rss_bytes_max;
+}
+
+bool is_reproducible(const RunResult& run)
+{
+  const std::vector<subdomain::PieceSummary>& pieces = run.filled.pieces;
+  return !run.coarse.was_limited && run.filled.improvement.num_limited == 0
+         && std::none_of(pieces.begin(), pieces.end(),
+                         [](const subdomain::PieceSummary& piece) { return piece.was_limited; });
+}
+
+Json improvement_json(const Improvement& improvement)
+{
+  return {{"regions", improvement.num_regions},
+          {"improved", improvement.num_improved},
+          {"failed", improvement.num_failed}};
+}
+
+std::string_view surface_mesher_name(coarse::SurfaceMesher mesher)
+{
+  return mesher == coarse::SurfaceMesher::remesh ? "remesh" : "netgen";
+}
+
+Json coarse_json(const RunResult& run)
+{
+  return {{"num_tets", run.coarse.mesh.num_tets()},
+          {"max_size", run.coarse.options.max_size},
+          {"surface_mesher", surface_mesher_name(run.coarse.options.surface_mesher)},
+          {"tries", run.coarse.tries},
+          {"failures", run.coarse.failures},
+          {"levels", run.resolved.refine.levels}};
+}
+
+// Where the tries ended at another kernel than the case wants.
+std::vector<LocalIndex> substituted_subdomains(const RunResult& run)
+{
+  std::vector<LocalIndex> substituted;
+  for (const subdomain::PieceSummary& piece : run.filled.pieces) {
+    if (piece.kernel != run.kernels[at(piece.subdomain)]) substituted.push_back(piece.subdomain);
+  }
+  return substituted;
+}
+
+}  // namespace
+
+double balance_of_parts(const RunResult& run)
+{
+  const std::vector<GlobalIndex> tets = tets_of_parts(run);
+  if (tets.empty()) return 1.0;
+  const double average = static_cast<double>(run.num_tets) / static_cast<double>(tets.size());
+  return static_cast<double>(*std::ranges::max_element(tets)) / average;
+}
+
+Verdict judge(const RunResult& run)
+{
+  Verdict verdict;
+  const auto tets = statistics_of(run.filled.pieces, &subdomain::PieceSummary::tets);
+  const quality::QualityTargets& targets = run.resolved.quality;
+  if (tets.min_dihedral_deg < targets.min_dihedral_deg) {
+    verdict.reasons.push_back(fmt::format("smallest dihedral angle {:.4g} deg < wanted {:.4g} deg",
+                                          tets.min_dihedral_deg, targets.min_dihedral_deg));
+  }
+  if (tets.min_mean_ratio < targets.min_mean_ratio) {
+    verdict.reasons.push_back(fmt::format("smallest mean ratio {:.4g} < wanted {:.4g}",
+                                          tets.min_mean_ratio, targets.min_mean_ratio));
+  }
+  if (!run.limiter.entries().empty()) {
+    verdict.reasons.push_back(fmt::format(
+        "{} points were kept off the geometry because the surface would have folded, by "
+        "at most {:.3g}; a smaller coarse.max_size may help",
+        run.limiter.entries().size(),
+        largest(run.filled.pieces, &subdomain::PieceSummary::held_back_distance)));
+  }
+  if (const coarse::VertexDistance& off = run.coarse.distance; off.num_off > 0) {
+    verdict.reasons.push_back(fmt::format(
+        "{} vertices of the coarse mesh could not be put on the geometry and are off it by at most "
+        "{:.3g}",
+        off.num_off, off.largest));
+  }
+  if (const auto substituted = substituted_subdomains(run); !substituted.empty()) {
+    verdict.reasons.push_back(
+        fmt::format("NETGEN could not fill {} subdomains, they were subdivided: {}",
+                    substituted.size(), fmt::join(substituted, ", ")));
+  }
+  if (!verdict.reasons.empty()) verdict.exit_code = ExitCode::degraded;
+  return verdict;
+}
+
+std::string report_json(const RunResult& run, const Verdict& verdict, const RunFigures& figures,
+                        const std::vector<StageTime>& times)
+{
+  const std::vector<subdomain::PieceSummary>& pieces = run.filled.pieces;
+  Hash128 digest;
+  for (const subdomain::PieceSummary& piece : pieces) digest += piece.digest;
+  Json json =
+      head_json(verdict.exit_code, fmt::format("{}", fmt::join(verdict.reasons, "; ")), figures);
+  add_counts(json, run);
+  json["volume"] = sum(pieces, &subdomain::PieceSummary::volume);
+  json["boundary_area"] = sum(pieces, &subdomain::PieceSummary::boundary_area);
+  json["model_distance_max"] = std::max(largest(pieces, &subdomain::PieceSummary::model_distance),
+                                        run.coarse.distance.largest);
+  json["num_points_off_geometry"] =
+      run.limiter.entries().size() + static_cast<std::size_t>(run.coarse.distance.num_off);
+  json["reproducible"] = is_reproducible(run);
+  json["digest"] = to_hex(digest);
+  add_figures(json, figures);
+  json["resumed"] = figures.is_resumed;
+  json["tets_per_second"] = static_cast<double>(run.filled.num_tets()) / figures.wall_time_s;
+  json["stages"] = stages_json(times);
+  if (!figures.predicted.empty()) json["prediction"] = prediction_json(figures.predicted);
+  json["quality"] = quality_json(run.filled);
+  json["model"] = model_json(run.model);
+  json["coarse"] = coarse_json(run);
+  json["decompose"] = decompose_json(run.decomposition.report);
+  json["improve"] = improvement_json(run.filled.improvement);
+  if (run.resolved.output.parts > 0) {
+    json["parts"] = {{"tets", tets_of_parts(run)}, {"balance", balance_of_parts(run)}};
+  }
+  json["subdomains"] = subdomains_json(run);
+  json["subdomain_graph"] = graph_json(run.decomposition.decomposition);
+  json["libraries"] = libraries_json();
+  return text_of(json);
+}
+
+std::string failure_json(ExitCode exit_code, const std::string& reason, const RunFigures& figures,
+                         const std::vector<StageTime>& times)
+{
+  Json json = head_json(exit_code, reason, figures);
+  add_figures(json, figures);
+  json["stages"] = stages_json(times);
+  json["libraries"] = libraries_json();
+  return text_of(json);
+}
+
+}  // namespace tessera::pipeline

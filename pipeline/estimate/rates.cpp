@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/estimate/rates.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+// Measured on torus, subdivided and re-meshed: lz4 23 to 28, with small pieces 31. The other two
+// are older measurements on shaft, less the boundary files that they included.
+double file_bytes_per_tet(io::Compression compression)
+{
+  switch (compression) {
+    case io::Compression::none:
+      return 48.0;
+    case io::Compression::zlib:
+      return 13.0;
+    case io::Compression::lz4:
+      return 27.0;
+  }
+  return 48.0;
+}
+
+constexpr double kQualityBytes = 8.0;
+
+}  // namespace
+
+// Measured on torus and core with pieces of 1e4 to 3e5 tets; NETGEN from skins alone, which is its
+// slowest start.
+Rates built_in_rates(const io::OutputOptions& options)
+{
+  const double file_bytes =
+      file_bytes_per_tet(options.compression) + (options.cell_quality ? kQualityBytes : 0.0);
+  Rates rates;
+  rates.netgen = {.interior_vertices_per_tet = 0.11,
+                  .fill_cpu_s_per_tet = 1.0 / 12'000.0,
+                  .plan_cpu_s_per_tet = 1e-6,
+                  .write_cpu_s_per_tet = 1e-6,
+                  .job_bytes_per_tet = 1000.0,
+                  .file_bytes_per_tet = file_bytes,
+                  .store_bytes_per_tet = 28.0};
+  rates.subdivide = {.interior_vertices_per_tet = 0.15,
+                     .fill_cpu_s_per_tet = 1e-6,
+                     .plan_cpu_s_per_tet = 1e-7,
+                     .write_cpu_s_per_tet = 1e-6,
+                     .job_bytes_per_tet = 160.0,
+                     .file_bytes_per_tet = file_bytes,
+                     .store_bytes_per_tet = 28.0};
+  rates.file_bytes_per_boundary_triangle = 36.0;
+  rates.file_header_bytes = 3e3;
+  return rates;
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/estimate/run_outline.hpp"
+
+#include <algorithm>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "tessera/mesh/lattice.hpp"
+#include "tessera/subdomain/count_pieces.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+// On the geometry there are those between materials, and they are no seams.
+GlobalIndex num_seam_triangles(const mesh::Skeleton& skeleton, LocalIndex subdomain)
+{
+  return std::ranges::count_if(skeleton.triangles_of(subdomain), [&](LocalIndex t) {
+    return skeleton.triangle_patch[at(t)] == kNoIndex;
+  });
+}
+
+template <class Count>
+GlobalIndex sum_over(const subdomain::SubdomainRange& range, Count&& count)
+{
+  GlobalIndex sum = 0;
+  for (LocalIndex s = range.first; s < range.last; ++s) sum += count(s);
+  return sum;
+}
+
+}  // namespace
+
+bool are_counts_known(const std::vector<fill::KernelKind>& kernels)
+{
+  return std::ranges::all_of(
+      kernels, [](fill::KernelKind kernel) { return kernel == fill::KernelKind::subdivide; });
+}
+
+GlobalIndex RunOutline::tets_of(const subdomain::SubdomainRange& range) const
+{
+  return sum_over(range, [&](LocalIndex s) { return pieces[at(s)].tets; });
+}
+
+GlobalIndex RunOutline::boundary_triangles_of(const subdomain::SubdomainRange& range) const
+{
+  return sum_over(range, [&](LocalIndex s) { return pieces[at(s)].boundary_triangles; });
+}
+
+bool RunOutline::improves_seams() const
+{
+  return std::ranges::any_of(seam_triangles, [](GlobalIndex count) { return count > 0; });
+}
+
+RunOutline outline_run(const subdomain::PartitionedMesh& cut,
+                       const std::vector<fill::KernelKind>& kernels, int levels,
+                       const std::vector<subdomain::SubdomainRange>& files, bool improve_seams)
+{
+  RunOutline outline{.levels = levels,
+                     .num_coarse_tets = cut.coarse.num_tets(),
+                     .kernels = kernels,
+                     .pieces = subdomain::count_subdivided_pieces(cut, levels),
+                     .files = files};
+  outline.is_one_pass = are_counts_known(kernels);
+  const std::vector<number::PieceCounts> nothing(outline.pieces.size());
+  outline.num_skeleton_vertices =
+      number::IdLayout(mesh::HostLayout(cut.skeleton), mesh::lattice::intervals(levels), nothing)
+          .num_vertices();
+  outline.seam_triangles.resize(kernels.size());
+  for (LocalIndex s = 0; improve_seams && s < cut.num_subdomains(); ++s) {
+    if (kernels[at(s)] == fill::KernelKind::subdivide) continue;
+    outline.seam_triangles[at(s)] = num_seam_triangles(cut.skeleton, s) << 2 * levels;
+  }
+  outline.jobs = outline.is_one_pass ? files : subdomain::file_ranges(cut.num_subdomains(), 0);
+  return outline;
+}
+
+std::optional<std::string> file_too_large(const RunOutline& outline, const config::Case& run_case)
+{
+  for (const subdomain::SubdomainRange& file : outline.files) {
+    const GlobalIndex num_tets = outline.tets_of(file);
+    if (num_tets <= subdomain::kMostTetsOfFile) continue;
+    const char* const key = run_case.output.parts > 0   ? "output.parts"
+                            : run_case.output.files > 0 ? "output.files"
+                                                        : "decompose.subdomains";
+    return fmt::format(
+        "{}: file {} of {} would hold {} tets, and its 32-bit indices reach to {}; choose more",
+        key, file.number, outline.files.size(), num_tets, subdomain::kMostTetsOfFile);
+  }
+  return std::nullopt;
+}
+
+}  // namespace tessera::pipeline

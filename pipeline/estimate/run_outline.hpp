@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tessera/config/case.hpp"
+#include "tessera/fill/options.hpp"
+#include "tessera/number/id_layout.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
+#include "tessera/subdomain/piece_file.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief Whether every subdomain is to be subdivided: then all ids are known before any piece is.
+[[nodiscard]] bool are_counts_known(const std::vector<fill::KernelKind>& kernels);
+
+/// @brief What is known or expected of the fine mesh before any of it is made.
+struct RunOutline {
+  int levels = 0;
+  LocalIndex num_coarse_tets = 0;
+  std::vector<fill::KernelKind> kernels{};    ///< Shape (num_subdomains).
+  std::vector<number::PieceCounts> pieces{};  ///< Shape (num_subdomains). Tets and interior
+                                              ///< vertices are exact where subdivided, else
+                                              ///< expected; boundary triangles are exact.
+  GlobalIndex num_skeleton_vertices = 0;      ///< Fine vertices on all skins; exact.
+  std::vector<GlobalIndex>
+      seam_triangles{};      ///< Shape (num_subdomains). Fine triangles between the
+                             ///< subdomain and others, where seams are improved.
+  bool is_one_pass = false;  ///< Fill jobs write the files themselves.
+  std::vector<subdomain::SubdomainRange> jobs{};   ///< What each fill job makes.
+  std::vector<subdomain::SubdomainRange> files{};  ///< What each file holds.
+
+  [[nodiscard]] GlobalIndex tets_of(const subdomain::SubdomainRange& range) const;
+  [[nodiscard]] GlobalIndex boundary_triangles_of(const subdomain::SubdomainRange& range) const;
+  [[nodiscard]] bool improves_seams() const;
+};
+
+/// @brief The outline of a run with so many levels. Local; O(coarse tets).
+/// @param[in] files output.files, or those asked for; see run_pipeline().
+/// @param[in] improve_seams improve.seams.
+[[nodiscard]] RunOutline outline_run(const subdomain::PartitionedMesh& cut,
+                                     const std::vector<fill::KernelKind>& kernels, int levels,
+                                     const std::vector<subdomain::SubdomainRange>& files,
+                                     bool improve_seams);
+
+/// @brief What to say if a file would hold more than its 32-bit indices reach: the first such file
+/// and the key to change. Local.
+[[nodiscard]] std::optional<std::string> file_too_large(const RunOutline& outline,
+                                                        const config::Case& run_case);
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/jobs/failed_jobs.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string_view>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/hash.hpp"
+#include "tessera/base/version.hpp"
+#include "tessera/io/files.hpp"
+#include "tessera/io/vtu.hpp"
+
+#include "pipeline/jobs/mesh_worker.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kMark = "tessera failed job";
+constexpr std::size_t kMostKept = 16;          // Jobs of one rank.
+constexpr std::uintmax_t kMostLog = 1U << 20;  // Bytes of the job's own words; the end counts.
+constexpr jobs::JobLimits kSkinLimits{.cpu_s = 120.0, .stall_s = 30.0, .memory_gib = 8.0};
+
+std::string_view text_of(const Bytes& bytes)
+{
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// "fill: subdomain 2" becomes fill_subdomain_2, and fill_subdomain_2.2 for the second such job.
+fs::path make_job_folder(const fs::path& failure, const std::string& name)
+{
+  std::string word;
+  for (const char c : name) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (is_plain) word += c;
+    if (!is_plain && !word.empty() && word.back() != '_') word += '_';
+  }
+  for (int number = 1;; ++number) {
+    fs::path folder = failure / (number == 1 ? word : word + "." + std::to_string(number));
+    if (fs::create_directory(folder)) return folder;
+  }
+}
+
+std::string tail_of_log(const RunContext& context)
+{
+  std::ifstream in(context.jobs_log, std::ios::binary | std::ios::ate);
+  if (!in) return {};
+  const auto size = static_cast<std::uintmax_t>(in.tellg());
+  const std::uintmax_t first =
+      std::max(std::min(context.job_log_begin, size), size > kMostLog ? size - kMostLog : 0);
+  in.seekg(static_cast<std::streamoff>(first));
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Many jobs have the same loads: each is written once, under its hash.
+std::vector<std::string> write_loads(const fs::path& failure, const RunContext& context)
+{
+  std::vector<std::string> names;
+  io::make_own_folder(failure / "inputs");
+  for (const auto& [kind, message] : context.loads) {
+    names.push_back(kind + "_" + to_hex(hash_bytes(message)) + ".bin");
+    const fs::path file = failure / "inputs" / names.back();
+    if (!fs::exists(fs::symlink_status(file))) io::write_text_atomically(file, text_of(message));
+  }
+  return names;
+}
+
+// Runs `write` and makes a warning of what it cannot do.
+template <class Write>
+void try_to_keep(const RunContext& context, const Write& write)
+{
+  try {
+    write();
+  } catch (const Error& error) {
+    context.log.warn("failure: {}", error.what());
+  } catch (const fs::filesystem_error& error) {
+    context.log.warn("failure: {}", error.what());
+  }
+}
+
+Bytes read_file(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    throw InputError(file.string() + ": cannot be read; replay takes a folder in DIR/failure");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const auto* const first = reinterpret_cast<const std::byte*>(text.data());
+  return {first, first + text.size()};
+}
+
+void write_coarse(const fs::path& file, const mesh::CoarseMesh& coarse,
+                  const mesh::Decomposition& decomposition)
+{
+  if (fs::exists(fs::symlink_status(file))) return;
+  mesh::MeshArrays arrays;
+  arrays.point_xyz = coarse.vertex_xyz;
+  arrays.cell_points = coarse.tet_vertices;
+  arrays.cell_ints["attribute"] = coarse.tet_material;
+  arrays.cell_ints["subdomain"] = decomposition.tet_subdomain;
+  io::write_vtu(arrays, file, io::Compression::none);
+}
+
+void write_skin(const fs::path& file, const Bytes& skin)
+{
+  ByteReader in(skin);
+  mesh::MeshArrays arrays{.vertices_per_cell = 3};
+  arrays.point_xyz = in.get_vector<double>();
+  arrays.cell_points = in.get_vector<LocalIndex>();
+  io::write_vtu(arrays, file, io::Compression::none);
+}
+
+void write_region(const fs::path& file, const improve::RegionMesh& region)
+{
+  mesh::MeshArrays arrays;
+  arrays.point_xyz = region.vertex_xyz;
+  arrays.cell_points = region.tet_vertices;
+  for (const LocalIndex owner : region.tet_owner) {
+    arrays.cell_ints["subdomain"].push_back(region.subdomains[at(owner)]);
+  }
+  io::write_vtu(arrays, file, io::Compression::none);
+}
+
+}  // namespace
+
+fs::path keep_failed_job(const JobRequest& job, const Bytes& request,
+                         const jobs::JobOutcome& outcome, RunContext& context)
+{
+  fs::path kept;
+  if (context.num_failed_jobs_kept == kMostKept) return kept;
+  try_to_keep(context, [&] {
+    const fs::path failure = context.folder / "failure";
+    io::make_own_folder(failure);
+    const std::vector<std::string> loads = write_loads(failure, context);
+    const fs::path folder = make_job_folder(failure, job.name);
+    ByteWriter out;
+    out.put(std::string(kMark));
+    out.put(std::string(version()));
+    out.put(job.name);
+    out.put(loads);
+    out.put(request);
+    io::write_text_atomically(folder / "job.bin", text_of(std::move(out).take()));
+    io::write_text_atomically(folder / "log.txt",
+                              job.name + ": " + outcome.message + "\n\n" + tail_of_log(context));
+    ++context.num_failed_jobs_kept;
+    kept = folder;
+  });
+  return kept;
+}
+
+void keep_if_failed(const JobRequest& job, const jobs::JobOutcome& outcome, RunContext& context)
+{
+  using jobs::JobStatus;
+  if (outcome.status == JobStatus::ok || outcome.status == JobStatus::cancelled) return;
+  static_cast<void>(keep_failed_job(job, job.request, outcome, context));
+}
+
+void keep_meshes_of_failed_fill(const fs::path& kept, LocalIndex subdomain,
+                                const mesh::CoarseMesh& coarse,
+                                const mesh::Decomposition& decomposition,
+                                const jobs::JobRunner::WaitCallback& on_wait, RunContext& context)
+{
+  if (kept.empty()) return;
+  const jobs::JobOutcome skin = context.jobs.run(skin_request(subdomain), kSkinLimits, on_wait);
+  try_to_keep(context, [&] {
+    write_coarse(kept.parent_path() / "coarse.vtu", coarse, decomposition);
+    if (skin.status == jobs::JobStatus::ok) write_skin(kept / "skin.vtu", skin.result);
+  });
+}
+
+void keep_meshes_of_failed_region(const fs::path& kept,
+                                  const std::function<improve::RegionMesh()>& extract,
+                                  const mesh::CoarseMesh& coarse,
+                                  const mesh::Decomposition& decomposition, RunContext& context)
+{
+  if (kept.empty()) return;
+  try_to_keep(context, [&] {
+    write_coarse(kept.parent_path() / "coarse.vtu", coarse, decomposition);
+    write_region(kept / "region.vtu", extract());
+  });
+}
+
+RecordedJob read_failed_job(const fs::path& folder)
+{
+  const fs::path file = folder / "job.bin";
+  const Bytes bytes = read_file(file);
+  RecordedJob job;
+  std::vector<std::string> loads;
+  try {
+    ByteReader in(bytes);
+    if (in.get_string() != kMark) throw InputError("is no job that a run has kept");
+    const std::string made_by = in.get_string();
+    if (made_by != version()) throw InputError("was kept by version " + made_by);
+    job.name = in.get_string();
+    loads = in.get_strings();
+    job.request = in.get_vector<std::byte>();
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+  for (const std::string& name : loads) {
+    if (fs::path(name).filename() != name) throw InputError(file.string() + ": is damaged");
+    job.loads.push_back(
+        read_file(fs::absolute(folder).lexically_normal() / ".." / "inputs" / name));
+  }
+  return job;
+}
+
+}  // namespace tessera::pipeline

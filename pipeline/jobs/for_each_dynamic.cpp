@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/jobs/for_each_dynamic.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <future>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+#include "tessera/comm/work_queue.hpp"
+
+#include "pipeline/runtime/exit_code.hpp"
+#include "pipeline/runtime/stop_signal.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+// The slowest fills measured make 7 k tets/s; 20 times the time that takes is a hang.
+constexpr double kSlowTetsPerSecond = 7000.0;
+constexpr double kTimeMargin = 20.0;
+constexpr double kLeastTime_s = 60.0;
+
+constexpr std::chrono::milliseconds kLookAtQueue{1};
+
+}  // namespace
+
+void for_each_dynamic(std::vector<LocalIndex> order, const ItemWork& work, StageScope& stage,
+                      RunContext& context, std::int64_t num_before)
+{
+  std::exception_ptr defect;
+  comm::WorkQueue queue(context.comm, std::move(order));
+  const auto on_wait = [&] {
+    if (stop_requested()) queue.request_stop();
+    context.progress.update(num_before + queue.num_handed_out());
+    return queue.progress();
+  };
+  while (const auto item = queue.next()) {
+    try {
+      if (!on_wait()) break;
+      work(*item, on_wait);
+    } catch (const Interrupted&) {
+      queue.request_stop();
+    } catch (...) {
+      defect = std::current_exception();
+      queue.request_stop();
+    }
+  }
+  stage.work_is_done();
+  static_cast<void>(queue.finish());
+  throw_if_stopped(context.comm);
+  all_or_none(context.comm, [&] {
+    if (defect) std::rethrow_exception(defect);
+  });
+}
+
+ItemWork in_thread(std::function<void(LocalIndex item)> work)
+{
+  return [work = std::move(work)](LocalIndex item, const auto& on_wait) {
+    std::future<void> done = std::async(std::launch::async, work, item);
+    // What is begun is ended: a stop counts from the next item on.
+    while (done.wait_for(kLookAtQueue) != std::future_status::ready) static_cast<void>(on_wait());
+    done.get();
+  };
+}
+
+std::vector<LocalIndex> in_order(std::size_t num_items)
+{
+  std::vector<LocalIndex> order(num_items);
+  std::iota(order.begin(), order.end(), 0);
+  return order;
+}
+
+std::vector<LocalIndex> heaviest_first(const std::vector<double>& weight)
+{
+  std::vector<LocalIndex> order = in_order(weight.size());
+  std::ranges::stable_sort(
+      order, [&](LocalIndex a, LocalIndex b) { return weight[at(a)] > weight[at(b)]; });
+  const char* asked = std::getenv("TESSERA_TEST_FILL_ORDER");
+  if (asked != nullptr && std::string_view(asked) == "reverse") std::ranges::reverse(order);
+  return order;
+}
+
+jobs::JobLimits job_limits(const fill::FillOptions& options, double num_tets)
+{
+  jobs::JobLimits limits;
+  limits.memory_gib = options.memory_gib;
+  limits.cpu_s = std::max(kLeastTime_s, kTimeMargin * num_tets / kSlowTetsPerSecond);
+  if (options.timeout_s > 0.0) {
+    limits.cpu_s = options.timeout_s;
+    limits.stall_s = std::min(limits.stall_s, options.timeout_s);
+  }
+  return limits;
+}
+
+bool depends_on_machine(const jobs::JobOutcome& outcome)
+{
+  return outcome.status == jobs::JobStatus::out_of_time
+         || outcome.status == jobs::JobStatus::stalled
+         || outcome.status == jobs::JobStatus::out_of_memory || was_killed_from_outside(outcome);
+}
+
+void throw_unless_of_the_job(const jobs::JobOutcome& outcome)
+{
+  throw_if_cancelled(outcome);
+  if (outcome.error == jobs::ErrorKind::output) throw OutputError(outcome.message);
+  if (outcome.error == jobs::ErrorKind::config) throw ConfigError(outcome.message);
+  if (outcome.loads_are_lost) throw MeshError(outcome.message + way_on(outcome));
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/base/hash.hpp"
+#include "tessera/coarse/options.hpp"
+#include "tessera/fill/kernel.hpp"
+#include "tessera/improve/options.hpp"
+#include "tessera/io/options.hpp"
+#include "tessera/jobs/job_runner.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/decomposition.hpp"
+#include "tessera/mesh/piece.hpp"
+#include "tessera/mesh/projection_limiter.hpp"
+#include "tessera/model/model.hpp"
+#include "tessera/number/id_layout.hpp"
+
+/// Everything that runs in job processes because it calls NETGEN or OpenCASCADE, and the messages
+/// that start it. A job's result is the bytes that the stage reads back.
+namespace tessera::pipeline {
+
+/// @brief Makes the worker of the program's job processes.
+[[nodiscard]] std::unique_ptr<jobs::Worker> make_mesh_worker();
+
+/// @brief load: the model. `scale`: output length units per file length unit.
+[[nodiscard]] Bytes load_model_message(const model::ModelSource& source, double scale);
+
+/// @brief load: coarse mesh and decomposition, the number of levels, the largest size of the coarse
+/// mesh that a fill may aim at (output length unit), and the output folder.
+[[nodiscard]] Bytes load_mesh_message(const mesh::CoarseMesh& coarse,
+                                      const mesh::Decomposition& decomposition, int levels,
+                                      double largest_size, const std::filesystem::path& output);
+
+/// @brief load: the finished plan.
+[[nodiscard]] Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter);
+
+/// @brief load: what piece files need besides the pieces, if that is known before any is filled:
+/// fill jobs then write the files themselves. `counts` of all subdomains. Needs the mesh.
+[[nodiscard]] Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
+                                         const std::string& length_unit,
+                                         const io::OutputOptions& options);
+
+/// @brief load: that seams are to be improved, and how. Needs the mesh.
+[[nodiscard]] Bytes load_improvement_message(const improve::ImproveOptions& options);
+
+/// @brief run: reads a CAD file; result: bytes of a ModelSource. Needs no load.
+[[nodiscard]] Bytes import_request(const std::filesystem::path& file,
+                                   const model::ImportOptions& options);
+
+/// @brief run: result: the diagonal of the model's box, output length unit, a double. Needs the
+/// model.
+[[nodiscard]] Bytes box_request();
+
+/// @brief Reads the result of a box_request(). @throws InputError if it is no length.
+[[nodiscard]] double box_diagonal_from_bytes(std::span<const std::byte> result);
+
+/// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh and a VertexDistance.
+/// Needs the model.
+[[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options);
+
+/// @brief One subdomain that a plan job tests.
+struct UntangleTest {
+  LocalIndex subdomain = kNoIndex;
+  fill::KernelKind kernel = fill::KernelKind::netgen;  ///< That the subdomain is for.
+  int levels = 0;                                      ///< On which children must be positive.
+};
+
+/// @brief run: tests subdomains for folds under the given limits; result: bytes of a
+/// ProjectionLimiter with the new, smaller factors. Needs model and mesh.
+[[nodiscard]] Bytes untangle_request(const std::vector<UntangleTest>& tests,
+                                     const mesh::ProjectionLimiter& limiter);
+
+/// @brief An angle that every piece beats, also one that has a tet without any.
+inline constexpr double kAnyAngle = -1.0;
+
+/// @brief What a fill job makes: the pieces of the subdomains first…last-1.
+struct FillTask {
+  LocalIndex batch = 0;  ///< Number of the record, and of the file if numbers are loaded.
+  LocalIndex first = 0;
+  LocalIndex last = 0;
+  Hash128 plan{};                        ///< plan_fingerprint() of them.
+  fill::FillTry settings{};              ///< The same for all.
+  double angle_to_beat_deg = kAnyAngle;  ///< A piece whose smallest angle does not is an error.
+  LocalIndex tries = 1;                  ///< Which try this is, from 1.
+  bool was_limited = false;              ///< A try before it ended for time or memory.
+  bool keep = true;                      ///< false: measure only and store nothing, for a replay.
+  std::vector<std::string> failures{};   ///< What the tries before said, for the report.
+};
+
+/// @brief run: refines, fills and checks subdomains and stores their record; result: bytes of their
+/// FillResults. If one is folded there is no record. Needs model, mesh and plan.
+[[nodiscard]] Bytes fill_request(const FillTask& task);
+
+/// @brief run: improves one region of pieces of a generation and stores its record; see
+/// improve_job.hpp. Needs model, mesh and improvement; the result is empty.
+[[nodiscard]] Bytes improve_request(LocalIndex region, int generation);
+
+/// @brief run: the same on pieces that come with the request, those of pieces_around(); nothing is
+/// read or stored. Result: bytes of a subdomain::RegionRecord.
+[[nodiscard]] Bytes improve_pieces_request(LocalIndex region,
+                                           const std::vector<mesh::Piece>& pieces);
+
+/// @brief run: the skin of a subdomain; result: its vertex_xyz and triangle_vertices. Needs model,
+/// mesh and plan.
+[[nodiscard]] Bytes skin_request(LocalIndex subdomain);
+
+}  // namespace tessera::pipeline

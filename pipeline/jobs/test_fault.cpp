@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/jobs/test_fault.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <sys/mman.h>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+constexpr std::array<std::string_view, 9> kStages{"import", "load", "box",     "coarse", "remesh",
+                                                  "plan",   "fill", "improve", "skin"};
+constexpr std::array<std::string_view, 9> kKinds{"throw",  "segv", "exit",    "loop", "sleep",
+                                                 "memory", "drop", "garbage", "flat"};
+
+struct Fault {
+  std::string stage{};
+  std::string kind{};
+  std::string item{};  ///< Empty: all of them.
+};
+
+Fault parse_fault(const std::string& word)
+{
+  const std::size_t equals = std::min(word.find('='), word.size());
+  const std::size_t at_sign = std::min(word.find('@', equals), word.size());
+  Fault fault;
+  fault.stage = word.substr(0, equals);
+  if (equals < at_sign) fault.kind = word.substr(equals + 1, at_sign - equals - 1);
+  if (at_sign < word.size()) fault.item = word.substr(at_sign + 1);
+  const bool is_known = std::ranges::find(kStages, fault.stage) != kStages.end()
+                        && std::ranges::find(kKinds, fault.kind) != kKinds.end();
+  if (is_known) return fault;
+  throw ConfigError("TESSERA_TEST_FAULT must be STAGE=KIND or STAGE=KIND@ITEM, and is " + word);
+}
+
+std::vector<Fault> asked_faults()
+{
+  std::vector<Fault> faults;
+  const char* const asked = std::getenv("TESSERA_TEST_FAULT");
+  if (asked == nullptr) return faults;
+  std::istringstream words(asked);
+  for (std::string word; words >> word;) faults.push_back(parse_fault(word));
+  return faults;
+}
+
+// The kind of fault that is asked for at this place; empty if there is none.
+std::string kind_at(std::string_view stage, LocalIndex item)
+{
+  for (const Fault& fault : asked_faults()) {
+    const bool is_here = fault.item.empty() || fault.item == std::to_string(item);
+    if (fault.stage == stage && is_here) return fault.kind;
+  }
+  return {};
+}
+
+[[noreturn]] void loop_for_ever()
+{
+  volatile unsigned counter = 0;
+  for (;;) counter = counter + 1;
+}
+
+[[noreturn]] void take_all_memory()
+{
+  constexpr std::size_t kBlock = std::size_t{64} << 20;
+  std::vector<std::vector<char>> blocks;
+  for (;;) blocks.emplace_back(kBlock, 'x');
+}
+
+// A page without access is touched, so the signal is the kernel's own.
+void touch_no_mans_land()
+{
+  constexpr std::size_t kPage = 4096;
+  void* const page = mmap(nullptr, kPage, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  *static_cast<volatile char*>(page) = 1;
+}
+
+void fail(std::string_view kind)
+{
+  if (kind == "throw") throw NetgenError("thrown for a test");
+  if (kind == "segv") touch_no_mans_land();
+  if (kind == "exit") std::exit(1);
+  if (kind == "loop") loop_for_ever();
+  if (kind == "sleep") std::this_thread::sleep_for(std::chrono::hours(24));
+  if (kind == "memory") take_all_memory();
+}
+
+void drop_a_tet(std::vector<LocalIndex>& tet_vertices)
+{
+  tet_vertices.resize(tet_vertices.size() - 4);
+}
+
+// Cuts the first tet into four by a point near one of its faces: sound, but one of them is flat.
+void add_flat_tet(fill::FillOutput& tets)
+{
+  std::array<LocalIndex, 4> tet;
+  std::copy_n(tets.tet_vertices.begin(), 4, tet.begin());
+  const auto point = static_cast<LocalIndex>(tets.vertex_xyz.size() / 3);
+  constexpr std::array<double, 4> kWeights{0.33, 0.33, 0.33, 0.01};
+  for (std::size_t d = 0; d < 3; ++d) {
+    double place = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      place += kWeights[c] * tets.vertex_xyz[3 * at(tet[c]) + d];
+    }
+    tets.vertex_xyz.push_back(place);
+  }
+  tets.tet_vertices[3] = point;
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::array<LocalIndex, 4> part = tet;
+    part[c] = point;
+    tets.tet_vertices.insert(tets.tet_vertices.end(), part.begin(), part.end());
+  }
+}
+
+class FaultyMesher final : public coarse::CoarseMesher {
+ public:
+  explicit FaultyMesher(std::unique_ptr<coarse::CoarseMesher> sound) : sound_(std::move(sound)) {}
+
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override
+  {
+    const std::string kind = kind_at(stage_of(options), kNoIndex);
+    fail(kind);
+    mesh::CoarseMesh mesh = sound_->generate(options);
+    if (kind == "drop") {
+      drop_a_tet(mesh.tet_vertices);
+      mesh.tet_material.pop_back();
+    }
+    return mesh;
+  }
+
+ private:
+  std::unique_ptr<coarse::CoarseMesher> sound_;
+};
+
+class FaultyKernel final : public fill::Kernel {
+ public:
+  FaultyKernel(std::unique_ptr<fill::Kernel> sound, std::string kind)
+      : sound_(std::move(sound)), kind_(std::move(kind))
+  {
+  }
+
+  [[nodiscard]] fill::FillOutput fill(const fill::FillInput& input,
+                                      const fill::FillTry& settings) const override
+  {
+    fail(kind_);
+    fill::FillOutput output = sound_->fill(input, settings);
+    if (kind_ == "drop") drop_a_tet(output.tet_vertices);
+    if (kind_ == "flat" && settings.start == fill::FillStart::children) add_flat_tet(output);
+    return output;
+  }
+
+ private:
+  std::unique_ptr<fill::Kernel> sound_;
+  std::string kind_;
+};
+
+class FaultyOptimizer final : public improve::Optimizer {
+ public:
+  FaultyOptimizer(std::unique_ptr<improve::Optimizer> sound, std::string kind)
+      : sound_(std::move(sound)), kind_(std::move(kind))
+  {
+  }
+
+  [[nodiscard]] improve::TetMesh optimize(const improve::OptimizeInput& input,
+                                          const improve::OptimizeSettings& settings) const override
+  {
+    fail(kind_);
+    improve::TetMesh output = sound_->optimize(input, settings);
+    if (kind_ == "drop") drop_a_tet(output.tet_vertices);
+    return output;
+  }
+
+ private:
+  std::unique_ptr<improve::Optimizer> sound_;
+  std::string kind_;
+};
+
+}  // namespace
+
+void obey_test_environment(jobs::JobRunner& jobs)
+{
+  static_cast<void>(asked_faults());
+  const char* const asked = std::getenv("TESSERA_TEST_LIMITS");
+  if (asked == nullptr) return;
+  jobs::JobLimits limits;
+  std::istringstream words(asked);
+  if (!(words >> limits.cpu_s >> limits.stall_s >> limits.memory_gib)) {
+    throw ConfigError("TESSERA_TEST_LIMITS must be three numbers");
+  }
+  jobs.cap_limits(limits);
+}
+
+void fail_if_asked(std::string_view stage, LocalIndex item) { fail(kind_at(stage, item)); }
+
+Bytes garbled_if_asked(std::string_view stage, Bytes result, LocalIndex item)
+{
+  if (kind_at(stage, item) != "garbage") return result;
+  for (std::byte& byte : result) byte = ~byte;
+  return result;
+}
+
+std::string_view stage_of(const coarse::CoarseOptions& options)
+{
+  return options.surface_mesher == coarse::SurfaceMesher::remesh ? "remesh" : "coarse";
+}
+
+std::unique_ptr<coarse::CoarseMesher> make_faulty_if_asked(
+    std::unique_ptr<coarse::CoarseMesher> mesher)
+{
+  if (asked_faults().empty()) return mesher;
+  return std::make_unique<FaultyMesher>(std::move(mesher));
+}
+
+std::unique_ptr<fill::Kernel> make_faulty_if_asked(std::unique_ptr<fill::Kernel> kernel,
+                                                   LocalIndex subdomain)
+{
+  const std::string kind = kind_at("fill", subdomain);
+  if (kind.empty()) return kernel;
+  return std::make_unique<FaultyKernel>(std::move(kernel), kind);
+}
+
+std::unique_ptr<improve::Optimizer> make_faulty_if_asked(
+    std::unique_ptr<improve::Optimizer> optimizer, LocalIndex region)
+{
+  const std::string kind = kind_at("improve", region);
+  if (kind.empty()) return optimizer;
+  return std::make_unique<FaultyOptimizer>(std::move(optimizer), kind);
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/store/run_state.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/version.hpp"
+
+#include "pipeline/store/fill_record.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+constexpr const char* kWayOut = "; --overwrite starts anew";
+
+std::string first_difference(const std::string& there, const std::string& here)
+{
+  std::istringstream old_lines(there);
+  std::istringstream new_lines(here);
+  std::string old_line;
+  std::string new_line;
+  do {
+    old_line.clear();
+    new_line.clear();
+    std::getline(old_lines, old_line);
+    std::getline(new_lines, new_line);
+  } while (old_line == new_line && (old_lines || new_lines));
+  return "`" + old_line + "` there, `" + new_line + "` now";
+}
+
+struct Identity {
+  std::string version{};
+  std::string model{};  ///< Hash of what was read of the model file.
+  std::vector<LocalIndex> only_subdomains{};
+};
+
+// A folder in its place could not be read, and a link leads elsewhere.
+bool is_own_file(const std::filesystem::path& file)
+{
+  std::error_code error;
+  return std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error));
+}
+
+// What `read` finds in the report that a run has left there; nothing in one that is damaged.
+template <class Read>
+auto read_report(const std::filesystem::path& output, const Read& read)
+    -> std::optional<decltype(read(nlohmann::json()))>
+{
+  if (!is_own_file(output / "report.json")) return std::nullopt;
+  std::ifstream file(output / "report.json");
+  try {
+    return read(nlohmann::json::parse(file));
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
+// Noted in the report when the run has ended, in a record before.
+std::optional<Identity> identity_of(const std::filesystem::path& output,
+                                    const std::optional<Bytes>& record)
+{
+  if (record) {
+    ByteReader in(*record);
+    Identity identity;
+    identity.version = in.get_string();
+    identity.model = in.get_string();
+    identity.only_subdomains = in.get_vector<LocalIndex>();
+    return identity;
+  }
+  return read_report(output, [](const nlohmann::json& report) {
+    return Identity{report.at("version"), report.at("model").at("digest"),
+                    report.at("only_subdomains").get<std::vector<LocalIndex>>()};
+  });
+}
+
+}  // namespace
+
+config::Case without_limits(config::Case run_case)
+{
+  const config::Case plain;
+  run_case.output.directory = plain.output.directory;
+  run_case.coarse.timeout_s = plain.coarse.timeout_s;
+  run_case.fill.timeout_s = plain.fill.timeout_s;
+  run_case.fill.memory_gib = plain.fill.memory_gib;
+  return run_case;
+}
+
+Bytes to_bytes(const Plan& plan)
+{
+  ByteWriter out;
+  out.put(plan.kernels);
+  out.put(mesh::to_bytes(plan.limiter));
+  out.put(plan.limited);
+  out.put(to_bytes(plan.failures));
+  return std::move(out).take();
+}
+
+Plan plan_from_bytes(std::span<const std::byte> bytes)
+{
+  ByteReader in(bytes);
+  Plan plan;
+  plan.kernels = in.get_vector<fill::KernelKind>();
+  plan.limiter = mesh::projection_limiter_from_bytes(in.get_vector<std::byte>());
+  plan.limited = in.get_vector<LocalIndex>();
+  plan.failures = subdomain::failed_tries_from_bytes(in.get_vector<std::byte>());
+  return plan;
+}
+
+io::RecordStore RunState::store() const { return io::RecordStore(store_folder(output_)); }
+
+void RunState::require_begun() const
+{
+  std::error_code error;
+  if (std::filesystem::is_directory(output_, error) && !std::filesystem::is_empty(output_, error)) {
+    return;
+  }
+  throw InputError("cannot resume " + output_.string() + ": no run has begun there");
+}
+
+void RunState::require_same_case(const config::Case& given) const
+{
+  const auto file = output_ / "case.toml";
+  if (!is_own_file(file)) return;
+  const std::string there = config::to_toml(without_limits(config::load_case(file)));
+  const std::string here = config::to_toml(without_limits(given));
+  if (there != here) {
+    throw InputError("cannot resume " + output_.string() + ": the case has changed, "
+                     + first_difference(there, here) + kWayOut);
+  }
+}
+
+void RunState::require_same_run(const Hash128& model) const
+{
+  const Identity now{std::string(version()), to_hex(model), only_subdomains_};
+  const auto noted = identity_of(output_, store().find("run"));
+  if (!noted) {
+    clear();
+    ByteWriter out;
+    out.put(now.version);
+    out.put(now.model);
+    out.put(now.only_subdomains);
+    return store().put("run", std::move(out).take());
+  }
+  const std::string what = "cannot resume " + output_.string() + ": ";
+  if (noted->version != now.version) {
+    throw InputError(what + "it was begun by version " + noted->version + ", this is " + now.version
+                     + kWayOut);
+  }
+  if (noted->model != now.model) throw InputError(what + "the model file has changed" + kWayOut);
+  if (noted->only_subdomains != now.only_subdomains) {
+    throw InputError(what + "it was begun with other --only-subdomains" + kWayOut);
+  }
+}
+
+void RunState::keep_coarse(std::span<const std::byte> coarse) const
+{
+  store().put("coarse", coarse);
+}
+
+std::optional<Bytes> RunState::find_coarse() const { return store().find("coarse"); }
+
+void RunState::keep_plan(const Plan& plan) const { store().put("plan", to_bytes(plan)); }
+
+std::optional<Plan> RunState::find_plan() const
+{
+  const auto bytes = store().find("plan");
+  return bytes ? std::optional(plan_from_bytes(*bytes)) : std::nullopt;
+}
+
+std::optional<ExitCode> RunState::finished() const
+{
+  if (!is_own_file(output_ / "mesh.pvtu")) return std::nullopt;
+  const auto code = read_report(output_, [](const nlohmann::json& report) {
+    return static_cast<ExitCode>(report.at("exit_code").get<int>());
+  });
+  const bool has_mesh = code == ExitCode::ok || code == ExitCode::degraded;
+  return has_mesh ? code : std::nullopt;
+}
+
+void RunState::clear() const { store().remove_all(); }
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/base/hash.hpp"
+#include "tessera/config/case.hpp"
+#include "tessera/fill/options.hpp"
+#include "tessera/io/record_store.hpp"
+#include "tessera/mesh/projection_limiter.hpp"
+#include "tessera/subdomain/piece_summary.hpp"
+
+#include "pipeline/runtime/exit_code.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief The case without what may differ between a run and its continuation, or its prediction:
+/// the output directory and limits of time and memory bear on no bit of the mesh.
+[[nodiscard]] config::Case without_limits(config::Case run_case);
+
+/// @brief The plan as it stands: what a round of fills works from.
+struct Plan {
+  std::vector<fill::KernelKind> kernels{};  ///< Shape (num_subdomains); subdivide where folded.
+  mesh::ProjectionLimiter limiter{};
+  std::vector<LocalIndex> limited{};  ///< Folded ones that lost a try for time or memory.
+  std::vector<subdomain::FailedTries>
+      failures{};  ///< Of folded ones, before subdivision took their place.
+};
+
+[[nodiscard]] Bytes to_bytes(const Plan& plan);
+/// @throws InputError if the bytes are truncated.
+[[nodiscard]] Plan plan_from_bytes(std::span<const std::byte> bytes);
+
+/// @brief What a run leaves in its folder besides pieces, so that `--resume` need not make it
+/// again, and by which it is known whether it is the same run. Used by rank 0; all functions are
+/// local. A record that is damaged counts as absent.
+class RunState {
+ public:
+  /// @param[in] only_subdomains That the run is to fill; empty: all.
+  RunState(std::filesystem::path output, std::vector<LocalIndex> only_subdomains)
+      : output_(std::move(output)), only_subdomains_(std::move(only_subdomains))
+  {
+  }
+
+  /// @brief Refuses a folder that is not there or empty. @throws InputError
+  void require_begun() const;
+
+  /// @brief Refuses unless the folder's case is `given`, or it has none because the run was killed
+  /// before it did anything; the output directory and limits of time and memory may differ.
+  /// @throws InputError naming the first line that differs.
+  void require_same_case(const config::Case& given) const;
+
+  /// @brief Notes version, model and subdomains of this run, or refuses if others are noted. If
+  /// nothing sound is noted, nothing else there can be trusted, and it is removed.
+  /// @throws InputError naming what has changed.
+  void require_same_run(const Hash128& model) const;
+
+  void keep_coarse(std::span<const std::byte> coarse) const;
+  [[nodiscard]] std::optional<Bytes> find_coarse() const;
+
+  void keep_plan(const Plan& plan) const;
+  [[nodiscard]] std::optional<Plan> find_plan() const;
+
+  /// @brief The exit code of a run that has ended with a mesh.
+  [[nodiscard]] std::optional<ExitCode> finished() const;
+
+  /// @brief Removes everything that only an unfinished run needs. @throws OutputError
+  void clear() const;
+
+ private:
+  [[nodiscard]] io::RecordStore store() const;
+
+  std::filesystem::path output_;
+  std::vector<LocalIndex> only_subdomains_;
+};
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/coarse/snap_vertices.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace tessera::coarse {
+namespace {
+
+// A tet may lose this part of its volume to a move.
+constexpr double kLeastVolume = 0.5;
+
+class Snapper {
+ public:
+  Snapper(mesh::CoarseMesh& mesh, const model::Model& model)
+      : mesh_(mesh),
+        model_(model),
+        corners_(at(mesh.num_vertices())),
+        ends_(corners_.size()),
+        tets_(corners_.size())
+  {
+    for (std::size_t c = 0; c < mesh_.face_vertices.size(); ++c) {
+      corners_[at(mesh_.face_vertices[c])].push_back(c);
+    }
+    for (std::size_t e = 0; e < mesh_.segment_vertices.size(); ++e) {
+      ends_[at(mesh_.segment_vertices[e])].push_back(e);
+    }
+    for (std::size_t c = 0; c < mesh_.tet_vertices.size(); ++c) {
+      tets_[at(mesh_.tet_vertices[c])].push_back(static_cast<LocalIndex>(c / 4));
+    }
+  }
+
+  VertexDistance run()
+  {
+    VertexDistance distance;
+    for (LocalIndex v = 0; v < mesh_.num_vertices(); ++v) {
+      Off off = measure(v);
+      if (off.is_beyond_tolerance && move(v)) off = measure(v);
+      distance.largest = std::max(distance.largest, off.distance);
+      distance.num_off += off.is_beyond_tolerance ? 1 : 0;
+    }
+    return distance;
+  }
+
+ private:
+  struct Off {
+    double distance = 0.0;
+    bool is_beyond_tolerance = false;
+  };
+
+  [[nodiscard]] LocalIndex surface_of(std::size_t corner) const
+  {
+    return mesh_.patch_surface[at(mesh_.face_patch[corner / 3])];
+  }
+
+  [[nodiscard]] model::SurfacePoint on_surface(std::size_t corner, const Vec3& point) const
+  {
+    model::SurfaceParameters guess{};
+    if (!mesh_.face_uv.empty()) guess = {mesh_.face_uv[2 * corner], mesh_.face_uv[2 * corner + 1]};
+    return model_.project_to_surface(surface_of(corner), point, guess);
+  }
+
+  [[nodiscard]] model::CurvePoint on_curve(std::size_t end, const Vec3& point) const
+  {
+    const double guess = mesh_.segment_t.empty() ? 0.0 : mesh_.segment_t[end];
+    return model_.project_to_curve(mesh_.segment_curve[end / 2], point, guess);
+  }
+
+  [[nodiscard]] Off measure(LocalIndex v) const
+  {
+    const Vec3 point = mesh_.position(v);
+    Off off;
+    const auto add = [&off](double distance, double tolerance) {
+      off.distance = std::max(off.distance, distance);
+      off.is_beyond_tolerance = off.is_beyond_tolerance || distance > tolerance;
+    };
+    for (const std::size_t end : ends_[at(v)]) {
+      add(norm(on_curve(end, point).xyz - point),
+          model_.curve_tolerance(mesh_.segment_curve[end / 2]));
+    }
+    // On a curve that is all: surfaces meet there as well as the model's makers made them meet.
+    if (!ends_[at(v)].empty()) return off;
+    for (const std::size_t corner : corners_[at(v)]) {
+      add(norm(on_surface(corner, point).xyz - point),
+          model_.surface_tolerance(surface_of(corner)));
+    }
+    return off;
+  }
+
+  // Whether the vertex went to the one place that its only curve or surface has for it.
+  bool move(LocalIndex v)
+  {
+    const std::vector<std::size_t>& ends = ends_[at(v)];
+    const std::vector<std::size_t>& corners = corners_[at(v)];
+    const Vec3 before = mesh_.position(v);
+    if (ends.empty()) {
+      const LocalIndex surface = surface_of(corners.front());
+      const auto is_there = [&](std::size_t corner) { return surface_of(corner) == surface; };
+      if (!std::ranges::all_of(corners, is_there)) return false;
+      if (!place(v, on_surface(corners.front(), before).xyz)) return false;
+    } else {
+      const LocalIndex curve = mesh_.segment_curve[ends.front() / 2];
+      const auto is_there = [&](std::size_t end) { return mesh_.segment_curve[end / 2] == curve; };
+      if (ends.size() < 2 || !std::ranges::all_of(ends, is_there)) return false;
+      if (!place(v, on_curve(ends.front(), before).xyz)) return false;
+    }
+    take_parameters(v);
+    return true;
+  }
+
+  bool place(LocalIndex v, const Vec3& target)
+  {
+    const Vec3 before = mesh_.position(v);
+    std::vector<double> volumes;
+    for (const LocalIndex t : tets_[at(v)]) volumes.push_back(volume(t));
+    set_position(v, target);
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+      if (volume(tets_[at(v)][i]) >= kLeastVolume * volumes[i]) continue;
+      set_position(v, before);
+      return false;
+    }
+    return true;
+  }
+
+  void take_parameters(LocalIndex v)
+  {
+    const Vec3 point = mesh_.position(v);
+    if (!mesh_.face_uv.empty()) {
+      for (const std::size_t corner : corners_[at(v)]) {
+        const model::SurfaceParameters uv = on_surface(corner, point).uv;
+        std::copy(uv.begin(), uv.end(), &mesh_.face_uv[2 * corner]);
+      }
+    }
+    if (mesh_.segment_t.empty()) return;
+    for (const std::size_t end : ends_[at(v)]) mesh_.segment_t[end] = on_curve(end, point).t;
+  }
+
+  [[nodiscard]] double volume(LocalIndex t) const
+  {
+    const auto v = mesh_.tet(t);
+    return tet_volume(mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2]),
+                      mesh_.position(v[3]));
+  }
+
+  void set_position(LocalIndex v, const Vec3& point)
+  {
+    std::ranges::copy(point, mesh_.vertex_xyz.begin() + static_cast<std::ptrdiff_t>(3 * at(v)));
+  }
+
+  mesh::CoarseMesh& mesh_;
+  const model::Model& model_;
+  std::vector<std::vector<std::size_t>> corners_;  // Of faces, at each vertex.
+  std::vector<std::vector<std::size_t>> ends_;     // Of segments, at each vertex.
+  std::vector<std::vector<LocalIndex>> tets_;      // Around each vertex.
+};
+
+}  // namespace
+
+VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model)
+{
+  return Snapper(mesh, model).run();
+}
+
+}  // namespace tessera::coarse

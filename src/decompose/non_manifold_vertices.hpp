@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "decompose/tet_partition.hpp"
+
+namespace tessera::decompose {
+
+/// @brief Where skins are not manifold: counts them, and answers what a move would change.
+///
+/// The skin triangles of a part at a vertex, seen as edges of a graph whose nodes are the other
+/// end points, are one simple cycle where the skin is manifold. The *non_manifold* at a vertex are
+/// (edges
+/// - nodes) + (components - 1): an edge with four triangles adds 1 at either end, a second fan
+/// adds 1.
+class NonManifoldVertices {
+ public:
+  NonManifoldVertices(const TetGraph& graph, const TetPartition& partition);
+
+  /// @brief NonManifoldVertices of all parts at this vertex, as of its last refresh.
+  [[nodiscard]] int total(LocalIndex v) const { return total_[static_cast<std::size_t>(v)]; }
+  /// @brief NonManifoldVertices of one part at this vertex, computed now.
+  [[nodiscard]] int count(LocalIndex v, LocalIndex part);
+  /// @brief NonManifoldVertices of two parts at the four vertices of a tet, computed now.
+  [[nodiscard]] int count_at_tet(LocalIndex t, LocalIndex part, LocalIndex other_part);
+  /// @brief Recomputes total() at the vertices of these tets.
+  void refresh(std::span<const LocalIndex> tets);
+  /// @brief Parts of the tets at a vertex, ascending; valid until the next call.
+  [[nodiscard]] std::span<const LocalIndex> parts_at(LocalIndex v);
+  /// @brief A vertex that is joined to `v` by an edge with four skin triangles; kNoIndex if none.
+  [[nodiscard]] LocalIndex pinched_edge(LocalIndex v, LocalIndex part);
+
+ private:
+  struct LinkEdge {
+    LocalIndex a;
+    LocalIndex b;
+  };
+  void collect_link(LocalIndex v, LocalIndex part);
+  [[nodiscard]] LocalIndex node_of(LocalIndex vertex);
+  [[nodiscard]] LocalIndex root_of(LocalIndex node);
+  void compute_total(LocalIndex v);
+
+  const TetGraph* graph_;
+  const TetPartition* partition_;
+  std::vector<int> total_;              // shape (num_vertices)
+  std::vector<LinkEdge> link_{};        // skin triangles at the vertex in question
+  std::vector<LocalIndex> node_;        // shape (num_vertices); kNoIndex between calls
+  std::vector<LocalIndex> vertices_{};  // of the nodes
+  std::vector<LocalIndex> parent_{};    // union-find over the nodes
+  std::vector<LocalIndex> parts_{};
+  std::vector<LocalIndex> stale_{};
+};
+
+}  // namespace tessera::decompose

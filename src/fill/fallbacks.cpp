@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/fill/fallbacks.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::fill {
+
+std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind kernel)
+{
+  const FillTry subdivision{.kernel = KernelKind::subdivide};
+  if (kernel == KernelKind::subdivide) return {subdivision};
+  const FillTry asked{.grading = options.grading, .optimize_steps = options.optimize_steps};
+  FillTry anew = asked;
+  anew.start = FillStart::skin;
+  FillTry reordered = anew;
+  reordered.point_order_seed = 1;
+  const FillTry relaxed{.start = FillStart::skin,
+                        .grading = std::min(1.0, 2.0 * options.grading),
+                        .optimize_steps = std::min(1, options.optimize_steps),
+                        .point_order_seed = 2};
+  return {asked, anew, reordered, relaxed, subdivision};
+}
+
+std::vector<KernelKind> kernels_of(const FillOptions& options,
+                                   const std::vector<std::string>& material_names,
+                                   const std::vector<LocalIndex>& materials)
+{
+  std::vector<KernelKind> by_material(material_names.size(), options.kernel);
+  for (const FillRegion& region : options.regions) {
+    const auto found = std::find(material_names.begin(), material_names.end(), region.material);
+    if (found == material_names.end()) {
+      std::string text =
+          "fill.region: the model has no material \"" + region.material + "\"; it has";
+      for (const std::string& name : material_names) text += " \"" + name + "\"";
+      throw ConfigError(text);
+    }
+    by_material[static_cast<std::size_t>(found - material_names.begin())] = region.kernel;
+  }
+  std::vector<KernelKind> kernels;
+  kernels.reserve(materials.size());
+  for (const LocalIndex material : materials) {
+    kernels.push_back(by_material[at(material - 1)]);
+  }
+  return kernels;
+}
+
+std::string_view name_of(KernelKind kernel)
+{
+  return kernel == KernelKind::netgen ? "netgen" : "subdivide";
+}
+
+}  // namespace tessera::fill

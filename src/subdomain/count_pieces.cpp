@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/subdomain/count_pieces.hpp"
+
+#include "tessera/fill/subdivide.hpp"
+#include "tessera/mesh/complex.hpp"
+#include "tessera/mesh/lattice.hpp"
+
+namespace tessera::subdomain {
+
+std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& cut, int levels)
+{
+  const LocalIndex n = mesh::lattice::intervals(levels);
+  std::vector<number::PieceCounts> counts;
+  for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
+    const auto inside =
+        fill::count_subdivision(mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets.of(s)), n);
+    GlobalIndex num_owned = 0;
+    for (const LocalIndex t : cut.skeleton.triangles_of(s)) {
+      const bool is_on_geometry = cut.skeleton.triangle_patch[at(t)] != kNoIndex;
+      num_owned += is_on_geometry && cut.skeleton.triangle_owner(t) == s ? 1 : 0;
+    }
+    counts.push_back({inside.interior_vertices, inside.tets, num_owned * n * n});
+  }
+  return counts;
+}
+
+number::PieceCounts counts_of(const PieceSummary& piece)
+{
+  return {piece.num_interior_vertices, piece.num_tets, piece.num_boundary};
+}
+
+std::vector<number::PieceCounts> counts_of(const std::vector<PieceSummary>& pieces)
+{
+  std::vector<number::PieceCounts> counts;
+  for (const PieceSummary& piece : pieces) counts.push_back(counts_of(piece));
+  return counts;
+}
+
+}  // namespace tessera::subdomain

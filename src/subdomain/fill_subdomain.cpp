@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/subdomain/fill_subdomain.hpp"
+
+#include <utility>
+
+#include "tessera/fill/check.hpp"
+#include "tessera/fill/size_samples.hpp"
+#include "tessera/fill/subdivide.hpp"
+#include "tessera/refine/skin.hpp"
+#include "tessera/subdomain/measure_piece.hpp"
+
+namespace tessera::subdomain {
+namespace {
+
+// Triangles on the geometry that this subdomain owns: all on the outside, and those between two
+// materials if it is the lower side.
+void add_boundary(const mesh::Skin& skin, const mesh::Skeleton& skeleton,
+                  const std::vector<LocalIndex>& triangle_tet, mesh::Piece& piece)
+{
+  for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
+    const LocalIndex parent = skin.triangle_parent[at(t)];
+    const LocalIndex patch = skeleton.triangle_patch[at(parent)];
+    if (patch == kNoIndex || skeleton.triangle_owner(parent) != piece.subdomain) continue;
+    for (std::size_t c = 0; c < 3; ++c) {
+      piece.boundary_vertices.push_back(skin.triangle_vertices[3 * at(t) + c]);
+    }
+    piece.boundary_patch.push_back(patch);
+    piece.boundary_tet.push_back(triangle_tet[at(t)]);
+  }
+}
+
+double outside_area(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
+{
+  const std::span<const double> xyz(skin.vertex_xyz);
+  double area = 0.0;
+  for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
+    if (skeleton.is_inside(skin.triangle_parent[at(t)])) continue;
+    const LocalIndex* v = &skin.triangle_vertices[3 * at(t)];
+    const Vec3 a = point_at(xyz, v[0]);
+    area += 0.5 * norm(cross(point_at(xyz, v[1]) - a, point_at(xyz, v[2]) - a));
+  }
+  return area;
+}
+
+// From the closed surface and the number of edges.
+GlobalIndex euler_characteristic(const mesh::Piece& piece, GlobalIndex num_edges,
+                                 GlobalIndex num_skin_triangles)
+{
+  const GlobalIndex num_tets = piece.num_tets();
+  const GlobalIndex num_triangles = (4 * num_tets + num_skin_triangles) / 2;
+  return piece.num_vertices() - num_edges + num_triangles - num_tets;
+}
+
+std::vector<char> vertices_on_seams(const mesh::Skin& skin, const std::vector<char>& seam_hosts)
+{
+  std::vector<char> on_seam;
+  on_seam.reserve(skin.vertex_host.size());
+  for (const mesh::HostEntity host : skin.vertex_host) on_seam.push_back(seam_hosts[at(host)]);
+  return on_seam;
+}
+
+// A skin, and the tets that some kernel put into it, unchecked.
+struct RawFill {
+  mesh::Skin skin{};
+  mesh::ModelDistance distance{};
+  fill::FillOutput tets{};
+};
+
+fill::FillInput input_of(const mesh::Skin& skin)
+{
+  return {.vertex_xyz = skin.vertex_xyz, .triangle_vertices = skin.triangle_vertices};
+}
+
+RawFill subdivide(const PartitionedMesh& cut, const refine::RefineContext& refine,
+                  LocalIndex subdomain)
+{
+  const mesh::TetComplex complex =
+      mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets.of(subdomain));
+  const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, refine);
+  return {refine::extract_skin(complex.faces, lattice, cut.skeleton, subdomain), lattice.distance,
+          fill::subdivide(complex, lattice)};
+}
+
+// The children of the coarse tets, made better by NETGEN.
+RawFill improve_children(const PartitionedMesh& cut, const refine::RefineContext& refine,
+                         LocalIndex subdomain, const fill::FillTry& settings,
+                         const fill::Kernel& netgen)
+{
+  RawFill raw = subdivide(cut, refine, subdomain);
+  if (!fill::all_positive(raw.tets)) {
+    throw MeshError("children of coarse tets are folded: nothing to begin with");
+  }
+  fill::FillInput input = input_of(raw.skin);
+  input.start = std::move(raw.tets);
+  raw.tets = netgen.fill(input, settings);
+  return raw;
+}
+
+// What NETGEN makes of the skin alone.
+RawFill mesh_skin(const PartitionedMesh& cut, const refine::RefineContext& refine,
+                  LocalIndex subdomain, const fill::FillTry& settings, const fill::Kernel& netgen)
+{
+  const mesh::Complex complex = mesh::skin_complex(cut.skeleton, subdomain);
+  const mesh::RefinedLattice lattice = refine::refine_lattice(complex, refine);
+  RawFill raw{
+      refine::extract_skin(complex, lattice, cut.skeleton, subdomain), lattice.distance, {}};
+  fill::FillInput input = input_of(raw.skin);
+  fill::add_size_samples(cut.coarse, cut.tets.of(subdomain), cut.vertex_size, refine.levels, input);
+  raw.tets = netgen.fill(input, settings);
+  return raw;
+}
+
+RawFill raw_fill(const PartitionedMesh& cut, const refine::RefineContext& refine,
+                 LocalIndex subdomain, const fill::FillTry& settings, const fill::Kernel& netgen)
+{
+  if (settings.kernel == fill::KernelKind::subdivide) return subdivide(cut, refine, subdomain);
+  const auto start = settings.start == fill::FillStart::children ? improve_children : mesh_skin;
+  return start(cut, refine, subdomain, settings, netgen);
+}
+
+FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain, RawFill& raw)
+{
+  const fill::FillFacts facts = fill::check_fill(input_of(raw.skin), raw.tets);
+  FilledPiece filled;
+  mesh::Piece& piece = filled.piece;
+  piece.subdomain = subdomain;
+  piece.material = cut.decomposition.subdomain_material[at(subdomain)];
+  piece.vertex_xyz = std::move(raw.tets.vertex_xyz);
+  piece.skin_host = raw.skin.vertex_host;
+  piece.skin_index = raw.skin.vertex_index;
+  piece.tet_vertices = std::move(raw.tets.tet_vertices);
+  add_boundary(raw.skin, cut.skeleton, facts.triangle_tet, piece);
+
+  PieceSummary& summary = filled.result.summary;
+  summary.material = piece.material;
+  summary.num_tets = piece.num_tets();
+  summary.num_interior_vertices = piece.num_interior_vertices();
+  summary.num_boundary = piece.num_boundary();
+  summary.num_held_back = raw.distance.num_held_back;
+  summary.model_distance = raw.distance.largest;
+  summary.held_back_distance = raw.distance.largest_held_back;
+  summary.volume = facts.volume;
+  summary.boundary_area = outside_area(raw.skin, cut.skeleton);
+  summary.outside = verify::outside_hash(raw.skin, cut.skeleton);
+  summary.euler_characteristic = euler_characteristic(
+      piece, measure_edges(piece, filled.result.histograms), raw.skin.num_triangles());
+  measure_tets(piece, vertices_on_seams(raw.skin, cut.seam_hosts), filled.result);
+  filled.result.seams = verify::seam_hashes(raw.skin, cut.skeleton);
+  return filled;
+}
+
+}  // namespace
+
+FilledPiece fill_subdomain(const PartitionedMesh& cut, const refine::RefineContext& refine,
+                           LocalIndex subdomain, const fill::FillTry& settings,
+                           const fill::Kernel& netgen)
+{
+  RawFill raw = raw_fill(cut, refine, subdomain, settings, netgen);
+  FilledPiece filled;
+  try {
+    filled = check_and_measure(cut, subdomain, raw);
+  } catch (const MeshError&) {
+    // Of what was subdivided nothing else can be wrong than that it is folded.
+    const bool is_subdivision = settings.kernel == fill::KernelKind::subdivide;
+    if (!is_subdivision || fill::all_positive(raw.tets)) throw;
+    filled.result.summary.is_folded = true;
+  }
+  filled.result.summary.subdomain = subdomain;
+  filled.result.summary.kernel = settings.kernel;
+  return filled;
+}
+
+}  // namespace tessera::subdomain

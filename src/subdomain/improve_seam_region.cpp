@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/subdomain/improve_seam_region.hpp"
+
+#include <utility>
+
+#include "tessera/quality/statistics.hpp"
+
+namespace tessera::subdomain {
+namespace {
+
+improve::ShapeSummary measure_shapes(const improve::TetMesh& mesh)
+{
+  const std::span<const double> xyz(mesh.vertex_xyz);
+  quality::Histogram unused(0.0, 1.0, 1);
+  quality::ShapeSum sum(unused);
+  for (std::size_t t = 0; 4 * t < mesh.tet_vertices.size(); ++t) {
+    const LocalIndex* v = &mesh.tet_vertices[4 * t];
+    sum.add(quality::shape_of(
+        {point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]), point_at(xyz, v[3])}));
+  }
+  const quality::TetStatistics shapes = sum.statistics();
+  return {shapes.min_dihedral_deg, shapes.min_mean_ratio, shapes.mean_mean_ratio()};
+}
+
+}  // namespace
+
+Bytes to_bytes(const RegionRecord& record)
+{
+  ByteWriter out;
+  out.put(record.is_improved);
+  out.put(record.has_failed);
+  out.put(record.was_limited);
+  out.put(record.reason);
+  out.put(improve::to_bytes(record.update));
+  return std::move(out).take();
+}
+
+RegionRecord region_record_from_bytes(std::span<const std::byte> bytes)
+{
+  ByteReader in(bytes);
+  RegionRecord record;
+  record.is_improved = in.get<bool>();
+  record.has_failed = in.get<bool>();
+  record.was_limited = in.get<bool>();
+  record.reason = in.get_string();
+  record.update = improve::region_update_from_bytes(in.get_vector<std::byte>());
+  return record;
+}
+
+improve::RegionMesh region_mesh(const std::vector<mesh::Piece>& pieces,
+                                const improve::SeamRegions& regions, LocalIndex region)
+{
+  const int phase = regions.phase_of(region);
+  std::vector<std::vector<LocalIndex>> labels;
+  for (const mesh::Piece& piece : pieces) {
+    labels.push_back(improve::label_tets(piece, regions, phase, improve::kDefaultLayers));
+  }
+  std::vector<improve::LabelledPiece> labelled;
+  for (std::size_t i = 0; i < pieces.size(); ++i) labelled.push_back({pieces[i], labels[i]});
+  return improve::extract_region(labelled, regions, region);
+}
+
+RegionRecord improve_tets(const improve::RegionMesh& mesh, int rounds,
+                          const improve::Optimizer& optimizer)
+{
+  RegionRecord record;
+  if (mesh.num_tets() == 0) {
+    record.reason = "other regions have all its tets";
+  } else {
+    improve::OptimizeSettings settings;
+    settings.rounds = rounds;
+    improve::RegionOutcome outcome =
+        improve::improve_region(mesh, optimizer, settings, measure_shapes);
+    record.is_improved = outcome.is_accepted;
+    record.reason = std::move(outcome.reason);
+    record.update = std::move(outcome.update);
+  }
+  return record;
+}
+
+}  // namespace tessera::subdomain

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/subdomain/piece_arrays.hpp"
+
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "tessera/base/version.hpp"
+#include "tessera/quality/tet_quality.hpp"
+
+namespace tessera::subdomain {
+namespace {
+
+// Lowest subdomain that holds the points of a host of the skeleton.
+LocalIndex owner_of_host(const mesh::Skeleton& skeleton, mesh::HostEntity host)
+{
+  const mesh::HostLayout hosts(skeleton);
+  if (host < hosts.first_edge) return skeleton.vertex_owner[at(host)];
+  if (host < hosts.first_triangle) return skeleton.edge_owner[at(host - hosts.first_edge)];
+  return skeleton.triangle_owner(host - hosts.first_triangle);
+}
+
+std::vector<std::string> names_or_none(const std::string& name)
+{
+  return name.empty() ? std::vector<std::string>{} : std::vector<std::string>{name};
+}
+
+mesh::MeshArrays with_names(const WriteContext& mesh)
+{
+  mesh::MeshArrays arrays;
+  arrays.field_texts["material_names"] = mesh.coarse.material_names;
+  arrays.field_texts["patch_names"] = mesh.coarse.patch_names;
+  arrays.field_texts["length_unit"] = names_or_none(mesh.length_unit);
+  arrays.field_texts["tessera_version"] = {std::string(version())};
+  return arrays;
+}
+
+void number_by_host(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshArrays& arrays)
+{
+  auto& owner = arrays.point_ints["owner"];
+  for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
+    arrays.point_ids.push_back(mesh.ids.vertex_id(piece.skin_host[at(v)], piece.skin_index[at(v)]));
+    owner.push_back(owner_of_host(mesh.skeleton, piece.skin_host[at(v)]));
+  }
+  for (LocalIndex i = 0; i < piece.num_interior_vertices(); ++i) {
+    arrays.point_ids.push_back(mesh.ids.interior_vertex_id(piece.subdomain, i));
+    owner.push_back(piece.subdomain);
+  }
+}
+
+void number_by_owner(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshArrays& arrays)
+{
+  auto& owner = arrays.point_ints["owner"];
+  for (const VertexPlace& place : mesh.places_of(piece)) {
+    arrays.point_ids.push_back(mesh.ids.interior_vertex_id(place.owner, place.index));
+    owner.push_back(place.owner);
+  }
+}
+
+void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshArrays& arrays)
+{
+  arrays.point_ints["owner"].reserve(at(piece.num_vertices()));
+  arrays.point_ids.reserve(at(piece.num_vertices()));
+  const bool has_points = piece.num_vertices() > 0;
+  if (mesh.places_of && has_points) return number_by_owner(piece, mesh, arrays);
+  number_by_host(piece, mesh, arrays);
+}
+
+// All but the positions and corners, which the piece itself gives away.
+mesh::MeshArrays tet_arrays(const mesh::Piece& piece, const WriteContext& mesh, bool with_quality)
+{
+  mesh::MeshArrays arrays = with_names(mesh);
+  add_points(piece, mesh, arrays);
+  arrays.cell_ids.resize(at(piece.num_tets()));
+  std::iota(arrays.cell_ids.begin(), arrays.cell_ids.end(), mesh.ids.first_tet(piece.subdomain));
+  arrays.cell_ints["attribute"].assign(at(piece.num_tets()), piece.material);
+  arrays.cell_ints["subdomain"].assign(at(piece.num_tets()), piece.subdomain);
+  if (with_quality) {
+    auto& mean_ratio = arrays.cell_doubles["mean_ratio"];
+    for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
+      mean_ratio.push_back(quality::mean_ratio(piece.corners(t)));
+    }
+  }
+  return arrays;
+}
+
+// The boundary has only the points it uses, in the order of the piece.
+mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArrays& tets,
+                                 const WriteContext& mesh)
+{
+  mesh::MeshArrays arrays = with_names(mesh);
+  arrays.vertices_per_cell = 3;
+  std::vector<LocalIndex> new_point(at(piece.num_vertices()), kNoIndex);
+  for (const LocalIndex v : piece.boundary_vertices) new_point[at(v)] = 0;
+  auto& owner = arrays.point_ints["owner"];
+  for (std::size_t v = 0; v < new_point.size(); ++v) {
+    if (new_point[v] == kNoIndex) continue;
+    new_point[v] = static_cast<LocalIndex>(arrays.point_ids.size());
+    arrays.point_xyz.insert(arrays.point_xyz.end(), &piece.vertex_xyz[3 * v],
+                            &piece.vertex_xyz[3 * v] + 3);
+    arrays.point_ids.push_back(tets.point_ids[v]);
+    owner.push_back(tets.point_ints.at("owner")[v]);
+  }
+  for (const LocalIndex v : piece.boundary_vertices) {
+    arrays.cell_points.push_back(new_point[at(v)]);
+  }
+  arrays.cell_ids.resize(at(piece.num_boundary()));
+  std::iota(arrays.cell_ids.begin(), arrays.cell_ids.end(),
+            mesh.ids.first_boundary_triangle(piece.subdomain));
+  arrays.cell_ints["patch"] = piece.boundary_patch;
+  arrays.cell_ints["subdomain"].assign(at(piece.num_boundary()), piece.subdomain);
+  auto& tet = arrays.cell_longs["tet"];
+  for (const LocalIndex t : piece.boundary_tet) tet.push_back(tets.cell_ids[at(t)]);
+  return arrays;
+}
+
+}  // namespace
+
+PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh, bool with_quality)
+{
+  PieceArrays arrays;
+  arrays.tets = tet_arrays(piece, mesh, with_quality);
+  arrays.boundary = boundary_arrays(piece, arrays.tets, mesh);
+  arrays.tets.point_xyz = std::move(piece.vertex_xyz);
+  arrays.tets.cell_points = std::move(piece.tet_vertices);
+  return arrays;
+}
+
+Hash128 digest_of(const mesh::MeshArrays& tets)
+{
+  Hash128 digest;
+  const auto& attribute = tets.cell_ints.at("attribute");
+  for (std::size_t t = 0; t < attribute.size(); ++t) {
+    std::array<GlobalIndex, 4> ids;
+    std::array<double, 12> xyz;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const auto point = static_cast<std::size_t>(tets.cell_points[4 * t + c]);
+      ids[c] = tets.point_ids[point];
+      for (std::size_t d = 0; d < 3; ++d) xyz[3 * c + d] = tets.point_xyz[3 * point + d];
+    }
+    digest += hash_tet(ids, xyz, attribute[t]);
+  }
+  return digest;
+}
+
+}  // namespace tessera::subdomain

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/subdomain/piece_file.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+
+#include "tessera/io/vtu.hpp"
+
+namespace tessera::subdomain {
+namespace {
+
+template <class T>
+void append(std::map<std::string, std::vector<T>>& to,
+            const std::map<std::string, std::vector<T>>& from)
+{
+  for (const auto& [name, values] : from) {
+    to[name].insert(to[name].end(), values.begin(), values.end());
+  }
+}
+
+// Appends the points that are not there yet; the first `num_shared` may be.
+template <class PointOfId>
+std::vector<LocalIndex> append_points(const mesh::MeshArrays& from, std::size_t num_shared,
+                                      PointOfId& known, mesh::MeshArrays& to)
+{
+  std::vector<LocalIndex> place(from.point_ids.size());
+  for (std::size_t p = 0; p < place.size(); ++p) {
+    const auto next = static_cast<LocalIndex>(to.num_points());
+    if (p < num_shared) {
+      const auto [found, is_new] = known.emplace(from.point_ids[p], next);
+      place[p] = found->second;
+      if (!is_new) continue;
+    } else {
+      place[p] = next;
+    }
+    to.point_xyz.insert(to.point_xyz.end(), &from.point_xyz[3 * p], &from.point_xyz[3 * p] + 3);
+    to.point_ids.push_back(from.point_ids[p]);
+    for (const auto& [name, values] : from.point_ints) to.point_ints[name].push_back(values[p]);
+  }
+  return place;
+}
+
+template <class PointOfId>
+void append(const mesh::MeshArrays& from, std::size_t num_shared, PointOfId& known,
+            mesh::MeshArrays& to)
+{
+  const std::vector<LocalIndex> place = append_points(from, num_shared, known, to);
+  to.cell_points.reserve(to.cell_points.size() + from.cell_points.size());
+  for (const LocalIndex point : from.cell_points) {
+    to.cell_points.push_back(place[at(point)]);
+  }
+  to.cell_ids.insert(to.cell_ids.end(), from.cell_ids.begin(), from.cell_ids.end());
+  append(to.cell_ints, from.cell_ints);
+  append(to.cell_longs, from.cell_longs);
+  append(to.cell_doubles, from.cell_doubles);
+}
+
+template <class PointOfId>
+void remember(const mesh::MeshArrays& first, std::size_t num_shared, PointOfId& known)
+{
+  for (std::size_t p = 0; p < num_shared; ++p) {
+    known.emplace(first.point_ids[p], static_cast<LocalIndex>(p));
+  }
+}
+
+}  // namespace
+
+std::vector<SubdomainRange> file_ranges(LocalIndex num_subdomains, LocalIndex files)
+{
+  const LocalIndex num_files = files == 0 ? num_subdomains : std::min(files, num_subdomains);
+  const auto first_of = [&](LocalIndex file) {
+    return static_cast<LocalIndex>(GlobalIndex{num_subdomains} * file / num_files);
+  };
+  std::vector<SubdomainRange> ranges;
+  for (LocalIndex f = 0; f < num_files; ++f) ranges.push_back({f, first_of(f), first_of(f + 1)});
+  return ranges;
+}
+
+std::vector<SubdomainRange> part_ranges(const std::vector<LocalIndex>& offsets)
+{
+  std::vector<SubdomainRange> ranges;
+  for (std::size_t part = 0; part + 1 < offsets.size(); ++part) {
+    ranges.push_back({static_cast<LocalIndex>(part), offsets[part], offsets[part + 1]});
+  }
+  return ranges;
+}
+
+std::vector<SubdomainRange> single_ranges(const std::vector<LocalIndex>& subdomains)
+{
+  std::vector<SubdomainRange> ranges;
+  for (const LocalIndex s : subdomains) ranges.push_back({s, s, s + 1});
+  return ranges;
+}
+
+std::filesystem::path piece_path(const std::string& folder, LocalIndex file)
+{
+  return std::filesystem::path(folder) / fmt::format("piece_{:06}.vtu", file);
+}
+
+PieceFile::PieceFile(const WriteContext& mesh, const io::OutputOptions& options)
+    : mesh_(mesh), options_(options)
+{
+}
+
+Hash128 PieceFile::add(mesh::Piece piece)
+{
+  const auto num_skin = at(piece.num_skin_vertices());
+  PieceArrays added = piece_arrays(std::move(piece), mesh_, options_.cell_quality);
+  const Hash128 digest = digest_of(added.tets);
+  const auto num_boundary = added.boundary.point_ids.size();
+  if (arrays_.tets.num_cells() == 0) {
+    arrays_ = std::move(added);
+    num_skin_of_first_ = num_skin;
+    return digest;
+  }
+  if (tet_points_.empty()) {  // Most files hold one piece: only now it is known that this does not.
+    remember(arrays_.tets, num_skin_of_first_, tet_points_);
+    remember(arrays_.boundary, arrays_.boundary.point_ids.size(), boundary_points_);
+  }
+  append(added.tets, num_skin, tet_points_, arrays_.tets);
+  append(added.boundary, num_boundary, boundary_points_, arrays_.boundary);
+  return digest;
+}
+
+void PieceFile::write(const std::filesystem::path& folder, LocalIndex file) const
+{
+  io::write_vtu(arrays_.tets, folder / piece_path("mesh", file), options_.compression);
+  if (arrays_.boundary.num_cells() == 0) return;
+  io::write_vtu(arrays_.boundary, folder / piece_path("boundary", file), options_.compression);
+}
+
+}  // namespace tessera::subdomain

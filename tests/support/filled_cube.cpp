@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/filled_cube.hpp"
+
+#include <utility>
+
+#include "tessera/mesh/lattice.hpp"
+#include "tessera/netgen/factory.hpp"
+
+#include "support/decompositions.hpp"
+#include "support/flat_model.hpp"
+#include "support/meshes.hpp"
+
+namespace tessera::testing {
+
+subdomain::FilledPiece fill_of(const Body& body, int levels, LocalIndex subdomain,
+                               const fill::FillTry& settings)
+{
+  const FlatModel model;
+  const mesh::ProjectionLimiter limiter;
+  const refine::RefineContext refine{body.coarse, body.skeleton, model, limiter, levels, true};
+  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition);
+  return subdomain::fill_subdomain(cut, refine, subdomain, settings, *netgen::make_fill_kernel());
+}
+
+void FilledCube::SetUpTestSuite()
+{
+  const mesh::CoarseMesh cube = two_material_cube(2);
+  Body body(cube, slabs(cube, 2));
+  std::vector<subdomain::FilledPiece> pieces;
+  std::vector<number::PieceCounts> counts;
+  for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
+    pieces.push_back(fill_of(body, kLevels, s));
+    const subdomain::PieceSummary& summary = pieces.back().result.summary;
+    counts.push_back({summary.num_interior_vertices, summary.num_tets, summary.num_boundary});
+  }
+  const number::IdLayout ids(mesh::HostLayout(body.skeleton), mesh::lattice::intervals(kLevels),
+                             counts);
+  shared_ = new Shared{std::move(body), std::move(pieces), ids, "mm"};
+}
+
+void FilledCube::TearDownTestSuite()
+{
+  delete shared_;
+  shared_ = nullptr;
+}
+
+}  // namespace tessera::testing

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/fill/fallbacks.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::fill {
+namespace {
+
+TEST(FallbackSequence, BeginsAsAsked)
+{
+  const auto fallbacks =
+      fallback_sequence({.optimize_steps = 5, .grading = 0.2}, KernelKind::netgen);
+  ASSERT_FALSE(fallbacks.empty());
+  EXPECT_EQ(fallbacks[0].grading, 0.2);
+  EXPECT_EQ(fallbacks[0].optimize_steps, 5);
+  EXPECT_EQ(fallbacks[0].point_order_seed, 0U);
+}
+
+TEST(FallbackSequence, ThenChangesOnlyTheStartThenOnlyTheOrderOfPoints)
+{
+  const auto fallbacks = fallback_sequence({}, KernelKind::netgen);
+  ASSERT_GE(fallbacks.size(), 3U);
+  EXPECT_EQ(fallbacks[0].start, FillStart::children);
+  for (const std::size_t fallback : {1U, 2U}) {
+    EXPECT_EQ(fallbacks[fallback].start, FillStart::skin);
+    EXPECT_EQ(fallbacks[fallback].grading, fallbacks[0].grading);
+    EXPECT_EQ(fallbacks[fallback].optimize_steps, fallbacks[0].optimize_steps);
+  }
+  EXPECT_EQ(fallbacks[1].point_order_seed, fallbacks[0].point_order_seed);
+  EXPECT_NE(fallbacks[2].point_order_seed, fallbacks[0].point_order_seed);
+}
+
+TEST(FallbackSequence, TriesNothingTwiceAndStaysInRange)
+{
+  for (const double grading : {0.01, 0.3, 0.7, 1.0}) {
+    for (const int steps : {0, 1, 3}) {
+      std::set<std::pair<FillStart, unsigned>> begun;
+      for (const FillTry& fallback :
+           fallback_sequence({.optimize_steps = steps, .grading = grading}, KernelKind::netgen)) {
+        if (fallback.kernel != KernelKind::netgen) continue;
+        EXPECT_TRUE(begun.insert({fallback.start, fallback.point_order_seed}).second);
+        EXPECT_GE(fallback.grading, grading);
+        EXPECT_LE(fallback.grading, 1.0);
+        EXPECT_GE(fallback.optimize_steps, 0);
+        EXPECT_LE(fallback.optimize_steps, steps);
+      }
+    }
+  }
+}
+
+TEST(FallbackSequence, EndsWithSubdivisionAndNothingElseDoesBeforeIt)
+{
+  const auto fallbacks = fallback_sequence({}, KernelKind::netgen);
+  EXPECT_EQ(fallbacks.back().kernel, KernelKind::subdivide);
+  EXPECT_EQ(std::ranges::count(fallbacks, KernelKind::subdivide, &FillTry::kernel), 1);
+  const auto only = fallback_sequence({}, KernelKind::subdivide);
+  ASSERT_EQ(only.size(), 1U);
+  EXPECT_EQ(only.front().kernel, KernelKind::subdivide);
+}
+
+TEST(KernelsOf, FollowTheRegionOfTheMaterial)
+{
+  FillOptions options;
+  options.regions = {{"core", KernelKind::subdivide}};
+  const auto kernels = kernels_of(options, {"shell", "core"}, {1, 2, 2, 1});
+  EXPECT_EQ(kernels, (std::vector{KernelKind::netgen, KernelKind::subdivide, KernelKind::subdivide,
+                                  KernelKind::netgen}));
+}
+
+TEST(KernelsOf, AnUnknownMaterialIsRefusedWithTheKnownOnes)
+{
+  FillOptions options;
+  options.regions = {{"cor", KernelKind::subdivide}};
+  try {
+    static_cast<void>(kernels_of(options, {"shell", "core"}, {1}));
+    FAIL() << "a region of no material was taken";
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"cor\""), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("\"core\""), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace tessera::fill
