@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "tessera/base/error.hpp"
@@ -44,16 +46,24 @@ void refit_coarse_mesh(RunResult& run, double target, RunContext& context)
   run.coarse.was_limited = run.coarse.was_limited || first.was_limited;
 }
 
+// What the store keeps of a run before it fills.
+struct CutCoarseMesh {
+  CoarseResult coarse{};
+  decompose::DecomposeResult decomposition{};
+
+  static auto fields(auto& self) { return std::tie(self.coarse, self.decomposition); }
+};
+
 // Coarse mesh and subdomains: from the folder of a run that was stopped, or made and kept there.
 void cut_coarse_mesh(RunResult& run, double target, const RunOptions& options, RunContext& context)
 {
-  const auto kept = find_on_root(context.comm, [&]() -> std::optional<Bytes> {
-    return options.state == nullptr ? std::nullopt : options.state->find_coarse();
+  auto kept = on_root(context.comm, [&]() -> std::optional<CutCoarseMesh> {
+    const auto record = options.state == nullptr ? std::nullopt : options.state->find_coarse();
+    return record ? std::optional(from_bytes<CutCoarseMesh>(*record)) : std::nullopt;
   });
   if (kept) {
-    ByteReader in(*kept);
-    run.coarse = coarse_result_from_bytes(in.get_vector<std::byte>());
-    run.decomposition = decompose_result_from_bytes(in.get_vector<std::byte>());
+    run.coarse = std::move(kept->coarse);
+    run.decomposition = std::move(kept->decomposition);
     return;
   }
   run.coarse = run_coarse_stage(run.resolved, context);
@@ -61,10 +71,7 @@ void cut_coarse_mesh(RunResult& run, double target, const RunOptions& options, R
   run.decomposition = run_decompose_stage(run.resolved, run.coarse.mesh, context);
   all_or_none(context.comm, [&] {
     if (options.state == nullptr || context.comm.rank() != 0) return;
-    ByteWriter out;
-    out.put(to_bytes(run.coarse));
-    out.put(to_bytes(run.decomposition));
-    options.state->keep_coarse(std::move(out).take());
+    options.state->keep_coarse(to_bytes(CutCoarseMesh{run.coarse, run.decomposition}));
   });
 }
 
@@ -72,11 +79,10 @@ void cut_coarse_mesh(RunResult& run, double target, const RunOptions& options, R
 Plan first_plan(const RunResult& run, const subdomain::PartitionedMesh& cut,
                 const RunOptions& options, RunContext& context)
 {
-  const auto kept = find_on_root(context.comm, [&]() -> std::optional<Bytes> {
-    const auto plan = options.state == nullptr ? std::nullopt : options.state->find_plan();
-    return plan ? std::optional(to_bytes(*plan)) : std::nullopt;
+  auto kept = on_root(context.comm, [&] {
+    return options.state == nullptr ? std::nullopt : options.state->find_plan();
   });
-  if (kept) return plan_from_bytes(*kept);
+  if (kept) return std::move(*kept);
   Plan plan{.kernels = run.kernels};
   plan.limiter = run_untangle_stage({.cut = cut,
                                      .kernels = plan.kernels,
@@ -92,7 +98,8 @@ Plan first_plan(const RunResult& run, const subdomain::PartitionedMesh& cut,
 void plan_for_folded(const FilledPieces& filled, const subdomain::PartitionedMesh& cut, int levels,
                      Plan& plan, RunContext& context)
 {
-  const Bytes before = to_bytes(plan);
+  const std::vector<fill::KernelKind> kernels_before = plan.kernels;
+  const mesh::ProjectionLimiter limiter_before = plan.limiter;
   UntangleWork work{
       .cut = cut, .kernels = plan.kernels, .levels = levels, .depth = UntangleDepth::all_levels};
   for (const FoldedSubdomain& one : filled.folded) {
@@ -106,7 +113,7 @@ void plan_for_folded(const FilledPieces& filled, const subdomain::PartitionedMes
   });
   plan.limiter = run_untangle_stage(work, std::move(plan.limiter), context);
   all_or_none(context.comm, [&] {
-    if (to_bytes(plan) != before) return;
+    if (plan.kernels != kernels_before || plan.limiter != limiter_before) return;
     throw MeshError("subdomain " + std::to_string(filled.folded.front().subdomain)
                     + " has coarse tets that are too flat to be subdivided; try another "
                       "coarse.max_size");

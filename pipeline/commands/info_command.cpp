@@ -48,7 +48,7 @@ std::string describe_model(const std::filesystem::path& file, jobs::JobRunner& j
 {
   jobs::JobOutcome read =
       jobs.run(import_request(file, model::ImportOptions{}), kInfoLimits, wait_for_stop_signal());
-  const auto source = read_result(read, model::model_source_from_bytes);
+  const auto source = read_result(read, from_bytes<model::ModelSource>);
   throw_unless_read(read, file);
   throw_unless_read(
       jobs.load(load_model_message(*source, 1.0), kInfoLimits, wait_for_stop_signal()), file);
@@ -77,12 +77,8 @@ std::string describe(const std::filesystem::path& file, jobs::JobRunner& jobs)
 ExitCode run_info_command(const InfoCommand& command, const comm::Communicator& comm,
                           jobs::JobRunner& jobs)
 {
-  const Bytes text = on_root(comm, [&] {
-    ByteWriter out;
-    out.put(describe(command.file, jobs));
-    return std::move(out).take();
-  });
-  if (comm.rank() == 0) std::fputs(ByteReader(text).get_string().c_str(), stdout);
+  const std::string text = on_root(comm, [&] { return describe(command.file, jobs); });
+  if (comm.rank() == 0) std::fputs(text.c_str(), stdout);
   return ExitCode::ok;
 }
 

@@ -32,27 +32,15 @@ namespace {
 // part.
 constexpr double kMostBalance = 1.1;
 
-Bytes bytes_of(const std::string& text)
-{
-  Bytes bytes(text.size());
-  if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
-  return bytes;
-}
-
-std::string_view text_of(const Bytes& bytes)
-{
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 // Rank 0 reads the file; the others get the resolved text, so no rank can see another case.
 config::Case read_case(const MeshCommand& command, const comm::Communicator& comm)
 {
-  const Bytes text = on_root(comm, [&] {
+  const std::string text = on_root(comm, [&] {
     config::Case given = config::load_case(command.case_file, command.overrides);
     if (command.output) given.output.directory = *command.output;
-    return bytes_of(config::to_toml(given));
+    return config::to_toml(given);
   });
-  return config::parse_case(text_of(text), command.case_file);
+  return config::parse_case(text, command.case_file);
 }
 
 // Before anything is done: what the case alone decides. All ranks have the same one.
@@ -151,13 +139,7 @@ class MeshRun {
   {
     if (!command_.resume) return std::nullopt;
     const RunState state = this->state();
-    const auto code = find_on_root(comm_, [&]() -> std::optional<Bytes> {
-      const auto ended = state.finished();
-      if (!ended) return std::nullopt;
-      ByteWriter out;
-      out.put(*ended);
-      return std::move(out).take();
-    });
+    const std::optional<ExitCode> code = on_root(comm_, [&] { return state.finished(); });
     if (!code) return std::nullopt;
     const model::ModelSource model = run_model_stage(given_, context);
     all_or_none(comm_, [&] {
@@ -166,7 +148,7 @@ class MeshRun {
       state.clear();
     });
     context.log.info("nothing to do: the run in {} has ended", given_.output.directory.string());
-    return ByteReader(*code).get<ExitCode>();
+    return code;
   }
 
   ExitCode mesh(RunContext& context)

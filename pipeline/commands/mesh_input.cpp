@@ -38,16 +38,12 @@ std::vector<mesh::MeshArrays> read_own(const std::vector<std::filesystem::path>&
 std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& index,
                                              const comm::Communicator& comm)
 {
-  const Bytes bytes = on_root(comm, [&] {
-    std::vector<std::string> names;
-    for (const auto& piece : io::piece_files(index)) names.push_back(piece.string());
-    ByteWriter out;
-    out.put(names);
-    return std::move(out).take();
+  const std::vector<std::string> names = on_root(comm, [&] {
+    std::vector<std::string> own;
+    for (const auto& piece : io::piece_files(index)) own.push_back(piece.string());
+    return own;
   });
-  std::vector<std::filesystem::path> pieces;
-  for (const std::string& name : ByteReader(bytes).get_strings()) pieces.emplace_back(name);
-  return pieces;
+  return {names.begin(), names.end()};
 }
 
 std::optional<std::vector<std::filesystem::path>> boundary_pieces_of(

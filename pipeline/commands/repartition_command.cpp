@@ -45,22 +45,13 @@ Hash128 sum_over_ranks(const Hash128& hash, const comm::Communicator& comm)
 // The texts of the first piece that has any, on all ranks; those that every mesh of ours has.
 Texts field_texts_of(const migrate::MeshPieces& pieces, const comm::Communicator& comm)
 {
-  ByteWriter out;
-  for (const mesh::MeshArrays& piece : pieces.tets) {
-    if (piece.field_texts.empty()) continue;
-    for (const auto& [name, texts] : piece.field_texts) {
-      out.put(name);
-      out.put(texts);
-    }
-    break;
-  }
+  const auto has_texts = [](const mesh::MeshArrays& piece) { return !piece.field_texts.empty(); };
+  const auto piece = std::ranges::find_if(pieces.tets, has_texts);
+  const Texts own = piece == pieces.tets.end() ? Texts{} : piece->field_texts;
   Texts all{{"material_names", {}}, {"patch_names", {}}, {"length_unit", {}}};
-  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
-    if (bytes.empty()) continue;
-    for (ByteReader in(bytes); !in.at_end();) {
-      std::string name = in.get_string();
-      all[std::move(name)] = in.get_strings();
-    }
+  for (const Texts& texts : comm.all_gather_values(own)) {
+    if (texts.empty()) continue;
+    for (const auto& [name, lines] : texts) all[name] = lines;
     break;
   }
   all["tessera_version"] = {std::string(version())};

@@ -31,13 +31,7 @@ ExitCode replay(const RecordedJob& job)
 
 ExitCode run_replay_command(const ReplayCommand& command, const comm::Communicator& comm)
 {
-  const Bytes code = on_root(comm, [&] {
-    const RecordedJob job = read_failed_job(command.folder);
-    ByteWriter out;
-    out.put(replay(job));
-    return std::move(out).take();
-  });
-  return ByteReader(code).get<ExitCode>();
+  return on_root(comm, [&] { return replay(read_failed_job(command.folder)); });
 }
 
 }  // namespace tessera::pipeline

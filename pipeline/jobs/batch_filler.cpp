@@ -32,7 +32,7 @@ void BatchFiller::add(subdomain::FilledPiece filled)
     if (file_) {
       summary.digest = file_->add(std::move(filled.piece));
     } else {
-      record_.piece = mesh::to_bytes(filled.piece);
+      record_.piece = to_bytes(filled.piece);
       summary.content = hash_bytes(record_.piece);
     }
   }

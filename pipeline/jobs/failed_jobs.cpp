@@ -7,6 +7,8 @@
 #include <iterator>
 #include <optional>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
@@ -25,6 +27,23 @@ constexpr std::string_view kMark = "tessera failed job";
 constexpr std::size_t kMostKept = 16;          // Jobs of one rank.
 constexpr std::uintmax_t kMostLog = 1U << 20;  // Bytes of the job's own words; the end counts.
 constexpr jobs::JobLimits kSkinLimits{.cpu_s = 120.0, .stall_s = 30.0, .memory_gib = 8.0};
+
+struct KeptJob {
+  std::string name{};
+  std::vector<std::string> loads{};  // Files of DIR/failure/inputs.
+  Bytes request{};
+
+  static auto fields(auto& self) { return std::tie(self.name, self.loads, self.request); }
+};
+
+// job.bin: by its first words readers know whether they can read the job.
+struct JobFile {
+  std::string mark{};
+  std::string version{};  // record_version() of who wrote it.
+  KeptJob job{};
+
+  static auto fields(auto& self) { return std::tie(self.mark, self.version, self.job); }
+};
 
 std::string_view text_of(const Bytes& bytes)
 {
@@ -93,6 +112,15 @@ Bytes read_file(const fs::path& file)
   return {first, first + text.size()};
 }
 
+KeptJob parse_job(const Bytes& bytes)
+{
+  ByteReader in(bytes);
+  if (in.get<std::string>() != kMark) throw InputError("is no job that a run has kept");
+  const auto version = in.get<std::string>();
+  if (version != record_version()) throw InputError("was kept by version " + version);
+  return from_bytes<JobFile>(bytes).job;
+}
+
 void write_coarse(const fs::path& file, const mesh::CoarseMesh& coarse,
                   const mesh::Decomposition& decomposition)
 {
@@ -105,12 +133,11 @@ void write_coarse(const fs::path& file, const mesh::CoarseMesh& coarse,
   io::write_vtu(arrays, file, io::Compression::none);
 }
 
-void write_skin(const fs::path& file, const Bytes& skin)
+void write_skin(const fs::path& file, SkinMesh skin)
 {
-  ByteReader in(skin);
   mesh::MeshArrays arrays{.vertices_per_cell = 3};
-  arrays.point_xyz = in.get_vector<double>();
-  arrays.cell_points = in.get_vector<LocalIndex>();
+  arrays.point_xyz = std::move(skin.vertex_xyz);
+  arrays.cell_points = std::move(skin.triangle_vertices);
   io::write_vtu(arrays, file, io::Compression::none);
 }
 
@@ -137,13 +164,8 @@ fs::path keep_failed_job(const JobRequest& job, const Bytes& request,
     io::make_own_folder(failure);
     const std::vector<std::string> loads = write_loads(failure, context);
     const fs::path folder = make_job_folder(failure, job.name);
-    ByteWriter out;
-    out.put(std::string(kMark));
-    out.put(std::string(version()));
-    out.put(job.name);
-    out.put(loads);
-    out.put(request);
-    io::write_text_atomically(folder / "job.bin", text_of(std::move(out).take()));
+    const JobFile job_file{std::string(kMark), record_version(), {job.name, loads, request}};
+    io::write_text_atomically(folder / "job.bin", text_of(to_bytes(job_file)));
     io::write_text_atomically(folder / "log.txt",
                               job.name + ": " + outcome.message + "\n\n" + tail_of_log(context));
     ++context.num_failed_jobs_kept;
@@ -168,7 +190,8 @@ void keep_meshes_of_failed_fill(const fs::path& kept, LocalIndex subdomain,
   const jobs::JobOutcome skin = context.jobs.run(skin_request(subdomain), kSkinLimits, on_wait);
   try_to_keep(context, [&] {
     write_coarse(kept.parent_path() / "coarse.vtu", coarse, decomposition);
-    if (skin.status == jobs::JobStatus::ok) write_skin(kept / "skin.vtu", skin.result);
+    if (skin.status == jobs::JobStatus::ok)
+      write_skin(kept / "skin.vtu", from_bytes<SkinMesh>(skin.result));
   });
 }
 
@@ -187,21 +210,14 @@ void keep_meshes_of_failed_region(const fs::path& kept,
 RecordedJob read_failed_job(const fs::path& folder)
 {
   const fs::path file = folder / "job.bin";
-  const Bytes bytes = read_file(file);
-  RecordedJob job;
-  std::vector<std::string> loads;
+  KeptJob kept;
   try {
-    ByteReader in(bytes);
-    if (in.get_string() != kMark) throw InputError("is no job that a run has kept");
-    const std::string made_by = in.get_string();
-    if (made_by != version()) throw InputError("was kept by version " + made_by);
-    job.name = in.get_string();
-    loads = in.get_strings();
-    job.request = in.get_vector<std::byte>();
+    kept = parse_job(read_file(file));
   } catch (const InputError& error) {
     throw InputError(file.string() + ": " + error.what());
   }
-  for (const std::string& name : loads) {
+  RecordedJob job{.name = kept.name, .request = kept.request};
+  for (const std::string& name : kept.loads) {
     if (fs::path(name).filename() != name) throw InputError(file.string() + ": is damaged");
     job.loads.push_back(
         read_file(fs::absolute(folder).lexically_normal() / ".." / "inputs" / name));

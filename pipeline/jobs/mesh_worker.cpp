@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include <malloc.h>
 #include <sys/mman.h>
@@ -25,168 +26,97 @@
 
 #include "pipeline/jobs/batch_filler.hpp"
 #include "pipeline/jobs/test_fault.hpp"
+#include "pipeline/jobs/worker_messages.hpp"
 #include "pipeline/store/fill_record.hpp"
 #include "pipeline/store/region_records.hpp"
 
 namespace tessera::pipeline {
 namespace {
 
-enum class Message : int {
-  load_model,
-  load_mesh,
-  load_limiter,
-  load_numbers,
-  load_improvement,
-  import,
-  box,
-  coarse,
-  plan,
-  fill,
-  improve,
-  improve_pieces,
-  skin
-};
-
-FillTask get_fill_task(ByteReader& in)
-{
-  FillTask task;
-  task.batch = in.get<LocalIndex>();
-  task.first = in.get<LocalIndex>();
-  task.last = in.get<LocalIndex>();
-  task.plan = in.get<Hash128>();
-  task.settings = in.get<fill::FillTry>();
-  task.angle_to_beat_deg = in.get<double>();
-  task.tries = in.get<LocalIndex>();
-  task.was_limited = in.get<bool>();
-  task.keep = in.get<bool>();
-  task.failures = in.get_strings();
-  return task;
-}
-
 // State of the model zygote; jobs are forked from it.
 class MeshWorker final : public jobs::Worker {
  public:
   void load(std::span<const std::byte> message) override
   {
-    ByteReader in(message);
-    switch (in.get<Message>()) {
-      case Message::load_model:
-        return load_model(in);
-      case Message::load_mesh:
-        return load_mesh(in);
-      case Message::load_limiter:
-        limiter_ = mesh::projection_limiter_from_bytes(in.get_vector<std::byte>());
-        return;
-      case Message::load_numbers:
-        return load_numbers(in);
-      case Message::load_improvement:
-        improve_options_ = in.get<improve::ImproveOptions>();
-        regions_.emplace(cut_->skeleton, decomposition_);
-        return;
-      default:
-        throw Error("load message of an unknown kind");
-    }
+    std::visit([this](auto&& one) { take(std::move(one)); }, from_bytes<Load>(message));
   }
 
   Bytes run(std::span<const std::byte> request) override
   {
-    ByteReader in(request);
-    switch (in.get<Message>()) {
-      case Message::import:
-        return import(in);
-      case Message::box:
-        return box();
-      case Message::coarse:
-        return coarse(in);
-      case Message::plan:
-        return plan(in);
-      case Message::fill:
-        return fill(in);
-      case Message::improve:
-        return improve(in);
-      case Message::improve_pieces:
-        return improve_pieces(in);
-      case Message::skin:
-        return skin(in);
-      default:
-        throw Error("job request of an unknown kind");
-    }
+    return std::visit([this](const auto& one) { return answer(one); },
+                      from_bytes<Request>(request));
   }
 
  private:
-  void load_model(ByteReader& in)
+  void take(ModelLoad load)
   {
-    scale_ = in.get<double>();
-    const Bytes source = in.get_vector<std::byte>();
+    scale_ = load.scale;
     fail_if_asked("load");
-    netgen_model_ = netgen::load_model(model::model_source_from_bytes(source));
+    netgen_model_ = netgen::load_model(load.source);
     scaled_model_ = std::make_unique<model::ScaledModel>(*netgen_model_, scale_);
   }
 
-  void load_mesh(ByteReader& in)
+  void take(MeshLoad load)
   {
     cut_.reset();
-    coarse_ = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
-    decomposition_ = mesh::decomposition_from_bytes(in.get_vector<std::byte>());
-    levels_ = in.get<int>();
-    const auto largest_size = in.get<double>();
-    output_ = in.get_string();
-    cut_.emplace(coarse_, decomposition_, largest_size);
+    coarse_ = std::move(load.coarse);
+    decomposition_ = std::move(load.decomposition);
+    levels_ = load.levels;
+    output_ = std::move(load.output);
+    cut_.emplace(coarse_, decomposition_, load.largest_size);
   }
 
-  void load_numbers(ByteReader& in)
+  void take(LimiterLoad load) { limiter_ = std::move(load.limiter); }
+
+  void take(NumbersLoad load)
   {
-    const auto counts = in.get_vector<number::PieceCounts>();
-    length_unit_ = in.get_string();
-    output_options_.compression = in.get<io::Compression>();
-    output_options_.cell_quality = in.get<bool>();
-    ids_.emplace(mesh::HostLayout(cut_->skeleton), mesh::lattice::intervals(levels_), counts);
+    length_unit_ = std::move(load.length_unit);
+    output_options_.compression = load.compression;
+    output_options_.cell_quality = load.cell_quality;
+    ids_.emplace(mesh::HostLayout(cut_->skeleton), mesh::lattice::intervals(levels_), load.counts);
   }
 
-  static Bytes import(ByteReader& in)
+  void take(ImprovementLoad load)
   {
-    const std::filesystem::path file = in.get_string();
+    improve_options_ = load.options;
+    regions_.emplace(cut_->skeleton, decomposition_);
+  }
+
+  [[nodiscard]] static Bytes answer(const ImportRequest& request)
+  {
     fail_if_asked("import");
-    return garbled_if_asked(
-        "import", model::to_bytes(netgen::import_model(file, in.get<model::ImportOptions>())));
+    return garbled_if_asked("import",
+                            to_bytes(netgen::import_model(request.file, request.options)));
   }
 
-  [[nodiscard]] Bytes box() const
+  [[nodiscard]] Bytes answer(const BoxRequest& /*request*/) const
   {
     fail_if_asked("box");
-    ByteWriter out;
-    out.put(scaled_model_->box_diagonal());
-    return garbled_if_asked("box", std::move(out).take());
+    return garbled_if_asked("box", to_bytes(scaled_model_->box_diagonal()));
   }
 
-  Bytes coarse(ByteReader& in)
+  [[nodiscard]] Bytes answer(const CoarseRequest& request) const
   {
-    auto options = in.get<coarse::CoarseOptions>();
+    coarse::CoarseOptions options = request.options;
     options.max_size /= scale_;
     const auto mesher = make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
-    mesh::CoarseMesh mesh = mesher->generate(options);
-    coarse::VertexDistance distance = coarse::snap_vertices(mesh, *netgen_model_);
-    distance.largest *= scale_;
-    for (double& x : mesh.vertex_xyz) x *= scale_;
-    mesh::validate(mesh);
-    ByteWriter out;
-    out.put(mesh::to_bytes(mesh));
-    out.put(distance);
-    return garbled_if_asked(stage_of(options), std::move(out).take());
+    CoarseTry made{.mesh = mesher->generate(options)};
+    made.distance = coarse::snap_vertices(made.mesh, *netgen_model_);
+    made.distance.largest *= scale_;
+    for (double& x : made.mesh.vertex_xyz) x *= scale_;
+    mesh::validate(made.mesh);
+    return garbled_if_asked(stage_of(options), to_bytes(made));
   }
 
-  Bytes plan(ByteReader& in)
+  [[nodiscard]] Bytes answer(const UntangleRequest& request) const
   {
-    const auto tests = in.get_vector<UntangleTest>();
-    const mesh::ProjectionLimiter limiter =
-        mesh::projection_limiter_from_bytes(in.get_vector<std::byte>());
     std::vector<mesh::PointLimit> all;
-    for (const UntangleTest& test : tests) {
-      const auto folds = folds_of(test, limiter);
+    for (const UntangleTest& test : request.tests) {
+      const auto folds = folds_of(test, request.limiter);
       all.insert(all.end(), folds.begin(), folds.end());
     }
-    return garbled_if_asked("plan", mesh::to_bytes(mesh::ProjectionLimiter(std::move(all))),
-                            tests.front().subdomain);
+    return garbled_if_asked("plan", to_bytes(mesh::ProjectionLimiter(std::move(all))),
+                            request.tests.front().subdomain);
   }
 
   [[nodiscard]] std::vector<mesh::PointLimit> folds_of(const UntangleTest& test,
@@ -209,9 +139,8 @@ class MeshWorker final : public jobs::Worker {
     return folds;
   }
 
-  Bytes fill(ByteReader& in)
+  [[nodiscard]] Bytes answer(const FillTask& task) const
   {
-    const FillTask task = get_fill_task(in);
     const auto kernel = make_faulty_if_asked(netgen::make_fill_kernel(), task.first);
     refine::RefineContext context = refine_context(limiter_);
     context.measure_distance = true;
@@ -227,24 +156,18 @@ class MeshWorker final : public jobs::Worker {
     return garbled_if_asked("fill", std::move(result), task.first);
   }
 
-  Bytes improve(ByteReader& in)
+  [[nodiscard]] Bytes answer(const ImproveRequest& request) const
   {
-    const auto region = in.get<LocalIndex>();
-    const auto generation = in.get<int>();
     const io::RecordStore store(store_folder(output_));
-    const auto pieces = pieces_around({*cut_, *regions_, store, generation}, region);
-    store.put(region_name(region), improved(region, pieces));
+    const auto pieces =
+        pieces_around({*cut_, *regions_, store, request.generation}, request.region);
+    store.put(region_name(request.region), improved(request.region, pieces));
     return {};
   }
 
-  Bytes improve_pieces(ByteReader& in)
+  [[nodiscard]] Bytes answer(const ImprovePiecesRequest& request) const
   {
-    const auto region = in.get<LocalIndex>();
-    std::vector<mesh::Piece> pieces;
-    for (auto left = in.get<LocalIndex>(); left > 0; --left) {
-      pieces.push_back(mesh::piece_from_bytes(in.get_vector<std::byte>()));
-    }
-    return improved(region, pieces);
+    return improved(request.region, request.pieces);
   }
 
   [[nodiscard]] Bytes improved(LocalIndex region, const std::vector<mesh::Piece>& pieces) const
@@ -254,15 +177,12 @@ class MeshWorker final : public jobs::Worker {
                                             improve_options_.rounds, *optimizer));
   }
 
-  [[nodiscard]] Bytes skin(ByteReader& in) const
+  [[nodiscard]] Bytes answer(const SkinRequest& request) const
   {
-    const auto subdomain = in.get<LocalIndex>();
-    fail_if_asked("skin", subdomain);
-    const fill::FillInput skin = skin_of(refine_context(limiter_), subdomain);
-    ByteWriter out;
-    out.put(skin.vertex_xyz);
-    out.put(skin.triangle_vertices);
-    return garbled_if_asked("skin", std::move(out).take(), subdomain);
+    fail_if_asked("skin", request.subdomain);
+    fill::FillInput skin = skin_of(refine_context(limiter_), request.subdomain);
+    const SkinMesh mesh{std::move(skin.vertex_xyz), std::move(skin.triangle_vertices)};
+    return garbled_if_asked("skin", to_bytes(mesh), request.subdomain);
   }
 
   [[nodiscard]] fill::FillInput skin_of(const refine::RefineContext& context,
@@ -296,15 +216,6 @@ class MeshWorker final : public jobs::Worker {
   std::optional<improve::SeamRegions> regions_{};  ///< If seams are to be improved.
 };
 
-template <class... Values>
-Bytes message(Message kind, const Values&... values)
-{
-  ByteWriter out;
-  out.put(kind);
-  (out.put(values), ...);
-  return std::move(out).take();
-}
-
 // A job's arrays come and go: what one gives back serves the next, instead of pages that the kernel
 // takes away and clears anew; and of huge pages a job touches hundreds of times fewer. Both are
 // matters of speed only, so nothing is done about a refusal.
@@ -334,79 +245,69 @@ std::unique_ptr<jobs::Worker> make_mesh_worker()
 
 Bytes load_model_message(const model::ModelSource& source, double scale)
 {
-  return message(Message::load_model, scale, model::to_bytes(source));
+  return to_bytes(Load(ModelLoad{scale, source}));
 }
 
 Bytes load_mesh_message(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
                         int levels, double largest_size, const std::filesystem::path& output)
 {
-  return message(Message::load_mesh, mesh::to_bytes(coarse), mesh::to_bytes(decomposition), levels,
-                 largest_size, output.string());
+  return to_bytes(Load(MeshLoad{coarse, decomposition, levels, largest_size, output.string()}));
 }
 
 Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
                            const std::string& length_unit, const io::OutputOptions& options)
 {
-  return message(Message::load_numbers, counts, length_unit, options.compression,
-                 options.cell_quality);
+  return to_bytes(
+      Load(NumbersLoad{counts, length_unit, options.compression, options.cell_quality}));
 }
 
 Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter)
 {
-  return message(Message::load_limiter, mesh::to_bytes(limiter));
+  return to_bytes(Load(LimiterLoad{limiter}));
+}
+
+Bytes load_improvement_message(const improve::ImproveOptions& options)
+{
+  return to_bytes(Load(ImprovementLoad{options}));
 }
 
 Bytes import_request(const std::filesystem::path& file, const model::ImportOptions& options)
 {
-  return message(Message::import, file.string(), options);
+  return to_bytes(Request(ImportRequest{file.string(), options}));
 }
 
-Bytes box_request() { return message(Message::box); }
+Bytes box_request() { return to_bytes(Request(BoxRequest{})); }
 
 double box_diagonal_from_bytes(std::span<const std::byte> result)
 {
-  const auto diagonal = ByteReader(result).get<double>();
+  const auto diagonal = from_bytes<double>(result);
   if (diagonal > 0.0 && std::isfinite(diagonal)) return diagonal;
   throw InputError("the model's box has no size");
 }
 
 Bytes coarse_request(const coarse::CoarseOptions& options)
 {
-  return message(Message::coarse, options);
+  return to_bytes(Request(CoarseRequest{options}));
 }
 
 Bytes untangle_request(const std::vector<UntangleTest>& tests,
                        const mesh::ProjectionLimiter& limiter)
 {
-  return message(Message::plan, tests, mesh::to_bytes(limiter));
+  return to_bytes(Request(UntangleRequest{tests, limiter}));
 }
 
-Bytes skin_request(LocalIndex subdomain) { return message(Message::skin, subdomain); }
-
-Bytes fill_request(const FillTask& task)
-{
-  return message(Message::fill, task.batch, task.first, task.last, task.plan, task.settings,
-                 task.angle_to_beat_deg, task.tries, task.was_limited, task.keep, task.failures);
-}
-
-Bytes load_improvement_message(const improve::ImproveOptions& options)
-{
-  return message(Message::load_improvement, options);
-}
+Bytes fill_request(const FillTask& task) { return to_bytes(Request(task)); }
 
 Bytes improve_request(LocalIndex region, int generation)
 {
-  return message(Message::improve, region, generation);
+  return to_bytes(Request(ImproveRequest{region, generation}));
 }
 
 Bytes improve_pieces_request(LocalIndex region, const std::vector<mesh::Piece>& pieces)
 {
-  ByteWriter out;
-  out.put(Message::improve_pieces);
-  out.put(region);
-  out.put(static_cast<LocalIndex>(pieces.size()));
-  for (const mesh::Piece& piece : pieces) out.put(mesh::to_bytes(piece));
-  return std::move(out).take();
+  return to_bytes(Request(ImprovePiecesRequest{region, pieces}));
 }
+
+Bytes skin_request(LocalIndex subdomain) { return to_bytes(Request(SkinRequest{subdomain})); }
 
 }  // namespace tessera::pipeline

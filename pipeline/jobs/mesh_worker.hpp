@@ -5,11 +5,13 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/coarse/options.hpp"
+#include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/fill/kernel.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
@@ -60,8 +62,15 @@ namespace tessera::pipeline {
 /// @brief Reads the result of a box_request(). @throws InputError if it is no length.
 [[nodiscard]] double box_diagonal_from_bytes(std::span<const std::byte> result);
 
-/// @brief run: one try at the coarse mesh; result: bytes of a CoarseMesh and a VertexDistance.
-/// Needs the model.
+/// @brief What one try at the coarse mesh has given.
+struct CoarseTry {
+  mesh::CoarseMesh mesh{};
+  coarse::VertexDistance distance{};
+
+  static auto fields(auto& self) { return std::tie(self.mesh, self.distance); }
+};
+
+/// @brief run: one try at the coarse mesh; result: bytes of a CoarseTry. Needs the model.
 [[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options);
 
 /// @brief One subdomain that a plan job tests.
@@ -69,6 +78,8 @@ struct UntangleTest {
   LocalIndex subdomain = kNoIndex;
   fill::KernelKind kernel = fill::KernelKind::netgen;  ///< That the subdomain is for.
   int levels = 0;                                      ///< On which children must be positive.
+
+  static auto fields(auto& self) { return std::tie(self.subdomain, self.kernel, self.levels); }
 };
 
 /// @brief run: tests subdomains for folds under the given limits; result: bytes of a
@@ -91,6 +102,12 @@ struct FillTask {
   bool was_limited = false;              ///< A try before it ended for time or memory.
   bool keep = true;                      ///< false: measure only and store nothing, for a replay.
   std::vector<std::string> failures{};   ///< What the tries before said, for the report.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.batch, self.first, self.last, self.plan, self.settings,
+                    self.angle_to_beat_deg, self.tries, self.was_limited, self.keep, self.failures);
+  }
 };
 
 /// @brief run: refines, fills and checks subdomains and stores their record; result: bytes of their
@@ -106,8 +123,15 @@ struct FillTask {
 [[nodiscard]] Bytes improve_pieces_request(LocalIndex region,
                                            const std::vector<mesh::Piece>& pieces);
 
-/// @brief run: the skin of a subdomain; result: its vertex_xyz and triangle_vertices. Needs model,
-/// mesh and plan.
+/// @brief The skin of a subdomain, to be looked at.
+struct SkinMesh {
+  std::vector<double> vertex_xyz{};             ///< Shape (num_vertices, 3).
+  std::vector<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3).
+
+  static auto fields(auto& self) { return std::tie(self.vertex_xyz, self.triangle_vertices); }
+};
+
+/// @brief run: the skin of a subdomain; result: bytes of a SkinMesh. Needs model, mesh and plan.
 [[nodiscard]] Bytes skin_request(LocalIndex subdomain);
 
 }  // namespace tessera::pipeline

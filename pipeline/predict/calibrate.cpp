@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 #include <utility>
 
 #include "tessera/base/error.hpp"
@@ -65,6 +66,12 @@ struct FileCosts {
   double store_bytes = 0.0;
   double header_bytes = 0.0;
   double write_cpu_s = 0.0;
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.mesh_bytes, self.boundary_bytes, self.store_bytes, self.header_bytes,
+                    self.write_cpu_s);
+  }
 };
 
 void divide(double& rate, double cost, double number)
@@ -209,12 +216,7 @@ class Sampler {
         boundary += find(set, s)->num_boundary;
       }
     }
-    const Bytes bytes = on_root(context_.comm, [&] {
-      ByteWriter out;
-      out.put(measure_files(set, outline));
-      return std::move(out).take();
-    });
-    const auto costs = ByteReader(bytes).get<FileCosts>();
+    const FileCosts costs = on_root(context_.comm, [&] { return measure_files(set, outline); });
     KernelRates& rates = calibration_.rates.of(set.kernel);
     divide(rates.file_bytes_per_tet, costs.mesh_bytes, static_cast<double>(tets));
     divide(rates.store_bytes_per_tet, costs.store_bytes, static_cast<double>(tets));

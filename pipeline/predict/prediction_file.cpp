@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <span>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
@@ -154,16 +155,22 @@ void add_times(const Json& prediction, const ActualRun& actual,
   }
 }
 
+// All of a command that bears on the mesh.
+struct HashedCase {
+  std::string toml{};
+  std::vector<LocalIndex> only_subdomains{};
+
+  static auto fields(auto& self) { return std::tie(self.toml, self.only_subdomains); }
+};
+
 }  // namespace
 
 PredictedRun::PredictedRun(const config::Case& given, const model::ModelSource& model,
                            const std::vector<LocalIndex>& only_subdomains)
     : model_hash(to_hex(hash_bytes(model.content)))
 {
-  ByteWriter out;
-  out.put(config::to_toml(without_limits(given)));
-  out.put(only_subdomains);
-  case_hash = to_hex(hash_bytes(std::move(out).take()));
+  const HashedCase hashed{config::to_toml(without_limits(given)), only_subdomains};
+  case_hash = to_hex(hash_bytes(to_bytes(hashed)));
 }
 
 std::string prediction_json(const DryRun& dry_run, const PredictedRun& predicted)

@@ -4,6 +4,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "tessera/base/bytes.hpp"
@@ -21,6 +22,7 @@ enum class ExitCode : int {
   cannot_write = 73,  ///< Permission, disk full, folder in use.
   stopped = 75,       ///< By a signal.
 };
+[[nodiscard]] constexpr ExitCode last_value(ExitCode /*type*/) { return ExitCode::stopped; }
 
 /// @brief The exit code an exception stands for.
 [[nodiscard]] ExitCode exit_code_of(const std::exception& error);
@@ -53,17 +55,18 @@ void all_or_none(const comm::Communicator& comm, Work&& work)
   }
 }
 
-/// @brief The bytes that `work` returns on rank 0, on every rank; an error there is one everywhere.
-/// Other ranks wait asleep, so that jobs have the cores.
+/// @brief What `work` returns on rank 0, on every rank: a value as in bytes.hpp. An error there is
+/// one everywhere. Other ranks wait asleep, so that jobs have the cores.
 /// @note Collective.
 template <class Work>
-[[nodiscard]] Bytes on_root(const comm::Communicator& comm, Work&& work)
+[[nodiscard]] auto on_root(const comm::Communicator& comm, Work&& work)
 {
+  using Value = std::remove_cvref_t<std::invoke_result_t<Work>>;
   Bytes bytes;
   std::exception_ptr error;
   if (comm.rank() == 0) {
     try {
-      bytes = std::forward<Work>(work)();
+      bytes = to_bytes(std::forward<Work>(work)());
     } catch (...) {
       error = std::current_exception();
     }
@@ -72,23 +75,7 @@ template <class Work>
   all_or_none(comm, [&] {
     if (error) std::rethrow_exception(error);
   });
-  return comm.broadcast(std::move(bytes), 0);
-}
-
-/// @brief As on_root(), for bytes that may not be there.
-/// @note Collective.
-template <class Work>
-[[nodiscard]] std::optional<Bytes> find_on_root(const comm::Communicator& comm, Work&& work)
-{
-  const Bytes bytes = on_root(comm, [&] {
-    ByteWriter out;
-    const std::optional<Bytes> found = std::forward<Work>(work)();
-    out.put(found.has_value());
-    if (found) out.put(*found);
-    return std::move(out).take();
-  });
-  ByteReader in(bytes);
-  return in.get<bool>() ? std::optional(in.get_vector<std::byte>()) : std::nullopt;
+  return from_bytes<Value>(comm.broadcast(std::move(bytes), 0));
 }
 
 }  // namespace tessera::pipeline

@@ -38,20 +38,6 @@ std::string name_of(const coarse::CoarseOptions& options)
          + std::to_string(options.max_size);
 }
 
-struct MeshOfJob {
-  mesh::CoarseMesh mesh{};
-  coarse::VertexDistance distance{};
-};
-
-MeshOfJob mesh_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  MeshOfJob made;
-  made.mesh = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
-  made.distance = in.get<coarse::VertexDistance>();
-  return made;
-}
-
 CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
 {
   const jobs::JobLimits limits{run_case.coarse.timeout_s, kStall_s, kMemory_gib};
@@ -64,7 +50,7 @@ CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
     const Bytes request = coarse_request(options);
     const JobRequest job{"coarse", request, limits};
     jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
-    auto made = read_result(outcome, mesh_from_bytes);
+    auto made = read_result(outcome, from_bytes<CoarseTry>);
     keep_if_failed(job, outcome, context);
     ++result.tries;
     if (made) {
@@ -92,31 +78,6 @@ CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
 
 }  // namespace
 
-Bytes to_bytes(const CoarseResult& result)
-{
-  ByteWriter out;
-  out.put(mesh::to_bytes(result.mesh));
-  out.put(result.options);
-  out.put(result.tries);
-  out.put(result.distance);
-  out.put(result.failures);
-  out.put(result.was_limited);
-  return std::move(out).take();
-}
-
-CoarseResult coarse_result_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  CoarseResult result;
-  result.mesh = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
-  result.options = in.get<coarse::CoarseOptions>();
-  result.tries = in.get<int>();
-  result.distance = in.get<coarse::VertexDistance>();
-  result.failures = in.get_strings();
-  result.was_limited = in.get<bool>();
-  return result;
-}
-
 std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions& asked)
 {
   std::vector<coarse::CoarseOptions> fallbacks{asked};
@@ -141,8 +102,7 @@ std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions&
 CoarseResult run_coarse_stage(const config::Case& run_case, RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseResult result = coarse_result_from_bytes(
-      on_root(context.comm, [&] { return to_bytes(first_that_works(run_case, context)); }));
+  CoarseResult result = on_root(context.comm, [&] { return first_that_works(run_case, context); });
   stage.work_is_done();
   stage.finish(std::to_string(result.mesh.num_tets()) + " tets, "
                + std::to_string(result.mesh.num_patches()) + " patches, "

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -21,11 +20,13 @@ struct CoarseResult {
   coarse::VertexDistance distance{};    ///< Output length unit.
   std::vector<std::string> failures{};  ///< What the tries before said, for the report.
   bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
-};
 
-[[nodiscard]] Bytes to_bytes(const CoarseResult& result);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] CoarseResult coarse_result_from_bytes(std::span<const std::byte> bytes);
+  static auto fields(auto& self)
+  {
+    return std::tie(self.mesh, self.options, self.tries, self.distance, self.failures,
+                    self.was_limited);
+  }
+};
 
 /// @brief The tries at a coarse mesh, best first: as asked, then with smaller sizes that grow more
 /// slowly, then with more elements on curved surfaces, since a mesh that fails at one size often

@@ -56,30 +56,13 @@ decompose::DecomposeResult cut(const config::Case& run_case, const mesh::CoarseM
 
 }  // namespace
 
-Bytes to_bytes(const decompose::DecomposeResult& result)
-{
-  ByteWriter out;
-  out.put(mesh::to_bytes(result.decomposition));
-  out.put(result.report);
-  return std::move(out).take();
-}
-
-decompose::DecomposeResult decompose_result_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  decompose::DecomposeResult result;
-  result.decomposition = mesh::decomposition_from_bytes(in.get_vector<std::byte>());
-  result.report = in.get<decompose::DecomposeReport>();
-  return result;
-}
-
 decompose::DecomposeResult run_decompose_stage(const config::Case& run_case,
                                                const mesh::CoarseMesh& coarse, RunContext& context)
 {
   StageScope stage(context, "decompose");
-  decompose::DecomposeResult result = decompose_result_from_bytes(on_root(context.comm, [&] {
-    return with_file_context(run_case, [&] { return to_bytes(cut(run_case, coarse)); });
-  }));
+  decompose::DecomposeResult result = on_root(context.comm, [&] {
+    return with_file_context(run_case, [&] { return cut(run_case, coarse); });
+  });
   stage.work_is_done();
   stage.finish(std::to_string(result.report.num_subdomains) + " subdomains");
   return result;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
-
-#include "tessera/base/bytes.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -11,11 +8,6 @@
 #include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
-
-[[nodiscard]] Bytes to_bytes(const decompose::DecomposeResult& result);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] decompose::DecomposeResult decompose_result_from_bytes(
-    std::span<const std::byte> bytes);
 
 /// @brief Cuts the coarse mesh into subdomains on rank 0 and gives the result to all ranks.
 /// @note Collective.

@@ -105,7 +105,7 @@ class Filler {
     ++tries.count;
     jobs::JobOutcome outcome =
         run_try(tries.range, request_of(tries, settings, angle_to_beat), on_wait);
-    auto made = read_result(outcome, subdomain::fill_results_from_bytes);
+    auto made = read_result(outcome, from_bytes<std::vector<subdomain::FillResult>>);
     throw_unless_of_the_job(outcome);
     tries.was_limited = tries.was_limited || depends_on_machine(outcome);
     if (!made) {

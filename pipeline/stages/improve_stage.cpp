@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -89,10 +90,10 @@ class SeamImprover {
   void run_phase(int phase, const std::vector<LocalIndex>& wanted)
   {
     const int before = filled_.improvement.generation;
-    const auto kept = find_on_root(context_.comm, [&] { return store_.find(phase_name(phase)); });
+    auto kept = on_root(context_.comm, [&] { return find_counts(phase); });
     Counts counts(4, 0);
     if (kept) {
-      counts = ByteReader(*kept).get_vector<GlobalIndex>();
+      counts = std::move(*kept);
       num_done_ += std::ssize(wanted) + std::ssize(filled_.pieces);
     } else {
       counts = improve_regions(wanted);
@@ -124,14 +125,21 @@ class SeamImprover {
   }
 
  private:
+  // Those of a phase that is done.
+  [[nodiscard]] std::optional<Counts> find_counts(int phase) const
+  {
+    const auto record = store_.find(phase_name(phase));
+    return record ? std::optional(from_bytes<Counts>(*record)) : std::nullopt;
+  }
+
   // Updates name vertices by their numbers in the pieces. A resumed run may have other ones: a poor
   // piece is filled again, and where a limit had ended its second try, now better.
   void drop_records_of_other_pieces() const
   {
     const std::string name = "improve";
-    ByteWriter out;
-    for (const subdomain::PieceSummary& piece : filled_.pieces) out.put(piece.content);
-    const Bytes pieces = std::move(out).take();
+    std::vector<Hash128> contents;
+    for (const subdomain::PieceSummary& piece : filled_.pieces) contents.push_back(piece.content);
+    const Bytes pieces = to_bytes(contents);
     if (store_.find(name) == pieces && newest_pieces_are_whole()) return;
     if (store_.contains(name)) remove_records();
     store_.put(name, pieces);
@@ -201,7 +209,7 @@ class SeamImprover {
                                   const jobs::JobRunner::WaitCallback& on_wait)
   {
     if (const auto kept = store_.find(region_name(region)))
-      return subdomain::region_record_from_bytes(*kept);
+      return from_bytes<subdomain::RegionRecord>(*kept);
     const std::string name = "improve: region " + std::to_string(region);
     jobs::JobOutcome outcome =
         run_job({name, improve_request(region, filled_.improvement.generation),
@@ -213,7 +221,7 @@ class SeamImprover {
       throw InputError(outcome.message + way_on(outcome));
     subdomain::RegionRecord record;
     if (auto made = read_result(outcome, [&](const Bytes& /*empty*/) {
-          return subdomain::region_record_from_bytes(store_.get(region_name(region)));
+          return from_bytes<subdomain::RegionRecord>(store_.get(region_name(region)));
         })) {
       record = std::move(*made);
     } else {
@@ -245,7 +253,7 @@ class SeamImprover {
     for_each_subdomain([&](LocalIndex s) {
       const std::string name = improved_name(s, phase + 1);
       if (store_.find(name)) return;
-      store_.put(name, mesh::to_bytes(merge_regions(phase_work, s, phase)));
+      store_.put(name, to_bytes(merge_regions(phase_work, s, phase)));
     });
   }
 
@@ -255,9 +263,7 @@ class SeamImprover {
   {
     all_or_none(context_.comm, [&] {
       if (context_.comm.rank() != 0) return;
-      ByteWriter out;
-      out.put(counts);
-      store_.put(phase_name(phase), std::move(out).take());
+      store_.put(phase_name(phase), to_bytes(counts));
       for (LocalIndex r = regions_.first_of_phase(phase); r < regions_.first_of_phase(phase + 1);
            ++r) {
         store_.remove(region_name(r));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/model_stage.hpp"
 
+#include <utility>
+
 #include "tessera/base/error.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
@@ -35,16 +37,15 @@ model::ModelSource run_model_stage(const config::Case& run_case, RunContext& con
 {
   StageScope stage(context, "model");
   const std::filesystem::path& file = run_case.geometry.file;
-  const Bytes bytes = on_root(context.comm, [&] {
+  model::ModelSource source = on_root(context.comm, [&] {
     const Bytes request = import_request(file, {run_case.coarse.feature_angle_deg});
     const JobRequest job{"model", request, kModelLimits};
     jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
-    static_cast<void>(read_result(outcome, model::model_source_from_bytes));
+    auto read = read_result(outcome, from_bytes<model::ModelSource>);
     keep_if_failed(job, outcome, context);
     throw_unless_read(outcome, file);
-    return outcome.result;
+    return std::move(*read);
   });
-  model::ModelSource source = model::model_source_from_bytes(bytes);
   all_or_none(context.comm, [&] {
     throw_unless_read(run_load("model", load_model_message(source, run_case.geometry.scale),
                                kModelLimits, context),

@@ -48,18 +48,17 @@ double estimated_tets(double box_diagonal, double target)
   return std::pow(side / target, 3.0) * 6.0 * std::sqrt(2.0) / 3.0;
 }
 
-// The job's result, that can be read.
-Bytes measure_box(const config::Case& given, RunContext& context)
+double measure_box(const config::Case& given, RunContext& context)
 {
   const Bytes request = box_request();
   const JobRequest job{"box", request, kQueryLimits};
   jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
-  static_cast<void>(read_result(outcome, box_diagonal_from_bytes));
+  const auto diagonal = read_result(outcome, box_diagonal_from_bytes);
   keep_if_failed(job, outcome, context);
   throw_if_cancelled(outcome);
   outcome.message += way_on(outcome);
   jobs::throw_unless_ok(outcome, given.geometry.file.string() + ": size of the model");
-  return outcome.result;
+  return *diagonal;
 }
 
 }  // namespace
@@ -88,8 +87,7 @@ double largest_coarse_size(double target, int levels)
 config::Case resolve_size(const config::Case& given, RunContext& context)
 {
   if (given.size.target == 0.0) return given;
-  const Bytes bytes = on_root(context.comm, [&] { return measure_box(given, context); });
-  const double box_diagonal = box_diagonal_from_bytes(bytes);
+  const double box_diagonal = on_root(context.comm, [&] { return measure_box(given, context); });
   config::Case resolved = given;
   resolved.refine.levels = levels_for(estimated_tets(box_diagonal, given.size.target));
   resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, resolved.refine.levels);

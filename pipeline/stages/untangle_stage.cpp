@@ -58,7 +58,7 @@ std::vector<mesh::PointLimit> test_subdomains(const std::vector<LocalIndex>& sub
     const Bytes request = untangle_request(tests, limiter);
     const JobRequest plan{"plan", request, kUntangleLimits};
     jobs::JobOutcome outcome = run_job(plan, on_wait, context);
-    const auto smaller = read_result(outcome, mesh::projection_limiter_from_bytes);
+    const auto smaller = read_result(outcome, from_bytes<mesh::ProjectionLimiter>);
     keep_if_failed(plan, outcome, context);
     throw_if_cancelled(outcome);
     if (!smaller) {
@@ -75,8 +75,8 @@ std::vector<mesh::PointLimit> gather(const std::vector<mesh::PointLimit>& found,
                                      const comm::Communicator& comm)
 {
   std::vector<mesh::PointLimit> all;
-  for (const Bytes& bytes : comm.all_gather(mesh::to_bytes(mesh::ProjectionLimiter(found)))) {
-    const mesh::ProjectionLimiter part = mesh::projection_limiter_from_bytes(bytes);
+  for (const mesh::ProjectionLimiter& part :
+       comm.all_gather_values(mesh::ProjectionLimiter(found))) {
     all.insert(all.end(), part.entries().begin(), part.entries().end());
   }
   return all;

@@ -2,8 +2,11 @@
 #include "pipeline/store/fill_record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
+#include <iterator>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include <spdlog/fmt/fmt.h>
@@ -15,6 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// What some subdomains are made from.
+struct LimitedCut {
+  Hash128 cut{};
+  std::vector<mesh::PointLimit> limits{};
+
+  static auto fields(auto& self) { return std::tie(self.cut, self.limits); }
+};
+
 bool is_whole(const fs::path& folder, const WrittenFile& file)
 {
   std::error_code error;
@@ -24,38 +35,6 @@ bool is_whole(const fs::path& folder, const WrittenFile& file)
 }
 
 }  // namespace
-
-Bytes to_bytes(const FillRecord& record)
-{
-  ByteWriter out;
-  out.put(record.plan);
-  out.put(to_bytes(record.results));
-  out.put(static_cast<std::uint64_t>(record.files.size()));
-  for (const WrittenFile& file : record.files) {
-    out.put(file.path);
-    out.put(file.size);
-    out.put(file.hash);
-  }
-  out.put(record.piece);
-  return std::move(out).take();
-}
-
-FillRecord fill_record_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  FillRecord record;
-  record.plan = in.get<Hash128>();
-  record.results = subdomain::fill_results_from_bytes(in.get_vector<std::byte>());
-  const auto num_files = in.get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < num_files; ++i) {
-    WrittenFile& file = record.files.emplace_back();
-    file.path = in.get_string();
-    file.size = in.get<std::uint64_t>();
-    file.hash = in.get<Hash128>();
-  }
-  record.piece = in.get_vector<std::byte>();
-  return record;
-}
 
 fs::path store_folder(const fs::path& output) { return output / "pieces"; }
 
@@ -76,7 +55,7 @@ std::optional<FillRecord> find_record(const fs::path& output, LocalIndex batch, 
 {
   const auto bytes = io::RecordStore(store_folder(output)).find(record_name(batch));
   if (!bytes) return std::nullopt;
-  FillRecord record = fill_record_from_bytes(*bytes);
+  auto record = from_bytes<FillRecord>(*bytes);
   if (record.plan != plan) return std::nullopt;
   const bool all_whole = std::all_of(record.files.begin(), record.files.end(),
                                      [&](const auto& file) { return is_whole(output, file); });
@@ -85,10 +64,9 @@ std::optional<FillRecord> find_record(const fs::path& output, LocalIndex batch, 
 
 Hash128 cut_fingerprint(const subdomain::PartitionedMesh& cut)
 {
-  ByteWriter out;
-  out.put(hash_bytes(mesh::to_bytes(cut.coarse)));
-  out.put(hash_bytes(mesh::to_bytes(cut.decomposition)));
-  return hash_bytes(std::move(out).take());
+  const std::array<Hash128, 2> parts{hash_bytes(to_bytes(cut.coarse)),
+                                     hash_bytes(to_bytes(cut.decomposition))};
+  return hash_bytes(to_bytes(parts));
 }
 
 Hash128 plan_fingerprint(const Hash128& cut, const mesh::Skeleton& skeleton,
@@ -105,16 +83,13 @@ Hash128 plan_fingerprint(const Hash128& cut, const mesh::Skeleton& skeleton,
       }
     }
   }
-  ByteWriter out;
-  out.put(cut);
-  for (const mesh::PointLimit& entry : limiter.entries()) {
-    const bool is_on_edge = entry.key.carrier == mesh::LatticeCarrier::edge;
-    if ((is_on_edge ? edges : triangles).contains(entry.key.entity)) {
-      out.put(entry.key);
-      out.put(entry.factor);
-    }
-  }
-  return hash_bytes(std::move(out).take());
+  LimitedCut limited{.cut = cut};
+  std::ranges::copy_if(limiter.entries(), std::back_inserter(limited.limits),
+                       [&](const mesh::PointLimit& entry) {
+                         const bool is_on_edge = entry.key.carrier == mesh::LatticeCarrier::edge;
+                         return (is_on_edge ? edges : triangles).contains(entry.key.entity);
+                       });
+  return hash_bytes(to_bytes(limited));
 }
 
 }  // namespace tessera::pipeline

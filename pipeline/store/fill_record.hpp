@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
@@ -22,6 +23,8 @@ struct WrittenFile {
   std::string path{};  ///< Relative to the output folder.
   std::uint64_t size = 0;
   Hash128 hash{};
+
+  static auto fields(auto& self) { return std::tie(self.path, self.size, self.hash); }
 };
 
 /// @brief What the store keeps of the subdomains that one job filled: either their piece (one
@@ -30,12 +33,13 @@ struct FillRecord {
   Hash128 plan{};  ///< plan_fingerprint() that they were made under.
   std::vector<subdomain::FillResult> results{};
   std::vector<WrittenFile> files{};
-  Bytes piece{};  ///< mesh::to_bytes(); empty if the files are written.
-};
+  Bytes piece{};  ///< Of a mesh::Piece; empty if the files are written.
 
-[[nodiscard]] Bytes to_bytes(const FillRecord& record);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] FillRecord fill_record_from_bytes(std::span<const std::byte> bytes);
+  static auto fields(auto& self)
+  {
+    return std::tie(self.plan, self.results, self.files, self.piece);
+  }
+};
 
 /// @brief Where finished pieces and the state of an unfinished run are; in the output folder.
 [[nodiscard]] std::filesystem::path store_folder(const std::filesystem::path& output);

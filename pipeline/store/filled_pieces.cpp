@@ -2,9 +2,6 @@
 #include "pipeline/store/filled_pieces.hpp"
 
 #include <algorithm>
-#include <cstring>
-#include <iterator>
-#include <span>
 #include <utility>
 
 namespace tessera::pipeline {
@@ -15,30 +12,6 @@ void sum_over_ranks(quality::Histogram& histogram, const comm::Communicator& com
   std::vector<GlobalIndex> counts = histogram.counts();
   comm.sum_in_place(counts);
   histogram.set_counts(std::move(counts));
-}
-
-// What all ranks have in their lists, one list behind the other.
-template <class T>
-std::vector<T> gather(const std::vector<T>& own, const comm::Communicator& comm)
-{
-  std::vector<T> all;
-  for (const Bytes& bytes : comm.all_gather(std::as_bytes(std::span(own)))) {
-    const std::size_t first = all.size();
-    all.resize(first + bytes.size() / sizeof(T));
-    if (!bytes.empty()) std::memcpy(&all[first], bytes.data(), bytes.size());
-  }
-  return all;
-}
-
-std::vector<subdomain::FailedTries> gather(const std::vector<subdomain::FailedTries>& own,
-                                           const comm::Communicator& comm)
-{
-  std::vector<subdomain::FailedTries> all;
-  for (const Bytes& bytes : comm.all_gather(to_bytes(own))) {
-    std::ranges::move(subdomain::failed_tries_from_bytes(bytes), std::back_inserter(all));
-  }
-  std::ranges::sort(all, {}, &subdomain::FailedTries::subdomain);
-  return all;
 }
 
 }  // namespace
@@ -65,14 +38,12 @@ void FilledPieces::add(const subdomain::FillResult& result)
 FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
 {
   FilledPieces all;
-  all.pieces = gather(own.pieces, comm);
-  all.folded = gather(own.folded, comm);
-  all.failures = gather(own.failures, comm);
+  all.pieces = comm.all_gather_rows(own.pieces);
+  all.folded = comm.all_gather_rows(own.folded);
+  all.failures = comm.all_gather_rows(own.failures);
+  std::ranges::sort(all.pieces, {}, &subdomain::PieceSummary::subdomain);
   std::ranges::sort(all.folded, {}, &FoldedSubdomain::subdomain);
-  std::sort(all.pieces.begin(), all.pieces.end(),
-            [](const subdomain::PieceSummary& a, const subdomain::PieceSummary& b) {
-              return a.subdomain < b.subdomain;
-            });
+  std::ranges::sort(all.failures, {}, &subdomain::FailedTries::subdomain);
   all.histograms = std::move(own.histograms);
   sum_over_ranks(all.histograms.mean_ratio, comm);
   sum_over_ranks(all.histograms.seam_mean_ratio, comm);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <tuple>
 #include <vector>
 
 #include "tessera/comm/communicator.hpp"
@@ -12,6 +13,8 @@ namespace tessera::pipeline {
 struct FoldedSubdomain {
   LocalIndex subdomain = kNoIndex;
   bool was_limited = false;  ///< A try before ended for time or memory.
+
+  static auto fields(auto& self) { return std::tie(self.subdomain, self.was_limited); }
 };
 
 /// @brief What the improvement of seams has done.

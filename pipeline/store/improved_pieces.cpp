@@ -26,8 +26,8 @@ std::string improved_name(LocalIndex subdomain, int generation)
 mesh::Piece stored_piece(const io::RecordStore& store, LocalIndex subdomain, int generation)
 {
   if (generation > 0)
-    return mesh::piece_from_bytes(store.get(improved_name(subdomain, generation)));
-  return mesh::piece_from_bytes(fill_record_from_bytes(store.get(record_name(subdomain))).piece);
+    return from_bytes<mesh::Piece>(store.get(improved_name(subdomain, generation)));
+  return from_bytes<mesh::Piece>(from_bytes<FillRecord>(store.get(record_name(subdomain))).piece);
 }
 
 ImprovedPieces::ImprovedPieces(const std::filesystem::path& output, const mesh::Skeleton& skeleton,
@@ -40,20 +40,13 @@ ImprovedPieces::ImprovedPieces(const std::filesystem::path& output, const mesh::
 
 void ImprovedPieces::keep_list(const mesh::Piece& piece) const
 {
-  ByteWriter out;
-  out.put(piece.material);
-  out.put(number::shared_vertices(piece));
-  store_.put(list_name(piece.subdomain), std::move(out).take());
+  const number::VertexList list{piece.subdomain, piece.material, number::shared_vertices(piece)};
+  store_.put(list_name(piece.subdomain), to_bytes(list));
 }
 
 number::VertexList ImprovedPieces::list_of(LocalIndex subdomain) const
 {
-  const Bytes record = store_.get(list_name(subdomain));
-  ByteReader in(record);
-  number::VertexList list{.subdomain = subdomain};
-  list.material = in.get<LocalIndex>();
-  list.vertices = in.get_vector<number::SharedVertexKey>();
-  return list;
+  return from_bytes<number::VertexList>(store_.get(list_name(subdomain)));
 }
 
 number::SharedBy ImprovedPieces::own_vertices(LocalIndex subdomain) const
@@ -61,16 +54,13 @@ number::SharedBy ImprovedPieces::own_vertices(LocalIndex subdomain) const
   std::vector<number::VertexList> lists;
   for (const LocalIndex other : neighbours_[at(subdomain)]) lists.push_back(list_of(other));
   number::SharedBy shared = number::compare_lists(list_of(subdomain), lists);
-  ByteWriter out;
-  out.put(shared.owned);
-  store_.put(owned_name(subdomain), std::move(out).take());
+  store_.put(owned_name(subdomain), to_bytes(shared.owned));
   return shared;
 }
 
 std::vector<number::SharedVertexKey> ImprovedPieces::owned_by(LocalIndex subdomain) const
 {
-  const Bytes record = store_.get(owned_name(subdomain));
-  return ByteReader(record).get_vector<number::SharedVertexKey>();
+  return from_bytes<std::vector<number::SharedVertexKey>>(store_.get(owned_name(subdomain)));
 }
 
 std::vector<subdomain::VertexPlace> ImprovedPieces::places_of(const mesh::Piece& piece) const

@@ -29,7 +29,7 @@ mesh::Piece merge_regions(const ImproveContext& context, LocalIndex subdomain, i
   for (const LocalIndex region : context.regions.regions_of(subdomain, phase)) {
     const std::string name = region_name(region);
     if (!context.store.contains(name)) continue;  // A region that is not to be improved.
-    subdomain::RegionRecord record = subdomain::region_record_from_bytes(context.store.get(name));
+    auto record = from_bytes<subdomain::RegionRecord>(context.store.get(name));
     if (record.is_improved) updates.push_back(std::move(record.update));
   }
   if (updates.empty()) return piece;

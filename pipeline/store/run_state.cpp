@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 #include <nlohmann/json.hpp>
 
@@ -34,9 +35,14 @@ std::string first_difference(const std::string& there, const std::string& here)
 }
 
 struct Identity {
-  std::string version{};
-  std::string model{};  ///< Hash of what was read of the model file.
+  std::string version{};  ///< record_version() of who made the records.
+  std::string model{};    ///< Hash of what was read of the model file.
   std::vector<LocalIndex> only_subdomains{};
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.version, self.model, self.only_subdomains);
+  }
 };
 
 // A folder in its place could not be read, and a link leads elsewhere.
@@ -64,16 +70,10 @@ auto read_report(const std::filesystem::path& output, const Read& read)
 std::optional<Identity> identity_of(const std::filesystem::path& output,
                                     const std::optional<Bytes>& record)
 {
-  if (record) {
-    ByteReader in(*record);
-    Identity identity;
-    identity.version = in.get_string();
-    identity.model = in.get_string();
-    identity.only_subdomains = in.get_vector<LocalIndex>();
-    return identity;
-  }
+  if (record) return from_bytes<Identity>(*record);
   return read_report(output, [](const nlohmann::json& report) {
-    return Identity{report.at("version"), report.at("model").at("digest"),
+    return Identity{record_version(report.at("version").get<std::string>()),
+                    report.at("model").at("digest"),
                     report.at("only_subdomains").get<std::vector<LocalIndex>>()};
   });
 }
@@ -88,27 +88,6 @@ config::Case without_limits(config::Case run_case)
   run_case.fill.timeout_s = plain.fill.timeout_s;
   run_case.fill.memory_gib = plain.fill.memory_gib;
   return run_case;
-}
-
-Bytes to_bytes(const Plan& plan)
-{
-  ByteWriter out;
-  out.put(plan.kernels);
-  out.put(mesh::to_bytes(plan.limiter));
-  out.put(plan.limited);
-  out.put(to_bytes(plan.failures));
-  return std::move(out).take();
-}
-
-Plan plan_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  Plan plan;
-  plan.kernels = in.get_vector<fill::KernelKind>();
-  plan.limiter = mesh::projection_limiter_from_bytes(in.get_vector<std::byte>());
-  plan.limited = in.get_vector<LocalIndex>();
-  plan.failures = subdomain::failed_tries_from_bytes(in.get_vector<std::byte>());
-  return plan;
 }
 
 io::RecordStore RunState::store() const { return io::RecordStore(store_folder(output_)); }
@@ -136,15 +115,11 @@ void RunState::require_same_case(const config::Case& given) const
 
 void RunState::require_same_run(const Hash128& model) const
 {
-  const Identity now{std::string(version()), to_hex(model), only_subdomains_};
+  const Identity now{record_version(), to_hex(model), only_subdomains_};
   const auto noted = identity_of(output_, store().find("run"));
   if (!noted) {
     clear();
-    ByteWriter out;
-    out.put(now.version);
-    out.put(now.model);
-    out.put(now.only_subdomains);
-    return store().put("run", std::move(out).take());
+    return store().put("run", to_bytes(now));
   }
   const std::string what = "cannot resume " + output_.string() + ": ";
   if (noted->version != now.version) {
@@ -169,7 +144,7 @@ void RunState::keep_plan(const Plan& plan) const { store().put("plan", to_bytes(
 std::optional<Plan> RunState::find_plan() const
 {
   const auto bytes = store().find("plan");
-  return bytes ? std::optional(plan_from_bytes(*bytes)) : std::nullopt;
+  return bytes ? std::optional(from_bytes<Plan>(*bytes)) : std::nullopt;
 }
 
 std::optional<ExitCode> RunState::finished() const

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,11 +31,12 @@ struct Plan {
   std::vector<LocalIndex> limited{};  ///< Folded ones that lost a try for time or memory.
   std::vector<subdomain::FailedTries>
       failures{};  ///< Of folded ones, before subdivision took their place.
-};
 
-[[nodiscard]] Bytes to_bytes(const Plan& plan);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] Plan plan_from_bytes(std::span<const std::byte> bytes);
+  static auto fields(auto& self)
+  {
+    return std::tie(self.kernels, self.limiter, self.limited, self.failures);
+  }
+};
 
 /// @brief What a run leaves in its folder besides pieces, so that `--resume` need not make it
 /// again, and by which it is known whether it is the same run. Used by rank 0; all functions are

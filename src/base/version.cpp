@@ -5,4 +5,9 @@ namespace tessera {
 
 std::string_view version() noexcept { return TESSERA_VERSION; }
 
+std::string record_version(std::string_view library)
+{
+  return std::string(library) + ", records 2";
+}
+
 }  // namespace tessera

@@ -316,8 +316,7 @@ CheckReport Checker::report(const Findings* id_findings)
     findings_.add(Kind::no_tets, {}, [] { return "the mesh has no tets"; });
 
   Findings all;
-  const Bytes own = findings_.to_bytes();
-  for (const Bytes& bytes : comm_.all_gather(own)) all.merge(Findings::from_bytes(bytes));
+  for (const Findings& found : comm_.all_gather_values(findings_)) all.merge(found);
   report.defects = all.to_defects();
   report.conforms = report.defects.empty();
   report.notes = notes();

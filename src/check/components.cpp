@@ -5,7 +5,6 @@
 #include <span>
 #include <utility>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/base/union_find.hpp"
 
 namespace tessera::check {
@@ -44,14 +43,7 @@ GlobalIndex count_components(GlobalIndex num_local_components, std::vector<Link>
                              const comm::Communicator& comm)
 {
   sort_unique(links);
-  ByteWriter writer;
-  writer.put(links);
-  const Bytes own = std::move(writer).take();
-  std::vector<Link> all;
-  for (const Bytes& bytes : comm.all_gather(own)) {
-    const auto some = ByteReader(bytes).get_vector<Link>();
-    all.insert(all.end(), some.begin(), some.end());
-  }
+  std::vector<Link> all = comm.all_gather_rows(links);
   sort_unique(all);
   return comm.sum(num_local_components) - count_joins(all);
 }

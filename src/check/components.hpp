@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -13,6 +14,8 @@ namespace tessera::check {
 struct Link {
   GlobalIndex first = 0;  ///< As of component_name.
   GlobalIndex second = 0;
+
+  static auto fields(auto& self) { return std::tie(self.first, self.second); }
 
   friend auto operator<=>(const Link&, const Link&) = default;
 };

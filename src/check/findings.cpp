@@ -74,35 +74,6 @@ std::vector<Defect> Findings::to_defects() const
   return defects;
 }
 
-Bytes Findings::to_bytes() const
-{
-  ByteWriter writer;
-  for (const Entry& entry : entries_) {
-    writer.put(entry.count);
-    writer.put(static_cast<std::uint64_t>(entry.kept.size()));
-    for (const Finding& finding : entry.kept) {
-      writer.put(finding.place);
-      writer.put(finding.text);
-    }
-  }
-  return std::move(writer).take();
-}
-
-Findings Findings::from_bytes(std::span<const std::byte> bytes)
-{
-  Findings findings;
-  ByteReader reader(bytes);
-  for (Entry& entry : findings.entries_) {
-    entry.count = reader.get<GlobalIndex>();
-    const auto num_kept = reader.get<std::uint64_t>();
-    for (std::uint64_t i = 0; i < num_kept; ++i) {
-      const auto place = reader.get<Place>();
-      entry.kept.push_back({place, reader.get_string()});
-    }
-  }
-  return findings;
-}
-
 std::string to_text(std::span<const double, 3> position)
 {
   std::array<char, 96> text{};

@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
+#include "tessera/base/fields.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/check/report.hpp"
 
@@ -48,6 +49,8 @@ struct Place {
   GlobalIndex piece = 0;   ///< -1: not of one piece.
   GlobalIndex entity = 0;  ///< Cell, point or id.
 
+  static auto fields(auto& self) { return std::tie(self.piece, self.entity); }
+
   friend auto operator<=>(const Place&, const Place&) = default;
 };
 
@@ -84,20 +87,25 @@ class Findings {
 
   [[nodiscard]] std::vector<Defect> to_defects() const;
 
-  [[nodiscard]] Bytes to_bytes() const;
-  [[nodiscard]] static Findings from_bytes(std::span<const std::byte> bytes);
-
  private:
+  friend FieldAccess;
+
   struct Finding {
     Place place{};
     std::string text{};
+
+    static auto fields(auto& self) { return std::tie(self.place, self.text); }
 
     friend auto operator<=>(const Finding&, const Finding&) = default;
   };
   struct Entry {
     GlobalIndex count = 0;
     std::vector<Finding> kept{};  // ascending
+
+    static auto fields(auto& self) { return std::tie(self.count, self.kept); }
   };
+  static auto fields(auto& self) { return std::tie(self.entries_); }
+
   static void keep(Entry& entry, Finding finding);
   static void merge(Entry& into, const Entry& from);
 

@@ -2,7 +2,7 @@
 #include "check/id_runs.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "check/concat.hpp"
@@ -80,15 +80,11 @@ std::vector<IdRun> send_to_blocks(std::span<const IdRun> runs, GlobalIndex block
   std::vector<comm::Message> messages;
   for (std::size_t r = 0; r < to_rank.size(); ++r) {
     if (to_rank[r].empty()) continue;
-    const auto bytes = std::as_bytes(std::span(to_rank[r]));
-    messages.push_back({static_cast<Rank>(r), Bytes(bytes.begin(), bytes.end())});
+    messages.push_back({static_cast<Rank>(r), to_bytes(to_rank[r])});
   }
   std::vector<IdRun> received;
   for (const comm::Message& message : comm.exchange(std::move(messages))) {
-    const std::size_t begin = received.size();
-    received.resize(begin + message.bytes.size() / sizeof(IdRun));
-    if (message.bytes.empty()) continue;
-    std::memcpy(received.data() + begin, message.bytes.data(), message.bytes.size());
+    std::ranges::move(from_bytes<std::vector<IdRun>>(message.bytes), std::back_inserter(received));
   }
   return received;
 }

@@ -4,6 +4,7 @@
 #include <compare>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -26,6 +27,8 @@ struct IdRun {
   GlobalIndex begin = 0;
   GlobalIndex end = 0;
   LocalIndex piece = 0;
+
+  static auto fields(auto& self) { return std::tie(self.begin, self.end, self.piece); }
 
   friend auto operator<=>(const IdRun&, const IdRun&) = default;
 };

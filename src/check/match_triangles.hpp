@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "tessera/comm/communicator.hpp"
@@ -33,6 +34,8 @@ struct TriangleVerdict {
   LocalIndex partner =
       kNoPiece;  ///< Piece of the tet on the other side; kNoPiece if there is none.
   TriangleRole role = TriangleRole::inner;
+
+  static auto fields(auto& self) { return std::tie(self.piece, self.row, self.partner, self.role); }
 };
 
 /// @brief Brings the sides of each triangle together, and the boundary file's triangles with them,

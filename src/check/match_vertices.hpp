@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "tessera/comm/communicator.hpp"
@@ -18,6 +19,8 @@ namespace tessera::check {
 struct VertexFlags {
   bool is_on_seam = false;  ///< On a seam triangle of any piece.
   bool is_shared = false;   ///< In several pieces of tets.
+
+  static auto fields(auto& self) { return std::tie(self.is_on_seam, self.is_shared); }
 };
 
 struct VertexTotals {

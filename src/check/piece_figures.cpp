@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <string>
 #include <tuple>
 
@@ -128,13 +127,7 @@ std::vector<PieceRecord> all_records(std::span<const PieceRecords> own,
   std::vector<PieceRecord> sent;
   for (const PieceRecords& records : own)
     sent.insert(sent.end(), records.all().begin(), records.all().end());
-  std::vector<PieceRecord> all;
-  for (const Bytes& bytes : comm.all_gather(std::as_bytes(std::span(sent)))) {
-    const std::size_t begin = all.size();
-    all.resize(begin + bytes.size() / sizeof(PieceRecord));
-    if (bytes.empty()) continue;
-    std::memcpy(all.data() + begin, bytes.data(), bytes.size());
-  }
+  std::vector<PieceRecord> all = comm.all_gather_rows(sent);
   std::sort(all.begin(), all.end(), [](const PieceRecord& a, const PieceRecord& b) {
     return std::tie(a.figures.id, a.piece) < std::tie(b.figures.id, b.piece);
   });

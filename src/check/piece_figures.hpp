@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "tessera/check/report.hpp"
@@ -24,6 +25,11 @@ struct PieceRecord {
   double boundary_area = 0.0;
   ShapeSums shapes{};
   ShapeSums seam_shapes{};
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.figures, self.piece, self.boundary_area, self.shapes, self.seam_shapes);
+  }
 };
 
 /// @brief The records of one piece.

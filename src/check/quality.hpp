@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -28,6 +29,12 @@ struct ShapeSums {
   double mean_ratio_min = std::numeric_limits<double>::infinity();
   double min_cosine = std::numeric_limits<double>::infinity();  ///< Of dihedral angles.
   double max_cosine = -std::numeric_limits<double>::infinity();
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.num_tets, self.mean_ratio_sum, self.mean_ratio_min, self.min_cosine,
+                    self.max_cosine);
+  }
 
   void add(const TetShape& shape);
   void add(const ShapeSums& piece);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 
 #include "tessera/base/entity_key.hpp"
 #include "tessera/base/types.hpp"
@@ -36,6 +37,12 @@ struct TriangleRecord {
   GlobalIndex cell_id = kNoId;  ///< Of the tet; in the boundary file: of the tet named there.
   bool is_odd = false;          ///< Whether the outward order is an odd permutation of the key.
   bool is_listed = false;       ///< From the boundary file.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.key, self.centroid, self.piece, self.cell, self.row, self.component,
+                    self.attribute, self.subdomain, self.cell_id, self.is_odd, self.is_listed);
+  }
 };
 
 /// @brief What a triangle turned out to be.
@@ -50,6 +57,10 @@ enum class TriangleRole : std::uint8_t {
   interface,
   faulty
 };
+[[nodiscard]] constexpr TriangleRole last_value(TriangleRole /*type*/)
+{
+  return TriangleRole::faulty;
+}
 
 /// @brief Whether only one tet has the triangle.
 [[nodiscard]] constexpr bool is_open(TriangleRole role)
@@ -69,6 +80,12 @@ struct VertexRecord {
   bool is_listed = false;        ///< From the boundary file.
   bool is_shared = false;        ///< Several pieces of tets have it.
   bool is_contradicted = false;  ///< And not at one position.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.position, self.id, self.piece, self.point, self.is_used, self.is_inner,
+                    self.is_on_seam, self.is_listed, self.is_shared, self.is_contradicted);
+  }
 };
 
 /// @brief An edge on the surface of a piece; once per boundary triangle on it, or once if none is.
@@ -82,6 +99,12 @@ struct EdgeRecord {
   LocalIndex boundary_component = 0;  ///< Of its piece.
   LocalIndex twin = kNoPiece;         ///< A piece that may have counted half of the edge.
   bool is_on_boundary = false;
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.key, self.inward, self.middle, self.piece, self.cell,
+                    self.boundary_component, self.twin, self.is_on_boundary);
+  }
 };
 
 }  // namespace tessera::check

@@ -75,31 +75,4 @@ RegionUpdate make_update(const RegionMesh& mesh, const TetMesh& tets,
   return update;
 }
 
-Bytes to_bytes(const RegionUpdate& update)
-{
-  ByteWriter out;
-  out.put(update.region);
-  out.put(update.host);
-  out.put(update.subdomains);
-  out.put(update.vertex_xyz);
-  out.put(update.num_shared);
-  out.put(update.tet_offsets);
-  out.put(update.tet_vertices);
-  return std::move(out).take();
-}
-
-RegionUpdate region_update_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  RegionUpdate update;
-  update.region = in.get<LocalIndex>();
-  update.host = in.get<mesh::HostEntity>();
-  update.subdomains = in.get_vector<LocalIndex>();
-  update.vertex_xyz = in.get_vector<double>();
-  update.num_shared = in.get<LocalIndex>();
-  update.tet_offsets = in.get_vector<LocalIndex>();
-  update.tet_vertices = in.get_vector<LocalIndex>();
-  return update;
-}
-
 }  // namespace tessera::improve

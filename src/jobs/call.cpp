@@ -269,7 +269,7 @@ void Call::finish_answered()
     finish(JobStatus::ok, "");
     outcome_->result = answer_.take();
   } else {
-    const Failure failure = to_failure(answer_.take());
+    const Failure failure = from_bytes<Failure>(answer_.take());
     finish(failure.status, failure.message);
     outcome_->error = failure.status == JobStatus::failed ? failure.error : ErrorKind::none;
   }

@@ -36,23 +36,6 @@ Failure current_failure()
   }
 }
 
-Bytes to_bytes(const Failure& failure)
-{
-  ByteWriter writer;
-  writer.put(failure.status);
-  writer.put(failure.error);
-  writer.put(failure.message);
-  return std::move(writer).take();
-}
-
-Failure to_failure(std::span<const std::byte> bytes)
-{
-  ByteReader reader(bytes);
-  const auto status = reader.get<JobStatus>();
-  const auto error = reader.get<ErrorKind>();
-  return {.status = status, .error = error, .message = reader.get_string()};
-}
-
 void throw_unless_ok(const JobOutcome& outcome, const std::string& what)
 {
   if (outcome.status == JobStatus::ok) return;

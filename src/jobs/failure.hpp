@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
 #include <string>
+#include <tuple>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/jobs/job_runner.hpp"
 
 namespace tessera::jobs {
@@ -14,12 +13,11 @@ struct Failure {
   JobStatus status = JobStatus::failed;  ///< failed, or out_of_memory for std::bad_alloc.
   ErrorKind error = ErrorKind::other;
   std::string message{};
+
+  static auto fields(auto& self) { return std::tie(self.status, self.error, self.message); }
 };
 
 /// @brief What the exception says that is being handled. @pre called inside a catch block.
 [[nodiscard]] Failure current_failure();
-
-[[nodiscard]] Bytes to_bytes(const Failure& failure);
-[[nodiscard]] Failure to_failure(std::span<const std::byte> bytes);
 
 }  // namespace tessera::jobs

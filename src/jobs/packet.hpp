@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
@@ -35,6 +37,11 @@ struct ProcessEnd {
   int fork_error = 0;   ///< errno if the process could not even be started.
   double cpu_s = 0.0;
   std::uint64_t peak_rss_bytes = 0;
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.wait_status, self.fork_error, self.cpu_s, self.peak_rss_bytes);
+  }
 };
 
 /// @brief What a process says about itself at the end of its work.
@@ -43,6 +50,11 @@ struct UsageReport {
   std::uint64_t rss_bytes = 0;
   std::uint64_t peak_rss_bytes = 0;
   std::uint64_t together_bytes = 0;  ///< It and the zygotes, shared pages once; 0 if not measured.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.cpu_s, self.rss_bytes, self.peak_rss_bytes, self.together_bytes);
+  }
 };
 
 struct PacketHeader {
@@ -50,6 +62,8 @@ struct PacketHeader {
   std::uint32_t call = 0;          ///< Number of the load or run that it is about.
   std::uint64_t message_size = 0;  ///< Of all packets of the message together, without headers.
 };
+static_assert(std::has_unique_object_representations_v<PacketHeader>,
+              "it goes to the socket as it is in memory");
 
 struct Packet {
   PacketHeader header{};
@@ -59,7 +73,7 @@ struct Packet {
   template <class T>
   [[nodiscard]] T value() const
   {
-    return ByteReader(payload).get<T>();
+    return from_bytes<T>(payload);
   }
 };
 
@@ -85,11 +99,11 @@ class Outgoing {
   bool sent_ = false;
 };
 
-/// @brief Sends a trivially copyable value. @return False if nobody will ever read it.
+/// @brief Sends a value. @return False if nobody will ever read it.
 template <class T>
 bool send_value(int socket, PacketKind kind, std::uint32_t call, const T& value)
 {
-  return Outgoing(kind, call, std::as_bytes(std::span<const T, 1>(&value, 1))).send_all(socket);
+  return Outgoing(kind, call, to_bytes(value)).send_all(socket);
 }
 
 /// @brief Sends a packet without payload, never waits. @return False if it could not be sent.

@@ -90,41 +90,4 @@ void validate(const CoarseMesh& mesh)
   validate_faces(mesh);
 }
 
-Bytes to_bytes(const CoarseMesh& mesh)
-{
-  ByteWriter out;
-  out.put(mesh.vertex_xyz);
-  out.put(mesh.tet_vertices);
-  out.put(mesh.tet_material);
-  out.put(mesh.face_vertices);
-  out.put(mesh.face_patch);
-  out.put(mesh.face_uv);
-  out.put(mesh.segment_vertices);
-  out.put(mesh.segment_curve);
-  out.put(mesh.segment_t);
-  out.put(mesh.patch_names);
-  out.put(mesh.patch_surface);
-  out.put(mesh.material_names);
-  return std::move(out).take();
-}
-
-CoarseMesh coarse_mesh_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  CoarseMesh mesh;
-  mesh.vertex_xyz = in.get_vector<double>();
-  mesh.tet_vertices = in.get_vector<LocalIndex>();
-  mesh.tet_material = in.get_vector<LocalIndex>();
-  mesh.face_vertices = in.get_vector<LocalIndex>();
-  mesh.face_patch = in.get_vector<LocalIndex>();
-  mesh.face_uv = in.get_vector<double>();
-  mesh.segment_vertices = in.get_vector<LocalIndex>();
-  mesh.segment_curve = in.get_vector<LocalIndex>();
-  mesh.segment_t = in.get_vector<double>();
-  mesh.patch_names = in.get_strings();
-  mesh.patch_surface = in.get_vector<LocalIndex>();
-  mesh.material_names = in.get_strings();
-  return mesh;
-}
-
 }  // namespace tessera::mesh

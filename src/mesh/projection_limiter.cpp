@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "tessera/base/error.hpp"
+
 namespace tessera::mesh {
 
 ProjectionLimiter::ProjectionLimiter(std::vector<PointLimit> entries) : entries_(std::move(entries))
@@ -24,30 +26,15 @@ double ProjectionLimiter::factor(const LatticePointKey& key) const
   return place != entries_.end() && place->key == key ? place->factor : 1.0;
 }
 
-// Keys and factors apart: PointLimit has padding, whose bytes nobody sets.
-Bytes to_bytes(const ProjectionLimiter& limiter)
+void ProjectionLimiter::require_sound() const
 {
-  std::vector<LatticePointKey> keys;
-  std::vector<double> factors;
-  for (const PointLimit& entry : limiter.entries()) {
-    keys.push_back(entry.key);
-    factors.push_back(entry.factor);
-  }
-  ByteWriter out;
-  out.put(keys);
-  out.put(factors);
-  return std::move(out).take();
-}
-
-ProjectionLimiter projection_limiter_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  const auto keys = in.get_vector<LatticePointKey>();
-  const auto factors = in.get_vector<double>();
-  if (keys.size() != factors.size()) throw InputError("record of a limiter is inconsistent");
-  std::vector<PointLimit> entries;
-  for (std::size_t i = 0; i < keys.size(); ++i) entries.push_back({keys[i], factors[i]});
-  return ProjectionLimiter(std::move(entries));
+  const auto is_out_of_order = [](const PointLimit& a, const PointLimit& b) {
+    return a.key >= b.key;
+  };
+  const bool ascends = std::ranges::adjacent_find(entries_, is_out_of_order) == entries_.end();
+  const bool has_factors = std::ranges::all_of(
+      entries_, [](const PointLimit& entry) { return 0.0 <= entry.factor && entry.factor <= 1.0; });
+  if (!ascends || !has_factors) throw InputError("record of a limiter is damaged");
 }
 
 }  // namespace tessera::mesh

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include "tessera/base/bytes.hpp"
@@ -42,6 +43,8 @@ struct ColumnCounts {
   GlobalIndex num_pieces = 0;  // With tets.
   std::map<TetColumn, GlobalIndex> num_with{};
 
+  static auto fields(auto& self) { return std::tie(self.num_pieces, self.num_with); }
+
   void add(const mesh::MeshArrays& piece)
   {
     static const std::set<std::string> own_meaning{"attribute", "subdomain"};
@@ -57,26 +60,10 @@ struct ColumnCounts {
     count(piece.cell_doubles, ColumnType::float64);
   }
 
-  void add(const Bytes& bytes)
+  void add(const ColumnCounts& other)
   {
-    ByteReader in(bytes);
-    for (num_pieces += in.get<GlobalIndex>(); !in.at_end();) {
-      std::string name = in.get_string();
-      const auto type = in.get<ColumnType>();
-      num_with[{std::move(name), type}] += in.get<GlobalIndex>();
-    }
-  }
-
-  [[nodiscard]] Bytes to_bytes() const
-  {
-    ByteWriter out;
-    out.put(num_pieces);
-    for (const auto& [column, count] : num_with) {
-      out.put(column.name);
-      out.put(column.type);
-      out.put(count);
-    }
-    return std::move(out).take();
+    num_pieces += other.num_pieces;
+    for (const auto& [column, count] : other.num_with) num_with[column] += count;
   }
 };
 
@@ -86,7 +73,7 @@ std::vector<TetColumn> common_columns(const comm::Communicator& comm, const Mesh
   ColumnCounts mine;
   for (const mesh::MeshArrays& piece : pieces.tets) mine.add(piece);
   ColumnCounts all;
-  for (const Bytes& bytes : comm.all_gather(mine.to_bytes())) all.add(bytes);
+  for (const ColumnCounts& counts : comm.all_gather_values(mine)) all.add(counts);
   std::vector<TetColumn> columns;
   for (const auto& [column, count] : all.num_with) {
     if (count == all.num_pieces) columns.push_back(column);

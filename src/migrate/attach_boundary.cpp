@@ -32,6 +32,12 @@ struct Record {
   LocalIndex corner = 0;
   std::int32_t patch = 0;
   bool is_listed = false;  // In the boundary file.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.key, self.tet_id, self.boundary_id, self.rank, self.tet, self.corner,
+                    self.patch, self.is_listed);
+  }
 };
 
 struct Defects {

@@ -114,40 +114,4 @@ MeshBlock merge_blocks(std::span<const MeshBlock> blocks)
   return merged;
 }
 
-void put(const MeshBlock& block, ByteWriter& out)
-{
-  out.put(block.vertex_ids);
-  out.put(block.vertex_xyz);
-  out.put(block.tet_ids);
-  out.put(block.tet_vertices);
-  out.put(block.tet_material);
-  out.put(block.tet_part);
-  out.put(static_cast<std::uint64_t>(block.tet_columns.size()));
-  for (const auto& column : block.tet_columns) out.put(column);
-  out.put(block.boundary_ids);
-  out.put(block.boundary_tet);
-  out.put(block.boundary_corner);
-  out.put(block.boundary_patch);
-}
-
-MeshBlock get_block(ByteReader& in)
-{
-  MeshBlock block;
-  block.vertex_ids = in.get_vector<GlobalIndex>();
-  block.vertex_xyz = in.get_vector<double>();
-  block.tet_ids = in.get_vector<GlobalIndex>();
-  block.tet_vertices = in.get_vector<LocalIndex>();
-  block.tet_material = in.get_vector<std::int32_t>();
-  block.tet_part = in.get_vector<LocalIndex>();
-  const auto num_columns = in.get<std::uint64_t>();
-  for (std::uint64_t c = 0; c < num_columns; ++c) {
-    block.tet_columns.push_back(in.get_vector<std::uint64_t>());
-  }
-  block.boundary_ids = in.get_vector<GlobalIndex>();
-  block.boundary_tet = in.get_vector<LocalIndex>();
-  block.boundary_corner = in.get_vector<LocalIndex>();
-  block.boundary_patch = in.get_vector<std::int32_t>();
-  return block;
-}
-
 }  // namespace tessera::migrate

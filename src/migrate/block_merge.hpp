@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/migrate/distributed_mesh.hpp"
 
 namespace tessera::migrate {
@@ -16,9 +15,5 @@ namespace tessera::migrate {
 /// @brief One block of all that the blocks hold; what several of them have is in it once. Local.
 /// @pre The blocks have equally many columns, but for those without tets.
 [[nodiscard]] MeshBlock merge_blocks(std::span<const MeshBlock> blocks);
-
-void put(const MeshBlock& block, ByteWriter& out);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] MeshBlock get_block(ByteReader& in);
 
 }  // namespace tessera::migrate

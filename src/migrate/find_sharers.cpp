@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <tuple>
 
 #include "tessera/comm/record_exchange.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -18,6 +19,11 @@ struct Record {
   Vec3 position{};
   Rank rank = 0;
   LocalIndex vertex = 0;
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.key, self.position, self.rank, self.vertex);
+  }
 };
 
 std::vector<Record> surface_records(const JoinedTets& joined, const std::vector<LocalIndex>& behind,

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "tessera/migrate/partition.hpp"
@@ -31,6 +32,8 @@ struct Answer {
   LocalIndex for_part = 0;
   MeshBlock block{};
   IndexLists vertex_parts{};
+
+  static auto fields(auto& self) { return std::tie(self.for_part, self.block, self.vertex_parts); }
 };
 
 std::vector<Surroundings> own_parts(const comm::Communicator& comm, const DistributedMesh& mesh,
@@ -142,26 +145,6 @@ Answer answer_to(std::span<const GlobalIndex> question, const DistributedMesh& m
   return answer;
 }
 
-Bytes to_bytes(const Answer& answer)
-{
-  ByteWriter out;
-  put(answer.block, out);
-  out.put(answer.vertex_parts.offsets);
-  out.put(answer.vertex_parts.values);
-  out.put(answer.for_part);
-  return std::move(out).take();
-}
-
-Answer answer_from_bytes(const Bytes& bytes)
-{
-  ByteReader in(bytes);
-  Answer answer{.block = get_block(in)};
-  answer.vertex_parts.offsets = in.get_vector<LocalIndex>();
-  answer.vertex_parts.values = in.get_vector<LocalIndex>();
-  answer.for_part = in.get<LocalIndex>();
-  return answer;
-}
-
 // Adds one more layer; its vertices that are new are the next frontier.
 void take_answers(std::vector<Answer> answers, Surroundings& own)
 {
@@ -197,7 +180,7 @@ void add_layer(const comm::Communicator& comm, const DistributedMesh& mesh,
   }
   std::map<LocalIndex, std::vector<Answer>> answers;
   for (const comm::Message& message : exchange(comm, std::move(messages), traffic)) {
-    Answer answer = answer_from_bytes(message.bytes);
+    Answer answer = from_bytes<Answer>(message.bytes);
     answers[answer.for_part].push_back(std::move(answer));
   }
   for (Surroundings& own : parts) take_answers(std::move(answers[own.ghosts.part]), own);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,14 +37,11 @@ class ListStreams {
   {
     std::vector<comm::Message> messages;
     for (const Rank rank : streams_.ranks()) {
-      const auto bytes = std::as_bytes(std::span(streams_[rank].values));
-      messages.push_back({rank, Bytes(bytes.begin(), bytes.end())});
+      messages.push_back({rank, to_bytes(streams_[rank].values)});
     }
     streams_ = RankBuckets<Stream>(comm_.size());
     for (const comm::Message& message : migrate::exchange(comm_, std::move(messages), traffic)) {
-      std::vector<Index>& values = streams_[message.rank].values;
-      values.resize(message.bytes.size() / sizeof(Index));
-      std::memcpy(values.data(), message.bytes.data(), values.size() * sizeof(Index));
+      streams_[message.rank].values = from_bytes<std::vector<Index>>(message.bytes);
     }
   }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "tessera/base/error.hpp"
@@ -23,6 +24,8 @@ struct Packet {
   MeshBlock block{};
   std::vector<GlobalIndex> shared_ids{};
   IndexLists sharers{};  // Parallel to shared_ids.
+
+  static auto fields(auto& self) { return std::tie(self.block, self.shared_ids, self.sharers); }
 };
 using Packets = RankBuckets<Packet>;
 
@@ -119,27 +122,6 @@ class BlockCutter {
   std::vector<LocalIndex> tet_row_;
 };
 
-Bytes to_bytes(const Packet& packet)
-{
-  ByteWriter out;
-  put(packet.block, out);
-  out.put(packet.shared_ids);
-  out.put(packet.sharers.offsets);
-  out.put(packet.sharers.values);
-  return std::move(out).take();
-}
-
-Packet packet_from_bytes(const Bytes& bytes)
-{
-  ByteReader in(bytes);
-  Packet packet;
-  packet.block = get_block(in);
-  packet.shared_ids = in.get_vector<GlobalIndex>();
-  packet.sharers.offsets = in.get_vector<LocalIndex>();
-  packet.sharers.values = in.get_vector<LocalIndex>();
-  return packet;
-}
-
 // Sends the packets and returns those for this rank; the one that it keeps is not copied.
 std::vector<Packet> deliver(const comm::Communicator& comm, Packets& packets, Traffic& traffic)
 {
@@ -152,7 +134,7 @@ std::vector<Packet> deliver(const comm::Communicator& comm, Packets& packets, Tr
       messages.push_back({rank, to_bytes(packets[rank])});
   }
   for (comm::Message& message : exchange(comm, std::move(messages), traffic)) {
-    received.push_back(packet_from_bytes(message.bytes));
+    received.push_back(from_bytes<Packet>(message.bytes));
     message.bytes = {};
   }
   return received;

@@ -2,13 +2,13 @@
 #include "migrate/part_view.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <map>
 #include <queue>
 #include <set>
 #include <tuple>
 #include <utility>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/base/union_find.hpp"
 
 namespace tessera::migrate {
@@ -126,32 +126,39 @@ std::vector<LocalIndex> components_of_parts(const PartView& view)
   return component;
 }
 
+namespace {
+
+// Two parts that are beside each other.
+struct PartPair {
+  LocalIndex part = 0;
+  LocalIndex other = 0;
+
+  static auto fields(auto& self) { return std::tie(self.part, self.other); }
+
+  friend auto operator<=>(const PartPair&, const PartPair&) = default;
+};
+
+}  // namespace
+
 PartGraph graph_of_parts(const comm::Communicator& comm, const PartView& view, LocalIndex num_parts)
 {
   PartGraph graph;
   graph.sizes.assign(at(num_parts), 0);
-  std::set<std::pair<LocalIndex, LocalIndex>> pairs;
+  std::set<PartPair> pairs;
   for (LocalIndex t = 0; t < view.num_tets(); ++t) {
     ++graph.sizes[at(view.part(t))];
     for (std::size_t c = 0; c < 4; ++c) {
       const LocalIndex other = view.part_behind(t, c);
-      if (other != kNoPart && other != view.part(t)) pairs.emplace(view.part(t), other);
+      if (other != kNoPart && other != view.part(t)) pairs.insert({view.part(t), other});
     }
   }
   comm.sum_in_place(graph.sizes);
-  ByteWriter out;
-  for (const auto& [part, other] : pairs) {
-    out.put(part);
-    out.put(other);
-  }
+  const std::vector<PartPair> own_pairs(pairs.begin(), pairs.end());
   // Ranks have ascending ranges of parts, so the pairs of all ranks ascend as well.
   LocalIndex last = 0;
-  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
-    for (ByteReader in(bytes); !in.at_end();) {
-      const auto part = in.get<LocalIndex>();
-      for (; last < part; ++last) graph.neighbours.end_list();
-      graph.neighbours.values.push_back(in.get<LocalIndex>());
-    }
+  for (const auto& [part, other] : comm.all_gather_rows(own_pairs)) {
+    for (; last < part; ++last) graph.neighbours.end_list();
+    graph.neighbours.values.push_back(other);
   }
   for (; last < num_parts; ++last) graph.neighbours.end_list();
   return graph;

@@ -186,30 +186,9 @@ double box_diagonal(const TriangleSurface& surface)
   return norm(high - low);
 }
 
-Bytes to_bytes(const TriangleSurface& surface)
+void TriangleSurface::require_sound() const
 {
-  ByteWriter out;
-  out.put(surface.vertex_xyz);
-  out.put(surface.triangle_vertices);
-  out.put(surface.triangle_solid);
-  out.put(surface.triangle_material);
-  out.put(surface.solid_names);
-  out.put(surface.material_names);
-  return std::move(out).take();
-}
-
-TriangleSurface triangle_surface_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  TriangleSurface surface;
-  surface.vertex_xyz = in.get_vector<double>();
-  surface.triangle_vertices = in.get_vector<LocalIndex>();
-  surface.triangle_solid = in.get_vector<LocalIndex>();
-  surface.triangle_material = in.get_vector<LocalIndex>();
-  surface.solid_names = in.get_strings();
-  surface.material_names = in.get_strings();
-  if (!in.at_end() || !is_consistent(surface)) throw InputError("record of a surface is damaged");
-  return surface;
+  if (!is_consistent(*this)) throw InputError("record of a surface is damaged");
 }
 
 }  // namespace tessera::model

@@ -2,6 +2,8 @@
 #include "netgen/occ_content.hpp"
 
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 #include <BinTools.hxx>
 #include <TopExp_Explorer.hxx>
@@ -11,6 +13,14 @@
 namespace tessera::netgen {
 namespace {
 
+struct StoredContent {
+  std::string image{};  // As BinTools writes the shape.
+  std::vector<std::string> face_names{};
+  std::vector<std::string> solid_names{};
+
+  static auto fields(auto& self) { return std::tie(self.image, self.face_names, self.solid_names); }
+};
+
 std::string name_in(const ShapeNames& names, const TopoDS_Shape& part)
 {
   const std::string* name = names.Seek(part);
@@ -19,34 +29,29 @@ std::string name_in(const ShapeNames& names, const TopoDS_Shape& part)
 
 }  // namespace
 
-Bytes to_bytes(const CadFile& cad)
+Bytes occ_content(const CadFile& cad)
 {
   std::ostringstream image(std::ios::binary);
   BinTools::Write(cad.shape, image, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
-  std::vector<std::string> face_names;
-  std::vector<std::string> solid_names;
+  StoredContent content{.image = image.str()};
   for (const TopoDS_Shape& face : parts_of(cad.shape, TopAbs_FACE)) {
-    face_names.push_back(name_in(cad.names, face));
+    content.face_names.push_back(name_in(cad.names, face));
   }
   for (TopExp_Explorer solids(cad.shape, TopAbs_SOLID); solids.More(); solids.Next()) {
-    solid_names.push_back(name_in(cad.names, solids.Current()));
+    content.solid_names.push_back(name_in(cad.names, solids.Current()));
   }
-  ByteWriter out;
-  out.put(image.str());
-  out.put(face_names);
-  out.put(solid_names);
-  return std::move(out).take();
+  return to_bytes(content);
 }
 
-OccContent occ_content_from_bytes(std::span<const std::byte> bytes)
+OccContent read_occ_content(std::span<const std::byte> bytes)
 {
-  ByteReader in(bytes);
+  auto stored = from_bytes<StoredContent>(bytes);
   OccContent content;
-  std::istringstream image(in.get_string(), std::ios::binary);
+  std::istringstream image(std::move(stored.image), std::ios::binary);
   BinTools::Read(content.shape, image);
   if (content.shape.IsNull()) throw InputError("the stored CAD model holds no shape");
-  content.face_names = in.get_strings();
-  content.solid_names = in.get_strings();
+  content.face_names = std::move(stored.face_names);
+  content.solid_names = std::move(stored.solid_names);
   return content;
 }
 

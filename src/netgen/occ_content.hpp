@@ -20,8 +20,10 @@ struct OccContent {
   std::vector<std::string> solid_names{};  ///< In the order of TopExp_Explorer.
 };
 
-[[nodiscard]] Bytes to_bytes(const CadFile& cad);
-/// @throws InputError if the bytes are truncated or hold no shape.
-[[nodiscard]] OccContent occ_content_from_bytes(std::span<const std::byte> bytes);
+/// @brief ModelSource::content of a CAD file. Local.
+[[nodiscard]] Bytes occ_content(const CadFile& cad);
+
+/// @brief Reads it back. Local. @throws InputError if the bytes are damaged or hold no shape.
+[[nodiscard]] OccContent read_occ_content(std::span<const std::byte> bytes);
 
 }  // namespace tessera::netgen

@@ -269,7 +269,7 @@ model::ModelSource import_occ(const std::filesystem::path& file)
   source.format = model::Format::occ;
   source.file_name = file.string();
   source.length_unit = cad.length_unit;
-  source.content = to_bytes(cad);
+  source.content = occ_content(cad);
   source.repairs = cad.repairs;
   return source;
 }
@@ -277,7 +277,7 @@ model::ModelSource import_occ(const std::filesystem::path& file)
 std::unique_ptr<LoadedModel> load_occ(const model::ModelSource& source)
 {
   return with_occ_errors(source.file_name, [&]() -> std::unique_ptr<LoadedModel> {
-    return std::make_unique<OccModel>(occ_content_from_bytes(source.content), source.file_name);
+    return std::make_unique<OccModel>(read_occ_content(source.content), source.file_name);
   });
 }
 

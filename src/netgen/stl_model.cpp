@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -143,29 +144,32 @@ class StlModel final : public LoadedModel {
   std::string name_;
 };
 
+// ModelSource::content of an STL file.
+struct StlContent {
+  double feature_angle_deg = 0.0;
+  Bytes surface{};  // Of a model::TriangleSurface.
+
+  static auto fields(auto& self) { return std::tie(self.feature_angle_deg, self.surface); }
+};
+
 }  // namespace
 
 model::ModelSource import_stl(const std::filesystem::path& file,
                               const model::ImportOptions& options)
 {
   model::CheckedSurface checked = model::check_surface(model::read_stl(file), file.string());
-  ByteWriter content;
-  content.put(options.feature_angle_deg);
-  content.put(model::to_bytes(checked.surface));
   return {.format = model::Format::stl,
           .file_name = file.string(),
           .length_unit = {},
-          .content = std::move(content).take(),
+          .content = to_bytes(StlContent{options.feature_angle_deg, to_bytes(checked.surface)}),
           .repairs = std::move(checked.repairs)};
 }
 
 std::unique_ptr<LoadedModel> load_stl(const model::ModelSource& source)
 {
-  ByteReader content(source.content);
-  const auto feature_angle_deg = content.get<double>();
-  model::TriangleSurface surface =
-      model::triangle_surface_from_bytes(content.get_vector<std::byte>());
-  return std::make_unique<StlModel>(std::move(surface), feature_angle_deg, source.file_name);
+  const auto content = from_bytes<StlContent>(source.content);
+  return std::make_unique<StlModel>(from_bytes<model::TriangleSurface>(content.surface),
+                                    content.feature_angle_deg, source.file_name);
 }
 
 }  // namespace tessera::netgen

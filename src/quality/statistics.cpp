@@ -22,6 +22,28 @@ void Histogram::set_counts(std::vector<GlobalIndex> counts)
   counts_ = std::move(counts);
 }
 
+Histogram::Image Histogram::image() const
+{
+  Image image;
+  for (std::size_t b = 0; b < counts_.size(); ++b) {
+    if (counts_[b] == 0) continue;
+    image.bins.push_back(static_cast<std::uint32_t>(b));
+    image.counts.push_back(counts_[b]);
+  }
+  return image;
+}
+
+void Histogram::set_image(const Image& image)
+{
+  if (image.bins.size() != image.counts.size()) throw InputError("a histogram is cut off");
+  std::vector<GlobalIndex> counts(counts_.size());
+  for (std::size_t i = 0; i < image.bins.size(); ++i) {
+    if (image.bins[i] >= counts.size()) throw InputError("a histogram has more bins than expected");
+    counts[image.bins[i]] = image.counts[i];
+  }
+  counts_ = std::move(counts);
+}
+
 GlobalIndex Histogram::total() const
 {
   return std::accumulate(counts_.begin(), counts_.end(), GlobalIndex{0});
@@ -90,56 +112,6 @@ TetStatistics ShapeSum::statistics() const
   if (num_tets_ == 0) return {};
   return {num_tets_, angle_deg(worst_.largest_cosine), angle_deg(worst_.smallest_cosine),
           worst_.mean_ratio, sum_mean_ratio_};
-}
-
-namespace {
-
-// Most bins of one piece are empty: only the others are written.
-void put_sparse(const Histogram& histogram, ByteWriter& out)
-{
-  std::vector<std::uint32_t> bins;
-  std::vector<GlobalIndex> counts;
-  for (std::size_t b = 0; b < histogram.counts().size(); ++b) {
-    if (histogram.counts()[b] == 0) continue;
-    bins.push_back(static_cast<std::uint32_t>(b));
-    counts.push_back(histogram.counts()[b]);
-  }
-  out.put(bins);
-  out.put(counts);
-}
-
-void get_sparse(ByteReader& in, Histogram& histogram)
-{
-  const auto bins = in.get_vector<std::uint32_t>();
-  const auto values = in.get_vector<GlobalIndex>();
-  std::vector<GlobalIndex> counts(histogram.counts().size());
-  if (bins.size() != values.size()) throw InputError("a histogram is cut off");
-  for (std::size_t i = 0; i < bins.size(); ++i) {
-    if (bins[i] >= counts.size()) throw InputError("a histogram has more bins than expected");
-    counts[bins[i]] = values[i];
-  }
-  histogram.set_counts(std::move(counts));
-}
-
-}  // namespace
-
-Bytes to_bytes(const QualityHistograms& histograms)
-{
-  ByteWriter out;
-  put_sparse(histograms.mean_ratio, out);
-  put_sparse(histograms.seam_mean_ratio, out);
-  put_sparse(histograms.log2_edge_length, out);
-  return std::move(out).take();
-}
-
-QualityHistograms quality_histograms_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  QualityHistograms histograms;
-  get_sparse(in, histograms.mean_ratio);
-  get_sparse(in, histograms.seam_mean_ratio);
-  get_sparse(in, histograms.log2_edge_length);
-  return histograms;
 }
 
 }  // namespace tessera::quality

@@ -24,29 +24,6 @@ improve::ShapeSummary measure_shapes(const improve::TetMesh& mesh)
 
 }  // namespace
 
-Bytes to_bytes(const RegionRecord& record)
-{
-  ByteWriter out;
-  out.put(record.is_improved);
-  out.put(record.has_failed);
-  out.put(record.was_limited);
-  out.put(record.reason);
-  out.put(improve::to_bytes(record.update));
-  return std::move(out).take();
-}
-
-RegionRecord region_record_from_bytes(std::span<const std::byte> bytes)
-{
-  ByteReader in(bytes);
-  RegionRecord record;
-  record.is_improved = in.get<bool>();
-  record.has_failed = in.get<bool>();
-  record.was_limited = in.get<bool>();
-  record.reason = in.get_string();
-  record.update = improve::region_update_from_bytes(in.get_vector<std::byte>());
-  return record;
-}
-
 improve::RegionMesh region_mesh(const std::vector<mesh::Piece>& pieces,
                                 const improve::SeamRegions& regions, LocalIndex region)
 {

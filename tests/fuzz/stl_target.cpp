@@ -19,8 +19,8 @@ namespace {
 void import(const std::filesystem::path& file)
 {
   const auto surface = model::check_surface(model::read_stl(file), file.string()).surface;
-  fuzz::promise(model::to_bytes(model::triangle_surface_from_bytes(model::to_bytes(surface)))
-                == model::to_bytes(surface));
+  fuzz::promise(to_bytes(from_bytes<model::TriangleSurface>(to_bytes(surface)))
+                == to_bytes(surface));
   const model::SurfaceFeatures features = model::find_features(surface, 30.0);
   fuzz::promise(features.triangle_patch.size() == surface.triangle_solid.size());
 

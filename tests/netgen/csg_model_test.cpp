@@ -144,7 +144,7 @@ TEST(CsgCoarseMesh, IsTheSameOnEveryCallAndAfterOthers)
   const Loaded can(kCylinder, 0.5);
   const Loaded other(kTwoMaterials, 0.3);
   (void)can.generate(0.2);
-  EXPECT_EQ(mesh::to_bytes(can.generate(0.5)), mesh::to_bytes(can.mesh));
+  EXPECT_EQ(to_bytes(can.generate(0.5)), to_bytes(can.mesh));
 }
 
 TEST(CsgCoarseMesh, GetsFinerWithTheSize)

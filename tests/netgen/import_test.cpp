@@ -87,7 +87,7 @@ TEST(Import, SourceSurvivesTheWayThroughBytes)
 {
   const TemporaryFile file("ball.geo", kBall);
   const auto source = netgen::import_model(file.path(), {});
-  const auto copy = model::model_source_from_bytes(model::to_bytes(source));
+  const auto copy = from_bytes<model::ModelSource>(to_bytes(source));
   EXPECT_EQ(netgen::load_model(copy)->box_diagonal(), netgen::load_model(source)->box_diagonal());
 }
 

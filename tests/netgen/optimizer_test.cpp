@@ -130,7 +130,7 @@ TEST(Optimizer, GivesTheSameBitsAgain)
   const std::vector<mesh::Piece> once = improve_all(body, filled);
   const std::vector<mesh::Piece> again = improve_all(body, filled);
   for (std::size_t s = 0; s < once.size(); ++s) {
-    EXPECT_EQ(mesh::to_bytes(once[s]), mesh::to_bytes(again[s]));
+    EXPECT_EQ(to_bytes(once[s]), to_bytes(again[s]));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "tessera/base/hash.hpp"
 #include "tessera/base/types.hpp"
@@ -19,6 +20,7 @@ using VertexKey = std::array<std::uint64_t, 2>;
 template <class Key>
 [[nodiscard]] std::uint64_t hash_of(const Key& key)
 {
+  static_assert(std::has_unique_object_representations_v<Key>, "equal keys have equal bytes");
   return hash_bytes(std::as_bytes(std::span(&key, 1))).low;
 }
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <tuple>
 
 #include "tessera/base/types.hpp"
 
@@ -15,6 +16,8 @@ namespace tessera {
 struct Hash128 {
   std::uint64_t low = 0;
   std::uint64_t high = 0;
+
+  static auto fields(auto& self) { return std::tie(self.low, self.high); }
 
   friend bool operator==(const Hash128&, const Hash128&) = default;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -12,6 +13,8 @@ namespace tessera {
 struct IndexLists {
   std::vector<LocalIndex> offsets{0};  ///< Shape (num_lists + 1).
   std::vector<LocalIndex> values{};    ///< Shape (offsets.back()).
+
+  static auto fields(auto& self) { return std::tie(self.offsets, self.values); }
 
   friend bool operator==(const IndexLists&, const IndexLists&) = default;
 

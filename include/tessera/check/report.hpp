@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/hash.hpp"
@@ -45,6 +46,11 @@ struct SubdomainFigures {
   GlobalIndex num_tets = 0;
   double volume = 0.0;  ///< Of its finite tets, signed.
   Hash128 digest{};
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.id, self.material, self.num_tets, self.volume, self.digest);
+  }
 };
 
 /// @brief What check_mesh found. The same bits on every rank and for every number of ranks.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <tuple>
+
 namespace tessera::coarse {
 
 /// @brief Who makes the coarse surface. Not a key of a case file: the sequence of fallbacks
@@ -9,6 +11,10 @@ enum class SurfaceMesher : int {
   netgen,  ///< NETGEN, on the geometry itself.
   remesh,  ///< remesh(), on OpenCASCADE's triangles or those of the STL file.
 };
+[[nodiscard]] constexpr SurfaceMesher last_value(SurfaceMesher /*type*/)
+{
+  return SurfaceMesher::remesh;
+}
 
 /// @brief Options of the coarse mesh; table `[coarse]` of a case file.
 struct CoarseOptions {
@@ -21,6 +27,12 @@ struct CoarseOptions {
   SurfaceMesher surface_mesher = SurfaceMesher::netgen;
 
   double timeout_s = 300.0;  ///< CPU seconds of one try, > 0.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.max_size, self.grading, self.curvature, self.feature_angle_deg,
+                    self.surface_mesher, self.timeout_s);
+  }
 
   friend bool operator==(const CoarseOptions&, const CoarseOptions&) = default;
 };

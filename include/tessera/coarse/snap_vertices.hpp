@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <tuple>
+
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/model/model.hpp"
 
@@ -10,6 +12,8 @@ namespace tessera::coarse {
 struct VertexDistance {
   double largest = 0.0;    ///< Over all vertices on the geometry.
   LocalIndex num_off = 0;  ///< Vertices farther off than the entity's own tolerance.
+
+  static auto fields(auto& self) { return std::tie(self.largest, self.num_off); }
 };
 
 /// @brief Moves vertices that are off their patch or curve by more than its tolerance onto it, as

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -19,10 +17,9 @@
 namespace tessera::comm {
 
 /// @brief Records that were sent to the ranks that own their keys, and the way back for answers.
+/// Records and answers are values of one size, see bytes.hpp.
 template <class Record>
 class RecordExchange {
-  static_assert(std::is_trivially_copyable_v<Record>);
-
  public:
   /// @brief Sends record r to rank `hash(r)` mod size.
   /// @note Collective.
@@ -34,11 +31,13 @@ class RecordExchange {
     for (const Record& record : sent)
       destinations_.push_back(static_cast<Rank>(hash(record) % num_ranks));
 
-    for (Message& message : comm.exchange(pack(sent, comm.size()))) {
+    std::vector<Message> messages = comm.exchange(pack(sent, comm.size()));
+    std::size_t num_bytes = 0;
+    for (const Message& message : messages) num_bytes += message.bytes.size();
+    received_.reserve(num_bytes / kLeastSize<Record>);
+    for (Message& message : messages) {
       const std::size_t begin = received_.size();
-      received_.resize(begin + message.bytes.size() / sizeof(Record));
-      if (!message.bytes.empty())
-        std::memcpy(received_.data() + begin, message.bytes.data(), message.bytes.size());
+      for (ByteReader in(message.bytes); !in.at_end();) received_.push_back(in.get<Record>());
       senders_.push_back({message.rank, begin, received_.size()});
       message.bytes = {};
     }
@@ -57,20 +56,18 @@ class RecordExchange {
   {
     std::vector<Message> messages;
     for (const Sender& sender : senders_) {
-      const auto bytes = std::as_bytes(answers.subspan(sender.begin, sender.end - sender.begin));
-      messages.push_back({sender.rank, Bytes(bytes.begin(), bytes.end())});
+      messages.push_back({sender.rank, bytes_of(answers, sender)});
     }
-    std::vector<Bytes> from_rank(static_cast<std::size_t>(comm.size()));
+    std::vector<Message> from_rank(static_cast<std::size_t>(comm.size()));
     for (Message& message : comm.exchange(std::move(messages)))
-      from_rank[static_cast<std::size_t>(message.rank)] = std::move(message.bytes);
+      from_rank[static_cast<std::size_t>(message.rank)] = std::move(message);
+    std::vector<ByteReader> readers;
+    for (const Message& message : from_rank) readers.emplace_back(message.bytes);
 
-    std::vector<std::size_t> next(from_rank.size(), 0);
-    std::vector<Answer> own(destinations_.size());
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      const auto rank = static_cast<std::size_t>(destinations_[i]);
-      std::memcpy(&own[i], from_rank[rank].data() + next[rank], sizeof(Answer));
-      next[rank] += sizeof(Answer);
-    }
+    std::vector<Answer> own;
+    own.reserve(destinations_.size());
+    for (const Rank rank : destinations_)
+      own.push_back(readers[static_cast<std::size_t>(rank)].template get<Answer>());
     return own;
   }
 
@@ -81,23 +78,28 @@ class RecordExchange {
     std::size_t end = 0;
   };
 
+  template <class Answer>
+  [[nodiscard]] static Bytes bytes_of(std::span<const Answer> answers, const Sender& sender)
+  {
+    ByteBuffer buffer((sender.end - sender.begin) * kLeastSize<Answer>);
+    for (const Answer& answer : answers.subspan(sender.begin, sender.end - sender.begin))
+      ValueWriter(buffer).put(answer);
+    return std::move(buffer).take();
+  }
+
   // One message for each rank that gets a record.
   [[nodiscard]] std::vector<Message> pack(std::span<const Record> sent, int num_ranks) const
   {
     std::vector<std::size_t> num_records(static_cast<std::size_t>(num_ranks), 0);
     for (const Rank rank : destinations_) ++num_records[static_cast<std::size_t>(rank)];
-    std::vector<Bytes> to_rank(num_records.size());
-    for (std::size_t r = 0; r < to_rank.size(); ++r)
-      to_rank[r].resize(num_records[r] * sizeof(Record));
-    std::vector<std::size_t> next(to_rank.size(), 0);
-    for (std::size_t i = 0; i < sent.size(); ++i) {
-      const auto rank = static_cast<std::size_t>(destinations_[i]);
-      std::memcpy(to_rank[rank].data() + next[rank], &sent[i], sizeof(Record));
-      next[rank] += sizeof(Record);
-    }
+    std::vector<ByteBuffer> to_rank;
+    for (const std::size_t count : num_records) to_rank.emplace_back(count * kLeastSize<Record>);
+    for (std::size_t i = 0; i < sent.size(); ++i)
+      ValueWriter(to_rank[static_cast<std::size_t>(destinations_[i])]).put(sent[i]);
     std::vector<Message> messages;
     for (std::size_t r = 0; r < to_rank.size(); ++r)
-      if (!to_rank[r].empty()) messages.push_back({static_cast<Rank>(r), std::move(to_rank[r])});
+      if (num_records[r] > 0)
+        messages.push_back({static_cast<Rank>(r), std::move(to_rank[r]).take()});
     return messages;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 
 #include "tessera/base/types.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
@@ -36,11 +37,20 @@ struct DecomposeReport {
                                          ///< triangle and the next skin triangle; 180: no seam.
   double mean_weight = 0.0;              ///< Predicted fine tets a subdomain.
   double max_weight = 0.0;               ///< Of the heaviest subdomain.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.num_wanted, self.num_subdomains, self.num_moves, self.num_splits,
+                    self.num_merges, self.seam_area, self.min_seam_dihedral_deg, self.mean_weight,
+                    self.max_weight);
+  }
 };
 
 struct DecomposeResult {
   mesh::Decomposition decomposition{};
   DecomposeReport report{};
+
+  static auto fields(auto& self) { return std::tie(self.decomposition, self.report); }
 };
 
 /// @brief Cuts a coarse mesh into subdomains that a volume mesher can fill one by one.

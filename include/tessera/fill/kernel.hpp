@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -33,6 +34,7 @@ struct FillInput {
 /// mean ratio 0.870 / 0.865, 6.6 / 6.4 s of CPU time to fill; from the skin alone 158.1 / 135.8 k,
 /// 0.866 / 0.846, 26.1 / 17.5 s.
 enum class FillStart : int { children, skin };
+[[nodiscard]] constexpr FillStart last_value(FillStart /*type*/) { return FillStart::skin; }
 
 /// @brief Settings of one try; a fallback_sequence() is made of these.
 struct FillTry {
@@ -41,6 +43,12 @@ struct FillTry {
   double grading = 0.3;           ///< Growth of the size away from the skin, in (0, 1].
   int optimize_steps = 1;         ///< Optimisation rounds, >= 0.
   unsigned point_order_seed = 0;  ///< 0: points as given; else another fixed order.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.kernel, self.start, self.grading, self.optimize_steps,
+                    self.point_order_seed);
+  }
 };
 
 /// @brief Fills a skin with tets without touching it.

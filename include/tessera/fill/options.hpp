@@ -7,6 +7,7 @@
 namespace tessera::fill {
 
 enum class KernelKind : int { netgen, subdivide };
+[[nodiscard]] constexpr KernelKind last_value(KernelKind /*type*/) { return KernelKind::subdivide; }
 
 /// @brief The kernel for the subdomains of one material; table `[[fill.region]]` of a case file.
 struct FillRegion {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/piece.hpp"
 
@@ -24,6 +24,12 @@ struct RegionUpdate {
   std::vector<LocalIndex> tet_offsets{};   ///< Shape (num_owners + 1): tets of each owner.
   std::vector<LocalIndex> tet_vertices{};  ///< Shape (num_tets, 4); positive, VTK's order.
 
+  static auto fields(auto& self)
+  {
+    return std::tie(self.region, self.host, self.subdomains, self.vertex_xyz, self.num_shared,
+                    self.tet_offsets, self.tet_vertices);
+  }
+
   [[nodiscard]] LocalIndex num_new_vertices() const
   {
     return static_cast<LocalIndex>(vertex_xyz.size() / 3);
@@ -31,11 +37,6 @@ struct RegionUpdate {
 
   friend bool operator==(const RegionUpdate&, const RegionUpdate&) = default;
 };
-
-/// @brief Byte image of a update and back. Local.
-[[nodiscard]] Bytes to_bytes(const RegionUpdate& update);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] RegionUpdate region_update_from_bytes(std::span<const std::byte> bytes);
 
 /// @brief The piece with the tets of some regions exchanged: those with the updates' labels go, the
 /// updates' come. Tets that stay come first, in their order, then the updates' in theirs; unused

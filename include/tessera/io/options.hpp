@@ -10,6 +10,7 @@
 namespace tessera::io {
 
 enum class Compression : int { none, lz4, zlib };
+[[nodiscard]] constexpr Compression last_value(Compression /*type*/) { return Compression::zlib; }
 
 /// @brief Options of the output; table `[output]` of a case file.
 struct OutputOptions {

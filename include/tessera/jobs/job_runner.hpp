@@ -42,9 +42,11 @@ enum class JobStatus : int {
   out_of_memory,
   cancelled,  ///< The caller asked to stop.
 };
+[[nodiscard]] constexpr JobStatus last_value(JobStatus /*type*/) { return JobStatus::cancelled; }
 
 /// @brief Kind of the exception that a worker threw, so that the caller can throw the same.
 enum class ErrorKind : int { none, config, input, geometry, mesh, netgen, output, other };
+[[nodiscard]] constexpr ErrorKind last_value(ErrorKind /*type*/) { return ErrorKind::other; }
 
 struct JobOutcome {
   JobStatus status = JobStatus::ok;

@@ -3,9 +3,9 @@
 
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -35,6 +35,13 @@ struct CoarseMesh {
   std::vector<LocalIndex> patch_surface{};    ///< Shape (num_patches); the Model's surface number.
   std::vector<std::string> material_names{};  ///< Entry m-1 names material m.
 
+  static auto fields(auto& self)
+  {
+    return std::tie(self.vertex_xyz, self.tet_vertices, self.tet_material, self.face_vertices,
+                    self.face_patch, self.face_uv, self.segment_vertices, self.segment_curve,
+                    self.segment_t, self.patch_names, self.patch_surface, self.material_names);
+  }
+
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
   [[nodiscard]] LocalIndex num_tets() const { return count(tet_vertices.size(), 4); }
   [[nodiscard]] LocalIndex num_faces() const { return count(face_vertices.size(), 3); }
@@ -57,11 +64,6 @@ struct CoarseMesh {
     return static_cast<LocalIndex>(size / width);
   }
 };
-
-/// @brief Byte image of a coarse mesh and back, for messages between processes. Local.
-[[nodiscard]] Bytes to_bytes(const CoarseMesh& mesh);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] CoarseMesh coarse_mesh_from_bytes(std::span<const std::byte> bytes);
 
 /// @brief Throws MeshError unless the mesh keeps what CoarseMesh promises: indices in range, every
 /// tet positive, every face a face of one or two tets (two only if their materials differ), every

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/base/types.hpp"
 
 namespace tessera::mesh {
@@ -27,15 +27,17 @@ struct Decomposition {
   std::vector<LocalIndex> neighbour_triangles{};  ///< Coarse triangles shared with that neighbour.
   std::vector<double> neighbour_area{};           ///< Their area, output length unit squared.
 
+  static auto fields(auto& self)
+  {
+    return std::tie(self.tet_subdomain, self.subdomain_material, self.subdomain_weight,
+                    self.part_offsets, self.neighbour_offsets, self.neighbours,
+                    self.neighbour_triangles, self.neighbour_area);
+  }
+
   [[nodiscard]] LocalIndex num_subdomains() const
   {
     return static_cast<LocalIndex>(subdomain_material.size());
   }
 };
-
-/// @brief Byte image and back, for messages between processes. Local.
-[[nodiscard]] Bytes to_bytes(const Decomposition& decomposition);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] Decomposition decomposition_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace tessera::mesh

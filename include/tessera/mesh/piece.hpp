@@ -3,9 +3,9 @@
 
 #include <array>
 #include <span>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/skin.hpp"
@@ -30,6 +30,13 @@ struct Piece {
                                                 ///< geometry that this piece owns; outward.
   std::vector<LocalIndex> boundary_patch{};     ///< Shape (num_boundary).
   std::vector<LocalIndex> boundary_tet{};       ///< Shape (num_boundary); local tet behind it.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.subdomain, self.material, self.vertex_xyz, self.skin_host, self.skin_index,
+                    self.tet_vertices, self.boundary_vertices, self.boundary_patch,
+                    self.boundary_tet);
+  }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
   [[nodiscard]] LocalIndex num_skin_vertices() const { return count(skin_host.size(), 1); }
@@ -57,10 +64,5 @@ struct Piece {
     return static_cast<LocalIndex>(size / width);
   }
 };
-
-/// @brief Byte image and back, for the piece store. Local.
-[[nodiscard]] Bytes to_bytes(const Piece& piece);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] Piece piece_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace tessera::mesh

@@ -3,9 +3,10 @@
 
 #include <compare>
 #include <span>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
+#include "tessera/base/fields.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/lattice.hpp"
 
@@ -13,6 +14,10 @@ namespace tessera::mesh {
 
 /// @brief Kinds of skeleton entities that carry inner lattice points.
 enum class LatticeCarrier : std::int32_t { edge, triangle };
+[[nodiscard]] constexpr LatticeCarrier last_value(LatticeCarrier /*type*/)
+{
+  return LatticeCarrier::triangle;
+}
 
 /// @brief Names a lattice point that is born on a skeleton edge or triangle: the same point has the
 /// same key at every number of levels, so a plan made on few levels holds for more.
@@ -20,6 +25,8 @@ struct LatticePointKey {
   LatticeCarrier carrier = LatticeCarrier::edge;
   LocalIndex entity = kNoIndex;  ///< Row of the skeleton's edges or triangles.
   LocalIndex index = 0;          ///< Place among the inner points of the finest lattice there is.
+
+  static auto fields(auto& self) { return std::tie(self.carrier, self.entity, self.index); }
 
   /// @brief Inner point `k` of an edge with `n` intervals.
   [[nodiscard]] static LatticePointKey on_edge(LocalIndex edge, LocalIndex n, LocalIndex k)
@@ -46,6 +53,10 @@ struct LatticePointKey {
 struct PointLimit {
   LatticePointKey key{};
   double factor = 1.0;
+
+  static auto fields(auto& self) { return std::tie(self.key, self.factor); }
+
+  friend bool operator==(const PointLimit&, const PointLimit&) = default;
 };
 
 /// @brief The result of the plan stage: a sparse list of points whose projection is held back so
@@ -62,13 +73,17 @@ class ProjectionLimiter {
 
   [[nodiscard]] std::span<const PointLimit> entries() const { return entries_; }
 
+  /// @throws InputError unless keys ascend and every factor is in [0, 1].
+  void require_sound() const;
+
+  friend bool operator==(const ProjectionLimiter&, const ProjectionLimiter&) = default;
+
  private:
+  friend FieldAccess;
+
+  static auto fields(auto& self) { return std::tie(self.entries_); }
+
   std::vector<PointLimit> entries_{};  ///< By ascending key.
 };
-
-/// @brief Byte image and back, for messages between processes. Local.
-[[nodiscard]] Bytes to_bytes(const ProjectionLimiter& limiter);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] ProjectionLimiter projection_limiter_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace tessera::mesh

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tessera/comm/communicator.hpp"
@@ -18,11 +19,14 @@ struct MeshPieces {
 };
 
 enum class ColumnType : int { int32, int64, float64 };
+[[nodiscard]] constexpr ColumnType last_value(ColumnType /*type*/) { return ColumnType::float64; }
 
 /// @brief What a column of MeshBlock::tet_columns means.
 struct TetColumn {
   std::string name{};
   ColumnType type = ColumnType::int32;
+
+  static auto fields(auto& self) { return std::tie(self.name, self.type); }
 
   friend auto operator<=>(const TetColumn&, const TetColumn&) = default;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/hash.hpp"
@@ -34,6 +35,13 @@ struct MeshBlock {
                                                ///< triangle, which is that face, seen from outside.
   std::vector<std::int32_t> boundary_patch{};  ///< Shape (num_boundary).
 
+  static auto fields(auto& self)
+  {
+    return std::tie(self.vertex_ids, self.vertex_xyz, self.tet_ids, self.tet_vertices,
+                    self.tet_material, self.tet_part, self.tet_columns, self.boundary_ids,
+                    self.boundary_tet, self.boundary_corner, self.boundary_patch);
+  }
+
   friend bool operator==(const MeshBlock&, const MeshBlock&) = default;
 
   [[nodiscard]] LocalIndex num_vertices() const
@@ -61,6 +69,8 @@ struct MeshBlock {
 /// A vertex on tets of several ranks stands on each of them. Its *sharers* are these ranks, its
 /// *owner* is the lowest of them.
 struct DistributedMesh : MeshBlock {
+  static auto fields(auto& self) = delete;  ///< It goes to bytes as blocks.
+
   /// Shape (num_vertices, …): the sharers, this rank among them, ascending; none if there is only
   /// this rank.
   IndexLists vertex_sharers{};

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
@@ -17,9 +18,12 @@ namespace tessera::model {
 struct ImportOptions {
   /// STL: dihedral angle, degrees in (0, 180), from which an edge separates two patches.
   double feature_angle_deg = 30.0;
+
+  static auto fields(auto& self) { return std::tie(self.feature_angle_deg); }
 };
 
 enum class Format : int { csg, stl, occ };  ///< occ: STEP, IGES and BREP, kept as one BREP.
+[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::occ; }
 
 /// @brief What every rank loads the model from: the bytes that rank 0 read (and healed), so that no
 /// rank can see another file than the others.
@@ -29,11 +33,12 @@ struct ModelSource {
   std::string length_unit{};           ///< "mm", "m", …; empty if the file does not say.
   Bytes content{};                     ///< .geo text; checked STL triangles; BREP and names.
   std::vector<std::string> repairs{};  ///< What import changed, one line each; for the report.
-};
 
-[[nodiscard]] Bytes to_bytes(const ModelSource& source);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] ModelSource model_source_from_bytes(std::span<const std::byte> bytes);
+  static auto fields(auto& self)
+  {
+    return std::tie(self.format, self.file_name, self.length_unit, self.content, self.repairs);
+  }
+};
 
 using SurfaceParameters = std::array<double, 2>;
 

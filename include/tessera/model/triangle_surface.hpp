@@ -4,9 +4,9 @@
 #include <array>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/model/stl_file.hpp"
@@ -22,6 +22,15 @@ struct TriangleSurface {
   std::vector<LocalIndex> triangle_material{};  ///< Shape (num_triangles); from 1.
   std::vector<std::string> solid_names{};       ///< `solid`s of the file; empty where unnamed.
   std::vector<std::string> material_names{};    ///< Entry m-1 names material m.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.vertex_xyz, self.triangle_vertices, self.triangle_solid,
+                    self.triangle_material, self.solid_names, self.material_names);
+  }
+
+  /// @throws InputError if the sizes do not match or an index is out of range.
+  void require_sound() const;
 
   [[nodiscard]] LocalIndex num_vertices() const
   {
@@ -67,10 +76,5 @@ struct CheckedSurface {
 
 /// @brief Length of the diagonal of the bounding box. Local.
 [[nodiscard]] double box_diagonal(const TriangleSurface& surface);
-
-/// @brief Byte image of a surface and back, for messages between processes. Local.
-[[nodiscard]] Bytes to_bytes(const TriangleSurface& surface);
-/// @throws InputError if the bytes are truncated or inconsistent.
-[[nodiscard]] TriangleSurface triangle_surface_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace tessera::model

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -13,6 +14,11 @@ struct PieceCounts {
   GlobalIndex interior_vertices = 0;
   GlobalIndex tets = 0;
   GlobalIndex boundary_triangles = 0;
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.interior_vertices, self.tets, self.boundary_triangles);
+  }
 };
 
 /// @brief Dense 64-bit ids 0…N-1 of vertices, tets and boundary triangles.

@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -17,6 +18,8 @@ struct SharedVertexKey {
   mesh::HostEntity host = 0;
   LocalIndex index = 0;
 
+  static auto fields(auto& self) { return std::tie(self.host, self.index); }
+
   friend auto operator<=>(const SharedVertexKey&, const SharedVertexKey&) = default;
 };
 
@@ -28,6 +31,8 @@ struct VertexList {
   LocalIndex subdomain = kNoIndex;
   LocalIndex material = 0;
   std::vector<SharedVertexKey> vertices{};  ///< Ascending.
+
+  static auto fields(auto& self) { return std::tie(self.subdomain, self.material, self.vertices); }
 };
 
 /// @brief What the lists of its neighbours say of a piece's shared vertices.

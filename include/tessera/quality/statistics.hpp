@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/quality/tet_quality.hpp"
 
@@ -50,6 +51,16 @@ class Histogram {
   [[nodiscard]] const std::vector<GlobalIndex>& counts() const { return counts_; }
   void set_counts(std::vector<GlobalIndex> counts);  ///< @throws InputError if the bins differ.
 
+  /// @brief The bins that are not empty, as most of those of one piece are.
+  struct Image {
+    std::vector<std::uint32_t> bins{};  ///< Ascending.
+    std::vector<GlobalIndex> counts{};  ///< Parallel to bins.
+
+    static auto fields(auto& self) { return std::tie(self.bins, self.counts); }
+  };
+  [[nodiscard]] Image image() const;
+  void set_image(const Image& image);  ///< @throws InputError if there is no such bin.
+
  private:
   double low_;
   double high_;
@@ -71,6 +82,12 @@ struct TetStatistics {
   double min_mean_ratio = 1.0;
   double sum_mean_ratio = 0.0;
 
+  static auto fields(auto& self)
+  {
+    return std::tie(self.num_tets, self.min_dihedral_deg, self.max_dihedral_deg,
+                    self.min_mean_ratio, self.sum_mean_ratio);
+  }
+
   void add(const TetStatistics& other);
   [[nodiscard]] double mean_mean_ratio() const;
 };
@@ -81,6 +98,11 @@ struct QualityHistograms {
   Histogram seam_mean_ratio{0.0, 1.0, 2000};  ///< Of the seam tets.
   /// Of log2(edge length / output length unit): 64 bins an octave (1.1 % wide), from -40 to 40.
   Histogram log2_edge_length{-40.0, 40.0, std::size_t{80} * 64};
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.mean_ratio, self.seam_mean_ratio, self.log2_edge_length);
+  }
 
   void add(const QualityHistograms& other);
 };
@@ -109,9 +131,5 @@ class ShapeSum {
   double sum_mean_ratio_ = 0.0;
   TetShape worst_{.mean_ratio = 1.0};
 };
-
-[[nodiscard]] Bytes to_bytes(const QualityHistograms& histograms);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] QualityHistograms quality_histograms_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace tessera::quality

@@ -3,9 +3,9 @@
 
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/improve/improve_region.hpp"
 #include "tessera/improve/seam_regions.hpp"
 #include "tessera/mesh/piece.hpp"
@@ -19,11 +19,12 @@ struct RegionRecord {
   bool was_limited = false;        ///< It died for time or memory: not reproducible.
   std::string reason{};            ///< Why the region keeps its tets; empty if it is improved.
   improve::RegionUpdate update{};  ///< Empty unless it is improved.
-};
 
-[[nodiscard]] Bytes to_bytes(const RegionRecord& record);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] RegionRecord region_record_from_bytes(std::span<const std::byte> bytes);
+  static auto fields(auto& self)
+  {
+    return std::tie(self.is_improved, self.has_failed, self.was_limited, self.reason, self.update);
+  }
+};
 
 /// @brief A region's tets, taken out of the pieces it lies in. Local; a pure function.
 /// @param[in] pieces Of regions.subdomains_of(region), in that order.

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "tessera/base/bytes.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/fill/options.hpp"
@@ -38,6 +38,16 @@ struct PieceSummary {
   Hash128 surface{};  ///< verify::surface_hash() of the improved piece.
   Hash128 content{};  ///< Of the piece as filled, where it waits in the store.
   Hash128 digest{};   ///< Sum of hash_tet(); known when the piece is written.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.subdomain, self.material, self.kernel, self.tries, self.num_held_back,
+                    self.num_tets, self.num_interior_vertices, self.num_boundary,
+                    self.euler_characteristic, self.volume, self.boundary_area, self.model_distance,
+                    self.held_back_distance, self.cpu_s, self.was_limited, self.is_folded,
+                    self.tets, self.seam_tets, self.outside, self.surface, self.content,
+                    self.digest);
+  }
 };
 
 /// @brief What is kept of one piece besides its tets.
@@ -46,24 +56,19 @@ struct FillResult {
   std::vector<std::string> failures{};  ///< What the tries before said, in their order.
   quality::QualityHistograms histograms{};
   std::vector<verify::SeamHash> seams{};
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.summary, self.failures, self.histograms, self.seams);
+  }
 };
 
 /// @brief What the tries said that did not fill a subdomain.
 struct FailedTries {
   LocalIndex subdomain = kNoIndex;
   std::vector<std::string> messages{};  ///< One a try, in their order.
+
+  static auto fields(auto& self) { return std::tie(self.subdomain, self.messages); }
 };
-
-[[nodiscard]] Bytes to_bytes(const std::vector<FailedTries>& failures);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] std::vector<FailedTries> failed_tries_from_bytes(std::span<const std::byte> bytes);
-
-[[nodiscard]] Bytes to_bytes(const FillResult& result);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] FillResult fill_result_from_bytes(std::span<const std::byte> bytes);
-
-[[nodiscard]] Bytes to_bytes(const std::vector<FillResult>& results);
-/// @throws InputError if the bytes are truncated.
-[[nodiscard]] std::vector<FillResult> fill_results_from_bytes(std::span<const std::byte> bytes);
 
 }  // namespace tessera::subdomain

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/hash.hpp"
@@ -17,6 +18,8 @@ namespace tessera::verify {
 struct SeamHash {
   LocalIndex triangle = kNoIndex;  ///< Skeleton triangle.
   Hash128 hash{};                  ///< Seen from the other side it is the negative of this.
+
+  static auto fields(auto& self) { return std::tie(self.triangle, self.hash); }
 };
 
 /// @brief Seam hashes of a piece, ascending by triangle. Local.

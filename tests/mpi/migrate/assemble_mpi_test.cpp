@@ -58,23 +58,16 @@ struct Gathered {
 
 Gathered gather(const comm::Communicator& comm, const DistributedMesh& mesh)
 {
-  ByteWriter out;
-  out.put(mesh.vertex_ids);
-  out.put(mesh.vertex_xyz);
-  out.put(mesh.tet_ids);
-  out.put(mesh.boundary_ids);
   Gathered all;
   Rank rank = 0;
-  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
-    ByteReader in(bytes);
-    const auto ids = in.get_vector<GlobalIndex>();
-    const auto xyz = in.get_vector<double>();
-    for (std::size_t v = 0; v < ids.size(); ++v) {
-      all.ranks_of_vertex[ids[v]].push_back(rank);
-      all.positions[ids[v]].insert({xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]});
+  for (const MeshBlock& block : comm.all_gather_values<MeshBlock>(mesh)) {
+    for (LocalIndex v = 0; v < block.num_vertices(); ++v) {
+      const auto position = block.position(v);
+      all.ranks_of_vertex[block.vertex_ids[at(v)]].push_back(rank);
+      all.positions[block.vertex_ids[at(v)]].insert({position.begin(), position.end()});
     }
-    for (const GlobalIndex id : in.get_vector<GlobalIndex>()) all.tet_ids.insert(id);
-    for (const GlobalIndex id : in.get_vector<GlobalIndex>()) all.boundary_ids.insert(id);
+    all.tet_ids.insert(block.tet_ids.begin(), block.tet_ids.end());
+    all.boundary_ids.insert(block.boundary_ids.begin(), block.boundary_ids.end());
     ++rank;
   }
   return all;
@@ -180,16 +173,10 @@ TEST(Assemble, ZerosOfDifferentSignBecomeTheOwners)
   const AssembledMesh assembled = assemble(comm, pieces);
   EXPECT_TRUE(assembled.notes.empty());
   std::map<GlobalIndex, std::set<std::array<std::uint64_t, 3>>> bits;
-  ByteWriter out;
-  out.put(assembled.mesh.vertex_ids);
-  out.put(assembled.mesh.vertex_xyz);
-  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
-    ByteReader in(bytes);
-    const auto ids = in.get_vector<GlobalIndex>();
-    const auto xyz = in.get_vector<double>();
-    for (std::size_t v = 0; v < ids.size(); ++v) {
-      const std::array position{xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
-      bits[ids[v]].insert(std::bit_cast<std::array<std::uint64_t, 3>>(position));
+  for (const MeshBlock& block : comm.all_gather_values<MeshBlock>(assembled.mesh)) {
+    for (LocalIndex v = 0; v < block.num_vertices(); ++v) {
+      bits[block.vertex_ids[at(v)]].insert(
+          std::bit_cast<std::array<std::uint64_t, 3>>(block.position(v)));
     }
   }
   for (const auto& [id, positions] : bits) EXPECT_EQ(positions.size(), 1U) << id;

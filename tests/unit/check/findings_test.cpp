@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/base/bytes.hpp"
+
 namespace tessera::check {
 namespace {
 
@@ -42,8 +44,8 @@ TEST(Findings, MergedPartsEqualTheWhole)
     add(parts[static_cast<std::size_t>(i) % 3], kind, i % 5, i);
   }
   Findings merged;
-  for (const Findings& part : parts) merged.merge(Findings::from_bytes(part.to_bytes()));
-  EXPECT_EQ(merged.to_bytes(), whole.to_bytes());
+  for (const Findings& part : parts) merged.merge(from_bytes<Findings>(to_bytes(part)));
+  EXPECT_EQ(to_bytes(merged), to_bytes(whole));
 }
 
 TEST(Findings, MergeOfChosenKindsLeavesTheOthers)

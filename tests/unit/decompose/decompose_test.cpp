@@ -165,8 +165,8 @@ TEST(Decompose, ChoosesTheNumberFromTheMeshAlone)
 TEST(Decompose, GivesTheSameBitsEachTime)
 {
   const auto mesh = testing::two_material_cube(6);
-  const auto once = mesh::to_bytes(decompose_by_metis(mesh, 20).decomposition);
-  const auto again = mesh::to_bytes(decompose_by_metis(mesh, 20).decomposition);
+  const auto once = to_bytes(decompose_by_metis(mesh, 20).decomposition);
+  const auto again = to_bytes(decompose_by_metis(mesh, 20).decomposition);
   EXPECT_EQ(once, again);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/mesh/projection_limiter.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -50,12 +51,27 @@ TEST(ProjectionLimiter, BytesAreAFunctionOfTheEntries)
   const Bytes bytes = to_bytes(ProjectionLimiter(one));
   EXPECT_EQ(bytes, to_bytes(ProjectionLimiter(other)));
 
-  const ProjectionLimiter back = projection_limiter_from_bytes(bytes);
+  const ProjectionLimiter back = from_bytes<ProjectionLimiter>(bytes);
   ASSERT_EQ(back.entries().size(), 50U);
   EXPECT_EQ(back.factor({LatticeCarrier::edge, 49, 98}), 0.25);
-  EXPECT_THROW(
-      static_cast<void>(projection_limiter_from_bytes(std::span(bytes).first(bytes.size() - 1))),
-      InputError);
+}
+
+// Who writes the bytes writes fields; a limiter promises more.
+TEST(ProjectionLimiter, BytesThatBreakItsPromisesAreRefused)
+{
+  const auto read = [](const std::vector<PointLimit>& entries) {
+    return from_bytes<ProjectionLimiter>(to_bytes(entries));
+  };
+  const LatticePointKey low{LatticeCarrier::edge, 3, 1};
+  const LatticePointKey high{LatticeCarrier::triangle, 0, 0};
+  EXPECT_EQ(read({{low, 0.0}, {high, 1.0}}).factor(low), 0.0);
+  const std::vector<std::vector<PointLimit>> damaged{
+      {{high, 0.5}, {low, 0.5}}, {{low, 0.5}, {low, 0.25}}, {{low, -0.5}}, {{low, 1.5}},
+      {{low, std::nan("")}},
+  };
+  for (const auto& entries : damaged) {
+    EXPECT_THROW(static_cast<void>(read(entries)), InputError);
+  }
 }
 
 }  // namespace

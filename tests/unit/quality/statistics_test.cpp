@@ -140,13 +140,15 @@ TEST(QualityHistograms, MergedInAnyOrderAreTheSame)
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
-TEST(QualityHistograms, ComeBackFromBytes)
+TEST(Histogram, AnImageWithOtherBinsIsRefused)
 {
-  const Bytes bytes = to_bytes(part(0, 50));
-  EXPECT_EQ(to_bytes(quality_histograms_from_bytes(bytes)), bytes);
-  EXPECT_THROW(
-      static_cast<void>(quality_histograms_from_bytes(std::span(bytes).first(bytes.size() - 8))),
-      InputError);
+  Histogram histogram(0.0, 1.0, 10);
+  histogram.set_image({.bins = {0, 9}, .counts = {4, 5}});
+  EXPECT_EQ(histogram.total(), 9);
+  EXPECT_EQ(histogram.counts()[9], 5);
+  EXPECT_THROW(histogram.set_image({.bins = {10}, .counts = {1}}), InputError);
+  EXPECT_THROW(histogram.set_image({.bins = {1, 2}, .counts = {1}}), InputError);
+  EXPECT_EQ(histogram.total(), 9);
 }
 
 TEST(QualityHistograms, TellEdgesThatDifferByTwoPercentApart)

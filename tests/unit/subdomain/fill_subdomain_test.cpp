@@ -101,7 +101,7 @@ TEST_F(FillSubdomain, GivesTheSameBytesAgainAndAfterOtherJobs)
 {
   static_cast<void>(testing::fill_of(body(), 2, 0));
   const FilledPiece again = testing::fill_of(body(), kLevels, 2);
-  EXPECT_EQ(mesh::to_bytes(again.piece), mesh::to_bytes(pieces()[2].piece));
+  EXPECT_EQ(to_bytes(again.piece), to_bytes(pieces()[2].piece));
 }
 
 TEST_F(FillSubdomain, FillsTheSameSkinFromTheSkinAlone)

@@ -213,7 +213,7 @@ TEST_P(FoldedPlate, FindingsDependOnTheArgumentsOnly)
   const ProjectionLimiter none;
   const auto find = [&](const std::vector<LocalIndex>& tets) {
     const RefinedTets refined(body, model_, none, levels_, tets);
-    return mesh::to_bytes(
+    return to_bytes(
         ProjectionLimiter(find_folds(refined.complex, body.skeleton, refined.lattice, none)));
   };
   std::vector<LocalIndex> tets = all_tets(body);

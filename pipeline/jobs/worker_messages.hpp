@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "pipeline/jobs/mesh_worker.hpp"
+
+/// What mesh_worker.hpp sends to the worker, one type for each message. The kind of a message is
+/// its place in Load or Request.
+namespace tessera::pipeline {
+
+struct ModelLoad {
+  double scale = 1.0;
+  model::ModelSource source{};
+
+  static auto fields(auto& self) { return std::tie(self.scale, self.source); }
+};
+
+struct MeshLoad {
+  mesh::CoarseMesh coarse{};
+  mesh::Decomposition decomposition{};
+  int levels = 0;
+  double largest_size = 0.0;
+  std::string output{};
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.coarse, self.decomposition, self.levels, self.largest_size, self.output);
+  }
+};
+
+struct LimiterLoad {
+  mesh::ProjectionLimiter limiter{};
+
+  static auto fields(auto& self) { return std::tie(self.limiter); }
+};
+
+struct NumbersLoad {
+  std::vector<number::PieceCounts> counts{};
+  std::string length_unit{};
+  io::Compression compression = io::Compression::none;
+  bool cell_quality = false;
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.counts, self.length_unit, self.compression, self.cell_quality);
+  }
+};
+
+struct ImprovementLoad {
+  improve::ImproveOptions options{};
+
+  static auto fields(auto& self) { return std::tie(self.options); }
+};
+
+using Load = std::variant<ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad>;
+
+struct ImportRequest {
+  std::string file{};
+  model::ImportOptions options{};
+
+  static auto fields(auto& self) { return std::tie(self.file, self.options); }
+};
+
+struct BoxRequest {
+  static auto fields(auto& /*self*/) { return std::tie(); }
+};
+
+struct CoarseRequest {
+  coarse::CoarseOptions options{};
+
+  static auto fields(auto& self) { return std::tie(self.options); }
+};
+
+struct UntangleRequest {
+  std::vector<UntangleTest> tests{};
+  mesh::ProjectionLimiter limiter{};
+
+  static auto fields(auto& self) { return std::tie(self.tests, self.limiter); }
+};
+
+struct ImproveRequest {
+  LocalIndex region = kNoIndex;
+  int generation = 0;
+
+  static auto fields(auto& self) { return std::tie(self.region, self.generation); }
+};
+
+struct ImprovePiecesRequest {
+  LocalIndex region = kNoIndex;
+  std::vector<mesh::Piece> pieces{};
+
+  static auto fields(auto& self) { return std::tie(self.region, self.pieces); }
+};
+
+struct SkinRequest {
+  LocalIndex subdomain = kNoIndex;
+
+  static auto fields(auto& self) { return std::tie(self.subdomain); }
+};
+
+using Request = std::variant<ImportRequest, BoxRequest, CoarseRequest, UntangleRequest, FillTask,
+                             ImproveRequest, ImprovePiecesRequest, SkinRequest>;
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tessera/check/report.hpp"
+#include "tessera/model/triangle_surface.hpp"
+
+#include "pipeline/jobs/worker_messages.hpp"
+#include "pipeline/stages/coarse_stage.hpp"
+#include "pipeline/stages/decompose_stage.hpp"
+#include "pipeline/store/fill_record.hpp"
+#include "pipeline/store/filled_pieces.hpp"
+#include "pipeline/store/run_state.hpp"
+#include "support/byte_image.hpp"
+
+// Values for the classes that do not take any.
+namespace tessera {
+
+namespace mesh {
+
+static void set_sample(ProjectionLimiter& limiter)
+{
+  limiter = ProjectionLimiter(
+      {{{LatticeCarrier::edge, 4, 5}, 0.5}, {{LatticeCarrier::triangle, 6, 7}, 0.25}});
+}
+
+}  // namespace mesh
+
+namespace model {
+
+static void set_sample(TriangleSurface& surface)
+{
+  surface = {.vertex_xyz = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0},
+             .triangle_vertices = {0, 1, 2},
+             .triangle_solid = {0},
+             .triangle_material = {1},
+             .solid_names = {"solid"},
+             .material_names = {"material"}};
+}
+
+}  // namespace model
+
+namespace quality {
+
+static void set_sample(Histogram& histogram)
+{
+  for (const double value : {-3.0, 0.25, 0.5}) histogram.add(value);
+}
+
+}  // namespace quality
+
+namespace pipeline {
+namespace {
+
+template <class T>
+T sample()
+{
+  T value{};
+  testing::Sampler().fill(value);
+  return value;
+}
+
+template <class T>
+class ByteImage : public ::testing::Test {
+};
+
+using Types = ::testing::Types<
+    // The library's.
+    Hash128, model::ImportOptions, model::ModelSource, model::TriangleSurface, mesh::Piece,
+    mesh::CoarseMesh, mesh::Decomposition, mesh::LatticePointKey, mesh::PointLimit,
+    mesh::ProjectionLimiter, improve::RegionUpdate, improve::ImproveOptions,
+    subdomain::RegionRecord, subdomain::PieceSummary, subdomain::FillResult, subdomain::FailedTries,
+    verify::SeamHash, quality::TetStatistics, quality::QualityHistograms, fill::FillTry,
+    coarse::CoarseOptions, coarse::VertexDistance, decompose::DecomposeReport,
+    decompose::DecomposeResult, number::PieceCounts, number::SharedVertexKey, number::VertexList,
+    check::SubdomainFigures,
+    // The program's.
+    CoarseTry, UntangleTest, FillTask, SkinMesh, CoarseResult, WrittenFile, FillRecord,
+    FoldedSubdomain, Plan, ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad,
+    ImportRequest, CoarseRequest, UntangleRequest, ImproveRequest, ImprovePiecesRequest,
+    SkinRequest>;
+TYPED_TEST_SUITE(ByteImage, Types);
+
+TYPED_TEST(ByteImage, BringsBackTheValueAndNothingOfAPartOfIt)
+{
+  const auto value = sample<TypeParam>();
+  EXPECT_NE(to_bytes(value), to_bytes(TypeParam{}));
+  testing::expect_different_fields(value);
+  testing::expect_round_trip(value);
+}
+
+TYPED_TEST(ByteImage, OfGarbageIsRefusedOrAnotherValue)
+{
+  testing::expect_garbage_is_harmless(sample<TypeParam>());
+}
+
+TEST(WorkerMessage, IsReadAsTheKindThatItIs)
+{
+  const auto load = from_bytes<Load>(load_limiter_message({}));
+  EXPECT_TRUE(std::holds_alternative<LimiterLoad>(load));
+  EXPECT_TRUE(std::holds_alternative<BoxRequest>(from_bytes<Request>(box_request())));
+  const auto fill = from_bytes<Request>(fill_request({.batch = 3, .failures = {"one"}}));
+  ASSERT_TRUE(std::holds_alternative<FillTask>(fill));
+  EXPECT_EQ(std::get<FillTask>(fill).batch, 3);
+  EXPECT_EQ(std::get<FillTask>(fill).failures, std::vector<std::string>{"one"});
+}
+
+}  // namespace
+}  // namespace pipeline
+}  // namespace tessera
