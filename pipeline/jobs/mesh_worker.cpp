@@ -123,8 +123,12 @@ class MeshWorker final : public jobs::Worker {
     scaled_model_ = std::make_unique<model::ScaledModel>(*netgen_model_, scale_);
   }
 
+  // What belongs to the mesh of an earlier run goes with it.
   void load_mesh(ByteReader& in)
   {
+    ids_.reset();
+    regions_.reset();
+    limiter_ = {};
     cut_.reset();
     coarse_ = mesh::coarse_mesh_from_bytes(in.get_vector<std::byte>());
     decomposition_ = mesh::decomposition_from_bytes(in.get_vector<std::byte>());

@@ -37,6 +37,7 @@ struct Identity {
   std::string version{};
   std::string model{};  ///< Hash of what was read of the model file.
   std::vector<LocalIndex> only_subdomains{};
+  bool has_files = true;
 };
 
 // A folder in its place could not be read, and a link leads elsewhere.
@@ -60,9 +61,10 @@ auto read_report(const std::filesystem::path& output, const Read& read)
   }
 }
 
-// Noted in the report when the run has ended, in a record before.
+// Noted in the report when the run has ended, in a record before. What has ended has left no pieces
+// that would have to be in files or not: it counts as what is asked for.
 std::optional<Identity> identity_of(const std::filesystem::path& output,
-                                    const std::optional<Bytes>& record)
+                                    const std::optional<Bytes>& record, bool has_files)
 {
   if (record) {
     ByteReader in(*record);
@@ -70,11 +72,12 @@ std::optional<Identity> identity_of(const std::filesystem::path& output,
     identity.version = in.get_string();
     identity.model = in.get_string();
     identity.only_subdomains = in.get_vector<LocalIndex>();
+    identity.has_files = in.get<bool>();
     return identity;
   }
-  return read_report(output, [](const nlohmann::json& report) {
+  return read_report(output, [&](const nlohmann::json& report) {
     return Identity{report.at("version"), report.at("model").at("digest"),
-                    report.at("only_subdomains").get<std::vector<LocalIndex>>()};
+                    report.at("only_subdomains").get<std::vector<LocalIndex>>(), has_files};
   });
 }
 
@@ -111,6 +114,33 @@ Plan plan_from_bytes(std::span<const std::byte> bytes)
   return plan;
 }
 
+Bytes to_bytes(const MeshResult& result)
+{
+  ByteWriter out;
+  out.put(result.status);
+  out.put(result.reason);
+  out.put(result.num_tets);
+  out.put(result.num_subdomains);
+  out.put(result.volume);
+  out.put(result.digest);
+  out.put(result.folder.string());
+  return std::move(out).take();
+}
+
+MeshResult mesh_result_from_bytes(std::span<const std::byte> bytes)
+{
+  ByteReader in(bytes);
+  MeshResult result;
+  result.status = in.get<MeshStatus>();
+  result.reason = in.get_string();
+  result.num_tets = in.get<GlobalIndex>();
+  result.num_subdomains = in.get<LocalIndex>();
+  result.volume = in.get<double>();
+  result.digest = in.get_string();
+  result.folder = in.get_string();
+  return result;
+}
+
 io::RecordStore RunState::store() const { return io::RecordStore(store_folder(output_)); }
 
 void RunState::require_begun() const
@@ -136,14 +166,15 @@ void RunState::require_same_case(const config::Case& given) const
 
 void RunState::require_same_run(const Hash128& model) const
 {
-  const Identity now{std::string(version()), to_hex(model), only_subdomains_};
-  const auto noted = identity_of(output_, store().find("run"));
+  const Identity now{std::string(version()), to_hex(model), only_subdomains_, has_files_};
+  const auto noted = identity_of(output_, store().find("run"), has_files_);
   if (!noted) {
     clear();
     ByteWriter out;
     out.put(now.version);
     out.put(now.model);
     out.put(now.only_subdomains);
+    out.put(now.has_files);
     return store().put("run", std::move(out).take());
   }
   const std::string what = "cannot resume " + output_.string() + ": ";
@@ -154,6 +185,12 @@ void RunState::require_same_run(const Hash128& model) const
   if (noted->model != now.model) throw InputError(what + "the model file has changed" + kWayOut);
   if (noted->only_subdomains != now.only_subdomains) {
     throw InputError(what + "it was begun with other --only-subdomains" + kWayOut);
+  }
+  if (noted->has_files != now.has_files) {
+    throw InputError(what
+                     + (now.has_files ? "its pieces were to be handed over, not to go into files"
+                                      : "its mesh was to go into files")
+                     + kWayOut);
   }
 }
 
@@ -172,14 +209,22 @@ std::optional<Plan> RunState::find_plan() const
   return bytes ? std::optional(plan_from_bytes(*bytes)) : std::nullopt;
 }
 
-std::optional<ExitCode> RunState::finished() const
+std::optional<MeshResult> RunState::finished() const
 {
   if (!is_own_file(output_ / "mesh.pvtu")) return std::nullopt;
-  const auto code = read_report(output_, [](const nlohmann::json& report) {
-    return static_cast<ExitCode>(report.at("exit_code").get<int>());
+  const auto result = read_report(output_, [&](const nlohmann::json& report) {
+    const std::string status = report.at("status");
+    if (status != "ok" && status != "degraded") return std::optional<MeshResult>();
+    return std::optional(
+        MeshResult{.status = status == "ok" ? MeshStatus::ok : MeshStatus::degraded,
+                   .reason = report.at("reason"),
+                   .num_tets = report.at("num_tets"),
+                   .num_subdomains = report.at("num_subdomains"),
+                   .volume = report.at("volume"),
+                   .digest = report.at("digest"),
+                   .folder = output_});
   });
-  const bool has_mesh = code == ExitCode::ok || code == ExitCode::degraded;
-  return has_mesh ? code : std::nullopt;
+  return result.value_or(std::nullopt);
 }
 
 void RunState::clear() const { store().remove_all(); }

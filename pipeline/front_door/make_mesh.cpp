@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+#include "tessera/tessera.hpp"
+
+#include "pipeline/front_door/session.hpp"
+#include "pipeline/run_case.hpp"
+#include "pipeline/runtime/exit_code.hpp"
+
+namespace tessera {
+namespace {
+
+// On all ranks if on one: without its job processes a rank could not do its share of the work.
+void require_session(const comm::Communicator& comm)
+{
+  std::optional<std::string> defect;
+  if (pipeline::session_jobs() == nullptr) {
+    defect =
+        "make_mesh() needs a tessera::Session, constructed in main() before MPI_Init. A program "
+        "that cannot have one runs `tessera mesh`, and then reads the folder with read_mesh()";
+  }
+  comm.throw_if_any<UsageError>(defect);
+}
+
+void require_same_way(bool has_callback, const comm::Communicator& comm)
+{
+  const GlobalIndex num_with = comm.sum(has_callback ? 1 : 0);
+  if (num_with == 0 || num_with == comm.size()) return;
+  throw comm::Collective<UsageError>("MeshOptions::on_piece is set on some ranks only");
+}
+
+// Checked as a case file is. The job processes keep the working directory of the time when they
+// were forked, so paths are absolute.
+config::Case checked(config::Case given, const std::string& case_name)
+{
+  if (!given.geometry.file.empty()) given.geometry.file = absolute(given.geometry.file);
+  config::Case result = config::parse_case(config::to_toml(given), case_name);
+  result.output.directory = absolute(result.output.directory);
+  return result;
+}
+
+// What rank 0 was told, so that no rank can see anything else.
+struct Told {
+  config::Case given{};
+  MeshOptions options{};
+};
+
+Told told_by_root(const config::Case& given, const MeshOptions& options,
+                  const comm::Communicator& comm)
+{
+  const Bytes bytes = pipeline::on_root(comm, [&] {
+    ByteWriter out;
+    out.put(options.case_name);
+    out.put(config::to_toml(checked(given, options.case_name)));
+    out.put(options.existing);
+    out.put(options.only_subdomains);
+    return std::move(out).take();
+  });
+  ByteReader in(bytes);
+  Told told{.options = options};
+  told.options.case_name = in.get_string();
+  told.given = config::parse_case(in.get_string(), told.options.case_name);
+  told.options.existing = in.get<io::ExistingFolder>();
+  told.options.only_subdomains = in.get_vector<LocalIndex>();
+  return told;
+}
+
+}  // namespace
+
+MeshResult make_mesh(const config::Case& given, const comm::Communicator& comm,
+                     const MeshOptions& options)
+{
+  require_session(comm);
+  require_same_way(static_cast<bool>(options.on_piece), comm);
+  const Told told = told_by_root(given, options, comm);
+  return pipeline::run_case(told.given, told.options, comm, *pipeline::session_jobs());
+}
+
+}  // namespace tessera
