@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <exception>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/communicator.hpp"
-#include "tessera/comm/environment.hpp"
 #include "tessera/jobs/job_runner.hpp"
+#include "tessera/tessera.hpp"
 
 #include "pipeline/commands/check_command.hpp"
 #include "pipeline/commands/cli.hpp"
@@ -16,10 +15,9 @@
 #include "pipeline/commands/mesh_command.hpp"
 #include "pipeline/commands/repartition_command.hpp"
 #include "pipeline/commands/replay_command.hpp"
-#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/front_door/session.hpp"
 #include "pipeline/jobs/test_fault.hpp"
 #include "pipeline/runtime/exit_code.hpp"
-#include "pipeline/runtime/stop_signal.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -88,11 +86,8 @@ ExitCode run_guarded(int argc, char** argv, const comm::Communicator& comm, jobs
 int main(int argc, char** argv)
 {
   using namespace tessera;
-  pipeline::ignore_write_signals();
-  // Before MPI starts: MPI must not be in the processes that jobs are forked from.
-  jobs::JobRunner jobs(pipeline::make_mesh_worker);
-  const comm::Environment mpi(argc, argv);
-  pipeline::catch_stop_signals();
-  const comm::Communicator comm = comm::world();
-  return static_cast<int>(pipeline::run_guarded(argc, argv, comm, jobs));
+  const Session session(argc, argv);
+  session.catch_stop_signals();
+  const comm::Communicator comm = session.world();
+  return static_cast<int>(pipeline::run_guarded(argc, argv, comm, *pipeline::session_jobs()));
 }

@@ -18,6 +18,7 @@
 #include "pipeline/estimate/disk_space.hpp"
 #include "pipeline/estimate/run_outline.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/runtime/with_file_context.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/improve_stage.hpp"
@@ -151,7 +152,7 @@ number::IdLayout number_mesh(const subdomain::PartitionedMesh& cut, int levels,
     return number::IdLayout::by_owner(subdomain::counts_of(filled.pieces));
   }
   return {mesh::HostLayout(cut.skeleton), mesh::lattice::intervals(levels),
-          outline.is_one_pass ? outline.pieces : subdomain::counts_of(filled.pieces)};
+          are_counts_known(outline.kernels) ? outline.pieces : subdomain::counts_of(filled.pieces)};
 }
 
 // Who owns which vertex, once pieces have exchanged tets.
@@ -215,8 +216,9 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   std::vector<subdomain::SubdomainRange> files;
   all_or_none(context.comm,
               [&] { with_file_context(given, [&] { files = output_ranges(run, options); }); });
-  const RunOutline outline =
+  RunOutline outline =
       outline_run(cut, run.kernels, run.resolved.refine.levels, files, run.resolved.improve.seams);
+  if (options.on_piece) outline.hand_over_pieces();
   all_or_none(context.comm, [&] {
     with_file_context(given, [&] {
       if (const auto defect = file_too_large(outline, run.resolved)) throw ConfigError(*defect);
@@ -232,15 +234,19 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   require_disk_space(outline, run.resolved.output, context);
 
   plan_and_fill(run, cut, outline.jobs, options, context);
-  if (!is_one_pass && run.resolved.improve.seams) {
+  if (!are_counts_known(run.kernels) && run.resolved.improve.seams) {
     run.filled = run_improve_stage(run.resolved, cut, run.kernels, std::move(run.filled), context);
   }
   run_verify_stage(cut, outline.jobs, run.filled, context);
   const number::IdLayout ids = number_mesh(cut, levels, outline, run.filled);
   const subdomain::WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit,
                                      places_of_vertices(cut, run.filled, context)};
-  if (!is_one_pass) run_write_stage(run.resolved, files, mesh, run.filled, context);
-  write_indices(run.resolved, files, mesh, run.filled, context);
+  if (options.on_piece) {
+    run_hand_over_stage(files, mesh, options.on_piece, run.filled, context);
+  } else {
+    if (!is_one_pass) run_write_stage(run.resolved, files, mesh, run.filled, context);
+    write_indices(run.resolved, files, mesh, run.filled, context);
+  }
   run.only_subdomains = options.only_subdomains;
   run.num_vertices = ids.num_vertices();
   run.num_tets = ids.num_tets();

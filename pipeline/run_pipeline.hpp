@@ -12,6 +12,7 @@
 #include "pipeline/runtime/run_context.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/fill_stage.hpp"
+#include "pipeline/stages/hand_over_stage.hpp"
 #include "pipeline/store/run_state.hpp"
 
 namespace tessera::pipeline {
@@ -35,6 +36,7 @@ struct RunResult {
 struct RunOptions {
   const RunState* state = nullptr;            ///< Of the output folder; nullptr: keep nothing.
   std::vector<LocalIndex> only_subdomains{};  ///< Ascending; empty: all.
+  PieceSink on_piece{};                       ///< If set, gets the pieces: no files are written.
 };
 
 /// @brief What each file of the run holds: output.files, or the subdomains asked for. Local.

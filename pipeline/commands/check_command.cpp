@@ -11,7 +11,7 @@
 #include "tessera/check/check_mesh.hpp"
 #include "tessera/io/vtu.hpp"
 
-#include "pipeline/commands/mesh_input.hpp"
+#include "pipeline/front_door/mesh_input.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
 
 namespace tessera::pipeline {
@@ -55,9 +55,9 @@ void print(const check::CheckReport& report)
 
 ExitCode run_check_command(const CheckCommand& command, const comm::Communicator& comm)
 {
-  const auto mesh_files = pieces_of(command.mesh_file, comm);
+  const auto mesh_files = subdomain::pieces_of(command.mesh_file, comm);
   const check::PieceSource mesh = source_of(mesh_files);
-  const auto boundary_files = boundary_pieces_of(command.mesh_file, comm);
+  const auto boundary_files = subdomain::boundary_pieces_of(command.mesh_file, comm);
   std::optional<check::PieceSource> boundary;
   if (boundary_files) boundary = source_of(*boundary_files);
   const check::CheckReport report =

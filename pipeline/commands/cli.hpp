@@ -8,12 +8,9 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
-
-#include "pipeline/runtime/log.hpp"
+#include "tessera/tessera.hpp"
 
 namespace tessera::pipeline {
-
-enum class ProgressMode : int { automatic, always, never };
 
 /// @brief `tessera mesh`: make a mesh from a case file.
 struct MeshCommand {

@@ -21,8 +21,8 @@
 #include "tessera/subdomain/part_arrays.hpp"
 #include "tessera/subdomain/piece_file.hpp"
 
-#include "pipeline/commands/mesh_input.hpp"
 #include "pipeline/commands/part_report.hpp"
+#include "pipeline/front_door/mesh_input.hpp"
 #include "pipeline/runtime/run_context.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
 
@@ -30,7 +30,6 @@ namespace tessera::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
-using Texts = std::map<std::string, std::vector<std::string>>;
 
 // What a solver may rely on.
 constexpr double kMaxBalance = 1.03;
@@ -40,22 +39,6 @@ Hash128 sum_over_ranks(const Hash128& hash, const comm::Communicator& comm)
   std::vector<Hash128> sum{hash};
   comm.sum_in_place(sum);
   return sum.front();
-}
-
-// The texts of the first piece that has any, on all ranks; those that every mesh of ours has.
-Texts field_texts_of(const migrate::MeshPieces& pieces, const comm::Communicator& comm)
-{
-  const auto has_texts = [](const mesh::MeshArrays& piece) { return !piece.field_texts.empty(); };
-  const auto piece = std::ranges::find_if(pieces.tets, has_texts);
-  const Texts own = piece == pieces.tets.end() ? Texts{} : piece->field_texts;
-  Texts all{{"material_names", {}}, {"patch_names", {}}, {"length_unit", {}}};
-  for (const Texts& texts : comm.all_gather_values(own)) {
-    if (texts.empty()) continue;
-    for (const auto& [name, lines] : texts) all[name] = lines;
-    break;
-  }
-  all["tessera_version"] = {std::string(version())};
-  return all;
 }
 
 bool is_inside(const fs::path& path, const fs::path& folder)
@@ -124,10 +107,12 @@ class Repartition {
 
   void read()
   {
-    migrate::MeshPieces pieces = read_pieces(command_.mesh_file, comm_);
-    texts_ = field_texts_of(pieces, comm_);
+    const migrate::MeshPieces pieces =
+        subdomain::read_pieces(command_.mesh_file, comm_, throw_if_stop_requested);
+    texts_ = subdomain::field_texts_of(pieces, comm_);
+    texts_["tessera_version"] = {std::string(version())};
     end_step("read");
-    assemble(pieces);
+    mesh_ = subdomain::assemble_pieces(command_.mesh_file, pieces, comm_);
     figures_.notes = mesh_.notes;
     figures_.tets_digest = sum_over_ranks(migrate::digest_of_tets(mesh_.mesh), comm_);
     end_step("assemble");
@@ -144,17 +129,6 @@ class Repartition {
         fmt::format("--parts {}: the mesh has {} tets, and a part's 32-bit indices reach to {}; "
                     "choose more parts",
                     command_.num_parts, num_tets, subdomain::kMostTetsOfFile));
-  }
-
-  void assemble(const migrate::MeshPieces& pieces)
-  {
-    try {
-      mesh_ = migrate::assemble(comm_, pieces);
-    } catch (const comm::ThrownOnAllRanks& thrown) {
-      throw_on_all_ranks(exit_code_of(thrown.error()),
-                         fmt::format("{0}: {1}; `tessera check {0}` says where",
-                                     command_.mesh_file.string(), thrown.error().what()));
-    }
   }
 
   void measure()
@@ -277,7 +251,7 @@ class Repartition {
   const comm::Communicator& comm_;
   std::optional<io::OutputFolder> folder_{};
   migrate::AssembledMesh mesh_{};
-  Texts texts_{};
+  subdomain::Texts texts_{};
   RepartitionFigures figures_{};
   Clock::time_point start_ = Clock::now();
   Clock::time_point step_start_ = start_;

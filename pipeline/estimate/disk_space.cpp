@@ -35,9 +35,10 @@ DiskNeed disk_need(const RunOutline& outline, const Rates& rates)
     for (LocalIndex s = file.first; s < file.last; ++s) {
       const KernelRates& kernel = rates.of(outline.kernels[at(s)]);
       const auto tets = static_cast<double>(outline.pieces[at(s)].tets);
-      need.file_bytes += kernel.file_bytes_per_tet * tets;
+      if (outline.has_files) need.file_bytes += kernel.file_bytes_per_tet * tets;
       if (!outline.is_one_pass) need.store_bytes += copies * kernel.store_bytes_per_tet * tets;
     }
+    if (!outline.has_files) continue;
     const GlobalIndex triangles = outline.boundary_triangles_of(file);
     need.num_files += triangles > 0 ? 2 : 1;
     need.file_bytes += rates.file_bytes_per_boundary_triangle * static_cast<double>(triangles);

@@ -50,6 +50,17 @@ bool RunOutline::improves_seams() const
   return std::ranges::any_of(seam_triangles, [](GlobalIndex count) { return count > 0; });
 }
 
+void RunOutline::hand_over_pieces()
+{
+  has_files = false;
+  if (!is_one_pass) return;
+  is_one_pass = false;
+  jobs.clear();
+  for (const subdomain::SubdomainRange& file : files) {
+    for (LocalIndex s = file.first; s < file.last; ++s) jobs.push_back({s, s, s + 1});
+  }
+}
+
 RunOutline outline_run(const subdomain::PartitionedMesh& cut,
                        const std::vector<fill::KernelKind>& kernels, int levels,
                        const std::vector<subdomain::SubdomainRange>& files, bool improve_seams)

@@ -31,6 +31,10 @@ struct RunOutline {
   bool is_one_pass = false;  ///< Fill jobs write the files themselves.
   std::vector<subdomain::SubdomainRange> jobs{};   ///< What each fill job makes.
   std::vector<subdomain::SubdomainRange> files{};  ///< What each file holds.
+  bool has_files = true;  ///< False: finished pieces are handed over instead.
+
+  /// @brief From now on there are no files: every piece waits in the store until it is handed over.
+  void hand_over_pieces();
 
   [[nodiscard]] GlobalIndex tets_of(const subdomain::SubdomainRange& range) const;
   [[nodiscard]] GlobalIndex boundary_triangles_of(const subdomain::SubdomainRange& range) const;

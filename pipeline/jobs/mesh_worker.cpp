@@ -56,8 +56,12 @@ class MeshWorker final : public jobs::Worker {
     scaled_model_ = std::make_unique<model::ScaledModel>(*netgen_model_, scale_);
   }
 
+  // What belongs to the mesh of an earlier run goes with it.
   void take(MeshLoad load)
   {
+    ids_.reset();
+    regions_.reset();
+    limiter_ = {};
     cut_.reset();
     coarse_ = std::move(load.coarse);
     decomposition_ = std::move(load.decomposition);

@@ -6,10 +6,9 @@
 
 #include <spdlog/logger.h>
 
-namespace tessera::pipeline {
+#include "tessera/tessera.hpp"
 
-/// @brief How much a command says.
-enum class Verbosity : int { quiet, normal, verbose };
+namespace tessera::pipeline {
 
 /// @brief The log of a run: plain lines on standard output (warnings and errors marked), and all
 /// with times in `file`. An empty path makes a silent log: only rank 0 speaks.

@@ -29,7 +29,10 @@ void catch_stop_signals()
 
 void ignore_write_signals()
 {
-  for (const int signal : {SIGXFSZ, SIGPIPE}) std::signal(signal, SIG_IGN);
+  for (const int signal : {SIGXFSZ, SIGPIPE}) {
+    const auto before = std::signal(signal, SIG_IGN);
+    if (before != SIG_DFL && before != SIG_ERR) std::signal(signal, before);
+  }
 }
 
 bool stop_requested() { return stop_flag != 0; }

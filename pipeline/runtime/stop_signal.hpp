@@ -8,8 +8,8 @@ namespace tessera::pipeline {
 void catch_stop_signals();
 
 /// @brief From now on a file that grows beyond the limit of the user, or a pipe that nobody reads,
-/// is an error of the write, as a full disk is, and not the end of the process. Processes forked
-/// later inherit it.
+/// is an error of the write, as a full disk is, and not the end of the process. A handler of the
+/// program stays. Processes forked later inherit it.
 void ignore_write_signals();
 
 /// @brief Whether one of them has come to this rank. Local, cheap.

@@ -33,18 +33,24 @@ bool has_boundary(const subdomain::SubdomainRange& range,
 
 }  // namespace
 
+GatheredFile gather_file(const subdomain::SubdomainRange& range, const io::OutputOptions& options,
+                         const subdomain::WriteContext& mesh, const PieceStore& pieces)
+{
+  const io::RecordStore store(store_folder(pieces.folder));
+  GatheredFile gathered{.file = {mesh, options}};
+  for (LocalIndex s = range.first; s < range.last; ++s) {
+    gathered.digests.push_back(gathered.file.add(stored_piece(store, s, pieces.generation)));
+  }
+  return gathered;
+}
+
 std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,
                                 const io::OutputOptions& options,
                                 const subdomain::WriteContext& mesh, const PieceStore& pieces)
 {
-  const io::RecordStore store(store_folder(pieces.folder));
-  subdomain::PieceFile file(mesh, options);
-  std::vector<Hash128> digests;
-  for (LocalIndex s = range.first; s < range.last; ++s) {
-    digests.push_back(file.add(stored_piece(store, s, pieces.generation)));
-  }
-  file.write(pieces.folder, range.number);
-  return digests;
+  GatheredFile gathered = gather_file(range, options, mesh, pieces);
+  gathered.file.write(pieces.folder, range.number);
+  return std::move(gathered.digests);
 }
 
 void run_write_stage(const config::Case& run_case,

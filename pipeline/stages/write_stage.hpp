@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tessera/config/case.hpp"
-#include "tessera/subdomain/piece_arrays.hpp"
+#include "tessera/subdomain/piece_file.hpp"
 
 #include "pipeline/runtime/run_context.hpp"
 #include "pipeline/stages/fill_stage.hpp"
@@ -18,7 +18,20 @@ struct PieceStore {
   int generation = 0;              ///< Of the pieces; see stored_piece().
 };
 
-/// @brief Reads the pieces of one file from the store, one after the other, and writes it. Local.
+/// @brief What one file will hold.
+struct GatheredFile {
+  subdomain::PieceFile file;
+  std::vector<Hash128> digests{};  ///< Of its pieces, in the order of subdomains.
+};
+
+/// @brief Reads the pieces of one file from the store, one after the other. Local.
+/// @throws InputError if a record is damaged.
+[[nodiscard]] GatheredFile gather_file(const subdomain::SubdomainRange& range,
+                                       const io::OutputOptions& options,
+                                       const subdomain::WriteContext& mesh,
+                                       const PieceStore& pieces);
+
+/// @brief gather_file(), and writes it. Local.
 /// @return Their digests, in the order of subdomains.
 /// @throws OutputError (disk full, permission); InputError if a record is damaged.
 std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,

@@ -38,10 +38,11 @@ struct Identity {
   std::string version{};  ///< record_version() of who made the records.
   std::string model{};    ///< Hash of what was read of the model file.
   std::vector<LocalIndex> only_subdomains{};
+  bool has_files = true;
 
   static auto fields(auto& self)
   {
-    return std::tie(self.version, self.model, self.only_subdomains);
+    return std::tie(self.version, self.model, self.only_subdomains, self.has_files);
   }
 };
 
@@ -66,15 +67,16 @@ auto read_report(const std::filesystem::path& output, const Read& read)
   }
 }
 
-// Noted in the report when the run has ended, in a record before.
+// Noted in the report when the run has ended, in a record before. What has ended has left no pieces
+// that would have to be in files or not: it counts as what is asked for.
 std::optional<Identity> identity_of(const std::filesystem::path& output,
-                                    const std::optional<Bytes>& record)
+                                    const std::optional<Bytes>& record, bool has_files)
 {
   if (record) return from_bytes<Identity>(*record);
-  return read_report(output, [](const nlohmann::json& report) {
+  return read_report(output, [&](const nlohmann::json& report) {
     return Identity{record_version(report.at("version").get<std::string>()),
                     report.at("model").at("digest"),
-                    report.at("only_subdomains").get<std::vector<LocalIndex>>()};
+                    report.at("only_subdomains").get<std::vector<LocalIndex>>(), has_files};
   });
 }
 
@@ -115,8 +117,8 @@ void RunState::require_same_case(const config::Case& given) const
 
 void RunState::require_same_run(const Hash128& model) const
 {
-  const Identity now{record_version(), to_hex(model), only_subdomains_};
-  const auto noted = identity_of(output_, store().find("run"));
+  const Identity now{record_version(), to_hex(model), only_subdomains_, has_files_};
+  const auto noted = identity_of(output_, store().find("run"), has_files_);
   if (!noted) {
     clear();
     return store().put("run", to_bytes(now));
@@ -129,6 +131,12 @@ void RunState::require_same_run(const Hash128& model) const
   if (noted->model != now.model) throw InputError(what + "the model file has changed" + kWayOut);
   if (noted->only_subdomains != now.only_subdomains) {
     throw InputError(what + "it was begun with other --only-subdomains" + kWayOut);
+  }
+  if (noted->has_files != now.has_files) {
+    throw InputError(what
+                     + (now.has_files ? "its pieces were to be handed over, not to go into files"
+                                      : "its mesh was to go into files")
+                     + kWayOut);
   }
 }
 
@@ -147,14 +155,22 @@ std::optional<Plan> RunState::find_plan() const
   return bytes ? std::optional(from_bytes<Plan>(*bytes)) : std::nullopt;
 }
 
-std::optional<ExitCode> RunState::finished() const
+std::optional<MeshResult> RunState::finished() const
 {
   if (!is_own_file(output_ / "mesh.pvtu")) return std::nullopt;
-  const auto code = read_report(output_, [](const nlohmann::json& report) {
-    return static_cast<ExitCode>(report.at("exit_code").get<int>());
+  const auto result = read_report(output_, [&](const nlohmann::json& report) {
+    const std::string status = report.at("status");
+    if (status != "ok" && status != "degraded") return std::optional<MeshResult>();
+    return std::optional(
+        MeshResult{.status = status == "ok" ? MeshStatus::ok : MeshStatus::degraded,
+                   .reason = report.at("reason"),
+                   .num_tets = report.at("num_tets"),
+                   .num_subdomains = report.at("num_subdomains"),
+                   .volume = report.at("volume"),
+                   .digest = report.at("digest"),
+                   .folder = output_});
   });
-  const bool has_mesh = code == ExitCode::ok || code == ExitCode::degraded;
-  return has_mesh ? code : std::nullopt;
+  return result.value_or(std::nullopt);
 }
 
 void RunState::clear() const { store().remove_all(); }

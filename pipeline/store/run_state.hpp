@@ -15,8 +15,7 @@
 #include "tessera/io/record_store.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/subdomain/piece_summary.hpp"
-
-#include "pipeline/runtime/exit_code.hpp"
+#include "tessera/tessera.hpp"
 
 namespace tessera::pipeline {
 
@@ -44,8 +43,11 @@ struct Plan {
 class RunState {
  public:
   /// @param[in] only_subdomains That the run is to fill; empty: all.
-  RunState(std::filesystem::path output, std::vector<LocalIndex> only_subdomains)
-      : output_(std::move(output)), only_subdomains_(std::move(only_subdomains))
+  /// @param[in] has_files Whether its mesh goes into files.
+  RunState(std::filesystem::path output, std::vector<LocalIndex> only_subdomains, bool has_files)
+      : output_(std::move(output)),
+        only_subdomains_(std::move(only_subdomains)),
+        has_files_(has_files)
   {
   }
 
@@ -68,8 +70,8 @@ class RunState {
   void keep_plan(const Plan& plan) const;
   [[nodiscard]] std::optional<Plan> find_plan() const;
 
-  /// @brief The exit code of a run that has ended with a mesh.
-  [[nodiscard]] std::optional<ExitCode> finished() const;
+  /// @brief What a run that has ended with a mesh says of it.
+  [[nodiscard]] std::optional<MeshResult> finished() const;
 
   /// @brief Removes everything that only an unfinished run needs. @throws OutputError
   void clear() const;
@@ -79,6 +81,7 @@ class RunState {
 
   std::filesystem::path output_;
   std::vector<LocalIndex> only_subdomains_;
+  bool has_files_;
 };
 
 }  // namespace tessera::pipeline

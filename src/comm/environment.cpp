@@ -12,6 +12,13 @@ Environment::Environment(int& argc, char**& argv)
 
 Environment::~Environment() { MPI_Finalize(); }
 
+bool was_mpi_started()
+{
+  int is_started = 0;
+  MPI_Initialized(&is_started);
+  return is_started != 0;
+}
+
 Communicator world() { return Communicator(MPI_COMM_WORLD); }
 
 }  // namespace tessera::comm

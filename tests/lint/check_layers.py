@@ -29,6 +29,8 @@ ALLOWED = {  # module -> project modules it may include, besides itself
 }
 ALLOWED["subdomain"] = set(ALLOWED) - {"netgen"}  # The one that composes the algorithms.
 ALLOWED["config"] = set(ALLOWED) - {"netgen", "subdomain"}
+FRONT_DOOR = "tessera.hpp"  # include/tessera/tessera.hpp, for users; implemented by the pipeline
+ALLOWED[FRONT_DOOR] = set(ALLOWED) - {"netgen"}
 ALLOWED["pipeline"] = set(ALLOWED)
 QUARANTINE = {  # third-party header -> the only places that may include it
     r"mpi\.h": ("include/tessera/comm/", "src/comm/"),
@@ -38,6 +40,8 @@ QUARANTINE = {  # third-party header -> the only places that may include it
     r"vtk.*": ("src/io/vtk_",),
     r"toml.*": ("src/config/",),
     r"CLI/.*": ("pipeline/commands/cli.cpp",),
+    r"(nlohmann|spdlog)/.*": ("src/", "pipeline/"),  # Nobody needs them to compile against the library.
+    r"pipeline/commands/.*": ("pipeline/commands/", "pipeline/main.cpp"),  # The program; the rest is library.
 }
 PARTS = {  # (module, other module, "*": any) -> the only headers of the other that it may include
     ("config", "*"): ("options.hpp",),

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <span>
@@ -22,8 +23,8 @@
 /// Bytes of values, in this machine's byte order: messages between processes and records of the
 /// store. What one build writes, the same build reads.
 ///
-/// A value is one of: a number, a bool, an enumeration with a last_value(), a std::string, a
-/// std::vector, std::map, std::array, std::optional or std::variant of values, and a class with a
+/// A value is one of: a number, a bool, an enumeration with a last_value(), a std::string, a path,
+/// a std::vector, std::map, std::array, std::optional or std::variant of values, and a class with a
 /// list of fields (see fields.hpp). Anything else does not compile, so no padding ever goes to
 /// bytes.
 namespace tessera {
@@ -172,6 +173,8 @@ class ValueWriter {
     sink_.append(text.data(), text.size());
   }
 
+  void put(const std::filesystem::path& path) { put(path.string()); }
+
   template <class T>
   void put(const std::vector<T>& values)
   {
@@ -292,6 +295,8 @@ class ByteReader {
     text.resize(read_count(1));
     read_all(std::span<char>(text));
   }
+
+  void read(std::filesystem::path& path) { path = get<std::string>(); }
 
   template <class T>
   void read(std::vector<T>& values)

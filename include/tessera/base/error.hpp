@@ -15,6 +15,11 @@ struct ConfigError : Error {
   using Error::Error;
 };
 
+/// @brief A function was called where it cannot work; fix the program that calls it.
+struct UsageError : Error {
+  using Error::Error;
+};
+
 /// @brief An input file (CAD model, mesh) is missing, unreadable, or not what its name says.
 struct InputError : Error {
   using Error::Error;

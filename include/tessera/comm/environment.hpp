@@ -14,6 +14,9 @@ class Environment {
   Environment& operator=(const Environment&) = delete;
 };
 
+/// @brief Whether MPI was ever started in this process, also if it has ended. Local.
+[[nodiscard]] bool was_mpi_started();
+
 /// @brief A communicator of all ranks. @note Collective. @pre an Environment lives.
 [[nodiscard]] Communicator world();
 

@@ -11,6 +11,7 @@
 #include "tessera/mesh/piece.hpp"
 #include "tessera/mesh/skeleton.hpp"
 #include "tessera/number/id_layout.hpp"
+#include "tessera/subdomain/mesh_part.hpp"
 
 namespace tessera::subdomain {
 
@@ -42,6 +43,10 @@ struct PieceArrays {
 /// @param[in] with_quality Add the mean ratio of every tet.
 [[nodiscard]] PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh,
                                        bool with_quality);
+
+/// @brief The same for programs, with triangles that refer to the points of the tets. Local.
+/// @param[in] number Of the files. @pre the tets are in ascending order of their ids.
+[[nodiscard]] MeshPiece mesh_piece(PieceArrays arrays, LocalIndex number);
 
 /// @brief Sum of hash_tet() over the cells. Local. @pre ids and "attribute" are there.
 [[nodiscard]] Hash128 digest_of(const mesh::MeshArrays& tets);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "tessera/io/options.hpp"
@@ -48,6 +49,9 @@ class PieceFile {
   /// @brief Writes mesh/piece_NNNNNN.vtu and, unless it is empty, boundary/piece_NNNNNN.vtu below
   /// `folder`. @throws OutputError
   void write(const std::filesystem::path& folder, LocalIndex file) const;
+
+  /// @brief What it would write.
+  [[nodiscard]] PieceArrays take() && { return std::move(arrays_); }
 
   [[nodiscard]] GlobalIndex num_boundary_triangles() const { return arrays_.boundary.num_cells(); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/commands/report.hpp"
+#include "pipeline/report/report.hpp"
 
 #include <cmath>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/commands/mesh_input.hpp"
+#include "pipeline/front_door/mesh_input.hpp"
 
 #include <string>
 #include <system_error>
@@ -9,20 +9,20 @@
 #include "tessera/io/vtu.hpp"
 
 #include "pipeline/runtime/exit_code.hpp"
-#include "pipeline/runtime/stop_signal.hpp"
 
-namespace tessera::pipeline {
+namespace tessera::subdomain {
 namespace {
 
 std::vector<mesh::MeshArrays> read_own(const std::vector<std::filesystem::path>& files,
-                                       int vertices_per_cell, const comm::Communicator& comm)
+                                       int vertices_per_cell, const comm::Communicator& comm,
+                                       const std::function<void()>& before_each)
 {
   const auto first_of = [&](int rank) {
     return files.size() * static_cast<std::size_t>(rank) / static_cast<std::size_t>(comm.size());
   };
   std::vector<mesh::MeshArrays> pieces;
   for (std::size_t f = first_of(comm.rank()); f < first_of(comm.rank() + 1); ++f) {
-    throw_if_stop_requested();
+    before_each();
     mesh::MeshArrays piece = io::read_vtu(files[f]);
     if (piece.num_cells() > 0 && piece.vertices_per_cell != vertices_per_cell) {
       throw InputError(files[f].string() + ": it has no "
@@ -59,17 +59,44 @@ std::optional<std::vector<std::filesystem::path>> boundary_pieces_of(
   return pieces_of(boundary, comm);
 }
 
-migrate::MeshPieces read_pieces(const std::filesystem::path& index, const comm::Communicator& comm)
+migrate::MeshPieces read_pieces(const std::filesystem::path& index, const comm::Communicator& comm,
+                                const std::function<void()>& before_each)
 {
   migrate::MeshPieces pieces;
   const auto tet_files = pieces_of(index, comm);
   const auto boundary_files = boundary_pieces_of(index, comm);
-  all_or_none(comm, [&] {
-    pieces.tets = read_own(tet_files, 4, comm);
-    if (boundary_files) pieces.boundary = read_own(*boundary_files, 3, comm);
+  pipeline::all_or_none(comm, [&] {
+    pieces.tets = read_own(tet_files, 4, comm, before_each);
+    if (boundary_files) pieces.boundary = read_own(*boundary_files, 3, comm, before_each);
   });
   pieces.has_boundary = boundary_files.has_value();
   return pieces;
 }
 
-}  // namespace tessera::pipeline
+Texts field_texts_of(const migrate::MeshPieces& pieces, const comm::Communicator& comm)
+{
+  const auto has_texts = [](const mesh::MeshArrays& piece) { return !piece.field_texts.empty(); };
+  const auto piece = std::ranges::find_if(pieces.tets, has_texts);
+  const Texts own = piece == pieces.tets.end() ? Texts{} : piece->field_texts;
+  Texts all{{"material_names", {}}, {"patch_names", {}}, {"length_unit", {}}};
+  for (const Texts& texts : comm.all_gather_values(own)) {
+    if (texts.empty()) continue;
+    for (const auto& [name, lines] : texts) all[name] = lines;
+    break;
+  }
+  return all;
+}
+
+migrate::AssembledMesh assemble_pieces(const std::filesystem::path& index,
+                                       const migrate::MeshPieces& pieces,
+                                       const comm::Communicator& comm)
+{
+  try {
+    return migrate::assemble(comm, pieces);
+  } catch (const comm::Collective<InputError>& error) {
+    throw comm::Collective<InputError>(index.string() + ": " + error.what() + "; `tessera check "
+                                       + index.string() + "` says where");
+  }
+}
+
+}  // namespace tessera::subdomain

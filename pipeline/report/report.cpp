@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/commands/report.hpp"
+#include "pipeline/report/report.hpp"
 
 #include <algorithm>
 #include <string_view>
@@ -244,6 +244,18 @@ Json coarse_json(const RunResult& run)
           {"levels", run.resolved.refine.levels}};
 }
 
+Hash128 digest_of(const std::vector<subdomain::PieceSummary>& pieces)
+{
+  Hash128 digest;
+  for (const subdomain::PieceSummary& piece : pieces) digest += piece.digest;
+  return digest;
+}
+
+std::string reason_of(const Verdict& verdict)
+{
+  return fmt::format("{}", fmt::join(verdict.reasons, "; "));
+}
+
 // Where the tries ended at another kernel than the case wants.
 std::vector<LocalIndex> substituted_subdomains(const RunResult& run)
 {
@@ -299,14 +311,23 @@ Verdict judge(const RunResult& run)
   return verdict;
 }
 
+MeshResult result_of(const RunResult& run, const Verdict& verdict)
+{
+  const std::vector<subdomain::PieceSummary>& pieces = run.filled.pieces;
+  return {.status = verdict.exit_code == ExitCode::ok ? MeshStatus::ok : MeshStatus::degraded,
+          .reason = reason_of(verdict),
+          .num_tets = run.filled.num_tets(),
+          .num_subdomains = static_cast<LocalIndex>(pieces.size()),
+          .volume = sum(pieces, &subdomain::PieceSummary::volume),
+          .digest = to_hex(digest_of(pieces)),
+          .folder = run.resolved.output.directory};
+}
+
 std::string report_json(const RunResult& run, const Verdict& verdict, const RunFigures& figures,
                         const std::vector<StageTime>& times)
 {
   const std::vector<subdomain::PieceSummary>& pieces = run.filled.pieces;
-  Hash128 digest;
-  for (const subdomain::PieceSummary& piece : pieces) digest += piece.digest;
-  Json json =
-      head_json(verdict.exit_code, fmt::format("{}", fmt::join(verdict.reasons, "; ")), figures);
+  Json json = head_json(verdict.exit_code, reason_of(verdict), figures);
   add_counts(json, run);
   json["volume"] = sum(pieces, &subdomain::PieceSummary::volume);
   json["boundary_area"] = sum(pieces, &subdomain::PieceSummary::boundary_area);
@@ -315,7 +336,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   json["num_points_off_geometry"] =
       run.limiter.entries().size() + static_cast<std::size_t>(run.coarse.distance.num_off);
   json["reproducible"] = is_reproducible(run);
-  json["digest"] = to_hex(digest);
+  json["digest"] = to_hex(digest_of(pieces));
   add_figures(json, figures);
   json["resumed"] = figures.is_resumed;
   json["tets_per_second"] = static_cast<double>(run.filled.num_tets()) / figures.wall_time_s;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tessera/tessera.hpp"
+
 #include "pipeline/predict/prediction_file.hpp"
 #include "pipeline/run_pipeline.hpp"
 #include "pipeline/runtime/exit_code.hpp"
@@ -33,6 +35,9 @@ struct RunFigures {
 
 /// @brief Tets of the largest part of the output over the average; 1 without parts. Local.
 [[nodiscard]] double balance_of_parts(const RunResult& run);
+
+/// @brief What the caller of a finished run is told. Local.
+[[nodiscard]] MeshResult result_of(const RunResult& run, const Verdict& verdict);
 
 /// @brief report.json of a finished run.
 [[nodiscard]] std::string report_json(const RunResult& run, const Verdict& verdict,

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "tessera/comm/communicator.hpp"
+#include "tessera/subdomain/mesh_part.hpp"
+
+namespace tessera::subdomain {
+
+enum class ReadPartition : int {
+  files,     ///< Ranks take the piece files in their order, each some that stand together.
+  balanced,  ///< Cut anew into one connected, balanced part a rank, as `tessera repartition` does.
+};
+
+struct ReadOptions {
+  ReadPartition partition = ReadPartition::files;
+  int num_ghost_layers = 0;  ///< Layers of other ranks' tets around the share; see find_ghosts().
+};
+
+/// @brief Reads this rank's share of a mesh, ours or another tool's; no rank holds the whole.
+///
+/// With ReadPartition::files a mesh that was made with `output.parts = P` keeps its parts on P
+/// ranks; on more ranks than there are files, some ranks have no tets.
+/// @note Collective; needs no Session.
+/// @param[in] mesh An output folder, or a .pvtu or .vtu file.
+/// @throws InputError on all ranks if a file is missing or damaged, the pieces are no conforming
+/// mesh, or it has fewer tets than ranks and is to be balanced; MeshError if it cannot be cut.
+[[nodiscard]] MeshShare read_mesh(const std::filesystem::path& mesh, const comm::Communicator& comm,
+                                  const ReadOptions& options = {});
+
+}  // namespace tessera::subdomain

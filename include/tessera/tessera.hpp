@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "tessera/base/error.hpp"
+#include "tessera/comm/communicator.hpp"
+#include "tessera/config/case.hpp"
+#include "tessera/io/output_folder.hpp"
+#include "tessera/subdomain/mesh_part.hpp"
+#include "tessera/subdomain/read_mesh.hpp"
+
+/// The front door: all that a program needs to make a mesh, and to read its share of one. Errors
+/// are exceptions that all ranks throw, each a tessera::Error; see tessera/base/error.hpp.
+namespace tessera {
+
+// A rank's share of a mesh in files; needs no Session.
+using subdomain::MeshPiece, subdomain::MeshShare;
+using subdomain::read_mesh, subdomain::ReadOptions, subdomain::ReadPartition;
+
+/// @brief Makes make_mesh() possible: forks the processes in which NETGEN and OpenCASCADE run, for
+/// they may crash or hang. Construct it first thing in main(): before MPI starts, and while the
+/// process has one thread. One in a program.
+class Session {
+ public:
+  /// @brief Also starts MPI, and ends it with this object.
+  Session(int& argc, char**& argv);
+  /// @brief For a program that starts and ends MPI itself, after this.
+  Session();
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  /// @brief All ranks. @note Collective. @pre MPI runs, as long as what is returned lives.
+  [[nodiscard]] comm::Communicator world() const { return comm::Communicator(MPI_COMM_WORLD); }
+
+  /// @brief From now on SIGINT, SIGTERM and SIGUSR1 end a run in order: make_mesh() throws
+  /// Interrupted, and can go on later. A second SIGINT ends the process at once.
+  void catch_stop_signals() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+enum class Verbosity : int { quiet, normal, verbose };       ///< Quiet: warnings and errors only.
+enum class ProgressMode : int { automatic, always, never };  ///< Automatic: on a terminal.
+
+/// @brief What make_mesh() is told besides its case.
+struct MeshOptions {
+  std::string case_name = "case";                            ///< In messages and in report.json.
+  io::ExistingFolder existing = io::ExistingFolder::refuse;  ///< Of output.directory.
+  std::vector<LocalIndex> only_subdomains{};                 ///< Ascending; empty: all.
+  Verbosity verbosity = Verbosity::quiet;                    ///< Of what rank 0 prints.
+  ProgressMode progress = ProgressMode::automatic;           ///< Unless quiet.
+  /// If set, no mesh files are written: each finished piece is handed to this on the rank that took
+  /// it, in the main thread, one at a time, in any order. It must not communicate. If it throws on
+  /// one rank, the run ends with an OutputError on all. Set it on all ranks or on none.
+  std::function<void(MeshPiece)> on_piece{};
+};
+
+enum class MeshStatus : int { ok, degraded };
+constexpr MeshStatus last_value(MeshStatus /*of*/) { return MeshStatus::degraded; }
+
+/// @brief What make_mesh() has made; the same on every rank. The folder's report.json says more.
+struct MeshResult {
+  MeshStatus status = MeshStatus::ok;  ///< Degraded: valid, but a target was missed.
+  std::string reason{};                ///< Why it is degraded.
+  GlobalIndex num_tets = 0;            ///< As the next three: of what was made.
+  LocalIndex num_subdomains = 0;
+  double volume = 0.0;             ///< Output length unit cubed.
+  std::string digest{};            ///< Order-free hash of all tets, in hexadecimal.
+  std::filesystem::path folder{};  ///< With report.json and, without on_piece, mesh.pvtu.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.status, self.reason, self.num_tets, self.num_subdomains, self.volume,
+                    self.digest, self.folder);
+  }
+};
+
+/// @brief Does what `tessera mesh` does with a case: the same folder, the same bits.
+///
+/// The case is checked like a case file, and that of rank 0 counts. Relative paths start at the
+/// working directory.
+/// @note Collective.
+/// @throws on all ranks: UsageError if a rank has no Session; ConfigError, InputError,
+/// GeometryError, MeshError, OutputError, Interrupted as `tessera mesh` ends with them.
+[[nodiscard]] MeshResult make_mesh(const config::Case& given, const comm::Communicator& comm,
+                                   const MeshOptions& options = {});
+
+}  // namespace tessera

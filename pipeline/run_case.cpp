@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/run_case.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <spdlog/fmt/fmt.h>
+#include <unistd.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/hash.hpp"
+#include "tessera/io/files.hpp"
+#include "tessera/jobs/this_process.hpp"
+#include "tessera/netgen/factory.hpp"
+
+#include "pipeline/estimate/disk_space.hpp"
+#include "pipeline/predict/dry_run.hpp"
+#include "pipeline/predict/prediction_file.hpp"
+#include "pipeline/report/report.hpp"
+#include "pipeline/run_pipeline.hpp"
+#include "pipeline/runtime/log.hpp"
+#include "pipeline/stages/model_stage.hpp"
+#include "pipeline/store/run_state.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+// What a solver may expect of output.parts without a word; 1.06 was measured with 16 subdomains a
+// part.
+constexpr double kMostBalance = 1.1;
+
+enum class Purpose : int { mesh, prediction };
+
+// Before anything is done: what the case alone decides. All ranks have the same one.
+void require_possible(const config::Case& given, const MeshOptions& options)
+{
+  const std::vector<LocalIndex>& only = options.only_subdomains;
+  if (only.empty()) return;
+  if (only.front() < 0 || std::ranges::adjacent_find(only, std::greater_equal{}) != only.end()) {
+    throw ConfigError("--only-subdomains: not whole numbers in ascending order");
+  }
+  if (given.output.files != 0 || given.output.parts != 0) {
+    throw ConfigError("--only-subdomains excludes output.files and output.parts");
+  }
+  if (given.fill.kernel != fill::KernelKind::subdivide && given.fill.regions.empty()) {
+    throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\"");
+  }
+}
+
+Progress::Style progress_style(const MeshOptions& options, const comm::Communicator& comm)
+{
+  if (comm.rank() != 0 || options.verbosity == Verbosity::quiet) return Progress::Style::silent;
+  const bool is_terminal =
+      options.progress == ProgressMode::always
+      || (options.progress == ProgressMode::automatic && isatty(STDOUT_FILENO) != 0);
+  return is_terminal ? Progress::Style::bar : Progress::Style::lines;
+}
+
+// One run in its folder, which is locked as long as this lives.
+class CaseRun {
+ public:
+  CaseRun(const config::Case& given, const MeshOptions& options, Purpose purpose,
+          const comm::Communicator& comm, jobs::JobRunner& jobs)
+      : given_(given), options_(options), purpose_(purpose), comm_(comm), jobs_(jobs)
+  {
+    all_or_none(comm, [&] {
+      require_possible(given, options);
+      if (comm.rank() == 0) open_folder();
+    });
+    comm.barrier();
+    jobs.set_log_file(jobs_log());
+  }
+
+  MeshResult mesh()
+  {
+    return in_context([&](RunContext& context) {
+      const auto ended = ended_run(context);
+      return ended ? *ended : run(context);
+    });
+  }
+
+  std::string predict(int num_ranks)
+  {
+    return in_context([&](RunContext& context) {
+      return dry_run(given_, {nullptr, options_.only_subdomains}, num_ranks, context);
+    });
+  }
+
+ private:
+  // With log and progress; what all ranks throw is reported before it goes on.
+  template <class Work>
+  std::invoke_result_t<Work, RunContext&> in_context(const Work& work)
+  {
+    std::shared_ptr<spdlog::logger> log;
+    all_or_none(comm_, [&] {
+      const bool speaks = comm_.rank() == 0;
+      log =
+          make_log(speaks ? given_.output.directory / "log" / log_name() : "", options_.verbosity);
+    });
+    Progress progress(progress_style(options_, comm_), log);
+    RunContext context{comm_, jobs_, progress, *log, given_.output.directory, jobs_log()};
+    try {
+      return work(context);
+    } catch (const comm::ThrownOnAllRanks& thrown) {
+      progress.clear();
+      if (comm_.rank() == 0) report_failure(thrown.error(), context);
+      const ExitCode code = exit_code_of(thrown.error());
+      if (code == ExitCode::stopped && is_mesh()) {
+        throw_on_all_ranks(code, std::string(thrown.error().what()) + "; --resume goes on");
+      }
+      throw;
+    }
+  }
+
+  [[nodiscard]] bool is_mesh() const { return purpose_ == Purpose::mesh; }
+
+  [[nodiscard]] bool is_resumed() const
+  {
+    return is_mesh() && options_.existing == io::ExistingFolder::resume;
+  }
+
+  [[nodiscard]] bool has_files() const { return !options_.on_piece; }
+
+  [[nodiscard]] std::filesystem::path jobs_log() const
+  {
+    return given_.output.directory / "log" / fmt::format("rank_{:06}.log", comm_.rank());
+  }
+
+  [[nodiscard]] const char* log_name() const { return is_mesh() ? "run.log" : "dry_run.log"; }
+
+  void open_folder()
+  {
+    if (is_resumed()) state().require_begun();
+    netgen::require_model_file(given_.geometry.file);  // A mistyped name leaves no folder behind.
+    // A dry run removes nothing that a run has left, and leaves nothing in the way of one.
+    folder_.emplace(given_.output.directory,
+                    is_mesh() ? options_.existing : io::ExistingFolder::resume);
+    std::filesystem::remove_all(sample_folder(given_.output.directory));
+    io::make_own_folder(given_.output.directory / "log");
+    if (!is_mesh()) return;
+    if (is_resumed()) state().require_same_case(given_);
+    if (has_files()) {
+      io::make_own_folder(given_.output.directory / "mesh");
+      io::make_own_folder(given_.output.directory / "boundary");
+    }
+    io::write_text_atomically(given_.output.directory / "case.toml", config::to_toml(given_));
+  }
+
+  [[nodiscard]] RunState state() const
+  {
+    return {given_.output.directory, options_.only_subdomains, has_files()};
+  }
+
+  // A run that has ended needs no more than a look at whether it is the same run.
+  std::optional<MeshResult> ended_run(RunContext& context) const
+  {
+    if (!is_resumed()) return std::nullopt;
+    const RunState state = this->state();
+    const std::optional<MeshResult> ended = on_root(comm_, [&] {
+      auto there = state.finished();
+      if (there && !has_files()) {
+        throw InputError("cannot resume " + given_.output.directory.string()
+                         + ": its mesh is in files already, read_mesh() reads them");
+      }
+      return there;
+    });
+    if (!ended) return std::nullopt;
+    const model::ModelSource model = run_model_stage(given_, context);
+    all_or_none(comm_, [&] {
+      if (comm_.rank() != 0) return;
+      state.require_same_run(hash_bytes(model.content));
+      state.clear();
+    });
+    context.log.info("nothing to do: the run in {} has ended", given_.output.directory.string());
+    return ended;
+  }
+
+  MeshResult run(RunContext& context)
+  {
+    const RunState state = this->state();
+    const RunResult run =
+        run_pipeline(given_, {&state, options_.only_subdomains, piece_sink()}, context);
+    const Verdict verdict = judge(run);
+    RunFigures run_figures = figures();
+    all_or_none(comm_, [&] {
+      if (comm_.rank() != 0) return;
+      run_figures.predicted = predicted(run, run_figures, context);
+      io::write_text_atomically(given_.output.directory / "report.json",
+                                report_json(run, verdict, run_figures, context.times));
+      folder_->remove_half_written();  // Of jobs that were killed and done again.
+      state.clear();
+      // What a later try made good needs no diagnosis; a region that failed has had but one.
+      if (verdict.exit_code == ExitCode::ok && run.filled.improvement.num_failed == 0) {
+        std::error_code error;  // The mesh is whole and the report says so, whatever stays here.
+        std::filesystem::remove_all(given_.output.directory / "failure", error);
+        if (error) context.log.warn("failure: cannot be removed: {}", error.message());
+      }
+    });
+    if (comm_.rank() == 0) say(run, verdict, run_figures.wall_time_s, context.log);
+    return result_of(run, verdict);
+  }
+
+  [[nodiscard]] PieceSink piece_sink() const
+  {
+    if (has_files()) return {};
+    return [this](LocalIndex number, subdomain::PieceArrays piece) {
+      options_.on_piece(subdomain::mesh_piece(std::move(piece), number));
+    };
+  }
+
+  void say(const RunResult& run, const Verdict& verdict, double wall_time_s,
+           spdlog::logger& log) const
+  {
+    for (const std::string& reason : verdict.reasons) log.warn("degraded: {}", reason);
+    if (const double balance = balance_of_parts(run); balance > kMostBalance) {
+      log.warn(
+          "the largest part has {:.3g} times the average of tets; more "
+          "decompose.subdomains make smaller units to share out",
+          balance);
+    }
+    log.info("{} tets in {} pieces, {:.1f} s: {}", run.filled.num_tets(), run.filled.pieces.size(),
+             wall_time_s, given_.output.directory.string());
+  }
+
+  // Held against the prediction of a dry run, if there was one of this run.
+  [[nodiscard]] std::vector<PredictedFigure> predicted(const RunResult& run,
+                                                       const RunFigures& run_figures,
+                                                       const RunContext& context) const
+  {
+    if (!has_files()) return {};
+    GlobalIndex num_boundary = 0;
+    for (const subdomain::PieceSummary& piece : run.filled.pieces)
+      num_boundary += piece.num_boundary;
+    const FolderSize size = size_of_folders(given_.output.directory, {"mesh", "boundary"});
+    const ActualRun actual{
+        .num_ranks = comm_.size(),
+        .is_resumed = run_figures.is_resumed,
+        .tets = static_cast<double>(run.num_tets),
+        .vertices = static_cast<double>(run.num_vertices),
+        .boundary_triangles = static_cast<double>(num_boundary),
+        .files = size.num_files,
+        .disk_bytes = size.bytes,
+        .memory_per_rank_bytes = static_cast<double>(run_figures.peak_rss_bytes_max),
+        .wall_time_s = run_figures.wall_time_s,
+        .stages = context.times};
+    return compare_with_prediction(given_.output.directory,
+                                   PredictedRun(given_, run.model, run.only_subdomains), actual);
+  }
+
+  // The report of a run that has ended stays: it is what a refused --resume is judged by.
+  void report_failure(const std::exception& error, const RunContext& context) const
+  {
+    if (!is_mesh() || state().finished()) return;
+    RunFigures failed = local_figures();
+    failed.peak_rss_bytes_max = peak_rss_bytes();
+    try {
+      io::write_text_atomically(
+          given_.output.directory / "report.json",
+          failure_json(exit_code_of(error), error.what(), failed, context.times));
+    } catch (const Error& second) {
+      context.log.warn("report.json is missing: {}", second.what());
+    }
+  }
+
+  [[nodiscard]] std::size_t peak_rss_bytes() const
+  {
+    return jobs::peak_rss_of_this_process() + jobs_.peak_rss_bytes();
+  }
+
+  [[nodiscard]] RunFigures local_figures() const
+  {
+    const auto now = std::chrono::steady_clock::now();
+    return {.case_name = options_.case_name,
+            .num_ranks = comm_.size(),
+            .is_resumed = is_resumed(),
+            .wall_time_s = std::chrono::duration<double>(now - start_).count()};
+  }
+
+  /// Collective.
+  [[nodiscard]] RunFigures figures() const
+  {
+    RunFigures all = local_figures();
+    all.peak_rss_bytes_max =
+        static_cast<std::size_t>(comm_.max(static_cast<double>(peak_rss_bytes())));
+    return all;
+  }
+
+  const config::Case& given_;
+  const MeshOptions& options_;
+  Purpose purpose_;
+  const comm::Communicator& comm_;
+  jobs::JobRunner& jobs_;
+  std::optional<io::OutputFolder> folder_{};
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+MeshResult run_case(const config::Case& given, const MeshOptions& options,
+                    const comm::Communicator& comm, jobs::JobRunner& jobs)
+{
+  return CaseRun(given, options, Purpose::mesh, comm, jobs).mesh();
+}
+
+std::string predict_case(const config::Case& given, const MeshOptions& options, int num_ranks,
+                         const comm::Communicator& comm, jobs::JobRunner& jobs)
+{
+  return CaseRun(given, options, Purpose::prediction, comm, jobs).predict(num_ranks);
+}
+
+}  // namespace tessera::pipeline
