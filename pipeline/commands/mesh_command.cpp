@@ -10,6 +10,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/io/output_folder.hpp"
@@ -105,9 +106,9 @@ class MeshRun {
     } catch (const comm::ThrownOnAllRanks& thrown) {
       progress.clear();
       if (comm_.rank() == 0) report_failure(thrown.error(), context);
-      const ExitCode code = exit_code_of(thrown.error());
-      if (code == ExitCode::stopped && !command_.dry_run) {
-        throw_on_all_ranks(code, std::string(thrown.error().what()) + "; --resume goes on");
+      if (kind_of(thrown.error()) == ErrorKind::interrupted && !command_.dry_run) {
+        throw comm::Collective<Interrupted>(std::string(thrown.error().what())
+                                            + "; --resume goes on");
       }
       throw;
     }
