@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/communicator.hpp"
 #include "tessera/jobs/job_runner.hpp"
 #include "tessera/tessera.hpp"

@@ -13,6 +13,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/jobs/this_process.hpp"
 #include "tessera/netgen/factory.hpp"
@@ -110,7 +111,8 @@ class CaseRun {
       if (comm_.rank() == 0) report_failure(thrown.error(), context);
       const ExitCode code = exit_code_of(thrown.error());
       if (code == ExitCode::stopped && is_mesh()) {
-        throw_on_all_ranks(code, std::string(thrown.error().what()) + "; --resume goes on");
+        throw comm::Collective<Interrupted>(std::string(thrown.error().what())
+                                            + "; --resume goes on");
       }
       throw;
     }

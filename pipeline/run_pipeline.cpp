@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/fill/fallbacks.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/subdomain/count_pieces.hpp"

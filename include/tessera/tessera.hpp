@@ -65,7 +65,7 @@ struct MeshOptions {
 };
 
 enum class MeshStatus : int { ok, degraded };
-constexpr MeshStatus last_value(MeshStatus /*of*/) { return MeshStatus::degraded; }
+[[nodiscard]] constexpr MeshStatus last_value(MeshStatus /*type*/) { return MeshStatus::degraded; }
 
 /// @brief What make_mesh() has made; the same on every rank. The folder's report.json says more.
 struct MeshResult {

@@ -8,6 +8,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/model/model.hpp"

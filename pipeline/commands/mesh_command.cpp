@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string>
 
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/config/case.hpp"
 
 #include "pipeline/run_case.hpp"

@@ -12,6 +12,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/version.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/io/output_folder.hpp"
 #include "tessera/io/vtu.hpp"
@@ -118,14 +119,13 @@ class Repartition {
     end_step("assemble");
     const GlobalIndex num_tets = comm_.sum(mesh_.mesh.num_tets());
     if (num_tets < command_.num_parts) {
-      throw_on_all_ranks(ExitCode::wrong_input, fmt::format("--parts {}: the mesh has only {} tets",
-                                                            command_.num_parts, num_tets));
+      throw comm::Collective<InputError>(
+          fmt::format("--parts {}: the mesh has only {} tets", command_.num_parts, num_tets));
     }
     constexpr auto kMostOnAverage =
         static_cast<GlobalIndex>(subdomain::kMostTetsOfFile / kMaxBalance);
     if (num_tets <= kMostOnAverage * command_.num_parts) return;
-    throw_on_all_ranks(
-        ExitCode::wrong_input,
+    throw comm::Collective<InputError>(
         fmt::format("--parts {}: the mesh has {} tets, and a part's 32-bit indices reach to {}; "
                     "choose more parts",
                     command_.num_parts, num_tets, subdomain::kMostTetsOfFile));
@@ -143,7 +143,7 @@ class Repartition {
     figures_.traffic.num_messages = comm_.sum(figures_.traffic.num_messages);
     figures_.traffic.num_bytes = comm_.sum(figures_.traffic.num_bytes);
     if (sum_over_ranks(migrate::digest_of_tets(mesh_.mesh), comm_) == figures_.tets_digest) return;
-    throw_on_all_ranks(ExitCode::internal, "the migration has lost or changed tets");
+    throw comm::Collective<Error>("the migration has lost or changed tets");
   }
 
   void write()

@@ -4,6 +4,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"

@@ -6,8 +6,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "tessera/base/error.hpp"
-
-#include "pipeline/runtime/exit_code.hpp"
+#include "tessera/comm/all_or_none.hpp"
 
 namespace tessera::pipeline {
 FolderSize size_of_folders(const std::filesystem::path& parent,

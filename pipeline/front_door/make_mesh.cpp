@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/tessera.hpp"
 
 #include "pipeline/front_door/session.hpp"
 #include "pipeline/run_case.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera {
 namespace {
@@ -60,7 +60,7 @@ struct Told {
 Told told_by_root(const config::Case& given, const MeshOptions& options,
                   const comm::Communicator& comm)
 {
-  return pipeline::on_root(comm, [&] {
+  return comm::on_root(comm, [&] {
     return Told{options.case_name, config::to_toml(checked(given, options.case_name)),
                 options.existing, options.only_subdomains};
   });

@@ -6,9 +6,8 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/vtu.hpp"
-
-#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera::subdomain {
 namespace {
@@ -65,7 +64,7 @@ migrate::MeshPieces read_pieces(const std::filesystem::path& index, const comm::
   migrate::MeshPieces pieces;
   const auto tet_files = pieces_of(index, comm);
   const auto boundary_files = boundary_pieces_of(index, comm);
-  pipeline::all_or_none(comm, [&] {
+  comm::all_or_none(comm, [&] {
     pieces.tets = read_own(tet_files, 4, comm, before_each);
     if (boundary_files) pieces.boundary = read_own(*boundary_files, 3, comm, before_each);
   });

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/migrate/cut_into_parts.hpp"
 #include "tessera/migrate/ghosts.hpp"
 #include "tessera/migrate/partition.hpp"
 
 #include "pipeline/front_door/mesh_input.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera::subdomain {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 // As rank 0 sees it, so that no rank can read another mesh.
 std::filesystem::path index_of(const std::filesystem::path& mesh, const comm::Communicator& comm)
 {
-  return pipeline::on_root(comm, [&] {
+  return comm::on_root(comm, [&] {
     std::error_code error;  // What cannot be looked at, the reader complains about.
     return std::filesystem::is_directory(mesh, error) ? mesh / "mesh.pvtu" : mesh;
   });

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/work_queue.hpp"
 
-#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
 
 namespace tessera::pipeline {
@@ -106,8 +106,9 @@ bool depends_on_machine(const jobs::JobOutcome& outcome)
 void throw_unless_of_the_job(const jobs::JobOutcome& outcome)
 {
   throw_if_cancelled(outcome);
-  if (outcome.error == jobs::ErrorKind::output) throw OutputError(outcome.message);
-  if (outcome.error == jobs::ErrorKind::config) throw ConfigError(outcome.message);
+  if (outcome.error == ErrorKind::output || outcome.error == ErrorKind::config) {
+    throw_error(*outcome.error, outcome.message);
+  }
   if (outcome.loads_are_lost) throw MeshError(outcome.message + way_on(outcome));
 }
 

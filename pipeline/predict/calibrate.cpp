@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/jobs/this_process.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
 
 #include "pipeline/predict/choose_samples.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/runtime/log.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/untangle_stage.hpp"

@@ -4,13 +4,13 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/jobs/this_process.hpp"
 
 #include "pipeline/predict/calibrate.hpp"
 #include "pipeline/predict/prediction.hpp"
 #include "pipeline/predict/prediction_file.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/stages/load_stage.hpp"
 
 namespace tessera::pipeline {

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/jobs/this_process.hpp"
 
-#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
 
 namespace tessera::pipeline {

@@ -100,7 +100,7 @@ auto read_result(jobs::JobOutcome& outcome, const Read& read)
     return read(outcome.result);
   } catch (const InputError& error) {
     outcome.status = jobs::JobStatus::failed;
-    outcome.error = jobs::ErrorKind::netgen;
+    outcome.error = ErrorKind::netgen;
     outcome.message = std::string("gave a result that cannot be used: ") + error.what();
     return std::nullopt;
   }

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -21,7 +21,7 @@ constexpr double kMemory_gib = 16.0;
 // The model will not get better in another try.
 bool is_final(const jobs::JobOutcome& outcome)
 {
-  return outcome.error == jobs::ErrorKind::geometry || outcome.error == jobs::ErrorKind::input
+  return outcome.error == ErrorKind::geometry || outcome.error == ErrorKind::input
          || outcome.loads_are_lost;
 }
 

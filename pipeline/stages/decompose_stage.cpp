@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
 #include "tessera/decompose/predicted_fine_tets.hpp"
 #include "tessera/fill/fallbacks.hpp"
 
 #include "pipeline/estimate/run_outline.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/runtime/with_file_context.hpp"
 
 namespace tessera::pipeline {

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/store/fill_record.hpp"
 #include "pipeline/store/improved_pieces.hpp"
@@ -217,8 +217,7 @@ class SeamImprover {
                 on_wait, context_);
     throw_unless_of_the_job(outcome);
     // A piece that cannot be read is no fault of the region.
-    if (outcome.error == jobs::ErrorKind::input)
-      throw InputError(outcome.message + way_on(outcome));
+    if (outcome.error == ErrorKind::input) throw InputError(outcome.message + way_on(outcome));
     subdomain::RegionRecord record;
     if (auto made = read_result(outcome, [&](const Bytes& /*empty*/) {
           return from_bytes<subdomain::RegionRecord>(store_.get(region_name(region)));

@@ -4,8 +4,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "tessera/comm/all_or_none.hpp"
+
 #include "pipeline/jobs/mesh_worker.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera::pipeline {
 namespace {

@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -25,7 +25,7 @@ void throw_unless_read(const jobs::JobOutcome& outcome, const std::filesystem::p
   }
   const bool is_of_the_library =
       outcome.status != jobs::JobStatus::ok
-      && (outcome.status != jobs::JobStatus::failed || outcome.error == jobs::ErrorKind::netgen);
+      && (outcome.status != jobs::JobStatus::failed || outcome.error == ErrorKind::netgen);
   if (is_of_the_library) {
     throw GeometryError(file.string() + ": the CAD library cannot read this model: "
                         + outcome.message + "; repair it in a CAD program or export it anew");

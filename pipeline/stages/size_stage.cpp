@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "tessera/base/vec3.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/mesh/tet_edges.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 
 namespace tessera::pipeline {
 namespace {

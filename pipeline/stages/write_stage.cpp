@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/record_store.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/subdomain/piece_arrays.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/store/fill_record.hpp"
 #include "pipeline/store/improved_pieces.hpp"
 

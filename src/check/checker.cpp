@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 
 #include "check/concat.hpp"
 #include "check/match_edges.hpp"
@@ -37,6 +38,19 @@ void add_to(std::vector<SubdomainFigures>& subdomains, const SubdomainFigures& f
   sum.digest += figures.digest;
 }
 
+// Runs what reads a piece. Whatever is wrong then is so with the piece's file.
+template <class Work>
+void with_piece_name(PieceName name, const Work& work)
+{
+  try {
+    work();
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(concat(to_text(name), ": ", error.what()));
+  }
+}
+
 }  // namespace
 
 Checker::Checker(const PieceSource& tets, const PieceSource* boundary,
@@ -57,21 +71,13 @@ Checker::Checker(const PieceSource& tets, const PieceSource* boundary,
 template <class Visit>
 void Checker::for_each_own_piece(Range range, bool is_boundary, const Visit& visit) const
 {
-  std::optional<std::string> stopped;
-  std::optional<std::string> defect;
-  for (LocalIndex p = range.begin; p < range.end && !stopped && !defect; ++p) {
-    if (p % comm_.size() != comm_.rank()) continue;
-    const PieceName name{p, is_boundary};
-    try {
-      visit(name);
-    } catch (const Interrupted& interrupted) {
-      stopped = interrupted.what();
-    } catch (const std::exception& error) {
-      defect = concat(to_text(name), ": ", error.what());
+  comm::all_or_none(comm_, [&] {
+    for (LocalIndex p = range.begin; p < range.end; ++p) {
+      if (p % comm_.size() != comm_.rank()) continue;
+      const PieceName name{p, is_boundary};
+      with_piece_name(name, [&] { visit(name); });
     }
-  }
-  comm_.throw_if_any<Interrupted>(stopped);
-  comm_.throw_if_any<InputError>(defect);
+  });
 }
 
 // The same whatever the number of ranks, since what is reported may depend on it.

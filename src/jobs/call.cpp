@@ -271,7 +271,7 @@ void Call::finish_answered()
   } else {
     const Failure failure = from_bytes<Failure>(answer_.take());
     finish(failure.status, failure.message);
-    outcome_->error = failure.status == JobStatus::failed ? failure.error : ErrorKind::none;
+    if (failure.status == JobStatus::failed) outcome_->error = failure.error;
   }
   if (kind_ == PacketKind::load && usage_) {
     link_.loaded_bytes = usage_->together_bytes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/failure.hpp"
 
+#include <exception>
 #include <new>
 #include <utility>
 
@@ -10,27 +11,12 @@ namespace tessera::jobs {
 
 Failure current_failure()
 {
-  const auto failed = [](ErrorKind kind, const std::exception& error) {
-    return Failure{.error = kind, .message = error.what()};
-  };
   try {
     throw;
   } catch (const std::bad_alloc&) {
     return {.status = JobStatus::out_of_memory, .message = "an allocation failed"};
-  } catch (const ConfigError& error) {
-    return failed(ErrorKind::config, error);
-  } catch (const GeometryError& error) {
-    return failed(ErrorKind::geometry, error);
-  } catch (const InputError& error) {
-    return failed(ErrorKind::input, error);
-  } catch (const NetgenError& error) {
-    return failed(ErrorKind::netgen, error);
-  } catch (const MeshError& error) {
-    return failed(ErrorKind::mesh, error);
-  } catch (const OutputError& error) {
-    return failed(ErrorKind::output, error);
   } catch (const std::exception& error) {
-    return failed(ErrorKind::other, error);
+    return {.error = kind_of(error), .message = error.what()};
   } catch (...) {
     return {.message = "an exception of unknown type"};
   }
@@ -44,23 +30,7 @@ void throw_unless_ok(const JobOutcome& outcome, const std::string& what)
       outcome.message.starts_with(what) ? outcome.message : what + ": " + outcome.message;
   if (outcome.status == JobStatus::cancelled) throw Interrupted(text);
   if (outcome.status != JobStatus::failed) throw NetgenError(text);
-  switch (outcome.error) {
-    case ErrorKind::config:
-      throw ConfigError(text);
-    case ErrorKind::input:
-      throw InputError(text);
-    case ErrorKind::geometry:
-      throw GeometryError(text);
-    case ErrorKind::mesh:
-      throw MeshError(text);
-    case ErrorKind::netgen:
-      throw NetgenError(text);
-    case ErrorKind::output:
-      throw OutputError(text);
-    case ErrorKind::none:
-    case ErrorKind::other:
-      throw Error(text);
-  }
+  throw_error(outcome.error.value_or(ErrorKind::other), text);
 }
 
 }  // namespace tessera::jobs

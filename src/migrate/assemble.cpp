@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "tessera/base/bytes.hpp"
-#include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/migrate/tet_neighbours.hpp"
 
 #include "migrate/attach_boundary.hpp"
@@ -22,21 +22,6 @@
 
 namespace tessera::migrate {
 namespace {
-
-// Runs what may throw on one rank; an InputError becomes one of all ranks.
-template <class Work>
-auto on_all(const comm::Communicator& comm, const Work& work)
-{
-  std::optional<std::string> defect;
-  decltype(work()) result{};
-  try {
-    result = work();
-  } catch (const InputError& error) {
-    defect = error.what();
-  }
-  comm.throw_if_any<InputError>(defect);
-  return result;
-}
 
 // How many pieces have a column.
 struct ColumnCounts {
@@ -141,12 +126,12 @@ struct Draft {
 Draft join(const comm::Communicator& comm, const MeshPieces& pieces, PointIdentity identity)
 {
   Draft draft{.identity = identity};
-  draft.joined = on_all(comm, [&] { return join_tets(pieces.tets, identity); });
+  comm::all_or_none(comm, [&] { draft.joined = join_tets(pieces.tets, identity); });
   draft.found.has_contradiction = comm.sum(draft.joined.has_contradiction ? 1 : 0) > 0;
   if (draft.found.has_contradiction && identity == PointIdentity::ids) return draft;
-  draft.behind = on_all(comm, [&] {
+  comm::all_or_none(comm, [&] {
     require_tets(draft.joined.block);
-    return tets_behind_faces(draft.joined.block);
+    draft.behind = tets_behind_faces(draft.joined.block);
   });
   draft.found = find_sharers(comm, draft.joined, draft.behind);
   return draft;

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 #include "migrate/list_streams.hpp"
@@ -143,13 +142,7 @@ std::vector<LocalIndex> tets_behind_faces(const MeshBlock& block)
 TetNeighbours find_neighbours(const comm::Communicator& comm, const DistributedMesh& mesh)
 {
   TetNeighbours neighbours;
-  std::optional<std::string> defect;
-  try {
-    neighbours.behind = tets_behind_faces(mesh);
-  } catch (const InputError& error) {
-    defect = error.what();
-  }
-  comm.throw_if_any<InputError>(defect);
+  comm::all_or_none(comm, [&] { neighbours.behind = tets_behind_faces(mesh); });
 
   auto faces = shared_faces(comm, mesh, neighbours.behind);
   ListStreams<GlobalIndex> streams(comm);
@@ -158,12 +151,9 @@ TetNeighbours find_neighbours(const comm::Communicator& comm, const DistributedM
   }
   Traffic traffic;
   streams.exchange(traffic);
-  try {
+  comm::all_or_none(comm, [&] {
     for (const Rank rank : faces.ranks()) join_remote(faces[rank], rank, streams, neighbours);
-  } catch (const InputError& error) {
-    defect = error.what();
-  }
-  comm.throw_if_any<InputError>(defect);
+  });
   return neighbours;
 }
 

@@ -14,6 +14,10 @@ enum class ExistingFolder : int {
   overwrite,  ///< Remove what a Tessera run made; refuse a folder that no Tessera run has used.
   resume,     ///< Keep everything but half-written files; refuse a folder that no run has used.
 };
+[[nodiscard]] constexpr ExistingFolder last_value(ExistingFolder /*type*/)
+{
+  return ExistingFolder::resume;
+}
 
 /// @brief The output folder of one run, held by a lock for as long as this object lives.
 ///

@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/base/error.hpp"
 
 namespace tessera::jobs {
 
@@ -44,20 +46,16 @@ enum class JobStatus : int {
 };
 [[nodiscard]] constexpr JobStatus last_value(JobStatus /*type*/) { return JobStatus::cancelled; }
 
-/// @brief Kind of the exception that a worker threw, so that the caller can throw the same.
-enum class ErrorKind : int { none, config, input, geometry, mesh, netgen, output, other };
-[[nodiscard]] constexpr ErrorKind last_value(ErrorKind /*type*/) { return ErrorKind::other; }
-
 struct JobOutcome {
   JobStatus status = JobStatus::ok;
   int code = 0;
-  ErrorKind error = ErrorKind::none;
-  bool loads_are_lost = false;     ///< The process that holds what was loaded died too.
-  std::string message{};           ///< One line for people: what happened, in words.
-  Bytes result{};                  ///< What Worker::run() returned; empty unless ok.
-  double cpu_s = 0.0;              ///< CPU time used, seconds.
-  double wall_s = 0.0;             ///< Wall time, seconds.
-  std::size_t peak_rss_bytes = 0;  ///< Largest resident memory seen of the job process.
+  std::optional<ErrorKind> error{};  ///< Of what the worker threw; nothing unless `failed`.
+  bool loads_are_lost = false;       ///< The process that holds what was loaded died too.
+  std::string message{};             ///< One line for people: what happened, in words.
+  Bytes result{};                    ///< What Worker::run() returned; empty unless ok.
+  double cpu_s = 0.0;                ///< CPU time used, seconds.
+  double wall_s = 0.0;               ///< Wall time, seconds.
+  std::size_t peak_rss_bytes = 0;    ///< Largest resident memory seen of the job process.
 };
 
 /// @brief What the worker processes of one rank have used.

@@ -132,16 +132,6 @@ TEST(Communicator, SumOfLowerRanksLeavesOutTheOwnValue)
   EXPECT_EQ(comm.sum_of_lower_ranks(10 + comm.rank()), expected);
 }
 
-TEST(Communicator, FirstMessageIsThatOfTheLowestRank)
-{
-  const Communicator comm(MPI_COMM_WORLD);
-  EXPECT_EQ(comm.first_message(std::nullopt), std::nullopt);
-  const Rank last = comm.size() - 1;
-  const auto mine =
-      comm.rank() >= last / 2 ? std::optional("rank " + std::to_string(comm.rank())) : std::nullopt;
-  EXPECT_EQ(comm.first_message(mine), "rank " + std::to_string(last / 2));
-}
-
 TEST(Communicator, DefectOfOneRankIsThrownOnAll)
 {
   const Communicator comm(MPI_COMM_WORLD);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -187,7 +188,7 @@ TEST_F(JobOutcomes, UsageIsWhatJobsUsedSinceItWasRestarted)
 
 TEST(ThrowUnlessOk, ThrowsTheErrorThatTheOutcomeNames)
 {
-  const auto outcome = [](JobStatus status, ErrorKind error = ErrorKind::none) {
+  const auto outcome = [](JobStatus status, std::optional<ErrorKind> error = std::nullopt) {
     JobOutcome made;
     made.status = status;
     made.error = error;
@@ -200,6 +201,7 @@ TEST(ThrowUnlessOk, ThrowsTheErrorThatTheOutcomeNames)
                GeometryError);
   EXPECT_THROW(throw_unless_ok(outcome(JobStatus::failed, ErrorKind::output), "job"), OutputError);
   EXPECT_THROW(throw_unless_ok(outcome(JobStatus::failed, ErrorKind::other), "job"), Error);
+  EXPECT_THROW(throw_unless_ok(outcome(JobStatus::failed), "job"), Error);
   EXPECT_THROW(throw_unless_ok(outcome(JobStatus::cancelled), "job"), Interrupted);
   for (const JobStatus status : {JobStatus::crashed, JobStatus::exited, JobStatus::out_of_time,
                                  JobStatus::stalled, JobStatus::out_of_memory})

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/communicator.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -46,20 +47,6 @@ TEST(ExitCode, AFolderThatCannotBeMadeIsNoDefectOfTheProgram)
   const auto no_space = std::make_error_code(std::errc::no_space_on_device);
   EXPECT_EQ(exit_code_of(std::filesystem::filesystem_error("cannot create", "out", no_space)),
             ExitCode::cannot_write);
-}
-
-TEST(ExitCode, IsKeptWhenAllRanksThrowTheErrorAgain)
-{
-  for (const ExitCode code : {ExitCode::wrong_input, ExitCode::failed, ExitCode::cannot_write,
-                              ExitCode::stopped, ExitCode::internal}) {
-    try {
-      throw_on_all_ranks(code, "what happened");
-    } catch (const Error& error) {
-      EXPECT_EQ(exit_code_of(error), code);
-      EXPECT_STREQ(error.what(), "what happened");
-      EXPECT_NE(dynamic_cast<const comm::ThrownOnAllRanks*>(&error), nullptr);
-    }
-  }
 }
 
 }  // namespace
