@@ -13,6 +13,7 @@
 #include "tessera/config/case.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/io/output_folder.hpp"
+#include "tessera/io/vtu.hpp"
 #include "tessera/jobs/this_process.hpp"
 #include "tessera/netgen/factory.hpp"
 
@@ -123,6 +124,7 @@ class MeshRun {
   {
     if (command_.resume) state().require_begun();
     netgen::require_model_file(given_.geometry.file);  // A mistyped name leaves no folder behind.
+    io::require_compression(given_.output.compression);
     folder_.emplace(given_.output.directory, existing());
     std::filesystem::remove_all(sample_folder(given_.output.directory));
     io::make_own_folder(given_.output.directory / "log");
