@@ -14,8 +14,7 @@ set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/DebianFiles.cmake)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 string(
-  CONCAT CPACK_DEBIAN_PACKAGE_DESCRIPTION
-         "parallel tetrahedral mesh generator\n"
+  CONCAT CPACK_DEBIAN_PACKAGE_DESCRIPTION  # Below the one line that is the project's.
          "Tessera turns a CAD model into a tetrahedral mesh, cut into many conforming\n"
          "pieces, under MPI. The same case gives the same bits for every number of ranks.\n"
          "It also checks meshes and cuts them anew for a solver.\n"
@@ -30,5 +29,8 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopenmpi-dev, cmake, paraview")
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+# Debian's way to tell the loader of a new library; the scripts that cpack writes are another.
+file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
 
 include(CPack)

@@ -36,20 +36,22 @@ constexpr std::array<ExitMeaning, 7> kExitMeanings{
      {ExitCode::cannot_write, "Cannot write: permission, disk full, folder in use."},
      {ExitCode::stopped, "Stopped by a signal; of mesh, --resume goes on."}}};
 
-// Every hyphen may be one that somebody wants to copy.
+// Every hyphen may be one that somebody wants to copy, and no option is cut in two.
 std::string troff(std::string_view text)
 {
   std::string escaped;
+  char previous = ' ';
   for (const char character : text) {
     if (character == '\\') {
       escaped += "\\e";
     } else if (character == '-') {
-      escaped += "\\-";
+      escaped += previous == ' ' ? "\\%\\-" : "\\-";
     } else if (character == '`') {
       escaped += "\\(aq";
     } else {
       escaped += character;
     }
+    previous = character;
   }
   return escaped;
 }
@@ -113,7 +115,7 @@ std::string man_page(const std::vector<CommandHelp>& all)
 {
   std::ostringstream out;
   out << ".TH TESSERA 1 \"\" \"tessera " << version() << "\" \"User Commands\"\n"
-      << ".nh\n.SH NAME\ntessera \\- parallel tetrahedral mesh generator\n";
+      << ".SH NAME\ntessera \\- parallel tetrahedral mesh generator\n";
   put_synopsis(out, all);
   out << ".SH DESCRIPTION\n";
   put_lines(out, all.front().meaning);

@@ -112,7 +112,7 @@ class Package(program.ProgramTest):
 
     def test_every_option_of_the_help_is_in_the_man_page(self):
         page = gzip.decompress((self.usr / "share/man/man1/tessera.1.gz").read_bytes()).decode()
-        plain = page.replace("\\-", "-")
+        plain = page.replace("\\%", "").replace("\\-", "-")
         commands = self.complete("tessera", "")
         for command in commands:
             self.assertIn(f".SS tessera {command} ", plain)
@@ -123,7 +123,7 @@ class Package(program.ProgramTest):
                 ["groff", "-man", "-ww", "-Tutf8"], input=page, check=True, capture_output=True, text=True
             )
             self.assertEqual(formatted.stderr, "")
-            self.assertIn("EXIT STATUS", formatted.stdout)
+            self.assertIn("EXIT STATUS", re.sub(".\b", "", formatted.stdout))
 
 
 if __name__ == "__main__":
