@@ -1,4 +1,5 @@
-# `cmake --install`: the library, its headers, the program, and the package for find_package(tessera).
+# `cmake --install`: the library, its headers, the program with its man page and completion, documents,
+# examples of cases, and the package for find_package(tessera).
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
@@ -6,7 +7,22 @@ install(TARGETS tessera EXPORT tesseraTargets)
 install(DIRECTORY include/tessera TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp")
 if(TARGET tessera_program)
   install(TARGETS tessera_program)
+  install(FILES ${TESSERA_MAN_PAGE} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(
+    FILES ${TESSERA_BASH_COMPLETION} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    RENAME tessera
+  )
 endif()
+
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
+install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md")
+# As they stand to each other in configs/: a case names its model by a relative path.
+install(
+  DIRECTORY configs/cases configs/geometry
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/tessera
+)
+install(FILES configs/README.md configs/reference.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/tessera)
 
 install(EXPORT tesseraTargets NAMESPACE tessera:: DESTINATION ${package_folder})
 configure_package_config_file(
@@ -20,3 +36,8 @@ install(
   FILES ${PROJECT_BINARY_DIR}/tesseraConfig.cmake ${PROJECT_BINARY_DIR}/tesseraConfigVersion.cmake
   DESTINATION ${package_folder}
 )
+if(NOT BUILD_SHARED_LIBS)
+  install(
+    FILES cmake/LinkedLibraries.cmake DESTINATION ${package_folder} RENAME tesseraLinkedLibraries.cmake
+  )
+endif()

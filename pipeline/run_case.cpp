@@ -15,6 +15,7 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/files.hpp"
+#include "tessera/io/vtu.hpp"
 #include "tessera/jobs/this_process.hpp"
 #include "tessera/netgen/factory.hpp"
 
@@ -138,6 +139,7 @@ class CaseRun {
   {
     if (is_resumed()) state().require_begun();
     netgen::require_model_file(given_.geometry.file);  // A mistyped name leaves no folder behind.
+    io::require_compression(given_.output.compression);
     // A dry run removes nothing that a run has left, and leaves nothing in the way of one.
     folder_.emplace(given_.output.directory,
                     is_mesh() ? options_.existing : io::ExistingFolder::resume);

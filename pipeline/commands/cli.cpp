@@ -5,6 +5,7 @@
 #include <charconv>
 #include <limits>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +19,8 @@ namespace {
 const std::map<std::string, ProgressMode> kProgressWords{{"auto", ProgressMode::automatic},
                                                          {"always", ProgressMode::always},
                                                          {"never", ProgressMode::never}};
+
+constexpr const char* kPurpose = "Tessera turns a CAD model into a partitioned tetrahedral mesh.";
 
 // What CLI11 writes into; becomes a Command when all went well.
 struct Parsed {
@@ -221,6 +224,40 @@ Command to_command(const CLI::App& app, Parsed parsed)
   return parsed.mesh;
 }
 
+std::string joined_names(const std::set<CLI::Option*>& options)
+{
+  std::set<std::string> names;  // By name: the pointers have another order in every process.
+  for (const CLI::Option* option : options) names.insert(option->get_name());
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+OptionHelp describe(const CLI::Option& option)
+{
+  OptionHelp help{.meaning = option.get_description()};
+  for (const std::string& name : option.get_snames()) help.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) help.names.push_back("--" + name);
+  const bool takes_value = option.get_items_expected_max() > 0;
+  if (takes_value)
+    help.value = option.get_positional() ? option.get_name(true) : option.get_type_name();
+  const std::string needed = joined_names(option.get_needs());
+  const std::string excluded = joined_names(option.get_excludes());
+  if (!needed.empty()) help.meaning += "; needs " + needed;
+  if (!excluded.empty()) help.meaning += "; excludes " + excluded;
+  return help;
+}
+
+CommandHelp describe(const CLI::App& app)
+{
+  CommandHelp help{.name = app.get_parent() == nullptr ? "" : app.get_name(),
+                   .meaning = app.get_description()};
+  for (const CLI::Option* option : app.get_options()) {
+    (option->get_positional() ? help.arguments : help.options).push_back(describe(*option));
+  }
+  return help;
+}
+
 std::string usage_message(const CLI::App& app, const CLI::ParseError& error)
 {
   const auto commands = app.get_subcommands();
@@ -238,7 +275,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error)
 
 Command parse_command_line(int argc, const char* const* argv)
 {
-  CLI::App app("Tessera turns a CAD model into a partitioned tetrahedral mesh.", "tessera");
+  CLI::App app(kPurpose, "tessera");
   Parsed parsed;
   set_up(app, parsed);
   try {
@@ -251,6 +288,17 @@ Command parse_command_line(int argc, const char* const* argv)
     throw ConfigError(usage_message(app, error));
   }
   return to_command(app, std::move(parsed));
+}
+
+std::vector<CommandHelp> describe_command_line()
+{
+  CLI::App app(kPurpose, "tessera");
+  Parsed parsed;
+  set_up(app, parsed);
+  std::vector<CommandHelp> all{describe(app)};
+  all.front().meaning += "\n" + app.get_footer();
+  for (const CLI::App* command : app.get_subcommands({})) all.push_back(describe(*command));
+  return all;
 }
 
 }  // namespace tessera::pipeline

@@ -66,4 +66,23 @@ using Command = std::variant<MeshCommand, CheckCommand, RepartitionCommand, Info
 /// @throws ConfigError with one message that says how to get help.
 [[nodiscard]] Command parse_command_line(int argc, const char* const* argv);
 
+/// @brief One option or argument of a command, as its help shows it.
+struct OptionHelp {
+  std::vector<std::string> names{};  ///< "-q", "--quiet"; of an argument none.
+  std::string value{};               ///< Placeholder, such as "DIR"; of a flag empty.
+  std::string meaning{};
+};
+
+/// @brief A command, or with an empty name the program itself, as its help shows it.
+struct CommandHelp {
+  std::string name{};
+  std::string meaning{};
+  std::vector<OptionHelp> arguments{};
+  std::vector<OptionHelp> options{};
+};
+
+/// @brief The program, then its commands, as parse_command_line() knows them: for the man page and
+/// the completion of shells. Local.
+[[nodiscard]] std::vector<CommandHelp> describe_command_line();
+
 }  // namespace tessera::pipeline

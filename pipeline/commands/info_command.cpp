@@ -12,6 +12,7 @@
 #include "tessera/config/case.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/netgen/factory.hpp"
 
 #include "pipeline/jobs/mesh_worker.hpp"
 #include "pipeline/runtime/run_context.hpp"
@@ -47,6 +48,7 @@ std::string describe_mesh(const std::filesystem::path& file)
 // The model is read in a job: the CAD libraries may crash on it.
 std::string describe_model(const std::filesystem::path& file, jobs::JobRunner& jobs)
 {
+  netgen::require_model_file(file);
   jobs::JobOutcome read =
       jobs.run(import_request(file, model::ImportOptions{}), kInfoLimits, wait_for_stop_signal());
   const auto source = read_result(read, from_bytes<model::ModelSource>);

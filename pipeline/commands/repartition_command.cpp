@@ -167,10 +167,10 @@ class Repartition {
     const LocalIndex part = ghosts.part;
     const subdomain::PieceArrays arrays = subdomain::part_arrays(context, part, &ghosts);
     io::write_vtu(arrays.tets, command_.output / subdomain::piece_path("mesh", part),
-                  io::Compression::lz4);
+                  io::usual_compression());
     if (arrays.boundary.num_cells() == 0) return;
     io::write_vtu(arrays.boundary, command_.output / subdomain::piece_path("boundary", part),
-                  io::Compression::lz4);
+                  io::usual_compression());
   }
 
   void write_indices(const subdomain::PartContext& context) const

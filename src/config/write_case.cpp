@@ -123,4 +123,19 @@ std::string reference_toml()
   return out.str();
 }
 
+std::vector<KnownKey> known_keys()
+{
+  std::vector<KnownKey> known;
+  for (const Key& key : all_keys()) {
+    KnownKey& entry = known.emplace_back(KnownKey{.name = key.name});
+    entry.is_path = std::holds_alternative<PathRule>(key.rule);
+    if (const auto* word = std::get_if<WordRule>(&key.rule)) {
+      entry.words.assign(word->words.begin(), word->words.end());
+    } else if (std::holds_alternative<FlagRule>(key.rule)) {
+      entry.words = {"true", "false"};
+    }
+  }
+  return known;
+}
+
 }  // namespace tessera::config

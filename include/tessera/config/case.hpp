@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tessera/coarse/options.hpp"
 #include "tessera/decompose/options.hpp"
@@ -74,5 +75,15 @@ struct Case {
 /// @brief The text of configs/reference.toml: every key with its meaning, unit, range, default and
 /// the reason for the default. Local.
 [[nodiscard]] std::string reference_toml();
+
+/// @brief A key of a case file that may stand behind `--set`.
+struct KnownKey {
+  std::string_view name{};                ///< "table.key".
+  std::vector<std::string_view> words{};  ///< Its values, if they are words of a list, or a flag's.
+  bool is_path = false;                   ///< Its value names a file or a folder.
+};
+
+/// @brief Every key outside of lists of tables, in the order of configs/reference.toml. Local.
+[[nodiscard]] std::vector<KnownKey> known_keys();
 
 }  // namespace tessera::config

@@ -18,10 +18,19 @@ namespace tessera::io {
 /// keys in the maps of arrays, also those without points or cells.
 /// @pre The arrays fit together: every array has one entry a point or cell, or is empty where it is
 ///      optional; `cell_points` lie in 0…num_points-1.
+/// @throws ConfigError as require_compression().
 /// @throws MeshError if they do not, or if a 32-bit index cannot hold the piece.
 /// @throws OutputError naming the file and the cause (permission, disk full).
 void write_vtu(const mesh::MeshArrays& piece, const std::filesystem::path& path,
                Compression compression);
+
+/// @brief That this build can write files of that compression: without VTK it compresses none.
+/// Local.
+/// @throws ConfigError saying what to set.
+void require_compression(Compression compression);
+
+/// @brief The default compression; none in a build without VTK. Local.
+[[nodiscard]] Compression usual_compression();
 
 /// @brief Writes the index (.pvtu) of piece files that all have the arrays of `schema`. Local.
 ///
@@ -39,6 +48,7 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::filesy
 [[nodiscard]] std::vector<std::filesystem::path> piece_files(const std::filesystem::path& path);
 
 /// @brief Reads a .vtu of any tool, in every encoding that VTK's XML format has. Local.
+/// A build without VTK cannot read compressed arrays.
 ///
 /// - Cells: the linear tets; in a file without any, the linear triangles. Cells of all other kinds
 ///   are counted in `num_other_cells` and left out. A file without cells counts as one of tets.
@@ -51,10 +61,11 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::filesy
 ///
 /// VTK's own reader is not used: it hangs or dies of a few flipped bits (a block size of 0).
 /// What is returned is consistent: sizes match, `cell_points` lie in 0…num_points-1.
-/// @throws InputError naming the file and what is wrong: missing, not a .vtu, cut off, corrupt.
+/// @throws InputError naming the file and what is wrong: missing, not a .vtu, cut off, corrupt,
+/// compressed in a build without VTK.
 [[nodiscard]] mesh::MeshArrays read_vtu(const std::filesystem::path& path);
 
-/// @brief VTK's version, e.g. "9.1.0". Local.
+/// @brief VTK's version, e.g. "9.1.0"; "none" in a build without VTK. Local.
 [[nodiscard]] std::string vtk_version();
 
 }  // namespace tessera::io

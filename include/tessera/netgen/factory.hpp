@@ -11,7 +11,8 @@
 #include "tessera/model/model.hpp"
 
 /// The only door to NETGEN and OpenCASCADE; free of their types. Everything behind it may crash,
-/// exit or hang, so the program calls it in jobs only, unless it says otherwise.
+/// exit or hang, so the program calls it in jobs only, unless it says otherwise. In a build without
+/// NETGEN everything but netgen_version() throws ConfigError.
 namespace tessera::netgen {
 
 /// @brief Looks at a CAD file's name and kind, reads nothing and calls no library: for any process.
@@ -42,7 +43,7 @@ void require_model_file(const std::filesystem::path& file);
 /// @note Local.
 [[nodiscard]] bool skin_overlaps(const fill::FillInput& skin);
 
-/// @brief NETGEN's version, e.g. "6.2.1905".
+/// @brief NETGEN's version, e.g. "6.2.1905"; "none" in a build without NETGEN.
 [[nodiscard]] std::string netgen_version();
 
 }  // namespace tessera::netgen

@@ -169,5 +169,21 @@ TEST(KeyTable, DefaultsAreAllowed)
   }
 }
 
+TEST(KnownKeys, AreThoseOfTheReferenceWithTheirWords)
+{
+  const std::string reference = reference_toml();
+  for (const KnownKey& key : known_keys()) {
+    const std::string last(key.name.substr(key.name.find('.') + 1));
+    EXPECT_NE(reference.find(last + " = "), std::string::npos) << key.name;
+    EXPECT_EQ(key.is_path, key.name == "geometry.file" || key.name == "output.directory");
+    if (key.name == "fill.kernel") {
+      EXPECT_EQ(key.words.front(), "netgen");
+    }
+    EXPECT_EQ(key.words.size() == 2, key.name == "fill.kernel" || key.name == "improve.seams"
+                                         || key.name == "output.cell_quality")
+        << key.name;
+  }
+}
+
 }  // namespace
 }  // namespace tessera::config

@@ -209,5 +209,26 @@ TEST(CommandLine, CommandsOfLaterVersionsAreRefused)
   EXPECT_NE(error_of({"repartition", "m.pvtu"}), "no error");
 }
 
+TEST(DescribeCommandLine, HasTheProgramAndItsCommandsWithWhatTheyTake)
+{
+  const std::vector<CommandHelp> all = describe_command_line();
+  ASSERT_EQ(all.size(), 6U);
+  EXPECT_EQ(all.front().name, "");
+  const CommandHelp& mesh = all[1];
+  EXPECT_EQ(mesh.name, "mesh");
+  ASSERT_EQ(mesh.arguments.size(), 1U);
+  EXPECT_EQ(mesh.arguments.front().value, "CASE.toml");
+  const auto option = [&](const std::string& name) {
+    for (const OptionHelp& candidate : mesh.options) {
+      if (candidate.names.back() == name) return candidate;
+    }
+    return OptionHelp{};
+  };
+  EXPECT_EQ(option("--progress").value, "auto|always|never");
+  EXPECT_EQ(option("--dump-config").value, "");
+  EXPECT_EQ(option("--quiet").names.front(), "-q");
+  EXPECT_NE(option("--resume").meaning.find("excludes --dry-run, --overwrite"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tessera::pipeline

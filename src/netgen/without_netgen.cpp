@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stands in for all other files of this module in a build with TESSERA_WITH_NETGEN=OFF.
+#include "tessera/base/error.hpp"
+#include "tessera/netgen/factory.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+[[noreturn]] void refuse()
+{
+  throw ConfigError(
+      "this build of tessera has no NETGEN (it was configured with -DTESSERA_WITH_NETGEN=OFF), so "
+      "it can neither read a CAD model nor mesh one; it can check and repartition meshes");
+}
+
+}  // namespace
+
+void require_model_file(const std::filesystem::path& /*file*/) { refuse(); }
+
+model::ModelSource import_model(const std::filesystem::path& /*file*/,
+                                const model::ImportOptions& /*options*/)
+{
+  refuse();
+}
+
+std::unique_ptr<model::Model> load_model(const model::ModelSource& /*source*/) { refuse(); }
+
+std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& /*model*/)
+{
+  refuse();
+}
+
+std::unique_ptr<fill::Kernel> make_fill_kernel() { refuse(); }
+
+std::unique_ptr<improve::Optimizer> make_optimizer() { refuse(); }
+
+bool skin_overlaps(const fill::FillInput& /*skin*/) { refuse(); }
+
+std::string netgen_version() { return "none"; }
+
+}  // namespace tessera::netgen
