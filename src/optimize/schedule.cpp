@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/optimize/schedule.hpp"
+
+#include <string>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::optimize {
+namespace {
+
+Step parse_step(char letter)
+{
+  switch (letter) {
+    case 'm':
+      return Step::smooth;
+    case 'w':
+      return Step::smooth_worst;
+    case 's':
+      return Step::swap;
+    case 'c':
+      return Step::collapse;
+    default:
+      throw ConfigError("'" + std::string(1, letter) + "' is no step: m, w, s or c expected");
+  }
+}
+
+}  // namespace
+
+std::vector<Step> parse_steps(std::string_view letters)
+{
+  std::vector<Step> steps;
+  steps.reserve(letters.size());
+  for (const char letter : letters) steps.push_back(parse_step(letter));
+  return steps;
+}
+
+// A collapse dents the smallest mean ratio for a moment, so none of them ends with one. The last
+// passes look after the worst tets, as smoothing for the mean has made some of them worse.
+Schedule fast_schedule() { return {.steps = parse_steps("mmscmmscmmww")}; }
+Schedule standard_schedule() { return {.steps = parse_steps("smmcsmmcsmmwwsmww")}; }
+Schedule thorough_schedule() { return {.steps = parse_steps("smmcsmmcsmmcsmmmwwsmmmwww")}; }
+
+}  // namespace tessera::optimize

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "optimize/passes.hpp"
+#include "optimize/replace_tets.hpp"
+#include "optimize/swaps.hpp"
+#include "optimize/tet_energy.hpp"
+
+namespace tessera::optimize {
+namespace {
+
+// Edge (a, b) of a tet and its other corners, so that the order a, b, c, d is positive.
+struct TetEdge {
+  Corner a, b, c, d;
+};
+constexpr std::array<TetEdge, 6> kTetEdges{
+    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
+
+// A swap must lower the sum of eta^-1.5 by this, so that none is undone by the next for nothing.
+constexpr double kLeastGain = 1e-3;
+
+class SwapPass {
+ public:
+  SwapPass(WorkingMesh& mesh, const Schedule& schedule)
+      : mesh_(mesh),
+        try_above_(energy_of_mean_ratio(schedule.swap_below)),
+        try_all_above_(energy_of_mean_ratio(schedule.try_all_below)),
+        to_try_(mesh.tet_to_swap.size(), 0)
+  {
+    to_try_.swap(mesh.tet_to_swap);
+  }
+
+  void run()
+  {
+    // Swaps add tets; these wait for the next pass.
+    const LocalIndex num_slots = mesh_.num_slots();
+    for (LocalIndex t = 0; t < num_slots; ++t) {
+      if (!is_candidate(t)) continue;
+      if (find_swap(t) && replace_tets(mesh_, replacement())) {
+        ++mesh_.statistics.num_swaps;
+        for (const LocalIndex old : old_tets()) {
+          if (old < num_slots) to_try_[at(old)] = 0;
+        }
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_candidate(LocalIndex t) const
+  {
+    return to_try_[at(t)] != 0 && mesh_.tet_energy[at(t)] >= try_above_ && !mesh_.is_free_slot(t);
+  }
+
+  // The first swap around the tet that gains anything.
+  [[nodiscard]] bool find_swap(LocalIndex t)
+  {
+    const bool try_all = mesh_.tet_energy[at(t)] > try_all_above_;
+    const std::array<bool, 6> is_long = long_edges(t);
+    for (std::size_t e = 0; e < 6; ++e) {
+      if (!try_all && !is_long[e]) continue;
+      if (walk_around(t, kTetEdges[e], try_all ? kMaxRing : 4)
+          && find_edge_removal(mesh_, ring_, kLeastGain, swap_)) {
+        return true;
+      }
+    }
+    for (Corner c = 0; try_all && c < 4; ++c) {
+      const Corner across = mesh_.tet_neighbours[at(4 * t + c)];
+      if (across == kNoIndex || was_tried_before(tet_of(across), t)) continue;
+      if (find_face_swap(mesh_, 4 * t + c, kLeastGain, swap_)) return true;
+    }
+    return false;
+  }
+
+  // Edges not shorter than the root of the mean square: those whose removal makes a poor tet
+  // better.
+  [[nodiscard]] std::array<bool, 6> long_edges(LocalIndex t) const
+  {
+    std::array<double, 6> squares;
+    double sum = 0.0;
+    for (std::size_t e = 0; e < 6; ++e) {
+      const Vec3 edge =
+          mesh_.corner_point(4 * t + kTetEdges[e].b) - mesh_.corner_point(4 * t + kTetEdges[e].a);
+      squares[e] = dot(edge, edge);
+      sum += squares[e];
+    }
+    std::array<bool, 6> result;
+    for (std::size_t e = 0; e < 6; ++e) result[e] = 6.0 * squares[e] >= sum;
+    return result;
+  }
+
+  // Whether the pass came by tet u before t, and left it as it is.
+  [[nodiscard]] bool was_tried_before(LocalIndex u, LocalIndex t) const
+  {
+    return u < t && to_try_[at(u)] != 0 && mesh_.tet_energy[at(u)] >= try_above_;
+  }
+
+  // Gathers the ring of an edge; false if the edge is on the boundary, has too many tets, or was
+  // looked at from another one of them.
+  [[nodiscard]] bool walk_around(LocalIndex t, const TetEdge& edge, std::size_t max_size)
+  {
+    const LocalIndex* vertices = mesh_.tet_vertices.data();
+    const LocalIndex* first = vertices + 4 * at(t);
+    ring_.a = first[edge.a];
+    ring_.b = first[edge.b];
+    ring_.vertices[0] = first[edge.c];
+    ring_.size = 0;
+    LocalIndex newest = first[edge.d];
+    Corner exit = 4 * t + edge.c;  // The way on is opposite to the older ring vertex.
+    for (LocalIndex u = t;;) {
+      ring_.tets[ring_.size++] = u;
+      const Corner across = mesh_.tet_neighbours[at(exit)];
+      if (across == kNoIndex) return false;
+      u = tet_of(across);
+      if (u == t) return ring_.size >= 3;
+      if (ring_.size == max_size || was_tried_before(u, t)) return false;
+      ring_.vertices[ring_.size] = newest;
+      exit = 4 * u;
+      while (vertices[exit] != newest) ++exit;
+      newest = vertices[across];
+    }
+  }
+
+  [[nodiscard]] std::span<const LocalIndex> old_tets() const
+  {
+    return std::span(swap_.old_tets).first(swap_.num_old);
+  }
+
+  [[nodiscard]] Replacement replacement() const
+  {
+    return {old_tets(), std::span(swap_.new_tets).first(swap_.num_new),
+            std::span(swap_.new_energies).first(swap_.num_new)};
+  }
+
+  WorkingMesh& mesh_;
+  double try_above_;
+  double try_all_above_;
+  std::vector<std::uint8_t> to_try_;
+  EdgeRing ring_{};
+  Swap swap_{};
+};
+
+}  // namespace
+
+void swap_pass(WorkingMesh& mesh, const Schedule& schedule)
+{
+  refresh_energies(mesh);
+  SwapPass(mesh, schedule).run();
+}
+
+}  // namespace tessera::optimize
