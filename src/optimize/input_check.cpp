@@ -2,6 +2,7 @@
 #include "optimize/input_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -44,6 +45,17 @@ void require_indices(const TetMesh& mesh)
   }
 }
 
+void require_four_vertices(const TetMesh& mesh)
+{
+  for (std::size_t t = 0; 4 * t < mesh.tet_vertices.size(); ++t) {
+    std::array<LocalIndex, 4> vertices;
+    std::copy_n(&mesh.tet_vertices[4 * t], 4, vertices.begin());
+    std::sort(vertices.begin(), vertices.end());
+    if (std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end()) continue;
+    throw MeshError("tet " + std::to_string(t) + " has a vertex twice");
+  }
+}
+
 // Where a coordinate is not finite, or so large that lengths would not be.
 [[noreturn]] void fail_at_coordinate(const TetMesh& mesh, std::size_t coordinate)
 {
@@ -70,6 +82,7 @@ void require_valid_arrays(const TetMesh& mesh)
 {
   require_sizes(mesh);
   require_indices(mesh);
+  require_four_vertices(mesh);
   require_finite(mesh);
 }
 

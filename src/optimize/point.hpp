@@ -15,9 +15,9 @@ struct alignas(32) Point {
 };
 
 [[nodiscard]] inline Vec3 to_vec3(const Point& p) { return {p.x, p.y, p.z}; }
-[[nodiscard]] inline Vec3 operator-(const Point& a, const Point& b)
+[[nodiscard]] inline Vec3 edge(const Point& from, const Point& to)
 {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
+  return {to.x - from.x, to.y - from.y, to.z - from.z};
 }
 
 }  // namespace tessera::optimize

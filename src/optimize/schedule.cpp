@@ -19,8 +19,10 @@ Step parse_step(char letter)
       return Step::swap;
     case 'c':
       return Step::collapse;
+    case 't':
+      return Step::tighten;
     default:
-      throw ConfigError("'" + std::string(1, letter) + "' is no step: m, w, s or c expected");
+      throw ConfigError("'" + std::string(1, letter) + "' is no step: m, w, s, c or t expected");
   }
 }
 

@@ -83,9 +83,9 @@ class SwapPass {
     std::array<double, 6> squares;
     double sum = 0.0;
     for (std::size_t e = 0; e < 6; ++e) {
-      const Vec3 edge =
-          mesh_.corner_point(4 * t + kTetEdges[e].b) - mesh_.corner_point(4 * t + kTetEdges[e].a);
-      squares[e] = dot(edge, edge);
+      const Vec3 length = edge(mesh_.corner_point(4 * t + kTetEdges[e].a),
+                               mesh_.corner_point(4 * t + kTetEdges[e].b));
+      squares[e] = dot(length, length);
       sum += squares[e];
     }
     std::array<bool, 6> result;

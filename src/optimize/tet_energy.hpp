@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tessera/base/vec3.hpp"
+#include "tessera/optimize/optimize.hpp"
 
 #include "optimize/point.hpp"
 
@@ -22,6 +23,10 @@ inline constexpr double kEnergyFactor = 1.0 / 432.0;
   return 1.0 / (mean_ratio * mean_ratio * mean_ratio);
 }
 
+// A tet with a higher energy does not count as positive.
+inline constexpr double kHighestEnergy =
+    1.0 / (kLeastMeanRatio * kLeastMeanRatio * kLeastMeanRatio);
+
 // What swaps and collapses make small: eta^-1.5.
 [[nodiscard]] inline double cost_of_energy(double energy) { return std::sqrt(energy); }
 
@@ -29,9 +34,9 @@ inline constexpr double kEnergyFactor = 1.0 / 432.0;
 [[nodiscard]] inline double tet_energy(const Point& a, const Point& b, const Point& c,
                                        const Point& d)
 {
-  const Vec3 u = b - a;
-  const Vec3 v = c - a;
-  const Vec3 q = d - a;
+  const Vec3 u = edge(a, b);
+  const Vec3 v = edge(a, c);
+  const Vec3 q = edge(a, d);
   const Vec3 sum = u + v + q;
   const double w = dot(u, cross(v, q));
   const double s = 4.0 * (dot(u, u) + dot(v, v) + dot(q, q)) - dot(sum, sum);

@@ -112,13 +112,15 @@ void size_arrays(WorkingMesh& mesh)
   mesh.vertex_to_collapse.assign(mesh.points.size(), 1);
 }
 
-void require_positive(const WorkingMesh& mesh, const std::vector<LocalIndex>& tet_origin)
+// The caller's first tet that is not positive; kNoIndex if all are.
+LocalIndex find_not_positive(const WorkingMesh& mesh, const std::vector<LocalIndex>& tet_origin)
 {
-  const double highest = energy_of_mean_ratio(kLeastMeanRatio);
+  LocalIndex first = kNoIndex;
   for (LocalIndex t = 0; t < mesh.num_slots(); ++t) {
-    if (mesh.tet_energy[at(t)] <= highest) continue;
-    throw MeshError("tet " + std::to_string(tet_origin[at(t)]) + " is flat or inverted");
+    if (mesh.tet_energy[at(t)] <= kHighestEnergy) continue;
+    if (first == kNoIndex || tet_origin[at(t)] < first) first = tet_origin[at(t)];
   }
+  return first;
 }
 
 // Writes the vertices that are left, in the caller's order; returns the row of each working vertex.
@@ -144,7 +146,7 @@ std::vector<LocalIndex> place_vertices(const WorkingMesh& mesh, const TetMesh& i
 
 }  // namespace
 
-WorkingMesh make_working_mesh(const TetMesh& input, const Kernels& kernels)
+WorkingMesh make_working_mesh(const TetMesh& input, const Kernels& kernels, bool may_be_tangled)
 {
   require_valid_arrays(input);
   WorkingMesh mesh;
@@ -156,7 +158,8 @@ WorkingMesh make_working_mesh(const TetMesh& input, const Kernels& kernels)
   mesh.tet_vertices = reordered(renamed, order);
   size_arrays(mesh);
   refresh_energies(mesh);
-  require_positive(mesh, order);
+  mesh.first_not_positive = find_not_positive(mesh, order);
+  if (!may_be_tangled) require_positive(mesh);
   if (input.tet_neighbours.empty()) {
     mesh.tet_neighbours = find_neighbours(mesh.tet_vertices, mesh.num_vertices(), order);
   } else {
@@ -164,9 +167,6 @@ WorkingMesh make_working_mesh(const TetMesh& input, const Kernels& kernels)
     mesh.tet_neighbours = reordered_neighbours(input.tet_neighbours, order);
   }
   fix_vertices(input, mesh);
-  if (mesh.num_slots() > 0) {
-    mesh.worst_energy = *std::max_element(mesh.tet_energy.begin(), mesh.tet_energy.end());
-  }
   return mesh;
 }
 
@@ -191,6 +191,32 @@ void refresh_energies(WorkingMesh& mesh)
   mesh.kernels->energies(mesh.points.data(), mesh.tet_vertices.data(), mesh.num_slots(),
                          mesh.tet_energy.data(), mesh.tet_cost.data());
   mesh.are_energies_stale = false;
+}
+
+LocalIndex count_not_positive(const WorkingMesh& mesh)
+{
+  LocalIndex count = 0;
+  for (LocalIndex t = 0; t < mesh.num_slots(); ++t) {
+    if (!mesh.is_free_slot(t) && !(mesh.tet_energy[at(t)] <= kHighestEnergy)) ++count;
+  }
+  return count;
+}
+
+void require_positive(const WorkingMesh& mesh)
+{
+  if (count_not_positive(mesh) == 0) return;
+  throw MeshError("tet " + std::to_string(mesh.first_not_positive) + " is flat or inverted");
+}
+
+void tighten_bound(WorkingMesh& mesh)
+{
+  refresh_energies(mesh);
+  mesh.worst_energy = 0.0;
+  for (LocalIndex t = 0; t < mesh.num_slots(); ++t) {
+    if (!mesh.is_free_slot(t)) {
+      mesh.worst_energy = std::max(mesh.worst_energy, mesh.tet_energy[at(t)]);
+    }
+  }
 }
 
 void refresh_stars(WorkingMesh& mesh)

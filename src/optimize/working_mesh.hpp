@@ -43,7 +43,8 @@ struct WorkingMesh {
 
   bool are_energies_stale = true;
   bool are_stars_stale = true;
-  double worst_energy = 0.0;  // No step makes a tet with a higher one.
+  LocalIndex first_not_positive = kNoIndex;  // Of the caller's tets.
+  double worst_energy = 0.0;                 // No step makes a tet with a higher one.
 
   const Kernels* kernels = nullptr;
   Statistics statistics{};
@@ -62,12 +63,23 @@ struct WorkingMesh {
 };
 
 // Checks and orders a mesh. Throws MeshError as optimize() says.
-[[nodiscard]] WorkingMesh make_working_mesh(const TetMesh& mesh, const Kernels& kernels);
+[[nodiscard]] WorkingMesh make_working_mesh(const TetMesh& mesh, const Kernels& kernels,
+                                            bool may_be_tangled);
+
+// Tets that are flat or inverted, by their energies.
+[[nodiscard]] LocalIndex count_not_positive(const WorkingMesh& mesh);
+
+// Throws MeshError naming the caller's first tet that was not positive, if one is not.
+void require_positive(const WorkingMesh& mesh);
 
 // Back to the caller's order and units.
 [[nodiscard]] OptimizeResult to_result(const WorkingMesh& mesh, const TetMesh& input);
 
 void refresh_energies(WorkingMesh& mesh);
+
+// From now on no step makes a tet that is worse than the worst one of now.
+void tighten_bound(WorkingMesh& mesh);
+
 void refresh_stars(WorkingMesh& mesh);
 
 }  // namespace tessera::optimize

@@ -18,6 +18,7 @@ inline constexpr double kLeastMeanRatio = 1e-8;
 /// @brief What an optimisation did.
 struct Statistics {
   int num_passes = 0;
+  GlobalIndex num_untangled = 0;  ///< Tets that began flat or inverted.
   GlobalIndex num_moves = 0;      ///< Steps of vertices by smoothing.
   GlobalIndex num_swaps = 0;      ///< Edges removed and faces exchanged.
   GlobalIndex num_collapses = 0;  ///< Vertices removed.
@@ -33,6 +34,9 @@ struct OptimizeResult {
 
 /// @brief How optimize() works, apart from what it does.
 struct OptimizeOptions {
+  /// Tets may begin flat or inverted: before the schedule free vertices are moved, swaps and
+  /// collapses tried, until all are positive.
+  bool untangle = false;
   std::optional<InstructionSet> instruction_set{};  ///< Default: the last of the available ones.
 };
 
@@ -57,7 +61,9 @@ struct OptimizeOptions {
 /// @param[in] mesh Vertices that no tet has are kept. No tets at all are valid.
 /// @throws MeshError naming the tet, if one has an index out of range, a corner that is not finite,
 /// or is flat or inverted; if a triangle belongs to more than two tets, or two tets lie on the same
-/// side of one; if the neighbours given are wrong; if there are 2^29 tets or more.
+/// side of one; if the neighbours given are wrong; if there are 2^29 tets or more. With
+/// OptimizeOptions::untangle, a flat or inverted tet that stays so; it names the first that began
+/// so.
 /// @note Local; linear in the tets: about 250 bytes a tet, at most 2 microseconds each.
 [[nodiscard]] OptimizeResult optimize(const TetMesh& mesh, const Schedule& schedule,
                                       const OptimizeOptions& options = {});

@@ -12,6 +12,7 @@ enum class Step : char {
   smooth_worst,  ///< [w] The vertices of bad tets only, and the sum of eta^-12.
   swap,          ///< [s] Edges are removed, faces exchanged for edges.
   collapse,      ///< [c] Free vertices are merged into neighbours.
+  tighten,       ///< [t] From here on no tet gets worse than the worst one of now.
 };
 
 /// @brief What an optimisation does, in order, and where. All bounds are mean ratios in [0, 1].
