@@ -3,9 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "optimize/edge_ring.hpp"
 #include "optimize/passes.hpp"
 #include "optimize/replace_tets.hpp"
 #include "optimize/swaps.hpp"
@@ -13,13 +13,6 @@
 
 namespace tessera::optimize {
 namespace {
-
-// Edge (a, b) of a tet and its other corners, so that the order a, b, c, d is positive.
-struct TetEdge {
-  Corner a, b, c, d;
-};
-constexpr std::array<TetEdge, 6> kTetEdges{
-    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
 
 // A swap must lower the sum of eta^-1.5 by this, so that none is undone by the next for nothing.
 constexpr double kLeastGain = 1e-3;
@@ -41,9 +34,9 @@ class SwapPass {
     const LocalIndex num_slots = mesh_.num_slots();
     for (LocalIndex t = 0; t < num_slots; ++t) {
       if (!is_candidate(t)) continue;
-      if (find_swap(t) && replace_tets(mesh_, replacement())) {
+      if (find_swap(t) && replace_tets(mesh_, swap_.replacement())) {
         ++mesh_.statistics.num_swaps;
-        for (const LocalIndex old : old_tets()) {
+        for (const LocalIndex old : swap_.replacement().old_tets) {
           if (old < num_slots) to_try_[at(old)] = 0;
         }
       }
@@ -61,9 +54,11 @@ class SwapPass {
   {
     const bool try_all = mesh_.tet_energy[at(t)] > try_all_above_;
     const std::array<bool, 6> is_long = long_edges(t);
+    // A ring with a tet that the pass has left as it is was looked at from there.
+    const auto was_seen = [&](LocalIndex u) { return was_tried_before(u, t); };
     for (std::size_t e = 0; e < 6; ++e) {
       if (!try_all && !is_long[e]) continue;
-      if (walk_around(t, kTetEdges[e], try_all ? kMaxRing : 4)
+      if (walk_ring(mesh_, t, kTetEdges[e], try_all ? kMaxRing : 4, was_seen, ring_)
           && find_edge_removal(mesh_, ring_, kLeastGain, swap_)) {
         return true;
       }
@@ -97,43 +92,6 @@ class SwapPass {
   [[nodiscard]] bool was_tried_before(LocalIndex u, LocalIndex t) const
   {
     return u < t && to_try_[at(u)] != 0 && mesh_.tet_energy[at(u)] >= try_above_;
-  }
-
-  // Gathers the ring of an edge; false if the edge is on the boundary, has too many tets, or was
-  // looked at from another one of them.
-  [[nodiscard]] bool walk_around(LocalIndex t, const TetEdge& edge, std::size_t max_size)
-  {
-    const LocalIndex* vertices = mesh_.tet_vertices.data();
-    const LocalIndex* first = vertices + 4 * at(t);
-    ring_.a = first[edge.a];
-    ring_.b = first[edge.b];
-    ring_.vertices[0] = first[edge.c];
-    ring_.size = 0;
-    LocalIndex newest = first[edge.d];
-    Corner exit = 4 * t + edge.c;  // The way on is opposite to the older ring vertex.
-    for (LocalIndex u = t;;) {
-      ring_.tets[ring_.size++] = u;
-      const Corner across = mesh_.tet_neighbours[at(exit)];
-      if (across == kNoIndex) return false;
-      u = tet_of(across);
-      if (u == t) return ring_.size >= 3;
-      if (ring_.size == max_size || was_tried_before(u, t)) return false;
-      ring_.vertices[ring_.size] = newest;
-      exit = 4 * u;
-      while (vertices[exit] != newest) ++exit;
-      newest = vertices[across];
-    }
-  }
-
-  [[nodiscard]] std::span<const LocalIndex> old_tets() const
-  {
-    return std::span(swap_.old_tets).first(swap_.num_old);
-  }
-
-  [[nodiscard]] Replacement replacement() const
-  {
-    return {old_tets(), std::span(swap_.new_tets).first(swap_.num_new),
-            std::span(swap_.new_energies).first(swap_.num_new)};
   }
 
   WorkingMesh& mesh_;

@@ -72,7 +72,7 @@ class SmallRing {
       cost += measured_.cost[i];
     }
     if (!(cost < most)) return false;
-    begin_swap(std::span(ring_.tets).first(ring_.size), swap);
+    begin_swap(ring_.all_tets(), swap);
     for (std::size_t i = first; i < first + num; ++i) {
       add_tets_on(ring_, kTriangles[i], measured_.energy_a[i], measured_.energy_b[i], swap);
     }
@@ -96,7 +96,7 @@ class LargeRing {
       for (std::size_t i = 0; i + length < n; ++i) choose_apex(i, i + length);
     }
     if (!(cost_[0][n - 1] < most)) return false;
-    begin_swap(std::span(ring_.tets).first(n), swap);
+    begin_swap(ring_.all_tets(), swap);
     add_chord(0, n - 1, swap);
     return true;
   }
@@ -158,7 +158,7 @@ constexpr double kLeastTetCost = 1.05;
 
 bool find_edge_removal(const WorkingMesh& mesh, const EdgeRing& ring, double least_gain, Swap& swap)
 {
-  const double most = cost_of_tets(mesh, std::span(ring.tets).first(ring.size)) - least_gain;
+  const double most = cost_of_tets(mesh, ring.all_tets()) - least_gain;
   if (most <= 2.0 * static_cast<double>(ring.size - 2) * kLeastTetCost) return false;
   return ring.size <= 4 ? SmallRing(mesh, ring).find(most, swap)
                         : LargeRing(mesh, ring).find(most, swap);

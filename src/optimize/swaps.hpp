@@ -5,23 +5,11 @@
 #include <cstddef>
 #include <span>
 
+#include "optimize/edge_ring.hpp"
+#include "optimize/replace_tets.hpp"
 #include "optimize/working_mesh.hpp"
 
 namespace tessera::optimize {
-
-// Rings of more tets are not opened: of 18,000 edges removed from shaft.geo (L = 2) ten had more
-// than four.
-inline constexpr std::size_t kMaxRing = 7;
-
-// All tets around the edge (a, b). Tet i has ring vertices i and i + 1, and is positive in the
-// order a, b, i, i + 1.
-struct EdgeRing {
-  LocalIndex a = kNoIndex;
-  LocalIndex b = kNoIndex;
-  std::size_t size = 0;
-  std::array<LocalIndex, kMaxRing> vertices;  // The first `size`.
-  std::array<LocalIndex, kMaxRing> tets;      // The first `size`.
-};
 
 // A change of topology, not yet made.
 struct Swap {
@@ -30,6 +18,12 @@ struct Swap {
   std::array<LocalIndex, kMaxRing> old_tets;
   std::array<TetVertices, 2 * (kMaxRing - 2)> new_tets;
   std::array<double, 2 * (kMaxRing - 2)> new_energies;
+
+  [[nodiscard]] Replacement replacement() const
+  {
+    return {std::span(old_tets).first(num_old), std::span(new_tets).first(num_new),
+            std::span(new_energies).first(num_new)};
+  }
 
   void add(const TetVertices& tet, double energy)
   {

@@ -128,13 +128,12 @@ std::vector<LocalIndex> place_vertices(const WorkingMesh& mesh, const TetMesh& i
                                        OptimizeResult& result)
 {
   const double unscale = 1.0 / mesh.scale;
-  const std::vector<LocalIndex> working_vertex = inverse_of(mesh.vertex_origin);
   std::vector<LocalIndex> rows(mesh.points.size(), kNoIndex);
-  for (std::size_t origin = 0; origin < working_vertex.size(); ++origin) {
-    const LocalIndex v = working_vertex[origin];
+  for (const LocalIndex v : inverse_of(mesh.vertex_origin)) {
     if (mesh.vertex_removed[at(v)] != 0) continue;
+    const LocalIndex origin = mesh.vertex_origin[at(v)];
     rows[at(v)] = static_cast<LocalIndex>(result.vertex_origin.size());
-    result.vertex_origin.push_back(static_cast<LocalIndex>(origin));
+    result.vertex_origin.push_back(origin);
     // A fixed one far smaller than the mesh may have lost bits by the scale.
     const Vec3 position = mesh.vertex_fixed[at(v)] != 0
                               ? point_at(std::span(input.vertex_xyz), origin)

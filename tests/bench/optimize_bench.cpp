@@ -2,15 +2,15 @@
 // Our optimiser beside NETGEN's, on the same tets in one process, in CPU time of one core.
 //
 //   optimize_bench [--schedule=NAME|STEPS]... [--set=INSTRUCTION_SET]... [--netgen] [--repeat=N]
-//                  LEVELS MODEL=MAX_SIZE...
+//                  [--subdomains=N] [--untangle] LEVELS MODEL=MAX_SIZE...
 //   optimize_bench [options] FILE.vtu...
 //
-// The tets are the children of each model's coarse tets, one subdomain a material, or those of
-// files (of a run with fill.kernel = "subdivide"). One line a schedule and instruction set: seconds
-// (the least of N, 3 unless said otherwise), thousands of the input's tets a second, number of
-// tets, mean, 1st percentile and minimum of the mean ratio, smallest dihedral angle; how often
-// faster than NETGEN. With --netgen its fill of the same children, one round as in a run, in turn
-// with ours.
+// The tets are the children of each model's coarse tets, one subdomain a material or N of them, or
+// those of files (of a run with fill.kernel = "subdivide"). One line a schedule and instruction
+// set: seconds (the least of N, 3 unless said otherwise), thousands of the input's tets a second,
+// number of tets, mean, 1st percentile and minimum of the mean ratio, smallest dihedral angle; how
+// often faster than NETGEN. With --netgen its fill of the same children, one round as in a run, in
+// turn with ours.
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
@@ -24,6 +24,8 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/decompose/decompose.hpp"
+#include "tessera/decompose/predicted_fine_tets.hpp"
 #include "tessera/fill/subdivide.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/mesh/subdomain_tets.hpp"
@@ -49,6 +51,8 @@ struct Settings {
   std::vector<NamedSchedule> schedules{};
   std::vector<optimize::InstructionSet> sets{};
   bool with_netgen = false;
+  bool untangle = false;
+  int subdomains = 1;  // A material.
   int repeat = 3;
 };
 
@@ -127,16 +131,26 @@ Piece make_piece(const std::vector<double>& xyz, const std::vector<LocalIndex>& 
   return piece;
 }
 
-std::vector<Piece> pieces_of_model(const testing::Subject& subject, int levels)
+mesh::Decomposition decompose(const testing::Subject& subject, int levels, int subdomains)
 {
+  if (subdomains == 1) return subject.decomposition;
+  return decompose::decompose(subject.coarse,
+                              {.subdomains = subdomains * subject.coarse.num_materials()},
+                              decompose::predicted_fine_tets(subject.coarse, levels),
+                              *decompose::make_metis_partitioner())
+      .decomposition;
+}
+
+std::vector<Piece> pieces_of_model(const testing::Subject& subject, int levels, int subdomains)
+{
+  const mesh::Decomposition decomposition = decompose(subject, levels, subdomains);
+  const mesh::Skeleton skeleton = mesh::build_skeleton(subject.coarse, decomposition);
   const mesh::Damping no_damping;
-  const refine::RefineContext context{subject.coarse, subject.skeleton, *subject.model, no_damping,
-                                      levels};
-  const mesh::SubdomainTets tets = mesh::subdomain_tets(subject.decomposition);
+  const refine::RefineContext context{subject.coarse, skeleton, *subject.model, no_damping, levels};
+  const mesh::SubdomainTets tets = mesh::subdomain_tets(decomposition);
   std::vector<Piece> pieces;
   for (LocalIndex s = 0; s < std::ssize(tets.offsets) - 1; ++s) {
-    const mesh::TetComplex complex =
-        mesh::tet_complex(subject.coarse, subject.skeleton, tets.of(s));
+    const mesh::TetComplex complex = mesh::tet_complex(subject.coarse, skeleton, tets.of(s));
     const fill::FillOutput children =
         fill::subdivide(complex, refine::refine_lattice(complex.faces, context));
     pieces.push_back(make_piece(children.vertex_xyz, children.tet_vertices));
@@ -184,14 +198,15 @@ void keep_faster(Timed& best, const Timed& other)
   if (other.seconds < best.seconds) best = other;
 }
 
-void run_contenders(const std::vector<Piece>& pieces, int repeat,
+void run_contenders(const std::vector<Piece>& pieces, const Settings& settings,
                     std::vector<Contender>& contenders)
 {
-  for (int i = 0; i < repeat; ++i) {
+  for (int i = 0; i < settings.repeat; ++i) {
     for (Contender& contender : contenders) {
       keep_faster(contender.best, time_pieces(pieces, [&](const Piece& piece) {
-                    return optimize::optimize(piece.tets, contender.schedule,
-                                              {.instruction_set = contender.set});
+                    return optimize::optimize(
+                        piece.tets, contender.schedule,
+                        {.untangle = settings.untangle, .instruction_set = contender.set});
                   }));
     }
   }
@@ -222,7 +237,7 @@ void print_table(const std::string& name, const std::vector<Piece>& pieces,
           {schedule.name + " " + std::string(optimize::name_of(set)), schedule.schedule, set});
     }
   }
-  run_contenders(pieces, settings.repeat, contenders);
+  run_contenders(pieces, settings, contenders);
   for (const Contender& contender : contenders) {
     print_line(contender.name, contender.best, num_tets,
                settings.with_netgen ? netgen.seconds : 0.0);
@@ -264,6 +279,10 @@ Settings read_options(int argc, char** argv, int& next)
       settings.sets.push_back(named_set(*set));
     } else if (const auto repeat = value_of(argument, "--repeat=")) {
       settings.repeat = std::stoi(*repeat);
+    } else if (const auto subdomains = value_of(argument, "--subdomains=")) {
+      settings.subdomains = std::stoi(*subdomains);
+    } else if (argument == "--untangle") {
+      settings.untangle = true;
     } else if (argument == "--netgen") {
       settings.with_netgen = true;
     } else {
@@ -297,7 +316,8 @@ void run_all(int argc, char** argv)
   if (next >= argc) return;
   const int levels = std::stoi(argv[next]);
   for (int i = next + 1; i < argc; ++i) {
-    print_table(argv[i], pieces_of_model(testing::Subject(argv[i]), levels), settings);
+    print_table(argv[i], pieces_of_model(testing::Subject(argv[i]), levels, settings.subdomains),
+                settings);
   }
 }
 

@@ -33,7 +33,7 @@ struct Schedule {
   double collapse_reach = 0.85;
   /// How much the mean of eta^-1.5 around a vertex may rise by its collapse, >= 0. Smoothing
   /// repairs it; without a loss the 1st percentile stays 0.02 lower.
-  double collapse_loss = 0.2;
+  double collapse_loss = 0.3;
   /// Step::smooth_worst moves the vertices of tets below this.
   double worst_below = 0.7;
 };
