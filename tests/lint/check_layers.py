@@ -20,6 +20,7 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "refine": CORE | {"model"},
     "fill": CORE | {"model"},
     "improve": CORE | {"model"},
+    "optimize": BASE | {"mesh"},  # knows no lattice and no process but its own
     "migrate": CORE,
     "number": CORE,
     "quality": CORE,
@@ -46,6 +47,7 @@ QUARANTINE = {  # third-party header -> the only places that may include it
 PARTS = {  # (module, other module, "*": any) -> the only headers of the other that it may include
     ("config", "*"): ("options.hpp",),
     ("check", "mesh"): ("mesh_arrays.hpp",),
+    ("optimize", "mesh"): ("tet_topology.hpp",),
     ("pipeline", "netgen"): ("factory.hpp",),
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]')

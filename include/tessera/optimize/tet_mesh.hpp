@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+
+namespace tessera::optimize {
+
+/// @brief Tets to be made better.
+///
+/// The *boundary* is made of the triangles that belong to one tet. Its vertices never move and its
+/// triangles stay as they are, whatever `vertex_fixed` says.
+struct TetMesh {
+  std::vector<double> vertex_xyz{};        ///< Shape (num_vertices, 3).
+  std::vector<LocalIndex> tet_vertices{};  ///< Shape (num_tets, 4); positive, VTK's order.
+
+  /// Shape (num_vertices); 1: a vertex off the boundary that must stay, too. Optional.
+  std::vector<std::uint8_t> vertex_fixed{};
+
+  /// Shape (num_tets, 4); what lies across the face opposite to corner c of tet t: 4 u + d if that
+  /// face is opposite to corner d of tet u, kNoIndex if it is on the boundary. Optional: a caller
+  /// that knows the neighbours saves the search for them. It is checked.
+  std::vector<LocalIndex> tet_neighbours{};
+};
+
+}  // namespace tessera::optimize

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "optimize/input_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::optimize {
+namespace {
+
+void require(bool is_valid, const std::string& what)
+{
+  if (!is_valid) throw MeshError(what);
+}
+
+void require_sizes(const TetMesh& mesh)
+{
+  constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<LocalIndex>::max());
+  const std::size_t num_vertices = mesh.vertex_xyz.size() / 3;
+  const auto fits = [](std::size_t size, std::size_t wanted) {
+    return size == 0 || size == wanted;
+  };
+  require(mesh.vertex_xyz.size() % 3 == 0, "coordinates of vertices are not three each");
+  require(mesh.tet_vertices.size() % 4 == 0, "vertices of tets are not four each");
+  require(mesh.tet_vertices.size() < kMost && num_vertices < kMost,
+          "too many tets or vertices for 32-bit indices");
+  require(fits(mesh.vertex_fixed.size(), num_vertices), "flags of fixed vertices are not one each");
+  require(fits(mesh.tet_neighbours.size(), mesh.tet_vertices.size()),
+          "neighbours of tets are not four each");
+}
+
+void require_indices(const TetMesh& mesh)
+{
+  const auto num_vertices = static_cast<LocalIndex>(mesh.vertex_xyz.size() / 3);
+  for (std::size_t i = 0; i < mesh.tet_vertices.size(); ++i) {
+    const LocalIndex v = mesh.tet_vertices[i];
+    if (v >= 0 && v < num_vertices) continue;
+    throw MeshError("tet " + std::to_string(i / 4) + " has vertex " + std::to_string(v) + " of "
+                    + std::to_string(num_vertices));
+  }
+}
+
+void require_four_vertices(const TetMesh& mesh)
+{
+  for (std::size_t t = 0; 4 * t < mesh.tet_vertices.size(); ++t) {
+    std::array<LocalIndex, 4> vertices;
+    std::copy_n(&mesh.tet_vertices[4 * t], 4, vertices.begin());
+    std::sort(vertices.begin(), vertices.end());
+    if (std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end()) continue;
+    throw MeshError("tet " + std::to_string(t) + " has a vertex twice");
+  }
+}
+
+// Where a coordinate is not finite, or so large that lengths would not be.
+[[noreturn]] void fail_at_coordinate(const TetMesh& mesh, std::size_t coordinate)
+{
+  const auto v = static_cast<LocalIndex>(coordinate / 3);
+  const auto corner = std::find(mesh.tet_vertices.begin(), mesh.tet_vertices.end(), v);
+  const std::string whose =
+      corner == mesh.tet_vertices.end()
+          ? ", of no tet,"
+          : " of tet " + std::to_string((corner - mesh.tet_vertices.begin()) / 4);
+  throw MeshError("vertex " + std::to_string(v) + whose + " is not finite");
+}
+
+void require_finite(const TetMesh& mesh)
+{
+  constexpr double kLargest = 1e300;
+  for (std::size_t i = 0; i < mesh.vertex_xyz.size(); ++i) {
+    if (!(std::abs(mesh.vertex_xyz[i]) < kLargest)) fail_at_coordinate(mesh, i);
+  }
+}
+
+}  // namespace
+
+void require_valid_arrays(const TetMesh& mesh)
+{
+  require_sizes(mesh);
+  require_indices(mesh);
+  require_four_vertices(mesh);
+  require_finite(mesh);
+}
+
+}  // namespace tessera::optimize

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/optimize/optimize.hpp"
+
+#include "optimize/kernels.hpp"
+#include "optimize/passes.hpp"
+#include "optimize/untangle.hpp"
+#include "optimize/working_mesh.hpp"
+
+namespace tessera::optimize {
+namespace {
+
+void run_step(WorkingMesh& mesh, Step step, const Schedule& schedule)
+{
+  switch (step) {
+    case Step::smooth:
+      return smooth_pass(mesh);
+    case Step::smooth_worst:
+      return smooth_worst_pass(mesh, schedule);
+    case Step::swap:
+      return swap_pass(mesh, schedule);
+    case Step::collapse:
+      return collapse_pass(mesh, schedule);
+    case Step::tighten:
+      return tighten_bound(mesh);
+  }
+}
+
+}  // namespace
+
+OptimizeResult optimize(const TetMesh& mesh, const Schedule& schedule,
+                        const OptimizeOptions& options)
+{
+  const InstructionSet set = options.instruction_set.value_or(available_instruction_sets().back());
+  WorkingMesh working = make_working_mesh(mesh, kernels_of(set), options.untangle);
+  if (options.untangle) {
+    working.statistics.num_untangled = count_not_positive(working);
+    untangle(working);
+    require_positive(working);
+  }
+  tighten_bound(working);
+  for (const Step step : schedule.steps) {
+    run_step(working, step, schedule);
+    ++working.statistics.num_passes;
+  }
+  return to_result(working, mesh);
+}
+
+}  // namespace tessera::optimize

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/optimize/schedule.hpp"
+
+#include <string>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::optimize {
+namespace {
+
+Step parse_step(char letter)
+{
+  switch (letter) {
+    case 'm':
+      return Step::smooth;
+    case 'w':
+      return Step::smooth_worst;
+    case 's':
+      return Step::swap;
+    case 'c':
+      return Step::collapse;
+    case 't':
+      return Step::tighten;
+    default:
+      throw ConfigError("'" + std::string(1, letter) + "' is no step: m, w, s, c or t expected");
+  }
+}
+
+}  // namespace
+
+std::vector<Step> parse_steps(std::string_view letters)
+{
+  std::vector<Step> steps;
+  steps.reserve(letters.size());
+  for (const char letter : letters) steps.push_back(parse_step(letter));
+  return steps;
+}
+
+// A collapse dents the smallest mean ratio for a moment: worst tets are looked after right behind
+// it, and none of the schedules ends with one. Smoothing for the mean makes some good tets worse,
+// so the last passes are for the worst, and the bound is tightened before swaps that come late.
+Schedule fast_schedule() { return {.steps = parse_steps("mmscwmmscwmmww")}; }
+Schedule standard_schedule() { return {.steps = parse_steps("smmcwsmmcwsmmwwtsmww")}; }
+Schedule thorough_schedule() { return {.steps = parse_steps("smmcwsmmcwsmmcwtsmmmwwtsmmmwww")}; }
+
+}  // namespace tessera::optimize

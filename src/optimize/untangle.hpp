@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "optimize/working_mesh.hpp"
+
+namespace tessera::optimize {
+
+// Makes flat and inverted tets positive, as far as it can: the vertices of bad tets are moved, and
+// swaps and collapses tried that leave positive tets only. Nothing happens if all are positive.
+void untangle(WorkingMesh& mesh);
+
+}  // namespace tessera::optimize

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "optimize/working_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+
+#include "tessera/base/error.hpp"
+
+#include "optimize/input_check.hpp"
+#include "optimize/neighbours.hpp"
+#include "optimize/space_curve.hpp"
+#include "optimize/tet_energy.hpp"
+
+namespace tessera::optimize {
+namespace {
+
+// A power of two that brings the largest coordinate near 1, so that the sixth powers of lengths
+// neither overflow nor vanish.
+double scale_of(const std::vector<double>& vertex_xyz)
+{
+  double largest = 0.0;
+  for (const double x : vertex_xyz) largest = std::max(largest, std::abs(x));
+  if (largest == 0.0) return 1.0;
+  // Of subnormal coordinates the inverse would not be finite.
+  return std::ldexp(1.0, std::min(-std::ilogb(largest), 1000));
+}
+
+std::vector<Point> scaled_points(const std::vector<double>& vertex_xyz, double scale)
+{
+  std::vector<Point> points(vertex_xyz.size() / 3);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    points[v] = {scale * vertex_xyz[3 * v], scale * vertex_xyz[3 * v + 1],
+                 scale * vertex_xyz[3 * v + 2], 0.0};
+  }
+  return points;
+}
+
+std::vector<LocalIndex> inverse_of(const std::vector<LocalIndex>& order)
+{
+  std::vector<LocalIndex> inverse(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) inverse[at(order[i])] = static_cast<LocalIndex>(i);
+  return inverse;
+}
+
+// Copies points in a new order; returns where each vertex of the caller is now.
+std::vector<LocalIndex> order_points(const TetMesh& input, WorkingMesh& mesh)
+{
+  const std::vector<Point> points = scaled_points(input.vertex_xyz, mesh.scale);
+  mesh.vertex_origin = morton_order(points);
+  mesh.points.reserve(points.size());
+  for (const LocalIndex v : mesh.vertex_origin) mesh.points.push_back(points[at(v)]);
+  return inverse_of(mesh.vertex_origin);
+}
+
+std::vector<LocalIndex> renumbered(const std::vector<LocalIndex>& values,
+                                   const std::vector<LocalIndex>& new_value)
+{
+  std::vector<LocalIndex> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(),
+                 [&](LocalIndex value) { return new_value[at(value)]; });
+  return result;
+}
+
+// Rows of four in a new order.
+std::vector<LocalIndex> reordered(const std::vector<LocalIndex>& rows,
+                                  const std::vector<LocalIndex>& order)
+{
+  std::vector<LocalIndex> result(rows.size());
+  for (std::size_t t = 0; t < order.size(); ++t) {
+    std::copy_n(&rows[4 * at(order[t])], 4, &result[4 * t]);
+  }
+  return result;
+}
+
+std::vector<LocalIndex> reordered_neighbours(const std::vector<LocalIndex>& neighbours,
+                                             const std::vector<LocalIndex>& order)
+{
+  const std::vector<LocalIndex> new_tet = inverse_of(order);
+  std::vector<LocalIndex> result = reordered(neighbours, order);
+  for (LocalIndex& corner : result) {
+    if (corner != kNoIndex) corner = 4 * new_tet[at(tet_of(corner))] + (corner & 3);
+  }
+  return result;
+}
+
+void fix_vertices(const TetMesh& input, WorkingMesh& mesh)
+{
+  mesh.vertex_fixed.assign(mesh.points.size(), 0);
+  if (!input.vertex_fixed.empty()) {
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+      mesh.vertex_fixed[v] = input.vertex_fixed[at(mesh.vertex_origin[v])];
+    }
+  }
+  const auto num_corners = static_cast<Corner>(mesh.tet_vertices.size());
+  for (Corner corner = 0; corner < num_corners; ++corner) {
+    if (mesh.tet_neighbours[at(corner)] != kNoIndex) continue;
+    for (const LocalIndex v : face_vertices(mesh.tet_vertices, corner))
+      mesh.vertex_fixed[at(v)] = 1;
+  }
+}
+
+void size_arrays(WorkingMesh& mesh)
+{
+  const std::size_t num_tets = mesh.tet_vertices.size() / 4;
+  mesh.tet_energy.assign(num_tets, 0.0);
+  mesh.tet_cost.assign(num_tets, 0.0);
+  mesh.tet_to_swap.assign(num_tets, 1);
+  mesh.vertex_removed.assign(mesh.points.size(), 0);
+  mesh.vertex_to_smooth.assign(mesh.points.size(), 1);
+  mesh.vertex_to_collapse.assign(mesh.points.size(), 1);
+}
+
+// The caller's first tet that is not positive; kNoIndex if all are.
+LocalIndex find_not_positive(const WorkingMesh& mesh, const std::vector<LocalIndex>& tet_origin)
+{
+  LocalIndex first = kNoIndex;
+  for (LocalIndex t = 0; t < mesh.num_slots(); ++t) {
+    if (mesh.tet_energy[at(t)] <= kHighestEnergy) continue;
+    if (first == kNoIndex || tet_origin[at(t)] < first) first = tet_origin[at(t)];
+  }
+  return first;
+}
+
+// Writes the vertices that are left, in the caller's order; returns the row of each working vertex.
+std::vector<LocalIndex> place_vertices(const WorkingMesh& mesh, const TetMesh& input,
+                                       OptimizeResult& result)
+{
+  const double unscale = 1.0 / mesh.scale;
+  std::vector<LocalIndex> rows(mesh.points.size(), kNoIndex);
+  for (const LocalIndex v : inverse_of(mesh.vertex_origin)) {
+    if (mesh.vertex_removed[at(v)] != 0) continue;
+    const LocalIndex origin = mesh.vertex_origin[at(v)];
+    rows[at(v)] = static_cast<LocalIndex>(result.vertex_origin.size());
+    result.vertex_origin.push_back(origin);
+    // A fixed one far smaller than the mesh may have lost bits by the scale.
+    const Vec3 position = mesh.vertex_fixed[at(v)] != 0
+                              ? point_at(std::span(input.vertex_xyz), origin)
+                              : unscale * to_vec3(mesh.points[at(v)]);
+    result.vertex_xyz.insert(result.vertex_xyz.end(), position.begin(), position.end());
+  }
+  return rows;
+}
+
+}  // namespace
+
+WorkingMesh make_working_mesh(const TetMesh& input, const Kernels& kernels, bool may_be_tangled)
+{
+  require_valid_arrays(input);
+  WorkingMesh mesh;
+  mesh.kernels = &kernels;
+  mesh.scale = scale_of(input.vertex_xyz);
+  const std::vector<LocalIndex> new_vertex = order_points(input, mesh);
+  const std::vector<LocalIndex> renamed = renumbered(input.tet_vertices, new_vertex);
+  const std::vector<LocalIndex> order = order_by_lowest_vertex(renamed, mesh.num_vertices());
+  mesh.tet_vertices = reordered(renamed, order);
+  size_arrays(mesh);
+  refresh_energies(mesh);
+  mesh.first_not_positive = find_not_positive(mesh, order);
+  if (!may_be_tangled) require_positive(mesh);
+  if (input.tet_neighbours.empty()) {
+    mesh.tet_neighbours = find_neighbours(mesh.tet_vertices, mesh.num_vertices(), order);
+  } else {
+    require_neighbours(input.tet_vertices, input.tet_neighbours);
+    mesh.tet_neighbours = reordered_neighbours(input.tet_neighbours, order);
+  }
+  fix_vertices(input, mesh);
+  return mesh;
+}
+
+OptimizeResult to_result(const WorkingMesh& mesh, const TetMesh& input)
+{
+  OptimizeResult result;
+  const std::vector<LocalIndex> rows = place_vertices(mesh, input, result);
+  result.tet_vertices.reserve(mesh.tet_vertices.size());
+  for (LocalIndex t = 0; t < mesh.num_slots(); ++t) {
+    if (mesh.is_free_slot(t)) continue;
+    for (std::size_t c = 0; c < 4; ++c) {
+      result.tet_vertices.push_back(rows[at(mesh.tet_vertices[4 * at(t) + c])]);
+    }
+  }
+  result.statistics = mesh.statistics;
+  return result;
+}
+
+void refresh_energies(WorkingMesh& mesh)
+{
+  if (!mesh.are_energies_stale) return;
+  mesh.kernels->energies(mesh.points.data(), mesh.tet_vertices.data(), mesh.num_slots(),
+                         mesh.tet_energy.data(), mesh.tet_cost.data());
+  mesh.are_energies_stale = false;
+}
+
+LocalIndex count_not_positive(const WorkingMesh& mesh)
+{
+  LocalIndex count = 0;
+  for (LocalIndex t = 0; t < mesh.num_slots(); ++t) {
+    if (!mesh.is_free_slot(t) && !(mesh.tet_energy[at(t)] <= kHighestEnergy)) ++count;
+  }
+  return count;
+}
+
+void require_positive(const WorkingMesh& mesh)
+{
+  if (count_not_positive(mesh) == 0) return;
+  throw MeshError("tet " + std::to_string(mesh.first_not_positive) + " is flat or inverted");
+}
+
+void tighten_bound(WorkingMesh& mesh)
+{
+  refresh_energies(mesh);
+  mesh.worst_energy = 0.0;
+  for (LocalIndex t = 0; t < mesh.num_slots(); ++t) {
+    if (!mesh.is_free_slot(t)) {
+      mesh.worst_energy = std::max(mesh.worst_energy, mesh.tet_energy[at(t)]);
+    }
+  }
+}
+
+void refresh_stars(WorkingMesh& mesh)
+{
+  if (!mesh.are_stars_stale) return;
+  const auto num_corners = static_cast<Corner>(mesh.tet_vertices.size());
+  mesh.star_offsets.assign(at(mesh.num_vertices()) + 1, 0);
+  for (const LocalIndex v : mesh.tet_vertices) {
+    if (v >= 0) ++mesh.star_offsets[at(v) + 1];
+  }
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    mesh.star_offsets[v + 1] += mesh.star_offsets[v];
+  }
+  mesh.star_corners.resize(at(mesh.star_offsets.back()));
+  std::vector<LocalIndex> next(mesh.star_offsets.begin(), mesh.star_offsets.end() - 1);
+  for (Corner corner = 0; corner < num_corners; ++corner) {
+    const LocalIndex v = mesh.tet_vertices[at(corner)];
+    if (v >= 0) mesh.star_corners[at(next[at(v)]++)] = corner;
+  }
+  mesh.are_stars_stale = false;
+}
+
+}  // namespace tessera::optimize
