@@ -164,14 +164,15 @@ class CaseRun {
   {
     if (!is_resumed()) return std::nullopt;
     const RunState state = this->state();
-    const std::optional<MeshResult> ended = on_root(comm_, [&] {
-      auto there = state.finished();
-      if (there && !has_files()) {
-        throw InputError("cannot resume " + given_.output.directory.string()
+    const std::optional<MeshResult> ended = on_root(comm_,
+                                                    [&] {
+                                                      auto there = state.finished();
+                                                      if (there && !has_files()) {
+                                                        throw InputError("cannot resume " + given_.output.directory.string()
                          + ": its mesh is in files already, read_mesh() reads them");
-      }
-      return there;
-    });
+                                                      }
+                                                      return there;
+                                                    });
     if (!ended) return std::nullopt;
     const model::ModelSource model = run_model_stage(given_, context);
     all_or_none(comm_, [&] {
