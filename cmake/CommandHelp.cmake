@@ -3,7 +3,7 @@ set(TESSERA_MAN_PAGE ${PROJECT_BINARY_DIR}/share/tessera.1)
 set(TESSERA_BASH_COMPLETION ${PROJECT_BINARY_DIR}/share/tessera.bash)
 
 add_executable(make_command_help ${PROJECT_SOURCE_DIR}/pipeline/tools/make_command_help.cpp)
-target_link_libraries(make_command_help PRIVATE tessera_commands tessera_warnings)
+target_link_libraries(make_command_help PRIVATE tessera_pipeline tessera_warnings)
 add_custom_command(
   OUTPUT ${TESSERA_MAN_PAGE} ${TESSERA_BASH_COMPLETION}
   COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/share
