@@ -9,6 +9,7 @@ add_custom_command(
   COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/share
   COMMAND make_command_help man ${TESSERA_MAN_PAGE}
   COMMAND make_command_help bash ${TESSERA_BASH_COMPLETION}
+  DEPENDS make_command_help
   COMMENT "Making man page and completion"
   VERBATIM
 )
