@@ -25,8 +25,8 @@ struct Quadratic {
 template <int Power>
 inline void add_block(const StarBlock& block, Quadratic& sum)
 {
-  constexpr double p = 3.0 * Power;
-  constexpr double q = 2.0 * Power;
+  constexpr double kP = 3.0 * Power;
+  constexpr double kQ = 2.0 * Power;
   const Lanes reciprocal = 1.0 / (block.squares * block.w);
   const Lanes per_squares = block.w * reciprocal;
   const Lanes per_w = block.squares * reciprocal;
@@ -34,11 +34,11 @@ inline void add_block(const StarBlock& block, Quadratic& sum)
   const Lanes f = power_of<Power>(kFactor * (s * s * s) * (per_w * per_w));
   const Vectors ds = (-2.0 * per_squares) * block.opposite;
   const Vectors dw = per_w * block.inward;
-  const Vectors l{p * ds.x - q * dw.x, p * ds.y - q * dw.y, p * ds.z - q * dw.z};
+  const Vectors l{kP * ds.x - kQ * dw.x, kP * ds.y - kQ * dw.y, kP * ds.z - kQ * dw.z};
   const Vectors fl = f * l;
-  const Vectors fs = (p * f) * ds;
-  const Vectors fw = (q * f) * dw;
-  const Lanes diagonal = (6.0 * p) * f * per_squares;
+  const Vectors fs = (kP * f) * ds;
+  const Vectors fw = (kQ * f) * dw;
+  const Lanes diagonal = (6.0 * kP) * f * per_squares;
   sum.value += f;
   sum.gradient = sum.gradient + fl;
   sum.xx += fl.x * l.x + diagonal - fs.x * ds.x + fw.x * dw.x;

@@ -63,8 +63,9 @@ inline void gather_star(const StarView& mesh, LocalIndex vertex, Star& star)
   star.num_tets = mesh.offsets[vertex + 1] - first;
   star.num_blocks = (star.num_tets + 3) / 4;
   const Lanes origin = load(mesh.points[vertex]);
-  for (int i = 0; i < star.num_blocks; ++i) {
-    const LocalIndex rest = star.num_tets - 4 * i;
-    star.blocks[i] = gather_block(mesh, mesh.corners + first + 4 * i, rest < 4 ? rest : 4, origin);
+  const LocalIndex* corners = mesh.corners + first;
+  LocalIndex rest = star.num_tets;
+  for (int i = 0; i < star.num_blocks; ++i, corners += 4, rest -= 4) {
+    star.blocks[i] = gather_block(mesh, corners, rest < 4 ? rest : 4, origin);
   }
 }

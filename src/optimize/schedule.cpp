@@ -39,8 +39,8 @@ std::vector<Step> parse_steps(std::string_view letters)
 // A collapse dents the smallest mean ratio for a moment: worst tets are looked after right behind
 // it, and none of the schedules ends with one. Smoothing for the mean makes some good tets worse,
 // so the last passes are for the worst, and the bound is tightened before swaps that come late.
-Schedule fast_schedule() { return {.steps = parse_steps("mmscwmmscwmmww")}; }
-Schedule standard_schedule() { return {.steps = parse_steps("smmcwsmmcwsmmwwtsmww")}; }
+Schedule fast_schedule() { return {.steps = parse_steps("mmscwmmscwsmmwww")}; }
+Schedule standard_schedule() { return {.steps = parse_steps("mmscwmmscwsmmwwtsmmwww")}; }
 Schedule thorough_schedule() { return {.steps = parse_steps("smmcwsmmcwsmmcwtsmmmwwtsmmmwww")}; }
 
 }  // namespace tessera::optimize
