@@ -1,9 +1,11 @@
 # Imported targets for everything that is not ours. Each is linked PRIVATE to the one module that may
-# include it (tests/lint/check_layers.py), so nothing but MPI reaches a user's compile line.
+# include it (tests/lint/check_layers.py), so nothing but MPI reaches a user's compile line. All modules
+# have fmt for their messages, in no public header.
 
 find_package(MPI REQUIRED COMPONENTS CXX)
 find_package(toml11 REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML IOParallelXML)
