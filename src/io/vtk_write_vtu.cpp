@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -194,8 +195,8 @@ void write_vtu(const MeshArrays& piece, const std::filesystem::path& path, Compr
   set_compression(*writer, compression);
   const bool written = writer->Write() == 1;
   if (!written || writer->GetErrorCode() != vtkErrorCode::NoError || !messages.text().empty()) {
-    throw OutputError("cannot write " + path.string() + ": "
-                      + cause_of(writer->GetErrorCode(), messages.text()));
+    throw OutputError(fmt::format("cannot write {}: {}", path.string(),
+                                  cause_of(writer->GetErrorCode(), messages.text())));
   }
   file.commit();
 }
