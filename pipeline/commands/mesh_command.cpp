@@ -5,7 +5,7 @@
 #include <cstring>
 #include <optional>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "tessera/base/error.hpp"

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/base/version.hpp"
@@ -41,7 +43,7 @@ fs::path make_job_folder(const fs::path& failure, const std::string& name)
     if (!is_plain && !word.empty() && word.back() != '_') word += '_';
   }
   for (int number = 1;; ++number) {
-    fs::path folder = failure / (number == 1 ? word : word + "." + std::to_string(number));
+    fs::path folder = failure / (number == 1 ? word : fmt::format("{}.{}", word, number));
     if (fs::create_directory(folder)) return folder;
   }
 }
@@ -63,7 +65,7 @@ std::vector<std::string> write_loads(const fs::path& failure, const RunContext& 
   std::vector<std::string> names;
   io::make_own_folder(failure / "inputs");
   for (const auto& [kind, message] : context.loads) {
-    names.push_back(kind + "_" + to_hex(hash_bytes(message)) + ".bin");
+    names.push_back(fmt::format("{}_{}.bin", kind, to_hex(hash_bytes(message))));
     const fs::path file = failure / "inputs" / names.back();
     if (!fs::exists(fs::symlink_status(file))) io::write_text_atomically(file, text_of(message));
   }
@@ -144,8 +146,9 @@ fs::path keep_failed_job(const JobRequest& job, const Bytes& request,
     out.put(loads);
     out.put(request);
     io::write_text_atomically(folder / "job.bin", text_of(std::move(out).take()));
-    io::write_text_atomically(folder / "log.txt",
-                              job.name + ": " + outcome.message + "\n\n" + tail_of_log(context));
+    io::write_text_atomically(
+        folder / "log.txt",
+        fmt::format("{}: {}\n\n{}", job.name, outcome.message, tail_of_log(context)));
     ++context.num_failed_jobs_kept;
     kept = folder;
   });
@@ -199,7 +202,7 @@ RecordedJob read_failed_job(const fs::path& folder)
     loads = in.get_strings();
     job.request = in.get_vector<std::byte>();
   } catch (const InputError& error) {
-    throw InputError(file.string() + ": " + error.what());
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
   for (const std::string& name : loads) {
     if (fs::path(name).filename() != name) throw InputError(file.string() + ": is damaged");

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <span>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spdlog/fmt/fmt.h>
 
 #include "tessera/base/hash.hpp"
 #include "tessera/base/version.hpp"
@@ -191,8 +191,8 @@ std::string prediction_table(const DryRun& dry_run)
   std::string table = fmt::format("Prediction for {} ranks\n", prediction.num_ranks);
   table += row("coarse tets",
                fmt::format("{}, {} levels", prediction.num_coarse_tets, prediction.levels));
-  table += row("tets", std::to_string(prediction.num_tets));
-  table += row("vertices", std::to_string(prediction.num_vertices));
+  table += row("tets", fmt::to_string(prediction.num_tets));
+  table += row("vertices", fmt::to_string(prediction.num_vertices));
   table +=
       row("pieces", fmt::format("{} in {} files", prediction.num_subdomains, prediction.num_files));
   table += row("disk",
@@ -214,8 +214,9 @@ std::string prediction_table(const DryRun& dry_run)
                                          prediction.wall_s, 100.0 * prediction.serial_share,
                                          100.0 * prediction.busy_share));
   for (const std::string& sentence : dry_run.advice.must)
-    table += "WILL NOT FIT: " + sentence + "\n";
-  for (const std::string& sentence : dry_run.advice.should) table += "advice: " + sentence + "\n";
+    table += fmt::format("WILL NOT FIT: {}\n", sentence);
+  for (const std::string& sentence : dry_run.advice.should)
+    table += fmt::format("advice: {}\n", sentence);
   return table;
 }
 
