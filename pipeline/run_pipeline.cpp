@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/comm/all_or_none.hpp"
@@ -116,9 +118,10 @@ void plan_for_folded(const FilledPieces& filled, const subdomain::PartitionedMes
   plan.limiter = run_untangle_stage(work, std::move(plan.limiter), context);
   all_or_none(context.comm, [&] {
     if (plan.kernels != kernels_before || plan.limiter != limiter_before) return;
-    throw MeshError("subdomain " + std::to_string(filled.folded.front().subdomain)
-                    + " has coarse tets that are too flat to be subdivided; try another "
-                      "coarse.max_size");
+    throw MeshError(
+        fmt::format("subdomain {} has coarse tets that are too flat to be subdivided; try another "
+                    "coarse.max_size",
+                    filled.folded.front().subdomain));
   });
 }
 
@@ -186,8 +189,8 @@ std::vector<subdomain::SubdomainRange> output_ranges(const RunResult& run,
     throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\" and no other region");
   }
   if (only.back() >= num_subdomains) {
-    throw ConfigError("--only-subdomains: there is no subdomain " + std::to_string(only.back())
-                      + ", the last one is " + std::to_string(num_subdomains - 1));
+    throw ConfigError(fmt::format("--only-subdomains: there is no subdomain {}, the last one is {}",
+                                  only.back(), num_subdomains - 1));
   }
   return subdomain::single_ranges(only);
 }

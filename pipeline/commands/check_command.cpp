@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/check/check_mesh.hpp"

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/version.hpp"
@@ -51,9 +52,8 @@ int read_count(const std::string& option, const std::string& text, int low, int 
 {
   const auto count = whole_number(text, low, high);
   if (count) return *count;
-  throw CLI::ValidationError(
-      option + " " + text,
-      "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  throw CLI::ValidationError(fmt::format("{} {}", option, text),
+                             fmt::format("must be a whole number from {} to {}", low, high));
 }
 
 std::vector<LocalIndex> read_subdomains(const std::string& text)
@@ -72,7 +72,7 @@ std::vector<LocalIndex> read_subdomains(const std::string& text)
   }
   std::ranges::sort(subdomains);
   const auto repeated = std::ranges::adjacent_find(subdomains);
-  if (repeated != subdomains.end()) fail("names " + std::to_string(*repeated) + " twice");
+  if (repeated != subdomains.end()) fail(fmt::format("names {} twice", *repeated));
   return subdomains;
 }
 
@@ -268,7 +268,7 @@ std::string usage_message(const CLI::App& app, const CLI::ParseError& error)
   }
   std::replace(text.begin(), text.end(), '\n', ' ');
   const std::string command = commands.empty() ? "" : " " + commands.front()->get_name();
-  return "wrong command line: " + text + " (see `tessera" + command + " --help`)";
+  return fmt::format("wrong command line: {} (see `tessera{} --help`)", text, command);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
@@ -59,7 +59,7 @@ std::string describe_model(const std::filesystem::path& file, jobs::JobRunner& j
   const auto diagonal = read_result(box, box_diagonal_from_bytes);
   throw_unless_read(box, file);
   std::string text = fmt::format("model: box diagonal {:.6g} {}\n", *diagonal, source->length_unit);
-  for (const std::string& repair : source->repairs) text += "repair: " + repair + "\n";
+  for (const std::string& repair : source->repairs) text += fmt::format("repair: {}\n", repair);
   return text;
 }
 

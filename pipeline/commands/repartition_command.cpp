@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/version.hpp"
@@ -82,8 +82,8 @@ class Repartition {
       throw InputError(command_.mesh_file.string() + ": no such file");
     }
     if (is_inside(command_.mesh_file, folder)) {
-      throw InputError("the mesh is in the output folder " + folder.string()
-                       + "; choose another one");
+      throw InputError(
+          fmt::format("the mesh is in the output folder {}; choose another one", folder.string()));
     }
     folder_.emplace(
         folder, command_.overwrite ? io::ExistingFolder::overwrite : io::ExistingFolder::refuse);

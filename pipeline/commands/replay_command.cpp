@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/commands/replay_command.hpp"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"

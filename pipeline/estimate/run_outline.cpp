@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/subdomain/count_pieces.hpp"

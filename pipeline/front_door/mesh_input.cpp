@@ -5,6 +5,8 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/vtu.hpp"
@@ -24,8 +26,8 @@ std::vector<mesh::MeshArrays> read_own(const std::vector<std::filesystem::path>&
     before_each();
     mesh::MeshArrays piece = io::read_vtu(files[f]);
     if (piece.num_cells() > 0 && piece.vertices_per_cell != vertices_per_cell) {
-      throw InputError(files[f].string() + ": it has no "
-                       + (vertices_per_cell == 4 ? "tets" : "triangles"));
+      throw InputError(fmt::format("{}: it has no {}", files[f].string(),
+                                   vertices_per_cell == 4 ? "tets" : "triangles"));
     }
     pieces.push_back(std::move(piece));
   }

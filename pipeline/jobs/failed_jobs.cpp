@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/base/version.hpp"
@@ -60,7 +62,7 @@ fs::path make_job_folder(const fs::path& failure, const std::string& name)
     if (!is_plain && !word.empty() && word.back() != '_') word += '_';
   }
   for (int number = 1;; ++number) {
-    fs::path folder = failure / (number == 1 ? word : word + "." + std::to_string(number));
+    fs::path folder = failure / (number == 1 ? word : fmt::format("{}.{}", word, number));
     if (fs::create_directory(folder)) return folder;
   }
 }
@@ -82,7 +84,7 @@ std::vector<std::string> write_loads(const fs::path& failure, const RunContext& 
   std::vector<std::string> names;
   io::make_own_folder(failure / "inputs");
   for (const auto& [kind, message] : context.loads) {
-    names.push_back(kind + "_" + to_hex(hash_bytes(message)) + ".bin");
+    names.push_back(fmt::format("{}_{}.bin", kind, to_hex(hash_bytes(message))));
     const fs::path file = failure / "inputs" / names.back();
     if (!fs::exists(fs::symlink_status(file))) io::write_text_atomically(file, text_of(message));
   }
@@ -166,8 +168,11 @@ fs::path keep_failed_job(const JobRequest& job, const Bytes& request,
     const fs::path folder = make_job_folder(failure, job.name);
     const JobFile job_file{std::string(kMark), record_version(), {job.name, loads, request}};
     io::write_text_atomically(folder / "job.bin", text_of(to_bytes(job_file)));
-    io::write_text_atomically(folder / "log.txt",
-                              job.name + ": " + outcome.message + "\n\n" + tail_of_log(context));
+    io::write_text_atomically(
+        folder / "log.txt",
+        fmt::format("{}: {}
+
+{}", job.name, outcome.message, tail_of_log(context)));
     ++context.num_failed_jobs_kept;
     kept = folder;
   });
@@ -214,7 +219,7 @@ RecordedJob read_failed_job(const fs::path& folder)
   try {
     kept = parse_job(read_file(file));
   } catch (const InputError& error) {
-    throw InputError(file.string() + ": " + error.what());
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
   RecordedJob job{.name = kept.name, .request = kept.request};
   for (const std::string& name : kept.loads) {

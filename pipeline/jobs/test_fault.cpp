@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <sys/mman.h>
 
 #include "tessera/base/error.hpp"
@@ -57,7 +58,7 @@ std::vector<Fault> asked_faults()
 std::string kind_at(std::string_view stage, LocalIndex item)
 {
   for (const Fault& fault : asked_faults()) {
-    const bool is_here = fault.item.empty() || fault.item == std::to_string(item);
+    const bool is_here = fault.item.empty() || fault.item == fmt::to_string(item);
     if (fault.stage == stage && is_here) return fault.kind;
   }
   return {};

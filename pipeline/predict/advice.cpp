@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <thread>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "tessera/base/error.hpp"
@@ -83,8 +83,8 @@ Resources resources_of_this_machine(const std::filesystem::path& folder, double 
   std::error_code error;
   const auto space = std::filesystem::space(folder, error);
   if (error) {
-    throw OutputError("cannot ask for the free space of " + folder.string() + ": "
-                      + error.message());
+    throw OutputError(
+        fmt::format("cannot ask for the free space of {}: {}", folder.string(), error.message()));
   }
   return {.free_disk_bytes = static_cast<double>(space.available),
           .machine_memory_bytes = static_cast<double>(::sysconf(_SC_PHYS_PAGES))

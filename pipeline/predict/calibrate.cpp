@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/vtu.hpp"
@@ -292,7 +294,7 @@ Calibration calibrate(const RunResult& run, const subdomain::PartitionedMesh& cu
   Calibration calibration = std::move(sampler).take();
   std::size_t num_pieces = 0;
   for (const SampleSet& set : calibration.samples) num_pieces += set.pieces.size();
-  context.progress.end(std::to_string(num_pieces) + " pieces made and removed again");
+  context.progress.end(fmt::format("{} pieces made and removed again", num_pieces));
   return calibration;
 }
 

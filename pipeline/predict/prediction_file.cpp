@@ -6,8 +6,8 @@
 #include <span>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spdlog/fmt/fmt.h>
 
 #include "tessera/base/hash.hpp"
 #include "tessera/base/version.hpp"
@@ -198,8 +198,8 @@ std::string prediction_table(const DryRun& dry_run)
   std::string table = fmt::format("Prediction for {} ranks\n", prediction.num_ranks);
   table += row("coarse tets",
                fmt::format("{}, {} levels", prediction.num_coarse_tets, prediction.levels));
-  table += row("tets", std::to_string(prediction.num_tets));
-  table += row("vertices", std::to_string(prediction.num_vertices));
+  table += row("tets", fmt::to_string(prediction.num_tets));
+  table += row("vertices", fmt::to_string(prediction.num_vertices));
   table +=
       row("pieces", fmt::format("{} in {} files", prediction.num_subdomains, prediction.num_files));
   table += row("disk",
@@ -221,8 +221,9 @@ std::string prediction_table(const DryRun& dry_run)
                                          prediction.wall_s, 100.0 * prediction.serial_share,
                                          100.0 * prediction.busy_share));
   for (const std::string& sentence : dry_run.advice.must)
-    table += "WILL NOT FIT: " + sentence + "\n";
-  for (const std::string& sentence : dry_run.advice.should) table += "advice: " + sentence + "\n";
+    table += fmt::format("WILL NOT FIT: {}\n", sentence);
+  for (const std::string& sentence : dry_run.advice.should)
+    table += fmt::format("advice: {}\n", sentence);
   return table;
 }
 

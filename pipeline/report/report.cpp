@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <spdlog/fmt/fmt.h>
 
 #include "tessera/base/version.hpp"
 #include "tessera/comm/mpi_version.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -70,7 +71,7 @@ std::shared_ptr<spdlog::logger> make_log(const std::filesystem::path& file, Verb
     sink->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
     log->sinks() = {console_sink(verbosity), sink};
   } catch (const spdlog::spdlog_ex& error) {
-    throw OutputError(file.string() + ": cannot write the log: " + error.what());
+    throw OutputError(fmt::format("{}: cannot write the log: {}", file.string(), error.what()));
   }
   log->set_error_handler(warn_once());
   log->set_level(spdlog::level::debug);

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 namespace tessera::pipeline {
 namespace {

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/config/case.hpp"
 
@@ -16,7 +18,7 @@ decltype(auto) with_file_context(const config::Case& run_case, Work&& work)
   try {
     return std::forward<Work>(work)();
   } catch (const ConfigError& error) {
-    throw ConfigError(run_case.geometry.file.string() + ": " + error.what());
+    throw ConfigError(fmt::format("{}: {}", run_case.geometry.file.string(), error.what()));
   }
 }
 

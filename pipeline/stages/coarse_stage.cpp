@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
@@ -34,8 +36,7 @@ bool is_endless(const jobs::JobOutcome& outcome)
 std::string name_of(const coarse::CoarseOptions& options)
 {
   const bool is_remesh = options.surface_mesher == coarse::SurfaceMesher::remesh;
-  return std::string(is_remesh ? "remeshed triangles, " : "") + "max_size "
-         + std::to_string(options.max_size);
+  return fmt::format("{}max_size {:g}", is_remesh ? "remeshed triangles, " : "", options.max_size);
 }
 
 CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
@@ -62,18 +63,20 @@ CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
     throw_if_cancelled(outcome);
     // Another try would be another mesh, and nothing is wrong with this one.
     if (was_killed_from_outside(outcome)) {
-      throw MeshError("coarse: " + outcome.message + way_on(outcome));
+      throw MeshError(fmt::format("coarse: {}{}", outcome.message, way_on(outcome)));
     }
     if (is_final(outcome)) jobs::throw_unless_ok(outcome, run_case.geometry.file.string());
-    result.failures.push_back(name_of(options) + ": " + outcome.message);
+    result.failures.push_back(fmt::format("{}: {}", name_of(options), outcome.message));
     context.log.warn("coarse: try {} failed: {}", result.tries, result.failures.back());
     was_endless = was_endless || is_endless(outcome);
     result.was_limited = result.was_limited || depends_on_machine(outcome);
   }
   std::string failures;
   for (const std::string& failure : result.failures) failures += "\n  " + failure;
-  throw MeshError(run_case.geometry.file.string() + ": no coarse mesh could be made; try another "
-                  + "coarse.max_size, a longer coarse.timeout_s, or repair the model" + failures);
+  throw MeshError(
+      fmt::format("{}: no coarse mesh could be made; try another coarse.max_size, a longer "
+                  "coarse.timeout_s, or repair the model{}",
+                  run_case.geometry.file.string(), failures));
 }
 
 }  // namespace
@@ -104,9 +107,8 @@ CoarseResult run_coarse_stage(const config::Case& run_case, RunContext& context)
   StageScope stage(context, "coarse");
   CoarseResult result = on_root(context.comm, [&] { return first_that_works(run_case, context); });
   stage.work_is_done();
-  stage.finish(std::to_string(result.mesh.num_tets()) + " tets, "
-               + std::to_string(result.mesh.num_patches()) + " patches, "
-               + std::to_string(result.mesh.num_materials()) + " materials");
+  stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),
+                           result.mesh.num_patches(), result.mesh.num_materials()));
   return result;
 }
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
@@ -64,7 +66,7 @@ decompose::DecomposeResult run_decompose_stage(const config::Case& run_case,
     return with_file_context(run_case, [&] { return cut(run_case, coarse); });
   });
   stage.work_is_done();
-  stage.finish(std::to_string(result.report.num_subdomains) + " subdomains");
+  stage.finish(fmt::format("{} subdomains", result.report.num_subdomains));
   return result;
 }
 

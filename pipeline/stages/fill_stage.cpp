@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/fill/fallbacks.hpp"
 
@@ -65,9 +67,10 @@ class Filler {
       if (is_done_after(tries, settings, on_wait)) break;
     }
     if (tries.best.empty()) {
-      std::string text = "subdomain " + std::to_string(range.first)
-                         + " could not be filled; try another decompose.subdomains or a smaller "
-                           "coarse.max_size";
+      std::string text = fmt::format(
+          "subdomain {} could not be filled; try another decompose.subdomains or a smaller "
+          "coarse.max_size",
+          range.first);
       if (tries.was_limited) text += ", or a larger fill.memory_gib or fill.timeout_s";
       for (const std::string& failure : tries.failures) text += "\n  " + failure;
       throw MeshError(text);
@@ -110,9 +113,8 @@ class Filler {
     tries.was_limited = tries.was_limited || depends_on_machine(outcome);
     if (!made) {
       if (!had_one) keep_failure(tries, settings, outcome, on_wait);
-      tries.failures.push_back("try " + std::to_string(tries.count) + " ("
-                               + std::string(fill::name_of(settings.kernel))
-                               + "): " + outcome.message);
+      tries.failures.push_back(fmt::format("try {} ({}): {}", tries.count,
+                                           fill::name_of(settings.kernel), outcome.message));
       return had_one;
     }
     tries.best = std::move(*made);
@@ -134,7 +136,7 @@ class Filler {
 
   static std::string name_of(const subdomain::SubdomainRange& range)
   {
-    return "fill: subdomain " + std::to_string(range.first);
+    return fmt::format("fill: subdomain {}", range.first);
   }
 
   // The job itself puts into the record how it came to be made: a resumed run has only that.
@@ -191,7 +193,7 @@ FilledPieces run_fill_stage(const config::Case& run_case, const FillWork& work, 
       stage, context);
 
   FilledPieces all = combine(std::move(filler).take(), context.comm);
-  stage.finish(std::to_string(all.num_tets()) + " tets");
+  stage.finish(fmt::format("{} tets", all.num_tets()));
   return all;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
@@ -22,7 +24,7 @@
 namespace tessera::pipeline {
 namespace {
 
-std::string phase_name(int phase) { return "phase_" + std::to_string(phase); }
+std::string phase_name(int phase) { return fmt::format("phase_{}", phase); }
 
 // How the regions of one phase have ended: tried, improved, failed, limited.
 using Counts = std::vector<GlobalIndex>;
@@ -210,7 +212,7 @@ class SeamImprover {
   {
     if (const auto kept = store_.find(region_name(region)))
       return from_bytes<subdomain::RegionRecord>(*kept);
-    const std::string name = "improve: region " + std::to_string(region);
+    const std::string name = fmt::format("improve: region {}", region);
     jobs::JobOutcome outcome =
         run_job({name, improve_request(region, filled_.improvement.generation),
                  job_limits(run_case_.fill, num_tets)},
@@ -338,8 +340,8 @@ FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::Pa
     if (!regions_of_phase.empty()) improver.run_phase(phase, regions_of_phase);
   }
   FilledPieces all = std::move(improver).number_shared_vertices();
-  stage.finish(std::to_string(all.improvement.num_improved) + " of " + std::to_string(num_regions)
-               + " regions are better");
+  stage.finish(
+      fmt::format("{} of {} regions are better", all.improvement.num_improved, num_regions));
   return all;
 }
 

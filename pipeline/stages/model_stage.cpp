@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
@@ -21,14 +23,16 @@ void throw_unless_read(const jobs::JobOutcome& outcome, const std::filesystem::p
 {
   throw_if_cancelled(outcome);
   if (was_killed_from_outside(outcome)) {
-    throw MeshError(file.string() + ": " + outcome.message + way_on(outcome));
+    throw MeshError(fmt::format("{}: {}{}", file.string(), outcome.message, way_on(outcome)));
   }
   const bool is_of_the_library =
       outcome.status != jobs::JobStatus::ok
       && (outcome.status != jobs::JobStatus::failed || outcome.error == ErrorKind::netgen);
   if (is_of_the_library) {
-    throw GeometryError(file.string() + ": the CAD library cannot read this model: "
-                        + outcome.message + "; repair it in a CAD program or export it anew");
+    throw GeometryError(
+        fmt::format("{}: the CAD library cannot read this model: {}; repair it in a CAD program or "
+                    "export it anew",
+                    file.string(), outcome.message));
   }
   jobs::throw_unless_ok(outcome, file.string());
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
@@ -62,8 +64,8 @@ std::vector<mesh::PointLimit> test_subdomains(const std::vector<LocalIndex>& sub
     keep_if_failed(plan, outcome, context);
     throw_if_cancelled(outcome);
     if (!smaller) {
-      throw MeshError("plan from subdomain " + std::to_string(tests.front().subdomain)
-                      + " on: " + outcome.message + way_on(outcome));
+      throw MeshError(fmt::format("plan from subdomain {} on: {}{}", tests.front().subdomain,
+                                  outcome.message, way_on(outcome)));
     }
     found.insert(found.end(), smaller->entries().begin(), smaller->entries().end());
   };
@@ -122,7 +124,7 @@ mesh::ProjectionLimiter run_untangle_stage(const UntangleWork& work,
   }
   stage.finish(limiter.entries().empty()
                    ? "no folds"
-                   : std::to_string(limiter.entries().size()) + " points kept off the geometry");
+                   : fmt::format("{} points kept off the geometry", limiter.entries().size()));
   return limiter;
 }
 

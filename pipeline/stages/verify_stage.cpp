@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/verify/euler.hpp"
 #include "tessera/verify/seams.hpp"
@@ -20,7 +22,7 @@ std::optional<std::string> first_missing_piece(const std::vector<subdomain::Subd
   for (const subdomain::SubdomainRange& range : ranges) {
     for (LocalIndex s = range.first; s < range.last; ++s, ++piece) {
       if (piece == pieces.end() || piece->subdomain != s) {
-        return "piece " + std::to_string(s) + " is missing";
+        return fmt::format("piece {} is missing", s);
       }
     }
   }
@@ -44,8 +46,8 @@ std::optional<std::string> first_defect_of_improvement(const FilledPieces& fille
   if (open != Hash128{}) return "pieces do not meet after the improvement of their seams";
   const double before = filled.improvement.volume_before;
   if (std::abs(volume - before) <= kTolerance * before) return std::nullopt;
-  return "the improvement of seams has changed the volume from " + std::to_string(before) + " to "
-         + std::to_string(volume);
+  return fmt::format("the improvement of seams has changed the volume from {:.12g} to {:.12g}",
+                     before, volume);
 }
 
 std::optional<std::string> first_defect(const subdomain::PartitionedMesh& cut,
@@ -60,9 +62,8 @@ std::optional<std::string> first_defect(const subdomain::PartitionedMesh& cut,
     is_made[at(piece.subdomain)] = 1;
     const GlobalIndex wanted = expected[at(piece.subdomain)];
     if (piece.euler_characteristic == wanted) continue;
-    return "piece " + std::to_string(piece.subdomain) + " has Euler characteristic "
-           + std::to_string(piece.euler_characteristic) + ", its coarse subdomain "
-           + std::to_string(wanted);
+    return fmt::format("piece {} has Euler characteristic {}, its coarse subdomain {}",
+                       piece.subdomain, piece.euler_characteristic, wanted);
   }
   if (auto open = verify::first_open_seam(filled.seam_sums, cut.skeleton, is_made)) return open;
   return first_defect_of_improvement(filled);

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/record_store.hpp"
 #include "tessera/io/vtu.hpp"
@@ -69,7 +71,7 @@ void run_write_stage(const config::Case& run_case,
                    stage, context);
   context.comm.sum_in_place(digests);
   for (std::size_t s = 0; s < digests.size(); ++s) filled.pieces[s].digest = digests[s];
-  stage.finish(std::to_string(num_files) + " files");
+  stage.finish(fmt::format("{} files", num_files));
 }
 
 // An index without pieces is valid: a schema from an empty piece.

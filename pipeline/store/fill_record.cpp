@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 

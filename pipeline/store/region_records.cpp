@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include "pipeline/store/improved_pieces.hpp"
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tessera/base/error.hpp"
@@ -31,7 +32,7 @@ std::string first_difference(const std::string& there, const std::string& here)
     std::getline(old_lines, old_line);
     std::getline(new_lines, new_line);
   } while (old_line == new_line && (old_lines || new_lines));
-  return "`" + old_line + "` there, `" + new_line + "` now";
+  return fmt::format("`{}` there, `{}` now", old_line, new_line);
 }
 
 struct Identity {
@@ -100,7 +101,7 @@ void RunState::require_begun() const
   if (std::filesystem::is_directory(output_, error) && !std::filesystem::is_empty(output_, error)) {
     return;
   }
-  throw InputError("cannot resume " + output_.string() + ": no run has begun there");
+  throw InputError(fmt::format("cannot resume {}: no run has begun there", output_.string()));
 }
 
 void RunState::require_same_case(const config::Case& given) const
@@ -110,8 +111,8 @@ void RunState::require_same_case(const config::Case& given) const
   const std::string there = config::to_toml(without_limits(config::load_case(file)));
   const std::string here = config::to_toml(without_limits(given));
   if (there != here) {
-    throw InputError("cannot resume " + output_.string() + ": the case has changed, "
-                     + first_difference(there, here) + kWayOut);
+    throw InputError(fmt::format("cannot resume {}: the case has changed, {}{}", output_.string(),
+                                 first_difference(there, here), kWayOut));
   }
 }
 
@@ -123,14 +124,15 @@ void RunState::require_same_run(const Hash128& model) const
     clear();
     return store().put("run", to_bytes(now));
   }
-  const std::string what = "cannot resume " + output_.string() + ": ";
+  const std::string what = fmt::format("cannot resume {}: ", output_.string());
   if (noted->version != now.version) {
-    throw InputError(what + "it was begun by version " + noted->version + ", this is " + now.version
-                     + kWayOut);
+    throw InputError(fmt::format("{}it was begun by version {}, this is {}{}", what, noted->version,
+                                 now.version, kWayOut));
   }
-  if (noted->model != now.model) throw InputError(what + "the model file has changed" + kWayOut);
+  if (noted->model != now.model)
+    throw InputError(fmt::format("{}the model file has changed{}", what, kWayOut));
   if (noted->only_subdomains != now.only_subdomains) {
-    throw InputError(what + "it was begun with other --only-subdomains" + kWayOut);
+    throw InputError(fmt::format("{}it was begun with other --only-subdomains{}", what, kWayOut));
   }
   if (noted->has_files != now.has_files) {
     throw InputError(what

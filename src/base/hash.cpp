@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/base/hash.hpp"
 
-#include <cstdio>
 #include <cstring>
+
+#include <fmt/format.h>
 
 #define XXH_INLINE_ALL  // A tet is 136 bytes: knowing the length pays.
 #include <xxhash.h>
@@ -32,10 +33,7 @@ Hash128 hash_tet(std::span<const GlobalIndex, 4> vertex_ids, std::span<const dou
 
 std::string to_hex(const Hash128& hash)
 {
-  char text[33];
-  std::snprintf(text, sizeof(text), "%016llx%016llx", static_cast<unsigned long long>(hash.high),
-                static_cast<unsigned long long>(hash.low));
-  return text;
+  return fmt::format("{:016x}{:016x}", hash.high, hash.low);
 }
 
 }  // namespace tessera

@@ -7,10 +7,11 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
-#include "check/concat.hpp"
 #include "check/match_edges.hpp"
 #include "check/piece_topology.hpp"
 
@@ -47,7 +48,7 @@ void with_piece_name(PieceName name, const Work& work)
   } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& error) {
-    throw InputError(concat(to_text(name), ": ", error.what()));
+    throw InputError(fmt::format("{}: {}", to_text(name), error.what()));
   }
 }
 
@@ -407,7 +408,7 @@ std::vector<std::string> Checker::notes() const
 {
   std::vector<std::string> notes;
   const auto note = [&](GlobalIndex count, const std::string& text) {
-    if (count > 0) notes.push_back(concat(count, " ", text));
+    if (count > 0) notes.push_back(fmt::format("{} {}", count, text));
   };
   note(num_pieces() - counts_.num_pieces_with_point_ids, "pieces have no point ids");
   note(tets_.num_pieces - counts_.num_pieces_with_cell_ids, "pieces have no cell ids");

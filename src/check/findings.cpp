@@ -2,8 +2,9 @@
 #include "check/findings.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
+
+#include <fmt/format.h>
 
 namespace tessera::check {
 namespace {
@@ -76,10 +77,7 @@ std::vector<Defect> Findings::to_defects() const
 
 std::string to_text(std::span<const double, 3> position)
 {
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "(%.17g, %.17g, %.17g)", position[0], position[1],
-                position[2]);
-  return text.data();
+  return fmt::format("({:.17g})", fmt::join(position, ", "));
 }
 
 }  // namespace tessera::check

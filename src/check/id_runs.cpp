@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "check/concat.hpp"
+#include <fmt/format.h>
 
 namespace tessera::check {
 namespace {
@@ -29,8 +29,8 @@ std::string describe_twice(const IdSpace& space, GlobalIndex id, std::span<const
   for (const IdRun& run : runs)
     if (run.begin <= id && id < run.end) pieces.push_back(run.piece);
   std::sort(pieces.begin(), pieces.end());
-  std::string text = concat(space.of, " id ", id, " is given more than once, in piece");
-  for (const LocalIndex piece : pieces) text += concat(" ", piece);
+  std::string text = fmt::format("{} id {} is given more than once, in piece", space.of, id);
+  for (const LocalIndex piece : pieces) text += fmt::format(" {}", piece);
   return text;
 }
 
@@ -41,7 +41,7 @@ void sweep(std::span<const IdRun> runs, GlobalIndex begin, GlobalIndex end, cons
   const auto report_hole = [&](GlobalIndex from, GlobalIndex to) {
     if (!space.is_dense) return;
     report_ids(space.hole, from, to, findings, [&](GlobalIndex id) {
-      return concat("no ", space.of, " has id ", id, ", but higher ids exist");
+      return fmt::format("no {} has id {}, but higher ids exist", space.of, id);
     });
   };
   GlobalIndex covered = begin;
@@ -95,7 +95,7 @@ void append_id(const PointId& id, std::size_t num_before, const IdSpace& space,
 {
   if (id.id < 0 || id.id > kMaxId) {
     findings.add(space.hole, {id.piece, id.id}, [&] {
-      return concat("piece ", id.piece, ": ", space.of, " id ", id.id, " is out of range");
+      return fmt::format("piece {}: {} id {} is out of range", id.piece, space.of, id.id);
     });
   } else if (runs.size() > num_before && runs.back().end == id.id
              && runs.back().piece == id.piece) {

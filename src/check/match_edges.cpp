@@ -5,9 +5,9 @@
 #include <string>
 #include <tuple>
 
-#include "tessera/comm/record_exchange.hpp"
+#include <fmt/format.h>
 
-#include "check/concat.hpp"
+#include "tessera/comm/record_exchange.hpp"
 
 namespace tessera::check {
 namespace {
@@ -75,10 +75,10 @@ class EdgeGroup {
     const EdgeRecord& first = *triangles_[0];
     findings.add(kind, {first.piece, first.cell}, [&] {
       const Vec3 near = widened(first.middle);
-      std::string text = concat("edge near ", to_text(near), " has ", triangles_.size(),
-                                " boundary triangles, of");
+      std::string text = fmt::format("edge near {} has {} boundary triangles, of", to_text(near),
+                                     triangles_.size());
       for (const EdgeRecord* triangle : triangles_) {
-        text += concat(" cell ", triangle->cell, " of piece ", triangle->piece, ";");
+        text += fmt::format(" cell {} of piece {};", triangle->cell, triangle->piece);
       }
       return text;
     });

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "check/concat.hpp"
+#include <fmt/format.h>
 
 namespace tessera::check {
 namespace {
@@ -14,11 +14,12 @@ namespace {
 std::string describe(const TriangleRecord& record)
 {
   const Vec3 near{record.centroid[0], record.centroid[1], record.centroid[2]};
-  std::string text = record.is_listed ? "triangle " : "cell ";
-  text += std::to_string(record.cell);
-  if (!record.is_listed && record.cell_id != kNoId) text += concat(" (id ", record.cell_id, ")");
-  text += record.is_listed ? " of boundary piece " : " of piece ";
-  return concat(text, record.piece, " near ", to_text(near));
+  if (record.is_listed) {
+    return fmt::format("triangle {} of boundary piece {} near {}", record.cell, record.piece,
+                       to_text(near));
+  }
+  const std::string id = record.cell_id != kNoId ? fmt::format(" (id {})", record.cell_id) : "";
+  return fmt::format("cell {}{} of piece {} near {}", record.cell, id, record.piece, to_text(near));
 }
 
 Place place_of(const TriangleRecord& record) { return {record.piece, record.cell}; }
@@ -64,7 +65,7 @@ void report_fault(const TriangleGroup& group, bool is_late, Findings& findings)
     std::string text = !is_late && group.num_sides() == 2 ? "triangle has two tets on one side:"
                                                           : "triangle has more than two tets:";
     for (std::size_t i = 0; i < group.num_sides(); ++i)
-      text += concat(" ", describe(group.side(i)), ";");
+      text += fmt::format(" {};", describe(group.side(i)));
     return text;
   });
 }
@@ -74,14 +75,14 @@ void check_listed(const TriangleRecord& listed, const TriangleRecord& side, Find
 {
   const auto report = [&](Kind kind, const std::string& what) {
     findings.add(kind, place_of(listed), [&] {
-      return concat(describe(listed), " ", what, "; the tet behind it is ", describe(side));
+      return fmt::format("{} {}; the tet behind it is {}", describe(listed), what, describe(side));
     });
   };
   if (listed.cell_id != kNoId && side.cell_id != kNoId && listed.cell_id != side.cell_id)
-    report(Kind::boundary_tet, concat("names tet ", listed.cell_id));
+    report(Kind::boundary_tet, fmt::format("names tet {}", listed.cell_id));
   if (listed.is_odd != side.is_odd) report(Kind::boundary_orientation, "points inwards");
   if (listed.subdomain != kNoSubdomain && listed.subdomain != side.subdomain)
-    report(Kind::boundary_subdomain, concat("names subdomain ", listed.subdomain));
+    report(Kind::boundary_subdomain, fmt::format("names subdomain {}", listed.subdomain));
 }
 
 // The side a listed triangle means: that of the tet it names, or else the one it is turned to.
@@ -99,13 +100,14 @@ void check_boundary(const TriangleGroup& group, TriangleRole role, Findings& fin
   if (group.num_listed() == 0) {
     if (role != TriangleRole::outside) return;
     findings.add(Kind::boundary_missing, place_of(group.side(0)), [&] {
-      return concat("the boundary file lacks the outer triangle of ", describe(group.side(0)));
+      return fmt::format("the boundary file lacks the outer triangle of {}",
+                         describe(group.side(0)));
     });
     return;
   }
   for (std::size_t i = 1; i < group.num_listed(); ++i) {
     findings.add(Kind::boundary_twice, place_of(group.listed(i)), [&] {
-      return concat(describe(group.listed(0)), " and ", describe(group.listed(i)));
+      return fmt::format("{} and {}", describe(group.listed(0)), describe(group.listed(i)));
     });
   }
   const TriangleRecord& listed = group.listed(0);
@@ -113,8 +115,8 @@ void check_boundary(const TriangleGroup& group, TriangleRole role, Findings& fin
     check_listed(listed, side_meant(group, listed), findings);
   } else {
     findings.add(Kind::boundary_extra, place_of(listed), [&] {
-      return concat(describe(listed),
-                    " is neither an outer triangle of the mesh nor between two materials");
+      return fmt::format("{} is neither an outer triangle of the mesh nor between two materials",
+                         describe(listed));
     });
   }
 }

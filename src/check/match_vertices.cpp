@@ -7,18 +7,18 @@
 #include <tuple>
 #include <utility>
 
-#include "tessera/comm/record_exchange.hpp"
+#include <fmt/format.h>
 
-#include "check/concat.hpp"
+#include "tessera/comm/record_exchange.hpp"
 
 namespace tessera::check {
 namespace {
 
 std::string describe(const VertexRecord& record)
 {
-  const std::string id = record.id != kNoId ? concat(" (id ", record.id, ")") : "";
-  return concat(record.is_listed ? "boundary piece " : "piece ", record.piece, ": point ",
-                record.point, id, " at ", to_text(record.position));
+  const std::string id = record.id != kNoId ? fmt::format(" (id {})", record.id) : "";
+  return fmt::format("{}{}: point {}{} at {}", record.is_listed ? "boundary piece " : "piece ",
+                     record.piece, record.point, id, to_text(record.position));
 }
 
 Place place_of(const VertexRecord& record) { return {record.piece, record.point}; }
@@ -46,7 +46,7 @@ void compare_positions(VertexRecord& first, const VertexRecord& other, Findings&
   if (is_same_position(first, other)) return;
   first.is_contradicted = first.is_contradicted || !other.is_listed;
   findings.add(other.is_listed ? Kind::boundary_point : Kind::point_position, place_of(other),
-               [&] { return concat(describe(other), "; but ", describe(first)); });
+               [&] { return fmt::format("{}; but {}", describe(other), describe(first)); });
 }
 
 // Reports a point inside a piece that another piece has as well.
@@ -54,8 +54,9 @@ void check_inner(const VertexRecord& first, const VertexRecord& other, Findings&
 {
   if (!first.is_inner && !other.is_inner) return;
   findings.add(
-      other.is_listed ? Kind::boundary_point : Kind::duplicate_point, place_of(other),
-      [&] { return concat(describe(other), " is inside another piece: ", describe(first)); });
+      other.is_listed ? Kind::boundary_point : Kind::duplicate_point, place_of(other), [&] {
+        return fmt::format("{} is inside another piece: {}", describe(other), describe(first));
+      });
 }
 
 // Reports different ids at one position in different pieces; those in one piece it has reported.
@@ -67,7 +68,7 @@ void compare_ids(std::span<const VertexRecord> received, std::span<const std::si
     const VertexRecord& other = received[row];
     if (first.piece == other.piece) continue;
     findings.add(Kind::duplicate_point, place_of(other),
-                 [&] { return concat(describe(first), " and ", describe(other)); });
+                 [&] { return fmt::format("{} and {}", describe(first), describe(other)); });
   }
 }
 
@@ -116,7 +117,7 @@ VertexTotals VertexMatcher::finish()
     if (vertex.is_used) ++totals.num_vertices;
     if (vertex.is_listed) {
       findings_.add(Kind::boundary_point, place_of(vertex), [&] {
-        return concat(describe(vertex), " is no point on the surface of a piece");
+        return fmt::format("{} is no point on the surface of a piece", describe(vertex));
       });
     } else if (identity_ == VertexIdentity::ids) {
       totals.ids.push_back({vertex.id, vertex.piece});

@@ -8,9 +8,9 @@
 #include <string>
 #include <tuple>
 
-#include "tessera/base/hash.hpp"
+#include <fmt/format.h>
 
-#include "check/concat.hpp"
+#include "tessera/base/hash.hpp"
 
 namespace tessera::check {
 namespace {
@@ -61,8 +61,9 @@ bool has_seam_point(std::span<const LocalIndex, 4> points, const std::vector<boo
 void report_volume(const PieceMesh& mesh, LocalIndex cell, double volume, Findings& findings)
 {
   findings.add(Kind::non_positive_volume, {mesh.name.piece, cell}, [&] {
-    std::string text = concat(describe_cell(mesh, cell), " has volume ", volume, ":");
-    for (const LocalIndex v : mesh.cell(cell)) text += concat(" [", describe_point(mesh, v), "]");
+    std::string text = fmt::format("{} has volume {:g}:", describe_cell(mesh, cell), volume);
+    for (const LocalIndex v : mesh.cell(cell))
+      text += fmt::format(" [{}]", describe_point(mesh, v));
     return text;
   });
 }

@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "tessera/base/error.hpp"
+#include <fmt/format.h>
 
-#include "check/concat.hpp"
+#include "tessera/base/error.hpp"
 
 namespace tessera::check {
 namespace {
@@ -19,7 +19,8 @@ constexpr GlobalIndex kMaxCells = GlobalIndex{1} << 29;
 
 void add_array_defect(const PieceName& name, const std::string& what, Findings& findings)
 {
-  findings.add(Kind::arrays, {name.piece, 0}, [&] { return concat(to_text(name), ": ", what); });
+  findings.add(Kind::arrays, {name.piece, 0},
+               [&] { return fmt::format("{}: {}", to_text(name), what); });
 }
 
 // Removes the arrays of a map whose length is not the number of cells.
@@ -33,8 +34,8 @@ void drop_wrong_lengths(const PieceName& name, std::size_t num_cells, Arrays& ar
       continue;
     }
     add_array_defect(name,
-                     concat("cell array \"", it->first, "\" has ", it->second.size(),
-                            " values for ", num_cells, " cells"),
+                     fmt::format("cell array \"{}\" has {} values for {} cells", it->first,
+                                 it->second.size(), num_cells),
                      findings);
     it = arrays.erase(it);
   }
@@ -45,7 +46,7 @@ bool has_ids(const PieceName& name, const char* of, std::size_t num_entities,
 {
   if (ids.size() == num_entities) return true;
   if (!ids.empty()) {
-    add_array_defect(name, concat(ids.size(), " ids for ", num_entities, " ", of), findings);
+    add_array_defect(name, fmt::format("{} ids for {} {}", ids.size(), num_entities, of), findings);
   }
   return false;
 }
@@ -59,16 +60,17 @@ void check_sizes(const PieceName& name, mesh::MeshArrays& arrays, Findings& find
                            && arrays.cell_points.size() % width == 0;
   if (!is_readable) {
     add_array_defect(name,
-                     concat(arrays.point_xyz.size(), " coordinates and ", arrays.cell_points.size(),
-                            " cell corners are no whole points and cells of ", width,
-                            " corners; the piece is left out"),
+                     fmt::format("{} coordinates and {} cell corners are no whole points and cells "
+                                 "of {} corners; the piece is left out",
+                                 arrays.point_xyz.size(), arrays.cell_points.size(), width),
                      findings);
     arrays = {};
     arrays.vertices_per_cell = name.vertices_per_cell();
   }
   if (arrays.num_cells() >= kMaxCells
       || arrays.num_points() > std::numeric_limits<LocalIndex>::max())
-    throw InputError(concat(to_text(name), " has more than 2^29 cells or 2^31 points; split it"));
+    throw InputError(
+        fmt::format("{} has more than 2^29 cells or 2^31 points; split it", to_text(name)));
   const auto num_cells = static_cast<std::size_t>(arrays.num_cells());
   drop_wrong_lengths(name, num_cells, arrays.cell_ints, findings);
   drop_wrong_lengths(name, num_cells, arrays.cell_longs, findings);
@@ -98,8 +100,9 @@ void check_points(const PieceMesh& mesh, Findings& findings)
   for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
     const Vec3 x = mesh.position(p);
     if (std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2])) continue;
-    findings.add(Kind::non_finite_point, {mesh.name.piece, p},
-                 [&] { return concat(to_text(mesh.name), ": ", describe_point(mesh, p)); });
+    findings.add(Kind::non_finite_point, {mesh.name.piece, p}, [&] {
+      return fmt::format("{}: {}", to_text(mesh.name), describe_point(mesh, p));
+    });
   }
 }
 
@@ -107,8 +110,8 @@ void report_equal_points(const PieceMesh& mesh, Kind kind, LocalIndex p, LocalIn
                          Findings& findings)
 {
   findings.add(kind, {mesh.name.piece, p}, [&] {
-    return concat(to_text(mesh.name), ": ", describe_point(mesh, lowest), " and ",
-                  describe_point(mesh, p));
+    return fmt::format("{}: {} and {}", to_text(mesh.name), describe_point(mesh, lowest),
+                       describe_point(mesh, p));
   });
 }
 
@@ -159,8 +162,8 @@ std::string describe_corners(const PieceMesh& mesh, LocalIndex cell)
   const auto width = static_cast<std::size_t>(mesh.arrays.vertices_per_cell);
   std::string text;
   for (std::size_t i = 0; i < width; ++i) {
-    text += concat(i == 0 ? "" : ", ",
-                   mesh.arrays.cell_points[static_cast<std::size_t>(cell) * width + i]);
+    text += fmt::format("{}{}", i == 0 ? "" : ", ",
+                        mesh.arrays.cell_points[static_cast<std::size_t>(cell) * width + i]);
   }
   return text;
 }
@@ -173,15 +176,16 @@ void set_cells(PieceMesh& mesh, Findings& findings)
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     if (set_cell_vertices(mesh, c, vertex_of, is_used)) continue;
     findings.add(Kind::cell_points, {mesh.name.piece, c}, [&] {
-      return concat(describe_cell(mesh, c), ": points ", describe_corners(mesh, c), " of ",
-                    mesh.num_points(), " are out of range or not different");
+      return fmt::format("{}: points {} of {} are out of range or not different",
+                         describe_cell(mesh, c), describe_corners(mesh, c), mesh.num_points());
     });
   }
   for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
     if (is_used[static_cast<std::size_t>(p)]) continue;
     mesh.unused_points.push_back(p);
-    findings.add(Kind::unused_point, {mesh.name.piece, p},
-                 [&] { return concat(to_text(mesh.name), ": ", describe_point(mesh, p)); });
+    findings.add(Kind::unused_point, {mesh.name.piece, p}, [&] {
+      return fmt::format("{}: {}", to_text(mesh.name), describe_point(mesh, p));
+    });
   }
 }
 
@@ -219,19 +223,19 @@ PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, VertexIdentit
 
 std::string to_text(const PieceName& name)
 {
-  return concat(name.is_boundary ? "boundary piece " : "piece ", name.piece);
+  return fmt::format("{}{}", name.is_boundary ? "boundary piece " : "piece ", name.piece);
 }
 
 std::string describe_cell(const PieceMesh& mesh, LocalIndex cell)
 {
-  const std::string id = mesh.has_cell_ids ? concat(" (id ", mesh.cell_id(cell), ")") : "";
-  return concat("cell ", cell, id, " of ", to_text(mesh.name));
+  const std::string id = mesh.has_cell_ids ? fmt::format(" (id {})", mesh.cell_id(cell)) : "";
+  return fmt::format("cell {}{} of {}", cell, id, to_text(mesh.name));
 }
 
 std::string describe_point(const PieceMesh& mesh, LocalIndex point)
 {
-  const std::string id = mesh.has_point_ids ? concat(" (id ", mesh.point_id(point), ")") : "";
-  return concat("point ", point, id, " at ", to_text(mesh.position(point)));
+  const std::string id = mesh.has_point_ids ? fmt::format(" (id {})", mesh.point_id(point)) : "";
+  return fmt::format("point {}{} at {}", point, id, to_text(mesh.position(point)));
 }
 
 }  // namespace tessera::check

@@ -8,9 +8,9 @@
 #include <span>
 #include <string>
 
-#include "tessera/base/union_find.hpp"
+#include <fmt/format.h>
 
-#include "check/concat.hpp"
+#include "tessera/base/union_find.hpp"
 
 namespace tessera::check {
 namespace {
@@ -179,9 +179,9 @@ class TriangleMatcher {
     findings_.add(Kind::triangle, {piece, sides[0].cell()}, [&] {
       std::string text = "triangle of";
       for (const LocalIndex v : vertices(sides[0]))
-        text += concat(" [", describe_point(mesh_, v), "]");
+        text += fmt::format(" [{}]", describe_point(mesh_, v));
       text += sides.size() == 2 ? " has two tets on one side:" : " has more than two tets:";
-      for (const Side& side : sides) text += concat(" ", describe_cell(mesh_, side.cell()), ";");
+      for (const Side& side : sides) text += fmt::format(" {};", describe_cell(mesh_, side.cell()));
       return text;
     });
     for (std::size_t i = 0; i < sides.size(); ++i)
@@ -195,8 +195,8 @@ class TriangleMatcher {
     const auto b = mesh_.cell(second.cell());
     if (first.corner() != 0 || !std::is_permutation(a.begin(), a.end(), b.begin())) return;
     findings_.add(Kind::duplicate_tet, {mesh_.name.piece, second.cell()}, [&] {
-      return concat(describe_cell(mesh_, first.cell()), " and ",
-                    describe_cell(mesh_, second.cell()));
+      return fmt::format("{} and {}", describe_cell(mesh_, first.cell()),
+                         describe_cell(mesh_, second.cell()));
     });
   }
 

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <span>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 
@@ -93,10 +94,8 @@ void split_sheet(PatchSurface& surface, const Side& side)
 {
   const Vec3& a = surface.vertex_xyz[at(edge[0])];
   const Vec3& b = surface.vertex_xyz[at(edge[1])];
-  std::ostringstream text;
-  text << "the surface is not closed: " << count << " triangles at the edge (" << a[0] << ", "
-       << a[1] << ", " << a[2] << ") - (" << b[0] << ", " << b[1] << ", " << b[2] << ")";
-  throw MeshError(text.str());
+  throw MeshError(fmt::format("the surface is not closed: {} triangles at the edge ({:g}) - ({:g})",
+                              count, fmt::join(a, ", "), fmt::join(b, ", ")));
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <set>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/config/case.hpp"
 
@@ -22,7 +24,7 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& where, const std::string& what)
 {
-  throw ConfigError(where + ": " + what);
+  throw ConfigError(fmt::format("{}: {}", where, what));
 }
 
 std::string file_name_for_messages(const fs::path& file) { return printable(file.string()); }
@@ -30,7 +32,8 @@ std::string file_name_for_messages(const fs::path& file) { return printable(file
 [[noreturn]] void fail_unknown(const std::string& name, const std::string& origin)
 {
   std::string message = "unknown key " + toml_string(name);
-  if (const auto near = nearest_key(name)) message += "; did you mean " + toml_string(*near) + "?";
+  if (const auto near = nearest_key(name))
+    message += fmt::format("; did you mean {}?", toml_string(*near));
   fail(origin, message + " (configs/reference.toml lists all keys)");
 }
 
@@ -39,8 +42,8 @@ std::string file_name_for_messages(const fs::path& file) { return printable(file
 {
   const TableList* list = find_table_list(table_of(name));
   if (list == nullptr) fail_unknown(name, origin);
-  fail(origin, name + " stands outside of a list; " + std::string(list->name) + " must be "
-                   + allowed(*list));
+  fail(origin,
+       fmt::format("{} stands outside of a list; {} must be {}", name, list->name, allowed(*list)));
 }
 
 // An empty table says nothing, but its name must be known.
@@ -56,8 +59,9 @@ const Key* key_of(const Entry& entry)
   if (key != nullptr) return key;
   if (!is_table(entry.name)) fail_unknown_outside_lists(entry.name, entry.origin);
   if (is_empty_table(entry)) return nullptr;
-  fail(entry.origin, toml_string(entry.name) + " is a table, not a value: write [" + entry.name
-                         + "] on a line of its own and its keys below");
+  fail(entry.origin,
+       fmt::format("{} is a table, not a value: write [{}] on a line of its own and its keys below",
+                   toml_string(entry.name), entry.name));
 }
 
 Entry parse_override(const std::string& text)
@@ -96,7 +100,8 @@ std::vector<Entry> all_entries(std::string_view text, const fs::path& file,
 
 [[noreturn]] void fail_value(const Entry& entry, const std::string& must_be)
 {
-  fail(entry.origin, entry.name + " = " + value_text(entry.value) + ": must be " + must_be);
+  fail(entry.origin,
+       fmt::format("{} = {}: must be {}", entry.name, value_text(entry.value), must_be));
 }
 
 // Fills the last element of the list.
@@ -111,7 +116,7 @@ void apply_table(const TableList& list, const Table& table, Case& into)
   }
   for (const Key& key : list.keys) {
     if (given.contains(key.name)) continue;
-    fail(table.origin, "no " + std::string(key.name) + "; must be " + allowed(key.rule));
+    fail(table.origin, fmt::format("no {}; must be {}", key.name, allowed(key.rule)));
   }
 }
 
@@ -131,9 +136,10 @@ void apply_list(const TableList& list, const Entry& entry, Case& into)
     const auto [first, is_new] = origins.emplace(text, unique->origin);
     if (is_new) continue;
     const bool is_elsewhere = first->second != unique->origin;
-    fail(unique->origin, unique->name + " = " + text + ": given twice"
-                             + (is_elsewhere ? " (first at " + first->second + ")" : "")
-                             + "; must be another one in every [[" + entry.name + "]]");
+    fail(unique->origin,
+         fmt::format("{} = {}: given twice{}; must be another one in every [[{}]]", unique->name,
+                     text, is_elsewhere ? fmt::format(" (first at {})", first->second) : "",
+                     entry.name));
   }
 }
 
@@ -155,9 +161,9 @@ void check_exclusions(const std::vector<Entry>& entries)
     if (key == nullptr || key->excluded_by.empty()) continue;
     const auto other = std::ranges::find(entries, key->excluded_by, &Entry::name);
     if (other == entries.end()) continue;
-    fail(entry.origin, entry.name + " excludes " + other->name + " (" + other->origin
-                           + "): size.target chooses coarse.max_size and refine.levels; give "
-                             "either it or them");
+    fail(entry.origin, fmt::format("{} excludes {} ({}): size.target chooses coarse.max_size and "
+                                   "refine.levels; give either it or them",
+                                   entry.name, other->name, other->origin));
   }
 }
 

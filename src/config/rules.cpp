@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "config/key_table.hpp"
@@ -131,8 +133,9 @@ std::string word_list(std::span<const std::string_view> words)
 std::string path_value(const std::filesystem::path& path)
 {
   if (!is_utf8(path.string())) {
-    throw ConfigError("path " + toml_string(path.string())
-                      + " is not valid UTF-8, so no case file can hold it; rename it");
+    throw ConfigError(
+        fmt::format("path {} is not valid UTF-8, so no case file can hold it; rename it",
+                    toml_string(path.string())));
   }
   return toml_string(path.string());
 }
@@ -153,8 +156,7 @@ std::string allowed(const Rule& rule)
             const std::string word = integer.word_for_zero.empty()
                                          ? std::string()
                                          : ", or " + toml_string(integer.word_for_zero);
-            return "a whole number from " + std::to_string(integer.low) + " to "
-                   + std::to_string(integer.high) + word;
+            return fmt::format("a whole number from {} to {}{}", integer.low, integer.high, word);
           },
           [](const FlagRule&) { return std::string("true or false"); },
           [](const PathRule&) { return std::string("a path in quotes, not empty"); },
@@ -196,7 +198,7 @@ std::optional<std::string> toml_value(const Rule& rule, const Case& from)
           [&](const IntegerRule& integer) {
             const int value = integer.field(copy);
             const bool is_word = value == 0 && !integer.word_for_zero.empty();
-            return Text(is_word ? toml_string(integer.word_for_zero) : std::to_string(value));
+            return Text(is_word ? toml_string(integer.word_for_zero) : fmt::to_string(value));
           },
           [&](const FlagRule& flag) { return Text(flag.field(copy) ? "true" : "false"); },
           [&](const PathRule& path) {

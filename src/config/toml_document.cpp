@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <toml.hpp>
 
 #include "tessera/base/error.hpp"
@@ -41,8 +42,8 @@ void require_utf8(std::string_view text, const std::string& file_name)
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::string_view line = text.substr(0, text.find('\n'));
     if (!is_utf8(line)) {
-      throw ConfigError(file_name + ":" + std::to_string(number)
-                        + ": not valid TOML: holds bytes that are not UTF-8");
+      throw ConfigError(
+          fmt::format("{}:{}: not valid TOML: holds bytes that are not UTF-8", file_name, number));
     }
     text.remove_prefix(std::min(line.size() + 1, text.size()));
   }
@@ -64,7 +65,7 @@ class OriginOf {
   {
     if (!everywhere_.empty()) return everywhere_;
     const toml::source_location location = value.location();
-    return location.file_name() + ":" + std::to_string(location.line());
+    return fmt::format("{}:{}", location.file_name(), location.line());
   }
 
  private:
@@ -106,7 +107,7 @@ void flatten(const TomlValue& table, const std::string& prefix, const OriginOf& 
              std::vector<LinedEntry>& entries)
 {
   for (const auto& [key, value] : table.as_table()) {
-    const std::string name = prefix.empty() ? key : prefix + "." + key;
+    const std::string name = prefix.empty() ? key : fmt::format("{}.{}", prefix, key);
     if (value.is_table() && !value.as_table().empty()) {
       flatten(value, name, origin_of, entries);
       continue;
@@ -181,19 +182,19 @@ std::string one_line_message(const std::string& file_name, const toml::exception
   const std::string headline = lines.empty() ? "" : without_prefix(lines.front());
   const std::vector<Place> places = places_in(lines);
   if (places.empty()) {
-    return file_name + ":" + std::to_string(error.location().line())
-           + ": not valid TOML: " + printable(headline);
+    return fmt::format("{}:{}: not valid TOML: {}", file_name, error.location().line(),
+                       printable(headline));
   }
   const Place& last = places.back();
-  std::string message = file_name + ":" + last.line_number + ": ";
+  std::string message = fmt::format("{}:{}: ", file_name, last.line_number);
   if (places.size() == 2 && last.comment.ends_with("twice")) {
-    message += "defined twice (first on line " + places.front().line_number + ")";
+    message += fmt::format("defined twice (first on line {})", places.front().line_number);
   } else {
     message += "not valid TOML: " + headline;
     if (!last.comment.empty()) message += (headline.empty() ? "" : ": ") + last.comment;
   }
   constexpr std::size_t kLongestLine = 120;
-  return printable(message + ": " + last.line.substr(0, kLongestLine));
+  return printable(fmt::format("{}: {}", message, last.line.substr(0, kLongestLine)));
 }
 
 }  // namespace
@@ -202,7 +203,7 @@ std::string value_text(const Value& value)
 {
   struct Writer {
     std::string operator()(bool flag) const { return flag ? "true" : "false"; }
-    std::string operator()(std::int64_t number) const { return std::to_string(number); }
+    std::string operator()(std::int64_t number) const { return fmt::to_string(number); }
     std::string operator()(double number) const { return number_text(number); }
     std::string operator()(const std::string& text) const { return toml_string(text); }
     std::string operator()(const Table&) const { return "a table"; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sstream>
 
+#include <fmt/format.h>
+
 #include "tessera/config/case.hpp"
 
 #include "config/key_table.hpp"
@@ -17,77 +19,77 @@ bool is_given(std::string_view name, const Case& from)
 // Writes "[table]" before the first key of each table.
 class TableHeadings {
  public:
-  explicit TableHeadings(std::ostream& out) : out_(out) {}
+  explicit TableHeadings(std::string& out) : out_(out) {}
 
   void before(const Key& key)
   {
     const std::string_view table = table_of(key.name);
     if (table == current_) return;
-    out_ << (current_.empty() ? "" : "\n") << '[' << table << "]\n";
+    out_ += fmt::format("{}[{}]\n", current_.empty() ? "" : "\n", table);
     current_ = table;
   }
 
  private:
-  std::ostream& out_;
+  std::string& out_;
   std::string_view current_{};
 };
 
-void write_comment(std::ostream& out, const std::string& text)
+void write_comment(std::string& out, const std::string& text)
 {
   constexpr std::size_t kWidth = 96;
   std::istringstream words(text);
   std::string line = "#";
   for (std::string word; words >> word;) {
     if (line.size() + 1 + word.size() > kWidth) {
-      out << line << '\n';
+      out += line + '\n';
       line = "#  ";
     }
     line += ' ' + word;
   }
-  out << line << '\n';
+  out += line + '\n';
 }
 
-void write_reference_entry(std::ostream& out, const Key& key)
+void write_reference_entry(std::string& out, const Key& key)
 {
   const std::optional<std::string> constant = toml_value(key.rule, Case{});
   const std::string derived(key.derived_default.empty() ? "none" : key.derived_default);
 
-  out << '\n';
+  out += '\n';
   write_comment(out, std::string(key.meaning));
-  if (!key.unit.empty()) write_comment(out, "Unit: " + std::string(key.unit) + ".");
-  write_comment(out, "Allowed: " + allowed(key.rule) + ".");
-  write_comment(out, "Default: " + constant.value_or(derived)
-                         + ", because: " + std::string(key.reason) + ".");
+  if (!key.unit.empty()) write_comment(out, fmt::format("Unit: {}.", key.unit));
+  write_comment(out, fmt::format("Allowed: {}.", allowed(key.rule)));
+  write_comment(out,
+                fmt::format("Default: {}, because: {}.", constant.value_or(derived), key.reason));
   // The reference is itself a case with every default, so what has none is only shown.
-  out << (key.is_optional ? "# " : "") << last_part(key.name) << " = "
-      << constant.value_or(std::string(key.example)) << '\n';
+  out += fmt::format("{}{} = {}\n", key.is_optional ? "# " : "", last_part(key.name),
+                     constant.value_or(std::string(key.example)));
 }
 
 // Commented out as a whole: the reference is a case without any of them.
-void write_reference_list(std::ostream& out, const TableList& list)
+void write_reference_list(std::string& out, const TableList& list)
 {
-  out << '\n';
+  out += '\n';
   write_comment(out, std::string(list.meaning));
-  write_comment(out, "Allowed: " + allowed(list) + ".");
-  write_comment(out, "Default: none, because: " + std::string(list.reason) + ".");
-  out << "# [[" << list.name << "]]\n";
+  write_comment(out, fmt::format("Allowed: {}.", allowed(list)));
+  write_comment(out, fmt::format("Default: none, because: {}.", list.reason));
+  out += fmt::format("# [[{}]]\n", list.name);
   for (const Key& key : list.keys) {
-    out << '\n';
+    out += '\n';
     write_comment(out, std::string(key.meaning));
-    write_comment(out, "Allowed: " + allowed(key.rule) + ".");
-    write_comment(out, "Default: none, because: " + std::string(key.reason) + ".");
-    out << "# " << last_part(key.name) << " = " << key.example << '\n';
+    write_comment(out, fmt::format("Allowed: {}.", allowed(key.rule)));
+    write_comment(out, fmt::format("Default: none, because: {}.", key.reason));
+    out += fmt::format("# {} = {}\n", last_part(key.name), key.example);
   }
 }
 
-void write_list(std::ostream& out, const TableList& list, const Case& resolved)
+void write_list(std::string& out, const TableList& list, const Case& resolved)
 {
   for (std::size_t size = 1; size <= list.size(resolved); ++size) {
     Case shortened = resolved;  // The rules of the keys see the last element.
     list.resize(shortened, size);
-    out << "\n[[" << list.name << "]]\n";
+    out += fmt::format("\n[[{}]]\n", list.name);
     for (const Key& key : list.keys) {
-      out << last_part(key.name) << " = " << toml_value(key.rule, shortened).value() << '\n';
+      out += fmt::format("{} = {}\n", last_part(key.name), toml_value(key.rule, shortened).value());
     }
   }
 }
@@ -96,31 +98,31 @@ void write_list(std::ostream& out, const TableList& list, const Case& resolved)
 
 std::string to_toml(const Case& resolved)
 {
-  std::ostringstream out;
+  std::string out;
   TableHeadings headings(out);
   for (const Key& key : all_keys()) {
     const std::optional<std::string> value = toml_value(key.rule, resolved);
     if (!value) continue;
     if (!key.excluded_by.empty() && is_given(key.excluded_by, resolved)) continue;
     headings.before(key);
-    out << last_part(key.name) << " = " << *value << '\n';
+    out += fmt::format("{} = {}\n", last_part(key.name), *value);
   }
   for (const TableList& list : all_table_lists()) write_list(out, list, resolved);
-  return out.str();
+  return out;
 }
 
 std::string reference_toml()
 {
-  std::ostringstream out;
-  out << "# Every key of a case file. Made from the program's key table by the target\n"
-         "# `update_reference`; do not edit. A line `--set table.key=value` overrides a key.\n\n";
+  std::string out =
+      "# Every key of a case file. Made from the program's key table by the target\n"
+      "# `update_reference`; do not edit. A line `--set table.key=value` overrides a key.\n\n";
   TableHeadings headings(out);
   for (const Key& key : all_keys()) {
     headings.before(key);
     write_reference_entry(out, key);
   }
   for (const TableList& list : all_table_lists()) write_reference_list(out, list);
-  return out.str();
+  return out;
 }
 
 std::vector<KnownKey> known_keys()

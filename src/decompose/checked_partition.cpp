@@ -5,6 +5,8 @@
 #include <numeric>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera::decompose {
@@ -21,13 +23,12 @@ std::vector<LocalIndex> checked_partition(const GraphPartitioner& partitioner, c
   }
   part = partitioner.partition(graph, num_parts);
   if (part.size() != size) {
-    throw MeshError("graph partitioner: parts for " + std::to_string(part.size()) + " of "
-                    + std::to_string(size) + " vertices");
+    throw MeshError(
+        fmt::format("graph partitioner: parts for {} of {} vertices", part.size(), size));
   }
   for (const LocalIndex p : part) {
     if (p < 0 || p >= num_parts) {
-      throw MeshError("graph partitioner: part " + std::to_string(p) + " of "
-                      + std::to_string(num_parts));
+      throw MeshError(fmt::format("graph partitioner: part {} of {}", p, num_parts));
     }
   }
   return part;

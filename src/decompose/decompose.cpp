@@ -6,6 +6,8 @@
 #include <numeric>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "decompose/initial_partition.hpp"
@@ -21,18 +23,19 @@ void check_arguments(const mesh::CoarseMesh& mesh, const DecomposeOptions& optio
                      std::span<const double> tet_weight)
 {
   if (options.subdomains < 0) {
-    throw ConfigError("decompose.subdomains is " + std::to_string(options.subdomains)
-                      + "; it must be at least 1, or \"auto\"");
+    throw ConfigError(fmt::format("decompose.subdomains is {}; it must be at least 1, or \"auto\"",
+                                  options.subdomains));
   }
   if (options.subdomains > mesh.num_tets()) {
-    throw ConfigError("decompose.subdomains is " + std::to_string(options.subdomains)
-                      + " but the coarse mesh has only " + std::to_string(mesh.num_tets())
-                      + " tets; ask for fewer subdomains or a smaller coarse.max_size");
+    throw ConfigError(
+        fmt::format("decompose.subdomains is {} but the coarse mesh has only {} tets; ask for "
+                    "fewer subdomains or a smaller coarse.max_size",
+                    options.subdomains, mesh.num_tets()));
   }
   if (mesh.num_tets() == 0) throw MeshError("decompose: the coarse mesh has no tets");
   if (tet_weight.size() != static_cast<std::size_t>(mesh.num_tets())) {
-    throw MeshError("decompose: " + std::to_string(tet_weight.size()) + " weights for "
-                    + std::to_string(mesh.num_tets()) + " tets");
+    throw MeshError(
+        fmt::format("decompose: {} weights for {} tets", tet_weight.size(), mesh.num_tets()));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 
+#include <fmt/format.h>
 #include <metis.h>
 
 #include "tessera/base/error.hpp"
@@ -50,9 +51,9 @@ class MetisPartitioner final : public GraphPartitioner {
     // second time was that, and whoever waits for the signal gets it.
     if (status == METIS_ERROR && (status = run()) == METIS_OK) std::raise(SIGTERM);
     if (status != METIS_OK) {
-      throw MeshError("METIS failed with code " + std::to_string(status) + " on a graph of "
-                      + std::to_string(num_vertices) + " vertices and " + std::to_string(num_parts)
-                      + " parts");
+      throw MeshError(
+          fmt::format("METIS failed with code {} on a graph of {} vertices and {} parts", status,
+                      num_vertices, num_parts));
     }
     return {part.begin(), part.end()};
   }
@@ -67,8 +68,7 @@ std::unique_ptr<GraphPartitioner> make_metis_partitioner()
 
 std::string metis_version()
 {
-  return std::to_string(METIS_VER_MAJOR) + "." + std::to_string(METIS_VER_MINOR) + "."
-         + std::to_string(METIS_VER_SUBMINOR);
+  return fmt::format("{}.{}.{}", METIS_VER_MAJOR, METIS_VER_MINOR, METIS_VER_SUBMINOR);
 }
 
 }  // namespace tessera::decompose

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "decompose/checked_partition.hpp"
@@ -245,9 +247,10 @@ mesh::Decomposition number_subdomains(const TetGraph& graph, const TetPartition&
   }
   mesh::Decomposition provisional = make_decomposition(graph, std::move(tet_subdomain));
   if (provisional.num_subdomains() < num_parts) {
-    throw ConfigError("output.parts is " + std::to_string(num_parts) + " but there are only "
-                      + std::to_string(provisional.num_subdomains())
-                      + " subdomains; ask for more of them (decompose.subdomains)");
+    throw ConfigError(
+        fmt::format("output.parts is {} but there are only {} subdomains; ask for more of them "
+                    "(decompose.subdomains)",
+                    num_parts, provisional.num_subdomains()));
   }
   Numbering numbering = hierarchical_numbers(provisional, num_parts, partitioner);
   for (LocalIndex& s : provisional.tet_subdomain) s = numbering.number[static_cast<std::size_t>(s)];

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -20,8 +22,7 @@ namespace {
 
 [[noreturn]] void fail_at(LocalIndex subdomain, LocalIndex vertex, const std::string& what)
 {
-  fail("subdomain " + std::to_string(subdomain) + " at vertex " + std::to_string(vertex) + ": "
-       + what);
+  fail(fmt::format("subdomain {} at vertex {}: {}", subdomain, vertex, what));
 }
 
 class DisjointSets {
@@ -149,8 +150,7 @@ class Validator {
     for (std::size_t t = 0; t < num_tets(); ++t) {
       const LocalIndex s = decomposition_.tet_subdomain[t];
       if (s < 0 || static_cast<std::size_t>(s) >= num_subdomains()) {
-        fail("tet " + std::to_string(t) + " is in subdomain " + std::to_string(s) + " of "
-             + std::to_string(num_subdomains()));
+        fail(fmt::format("tet {} is in subdomain {} of {}", t, s, num_subdomains()));
       }
       has_tet[static_cast<std::size_t>(s)] = true;
       if (decomposition_.subdomain_material[static_cast<std::size_t>(s)] != mesh_.tet_material[t]) {
@@ -159,7 +159,7 @@ class Validator {
     }
     const auto empty = std::find(has_tet.begin(), has_tet.end(), false);
     if (empty != has_tet.end()) {
-      fail("subdomain " + std::to_string(empty - has_tet.begin()) + " is empty");
+      fail(fmt::format("subdomain {} is empty", empty - has_tet.begin()));
     }
   }
 
@@ -177,8 +177,7 @@ class Validator {
       --left[there];
       --left[back];
       if (decomposition_.neighbour_area[there] != decomposition_.neighbour_area[back]) {
-        fail("the area between subdomains " + std::to_string(a) + " and " + std::to_string(b)
-             + " is not symmetric");
+        fail(fmt::format("the area between subdomains {} and {} is not symmetric", a, b));
       }
     }
     if (std::any_of(left.begin(), left.end(), [](LocalIndex n) { return n != 0; })) {
@@ -245,7 +244,7 @@ class Validator {
   [[noreturn]] static void fail_edge(const SkinEdge& edge, const std::string& how_many)
   {
     fail_at(edge.subdomain, edge.ends[0],
-            how_many + " skin triangles at the edge to vertex " + std::to_string(edge.ends[1]));
+            fmt::format("{} skin triangles at the edge to vertex {}", how_many, edge.ends[1]));
   }
 
   [[nodiscard]] std::size_t entry(LocalIndex from, LocalIndex to) const
@@ -256,8 +255,7 @@ class Validator {
     const auto last = begin + offsets[static_cast<std::size_t>(from) + 1];
     const auto found = std::lower_bound(first, last, to);
     if (found == last || *found != to) {
-      fail("subdomains " + std::to_string(from) + " and " + std::to_string(to)
-           + " share a triangle, but not in the graph");
+      fail(fmt::format("subdomains {} and {} share a triangle, but not in the graph", from, to));
     }
     return static_cast<std::size_t>(found - begin);
   }

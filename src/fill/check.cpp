@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <sstream>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
@@ -40,14 +41,13 @@ void require_vertices_used(const FillOutput& tets)
   std::vector<char> used(num_vertices, 0);
   for (const LocalIndex v : tets.tet_vertices) {
     if (v < 0 || at(v) >= num_vertices) {
-      throw MeshError("a tet names vertex " + std::to_string(v) + " of "
-                      + std::to_string(num_vertices));
+      throw MeshError(fmt::format("a tet names vertex {} of {}", v, num_vertices));
     }
     used[at(v)] = 1;
   }
   const auto unused = std::find(used.begin(), used.end(), 0);
   if (unused != used.end()) {
-    throw MeshError("vertex " + std::to_string(unused - used.begin()) + " belongs to no tet");
+    throw MeshError(fmt::format("vertex {} belongs to no tet", unused - used.begin()));
   }
 }
 
@@ -65,9 +65,7 @@ double positive_volume(const FillOutput& tets)
   for (std::size_t t = 0; 4 * t < tets.tet_vertices.size(); ++t) {
     const double volume = volume_of(tets, t);
     if (!(volume > 0.0)) {  // Written so that a NaN counts.
-      std::ostringstream text;
-      text << "tet " << t << " has volume " << volume;
-      throw MeshError(text.str());
+      throw MeshError(fmt::format("tet {} has volume {:g}", t, volume));
     }
     sum += volume;
   }
@@ -84,8 +82,9 @@ std::vector<LocalIndex> match_boundary(const FillInput& skin, const FillOutput& 
   const auto& triangle_tet = match.triangle_tet;
   const auto bare = std::find(triangle_tet.begin(), triangle_tet.end(), kNoIndex);
   if (bare != triangle_tet.end()) {
-    throw MeshError("the fill's boundary is not the skin: no tet is behind skin triangle "
-                    + std::to_string(bare - triangle_tet.begin()));
+    throw MeshError(
+        fmt::format("the fill's boundary is not the skin: no tet is behind skin triangle {}",
+                    bare - triangle_tet.begin()));
   }
   if (!match.is_closed) {
     throw MeshError("the fill's boundary is not the skin: there are faces off it on one tet only");
@@ -124,10 +123,8 @@ FillFacts check_fill(const FillInput& skin, const FillOutput& tets)
   FillFacts facts{match_boundary(skin, tets), positive_volume(tets)};
   const double enclosed = enclosed_volume(skin);
   if (!(std::abs(facts.volume - enclosed) <= kVolumeTolerance * std::abs(enclosed))) {
-    std::ostringstream text;
-    text.precision(12);
-    text << "the tets' volume " << facts.volume << " is not the skin's volume " << enclosed;
-    throw MeshError(text.str());
+    throw MeshError(fmt::format("the tets' volume {:.12g} is not the skin's volume {:.12g}",
+                                facts.volume, enclosed));
   }
   return facts;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera::fill {
@@ -33,8 +35,8 @@ std::vector<KernelKind> kernels_of(const FillOptions& options,
     const auto found = std::find(material_names.begin(), material_names.end(), region.material);
     if (found == material_names.end()) {
       std::string text =
-          "fill.region: the model has no material \"" + region.material + "\"; it has";
-      for (const std::string& name : material_names) text += " \"" + name + "\"";
+          fmt::format("fill.region: the model has no material \"{}\"; it has", region.material);
+      for (const std::string& name : material_names) text += fmt::format(" \"{}\"", name);
       throw ConfigError(text);
     }
     by_material[static_cast<std::size_t>(found - material_names.begin())] = region.kernel;

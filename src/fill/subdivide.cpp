@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/lattice_numbering.hpp"
 #include "tessera/mesh/tet_face_map.hpp"
@@ -29,8 +31,8 @@ void require_local(const mesh::TetComplex& complex, LocalIndex n)
   const GlobalIndex num_corners = 4 * num_tets_of(complex, n);
   if (num_corners > std::numeric_limits<LocalIndex>::max()) {
     throw MeshError(
-        std::to_string(num_corners / 4)
-        + " tets in one subdomain are too many for 32-bit indices; use more subdomains");
+        fmt::format("{} tets in one subdomain are too many for 32-bit indices; use more subdomains",
+                    num_corners / 4));
   }
 }
 

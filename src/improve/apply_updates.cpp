@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/improve/region_update.hpp"
 #include "tessera/mesh/surface_match.hpp"
@@ -40,8 +42,8 @@ class Updater {
     const auto subdomain =
         std::find(update.subdomains.begin(), update.subdomains.end(), piece_.subdomain);
     if (subdomain == update.subdomains.end()) {
-      throw MeshError("the update of region " + std::to_string(update.region)
-                      + " is not for subdomain " + std::to_string(piece_.subdomain));
+      throw MeshError(fmt::format("the update of region {} is not for subdomain {}", update.region,
+                                  piece_.subdomain));
     }
     const auto owner = static_cast<std::size_t>(subdomain - update.subdomains.begin());
     for (LocalIndex i = 0; i < update.num_new_vertices(); ++i) {
@@ -69,9 +71,9 @@ class Updater {
   [[nodiscard]] LocalIndex vertex_of(const RegionUpdate& update, LocalIndex v) const
   {
     if (v >= piece_.num_vertices() || -1 - v >= update.num_new_vertices()) {
-      throw MeshError("the update of region " + std::to_string(update.region)
-                      + " names a vertex that subdomain " + std::to_string(piece_.subdomain)
-                      + " has not got");
+      throw MeshError(
+          fmt::format("the update of region {} names a vertex that subdomain {} has not got",
+                      update.region, piece_.subdomain));
     }
     return v >= 0 ? v : next_vertex_ - 1 - v;
   }
@@ -119,9 +121,9 @@ class Updater {
             .triangle_tet;
     const auto bare = std::find(new_.boundary_tet.begin(), new_.boundary_tet.end(), kNoIndex);
     if (bare != new_.boundary_tet.end()) {
-      throw MeshError("patches took the tet behind triangle "
-                      + std::to_string(bare - new_.boundary_tet.begin())
-                      + " on the geometry from subdomain " + std::to_string(piece_.subdomain));
+      throw MeshError(
+          fmt::format("patches took the tet behind triangle {} on the geometry from subdomain {}",
+                      bare - new_.boundary_tet.begin(), piece_.subdomain));
     }
   }
 

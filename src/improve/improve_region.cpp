@@ -2,8 +2,9 @@
 #include "tessera/improve/improve_region.hpp"
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "improve/make_update.hpp"
 #include "improve/owners.hpp"
@@ -19,10 +20,7 @@ constexpr double kGoodMeanRatio = 0.4;
 
 std::string from_to(const std::string& what, double before, double after)
 {
-  std::ostringstream text;
-  text.precision(4);
-  text << what << " would go from " << before << " to " << after;
-  return text.str();
+  return fmt::format("{} would go from {:.4g} to {:.4g}", what, before, after);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -141,9 +143,8 @@ void require_all_owners_kept(const RegionMesh& mesh, const std::vector<LocalInde
   for (const LocalIndex owner : owners) has |= only(owner);
   if ((had & ~has) == 0) return;
   throw MeshError(
-      "subdomain "
-      + std::to_string(mesh.subdomains[static_cast<std::size_t>(std::countr_zero(had & ~has))])
-      + " would lose all of its tets in the region");
+      fmt::format("subdomain {} would lose all of its tets in the region",
+                  mesh.subdomains[static_cast<std::size_t>(std::countr_zero(had & ~has))]));
 }
 
 }  // namespace

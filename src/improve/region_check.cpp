@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <sstream>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
@@ -33,8 +34,7 @@ void require_in_range(const TetMesh& tets)
   const auto wrong = std::find_if(tets.tet_vertices.begin(), tets.tet_vertices.end(),
                                   [&](LocalIndex v) { return v < 0 || v >= num_vertices; });
   if (wrong != tets.tet_vertices.end()) {
-    throw MeshError("an optimised tet names vertex " + std::to_string(*wrong) + " of "
-                    + std::to_string(num_vertices));
+    throw MeshError(fmt::format("an optimised tet names vertex {} of {}", *wrong, num_vertices));
   }
 }
 
@@ -48,9 +48,7 @@ double positive_volume(const std::vector<double>& vertex_xyz,
     const double volume = tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]),
                                      point_at(xyz, v[3]));
     if (!(volume > 0.0)) {  // Written so that a NaN counts.
-      std::ostringstream text;
-      text << "optimised tet " << t / 4 << " has volume " << volume;
-      throw MeshError(text.str());
+      throw MeshError(fmt::format("optimised tet {} has volume {:g}", t / 4, volume));
     }
     sum += volume;
   }
@@ -78,10 +76,8 @@ std::vector<LocalIndex> check_tets(const RegionMesh& mesh, const TetMesh& tets)
   const double volume = positive_volume(tets.vertex_xyz, tets.tet_vertices);
   const double before = positive_volume(mesh.vertex_xyz, mesh.tet_vertices);
   if (!(std::abs(volume - before) <= kVolumeTolerance * before)) {
-    std::ostringstream text;
-    text.precision(12);
-    text << "the optimised tets' volume " << volume << " is not the old one " << before;
-    throw MeshError(text.str());
+    throw MeshError(fmt::format("the optimised tets' volume {:.12g} is not the old one {:.12g}",
+                                volume, before));
   }
   return behind;
 }

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
@@ -253,8 +255,8 @@ RegionMesh extract_region(std::span<const LabelledPiece> pieces, const SeamRegio
 {
   const auto subdomains = regions.subdomains_of(region);
   if (subdomains.size() > kMaxOwners) {
-    throw MeshError(std::to_string(subdomains.size()) + " subdomains meet in one place; at most "
-                    + std::to_string(kMaxOwners) + " are supported");
+    throw MeshError(fmt::format("{} subdomains meet in one place; at most {} are supported",
+                                subdomains.size(), kMaxOwners));
   }
   RegionMesh mesh;
   mesh.region = region;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "tessera/base/error.hpp"
@@ -38,8 +39,7 @@ AtomicFile::AtomicFile(std::filesystem::path final_path) : final_(std::move(fina
   static std::atomic<unsigned> counter{0};
   do {
     temporary_ = final_;
-    temporary_ +=
-        std::string(kTemporaryMark) + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+    temporary_ += fmt::format("{}{}-{}", kTemporaryMark, ::getpid(), counter++);
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ < 0) fail(errno);
@@ -75,7 +75,8 @@ void AtomicFile::close()
 
 void AtomicFile::fail(int error_number) const
 {
-  throw OutputError("cannot write " + final_.string() + ": " + system_error_text(error_number));
+  throw OutputError(
+      fmt::format("cannot write {}: {}", final_.string(), system_error_text(error_number)));
 }
 
 void write_text_atomically(const std::filesystem::path& path, std::string_view text)
@@ -95,7 +96,8 @@ void make_own_folder(const std::filesystem::path& folder)
   }
   fs::create_directories(folder, error);
   if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
-  if (error) throw OutputError("cannot make folder " + folder.string() + ": " + error.message());
+  if (error)
+    throw OutputError(fmt::format("cannot make folder {}: {}", folder.string(), error.message()));
 }
 
 }  // namespace tessera::io

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <charconv>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "decompress.hpp"
@@ -252,7 +254,8 @@ ScalarType scalar_type_of(const XmlElement& element)
   const std::string& name = element.attribute("type");
   if (name == "String") return ScalarType::i8;
   const auto* const found = std::ranges::find(kNames, name);
-  if (found == kNames.end()) throw InputError("type " + name + " of an array is not known");
+  if (found == kNames.end())
+    throw InputError(fmt::format("type {} of an array is not known", name));
   return static_cast<ScalarType>(found - kNames.begin());
 }
 

@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -34,7 +35,7 @@ namespace {
   return text.data();
 }
 
-[[nodiscard]] std::string host_line() { return "host " + host_name() + "\n"; }
+[[nodiscard]] std::string host_line() { return fmt::format("host {}\n", host_name()); }
 
 [[nodiscard]] std::string in_words(std::string owner)
 {
@@ -49,8 +50,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
 {
   descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor_ < 0) {
-    throw OutputError("cannot write to folder " + folder.string() + ": "
-                      + system_error_text(errno));
+    throw OutputError(
+        fmt::format("cannot write to folder {}: {}", folder.string(), system_error_text(errno)));
   }
   try {
     acquire();
@@ -71,9 +72,11 @@ void FolderLock::acquire()
 {
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) {
-      throw OutputError("folder " + folder_.string() + " is in use by " + in_words(read_owner()));
+      throw OutputError(
+          fmt::format("folder {} is in use by {}", folder_.string(), in_words(read_owner())));
     }
-    throw OutputError("cannot lock folder " + folder_.string() + ": " + system_error_text(errno));
+    throw OutputError(
+        fmt::format("cannot lock folder {}: {}", folder_.string(), system_error_text(errno)));
   }
   refuse_owner_on_other_host();
   write_owner();
@@ -83,14 +86,14 @@ void FolderLock::refuse_owner_on_other_host() const
 {
   const std::string owner = read_owner();
   if (owner.empty() || owner.starts_with(host_line())) return;
-  throw OutputError("folder " + folder_.string() + " may be in use by " + in_words(owner)
-                    + "; if that run is over, remove " + file_.string());
+  throw OutputError(fmt::format("folder {} may be in use by {}; if that run is over, remove {}",
+                                folder_.string(), in_words(owner), file_.string()));
 }
 
 void FolderLock::write_owner() const
 {
   const std::string owner =
-      host_line() + "process " + std::to_string(::getpid()) + "\nsince " + now_utc() + "\n";
+      fmt::format("{}process {}\nsince {}\n", host_line(), ::getpid(), now_utc());
   int error_number = ::ftruncate(descriptor_, 0) == 0 ? 0 : errno;
   for (std::size_t done = 0; error_number == 0 && done < owner.size();) {
     const ssize_t written =
@@ -102,7 +105,8 @@ void FolderLock::write_owner() const
   }
   if (error_number == 0) return;
   forget_owner();
-  throw OutputError("cannot write " + file_.string() + ": " + system_error_text(error_number));
+  throw OutputError(
+      fmt::format("cannot write {}: {}", file_.string(), system_error_text(error_number)));
 }
 
 // Half of a name would be that of a stranger.

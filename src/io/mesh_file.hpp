@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera::io {
@@ -22,7 +24,7 @@ template <class Read>
   try {
     return read();
   } catch (const InputError& error) {
-    throw InputError(path.string() + ": " + error.what());
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   } catch (const std::bad_alloc&) {
     throw InputError(path.string() + ": not enough memory for what it claims to hold");
   } catch (const std::length_error&) {

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "atomic_file.hpp"
@@ -35,7 +37,7 @@ template <class Names>
 
 [[noreturn]] void fail(const std::string& what, const fs::path& path, const std::error_code& error)
 {
-  throw OutputError(what + " " + path.string() + ": " + error.message());
+  throw OutputError(fmt::format("{} {}: {}", what, path.string(), error.message()));
 }
 
 void make_folder(const fs::path& folder)
@@ -80,18 +82,21 @@ void require_usable(const fs::path& folder, ExistingFolder existing)
 {
   if (holds_no_run(folder)) return;
   if (!is_of_a_run(folder)) {
-    throw OutputError("folder " + folder.string()
-                      + " is not empty and no Tessera run has used it (it has no " + kLockName
-                      + "); choose another folder, or empty it");
+    throw OutputError(
+        fmt::format("folder {} is not empty and no Tessera run has used it (it has no {}); choose "
+                    "another folder, or empty it",
+                    folder.string(), kLockName));
   }
   if (existing != ExistingFolder::refuse) return;
   if (fs::exists(folder / "pieces")) {
-    throw OutputError("folder " + folder.string()
-                      + " holds a run that is not finished; --resume goes on with it, --overwrite "
-                        "replaces what it left there");
+    throw OutputError(
+        fmt::format("folder {} holds a run that is not finished; --resume goes on with it, "
+                    "--overwrite replaces what it left there",
+                    folder.string()));
   }
-  throw OutputError("folder " + folder.string()
-                    + " exists and is not empty; --overwrite replaces what a run left there");
+  throw OutputError(
+      fmt::format("folder {} exists and is not empty; --overwrite replaces what a run left there",
+                  folder.string()));
 }
 
 /// @brief Removes one file, link (not what it points to) or folder with all that is in it.

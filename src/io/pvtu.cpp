@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <sstream>
 #include <string_view>
+
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/io/files.hpp"
@@ -17,72 +18,77 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void put_array(std::ostream& out, std::string_view type, std::string_view name)
+void put_array(std::string& out, std::string_view type, std::string_view name)
 {
-  out << "      <PDataArray type=\"" << type << "\" Name=\"" << xml_escape(name) << "\"/>\n";
+  out += fmt::format("      <PDataArray type=\"{}\" Name=\"{}\"/>\n", type, xml_escape(name));
 }
 
 template <class Arrays>
-void put_arrays(std::ostream& out, std::string_view type, const Arrays& arrays)
+void put_arrays(std::string& out, std::string_view type, const Arrays& arrays)
 {
   for (const auto& [name, values] : arrays) put_array(out, type, name);
 }
 
-void put_ids(std::ostream& out, std::string_view element, std::string_view name, bool has_ids)
+void put_ids(std::string& out, std::string_view element, std::string_view name, bool has_ids)
 {
-  out << "    <" << element;
-  if (has_ids) out << " GlobalIds=\"" << name << '"';
-  out << ">\n";
-  if (has_ids) {
-    out << R"(      <PDataArray type="Int64" IdType="1" Name=")" << name << "\"/>\n";
+  if (!has_ids) {
+    out += fmt::format("    <{}>\n", element);
+    return;
   }
+  out += fmt::format("    <{} GlobalIds=\"{}\">\n", element, name);
+  out += fmt::format("      <PDataArray type=\"Int64\" IdType=\"1\" Name=\"{}\"/>\n", name);
 }
 
 /// @brief A text array: the codes of its characters as VTK writes them, each text ended by a 0.
-void put_texts(std::ostream& out, const std::string& name, const std::vector<std::string>& texts)
+void put_texts(std::string& out, const std::string& name, const std::vector<std::string>& texts)
 {
-  out << R"(      <Array type="String" Name=")" << xml_escape(name) << "\" NumberOfTuples=\""
-      << texts.size() << "\" format=\"ascii\">\n";
+  out += fmt::format(
+      "      <Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n",
+      xml_escape(name), texts.size());
   for (const std::string& text : texts) {
-    for (const char character : text) out << int{static_cast<signed char>(character)} << ' ';
-    out << "0\n";
+    for (const char character : text) {
+      out += fmt::format("{} ", int{static_cast<signed char>(character)});
+    }
+    out += "0\n";
   }
-  out << "      </Array>\n";
+  out += "      </Array>\n";
 }
 
 [[nodiscard]] std::string index_text(const std::vector<fs::path>& pieces,
                                      const mesh::MeshArrays& schema)
 {
-  std::ostringstream out;
-  out << "<?xml version=\"1.0\"?>\n"
-         "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-         "header_type=\"UInt64\">\n"
-         "  <PUnstructuredGrid GhostLevel=\""
-      << schema.num_ghost_layers << "\">\n";
+  std::string out = fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n"
+      "  <PUnstructuredGrid GhostLevel=\"{}\">\n",
+      schema.num_ghost_layers);
   if (!schema.field_texts.empty()) {
-    out << "    <FieldData>\n";
+    out += "    <FieldData>\n";
     for (const auto& [name, texts] : schema.field_texts) put_texts(out, name, texts);
-    out << "    </FieldData>\n";
+    out += "    </FieldData>\n";
   }
   put_ids(out, "PPointData", kPointIdsName, has_point_ids(schema));
   put_arrays(out, "Int32", schema.point_ints);
   if (schema.num_ghost_layers > 0) put_array(out, "UInt8", kGhostName);
-  out << "    </PPointData>\n";
+  out += "    </PPointData>\n";
   put_ids(out, "PCellData", kCellIdsName, has_cell_ids(schema));
   put_arrays(out, "Int32", schema.cell_ints);
   put_arrays(out, "Int64", schema.cell_longs);
   put_arrays(out, "Float64", schema.cell_doubles);
   if (schema.num_ghost_layers > 0) put_array(out, "UInt8", kGhostName);
-  out << "    </PCellData>\n"
-         "    <PPoints>\n"
-         "      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n"
-         "    </PPoints>\n";
+  out +=
+      "    </PCellData>\n"
+      "    <PPoints>\n"
+      "      <PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n"
+      "    </PPoints>\n";
   for (const fs::path& piece : pieces) {
-    out << "    <Piece Source=\"" << xml_escape(piece.generic_string()) << "\"/>\n";
+    out += fmt::format("    <Piece Source=\"{}\"/>\n", xml_escape(piece.generic_string()));
   }
-  out << "  </PUnstructuredGrid>\n"
-         "</VTKFile>\n";
-  return out.str();
+  out +=
+      "  </PUnstructuredGrid>\n"
+      "</VTKFile>\n";
+  return out;
 }
 
 [[nodiscard]] bool is_within(const fs::path& folder, const fs::path& path)
@@ -96,7 +102,7 @@ void put_texts(std::ostream& out, const std::string& name, const std::vector<std
   if (source.empty()) throw InputError("a piece has no file name");
   const fs::path base = fs::absolute(folder).lexically_normal();
   if (!is_within(base, (base / source).lexically_normal())) {
-    throw InputError("piece " + source + " is outside of the folder of its index");
+    throw InputError(fmt::format("piece {} is outside of the folder of its index", source));
   }
   return (folder / source).lexically_normal();
 }

@@ -9,6 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/io/files.hpp"
@@ -52,7 +54,7 @@ void remove_file(const fs::path& file)
 {
   std::error_code error;
   fs::remove(file, error);
-  if (error) throw OutputError("cannot remove " + file.string() + ": " + error.message());
+  if (error) throw OutputError(fmt::format("cannot remove {}: {}", file.string(), error.message()));
 }
 
 }  // namespace
@@ -78,7 +80,7 @@ Bytes RecordStore::get(const std::string& name) const
   const fs::path path = file_of(name);
   std::error_code error;
   const std::uintmax_t file_size = fs::file_size(path, error);
-  if (error) throw InputError("cannot read " + path.string() + ": " + error.message());
+  if (error) throw InputError(fmt::format("cannot read {}: {}", path.string(), error.message()));
   const auto require = [&](bool condition) {
     if (!condition) throw InputError(path.string() + " is cut off or altered");
   };

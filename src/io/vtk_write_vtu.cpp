@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <string>
 
+#include <fmt/format.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -152,8 +153,8 @@ void write_compressed_vtu(const MeshArrays& piece, const std::filesystem::path& 
   set_compression(*writer, compression);
   const bool written = writer->Write() == 1;
   if (!written || writer->GetErrorCode() != vtkErrorCode::NoError || !messages.text().empty()) {
-    throw OutputError("cannot write " + path.string() + ": "
-                      + cause_of(writer->GetErrorCode(), messages.text()));
+    throw OutputError(fmt::format("cannot write {}: {}", path.string(),
+                                  cause_of(writer->GetErrorCode(), messages.text())));
   }
   file.commit();
 }

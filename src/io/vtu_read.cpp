@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/io/vtu.hpp"
 
@@ -39,14 +41,14 @@ template <class T>
 [[nodiscard]] std::vector<T> read_values(const XmlElement& element, const Encoding& encoding)
 {
   auto values = values_as<T>(decode_array(element, encoding));
-  require(values.has_value(), "array " + name_of(element) + " has values out of range");
+  require(values.has_value(), fmt::format("array {} has values out of range", name_of(element)));
   return *std::move(values);
 }
 
 [[nodiscard]] const XmlElement& required_child(const XmlElement& element, std::string_view name)
 {
   const XmlElement* const child = element.child(name);
-  require(child != nullptr, "element " + element.name + " has no " + std::string(name));
+  require(child != nullptr, fmt::format("element {} has no {}", element.name, name));
   return *child;
 }
 
@@ -55,7 +57,7 @@ template <class T>
   for (const XmlElement& element : parent.children) {
     if (name_of(element) == name) return element;
   }
-  throw InputError("element " + parent.name + " has no array " + std::string(name));
+  throw InputError(fmt::format("element {} has no array {}", parent.name, name));
 }
 
 /// @brief Cells as stored: any mix of kinds.
@@ -154,7 +156,8 @@ template <class Names>
   const bool is_array = element.name == "DataArray" && element.attribute("type") != "String";
   if (!is_array || element.attribute_or("NumberOfComponents", "1") != "1") return std::nullopt;
   DataArray array = decode_array(element, encoding);
-  require(array.num_values() == size, "array " + name_of(element) + " has not the size it should");
+  require(array.num_values() == size,
+          fmt::format("array {} has not the size it should", name_of(element)));
   return array;
 }
 

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera::io {
@@ -40,7 +42,7 @@ class Parser {
  private:
   [[noreturn]] void fail(const std::string& what) const
   {
-    throw InputError("not a sound VTK XML file: " + what + " (byte " + std::to_string(at_) + ")");
+    throw InputError(fmt::format("not a sound VTK XML file: {} (byte {})", what, at_));
   }
 
   void require(bool condition, const char* what) const
@@ -184,7 +186,7 @@ const std::string& XmlElement::attribute(const std::string& key) const
 {
   const auto found = attributes.find(key);
   if (found == attributes.end()) {
-    throw InputError("element " + name + " has no attribute " + key);
+    throw InputError(fmt::format("element {} has no attribute {}", name, key));
   }
   return found->second;
 }
@@ -201,7 +203,7 @@ std::size_t XmlElement::count_attribute(const std::string& key) const
   std::size_t count = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), count);
   if (error != std::errc() || end != value.data() + value.size()) {
-    throw InputError("attribute " + key + " of element " + name + " is not a count");
+    throw InputError(fmt::format("attribute {} of element {} is not a count", key, name));
   }
   return count;
 }

@@ -5,9 +5,9 @@
 #include <array>
 #include <csignal>
 #include <cstring>
-#include <sstream>
 #include <utility>
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/wait.h>
 
@@ -32,16 +32,9 @@ double seconds_between(std::chrono::steady_clock::time_point from,
 
 std::string signal_message(int signal)
 {
-  std::string text = "ended by signal " + std::to_string(signal) + " (" + ::strsignal(signal) + ")";
+  std::string text = fmt::format("ended by signal {} ({})", signal, ::strsignal(signal));
   if (signal != SIGKILL) return text;
   return text + " from outside: by hand, or because the system ran out of memory";
-}
-
-std::string with_host(double value, const char* unit)
-{
-  std::ostringstream text;
-  text << value << " " << unit;
-  return text.str();
 }
 
 }  // namespace
@@ -240,7 +233,7 @@ void Call::finish_ended(const ProcessEnd& end, bool is_model)
     outcome_->code = WTERMSIG(end.wait_status);
   } else {
     const int code = WEXITSTATUS(end.wait_status);
-    finish(JobStatus::exited, "called exit(" + std::to_string(code) + ")");
+    finish(JobStatus::exited, fmt::format("called exit({})", code));
     outcome_->code = code;
   }
   if (is_model) {
@@ -283,11 +276,11 @@ std::string Call::killed_message(JobStatus reason) const
 {
   switch (reason) {
     case JobStatus::out_of_time:
-      return "used more than " + with_host(limits_.cpu_s, "s of CPU time");
+      return fmt::format("used more than {:g} s of CPU time", limits_.cpu_s);
     case JobStatus::stalled:
-      return "used no CPU time for " + with_host(limits_.stall_s, "s");
+      return fmt::format("used no CPU time for {:g} s", limits_.stall_s);
     case JobStatus::out_of_memory:
-      return "used more than " + with_host(limits_.memory_gib, "GiB of memory");
+      return fmt::format("used more than {:g} GiB of memory", limits_.memory_gib);
     default:
       return "cancelled";
   }

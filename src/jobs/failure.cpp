@@ -5,6 +5,8 @@
 #include <new>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera::jobs {
@@ -26,8 +28,9 @@ void throw_unless_ok(const JobOutcome& outcome, const std::string& what)
 {
   if (outcome.status == JobStatus::ok) return;
   // Readers name the file themselves.
-  const std::string text =
-      outcome.message.starts_with(what) ? outcome.message : what + ": " + outcome.message;
+  const std::string text = outcome.message.starts_with(what)
+                               ? outcome.message
+                               : fmt::format("{}: {}", what, outcome.message);
   if (outcome.status == JobStatus::cancelled) throw Interrupted(text);
   if (outcome.status != JobStatus::failed) throw NetgenError(text);
   throw_error(outcome.error.value_or(ErrorKind::other), text);

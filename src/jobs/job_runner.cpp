@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -26,8 +27,7 @@ namespace {
 
 [[noreturn]] void throw_system_error(const char* what)
 {
-  throw Error(std::string("cannot start the worker process: ") + what + ": "
-              + std::strerror(errno));
+  throw Error(fmt::format("cannot start the worker process: {}: {}", what, std::strerror(errno)));
 }
 
 std::pair<FileDescriptor, FileDescriptor> make_socket_pair()

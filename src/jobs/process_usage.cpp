@@ -7,6 +7,7 @@
 #include <string>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "tessera/jobs/this_process.hpp"
@@ -19,7 +20,7 @@ namespace {
 // Files of /proc are small and come in one read; empty if there is no such process.
 std::string read_proc_file(pid_t pid, const char* name)
 {
-  const std::string path = "/proc/" + std::to_string(pid) + "/" + name;
+  const std::string path = fmt::format("/proc/{}/{}", pid, name);
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   std::array<char, 4096> text;
   const ssize_t size = ::read(file.get(), text.data(), text.size());
@@ -29,7 +30,7 @@ std::string read_proc_file(pid_t pid, const char* name)
 // The value of a line "label:   123 kB", in bytes.
 std::size_t bytes_of_line(const std::string& text, const std::string& label)
 {
-  const std::size_t at = text.find("\n" + label + ":");
+  const std::size_t at = text.find(fmt::format("\n{}:", label));
   unsigned long kib = 0;
   if (at == std::string::npos
       || std::sscanf(text.c_str() + at + label.size() + 2, "%lu", &kib) != 1)

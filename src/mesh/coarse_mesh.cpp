@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
@@ -21,8 +23,7 @@ void require_indices_below(const std::vector<LocalIndex>& indices, LocalIndex li
                            const std::string& name)
 {
   for (const LocalIndex i : indices) {
-    require(i >= 0 && i < limit,
-            name + " holds " + std::to_string(i) + ", not in [0, " + std::to_string(limit) + ")");
+    require(i >= 0 && i < limit, fmt::format("{} holds {}, not in [0, {})", name, i, limit));
   }
 }
 
@@ -44,7 +45,7 @@ void validate_shapes(const CoarseMesh& mesh)
   require_indices_below(mesh.face_patch, mesh.num_patches(), "face_patch");
   require_indices_below(mesh.segment_vertices, mesh.num_vertices(), "segment_vertices");
   for (const LocalIndex m : mesh.tet_material) {
-    require(m >= 1 && m <= mesh.num_materials(), "material " + std::to_string(m) + " has no name");
+    require(m >= 1 && m <= mesh.num_materials(), fmt::format("material {} has no name", m));
   }
 }
 
@@ -54,7 +55,7 @@ void validate_tets(const CoarseMesh& mesh)
     const auto tet = mesh.tet(t);
     const double volume = tet_volume(mesh.position(tet[0]), mesh.position(tet[1]),
                                      mesh.position(tet[2]), mesh.position(tet[3]));
-    require(volume > 0.0, "tet " + std::to_string(t) + " has volume " + std::to_string(volume));
+    require(volume > 0.0, fmt::format("tet {} has volume {:g}", t, volume));
   }
 }
 
@@ -64,7 +65,7 @@ void validate_faces(const CoarseMesh& mesh)
   for (std::size_t f = 0; f < mesh.face_patch.size(); ++f) {
     const auto corners = sorted_triangle(mesh.face_vertices[3 * f], mesh.face_vertices[3 * f + 1],
                                          mesh.face_vertices[3 * f + 2]);
-    require(++times_a_face[corners] == 1, "face " + std::to_string(f) + " stands twice");
+    require(++times_a_face[corners] == 1, fmt::format("face {} stands twice", f));
   }
   std::size_t faces_of_tets = 0;
   for (const TriangleTets& triangle : triangles_of_tets(mesh.tet_vertices)) {
@@ -74,9 +75,10 @@ void validate_faces(const CoarseMesh& mesh)
       return mesh.tet_material[static_cast<std::size_t>(triangle.tets[side])];
     };
     const bool outside = triangle.tets[1] == kNoIndex;
-    require(is_face || !(outside || material(0) != material(1)),
-            "a triangle of tet " + std::to_string(triangle.tets[0])
-                + " is on the outside or between two materials but no face");
+    require(
+        is_face || !(outside || material(0) != material(1)),
+        fmt::format("a triangle of tet {} is on the outside or between two materials but no face",
+                    triangle.tets[0]));
   }
   require(faces_of_tets == times_a_face.size(), "a face is no triangle of any tet");
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera::mesh {
@@ -38,9 +40,8 @@ std::vector<TriangleTets> triangles_of_tets(std::span<const LocalIndex> tet_vert
     }
     TriangleTets& triangle = triangles.back();
     if (triangle.tets[1] != kNoIndex) {
-      throw MeshError("tets " + std::to_string(triangle.tets[0]) + ", "
-                      + std::to_string(triangle.tets[1]) + " and " + std::to_string(side.tet)
-                      + " share one triangle");
+      throw MeshError(fmt::format("tets {}, {} and {} share one triangle", triangle.tets[0],
+                                  triangle.tets[1], side.tet));
     }
     triangle.tets[1] = side.tet;
     triangle.corners[1] = side.corner;

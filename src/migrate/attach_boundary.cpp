@@ -9,6 +9,8 @@
 #include <string>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/comm/record_exchange.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -140,7 +142,7 @@ void throw_defects(const comm::Communicator& comm, const Defects& defects)
   comm.sum_in_place(counts);
   std::string text;
   const auto add = [&](GlobalIndex count, const std::string& what) {
-    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + what;
+    if (count > 0) text += fmt::format("{}{}{}", text.empty() ? "" : ", ", count, what);
   };
   add(counts[0], " triangles of the boundary file are no face of a tet");
   add(counts[1], " triangles on one tet are not in the boundary file");

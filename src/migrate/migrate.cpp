@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "migrate/block_merge.hpp"
@@ -35,7 +37,7 @@ std::optional<std::string> defect_of(const DistributedMesh& mesh, std::span<cons
   if (tet_rank.size() != mesh.tet_ids.size()) return "migration: not one rank for each tet";
   for (const Rank rank : tet_rank) {
     if (rank < 0 || rank >= num_ranks) {
-      return "migration: there is no rank " + std::to_string(rank);
+      return fmt::format("migration: there is no rank {}", rank);
     }
   }
   return std::nullopt;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <ptscotch.h>
 
 #include "tessera/base/error.hpp"
@@ -136,7 +137,7 @@ std::string scotch_version()
   int minor = 0;
   int patch = 0;
   SCOTCH_version(&major, &minor, &patch);
-  return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+  return fmt::format("{}.{}.{}", major, minor, patch);
 }
 
 }  // namespace tessera::migrate

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera::model {
@@ -77,7 +79,8 @@ class AsciiReader {
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-      throw InputError(here() + "coordinate '" + printable(word) + "' is not a finite number");
+      throw InputError(
+          fmt::format("{}coordinate '{}' is not a finite number", here(), printable(word)));
     }
     return value;
   }
@@ -90,11 +93,11 @@ class AsciiReader {
 
   [[noreturn]] void fail(std::string_view expected, std::string_view found) const
   {
-    throw InputError(here() + "expected '" + std::string(expected) + "', found '" + printable(found)
-                     + "'");
+    throw InputError(
+        fmt::format("{}expected '{}', found '{}'", here(), expected, printable(found)));
   }
 
-  [[nodiscard]] std::string here() const { return name_ + ":" + std::to_string(line_) + ": "; }
+  [[nodiscard]] std::string here() const { return fmt::format("{}:{}: ", name_, line_); }
 
   static std::string printable(std::string_view word)
   {
@@ -122,8 +125,8 @@ class AsciiReader {
   std::string_view next_word(std::string_view expected)
   {
     if (at_end()) {
-      throw InputError(here() + "file is truncated: it ends where '" + std::string(expected)
-                       + "' should stand");
+      throw InputError(
+          fmt::format("{}file is truncated: it ends where '{}' should stand", here(), expected));
     }
     const std::size_t first = at_;
     at_ = std::min(text_.find_first_of(kSpaces, first), text_.size());

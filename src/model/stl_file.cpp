@@ -11,6 +11,8 @@
 #include <limits>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "stl_ascii.hpp"
@@ -97,8 +99,7 @@ TriangleSoup parse_binary_stl(std::string_view bytes, const std::string& name)
       const std::size_t at = corners_at + 4 * i;
       const auto value = std::bit_cast<float>(little_endian(bytes, at));
       if (!std::isfinite(value)) {
-        throw InputError(name + ": coordinate at byte " + std::to_string(at)
-                         + " is not a finite number");
+        throw InputError(fmt::format("{}: coordinate at byte {} is not a finite number", name, at));
       }
       soup.corner_xyz.push_back(static_cast<double>(value));
     }
@@ -109,13 +110,15 @@ TriangleSoup parse_binary_stl(std::string_view bytes, const std::string& name)
 [[noreturn]] void refuse(std::string_view bytes, const std::string& name)
 {
   if (bytes.size() < kTrianglesAt) {
-    throw InputError(name + ": is not an STL file: it does not begin with 'solid', and its "
-                     + std::to_string(bytes.size()) + " bytes are too few for a binary header");
+    throw InputError(
+        fmt::format("{}: is not an STL file: it does not begin with 'solid', and its {} bytes are "
+                    "too few for a binary header",
+                    name, bytes.size()));
   }
-  throw InputError(name + ": is truncated or not an STL file: the count at byte 80 promises "
-                   + std::to_string(little_endian(bytes, kHeaderSize)) + " triangles, which is "
-                   + std::to_string(promised_size(bytes)) + " bytes, but the file has "
-                   + std::to_string(bytes.size()));
+  throw InputError(
+      fmt::format("{}: is truncated or not an STL file: the count at byte 80 promises {} "
+                  "triangles, which is {} bytes, but the file has {}",
+                  name, little_endian(bytes, kHeaderSize), promised_size(bytes), bytes.size()));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "half_edges.hpp"
 
 namespace tessera::model {
@@ -100,11 +102,11 @@ std::vector<std::string> name_patches(const TriangleSurface& surface,
   for (std::size_t p = 0; p < patch_solid.size(); ++p) {
     const std::size_t s = at(patch_solid[p]);
     const std::string& solid = surface.solid_names[s];
-    const std::string number = std::to_string(++solid_num_named[s]);
+    const std::string number = fmt::to_string(++solid_num_named[s]);
     if (solid.empty()) {
-      names.push_back("patch_" + std::to_string(p + 1));
+      names.push_back(fmt::format("patch_{}", p + 1));
     } else {
-      names.push_back(solid_num_patches[s] == 1 ? solid : solid + "_" + number);
+      names.push_back(solid_num_patches[s] == 1 ? solid : fmt::format("{}_{}", solid, number));
     }
   }
   return names;

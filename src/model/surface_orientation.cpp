@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 
@@ -101,10 +102,9 @@ class ShellWalk {
   [[noreturn]] void refuse_one_sided(LocalIndex h) const
   {
     const Vec3 p = surface_.position(surface_.triangle_vertices[at(h)]);
-    std::ostringstream text;
-    text << name_ << ": surface is one-sided (as a Moebius strip), so it bounds no body; near ("
-         << p[0] << ", " << p[1] << ", " << p[2] << ")";
-    throw GeometryError(text.str());
+    throw GeometryError(fmt::format(
+        "{}: surface is one-sided (as a Moebius strip), so it bounds no body; near ({:g})", name_,
+        fmt::join(p, ", ")));
   }
 
   const TriangleSurface& surface_;
@@ -181,8 +181,8 @@ bool is_inside_out(const TriangleSurface& surface, const Shell& shell, const std
   const Box box = box_of(surface, shell);
   const double volume = enclosed_volume(surface, shell);
   if (std::abs(volume) <= kFlat * std::pow(norm(box.high - box.low), 3)) {
-    throw GeometryError(name + ": shell of " + std::to_string(shell.triangles.size())
-                        + " triangles encloses no volume");
+    throw GeometryError(
+        fmt::format("{}: shell of {} triangles encloses no volume", name, shell.triangles.size()));
   }
   return (volume > 0.0) != (shell.depth % 2 == 0);
 }

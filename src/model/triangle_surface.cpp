@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 
@@ -19,12 +20,7 @@ constexpr double kWeldTolerance = 1e-6;  // of the box diagonal
 
 std::string counted(LocalIndex count, const std::string& one, const std::string& many)
 {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-void put_point(std::ostream& out, const Vec3& p)
-{
-  out << '(' << p[0] << ", " << p[1] << ", " << p[2] << ')';
+  return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
 // "3 edges, first (0, 0, 0) - (1, 0, 0), …" for the edges whose number of triangles is `bad`.
@@ -34,19 +30,19 @@ std::string describe_edges(const TriangleSurface& surface, const HalfEdgesOfEdge
 {
   constexpr LocalIndex kNumShown = 3;
   LocalIndex count = 0;
-  std::ostringstream shown;
-  shown.precision(9);
+  std::string shown;
   for (LocalIndex e = 0; e < edges.num_edges(); ++e) {
     if (!bad(edges.of(e).size())) continue;
     if (count++ >= kNumShown) continue;
     const LocalIndex h = edges.of(e)[0];
-    shown << (count == 1 ? ", first " : ", ");
-    put_point(shown, surface.position(surface.triangle_vertices[at(h)]));
-    shown << " - ";
-    put_point(shown, surface.position(surface.triangle_vertices[at(next_in_triangle(h))]));
+    const Vec3 from = surface.position(surface.triangle_vertices[at(h)]);
+    const Vec3 to = surface.position(surface.triangle_vertices[at(next_in_triangle(h))]);
+    shown += fmt::format("{}({:.9g}) - ({:.9g})", count == 1 ? ", first " : ", ",
+                         fmt::join(from, ", "), fmt::join(to, ", "));
   }
   if (count == 0) return {};
-  return counted(count, "edge", "edges") + shown.str() + (count > kNumShown ? ", …" : "");
+  return fmt::format("{}{}{}", counted(count, "edge", "edges"), shown,
+                     count > kNumShown ? ", …" : "");
 }
 
 std::string open_edges(const TriangleSurface& surface)
@@ -61,11 +57,13 @@ void require_two_triangles_per_edge(const TriangleSurface& surface, const std::s
       describe_edges(surface, half_edges_of_edges(surface.triangle_vertices),
                      [](std::size_t triangles) { return triangles > 2; });
   if (!crowded.empty()) {
-    throw GeometryError(name + ": surface bounds no body: more than two triangles at " + crowded);
+    throw GeometryError(
+        fmt::format("{}: surface bounds no body: more than two triangles at {}", name, crowded));
   }
   const std::string open = open_edges(surface);
   if (!open.empty()) {
-    throw GeometryError(name + ": surface is not closed: only one triangle at " + open);
+    throw GeometryError(
+        fmt::format("{}: surface is not closed: only one triangle at {}", name, open));
   }
 }
 
@@ -88,10 +86,9 @@ void weld_and_record(CheckedSurface& checked)
   const double tolerance = kWeldTolerance * box_diagonal(checked.surface);
   const LocalIndex num_joined = weld_open_vertices(checked.surface, tolerance);
   if (num_joined == 0) return;
-  std::ostringstream text;
-  text << counted(num_joined, "vertex of an open edge", "vertices of open edges")
-       << " joined to a neighbour closer than " << tolerance;
-  checked.repairs.push_back(text.str());
+  checked.repairs.push_back(fmt::format(
+      "{} joined to a neighbour closer than {:g}",
+      counted(num_joined, "vertex of an open edge", "vertices of open edges"), tolerance));
   drop_and_record(checked);
 }
 
@@ -102,9 +99,9 @@ void record_turns(CheckedSurface& checked, const Orientation& orientation)
                               + " turned to agree with the neighbours");
   }
   if (orientation.num_turned_shells > 0) {
-    checked.repairs.push_back(counted(orientation.num_turned_shells, "shell", "shells") + " of "
-                              + std::to_string(orientation.shells.size())
-                              + " turned: the inside was out");
+    checked.repairs.push_back(fmt::format("{} of {} turned: the inside was out",
+                                          counted(orientation.num_turned_shells, "shell", "shells"),
+                                          orientation.shells.size()));
   }
 }
 
@@ -132,7 +129,7 @@ void set_materials(TriangleSurface& surface, const std::vector<Shell>& shells)
   for (std::size_t m = 0; m < surface.material_names.size(); ++m) {
     std::string& name = surface.material_names[m];
     // Several solids around one body name its sides, not the body.
-    if (name.empty() || !has_one_solid[m]) name = "material_" + std::to_string(m + 1);
+    if (name.empty() || !has_one_solid[m]) name = fmt::format("material_{}", m + 1);
   }
 }
 

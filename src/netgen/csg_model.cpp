@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <csg.hpp>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 
@@ -180,7 +181,7 @@ CsgModel::CsgModel(const model::ModelSource& source)
 const ::netgen::Surface& CsgModel::surface(LocalIndex number) const
 {
   if (number < 0 || number >= geometry_->GetNSurf()) {
-    throw GeometryError(file_name_ + ": has no surface " + std::to_string(number));
+    throw GeometryError(fmt::format("{}: has no surface {}", file_name_, number));
   }
   return *geometry_->GetSurface(number);
 }
@@ -189,10 +190,8 @@ void CsgModel::require_on(const ::netgen::Surface& surface, const Point& point,
                           const Vec3& from) const
 {
   if (distance(surface, point) <= tolerance_) return;
-  std::ostringstream message;
-  message << file_name_ << ": NETGEN finds no point of a surface near (" << from[0] << ", "
-          << from[1] << ", " << from[2] << ")";
-  throw GeometryError(message.str());
+  throw GeometryError(fmt::format("{}: NETGEN finds no point of a surface near ({:g})", file_name_,
+                                  fmt::join(from, ", ")));
 }
 
 model::SurfacePoint CsgModel::project_to_surface(LocalIndex number, const Vec3& point,
@@ -251,7 +250,8 @@ mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options,
     return geometry->GenerateMesh(mesh, session.parameters());
   });
   if (failed != 0)
-    throw NetgenError(file_name_ + ": coarse mesh: NETGEN gave up; " + session.words());
+    throw NetgenError(
+        fmt::format("{}: coarse mesh: NETGEN gave up; {}", file_name_, session.words()));
   mesh::CoarseMesh coarse =
       to_coarse_mesh(*mesh, numbers_of(*geometry), file_name_ + ": coarse mesh");
   session.run(file_name_, [&] { use(*geometry, *mesh); });

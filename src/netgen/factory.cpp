@@ -7,6 +7,8 @@
 #include <fstream>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "netgen/loaded_model.hpp"
@@ -47,9 +49,9 @@ std::string lower_case_extension(const fs::path& file)
   for (const FileKind& kind : kFileKinds) {
     allowed += (allowed.empty() ? "" : " ") + std::string(kind.extension);
   }
-  throw InputError(file.string()
-                   + ": not a kind of CAD file that is known by its extension; known are "
-                   + allowed);
+  throw InputError(
+      fmt::format("{}: not a kind of CAD file that is known by its extension; known are {}",
+                  file.string(), allowed));
 }
 
 const FileKind& kind_of(const fs::path& file)

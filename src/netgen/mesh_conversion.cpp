@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera::netgen {
@@ -59,7 +61,7 @@ class Conversion {
     }
     for (LocalIndex m = 1; m <= num_materials; ++m) {
       const std::string name = numbers_.material_name ? numbers_.material_name(m) : "";
-      to_.material_names.push_back(name.empty() ? "material_" + std::to_string(m) : name);
+      to_.material_names.push_back(name.empty() ? fmt::format("material_{}", m) : name);
     }
   }
 
@@ -76,7 +78,7 @@ class Conversion {
       const auto& face = from_.GetFaceDescriptor(static_cast<int>(d));
       const std::string name = numbers_.patch_name ? numbers_.patch_name(face) : "";
       to_.patch_surface.push_back(numbers_.surface(face));
-      to_.patch_names.push_back(name.empty() ? "patch_" + std::to_string(to_.num_patches() + 1)
+      to_.patch_names.push_back(name.empty() ? fmt::format("patch_{}", to_.num_patches() + 1)
                                              : name);
     }
   }
@@ -135,7 +137,7 @@ mesh::CoarseMesh to_coarse_mesh(const ::netgen::Mesh& from, const GeometryNumber
     mesh::validate(mesh);
     return mesh;
   } catch (const MeshError& error) {
-    throw NetgenError(what + ": " + error.what());
+    throw NetgenError(fmt::format("{}: {}", what, error.what()));
   }
 }
 

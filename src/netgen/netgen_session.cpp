@@ -6,6 +6,7 @@
 #include <typeinfo>
 
 #include <Standard_Failure.hxx>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 
@@ -68,7 +69,7 @@ std::string message_of_current_exception()
   } catch (const std::exception& error) {
     return error.what();
   } catch (const Standard_Failure& failure) {
-    return std::string(failure.DynamicType()->Name()) + ": " + failure.GetMessageString();
+    return fmt::format("{}: {}", failure.DynamicType()->Name(), failure.GetMessageString());
   } catch (...) {
     return "an exception of unknown type";
   }
@@ -132,8 +133,8 @@ void NetgenSession::throw_translated(const std::string& what) const
     throw;
   } catch (...) {
     const std::string said = words();
-    throw NetgenError(what + ": " + on_one_line(message_of_current_exception())
-                      + (said.empty() ? "" : " (" + said + ")"));
+    throw NetgenError(fmt::format("{}: {}{}", what, on_one_line(message_of_current_exception()),
+                                  said.empty() ? "" : fmt::format(" ({})", said)));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <Standard_Failure.hxx>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 
@@ -19,8 +20,8 @@ auto with_occ_errors(const std::string& what, Work&& work)
   } catch (const Standard_Failure& failure) {
     const char* words = failure.GetMessageString();
     const std::string reason = words != nullptr && *words != '\0' ? words : "no reason given";
-    throw GeometryError(what + ": OpenCASCADE says " + failure.DynamicType()->Name() + " (" + reason
-                        + ")");
+    throw GeometryError(
+        fmt::format("{}: OpenCASCADE says {} ({})", what, failure.DynamicType()->Name(), reason));
   }
 }
 

@@ -15,6 +15,7 @@
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS_Compound.hxx>
+#include <fmt/format.h>
 
 #include "netgen/occ_shape.hpp"
 
@@ -139,11 +140,10 @@ TopoDS_Shape glued(const std::vector<TopoDS_Shape>& solids, CadFile& cad)
   const int num_shared = count_shared_faces(fuse->Shape());
   if (num_solids == num_given && num_shared == count_shared_faces(apart)) return apart;
   follow_names(apart, cad.names, [&](const TopoDS_Shape& part) { return fuse->Modified(part); });
-  cad.repairs.emplace_back("touching solids were glued: " + std::to_string(num_shared)
-                           + " shared faces");
+  cad.repairs.emplace_back(fmt::format("touching solids were glued: {} shared faces", num_shared));
   if (num_solids != num_given) {
-    cad.repairs.emplace_back("overlapping solids were cut: " + std::to_string(num_given)
-                             + " became " + std::to_string(num_solids));
+    cad.repairs.emplace_back(
+        fmt::format("overlapping solids were cut: {} became {}", num_given, num_solids));
   }
   return fuse->Shape();
 }

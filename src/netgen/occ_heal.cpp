@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
-#include <sstream>
+#include <utility>
 
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
@@ -17,6 +17,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 
@@ -54,7 +55,7 @@ double volume_of(const TopoDS_Shape& solid)
 
 std::string counted(int number, const std::string& thing)
 {
-  return std::to_string(number) + " " + thing + (number == 1 ? "" : "s");
+  return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
 }
 
 // "3 shells, 120 faces": what a file without a solid holds.
@@ -85,9 +86,7 @@ struct Sewn {
 std::string place_of(const TopoDS_Edge& edge)
 {
   const gp_Pnt point = BRep_Tool::Pnt(TopExp::FirstVertex(edge));
-  std::ostringstream text;
-  text << "(" << point.X() << ", " << point.Y() << ", " << point.Z() << ")";
-  return text.str();
+  return fmt::format("({:g}, {:g}, {:g})", point.X(), point.Y(), point.Z());
 }
 
 Sewn sew(const TopoDS_Shape& faces, double gap, ShapeNames& names)
@@ -132,24 +131,23 @@ std::vector<TopoDS_Shape> solids_from_faces(const TopoDS_Shape& faces, CadFile& 
 {
   const Sewn sewn = sew(faces, cad.names);
   if (sewn.closed_shells.empty()) {
-    std::ostringstream reason;
-    reason << "no closed solid: sewn with gap " << sewn.gap << ", "
-           << counted(sewn.num_open_edges, "edge") << " of "
-           << counted(count(faces, TopAbs_FACE), "face") << " bound one face only, the first at "
-           << sewn.first_open_edge << "; close the gaps in the CAD program";
-    throw GeometryError(reason.str());
+    throw GeometryError(
+        fmt::format("no closed solid: sewn with gap {:g}, {} of {} bound one face only, the first "
+                    "at {}; close the gaps in the CAD program",
+                    sewn.gap, counted(sewn.num_open_edges, "edge"),
+                    counted(count(faces, TopAbs_FACE), "face"), sewn.first_open_edge));
   }
   std::vector<TopoDS_Shape> solids;
   for (const TopoDS_Shape& shell : sewn.closed_shells) {
     solids.push_back(BRepBuilderAPI_MakeSolid(TopoDS::Shell(shell)).Solid());
   }
-  std::ostringstream line;
-  line << "sewed " << counted(count(faces, TopAbs_FACE), "face") << " with gap " << sewn.gap
-       << " into " << counted(static_cast<int>(solids.size()), "solid");
+  std::string line =
+      fmt::format("sewed {} with gap {:g} into {}", counted(count(faces, TopAbs_FACE), "face"),
+                  sewn.gap, counted(static_cast<int>(solids.size()), "solid"));
   if (sewn.num_open_shells > 0) {
-    line << "; left out " << counted(sewn.num_open_shells, "open shell");
+    line += fmt::format("; left out {}", counted(sewn.num_open_shells, "open shell"));
   }
-  cad.repairs.push_back(line.str());
+  cad.repairs.push_back(std::move(line));
   return solids;
 }
 
@@ -176,7 +174,7 @@ TopoDS_Shape fixed(const TopoDS_Shape& solid, ShapeNames& names)
 // One solid of the file as closed solids; usually itself.
 std::vector<TopoDS_Shape> healed(const TopoDS_Shape& solid, int number, CadFile& cad)
 {
-  const std::string name = "solid " + std::to_string(number);
+  const std::string name = fmt::format("solid {}", number);
   const bool valid = BRepCheck_Analyzer(solid).IsValid();
   if (valid && is_closed(solid)) return {solid};
   const TopoDS_Shape better = fixed(solid, cad.names);
@@ -190,13 +188,13 @@ std::vector<TopoDS_Shape> healed(const TopoDS_Shape& solid, int number, CadFile&
     return {solid};
   }
   if (closed.empty()) {
-    cad.repairs.push_back(name + " " + was);
+    cad.repairs.push_back(fmt::format("{} {}", name, was));
     return solids_from_faces(count(better, TopAbs_FACE) > 0 ? better : solid, cad);
   }
   bool clean = true;
   for (const TopoDS_Shape& part : closed) clean = clean && BRepCheck_Analyzer(part).IsValid();
-  cad.repairs.push_back(name + " " + was + "; its wires, faces and shells were fixed"
-                        + (clean ? "" : ", defects remain"));
+  cad.repairs.push_back(fmt::format("{} {}; its wires, faces and shells were fixed{}", name, was,
+                                    clean ? "" : ", defects remain"));
   return closed;
 }
 
@@ -220,7 +218,7 @@ void require_curves(const TopoDS_Shape& shape)
     double last = 0.0;
     if (BRep_Tool::Degenerated(edge)) continue;
     if (BRep_Tool::Curve(edge, first, last).IsNull()) {
-      throw GeometryError("the edge at " + place_of(edge) + " has no curve in space");
+      throw GeometryError(fmt::format("the edge at {} has no curve in space", place_of(edge)));
     }
   }
 }
@@ -233,13 +231,15 @@ std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
   if (num_empty > 0) cad.repairs.emplace_back("solids without faces were left out");
   if (given.empty()) {
     if (count(cad.shape, TopAbs_FACE) == 0) {
-      throw GeometryError("no solid and no face to make one of; the file holds "
-                          + contents_of(cad.shape) + ": export the model as a solid");
+      throw GeometryError(fmt::format(
+          "no solid and no face to make one of; the file holds {}: export the model as a solid",
+          contents_of(cad.shape)));
     }
     try {
       return solids_from_faces(cad.shape, cad);
     } catch (const GeometryError& error) {
-      throw GeometryError("no solid, only " + contents_of(cad.shape) + "; " + error.what());
+      throw GeometryError(
+          fmt::format("no solid, only {}; {}", contents_of(cad.shape), error.what()));
     }
   }
   std::vector<TopoDS_Shape> solids;

@@ -7,6 +7,7 @@
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <fmt/format.h>
 #include <mystdlib.h>
 #include <occgeom.hpp>
 
@@ -98,21 +99,21 @@ const OccSurface& OccModel::surface_at(LocalIndex surface) const
 const OccCurve& OccModel::curve_at(LocalIndex curve) const
 {
   const OptionalCurve& found = curves_.at(static_cast<std::size_t>(curve));
-  if (found == nullptr) throw GeometryError("edge " + std::to_string(curve) + " is a point");
+  if (found == nullptr) throw GeometryError(fmt::format("edge {} is a point", curve));
   return *found;
 }
 
 model::SurfacePoint OccModel::project_to_surface(LocalIndex surface, const Vec3& point,
                                                  const model::SurfaceParameters& guess) const
 {
-  return with_occ_errors("projection onto face " + std::to_string(surface),
+  return with_occ_errors(fmt::format("projection onto face {}", surface),
                          [&] { return surface_at(surface).project(point, guess); });
 }
 
 model::CurvePoint OccModel::project_to_curve(LocalIndex curve, const Vec3& point,
                                              double guess) const
 {
-  return with_occ_errors("projection onto edge " + std::to_string(curve),
+  return with_occ_errors(fmt::format("projection onto edge {}", curve),
                          [&] { return curve_at(curve).project(point, guess); });
 }
 
@@ -126,8 +127,9 @@ void OccModel::triangulate() const
   for (int i = 1; i <= faces_.Extent(); ++i) {
     TopLoc_Location place;
     if (!BRep_Tool::Triangulation(TopoDS::Face(faces_(i)), place).IsNull()) continue;
-    throw NetgenError(file_name_ + ": OpenCASCADE cannot triangulate face " + std::to_string(i - 1)
-                      + "; repair it in the CAD program");
+    throw NetgenError(
+        fmt::format("{}: OpenCASCADE cannot triangulate face {}; repair it in the CAD program",
+                    file_name_, i - 1));
   }
 }
 
@@ -263,7 +265,7 @@ model::ModelSource import_occ(const std::filesystem::path& file)
   try {
     with_occ_errors("healing", [&] { make_closed_solids(cad); });
   } catch (const GeometryError& error) {
-    throw GeometryError(file.string() + ": " + error.what());
+    throw GeometryError(fmt::format("{}: {}", file.string(), error.what()));
   }
   model::ModelSource source;
   source.format = model::Format::occ;

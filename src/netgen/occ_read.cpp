@@ -34,6 +34,7 @@
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 
@@ -115,12 +116,13 @@ LengthUnit step_unit(STEPCAFControl_Reader& reader, CadFile& cad)
   const std::string name = lower_case(lengths.First().ToCString());
   for (const TCollection_AsciiString& other : lengths) {
     if (lower_case(other.ToCString()) == name) continue;
-    cad.repairs.push_back("parts in " + lower_case(other.ToCString()) + " converted to " + name);
+    cad.repairs.push_back(
+        fmt::format("parts in {} converted to {}", lower_case(other.ToCString()), name));
   }
   const auto* known = std::find_if(kLengthUnits.begin(), kLengthUnits.end(),
                                    [&](const LengthUnit& unit) { return unit.step_name == name; });
   if (known != kLengthUnits.end()) return *known;
-  cad.repairs.push_back("length unit '" + name + "' converted to mm");
+  cad.repairs.push_back(fmt::format("length unit '{}' converted to mm", name));
   return {"millimetre", "mm", 1e-3};
 }
 
@@ -244,7 +246,7 @@ LengthUnit iges_unit(const IGESControl_Reader& reader, CadFile& cad)
   const auto* known = std::find_if(kLengthUnits.begin(), kLengthUnits.end(),
                                    [&](const LengthUnit& unit) { return unit.short_name == name; });
   if (known != kLengthUnits.end()) return *known;
-  if (!name.empty()) cad.repairs.push_back("length unit '" + name + "' converted to mm");
+  if (!name.empty()) cad.repairs.push_back(fmt::format("length unit '{}' converted to mm", name));
   return {"millimetre", name.empty() ? "" : "mm", 1e-3};
 }
 

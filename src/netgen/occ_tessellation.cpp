@@ -21,6 +21,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 
@@ -110,8 +111,8 @@ class Tessellation {
     TopLoc_Location place;
     const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
     if (mesh.IsNull() || mesh->NbTriangles() == 0) {
-      throw NetgenError("OpenCASCADE cannot triangulate face " + std::to_string(f - 1)
-                        + "; repair it in the CAD program");
+      throw NetgenError(fmt::format(
+          "OpenCASCADE cannot triangulate face {}; repair it in the CAD program", f - 1));
     }
     std::vector<LocalIndex> numbers(static_cast<std::size_t>(mesh->NbNodes()) + 1, kNoIndex);
     for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {

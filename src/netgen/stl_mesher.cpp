@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include <fmt/format.h>
 #include <mystdlib.h>
 #include <stlgeom.hpp>
 
@@ -81,9 +82,9 @@ class StlMeshing {
       mesh_up_to(::netgen::MESHCONST_MESHSURFACE, ::netgen::MESHCONST_OPTVOLUME);
     });
     if (geometry_.surfacemeshed == 0 || geometry_.volumemeshed == 0) {
-      throw NetgenError(name_ + ": NETGEN gave up on the coarse "
-                        + (geometry_.surfacemeshed == 0 ? "surface" : "volume") + " mesh"
-                        + (session_.words().empty() ? "" : ": " + session_.words()));
+      throw NetgenError(fmt::format("{}: NETGEN gave up on the coarse {} mesh{}", name_,
+                                    geometry_.surfacemeshed == 0 ? "surface" : "volume",
+                                    session_.words().empty() ? "" : ": " + session_.words()));
     }
     take_own_numbers();
     mesh::CoarseMesh mesh = to_coarse_mesh(*mesh_, numbers(), name_);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/volume_mesher.hpp"
 
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <meshing.hpp>
 
 #include "tessera/base/error.hpp"
@@ -59,9 +59,8 @@ std::string name_of(const coarse::PatchSurface& surface, const SurfaceNames& nam
                     std::size_t triangle)
 {
   const LocalIndex patch = surface.triangle_patch[triangle];
-  std::string text = "face " + std::to_string(patch);
-  if (const std::string name = names.patch(patch); !name.empty()) text += " '" + name + "'";
-  return text;
+  const std::string name = names.patch(patch);
+  return name.empty() ? fmt::format("face {}", patch) : fmt::format("face {} '{}'", patch, name);
 }
 
 // NETGEN would say only that there is such a place.
@@ -71,14 +70,12 @@ void require_apart(const coarse::PatchSurface& surface, const SurfaceNames& name
   const std::vector<coarse::Overlap> overlaps = coarse::find_overlaps(surface);
   if (overlaps.empty()) return;
   const auto& [first, second, place] = overlaps.front();
-  std::ostringstream text;
-  text << what << ": the surface cuts itself at " << overlaps.size()
-       << " pairs of triangles, first " << name_of(surface, names, first) << " and "
-       << name_of(surface, names, second) << " at (" << place[0] << ", " << place[1] << ", "
-       << place[2]
-       << "); part bodies that overlap or touch without a common face in the CAD program; "
-       << "for a thin wall try a smaller coarse.max_size";
-  throw NetgenError(text.str());
+  throw NetgenError(fmt::format(
+      "{}: the surface cuts itself at {} pairs of triangles, first {} and {} at ({:g}); part "
+      "bodies that overlap or touch without a common face in the CAD program; for a thin wall try "
+      "a smaller coarse.max_size",
+      what, overlaps.size(), name_of(surface, names, first), name_of(surface, names, second),
+      fmt::join(place, ", ")));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 
 #include "tessera/io/vtu.hpp"
 

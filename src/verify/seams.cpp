@@ -7,6 +7,8 @@
 #include <map>
 #include <span>
 
+#include <fmt/format.h>
+
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::verify {
@@ -116,9 +118,9 @@ std::optional<std::string> first_open_seam(const std::vector<Hash128>& sums,
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
     if (!skeleton.is_inside(t) || sums[at(t)] == Hash128{}) continue;
     if (!has_piece(2 * at(t)) || !has_piece(2 * at(t) + 1)) continue;
-    return "subdomains " + std::to_string(skeleton.triangle_subdomains[2 * at(t)]) + " and "
-           + std::to_string(skeleton.triangle_subdomains[2 * at(t) + 1])
-           + " do not meet on coarse triangle " + std::to_string(t);
+    return fmt::format("subdomains {} and {} do not meet on coarse triangle {}",
+                       skeleton.triangle_subdomains[2 * at(t)],
+                       skeleton.triangle_subdomains[2 * at(t) + 1], t);
   }
   return std::nullopt;
 }
