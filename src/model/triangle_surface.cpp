@@ -29,17 +29,16 @@ void put_point(std::ostream& out, const Vec3& p)
 
 // "3 edges, first (0, 0, 0) - (1, 0, 0), …" for the edges whose number of triangles is `bad`.
 template <class Predicate>
-std::string describe_edges(const TriangleSurface& surface, const HalfEdgesOfEdges& edges,
-                           Predicate bad)
+std::string describe_edges(const TriangleSurface& surface, const IndexLists& edges, Predicate bad)
 {
   constexpr LocalIndex kNumShown = 3;
   LocalIndex count = 0;
   std::ostringstream shown;
   shown.precision(9);
-  for (LocalIndex e = 0; e < edges.num_edges(); ++e) {
-    if (!bad(edges.of(e).size())) continue;
+  for (LocalIndex e = 0; e < edges.num_lists(); ++e) {
+    if (!bad(edges[e].size())) continue;
     if (count++ >= kNumShown) continue;
-    const LocalIndex h = edges.of(e)[0];
+    const LocalIndex h = edges[e][0];
     shown << (count == 1 ? ", first " : ", ");
     put_point(shown, surface.position(surface.triangle_vertices[at(h)]));
     shown << " - ";
