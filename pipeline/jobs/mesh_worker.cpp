@@ -140,7 +140,8 @@ class MeshWorker final : public jobs::Worker {
     length_unit_ = in.get_string();
     output_options_.compression = in.get<io::Compression>();
     output_options_.cell_quality = in.get<bool>();
-    ids_.emplace(mesh::HostLayout(cut_->skeleton), mesh::lattice::intervals(levels_), counts);
+    ids_ = number::IdLayout::by_host(mesh::HostLayout(cut_->skeleton),
+                                     mesh::lattice::intervals(levels_), counts);
   }
 
   static Bytes import(ByteReader& in)
@@ -194,7 +195,7 @@ class MeshWorker final : public jobs::Worker {
   {
     fail_if_asked("plan", test.subdomain);
     const auto tets =
-        untangle::tets_on_geometry(coarse_, cut_->tets.of(test.subdomain), cut_->on_geometry);
+        untangle::tets_on_geometry(coarse_, cut_->tets[test.subdomain], cut_->on_geometry);
     const mesh::TetComplex complex = mesh::tet_complex(coarse_, cut_->skeleton, tets);
     refine::RefineContext context = refine_context(limiter);
     context.levels = test.levels;
