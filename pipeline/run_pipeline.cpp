@@ -155,8 +155,9 @@ number::IdLayout number_mesh(const subdomain::PartitionedMesh& cut, int levels,
   if (filled.improvement.generation > 0) {
     return number::IdLayout::by_owner(subdomain::counts_of(filled.pieces));
   }
-  return {mesh::HostLayout(cut.skeleton), mesh::lattice::intervals(levels),
-          are_counts_known(outline.kernels) ? outline.pieces : subdomain::counts_of(filled.pieces)};
+  return number::IdLayout::by_host(
+      mesh::HostLayout(cut.skeleton), mesh::lattice::intervals(levels),
+      are_counts_known(outline.kernels) ? outline.pieces : subdomain::counts_of(filled.pieces));
 }
 
 // Who owns which vertex, once pieces have exchanged tets.

@@ -45,7 +45,7 @@ struct RunOptions {
 [[nodiscard]] std::vector<subdomain::SubdomainRange> output_ranges(const RunResult& run,
                                                                    const RunOptions& options);
 
-/// @brief HostEntity of the output's lengths; empty if nobody knows it. Local.
+/// @brief Unit of the output's lengths; empty if nobody knows it. Local.
 [[nodiscard]] std::string output_length_unit(const RunResult& run);
 
 /// @brief The stages in their order.

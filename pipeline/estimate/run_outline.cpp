@@ -71,10 +71,8 @@ RunOutline outline_run(const subdomain::PartitionedMesh& cut,
                      .pieces = subdomain::count_subdivided_pieces(cut, levels),
                      .files = files};
   outline.is_one_pass = are_counts_known(kernels);
-  const std::vector<number::PieceCounts> nothing(outline.pieces.size());
   outline.num_skeleton_vertices =
-      number::IdLayout(mesh::HostLayout(cut.skeleton), mesh::lattice::intervals(levels), nothing)
-          .num_vertices();
+      mesh::HostLayout(cut.skeleton).num_skeleton_points(mesh::lattice::intervals(levels));
   outline.seam_triangles.resize(kernels.size());
   for (LocalIndex s = 0; improve_seams && s < cut.num_subdomains(); ++s) {
     if (kernels[at(s)] == fill::KernelKind::subdivide) continue;

@@ -77,7 +77,8 @@ class MeshWorker final : public jobs::Worker {
     length_unit_ = std::move(load.length_unit);
     output_options_.compression = load.compression;
     output_options_.cell_quality = load.cell_quality;
-    ids_.emplace(mesh::HostLayout(cut_->skeleton), mesh::lattice::intervals(levels_), load.counts);
+    ids_ = number::IdLayout::by_host(mesh::HostLayout(cut_->skeleton),
+                                     mesh::lattice::intervals(levels_), load.counts);
   }
 
   void take(ImprovementLoad load)
@@ -128,7 +129,7 @@ class MeshWorker final : public jobs::Worker {
   {
     fail_if_asked("plan", test.subdomain);
     const auto tets =
-        untangle::tets_on_geometry(coarse_, cut_->tets.of(test.subdomain), cut_->on_geometry);
+        untangle::tets_on_geometry(coarse_, cut_->tets[test.subdomain], cut_->on_geometry);
     const mesh::TetComplex complex = mesh::tet_complex(coarse_, cut_->skeleton, tets);
     refine::RefineContext context = refine_context(limiter);
     context.levels = test.levels;

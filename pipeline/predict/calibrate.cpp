@@ -246,8 +246,8 @@ class Sampler {
     std::vector<number::PieceCounts> counts = outline.pieces;
     for (const subdomain::PieceSummary& piece : set.pieces)
       counts[at(piece.subdomain)] = subdomain::counts_of(piece);
-    const number::IdLayout ids(mesh::HostLayout(cut_.skeleton),
-                               mesh::lattice::intervals(set.levels), counts);
+    const auto ids = number::IdLayout::by_host(mesh::HostLayout(cut_.skeleton),
+                                               mesh::lattice::intervals(set.levels), counts);
     const subdomain::WriteContext mesh{cut_.coarse, cut_.skeleton, ids, length_unit_};
     const io::OutputOptions& options = run_.resolved.output;
     FileCosts costs;

@@ -282,8 +282,9 @@ class SeamImprover {
     subdomain::PieceSummary& summary = result.summary;
     summary = filled_.pieces[at(piece.subdomain)];
     summary.num_tets = piece.num_tets();
-    summary.num_interior_vertices =
-        piece.num_interior_vertices() + static_cast<GlobalIndex>(shared.owned.size());
+    summary.num_interior_vertices = piece.num_interior_vertices();
+    summary.num_owned_vertices =
+        summary.num_interior_vertices + static_cast<GlobalIndex>(shared.owned.size());
     summary.num_boundary = piece.num_boundary();
     summary.volume = volume_of(piece);
     summary.surface = verify::surface_hash(piece);
@@ -295,12 +296,11 @@ class SeamImprover {
   // From the order of the list to that of the piece.
   static std::vector<char> seam_vertices(const mesh::Piece& piece, const number::SharedBy& shared)
   {
-    const std::vector<number::SharedVertexKey> keys = number::shared_vertices(piece);
+    const std::vector<mesh::HostPoint> names = number::shared_vertices(piece);
     std::vector<char> on_seam;
     for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-      const number::SharedVertexKey key{piece.skin_host[at(v)], piece.skin_index[at(v)]};
-      const auto found = std::ranges::lower_bound(keys, key);
-      on_seam.push_back(shared.on_seam[static_cast<std::size_t>(found - keys.begin())]);
+      const auto found = std::ranges::lower_bound(names, piece.skin_point(v));
+      on_seam.push_back(shared.on_seam[static_cast<std::size_t>(found - names.begin())]);
     }
     return on_seam;
   }

@@ -58,24 +58,23 @@ number::SharedBy ImprovedPieces::own_vertices(LocalIndex subdomain) const
   return shared;
 }
 
-std::vector<number::SharedVertexKey> ImprovedPieces::owned_by(LocalIndex subdomain) const
+std::vector<mesh::HostPoint> ImprovedPieces::owned_by(LocalIndex subdomain) const
 {
-  return from_bytes<std::vector<number::SharedVertexKey>>(store_.get(owned_name(subdomain)));
+  return from_bytes<std::vector<mesh::HostPoint>>(store_.get(owned_name(subdomain)));
 }
 
 std::vector<subdomain::VertexPlace> ImprovedPieces::places_of(const mesh::Piece& piece) const
 {
   std::vector<subdomain::VertexPlace> places(at(piece.num_vertices()));
-  const auto find_places = [&](LocalIndex owner,
-                               const std::vector<number::SharedVertexKey>& owned) {
+  const auto find_places = [&](LocalIndex owner, const std::vector<mesh::HostPoint>& owned) {
     for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-      const number::SharedVertexKey key{piece.skin_host[at(v)], piece.skin_index[at(v)]};
-      const auto found = std::ranges::lower_bound(owned, key);
-      if (found == owned.end() || *found != key) continue;
+      const mesh::HostPoint name = piece.skin_point(v);
+      const auto found = std::ranges::lower_bound(owned, name);
+      if (found == owned.end() || *found != name) continue;
       places[at(v)] = {owner, static_cast<LocalIndex>(found - owned.begin())};
     }
   };
-  const std::vector<number::SharedVertexKey> owned = owned_by(piece.subdomain);
+  const std::vector<mesh::HostPoint> owned = owned_by(piece.subdomain);
   find_places(piece.subdomain, owned);
   for (const LocalIndex other : neighbours_[at(piece.subdomain)]) {
     if (other < piece.subdomain) find_places(other, owned_by(other));

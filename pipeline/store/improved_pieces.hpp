@@ -48,7 +48,7 @@ class ImprovedPieces {
 
  private:
   [[nodiscard]] number::VertexList list_of(LocalIndex subdomain) const;
-  [[nodiscard]] std::vector<number::SharedVertexKey> owned_by(LocalIndex subdomain) const;
+  [[nodiscard]] std::vector<mesh::HostPoint> owned_by(LocalIndex subdomain) const;
 
   io::RecordStore store_;
   std::vector<std::vector<LocalIndex>> neighbours_;  ///< By subdomain, ascending.

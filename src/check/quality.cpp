@@ -48,7 +48,7 @@ TetShape shape_of(const std::array<Vec3, 4>& corners)
   TetShape shape;
   if (volume > 0.0) shape.mean_ratio = 12.0 * std::cbrt(9.0 * volume * volume) / squared_lengths;
 
-  // HostEntity inward normals of the four faces; the angle between faces is pi less that of the
+  // Unit inward normals of the four faces; the angle between faces is pi less that of the
   // normals.
   std::array<Vec3, 4> normals{cross(bc, ab), cross(b, c), cross(c, a), cross(a, b)};
   for (Vec3& normal : normals) {

@@ -12,13 +12,6 @@
 
 namespace tessera::check {
 
-/// @brief By what points of different pieces are recognised as the same vertex.
-enum class VertexIdentity { ids, positions };
-
-/// @brief 128-bit hash of the vertex keys in ascending order.
-using EdgeKey = std::array<std::uint64_t, 2>;
-using TriangleKey = std::array<std::uint64_t, 2>;
-
 inline constexpr GlobalIndex kNoId = std::numeric_limits<GlobalIndex>::min();
 inline constexpr LocalIndex kNoPiece = -1;
 inline constexpr std::int32_t kNoSubdomain = std::numeric_limits<std::int32_t>::min();
@@ -91,8 +84,7 @@ struct VertexRecord {
 /// @brief An edge on the surface of a piece; once per boundary triangle on it, or once if none is.
 struct EdgeRecord {
   EdgeKey key{};
-  std::array<float, 3>
-      inward{};  ///< HostEntity vector from the edge into the triangle, normal to it.
+  std::array<float, 3> inward{};  ///< Unit vector from the edge into the triangle, normal to it.
   std::array<float, 3> middle{};  ///< For messages only.
   LocalIndex piece = 0;
   LocalIndex cell = 0;                ///< Tet of the triangle.

@@ -127,7 +127,7 @@ class EdgeFan {
     return is_first_of_two ? partner(edge) : kNoPiece;
   }
 
-  // HostEntity vector from the edge to the apex, normal to the edge; zero if they are on one line.
+  // Unit vector from the edge to the apex, normal to the edge; zero if they are on one line.
   [[nodiscard]] std::array<float, 3> inward_of(const TriangleEdge& edge) const
   {
     const LocalIndex apex = surface_.triangles[static_cast<std::size_t>(edge.triangle)]

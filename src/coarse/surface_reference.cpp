@@ -16,7 +16,7 @@ double longest_edge(const std::array<Vec3, 3>& corners)
                    norm(corners[0] - corners[2])});
 }
 
-// HostEntity normal, or zero for a flat triangle.
+// Unit normal, or zero for a flat triangle.
 Vec3 unit_normal(const std::array<Vec3, 3>& corners)
 {
   const Vec3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);

@@ -57,8 +57,8 @@ void raise_number(const TetGraph& graph, TetPartition& partition, LocalIndex num
   const auto offer = [&](std::span<const LocalIndex> tets) {
     if (tets.size() > 1) heaviest.push({weight_of(graph, tets), {tets.begin(), tets.end()}});
   };
-  const PartTets label_tets = tets_of_parts(graph, partition);
-  for (LocalIndex part = 0; part < partition.num_parts(); ++part) offer(label_tets.of(part));
+  const IndexLists part_tets = tets_of_parts(partition);
+  for (LocalIndex part = 0; part < partition.num_parts(); ++part) offer(part_tets[part]);
 
   RegionSearch search(graph);
   while (partition.num_used() < num_wanted) {

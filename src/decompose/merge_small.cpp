@@ -34,20 +34,20 @@ class Merger {
   // One round: each part takes part in one merge at most, so that the lists of tets stay true.
   LocalIndex run_round()
   {
-    const PartTets label_tets = tets_of_parts(*graph_, *partition_);
+    const IndexLists part_tets = tets_of_parts(*partition_);
     std::vector<bool> is_changed(static_cast<std::size_t>(partition_->num_parts()), false);
     LocalIndex num_merges = 0;
     for (const LocalIndex part : small_parts()) {
       if (partition_->num_used() <= num_wanted_) break;
       if (is_changed[static_cast<std::size_t>(part)]) continue;
-      const auto neighbours = neighbours_of(label_tets.of(part));
+      const auto neighbours = neighbours_of(part_tets[part]);
       is_hopeless_[static_cast<std::size_t>(part)] = true;
       for (const LocalIndex other : neighbours) {
         if (is_changed[static_cast<std::size_t>(other)]) {
           is_hopeless_[static_cast<std::size_t>(part)] = false;
           continue;
         }
-        if (!try_merge(label_tets.of(part), label_tets.of(other))) continue;
+        if (!try_merge(part_tets[part], part_tets[other])) continue;
         is_changed[static_cast<std::size_t>(part)] = true;
         is_changed[static_cast<std::size_t>(other)] = true;
         for (const LocalIndex n : neighbours) is_hopeless_[static_cast<std::size_t>(n)] = false;

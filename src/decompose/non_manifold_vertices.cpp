@@ -39,21 +39,10 @@ LocalIndex NonManifoldVertices::node_of(LocalIndex vertex)
 {
   LocalIndex& node = node_[static_cast<std::size_t>(vertex)];
   if (node == kNoIndex) {
-    node = static_cast<LocalIndex>(vertices_.size());
+    node = components_.add();
     vertices_.push_back(vertex);
-    parent_.push_back(node);
   }
   return node;
-}
-
-LocalIndex NonManifoldVertices::root_of(LocalIndex node)
-{
-  auto at = static_cast<std::size_t>(node);
-  while (parent_[at] != static_cast<LocalIndex>(at)) {
-    parent_[at] = parent_[static_cast<std::size_t>(parent_[at])];
-    at = static_cast<std::size_t>(parent_[at]);
-  }
-  return static_cast<LocalIndex>(at);
 }
 
 int NonManifoldVertices::count(LocalIndex v, LocalIndex part)
@@ -61,17 +50,14 @@ int NonManifoldVertices::count(LocalIndex v, LocalIndex part)
   collect_link(v, part);
   if (link_.empty()) return 0;
   vertices_.clear();
-  parent_.clear();
-  int num_components = 0;
+  components_.clear();
+  int num_joins = 0;
   for (const LinkEdge& edge : link_) {
-    const LocalIndex a = root_of(node_of(edge.a));
-    const LocalIndex b = root_of(node_of(edge.b));
-    if (a == b) continue;
-    parent_[static_cast<std::size_t>(b)] = a;
-    --num_components;
+    const LocalIndex a = node_of(edge.a);
+    if (components_.join(a, node_of(edge.b))) ++num_joins;
   }
   const int num_nodes = static_cast<int>(vertices_.size());
-  num_components += num_nodes;
+  const int num_components = num_nodes - num_joins;
   for (const LocalIndex vertex : vertices_) node_[static_cast<std::size_t>(vertex)] = kNoIndex;
   return static_cast<int>(link_.size()) - num_nodes + num_components - 1;
 }

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/union_find.hpp"
+
 #include "decompose/tet_partition.hpp"
 
 namespace tessera::decompose {
@@ -40,7 +42,6 @@ class NonManifoldVertices {
   };
   void collect_link(LocalIndex v, LocalIndex part);
   [[nodiscard]] LocalIndex node_of(LocalIndex vertex);
-  [[nodiscard]] LocalIndex root_of(LocalIndex node);
   void compute_total(LocalIndex v);
 
   const TetGraph* graph_;
@@ -49,7 +50,7 @@ class NonManifoldVertices {
   std::vector<LinkEdge> link_{};        // skin triangles at the vertex in question
   std::vector<LocalIndex> node_;        // shape (num_vertices); kNoIndex between calls
   std::vector<LocalIndex> vertices_{};  // of the nodes
-  std::vector<LocalIndex> parent_{};    // union-find over the nodes
+  UnionFind components_{};              // of the nodes
   std::vector<LocalIndex> parts_{};
   std::vector<LocalIndex> stale_{};
 };

@@ -39,11 +39,11 @@ class Splitter {
   std::vector<LocalIndex> run(LocalIndex& num_splits)
   {
     std::vector<Separation> separations = separations_at_non_manifold();
-    const PartTets label_tets = tets_of_parts(*graph_, *partition_);
-    if (separations.empty()) separations = separations_at_cavities(label_tets);
+    const IndexLists part_tets = tets_of_parts(*partition_);
+    if (separations.empty()) separations = separations_at_cavities(part_tets);
     std::vector<LocalIndex> changed;
     for (const Separation& separation : separations) {
-      const auto tets = label_tets.of(separation.part);
+      const auto tets = part_tets[separation.part];
       const LocalIndex new_part = partition_->add_part();
       for (const LocalIndex t : search_.cut(tets, separation.first, separation.second)) {
         partition_->assign(t, new_part);
@@ -100,11 +100,11 @@ class Splitter {
   }
 
   // A cut from one end of the cavity to the other opens it.
-  std::vector<Separation> separations_at_cavities(const PartTets& label_tets)
+  std::vector<Separation> separations_at_cavities(const IndexLists& part_tets)
   {
     std::vector<Separation> separations;
     for (LocalIndex part = 0; part < partition_->num_parts(); ++part) {
-      const auto tets = label_tets.of(part);
+      const auto tets = part_tets[part];
       if (tets.empty()) continue;
       const auto at_cavity = skins_.tets_at_cavity(*partition_, tets);
       if (at_cavity.empty()) continue;

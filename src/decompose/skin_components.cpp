@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "decompose/skin_components.hpp"
 
-#include <numeric>
-
 namespace tessera::decompose {
 
 SkinComponents::SkinComponents(const TetGraph& graph)
     : graph_(&graph),
-      parent_(static_cast<std::size_t>(graph.num_vertices())),
+      surfaces_(graph.num_vertices()),
       num_triangles_(static_cast<std::size_t>(graph.num_vertices()), 0)
 {
-  std::iota(parent_.begin(), parent_.end(), 0);
-}
-
-LocalIndex SkinComponents::root_of(LocalIndex vertex)
-{
-  auto at = static_cast<std::size_t>(vertex);
-  while (parent_[at] != static_cast<LocalIndex>(at)) {
-    parent_[at] = parent_[static_cast<std::size_t>(parent_[at])];
-    at = static_cast<std::size_t>(parent_[at]);
-  }
-  return static_cast<LocalIndex>(at);
 }
 
 void SkinComponents::collect(const TetPartition& partition, std::span<const LocalIndex> tets)
@@ -37,8 +24,7 @@ void SkinComponents::collect(const TetPartition& partition, std::span<const Loca
       for (std::size_t corner = 0; corner < 4; ++corner) {
         if (corner == face) continue;
         touched_.push_back(vertices[corner]);
-        const LocalIndex a = root_of(first);
-        parent_[static_cast<std::size_t>(root_of(vertices[corner]))] = a;
+        surfaces_.join(first, vertices[corner]);
       }
     }
   }
@@ -53,25 +39,23 @@ std::vector<LocalIndex> SkinComponents::tets_at_cavity(const TetPartition& parti
   const auto size_of = [&](LocalIndex root) -> LocalIndex& {
     return num_triangles_[static_cast<std::size_t>(root)];
   };
-  for (const SkinTriangle& triangle : skin_) ++size_of(root_of(triangle.vertex));
-  LocalIndex outer = root_of(skin_.front().vertex);
+  for (const SkinTriangle& triangle : skin_) ++size_of(surfaces_.find(triangle.vertex));
+  LocalIndex outer = surfaces_.find(skin_.front().vertex);
   for (const SkinTriangle& triangle : skin_) {
-    const LocalIndex root = root_of(triangle.vertex);
+    const LocalIndex root = surfaces_.find(triangle.vertex);
     if (size_of(root) > size_of(outer)) outer = root;
   }
   std::vector<LocalIndex> at_cavity;
   LocalIndex cavity = kNoIndex;
   for (const SkinTriangle& triangle : skin_) {
-    const LocalIndex root = root_of(triangle.vertex);
+    const LocalIndex root = surfaces_.find(triangle.vertex);
     if (root == outer) continue;
     if (cavity == kNoIndex) cavity = root;
     const bool is_new = at_cavity.empty() || at_cavity.back() != triangle.tet;
     if (root == cavity && is_new) at_cavity.push_back(triangle.tet);
   }
-  for (const LocalIndex v : touched_) {
-    parent_[static_cast<std::size_t>(v)] = v;
-    num_triangles_[static_cast<std::size_t>(v)] = 0;
-  }
+  surfaces_.separate(touched_);
+  for (const LocalIndex v : touched_) num_triangles_[static_cast<std::size_t>(v)] = 0;
   return at_cavity;
 }
 

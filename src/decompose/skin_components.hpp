@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/union_find.hpp"
+
 #include "decompose/tet_partition.hpp"
 
 namespace tessera::decompose {
@@ -26,11 +28,10 @@ class SkinComponents {
     LocalIndex tet;
     LocalIndex vertex;
   };
-  [[nodiscard]] LocalIndex root_of(LocalIndex vertex);
   void collect(const TetPartition& partition, std::span<const LocalIndex> tets);
 
   const TetGraph* graph_;
-  std::vector<LocalIndex> parent_;         // shape (num_vertices): union-find; itself between calls
+  UnionFind surfaces_;                     // of the vertices; each by itself between calls
   std::vector<LocalIndex> num_triangles_;  // shape (num_vertices): at roots; 0 between calls
   std::vector<SkinTriangle> skin_{};
   std::vector<LocalIndex> touched_{};

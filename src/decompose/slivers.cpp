@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "tessera/base/union_find.hpp"
+
 namespace tessera::decompose {
 namespace {
 
@@ -99,16 +101,6 @@ std::vector<LocalIndex> best_neighbours(const TetGraph& graph, const Components&
   return best;
 }
 
-LocalIndex root_of(std::vector<LocalIndex>& parent, LocalIndex node)
-{
-  auto at = static_cast<std::size_t>(node);
-  while (parent[at] != static_cast<LocalIndex>(at)) {
-    parent[at] = parent[static_cast<std::size_t>(parent[at])];
-    at = static_cast<std::size_t>(parent[at]);
-  }
-  return static_cast<LocalIndex>(at);
-}
-
 // Joins each sliver with its best neighbour and renumbers. Slivers point to one component each and
 // main components to none, so no two main components can be joined.
 bool join_slivers(const TetGraph& graph, Components& components, double limit)
@@ -118,22 +110,20 @@ bool join_slivers(const TetGraph& graph, Components& components, double limit)
     is_sliver[c] = !components.is_main[c] && components.weight[c] < limit;
   }
   const auto target = best_neighbours(graph, components, is_sliver);
-  std::vector<LocalIndex> parent(target.size());
-  for (std::size_t c = 0; c < parent.size(); ++c) parent[c] = static_cast<LocalIndex>(c);
+  UnionFind groups(static_cast<LocalIndex>(target.size()));
   bool any = false;
-  for (std::size_t c = 0; c < parent.size(); ++c) {
+  for (std::size_t c = 0; c < target.size(); ++c) {
     if (target[c] == kNoIndex) continue;
-    const LocalIndex a = root_of(parent, static_cast<LocalIndex>(c));
-    const LocalIndex b = root_of(parent, target[c]);
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    groups.join(static_cast<LocalIndex>(c), target[c]);
     any = true;
   }
   if (!any) return false;
 
   Components joined;
-  std::vector<LocalIndex> new_number(parent.size(), kNoIndex);
-  for (std::size_t c = 0; c < parent.size(); ++c) {
-    const auto root = static_cast<std::size_t>(root_of(parent, static_cast<LocalIndex>(c)));
+  std::vector<LocalIndex> new_number(target.size(), kNoIndex);
+  for (std::size_t c = 0; c < target.size(); ++c) {
+    // The lowest component of a group: it comes before the others.
+    const auto root = static_cast<std::size_t>(groups.find(static_cast<LocalIndex>(c)));
     if (root == c) {
       new_number[c] = static_cast<LocalIndex>(joined.weight.size());
       joined.weight.push_back(0.0);

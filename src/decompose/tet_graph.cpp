@@ -37,21 +37,6 @@ void connect_tets(TetGraph& graph)
   graph.tet_face_cost = quantise(price);
 }
 
-void collect_tets_of_vertices(TetGraph& graph)
-{
-  auto& offsets = graph.vertex_tet_offsets;
-  offsets.assign(static_cast<std::size_t>(graph.num_vertices()) + 1, 0);
-  const auto& tet_vertices = graph.mesh->tet_vertices;
-  for (const LocalIndex v : tet_vertices) ++offsets[static_cast<std::size_t>(v) + 1];
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  graph.vertex_tets.resize(tet_vertices.size());
-  std::vector<LocalIndex> next(offsets.begin(), offsets.end() - 1);
-  for (std::size_t i = 0; i < tet_vertices.size(); ++i) {
-    const LocalIndex slot = next[static_cast<std::size_t>(tet_vertices[i])]++;
-    graph.vertex_tets[static_cast<std::size_t>(slot)] = static_cast<LocalIndex>(i / 4);
-  }
-}
-
 }  // namespace
 
 double triangle_area(const mesh::CoarseMesh& mesh, const mesh::TriangleTets& triangle)
@@ -85,7 +70,7 @@ TetGraph make_tet_graph(const mesh::CoarseMesh& mesh, std::span<const double> te
   graph.tet_int_weight = quantise(tet_weight);
   graph.triangles = mesh::triangles_of_tets(mesh.tet_vertices);
   connect_tets(graph);
-  collect_tets_of_vertices(graph);
+  graph.vertex_tets = rows_by_key(mesh.tet_vertices, mesh.num_vertices(), 4);
   return graph;
 }
 

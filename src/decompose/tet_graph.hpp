@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/index_lists.hpp"
 #include "tessera/decompose/graph.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -22,8 +23,7 @@ struct TetGraph {
   std::vector<LocalIndex> tet_neighbours{};    ///< Shape (num_tets, 4), beyond face i; or kNoIndex.
   std::vector<std::int32_t> tet_face_cost{};   ///< Shape (num_tets, 4): price as a seam triangle.
   std::vector<std::int32_t> tet_int_weight{};  ///< Shape (num_tets): tet_weight, quantised.
-  std::vector<LocalIndex> vertex_tet_offsets{};  ///< Shape (num_vertices + 1).
-  std::vector<LocalIndex> vertex_tets{};         ///< Tets at each vertex, ascending.
+  IndexLists vertex_tets{};                    ///< Tets at each vertex, ascending.
 
   [[nodiscard]] LocalIndex num_tets() const { return mesh->num_tets(); }
   [[nodiscard]] LocalIndex num_vertices() const { return mesh->num_vertices(); }
@@ -42,13 +42,7 @@ struct TetGraph {
     return std::span<const std::int32_t, 4>(tet_face_cost.data() + 4 * static_cast<std::size_t>(t),
                                             4);
   }
-  [[nodiscard]] std::span<const LocalIndex> tets_at(LocalIndex v) const
-  {
-    const auto at = static_cast<std::size_t>(v);
-    const auto first = static_cast<std::size_t>(vertex_tet_offsets[at]);
-    const auto last = static_cast<std::size_t>(vertex_tet_offsets[at + 1]);
-    return std::span(vertex_tets).subspan(first, last - first);
-  }
+  [[nodiscard]] std::span<const LocalIndex> tets_at(LocalIndex v) const { return vertex_tets[v]; }
 };
 
 [[nodiscard]] TetGraph make_tet_graph(const mesh::CoarseMesh& mesh,

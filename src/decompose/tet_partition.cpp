@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "decompose/tet_partition.hpp"
 
-#include <numeric>
 #include <utility>
 
 namespace tessera::decompose {
@@ -39,21 +38,9 @@ LocalIndex TetPartition::add_part()
   return num_parts() - 1;
 }
 
-PartTets tets_of_parts(const TetGraph& graph, const TetPartition& partition)
+IndexLists tets_of_parts(const TetPartition& partition)
 {
-  PartTets result;
-  result.offsets.assign(static_cast<std::size_t>(partition.num_parts()) + 1, 0);
-  for (LocalIndex t = 0; t < graph.num_tets(); ++t) {
-    ++result.offsets[static_cast<std::size_t>(partition.of(t)) + 1];
-  }
-  std::partial_sum(result.offsets.begin(), result.offsets.end(), result.offsets.begin());
-  result.tets.resize(static_cast<std::size_t>(graph.num_tets()));
-  std::vector<LocalIndex> next(result.offsets.begin(), result.offsets.end() - 1);
-  for (LocalIndex t = 0; t < graph.num_tets(); ++t) {
-    const LocalIndex slot = next[static_cast<std::size_t>(partition.of(t))]++;
-    result.tets[static_cast<std::size_t>(slot)] = t;
-  }
-  return result;
+  return rows_by_key(partition.tet_part(), partition.num_parts());
 }
 
 }  // namespace tessera::decompose

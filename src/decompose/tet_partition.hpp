@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/index_lists.hpp"
+
 #include "decompose/tet_graph.hpp"
 
 namespace tessera::decompose {
@@ -29,6 +31,9 @@ class TetPartition {
   }
   [[nodiscard]] double mean_weight() const { return total_weight_ / num_used_; }
 
+  /// @brief Shape (num_tets).
+  [[nodiscard]] std::span<const LocalIndex> tet_part() const { return tet_part_; }
+
   /// @brief Gives tet `t` to another part.
   void assign(LocalIndex t, LocalIndex part);
   /// @brief A part that no tet has.
@@ -46,18 +51,7 @@ class TetPartition {
   LocalIndex num_used_ = 0;
 };
 
-/// @brief The tets of every part in CSR form, ascending.
-struct PartTets {
-  std::vector<LocalIndex> offsets{};
-  std::vector<LocalIndex> tets{};
-
-  [[nodiscard]] std::span<const LocalIndex> of(LocalIndex part) const
-  {
-    const auto first = static_cast<std::size_t>(offsets[static_cast<std::size_t>(part)]);
-    const auto last = static_cast<std::size_t>(offsets[static_cast<std::size_t>(part) + 1]);
-    return std::span(tets).subspan(first, last - first);
-  }
-};
-[[nodiscard]] PartTets tets_of_parts(const TetGraph& graph, const TetPartition& partition);
+/// @brief The tets of every part, ascending.
+[[nodiscard]] IndexLists tets_of_parts(const TetPartition& partition);
 
 }  // namespace tessera::decompose

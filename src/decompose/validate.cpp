@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shares no code with the stages that make a decomposition: it works on the skins as surfaces, from
-// the triangles alone.
+// Shares no code with the stages that make a decomposition, not even their union-find: it works on
+// the skins as surfaces, from the triangles alone.
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -78,7 +78,7 @@ class Updater {
     return v >= 0 ? v : next_vertex_ - 1 - v;
   }
 
-  // HostEntity of a vertex, kNoIndex if it is interior.
+  // Host of a vertex, kNoIndex if it is interior.
   [[nodiscard]] mesh::HostEntity host_of(LocalIndex v) const
   {
     if (v < piece_.num_skin_vertices()) return piece_.skin_host[at(v)];

@@ -19,20 +19,12 @@ namespace {
 
 // A vertex that several pieces may hold, as one of them does.
 struct SharedVertex {
-  mesh::HostEntity host = 0;
-  LocalIndex index = 0;
+  mesh::HostPoint name{};
   PieceVertex place{};
-
-  [[nodiscard]] bool is_same(const SharedVertex& other) const
-  {
-    return host == other.host && index == other.index;
-  }
 
   friend bool operator<(const SharedVertex& a, const SharedVertex& b)
   {
-    if (a.host != b.host) return a.host < b.host;
-    if (a.index != b.index) return a.index < b.index;
-    return a.place.owner < b.place.owner;
+    return a.name != b.name ? a.name < b.name : a.place.owner < b.place.owner;
   }
 };
 
@@ -92,17 +84,16 @@ class Extractor {
     for (std::size_t p = 0; p < pieces_.size(); ++p) {
       const mesh::Piece& piece = pieces_[p].piece;
       for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-        shared.push_back(
-            {piece.skin_host[at(v)], piece.skin_index[at(v)], {static_cast<LocalIndex>(p), v}});
+        shared.push_back({piece.skin_point(v), {static_cast<LocalIndex>(p), v}});
       }
     }
     std::sort(shared.begin(), shared.end());
     for (auto first = shared.begin(); first != shared.end();) {
       const auto last = std::find_if(first, shared.end(),
-                                     [&](const SharedVertex& v) { return !v.is_same(*first); });
+                                     [&](const SharedVertex& v) { return v.name != first->name; });
       if (std::any_of(first, last, [&](const SharedVertex& v) { return is_used(v.place); })) {
         for (auto v = first; v != last; ++v) add_place(v->place);
-        offsets_.push_back(places_.size());
+        places_.end_list();
       }
       first = last;
     }
@@ -116,7 +107,7 @@ class Extractor {
         const PieceVertex place{static_cast<LocalIndex>(p), v};
         if (!is_used(place)) continue;
         add_place(place);
-        offsets_.push_back(places_.size());
+        places_.end_list();
       }
     }
   }
@@ -134,13 +125,14 @@ class Extractor {
   // One more place of the vertex that is being numbered. The bits are compared, not the numbers.
   void add_place(const PieceVertex& place)
   {
-    if (places_.size() > offsets_.back()
+    const auto& known = places_.values;
+    if (known.size() > at(places_.offsets.back())
         // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
-        && std::memcmp(xyz_of(places_.back()), xyz_of(place), 3 * sizeof(double)) != 0) {
+        && std::memcmp(xyz_of(known.back()), xyz_of(place), 3 * sizeof(double)) != 0) {
       throw MeshError("two pieces disagree about the position of a vertex");
     }
-    number_[at(place.owner)][at(place.vertex)] = static_cast<LocalIndex>(offsets_.size()) - 1;
-    places_.push_back(place);
+    number_[at(place.owner)][at(place.vertex)] = places_.num_lists();
+    places_.values.push_back(place);
   }
 
   void add_tets(RegionMesh& mesh) const
@@ -172,24 +164,21 @@ class Extractor {
   // Fixed vertices first; apart from that they keep their order.
   void number_vertices(RegionMesh& mesh)
   {
-    std::vector<LocalIndex> new_number(offsets_.size() - 1, kNoIndex);
+    std::vector<LocalIndex> new_number(at(places_.num_lists()), kNoIndex);
     for (const LocalIndex v : mesh.triangle_vertices) new_number[at(v)] = 0;
-    mesh.fixed_offsets.push_back(0);
-    std::vector<std::size_t> free;
+    std::vector<LocalIndex> free;
     LocalIndex next = 0;
-    for (std::size_t v = 0; v < new_number.size(); ++v) {
-      if (new_number[v] == kNoIndex) {
+    for (LocalIndex v = 0; v < places_.num_lists(); ++v) {
+      if (new_number[at(v)] == kNoIndex) {
         free.push_back(v);
         continue;
       }
-      new_number[v] = next++;
+      new_number[at(v)] = next++;
       add_position(v, mesh);
-      mesh.fixed_places.insert(mesh.fixed_places.end(), &places_[offsets_[v]],
-                               places_.data() + offsets_[v + 1]);
-      mesh.fixed_offsets.push_back(static_cast<LocalIndex>(mesh.fixed_places.size()));
+      mesh.fixed_places.add(places_[v]);
     }
-    for (const std::size_t v : free) {
-      new_number[v] = next++;
+    for (const LocalIndex v : free) {
+      new_number[at(v)] = next++;
       add_position(v, mesh);
     }
     for (LocalIndex& v : mesh.tet_vertices) v = new_number[at(v)];
@@ -199,9 +188,9 @@ class Extractor {
     }
   }
 
-  void add_position(std::size_t v, RegionMesh& mesh) const
+  void add_position(LocalIndex v, RegionMesh& mesh) const
   {
-    const double* xyz = xyz_of(places_[offsets_[v]]);
+    const double* xyz = xyz_of(places_[v].front());
     mesh.vertex_xyz.insert(mesh.vertex_xyz.end(), xyz, xyz + 3);
   }
 
@@ -244,8 +233,7 @@ class Extractor {
   LocalIndex region_;
   std::vector<std::vector<char>> used_{};          ///< By piece and its vertex.
   std::vector<std::vector<LocalIndex>> number_{};  ///< By piece and its vertex: the region's.
-  std::vector<std::size_t> offsets_{0};            ///< Places of each vertex of the region.
-  std::vector<PieceVertex> places_{};
+  Lists<PieceVertex> places_{};                    ///< Of each vertex of the region.
 };
 
 }  // namespace

@@ -22,9 +22,9 @@ struct HostSubdomain {
 // Which subdomains hold each host, in order. A subdomain holds a host if it has a skeleton triangle
 // that does: its closure meets another one only in such triangles.
 std::vector<HostSubdomain> holders_of_hosts(const mesh::Skeleton& skeleton,
+                                            const mesh::HostLayout& hosts,
                                             const mesh::Decomposition& decomposition)
 {
-  const mesh::HostLayout hosts(skeleton);
   std::vector<HostSubdomain> holders;
   holders.reserve(14 * at(skeleton.num_triangles()));
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
@@ -32,12 +32,11 @@ std::vector<HostSubdomain> holders_of_hosts(const mesh::Skeleton& skeleton,
       const LocalIndex subdomain = skeleton.triangle_subdomains[2 * at(t) + side];
       if (subdomain == kNoIndex) continue;
       const LocalIndex material = decomposition.subdomain_material[at(subdomain)];
-      holders.push_back({hosts.first_triangle + t, material, subdomain});
+      holders.push_back({hosts.triangle(t), material, subdomain});
       for (std::size_t c = 0; c < 3; ++c) {
         const std::size_t corner = 3 * at(t) + c;
-        holders.push_back(
-            {hosts.first_edge + skeleton.triangle_edges[corner], material, subdomain});
-        holders.push_back({skeleton.triangle_vertices[corner], material, subdomain});
+        holders.push_back({hosts.edge(skeleton.triangle_edges[corner]), material, subdomain});
+        holders.push_back({hosts.vertex(skeleton.triangle_vertices[corner]), material, subdomain});
       }
     }
   }
@@ -60,7 +59,8 @@ struct SeamHost {
 
 int phase_of_host(const mesh::HostLayout& hosts, mesh::HostEntity host)
 {
-  return host >= hosts.first_triangle ? 0 : host >= hosts.first_edge ? 1 : 2;
+  const mesh::HostKind kind = hosts.kind_of(host);
+  return kind == mesh::HostKind::triangle ? 0 : kind == mesh::HostKind::edge ? 1 : 2;
 }
 
 // The hosts that several subdomains of a material hold, by host and material; fills `sets`.
@@ -88,47 +88,28 @@ std::vector<SeamHost> seam_hosts(const std::vector<HostSubdomain>& holders,
 }  // namespace
 
 SeamRegions::SeamRegions(const mesh::Skeleton& skeleton, const mesh::Decomposition& decomposition)
+    : hosts_(skeleton)
 {
-  const mesh::HostLayout hosts(skeleton);
-  first_host_ = hosts.first_piece + decomposition.num_subdomains();
   std::map<Subdomains, SeamSet> sets;
   const std::vector<SeamHost> found =
-      seam_hosts(holders_of_hosts(skeleton, decomposition), hosts, sets);
+      seam_hosts(holders_of_hosts(skeleton, hosts_, decomposition), hosts_, sets);
 
-  region_offsets_.push_back(0);
   for (int phase = 0; phase < kNumPhases; ++phase) {
     for (auto& [subdomains, set] : sets) {
       if (set.phase != phase) continue;
-      set.region = static_cast<LocalIndex>(region_offsets_.size()) - 1;
-      region_subdomains_.insert(region_subdomains_.end(), subdomains.begin(), subdomains.end());
-      region_offsets_.push_back(static_cast<LocalIndex>(region_subdomains_.size()));
+      set.region = region_subdomains_.num_lists();
+      region_subdomains_.add(subdomains);
     }
-    phase_offsets_[static_cast<std::size_t>(phase) + 1] =
-        static_cast<LocalIndex>(region_offsets_.size()) - 1;
+    phase_offsets_[static_cast<std::size_t>(phase) + 1] = region_subdomains_.num_lists();
   }
+  subdomain_regions_ = inverted(region_subdomains_, decomposition.num_subdomains());
 
-  host_offsets_.assign(at(hosts.first_piece) + 1, 0);
-  for (const SeamHost& entry : found) {
-    host_regions_.push_back({entry.material, entry.set->second.region});
-    ++host_offsets_[at(entry.host) + 1];
-  }
-  for (std::size_t u = 1; u < host_offsets_.size(); ++u) host_offsets_[u] += host_offsets_[u - 1];
-  list_subdomain_regions(decomposition.num_subdomains());
-}
-
-void SeamRegions::list_subdomain_regions(LocalIndex num_subdomains)
-{
-  subdomain_offsets_.assign(at(num_subdomains) + 1, 0);
-  for (const LocalIndex s : region_subdomains_) ++subdomain_offsets_[at(s) + 1];
-  for (std::size_t s = 1; s < subdomain_offsets_.size(); ++s) {
-    subdomain_offsets_[s] += subdomain_offsets_[s - 1];
-  }
-  std::vector<LocalIndex> next(subdomain_offsets_.begin(), subdomain_offsets_.end() - 1);
-  subdomain_regions_.resize(region_subdomains_.size());
-  for (LocalIndex region = 0; region < num_regions(); ++region) {
-    for (const LocalIndex s : subdomains_of(region)) {
-      subdomain_regions_[at(next[at(s)]++)] = region;
+  auto next = found.begin();
+  for (mesh::HostEntity host = 0; host < hosts_.num_on_skeleton(); ++host) {
+    for (; next != found.end() && next->host == host; ++next) {
+      host_regions_.values.push_back({next->material, next->set->second.region});
     }
+    host_regions_.end_list();
   }
 }
 
@@ -141,25 +122,17 @@ int SeamRegions::phase_of(LocalIndex region) const
 
 LocalIndex SeamRegions::region_of(mesh::HostEntity host, LocalIndex material) const
 {
-  if (at(host) + 1 >= host_offsets_.size()) return kNoIndex;
-  for (LocalIndex i = host_offsets_[at(host)]; i < host_offsets_[at(host) + 1]; ++i) {
-    if (host_regions_[at(i)].material == material) return host_regions_[at(i)].region;
-  }
-  return kNoIndex;
-}
-
-std::span<const LocalIndex> SeamRegions::subdomains_of(LocalIndex region) const
-{
-  const std::size_t first = at(region_offsets_[at(region)]);
-  return std::span(region_subdomains_).subspan(first, at(region_offsets_[at(region) + 1]) - first);
+  if (host >= hosts_.num_on_skeleton()) return kNoIndex;
+  const auto regions = host_regions_[host];
+  const auto found = std::ranges::find(regions, material, &HostRegion::material);
+  return found == regions.end() ? kNoIndex : found->region;
 }
 
 std::span<const LocalIndex> SeamRegions::regions_of(LocalIndex subdomain, int phase) const
 {
-  const auto first = subdomain_regions_.begin() + subdomain_offsets_[at(subdomain)];
-  const auto last = subdomain_regions_.begin() + subdomain_offsets_[at(subdomain) + 1];
-  const auto low = std::lower_bound(first, last, first_of_phase(phase));
-  const auto high = std::lower_bound(low, last, first_of_phase(phase + 1));
+  const auto regions = subdomain_regions_[subdomain];
+  const auto low = std::ranges::lower_bound(regions, first_of_phase(phase));
+  const auto high = std::lower_bound(low, regions.end(), first_of_phase(phase + 1));
   return {low, high};
 }
 

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "tessera/mesh/host_layout.hpp"
+
 namespace tessera::mesh {
 
 LatticeNumbering::LatticeNumbering(const Complex& complex, LocalIndex n)
@@ -13,22 +15,24 @@ LatticeNumbering::LatticeNumbering(const Complex& complex, LocalIndex n)
       first_of_triangle_(at(complex.num_triangles()))
 {
   number(true);
+  num_skeleton_points_ = num_points_;
   number(false);
 }
 
 void LatticeNumbering::number(bool on_skeleton)
 {
-  const auto give = [&](const std::vector<LocalIndex>& skeleton, LocalIndex points_each,
+  const auto give = [&](const std::vector<LocalIndex>& skeleton, HostKind kind,
                         std::vector<LocalIndex>& first) {
+    const LocalIndex points_each = num_points_of_host(kind, n_);
     for (std::size_t i = 0; i < skeleton.size(); ++i) {
       if ((skeleton[i] != kNoIndex) != on_skeleton) continue;
       first[i] = num_points_;
       num_points_ += points_each;
     }
   };
-  give(complex_.vertex_skeleton, 1, vertex_);
-  give(complex_.edge_skeleton, lattice::num_inner_edge_points(n_), first_of_edge_);
-  give(complex_.triangle_skeleton, lattice::num_inner_triangle_points(n_), first_of_triangle_);
+  give(complex_.vertex_skeleton, HostKind::vertex, vertex_);
+  give(complex_.edge_skeleton, HostKind::edge, first_of_edge_);
+  give(complex_.triangle_skeleton, HostKind::triangle, first_of_triangle_);
 }
 
 LocalIndex LatticeNumbering::edge_point(LocalIndex e, LocalIndex k) const

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "tessera/mesh/host_layout.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::mesh {
@@ -200,23 +201,6 @@ void set_edge_records(const CoarseMesh& coarse, const std::vector<Edge>& edges, 
   set_edge_curves(coarse, edges, out);
 }
 
-void list_subdomain_triangles(LocalIndex num_subdomains, Skeleton& out)
-{
-  out.subdomain_offsets.assign(at(num_subdomains) + 1, 0);
-  for (const LocalIndex s : out.triangle_subdomains) {
-    if (s != kNoIndex) ++out.subdomain_offsets[at(s) + 1];
-  }
-  for (std::size_t s = 0; s < at(num_subdomains); ++s) {
-    out.subdomain_offsets[s + 1] += out.subdomain_offsets[s];
-  }
-  out.subdomain_triangles.resize(at(out.subdomain_offsets.back()));
-  std::vector<LocalIndex> next(out.subdomain_offsets.begin(), out.subdomain_offsets.end() - 1);
-  for (std::size_t i = 0; i < out.triangle_subdomains.size(); ++i) {
-    const LocalIndex s = out.triangle_subdomains[i];
-    if (s != kNoIndex) out.subdomain_triangles[at(next[at(s)]++)] = static_cast<LocalIndex>(i / 2);
-  }
-}
-
 }  // namespace
 
 LocalIndex Skeleton::triangle_owner(LocalIndex t) const
@@ -241,25 +225,25 @@ Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposi
   const std::vector<Edge> edges = number_edges(skeleton);
   set_owners(skeleton);
   set_edge_records(coarse, edges, skeleton);
-  list_subdomain_triangles(decomposition.num_subdomains(), skeleton);
+  skeleton.subdomain_triangles =
+      rows_by_key(skeleton.triangle_subdomains, decomposition.num_subdomains(), 2);
   return skeleton;
 }
 
 std::vector<char> hosts_on_seams(const Skeleton& skeleton, const Decomposition& decomposition)
 {
-  const std::size_t first_edge = at(skeleton.num_vertices());
-  const std::size_t first_triangle = first_edge + at(skeleton.num_edges());
-  std::vector<char> on_seam(first_triangle + at(skeleton.num_triangles()), 0);
+  const HostLayout hosts(skeleton);
+  std::vector<char> on_seam(at(hosts.num_on_skeleton()), 0);
   const auto material = [&](LocalIndex t, std::size_t side) {
     const LocalIndex subdomain = skeleton.triangle_subdomains[2 * at(t) + side];
     return decomposition.subdomain_material[at(subdomain)];
   };
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
     if (!skeleton.is_inside(t) || material(t, 0) != material(t, 1)) continue;
-    on_seam[first_triangle + at(t)] = 1;
+    on_seam[at(hosts.triangle(t))] = 1;
     for (std::size_t c = 0; c < 3; ++c) {
-      on_seam[at(skeleton.triangle_vertices[3 * at(t) + c])] = 1;
-      on_seam[first_edge + at(skeleton.triangle_edges[3 * at(t) + c])] = 1;
+      on_seam[at(hosts.vertex(skeleton.triangle_vertices[3 * at(t) + c]))] = 1;
+      on_seam[at(hosts.edge(skeleton.triangle_edges[3 * at(t) + c]))] = 1;
     }
   }
   return on_seam;
@@ -268,9 +252,7 @@ std::vector<char> hosts_on_seams(const Skeleton& skeleton, const Decomposition& 
 std::vector<std::vector<LocalIndex>> neighbours_by_vertex(const Skeleton& skeleton)
 {
   std::vector<std::vector<LocalIndex>> around(at(skeleton.num_vertices()));
-  const auto num_subdomains = skeleton.subdomain_offsets.size() - 1;
-  for (std::size_t s = 0; s < num_subdomains; ++s) {
-    const auto subdomain = static_cast<LocalIndex>(s);
+  for (LocalIndex subdomain = 0; subdomain < skeleton.num_subdomains(); ++subdomain) {
     for (const LocalIndex t : skeleton.triangles_of(subdomain)) {
       for (std::size_t c = 0; c < 3; ++c) {
         auto& there = around[at(skeleton.triangle_vertices[3 * at(t) + c])];
@@ -278,7 +260,7 @@ std::vector<std::vector<LocalIndex>> neighbours_by_vertex(const Skeleton& skelet
       }
     }
   }
-  std::vector<std::vector<LocalIndex>> neighbours(num_subdomains);
+  std::vector<std::vector<LocalIndex>> neighbours(at(skeleton.num_subdomains()));
   for (const auto& there : around) {
     for (const LocalIndex s : there) {
       std::ranges::copy_if(there, std::back_inserter(neighbours[at(s)]),

@@ -117,18 +117,18 @@ bool all_have_point_ids(const comm::Communicator& comm, const MeshPieces& pieces
 // Of no use if by ids and contradicted. Vertices in the order of their keys, tets in the order of
 // the pieces; ids are still to come.
 struct Draft {
-  PointIdentity identity = PointIdentity::ids;
+  VertexIdentity identity = VertexIdentity::ids;
   JoinedTets joined{};
   std::vector<LocalIndex> behind{};
   FoundSharers found{};
 };
 
-Draft join(const comm::Communicator& comm, const MeshPieces& pieces, PointIdentity identity)
+Draft join(const comm::Communicator& comm, const MeshPieces& pieces, VertexIdentity identity)
 {
   Draft draft{.identity = identity};
   comm::all_or_none(comm, [&] { draft.joined = join_tets(pieces.tets, identity); });
   draft.found.has_contradiction = comm.sum(draft.joined.has_contradiction ? 1 : 0) > 0;
-  if (draft.found.has_contradiction && identity == PointIdentity::ids) return draft;
+  if (draft.found.has_contradiction && identity == VertexIdentity::ids) return draft;
   comm::all_or_none(comm, [&] {
     require_tets(draft.joined.block);
     draft.behind = tets_behind_faces(draft.joined.block);
@@ -147,7 +147,7 @@ void number_vertices(const comm::Communicator& comm, const Draft& draft, Distrib
   }
   std::ranges::sort(owned, {}, [&](LocalIndex v) { return draft.joined.first_use[at(v)]; });
   std::optional<std::vector<GlobalIndex>> ids;
-  if (draft.identity == PointIdentity::ids) {
+  if (draft.identity == VertexIdentity::ids) {
     ids.emplace();
     for (const LocalIndex v : owned) {
       ids->push_back(static_cast<GlobalIndex>(draft.joined.vertex_keys[at(v)][0]));
@@ -199,11 +199,7 @@ void sort_vertices(DistributedMesh& mesh)
   mesh.vertex_xyz = rows_of<3>(mesh.vertex_xyz, order);
   for (LocalIndex& v : mesh.tet_vertices) v = place[at(v)];
   IndexLists sharers;
-  for (const LocalIndex v : order) {
-    const auto list = mesh.vertex_sharers[v];
-    sharers.values.insert(sharers.values.end(), list.begin(), list.end());
-    sharers.end_list();
-  }
+  for (const LocalIndex v : order) sharers.add(mesh.vertex_sharers[v]);
   mesh.vertex_sharers = std::move(sharers);
 }
 
@@ -234,10 +230,10 @@ AssembledMesh assemble(const comm::Communicator& comm, const MeshPieces& pieces)
 {
   AssembledMesh assembled;
   const bool has_ids = all_have_point_ids(comm, pieces);
-  Draft draft = join(comm, pieces, has_ids ? PointIdentity::ids : PointIdentity::positions);
+  Draft draft = join(comm, pieces, has_ids ? VertexIdentity::ids : VertexIdentity::positions);
   if (draft.found.has_contradiction) {
     assembled.notes.emplace_back("point ids stand for several positions and are not used");
-    draft = join(comm, pieces, PointIdentity::positions);
+    draft = join(comm, pieces, VertexIdentity::positions);
   } else if (!has_ids) {
     assembled.notes.emplace_back("points without ids: matched by position");
   }

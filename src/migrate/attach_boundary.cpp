@@ -20,8 +20,6 @@
 namespace tessera::migrate {
 namespace {
 
-using TriangleKey = std::array<std::uint64_t, 2>;
-
 constexpr GlobalIndex kNoId = -1;
 
 // A face of a tet, or a triangle of the boundary file.

@@ -17,7 +17,7 @@ struct BoundaryMatch {
   const std::vector<GlobalIndex>& tet_ids;  ///< As in the files; empty if they have none.
   const std::vector<mesh::MeshArrays>& pieces;
   bool has_boundary = false;  ///< There is a boundary file; the same on all ranks.
-  PointIdentity identity = PointIdentity::ids;
+  VertexIdentity identity = VertexIdentity::ids;
 };
 
 /// @brief Finds the tets behind the triangles of the boundary file, and adds the triangles to the

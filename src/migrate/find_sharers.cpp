@@ -67,10 +67,7 @@ IndexLists sorted_by_vertex(ListStreams<LocalIndex>& streams, std::size_t num_ve
   }
   IndexLists sharers;
   sharers.offsets.reserve(num_vertices + 1);
-  for (const auto list : of_vertex) {
-    sharers.values.insert(sharers.values.end(), list.begin(), list.end());
-    sharers.end_list();
-  }
+  for (const auto list : of_vertex) sharers.add(list);
   return sharers;
 }
 

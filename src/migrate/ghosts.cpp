@@ -80,21 +80,6 @@ void ask(std::vector<Surroundings>& parts, LocalIndex num_parts, int num_ranks,
   }
 }
 
-// The tets around each vertex of this rank.
-IndexLists tets_around_vertices(const MeshBlock& block)
-{
-  IndexLists lists;
-  lists.offsets.assign(block.vertex_ids.size() + 1, 0);
-  for (const LocalIndex v : block.tet_vertices) ++lists.offsets[at(v) + 1];
-  for (std::size_t v = 1; v < lists.offsets.size(); ++v) lists.offsets[v] += lists.offsets[v - 1];
-  std::vector<LocalIndex> next(lists.offsets.begin(), lists.offsets.end() - 1);
-  lists.values.resize(block.tet_vertices.size());
-  for (std::size_t i = 0; i < block.tet_vertices.size(); ++i) {
-    lists.values[at(next[at(block.tet_vertices[i])]++)] = static_cast<LocalIndex>(i / 4);
-  }
-  return lists;
-}
-
 template <class T>
 void sort_unique(std::vector<T>& values)
 {
@@ -193,7 +178,8 @@ std::vector<GhostTets> find_ghosts(const comm::Communicator& comm, const Distrib
                                    int num_layers)
 {
   std::vector<Surroundings> parts = own_parts(comm, mesh, vertex_parts, num_parts);
-  const IndexLists tets_around = num_layers > 0 ? tets_around_vertices(mesh) : IndexLists{};
+  const IndexLists tets_around =
+      num_layers > 0 ? rows_by_key(mesh.tet_vertices, mesh.num_vertices(), 4) : IndexLists{};
   for (int layer = 0; layer < num_layers; ++layer) {
     add_layer(comm, mesh, vertex_parts, tets_around, num_parts, parts);
   }

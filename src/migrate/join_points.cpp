@@ -25,8 +25,8 @@ Vec3 position_of(const mesh::MeshArrays& piece, std::size_t p)
 
 // The points that tets use, once a piece, in the order of their first use.
 // @param[out] corner_point Row among them of each corner of all tets.
-std::vector<UsedPoint> used_points(std::span<const mesh::MeshArrays> pieces, PointIdentity identity,
-                                   std::vector<LocalIndex>& corner_point)
+std::vector<UsedPoint> used_points(std::span<const mesh::MeshArrays> pieces,
+                                   VertexIdentity identity, std::vector<LocalIndex>& corner_point)
 {
   std::vector<UsedPoint> used;
   for (const mesh::MeshArrays& piece : pieces) {
@@ -82,13 +82,13 @@ void add_materials(const mesh::MeshArrays& piece, MeshBlock& block)
 
 }  // namespace
 
-VertexKey key_of_point(const mesh::MeshArrays& piece, std::size_t p, PointIdentity identity)
+VertexKey key_of_point(const mesh::MeshArrays& piece, std::size_t p, VertexIdentity identity)
 {
-  return identity == PointIdentity::ids ? key_of_id(piece.point_ids[p])
-                                        : key_of_position(position_of(piece, p));
+  return identity == VertexIdentity::ids ? key_of_id(piece.point_ids[p])
+                                         : key_of_position(position_of(piece, p));
 }
 
-JoinedTets join_tets(std::span<const mesh::MeshArrays> pieces, PointIdentity identity)
+JoinedTets join_tets(std::span<const mesh::MeshArrays> pieces, VertexIdentity identity)
 {
   JoinedTets joined;
   std::vector<LocalIndex> corners;

@@ -10,12 +10,9 @@
 
 namespace tessera::migrate {
 
-/// @brief By what points of different pieces are recognised as the same vertex.
-enum class PointIdentity { ids, positions };
-
 /// @brief Key of point `p` of a piece.
 [[nodiscard]] VertexKey key_of_point(const mesh::MeshArrays& piece, std::size_t p,
-                                     PointIdentity identity);
+                                     VertexIdentity identity);
 
 /// @brief Tets of some pieces with common vertices.
 struct JoinedTets {
@@ -28,7 +25,7 @@ struct JoinedTets {
 /// @brief Joins the points of the pieces that have the same key. Local.
 /// @throws InputError if there are more than 2^29 tets.
 [[nodiscard]] JoinedTets join_tets(std::span<const mesh::MeshArrays> pieces,
-                                   PointIdentity identity);
+                                   VertexIdentity identity);
 
 /// @throws InputError if a tet has a vertex twice.
 void require_tets(const MeshBlock& block);

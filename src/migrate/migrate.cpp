@@ -52,8 +52,7 @@ void add_sharers(const DistributedMesh& mesh, const IndexLists& new_sharers, Pac
     for (const Rank sharer : sharers) {
       Packet& packet = packets[sharer];
       packet.shared_ids.push_back(mesh.vertex_ids[at(v)]);
-      packet.sharers.values.insert(packet.sharers.values.end(), sharers.begin(), sharers.end());
-      packet.sharers.end_list();
+      packet.sharers.add(sharers);
     }
   }
 }

@@ -61,8 +61,7 @@ IndexLists lists_from_owners(const comm::Communicator& comm, const DistributedMe
   all.offsets.reserve(lists.offsets.size());
   for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
     const Rank owner = mesh.owner(v, comm.rank());
-    append(all, owner == comm.rank() ? lists[v] : streams.get(owner));
-    all.end_list();
+    all.add(owner == comm.rank() ? lists[v] : streams.get(owner));
   }
   return all;
 }

@@ -141,16 +141,16 @@ class CurveWalk {
   {
     if (features_.edge_curve[at(edge)] != kNoIndex) return;
     const LocalIndex curve = features_.num_curves();
-    features_.curve_vertices.push_back(vertex);
+    features_.curve_vertices.values.push_back(vertex);
     while (edge != kNoIndex) {
       features_.edge_curve[at(edge)] = curve;
       const std::size_t row = 2 * at(edge);
       vertex = features_.edge_vertices[row] == vertex ? features_.edge_vertices[row + 1]
                                                       : features_.edge_vertices[row];
-      features_.curve_vertices.push_back(vertex);
+      features_.curve_vertices.values.push_back(vertex);
       edge = next_edge(vertex);
     }
-    features_.curve_offsets.push_back(static_cast<LocalIndex>(features_.curve_vertices.size()));
+    features_.curve_vertices.end_list();
   }
 
   [[nodiscard]] LocalIndex next_edge(LocalIndex vertex) const
@@ -214,15 +214,15 @@ std::vector<Vec3> triangle_normals(const TriangleSurface& surface)
 
 SurfaceFeatures find_features(const TriangleSurface& surface, double feature_angle_deg)
 {
-  const HalfEdgesOfEdges edges = half_edges_of_edges(surface.triangle_vertices);
+  const IndexLists edges = half_edges_of_edges(surface.triangle_vertices);
   const std::vector<LocalIndex> opposite = opposite_half_edges(edges);
   const std::vector<bool> is_feature = feature_half_edges(surface, opposite, feature_angle_deg);
 
   SurfaceFeatures features;
   const LocalIndex num_patches = mark_patches(opposite, is_feature, features.triangle_patch);
   features.patch_names = name_patches(surface, features.triangle_patch, num_patches);
-  for (LocalIndex e = 0; e < edges.num_edges(); ++e) {
-    const LocalIndex h = edges.of(e)[0];
+  for (LocalIndex e = 0; e < edges.num_lists(); ++e) {
+    const LocalIndex h = edges[e][0];
     if (!is_feature[at(h)]) continue;
     const LocalIndex a = surface.triangle_vertices[at(h)];
     const LocalIndex b = surface.triangle_vertices[at(next_in_triangle(h))];

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "tessera/base/union_find.hpp"
+
 #include "half_edges.hpp"
 
 namespace tessera::model {
@@ -15,11 +17,11 @@ namespace {
 // Vertices of edges with one triangle, ascending.
 std::vector<LocalIndex> open_vertices(const TriangleSurface& surface)
 {
-  const HalfEdgesOfEdges edges = half_edges_of_edges(surface.triangle_vertices);
+  const IndexLists edges = half_edges_of_edges(surface.triangle_vertices);
   std::vector<LocalIndex> vertices;
-  for (LocalIndex e = 0; e < edges.num_edges(); ++e) {
-    if (edges.of(e).size() != 1) continue;
-    const LocalIndex h = edges.of(e)[0];
+  for (LocalIndex e = 0; e < edges.num_lists(); ++e) {
+    if (edges[e].size() != 1) continue;
+    const LocalIndex h = edges[e][0];
     vertices.push_back(surface.triangle_vertices[at(h)]);
     vertices.push_back(surface.triangle_vertices[at(next_in_triangle(h))]);
   }
@@ -27,34 +29,6 @@ std::vector<LocalIndex> open_vertices(const TriangleSurface& surface)
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
-
-// Union-find whose roots are the lowest numbers.
-class LowestRepresentative {
- public:
-  explicit LowestRepresentative(LocalIndex size) : parent_(at(size))
-  {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  LocalIndex find(LocalIndex i)
-  {
-    while (parent_[at(i)] != i) {
-      parent_[at(i)] = parent_[at(parent_[at(i)])];
-      i = parent_[at(i)];
-    }
-    return i;
-  }
-
-  void join(LocalIndex a, LocalIndex b)
-  {
-    const LocalIndex root_a = find(a);
-    const LocalIndex root_b = find(b);
-    parent_[at(std::max(root_a, root_b))] = std::min(root_a, root_b);
-  }
-
- private:
-  std::vector<LocalIndex> parent_;
-};
 
 void drop_unused_vertices(TriangleSurface& surface)
 {
@@ -107,17 +81,16 @@ LocalIndex weld_open_vertices(TriangleSurface& surface, double tolerance)
   std::sort(open.begin(), open.end(), [&](LocalIndex a, LocalIndex b) {
     return std::pair(along(a), a) < std::pair(along(b), b);
   });
-  LowestRepresentative representative(surface.num_vertices());
+  UnionFind welded(surface.num_vertices());
   LocalIndex num_joined = 0;
   for (std::size_t i = 0; i < open.size(); ++i) {
     for (std::size_t j = i + 1; j < open.size(); ++j) {
       if (along(open[j]) - along(open[i]) > tolerance) break;
       if (norm(surface.position(open[j]) - surface.position(open[i])) > tolerance) continue;
-      if (representative.find(open[i]) != representative.find(open[j])) ++num_joined;
-      representative.join(open[i], open[j]);
+      if (welded.join(open[i], open[j])) ++num_joined;
     }
   }
-  for (LocalIndex& v : surface.triangle_vertices) v = representative.find(v);
+  for (LocalIndex& v : surface.triangle_vertices) v = welded.find(v);
   return num_joined;
 }
 

@@ -25,16 +25,15 @@ std::string counted(LocalIndex count, const std::string& one, const std::string&
 
 // "3 edges, first (0, 0, 0) - (1, 0, 0), …" for the edges whose number of triangles is `bad`.
 template <class Predicate>
-std::string describe_edges(const TriangleSurface& surface, const HalfEdgesOfEdges& edges,
-                           Predicate bad)
+std::string describe_edges(const TriangleSurface& surface, const IndexLists& edges, Predicate bad)
 {
   constexpr LocalIndex kNumShown = 3;
   LocalIndex count = 0;
   std::string shown;
-  for (LocalIndex e = 0; e < edges.num_edges(); ++e) {
-    if (!bad(edges.of(e).size())) continue;
+  for (LocalIndex e = 0; e < edges.num_lists(); ++e) {
+    if (!bad(edges[e].size())) continue;
     if (count++ >= kNumShown) continue;
-    const LocalIndex h = edges.of(e)[0];
+    const LocalIndex h = edges[e][0];
     const Vec3 from = surface.position(surface.triangle_vertices[at(h)]);
     const Vec3 to = surface.position(surface.triangle_vertices[at(next_in_triangle(h))]);
     shown += fmt::format("{}({:.9g}) - ({:.9g})", count == 1 ? ", first " : ", ",

@@ -37,7 +37,7 @@ std::vector<model::SegmentSearch> searches_of_curves(const model::TriangleSurfac
 {
   std::vector<model::SegmentSearch> searches;
   for (LocalIndex c = 0; c < features.num_curves(); ++c) {
-    const auto vertices = features.curve(c);
+    const auto vertices = features.curve_vertices[c];
     std::vector<std::array<Vec3, 2>> segments;
     for (std::size_t i = 1; i < vertices.size(); ++i) {
       segments.push_back({surface.position(vertices[i - 1]), surface.position(vertices[i])});

@@ -5,15 +5,15 @@
 
 namespace tessera::number {
 
-std::vector<SharedVertexKey> shared_vertices(const mesh::Piece& piece)
+std::vector<mesh::HostPoint> shared_vertices(const mesh::Piece& piece)
 {
-  std::vector<SharedVertexKey> keys;
-  keys.reserve(at(piece.num_skin_vertices()));
+  std::vector<mesh::HostPoint> names;
+  names.reserve(at(piece.num_skin_vertices()));
   for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-    keys.push_back({piece.skin_host[at(v)], piece.skin_index[at(v)]});
+    names.push_back(piece.skin_point(v));
   }
-  std::ranges::sort(keys);
-  return keys;
+  std::ranges::sort(names);
+  return names;
 }
 
 SharedBy compare_lists(const VertexList& own, std::span<const VertexList> neighbours)

@@ -36,12 +36,6 @@ double mean_ratio(const TetCorners& corners) noexcept
   return mean_ratio_of(tet_volume(corners[0], corners[1], corners[2], corners[3]), corners);
 }
 
-DihedralRange dihedral_range(const TetCorners& corners) noexcept
-{
-  const TetShape shape = shape_of(corners);
-  return {angle_deg(shape.largest_cosine), angle_deg(shape.smallest_cosine)};
-}
-
 TetShape shape_of(const TetCorners& corners) noexcept
 {
   std::array<Vec3, 4> normals;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/refine/skin.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
+#include "tessera/mesh/host_layout.hpp"
 #include "tessera/mesh/lattice_numbering.hpp"
 
 namespace tessera::refine {
@@ -12,87 +14,105 @@ namespace {
 namespace lattice = mesh::lattice;
 using lattice::TrianglePoint;
 
-// Appends skin vertices in the order of mesh::LatticeNumbering.
-class VertexList {
+// Puts every vertex where the numbering says.
+class SkinBuilder {
  public:
-  explicit VertexList(mesh::Skin& skin) : skin_(skin) {}
-
-  void append(const Vec3& point, mesh::HostEntity host, LocalIndex index)
+  SkinBuilder(const mesh::Complex& complex, const mesh::RefinedLattice& points,
+              const mesh::Skeleton& skeleton)
+      : complex_(complex),
+        points_(points),
+        skeleton_(skeleton),
+        hosts_(skeleton),
+        numbering_(complex, points.n)
   {
-    skin_.vertex_xyz.insert(skin_.vertex_xyz.end(), point.begin(), point.end());
-    skin_.vertex_host.push_back(host);
-    skin_.vertex_index.push_back(index);
+    const std::size_t num_vertices = at(numbering_.num_skeleton_points());
+    skin_.vertex_xyz.resize(3 * num_vertices);
+    skin_.vertex_host.resize(num_vertices);
+    skin_.vertex_index.resize(num_vertices);
+  }
+
+  mesh::Skin run(LocalIndex subdomain) &&
+  {
+    for (LocalIndex e = 0; e < complex_.num_edges(); ++e) {
+      place_ends(e);
+      if (complex_.edge_skeleton[at(e)] != kNoIndex) place_inside_edge(e);
+    }
+    for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) {
+      if (complex_.triangle_skeleton[at(t)] == kNoIndex) continue;
+      place_inside_triangle(t);
+      append_triangles(t, subdomain);
+    }
+    return std::move(skin_);
   }
 
  private:
-  mesh::Skin& skin_;
-};
+  // Edges write the same bits for a vertex that they share.
+  void place_ends(LocalIndex e)
+  {
+    for (LocalIndex end = 0; end < 2; ++end) {
+      const LocalIndex v = complex_.edge_vertices[2 * at(e) + at(end)];
+      const LocalIndex skeleton_vertex = complex_.vertex_skeleton[at(v)];
+      if (skeleton_vertex == kNoIndex) continue;
+      place(numbering_.vertex(v), points_.edge_point(e, end * points_.n),
+            {hosts_.vertex(skeleton_vertex), 0});
+    }
+  }
 
-void append_coarse_vertices(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
-                            VertexList& vertices)
-{
-  std::vector<Vec3> positions(at(complex.num_vertices()));
-  for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
-    positions[at(complex.edge_vertices[2 * at(e)])] = lattice.edge_point(e, 0);
-    positions[at(complex.edge_vertices[2 * at(e) + 1])] = lattice.edge_point(e, lattice.n);
+  void place_inside_edge(LocalIndex e)
+  {
+    const mesh::HostEntity host = hosts_.edge(complex_.edge_skeleton[at(e)]);
+    for (LocalIndex k = 1; k < points_.n; ++k) {
+      place(numbering_.edge_point(e, k), points_.edge_point(e, k), {host, k - 1});
+    }
   }
-  for (LocalIndex v = 0; v < complex.num_vertices(); ++v) {
-    if (complex.vertex_skeleton[at(v)] == kNoIndex) continue;
-    vertices.append(positions[at(v)], complex.vertex_skeleton[at(v)], 0);
-  }
-}
 
-void append_lattice_points(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
-                           const mesh::HostLayout& hosts, VertexList& vertices)
-{
-  const LocalIndex n = lattice.n;
-  for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
-    if (complex.edge_skeleton[at(e)] == kNoIndex) continue;
-    const mesh::HostEntity host = hosts.first_edge + complex.edge_skeleton[at(e)];
-    for (LocalIndex k = 1; k < n; ++k) vertices.append(lattice.edge_point(e, k), host, k - 1);
-  }
-  for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
-    if (complex.triangle_skeleton[at(t)] == kNoIndex) continue;
-    const mesh::HostEntity host = hosts.first_triangle + complex.triangle_skeleton[at(t)];
-    LocalIndex index = 0;
+  void place_inside_triangle(LocalIndex t)
+  {
+    const LocalIndex n = points_.n;
+    const mesh::HostEntity host = hosts_.triangle(complex_.triangle_skeleton[at(t)]);
     for (LocalIndex j = 1; j < n; ++j) {
       for (LocalIndex i = 1; i + j < n; ++i) {
-        vertices.append(lattice.triangle_point(t, {i, j}), host, index++);
+        place(numbering_.triangle_point(t, {i, j}), points_.triangle_point(t, {i, j}),
+              {host, lattice::inner_triangle_index(n, i, j)});
       }
     }
   }
-}
 
-void append_triangles(const mesh::Complex& complex, LocalIndex n, const mesh::Skeleton& skeleton,
-                      LocalIndex subdomain, mesh::Skin& skin)
-{
-  const mesh::LatticeNumbering numbering(complex, n);
-  for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
-    const LocalIndex parent = complex.triangle_skeleton[at(t)];
-    if (parent == kNoIndex) continue;
-    const bool ascending_is_outward = skeleton.triangle_subdomains[2 * at(parent)] == subdomain;
+  void place(LocalIndex vertex, const Vec3& point, const mesh::HostPoint& name)
+  {
+    std::ranges::copy(point, &skin_.vertex_xyz[3 * at(vertex)]);
+    skin_.vertex_host[at(vertex)] = name.host;
+    skin_.vertex_index[at(vertex)] = name.index;
+  }
+
+  void append_triangles(LocalIndex t, LocalIndex subdomain)
+  {
+    const LocalIndex parent = complex_.triangle_skeleton[at(t)];
+    const bool ascending_is_outward = skeleton_.triangle_subdomains[2 * at(parent)] == subdomain;
     lattice::for_each_small_triangle(
-        n, 1, [&](const TrianglePoint& a, TrianglePoint b, TrianglePoint c) {
+        points_.n, 1, [&](const TrianglePoint& a, TrianglePoint b, TrianglePoint c) {
           if (!ascending_is_outward) std::swap(b, c);
           for (const TrianglePoint& p : {a, b, c}) {
-            skin.triangle_vertices.push_back(numbering.triangle_point(t, p));
+            skin_.triangle_vertices.push_back(numbering_.triangle_point(t, p));
           }
-          skin.triangle_parent.push_back(parent);
+          skin_.triangle_parent.push_back(parent);
         });
   }
-}
+
+  const mesh::Complex& complex_;
+  const mesh::RefinedLattice& points_;
+  const mesh::Skeleton& skeleton_;
+  mesh::HostLayout hosts_;
+  mesh::LatticeNumbering numbering_;
+  mesh::Skin skin_{};
+};
 
 }  // namespace
 
 mesh::Skin extract_skin(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
                         const mesh::Skeleton& skeleton, LocalIndex subdomain)
 {
-  mesh::Skin skin;
-  VertexList vertices(skin);
-  append_coarse_vertices(complex, lattice, vertices);
-  append_lattice_points(complex, lattice, mesh::HostLayout(skeleton), vertices);
-  append_triangles(complex, lattice.n, skeleton, subdomain, skin);
-  return skin;
+  return SkinBuilder(complex, lattice, skeleton).run(subdomain);
 }
 
 }  // namespace tessera::refine

@@ -13,20 +13,25 @@ std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& 
   std::vector<number::PieceCounts> counts;
   for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
     const auto inside =
-        fill::count_subdivision(mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets.of(s)), n);
+        fill::count_subdivision(mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets[s]), n);
     GlobalIndex num_owned = 0;
     for (const LocalIndex t : cut.skeleton.triangles_of(s)) {
       const bool is_on_geometry = cut.skeleton.triangle_patch[at(t)] != kNoIndex;
       num_owned += is_on_geometry && cut.skeleton.triangle_owner(t) == s ? 1 : 0;
     }
-    counts.push_back({inside.interior_vertices, inside.tets, num_owned * n * n});
+    counts.push_back({.interior_vertices = inside.interior_vertices,
+                      .tets = inside.tets,
+                      .boundary_triangles = num_owned * n * n});
   }
   return counts;
 }
 
 number::PieceCounts counts_of(const PieceSummary& piece)
 {
-  return {piece.num_interior_vertices, piece.num_tets, piece.num_boundary};
+  return {.interior_vertices = piece.num_interior_vertices,
+          .tets = piece.num_tets,
+          .boundary_triangles = piece.num_boundary,
+          .owned_vertices = piece.num_owned_vertices};
 }
 
 std::vector<number::PieceCounts> counts_of(const std::vector<PieceSummary>& pieces)

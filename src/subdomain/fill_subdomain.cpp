@@ -74,8 +74,7 @@ fill::FillInput input_of(const mesh::Skin& skin)
 RawFill subdivide(const PartitionedMesh& cut, const refine::RefineContext& refine,
                   LocalIndex subdomain)
 {
-  const mesh::TetComplex complex =
-      mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets.of(subdomain));
+  const mesh::TetComplex complex = mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets[subdomain]);
   const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, refine);
   return {refine::extract_skin(complex.faces, lattice, cut.skeleton, subdomain), lattice.distance,
           fill::subdivide(complex, lattice)};
@@ -105,7 +104,7 @@ RawFill mesh_skin(const PartitionedMesh& cut, const refine::RefineContext& refin
   RawFill raw{
       refine::extract_skin(complex, lattice, cut.skeleton, subdomain), lattice.distance, {}};
   fill::FillInput input = input_of(raw.skin);
-  fill::add_size_samples(cut.coarse, cut.tets.of(subdomain), cut.vertex_size, refine.levels, input);
+  fill::add_size_samples(cut.coarse, cut.tets[subdomain], cut.vertex_size, refine.levels, input);
   raw.tets = netgen.fill(input, settings);
   return raw;
 }

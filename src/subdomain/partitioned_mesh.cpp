@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tessera/fill/size_samples.hpp"
+#include "tessera/mesh/subdomain_tets.hpp"
 #include "tessera/untangle/fold_test.hpp"
 
 namespace tessera::subdomain {

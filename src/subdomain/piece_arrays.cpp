@@ -11,15 +11,6 @@
 namespace tessera::subdomain {
 namespace {
 
-// Lowest subdomain that holds the points of a host of the skeleton.
-LocalIndex owner_of_host(const mesh::Skeleton& skeleton, mesh::HostEntity host)
-{
-  const mesh::HostLayout hosts(skeleton);
-  if (host < hosts.first_edge) return skeleton.vertex_owner[at(host)];
-  if (host < hosts.first_triangle) return skeleton.edge_owner[at(host - hosts.first_edge)];
-  return skeleton.triangle_owner(host - hosts.first_triangle);
-}
-
 std::vector<std::string> names_or_none(const std::string& name)
 {
   return name.empty() ? std::vector<std::string>{} : std::vector<std::string>{name};
@@ -38,9 +29,11 @@ mesh::MeshArrays with_names(const WriteContext& mesh)
 void number_by_host(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshArrays& arrays)
 {
   auto& owner = arrays.point_ints["owner"];
+  const mesh::HostLayout hosts(mesh.skeleton);
   for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-    arrays.point_ids.push_back(mesh.ids.vertex_id(piece.skin_host[at(v)], piece.skin_index[at(v)]));
-    owner.push_back(owner_of_host(mesh.skeleton, piece.skin_host[at(v)]));
+    const mesh::HostPoint vertex = piece.skin_point(v);
+    arrays.point_ids.push_back(mesh.ids.vertex_id(vertex));
+    owner.push_back(mesh::owner_of_host(mesh.skeleton, hosts, vertex.host));
   }
   for (LocalIndex i = 0; i < piece.num_interior_vertices(); ++i) {
     arrays.point_ids.push_back(mesh.ids.interior_vertex_id(piece.subdomain, i));
@@ -52,7 +45,7 @@ void number_by_owner(const mesh::Piece& piece, const WriteContext& mesh, mesh::M
 {
   auto& owner = arrays.point_ints["owner"];
   for (const VertexPlace& place : mesh.places_of(piece)) {
-    arrays.point_ids.push_back(mesh.ids.interior_vertex_id(place.owner, place.index));
+    arrays.point_ids.push_back(mesh.ids.owned_vertex_id(place.owner, place.index));
     owner.push_back(place.owner);
   }
 }
@@ -61,9 +54,9 @@ void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshAr
 {
   arrays.point_ints["owner"].reserve(at(piece.num_vertices()));
   arrays.point_ids.reserve(at(piece.num_vertices()));
-  const bool has_points = piece.num_vertices() > 0;
-  if (mesh.places_of && has_points) return number_by_owner(piece, mesh, arrays);
-  number_by_host(piece, mesh, arrays);
+  if (piece.num_vertices() == 0) return;  // Nobody has noted owners of an empty piece.
+  if (mesh.ids.is_by_host()) return number_by_host(piece, mesh, arrays);
+  number_by_owner(piece, mesh, arrays);
 }
 
 // All but the positions and corners, which the piece itself gives away.

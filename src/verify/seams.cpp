@@ -16,14 +16,10 @@ namespace {
 
 // One vertex as both sides of a seam must see it. No padding: all bytes are hashed.
 struct VertexImage {
-  mesh::HostEntity host;
-  LocalIndex index;
+  mesh::HostPoint name;
   double xyz[3];
 
-  friend bool operator<(const VertexImage& a, const VertexImage& b)
-  {
-    return a.host != b.host ? a.host < b.host : a.index < b.index;
-  }
+  friend bool operator<(const VertexImage& a, const VertexImage& b) { return a.name < b.name; }
 };
 static_assert(sizeof(VertexImage) == 32);
 
@@ -49,9 +45,9 @@ class SignedSum {
   Hash128 sum_{};
 };
 
-VertexImage image(mesh::HostEntity host, LocalIndex index, const double* xyz)
+VertexImage image(const mesh::HostPoint& name, const double* xyz)
 {
-  VertexImage vertex{.host = host, .index = index, .xyz = {}};
+  VertexImage vertex{.name = name, .xyz = {}};
   std::memcpy(vertex.xyz, xyz, sizeof(vertex.xyz));
   return vertex;
 }
@@ -61,7 +57,7 @@ std::array<VertexImage, 3> triangle_of(const mesh::Skin& skin, LocalIndex triang
   std::array<VertexImage, 3> images;
   for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t v = at(skin.triangle_vertices[3 * at(triangle) + c]);
-    images[c] = image(skin.vertex_host[v], skin.vertex_index[v], &skin.vertex_xyz[3 * v]);
+    images[c] = image({skin.vertex_host[v], skin.vertex_index[v]}, &skin.vertex_xyz[3 * v]);
   }
   return images;
 }
@@ -85,9 +81,9 @@ Hash128 surface_hash(const mesh::Piece& piece)
   std::vector<VertexImage> vertices;
   for (LocalIndex v = 0; v < piece.num_vertices(); ++v) {
     const bool is_shared = v < piece.num_skin_vertices();
-    vertices.push_back(image(is_shared ? piece.skin_host[at(v)] : kNoIndex,
-                             is_shared ? piece.skin_index[at(v)] : v,
-                             &piece.vertex_xyz[3 * at(v)]));
+    const mesh::HostPoint name =
+        is_shared ? piece.skin_point(v) : mesh::HostPoint{.host = kNoIndex, .index = v};
+    vertices.push_back(image(name, &piece.vertex_xyz[3 * at(v)]));
   }
   SignedSum sum;
   for (LocalIndex t = 0; t < piece.num_tets(); ++t) {

@@ -62,8 +62,7 @@ double mean_ratio(const std::array<netgen::Point<3>, 4>& p)
 
 double min_dihedral_deg(const std::array<netgen::Point<3>, 4>& p)
 {
-  std::array<Vector, 4>
-      inward;  // HostEntity normal of the face opposite to each corner, towards it.
+  std::array<Vector, 4> inward;  // Unit normal of the face opposite to each corner, towards it.
   for (std::size_t c = 0; c < 4; ++c) {
     const auto& a = p[(c + 1) % 4];
     Vector normal = netgen::Cross(p[(c + 2) % 4] - a, p[(c + 3) % 4] - a);

@@ -121,10 +121,10 @@ void print_table(const testing::Subject& subject, int levels, int num_subdomains
                                         decompose::predicted_fine_tets(subject.coarse, levels),
                                         *decompose::make_metis_partitioner());
   const mesh::Skeleton skeleton = mesh::build_skeleton(subject.coarse, cut.decomposition);
-  const mesh::SubdomainTets tets = mesh::subdomain_tets(cut.decomposition);
+  const IndexLists tets = mesh::subdomain_tets(cut.decomposition);
   std::vector<double> all;
   for (LocalIndex s = 0; s < cut.decomposition.num_subdomains(); ++s) {
-    const auto ratios = ratios_of(subject, skeleton, tets.of(s), s, levels);
+    const auto ratios = ratios_of(subject, skeleton, tets[s], s, levels);
     all.insert(all.end(), ratios.begin(), ratios.end());
   }
   std::sort(all.begin(), all.end());

@@ -5,6 +5,7 @@
 
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/netgen/factory.hpp"
+#include "tessera/subdomain/count_pieces.hpp"
 
 #include "support/decompositions.hpp"
 #include "support/flat_model.hpp"
@@ -31,10 +32,10 @@ void FilledCube::SetUpTestSuite()
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
     pieces.push_back(fill_of(body, kLevels, s));
     const subdomain::PieceSummary& summary = pieces.back().result.summary;
-    counts.push_back({summary.num_interior_vertices, summary.num_tets, summary.num_boundary});
+    counts.push_back(subdomain::counts_of(summary));
   }
-  const number::IdLayout ids(mesh::HostLayout(body.skeleton), mesh::lattice::intervals(kLevels),
-                             counts);
+  const auto ids = number::IdLayout::by_host(mesh::HostLayout(body.skeleton),
+                                             mesh::lattice::intervals(kLevels), counts);
   shared_ = new Shared{std::move(body), std::move(pieces), ids, "mm"};
 }
 

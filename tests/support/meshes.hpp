@@ -5,7 +5,7 @@
 
 namespace tessera::testing {
 
-/// @brief HostEntity cube cut into 6 n^3 tets (Kuhn); the smallest conforming mesh with known
+/// @brief Unit cube cut into 6 n^3 tets (Kuhn); the smallest conforming mesh with known
 /// numbers. Patches 0…5 are x=0, x=1, y=0, y=1, z=0, z=1; its 12 edges are curves 0…11; one
 /// material.
 [[nodiscard]] mesh::CoarseMesh kuhn_cube(int n);

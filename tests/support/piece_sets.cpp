@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "tessera/base/error.hpp"
@@ -16,16 +15,14 @@
 namespace tessera::testing {
 namespace {
 
-using SharedVertexKey = std::pair<mesh::HostEntity, LocalIndex>;
-
-// A vertex of a set of pieces: its host, and its index in it; interior ones are keyed by piece.
-SharedVertexKey key_of(const mesh::Piece& piece, LocalIndex v)
+// Name of a vertex in a set of pieces; below zero are hosts of interior ones.
+mesh::HostPoint name_of(const mesh::Piece& piece, LocalIndex v)
 {
-  if (v < piece.num_skin_vertices()) return {piece.skin_host[at(v)], piece.skin_index[at(v)]};
+  if (v < piece.num_skin_vertices()) return piece.skin_point(v);
   return {-1 - piece.subdomain, v};
 }
 
-using TriangleKey = std::array<SharedVertexKey, 3>;
+using TriangleKey = std::array<mesh::HostPoint, 3>;
 
 struct Sides {
   int even = 0;
@@ -72,7 +69,7 @@ class TriangleCount {
   static std::pair<TriangleKey, bool> key_of_triangle(const mesh::Piece& piece, LocalIndex a,
                                                       LocalIndex b, LocalIndex c)
   {
-    TriangleKey key{key_of(piece, a), key_of(piece, b), key_of(piece, c)};
+    TriangleKey key{name_of(piece, a), name_of(piece, b), name_of(piece, c)};
     const bool is_even = (key[0] < key[1]) + (key[1] < key[2]) + (key[2] < key[0]) == 2;
     std::sort(key.begin(), key.end());
     return {key, is_even};
@@ -105,13 +102,13 @@ std::string flaw_of_piece(const mesh::Piece& piece)
 
 std::string flaw_of_shared_vertices(const std::vector<mesh::Piece>& pieces)
 {
-  std::map<SharedVertexKey, std::array<std::uint64_t, 3>> positions;
+  std::map<mesh::HostPoint, std::array<std::uint64_t, 3>> positions;
   for (const mesh::Piece& piece : pieces) {
-    std::map<SharedVertexKey, int> times;
+    std::map<mesh::HostPoint, int> times;
     for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-      if (++times[key_of(piece, v)] > 1) return "a piece has a shared vertex twice";
+      if (++times[name_of(piece, v)] > 1) return "a piece has a shared vertex twice";
       const auto here = bits(point_at(std::span(piece.vertex_xyz), v));
-      if (positions.emplace(key_of(piece, v), here).first->second != here) {
+      if (positions.emplace(name_of(piece, v), here).first->second != here) {
         return "a shared vertex is in two places";
       }
     }
@@ -149,6 +146,7 @@ std::map<LocalIndex, LocalIndex> add_vertices(const Body& body, std::span<const 
 {
   const auto& on_skeleton = body.skeleton.vertex_coarse;
   std::map<LocalIndex, LocalIndex> number;
+  const mesh::HostLayout hosts(body.skeleton);
   for (const bool wants_skin : {true, false}) {
     for (const LocalIndex t : tets) {
       for (const LocalIndex v : body.coarse.tet(t)) {
@@ -158,7 +156,8 @@ std::map<LocalIndex, LocalIndex> add_vertices(const Body& body, std::span<const 
         const Vec3 p = body.coarse.position(v);
         piece.vertex_xyz.insert(piece.vertex_xyz.end(), p.begin(), p.end());
         if (!is_skin) continue;
-        piece.skin_host.push_back(static_cast<mesh::HostEntity>(place - on_skeleton.begin()));
+        piece.skin_host.push_back(
+            hosts.vertex(static_cast<LocalIndex>(place - on_skeleton.begin())));
         piece.skin_index.push_back(0);
       }
     }
@@ -191,14 +190,14 @@ void add_boundary(const Body& body, const std::map<LocalIndex, LocalIndex>& numb
 
 std::vector<mesh::Piece> coarse_pieces(const Body& body)
 {
-  const mesh::SubdomainTets tets = mesh::subdomain_tets(body.decomposition);
+  const IndexLists tets = mesh::subdomain_tets(body.decomposition);
   std::vector<mesh::Piece> pieces;
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
     mesh::Piece& piece = pieces.emplace_back();
     piece.subdomain = s;
     piece.material = body.decomposition.subdomain_material[at(s)];
-    const auto number = add_vertices(body, tets.of(s), piece);
-    for (const LocalIndex t : tets.of(s)) {
+    const auto number = add_vertices(body, tets[s], piece);
+    for (const LocalIndex t : tets[s]) {
       for (const LocalIndex v : body.coarse.tet(t)) piece.tet_vertices.push_back(number.at(v));
     }
     add_boundary(body, number, piece);
@@ -272,9 +271,9 @@ double volume_of(const std::vector<mesh::Piece>& pieces)
 
 std::vector<std::vector<char>> vertices_on_seams(const std::vector<mesh::Piece>& pieces)
 {
-  std::map<std::tuple<LocalIndex, mesh::HostEntity, LocalIndex>, int> num_holders;
+  std::map<std::pair<LocalIndex, mesh::HostPoint>, int> num_holders;
   const auto key = [](const mesh::Piece& piece, LocalIndex v) {
-    return std::tuple{piece.material, piece.skin_host[at(v)], piece.skin_index[at(v)]};
+    return std::pair{piece.material, piece.skin_point(v)};
   };
   for (const mesh::Piece& piece : pieces) {
     for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) ++num_holders[key(piece, v)];

@@ -11,10 +11,16 @@
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 
+/// Keys of the vertices, edges and triangles of a mesh that comes from files, the same on every
+/// rank and in every piece. A mesh in the making needs none: mesh::HostPoint names its vertices.
 namespace tessera {
 
-/// @brief The same for the same vertex in every piece: (id, 0), or a 128-bit hash of the position.
-using VertexKey = std::array<std::uint64_t, 2>;
+/// @brief By what points of different pieces are recognised as the same vertex.
+enum class VertexIdentity { ids, positions };
+
+using VertexKey = std::array<std::uint64_t, 2>;    ///< (id, 0), or the position's 128-bit hash.
+using EdgeKey = std::array<std::uint64_t, 2>;      ///< Of key_of_vertices().
+using TriangleKey = std::array<std::uint64_t, 2>;  ///< Of key_of_vertices().
 
 /// @brief Hash of a key that spreads records over ranks.
 template <class Key>

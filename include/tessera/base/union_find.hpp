@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace tessera {
 /// @brief Disjoint sets of 0…n-1; the lowest member stands for its set.
 class UnionFind {
  public:
-  explicit UnionFind(LocalIndex n) : parent_(static_cast<std::size_t>(n))
+  explicit UnionFind(LocalIndex n = 0) : parent_(static_cast<std::size_t>(n))
   {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
@@ -37,6 +38,23 @@ class UnionFind {
     parent(b) = a;
     return true;
   }
+
+  /// @brief Adds n as a set of its own, and returns it.
+  LocalIndex add()
+  {
+    parent_.push_back(static_cast<LocalIndex>(parent_.size()));
+    return parent_.back();
+  }
+
+  /// @brief Makes each of these a set of its own again. @pre The sets of all of them are given
+  /// whole.
+  void separate(std::span<const LocalIndex> members)
+  {
+    for (const LocalIndex i : members) parent(i) = i;
+  }
+
+  /// @brief Forgets all members; the memory is kept.
+  void clear() { parent_.clear(); }
 
  private:
   LocalIndex& parent(LocalIndex i) { return parent_[static_cast<std::size_t>(i)]; }

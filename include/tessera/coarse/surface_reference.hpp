@@ -21,7 +21,7 @@ class SurfaceReference {
   [[nodiscard]] const PatchSurface& surface() const { return surface_; }
   [[nodiscard]] Vec3 on_patch(LocalIndex patch, const Vec3& point) const;
   [[nodiscard]] Vec3 on_curve(LocalIndex curve, const Vec3& point) const;
-  /// @brief HostEntity normal of the patch's triangle that is nearest to the point.
+  /// @brief Unit normal of the patch's triangle that is nearest to the point.
   [[nodiscard]] Vec3 normal(LocalIndex patch, const Vec3& point) const;
   /// @brief Parameters of the patch's surface near the point; 0 if there are none.
   [[nodiscard]] model::SurfaceParameters parameters(LocalIndex patch, const Vec3& point) const;

@@ -17,7 +17,7 @@ namespace tessera::fill {
 /// so what projection moved on the surface reaches the inside.
 /// @param[in] complex All coarse tets of the subdomain. @param[in] lattice Refined lattice of
 /// complex.faces.
-/// @return Vertices of the skin first, in the order of refine::extract_skin(); nothing is promised
+/// @return Vertices of the skin first, in the order of mesh::LatticeNumbering; nothing is promised
 /// about the sign of the tets: check_fill() tells.
 /// @throws MeshError if 32-bit indices cannot hold the piece.
 /// @note Local; no hash maps, no search: time and memory are linear in the tets.

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/improve/seam_regions.hpp"
 #include "tessera/mesh/piece.hpp"
@@ -31,13 +32,12 @@ struct PieceVertex {
 /// `subdomains`.
 struct RegionMesh {
   LocalIndex region = kNoIndex;
-  mesh::HostEntity host = 0;                ///< SeamRegions::host_of() it.
-  std::vector<LocalIndex> subdomains{};     ///< Shape (num_owners), ascending.
-  std::vector<double> vertex_xyz{};         ///< Shape (num_vertices, 3).
-  std::vector<LocalIndex> tet_vertices{};   ///< Shape (num_tets, 4); positive, VTK's order.
-  std::vector<LocalIndex> tet_owner{};      ///< Shape (num_tets).
-  std::vector<LocalIndex> fixed_offsets{};  ///< Shape (num_fixed + 1).
-  std::vector<PieceVertex> fixed_places{};  ///< Where each fixed vertex is; ascending by owner.
+  mesh::HostEntity host = 0;               ///< SeamRegions::host_of() it.
+  std::vector<LocalIndex> subdomains{};    ///< Shape (num_owners), ascending.
+  std::vector<double> vertex_xyz{};        ///< Shape (num_vertices, 3).
+  std::vector<LocalIndex> tet_vertices{};  ///< Shape (num_tets, 4); positive, VTK's order.
+  std::vector<LocalIndex> tet_owner{};     ///< Shape (num_tets).
+  Lists<PieceVertex> fixed_places{};       ///< Where each fixed vertex is; ascending by owner.
   std::vector<LocalIndex>
       triangle_vertices{};                     ///< Shape (num_triangles, 3): the boundary; outward.
   std::vector<LocalIndex> triangle_owner{};    ///< Owner of the tet behind each, inside.
@@ -45,7 +45,7 @@ struct RegionMesh {
                                                ///< the region; kNoIndex: none of these pieces.
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
-  [[nodiscard]] LocalIndex num_fixed() const { return count(fixed_offsets.size(), 1) - 1; }
+  [[nodiscard]] LocalIndex num_fixed() const { return fixed_places.num_lists(); }
   [[nodiscard]] LocalIndex num_tets() const { return count(tet_owner.size(), 1); }
   [[nodiscard]] LocalIndex num_triangles() const { return count(triangle_owner.size(), 1); }
   [[nodiscard]] LocalIndex num_owners() const { return count(subdomains.size(), 1); }
@@ -53,8 +53,7 @@ struct RegionMesh {
   /// @brief Where fixed vertex `v` is.
   [[nodiscard]] std::span<const PieceVertex> places_of(LocalIndex v) const
   {
-    const auto first = at(fixed_offsets[at(v)]);
-    return std::span(fixed_places).subspan(first, at(fixed_offsets[at(v) + 1]) - first);
+    return fixed_places[v];
   }
 
  private:

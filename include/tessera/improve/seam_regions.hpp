@@ -5,11 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/decomposition.hpp"
+#include "tessera/mesh/host_layout.hpp"
 #include "tessera/mesh/piece.hpp"
 #include "tessera/mesh/skeleton.hpp"
-#include "tessera/mesh/skin.hpp"
 
 /// Tets around the seams between subdomains are optimised once more, so that their quality does not
 /// depend on how many subdomains there are: first those around the faces between two subdomains,
@@ -43,14 +44,19 @@ class SeamRegions {
   [[nodiscard]] LocalIndex region_of(mesh::HostEntity host, LocalIndex material) const;
 
   /// @brief The subdomains that meet in a region, ascending; at least two, of one material.
-  [[nodiscard]] std::span<const LocalIndex> subdomains_of(LocalIndex region) const;
+  [[nodiscard]] std::span<const LocalIndex> subdomains_of(LocalIndex region) const
+  {
+    return region_subdomains_[region];
+  }
 
   /// @brief The regions of one phase that a subdomain takes part in, ascending.
   [[nodiscard]] std::span<const LocalIndex> regions_of(LocalIndex subdomain, int phase) const;
 
-  /// @brief HostEntity of the vertices that a region's improvement makes and several pieces share:
-  /// behind those of the pieces (mesh::HostLayout).
-  [[nodiscard]] mesh::HostEntity host_of(LocalIndex region) const { return first_host_ + region; }
+  /// @brief Host of the vertices that a region's improvement makes and several pieces share.
+  [[nodiscard]] mesh::HostEntity host_of(LocalIndex region) const
+  {
+    return hosts_.seam_region(region);
+  }
 
  private:
   struct HostRegion {
@@ -58,16 +64,11 @@ class SeamRegions {
     LocalIndex region = kNoIndex;
   };
 
-  void list_subdomain_regions(LocalIndex num_subdomains);
-
+  mesh::HostLayout hosts_;
   std::array<LocalIndex, kNumPhases + 1> phase_offsets_{};
-  std::vector<LocalIndex> host_offsets_{};    ///< Shape (num_skeleton_hosts + 1).
-  std::vector<HostRegion> host_regions_{};    ///< Ascending by material in each host.
-  std::vector<LocalIndex> region_offsets_{};  ///< Shape (num_regions + 1).
-  std::vector<LocalIndex> region_subdomains_{};
-  std::vector<LocalIndex> subdomain_offsets_{};  ///< Shape (num_subdomains + 1).
-  std::vector<LocalIndex> subdomain_regions_{};  ///< Ascending in each subdomain.
-  mesh::HostEntity first_host_ = 0;
+  Lists<HostRegion> host_regions_{};  ///< By host of the skeleton, ascending by material.
+  IndexLists region_subdomains_{};    ///< By region, ascending.
+  IndexLists subdomain_regions_{};    ///< By subdomain, ascending.
 };
 
 /// @brief How many layers of tets around a seam are optimised, >= 1; improve::OptimizeSettings says

@@ -43,8 +43,6 @@ class RecordStore {
   /// @throws OutputError
   void remove_all() const;
 
-  [[nodiscard]] const std::filesystem::path& folder() const noexcept { return folder_; }
-
  private:
   [[nodiscard]] std::filesystem::path file_of(const std::string& name) const;
 

@@ -13,13 +13,14 @@ namespace tessera::mesh {
 ///
 /// First those on the skeleton: vertices, inner points of edges, inner points of triangles; then in
 /// the same order those off it. So the points of a subdomain's skin have the numbers they have in
-/// skin_complex(), whether its complex holds the skin alone or its tets as well. The complex is
-/// borrowed.
+/// skin_complex(), whether its complex holds the skin alone or its tets as well. They are the
+/// numbers of the vertices of a Skin, and of a subdivided Piece. The complex is borrowed.
 class LatticeNumbering {
  public:
   LatticeNumbering(const Complex& complex, LocalIndex n);
 
   [[nodiscard]] LocalIndex num_points() const { return num_points_; }
+  [[nodiscard]] LocalIndex num_skeleton_points() const { return num_skeleton_points_; }
 
   [[nodiscard]] LocalIndex vertex(LocalIndex v) const { return vertex_[at(v)]; }
 
@@ -38,6 +39,7 @@ class LatticeNumbering {
   std::vector<LocalIndex> first_of_edge_{};      ///< Shape (num_edges); of its inner points.
   std::vector<LocalIndex> first_of_triangle_{};  ///< Shape (num_triangles); of its inner points.
   LocalIndex num_points_ = 0;
+  LocalIndex num_skeleton_points_ = 0;
 };
 
 }  // namespace tessera::mesh

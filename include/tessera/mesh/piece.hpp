@@ -8,7 +8,7 @@
 
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
-#include "tessera/mesh/skin.hpp"
+#include "tessera/mesh/host_layout.hpp"
 
 namespace tessera::mesh {
 
@@ -18,7 +18,7 @@ namespace tessera::mesh {
 /// pieces are: a skin vertex refers to (host, index), interior vertex i to (the piece's own host,
 /// i). Once seams were improved, "skin vertices" are those that several pieces may hold: a vertex
 /// of the refined skeleton that now lies inside the piece stays one, and new ones have hosts of
-/// their own (improve::SeamRegions::host_of()).
+/// their own (HostKind::seam_region).
 struct Piece {
   LocalIndex subdomain = 0;
   LocalIndex material = 1;
@@ -43,6 +43,11 @@ struct Piece {
   [[nodiscard]] LocalIndex num_interior_vertices() const
   {
     return num_vertices() - num_skin_vertices();
+  }
+  /// @brief Name of skin vertex `v`.
+  [[nodiscard]] HostPoint skin_point(LocalIndex v) const
+  {
+    return {skin_host[at(v)], skin_index[at(v)]};
   }
   [[nodiscard]] LocalIndex num_tets() const { return count(tet_vertices.size(), 4); }
   [[nodiscard]] LocalIndex num_boundary() const { return count(boundary_patch.size(), 1); }

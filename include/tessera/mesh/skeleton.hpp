@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/decomposition.hpp"
@@ -39,20 +40,17 @@ struct Skeleton {
   /// entry 1: the one it points into. kNoIndex: outside.
   std::vector<LocalIndex> triangle_subdomains{};
 
-  std::vector<LocalIndex> subdomain_offsets{};    ///< Shape (num_subdomains + 1).
-  std::vector<LocalIndex> subdomain_triangles{};  ///< Triangles of each subdomain, ascending.
+  IndexLists subdomain_triangles{};  ///< Triangles of each subdomain, ascending.
 
   [[nodiscard]] LocalIndex num_vertices() const { return size_of(vertex_coarse); }
   [[nodiscard]] LocalIndex num_edges() const { return size_of(edge_owner); }
   [[nodiscard]] LocalIndex num_triangles() const { return size_of(triangle_patch); }
+  [[nodiscard]] LocalIndex num_subdomains() const { return subdomain_triangles.num_lists(); }
 
   /// @brief Triangles of one subdomain's skin.
   [[nodiscard]] std::span<const LocalIndex> triangles_of(LocalIndex subdomain) const
   {
-    const auto s = static_cast<std::size_t>(subdomain);
-    const auto first = static_cast<std::size_t>(subdomain_offsets[s]);
-    const auto last = static_cast<std::size_t>(subdomain_offsets[s + 1]);
-    return std::span(subdomain_triangles).subspan(first, last - first);
+    return subdomain_triangles[subdomain];
   }
 
   /// @brief Lowest subdomain beside triangle `t`.
@@ -73,9 +71,8 @@ struct Skeleton {
 /// @pre validate(coarse) holds and the decomposition belongs to that mesh.
 [[nodiscard]] Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposition);
 
-/// @brief Which hosts (skeleton vertices, edges, triangles, in this order) lie between two
-/// subdomains of one material. Tets that touch one are *seam tets*. Shape (vertices + edges +
-/// triangles). Local.
+/// @brief Which hosts of the skeleton lie between two subdomains of one material. Tets that touch
+/// one are *seam tets*. Shape (HostLayout::num_on_skeleton()). Local.
 [[nodiscard]] std::vector<char> hosts_on_seams(const Skeleton& skeleton,
                                                const Decomposition& decomposition);
 

@@ -4,27 +4,9 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
-#include "tessera/mesh/skeleton.hpp"
+#include "tessera/mesh/host_layout.hpp"
 
 namespace tessera::mesh {
-
-/// @brief What a fine vertex is counted under: a coarse entity of the skeleton, or the interior of
-/// one piece. Units are numbered: skeleton vertices, edges, triangles, then pieces.
-using HostEntity = LocalIndex;
-
-/// @brief Numbers of the hosts of a skeleton.
-struct HostLayout {
-  HostEntity first_edge = 0;
-  HostEntity first_triangle = 0;
-  HostEntity first_piece = 0;
-
-  explicit HostLayout(const Skeleton& skeleton)
-      : first_edge(skeleton.num_vertices()),
-        first_triangle(first_edge + skeleton.num_edges()),
-        first_piece(first_triangle + skeleton.num_triangles())
-  {
-  }
-};
 
 /// @brief The refined, closed, outward surface of one subdomain.
 struct Skin {

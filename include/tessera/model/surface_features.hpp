@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
+#include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/model/triangle_surface.hpp"
@@ -23,24 +23,13 @@ struct SurfaceFeatures {
   std::vector<LocalIndex>
       edge_vertices{};                   ///< Shape (num_edges, 2), lower vertex first, ascending.
   std::vector<LocalIndex> edge_curve{};  ///< Shape (num_edges).
-  std::vector<LocalIndex> curve_offsets{0};  ///< Shape (num_curves + 1), into curve_vertices.
-  std::vector<LocalIndex> curve_vertices{};  ///< Polylines; a loop ends with its first vertex.
+  IndexLists curve_vertices{};           ///< Polylines; a loop ends with its first vertex.
 
   [[nodiscard]] LocalIndex num_patches() const
   {
     return static_cast<LocalIndex>(patch_names.size());
   }
-  [[nodiscard]] LocalIndex num_curves() const
-  {
-    return static_cast<LocalIndex>(curve_offsets.size()) - 1;
-  }
-  /// @brief Vertices of curve `c`, in order.
-  [[nodiscard]] std::span<const LocalIndex> curve(LocalIndex c) const
-  {
-    const auto first = static_cast<std::size_t>(curve_offsets[static_cast<std::size_t>(c)]);
-    const auto last = static_cast<std::size_t>(curve_offsets[static_cast<std::size_t>(c) + 1]);
-    return std::span(curve_vertices).subspan(first, last - first);
-  }
+  [[nodiscard]] LocalIndex num_curves() const { return curve_vertices.num_lists(); }
   /// @brief Curve of the edge between two vertices, kNoIndex if it is no feature edge.
   [[nodiscard]] LocalIndex curve_of_edge(LocalIndex a, LocalIndex b) const;
 };
@@ -50,7 +39,7 @@ struct SurfaceFeatures {
 [[nodiscard]] SurfaceFeatures find_features(const TriangleSurface& surface,
                                             double feature_angle_deg);
 
-/// @brief HostEntity normal of each triangle. One whose height is below 1e-6 of the box diagonal,
+/// @brief Unit normal of each triangle. One whose height is below 1e-6 of the box diagonal,
 /// so that its own normal is noise, takes the normal of its neighbour over the longest edge. Local.
 /// @pre The surface passed check_surface().
 [[nodiscard]] std::vector<Vec3> triangle_normals(const TriangleSurface& surface);

@@ -1,69 +1,99 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <tuple>
 #include <vector>
 
 #include "tessera/base/types.hpp"
-#include "tessera/mesh/skin.hpp"
+#include "tessera/mesh/host_layout.hpp"
 
 namespace tessera::number {
 
 /// @brief What numbering needs to know of a piece.
 struct PieceCounts {
-  GlobalIndex interior_vertices = 0;
+  GlobalIndex interior_vertices = 0;  ///< Of the piece's own host; no other piece has them.
   GlobalIndex tets = 0;
   GlobalIndex boundary_triangles = 0;
+  GlobalIndex owned_vertices = 0;  ///< Interior ones and those that no lower piece shares; 0 if
+                                   ///< nobody needs it.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.interior_vertices, self.tets, self.boundary_triangles);
+    return std::tie(self.interior_vertices, self.tets, self.boundary_triangles,
+                    self.owned_vertices);
   }
 };
 
-/// @brief Dense 64-bit ids 0…N-1 of vertices, tets and boundary triangles.
+/// @brief Dense 64-bit ids 0…N-1 of vertices, tets and boundary triangles; the same for every
+/// number of ranks.
 ///
-/// Vertices are counted host by host: skeleton vertices, edges, triangles (closed forms, 1, n - 1
-/// and (n - 1)(n - 2)/2 points each), then the interiors of the pieces (a prefix sum). Tets and
-/// boundary triangles are counted piece by piece. The same for every number of ranks.
+/// Tets and boundary triangles are counted piece by piece. Vertices are counted in one of two ways:
+///
+/// - by host: the vertices of the skeleton's vertices, edges and triangles (closed forms, see
+///   mesh::num_points_of_host()), then those inside the pieces (a prefix sum). Works before there
+///   are pieces.
+/// - by owner: piece by piece, each counts the vertices it owns. Needed once pieces have exchanged
+///   tets, for then the skeleton's closed forms do not hold.
 class IdLayout {
  public:
   /// @param[in] pieces Counts of all subdomains, in their order. @param[in] n Intervals of an edge.
-  IdLayout(const mesh::HostLayout& hosts, LocalIndex n, const std::vector<PieceCounts>& pieces);
+  [[nodiscard]] static IdLayout by_host(const mesh::HostLayout& hosts, LocalIndex n,
+                                        const std::vector<PieceCounts>& pieces);
 
-  /// @brief The layout where `interior_vertices` counts all vertices that a piece owns, and no host
-  /// of the skeleton has any of its own.
-  [[nodiscard]] static IdLayout by_owner(const std::vector<PieceCounts>& pieces)
-  {
-    return IdLayout(mesh::HostLayout(mesh::Skeleton{}), 1, pieces);
-  }
+  /// @param[in] pieces Counts of all subdomains, in their order.
+  [[nodiscard]] static IdLayout by_owner(const std::vector<PieceCounts>& pieces);
 
-  [[nodiscard]] GlobalIndex vertex_id(mesh::HostEntity host, LocalIndex index) const;
+  [[nodiscard]] bool is_by_host() const { return skeleton_.has_value(); }
+
+  /// @brief Id of a vertex of the skeleton or inside a piece. @pre is_by_host().
+  [[nodiscard]] GlobalIndex vertex_id(const mesh::HostPoint& vertex) const;
+
+  /// @brief Id of vertex `index` inside a piece. @pre is_by_host().
   [[nodiscard]] GlobalIndex interior_vertex_id(LocalIndex subdomain, LocalIndex index) const
   {
-    return interior_offset_[static_cast<std::size_t>(subdomain)] + index;
+    return first_vertex_[at(subdomain)] + index;
   }
+
+  /// @brief Id of vertex `index` of those that a piece owns. @pre !is_by_host().
+  [[nodiscard]] GlobalIndex owned_vertex_id(LocalIndex subdomain, LocalIndex index) const
+  {
+    return first_vertex_[at(subdomain)] + index;
+  }
+
   [[nodiscard]] GlobalIndex first_tet(LocalIndex subdomain) const
   {
-    return tet_offset_[static_cast<std::size_t>(subdomain)];
+    return first_tet_[at(subdomain)];
   }
   [[nodiscard]] GlobalIndex first_boundary_triangle(LocalIndex subdomain) const
   {
-    return boundary_offset_[static_cast<std::size_t>(subdomain)];
+    return first_boundary_triangle_[at(subdomain)];
   }
 
-  [[nodiscard]] GlobalIndex num_vertices() const { return interior_offset_.back(); }
-  [[nodiscard]] GlobalIndex num_tets() const { return tet_offset_.back(); }
-  [[nodiscard]] GlobalIndex num_boundary_triangles() const { return boundary_offset_.back(); }
+  [[nodiscard]] GlobalIndex num_vertices() const { return first_vertex_.back(); }
+  [[nodiscard]] GlobalIndex num_tets() const { return first_tet_.back(); }
+  [[nodiscard]] GlobalIndex num_boundary_triangles() const
+  {
+    return first_boundary_triangle_.back();
+  }
 
  private:
-  mesh::HostLayout hosts_;
-  GlobalIndex edge_points_;
-  GlobalIndex triangle_points_;
-  GlobalIndex first_triangle_id_;
-  std::vector<GlobalIndex> interior_offset_{};  ///< Shape (num_subdomains + 1).
-  std::vector<GlobalIndex> tet_offset_{};       ///< Shape (num_subdomains + 1).
-  std::vector<GlobalIndex> boundary_offset_{};  ///< Shape (num_subdomains + 1).
+  /// Where the ids of the skeleton's edges and triangles begin, and how many each has.
+  struct SkeletonIds {
+    mesh::HostLayout hosts;
+    GlobalIndex points_of_edge = 0;
+    GlobalIndex points_of_triangle = 0;
+    GlobalIndex first_of_edges = 0;
+    GlobalIndex first_of_triangles = 0;
+  };
+
+  IdLayout(GlobalIndex num_skeleton_vertices, const std::vector<PieceCounts>& pieces,
+           GlobalIndex PieceCounts::*num_vertices);
+
+  std::optional<SkeletonIds> skeleton_{};                ///< If vertices are counted by host.
+  std::vector<GlobalIndex> first_vertex_{};              ///< Shape (num_subdomains + 1).
+  std::vector<GlobalIndex> first_tet_{0};                ///< Shape (num_subdomains + 1).
+  std::vector<GlobalIndex> first_boundary_triangle_{0};  ///< Shape (num_subdomains + 1).
 };
 
 }  // namespace tessera::number

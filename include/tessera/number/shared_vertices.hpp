@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <compare>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -13,31 +12,21 @@
 /// shared vertices, and each is *owned* by the lowest piece that lists it.
 namespace tessera::number {
 
-/// @brief What a shared vertex is called in every piece that holds it.
-struct SharedVertexKey {
-  mesh::HostEntity host = 0;
-  LocalIndex index = 0;
-
-  static auto fields(auto& self) { return std::tie(self.host, self.index); }
-
-  friend auto operator<=>(const SharedVertexKey&, const SharedVertexKey&) = default;
-};
-
 /// @brief The shared vertices of a piece, ascending. Local.
-[[nodiscard]] std::vector<SharedVertexKey> shared_vertices(const mesh::Piece& piece);
+[[nodiscard]] std::vector<mesh::HostPoint> shared_vertices(const mesh::Piece& piece);
 
 /// @brief What one piece says of its vertices.
 struct VertexList {
   LocalIndex subdomain = kNoIndex;
   LocalIndex material = 0;
-  std::vector<SharedVertexKey> vertices{};  ///< Ascending.
+  std::vector<mesh::HostPoint> vertices{};  ///< Ascending.
 
   static auto fields(auto& self) { return std::tie(self.subdomain, self.material, self.vertices); }
 };
 
 /// @brief What the lists of its neighbours say of a piece's shared vertices.
 struct SharedBy {
-  std::vector<SharedVertexKey> owned{};  ///< Those that no lower piece holds, ascending.
+  std::vector<mesh::HostPoint> owned{};  ///< Those that no lower piece holds, ascending.
   std::vector<char> on_seam{};  ///< Shape (num vertices): whether two pieces of one material
                                 ///< hold it.
 };

@@ -19,18 +19,8 @@ using TetCorners = std::array<Vec3, 4>;
 /// @note Local.
 [[nodiscard]] double mean_ratio(const TetCorners& corners) noexcept;
 
-/// @brief Smallest and largest angle between two faces of a tet, degrees in [0, 180].
-struct DihedralRange {
-  double min_deg = 180.0;
-  double max_deg = 0.0;
-};
-
-/// @brief The range of the six dihedral angles of a tet. A face without area counts as 0 and 180.
-/// @note Local.
-[[nodiscard]] DihedralRange dihedral_range(const TetCorners& corners) noexcept;
-
-/// @brief Mean ratio and dihedral angles of one tet, computed together; the angles as cosines,
-/// since extremes of many tets need one arc cosine only.
+/// @brief Mean ratio of one tet, and the range of the six angles between its faces, computed
+/// together; the angles as cosines, since extremes of many tets need one arc cosine only.
 struct TetShape {
   double mean_ratio = 0.0;
   double largest_cosine = -1.0;  ///< Of the smallest dihedral angle.

@@ -4,10 +4,10 @@
 #include <limits>
 #include <vector>
 
+#include "tessera/base/index_lists.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/decomposition.hpp"
 #include "tessera/mesh/skeleton.hpp"
-#include "tessera/mesh/subdomain_tets.hpp"
 
 namespace tessera::subdomain {
 
@@ -17,7 +17,7 @@ struct PartitionedMesh {
   const mesh::CoarseMesh& coarse;
   const mesh::Decomposition& decomposition;
   mesh::Skeleton skeleton;
-  mesh::SubdomainTets tets;
+  IndexLists tets;                  ///< mesh::subdomain_tets().
   std::vector<char> seam_hosts;     ///< mesh::hosts_on_seams().
   std::vector<char> on_geometry;    ///< untangle::vertices_on_geometry().
   std::vector<double> vertex_size;  ///< fill::vertex_sizes().

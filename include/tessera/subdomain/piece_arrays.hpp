@@ -27,8 +27,8 @@ struct WriteContext {
   const mesh::Skeleton& skeleton;
   const number::IdLayout& ids;
   const std::string& length_unit;  ///< Of the output; empty if nobody knows it.
-  /// Who owns the vertices of a piece, shape (num_vertices), if seams were improved: `ids` is by
-  /// owner then. Else empty: vertices are numbered by their hosts.
+  /// Who owns the vertices of a piece, shape (num_vertices). Needed where `ids` is by owner, as it
+  /// is once seams were improved.
   std::function<std::vector<VertexPlace>(const mesh::Piece&)> places_of{};
 };
 

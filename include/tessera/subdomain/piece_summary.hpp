@@ -21,7 +21,9 @@ struct PieceSummary {
   LocalIndex tries = 0;                                ///< Tries that were needed, from 1.
   LocalIndex num_held_back = 0;  ///< Skin points that the plan left off the geometry.
   GlobalIndex num_tets = 0;
-  GlobalIndex num_interior_vertices = 0;  ///< After improvement: all vertices it owns.
+  GlobalIndex num_interior_vertices = 0;  ///< Of no other piece.
+  GlobalIndex num_owned_vertices = 0;     ///< Interior ones and those that no lower piece shares;
+                                          ///< 0 unless seams were improved.
   GlobalIndex num_boundary = 0;           ///< Triangles on the geometry that this piece owns.
   GlobalIndex euler_characteristic = 0;   ///< V - E + F - T of the piece; 1 for a ball.
   double volume = 0.0;                    ///< Output length unit cubed.
@@ -42,7 +44,7 @@ struct PieceSummary {
   static auto fields(auto& self)
   {
     return std::tie(self.subdomain, self.material, self.kernel, self.tries, self.num_held_back,
-                    self.num_tets, self.num_interior_vertices, self.num_boundary,
+                    self.num_tets, self.num_interior_vertices, self.num_owned_vertices, self.num_boundary,
                     self.euler_characteristic, self.volume, self.boundary_area, self.model_distance,
                     self.held_back_distance, self.cpu_s, self.was_limited, self.is_folded,
                     self.tets, self.seam_tets, self.outside, self.surface, self.content,

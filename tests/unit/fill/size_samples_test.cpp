@@ -20,12 +20,12 @@ namespace {
 struct SamplesOfCube : ::testing::Test {
   const mesh::CoarseMesh cube = testing::kuhn_cube(2);
   const mesh::Decomposition decomposition = testing::slabs(cube, 2);
-  const mesh::SubdomainTets tets = mesh::subdomain_tets(decomposition);
+  const IndexLists tets = mesh::subdomain_tets(decomposition);
 
   [[nodiscard]] FillInput samples(LocalIndex subdomain, int levels) const
   {
     FillInput input;
-    add_size_samples(cube, tets.of(subdomain), vertex_sizes(cube), levels, input);
+    add_size_samples(cube, tets[subdomain], vertex_sizes(cube), levels, input);
     return input;
   }
 
@@ -65,7 +65,7 @@ TEST_F(SamplesOfCube, HalveWithEveryLevel)
   std::size_t fewer = 0;
   for (int levels = 0; levels < 4; ++levels) {
     FillInput input;
-    add_size_samples(cube, tets.of(0), size, levels, input);
+    add_size_samples(cube, tets[0], size, levels, input);
     EXPECT_GT(input.size_h.size(), fewer);
     fewer = input.size_h.size();
     for (const double h : input.size_h) EXPECT_NEAR(h, std::ldexp(0.75, -levels), 1e-15);
@@ -79,7 +79,7 @@ TEST_F(SamplesOfCube, InterpolateBetweenVertices)
   std::vector<double> size;
   for (LocalIndex v = 0; v < cube.num_vertices(); ++v) size.push_back(linear(cube.position(v)));
   FillInput input;
-  add_size_samples(cube, tets.of(1), size, 2, input);
+  add_size_samples(cube, tets[1], size, 2, input);
   for (std::size_t i = 0; i < input.size_h.size(); ++i) {
     const Vec3 p = point_at(std::span<const double>(input.size_xyz), i);
     EXPECT_NEAR(input.size_h[i], 0.25 * linear(p), 1e-15);
@@ -133,7 +133,7 @@ TEST_F(SamplesOfCube, AreAddedToWhatIsThere)
   input.vertex_xyz = {1, 2, 3};
   input.size_xyz = {7, 8, 9};
   input.size_h = {0.5};
-  add_size_samples(cube, tets.of(0), vertex_sizes(cube), 2, input);
+  add_size_samples(cube, tets[0], vertex_sizes(cube), 2, input);
   EXPECT_EQ(input.vertex_xyz, (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(input.size_h.front(), 0.5);
   EXPECT_EQ(input.size_xyz.size(), 3 * input.size_h.size());

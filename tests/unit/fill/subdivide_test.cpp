@@ -34,8 +34,8 @@ struct Subdivided {
 
   Subdivided(const Body& body, const model::Model& model, int levels, LocalIndex subdomain)
   {
-    const mesh::SubdomainTets tets_of = mesh::subdomain_tets(body.decomposition);
-    complex = mesh::tet_complex(body.coarse, body.skeleton, tets_of.of(subdomain));
+    const IndexLists tets_of = mesh::subdomain_tets(body.decomposition);
+    complex = mesh::tet_complex(body.coarse, body.skeleton, tets_of[subdomain]);
     const mesh::ProjectionLimiter none;
     const auto lattice =
         refine::refine_lattice(complex.faces, {body.coarse, body.skeleton, model, none, levels});
@@ -146,7 +146,7 @@ TEST(Subdivide, PieceBeyond32BitsIsRefusedBeforeAnythingIsAllocated)
   const mesh::CoarseMesh cube = testing::kuhn_cube(1);
   const Body body(cube, testing::one_subdomain_a_material(cube));
   const auto tets_of = mesh::subdomain_tets(body.decomposition);
-  const mesh::TetComplex complex = mesh::tet_complex(body.coarse, body.skeleton, tets_of.of(0));
+  const mesh::TetComplex complex = mesh::tet_complex(body.coarse, body.skeleton, tets_of[0]);
   mesh::RefinedLattice lattice;
   lattice.n = mesh::lattice::intervals(10);
   EXPECT_THROW(static_cast<void>(subdivide(complex, lattice)), MeshError);

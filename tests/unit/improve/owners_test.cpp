@@ -37,14 +37,13 @@ RegionMesh region_of(const TetMesh& tets, const std::vector<LocalIndex>& tet_own
   mesh.vertex_xyz = tets.vertex_xyz;
   mesh.tet_vertices = tets.tet_vertices;
   mesh.tet_owner = tet_owner;
-  mesh.fixed_offsets.push_back(0);
   for (std::size_t v = 0; v < holders.size(); ++v) {
     for (LocalIndex owner = 0; owner < num_owners; ++owner) {
       if (contains(holders[v], owner)) {
-        mesh.fixed_places.push_back({owner, static_cast<LocalIndex>(v)});
+        mesh.fixed_places.values.push_back({owner, static_cast<LocalIndex>(v)});
       }
     }
-    mesh.fixed_offsets.push_back(static_cast<LocalIndex>(mesh.fixed_places.size()));
+    mesh.fixed_places.end_list();
   }
   for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(tets.tet_vertices)) {
     if (triangle.tets[1] != kNoIndex) continue;

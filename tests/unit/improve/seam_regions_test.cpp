@@ -78,13 +78,13 @@ TEST(SeamRegions, AreListedForEachSubdomainThatTakesPart)
   }
 }
 
-TEST(SeamRegions, AreFoundByTheUnitsOfTheSkeleton)
+TEST(SeamRegions, AreFoundByTheHostsOfTheSkeleton)
 {
   const Body body = octants_of(testing::kuhn_cube(2));
   const SeamRegions regions(body.skeleton, body.decomposition);
   const mesh::HostLayout hosts(body.skeleton);
   for (LocalIndex t = 0; t < body.skeleton.num_triangles(); ++t) {
-    const LocalIndex region = regions.region_of(hosts.first_triangle + t, 1);
+    const LocalIndex region = regions.region_of(hosts.triangle(t), 1);
     if (!body.skeleton.is_inside(t)) {
       EXPECT_EQ(region, kNoIndex);
       continue;
@@ -97,7 +97,7 @@ TEST(SeamRegions, AreFoundByTheUnitsOfTheSkeleton)
   for (LocalIndex v = 0; v < body.skeleton.num_vertices(); ++v) {
     const Vec3 p = body.coarse.position(body.skeleton.vertex_coarse[at(v)]);
     const auto num_middle = std::count(p.begin(), p.end(), 0.5);
-    const LocalIndex region = regions.region_of(v, 1);
+    const LocalIndex region = regions.region_of(hosts.vertex(v), 1);
     if (num_middle == 0) {
       EXPECT_EQ(region, kNoIndex);
     } else {
@@ -124,24 +124,25 @@ TEST(SeamRegions, KeepMaterialsApart)
     const Vec3 p = body.coarse.position(body.skeleton.vertex_coarse[at(v)]);
     if (p != Vec3{0.5, 0.5, 0.5}) continue;
     // The middle of the interface lies in four octants of either material.
-    EXPECT_EQ(listed(regions.subdomains_of(regions.region_of(v, 1))),
+    EXPECT_EQ(listed(regions.subdomains_of(regions.region_of(hosts.vertex(v), 1))),
               (std::vector<LocalIndex>{0, 2, 4, 6}));
-    EXPECT_EQ(listed(regions.subdomains_of(regions.region_of(v, 2))),
+    EXPECT_EQ(listed(regions.subdomains_of(regions.region_of(hosts.vertex(v), 2))),
               (std::vector<LocalIndex>{1, 3, 5, 7}));
   }
   for (LocalIndex t = 0; t < body.skeleton.num_triangles(); ++t) {
     if (body.skeleton.triangle_patch[at(t)] == kNoIndex) continue;
-    EXPECT_EQ(regions.region_of(hosts.first_triangle + t, 1), kNoIndex);
+    EXPECT_EQ(regions.region_of(hosts.triangle(t), 1), kNoIndex);
   }
 }
 
-TEST(SeamRegions, HaveUnitsBehindThoseOfThePieces)
+TEST(SeamRegions, HaveHostsOfTheirOwn)
 {
   const Body body = octants_of(testing::kuhn_cube(2));
   const SeamRegions regions(body.skeleton, body.decomposition);
   const mesh::HostLayout hosts(body.skeleton);
-  EXPECT_EQ(regions.host_of(0), hosts.first_piece + 8);
-  EXPECT_EQ(regions.region_of(hosts.first_piece, 1), kNoIndex);
+  EXPECT_EQ(hosts.kind_of(regions.host_of(0)), mesh::HostKind::seam_region);
+  EXPECT_EQ(hosts.row_of(regions.host_of(3)), 3);
+  EXPECT_EQ(regions.region_of(hosts.piece(0), 1), kNoIndex);
   EXPECT_EQ(regions.region_of(regions.host_of(3), 1), kNoIndex);
 }
 

@@ -21,9 +21,9 @@ using testing::TemporaryFolder;
   return record;
 }
 
-[[nodiscard]] std::filesystem::path only_file(const RecordStore& store)
+[[nodiscard]] std::filesystem::path only_file(const std::filesystem::path& folder)
 {
-  return std::filesystem::directory_iterator(store.folder())->path();
+  return std::filesystem::directory_iterator(folder)->path();
 }
 
 TEST(RecordStore, GivesBackWhatWasPutAlsoThroughAnotherObject)
@@ -53,13 +53,14 @@ TEST(RecordStore, EveryFlippedBitIsNoticed)
   const TemporaryFolder folder;
   const RecordStore store(folder / "pieces");
   store.put("piece_5", record_of(30));
-  const std::string good = testing::file_bytes(only_file(store));
+  const std::string good = testing::file_bytes(only_file(folder / "pieces"));
   for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
     std::string bad = good;
     bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << bit % 8));
-    testing::write_bytes(only_file(store), bad);
+    testing::write_bytes(only_file(folder / "pieces"), bad);
     const std::string message = message_of<InputError>([&] { (void)store.get("piece_5"); });
-    EXPECT_NE(message.find(only_file(store).string()), std::string::npos) << "bit " << bit;
+    EXPECT_NE(message.find(only_file(folder / "pieces").string()), std::string::npos)
+        << "bit " << bit;
   }
 }
 
@@ -68,12 +69,12 @@ TEST(RecordStore, EveryOtherLengthIsNoticed)
   const TemporaryFolder folder;
   const RecordStore store(folder / "pieces");
   store.put("piece_5", record_of(30));
-  const std::string good = testing::file_bytes(only_file(store));
+  const std::string good = testing::file_bytes(only_file(folder / "pieces"));
   for (std::size_t size = 0; size < good.size(); ++size) {
-    testing::write_bytes(only_file(store), good.substr(0, size));
+    testing::write_bytes(only_file(folder / "pieces"), good.substr(0, size));
     EXPECT_THROW((void)store.get("piece_5"), InputError) << size;
   }
-  testing::write_bytes(only_file(store), good + "x");
+  testing::write_bytes(only_file(folder / "pieces"), good + "x");
   EXPECT_THROW((void)store.get("piece_5"), InputError);
 }
 
@@ -82,9 +83,9 @@ TEST(RecordStore, ARecordUnderTheNameOfAnotherPieceIsNoticed)
   const TemporaryFolder folder;
   const RecordStore store(folder / "pieces");
   store.put("piece_5", record_of(30));
-  const std::filesystem::path fifth = only_file(store);
+  const std::filesystem::path fifth = only_file(folder / "pieces");
   store.put("piece_6", record_of(30));
-  for (const auto& entry : std::filesystem::directory_iterator(store.folder())) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "pieces")) {
     if (entry.path() != fifth) std::filesystem::rename(fifth, entry.path());
   }
   EXPECT_THROW((void)store.get("piece_6"), InputError);
@@ -110,7 +111,7 @@ TEST(RecordStore, AFullDiskIsAnOutputErrorAndLeavesNothingNew)
   }
   EXPECT_EQ(store.get("piece_1"), record_of(100));
   EXPECT_FALSE(store.contains("piece_2"));
-  EXPECT_EQ(testing::file_bytes(only_file(store)).size(), 140U);
+  EXPECT_EQ(testing::file_bytes(only_file(folder / "pieces")).size(), 140U);
 }
 
 TEST(RecordStore, FollowsNoSymbolicLink)
@@ -119,7 +120,8 @@ TEST(RecordStore, FollowsNoSymbolicLink)
   const RecordStore elsewhere(folder / "elsewhere");
   elsewhere.put("piece_1", record_of(100));
   const RecordStore store(folder / "pieces");
-  std::filesystem::create_symlink(only_file(elsewhere), folder / "pieces/piece_1.record");
+  std::filesystem::create_symlink(only_file(folder / "elsewhere"),
+                                  folder / "pieces/piece_1.record");
   EXPECT_FALSE(store.contains("piece_1"));
   store.put("piece_1", record_of(10));
   EXPECT_EQ(store.get("piece_1"), record_of(10));
@@ -142,8 +144,8 @@ TEST(RecordStore, RemovesRecordsAndLeavesForeignFilesAlone)
   testing::write_bytes(folder / "pieces/piece_000009.record.tmp-77-0", "left by a dead process");
   testing::write_bytes(folder / "pieces/notes.txt", "mine");
   store.remove_all();
-  EXPECT_EQ(only_file(store).filename(), "notes.txt");
-  std::filesystem::remove(only_file(store));
+  EXPECT_EQ(only_file(folder / "pieces").filename(), "notes.txt");
+  std::filesystem::remove(only_file(folder / "pieces"));
   store.remove_all();
   EXPECT_FALSE(std::filesystem::exists(folder / "pieces"));
   store.remove_all();

@@ -50,8 +50,8 @@ TEST(SurfaceFeatures, CubeHasSixPatchesTwelveCurvesAndEightCornerPoints)
   for (const auto& [patch, size] : patch_size) EXPECT_EQ(size, 2) << patch;
   std::set<LocalIndex> ends;
   for (LocalIndex c = 0; c < features.num_curves(); ++c) {
-    ASSERT_EQ(features.curve(c).size(), 2U);
-    ends.insert(features.curve(c).begin(), features.curve(c).end());
+    ASSERT_EQ(features.curve_vertices[c].size(), 2U);
+    ends.insert(features.curve_vertices[c].begin(), features.curve_vertices[c].end());
   }
   EXPECT_EQ(ends.size(), 8U);
 }
@@ -62,7 +62,7 @@ TEST(SurfaceFeatures, EveryFeatureEdgeIsOnOneCurveOnceAndOthersOnNone)
   const SurfaceFeatures features = find_features(surface, 30.0);
   std::set<std::pair<LocalIndex, LocalIndex>> seen;
   for (LocalIndex c = 0; c < features.num_curves(); ++c) {
-    const auto vertices = features.curve(c);
+    const auto vertices = features.curve_vertices[c];
     for (std::size_t i = 1; i < vertices.size(); ++i) {
       EXPECT_EQ(features.curve_of_edge(vertices[i - 1], vertices[i]), c);
       EXPECT_TRUE(seen.insert(std::minmax({vertices[i - 1], vertices[i]})).second);
@@ -80,8 +80,8 @@ TEST(SurfaceFeatures, RimWithoutCornersIsAClosedLoop)
   EXPECT_EQ(features.num_patches(), 3);
   ASSERT_EQ(features.num_curves(), 2);
   for (LocalIndex c = 0; c < 2; ++c) {
-    EXPECT_EQ(features.curve(c).front(), features.curve(c).back());
-    EXPECT_EQ(features.curve(c).size(), 21U);
+    EXPECT_EQ(features.curve_vertices[c].front(), features.curve_vertices[c].back());
+    EXPECT_EQ(features.curve_vertices[c].size(), 21U);
   }
 }
 

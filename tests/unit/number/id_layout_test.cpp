@@ -22,37 +22,24 @@ namespace {
 
 using testing::Body;
 
-mesh::HostLayout hosts_of(LocalIndex vertices, LocalIndex edges, LocalIndex triangles)
-{
-  mesh::Skeleton skeleton;
-  skeleton.vertex_coarse.resize(at(vertices));
-  skeleton.edge_owner.resize(at(edges));
-  skeleton.triangle_patch.resize(at(triangles));
-  return mesh::HostLayout(skeleton);
-}
-
 class IdsOfIntervals : public ::testing::TestWithParam<LocalIndex> {};
 
-TEST_P(IdsOfIntervals, CountEveryVertexOfAllUnitsOnce)
+TEST_P(IdsOfIntervals, CountEveryVertexOfAllHostsOnce)
 {
   const LocalIndex n = GetParam();
-  const mesh::HostLayout hosts = hosts_of(5, 9, 7);
+  const mesh::HostLayout hosts(5, 9, 7, 3);
   const std::vector<PieceCounts> pieces{{3, 10, 4}, {0, 1, 0}, {8, 30, 2}};
-  const IdLayout ids(hosts, n, pieces);
+  const IdLayout ids = IdLayout::by_host(hosts, n, pieces);
+  ASSERT_TRUE(ids.is_by_host());
   std::vector<int> times(static_cast<std::size_t>(ids.num_vertices()), 0);
-  const auto count_host = [&](mesh::HostEntity host, GlobalIndex points) {
-    for (LocalIndex i = 0; i < points; ++i)
-      ++times.at(static_cast<std::size_t>(ids.vertex_id(host, i)));
-  };
-  for (mesh::HostEntity host = 0; host < hosts.first_edge; ++host) count_host(host, 1);
-  for (mesh::HostEntity host = hosts.first_edge; host < hosts.first_triangle; ++host) {
-    count_host(host, mesh::lattice::num_inner_edge_points(n));
-  }
-  for (mesh::HostEntity host = hosts.first_triangle; host < hosts.first_piece; ++host) {
-    count_host(host, mesh::lattice::num_inner_triangle_points(n));
-  }
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    count_host(hosts.first_piece + static_cast<mesh::HostEntity>(p), pieces[p].interior_vertices);
+  for (mesh::HostEntity host = 0; host < hosts.seam_region(0); ++host) {
+    const mesh::HostKind kind = hosts.kind_of(host);
+    const GlobalIndex points = kind == mesh::HostKind::piece
+                                   ? pieces[at(hosts.row_of(host))].interior_vertices
+                                   : mesh::num_points_of_host(kind, n);
+    for (LocalIndex i = 0; i < points; ++i) {
+      ++times.at(static_cast<std::size_t>(ids.vertex_id({host, i})));
+    }
   }
   for (const int count : times) EXPECT_EQ(count, 1);
   EXPECT_EQ(ids.num_tets(), 41);
@@ -66,13 +53,14 @@ TEST_P(IdsOfIntervals, OfSkinsAreDenseAndShared)
   while (mesh::lattice::intervals(levels) < GetParam()) ++levels;
   const mesh::CoarseMesh cube = testing::two_material_cube(2);
   const Body body(cube, testing::slabs(cube, 2));
-  const IdLayout ids(mesh::HostLayout(body.skeleton), GetParam(), std::vector<PieceCounts>(4));
+  const IdLayout ids =
+      IdLayout::by_host(mesh::HostLayout(body.skeleton), GetParam(), std::vector<PieceCounts>(4));
   std::map<GlobalIndex, std::array<std::uint64_t, 3>> position_of;
   std::set<std::array<std::uint64_t, 3>> positions;
   for (LocalIndex s = 0; s < 4; ++s) {
     const mesh::Skin skin = testing::skin_of(body, testing::FlatModel(), levels, s);
     for (LocalIndex v = 0; v < skin.num_vertices(); ++v) {
-      const auto id = ids.vertex_id(skin.vertex_host[at(v)], skin.vertex_index[at(v)]);
+      const auto id = ids.vertex_id({skin.vertex_host[at(v)], skin.vertex_index[at(v)]});
       const auto point = testing::bits(point_at(std::span<const double>(skin.vertex_xyz), v));
       EXPECT_EQ(position_of.emplace(id, point).first->second, point);
       positions.insert(point);
@@ -88,7 +76,8 @@ INSTANTIATE_TEST_SUITE_P(Intervals, IdsOfIntervals, ::testing::Values(1, 2, 4, 8
 
 TEST(IdLayout, CellsArePrefixSums)
 {
-  const IdLayout ids(hosts_of(1, 1, 1), 1, {{0, 10, 4}, {0, 0, 0}, {0, 5, 1}});
+  const std::vector<PieceCounts> pieces{{0, 10, 4}, {0, 0, 0}, {0, 5, 1}};
+  const IdLayout ids = IdLayout::by_host(mesh::HostLayout(1, 1, 1, 3), 1, pieces);
   EXPECT_EQ(ids.first_tet(0), 0);
   EXPECT_EQ(ids.first_tet(1), 10);
   EXPECT_EQ(ids.first_tet(2), 10);
@@ -99,10 +88,10 @@ TEST(IdLayout, CellsArePrefixSums)
 
 TEST(IdLayout, WithoutPiecesHasTheSkeletonOnly)
 {
-  const IdLayout ids(hosts_of(4, 6, 4), 4, {});
+  const IdLayout ids = IdLayout::by_host(mesh::HostLayout(4, 6, 4, 0), 4, {});
   EXPECT_EQ(ids.num_vertices(), 4 + 6 * 3 + 4 * 3);
   EXPECT_EQ(ids.num_tets(), 0);
-  EXPECT_EQ(IdLayout(hosts_of(0, 0, 0), 1, {}).num_vertices(), 0);
+  EXPECT_EQ(IdLayout::by_host(mesh::HostLayout(0, 0, 0, 0), 1, {}).num_vertices(), 0);
 }
 
 TEST(IdLayout, CountsBeyond32Bits)
@@ -111,15 +100,15 @@ TEST(IdLayout, CountsBeyond32Bits)
   const LocalIndex n = mesh::lattice::intervals(mesh::lattice::kMaxLevels);
   const LocalIndex num_edges = 15'000'000;
   const LocalIndex num_triangles = 10'000'000;
-  const IdLayout ids(hosts_of(5'000'000, num_edges, num_triangles), n,
-                     {{kMany, 2 * kMany, kMany}, {kMany, 2 * kMany, kMany}});
+  const mesh::HostLayout hosts(5'000'000, num_edges, num_triangles, 2);
+  const IdLayout ids =
+      IdLayout::by_host(hosts, n, {{kMany, 2 * kMany, kMany}, {kMany, 2 * kMany, kMany}});
   const GlobalIndex of_edges = GlobalIndex{1023} * num_edges;
   const GlobalIndex of_triangles = GlobalIndex{1023 * 1022 / 2} * num_triangles;
   const GlobalIndex on_skeleton = 5'000'000 + of_edges + of_triangles;
-  const mesh::HostEntity first_edge = 5'000'000;
-  EXPECT_EQ(ids.vertex_id(first_edge + num_edges - 1, 1022), 5'000'000 + of_edges - 1);
-  EXPECT_EQ(ids.vertex_id(first_edge + num_edges, 0), 5'000'000 + of_edges);
-  EXPECT_EQ(ids.vertex_id(first_edge + num_edges + num_triangles - 1, 1023 * 1022 / 2 - 1),
+  EXPECT_EQ(ids.vertex_id({hosts.edge(num_edges - 1), 1022}), 5'000'000 + of_edges - 1);
+  EXPECT_EQ(ids.vertex_id({hosts.triangle(0), 0}), 5'000'000 + of_edges);
+  EXPECT_EQ(ids.vertex_id({hosts.triangle(num_triangles - 1), 1023 * 1022 / 2 - 1}),
             on_skeleton - 1);
   EXPECT_EQ(ids.interior_vertex_id(0, 0), on_skeleton);
   EXPECT_EQ(ids.interior_vertex_id(1, 7), on_skeleton + kMany + 7);
@@ -127,6 +116,21 @@ TEST(IdLayout, CountsBeyond32Bits)
   EXPECT_EQ(ids.first_tet(1), 2 * kMany);
   EXPECT_EQ(ids.num_tets(), 4 * kMany);
   EXPECT_EQ(ids.num_boundary_triangles(), 2 * kMany);
+}
+
+TEST(IdLayout, ByOwnerCountsThePiecesOneAfterTheOther)
+{
+  const std::vector<PieceCounts> pieces{{.interior_vertices = 3, .tets = 10, .owned_vertices = 7},
+                                        {.interior_vertices = 1, .tets = 4, .owned_vertices = 0},
+                                        {.interior_vertices = 0, .tets = 5, .owned_vertices = 2}};
+  const IdLayout ids = IdLayout::by_owner(pieces);
+  EXPECT_FALSE(ids.is_by_host());
+  EXPECT_EQ(ids.owned_vertex_id(0, 0), 0);
+  EXPECT_EQ(ids.owned_vertex_id(0, 6), 6);
+  EXPECT_EQ(ids.owned_vertex_id(2, 1), 8);
+  EXPECT_EQ(ids.num_vertices(), 9);
+  EXPECT_EQ(ids.first_tet(2), 14);
+  EXPECT_EQ(ids.num_tets(), 19);
 }
 
 }  // namespace

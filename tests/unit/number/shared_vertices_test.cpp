@@ -9,10 +9,10 @@
 namespace tessera::number {
 namespace {
 
-constexpr SharedVertexKey kA{0, 0};
-constexpr SharedVertexKey kB{0, 1};
-constexpr SharedVertexKey kC{7, 0};
-constexpr SharedVertexKey kD{7, 5};
+constexpr mesh::HostPoint kA{0, 0};
+constexpr mesh::HostPoint kB{0, 1};
+constexpr mesh::HostPoint kC{7, 0};
+constexpr mesh::HostPoint kD{7, 5};
 
 TEST(SharedVertices, AreListedAscending)
 {
@@ -33,11 +33,11 @@ TEST(CompareLists, LowestPieceThatHoldsAVertexOwnsIt)
 TEST(CompareLists, EveryVertexHasOneOwner)
 {
   const std::vector<VertexList> lists{{0, 1, {kA, kC}}, {1, 1, {kA, kB, kD}}, {2, 1, {kA, kB, kC}}};
-  std::vector<SharedVertexKey> owned;
+  std::vector<mesh::HostPoint> owned;
   for (std::size_t i = 0; i < lists.size(); ++i) {
     std::vector<VertexList> others = lists;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    for (const SharedVertexKey& key : compare_lists(lists[i], others).owned) owned.push_back(key);
+    for (const mesh::HostPoint& key : compare_lists(lists[i], others).owned) owned.push_back(key);
   }
   std::sort(owned.begin(), owned.end());
   EXPECT_EQ(owned, (std::vector{kA, kB, kC, kD}));

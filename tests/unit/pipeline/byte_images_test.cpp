@@ -75,7 +75,7 @@ using Types = ::testing::Types<
     subdomain::RegionRecord, subdomain::PieceSummary, subdomain::FillResult, subdomain::FailedTries,
     verify::SeamHash, quality::TetStatistics, quality::QualityHistograms, fill::FillTry,
     coarse::CoarseOptions, coarse::VertexDistance, decompose::DecomposeReport,
-    decompose::DecomposeResult, number::PieceCounts, number::SharedVertexKey, number::VertexList,
+    decompose::DecomposeResult, number::PieceCounts, mesh::HostPoint, number::VertexList,
     check::SubdomainFigures,
     // The program's.
     CoarseTry, UntangleTest, FillTask, SkinMesh, CoarseResult, WrittenFile, FillRecord,

@@ -186,8 +186,8 @@ TEST(TetStatistics, TakeExtremesOverAllTets)
   sum.add(shape_of(corner));
   const TetStatistics statistics = sum.statistics();
   EXPECT_EQ(statistics.num_tets, 2);
-  EXPECT_EQ(statistics.min_dihedral_deg, dihedral_range(corner).min_deg);
-  EXPECT_EQ(statistics.max_dihedral_deg, dihedral_range(corner).max_deg);
+  EXPECT_EQ(statistics.min_dihedral_deg, angle_deg(shape_of(corner).largest_cosine));
+  EXPECT_EQ(statistics.max_dihedral_deg, angle_deg(shape_of(corner).smallest_cosine));
   EXPECT_EQ(statistics.min_mean_ratio, mean_ratio(corner));
   EXPECT_NEAR(statistics.mean_mean_ratio(), 0.5 * (1.0 + mean_ratio(corner)), 1e-15);
   EXPECT_EQ(histogram.counts()[8], 1);

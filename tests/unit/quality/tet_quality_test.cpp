@@ -15,6 +15,17 @@ const TetCorners kRegular{{{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}}};
 const TetCorners kCorner{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 const TetCorners kKuhn{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}}};
 
+struct DihedralRange {
+  double min_deg = 0.0;
+  double max_deg = 0.0;
+};
+
+DihedralRange dihedral_range(const TetCorners& corners)
+{
+  const TetShape shape = shape_of(corners);
+  return {angle_deg(shape.largest_cosine), angle_deg(shape.smallest_cosine)};
+}
+
 double degrees(double cosine) { return std::acos(cosine) * 180.0 / std::numbers::pi; }
 
 template <class Map>
@@ -74,7 +85,7 @@ TEST(MeanRatio, FallsWithFlattening)
   }
 }
 
-TEST(DihedralRange, HasClosedForms)
+TEST(DihedralAngles, HasClosedForms)
 {
   const DihedralRange regular = dihedral_range(kRegular);
   EXPECT_NEAR(regular.min_deg, degrees(1.0 / 3.0), 1e-12);
@@ -89,7 +100,7 @@ TEST(DihedralRange, HasClosedForms)
 
 // Two triangles that meet along the x axis at a given angle. Where that is the smallest of the
 // tet's six angles the common edge is long, where it is the largest one the edge is short.
-TEST(DihedralRange, FindsTheAngleOfAWedge)
+TEST(DihedralAngles, FindsTheAngleOfAWedge)
 {
   for (const double angle : {1.0, 10.0, 30.0, 100.0, 120.0, 179.0}) {
     const double radians = angle * std::numbers::pi / 180.0;
@@ -100,7 +111,7 @@ TEST(DihedralRange, FindsTheAngleOfAWedge)
   }
 }
 
-TEST(DihedralRange, IsThatOfAllSixEdges)
+TEST(DihedralAngles, IsThatOfAllSixEdges)
 {
   TetCorners corners{{{0, 0, 0}, {1.1, 0.2, 0}, {0.3, 0.9, -0.2}, {0.1, 0.4, 0.7}}};
   const DihedralRange range = dihedral_range(corners);
@@ -113,7 +124,7 @@ TEST(DihedralRange, IsThatOfAllSixEdges)
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
-TEST(DihedralRange, DoesNotDependOnScale)
+TEST(DihedralAngles, DoesNotDependOnScale)
 {
   for (const double scale : {1e-60, 1e60}) {
     const auto scaled = mapped(kCorner, [scale](const Vec3& p) { return scale * p; });
@@ -121,14 +132,14 @@ TEST(DihedralRange, DoesNotDependOnScale)
   }
 }
 
-TEST(DihedralRange, OfAFlatTetIsFromZeroToAHalfTurn)
+TEST(DihedralAngles, OfAFlatTetIsFromZeroToAHalfTurn)
 {
   const DihedralRange flat = dihedral_range({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}});
   EXPECT_NEAR(flat.min_deg, 0.0, 1e-6);
   EXPECT_NEAR(flat.max_deg, 180.0, 1e-6);
 }
 
-TEST(DihedralRange, OfAFaceWithoutAreaIsFromZeroToAHalfTurn)
+TEST(DihedralAngles, OfAFaceWithoutAreaIsFromZeroToAHalfTurn)
 {
   const DihedralRange needle = dihedral_range({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}});
   EXPECT_EQ(needle.min_deg, 0.0);

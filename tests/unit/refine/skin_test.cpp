@@ -85,21 +85,17 @@ TEST_P(SkinOfLevel, KeepsTheVolumeOnAFlatModel)
   }
 }
 
-TEST_P(SkinOfLevel, NamesEveryVertexByItsUnit)
+TEST_P(SkinOfLevel, NamesEveryVertexByItsHost)
 {
   const Body body(testing::cylinder(2), testing::halves(testing::cylinder(2)));
   const mesh::HostLayout hosts(body.skeleton);
-  const int inner_of_triangle = (n() - 1) * (n() - 2) / 2;
   for (LocalIndex s = 0; s < 2; ++s) {
     const mesh::Skin skin = testing::skin_of(body, testing::CylinderModel(), GetParam(), s);
     std::set<std::pair<mesh::HostEntity, LocalIndex>> names;
     for (LocalIndex v = 0; v < skin.num_vertices(); ++v) {
       const mesh::HostEntity host = skin.vertex_host[at(v)];
-      const LocalIndex places = host < hosts.first_edge       ? 1
-                                : host < hosts.first_triangle ? n() - 1
-                                                              : inner_of_triangle;
-      EXPECT_LT(host, hosts.first_piece);
-      EXPECT_LT(skin.vertex_index[at(v)], places);
+      EXPECT_LT(host, hosts.num_on_skeleton());
+      EXPECT_LT(skin.vertex_index[at(v)], mesh::num_points_of_host(hosts.kind_of(host), n()));
       EXPECT_TRUE(names.insert({host, skin.vertex_index[at(v)]}).second);
     }
   }

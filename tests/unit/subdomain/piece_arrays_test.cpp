@@ -10,9 +10,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/base/error.hpp"
 #include "tessera/base/version.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/quality/tet_quality.hpp"
+#include "tessera/subdomain/count_pieces.hpp"
 
 #include "support/filled_cube.hpp"
 
@@ -184,6 +186,92 @@ TEST_F(ArraysOfPieces, NamesStandInEveryFile)
     EXPECT_EQ(mesh->field_texts.at("tessera_version"),
               std::vector<std::string>{std::string(version())});
   }
+}
+
+// Pieces numbered by owner, as after an improvement; but here the owners are the skeleton's.
+class NumberedByOwner {
+ public:
+  explicit NumberedByOwner(const testing::Body& body)
+      : body_(body), hosts_(body.skeleton), owned_(at(body.num_subdomains()))
+  {
+  }
+
+  // @pre pieces are added in their order.
+  void add(const FilledPiece& filled)
+  {
+    const mesh::Piece& piece = filled.piece;
+    auto& here = owned_[at(piece.subdomain)];
+    for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
+      if (owner_of(piece, v) != piece.subdomain) continue;
+      here.emplace(piece.skin_point(v), static_cast<LocalIndex>(here.size()));
+    }
+    counts_.push_back(counts_of(filled.result.summary));
+    counts_.back().owned_vertices =
+        static_cast<GlobalIndex>(here.size()) + piece.num_interior_vertices();
+  }
+
+  [[nodiscard]] number::IdLayout ids() const { return number::IdLayout::by_owner(counts_); }
+
+  [[nodiscard]] std::vector<VertexPlace> places_of(const mesh::Piece& piece) const
+  {
+    std::vector<VertexPlace> places;
+    for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
+      const LocalIndex owner = owner_of(piece, v);
+      places.push_back({owner, owned_[at(owner)].at(piece.skin_point(v))});
+    }
+    auto next = static_cast<LocalIndex>(owned_[at(piece.subdomain)].size());
+    for (LocalIndex v = 0; v < piece.num_interior_vertices(); ++v) {
+      places.push_back({piece.subdomain, next++});
+    }
+    return places;
+  }
+
+ private:
+  [[nodiscard]] LocalIndex owner_of(const mesh::Piece& piece, LocalIndex v) const
+  {
+    return mesh::owner_of_host(body_.skeleton, hosts_, piece.skin_host[at(v)]);
+  }
+
+  const testing::Body& body_;
+  mesh::HostLayout hosts_;
+  std::vector<std::map<mesh::HostPoint, LocalIndex>> owned_;  ///< By subdomain: place of each.
+  std::vector<number::PieceCounts> counts_{};
+};
+
+TEST_F(ArraysOfPieces, ByOwnerEveryVertexHasOneIdAsWell)
+{
+  NumberedByOwner numbered(body());
+  for (const FilledPiece& filled : pieces()) numbered.add(filled);
+  const number::IdLayout by_owner = numbered.ids();
+  EXPECT_EQ(by_owner.num_vertices(), ids().num_vertices());
+  const std::string none;
+  const WriteContext mesh{body().coarse, body().skeleton, by_owner, none,
+                          [&](const mesh::Piece& piece) { return numbered.places_of(piece); }};
+  std::map<GlobalIndex, GlobalIndex> id_by_host;
+  for (std::size_t s = 0; s < pieces().size(); ++s) {
+    const PieceArrays renumbered = piece_arrays(pieces()[s].piece, mesh, false);
+    EXPECT_EQ(renumbered.tets.point_ints.at("owner"), arrays[s].tets.point_ints.at("owner"));
+    for (std::size_t p = 0; p < renumbered.tets.point_ids.size(); ++p) {
+      const GlobalIndex other = arrays[s].tets.point_ids[p];
+      EXPECT_EQ(id_by_host.emplace(renumbered.tets.point_ids[p], other).first->second, other);
+    }
+  }
+  EXPECT_EQ(static_cast<GlobalIndex>(id_by_host.size()), by_owner.num_vertices());
+  EXPECT_EQ(id_by_host.begin()->first, 0);
+  EXPECT_EQ(id_by_host.rbegin()->first, by_owner.num_vertices() - 1);
+}
+
+TEST_F(ArraysOfPieces, ByOwnerAnEmptyPieceGivesTheSchema)
+{
+  const auto by_owner = number::IdLayout::by_owner({{}});
+  const std::string none;
+  const WriteContext mesh{body().coarse, body().skeleton, by_owner, none,
+                          [](const mesh::Piece&) -> std::vector<VertexPlace> {
+                            throw MeshError("nobody has noted the owners of an empty piece");
+                          }};
+  const PieceArrays empty = piece_arrays({}, mesh, false);
+  EXPECT_TRUE(empty.tets.point_ids.empty());
+  EXPECT_EQ(empty.tets.point_ints.count("owner"), 1U);
 }
 
 TEST_F(ArraysOfPieces, UnknownLengthUnitIsNoText)

@@ -110,7 +110,7 @@ Plan make_plan(const Body& body, const model::Model& model, int levels, int most
     std::vector<PointLimit> all(plan.limiter.entries().begin(), plan.limiter.entries().end());
     found_any = false;
     for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
-      const auto tets = tets_on_geometry(body.coarse, subdomains.of(s), on_geometry);
+      const auto tets = tets_on_geometry(body.coarse, subdomains[s], on_geometry);
       const RefinedTets refined(body, model, plan.limiter, levels, tets);
       for (const PointLimit& smaller :
            find_folds(refined.complex, body.skeleton, refined.lattice, plan.limiter)) {
@@ -244,7 +244,7 @@ TEST(FoldTest, TetsOnGeometryAreAllThatHaveAnEdgeThere)
   const auto on_geometry = vertices_on_geometry(body.coarse, body.skeleton);
   std::set<LocalIndex> found;
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
-    for (const LocalIndex t : tets_on_geometry(body.coarse, subdomains.of(s), on_geometry)) {
+    for (const LocalIndex t : tets_on_geometry(body.coarse, subdomains[s], on_geometry)) {
       EXPECT_EQ(body.decomposition.tet_subdomain[at(t)], s);
       EXPECT_TRUE(found.insert(t).second);
     }

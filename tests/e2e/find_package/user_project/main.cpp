@@ -31,7 +31,7 @@ double mesh_cube(int levels)
                                         *decompose::make_metis_partitioner());
   const mesh::Skeleton skeleton = mesh::build_skeleton(coarse, cut.decomposition);
   const mesh::ProjectionLimiter no_limits;
-  const mesh::SubdomainTets tets_of = mesh::subdomain_tets(cut.decomposition);
+  const IndexLists tets_of = mesh::subdomain_tets(cut.decomposition);
   const std::vector<double> sizes = fill::vertex_sizes(coarse);
   const auto kernel = netgen::make_fill_kernel();
 
@@ -43,7 +43,7 @@ double mesh_cube(int levels)
     mesh::Skin skin = refine::extract_skin(complex, lattice, skeleton, s);
     fill::FillInput input{.vertex_xyz = std::move(skin.vertex_xyz),
                           .triangle_vertices = std::move(skin.triangle_vertices)};
-    fill::add_size_samples(coarse, tets_of.of(s), sizes, levels, input);
+    fill::add_size_samples(coarse, tets_of[s], sizes, levels, input);
     const fill::FillOutput tets = kernel->fill(input, {});
     volume += fill::check_fill(input, tets).volume;
     std::printf("subdomain %d: %zu tets\n", s, tets.tet_vertices.size() / 4);
