@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "tessera/base/enum_words.hpp"
 #include "tessera/base/types.hpp"
 
 #include "pipeline/runtime/log.hpp"
@@ -14,6 +15,16 @@
 namespace tessera::pipeline {
 
 enum class ProgressMode : int { automatic, always, never };
+
+/// @brief Words of `--progress`.
+constexpr auto enum_words(ProgressMode /*tag*/)
+{
+  return std::to_array<EnumWord<ProgressMode>>({
+      {ProgressMode::automatic, "auto"},
+      {ProgressMode::always, "always"},
+      {ProgressMode::never, "never"},
+  });
+}
 
 /// @brief `tessera mesh`: make a mesh from a case file.
 struct MeshCommand {

@@ -31,6 +31,23 @@ bool has_boundary(const subdomain::SubdomainRange& range,
   return false;
 }
 
+// An index without pieces is valid: a schema from an empty piece.
+void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files,
+                        const FilledPieces& filled, const subdomain::PieceArrays& schema,
+                        const std::filesystem::path& folder)
+{
+  std::vector<std::filesystem::path> tets;
+  std::vector<std::filesystem::path> boundary;
+  for (const subdomain::SubdomainRange& range : files) {
+    tets.push_back(subdomain::piece_path("mesh", range.number));
+    if (has_boundary(range, filled.pieces)) {
+      boundary.push_back(subdomain::piece_path("boundary", range.number));
+    }
+  }
+  io::write_pvtu(folder / "mesh.pvtu", tets, schema.tets);
+  io::write_pvtu(folder / "boundary.pvtu", boundary, schema.boundary);
+}
+
 }  // namespace
 
 std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,
@@ -43,7 +60,7 @@ std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,
   for (LocalIndex s = range.first; s < range.last; ++s) {
     digests.push_back(file.add(stored_piece(store, s, pieces.generation)));
   }
-  file.write(pieces.folder, range.number);
+  static_cast<void>(file.write(pieces.folder, range.number));
   return digests;
 }
 
@@ -66,7 +83,6 @@ void run_write_stage(const config::Case& run_case,
   stage.finish(std::to_string(num_files) + " files");
 }
 
-// An index without pieces is valid: a schema from an empty piece.
 void write_indices(const config::Case& run_case,
                    const std::vector<subdomain::SubdomainRange>& files,
                    const subdomain::WriteContext& mesh, const FilledPieces& filled,
@@ -74,18 +90,15 @@ void write_indices(const config::Case& run_case,
 {
   all_or_none(context.comm, [&] {
     if (context.comm.rank() != 0) return;
-    std::vector<std::filesystem::path> tets;
-    std::vector<std::filesystem::path> boundary;
-    for (const subdomain::SubdomainRange& range : files) {
-      tets.push_back(subdomain::piece_path("mesh", range.number));
-      if (has_boundary(range, filled.pieces)) {
-        boundary.push_back(subdomain::piece_path("boundary", range.number));
-      }
-    }
     const subdomain::PieceArrays schema =
         subdomain::piece_arrays({}, mesh, run_case.output.cell_quality);
-    io::write_pvtu(context.folder / "mesh.pvtu", tets, schema.tets);
-    io::write_pvtu(context.folder / "boundary.pvtu", boundary, schema.boundary);
+    for (const io::Format format : run_case.output.formats) {
+      switch (format) {
+        case io::Format::pvtu:
+          write_pvtu_indices(files, filled, schema, context.folder);
+          break;
+      }
+    }
   });
 }
 
