@@ -54,7 +54,7 @@ FillTask get_fill_task(ByteReader& in)
   task.first = in.get<LocalIndex>();
   task.last = in.get<LocalIndex>();
   task.plan = in.get<Hash128>();
-  task.settings = in.get<fill::FillTry>();
+  task.how = in.get<fill::FillTry>();
   task.angle_to_beat_deg = in.get<double>();
   task.tries = in.get<LocalIndex>();
   task.was_limited = in.get<bool>();
@@ -138,6 +138,7 @@ class MeshWorker final : public jobs::Worker {
   {
     const auto counts = in.get_vector<number::PieceCounts>();
     length_unit_ = in.get_string();
+    output_options_.formats = in.get_vector<io::Format>();
     output_options_.compression = in.get<io::Compression>();
     output_options_.cell_quality = in.get<bool>();
     ids_.emplace(mesh::HostLayout(cut_->skeleton), mesh::lattice::intervals(levels_), counts);
@@ -220,10 +221,10 @@ class MeshWorker final : public jobs::Worker {
       numbers.emplace(subdomain::WriteContext{coarse_, cut_->skeleton, *ids_, length_unit_});
     BatchFiller batch(task, output_, numbers ? &*numbers : nullptr, output_options_);
     for (LocalIndex s = task.first; s < task.last; ++s) {
-      batch.add(subdomain::fill_subdomain(*cut_, context, s, task.settings, *kernel));
+      batch.add(subdomain::fill_subdomain(*cut_, context, s, task.how, *kernel));
     }
     Bytes result = std::move(batch).finish();
-    if (task.settings.kernel == fill::KernelKind::subdivide) return result;  // No third-party code.
+    if (task.how.kernel == fill::KernelKind::subdivide) return result;  // No third-party code.
     return garbled_if_asked("fill", std::move(result), task.first);
   }
 
@@ -347,7 +348,7 @@ Bytes load_mesh_message(const mesh::CoarseMesh& coarse, const mesh::Decompositio
 Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
                            const std::string& length_unit, const io::OutputOptions& options)
 {
-  return message(Message::load_numbers, counts, length_unit, options.compression,
+  return message(Message::load_numbers, counts, length_unit, options.formats, options.compression,
                  options.cell_quality);
 }
 
@@ -385,7 +386,7 @@ Bytes skin_request(LocalIndex subdomain) { return message(Message::skin, subdoma
 
 Bytes fill_request(const FillTask& task)
 {
-  return message(Message::fill, task.batch, task.first, task.last, task.plan, task.settings,
+  return message(Message::fill, task.batch, task.first, task.last, task.plan, task.how,
                  task.angle_to_beat_deg, task.tries, task.was_limited, task.keep, task.failures);
 }
 
