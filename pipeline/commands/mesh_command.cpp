@@ -18,6 +18,7 @@
 
 #include "pipeline/commands/report.hpp"
 #include "pipeline/estimate/disk_space.hpp"
+#include "pipeline/estimate/only_subdomains.hpp"
 #include "pipeline/predict/dry_run.hpp"
 #include "pipeline/predict/prediction_file.hpp"
 #include "pipeline/run_pipeline.hpp"
@@ -53,18 +54,6 @@ config::Case read_case(const MeshCommand& command, const comm::Communicator& com
     return bytes_of(config::to_toml(given));
   });
   return config::parse_case(text_of(text), command.case_file);
-}
-
-// Before anything is done: what the case alone decides. All ranks have the same one.
-void require_possible(const MeshCommand& command, const config::Case& given)
-{
-  if (command.only_subdomains.empty()) return;
-  if (given.output.files != 0 || given.output.parts != 0) {
-    throw ConfigError("--only-subdomains excludes output.files and output.parts");
-  }
-  if (given.fill.kernel != fill::KernelKind::subdivide && given.fill.regions.empty()) {
-    throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\"");
-  }
 }
 
 Progress::Style progress_style(const MeshCommand& command, const comm::Communicator& comm)
@@ -300,7 +289,7 @@ ExitCode run_mesh_command(const MeshCommand& command, const comm::Communicator& 
     if (comm.rank() == 0) std::fputs(config::to_toml(given).c_str(), stdout);
     return ExitCode::ok;
   }
-  require_possible(command, given);
+  if (!command.only_subdomains.empty()) require_only_subdomains_possible(given);
   return MeshRun(command, std::move(given), comm, jobs).run();
 }
 

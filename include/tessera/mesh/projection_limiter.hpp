@@ -46,6 +46,8 @@ struct LatticePointKey {
 struct PointLimit {
   LatticePointKey key{};
   double factor = 1.0;
+
+  friend bool operator==(const PointLimit&, const PointLimit&) = default;
 };
 
 /// @brief The result of the plan stage: a sparse list of points whose projection is held back so
@@ -61,6 +63,9 @@ class ProjectionLimiter {
   [[nodiscard]] double factor(const LatticePointKey& key) const;
 
   [[nodiscard]] std::span<const PointLimit> entries() const { return entries_; }
+
+  /// @brief Whether both hold back the same points by the same factors.
+  friend bool operator==(const ProjectionLimiter&, const ProjectionLimiter&) = default;
 
  private:
   std::vector<PointLimit> entries_{};  ///< By ascending key.
