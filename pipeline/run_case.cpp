@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "tessera/base/error.hpp"
@@ -20,6 +20,7 @@
 #include "tessera/netgen/factory.hpp"
 
 #include "pipeline/estimate/disk_space.hpp"
+#include "pipeline/estimate/only_subdomains.hpp"
 #include "pipeline/predict/dry_run.hpp"
 #include "pipeline/predict/prediction_file.hpp"
 #include "pipeline/report/report.hpp"
@@ -45,12 +46,7 @@ void require_possible(const config::Case& given, const MeshOptions& options)
   if (only.front() < 0 || std::ranges::adjacent_find(only, std::greater_equal{}) != only.end()) {
     throw ConfigError("--only-subdomains: not whole numbers in ascending order");
   }
-  if (given.output.files != 0 || given.output.parts != 0) {
-    throw ConfigError("--only-subdomains excludes output.files and output.parts");
-  }
-  if (given.fill.kernel != fill::KernelKind::subdivide && given.fill.regions.empty()) {
-    throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\"");
-  }
+  require_only_subdomains_possible(given);
 }
 
 Progress::Style progress_style(const MeshOptions& options, const comm::Communicator& comm)

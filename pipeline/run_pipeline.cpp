@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/run_pipeline.hpp"
 
-#include <algorithm>
 #include <functional>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -19,16 +17,15 @@
 #include "tessera/subdomain/count_pieces.hpp"
 
 #include "pipeline/estimate/disk_space.hpp"
+#include "pipeline/estimate/only_subdomains.hpp"
 #include "pipeline/estimate/run_outline.hpp"
-#include "pipeline/jobs/for_each_dynamic.hpp"
-#include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/runtime/with_file_context.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/improve_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/stages/size_stage.hpp"
-#include "pipeline/stages/untangle_stage.hpp"
+#include "pipeline/stages/untangle_and_fill.hpp"
 #include "pipeline/stages/verify_stage.hpp"
 #include "pipeline/stages/write_stage.hpp"
 #include "pipeline/store/improved_pieces.hpp"
@@ -79,75 +76,6 @@ void cut_coarse_mesh(RunResult& run, double target, const RunOptions& options, R
   });
 }
 
-// The plan that a stopped run has left, or a first one.
-Plan first_plan(const RunResult& run, const subdomain::PartitionedMesh& cut,
-                const RunOptions& options, RunContext& context)
-{
-  auto kept = on_root(context.comm, [&] {
-    return options.state == nullptr ? std::nullopt : options.state->find_plan();
-  });
-  if (kept) return std::move(*kept);
-  Plan plan{.kernels = run.kernels};
-  plan.limiter = run_untangle_stage({.cut = cut,
-                                     .kernels = plan.kernels,
-                                     .levels = run.resolved.refine.levels,
-                                     .subdomains = in_order(at(cut.num_subdomains()))},
-                                    {}, context);
-  return plan;
-}
-
-// Makes the plan anew for subdomains that were folded under it: they will be subdivided.
-// @throws MeshError if there is nothing left to hold back: then the coarse tets themselves are
-// flat.
-void plan_for_folded(const FilledPieces& filled, const subdomain::PartitionedMesh& cut, int levels,
-                     Plan& plan, RunContext& context)
-{
-  const std::vector<fill::KernelKind> kernels_before = plan.kernels;
-  const mesh::ProjectionLimiter limiter_before = plan.limiter;
-  UntangleWork work{
-      .cut = cut, .kernels = plan.kernels, .levels = levels, .depth = UntangleDepth::all_levels};
-  for (const FoldedSubdomain& one : filled.folded) {
-    plan.kernels[at(one.subdomain)] = fill::KernelKind::subdivide;
-    if (one.was_limited) plan.limited.push_back(one.subdomain);
-    work.subdomains.push_back(one.subdomain);
-  }
-  std::ranges::sort(plan.limited);
-  std::ranges::copy_if(filled.failures, std::back_inserter(plan.failures), [&](const auto& tries) {
-    return std::ranges::binary_search(work.subdomains, tries.subdomain);
-  });
-  plan.limiter = run_untangle_stage(work, std::move(plan.limiter), context);
-  all_or_none(context.comm, [&] {
-    if (plan.kernels != kernels_before || plan.limiter != limiter_before) return;
-    throw MeshError(
-        fmt::format("subdomain {} has coarse tets that are too flat to be subdivided; try another "
-                    "coarse.max_size",
-                    filled.folded.front().subdomain));
-  });
-}
-
-// Fills; where even subdivision finds inverted tets, plans anew for it and fills what that touches.
-// Limits only fall, so it ends.
-void plan_and_fill(RunResult& run, const subdomain::PartitionedMesh& cut,
-                   const std::vector<subdomain::SubdomainRange>& ranges, const RunOptions& options,
-                   RunContext& context)
-{
-  Plan plan = first_plan(run, cut, options, context);
-  for (;;) {
-    all_or_none(context.comm, [&] {
-      if (options.state != nullptr && context.comm.rank() == 0) options.state->keep_plan(plan);
-    });
-    load_limiter(plan.limiter, context);
-    run.filled = run_fill_stage(run.resolved, {cut, plan.kernels, plan.limiter, ranges}, context);
-    if (run.filled.folded.empty()) break;
-    plan_for_folded(run.filled, cut, run.resolved.refine.levels, plan, context);
-  }
-  for (subdomain::PieceSummary& piece : run.filled.pieces) {
-    if (std::ranges::binary_search(plan.limited, piece.subdomain)) piece.was_limited = true;
-  }
-  std::ranges::move(plan.failures, std::back_inserter(run.filled.failures));
-  run.limiter = std::move(plan.limiter);
-}
-
 // Ids of vertices follow from closed forms, unless pieces have exchanged tets.
 number::IdLayout number_mesh(const subdomain::PartitionedMesh& cut, int levels,
                              const RunOutline& outline, const FilledPieces& filled)
@@ -186,14 +114,7 @@ std::vector<subdomain::SubdomainRange> output_ranges(const RunResult& run,
   const std::vector<LocalIndex>& part_offsets = run.decomposition.decomposition.part_offsets;
   if (only.empty() && !part_offsets.empty()) return subdomain::part_ranges(part_offsets);
   if (only.empty()) return subdomain::file_ranges(num_subdomains, run.resolved.output.files);
-  if (!are_counts_known(run.kernels)) {
-    throw ConfigError("--only-subdomains needs fill.kernel = \"subdivide\" and no other region");
-  }
-  if (only.back() >= num_subdomains) {
-    throw ConfigError(fmt::format("--only-subdomains: there is no subdomain {}, the last one is {}",
-                                  only.back(), num_subdomains - 1));
-  }
-  return subdomain::single_ranges(only);
+  return ranges_of_only(only, run.kernels);
 }
 
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
@@ -238,7 +159,10 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   if (is_one_pass) load_numbers(outline.pieces, length_unit, run.resolved.output, context);
   require_disk_space(outline, run.resolved.output, context);
 
-  plan_and_fill(run, cut, outline.jobs, options, context);
+  UntangledFill fill =
+      untangle_and_fill(run.resolved, {cut, run.kernels, outline.jobs, options.state}, context);
+  run.filled = std::move(fill.filled);
+  run.limiter = std::move(fill.limiter);
   if (!are_counts_known(run.kernels) && run.resolved.improve.seams) {
     run.filled = run_improve_stage(run.resolved, cut, run.kernels, std::move(run.filled), context);
   }

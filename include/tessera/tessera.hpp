@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/enum_words.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/comm/communicator.hpp"
 #include "tessera/config/case.hpp"
@@ -50,6 +52,16 @@ class Session {
 
 enum class Verbosity : int { quiet, normal, verbose };       ///< Quiet: warnings and errors only.
 enum class ProgressMode : int { automatic, always, never };  ///< Automatic: on a terminal.
+
+/// @brief Words of `--progress`.
+constexpr auto enum_words(ProgressMode /*tag*/)
+{
+  return std::to_array<EnumWord<ProgressMode>>({
+      {ProgressMode::automatic, "auto"},
+      {ProgressMode::always, "always"},
+      {ProgressMode::never, "never"},
+  });
+}
 
 /// @brief What make_mesh() is told besides its case.
 struct MeshOptions {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
-#include <map>
 #include <set>
 #include <string_view>
 
@@ -17,16 +16,12 @@
 namespace tessera::pipeline {
 namespace {
 
-const std::map<std::string, ProgressMode> kProgressWords{{"auto", ProgressMode::automatic},
-                                                         {"always", ProgressMode::always},
-                                                         {"never", ProgressMode::never}};
-
 constexpr const char* kPurpose = "Tessera turns a CAD model into a partitioned tetrahedral mesh.";
 
 // What CLI11 writes into; becomes a Command when all went well.
 struct Parsed {
   MeshCommand mesh{};
-  std::string progress = "auto";
+  std::string progress{word_of(MeshCommand{}.progress)};
   bool quiet = false;
   bool verbose = false;
   CheckCommand check{};
@@ -112,6 +107,15 @@ void add_folder_options(CLI::App& mesh, MeshCommand& command, CLI::Option* dry_r
       ->excludes(dry_run);
 }
 
+void add_progress(CLI::App& mesh, Parsed& parsed)
+{
+  const std::vector<std::string> words(kWords<ProgressMode>.begin(), kWords<ProgressMode>.end());
+  mesh.add_option("--progress", parsed.progress, "Progress bars: on a terminal, always or never")
+      ->type_name(fmt::format("{}", fmt::join(words, "|")))
+      ->check(CLI::IsMember(words).description(""))
+      ->capture_default_str();
+}
+
 void add_mesh(CLI::App& app, Parsed& parsed)
 {
   CLI::App* mesh = app.add_subcommand("mesh", "Make a mesh from a case file");
@@ -132,10 +136,7 @@ void add_mesh(CLI::App& app, Parsed& parsed)
           "--only-subdomains", take_subdomains,
           "Make and write these subdomains only; for fill.kernel=subdivide")
       ->type_name("I,J,...");
-  mesh->add_option("--progress", parsed.progress, "Progress bars: on a terminal, always or never")
-      ->type_name("auto|always|never")
-      ->check(CLI::IsMember(kProgressWords).description(""))
-      ->capture_default_str();
+  add_progress(*mesh, parsed);
   CLI::Option* quiet = mesh->add_flag("-q,--quiet", parsed.quiet, "Print warnings and errors only");
   mesh->add_flag("-v,--verbose", parsed.verbose, "Print more")->excludes(quiet);
 }
@@ -218,7 +219,7 @@ Command to_command(const CLI::App& app, Parsed parsed)
   if (app.got_subcommand("repartition")) return parsed.repartition;
   if (app.got_subcommand("info")) return parsed.info;
   if (app.got_subcommand("replay")) return parsed.replay;
-  parsed.mesh.progress = kProgressWords.at(parsed.progress);
+  parsed.mesh.progress = value_of<ProgressMode>(parsed.progress).value();
   if (parsed.quiet) parsed.mesh.verbosity = Verbosity::quiet;
   if (parsed.verbose) parsed.mesh.verbosity = Verbosity::verbose;
   return parsed.mesh;

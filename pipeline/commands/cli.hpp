@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "tessera/base/enum_words.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/tessera.hpp"
 

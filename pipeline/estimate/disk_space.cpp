@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/enum_words.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
@@ -58,8 +59,9 @@ void require_disk_space(const RunOutline& outline, const io::OutputOptions& opti
     if (need.file_bytes + need.store_bytes <= free) return;
     throw OutputError(fmt::format(
         "{}: about {:.3g} GB are needed and {:.3g} GB are free; choose another output.directory, "
-        "output.compression = \"zlib\", or fewer refine.levels",
-        context.folder.string(), 1e-9 * (need.file_bytes + need.store_bytes), 1e-9 * free));
+        "output.compression = \"{}\", or fewer refine.levels",
+        context.folder.string(), 1e-9 * (need.file_bytes + need.store_bytes), 1e-9 * free,
+        word_of(io::Compression::zlib)));
   });
 }
 

@@ -6,7 +6,7 @@ namespace {
 
 // Measured on torus, subdivided and re-meshed: lz4 23 to 28, with small pieces 31. The other two
 // are older measurements on shaft, less the boundary files that they included.
-double file_bytes_per_tet(io::Compression compression)
+double vtu_bytes_per_tet(io::Compression compression)
 {
   switch (compression) {
     case io::Compression::none:
@@ -21,14 +21,28 @@ double file_bytes_per_tet(io::Compression compression)
 
 constexpr double kQualityBytes = 8.0;
 
+// In all formats together.
+double file_bytes_per_tet(const io::OutputOptions& options)
+{
+  double bytes = 0.0;
+  for (const io::Format format : options.formats) {
+    switch (format) {
+      case io::Format::pvtu:
+        bytes +=
+            vtu_bytes_per_tet(options.compression) + (options.cell_quality ? kQualityBytes : 0.0);
+        break;
+    }
+  }
+  return bytes;
+}
+
 }  // namespace
 
 // Measured on torus and core with pieces of 1e4 to 3e5 tets; NETGEN from skins alone, which is its
 // slowest start.
 Rates built_in_rates(const io::OutputOptions& options)
 {
-  const double file_bytes =
-      file_bytes_per_tet(options.compression) + (options.cell_quality ? kQualityBytes : 0.0);
+  const double file_bytes = file_bytes_per_tet(options);
   Rates rates;
   rates.netgen = {.interior_vertices_per_tet = 0.11,
                   .fill_cpu_s_per_tet = 1.0 / 12'000.0,

@@ -48,11 +48,8 @@ Bytes BatchFiller::finish() &&
 void BatchFiller::keep()
 {
   if (file_) {
-    file_->write(output_, task_.batch);
-    record_.files.push_back(measure_file(output_, subdomain::piece_path("mesh", task_.batch)));
-    if (file_->num_boundary_triangles() > 0) {
-      record_.files.push_back(
-          measure_file(output_, subdomain::piece_path("boundary", task_.batch)));
+    for (const std::filesystem::path& file : file_->write(output_, task_.batch)) {
+      record_.files.push_back(measure_file(output_, file));
     }
   }
   io::RecordStore(store_folder(output_)).put(record_name(task_.batch), to_bytes(record_));

@@ -75,6 +75,7 @@ class MeshWorker final : public jobs::Worker {
   void take(NumbersLoad load)
   {
     length_unit_ = std::move(load.length_unit);
+    output_options_.formats = std::move(load.formats);
     output_options_.compression = load.compression;
     output_options_.cell_quality = load.cell_quality;
     ids_ = number::IdLayout::by_host(mesh::HostLayout(cut_->skeleton),
@@ -154,10 +155,10 @@ class MeshWorker final : public jobs::Worker {
       numbers.emplace(subdomain::WriteContext{coarse_, cut_->skeleton, *ids_, length_unit_});
     BatchFiller batch(task, output_, numbers ? &*numbers : nullptr, output_options_);
     for (LocalIndex s = task.first; s < task.last; ++s) {
-      batch.add(subdomain::fill_subdomain(*cut_, context, s, task.settings, *kernel));
+      batch.add(subdomain::fill_subdomain(*cut_, context, s, task.how, *kernel));
     }
     Bytes result = std::move(batch).finish();
-    if (task.settings.kernel == fill::KernelKind::subdivide) return result;  // No third-party code.
+    if (task.how.kernel == fill::KernelKind::subdivide) return result;  // No third-party code.
     return garbled_if_asked("fill", std::move(result), task.first);
   }
 
@@ -263,7 +264,7 @@ Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
                            const std::string& length_unit, const io::OutputOptions& options)
 {
   return to_bytes(
-      Load(NumbersLoad{counts, length_unit, options.compression, options.cell_quality}));
+      Load(NumbersLoad{counts, length_unit, options.formats, options.compression, options.cell_quality}));
 }
 
 Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter)

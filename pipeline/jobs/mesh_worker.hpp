@@ -12,7 +12,7 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
-#include "tessera/fill/kernel.hpp"
+#include "tessera/fill/fill_try.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
 #include "tessera/jobs/job_runner.hpp"
@@ -96,7 +96,7 @@ struct FillTask {
   LocalIndex first = 0;
   LocalIndex last = 0;
   Hash128 plan{};                        ///< plan_fingerprint() of them.
-  fill::FillTry settings{};              ///< The same for all.
+  fill::FillTry how{};                   ///< The same for all.
   double angle_to_beat_deg = kAnyAngle;  ///< A piece whose smallest angle does not is an error.
   LocalIndex tries = 1;                  ///< Which try this is, from 1.
   bool was_limited = false;              ///< A try before it ended for time or memory.
@@ -105,7 +105,7 @@ struct FillTask {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.batch, self.first, self.last, self.plan, self.settings,
+    return std::tie(self.batch, self.first, self.last, self.plan, self.how,
                     self.angle_to_beat_deg, self.tries, self.was_limited, self.keep, self.failures);
   }
 };

@@ -150,12 +150,12 @@ class FaultyKernel final : public fill::Kernel {
   }
 
   [[nodiscard]] fill::FillOutput fill(const fill::FillInput& input,
-                                      const fill::FillTry& settings) const override
+                                      const fill::KernelSettings& settings) const override
   {
     fail(kind_);
     fill::FillOutput output = sound_->fill(input, settings);
     if (kind_ == "drop") drop_a_tet(output.tet_vertices);
-    if (kind_ == "flat" && settings.start == fill::FillStart::children) add_flat_tet(output);
+    if (kind_ == "flat" && input.has_start()) add_flat_tet(output);
     return output;
   }
 

@@ -41,12 +41,14 @@ struct LimiterLoad {
 struct NumbersLoad {
   std::vector<number::PieceCounts> counts{};
   std::string length_unit{};
+  std::vector<io::Format> formats{};
   io::Compression compression = io::Compression::none;
   bool cell_quality = false;
 
   static auto fields(auto& self)
   {
-    return std::tie(self.counts, self.length_unit, self.compression, self.cell_quality);
+    return std::tie(self.counts, self.length_unit, self.formats, self.compression,
+                    self.cell_quality);
   }
 };
 

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "tessera/base/enum_words.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/io/options.hpp"
 
 #include "pipeline/predict/prediction.hpp"
 
@@ -27,8 +29,9 @@ std::string disk_advice(const Prediction& prediction, const Resources& resources
 {
   return fmt::format(
       "{:.3g} GB of disk are needed, {:.3g} GB are free: choose another output.directory, "
-      "output.compression = \"zlib\", a larger coarse.max_size or fewer refine.levels",
-      kGB * prediction.disk_peak_bytes, kGB * resources.free_disk_bytes);
+      "output.compression = \"{}\", a larger coarse.max_size or fewer refine.levels",
+      kGB * prediction.disk_peak_bytes, kGB * resources.free_disk_bytes,
+      word_of(io::Compression::zlib));
 }
 
 std::string memory_advice(const Prediction& prediction, const Resources& resources, int num_here)

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tessera/base/enum_words.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/base/version.hpp"
-#include "tessera/fill/fallbacks.hpp"
 
 #include "pipeline/store/run_state.hpp"
 
@@ -69,7 +69,7 @@ Json samples_json(const std::vector<SampleSet>& sets)
     for (const subdomain::SubdomainRange& job : set.jobs) {
       for (LocalIndex s = job.first; s < job.last; ++s) subdomains.push_back(s);
     }
-    samples.push_back({{"kernel", fill::name_of(set.kernel)},
+    samples.push_back({{"kernel", word_of(set.kernel)},
                        {"levels", set.levels},
                        {"subdomains", std::move(subdomains)},
                        {"cpu_s", set.cpu_s}});
@@ -82,7 +82,7 @@ Json rates_json(const Calibration& calibration)
   Json all = Json::object();
   for (const SampleSet& set : calibration.samples) {
     const KernelRates& rates = calibration.rates.of(set.kernel);
-    all[std::string(fill::name_of(set.kernel))] = {
+    all[std::string(word_of(set.kernel))] = {
         {"tets_per_expected", rates.tets_per_expected},
         {"interior_vertices_per_tet", rates.interior_vertices_per_tet},
         {"plan_cpu_s_per_tet", rates.plan_cpu_s_per_tet},

@@ -2,15 +2,14 @@
 #include "pipeline/report/report.hpp"
 
 #include <algorithm>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tessera/base/enum_words.hpp"
 #include "tessera/base/version.hpp"
 #include "tessera/comm/mpi_version.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
-#include "tessera/fill/fallbacks.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/netgen/factory.hpp"
 
@@ -83,7 +82,7 @@ Json subdomains_json(const RunResult& run)
     subdomains.push_back({{"id", piece.subdomain},
                           {"material", piece.material},
                           {"tets", piece.num_tets},
-                          {"kernel", fill::name_of(piece.kernel)},
+                          {"kernel", word_of(piece.kernel)},
                           {"tries", piece.tries},
                           {"seconds", piece.cpu_s},
                           {"digest", to_hex(piece.digest)}});
@@ -229,16 +228,11 @@ Json improvement_json(const Improvement& improvement)
           {"failed", improvement.num_failed}};
 }
 
-std::string_view surface_mesher_name(coarse::SurfaceMesher mesher)
-{
-  return mesher == coarse::SurfaceMesher::remesh ? "remesh" : "netgen";
-}
-
 Json coarse_json(const RunResult& run)
 {
   return {{"num_tets", run.coarse.mesh.num_tets()},
           {"max_size", run.coarse.options.max_size},
-          {"surface_mesher", surface_mesher_name(run.coarse.options.surface_mesher)},
+          {"surface_mesher", word_of(run.coarse.options.surface_mesher)},
           {"tries", run.coarse.tries},
           {"failures", run.coarse.failures},
           {"levels", run.resolved.refine.levels}};

@@ -62,9 +62,9 @@ class Filler {
     const auto record = find_record(context_.folder, range.number, plan);
     if (record && !is_poor(record->results)) return keep(record->results);
     Tries tries{.range = range, .plan = plan};
-    for (const fill::FillTry& settings :
+    for (const fill::FillTry& how :
          fill::fallback_sequence(options_, work_.kernels[at(range.first)])) {
-      if (is_done_after(tries, settings, on_wait)) break;
+      if (is_done_after(tries, how, on_wait)) break;
     }
     if (tries.best.empty()) {
       std::string text = fmt::format(
@@ -97,24 +97,23 @@ class Filler {
   };
 
   // One try. A failure leads to the next one; a poor result of NETGEN, to one more try.
-  bool is_done_after(Tries& tries, const fill::FillTry& settings,
+  bool is_done_after(Tries& tries, const fill::FillTry& how,
                      const jobs::JobRunner::WaitCallback& on_wait)
   {
     const bool had_one = !tries.best.empty();
-    const bool is_netgen = settings.kernel == fill::KernelKind::netgen;
+    const bool is_netgen = how.kernel == fill::KernelKind::netgen;
     if (had_one && !is_netgen) return true;
     const double angle_to_beat =
         had_one ? tries.best.front().summary.tets.min_dihedral_deg : kAnyAngle;
     ++tries.count;
-    jobs::JobOutcome outcome =
-        run_try(tries.range, request_of(tries, settings, angle_to_beat), on_wait);
+    jobs::JobOutcome outcome = run_try(tries.range, request_of(tries, how, angle_to_beat), on_wait);
     auto made = read_result(outcome, from_bytes<std::vector<subdomain::FillResult>>);
     throw_unless_of_the_job(outcome);
     tries.was_limited = tries.was_limited || depends_on_machine(outcome);
     if (!made) {
-      if (!had_one) keep_failure(tries, settings, outcome, on_wait);
-      tries.failures.push_back(fmt::format("try {} ({}): {}", tries.count,
-                                           fill::name_of(settings.kernel), outcome.message));
+      if (!had_one) keep_failure(tries, how, outcome, on_wait);
+      tries.failures.push_back(
+          fmt::format("try {} ({}): {}", tries.count, word_of(how.kernel), outcome.message));
       return had_one;
     }
     tries.best = std::move(*made);
@@ -124,10 +123,10 @@ class Filler {
   }
 
   // As a job that measures only: its replay must not touch the run's folder.
-  void keep_failure(const Tries& tries, const fill::FillTry& settings,
-                    const jobs::JobOutcome& outcome, const jobs::JobRunner::WaitCallback& on_wait)
+  void keep_failure(const Tries& tries, const fill::FillTry& how, const jobs::JobOutcome& outcome,
+                    const jobs::JobRunner::WaitCallback& on_wait)
   {
-    const Bytes request = request_of(tries, settings, kAnyAngle, false);
+    const Bytes request = request_of(tries, how, kAnyAngle, false);
     const jobs::JobLimits limits;
     const JobRequest job{name_of(tries.range), request, limits};
     keep_meshes_of_failed_fill(keep_failed_job(job, request, outcome, context_), tries.range.first,
@@ -140,14 +139,14 @@ class Filler {
   }
 
   // The job itself puts into the record how it came to be made: a resumed run has only that.
-  static Bytes request_of(const Tries& tries, const fill::FillTry& settings, double angle_to_beat,
+  static Bytes request_of(const Tries& tries, const fill::FillTry& how, double angle_to_beat,
                           bool keep = true)
   {
     return fill_request({.batch = tries.range.number,
                          .first = tries.range.first,
                          .last = tries.range.last,
                          .plan = tries.plan,
-                         .settings = settings,
+                         .how = how,
                          .angle_to_beat_deg = angle_to_beat,
                          .tries = tries.count,
                          .was_limited = tries.was_limited,

@@ -33,6 +33,23 @@ bool has_boundary(const subdomain::SubdomainRange& range,
   return false;
 }
 
+// An index without pieces is valid: a schema from an empty piece.
+void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files,
+                        const FilledPieces& filled, const subdomain::PieceArrays& schema,
+                        const std::filesystem::path& folder)
+{
+  std::vector<std::filesystem::path> tets;
+  std::vector<std::filesystem::path> boundary;
+  for (const subdomain::SubdomainRange& range : files) {
+    tets.push_back(subdomain::piece_path("mesh", range.number));
+    if (has_boundary(range, filled.pieces)) {
+      boundary.push_back(subdomain::piece_path("boundary", range.number));
+    }
+  }
+  io::write_pvtu(folder / "mesh.pvtu", tets, schema.tets);
+  io::write_pvtu(folder / "boundary.pvtu", boundary, schema.boundary);
+}
+
 }  // namespace
 
 GatheredFile gather_file(const subdomain::SubdomainRange& range, const io::OutputOptions& options,
@@ -51,7 +68,7 @@ std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,
                                 const subdomain::WriteContext& mesh, const PieceStore& pieces)
 {
   GatheredFile gathered = gather_file(range, options, mesh, pieces);
-  gathered.file.write(pieces.folder, range.number);
+  static_cast<void>(gathered.file.write(pieces.folder, range.number));
   return std::move(gathered.digests);
 }
 
@@ -74,7 +91,6 @@ void run_write_stage(const config::Case& run_case,
   stage.finish(fmt::format("{} files", num_files));
 }
 
-// An index without pieces is valid: a schema from an empty piece.
 void write_indices(const config::Case& run_case,
                    const std::vector<subdomain::SubdomainRange>& files,
                    const subdomain::WriteContext& mesh, const FilledPieces& filled,
@@ -82,18 +98,15 @@ void write_indices(const config::Case& run_case,
 {
   all_or_none(context.comm, [&] {
     if (context.comm.rank() != 0) return;
-    std::vector<std::filesystem::path> tets;
-    std::vector<std::filesystem::path> boundary;
-    for (const subdomain::SubdomainRange& range : files) {
-      tets.push_back(subdomain::piece_path("mesh", range.number));
-      if (has_boundary(range, filled.pieces)) {
-        boundary.push_back(subdomain::piece_path("boundary", range.number));
-      }
-    }
     const subdomain::PieceArrays schema =
         subdomain::piece_arrays({}, mesh, run_case.output.cell_quality);
-    io::write_pvtu(context.folder / "mesh.pvtu", tets, schema.tets);
-    io::write_pvtu(context.folder / "boundary.pvtu", boundary, schema.boundary);
+    for (const io::Format format : run_case.output.formats) {
+      switch (format) {
+        case io::Format::pvtu:
+          write_pvtu_indices(files, filled, schema, context.folder);
+          break;
+      }
+    }
   });
 }
 

@@ -38,8 +38,9 @@ std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,
                                 const io::OutputOptions& options,
                                 const subdomain::WriteContext& mesh, const PieceStore& pieces);
 
-/// @brief Turns the pieces of the store into mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu,
-/// one of each a range, and puts their digests into the summaries.
+/// @brief Turns the pieces of the store into files of the case's formats (of `pvtu`,
+/// mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu, one of each a range), and puts their
+/// digests into the summaries.
 /// @note Collective.
 /// @throws OutputError on every rank (disk full, permission).
 void run_write_stage(const config::Case& run_case,
@@ -47,7 +48,8 @@ void run_write_stage(const config::Case& run_case,
                      const subdomain::WriteContext& mesh, FilledPieces& filled,
                      RunContext& context);
 
-/// @brief Writes mesh.pvtu and boundary.pvtu: from now on there is a mesh.
+/// @brief Writes the indices of the case's formats (of `pvtu`, mesh.pvtu and boundary.pvtu): from
+/// now on there is a mesh.
 /// @note Collective. @throws OutputError on every rank.
 void write_indices(const config::Case& run_case,
                    const std::vector<subdomain::SubdomainRange>& files,

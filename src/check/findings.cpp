@@ -7,35 +7,6 @@
 #include <fmt/format.h>
 
 namespace tessera::check {
-namespace {
-
-constexpr std::array<const char*, kNumKinds> kNames{
-    "no_tets",
-    "arrays",
-    "cell_points",
-    "non_finite_point",
-    "non_positive_volume",
-    "unused_point",
-    "duplicate_point",
-    "duplicate_tet",
-    "point_position",
-    "point_id_twice",
-    "point_id_hole",
-    "cell_id_twice",
-    "cell_id_hole",
-    "triangle",
-    "boundary_edge",
-    "folded_boundary",
-    "boundary_missing",
-    "boundary_extra",
-    "boundary_twice",
-    "boundary_tet",
-    "boundary_orientation",
-    "boundary_subdomain",
-    "boundary_point",
-};
-
-}  // namespace
 
 void Findings::keep(Entry& entry, Finding finding)
 {
@@ -69,7 +40,8 @@ std::vector<Defect> Findings::to_defects() const
   for (std::size_t k = 0; k < kNumKinds; ++k) {
     const Entry& entry = entries_[k];
     if (entry.count == 0) continue;
-    Defect& defect = defects.emplace_back(Defect{kNames[k], entry.count, {}});
+    Defect& defect =
+        defects.emplace_back(Defect{std::string(word_of(static_cast<Kind>(k))), entry.count, {}});
     for (const Finding& finding : entry.kept) defect.offenders.push_back(finding.text);
   }
   return defects;

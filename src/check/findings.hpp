@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/enum_words.hpp"
 #include "tessera/base/fields.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/check/report.hpp"
@@ -43,6 +44,37 @@ enum class Kind {
   num_kinds
 };
 inline constexpr auto kNumKinds = static_cast<std::size_t>(Kind::num_kinds);
+
+/// @brief Names of the kinds in the report; stable, for scripts.
+constexpr auto enum_words(Kind /*tag*/)
+{
+  return std::to_array<EnumWord<Kind>>({
+      {Kind::no_tets, "no_tets"},
+      {Kind::arrays, "arrays"},
+      {Kind::cell_points, "cell_points"},
+      {Kind::non_finite_point, "non_finite_point"},
+      {Kind::non_positive_volume, "non_positive_volume"},
+      {Kind::unused_point, "unused_point"},
+      {Kind::duplicate_point, "duplicate_point"},
+      {Kind::duplicate_tet, "duplicate_tet"},
+      {Kind::point_position, "point_position"},
+      {Kind::point_id_twice, "point_id_twice"},
+      {Kind::point_id_hole, "point_id_hole"},
+      {Kind::cell_id_twice, "cell_id_twice"},
+      {Kind::cell_id_hole, "cell_id_hole"},
+      {Kind::triangle, "triangle"},
+      {Kind::boundary_edge, "boundary_edge"},
+      {Kind::folded_boundary, "folded_boundary"},
+      {Kind::boundary_missing, "boundary_missing"},
+      {Kind::boundary_extra, "boundary_extra"},
+      {Kind::boundary_twice, "boundary_twice"},
+      {Kind::boundary_tet, "boundary_tet"},
+      {Kind::boundary_orientation, "boundary_orientation"},
+      {Kind::boundary_subdomain, "boundary_subdomain"},
+      {Kind::boundary_point, "boundary_point"},
+  });
+}
+static_assert(kWords<Kind>.size() == kNumKinds);
 
 /// @brief Order of the offenders of one kind; independent of the rank that finds them.
 struct Place {

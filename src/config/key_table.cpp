@@ -2,7 +2,6 @@
 #include "config/key_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <compare>
 
 #include "config/text.hpp"
@@ -13,10 +12,6 @@ namespace {
 // Lengths, scales and times beyond this are mistakes; toml11 turns an overflow into the largest
 // double, which this excludes as well.
 constexpr double kHuge = 1e30;
-
-constexpr std::array<std::string_view, 2> kKernelWords{"netgen", "subdivide"};
-constexpr std::array<std::string_view, 1> kFormatWords{"pvtu"};
-constexpr std::array<std::string_view, 3> kCompressionWords{"none", "lz4", "zlib"};
 
 constexpr Key kKeys[] = {
     {.name = "geometry.file",
@@ -46,7 +41,9 @@ constexpr Key kKeys[] = {
      .rule = RealRule{[](Case& c) -> double& { return c.coarse.max_size; }, 0.0, Bound::exclusive,
                       kHuge, Bound::inclusive},
      .unit = "output length unit",
-     .meaning = "Largest edge of the coarse mesh; small features make it finer by themselves.",
+     .meaning =
+         "Largest edge that NETGEN aims at in the coarse mesh. One edge in a hundred may come "
+         "out 1.5 times as long, and small features make the mesh finer by themselves.",
      .reason = "a size suits one model only; give this or size.target",
      .example = "10.0",
      .excluded_by = "size.target"},
@@ -94,8 +91,7 @@ constexpr Key kKeys[] = {
      .excluded_by = "size.target"},
 
     {.name = "fill.kernel",
-     .rule = WordRule{kKernelWords, [](const Case& c) { return static_cast<int>(c.fill.kernel); },
-                      [](Case& c, int word) { c.fill.kernel = fill::KernelKind{word}; }},
+     .rule = word_rule([](Case& c) -> fill::KernelKind& { return c.fill.kernel; }),
      .meaning =
          "What turns a subdomain into tets: \"subdivide\" splits each of its coarse tets into 8^L; "
          "\"netgen\" begins with these and optimises them.",
@@ -167,14 +163,11 @@ constexpr Key kKeys[] = {
      .example = "\"outputs/case\"",
      .is_optional = true},
     {.name = "output.formats",
-     .rule = WordListRule{kFormatWords,
-                          [](Case& c) -> std::vector<std::string>& { return c.output.formats; }},
+     .rule = word_list_rule([](Case& c) -> std::vector<io::Format>& { return c.output.formats; }),
      .meaning = "Formats in which the mesh is written.",
      .reason = "ParaView and VTK read it in parallel; the only format of this version"},
     {.name = "output.compression",
-     .rule = WordRule{kCompressionWords,
-                      [](const Case& c) { return static_cast<int>(c.output.compression); },
-                      [](Case& c, int word) { c.output.compression = io::Compression{word}; }},
+     .rule = word_rule([](Case& c) -> io::Compression& { return c.output.compression; }),
      .meaning = "Compression of the arrays in the mesh files.",
      .reason = "lz4 wrote 10 M tets/s at 19 bytes a tet; none 11 M at 33; zlib 2 M at 7.5"},
     {.name = "output.parts",
@@ -205,9 +198,7 @@ constexpr Key kRegionKeys[] = {
      .reason = "a region is told by its material",
      .example = "\"steel\""},
     {.name = "fill.region.kernel",
-     .rule = WordRule{
-         kKernelWords, [](const Case& c) { return static_cast<int>(c.fill.regions.back().kernel); },
-         [](Case& c, int word) { c.fill.regions.back().kernel = fill::KernelKind{word}; }},
+     .rule = word_rule([](Case& c) -> fill::KernelKind& { return c.fill.regions.back().kernel; }),
      .meaning = "As fill.kernel.",
      .reason = "a region is there to name it",
      .example = "\"subdivide\""},

@@ -7,9 +7,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
+#include "tessera/base/enum_words.hpp"
 #include "tessera/config/case.hpp"
 
 #include "config/toml_document.hpp"
@@ -45,10 +47,11 @@ struct PathRule {
   std::filesystem::path& (*field)(Case&);
 };
 
+/// @brief A word of an enumeration; made by word_rule().
 struct WordRule {
-  std::span<const std::string_view> words;  ///< By the value of the enumeration.
-  int (*get)(const Case&);
-  void (*set)(Case&, int);
+  std::span<const std::string_view> words;
+  std::string_view (*get)(Case&);
+  bool (*set)(Case&, std::string_view);  ///< False, and nothing set, if it is none of the words.
 };
 
 /// @brief Text, not empty.
@@ -56,14 +59,60 @@ struct TextRule {
   std::string& (*field)(Case&);
 };
 
-/// @brief A list without repetitions, not empty.
+/// @brief A list of words of an enumeration, without repetitions, not empty; made by
+/// word_list_rule().
 struct WordListRule {
   std::span<const std::string_view> words;
-  std::vector<std::string>& (*field)(Case&);
+  std::vector<std::string_view> (*get)(Case&);
+  /// False, and nothing set, if one of them is none of the words.
+  bool (*set)(Case&, std::span<const std::string_view>);
 };
 
 using Rule =
     std::variant<RealRule, IntegerRule, FlagRule, PathRule, WordRule, TextRule, WordListRule>;
+
+/// @brief The rule of a field of an enumeration with words.
+/// @param[in] field Captureless; from a Case& to a reference to the member.
+template <class Field>
+constexpr WordRule word_rule(Field /*field*/)
+{
+  using Enum = std::remove_reference_t<std::invoke_result_t<Field, Case&>>;
+  return {.words = kWords<Enum>,
+          .get = [](Case& from) { return word_of(Field{}(from)); },
+          .set =
+              [](Case& into, std::string_view word) {
+                const std::optional<Enum> value = value_of<Enum>(word);
+                if (value) Field{}(into) = *value;
+                return value.has_value();
+              }};
+}
+
+/// @brief The rule of a field that is a vector of an enumeration with words.
+/// @param[in] field As of word_rule().
+template <class Field>
+constexpr WordListRule word_list_rule(Field /*field*/)
+{
+  using Values = std::remove_reference_t<std::invoke_result_t<Field, Case&>>;
+  using Enum = typename Values::value_type;
+  return {.words = kWords<Enum>,
+          .get =
+              [](Case& from) {
+                std::vector<std::string_view> words;
+                for (const Enum value : Field{}(from)) words.push_back(word_of(value));
+                return words;
+              },
+          .set =
+              [](Case& into, std::span<const std::string_view> words) {
+                Values values;
+                for (const std::string_view word : words) {
+                  const std::optional<Enum> value = value_of<Enum>(word);
+                  if (!value) return false;
+                  values.push_back(*value);
+                }
+                Field{}(into) = std::move(values);
+                return true;
+              }};
+}
 
 /// @brief All there is to say about one key of a case file.
 struct Key {

@@ -76,11 +76,7 @@ bool assign_to(const PathRule& rule, const Value& value, Case& into)
 bool assign_to(const WordRule& rule, const Value& value, Case& into)
 {
   const auto* text = std::get_if<std::string>(&value.data);
-  if (text == nullptr) return false;
-  const auto found = std::ranges::find(rule.words, *text);
-  if (found == rule.words.end()) return false;
-  rule.set(into, static_cast<int>(found - rule.words.begin()));
-  return true;
+  return text != nullptr && rule.set(into, *text);
 }
 
 bool assign_to(const TextRule& rule, const Value& value, Case& into)
@@ -95,15 +91,13 @@ bool assign_to(const WordListRule& rule, const Value& value, Case& into)
 {
   const auto* items = std::get_if<std::vector<Value>>(&value.data);
   if (items == nullptr || items->empty()) return false;
-  std::vector<std::string> words;
+  std::vector<std::string_view> words;
   for (const Value& item : *items) {
     const auto* text = std::get_if<std::string>(&item.data);
-    if (text == nullptr || std::ranges::count(rule.words, *text) == 0) return false;
-    if (std::ranges::count(words, *text) != 0) return false;
+    if (text == nullptr || std::ranges::count(words, *text) != 0) return false;
     words.push_back(*text);
   }
-  rule.field(into) = std::move(words);
-  return true;
+  return rule.set(into, words);
 }
 
 std::string bound_text(std::string_view relation, double value)
@@ -204,16 +198,12 @@ std::optional<std::string> toml_value(const Rule& rule, const Case& from)
           [&](const PathRule& path) {
             return path.field(copy).empty() ? Text() : Text(path_value(path.field(copy)));
           },
-          [&](const WordRule& word) {
-            return Text(toml_string(word.words[static_cast<std::size_t>(word.get(copy))]));
-          },
+          [&](const WordRule& word) { return Text(toml_string(word.get(copy))); },
           [&](const TextRule& text) {
             return text.field(copy).empty() ? Text() : Text(toml_string(text.field(copy)));
           },
           [&](const WordListRule& list) {
-            const std::vector<std::string>& texts = list.field(copy);
-            const std::vector<std::string_view> words(texts.begin(), texts.end());
-            return Text(std::string("[").append(word_list(words)).append("]"));
+            return Text(std::string("[").append(word_list(list.get(copy))).append("]"));
           },
       },
       rule);

@@ -14,15 +14,16 @@ std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind ke
 {
   const FillTry subdivision{.kernel = KernelKind::subdivide};
   if (kernel == KernelKind::subdivide) return {subdivision};
-  const FillTry asked{.grading = options.grading, .optimize_steps = options.optimize_steps};
+  const FillTry asked{
+      .settings = {.grading = options.grading, .optimize_steps = options.optimize_steps}};
   FillTry anew = asked;
   anew.start = FillStart::skin;
   FillTry reordered = anew;
-  reordered.point_order_seed = 1;
+  reordered.settings.point_order_seed = 1;
   const FillTry relaxed{.start = FillStart::skin,
-                        .grading = std::min(1.0, 2.0 * options.grading),
-                        .optimize_steps = std::min(1, options.optimize_steps),
-                        .point_order_seed = 2};
+                        .settings = {.grading = std::min(1.0, 2.0 * options.grading),
+                                     .optimize_steps = std::min(1, options.optimize_steps),
+                                     .point_order_seed = 2}};
   return {asked, anew, reordered, relaxed, subdivision};
 }
 
@@ -47,11 +48,6 @@ std::vector<KernelKind> kernels_of(const FillOptions& options,
     kernels.push_back(by_material[at(material - 1)]);
   }
   return kernels;
-}
-
-std::string_view name_of(KernelKind kernel)
-{
-  return kernel == KernelKind::netgen ? "netgen" : "subdivide";
 }
 
 }  // namespace tessera::fill

@@ -248,15 +248,11 @@ std::size_t DataArray::num_values() const { return values.size() / size_of(type)
 
 ScalarType scalar_type_of(const XmlElement& element)
 {
-  // In the order of ScalarType.
-  constexpr std::array kNames{"Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
-                              "UInt32", "Int64", "UInt64", "Float32", "Float64"};
   const std::string& name = element.attribute("type");
   if (name == "String") return ScalarType::i8;
-  const auto* const found = std::ranges::find(kNames, name);
-  if (found == kNames.end())
-    throw InputError(fmt::format("type {} of an array is not known", name));
-  return static_cast<ScalarType>(found - kNames.begin());
+  const std::optional<ScalarType> type = value_of<ScalarType>(name);
+  if (!type) throw InputError(fmt::format("type {} of an array is not known", name));
+  return *type;
 }
 
 DataArray decode_array(const XmlElement& element, const Encoding& encoding)

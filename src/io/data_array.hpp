@@ -12,12 +12,30 @@
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/base/enum_words.hpp"
 
 #include "xml.hpp"
 
 namespace tessera::io {
 
 enum class ScalarType : int { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
+
+/// @brief VTK's names of the types.
+constexpr auto enum_words(ScalarType /*tag*/)
+{
+  return std::to_array<EnumWord<ScalarType>>({
+      {ScalarType::i8, "Int8"},
+      {ScalarType::u8, "UInt8"},
+      {ScalarType::i16, "Int16"},
+      {ScalarType::u16, "UInt16"},
+      {ScalarType::i32, "Int32"},
+      {ScalarType::u32, "UInt32"},
+      {ScalarType::i64, "Int64"},
+      {ScalarType::u64, "UInt64"},
+      {ScalarType::f32, "Float32"},
+      {ScalarType::f64, "Float64"},
+  });
+}
 
 /// @brief How the arrays of one VTK XML file are stored.
 struct Encoding {

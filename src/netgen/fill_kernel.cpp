@@ -20,9 +20,7 @@ namespace {
 
 using fill::FillInput;
 using fill::FillOutput;
-using fill::FillTry;
-
-bool has_start(const FillInput& input) { return !input.start.tet_vertices.empty(); }
+using fill::KernelSettings;
 
 LocalIndex num_skin_vertices(const FillInput& input)
 {
@@ -129,13 +127,13 @@ void set_sizes(::netgen::Mesh& mesh, const FillInput& input, double grading)
 // 0.883, 0.695, 20.7 deg, 14.6 s.
 constexpr const char* kStepsForStart = "stmcstmstm";
 
-::netgen::MeshingParameters parameters_of(const FillInput& input, const FillTry& settings)
+::netgen::MeshingParameters parameters_of(const FillInput& input, const KernelSettings& settings)
 {
   ::netgen::MeshingParameters parameters;
   parameters.grading = settings.grading;
   parameters.optsteps3d = settings.optimize_steps;
   parameters.filldist = kDistanceFromSkin;
-  if (has_start(input)) parameters.optimize3d = kStepsForStart;
+  if (input.has_start()) parameters.optimize3d = kStepsForStart;
   // NETGEN divides cells above 1.5 times maxh: this closes the gaps between sparse samples.
   const auto largest = std::max_element(input.size_h.begin(), input.size_h.end());
   if (largest != input.size_h.end()) parameters.maxh = largest_cell(*largest);
@@ -144,13 +142,14 @@ constexpr const char* kStepsForStart = "stmcstmstm";
 
 class FillKernel final : public fill::Kernel {
  public:
-  [[nodiscard]] FillOutput fill(const FillInput& input, const FillTry& settings) const override
+  [[nodiscard]] FillOutput fill(const FillInput& input,
+                                const KernelSettings& settings) const override
   {
-    if (has_start(input) && settings.optimize_steps == 0) return input.start;
+    if (input.has_start() && settings.optimize_steps == 0) return input.start;
     NetgenSession session(parameters_of(input, settings));
     return session.run("fill", [&] {
       OrderedTets tets =
-          has_start(input) ? improve(input, session) : mesh_skin(input, settings, session);
+          input.has_start() ? improve(input, session) : mesh_skin(input, settings, session);
       return FillOutput{std::move(tets.vertex_xyz), std::move(tets.tet_vertices)};
     });
   }
@@ -162,7 +161,7 @@ class FillKernel final : public fill::Kernel {
                          num_skin_vertices(input), session);
   }
 
-  static OrderedTets mesh_skin(const FillInput& input, const FillTry& settings,
+  static OrderedTets mesh_skin(const FillInput& input, const KernelSettings& settings,
                                NetgenSession& session)
   {
     const std::vector<LocalIndex> order =

@@ -82,7 +82,7 @@ RawFill subdivide(const PartitionedMesh& cut, const refine::RefineContext& refin
 
 // The children of the coarse tets, made better by NETGEN.
 RawFill improve_children(const PartitionedMesh& cut, const refine::RefineContext& refine,
-                         LocalIndex subdomain, const fill::FillTry& settings,
+                         LocalIndex subdomain, const fill::KernelSettings& settings,
                          const fill::Kernel& netgen)
 {
   RawFill raw = subdivide(cut, refine, subdomain);
@@ -97,7 +97,8 @@ RawFill improve_children(const PartitionedMesh& cut, const refine::RefineContext
 
 // What NETGEN makes of the skin alone.
 RawFill mesh_skin(const PartitionedMesh& cut, const refine::RefineContext& refine,
-                  LocalIndex subdomain, const fill::FillTry& settings, const fill::Kernel& netgen)
+                  LocalIndex subdomain, const fill::KernelSettings& settings,
+                  const fill::Kernel& netgen)
 {
   const mesh::Complex complex = mesh::skin_complex(cut.skeleton, subdomain);
   const mesh::RefinedLattice lattice = refine::refine_lattice(complex, refine);
@@ -110,11 +111,11 @@ RawFill mesh_skin(const PartitionedMesh& cut, const refine::RefineContext& refin
 }
 
 RawFill raw_fill(const PartitionedMesh& cut, const refine::RefineContext& refine,
-                 LocalIndex subdomain, const fill::FillTry& settings, const fill::Kernel& netgen)
+                 LocalIndex subdomain, const fill::FillTry& how, const fill::Kernel& netgen)
 {
-  if (settings.kernel == fill::KernelKind::subdivide) return subdivide(cut, refine, subdomain);
-  const auto start = settings.start == fill::FillStart::children ? improve_children : mesh_skin;
-  return start(cut, refine, subdomain, settings, netgen);
+  if (how.kernel == fill::KernelKind::subdivide) return subdivide(cut, refine, subdomain);
+  const auto start = how.start == fill::FillStart::children ? improve_children : mesh_skin;
+  return start(cut, refine, subdomain, how.settings, netgen);
 }
 
 FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain, RawFill& raw)
@@ -151,21 +152,21 @@ FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain, 
 }  // namespace
 
 FilledPiece fill_subdomain(const PartitionedMesh& cut, const refine::RefineContext& refine,
-                           LocalIndex subdomain, const fill::FillTry& settings,
+                           LocalIndex subdomain, const fill::FillTry& how,
                            const fill::Kernel& netgen)
 {
-  RawFill raw = raw_fill(cut, refine, subdomain, settings, netgen);
+  RawFill raw = raw_fill(cut, refine, subdomain, how, netgen);
   FilledPiece filled;
   try {
     filled = check_and_measure(cut, subdomain, raw);
   } catch (const MeshError&) {
     // Of what was subdivided nothing else can be wrong than that it is folded.
-    const bool is_subdivision = settings.kernel == fill::KernelKind::subdivide;
+    const bool is_subdivision = how.kernel == fill::KernelKind::subdivide;
     if (!is_subdivision || fill::all_positive(raw.tets)) throw;
     filled.result.summary.is_folded = true;
   }
   filled.result.summary.subdomain = subdomain;
-  filled.result.summary.kernel = settings.kernel;
+  filled.result.summary.kernel = how.kernel;
   return filled;
 }
 

@@ -65,6 +65,18 @@ void remember(const mesh::MeshArrays& first, std::size_t num_shared, PointOfId& 
   }
 }
 
+// Appends the files, relative to `folder`, to `written`.
+void write_vtu_files(const PieceArrays& arrays, LocalIndex file, io::Compression compression,
+                     const std::filesystem::path& folder,
+                     std::vector<std::filesystem::path>& written)
+{
+  written.push_back(piece_path("mesh", file));
+  io::write_vtu(arrays.tets, folder / written.back(), compression);
+  if (arrays.boundary.num_cells() == 0) return;
+  written.push_back(piece_path("boundary", file));
+  io::write_vtu(arrays.boundary, folder / written.back(), compression);
+}
+
 }  // namespace
 
 std::vector<SubdomainRange> file_ranges(LocalIndex num_subdomains, LocalIndex files)
@@ -124,11 +136,18 @@ Hash128 PieceFile::add(mesh::Piece piece)
   return digest;
 }
 
-void PieceFile::write(const std::filesystem::path& folder, LocalIndex file) const
+std::vector<std::filesystem::path> PieceFile::write(const std::filesystem::path& folder,
+                                                    LocalIndex file) const
 {
-  io::write_vtu(arrays_.tets, folder / piece_path("mesh", file), options_.compression);
-  if (arrays_.boundary.num_cells() == 0) return;
-  io::write_vtu(arrays_.boundary, folder / piece_path("boundary", file), options_.compression);
+  std::vector<std::filesystem::path> written;
+  for (const io::Format format : options_.formats) {
+    switch (format) {
+      case io::Format::pvtu:
+        write_vtu_files(arrays_, file, options_.compression, folder, written);
+        break;
+    }
+  }
+  return written;
 }
 
 }  // namespace tessera::subdomain

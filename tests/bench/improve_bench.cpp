@@ -40,7 +40,7 @@ using namespace tessera;
 struct Settings {
   int levels = 2;
   int subdomains = 8;  // A material.
-  int fill_steps = fill::FillTry{}.optimize_steps;
+  int fill_steps = fill::KernelSettings{}.optimize_steps;
   int layers = improve::kDefaultLayers;
   bool with_check = false;
   int rounds = 1;
@@ -99,7 +99,8 @@ std::vector<mesh::Piece> fill_all(const testing::Subject& subject,
   std::vector<mesh::Piece> pieces;
   for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
     pieces.push_back(
-        subdomain::fill_subdomain(cut, refine, s, {.optimize_steps = settings.fill_steps}, *kernel)
+        subdomain::fill_subdomain(cut, refine, s,
+                                  {.settings = {.optimize_steps = settings.fill_steps}}, *kernel)
             .piece);
   }
   return pieces;

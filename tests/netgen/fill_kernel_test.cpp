@@ -22,11 +22,11 @@ namespace {
 
 using fill::FillInput;
 using fill::FillOutput;
-using fill::FillTry;
+using fill::KernelSettings;
 using testing::cube_skin;
 using testing::sphere_skin;
 
-FillOutput fill_skin(const FillInput& skin, const FillTry& settings = {})
+FillOutput fill_skin(const FillInput& skin, const KernelSettings& settings = {})
 {
   return netgen::make_fill_kernel()->fill(skin, settings);
 }
@@ -165,6 +165,22 @@ TEST(FillKernel, MakesGivenTetsBetter)
   expect_fills(skin, better);
   EXPECT_GT(mean_of_mean_ratio(better), mean_of_mean_ratio(rough) + 0.05);
   EXPECT_EQ(fill_skin(skin, {.optimize_steps = 0}).tet_vertices, rough.tet_vertices);
+}
+
+TEST(FillKernel, ReadsOfTheSettingsTheStepsAloneIfThereAreTets)
+{
+  FillInput skin = cube_skin(4);
+  skin.start = fill_skin(skin, {.optimize_steps = 0});
+  const FillOutput better = fill_skin(skin);
+  FillInput without_sizes = skin;
+  without_sizes.size_xyz.clear();
+  without_sizes.size_h.clear();
+  for (const FillOutput& other :
+       {fill_skin(skin, {.grading = 0.9, .point_order_seed = 5}), fill_skin(without_sizes)}) {
+    EXPECT_EQ(other.vertex_xyz, better.vertex_xyz);
+    EXPECT_EQ(other.tet_vertices, better.tet_vertices);
+  }
+  EXPECT_NE(fill_skin(skin, {.optimize_steps = 3}).vertex_xyz, better.vertex_xyz);
 }
 
 TEST(FillKernel, SeedGivesAnotherMesh)

@@ -31,10 +31,10 @@ std::vector<mesh::Piece> filled_pieces(const Body& body, int levels)
   const refine::RefineContext refine{body.coarse, body.skeleton, model, limiter, levels};
   const subdomain::PartitionedMesh cut(body.coarse, body.decomposition);
   const auto kernel = netgen::make_fill_kernel();
-  const fill::FillTry settings{.start = fill::FillStart::skin, .optimize_steps = 2};
+  const fill::FillTry how{.start = fill::FillStart::skin, .settings = {.optimize_steps = 2}};
   std::vector<mesh::Piece> pieces;
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
-    pieces.push_back(subdomain::fill_subdomain(cut, refine, s, settings, *kernel).piece);
+    pieces.push_back(subdomain::fill_subdomain(cut, refine, s, how, *kernel).piece);
   }
   return pieces;
 }

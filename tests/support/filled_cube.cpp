@@ -14,13 +14,13 @@
 namespace tessera::testing {
 
 subdomain::FilledPiece fill_of(const Body& body, int levels, LocalIndex subdomain,
-                               const fill::FillTry& settings)
+                               const fill::FillTry& how)
 {
   const FlatModel model;
   const mesh::ProjectionLimiter limiter;
   const refine::RefineContext refine{body.coarse, body.skeleton, model, limiter, levels, true};
   const subdomain::PartitionedMesh cut(body.coarse, body.decomposition);
-  return subdomain::fill_subdomain(cut, refine, subdomain, settings, *netgen::make_fill_kernel());
+  return subdomain::fill_subdomain(cut, refine, subdomain, how, *netgen::make_fill_kernel());
 }
 
 void FilledCube::SetUpTestSuite()

@@ -16,7 +16,7 @@ namespace tessera::testing {
 
 /// @brief Fills one subdomain of a body on a flat model; by default with NETGEN.
 [[nodiscard]] subdomain::FilledPiece fill_of(const Body& body, int levels, LocalIndex subdomain,
-                                             const fill::FillTry& settings = {});
+                                             const fill::FillTry& how = {});
 
 /// @brief two_material_cube(2) in four slabs, refined twice, filled with NETGEN and numbered, as
 /// the stages of the program do it. The pieces are made once for all tests.

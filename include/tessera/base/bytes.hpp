@@ -124,7 +124,7 @@ class ByteBuffer {
 
   void append(const void* data, std::size_t size)
   {
-    if (size > bytes_.size() - used_) bytes_.resize(used_ + size);
+    if (size > bytes_.size() - used_) grow(size);
     if (size > 0) std::memcpy(bytes_.data() + used_, data, size);
     used_ += size;
   }
@@ -136,6 +136,9 @@ class ByteBuffer {
   }
 
  private:
+  // Not inlined: GCC 12 else sees writes past the end that cannot happen.
+  [[gnu::noinline]] void grow(std::size_t size) { bytes_.resize(used_ + size); }
+
   Bytes bytes_;
   std::size_t used_ = 0;
 };

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <tuple>
+
+#include "tessera/base/enum_words.hpp"
 
 namespace tessera::coarse {
 
@@ -16,9 +19,19 @@ enum class SurfaceMesher : int {
   return SurfaceMesher::remesh;
 }
 
+/// @brief Words of `coarse.surface_mesher` of the report.
+constexpr auto enum_words(SurfaceMesher /*tag*/)
+{
+  return std::to_array<EnumWord<SurfaceMesher>>({
+      {SurfaceMesher::netgen, "netgen"},
+      {SurfaceMesher::remesh, "remesh"},
+  });
+}
+
 /// @brief Options of the coarse mesh; table `[coarse]` of a case file.
 struct CoarseOptions {
-  double max_size = 0.0;   ///< Largest edge, output length unit, > 0; 0: size.target says it.
+  double max_size = 0.0;   ///< Largest edge that the mesher aims at (some come out longer), output
+                           ///< length unit, > 0; 0: size.target says it.
   double grading = 0.3;    ///< Growth of the size away from small features, in (0, 1].
   double curvature = 2.0;  ///< Elements per curvature radius, > 0.
   /// STL: dihedral angle from which an edge is a feature, degrees, in (0, 180).

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "tessera/fill/kernel.hpp"
+#include "tessera/fill/fill_try.hpp"
 #include "tessera/fill/options.hpp"
 
 namespace tessera::fill {
@@ -24,8 +23,5 @@ namespace tessera::fill {
 [[nodiscard]] std::vector<KernelKind> kernels_of(const FillOptions& options,
                                                  const std::vector<std::string>& material_names,
                                                  const std::vector<LocalIndex>& materials);
-
-/// @brief "netgen" or "subdivide".
-[[nodiscard]] std::string_view name_of(KernelKind kernel);
 
 }  // namespace tessera::fill

@@ -4,10 +4,21 @@
 #include <string>
 #include <vector>
 
+#include "tessera/base/enum_words.hpp"
+
 namespace tessera::fill {
 
 enum class KernelKind : int { netgen, subdivide };
 [[nodiscard]] constexpr KernelKind last_value(KernelKind /*type*/) { return KernelKind::subdivide; }
+
+/// @brief Words of `fill.kernel`, and of the reports.
+constexpr auto enum_words(KernelKind /*tag*/)
+{
+  return std::to_array<EnumWord<KernelKind>>({
+      {KernelKind::netgen, "netgen"},
+      {KernelKind::subdivide, "subdivide"},
+  });
+}
 
 /// @brief The kernel for the subdomains of one material; table `[[fill.region]]` of a case file.
 struct FillRegion {

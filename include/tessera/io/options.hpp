@@ -2,20 +2,45 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
+#include "tessera/base/enum_words.hpp"
 #include "tessera/base/types.hpp"
 
 namespace tessera::io {
 
+/// @brief Forms that a mesh is written in.
+enum class Format : int {
+  pvtu,  ///< Piece files in VTU, and indices of them in PVTU.
+};
+
+[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::pvtu; }
+
+/// @brief Words of `output.formats`.
+constexpr auto enum_words(Format /*tag*/)
+{
+  return std::to_array<EnumWord<Format>>({
+      {Format::pvtu, "pvtu"},
+  });
+}
+
 enum class Compression : int { none, lz4, zlib };
 [[nodiscard]] constexpr Compression last_value(Compression /*type*/) { return Compression::zlib; }
 
+/// @brief Words of `output.compression`.
+constexpr auto enum_words(Compression /*tag*/)
+{
+  return std::to_array<EnumWord<Compression>>({
+      {Compression::none, "none"},
+      {Compression::lz4, "lz4"},
+      {Compression::zlib, "zlib"},
+  });
+}
+
 /// @brief Options of the output; table `[output]` of a case file.
 struct OutputOptions {
-  std::filesystem::path directory{};  ///< Relative to the working directory.
-  std::vector<std::string> formats{"pvtu"};
+  std::filesystem::path directory{};          ///< Relative to the working directory.
+  std::vector<Format> formats{Format::pvtu};  ///< Each is written; not empty, none twice.
   Compression compression = Compression::lz4;
   LocalIndex files = 0;       ///< Number of piece files; 0: one for each subdomain.
   LocalIndex parts = 0;       ///< Number of balanced, connected parts, a file each; 0: see `files`.

@@ -76,6 +76,7 @@ class ProjectionLimiter {
   /// @throws InputError unless keys ascend and every factor is in [0, 1].
   void require_sound() const;
 
+  /// @brief Whether both hold back the same points by the same factors.
   friend bool operator==(const ProjectionLimiter&, const ProjectionLimiter&) = default;
 
  private:

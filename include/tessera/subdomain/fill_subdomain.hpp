@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tessera/fill/kernel.hpp"
+#include "tessera/fill/fill_try.hpp"
 #include "tessera/mesh/piece.hpp"
 #include "tessera/refine/lattice_refiner.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
@@ -17,11 +17,13 @@ struct FilledPiece {
 
 /// @brief The job of one subdomain: refine it, fill it, check the fill, measure it.
 /// @param[in] refine Made from the arrays of `cut`.
-/// @param[in] netgen The kernel that is used if the settings ask for NETGEN.
+/// @param[in] how Which kernel, what it begins with, and its settings; `{}` is the main way. If it
+/// fails, fill::fallback_sequence() has the next one.
+/// @param[in] netgen The kernel that is used if the try asks for NETGEN.
 /// @note Local; the kernel may crash: call it in a job process.
 /// @throws GeometryError, NetgenError, MeshError if the try failed.
 [[nodiscard]] FilledPiece fill_subdomain(const PartitionedMesh& cut,
                                          const refine::RefineContext& refine, LocalIndex subdomain,
-                                         const fill::FillTry& settings, const fill::Kernel& netgen);
+                                         const fill::FillTry& how, const fill::Kernel& netgen);
 
 }  // namespace tessera::subdomain

@@ -46,14 +46,15 @@ class PieceFile {
   /// @brief Adds a piece and returns its digest. @pre pieces come in the order of subdomains.
   Hash128 add(mesh::Piece piece);
 
-  /// @brief Writes mesh/piece_NNNNNN.vtu and, unless it is empty, boundary/piece_NNNNNN.vtu below
-  /// `folder`. @throws OutputError
-  void write(const std::filesystem::path& folder, LocalIndex file) const;
+  /// @brief Writes the tets and, unless there are none, the boundary triangles below `folder`, in
+  /// each of the formats of the options; of `pvtu`, mesh/piece_NNNNNN.vtu and
+  /// boundary/piece_NNNNNN.vtu.
+  /// @return The files, relative to `folder`. @throws OutputError
+  [[nodiscard]] std::vector<std::filesystem::path> write(const std::filesystem::path& folder,
+                                                         LocalIndex file) const;
 
   /// @brief What it would write.
   [[nodiscard]] PieceArrays take() && { return std::move(arrays_); }
-
-  [[nodiscard]] GlobalIndex num_boundary_triangles() const { return arrays_.boundary.num_cells(); }
 
  private:
   using PointOfId = std::unordered_map<GlobalIndex, LocalIndex>;

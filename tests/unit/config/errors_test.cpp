@@ -122,6 +122,16 @@ TEST(ConfigErrors, WordListsRefuseUnknownRepeatedAndNoWords)
               std::string::npos)
         << formats;
   }
+  EXPECT_EQ(error_of_key("[output]\nformats = [\"gmsh\"]"),
+            "case.toml:6: output.formats = [\"gmsh\"]: must be a list without repetitions, not "
+            "empty, of: \"pvtu\"");
+}
+
+TEST(ConfigErrors, AWordThatNoKernelHasIsRefusedWithThoseThatThereAre)
+{
+  EXPECT_EQ(error_of_override("fill.kernel=tetgen"),
+            "--set fill.kernel=tetgen: fill.kernel = \"tetgen\": must be one of \"netgen\", "
+            "\"subdivide\"");
 }
 
 TEST(ConfigErrors, TableWrittenAsValueAndValueAsTable)

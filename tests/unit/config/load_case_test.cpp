@@ -86,7 +86,7 @@ TEST(LoadCase, EveryKeyReachesItsOwnOption)
   EXPECT_EQ(loaded.quality.min_dihedral_deg, 5.0);
   EXPECT_EQ(loaded.quality.min_mean_ratio, 0.25);
   EXPECT_EQ(loaded.output.directory, "out dir");
-  EXPECT_EQ(loaded.output.formats, std::vector<std::string>{"pvtu"});
+  EXPECT_EQ(loaded.output.formats, std::vector{io::Format::pvtu});
   EXPECT_EQ(loaded.output.compression, io::Compression::zlib);
   EXPECT_EQ(loaded.output.files, 6);
   EXPECT_TRUE(loaded.output.cell_quality);

@@ -18,9 +18,9 @@ TEST(FallbackSequence, BeginsAsAsked)
   const auto fallbacks =
       fallback_sequence({.optimize_steps = 5, .grading = 0.2}, KernelKind::netgen);
   ASSERT_FALSE(fallbacks.empty());
-  EXPECT_EQ(fallbacks[0].grading, 0.2);
-  EXPECT_EQ(fallbacks[0].optimize_steps, 5);
-  EXPECT_EQ(fallbacks[0].point_order_seed, 0U);
+  EXPECT_EQ(fallbacks[0].settings.grading, 0.2);
+  EXPECT_EQ(fallbacks[0].settings.optimize_steps, 5);
+  EXPECT_EQ(fallbacks[0].settings.point_order_seed, 0U);
 }
 
 TEST(FallbackSequence, ThenChangesOnlyTheStartThenOnlyTheOrderOfPoints)
@@ -30,11 +30,11 @@ TEST(FallbackSequence, ThenChangesOnlyTheStartThenOnlyTheOrderOfPoints)
   EXPECT_EQ(fallbacks[0].start, FillStart::children);
   for (const std::size_t fallback : {1U, 2U}) {
     EXPECT_EQ(fallbacks[fallback].start, FillStart::skin);
-    EXPECT_EQ(fallbacks[fallback].grading, fallbacks[0].grading);
-    EXPECT_EQ(fallbacks[fallback].optimize_steps, fallbacks[0].optimize_steps);
+    EXPECT_EQ(fallbacks[fallback].settings.grading, fallbacks[0].settings.grading);
+    EXPECT_EQ(fallbacks[fallback].settings.optimize_steps, fallbacks[0].settings.optimize_steps);
   }
-  EXPECT_EQ(fallbacks[1].point_order_seed, fallbacks[0].point_order_seed);
-  EXPECT_NE(fallbacks[2].point_order_seed, fallbacks[0].point_order_seed);
+  EXPECT_EQ(fallbacks[1].settings.point_order_seed, fallbacks[0].settings.point_order_seed);
+  EXPECT_NE(fallbacks[2].settings.point_order_seed, fallbacks[0].settings.point_order_seed);
 }
 
 TEST(FallbackSequence, TriesNothingTwiceAndStaysInRange)
@@ -45,11 +45,11 @@ TEST(FallbackSequence, TriesNothingTwiceAndStaysInRange)
       for (const FillTry& fallback :
            fallback_sequence({.optimize_steps = steps, .grading = grading}, KernelKind::netgen)) {
         if (fallback.kernel != KernelKind::netgen) continue;
-        EXPECT_TRUE(begun.insert({fallback.start, fallback.point_order_seed}).second);
-        EXPECT_GE(fallback.grading, grading);
-        EXPECT_LE(fallback.grading, 1.0);
-        EXPECT_GE(fallback.optimize_steps, 0);
-        EXPECT_LE(fallback.optimize_steps, steps);
+        EXPECT_TRUE(begun.insert({fallback.start, fallback.settings.point_order_seed}).second);
+        EXPECT_GE(fallback.settings.grading, grading);
+        EXPECT_LE(fallback.settings.grading, 1.0);
+        EXPECT_GE(fallback.settings.optimize_steps, 0);
+        EXPECT_LE(fallback.settings.optimize_steps, steps);
       }
     }
   }

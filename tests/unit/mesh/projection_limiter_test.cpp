@@ -30,6 +30,15 @@ TEST(ProjectionLimiter, TheSmallestFactorOfAPointCountsInAnyOrder)
   EXPECT_EQ(down.factor(key), 0.25);
   EXPECT_EQ(down.entries().size(), 2U);
   EXPECT_EQ(to_bytes(down), to_bytes(up));
+  EXPECT_EQ(down, up);
+}
+
+TEST(ProjectionLimiter, IsAnotherWithAnotherPointOrFactor)
+{
+  const ProjectionLimiter one({{{LatticeCarrier::edge, 3, 1}, 0.5}});
+  EXPECT_NE(one, ProjectionLimiter());
+  EXPECT_NE(one, ProjectionLimiter({{{LatticeCarrier::edge, 3, 1}, 0.25}}));
+  EXPECT_NE(one, ProjectionLimiter({{{LatticeCarrier::triangle, 3, 1}, 0.5}}));
 }
 
 // A plan is broadcast as bytes: the same plan must give the same ones.

@@ -122,7 +122,7 @@ class BrokenKernel final : public fill::Kernel {
   explicit BrokenKernel(Defect defect) : defect_(defect) {}
 
   [[nodiscard]] fill::FillOutput fill(const fill::FillInput& input,
-                                      const fill::FillTry& settings) const override
+                                      const fill::KernelSettings& settings) const override
   {
     if (defect_ == Defect::gives_up) throw NetgenError("no tets for this skin");
     if (defect_ == Defect::returns_nothing) return {};

@@ -4,16 +4,11 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
-#include <utility>
 
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/decompose/predicted_fine_tets.hpp"
-#include "tessera/fill/check.hpp"
-#include "tessera/fill/size_samples.hpp"
-#include "tessera/mesh/complex.hpp"
-#include "tessera/mesh/subdomain_tets.hpp"
 #include "tessera/netgen/factory.hpp"
-#include "tessera/refine/skin.hpp"
+#include "tessera/subdomain/fill_subdomain.hpp"
 
 using namespace tessera;
 
@@ -29,24 +24,17 @@ double mesh_cube(int levels)
   const auto cut = decompose::decompose(coarse, {.subdomains = 4},
                                         decompose::predicted_fine_tets(coarse, levels),
                                         *decompose::make_metis_partitioner());
-  const mesh::Skeleton skeleton = mesh::build_skeleton(coarse, cut.decomposition);
+  const subdomain::PartitionedMesh parts(coarse, cut.decomposition);
   const mesh::ProjectionLimiter no_limits;
-  const IndexLists tets_of = mesh::subdomain_tets(cut.decomposition);
-  const std::vector<double> sizes = fill::vertex_sizes(coarse);
+  const refine::RefineContext refine{coarse, parts.skeleton, *model, no_limits, levels};
   const auto kernel = netgen::make_fill_kernel();
 
   double volume = 0.0;
-  for (LocalIndex s = 0; s < cut.decomposition.num_subdomains(); ++s) {
-    const mesh::Complex complex = mesh::skin_complex(skeleton, s);
-    const auto lattice =
-        refine::refine_lattice(complex, {coarse, skeleton, *model, no_limits, levels});
-    mesh::Skin skin = refine::extract_skin(complex, lattice, skeleton, s);
-    fill::FillInput input{.vertex_xyz = std::move(skin.vertex_xyz),
-                          .triangle_vertices = std::move(skin.triangle_vertices)};
-    fill::add_size_samples(coarse, tets_of[s], sizes, levels, input);
-    const fill::FillOutput tets = kernel->fill(input, {});
-    volume += fill::check_fill(input, tets).volume;
-    std::printf("subdomain %d: %zu tets\n", s, tets.tet_vertices.size() / 4);
+  for (LocalIndex s = 0; s < parts.num_subdomains(); ++s) {
+    const auto [piece, result] = subdomain::fill_subdomain(parts, refine, s, {}, *kernel);
+    volume += result.summary.volume;
+    std::printf("subdomain %d: %d tets, mean ratio %.3f\n", s, piece.num_tets(),
+                result.summary.tets.mean_mean_ratio());
   }
   return volume;
 }
