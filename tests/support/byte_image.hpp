@@ -34,8 +34,8 @@ class Sampler {
       set_sample(value);
     } else if constexpr (std::is_same_v<T, bool>) {
       value = true;
-    } else if constexpr (std::is_enum_v<T>) {
-      value = BoundedEnum<T> ? last_value(T{}) : T{};
+    } else if constexpr (BoundedEnum<T>) {
+      value = last_value(T{});
     } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::byte>) {
       value = static_cast<T>(++last_ % 100);
     } else {

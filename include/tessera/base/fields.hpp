@@ -34,6 +34,14 @@ concept HasFields = std::is_class_v<T> && requires(T& value)
 template <HasFields T>
 using FieldsOf = decltype(FieldAccess::of(std::declval<T&>()));
 
+/// @brief A class with an invariant: `void require_sound() const` throws InputError if the fields
+/// that were read break it.
+template <class T>
+concept HasInvariant = requires(const T& value)
+{
+  value.require_sound();
+};
+
 namespace detail {
 
 /// Stands for any field in a question about how many an aggregate takes.
@@ -62,7 +70,8 @@ struct IsPlain {
   {
     if constexpr (HasFields<T>) {
       static_assert(names_all_fields<T>(), "a member is missing in the list of fields");
-      return std::is_trivially_copyable_v<T> && of_fields(static_cast<FieldsOf<T>*>(nullptr));
+      constexpr bool kTakesAnyBytes = std::is_trivially_copyable_v<T> && !HasInvariant<T>;
+      return kTakesAnyBytes && of_fields(static_cast<FieldsOf<T>*>(nullptr));
     } else {
       return (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_same_v<T, std::byte>;
     }
@@ -85,7 +94,7 @@ struct IsPlain<std::array<T, N>> {
 }  // namespace detail
 
 /// @brief Whether the bytes of a value in memory are those of its fields, without padding, and any
-/// bytes are a value: arrays of such values are copied in one piece.
+/// bytes are a sound value: arrays of such values are copied in one piece.
 template <class T>
 inline constexpr bool kIsPlain = detail::IsPlain<T>::value();
 

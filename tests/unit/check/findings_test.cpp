@@ -7,6 +7,12 @@
 
 #include "tessera/base/bytes.hpp"
 
+#include "support/byte_image.hpp"
+
+#include "check/match_triangles.hpp"
+#include "check/piece_figures.hpp"
+#include "check/records.hpp"
+
 namespace tessera::check {
 namespace {
 
@@ -46,6 +52,24 @@ TEST(Findings, MergedPartsEqualTheWhole)
   Findings merged;
   for (const Findings& part : parts) merged.merge(from_bytes<Findings>(to_bytes(part)));
   EXPECT_EQ(to_bytes(merged), to_bytes(whole));
+}
+
+TEST(Findings, OfPartOfTheirBytesNothingIsRead)
+{
+  Findings findings;
+  for (GlobalIndex i = 0; i < 3; ++i) add(findings, Kind::triangle, i, 2 * i);
+  testing::expect_round_trip(findings);
+  testing::expect_garbage_is_harmless(findings);
+}
+
+TEST(Records, NameEachFieldOnce)
+{
+  testing::expect_different_fields(TriangleRecord{});
+  testing::expect_different_fields(VertexRecord{});
+  testing::expect_different_fields(EdgeRecord{});
+  testing::expect_different_fields(TriangleVerdict{});
+  testing::expect_different_fields(PieceRecord{});
+  testing::expect_different_fields(ShapeSums{});
 }
 
 TEST(Findings, MergeOfChosenKindsLeavesTheOthers)

@@ -7,6 +7,9 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include "support/byte_image.hpp"
+
+#include "jobs/failure.hpp"
 #include "jobs/file_descriptor.hpp"
 
 namespace tessera::jobs {
@@ -99,6 +102,22 @@ TEST_F(PacketSocket, EndOfTheOtherSideIsSeen)
   EXPECT_FALSE(incoming_.receive(far_.get(), true).has_value());
   EXPECT_TRUE(incoming_.is_closed());
   EXPECT_FALSE(send_signal(far_.get(), PacketKind::kill_job, 1));
+}
+
+template <class T>
+class PacketValue : public ::testing::Test {
+};
+
+using Values = ::testing::Types<Failure, ProcessEnd, UsageReport>;
+TYPED_TEST_SUITE(PacketValue, Values);
+
+TYPED_TEST(PacketValue, ComesBackWhole)
+{
+  TypeParam value;
+  testing::Sampler().fill(value);
+  testing::expect_different_fields(value);
+  testing::expect_round_trip(value);
+  testing::expect_garbage_is_harmless(value);
 }
 
 }  // namespace

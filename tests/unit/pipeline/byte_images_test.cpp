@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "tessera/check/report.hpp"
+#include "tessera/migrate/assemble.hpp"
 #include "tessera/model/triangle_surface.hpp"
+#include "tessera/number/shared_vertices.hpp"
+#include "tessera/subdomain/improve_seam_region.hpp"
 
 #include "pipeline/jobs/worker_messages.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
@@ -76,7 +79,7 @@ using Types = ::testing::Types<
     verify::SeamHash, quality::TetStatistics, quality::QualityHistograms, fill::FillTry,
     coarse::CoarseOptions, coarse::VertexDistance, decompose::DecomposeReport,
     decompose::DecomposeResult, number::PieceCounts, mesh::HostPoint, number::VertexList,
-    check::SubdomainFigures,
+    check::SubdomainFigures, migrate::MeshBlock, migrate::TetColumn, IndexLists,
     // The program's.
     CoarseTry, UntangleTest, FillTask, SkinMesh, CoarseResult, WrittenFile, FillRecord,
     FoldedSubdomain, Plan, ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad,
