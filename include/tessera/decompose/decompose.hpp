@@ -38,6 +38,7 @@ struct DecomposeReport {
   double max_weight = 0.0;               ///< Of the heaviest subdomain.
 };
 
+/// @brief The subdomains, and how they came about.
 struct DecomposeResult {
   mesh::Decomposition decomposition{};
   DecomposeReport report{};

@@ -6,6 +6,7 @@
 
 namespace tessera::fill {
 
+/// @brief What puts tets into a skin.
 enum class KernelKind : int { netgen, subdivide };
 
 /// @brief The kernel for the subdomains of one material; table `[[fill.region]]` of a case file.

@@ -9,6 +9,7 @@
 
 namespace tessera::io {
 
+/// @brief How the arrays of mesh files are packed.
 enum class Compression : int { none, lz4, zlib };
 
 /// @brief Options of the output; table `[output]` of a case file.

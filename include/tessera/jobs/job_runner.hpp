@@ -32,6 +32,7 @@ struct JobLimits {
   double memory_gib = 4.0;  ///< Resident memory of the job process, GiB.
 };
 
+/// @brief How a job ended.
 enum class JobStatus : int {
   ok,
   failed,       ///< The worker threw; `message` is its text, `error` its kind.
@@ -46,6 +47,7 @@ enum class JobStatus : int {
 /// @brief Kind of the exception that a worker threw, so that the caller can throw the same.
 enum class ErrorKind : int { none, config, input, geometry, mesh, netgen, output, other };
 
+/// @brief What a job has given and used.
 struct JobOutcome {
   JobStatus status = JobStatus::ok;
   int code = 0;
