@@ -34,6 +34,7 @@ TEST_F(LabelsOfOctants, FirstLayerTouchesTheRegionsUnits)
   for (int phase = 0; phase < kNumPhases; ++phase) {
     for (const mesh::Piece& piece : pieces) {
       const auto labels = label_tets(piece, regions, phase, 1);
+      EXPECT_LT(std::count(labels.begin(), labels.end(), kNoIndex), piece.num_tets());
       for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
         LocalIndex lowest = kNoIndex;
         for (std::size_t c = 0; c < 4; ++c) {
@@ -83,6 +84,7 @@ TEST_F(LabelsOfOctants, AreThoseOfTheRegionsOfThePiece)
   for (const mesh::Piece& piece : pieces) {
     for (int phase = 0; phase < kNumPhases; ++phase) {
       const auto mine = regions.regions_of(piece.subdomain, phase);
+      EXPECT_FALSE(mine.empty());
       for (const LocalIndex label : label_tets(piece, regions, phase, 3)) {
         EXPECT_TRUE(label == kNoIndex || std::binary_search(mine.begin(), mine.end(), label));
       }
