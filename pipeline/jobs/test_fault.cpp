@@ -282,11 +282,19 @@ std::unique_ptr<model::Model> nudged_if_asked(const model::Model& model, LocalIn
   return std::make_unique<NudgedModel>(model);
 }
 
+// A tet with two new corners has no face on the geometry: without one behind it, the merge of the
+// piece would fail already.
 void lose_tet_if_asked(improve::RegionUpdate& update, LocalIndex region)
 {
-  if (kind_at("improve", region) != "lose" || update.tet_vertices.empty()) return;
-  drop_a_tet(update.tet_vertices);
-  --update.tet_offsets.back();
+  if (kind_at("improve", region) != "lose") return;
+  std::vector<LocalIndex>& tets = update.tet_vertices;
+  for (auto tet = tets.begin(); tet != tets.end(); tet += 4) {
+    if (std::count_if(tet, tet + 4, [](LocalIndex v) { return v < 0; }) < 2) continue;
+    const auto number = static_cast<LocalIndex>((tet - tets.begin()) / 4);
+    for (LocalIndex& offset : update.tet_offsets) offset -= offset > number ? 1 : 0;
+    tets.erase(tet, tet + 4);
+    return;
+  }
 }
 
 }  // namespace tessera::pipeline

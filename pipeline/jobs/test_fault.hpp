@@ -57,7 +57,7 @@ void fail_if_asked(std::string_view stage, LocalIndex item = kNoIndex);
 [[nodiscard]] std::unique_ptr<model::Model> nudged_if_asked(const model::Model& model,
                                                             LocalIndex subdomain);
 
-/// @brief Takes the last tet out of a region's update, if that is asked for.
+/// @brief Takes a tet with two new corners out of a region's update, if that is asked for.
 void lose_tet_if_asked(improve::RegionUpdate& update, LocalIndex region);
 
 }  // namespace tessera::pipeline
