@@ -148,8 +148,13 @@ class MeshWorker final : public jobs::Worker {
   [[nodiscard]] Bytes answer(const FillTask& task) const
   {
     const auto kernel = make_faulty_if_asked(netgen::make_fill_kernel(), task.first);
-    refine::RefineContext context = refine_context(limiter_);
-    context.measure_distance = true;
+    const auto nudged = nudged_if_asked(*scaled_model_, task.first);
+    const refine::RefineContext context{.coarse = coarse_,
+                                        .skeleton = cut_->skeleton,
+                                        .model = nudged ? *nudged : *scaled_model_,
+                                        .limiter = limiter_,
+                                        .levels = levels_,
+                                        .measure_distance = true};
     std::optional<subdomain::WriteContext> numbers;
     if (ids_)
       numbers.emplace(subdomain::WriteContext{coarse_, cut_->skeleton, *ids_, length_unit_});
@@ -179,8 +184,10 @@ class MeshWorker final : public jobs::Worker {
   [[nodiscard]] Bytes improved(LocalIndex region, const std::vector<mesh::Piece>& pieces) const
   {
     const auto optimizer = make_faulty_if_asked(netgen::make_optimizer(), region);
-    return to_bytes(subdomain::improve_tets(subdomain::region_mesh(pieces, *regions_, region),
-                                            improve_options_.rounds, *optimizer));
+    subdomain::RegionRecord record = subdomain::improve_tets(
+        subdomain::region_mesh(pieces, *regions_, region), improve_options_.rounds, *optimizer);
+    lose_tet_if_asked(record.update, region);
+    return to_bytes(record);
   }
 
   [[nodiscard]] Bytes answer(const SkinRequest& request) const

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -21,8 +23,8 @@ namespace {
 
 constexpr std::array<std::string_view, 9> kStages{"import", "load", "box",     "coarse", "remesh",
                                                   "plan",   "fill", "improve", "skin"};
-constexpr std::array<std::string_view, 9> kKinds{"throw",  "segv", "exit",    "loop", "sleep",
-                                                 "memory", "drop", "garbage", "flat"};
+constexpr std::array<std::string_view, 11> kKinds{
+    "throw", "segv", "exit", "loop", "sleep", "memory", "garbage", "drop", "flat", "nudge", "lose"};
 
 struct Fault {
   std::string stage{};
@@ -185,6 +187,44 @@ class FaultyOptimizer final : public improve::Optimizer {
   std::string kind_;
 };
 
+class NudgedModel final : public model::Model {
+ public:
+  explicit NudgedModel(const model::Model& sound) : sound_(sound) {}
+
+  [[nodiscard]] bool has_parameters() const override { return sound_.has_parameters(); }
+  [[nodiscard]] double surface_tolerance(LocalIndex surface) const override
+  {
+    return sound_.surface_tolerance(surface);
+  }
+  [[nodiscard]] double curve_tolerance(LocalIndex curve) const override
+  {
+    return sound_.curve_tolerance(curve);
+  }
+  [[nodiscard]] double box_diagonal() const override { return sound_.box_diagonal(); }
+
+  [[nodiscard]] model::SurfacePoint project_to_surface(
+      LocalIndex surface, const Vec3& point, const model::SurfaceParameters& guess) const override
+  {
+    return nudged(sound_.project_to_surface(surface, point, guess));
+  }
+  [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
+                                                   double guess) const override
+  {
+    return nudged(sound_.project_to_curve(curve, point, guess));
+  }
+
+ private:
+  template <class Point>
+  static Point nudged(Point point)
+  {
+    double& x = point.xyz[0];
+    x = std::nextafter(x, std::numeric_limits<double>::infinity());
+    return point;
+  }
+
+  const model::Model& sound_;
+};
+
 }  // namespace
 
 void obey_test_environment(jobs::JobRunner& jobs)
@@ -235,6 +275,27 @@ std::unique_ptr<improve::Optimizer> make_faulty_if_asked(
   const std::string kind = kind_at("improve", region);
   if (kind.empty()) return optimizer;
   return std::make_unique<FaultyOptimizer>(std::move(optimizer), kind);
+}
+
+std::unique_ptr<model::Model> nudged_if_asked(const model::Model& model, LocalIndex subdomain)
+{
+  if (kind_at("fill", subdomain) != "nudge") return nullptr;
+  return std::make_unique<NudgedModel>(model);
+}
+
+// A tet with two new corners has no face on the geometry: without one behind it, the merge of the
+// piece would fail already.
+void lose_tet_if_asked(improve::RegionUpdate& update, LocalIndex region)
+{
+  if (kind_at("improve", region) != "lose") return;
+  std::vector<LocalIndex>& tets = update.tet_vertices;
+  for (auto tet = tets.begin(); tet != tets.end(); tet += 4) {
+    if (std::count_if(tet, tet + 4, [](LocalIndex v) { return v < 0; }) < 2) continue;
+    const auto number = static_cast<LocalIndex>((tet - tets.begin()) / 4);
+    for (LocalIndex& offset : update.tet_offsets) offset -= offset > number ? 1 : 0;
+    tets.erase(tet, tet + 4);
+    return;
+  }
 }
 
 }  // namespace tessera::pipeline

@@ -8,7 +8,9 @@
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/fill/kernel.hpp"
 #include "tessera/improve/optimizer.hpp"
+#include "tessera/improve/region_update.hpp"
 #include "tessera/jobs/job_runner.hpp"
+#include "tessera/model/model.hpp"
 
 /// Failures for the tests: where third-party code is called, a job fails for real as the
 /// environment variable TESSERA_TEST_FAULT asks. No option, for no user needs it.
@@ -18,7 +20,9 @@
 ///   plan, fill, improve, skin.
 /// - KIND: throw, segv, exit, loop, sleep, memory; drop (a tet of the result is lost: coarse,
 ///   remesh, fill, improve), garbage (the bytes of the result are no longer what they were), flat
-///   (the first try of a fill has a flat tet).
+///   (the first try of a fill has a flat tet). Two that pass all checks of a job: nudge (fill:
+///   points on the geometry are one bit off, as from another mathematical library), lose (improve:
+///   a tet is lost after the region was judged).
 /// - ITEM: the subdomain; of improve the region.
 namespace tessera::pipeline {
 
@@ -48,5 +52,12 @@ void fail_if_asked(std::string_view stage, LocalIndex item = kNoIndex);
 /// @brief The optimiser itself, or one that fails.
 [[nodiscard]] std::unique_ptr<improve::Optimizer> make_faulty_if_asked(
     std::unique_ptr<improve::Optimizer> optimizer, LocalIndex region);
+
+/// @brief A view of the model that is one bit off, if that is asked for; else nothing.
+[[nodiscard]] std::unique_ptr<model::Model> nudged_if_asked(const model::Model& model,
+                                                            LocalIndex subdomain);
+
+/// @brief Takes a tet with two new corners out of a region's update, if that is asked for.
+void lose_tet_if_asked(improve::RegionUpdate& update, LocalIndex region);
 
 }  // namespace tessera::pipeline

@@ -46,16 +46,6 @@ double volume_of(const std::vector<subdomain::PieceSummary>& pieces)
   return volume;
 }
 
-double volume_of(const mesh::Piece& piece)
-{
-  double volume = 0.0;
-  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-    const auto& [a, b, c, d] = piece.corners(t);
-    volume += tet_volume(a, b, c, d);
-  }
-  return volume;
-}
-
 // The regions of each phase that are to be improved.
 std::array<std::vector<LocalIndex>, improve::kNumPhases> wanted_regions(
     const improve::SeamRegions& regions, const std::vector<fill::KernelKind>& kernels)
@@ -117,8 +107,10 @@ class SeamImprover {
     for_each_subdomain([&](LocalIndex s) { pieces.keep_list(pieces.piece(s)); });
     FilledPieces own;
     own.seam_sums.resize(filled_.seam_sums.size());
-    for_each_subdomain(
-        [&](LocalIndex s) { own.add(measure(pieces.piece(s), pieces.own_vertices(s))); });
+    for_each_subdomain([&](LocalIndex s) {
+      own.add(subdomain::measure_improved_piece(pieces.piece(s), pieces.own_vertices(s),
+                                                filled_.pieces[at(s)]));
+    });
     FilledPieces all = combine(std::move(own), context_.comm);
     all.seam_sums = std::move(filled_.seam_sums);
     all.failures = std::move(filled_.failures);
@@ -273,36 +265,6 @@ class SeamImprover {
         if (before > 0) store_.remove(improved_name(piece.subdomain, before));
       }
     });
-  }
-
-  [[nodiscard]] subdomain::FillResult measure(const mesh::Piece& piece,
-                                              const number::SharedBy& shared) const
-  {
-    subdomain::FillResult result;
-    subdomain::PieceSummary& summary = result.summary;
-    summary = filled_.pieces[at(piece.subdomain)];
-    summary.num_tets = piece.num_tets();
-    summary.num_interior_vertices = piece.num_interior_vertices();
-    summary.num_owned_vertices =
-        summary.num_interior_vertices + static_cast<GlobalIndex>(shared.owned.size());
-    summary.num_boundary = piece.num_boundary();
-    summary.volume = volume_of(piece);
-    summary.surface = verify::surface_hash(piece);
-    subdomain::measure_edges(piece, result.histograms);
-    subdomain::measure_tets(piece, seam_vertices(piece, shared), result);
-    return result;
-  }
-
-  // From the order of the list to that of the piece.
-  static std::vector<char> seam_vertices(const mesh::Piece& piece, const number::SharedBy& shared)
-  {
-    const std::vector<mesh::HostPoint> names = number::shared_vertices(piece);
-    std::vector<char> on_seam;
-    for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-      const auto found = std::ranges::lower_bound(names, piece.skin_point(v));
-      on_seam.push_back(shared.on_seam[static_cast<std::size_t>(found - names.begin())]);
-    }
-    return on_seam;
   }
 
   const config::Case& run_case_;

@@ -11,9 +11,7 @@
 
 namespace tessera::pipeline {
 
-/// @brief Checks what the pieces say of themselves against each other: no piece of the ranges is
-/// missing, every seam with both sides there closes, every piece has the Euler characteristic of
-/// its coarse subdomain.
+/// @brief Lets no pieces pass in which subdomain::verify_pieces() sees a defect.
 /// @note Collective.
 /// @throws MeshError on every rank naming the first defect.
 void run_verify_stage(const subdomain::PartitionedMesh& cut,

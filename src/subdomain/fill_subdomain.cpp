@@ -29,36 +29,6 @@ void add_boundary(const mesh::Skin& skin, const mesh::Skeleton& skeleton,
   }
 }
 
-double outside_area(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
-{
-  const std::span<const double> xyz(skin.vertex_xyz);
-  double area = 0.0;
-  for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
-    if (skeleton.is_inside(skin.triangle_parent[at(t)])) continue;
-    const LocalIndex* v = &skin.triangle_vertices[3 * at(t)];
-    const Vec3 a = point_at(xyz, v[0]);
-    area += 0.5 * norm(cross(point_at(xyz, v[1]) - a, point_at(xyz, v[2]) - a));
-  }
-  return area;
-}
-
-// From the closed surface and the number of edges.
-GlobalIndex euler_characteristic(const mesh::Piece& piece, GlobalIndex num_edges,
-                                 GlobalIndex num_skin_triangles)
-{
-  const GlobalIndex num_tets = piece.num_tets();
-  const GlobalIndex num_triangles = (4 * num_tets + num_skin_triangles) / 2;
-  return piece.num_vertices() - num_edges + num_triangles - num_tets;
-}
-
-std::vector<char> vertices_on_seams(const mesh::Skin& skin, const std::vector<char>& seam_hosts)
-{
-  std::vector<char> on_seam;
-  on_seam.reserve(skin.vertex_host.size());
-  for (const mesh::HostEntity host : skin.vertex_host) on_seam.push_back(seam_hosts[at(host)]);
-  return on_seam;
-}
-
 // A skin, and the tets that some kernel put into it, unchecked.
 struct RawFill {
   mesh::Skin skin{};
@@ -131,21 +101,12 @@ FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain, 
   piece.tet_vertices = std::move(raw.tets.tet_vertices);
   add_boundary(raw.skin, cut.skeleton, facts.triangle_tet, piece);
 
+  filled.result = measure_filled_piece(cut, raw.skin, piece);
   PieceSummary& summary = filled.result.summary;
-  summary.material = piece.material;
-  summary.num_tets = piece.num_tets();
-  summary.num_interior_vertices = piece.num_interior_vertices();
-  summary.num_boundary = piece.num_boundary();
   summary.num_held_back = raw.distance.num_held_back;
   summary.model_distance = raw.distance.largest;
   summary.held_back_distance = raw.distance.largest_held_back;
   summary.volume = facts.volume;
-  summary.boundary_area = outside_area(raw.skin, cut.skeleton);
-  summary.outside = verify::outside_hash(raw.skin, cut.skeleton);
-  summary.euler_characteristic = euler_characteristic(
-      piece, measure_edges(piece, filled.result.histograms), raw.skin.num_triangles());
-  measure_tets(piece, vertices_on_seams(raw.skin, cut.seam_hosts), filled.result);
-  filled.result.seams = verify::seam_hashes(raw.skin, cut.skeleton);
   return filled;
 }
 

@@ -8,6 +8,51 @@
 #include "tessera/mesh/tet_edges.hpp"
 
 namespace tessera::subdomain {
+namespace {
+
+double outside_area(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
+{
+  const std::span<const double> xyz(skin.vertex_xyz);
+  double area = 0.0;
+  for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
+    if (skeleton.is_inside(skin.triangle_parent[at(t)])) continue;
+    const LocalIndex* v = &skin.triangle_vertices[3 * at(t)];
+    const Vec3 a = point_at(xyz, v[0]);
+    area += 0.5 * norm(cross(point_at(xyz, v[1]) - a, point_at(xyz, v[2]) - a));
+  }
+  return area;
+}
+
+// From the closed surface and the number of edges.
+GlobalIndex euler_characteristic(const mesh::Piece& piece, GlobalIndex num_edges,
+                                 GlobalIndex num_skin_triangles)
+{
+  const GlobalIndex num_tets = piece.num_tets();
+  const GlobalIndex num_triangles = (4 * num_tets + num_skin_triangles) / 2;
+  return piece.num_vertices() - num_edges + num_triangles - num_tets;
+}
+
+std::vector<char> vertices_on_seams(const mesh::Skin& skin, const std::vector<char>& seam_hosts)
+{
+  std::vector<char> on_seam;
+  on_seam.reserve(skin.vertex_host.size());
+  for (const mesh::HostEntity host : skin.vertex_host) on_seam.push_back(seam_hosts[at(host)]);
+  return on_seam;
+}
+
+// From the order of the list to that of the piece.
+std::vector<char> seam_vertices(const mesh::Piece& piece, const number::SharedBy& shared)
+{
+  const std::vector<mesh::HostPoint> names = number::shared_vertices(piece);
+  std::vector<char> on_seam;
+  for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
+    const auto found = std::ranges::lower_bound(names, piece.skin_point(v));
+    on_seam.push_back(shared.on_seam[static_cast<std::size_t>(found - names.begin())]);
+  }
+  return on_seam;
+}
+
+}  // namespace
 
 GlobalIndex measure_edges(const mesh::Piece& piece, quality::QualityHistograms& histograms)
 {
@@ -38,6 +83,53 @@ void measure_tets(const mesh::Piece& piece, const std::vector<char>& on_seam, Fi
   }
   result.summary.tets = all.statistics();
   result.summary.seam_tets = on_seams.statistics();
+}
+
+double volume_of(const mesh::Piece& piece)
+{
+  double volume = 0.0;
+  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
+    const auto& [a, b, c, d] = piece.corners(t);
+    volume += tet_volume(a, b, c, d);
+  }
+  return volume;
+}
+
+FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& skin,
+                                const mesh::Piece& piece)
+{
+  FillResult result;
+  PieceSummary& summary = result.summary;
+  summary.subdomain = piece.subdomain;
+  summary.material = piece.material;
+  summary.num_tets = piece.num_tets();
+  summary.num_interior_vertices = piece.num_interior_vertices();
+  summary.num_boundary = piece.num_boundary();
+  summary.boundary_area = outside_area(skin, cut.skeleton);
+  summary.outside = verify::outside_hash(skin, cut.skeleton);
+  summary.euler_characteristic =
+      euler_characteristic(piece, measure_edges(piece, result.histograms), skin.num_triangles());
+  measure_tets(piece, vertices_on_seams(skin, cut.seam_hosts), result);
+  result.seams = verify::seam_hashes(skin, cut.skeleton);
+  return result;
+}
+
+FillResult measure_improved_piece(const mesh::Piece& piece, const number::SharedBy& shared,
+                                  const PieceSummary& filled)
+{
+  FillResult result;
+  PieceSummary& summary = result.summary;
+  summary = filled;
+  summary.num_tets = piece.num_tets();
+  summary.num_interior_vertices = piece.num_interior_vertices();
+  summary.num_owned_vertices =
+      summary.num_interior_vertices + static_cast<GlobalIndex>(shared.owned.size());
+  summary.num_boundary = piece.num_boundary();
+  summary.volume = volume_of(piece);
+  summary.surface = verify::surface_hash(piece);
+  measure_edges(piece, result.histograms);
+  measure_tets(piece, seam_vertices(piece, shared), result);
+  return result;
 }
 
 }  // namespace tessera::subdomain

@@ -13,6 +13,8 @@ OPEN_WORK = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b")
 # A shell would read file names as commands; no process of the program becomes another program.
 STARTS_PROGRAM = re.compile(r"\b(system|popen|wordexp|exec[lv]p?e?|execvpe|fexecve|posix_spawnp?)\(")
 PROGRAM_FOLDERS = ("include/", "src/", "pipeline/")
+PUBLIC_FOLDER = "include/"
+TYPE = re.compile(r"(struct|class|enum class) \w+(?!.*\w;$)")  # No declaration without a body.
 FOLDERS = ("include", "src", "pipeline", "tests", "cmake", ".ci", "configs")
 TEXT = {".hpp", ".cpp", ".py", ".cmake", ".txt", ".in", ".toml", ""}
 
@@ -27,6 +29,16 @@ def functions(lines: list[str]):
         elif line == "}" and start is not None:
             yield start, number - start + 1
             start = None
+
+
+def undocumented(lines: list[str]):
+    """Line number of each type in a namespace that has no comment above it."""
+    above = ""
+    for number, line in enumerate(lines, 1):
+        if TYPE.match(line) and "///<" not in line and not above.startswith("///"):
+            yield number
+        if not line.startswith(("template", "  requires")):
+            above = line
 
 
 def problems(root: pathlib.Path):
@@ -52,6 +64,8 @@ def problems(root: pathlib.Path):
                 yield here, number, "starts a shell or another program"
             if line != line.rstrip():
                 yield here, number, "blanks at the end of the line"
+        for number in undocumented(lines) if here.startswith(PUBLIC_FOLDER) else ():
+            yield here, number, "a public type without a comment for the reference"
         for number, length in functions(lines) if is_cpp else ():
             if length > LONGEST_FUNCTION:
                 yield here, number, f"function of {length} lines, more than {LONGEST_FUNCTION}"

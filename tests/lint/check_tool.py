@@ -18,7 +18,7 @@ if path is None:
     sys.exit(SKIPPED)
 if version != "any":
     found = subprocess.run([path, "--version"], capture_output=True, text=True, check=True).stdout
-    if f"version {version}" not in found:
+    if f"version {version}" not in found and not found.startswith(version):
         print(f"skipped: {program} is not version {version}, which judges otherwise: {found.strip()}")
         sys.exit(SKIPPED)
 sys.exit(subprocess.run([path, *arguments], check=False).returncode)

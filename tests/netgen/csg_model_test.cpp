@@ -230,6 +230,7 @@ TEST(CsgProjection, PutsRimPointsOnTheCircle)
 TEST(CsgProjection, LeavesCoarseVerticesWhereTheyAre)
 {
   const Loaded ring(kTorus, 1.0);
+  ASSERT_GT(ring.mesh.num_faces(), 0);
   for (LocalIndex f = 0; f < ring.mesh.num_faces(); ++f) {
     const Vec3 vertex =
         ring.mesh.position(ring.mesh.face_vertices[3 * static_cast<std::size_t>(f)]);
@@ -250,6 +251,7 @@ TEST(CsgProjection, DoesNotDependOnTheOrderOfCalls)
     const auto project = [&](std::size_t i) {
       return loaded.model->project_to_surface(asked[i].first, asked[i].second, {}).xyz;
     };
+    ASSERT_FALSE(asked.empty()) << text;
     std::vector<Vec3> forward(asked.size());
     std::vector<Vec3> backward(asked.size());
     for (std::size_t i = 0; i < asked.size(); ++i) forward[i] = project(i);

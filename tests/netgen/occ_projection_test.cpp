@@ -128,6 +128,7 @@ TEST(OccProjection, CurveParameterStaysBetweenItsEnds)
 {
   const auto model = load_own("cylinder.step");
   const auto mesh = coarse_mesh_of(*model, 6.0);
+  ASSERT_GT(mesh.num_segments(), 0);
   for (std::size_t s = 0; s < mesh.segment_curve.size(); ++s) {
     const Vec3 p = mesh.position(mesh.segment_vertices[2 * s]);
     const LocalIndex curve = mesh.segment_curve[s];

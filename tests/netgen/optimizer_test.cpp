@@ -129,6 +129,8 @@ TEST(Optimizer, GivesTheSameBitsAgain)
   const std::vector<mesh::Piece> filled = filled_pieces(body, 2);
   const std::vector<mesh::Piece> once = improve_all(body, filled);
   const std::vector<mesh::Piece> again = improve_all(body, filled);
+  ASSERT_EQ(once.size(), 8U);
+  ASSERT_EQ(again.size(), 8U);
   for (std::size_t s = 0; s < once.size(); ++s) {
     EXPECT_EQ(to_bytes(once[s]), to_bytes(again[s]));
   }

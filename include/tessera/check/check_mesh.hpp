@@ -17,6 +17,7 @@ struct PieceSource {
   std::function<mesh::MeshArrays(LocalIndex piece)> read{};
 };
 
+/// @brief What check_mesh() is asked for.
 struct CheckOptions {
   /// Only some pieces of the mesh were made: ids need not be dense, and a triangle on one tet that
   /// the boundary file lacks is an open seam, counted but no defect. Needs a boundary file to tell

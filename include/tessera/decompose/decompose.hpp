@@ -46,6 +46,7 @@ struct DecomposeReport {
   }
 };
 
+/// @brief The subdomains, and how they came about.
 struct DecomposeResult {
   mesh::Decomposition decomposition{};
   DecomposeReport report{};

@@ -8,6 +8,7 @@
 
 namespace tessera::fill {
 
+/// @brief What puts tets into a skin.
 enum class KernelKind : int { netgen, subdivide };
 [[nodiscard]] constexpr KernelKind last_value(KernelKind /*type*/) { return KernelKind::subdivide; }
 

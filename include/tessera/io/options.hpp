@@ -13,7 +13,6 @@ namespace tessera::io {
 enum class Format : int {
   pvtu,  ///< Piece files in VTU, and indices of them in PVTU.
 };
-
 [[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::pvtu; }
 
 /// @brief Words of `output.formats`.
@@ -24,6 +23,7 @@ constexpr auto enum_words(Format /*tag*/)
   });
 }
 
+/// @brief How the arrays of mesh files are packed.
 enum class Compression : int { none, lz4, zlib };
 [[nodiscard]] constexpr Compression last_value(Compression /*type*/) { return Compression::zlib; }
 

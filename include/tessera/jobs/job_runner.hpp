@@ -34,6 +34,7 @@ struct JobLimits {
   double memory_gib = 4.0;  ///< Resident memory of the job process, GiB.
 };
 
+/// @brief How a job ended.
 enum class JobStatus : int {
   ok,
   failed,       ///< The worker threw; `message` is its text, `error` its kind.
@@ -46,6 +47,7 @@ enum class JobStatus : int {
 };
 [[nodiscard]] constexpr JobStatus last_value(JobStatus /*type*/) { return JobStatus::cancelled; }
 
+/// @brief What a job has given and used.
 struct JobOutcome {
   JobStatus status = JobStatus::ok;
   int code = 0;

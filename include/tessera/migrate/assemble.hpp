@@ -18,6 +18,7 @@ struct MeshPieces {
   bool has_boundary = false;  ///< There is a boundary file; the same on all ranks.
 };
 
+/// @brief Type of the values that a column holds in its 64 bits.
 enum class ColumnType : int { int32, int64, float64 };
 [[nodiscard]] constexpr ColumnType last_value(ColumnType /*type*/) { return ColumnType::float64; }
 
@@ -31,6 +32,7 @@ struct TetColumn {
   friend auto operator<=>(const TetColumn&, const TetColumn&) = default;
 };
 
+/// @brief A mesh joined from pieces.
 struct AssembledMesh {
   DistributedMesh mesh{};
   std::vector<TetColumn> columns{};  ///< Cell arrays that all pieces have, by name; the same on all

@@ -31,6 +31,7 @@ struct CutFigures {
   int num_rounds = 0;  ///< Migrations that mended parts.
 };
 
+/// @brief What cut_into_parts() has made.
 struct RepartitionResult {
   DistributedMesh mesh{};  ///< With the parts, each on its rank.
   CutFigures figures{};

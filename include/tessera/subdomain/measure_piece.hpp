@@ -4,6 +4,9 @@
 #include <vector>
 
 #include "tessera/mesh/piece.hpp"
+#include "tessera/mesh/skin.hpp"
+#include "tessera/number/shared_vertices.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/piece_summary.hpp"
 
 namespace tessera::subdomain {
@@ -15,5 +18,21 @@ GlobalIndex measure_edges(const mesh::Piece& piece, quality::QualityHistograms& 
 /// @brief Puts the shapes of a piece's tets into its summary and histograms. Local.
 /// @param[in] on_seam Shape (num_skin_vertices): whether tets there are seam tets.
 void measure_tets(const mesh::Piece& piece, const std::vector<char>& on_seam, FillResult& result);
+
+/// @brief Sum over the tets, output length unit cubed. Local.
+[[nodiscard]] double volume_of(const mesh::Piece& piece);
+
+/// @brief What can be read off a piece as it was filled and its skin: counts, shapes, outside and
+/// seams; not its volume, its kernel and the distances to the model. Local.
+[[nodiscard]] FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& skin,
+                                              const mesh::Piece& piece);
+
+/// @brief The figures of a piece after it has exchanged tets with others; what an exchange does not
+/// change is taken from `filled`. Local.
+/// @param[in] shared What the lists of its neighbours say of its shared vertices.
+/// @param[in] filled The summary of the piece as it was filled.
+[[nodiscard]] FillResult measure_improved_piece(const mesh::Piece& piece,
+                                                const number::SharedBy& shared,
+                                                const PieceSummary& filled);
 
 }  // namespace tessera::subdomain

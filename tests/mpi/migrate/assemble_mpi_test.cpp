@@ -127,6 +127,7 @@ TEST(Assemble, PatchesAreOnTheRightFaces)
     MeshPieces pieces = box_pieces(comm);
     if (!with_ids) drop_ids(pieces);
     const DistributedMesh mesh = assemble(comm, pieces).mesh;
+    EXPECT_GT(comm.sum(mesh.num_boundary()), 0);
     for (LocalIndex b = 0; b < mesh.num_boundary(); ++b) {
       const std::int32_t patch = mesh.boundary_patch[at(b)];  // x=0, x=1, y=0, …
       for (LocalIndex c = 0; c < 4; ++c) {

@@ -51,6 +51,7 @@ TEST(FallbackSequence, TriesNothingTwiceAndStaysInRange)
         EXPECT_GE(fallback.settings.optimize_steps, 0);
         EXPECT_LE(fallback.settings.optimize_steps, steps);
       }
+      EXPECT_GT(begun.size(), 1U);
     }
   }
 }

@@ -80,6 +80,7 @@ TEST_F(SamplesOfCube, InterpolateBetweenVertices)
   for (LocalIndex v = 0; v < cube.num_vertices(); ++v) size.push_back(linear(cube.position(v)));
   FillInput input;
   add_size_samples(cube, tets[1], size, 2, input);
+  ASSERT_FALSE(input.size_h.empty());
   for (std::size_t i = 0; i < input.size_h.size(); ++i) {
     const Vec3 p = point_at(std::span<const double>(input.size_xyz), i);
     EXPECT_NEAR(input.size_h[i], 0.25 * linear(p), 1e-15);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -34,6 +35,7 @@ TEST_F(LabelsOfOctants, FirstLayerTouchesTheRegionsUnits)
   for (int phase = 0; phase < kNumPhases; ++phase) {
     for (const mesh::Piece& piece : pieces) {
       const auto labels = label_tets(piece, regions, phase, 1);
+      EXPECT_LT(std::count(labels.begin(), labels.end(), kNoIndex), piece.num_tets());
       for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
         LocalIndex lowest = kNoIndex;
         for (std::size_t c = 0; c < 4; ++c) {
@@ -78,11 +80,37 @@ TEST_F(LabelsOfOctants, LaterLayersGrowAndLeaveEarlierOnesAlone)
   }
 }
 
+// Of the regions that reach a tet in the same layer the lowest has it, by whichever vertex.
+TEST_F(LabelsOfOctants, OfEquallyNearRegionsTheLowestHasTheTet)
+{
+  LocalIndex num_contested = 0;
+  for (int phase = 0; phase < kNumPhases; ++phase) {
+    for (const mesh::Piece& piece : pieces) {
+      const auto first = label_tets(piece, regions, phase, 1);
+      const auto second = label_tets(piece, regions, phase, 2);
+      std::vector<std::set<LocalIndex>> reach(at(piece.num_vertices()));
+      for (std::size_t i = 0; i < piece.tet_vertices.size(); ++i) {
+        if (first[i / 4] != kNoIndex) reach[at(piece.tet_vertices[i])].insert(first[i / 4]);
+      }
+      for (std::size_t t = 0; t < first.size(); ++t) {
+        if (first[t] != kNoIndex) continue;
+        std::set<LocalIndex> near;
+        for (std::size_t c = 0; c < 4; ++c)
+          near.merge(std::set(reach[at(piece.tet_vertices[4 * t + c])]));
+        EXPECT_EQ(second[t], near.empty() ? kNoIndex : *near.begin());
+        num_contested += near.size() > 1 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(num_contested, 0);
+}
+
 TEST_F(LabelsOfOctants, AreThoseOfTheRegionsOfThePiece)
 {
   for (const mesh::Piece& piece : pieces) {
     for (int phase = 0; phase < kNumPhases; ++phase) {
       const auto mine = regions.regions_of(piece.subdomain, phase);
+      EXPECT_FALSE(mine.empty());
       for (const LocalIndex label : label_tets(piece, regions, phase, 3)) {
         EXPECT_TRUE(label == kNoIndex || std::binary_search(mine.begin(), mine.end(), label));
       }

@@ -26,6 +26,9 @@ struct RegionsOfOctants : ::testing::Test {
   const SeamRegions regions{body.skeleton, body.decomposition};
   std::vector<mesh::Piece> pieces = testing::coarse_pieces(body);
 
+  // 12 faces between two octants, 6 curves, 1 point: else loops over regions would see nothing.
+  void SetUp() override { ASSERT_EQ(regions.num_regions(), 12 + 6 + 1); }
+
   [[nodiscard]] RegionMesh extract(LocalIndex region, int layers) const
   {
     std::vector<std::vector<LocalIndex>> labels;
@@ -76,6 +79,7 @@ TEST_F(RegionsOfOctants, HoldEveryLabelledTetOnce)
     for (LocalIndex r = regions.first_of_phase(phase); r < regions.first_of_phase(phase + 1); ++r) {
       num_extracted += extract(r, 2).num_tets();
     }
+    EXPECT_GT(num_labelled, 0);
     EXPECT_EQ(num_extracted, num_labelled);
   }
 }
@@ -155,6 +159,7 @@ TEST_F(RegionsOfOctants, KnowWhichOfTheirPiecesIsOutsideOfATriangle)
   const auto beside = subdomains_beside(pieces);
   for (LocalIndex r = 0; r < regions.num_regions(); ++r) {
     const RegionMesh mesh = extract(r, 1);
+    EXPECT_GT(mesh.num_triangles(), 0);
     for (LocalIndex i = 0; i < mesh.num_triangles(); ++i) {
       Face face;
       for (std::size_t c = 0; c < 3; ++c) {

@@ -12,8 +12,9 @@
 #include "tessera/base/error.hpp"
 #include "tessera/io/vtu.hpp"
 
+#include "support/temporary_folder.hpp"
+
 #include "mesh_samples.hpp"
-#include "temporary_folder.hpp"
 
 namespace tessera::io {
 namespace {
@@ -111,6 +112,7 @@ TEST_P(WithCompression, AFlippedByteInAHeaderOfDataIsAnInputErrorOrConsistent)
 {
   const std::string bytes = sample_bytes();
   const std::size_t data = bytes.find('_', bytes.find("<AppendedData"));
+  ASSERT_NE(data, std::string::npos);
   for (std::size_t at = data + 1; at < std::min(data + 80, bytes.size()); ++at) {
     for (const char byte : {'\x00', '\x01', '\x7f', '\x80', '\xff'}) {
       std::string damaged = bytes;

@@ -12,7 +12,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/io/files.hpp"
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace tessera::io {
 namespace {

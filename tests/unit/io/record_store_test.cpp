@@ -5,7 +5,7 @@
 
 #include "tessera/base/error.hpp"
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace tessera::io {
 namespace {

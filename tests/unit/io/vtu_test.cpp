@@ -18,8 +18,9 @@
 
 #include "tessera/base/error.hpp"
 
+#include "support/temporary_folder.hpp"
+
 #include "mesh_samples.hpp"
-#include "temporary_folder.hpp"
 
 namespace tessera::io {
 namespace {

@@ -89,6 +89,19 @@ TEST_F(SkeletonOfCube, OnlySeamsOfOneMaterialCountAsSeams)
   }
 }
 
+TEST(NeighboursByVertex, AreThoseThatTouch)
+{
+  const CoarseMesh cube = testing::kuhn_cube(4);
+  const auto of = [&](const Decomposition& cut) {
+    return neighbours_by_vertex(build_skeleton(cube, cut));
+  };
+  EXPECT_EQ(of(testing::slabs(cube, 4)),
+            (std::vector<std::vector<LocalIndex>>{{1}, {0, 2}, {1, 3}, {2}}));
+  const auto octants = of(testing::octants(cube));  // All of them meet in one vertex.
+  ASSERT_EQ(octants.size(), 8U);
+  EXPECT_EQ(octants[5], (std::vector<LocalIndex>{0, 1, 2, 3, 4, 6, 7}));
+}
+
 TEST_F(SkeletonOfCube, SkinsAreClosedAndTiedToTheSkeleton)
 {
   for (LocalIndex s = 0; s < decomposition.num_subdomains(); ++s) {

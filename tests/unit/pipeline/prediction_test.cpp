@@ -15,8 +15,7 @@
 #include "support/decompositions.hpp"
 #include "support/filled_cube.hpp"
 #include "support/meshes.hpp"
-
-#include "unit/io/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace tessera::pipeline {
 namespace {

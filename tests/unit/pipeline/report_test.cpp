@@ -195,14 +195,6 @@ TEST(Report, SeamFiguresStandOnlyIfThereAreSeamTets)
   EXPECT_EQ(seam["mean_ratio"]["mean"], 0.75);
 }
 
-TEST(Report, ATryThatEndedForTimeIsNotReproducible)
-{
-  RunResult run = run_of_two_pieces();
-  EXPECT_EQ(report_of(run)["reproducible"], true);
-  run.filled.pieces[1].was_limited = true;
-  EXPECT_EQ(report_of(run)["reproducible"], false);
-}
-
 TEST(Report, NamesStatusAndReasonsOfADegradedRun)
 {
   RunResult run = run_of_two_pieces();

@@ -2,6 +2,7 @@
 #include "tessera/refine/lattice_refiner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -179,12 +180,15 @@ void for_each_point_on_patches(const Body& body, const RefinedComplex& refined, 
 TEST_P(LatticeOfLevel, PointsOfSpheresLieOnTheFormula)
 {
   const BodyOnModel made = bodies().at("shell");
+  std::array<std::size_t, 2> num_on_patch{};
   for (LocalIndex s = 0; s < 2; ++s) {
     const auto refined = testing::refine_skin(made.body, *made.model, GetParam(), s);
-    for_each_point_on_patches(made.body, refined, [](LocalIndex patch, const Vec3& p) {
+    for_each_point_on_patches(made.body, refined, [&](LocalIndex patch, const Vec3& p) {
       ASSERT_NEAR(norm(p), patch == 0 ? 1.0 : 0.5, 1e-12);
+      ++num_on_patch.at(at(patch));
     });
   }
+  for (const std::size_t num_points : num_on_patch) EXPECT_GT(num_points, 0U);
 }
 
 TEST_P(LatticeOfLevel, PointsOfTheCylinderLieOnMantleEndsAndRims)
