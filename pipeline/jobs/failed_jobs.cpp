@@ -170,9 +170,7 @@ fs::path keep_failed_job(const JobRequest& job, const Bytes& request,
     io::write_text_atomically(folder / "job.bin", text_of(to_bytes(job_file)));
     io::write_text_atomically(
         folder / "log.txt",
-        fmt::format("{}: {}
-
-{}", job.name, outcome.message, tail_of_log(context)));
+        fmt::format("{}: {}\n\n{}", job.name, outcome.message, tail_of_log(context)));
     ++context.num_failed_jobs_kept;
     kept = folder;
   });

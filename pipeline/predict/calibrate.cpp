@@ -16,6 +16,7 @@
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
 
+#include "pipeline/estimate/output_plan.hpp"
 #include "pipeline/predict/choose_samples.hpp"
 #include "pipeline/runtime/log.hpp"
 #include "pipeline/stages/load_stage.hpp"

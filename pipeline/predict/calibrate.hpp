@@ -5,7 +5,7 @@
 
 #include "pipeline/estimate/rates.hpp"
 #include "pipeline/estimate/run_outline.hpp"
-#include "pipeline/run_pipeline.hpp"
+#include "pipeline/run_result.hpp"
 
 namespace tessera::pipeline {
 

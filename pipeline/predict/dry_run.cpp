@@ -8,9 +8,11 @@
 #include "tessera/io/files.hpp"
 #include "tessera/jobs/this_process.hpp"
 
+#include "pipeline/estimate/output_plan.hpp"
 #include "pipeline/predict/calibrate.hpp"
 #include "pipeline/predict/prediction.hpp"
 #include "pipeline/predict/prediction_file.hpp"
+#include "pipeline/stages/coarse_part.hpp"
 #include "pipeline/stages/load_stage.hpp"
 
 namespace tessera::pipeline {

@@ -6,7 +6,7 @@
 
 #include "tessera/config/case.hpp"
 
-#include "pipeline/run_pipeline.hpp"
+#include "pipeline/run_result.hpp"
 
 namespace tessera::pipeline {
 

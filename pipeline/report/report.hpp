@@ -8,7 +8,7 @@
 #include "tessera/tessera.hpp"
 
 #include "pipeline/predict/prediction_file.hpp"
-#include "pipeline/run_pipeline.hpp"
+#include "pipeline/run_result.hpp"
 #include "pipeline/runtime/exit_code.hpp"
 #include "pipeline/runtime/run_context.hpp"
 

@@ -150,7 +150,7 @@ std::vector<Piece> pieces_of_model(const testing::Subject& subject, int levels, 
   const mesh::SubdomainTets tets = mesh::subdomain_tets(decomposition);
   std::vector<Piece> pieces;
   for (LocalIndex s = 0; s < std::ssize(tets.offsets) - 1; ++s) {
-    const mesh::TetComplex complex = mesh::tet_complex(subject.coarse, skeleton, tets.of(s));
+    const mesh::TetComplex complex = mesh::tet_complex(subject.coarse, skeleton, tets[s]);
     const fill::FillOutput children =
         fill::subdivide(complex, refine::refine_lattice(complex.faces, context));
     pieces.push_back(make_piece(children.vertex_xyz, children.tet_vertices));

@@ -34,12 +34,13 @@ function(tessera_add_test name)
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${timeout})
 endfunction()
 
-# tessera_add_mpi_test(<name> SOURCES <file>... RANKS <n>... TIMEOUT <seconds> [LINK <target>...])
+# tessera_add_mpi_test(<name> SOURCES <file>... RANKS <n>... TIMEOUT <seconds> [LINK <target>...] [OWN_MAIN])
 #
 # One ctest entry "<name>.np<n>" per rank count, label "mpi". TIMEOUT is required: a hang is how a
 # missed collective shows. PROCESSORS keeps `ctest -j` from running more ranks than cores at once.
+# OWN_MAIN: the sources have a main() that starts MPI, say because processes must be forked before.
 function(tessera_add_mpi_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;RANKS;LINK")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "OWN_MAIN" "TIMEOUT" "SOURCES;RANKS;LINK")
   foreach(required IN ITEMS SOURCES RANKS TIMEOUT)
     if(NOT DEFINED arg_${required})
       message(FATAL_ERROR "tessera_add_mpi_test(${name}): ${required} is required")
@@ -47,7 +48,10 @@ function(tessera_add_mpi_test name)
   endforeach()
 
   add_executable(test_${name} ${arg_SOURCES})
-  target_link_libraries(test_${name} PRIVATE tessera_test_support ${arg_LINK} tessera_mpi_gtest_main)
+  target_link_libraries(test_${name} PRIVATE tessera_test_support ${arg_LINK})
+  if(NOT arg_OWN_MAIN)
+    target_link_libraries(test_${name} PRIVATE tessera_mpi_gtest_main)
+  endif()
   tessera_test_timeout(timeout ${arg_TIMEOUT})
   foreach(np IN LISTS arg_RANKS)
     add_test(

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/communicator.hpp"
 
 namespace tessera::testing {
@@ -17,9 +18,7 @@ class SharedFolder {
  public:
   explicit SharedFolder(const comm::Communicator& comm) : comm_(comm)
   {
-    ByteWriter out;
-    if (comm.rank() == 0) out.put(made());
-    path_ = ByteReader(comm.broadcast(std::move(out).take(), 0)).get_string();
+    path_ = comm::on_root(comm, [] { return made(); });
   }
   ~SharedFolder()
   {

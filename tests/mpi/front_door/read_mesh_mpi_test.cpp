@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -148,23 +149,28 @@ struct Holders {
   std::map<GlobalIndex, std::set<Rank>> of_point{};
 };
 
+// The ids of what a rank has as its own.
+struct OwnIds {
+  std::vector<GlobalIndex> tets{};
+  std::vector<GlobalIndex> triangles{};
+
+  static auto fields(auto& self) { return std::tie(self.tets, self.triangles); }
+};
+
 Holders holders_of(const MeshShare& share, const comm::Communicator& comm)
 {
-  ByteWriter out;
-  out.put(
-      std::vector<GlobalIndex>(share.tet_ids.begin(), share.tet_ids.end() - share.num_ghost_tets));
-  out.put(share.triangle_ids);
+  const OwnIds own{{share.tet_ids.begin(), share.tet_ids.end() - share.num_ghost_tets},
+                   share.triangle_ids};
   Holders holders;
   Rank rank = 0;
-  for (const Bytes& bytes : comm.all_gather(std::move(out).take())) {
-    ByteReader in(bytes);
-    for (const GlobalIndex tet : in.get_vector<GlobalIndex>()) {
+  for (const OwnIds& ids : comm.all_gather_values(own)) {
+    for (const GlobalIndex tet : ids.tets) {
       holders.of_tet[tet].push_back(rank);
       for (const GlobalIndex point : whole().tets.at(tet).points) {
         holders.of_point[point].insert(rank);
       }
     }
-    for (const GlobalIndex f : in.get_vector<GlobalIndex>()) {
+    for (const GlobalIndex f : ids.triangles) {
       holders.of_triangle[f].push_back(rank);
     }
     ++rank;

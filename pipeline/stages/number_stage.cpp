@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stages/number_stage.hpp"
+
+#include "tessera/mesh/lattice.hpp"
+#include "tessera/subdomain/count_pieces.hpp"
+
+#include "pipeline/store/improved_pieces.hpp"
+
+namespace tessera::pipeline {
+
+number::IdLayout number_mesh(const RunResult& run, const subdomain::PartitionedMesh& cut,
+                             const RunOutline& outline)
+{
+  if (run.filled.improvement.generation > 0) {
+    return number::IdLayout::by_owner(subdomain::counts_of(run.filled.pieces));
+  }
+  return number::IdLayout::by_host(mesh::HostLayout(cut.skeleton),
+                                   mesh::lattice::intervals(outline.levels),
+                                   are_counts_known(outline.kernels)
+                                       ? outline.pieces
+                                       : subdomain::counts_of(run.filled.pieces));
+}
+
+std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of_vertices(
+    const RunResult& run, const subdomain::PartitionedMesh& cut, const RunContext& context)
+{
+  const int generation = run.filled.improvement.generation;
+  if (generation == 0) return {};
+  return [pieces = ImprovedPieces(context.folder, cut.skeleton, generation)](
+             const mesh::Piece& piece) { return pieces.places_of(piece); };
+}
+
+}  // namespace tessera::pipeline
