@@ -76,6 +76,7 @@ struct MeshOptions {
   std::function<void(MeshPiece)> on_piece{};
 };
 
+/// @brief How make_mesh() has ended.
 enum class MeshStatus : int { ok, degraded };
 [[nodiscard]] constexpr MeshStatus last_value(MeshStatus /*type*/) { return MeshStatus::degraded; }
 

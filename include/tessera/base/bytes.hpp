@@ -66,16 +66,19 @@ struct LeastSize {
   }
 };
 
+/// Of each element.
 template <class T, std::size_t N>
 struct LeastSize<std::array<T, N>> {
   static constexpr std::size_t value() { return N * LeastSize<T>::value(); }
 };
 
+/// Whether it is there.
 template <class T>
 struct LeastSize<std::optional<T>> {
   static constexpr std::size_t value() { return sizeof(bool); }
 };
 
+/// Which one it is.
 template <class... T>
 struct LeastSize<std::variant<T...>> {
   static constexpr std::size_t value() { return sizeof(std::uint32_t); }

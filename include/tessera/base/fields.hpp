@@ -64,6 +64,7 @@ constexpr bool names_all_fields()
   return !std::is_aggregate_v<T> || !takes_fields<T>(std::make_index_sequence<kNumNamed + 1>{});
 }
 
+/// Whether a value has no padding, by its fields.
 template <class T>
 struct IsPlain {
   static constexpr bool value()
@@ -86,6 +87,7 @@ struct IsPlain {
   }
 };
 
+/// As its elements.
 template <class T, std::size_t N>
 struct IsPlain<std::array<T, N>> {
   static constexpr bool value() { return IsPlain<T>::value(); }

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/base/bytes.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/decompose/predicted_fine_tets.hpp"
 

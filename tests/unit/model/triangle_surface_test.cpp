@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/base/bytes.hpp"
 #include "tessera/base/error.hpp"
 
 #include "support/stl_models.hpp"

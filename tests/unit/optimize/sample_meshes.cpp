@@ -90,12 +90,12 @@ optimize::TetMesh subdivided_cube(int n)
   const mesh::Decomposition decomposition = one_subdomain_a_material(coarse);
   const mesh::Skeleton skeleton = mesh::build_skeleton(coarse, decomposition);
   const FlatModel model;
-  const mesh::Damping no_damping;
+  const mesh::ProjectionLimiter no_limits;
   std::vector<LocalIndex> tets(at(coarse.num_tets()));
   for (std::size_t t = 0; t < tets.size(); ++t) tets[t] = static_cast<LocalIndex>(t);
   const mesh::TetComplex complex = mesh::tet_complex(coarse, skeleton, tets);
   const fill::FillOutput children = fill::subdivide(
-      complex, refine::refine_lattice(complex.faces, {coarse, skeleton, model, no_damping, 2}));
+      complex, refine::refine_lattice(complex.faces, {coarse, skeleton, model, no_limits, 2}));
   return {.vertex_xyz = children.vertex_xyz, .tet_vertices = children.tet_vertices};
 }
 

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/base/bytes.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/mesh/subdomain_tets.hpp"
 #include "tessera/mesh/tet_lattice.hpp"
@@ -219,7 +220,7 @@ TEST_P(FoldedPlate, FindingsDependOnTheArgumentsOnly)
   };
   std::vector<LocalIndex> tets = all_tets(body);
   const Bytes found = find(tets);
-  EXPECT_NE(found, mesh::to_bytes(none)) << "there are no findings";
+  EXPECT_NE(found, to_bytes(none)) << "there are no findings";
   static_cast<void>(find({tets.front()}));
   EXPECT_EQ(find(tets), found);
   std::reverse(tets.begin(), tets.end());
