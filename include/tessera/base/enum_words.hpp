@@ -38,8 +38,7 @@ inline constexpr auto kEnumWords = [] {
   for (std::size_t i = 0; i < table.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (table[i].value == table[j].value || table[i].word == table[j].word) {
-        throw "a value or a word stands twice in a table of words";  // Only ever seen by a
-                                                                     // compiler.
+        throw "a value or a word stands twice in a table of words";  // Seen by compilers only.
       }
     }
   }
