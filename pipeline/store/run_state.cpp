@@ -119,6 +119,7 @@ Bytes to_bytes(const MeshResult& result)
   ByteWriter out;
   out.put(result.status);
   out.put(result.reason);
+  out.put(result.num_vertices);
   out.put(result.num_tets);
   out.put(result.num_subdomains);
   out.put(result.volume);
@@ -133,6 +134,7 @@ MeshResult mesh_result_from_bytes(std::span<const std::byte> bytes)
   MeshResult result;
   result.status = in.get<MeshStatus>();
   result.reason = in.get_string();
+  result.num_vertices = in.get<GlobalIndex>();
   result.num_tets = in.get<GlobalIndex>();
   result.num_subdomains = in.get<LocalIndex>();
   result.volume = in.get<double>();
@@ -215,9 +217,11 @@ std::optional<MeshResult> RunState::finished() const
   const auto result = read_report(output_, [&](const nlohmann::json& report) {
     const std::string status = report.at("status");
     if (status != "ok" && status != "degraded") return std::optional<MeshResult>();
+    const nlohmann::json& whole = report.contains("whole_mesh") ? report["whole_mesh"] : report;
     return std::optional(
         MeshResult{.status = status == "ok" ? MeshStatus::ok : MeshStatus::degraded,
                    .reason = report.at("reason"),
+                   .num_vertices = whole.at("num_vertices"),
                    .num_tets = report.at("num_tets"),
                    .num_subdomains = report.at("num_subdomains"),
                    .volume = report.at("volume"),
