@@ -50,8 +50,11 @@ class Session {
   std::unique_ptr<State> state_;
 };
 
-enum class Verbosity : int { quiet, normal, verbose };       ///< Quiet: warnings and errors only.
-enum class ProgressMode : int { automatic, always, never };  ///< Automatic: on a terminal.
+/// @brief How much rank 0 prints. Quiet: warnings and errors only.
+enum class Verbosity : int { quiet, normal, verbose };
+
+/// @brief Whether rank 0 draws a bar of its progress. Automatic: on a terminal.
+enum class ProgressMode : int { automatic, always, never };
 
 /// @brief Words of `--progress`.
 constexpr auto enum_words(ProgressMode /*tag*/)
@@ -68,23 +71,24 @@ struct MeshOptions {
   std::string case_name = "case";                            ///< In messages and in report.json.
   io::ExistingFolder existing = io::ExistingFolder::refuse;  ///< Of output.directory.
   std::vector<LocalIndex> only_subdomains{};                 ///< Ascending; empty: all.
-  Verbosity verbosity = Verbosity::quiet;                    ///< Of what rank 0 prints.
-  ProgressMode progress = ProgressMode::automatic;           ///< Unless quiet.
+  Verbosity verbosity = Verbosity::quiet;
+  ProgressMode progress = ProgressMode::automatic;  ///< Unless quiet.
   /// If set, no mesh files are written: each finished piece is handed to this on the rank that took
   /// it, in the main thread, one at a time, in any order. It must not communicate. If it throws on
   /// one rank, the run ends with an OutputError on all. Set it on all ranks or on none.
   std::function<void(MeshPiece)> on_piece{};
 };
 
-/// @brief How make_mesh() has ended.
+/// @brief How a run ended. Degraded: the mesh is valid, but a target was missed.
 enum class MeshStatus : int { ok, degraded };
 [[nodiscard]] constexpr MeshStatus last_value(MeshStatus /*type*/) { return MeshStatus::degraded; }
 
 /// @brief What make_mesh() has made; the same on every rank. The folder's report.json says more.
 struct MeshResult {
-  MeshStatus status = MeshStatus::ok;  ///< Degraded: valid, but a target was missed.
-  std::string reason{};                ///< Why it is degraded.
-  GlobalIndex num_tets = 0;            ///< As the next three: of what was made.
+  MeshStatus status = MeshStatus::ok;
+  std::string reason{};          ///< Why it is degraded.
+  GlobalIndex num_vertices = 0;  ///< Of the whole mesh, all subdomains made or not.
+  GlobalIndex num_tets = 0;      ///< As the next three: of what was made.
   LocalIndex num_subdomains = 0;
   double volume = 0.0;             ///< Output length unit cubed.
   std::string digest{};            ///< Order-free hash of all tets, in hexadecimal.
@@ -92,8 +96,8 @@ struct MeshResult {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.status, self.reason, self.num_tets, self.num_subdomains, self.volume,
-                    self.digest, self.folder);
+    return std::tie(self.status, self.reason, self.num_vertices, self.num_tets,
+                    self.num_subdomains, self.volume, self.digest, self.folder);
   }
 };
 

@@ -310,6 +310,7 @@ MeshResult result_of(const RunResult& run, const Verdict& verdict)
   const std::vector<subdomain::PieceSummary>& pieces = run.filled.pieces;
   return {.status = verdict.exit_code == ExitCode::ok ? MeshStatus::ok : MeshStatus::degraded,
           .reason = reason_of(verdict),
+          .num_vertices = run.num_vertices,
           .num_tets = run.filled.num_tets(),
           .num_subdomains = static_cast<LocalIndex>(pieces.size()),
           .volume = sum(pieces, &subdomain::PieceSummary::volume),

@@ -163,9 +163,11 @@ std::optional<MeshResult> RunState::finished() const
   const auto result = read_report(output_, [&](const nlohmann::json& report) {
     const std::string status = report.at("status");
     if (status != "ok" && status != "degraded") return std::optional<MeshResult>();
+    const nlohmann::json& whole = report.contains("whole_mesh") ? report["whole_mesh"] : report;
     return std::optional(
         MeshResult{.status = status == "ok" ? MeshStatus::ok : MeshStatus::degraded,
                    .reason = report.at("reason"),
+                   .num_vertices = whole.at("num_vertices"),
                    .num_tets = report.at("num_tets"),
                    .num_subdomains = report.at("num_subdomains"),
                    .volume = report.at("volume"),

@@ -8,13 +8,13 @@
 
 namespace tessera::subdomain {
 
-/// @brief Which tets a rank gets.
+/// @brief Which tets become a rank's own.
 enum class ReadPartition : int {
   files,     ///< Ranks take the piece files in their order, each some that stand together.
   balanced,  ///< Cut anew into one connected, balanced part a rank, as `tessera repartition` does.
 };
 
-/// @brief How read_mesh() reads.
+/// @brief How read_mesh() deals a mesh out.
 struct ReadOptions {
   ReadPartition partition = ReadPartition::files;
   int num_ghost_layers = 0;  ///< Layers of other ranks' tets around the share; see find_ghosts().

@@ -113,6 +113,7 @@ TEST_F(MakeMesh, TheFilesHoldWhatTheResultSays)
   EXPECT_NEAR(made.volume, 2.0, 1e-9);
   const MeshShare share = read_mesh(made.folder, comm_);
   EXPECT_EQ(share.num_global_tets, made.num_tets);
+  EXPECT_EQ(share.num_global_points, made.num_vertices);
   std::vector<Hash128> digest{digest_of(share)};
   comm_.sum_in_place(digest);
   EXPECT_EQ(to_hex(digest.front()), made.digest);
@@ -202,6 +203,7 @@ TEST_F(MakeMesh, AnEndedRunIsResumedByItsReport)
   EXPECT_EQ(again.digest, made.digest);
   EXPECT_EQ(again.volume, made.volume);
   EXPECT_EQ(again.num_tets, made.num_tets);
+  EXPECT_EQ(again.num_vertices, made.num_vertices);
   EXPECT_EQ(again.status, made.status);
   on.on_piece = [](const MeshPiece&) {};
   EXPECT_THROW(static_cast<void>(make(given, on)), comm::Collective<InputError>);

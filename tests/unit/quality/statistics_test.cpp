@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/base/bytes.hpp"
 #include "tessera/base/error.hpp"
 
 namespace tessera::quality {
