@@ -78,6 +78,7 @@ TEST(Histogram, DistanceOfAPartFromTheOthers)
   // Shares below: 1/2, 1/2, 1 of the part; 1/4, 3/4, 1 of the others.
   EXPECT_DOUBLE_EQ(ks_distance(histogram_of({1, 0, 1}), histogram_of({2, 2, 2})), 0.25);
   EXPECT_DOUBLE_EQ(ks_distance(histogram_of({5, 0, 0}), histogram_of({5, 0, 7})), 1.0);
+  EXPECT_DOUBLE_EQ(ks_distance(histogram_of({0, 0, 5}), histogram_of({7, 0, 5})), 1.0);
   EXPECT_DOUBLE_EQ(ks_distance(histogram_of({1, 2, 3}), histogram_of({3, 6, 9})), 0.0);
 }
 

@@ -287,6 +287,44 @@ TEST(LatticeRefiner, DoesNotDependOnWhatElseIsRefined)
   EXPECT_GT(compared, 0U);
 }
 
+// A model without parameters, as CSG and STL are, whose curves are off its surfaces by a step of
+// their own: so it shows which of the two a point was put on.
+class CurvesApart final : public model::Model {
+ public:
+  static constexpr double kStep = 0x1p-10;
+
+  [[nodiscard]] bool has_parameters() const override { return false; }
+  [[nodiscard]] double surface_tolerance(LocalIndex) const override { return 1e-8; }
+  [[nodiscard]] double curve_tolerance(LocalIndex) const override { return 1e-8; }
+  [[nodiscard]] double box_diagonal() const override { return 2.0; }
+  [[nodiscard]] model::SurfacePoint project_to_surface(
+      LocalIndex, const Vec3& point, const model::SurfaceParameters&) const override
+  {
+    return {point, {}};
+  }
+  [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
+                                                   double) const override
+  {
+    return {point + Vec3{kStep * (curve + 1), 0.0, 0.0}, 0.0};
+  }
+};
+
+TEST(LatticeRefiner, PutsPointsOfCurvesOnThemWithoutParametersToo)
+{
+  const mesh::CoarseMesh cube = testing::kuhn_cube(2);
+  const Body body(cube, testing::one_subdomain_a_material(cube));
+  const auto [complex, lattice] = testing::refine_skin(body, CurvesApart(), 1, 0);
+  std::size_t on_curves = 0;
+  for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
+    const LocalIndex curve = body.skeleton.edge_curve[at(complex.edge_skeleton[at(e)])];
+    const Vec3 chord = midpoint(lattice.edge_point(e, 0), lattice.edge_point(e, 2));
+    const double off = curve == kNoIndex ? 0.0 : CurvesApart::kStep * (curve + 1);
+    EXPECT_EQ(lattice.edge_point(e, 1), (chord + Vec3{off, 0.0, 0.0}));
+    on_curves += curve == kNoIndex ? 0 : 1;
+  }
+  EXPECT_EQ(on_curves, 12U * 2U);
+}
+
 TEST(LatticeRefiner, ComplexWithoutEntitiesGivesNoPoints)
 {
   const BodyOnModel made = bodies().at("cylinder");

@@ -148,6 +148,16 @@ TEST(FoldTest, FindsNothingOnAFlatModelOfFlatTets)
   EXPECT_TRUE(make_plan(body, testing::FlatModel(), 3, 1).limiter.entries().empty());
 }
 
+TEST(FoldTest, AChildWithoutVolumeIsAFold)
+{
+  mesh::CoarseMesh plate = thin_plate(1, 0.5);
+  for (std::size_t z = 2; z < plate.vertex_xyz.size(); z += 3) plate.vertex_xyz[z] = 0.0;
+  const Body body(plate, testing::one_subdomain_a_material(plate));
+  const ProjectionLimiter none;
+  const RefinedTets refined(body, testing::FlatModel(), none, 1, all_tets(body));
+  EXPECT_FALSE(find_folds(refined.complex, body.skeleton, refined.lattice, none).empty());
+}
+
 TEST(FoldTest, FindsNothingWithoutLevels)
 {
   const mesh::CoarseMesh plate = thin_plate(2, 0.01);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/subdomain/measure_piece.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "support/filled_cube.hpp"
+
+namespace tessera::subdomain {
+namespace {
+
+// Pieces that NETGEN made of four slabs, measured as if they had exchanged tets.
+struct MeasureImprovedPiece : testing::FilledCube {
+  static number::VertexList list_of(const mesh::Piece& piece)
+  {
+    return {piece.subdomain, piece.material, number::shared_vertices(piece)};
+  }
+
+  [[nodiscard]] static PieceSummary measured(const mesh::Piece& piece, const PieceSummary& filled)
+  {
+    std::vector<number::VertexList> others;
+    for (const FilledPiece& other : pieces()) {
+      if (other.piece.subdomain != piece.subdomain) others.push_back(list_of(other.piece));
+    }
+    return measure_improved_piece(piece, number::compare_lists(list_of(piece), others), filled)
+        .summary;
+  }
+};
+
+TEST_F(MeasureImprovedPiece, FindsWhatWasMeasuredWhenItWasFilled)
+{
+  for (const FilledPiece& filled : pieces()) {
+    const PieceSummary& before = filled.result.summary;
+    PieceSummary unknown;
+    unknown.boundary_area = before.boundary_area;
+    const PieceSummary after = measured(filled.piece, unknown);
+    EXPECT_EQ(after.num_tets, before.num_tets);
+    EXPECT_EQ(after.num_boundary, before.num_boundary);
+    EXPECT_EQ(after.volume, before.volume);
+    EXPECT_EQ(after.boundary_area, before.boundary_area) << "An exchange does not change it.";
+    EXPECT_EQ(after.tets.min_mean_ratio, before.tets.min_mean_ratio);
+    EXPECT_EQ(after.seam_tets.num_tets, before.seam_tets.num_tets);
+    EXPECT_EQ(after.seam_tets.sum_mean_ratio, before.seam_tets.sum_mean_ratio);
+    EXPECT_GT(before.seam_tets.num_tets, 0);
+    EXPECT_LT(before.seam_tets.num_tets, before.num_tets);
+  }
+}
+
+TEST_F(MeasureImprovedPiece, EveryVertexCountsForOnePiece)
+{
+  GlobalIndex num_vertices = 0;
+  for (const FilledPiece& filled : pieces()) {
+    num_vertices += measured(filled.piece, {}).num_interior_vertices;
+  }
+  EXPECT_EQ(num_vertices, ids().num_vertices());
+}
+
+TEST_F(MeasureImprovedPiece, TheOrderOfSharedVerticesDoesNotMatter)
+{
+  mesh::Piece piece = pieces()[1].piece;
+  const LocalIndex last = piece.num_skin_vertices() - 1;
+  for (LocalIndex v = 0; v < last - v; ++v) {
+    std::swap_ranges(&piece.vertex_xyz[3 * at(v)], &piece.vertex_xyz[3 * at(v)] + 3,
+                     &piece.vertex_xyz[3 * at(last - v)]);
+  }
+  std::ranges::reverse(piece.skin_host);
+  std::ranges::reverse(piece.skin_index);
+  for (LocalIndex& v : piece.tet_vertices) v = v <= last ? last - v : v;
+  const PieceSummary turned = measured(piece, {});
+  EXPECT_EQ(turned.seam_tets.num_tets, pieces()[1].result.summary.seam_tets.num_tets);
+  EXPECT_EQ(turned.surface, measured(pieces()[1].piece, {}).surface);
+}
+
+}  // namespace
+}  // namespace tessera::subdomain
