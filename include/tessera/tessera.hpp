@@ -96,8 +96,8 @@ struct MeshResult {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.status, self.reason, self.num_vertices, self.num_tets,
-                    self.num_subdomains, self.volume, self.digest, self.folder);
+    return std::tie(self.status, self.reason, self.num_vertices, self.num_tets, self.num_subdomains,
+                    self.volume, self.digest, self.folder);
   }
 };
 

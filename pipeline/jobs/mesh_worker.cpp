@@ -270,8 +270,8 @@ Bytes load_mesh_message(const mesh::CoarseMesh& coarse, const mesh::Decompositio
 Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
                            const std::string& length_unit, const io::OutputOptions& options)
 {
-  return to_bytes(
-      Load(NumbersLoad{counts, length_unit, options.formats, options.compression, options.cell_quality}));
+  return to_bytes(Load(NumbersLoad{counts, length_unit, options.formats, options.compression,
+                                   options.cell_quality}));
 }
 
 Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter)

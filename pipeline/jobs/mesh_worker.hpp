@@ -105,8 +105,8 @@ struct FillTask {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.batch, self.first, self.last, self.plan, self.how,
-                    self.angle_to_beat_deg, self.tries, self.was_limited, self.keep, self.failures);
+    return std::tie(self.batch, self.first, self.last, self.plan, self.how, self.angle_to_beat_deg,
+                    self.tries, self.was_limited, self.keep, self.failures);
   }
 };
 

@@ -14,11 +14,9 @@ number::IdLayout number_mesh(const RunResult& run, const subdomain::PartitionedM
   if (run.filled.improvement.generation > 0) {
     return number::IdLayout::by_owner(subdomain::counts_of(run.filled.pieces));
   }
-  return number::IdLayout::by_host(mesh::HostLayout(cut.skeleton),
-                                   mesh::lattice::intervals(outline.levels),
-                                   are_counts_known(outline.kernels)
-                                       ? outline.pieces
-                                       : subdomain::counts_of(run.filled.pieces));
+  return number::IdLayout::by_host(
+      mesh::HostLayout(cut.skeleton), mesh::lattice::intervals(outline.levels),
+      are_counts_known(outline.kernels) ? outline.pieces : subdomain::counts_of(run.filled.pieces));
 }
 
 std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of_vertices(

@@ -22,9 +22,8 @@ namespace {
 // The plan that a stopped run has left, or a first one.
 Plan first_plan(const UntangleAndFillWork& work, int levels, RunContext& context)
 {
-  auto kept = comm::on_root(context.comm, [&] {
-    return work.state == nullptr ? std::nullopt : work.state->find_plan();
-  });
+  auto kept = comm::on_root(
+      context.comm, [&] { return work.state == nullptr ? std::nullopt : work.state->find_plan(); });
   if (kept) return *std::move(kept);
   Plan plan{.kernels = work.kernels};
   plan.limiter = run_untangle_stage({.cut = work.cut,

@@ -44,11 +44,11 @@ struct PieceSummary {
   static auto fields(auto& self)
   {
     return std::tie(self.subdomain, self.material, self.kernel, self.tries, self.num_held_back,
-                    self.num_tets, self.num_interior_vertices, self.num_owned_vertices, self.num_boundary,
-                    self.euler_characteristic, self.volume, self.boundary_area, self.model_distance,
-                    self.held_back_distance, self.cpu_s, self.was_limited, self.is_folded,
-                    self.tets, self.seam_tets, self.outside, self.surface, self.content,
-                    self.digest);
+                    self.num_tets, self.num_interior_vertices, self.num_owned_vertices,
+                    self.num_boundary, self.euler_characteristic, self.volume, self.boundary_area,
+                    self.model_distance, self.held_back_distance, self.cpu_s, self.was_limited,
+                    self.is_folded, self.tets, self.seam_tets, self.outside, self.surface,
+                    self.content, self.digest);
   }
 };
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tessera/subdomain/piece_file.hpp"
-
 #include <filesystem>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tessera/io/vtu.hpp"
+#include "tessera/subdomain/piece_file.hpp"
 
 #include "support/filled_cube.hpp"
 
