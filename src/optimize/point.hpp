@@ -5,8 +5,8 @@
 
 namespace tessera::optimize {
 
-// A position that one vector register holds. Padded: a fourth value costs a third more memory and
-// saves half of a gather. Trivial, so that it is copied as bytes.
+// A position that one vector register holds, so that it is read by one load. Trivial, so that it is
+// copied as bytes.
 struct alignas(32) Point {
   double x;
   double y;

@@ -40,7 +40,7 @@ std::vector<Step> parse_steps(std::string_view letters)
 // it, and none of the schedules ends with one. Smoothing for the mean makes some good tets worse,
 // so the last passes are for the worst, and the bound is tightened before swaps that come late.
 Schedule fast_schedule() { return {.steps = parse_steps("mmscwmmscwsmmwww")}; }
-Schedule standard_schedule() { return {.steps = parse_steps("mmscwmmscwsmmwwtsmmwww")}; }
-Schedule thorough_schedule() { return {.steps = parse_steps("smmcwsmmcwsmmcwtsmmmwwtsmmmwww")}; }
+Schedule standard_schedule() { return {.steps = parse_steps("msmscwmmscwsmmwwtsmmwww")}; }
+Schedule thorough_schedule() { return {.steps = parse_steps("msmscwmmscwmmscwtsmmmwwtsmmmwww")}; }
 
 }  // namespace tessera::optimize

@@ -13,8 +13,8 @@ namespace tessera::optimize {
 // in space are near in memory then: a tenth of the time of all passes.
 [[nodiscard]] std::vector<LocalIndex> morton_order(const std::vector<Point>& points);
 
-// Tets in the order of their lowest vertex; equal ones by tet. Cheaper than a curve of their own,
-// and as good, since vertices lie along one.
+// Tets in the order of their lowest vertex; equal ones by tet. It needs no curve of its own, since
+// vertices lie along one.
 [[nodiscard]] std::vector<LocalIndex> order_by_lowest_vertex(
     const std::vector<LocalIndex>& tet_vertices, LocalIndex num_vertices);
 

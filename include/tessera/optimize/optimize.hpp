@@ -64,7 +64,7 @@ struct OptimizeOptions {
 /// side of one; if the neighbours given are wrong; if there are 2^29 tets or more. With
 /// OptimizeOptions::untangle, a flat or inverted tet that stays so; it names the first that began
 /// so.
-/// @note Local; linear in the tets: about 250 bytes a tet, at most 2 microseconds each.
+/// @note Local; linear in the tets: 1 to 2 microseconds each with AVX2.
 [[nodiscard]] OptimizeResult optimize(const TetMesh& mesh, const Schedule& schedule,
                                       const OptimizeOptions& options = {});
 

@@ -17,12 +17,14 @@ enum class Step : char {
 
 /// @brief What an optimisation does, in order, and where. All bounds are mean ratios in [0, 1].
 ///
-/// The bounds were chosen on shaft.geo with 166 k tets (L = 2), looking at five other models.
+/// The bounds were chosen on shaft.geo with 166 k tets (L = 2), looking at five other models. What
+/// was tried without a gain: a vertex on edges of tets whose four corners are fixed (64 subdomains:
+/// no minimum rose, two smallest angles by 0.6 degrees), and swaps of bad tets for the sum of
+/// eta^-6.
 struct Schedule {
   std::vector<Step> steps{};
 
-  /// Swaps begin at tets below this. Above it nearly no swap gains anything: 0.85 halves their time
-  /// and costs 0.0005 of the mean.
+  /// Swaps begin at tets below this: good tets have little to gain.
   double swap_below = 0.85;
   /// Around tets below this every edge, rings of up to seven tets and faces are tried; elsewhere
   /// long edges with rings of three and four.
@@ -32,7 +34,7 @@ struct Schedule {
   /// A vertex is collapsed along edges shorter than this share of its mean edge, > 0.
   double collapse_reach = 0.85;
   /// How much the mean of eta^-1.5 around a vertex may rise by its collapse, >= 0. Smoothing
-  /// repairs it; without a loss the 1st percentile stays 0.02 lower.
+  /// repairs it. With 0.2 boxcyl.geo (L = 2) kept 3 % more tets than with 0.3.
   double collapse_loss = 0.3;
   /// Step::smooth_worst moves the vertices of tets below this.
   double worst_below = 0.7;
@@ -41,8 +43,10 @@ struct Schedule {
 /// @brief Steps by their letters, e.g. "mmscmmww". @throws ConfigError naming an unknown letter.
 [[nodiscard]] std::vector<Step> parse_steps(std::string_view letters);
 
-[[nodiscard]] Schedule fast_schedule();      ///< Fewest passes.
-[[nodiscard]] Schedule standard_schedule();  ///< Swaps before every two passes of smoothing.
-[[nodiscard]] Schedule thorough_schedule();  ///< Half as long again as the standard one.
+// Figures: shaft.geo (166 k tets, L = 2); mean and 1st percentile of the mean ratio, smallest
+// angle. Before 0.752, 0.471, 7.0 deg; after NETGEN's optimiser 0.869, 0.675, 19.6 deg.
+[[nodiscard]] Schedule fast_schedule();      ///< 0.875, 0.697, 20.9 deg; fewest passes.
+[[nodiscard]] Schedule standard_schedule();  ///< 0.879, 0.706, 21.0 deg.
+[[nodiscard]] Schedule thorough_schedule();  ///< 0.883, 0.712, 22.6 deg; most passes.
 
 }  // namespace tessera::optimize
