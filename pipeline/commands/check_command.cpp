@@ -11,7 +11,7 @@
 #include "tessera/check/check_mesh.hpp"
 #include "tessera/io/vtu.hpp"
 
-#include "pipeline/front_door/mesh_input.hpp"
+#include "tessera/subdomain/mesh_input.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
 
 namespace tessera::pipeline {

@@ -23,7 +23,7 @@
 #include "tessera/subdomain/piece_file.hpp"
 
 #include "pipeline/commands/part_report.hpp"
-#include "pipeline/front_door/mesh_input.hpp"
+#include "tessera/subdomain/mesh_input.hpp"
 #include "pipeline/runtime/run_context.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
 

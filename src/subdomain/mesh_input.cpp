@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/front_door/mesh_input.hpp"
+#include "tessera/subdomain/mesh_input.hpp"
 
 #include <string>
 #include <system_error>

@@ -12,7 +12,7 @@
 #include "tessera/migrate/ghosts.hpp"
 #include "tessera/migrate/partition.hpp"
 
-#include "pipeline/front_door/mesh_input.hpp"
+#include "tessera/subdomain/mesh_input.hpp"
 
 namespace tessera::subdomain {
 namespace {
