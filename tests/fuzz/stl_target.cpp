@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "tessera/base/bytes.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/stl_file.hpp"

@@ -113,7 +113,7 @@ TEST_F(UntangleAndFill, EndsIfNothingIsLeftToHoldBack)
 
 TEST_F(UntangleAndFill, GoesOnWithThePlanThatAStoppedRunHasLeft)
 {
-  const RunState state(folder, {});
+  const RunState state(folder, {}, true);
   const Plan left{
       .kernels = std::vector(at(cut.decomposition.num_subdomains()), KernelKind::subdivide),
       .limited = {1},

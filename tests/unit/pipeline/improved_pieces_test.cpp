@@ -32,7 +32,7 @@ struct ImprovedPiecesTest : ::testing::Test {
   ImprovedPiecesTest()
   {
     for (const mesh::Piece& piece : made) {
-      store.put(improved_name(piece.subdomain, kGeneration), mesh::to_bytes(piece));
+      store.put(improved_name(piece.subdomain, kGeneration), to_bytes(piece));
     }
   }
 
@@ -48,7 +48,7 @@ struct ImprovedPiecesTest : ::testing::Test {
 TEST_F(ImprovedPiecesTest, GivesBackThePiecesOfItsGeneration)
 {
   for (const mesh::Piece& piece : made) {
-    EXPECT_EQ(mesh::to_bytes(pieces.piece(piece.subdomain)), mesh::to_bytes(piece));
+    EXPECT_EQ(to_bytes(pieces.piece(piece.subdomain)), to_bytes(piece));
   }
   EXPECT_THROW(static_cast<void>(stored_piece(store, 0, kGeneration + 1)), InputError);
 }
@@ -57,9 +57,9 @@ TEST_F(ImprovedPiecesTest, GenerationZeroIsAsItWasFilled)
 {
   EXPECT_THROW(static_cast<void>(stored_piece(store, 3, 0)), InputError);
   FillRecord record;
-  record.piece = mesh::to_bytes(made[5]);
+  record.piece = to_bytes(made[5]);
   store.put(record_name(3), to_bytes(record));
-  EXPECT_EQ(mesh::to_bytes(stored_piece(store, 3, 0)), record.piece);
+  EXPECT_EQ(to_bytes(stored_piece(store, 3, 0)), record.piece);
 }
 
 TEST_F(ImprovedPiecesTest, EveryVertexOfTheMeshHasOnePlace)

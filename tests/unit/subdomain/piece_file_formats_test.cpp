@@ -8,8 +8,7 @@
 #include "tessera/subdomain/piece_file.hpp"
 
 #include "support/filled_cube.hpp"
-
-#include "unit/io/temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace tessera::subdomain {
 namespace {

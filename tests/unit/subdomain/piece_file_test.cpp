@@ -28,7 +28,7 @@ struct FileOfPieces : testing::FilledCube {
 
   [[nodiscard]] mesh::MeshArrays written(const std::string& kind, LocalIndex number) const
   {
-    file.write(folder.path(), number);
+    static_cast<void>(file.write(folder.path(), number));
     return io::read_vtu(folder.path() / piece_path(kind, number));
   }
 };
@@ -50,7 +50,6 @@ TEST_F(FileOfPieces, HoldsPointsThatPiecesShareOnce)
   expect_every_point_once(tets);
   const mesh::MeshArrays boundary = written("boundary", 7);
   EXPECT_EQ(boundary.num_cells(), ids().num_boundary_triangles());
-  EXPECT_EQ(boundary.num_cells(), file.num_boundary_triangles());
   expect_every_point_once(boundary);
 }
 
@@ -81,7 +80,7 @@ TEST_F(FileOfPieces, WithoutBoundaryHasNoBoundaryFile)
   inner.boundary_patch.clear();
   inner.boundary_tet.clear();
   static_cast<void>(file.add(inner));
-  file.write(folder.path(), 3);
+  static_cast<void>(file.write(folder.path(), 3));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / piece_path("mesh", 3)));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / piece_path("boundary", 3)));
 }
