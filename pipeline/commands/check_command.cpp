@@ -10,8 +10,8 @@
 #include "tessera/base/error.hpp"
 #include "tessera/check/check_mesh.hpp"
 #include "tessera/io/vtu.hpp"
-
 #include "tessera/subdomain/mesh_input.hpp"
+
 #include "pipeline/runtime/stop_signal.hpp"
 
 namespace tessera::pipeline {

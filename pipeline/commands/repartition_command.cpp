@@ -19,11 +19,11 @@
 #include "tessera/migrate/assemble.hpp"
 #include "tessera/migrate/cut_into_parts.hpp"
 #include "tessera/migrate/partition.hpp"
+#include "tessera/subdomain/mesh_input.hpp"
 #include "tessera/subdomain/part_arrays.hpp"
 #include "tessera/subdomain/piece_file.hpp"
 
 #include "pipeline/commands/part_report.hpp"
-#include "tessera/subdomain/mesh_input.hpp"
 #include "pipeline/runtime/run_context.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
 

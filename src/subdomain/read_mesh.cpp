@@ -11,7 +11,6 @@
 #include "tessera/migrate/cut_into_parts.hpp"
 #include "tessera/migrate/ghosts.hpp"
 #include "tessera/migrate/partition.hpp"
-
 #include "tessera/subdomain/mesh_input.hpp"
 
 namespace tessera::subdomain {

@@ -147,7 +147,7 @@ std::vector<Piece> pieces_of_model(const testing::Subject& subject, int levels, 
   const mesh::Skeleton skeleton = mesh::build_skeleton(subject.coarse, decomposition);
   const mesh::ProjectionLimiter no_limits;
   const refine::RefineContext context{subject.coarse, skeleton, *subject.model, no_limits, levels};
-  const mesh::SubdomainTets tets = mesh::subdomain_tets(decomposition);
+  const IndexLists tets = mesh::subdomain_tets(decomposition);
   std::vector<Piece> pieces;
   for (LocalIndex s = 0; s < std::ssize(tets.offsets) - 1; ++s) {
     const mesh::TetComplex complex = mesh::tet_complex(subject.coarse, skeleton, tets[s]);

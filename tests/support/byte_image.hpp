@@ -33,7 +33,7 @@ class Sampler {
     if constexpr (requires { set_sample(value); }) {
       set_sample(value);
     } else if constexpr (std::is_same_v<T, bool>) {
-      value = true;
+      value = !value;
     } else if constexpr (BoundedEnum<T>) {
       value = last_value(T{});
     } else if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::byte>) {
@@ -65,7 +65,7 @@ class Sampler {
   }
 
  private:
-  int last_ = 0;
+  int last_ = 4;  // Above the defaults of small counts.
 };
 
 /// @brief No field stands twice in the list; that none is missing is seen at compile time.

@@ -52,7 +52,7 @@ TEST_F(MeasureImprovedPiece, EveryVertexCountsForOnePiece)
 {
   GlobalIndex num_vertices = 0;
   for (const FilledPiece& filled : pieces()) {
-    num_vertices += measured(filled.piece, {}).num_interior_vertices;
+    num_vertices += measured(filled.piece, {}).num_owned_vertices;
   }
   EXPECT_EQ(num_vertices, ids().num_vertices());
 }
