@@ -294,8 +294,8 @@ TEST_F(VerifyImprovedPieces, AnInnerVertexNowhereChangesTheVolume)
 {
   ASSERT_GT(improved[2].num_interior_vertices(), 0);
   improved[2].vertex_xyz.back() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(contains(verdict_on_improved(),
-                       "the improvement of seams has changed the volume from 1 to"))
+  EXPECT_TRUE(
+      contains(verdict_on_improved(), "the improvement of seams has changed the volume from 1 to"))
       << verdict_on_improved().value_or("");
 }
 
