@@ -58,6 +58,13 @@ Rates built_in_rates(const io::OutputOptions& options)
                      .job_bytes_per_tet = 160.0,
                      .file_bytes_per_tet = file_bytes,
                      .store_bytes_per_tet = 28.0};
+  rates.optimize = {.interior_vertices_per_tet = 0.15,
+                    .fill_cpu_s_per_tet = 3e-6,
+                    .plan_cpu_s_per_tet = 1e-6,
+                    .write_cpu_s_per_tet = 1e-6,
+                    .job_bytes_per_tet = 400.0,
+                    .file_bytes_per_tet = file_bytes,
+                    .store_bytes_per_tet = 28.0};
   rates.file_bytes_per_boundary_triangle = 36.0;
   rates.file_header_bytes = 3e3;
   return rates;

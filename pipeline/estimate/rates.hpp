@@ -22,16 +22,25 @@ struct KernelRates {
 struct Rates {
   KernelRates netgen{};
   KernelRates subdivide{};
+  KernelRates optimize{};
   double file_bytes_per_boundary_triangle = 0.0;  ///< In boundary/, beyond the header.
   double file_header_bytes = 0.0;                 ///< Of each file, whatever it holds.
 
-  [[nodiscard]] KernelRates& of(fill::KernelKind kernel)
+  [[nodiscard]] KernelRates& of(fill::KernelKind kernel) { return of(*this, kernel); }
+  [[nodiscard]] const KernelRates& of(fill::KernelKind kernel) const { return of(*this, kernel); }
+
+ private:
+  static auto& of(auto& self, fill::KernelKind kernel)
   {
-    return kernel == fill::KernelKind::netgen ? netgen : subdivide;
-  }
-  [[nodiscard]] const KernelRates& of(fill::KernelKind kernel) const
-  {
-    return kernel == fill::KernelKind::netgen ? netgen : subdivide;
+    switch (kernel) {
+      case fill::KernelKind::subdivide:
+        return self.subdivide;
+      case fill::KernelKind::optimize:
+        return self.optimize;
+      case fill::KernelKind::netgen:
+        break;
+    }
+    return self.netgen;
   }
 };
 

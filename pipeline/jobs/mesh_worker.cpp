@@ -22,6 +22,7 @@
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
+#include "tessera/subdomain/seam_optimizer.hpp"
 #include "tessera/untangle/fold_test.hpp"
 
 #include "pipeline/jobs/batch_filler.hpp"
@@ -85,6 +86,7 @@ class MeshWorker final : public jobs::Worker {
   void take(ImprovementLoad load)
   {
     improve_options_ = load.options;
+    kernels_ = std::move(load.kernels);
     regions_.emplace(cut_->skeleton, decomposition_);
   }
 
@@ -136,9 +138,9 @@ class MeshWorker final : public jobs::Worker {
     context.levels = test.levels;
     const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, context);
     auto folds = untangle::find_folds(complex, cut_->skeleton, lattice, limiter);
-    // With bad children NETGEN begins with the skin alone, as long as that is sound: points are
-    // kept off the geometry only where it is not.
-    if (test.kernel == fill::KernelKind::netgen && !folds.empty()
+    // NETGEN begins with the skin alone if children are bad, and our optimiser untangles them. Both
+    // need a sound skin: points are kept off the geometry only where it is not.
+    if (test.kernel != fill::KernelKind::subdivide && !folds.empty()
         && !netgen::skin_overlaps(skin_of(context, test.subdomain))) {
       folds.clear();
     }
@@ -163,7 +165,7 @@ class MeshWorker final : public jobs::Worker {
       batch.add(subdomain::fill_subdomain(*cut_, context, s, task.how, *kernel));
     }
     Bytes result = std::move(batch).finish();
-    if (task.how.kernel == fill::KernelKind::subdivide) return result;  // No third-party code.
+    if (task.how.kernel != fill::KernelKind::netgen) return result;  // No third-party code.
     return garbled_if_asked("fill", std::move(result), task.first);
   }
 
@@ -181,9 +183,17 @@ class MeshWorker final : public jobs::Worker {
     return improved(request.region, request.pieces);
   }
 
+  // All subdomains of a region are of one material, and so have one kernel.
+  [[nodiscard]] std::unique_ptr<improve::Optimizer> optimizer_of(LocalIndex region) const
+  {
+    const LocalIndex subdomain = regions_->subdomains_of(region).front();
+    const bool is_own = kernels_[at(subdomain)] == fill::KernelKind::optimize;
+    return is_own ? subdomain::make_seam_optimizer() : netgen::make_optimizer();
+  }
+
   [[nodiscard]] Bytes improved(LocalIndex region, const std::vector<mesh::Piece>& pieces) const
   {
-    const auto optimizer = make_faulty_if_asked(netgen::make_optimizer(), region);
+    const auto optimizer = make_faulty_if_asked(optimizer_of(region), region);
     subdomain::RegionRecord record = subdomain::improve_tets(
         subdomain::region_mesh(pieces, *regions_, region), improve_options_.rounds, *optimizer);
     lose_tet_if_asked(record.update, region);
@@ -226,6 +236,7 @@ class MeshWorker final : public jobs::Worker {
   std::string length_unit_{};
   io::OutputOptions output_options_{};
   improve::ImproveOptions improve_options_{};
+  std::vector<fill::KernelKind> kernels_{};        ///< By subdomain, as the case wants them.
   std::optional<improve::SeamRegions> regions_{};  ///< If seams are to be improved.
 };
 
@@ -279,9 +290,10 @@ Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter)
   return to_bytes(Load(LimiterLoad{limiter}));
 }
 
-Bytes load_improvement_message(const improve::ImproveOptions& options)
+Bytes load_improvement_message(const improve::ImproveOptions& options,
+                               const std::vector<fill::KernelKind>& kernels)
 {
-  return to_bytes(Load(ImprovementLoad{options}));
+  return to_bytes(Load(ImprovementLoad{options, kernels}));
 }
 
 Bytes import_request(const std::filesystem::path& file, const model::ImportOptions& options)

@@ -49,7 +49,8 @@ namespace tessera::pipeline {
                                          const io::OutputOptions& options);
 
 /// @brief load: that seams are to be improved, and how. Needs the mesh.
-[[nodiscard]] Bytes load_improvement_message(const improve::ImproveOptions& options);
+[[nodiscard]] Bytes load_improvement_message(const improve::ImproveOptions& options,
+                                             const std::vector<fill::KernelKind>& kernels);
 
 /// @brief run: reads a CAD file; result: bytes of a ModelSource. Needs no load.
 [[nodiscard]] Bytes import_request(const std::filesystem::path& file,

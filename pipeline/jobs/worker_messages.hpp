@@ -54,8 +54,9 @@ struct NumbersLoad {
 
 struct ImprovementLoad {
   improve::ImproveOptions options{};
+  std::vector<fill::KernelKind> kernels{};  ///< Shape (num_subdomains), as the case wants them.
 
-  static auto fields(auto& self) { return std::tie(self.options); }
+  static auto fields(auto& self) { return std::tie(self.options, self.kernels); }
 };
 
 using Load = std::variant<ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad>;

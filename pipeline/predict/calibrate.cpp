@@ -166,7 +166,7 @@ class Sampler {
     GlobalIndex planned = 0;
     for (const subdomain::SubdomainRange& job : set.jobs) planned += outline.tets_of(job);
     KernelRates& rates = calibration_.rates.of(set.kernel);
-    if (set.kernel == fill::KernelKind::netgen) {
+    if (set.kernel != fill::KernelKind::subdivide) {
       divide(rates.tets_per_expected, static_cast<double>(tets), static_cast<double>(expected));
     }
     divide(rates.interior_vertices_per_tet, static_cast<double>(interior),
@@ -290,8 +290,7 @@ Calibration calibrate(const RunResult& run, const subdomain::PartitionedMesh& cu
   const ScratchFolder scratch(folder, context.comm);
   context.progress.begin("samples", 0, "");
   Sampler sampler(run, cut, outline, folder, context);
-  sampler.sample(fill::KernelKind::netgen);
-  sampler.sample(fill::KernelKind::subdivide);
+  for (const auto& [kernel, word] : kEnumWords<fill::KernelKind>) sampler.sample(kernel);
   Calibration calibration = std::move(sampler).take();
   std::size_t num_pieces = 0;
   for (const SampleSet& set : calibration.samples) num_pieces += set.pieces.size();
@@ -301,13 +300,13 @@ Calibration calibrate(const RunResult& run, const subdomain::PartitionedMesh& cu
 
 RunOutline corrected(RunOutline outline, const Calibration& calibration)
 {
-  const KernelRates& netgen = calibration.rates.netgen;
   for (std::size_t s = 0; s < outline.pieces.size(); ++s) {
-    if (outline.kernels[s] != fill::KernelKind::netgen) continue;
+    if (outline.kernels[s] == fill::KernelKind::subdivide) continue;
+    const KernelRates& rates = calibration.rates.of(outline.kernels[s]);
     number::PieceCounts& piece = outline.pieces[s];
-    const double tets = netgen.tets_per_expected * static_cast<double>(piece.tets);
+    const double tets = rates.tets_per_expected * static_cast<double>(piece.tets);
     piece.tets = std::llround(tets);
-    piece.interior_vertices = std::llround(netgen.interior_vertices_per_tet * tets);
+    piece.interior_vertices = std::llround(rates.interior_vertices_per_tet * tets);
   }
   for (const SampleSet& set : calibration.samples) {
     if (set.levels != outline.levels) continue;

@@ -72,9 +72,10 @@ constexpr double kFilledTetsPerSeamTriangle = 11.0;
 std::vector<double> improvement_durations(const PredictionBasis& basis)
 {
   std::vector<double> job_s;
-  for (const GlobalIndex triangles : basis.outline.seam_triangles) {
-    job_s.push_back(basis.rates.netgen.fill_cpu_s_per_tet * kFilledTetsPerSeamTriangle
-                    * static_cast<double>(triangles));
+  for (std::size_t s = 0; s < basis.outline.seam_triangles.size(); ++s) {
+    job_s.push_back(basis.rates.of(basis.outline.kernels[s]).fill_cpu_s_per_tet
+                    * kFilledTetsPerSeamTriangle
+                    * static_cast<double>(basis.outline.seam_triangles[s]));
   }
   return job_s;
 }

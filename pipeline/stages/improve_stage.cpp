@@ -295,7 +295,7 @@ FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::Pa
   if (num_regions == 0) return filled;
   const std::int64_t num_steps = num_regions + num_passes * std::ssize(filled.pieces);
   StageScope stage(context, "improve", num_steps, "regions and pieces");
-  load_improvement(run_case.improve, context);
+  load_improvement(run_case.improve, kernels, context);
   SeamImprover improver(run_case, cut, regions, std::move(filled), context, stage);
   for (int phase = 0; phase < improve::kNumPhases; ++phase) {
     const auto& regions_of_phase = wanted[static_cast<std::size_t>(phase)];

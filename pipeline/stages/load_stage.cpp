@@ -40,9 +40,10 @@ void load_numbers(const std::vector<number::PieceCounts>& counts, const std::str
   load_everywhere("numbers", load_numbers_message(counts, length_unit, options), context);
 }
 
-void load_improvement(const improve::ImproveOptions& options, RunContext& context)
+void load_improvement(const improve::ImproveOptions& options,
+                      const std::vector<fill::KernelKind>& kernels, RunContext& context)
 {
-  load_everywhere("improvement", load_improvement_message(options), context);
+  load_everywhere("improvement", load_improvement_message(options, kernels), context);
 }
 
 void load_limiter(const mesh::ProjectionLimiter& limiter, RunContext& context)

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tessera/fill/options.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
@@ -24,7 +25,9 @@ void load_mesh(const subdomain::PartitionedMesh& cut, int levels, double largest
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,
                   const io::OutputOptions& options, RunContext& context);
 
-void load_improvement(const improve::ImproveOptions& options, RunContext& context);
+/// @param[in] kernels Shape (num_subdomains), as the case wants them.
+void load_improvement(const improve::ImproveOptions& options,
+                      const std::vector<fill::KernelKind>& kernels, RunContext& context);
 
 void load_limiter(const mesh::ProjectionLimiter& limiter, RunContext& context);
 

@@ -14,6 +14,7 @@ std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind ke
 {
   const FillTry subdivision{.kernel = KernelKind::subdivide};
   if (kernel == KernelKind::subdivide) return {subdivision};
+  if (kernel == KernelKind::optimize) return {{.kernel = KernelKind::optimize}, subdivision};
   const FillTry asked{
       .settings = {.grading = options.grading, .optimize_steps = options.optimize_steps}};
   FillTry anew = asked;

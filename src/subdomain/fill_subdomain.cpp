@@ -6,6 +6,7 @@
 #include "tessera/fill/check.hpp"
 #include "tessera/fill/size_samples.hpp"
 #include "tessera/fill/subdivide.hpp"
+#include "tessera/optimize/optimize.hpp"
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
@@ -65,6 +66,19 @@ RawFill improve_children(const PartitionedMesh& cut, const refine::RefineContext
   return raw;
 }
 
+// The children of the coarse tets, made better by our own optimiser; they may begin folded.
+RawFill optimize_children(const PartitionedMesh& cut, const refine::RefineContext& refine,
+                          LocalIndex subdomain)
+{
+  RawFill raw = subdivide(cut, refine, subdomain);
+  optimize::OptimizeResult better =
+      optimize::optimize({.vertex_xyz = std::move(raw.tets.vertex_xyz),
+                          .tet_vertices = std::move(raw.tets.tet_vertices)},
+                         optimize::standard_schedule(), {.untangle = true});
+  raw.tets = {std::move(better.vertex_xyz), std::move(better.tet_vertices)};
+  return raw;
+}
+
 // What NETGEN makes of the skin alone.
 RawFill mesh_skin(const PartitionedMesh& cut, const refine::RefineContext& refine,
                   LocalIndex subdomain, const fill::KernelSettings& settings,
@@ -84,6 +98,7 @@ RawFill raw_fill(const PartitionedMesh& cut, const refine::RefineContext& refine
                  LocalIndex subdomain, const fill::FillTry& how, const fill::Kernel& netgen)
 {
   if (how.kernel == fill::KernelKind::subdivide) return subdivide(cut, refine, subdomain);
+  if (how.kernel == fill::KernelKind::optimize) return optimize_children(cut, refine, subdomain);
   const auto start = how.start == fill::FillStart::children ? improve_children : mesh_skin;
   return start(cut, refine, subdomain, how.settings, netgen);
 }

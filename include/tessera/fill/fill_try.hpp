@@ -23,8 +23,8 @@ enum class FillStart : int { children, skin };
 /// better.
 struct FillTry {
   KernelKind kernel = KernelKind::netgen;
-  FillStart start = FillStart::children;  ///< Of NETGEN; subdivision has no other.
-  KernelSettings settings{};              ///< Of NETGEN; subdivision has none.
+  FillStart start = FillStart::children;  ///< Of NETGEN; the others have no other.
+  KernelSettings settings{};              ///< Of NETGEN; the others have none.
 
   static auto fields(auto& self) { return std::tie(self.kernel, self.start, self.settings); }
 };

@@ -9,14 +9,19 @@
 namespace tessera::fill {
 
 /// @brief What puts tets into a skin.
-enum class KernelKind : int { netgen, subdivide };
-[[nodiscard]] constexpr KernelKind last_value(KernelKind /*type*/) { return KernelKind::subdivide; }
+enum class KernelKind : int {
+  netgen,     ///< NETGEN, which begins with the children of the coarse tets.
+  subdivide,  ///< The children as they are.
+  optimize,   ///< The children, made better by the module `optimize`.
+};
+[[nodiscard]] constexpr KernelKind last_value(KernelKind /*type*/) { return KernelKind::optimize; }
 
 /// @brief Words of `fill.kernel`, and of the reports.
 constexpr auto enum_words(KernelKind /*tag*/)
 {
   return std::to_array<EnumWord<KernelKind>>({
       {KernelKind::netgen, "netgen"},
+      {KernelKind::optimize, "optimize"},
       {KernelKind::subdivide, "subdivide"},
   });
 }

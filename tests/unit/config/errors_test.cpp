@@ -131,7 +131,7 @@ TEST(ConfigErrors, AWordThatNoKernelHasIsRefusedWithThoseThatThereAre)
 {
   EXPECT_EQ(error_of_override("fill.kernel=tetgen"),
             "--set fill.kernel=tetgen: fill.kernel = \"tetgen\": must be one of \"netgen\", "
-            "\"subdivide\"");
+            "\"optimize\", \"subdivide\"");
 }
 
 TEST(ConfigErrors, TableWrittenAsValueAndValueAsTable)

@@ -101,9 +101,10 @@ TEST(FillRegionErrors, MisspeltListIsNear)
 
 TEST(FillRegionErrors, MissingKeyNamesTheLineOfItsTable)
 {
-  EXPECT_EQ(error_of("[[fill.region]]\nmaterial = 'a'\nkernel = 'netgen'\n\n"
-                     "[[fill.region]]\nmaterial = 'b'"),
-            "case.toml:9: no fill.region.kernel; must be one of \"netgen\", \"subdivide\"");
+  EXPECT_EQ(
+      error_of("[[fill.region]]\nmaterial = 'a'\nkernel = 'netgen'\n\n"
+               "[[fill.region]]\nmaterial = 'b'"),
+      "case.toml:9: no fill.region.kernel; must be one of \"netgen\", \"optimize\", \"subdivide\"");
   EXPECT_EQ(error_of("[[fill.region]]\nkernel = 'netgen'"),
             "case.toml:5: no fill.region.material; must be text in quotes, not empty");
   EXPECT_EQ(error_of("[[fill.region]]"),
@@ -114,7 +115,7 @@ TEST(FillRegionErrors, WrongValueNamesItsOwnLine)
 {
   EXPECT_EQ(error_of("[[fill.region]]\nmaterial = 'a'\nkernel = 'tetgen'"),
             "case.toml:7: fill.region.kernel = \"tetgen\": must be one of \"netgen\", "
-            "\"subdivide\"");
+            "\"optimize\", \"subdivide\"");
   EXPECT_EQ(error_of("[[fill.region]]\nmaterial = 1\nkernel = 'netgen'"),
             "case.toml:6: fill.region.material = 1: must be text in quotes, not empty");
   EXPECT_EQ(error_of("[[fill.region]]\nmaterial = ''"),
@@ -168,10 +169,10 @@ TEST(FillRegionErrors, OverridesNameThemselves)
                 + kList);
   EXPECT_EQ(error_of_override("fill.region=[{material='a'}]"),
             "--set fill.region=[{material='a'}]: no fill.region.kernel; must be one of \"netgen\", "
-            "\"subdivide\"");
+            "\"optimize\", \"subdivide\"");
   EXPECT_EQ(error_of_override("fill.region=[{material='a',kernel=1}]"),
             "--set fill.region=[{material='a',kernel=1}]: fill.region.kernel = 1: must be one of "
-            "\"netgen\", \"subdivide\"");
+            "\"netgen\", \"optimize\", \"subdivide\"");
 }
 
 }  // namespace

@@ -88,5 +88,13 @@ TEST(KernelsOf, AnUnknownMaterialIsRefusedWithTheKnownOnes)
   }
 }
 
+TEST(FallbackSequence, OfOurOptimiserEndsWithSubdivisionToo)
+{
+  const auto fallbacks = fallback_sequence({}, KernelKind::optimize);
+  ASSERT_EQ(fallbacks.size(), 2U);
+  EXPECT_EQ(fallbacks[0].kernel, KernelKind::optimize);
+  EXPECT_EQ(fallbacks[1].kernel, KernelKind::subdivide);
+}
+
 }  // namespace
 }  // namespace tessera::fill

@@ -15,6 +15,7 @@ TEST(PromisedWords, AreThese)
 {
   EXPECT_EQ(word_of(fill::KernelKind::netgen), "netgen");
   EXPECT_EQ(word_of(fill::KernelKind::subdivide), "subdivide");
+  EXPECT_EQ(word_of(fill::KernelKind::optimize), "optimize");
   EXPECT_EQ(word_of(coarse::SurfaceMesher::netgen), "netgen");
   EXPECT_EQ(word_of(coarse::SurfaceMesher::remesh), "remesh");
   EXPECT_EQ(word_of(io::Format::pvtu), "pvtu");

@@ -188,5 +188,27 @@ TEST(FillSubdomainOnACurvedModel, ReportsDistancesAndHeldBackPoints)
   EXPECT_NEAR(summary.held_back_distance, 0.99 * (1.0 - 0.5 * 0.99) * way_of_held_back, 1e-12);
 }
 
+TEST(FillSubdomainWithOurOptimiser, KeepsTheSkinAndBeatsTheChildren)
+{
+  const Body ball(testing::ball(2), testing::halves(testing::ball(2)));
+  for (LocalIndex s = 0; s < ball.num_subdomains(); ++s) {
+    const auto children = testing::fill_of(ball, 2, s, {.kernel = fill::KernelKind::subdivide});
+    const auto made = testing::fill_of(ball, 2, s, {.kernel = fill::KernelKind::optimize});
+    const PieceSummary& before = children.result.summary;
+    const PieceSummary& after = made.result.summary;
+    EXPECT_EQ(after.kernel, fill::KernelKind::optimize);
+    EXPECT_EQ(made.result.seams, children.result.seams);
+    EXPECT_EQ(after.outside, before.outside);
+    EXPECT_EQ(after.euler_characteristic, before.euler_characteristic);
+    EXPECT_NEAR(after.volume, before.volume, 1e-12);
+    EXPECT_GT(after.tets.mean_mean_ratio(), before.tets.mean_mean_ratio() + 0.02);
+    EXPECT_GE(after.tets.min_mean_ratio, before.tets.min_mean_ratio);
+    EXPECT_TRUE(
+        std::equal(children.piece.vertex_xyz.begin(),
+                   children.piece.vertex_xyz.begin() + 3 * children.piece.num_skin_vertices(),
+                   made.piece.vertex_xyz.begin()));
+  }
+}
+
 }  // namespace
 }  // namespace tessera::subdomain

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "tessera/improve/optimizer.hpp"
+
+namespace tessera::subdomain {
+
+/// @brief The module `optimize` as an optimiser of seam regions. It has schedules of its own: it
+/// reads none of the settings.
+[[nodiscard]] std::unique_ptr<improve::Optimizer> make_seam_optimizer();
+
+}  // namespace tessera::subdomain
