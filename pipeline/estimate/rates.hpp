@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <utility>
+
 #include "tessera/fill/options.hpp"
 #include "tessera/io/options.hpp"
 
@@ -26,21 +28,21 @@ struct Rates {
   double file_bytes_per_boundary_triangle = 0.0;  ///< In boundary/, beyond the header.
   double file_header_bytes = 0.0;                 ///< Of each file, whatever it holds.
 
-  [[nodiscard]] KernelRates& of(fill::KernelKind kernel) { return of(*this, kernel); }
-  [[nodiscard]] const KernelRates& of(fill::KernelKind kernel) const { return of(*this, kernel); }
-
- private:
-  static auto& of(auto& self, fill::KernelKind kernel)
+  [[nodiscard]] const KernelRates& of(fill::KernelKind kernel) const
   {
     switch (kernel) {
       case fill::KernelKind::subdivide:
-        return self.subdivide;
+        return subdivide;
       case fill::KernelKind::optimize:
-        return self.optimize;
+        return optimize;
       case fill::KernelKind::netgen:
         break;
     }
-    return self.netgen;
+    return netgen;
+  }
+  [[nodiscard]] KernelRates& of(fill::KernelKind kernel)
+  {
+    return const_cast<KernelRates&>(std::as_const(*this).of(kernel));
   }
 };
 
