@@ -33,8 +33,8 @@ namespace tessera::pipeline {
 /// @brief load: the model. `scale`: output length units per file length unit.
 [[nodiscard]] Bytes load_model_message(const model::ModelSource& source, double scale);
 
-/// @brief load: coarse mesh and decomposition, the number of levels, the largest size of the coarse
-/// mesh that a fill may aim at (output length unit), and the output folder.
+/// @brief load: coarse mesh and decomposition, the number of levels, the output folder, and the
+/// largest size of the coarse mesh that a fill may aim at (output length unit).
 [[nodiscard]] Bytes load_mesh_message(const mesh::CoarseMesh& coarse,
                                       const mesh::Decomposition& decomposition, int levels,
                                       double largest_size, const std::filesystem::path& output);

@@ -24,8 +24,8 @@ struct Calibration {
   std::vector<SampleSet> samples{};  ///< One set for each kernel that the case uses.
 };
 
-/// @brief Does a few jobs of the run in earnest, plan, fill and write, in a folder of their own
-/// that is removed again, and measures what they cost. The workers have no plan of the real run
+/// @brief Does a few jobs of the run in earnest and measures what they cost. Plan, fill and write
+/// work in a folder of their own that is removed again. The workers have no plan of the real run
 /// afterwards.
 /// @param[in] folder Where the samples may write for a while.
 /// @note Collective. The sampled jobs are the same for every number of ranks.

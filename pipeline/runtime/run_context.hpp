@@ -110,8 +110,8 @@ auto read_result(jobs::JobOutcome& outcome, const Read& read)
 [[nodiscard]] jobs::JobOutcome run_load(const std::string& kind, Bytes message,
                                         const jobs::JobLimits& limits, RunContext& context);
 
-/// @brief What to add to a job's message where the same run could go well: nothing was wrong with
-/// the job, or what had been loaded for it is lost. Local.
+/// @brief What to add to a job's message where the same run could go well next time. That is so if
+/// nothing was wrong with the job, or what had been loaded for it is lost. Local.
 [[nodiscard]] std::string way_on(const jobs::JobOutcome& outcome);
 
 /// @brief Throws Interrupted if the outcome says that the callback cancelled the job. Local.

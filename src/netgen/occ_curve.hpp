@@ -31,8 +31,8 @@ class OccCurve {
   /// descent does not converge. The parameter stays in [first, last].
   [[nodiscard]] model::CurvePoint project(const Vec3& point, double guess) const;
 
-  /// @brief Like project(), for a point known to lie on the curve: if the local answer is farther
-  /// off than the tolerance, the nearer of it and the global one.
+  /// @brief Like project(), for a point known to lie on the curve. If the local answer is farther
+  /// off than the tolerance, gives the nearer of it and the global one.
   [[nodiscard]] model::CurvePoint locate(const Vec3& point, double guess) const;
 
   /// @brief The nearest point of the whole curve.

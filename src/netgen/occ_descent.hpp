@@ -24,8 +24,8 @@ inline constexpr double kMinRelativePivot = 1e-3;
 inline constexpr double kRounding = 1e-14;
 /// A parameter direction is degenerate (pole, apex) where its whole range is shorter than this.
 inline constexpr double kPoleLength = 1e-7;
-/// How far past the end of its domain the parameter of a point on a seam may come out, in periods,
-/// and still be set to that end: vertices are off their seam by the CAD tolerance.
+/// The parameter of a point on a seam may come out past the end of its domain by this, in periods,
+/// and is then set to that end: vertices are off their seam by the CAD tolerance.
 inline constexpr double kSeamFraction = 1e-4;
 inline constexpr double kFarAway = 1e300;
 

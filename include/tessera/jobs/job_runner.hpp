@@ -110,12 +110,12 @@ class JobRunner {
   [[nodiscard]] JobOutcome run(std::span<const std::byte> request, const JobLimits& limits,
                                const WaitCallback& on_wait);
 
-  /// @brief Largest resident memory of the zygotes and one job together so far, bytes; pages that
+  /// @brief Largest resident memory of the zygotes and one job together so far, bytes. Pages that
   /// they share with each other count once.
   ///
-  /// Taken from what every process says at its end: the proportional sizes of the zygotes, the
-  /// private pages of a job, and what it gave back since its peak. Of a process that died only its
-  /// peak is known; less the size of the model zygote that is a lower bound.
+  /// Every process reports its part at its end: a zygote its proportional size, a job its private
+  /// pages and what it gave back since its peak. Of a process that died only the peak is known.
+  /// What counts for it is that less the size of the model zygote, a lower bound.
   [[nodiscard]] std::size_t peak_rss_bytes() const;
 
   /// @brief What was used since the last restart_usage(), or ever. Local.
