@@ -14,7 +14,7 @@ namespace tessera::netgen {
 
 /// @brief The curve of one CAD edge between its ends, and projection onto it.
 ///
-/// Evaluates the Geom_Curve itself, not an adaptor: adaptors keep the polynomial of the last span,
+/// Evaluates the Geom_Curve itself, not an adaptor. Adaptors keep the polynomial of the last span,
 /// so on a knot their bits would depend on what was asked before.
 class OccCurve {
  public:

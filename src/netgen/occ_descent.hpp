@@ -5,6 +5,9 @@ namespace tessera::netgen {
 
 // The safeguarded Newton descents onto curves and surfaces share these numbers. Lengths are
 // fractions of the diagonal of the model's box.
+//
+// The descents are our own, because OpenCASCADE's Extrema and ShapeAnalysis work on adaptors: see
+// OccCurve. Speed and accuracy were not compared with Extrema yet.
 
 /// A CAD entity's tolerance counts at least this much.
 inline constexpr double kMinRelativeTolerance = 1e-8;

@@ -73,6 +73,9 @@ void throw_unless_ok(const JobOutcome& outcome, const std::string& what);
 
 /// @brief Runs loads and jobs in processes that may die without harm.
 ///
+/// Own code, because a job must start as a fork of a process that has loaded the model and knows no
+/// MPI.
+///
 /// The constructor forks a *zygote*, so construct it before MPI_Init and while the process has one
 /// thread. The zygote forks a *model zygote*, which runs load() and forks one process per job. If
 /// the model zygote dies in a load, a fresh one takes its place, and all earlier successful loads
