@@ -42,8 +42,9 @@ namespace tessera::pipeline {
 /// @brief load: the finished plan.
 [[nodiscard]] Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter);
 
-/// @brief load: what piece files need besides the pieces, if that is known before any is filled:
-/// fill jobs then write the files themselves. `counts` of all subdomains. Needs the mesh.
+/// @brief load: what piece files need besides the pieces. Given if that is known before any piece
+/// is filled; then fill jobs write the files themselves. `counts` of all subdomains. Needs the
+/// mesh.
 [[nodiscard]] Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
                                          const std::string& length_unit,
                                          const io::OutputOptions& options);

@@ -34,8 +34,8 @@ struct Calibration {
                                     const RunOutline& outline, const std::filesystem::path& folder,
                                     RunContext& context);
 
-/// @brief The outline with the tets and interior vertices that the samples let expect; those of
-/// subdomains that were sampled with all levels are what was counted. Local.
+/// @brief The outline with the tets and interior vertices that are to be expected after the
+/// samples. Subdomains that were sampled with all levels have what was counted. Local.
 [[nodiscard]] RunOutline corrected(RunOutline outline, const Calibration& calibration);
 
 }  // namespace tessera::pipeline

@@ -191,8 +191,8 @@ class StlMeshing {
     return numbers;
   }
 
-  // A line of NETGEN's runs along one curve, since NETGEN ends lines wherever curves end, or inside
-  // a patch, where its first edge is none of ours.
+  // A line of NETGEN's runs along one curve, since NETGEN ends lines wherever curves end. Or it is
+  // inside a patch, and its first edge is none of ours.
   LocalIndex curve_of(const ::netgen::Segment& segment)
   {
     const ::netgen::STLLine& line = *geometry_.GetLine(segment.edgenr);

@@ -50,8 +50,8 @@ class Optimizer {
   virtual ~Optimizer() = default;
 
   /// @note Local; may crash, exit or hang inside third-party code: run it in a job. A pure function
-  /// of its arguments. The caller checks the result: nothing is promised about it but that its
-  /// first `num_fixed` vertices stand for those of the input.
+  /// of its arguments. Promised is only that the first `num_fixed` vertices of the result stand for
+  /// those of the input; the caller checks the rest.
   /// @throws NetgenError if the optimiser gives up.
   [[nodiscard]] virtual TetMesh optimize(const OptimizeInput& input,
                                          const OptimizeSettings& settings) const = 0;

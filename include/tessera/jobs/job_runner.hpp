@@ -78,10 +78,10 @@ void throw_unless_ok(const JobOutcome& outcome, const std::string& what);
 ///
 /// The constructor forks a *zygote*, so construct it before MPI_Init and while the process has one
 /// thread. The zygote forks a *model zygote*, which runs load() and forks one process per job. If
-/// the model zygote dies in a load, a fresh one takes its place, and all earlier successful loads
-/// are gone: the outcome of that load says so. The same holds if somebody else kills it. If the
-/// zygote itself is killed, this and all later calls are `crashed`: a rank cannot fork another one
-/// after MPI_Init.
+/// the model zygote dies in a load, or somebody else kills it, a fresh one takes its place. Then
+/// all earlier successful loads are gone, and the outcome of the load or job says so. If the zygote
+/// itself is killed, this and all later calls are `crashed`: a rank cannot fork another one after
+/// MPI_Init.
 ///
 /// All processes end with the thread that constructed this object, however it ends. They ignore the
 /// signals that a process group gets (Ctrl-C), so that the rank decides. One job at a time;
