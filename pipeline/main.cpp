@@ -58,8 +58,8 @@ void require_answered(const Command& command)
   throw OutputError("cannot write to standard output");
 }
 
-// Errors that all ranks threw end the program in order; on any other one the other ranks may wait
-// in a collective for ever, so it ends all of them.
+// An error that all ranks threw ends the program in order. After any other error the other ranks
+// may wait in a collective for ever, so this rank ends them all.
 ExitCode run_guarded(int argc, char** argv, const comm::Communicator& comm, jobs::JobRunner& jobs)
 {
   try {

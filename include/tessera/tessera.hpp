@@ -73,9 +73,10 @@ struct MeshOptions {
   std::vector<LocalIndex> only_subdomains{};                 ///< Ascending; empty: all.
   Verbosity verbosity = Verbosity::quiet;
   ProgressMode progress = ProgressMode::automatic;  ///< Unless quiet.
-  /// If set, no mesh files are written: each finished piece is handed to this on the rank that took
-  /// it, in the main thread, one at a time, in any order. It must not communicate. If it throws on
-  /// one rank, the run ends with an OutputError on all. Set it on all ranks or on none.
+  /// If set, no mesh files are written, and each finished piece is handed to this. That happens on
+  /// the rank that took the piece, in the main thread, one piece at a time, in any order. The
+  /// function must not communicate. If it throws on one rank, the run ends with an OutputError on
+  /// all. Set it on all ranks or on none.
   std::function<void(MeshPiece)> on_piece{};
 };
 

@@ -8,8 +8,9 @@
 
 namespace tessera::pipeline {
 
-/// @brief Runs one kept job again, in the calling process of rank 0 itself and without any limit,
-/// so that a debugger sees it; a crash is the program's. Writes nothing into the run's folder.
+/// @brief Runs one kept job again, in the process of rank 0 itself and without any limit. So a
+/// debugger sees it, and a crash of the job is a crash of the program. Writes nothing into the
+/// run's folder.
 /// @return ok if the job succeeds, failed if it fails as a job does.
 /// @note Collective.
 /// @throws InputError on every rank if the job cannot be read.

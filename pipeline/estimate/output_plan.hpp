@@ -14,7 +14,7 @@
 namespace tessera::pipeline {
 
 /// @brief What each file of the run holds: output.files, or the subdomains asked for. Local.
-/// @throws ConfigError if only some subdomains are asked for and that is not possible: part of a
+/// @throws ConfigError if only some subdomains are asked for and that is not possible. Part of a
 /// mesh has ids only where the number of all other tets is known without making them.
 [[nodiscard]] std::vector<subdomain::SubdomainRange> output_ranges(const RunResult& run,
                                                                    const RunOptions& options);

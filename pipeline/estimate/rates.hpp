@@ -47,13 +47,13 @@ struct Rates {
 };
 
 /// @brief Private memory of a fill job that fills next to nothing, bytes. Measured on torus: 1 MB
-/// with NETGEN, about 9 MB where the job writes its file; it matters where a sample is much smaller
+/// with NETGEN, about 9 MB where the job writes its file. It matters where a sample is much smaller
 /// than the jobs of the run.
 inline constexpr double kJobBytes = 5e6;
 
-/// @brief Memory of a rank that writes a file from the store, bytes a tet of the file: record,
-/// piece, arrays with 64-bit ids, VTK's copy of them and the compressed text. Measured on
-/// torus, 1.2 M tets in one file against twelve: 111.
+/// @brief Memory of a rank that writes a file from the store, bytes a tet of the file. It is for
+/// the record, the piece, arrays with 64-bit ids, VTK's copy of them and the compressed text.
+/// Measured on torus, 1.2 M tets in one file against twelve: 111.
 inline constexpr double kWriterBytesPerTet = 111.0;
 
 /// @brief Rates of no machine in particular, for what must be known without a sample: which samples

@@ -12,8 +12,8 @@
 
 namespace tessera::pipeline {
 
-/// @brief What a fill job does with its pieces, one after the other: into the output file if the
-/// ids are known, else into the record of the store.
+/// @brief What a fill job does with its pieces, one after the other. If the ids are known a piece
+/// goes into the output file, else into the record of the store.
 class BatchFiller {
  public:
   /// @param[in] numbers nullptr if the ids are not known yet. All are borrowed.

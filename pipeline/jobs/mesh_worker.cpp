@@ -240,9 +240,9 @@ class MeshWorker final : public jobs::Worker {
   std::optional<improve::SeamRegions> regions_{};  ///< If seams are to be improved.
 };
 
-// A job's arrays come and go: what one gives back serves the next, instead of pages that the kernel
-// takes away and clears anew; and of huge pages a job touches hundreds of times fewer. Both are
-// matters of speed only, so nothing is done about a refusal.
+// Jobs allocate arrays and give them back all the time. Kept, their memory serves the next arrays;
+// otherwise the kernel takes the pages away and clears them anew. Huge pages are hundreds of times
+// fewer to touch. Both are matters of speed only, so nothing is done about a refusal.
 void keep_heap()
 {
   constexpr int kLargestThreshold = 32 << 20;  // What is larger, malloc maps on its own.

@@ -33,8 +33,8 @@ namespace tessera::pipeline {
 /// @brief load: the model. `scale`: output length units per file length unit.
 [[nodiscard]] Bytes load_model_message(const model::ModelSource& source, double scale);
 
-/// @brief load: coarse mesh and decomposition, the number of levels, the largest size of the coarse
-/// mesh that a fill may aim at (output length unit), and the output folder.
+/// @brief load: coarse mesh and decomposition, the number of levels, the output folder, and the
+/// largest size of the coarse mesh that a fill may aim at (output length unit).
 [[nodiscard]] Bytes load_mesh_message(const mesh::CoarseMesh& coarse,
                                       const mesh::Decomposition& decomposition, int levels,
                                       double largest_size, const std::filesystem::path& output);
@@ -42,8 +42,9 @@ namespace tessera::pipeline {
 /// @brief load: the finished plan.
 [[nodiscard]] Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter);
 
-/// @brief load: what piece files need besides the pieces, if that is known before any is filled:
-/// fill jobs then write the files themselves. `counts` of all subdomains. Needs the mesh.
+/// @brief load: what piece files need besides the pieces. Given if that is known before any piece
+/// is filled; then fill jobs write the files themselves. `counts` of all subdomains. Needs the
+/// mesh.
 [[nodiscard]] Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
                                          const std::string& length_unit,
                                          const io::OutputOptions& options);

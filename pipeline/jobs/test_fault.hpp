@@ -18,11 +18,13 @@
 /// Its value is words "STAGE=KIND", for every job of the stage, or "STAGE=KIND@ITEM".
 /// - STAGE: import, load, box, coarse, remesh (the coarse mesh from the CAD system's triangles),
 ///   plan, fill, improve, skin.
-/// - KIND: throw, segv, exit, loop, sleep, memory; drop (a tet of the result is lost: coarse,
-///   remesh, fill, improve), garbage (the bytes of the result are no longer what they were), flat
-///   (the first try of a fill has a flat tet). Two that pass all checks of a job: nudge (fill:
-///   points on the geometry are one bit off, as from another mathematical library), lose (improve:
-///   a tet is lost after the region was judged).
+/// - KIND, for any job: throw, segv, exit, loop, sleep, memory.
+/// - KIND, for results that a check must refuse: drop (a tet of the result is lost: coarse, remesh,
+///   fill, improve), garbage (the bytes of the result are no longer what they were), flat (the
+///   first try of a fill has a flat tet).
+/// - KIND, for results that pass all checks of a job: nudge (fill: points on the geometry are one
+///   bit off, as from another mathematical library), lose (improve: a tet is lost after the region
+///   was judged).
 /// - ITEM: the subdomain; of improve the region.
 namespace tessera::pipeline {
 

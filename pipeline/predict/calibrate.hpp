@@ -24,8 +24,8 @@ struct Calibration {
   std::vector<SampleSet> samples{};  ///< One set for each kernel that the case uses.
 };
 
-/// @brief Does a few jobs of the run in earnest, plan, fill and write, in a folder of their own
-/// that is removed again, and measures what they cost. The workers have no plan of the real run
+/// @brief Does a few jobs of the run in earnest and measures what they cost. Plan, fill and write
+/// work in a folder of their own that is removed again. The workers have no plan of the real run
 /// afterwards.
 /// @param[in] folder Where the samples may write for a while.
 /// @note Collective. The sampled jobs are the same for every number of ranks.
@@ -34,8 +34,8 @@ struct Calibration {
                                     const RunOutline& outline, const std::filesystem::path& folder,
                                     RunContext& context);
 
-/// @brief The outline with the tets and interior vertices that the samples let expect; those of
-/// subdomains that were sampled with all levels are what was counted. Local.
+/// @brief The outline with the tets and interior vertices that are to be expected after the
+/// samples. Subdomains that were sampled with all levels have what was counted. Local.
 [[nodiscard]] RunOutline corrected(RunOutline outline, const Calibration& calibration);
 
 }  // namespace tessera::pipeline

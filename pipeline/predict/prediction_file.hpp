@@ -13,15 +13,19 @@
 /// What a dry run says: `DIR/prediction.json`, a table for people, and later the block "prediction"
 /// of report.json.
 ///
-/// prediction.json (schema 1): "schema", "version"; "case" and "model", hashes that tell whether a
-/// run is the one that was predicted; "ranks", "levels", "coarse_tets", "subdomains"; the
-/// quantities "tets", "vertices", "boundary_triangles", "files" (in mesh/ and boundary/),
-/// "disk_bytes" (of those files), "disk_peak_bytes" (with the pieces that wait for their ids),
-/// "memory_per_rank_bytes" (with its worker processes), "largest_job_bytes", "cpu_s" (plan, fill
-/// and write, all ranks), "wall_time_s", "serial_share", "busy_share"; "stages": "name",
-/// "wall_time_s", "cpu_s", "serial"; "resources": "disk_free_bytes", "memory_bytes", "cores";
-/// "samples": "kernel", "levels", "subdomains", "cpu_s"; "rates" by kernel; "fits"; "must_change"
-/// and "should_change": sentences. Times are those of free cores.
+/// prediction.json (schema 1) has:
+/// - "schema", "version"; "case" and "model", hashes that tell whether a run is the one that was
+///   predicted; "ranks", "levels", "coarse_tets", "subdomains";
+/// - counts: "tets", "vertices", "boundary_triangles", "files" (in mesh/ and boundary/);
+/// - bytes: "disk_bytes" (of those files), "disk_peak_bytes" (with the pieces that wait for their
+///   ids), "memory_per_rank_bytes" (with its worker processes), "largest_job_bytes";
+/// - times: "cpu_s" (plan, fill and write, all ranks), "wall_time_s", "serial_share", "busy_share";
+/// - "stages": "name", "wall_time_s", "cpu_s", "serial";
+/// - "resources": "disk_free_bytes", "memory_bytes", "cores";
+/// - "samples": "kernel", "levels", "subdomains", "cpu_s"; "rates" by kernel; "fits";
+/// - "must_change" and "should_change": sentences.
+///
+/// Times are those of free cores.
 namespace tessera::pipeline {
 
 /// @brief What a dry run has foretold, and what it became.

@@ -21,8 +21,8 @@ class Progress {
   /// @brief Begins a stage of `total` units of work (0: unknown), e.g. "subdomains".
   void begin(const std::string& stage, std::int64_t total, const std::string& unit);
 
-  /// @brief Says how much is done; prints at most a few times a second on a terminal, and at every
-  /// tenth of the work (not more often than every 10 s) in a log.
+  /// @brief Says how much is done. On a terminal it prints at most a few times a second. In a log
+  /// it prints at every tenth of the work, but not more often than every 10 s.
   void update(std::int64_t done);
 
   /// @brief Ends the stage with one line: its time, and `summary` if there is one.

@@ -72,8 +72,8 @@ class StageScope {
 /// @brief Callback for jobs beside which this rank has nothing to do: cancels on a stop signal.
 [[nodiscard]] jobs::JobRunner::WaitCallback wait_for_stop_signal();
 
-/// @brief Whether somebody else ended the job, by hand or for lack of memory: it says nothing about
-/// what the job was to do. Local.
+/// @brief Whether somebody else ended the job, by hand or for lack of memory. Such an end says
+/// nothing about what the job was to do. Local.
 [[nodiscard]] bool was_killed_from_outside(const jobs::JobOutcome& outcome);
 
 /// @brief What to run under which name in the log.
@@ -83,8 +83,8 @@ struct JobRequest {
   const jobs::JobLimits& limits;
 };
 
-/// @brief Runs a job; the same once more if it was killed from outside, so that the mesh is the
-/// same as without that. Local.
+/// @brief Runs a job, and once more if it was killed from outside. So the mesh is the same as
+/// without the kill. Local.
 [[nodiscard]] jobs::JobOutcome run_job(const JobRequest& job,
                                        const jobs::JobRunner::WaitCallback& on_wait,
                                        RunContext& context);
@@ -110,8 +110,8 @@ auto read_result(jobs::JobOutcome& outcome, const Read& read)
 [[nodiscard]] jobs::JobOutcome run_load(const std::string& kind, Bytes message,
                                         const jobs::JobLimits& limits, RunContext& context);
 
-/// @brief What to add to a job's message where the same run could go well: nothing was wrong with
-/// the job, or what had been loaded for it is lost. Local.
+/// @brief What to add to a job's message where the same run could go well next time. That is so if
+/// nothing was wrong with the job, or what had been loaded for it is lost. Local.
 [[nodiscard]] std::string way_on(const jobs::JobOutcome& outcome);
 
 /// @brief Throws Interrupted if the outcome says that the callback cancelled the job. Local.

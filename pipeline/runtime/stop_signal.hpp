@@ -7,9 +7,9 @@ namespace tessera::pipeline {
 /// second SIGINT ends the process at once.
 void catch_stop_signals();
 
-/// @brief From now on a file that grows beyond the limit of the user, or a pipe that nobody reads,
-/// is an error of the write, as a full disk is, and not the end of the process. A handler of the
-/// program stays. Processes forked later inherit it.
+/// @brief From now on a write fails with an error, as on a full disk, where it would have ended the
+/// process. That is for a file that grows beyond the limit of the user, and a pipe that nobody
+/// reads. A handler of the program stays. Processes forked later inherit it.
 void ignore_write_signals();
 
 /// @brief Whether one of them has come to this rank. Local, cheap.

@@ -28,9 +28,9 @@ struct CoarseResult {
   }
 };
 
-/// @brief The tries at a coarse mesh, best first: as asked, then with smaller sizes that grow more
-/// slowly, then with more elements on curved surfaces, since a mesh that fails at one size often
-/// works at another; last, on the triangles of the model instead of its faces.
+/// @brief The tries at a coarse mesh, best first. A mesh that fails at one size often works at
+/// another, so after the try as asked come smaller sizes that grow more slowly, then more elements
+/// on curved surfaces. The last try is on the triangles of the model instead of its faces.
 [[nodiscard]] std::vector<coarse::CoarseOptions> coarse_fallbacks(
     const coarse::CoarseOptions& asked);
 

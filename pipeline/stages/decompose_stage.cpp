@@ -25,8 +25,8 @@ namespace {
 // A job of this size takes half a second and about 100 MB.
 constexpr double kAutoSubdividedTets = 5e5;
 
-// "auto" means other things to a mesher of skins, which wants few seams, and to subdivision, which
-// wants jobs that fit in memory.
+// "auto" depends on the kernel. A mesher of skins wants few seams; subdivision wants jobs that fit
+// in memory.
 decompose::DecomposeOptions options_of(const config::Case& run_case,
                                        const std::vector<fill::KernelKind>& kernels,
                                        const std::vector<double>& weights)

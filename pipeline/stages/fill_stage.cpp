@@ -33,8 +33,9 @@ double weight_of(const subdomain::SubdomainRange& range,
   return weight;
 }
 
-// Of a poor piece in the store nobody can tell whether the run was killed before its other try: it
-// is made again, so that a resumed run has the bits of one that was never stopped.
+// A piece with a small angle gets a second try. If such a piece is in the store, the run may have
+// been killed before that try. So it is made again, and a resumed run has the bits of one that was
+// never stopped.
 bool is_poor(const std::vector<subdomain::FillResult>& results)
 {
   const subdomain::PieceSummary& first = results.front().summary;

@@ -126,8 +126,8 @@ class SeamImprover {
     return record ? std::optional(from_bytes<Counts>(*record)) : std::nullopt;
   }
 
-  // Updates name vertices by their numbers in the pieces. A resumed run may have other ones: a poor
-  // piece is filled again, and where a limit had ended its second try, now better.
+  // Updates name vertices by their numbers in the pieces, and a resumed run may have other pieces.
+  // A poor piece is filled again, and its second try may succeed now where a limit had ended it.
   void drop_records_of_other_pieces() const
   {
     const std::string name = "improve";

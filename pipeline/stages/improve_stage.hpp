@@ -11,11 +11,12 @@
 
 namespace tessera::pipeline {
 
-/// @brief Optimises the tets around the seams, in jobs, across the seams: phase by phase, first
+/// @brief Optimises the tets around the seams, in jobs, across the seams. Phase by phase: first
 /// around the faces between two subdomains, then around the curves where several meet, then around
-/// the ends of these. Subdomains exchange tets and get new vertices; the geometry and the faces
-/// between materials stay as they are. A region whose job fails, or finds nothing better, keeps its
-/// tets.
+/// the ends of the curves.
+///
+/// Subdomains exchange tets and get new vertices. The geometry and the faces between materials stay
+/// as they are. A region whose job fails, or finds nothing better, keeps its tets.
 ///
 /// Pieces are read from the store, never changed there: each phase leaves a new generation.
 /// Records of a run that was stopped are taken up again. Does nothing if no two subdomains of a

@@ -14,8 +14,8 @@ namespace tessera::pipeline {
 /// @throws InputError, GeometryError on every rank if the file is no model that can be meshed.
 [[nodiscard]] model::ModelSource run_model_stage(const config::Case& run_case, RunContext& context);
 
-/// @brief Throws what becomes of a run whose model could not be imported or loaded; whatever makes
-/// the reader fail says that the file is bad, not that the program is. Local.
+/// @brief Throws the error of a run whose model could not be imported or loaded. Whatever makes the
+/// reader fail, the error says that the file is bad, not the program. Local.
 void throw_unless_read(const jobs::JobOutcome& outcome, const std::filesystem::path& file);
 
 }  // namespace tessera::pipeline

@@ -18,14 +18,15 @@ namespace {
 
 constexpr jobs::JobLimits kQueryLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
 
-// NETGEN's largest size is more of a middle: on a brick, edges came out with a median of 1.18 and a
-// 99th percentile of 1.94 times it, after refinement too.
+// NETGEN's largest size is more of a middle. On a brick, edges had a median of 1.18 and a 99th
+// percentile of 1.94 times it, after refinement too.
 constexpr double kSizeForEdge = 0.83;
 
-// In units of the target times 2^levels: the wanted middle of the coarse edges, and the largest
-// size that a fill from the skin alone aims at. On a brick with targets of 0.035 to 0.1 the median
-// of the fine edges is 0.91 to 0.99 of the target, their 99th percentile 1.31 to 1.56 (for one of
-// seven targets 1.68); with 3 % more in both, 0.82 to 1.03 and 1.25 to 1.65.
+// The wanted middle of the coarse edges, and the largest size that a fill from the skin alone aims
+// at. Both are in units of the target times 2^levels. Measured on a brick with targets of 0.035 to
+// 0.1, in parts of the target: the median of the fine edges is 0.91 to 0.99, their 99th percentile
+// 1.31 to 1.56 (for one of seven targets 1.68). With 3 % more in both they are 0.82 to 1.03 and
+// 1.25 to 1.65.
 constexpr double kCoarseMiddle = 0.94;
 constexpr double kCoarseMiddleTolerance = 0.02;
 constexpr double kLargestSize = 1.0;

@@ -13,8 +13,8 @@ namespace tessera::pipeline {
 /// @brief The case with coarse.max_size and refine.levels chosen from size.target, if that is
 /// given.
 ///
-/// The number of fine tets is estimated from the model's box; levels grow with it so that the
-/// serial coarse mesh stays small (each level makes it 8 times smaller) but keeps enough tets to
+/// The number of fine tets is estimated from the model's box. Levels grow with it so that the
+/// serial coarse mesh stays small: each level makes it 8 times smaller. But it keeps enough tets to
 /// cut.
 /// @note Collective: asks the model, which is loaded in the workers, for its box.
 [[nodiscard]] config::Case resolve_size(const config::Case& given, RunContext& context);
@@ -23,9 +23,9 @@ namespace tessera::pipeline {
 /// above.
 [[nodiscard]] int levels_for(double num_fine_tets);
 
-/// @brief A smaller coarse.max_size if the coarse mesh came out with too long edges for the target,
-/// or nothing if it is good. On flat sides NETGEN's edges are now shorter, now longer than the size
-/// it is given; a second mesh with a corrected size brings the middle to the same place.
+/// @brief A smaller coarse.max_size if the edges of the coarse mesh are too long for the target, or
+/// nothing if it is good. On flat sides NETGEN's edges are sometimes shorter, sometimes longer than
+/// the size it is given. A second mesh with a corrected size brings the middle to the same place.
 ///
 /// Only ever smaller: where curvature or walls make edges short, the middle says nothing.
 /// @param[in] target size.target. @param[in] levels Of the refinement. Local.

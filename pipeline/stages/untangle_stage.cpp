@@ -24,8 +24,9 @@ constexpr std::size_t kMostJobs = 512;
 
 constexpr jobs::JobLimits kUntangleLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory_gib = 8.0};
 
-// Subdivision finds bad children of fine levels by itself, and comes back for a plan of all levels;
-// so that a plan does not cost as much as the subdivision itself, the first looks at coarse ones.
+// The first plan looks at coarse levels only, so that it does not cost as much as the subdivision
+// itself. Subdivision finds bad children of fine levels by itself, and comes back for a plan of all
+// levels.
 UntangleTest test_of(LocalIndex subdomain, const UntangleWork& work)
 {
   const fill::KernelKind kernel = work.kernels[at(subdomain)];

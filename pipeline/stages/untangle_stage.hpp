@@ -23,8 +23,9 @@ struct UntangleWork {
   std::vector<LocalIndex> subdomains{};  ///< To test first; those around what is found follow.
 };
 
-/// @brief Finds the points that must be kept off the geometry so that no skin folds and, where a
-/// subdomain is subdivided, no child is inverted; rounds of jobs in which factors only fall.
+/// @brief Finds the points that must be kept off the geometry. Without that, skins would fold, or
+/// children of a subdomain that is subdivided be inverted. Works in rounds of jobs in which factors
+/// only fall.
 /// @param[in] limiter What is known already.
 /// @note Collective; the mesh is loaded in the workers.
 /// @throws MeshError on every rank if a job dies; Interrupted on a signal.

@@ -38,9 +38,9 @@ std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,
                                 const io::OutputOptions& options,
                                 const subdomain::WriteContext& mesh, const PieceStore& pieces);
 
-/// @brief Turns the pieces of the store into files of the case's formats (of `pvtu`,
-/// mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu, one of each a range), and puts their
-/// digests into the summaries.
+/// @brief Turns the pieces of the store into files of the case's formats, and puts their digests
+/// into the summaries. For `pvtu` each range gets mesh/piece_NNNNNN.vtu and
+/// boundary/piece_NNNNNN.vtu.
 /// @note Collective.
 /// @throws OutputError on every rank (disk full, permission).
 void run_write_stage(const config::Case& run_case,

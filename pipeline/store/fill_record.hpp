@@ -27,8 +27,8 @@ struct WrittenFile {
   static auto fields(auto& self) { return std::tie(self.path, self.size, self.hash); }
 };
 
-/// @brief What the store keeps of the subdomains that one job filled: either their piece (one
-/// subdomain, to be written later) or the names of the files they are in already.
+/// @brief What the store keeps of the subdomains that one job filled. That is the piece of one
+/// subdomain, to be written later, or the names of the files they are in already.
 struct FillRecord {
   Hash128 plan{};  ///< plan_fingerprint() that they were made under.
   std::vector<subdomain::FillResult> results{};

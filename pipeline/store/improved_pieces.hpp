@@ -22,11 +22,12 @@ namespace tessera::pipeline {
 /// @brief Name of an improved piece's record. @pre generation > 0
 [[nodiscard]] std::string improved_name(LocalIndex subdomain, int generation);
 
-/// @brief The pieces of the store after the improvement, and who owns their shared vertices: what
-/// the numbers and files are made from. There is no state but the folder. All functions are local.
+/// @brief The pieces of the store after the improvement, and who owns their shared vertices.
+/// Numbers and files are made from these. There is no state but the folder. All functions are
+/// local.
 ///
-/// First every piece's list is kept, then compared with those of its neighbours, then places are
-/// known: each step for all pieces before the next one begins.
+/// Three steps, each for all pieces before the next one begins: every piece's list is kept; it is
+/// compared with those of its neighbours; places are known.
 class ImprovedPieces {
  public:
   ImprovedPieces(const std::filesystem::path& output, const mesh::Skeleton& skeleton,

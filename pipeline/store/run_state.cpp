@@ -68,8 +68,9 @@ auto read_report(const std::filesystem::path& output, const Read& read)
   }
 }
 
-// Noted in the report when the run has ended, in a record before. What has ended has left no pieces
-// that would have to be in files or not: it counts as what is asked for.
+// The identity stands in the report when the run has ended, in a record before. Whether pieces are
+// in files does not matter for a run that has ended, since none are left: it counts as what is
+// asked for.
 std::optional<Identity> identity_of(const std::filesystem::path& output,
                                     const std::optional<Bytes>& record, bool has_files)
 {

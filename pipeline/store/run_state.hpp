@@ -19,8 +19,8 @@
 
 namespace tessera::pipeline {
 
-/// @brief The case without what may differ between a run and its continuation, or its prediction:
-/// the output directory and limits of time and memory bear on no bit of the mesh.
+/// @brief The case without the output directory and limits of time and memory. These bear on no bit
+/// of the mesh, so they may differ between a run and its continuation or prediction.
 [[nodiscard]] config::Case without_limits(config::Case run_case);
 
 /// @brief The plan as it stands: what a round of fills works from.
@@ -37,9 +37,9 @@ struct Plan {
   }
 };
 
-/// @brief What a run leaves in its folder besides pieces, so that `--resume` need not make it
-/// again, and by which it is known whether it is the same run. Used by rank 0; all functions are
-/// local. A record that is damaged counts as absent.
+/// @brief What a run leaves in its folder besides pieces: what `--resume` need not make again, and
+/// what tells whether it is the same run. Used by rank 0; all functions are local. A record that is
+/// damaged counts as absent.
 class RunState {
  public:
   /// @param[in] only_subdomains That the run is to fill; empty: all.
@@ -54,8 +54,9 @@ class RunState {
   /// @brief Refuses a folder that is not there or empty. @throws InputError
   void require_begun() const;
 
-  /// @brief Refuses unless the folder's case is `given`, or it has none because the run was killed
-  /// before it did anything; the output directory and limits of time and memory may differ.
+  /// @brief Refuses unless the folder's case is `given`. The output directory and limits of time
+  /// and memory may differ. A folder without a case is accepted: its run was killed before it did
+  /// anything.
   /// @throws InputError naming the first line that differs.
   void require_same_case(const config::Case& given) const;
 

@@ -12,7 +12,7 @@
 namespace tessera::check {
 namespace {
 
-// Angle in radians below which two triangles lie on one another; far above the rounding of
+// Triangles at a smaller angle, in radians, lie on one another. It is far above the rounding of
 // coordinates and far below the exterior angle of any meshed cusp.
 constexpr double kFoldAngle = 1e-6;
 

@@ -151,8 +151,8 @@ void append_verdicts(const TriangleGroup& group, TriangleRole role,
   }
 }
 
-// Whether nothing that may come can change what is to be said of the triangle; but for a third
-// side, which is noticed by the key.
+// Whether no side that is still to come can change what is said of the triangle. A third side can,
+// but it is noticed by the key.
 bool is_final(TriangleRole role)
 {
   return role == TriangleRole::inner || role == TriangleRole::seam;

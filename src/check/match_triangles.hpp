@@ -23,8 +23,8 @@ struct TriangleCounts {
   GlobalIndex num_unlisted = 0;  ///< On one tet, but not in the boundary file.
 };
 
-/// @brief What the boundary file must hold: nothing, all triangles on one tet, or, if only some
-/// pieces of the mesh were made, nothing but such triangles.
+/// @brief What the boundary file must hold: nothing, or all triangles on one tet. If only some
+/// pieces of the mesh were made (partial), it may lack some of these, but holds nothing else.
 enum class BoundaryFile { none, complete, partial };
 
 /// @brief What a triangle on the surface of a piece turned out to be.
@@ -41,9 +41,9 @@ struct TriangleVerdict {
 /// @brief Brings the sides of each triangle together, and the boundary file's triangles with them,
 /// batch by batch of pieces.
 ///
-/// A triangle whose two sides have met between two tets of one material is done with, and only its
-/// key stays, by which a third side is noticed. All others stay until the end: the boundary, the
-/// interfaces, and the front between the pieces that were read and those that were not.
+/// A triangle is done with when its two sides have met between two tets of one material. Then only
+/// its key stays, by which a third side is noticed. All others stay until the end: the boundary,
+/// the interfaces, and the front between the pieces that were read and those that were not.
 class TriangleMatcher {
  public:
   TriangleMatcher(BoundaryFile boundary, const comm::Communicator& comm, Findings& findings)

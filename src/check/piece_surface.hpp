@@ -22,9 +22,9 @@ struct ShownRecords {
   std::vector<VertexRecord> vertices{};
 };
 
-/// @brief What is kept of the surface of a piece of tets while other pieces are read: the triangles
-/// about whose edges something is left to be said. It shrinks as its neighbours are read; on the
-/// boundary of the mesh it stays until the end.
+/// @brief What is kept of the surface of a piece while other pieces are read: the triangles with an
+/// edge of which something is left to be said. It shrinks as the neighbours of the piece are read.
+/// On the boundary of the mesh it stays until the end.
 struct PieceSurface {
   PieceName name{};
   VertexIdentity identity = VertexIdentity::ids;
@@ -63,8 +63,8 @@ void apply(const TriangleVerdict& verdict, PieceSurface& surface,
 /// subdomains. Local. @pre roles are known; each subdomain has its record.
 void add_outside_areas(const PieceSurface& surface, PieceRecords& records);
 
-/// @brief Drops triangles of which nothing is open: their edges are closed and their vertices are
-/// known to be on a seam; and vertices of no triangle. Local.
+/// @brief Drops triangles whose edges are closed and whose vertices are known to be on a seam, and
+/// vertices without a triangle. Local.
 void shrink(PieceSurface& surface);
 
 }  // namespace tessera::check

@@ -21,8 +21,9 @@ struct SurfaceTriangle {
 
 /// @brief What a piece's tets are by themselves, and which triangles other pieces must see.
 struct PieceTopology {
-  /// Triangles on one tet; both sides of those between two subdomains or materials; both sides of
-  /// those with all vertices on triangles on one tet: a wrong piece may have a third tet there.
+  /// Three kinds of triangles: those on one tet; those between two subdomains or materials, both
+  /// sides; and those with all vertices on triangles on one tet, both sides, as a wrong piece may
+  /// have a third tet there.
   std::vector<SurfaceTriangle> surface{};
   GlobalIndex num_inner_triangles = 0;  ///< All others.
   GlobalIndex num_edges = 0;

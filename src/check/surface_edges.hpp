@@ -18,10 +18,10 @@ struct SurfaceEdges {
 
 /// @brief Closes the edges at all of whose triangles there is a verdict. Local.
 ///
-/// An edge of a piece at two triangles, both towards the same other piece, is in general at two
-/// triangles of that piece too: then the tets around it are all in these two, each counts one half,
-/// and nobody else need know. Where the other piece has more triangles at it, that piece says so in
-/// its record (`twin`).
+/// An edge of a piece may be at two triangles that both face the same other piece. In general it is
+/// at two triangles of that piece too. Then the tets around it are all in these two pieces, each
+/// counts one half, and nobody else need know. Where the other piece has more triangles at the
+/// edge, that piece says so in its record (`twin`).
 void close_edges(PieceSurface& surface, SurfaceEdges& edges);
 
 /// @brief Closes the edges that are left. Local. @pre there is a verdict on all triangles.

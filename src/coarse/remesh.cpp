@@ -15,8 +15,8 @@ namespace {
 using Edge = PatchSurface::Edge;
 using Triangle = PatchSurface::Triangle;
 
-// Edges outside these parts of the wanted length are split and collapsed: 4/3 and 4/5 in the
-// original method; wider apart a size field is followed with fewer steps back and forth.
+// In parts of the wanted length: longer edges are split, shorter ones collapsed. The original
+// method has 4/3 and 4/5. Wider apart, a size field is followed with fewer steps back and forth.
 constexpr double kTooLong = 1.4;
 constexpr double kTooShort = 0.7;
 

@@ -18,8 +18,9 @@ namespace tessera::decompose {
     const TetGraph& graph, const std::vector<std::vector<LocalIndex>>& pieces,
     LocalIndex num_parts);
 
-/// @brief Face-connected parts, `num_parts` or more: the partitioner on each piece; what is left
-/// over of a part in small bits goes to a neighbour; the heaviest are halved while too few.
+/// @brief Face-connected parts, `num_parts` or more. The partitioner cuts each piece; small bits
+/// that are left over of a part go to a neighbour. While there are too few parts, the heaviest are
+/// halved.
 [[nodiscard]] TetPartition partition_pieces(const TetGraph& graph,
                                             const std::vector<std::vector<LocalIndex>>& pieces,
                                             LocalIndex num_parts,

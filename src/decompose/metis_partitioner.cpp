@@ -18,10 +18,11 @@ std::vector<idx_t> as_metis(const std::vector<LocalIndex>& values)
   return {values.begin(), values.end()};
 }
 
-// Recursive bisection for any number of parts. On nine trials with coarse meshes of NETGEN (16 to
-// 66 parts), k-way with METIS_OPTION_CONTIG cut 4 % more area (-1 % to 11 %), its lightest part had
-// 0.51 of the mean weight in the median instead of 0.85, and 23 subdomains had to be split instead
-// of one; it was not faster. Parts that come out disconnected are the caller's to mend.
+// Recursive bisection for any number of parts, measured against k-way with METIS_OPTION_CONTIG on
+// nine trials with coarse meshes of NETGEN (16 to 66 parts). K-way cut 4 % more area (-1 % to 11 %)
+// and was not faster. Its lightest part had 0.51 of the mean weight in the median instead of 0.85,
+// and 23 subdomains had to be split instead of one. Parts that come out disconnected are the
+// caller's to mend.
 class MetisPartitioner final : public GraphPartitioner {
  public:
   [[nodiscard]] std::vector<LocalIndex> partition(const Graph& graph,

@@ -11,22 +11,21 @@
 
 namespace tessera::decompose {
 
-/// @brief Where skins are not manifold: counts them, and answers what a move would change.
+/// @brief Where skins are not manifold: counts these places, and answers what a move would change.
 ///
-/// The skin triangles of a part at a vertex, seen as edges of a graph whose nodes are the other
-/// end points, are one simple cycle where the skin is manifold. The *non_manifold* at a vertex are
-/// (edges
-/// - nodes) + (components - 1): an edge with four triangles adds 1 at either end, a second fan
-/// adds 1.
+/// At each vertex of a part's skin a graph is looked at. Its edges are the skin triangles there,
+/// and its nodes are the other end points. Where the skin is manifold, the graph is one simple
+/// cycle. The count of a vertex is (edges - nodes) + (components - 1), which is then 0. An edge
+/// with four triangles adds 1 at either end, a second fan adds 1. adds 1.
 class NonManifoldVertices {
  public:
   NonManifoldVertices(const TetGraph& graph, const TetPartition& partition);
 
-  /// @brief NonManifoldVertices of all parts at this vertex, as of its last refresh.
+  /// @brief The counts of all parts at this vertex, summed, as of its last refresh.
   [[nodiscard]] int total(LocalIndex v) const { return total_[static_cast<std::size_t>(v)]; }
-  /// @brief NonManifoldVertices of one part at this vertex, computed now.
+  /// @brief The count of one part at this vertex, computed now.
   [[nodiscard]] int count(LocalIndex v, LocalIndex part);
-  /// @brief NonManifoldVertices of two parts at the four vertices of a tet, computed now.
+  /// @brief The counts of two parts at the four vertices of a tet, summed, computed now.
   [[nodiscard]] int count_at_tet(LocalIndex t, LocalIndex part, LocalIndex other_part);
   /// @brief Recomputes total() at the vertices of these tets.
   void refresh(std::span<const LocalIndex> tets);

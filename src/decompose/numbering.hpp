@@ -15,9 +15,9 @@ namespace tessera::decompose {
 [[nodiscard]] mesh::Decomposition make_decomposition(const TetGraph& graph,
                                                      std::vector<LocalIndex> tet_subdomain);
 
-/// @brief New number of each subdomain: recursive bisection of the weighted graph, each time the
-/// half nearer to what is already numbered first. So every aligned range is a connected, cheaply
-/// cut part wherever the partitioner finds one.
+/// @brief New number of each subdomain, by recursive bisection of the weighted graph. Of two halves
+/// the one nearer to what is already numbered comes first. So every aligned range is a connected,
+/// cheaply cut part wherever the partitioner finds one.
 struct Numbering {
   std::vector<LocalIndex> number{};        ///< Shape (num_subdomains).
   std::vector<LocalIndex> part_offsets{};  ///< As in mesh::Decomposition.

@@ -123,9 +123,9 @@ bool SeamMover::keeps_balance(LocalIndex t, LocalIndex to) const
          && to_after <= kHeaviestShare * mean_weight_;
 }
 
-// Without `t`, its neighbours of its own part must still reach each other, here through tets that
-// touch `t`: a way around elsewhere would be a ring that the move cuts open, which is no loss to
-// refuse.
+// Without `t`, its neighbours of its own part must still reach each other through tets that touch
+// `t`. A way around elsewhere does not count: it would be a ring that the move cuts open, and to
+// refuse that move is no loss.
 bool SeamMover::keeps_connected(LocalIndex t)
 {
   const LocalIndex part = partition_->of(t);

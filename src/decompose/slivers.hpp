@@ -9,8 +9,8 @@ namespace tessera::decompose {
 
 /// @brief Face-connected parts from parts that may be in several components.
 ///
-/// The heaviest component of a part stays; of the others, light ones (slivers) join the component
-/// with which they share the most expensive seam, heavy ones become parts of their own.
+/// The heaviest component of a part stays. Of the others, heavy ones become parts of their own.
+/// Light ones (slivers) join the component with which they share the most expensive seam.
 /// @param[in] tet_part Shape (num_tets), in [0, num_parts).
 [[nodiscard]] TetPartition connect_parts(const TetGraph& graph,
                                          const std::vector<LocalIndex>& tet_part,

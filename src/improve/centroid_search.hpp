@@ -12,6 +12,9 @@
 namespace tessera::improve {
 
 // Finds the owner of the old tet with the nearest centroid: a k-d tree, kept as an array.
+//
+// Own code, because of equally near tets the lowest owner must win. nanoflann's leaves pass on only
+// what is strictly nearer than the worst distance.
 class CentroidSearch {
  public:
   explicit CentroidSearch(const RegionMesh& mesh);

@@ -4,8 +4,8 @@
 namespace tessera::improve {
 namespace {
 
-// Where no tet of the region's pieces is in front of a boundary triangle, it may lie on the
-// geometry, and those stay in their pieces.
+// A boundary triangle with no tet of the region's pieces in front of it may lie on the geometry.
+// Such triangles stay in their pieces.
 std::vector<OwnerSet> owners_behind(const RegionMesh& mesh)
 {
   std::vector<OwnerSet> owners(at(mesh.num_triangles()), all_owners(mesh));

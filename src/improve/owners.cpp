@@ -40,8 +40,8 @@ std::vector<LocalIndex> owners_of_nearest(const RegionMesh& mesh, const TetMesh&
   return owners;
 }
 
-// Tets that hang together with their owner's tets outside the region (of an owner that has none:
-// with its largest component) are *anchored*; the others are given away.
+// Tets are *anchored* if they hang together with their owner's tets outside the region. If the
+// owner has none there, its largest component is anchored. The other tets are given away.
 class Components {
  public:
   Components(const TetMesh& tets, std::vector<LocalIndex>& owners)

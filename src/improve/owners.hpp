@@ -9,9 +9,9 @@
 
 namespace tessera::improve {
 
-// Gives each tet to an owner: of the nearest old tet among those that may have it. Then tets of an
-// owner that do not hang together with its other tets go to an owner beside them that may have
-// them, where there is one. @pre split_disputed(): every tet may be given to somebody.
+// Gives each tet to the owner of the nearest old tet among those that may have it. Then some tets
+// of an owner may not hang together with its other tets. They go to an owner beside them that may
+// have them, where there is one. @pre split_disputed(): every tet may be given to somebody.
 // @param[in] triangle_tet The tet behind each boundary triangle.
 // Throws MeshError if an owner that had tets in the region would lose them all.
 [[nodiscard]] std::vector<LocalIndex> give_to_owners(const RegionMesh& mesh, const TetMesh& tets,

@@ -9,9 +9,9 @@
 
 namespace tessera::improve {
 
-// Throws MeshError unless the tets fill what the region's tets fill: same boundary, triangle for
-// triangle, the bits of the fixed vertices unchanged, all tets positive, same volume (rel. 1e-9).
-// Returns the tet behind each boundary triangle.
+// Throws MeshError unless the tets fill what the region's tets fill. The boundary is the same,
+// triangle for triangle; the bits of the fixed vertices are unchanged; all tets are positive; the
+// volume is the same (rel. 1e-9). Returns the tet behind each boundary triangle.
 [[nodiscard]] std::vector<LocalIndex> check_tets(const RegionMesh& mesh, const TetMesh& tets);
 
 }  // namespace tessera::improve

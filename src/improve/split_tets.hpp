@@ -8,8 +8,8 @@
 namespace tessera::improve {
 
 // Splits tets until every one of them may be given to an owner; returns the number of vertices put
-// in. First edges, then triangles, then tets whose fixed vertices no owner holds together get a
-// vertex in their middle. That ends: the new vertices are free, so a split takes one such edge
+// in. An edge whose fixed vertices no owner holds together gets a vertex in its middle. Triangles
+// follow, then tets. That ends: the new vertices are free, so a split takes one such edge
 // (triangle, tet) away and makes none of the same or a smaller number of vertices. None of them is
 // on the boundary, because the owner of an old tet behind a boundary triangle holds all of it.
 [[nodiscard]] LocalIndex split_disputed(const RegionMesh& mesh, TetMesh& tets);

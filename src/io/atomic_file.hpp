@@ -16,7 +16,9 @@ namespace tessera::io {
 
 /// @brief A file under a temporary name beside its final one; nobody sees it before `commit`.
 ///
-/// Not synced to the disk: what a power cut leaves is found by the hashes of whoever reads it.
+/// Own code, because VTK writes to the temporary name too, and a later run must know the files of a
+/// killed writer by their names. Not synced to the disk: who reads a file finds by its hashes what
+/// a power cut has left.
 class AtomicFile {
  public:
   /// @brief Makes the temporary file, empty. @throws OutputError

@@ -101,8 +101,8 @@ decltype(auto) visit_values(const DataArray& array, Visitor&& visit)
   return as(double{});
 }
 
-/// @brief The values as T, or nothing if one of them does not fit: no value is ever altered, but
-/// that integers of more than 53 bits are rounded when T is double.
+/// @brief The values as T, or nothing if one of them does not fit. No value is altered, except that
+/// integers of more than 53 bits are rounded when T is double.
 template <class T>
 [[nodiscard]] std::optional<std::vector<T>> values_as(const DataArray& array)
 {

@@ -125,9 +125,9 @@ void remove_unless_folder(const fs::path& path)
   if (!fs::is_directory(fs::symlink_status(path))) remove_tree(path);
 }
 
-/// @brief Removes what an earlier run made, in an order in which a kill leaves nothing that a later
-/// run could take for more than it is: without a report the run has not ended, and only a folder
-/// that has no case is one in which nothing has been done.
+/// @brief Removes what an earlier run made. A kill meanwhile leaves nothing that a later run could
+/// take for more than it is, because the report goes first and the case last. Without a report the
+/// run has not ended. Only a folder without a case is one in which nothing has been done.
 void remove_earlier_run(const fs::path& folder)
 {
   remove_unless_folder(folder / "report.json");

@@ -24,8 +24,8 @@ namespace {
   throw InputError(fmt::format("compressor {} is not known", name));
 }
 
-/// @brief The sizes that the blocks claim, but no more than meshes are compressed: the rest is
-/// believed when it is there.
+/// @brief The sizes that the blocks claim, but at most what the usual compression of meshes would
+/// give. More is believed only when the data is there.
 [[nodiscard]] std::size_t likely_size(const std::vector<CompressedBlock>& blocks)
 {
   constexpr std::size_t kUsualRatio = 16;

@@ -148,8 +148,9 @@ template <class Names>
   return {};
 }
 
-/// @brief The array, if it has one value for each of `size` entities; others have no place in
-/// MeshArrays and are not even decoded where that shows before.
+/// @brief The array, or nothing if it is text or has several components. MeshArrays has no place
+/// for such an array, so it is not even decoded.
+/// @throws InputError if it has not one value for each of `size` entities.
 [[nodiscard]] std::optional<DataArray> read_scalars(const XmlElement& element,
                                                     const Encoding& encoding, std::size_t size)
 {

@@ -20,8 +20,8 @@ namespace {
 // (measured).
 constexpr std::chrono::milliseconds kTick{4};
 
-// A process that is to be killed ends within milliseconds; if nothing is heard of it, its parent is
-// stopped or broken, and the parent's parent is asked.
+// A process that is to be killed ends within milliseconds. If nothing is heard of it for this long,
+// its parent is stopped or broken, and the parent's parent is asked.
 constexpr std::chrono::seconds kPatience{5};
 
 double seconds_between(std::chrono::steady_clock::time_point from,
@@ -144,8 +144,8 @@ void Call::accept_data(const Packet& packet)
 void Call::accept_answer(const Packet& packet)
 {
   answered_ = answer_.add(packet);
-  // A job's answer counts when the job has ended; a load killed a moment too late is lost all the
-  // same, so its end is waited for.
+  // A job's answer counts only when the job has ended. A load's counts at once, unless the load is
+  // to be killed: a load killed a moment too late is lost all the same.
   if (answered_ && kind_ == PacketKind::load && !kill_reason_) finish_answered();
 }
 

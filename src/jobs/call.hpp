@@ -15,11 +15,12 @@
 
 namespace tessera::jobs {
 
-/// @brief One load or job, seen from the rank: sends the request, watches the process that works on
-/// it, kills it when it breaks a limit or the caller asks to stop, collects the outcome.
+/// @brief One load or job, seen from the rank. It sends the request, watches the process that works
+/// on it, and collects the outcome. It kills the process if that breaks a limit or the caller asks
+/// to stop.
 ///
-/// Only here limits are watched. A kill is asked of the parent of the process, which alone knows
-/// for sure that the process number is still that of its child.
+/// Limits are watched only here. To kill a process its parent is asked: the parent alone knows for
+/// sure that the process number is still that of its child.
 class Call {
  public:
   /// @pre kind is load or run; all arguments outlive the call.

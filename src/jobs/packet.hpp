@@ -11,8 +11,8 @@
 
 #include "tessera/base/bytes.hpp"
 
-/// What the processes say to each other, over SOCK_SEQPACKET sockets: a packet arrives whole or not
-/// at all, so a process that dies in the middle of a message leaves nothing that confuses the next.
+/// What the processes say to each other, over SOCK_SEQPACKET sockets. A packet arrives whole or not
+/// at all. So a process that dies in the middle of a message leaves nothing that confuses the next.
 namespace tessera::jobs {
 
 enum class PacketKind : std::uint32_t {

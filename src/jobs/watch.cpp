@@ -6,7 +6,7 @@
 namespace tessera::jobs {
 namespace {
 
-// A longer gap means that the watcher itself was stopped (Ctrl-Z) or busy; the process may have
+// A longer gap means that the watcher itself was stopped (Ctrl-Z) or busy. The process may have
 // been, too, so the rest of the gap proves nothing.
 constexpr double kLongestGap_s = 1.0;
 

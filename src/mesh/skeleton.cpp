@@ -137,8 +137,8 @@ std::vector<Edge> number_edges(Skeleton& out)
   return edges;
 }
 
-// Owners: the lowest subdomain of the triangles around, which are all that can hold the entity,
-// because a subdomain's closure meets another one only in skeleton triangles.
+// The owner of an entity is the lowest subdomain of the triangles around it. No other subdomain can
+// hold it, because the closures of two subdomains meet only in skeleton triangles.
 void set_owners(Skeleton& out)
 {
   const LocalIndex nobody = std::numeric_limits<LocalIndex>::max();

@@ -40,8 +40,8 @@ class TriangleTable {
     }
   }
 
-  // Takes the face of a tet as the surface's. False if it is none of its, if it is the wrong way
-  // round, or if another tet is behind that triangle already.
+  // Takes the face of a tet as the surface's. False if the surface has no such triangle, if the
+  // face is the wrong way round, or if another tet is behind that triangle already.
   bool take(const Triangle& face, bool is_even, LocalIndex tet)
   {
     const LocalIndex t = slots_[slot_of(face)];

@@ -75,8 +75,8 @@ void TetPoints::choose_diagonal()
   }
 }
 
-// A new inner point has two odd weights, and is the midpoint along the edge in which they change,
-// or four, and is the middle of an octahedron: the midpoint of its diagonal.
+// A new inner point has two or four odd weights. With two it is the midpoint along the edge in
+// which they change. With four it is the middle of an octahedron: the midpoint of its diagonal.
 void TetPoints::fill_inside()
 {
   for (LocalIndex step = n_ / 2; step >= 1; step /= 2) {

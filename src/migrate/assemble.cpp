@@ -137,8 +137,9 @@ Draft join(const comm::Communicator& comm, const MeshPieces& pieces, VertexIdent
   return draft;
 }
 
-// Dense ids for the vertices: each rank numbers those that it owns in the order in which its tets
-// use them, unless the ids of the files will do.
+// Dense ids for the vertices. The ids of the files are kept if points are matched by them and they
+// are dense. Else each rank numbers the vertices that it owns, in the order in which its tets use
+// them.
 void number_vertices(const comm::Communicator& comm, const Draft& draft, DistributedMesh& mesh)
 {
   std::vector<LocalIndex> owned;

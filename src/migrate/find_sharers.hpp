@@ -16,8 +16,8 @@ struct FoundSharers {
   bool has_contradiction = false;  ///< On any rank, two positions have one key.
 };
 
-/// @brief Finds out which vertices are on several ranks. Asks only about those on faces that have
-/// no second tet on this rank; their keys meet on ranks that follow from the keys.
+/// @brief Finds out which vertices are on several ranks. Asks only about vertices on faces that
+/// have no second tet on this rank. The keys of vertices say on which ranks they meet.
 /// @note Collective.
 /// @param[in] behind tets_behind_faces() of the block.
 [[nodiscard]] FoundSharers find_sharers(const comm::Communicator& comm, const JoinedTets& joined,

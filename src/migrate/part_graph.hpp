@@ -27,8 +27,8 @@ struct PartGraph {
 
 /// @brief Transfers from part to part that can be made at the same time: no part takes part in two.
 ///
-/// For each part that is too large, the last step on a shortest way to a part below the average:
-/// room then comes nearer round by round. Local; a pure function.
+/// For each part that is too large, this is the last step on a shortest way from it to a part below
+/// the average. So room comes nearer round by round. Local; a pure function.
 /// @param[in] banned Pairs (from, to) that have turned out to be impossible.
 [[nodiscard]] std::vector<Transfer> plan_transfers(
     const PartGraph& graph, GlobalIndex largest_allowed,

@@ -56,8 +56,8 @@ class PartView {
 [[nodiscard]] PartGraph graph_of_parts(const comm::Communicator& comm, const PartView& view,
                                        LocalIndex num_parts);
 
-/// @brief The tets that a part of this rank gives to a neighbour: from the triangles between the
-/// two inwards, so that both parts stay connected if they are. Local.
+/// @brief The tets that a part of this rank gives to a neighbour. They are taken from the triangles
+/// between the two inwards, so that both parts stay connected if they are. Local.
 /// @param[in] max_tets No more than so many; the wish is transfer.num_tets.
 /// @return Nothing if it cannot be done.
 [[nodiscard]] std::vector<LocalIndex> choose_tets(const PartView& view, const Transfer& transfer,

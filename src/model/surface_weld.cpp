@@ -73,8 +73,9 @@ TriangleSurface weld_equal_corners(const TriangleSoup& soup)
 
 LocalIndex weld_open_vertices(TriangleSurface& surface, double tolerance)
 {
-  // Near points are near along any direction; along this one, unlike along an axis, the points of a
-  // flat side do not all coincide, so few pairs have to be looked at.
+  // Near points are near along any direction, so one direction is enough to find them. On an axis
+  // all points of a flat side may coincide; along this direction they do not, so few pairs have to
+  // be looked at.
   constexpr Vec3 kDirection{0.4082, 0.5345, 0.7401};
   const auto along = [&](LocalIndex v) { return dot(kDirection, surface.position(v)); };
   std::vector<LocalIndex> open = open_vertices(surface);

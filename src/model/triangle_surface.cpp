@@ -104,8 +104,8 @@ void record_turns(CheckedSurface& checked, const Orientation& orientation)
   }
 }
 
-// One material a solid, taken from the first triangle of the outer shell: what lies in a shell's
-// cavity is another shell, and a cavity's own triangles bound the material around it.
+// One material a solid, taken from the first triangle of the outer shell. What lies in a shell's
+// cavity is another shell. A cavity's own triangles bound the material around it.
 void set_materials(TriangleSurface& surface, const std::vector<Shell>& shells)
 {
   std::map<LocalIndex, LocalIndex> material_of_solid;

@@ -241,8 +241,8 @@ mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options,
   if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
     throw NetgenError("a .geo model has no triangles that could be remeshed");
   }
-  // NETGEN adds points to the geometry that it meshes and takes names out of it: a fresh one for
-  // every try makes each a pure function of the options.
+  // NETGEN adds points to the geometry that it meshes and takes names out of it. So every try gets
+  // a fresh one and is a pure function of the options.
   const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
   NetgenSession session(coarse_parameters(options));
   std::shared_ptr<::netgen::Mesh> mesh;

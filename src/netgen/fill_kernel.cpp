@@ -31,12 +31,13 @@ LocalIndex num_skin_vertices(const FillInput& input)
 //
 // NETGEN puts one point into every cell of an octree, and its optimiser moves them; so this factor
 // decides the edge length. The octree is built such that its cells have this very size (see
-// align_octree()): in NETGEN's own octree a cell is anything from half the wanted size to the
-// whole, and the median edge came out as 0.85 to 1.28 of the wanted one.
+// align_octree()). In NETGEN's own octree a cell is anything from half the wanted size to the
+// whole. With that, the median edge was 0.85 to 1.28 of the wanted one.
 //
-// Measured on surfaces of unit cubes (9, 11, 13 cells a side) and a sphere (1280 triangles), wanted
-// edge = mean edge of the skin, 3 optimisation steps, grading 0.3. Median edge / wanted edge, then
-// the worst of the four: share of edges below 1.6 times the wanted one, mean of mean ratio.
+// Measured on surfaces of unit cubes (9, 11, 13 cells a side) and a sphere (1280 triangles). The
+// wanted edge is the mean edge of the skin; 3 optimisation steps, grading 0.3. Columns: median edge
+// / wanted edge; then the worst of the four in share of edges below 1.6 times the wanted one and in
+// mean of mean ratio.
 //   0.75: 0.88 to 1.03, 99.7 %, 0.892      0.80: 0.97 to 1.08, 99.2 %, 0.861
 //   0.78: 0.93 to 1.06, 99.4 %, 0.877      0.82: 1.00 to 1.08, 99.1 %, 0.860
 constexpr double kPointSpacing = 0.78;
@@ -66,9 +67,9 @@ double point_surplus(const std::vector<double>& sizes, double cell)
 }
 
 // The cell, within one octave, with which the number of points comes nearest to what the sizes ask
-// for. With the median size, a skin with sizes of 1 and 0.8 got cells of 0.78 and 0.39: on shaft
-// (L = 3, K = 16) two of 16 pieces had 25 % too many tets, a mean ratio of 0.78 and angles of 2
-// deg, the others 0.87 and 8 deg or more.
+// for. The median size would not do: a skin with sizes of 1 and 0.8 got cells of 0.78 and 0.39. On
+// shaft (L = 3, K = 16) two of 16 pieces then had 25 % too many tets, a mean ratio of 0.78 and
+// angles of 2 deg. The others had 0.87 and 8 deg or more.
 double best_cell(const std::vector<double>& sizes)
 {
   constexpr int kCandidates = 16;  // 4 % apart.
@@ -105,8 +106,9 @@ void align_octree(::netgen::Mesh& mesh, double cell, double grading)
   make(root / enlargement);
 }
 
-// The samples alone where there are any: NETGEN's sizes from the skin halve every cell whose skin
-// edge is a little shorter than it (shaft, L = 2, K = 32: smallest angle 5.2 deg in place of 7.7).
+// Where there are samples, they alone count. NETGEN's sizes from the skin halve every cell whose
+// skin edge is a little shorter than it (shaft, L = 2, K = 32: smallest angle 5.2 deg in place of
+// 7.7).
 void set_sizes(::netgen::Mesh& mesh, const FillInput& input, double grading)
 {
   if (input.size_h.empty()) {
@@ -122,9 +124,11 @@ void set_sizes(::netgen::Mesh& mesh, const FillInput& input, double grading)
 
 // NETGEN's steps for tets that are there: s and t swap, m smooths, c combines.
 //
-// On shaft (L = 2, 1 subdomain; as subdivided 0.751, 0.471, 7.0 deg): stm 0.821 mean, 0.599 1st
-// percentile of the mean ratio, 11.9 deg, 3.0 s; these 0.870, 0.675, 19.4 deg, 7.7 s; twice these
-// 0.883, 0.695, 20.7 deg, 14.6 s.
+// Mean and 1st percentile of the mean ratio, smallest angle and time on shaft (L = 2, 1 subdomain):
+//   as subdivided   0.751, 0.471, 7.0 deg
+//   stm             0.821, 0.599, 11.9 deg, 3.0 s
+//   these           0.870, 0.675, 19.4 deg, 7.7 s
+//   twice these     0.883, 0.695, 20.7 deg, 14.6 s
 constexpr const char* kStepsForStart = "stmcstmstm";
 
 ::netgen::MeshingParameters parameters_of(const FillInput& input, const KernelSettings& settings)

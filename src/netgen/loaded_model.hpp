@@ -26,8 +26,8 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
     return generate(options, [](const auto&, auto&) {});
   }
 
-  /// @brief As generate(), and lets `use` go on with the mesh in NETGEN, which can do what Tessera
-  /// does otherwise (refine it): that is how the two are compared on one coarse mesh.
+  /// @brief As generate(), and lets `use` go on with the mesh in NETGEN. There NETGEN can do what
+  /// Tessera does otherwise (refine it), so the two can be compared on one coarse mesh.
   /// @throws Also what `use` throws.
   [[nodiscard]] virtual mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                                   const NetgenMeshUser& use) const = 0;

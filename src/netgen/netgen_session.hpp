@@ -18,7 +18,7 @@ namespace tessera::netgen {
 
 /// @brief Holds NETGEN's global state while this process works with it; restores it at its end.
 ///
-/// Some of NETGEN's meshers read the global `::netgen::mparam` and not their argument, all write to
+/// Some of NETGEN's meshers read the global `::netgen::mparam` and not their argument. All write to
 /// global streams, and the reason for a failure is often only in what they wrote. This class is the
 /// one place that touches these globals. One session at a time; not thread-safe, as NETGEN is not.
 class NetgenSession {

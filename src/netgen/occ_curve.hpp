@@ -14,7 +14,7 @@ namespace tessera::netgen {
 
 /// @brief The curve of one CAD edge between its ends, and projection onto it.
 ///
-/// Evaluates the Geom_Curve itself, not an adaptor: adaptors keep the polynomial of the last span,
+/// Evaluates the Geom_Curve itself, not an adaptor. Adaptors keep the polynomial of the last span,
 /// so on a knot their bits would depend on what was asked before.
 class OccCurve {
  public:
@@ -31,8 +31,8 @@ class OccCurve {
   /// descent does not converge. The parameter stays in [first, last].
   [[nodiscard]] model::CurvePoint project(const Vec3& point, double guess) const;
 
-  /// @brief Like project(), for a point known to lie on the curve: if the local answer is farther
-  /// off than the tolerance, the nearer of it and the global one.
+  /// @brief Like project(), for a point known to lie on the curve. If the local answer is farther
+  /// off than the tolerance, gives the nearer of it and the global one.
   [[nodiscard]] model::CurvePoint locate(const Vec3& point, double guess) const;
 
   /// @brief The nearest point of the whole curve.

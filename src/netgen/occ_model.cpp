@@ -117,8 +117,8 @@ model::CurvePoint OccModel::project_to_curve(LocalIndex curve, const Vec3& point
                          [&] { return curve_at(curve).project(point, guess); });
 }
 
-// NETGEN makes a triangulation where there is none and then reads it unchecked, so it is made and
-// checked here; always anew, so that every call starts from the same state.
+// NETGEN makes a triangulation where there is none, and then reads it unchecked. So it is made and
+// checked here. It is always made anew, so that every call starts from the same state.
 void OccModel::triangulate() const
 {
   constexpr double kDeflection = 0.01;  // Of an edge's length; what NETGEN takes.

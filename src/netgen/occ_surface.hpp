@@ -36,12 +36,12 @@ class OccSurface {
   /// trimming edges; else the nearest point of the whole face.
   [[nodiscard]] model::SurfacePoint project(const Vec3& point, const Uv& guess) const;
 
-  /// @brief Like project(), for a point known to lie on the face: if the local answer is farther
-  /// off than the tolerance, the nearer of it and the global one.
+  /// @brief Like project(), for a point known to lie on the face. If the local answer is farther
+  /// off than the tolerance, gives the nearer of it and the global one.
   [[nodiscard]] model::SurfacePoint locate(const Vec3& point, const Uv& guess) const;
 
-  /// @brief Parameters of the corners of a triangle on this face, all on one branch: no side of the
-  /// triangle jumps a seam in parameters, and a corner at a pole has the others' free parameter.
+  /// @brief Parameters of the corners of a triangle on this face, all on one branch. No side of the
+  /// triangle jumps a seam in parameters. A corner at a pole has the others' free parameter.
   /// @param guesses Where to look first; may be far off.
   [[nodiscard]] std::array<Uv, 3> triangle_parameters(const std::array<Vec3, 3>& corners,
                                                       const std::array<Uv, 3>& guesses) const;

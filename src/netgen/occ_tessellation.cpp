@@ -31,7 +31,8 @@ namespace {
 using coarse::PatchSurface;
 
 // How far triangles may be off the surface, in parts of the wanted size, and how much neighbours
-// may turn, radians: what the remeshed surface follows is then better than its own edges can be.
+// may turn, radians. With these the remeshed surface follows something better than its own edges
+// can be.
 constexpr double kDeflection = 0.02;
 constexpr double kAngle = 0.25;
 

@@ -20,10 +20,10 @@ namespace {
 
 // Sets NETGEN's global STL parameters, and puts the old ones back at its end.
 //
-// Beside NETGEN's defaults the size follows the curvature: with 2 elements a radius instead of
-// none, midpoints of edges are off the surface by at most 0.06-0.10 instead of 0.11-0.20 of the
-// edge on four parts, so refined skins fold less. Minimum dihedral angles rise on free-form parts
-// (10.2 to 12.7, 13.4 to 14.8, 2.4 to 5.7 degrees) and fall on a machined one (23.0 to 17.3). Other
+// Unlike with NETGEN's defaults the size follows the curvature, with 2 elements a radius. On four
+// parts midpoints of edges are then off the surface by at most 0.06-0.10 of the edge instead of
+// 0.11-0.20, so refined skins fold less. Minimum dihedral angles rise on free-form parts (10.2 to
+// 12.7, 13.4 to 14.8, 2.4 to 5.7 degrees) and fall on a machined one (23.0 to 17.3). Other
 // restrictions of the size and more optimisation steps gave no clear gain.
 class StlParameters {
  public:
@@ -191,8 +191,8 @@ class StlMeshing {
     return numbers;
   }
 
-  // A line of NETGEN's runs along one curve, since NETGEN ends lines wherever curves end, or inside
-  // a patch, where its first edge is none of ours.
+  // A line of NETGEN's runs along one curve, since NETGEN ends lines wherever curves end. Or it is
+  // inside a patch, and its first edge is none of ours.
   LocalIndex curve_of(const ::netgen::Segment& segment)
   {
     const ::netgen::STLLine& line = *geometry_.GetLine(segment.edgenr);

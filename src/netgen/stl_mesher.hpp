@@ -15,8 +15,8 @@ namespace tessera::netgen {
 /// @brief Coarse mesh of an STL surface by NETGEN's STL mesher, with our patches and curves.
 ///
 /// NETGEN gets our triangles and our feature edges and no other, so it never decides by an angle of
-/// its own; what edges it adds inside a patch, to start a face or to unroll it, are not segments of
-/// the result.
+/// its own. Inside a patch it may add edges, to start a face or to unroll it. These are not
+/// segments of the result.
 /// @param name  What messages call the model.
 /// @param use   Gets NETGEN's mesh, scaled by a power of two.
 /// @note May crash or hang inside NETGEN.

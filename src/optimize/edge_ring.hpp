@@ -32,7 +32,7 @@ struct EdgeRing {
   [[nodiscard]] std::span<const LocalIndex> all_tets() const { return std::span(tets).first(size); }
 };
 
-// Gathers the ring of an edge of tet t; false if the edge is on the boundary, if it has more than
+// Gathers the ring of an edge of tet t. False if the edge is on the boundary, if it has more than
 // `max_size` tets, or if `stop` is true of one of the others.
 template <class Stop>  // (LocalIndex tet) -> bool
 [[nodiscard]] bool walk_ring(const WorkingMesh& mesh, LocalIndex t, const TetEdge& edge,

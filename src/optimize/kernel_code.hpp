@@ -5,10 +5,10 @@
 // instruction set.
 //
 // Written with the vector extension of GCC and Clang rather than a library. Four lanes of doubles
-// are one register with AVX2 and AVX-512, two with SSE2 or NEON, and always the same arithmetic in
-// the same order, so that the bits are the same. std::experimental::simd and Highway choose the
-// lanes by the instruction set, and so the order of sums; SIMDe would bind the code to the
-// intrinsics of one set.
+// are one register with AVX2 and AVX-512, two with SSE2 or NEON. The arithmetic and its order are
+// always the same, and so are the bits. std::experimental::simd and Highway choose the lanes by the
+// instruction set, and so the order of sums; SIMDe would bind the code to the intrinsics of one
+// set.
 //
 // No function of the standard library is called here. An inline one could be emitted with AVX
 // instructions, and the linker may take that copy for the whole program.

@@ -49,8 +49,8 @@ inline double mean_squared_length(const Links& links)
   return sum / static_cast<double>(links.num_neighbours);
 }
 
-// Mean cost of the tets that are left if the vertex moves onto `target`, by `d`; infinite if one of
-// them would be flat, inverted or worse than allowed. Tets with the target vanish.
+// Mean cost of the tets that are left if the vertex moves onto `target`, by `d`. Tets with the
+// target vanish. Infinite if one that is left would be flat, inverted or worse than allowed.
 inline double collapsed_cost(const Star& star, const Links& links, LocalIndex target, Lanes d,
                              double worst_energy)
 {

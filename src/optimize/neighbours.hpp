@@ -14,8 +14,8 @@ namespace tessera::optimize {
                                                       LocalIndex num_vertices,
                                                       const std::vector<LocalIndex>& tet_origin);
 
-// Throws MeshError unless `tet_neighbours` may be what find_neighbours() finds: each entry is
-// mutual, and joins two tets on different sides of one triangle.
+// Throws MeshError unless `tet_neighbours` may be what find_neighbours() finds. Each entry must be
+// mutual, and join two tets on different sides of one triangle.
 void require_neighbours(const std::vector<LocalIndex>& tet_vertices,
                         const std::vector<LocalIndex>& tet_neighbours);
 

@@ -17,8 +17,8 @@ struct Replacement {
 // Puts the new tets into the mesh and flags what has changed. The old ones' slots are used first,
 // then free ones, then new ones at the end.
 //
-// False, and nothing is done, if the boundaries differ: so it is where a mesh overlaps itself, and
-// an edge or a vertex has one neighbour twice.
+// False, and nothing is done, if the boundaries differ. That is so where a mesh overlaps itself,
+// and an edge or a vertex has one neighbour twice.
 [[nodiscard]] bool replace_tets(WorkingMesh& mesh, const Replacement& change);
 
 }  // namespace tessera::optimize

@@ -36,9 +36,9 @@ std::vector<Step> parse_steps(std::string_view letters)
   return steps;
 }
 
-// A collapse dents the smallest mean ratio for a moment: worst tets are looked after right behind
-// it, and none of the schedules ends with one. Smoothing for the mean makes some good tets worse,
-// so the last passes are for the worst, and the bound is tightened before swaps that come late.
+// A collapse dents the smallest mean ratio for a moment. So worst tets are looked after right
+// behind it, and no schedule ends with one. Smoothing for the mean makes some good tets worse. So
+// the last passes are for the worst, and the bound is tightened before swaps that come late.
 Schedule fast_schedule() { return {.steps = parse_steps("mmscwmmscwsmmwww")}; }
 Schedule standard_schedule() { return {.steps = parse_steps("msmscwmmscwsmmwwtsmmwww")}; }
 Schedule thorough_schedule() { return {.steps = parse_steps("msmscwmmscwmmscwtsmmmwwtsmmmwww")}; }

@@ -11,9 +11,9 @@ namespace tessera::optimize {
 // The sum of eta^-3 of the tets between a point and some triangles, as a function of the point;
 // also where tets are inverted. For the few places that need more than a Newton step of a kernel.
 //
-// Six times the volume, w, is replaced by h(w) = (w + sqrt(w^2 + 4 delta^2)) / 2, which is positive
-// everywhere, small where w is negative and near w where that is large: a finite energy whose least
-// value has no inverted tet if delta is small enough.
+// Six times the volume, w, is replaced by h(w) = (w + sqrt(w^2 + 4 delta^2)) / 2. It is positive
+// everywhere, small where w is negative, and near w where w is large. So the energy is finite, and
+// if delta is small enough its least value has no inverted tet.
 // @cite escobar2003
 class StarEnergy {
  public:

@@ -32,8 +32,9 @@ struct Swap {
   }
 };
 
-// The best way to fill a ring without its edge; false if it lowers the cost by no more than
-// `least_gain`, or makes a tet that is worse than allowed. @pre 3 <= ring.size.
+// The best way to fill a ring without its edge. False if it lowers the cost by no more than
+// `least_gain`, or makes a tet that is worse than allowed.
+// @pre 3 <= ring.size.
 [[nodiscard]] bool find_edge_removal(const WorkingMesh& mesh, const EdgeRing& ring,
                                      double least_gain, Swap& swap);
 

@@ -5,8 +5,8 @@
 
 namespace tessera::optimize {
 
-// Makes flat and inverted tets positive, as far as it can: the vertices of bad tets are moved, and
-// swaps and collapses tried that leave positive tets only. Nothing happens if all are positive.
+// Makes flat and inverted tets positive, as far as it can. It moves the vertices of bad tets, and
+// tries swaps and collapses that leave positive tets only. Nothing happens if all are positive.
 void untangle(WorkingMesh& mesh);
 
 }  // namespace tessera::optimize

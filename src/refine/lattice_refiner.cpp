@@ -147,8 +147,8 @@ class LatticeRefiner {
     }
   }
 
-  // The side's points are the edge's; the triangle only finds its own parameters for them, because
-  // triangles on two sides of a periodic seam need different branches.
+  // The points of a side are those of its edge. The triangle only finds its own parameters for
+  // them, because triangles on two sides of a periodic seam need different branches.
   void copy_side_point(LocalIndex t, std::size_t side, LocalIndex k, LocalIndex step)
   {
     const TrianglePoint p = lattice::side_point(n_, side, k);

@@ -23,10 +23,13 @@
 /// Bytes of values, in this machine's byte order: messages between processes and records of the
 /// store. What one build writes, the same build reads.
 ///
-/// A value is one of: a number, a bool, an enumeration with a last_value(), a std::string, a path,
-/// a std::vector, std::map, std::array, std::optional or std::variant of values, and a class with a
-/// list of fields (see fields.hpp). Anything else does not compile, so no padding ever goes to
-/// bytes.
+/// A value is one of these:
+/// - a number, a bool, or an enumeration with a last_value();
+/// - a std::string or a path;
+/// - a std::vector, std::map, std::array, std::optional or std::variant of values;
+/// - a class with a list of fields (see fields.hpp).
+///
+/// Anything else does not compile, so no padding ever goes to bytes.
 namespace tessera {
 
 using Bytes = std::vector<std::byte>;
@@ -219,8 +222,8 @@ class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
-  /// @throws InputError if the bytes are truncated, a count is beyond what is left, a bool or an
-  /// enumeration has none of its values, or the value is not sound.
+  /// @throws InputError if the bytes are truncated or the value is not sound: a count is beyond
+  /// what is left, or a bool or an enumeration has none of its values.
   template <class T>
   [[nodiscard]] T get()
   {

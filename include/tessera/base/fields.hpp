@@ -95,8 +95,8 @@ struct IsPlain<std::array<T, N>> {
 
 }  // namespace detail
 
-/// @brief Whether the bytes of a value in memory are those of its fields, without padding, and any
-/// bytes are a sound value: arrays of such values are copied in one piece.
+/// @brief Whether arrays of such values are copied in one piece. They are if a value in memory is
+/// its fields without padding, and any bytes are a sound value.
 template <class T>
 inline constexpr bool kIsPlain = detail::IsPlain<T>::value();
 

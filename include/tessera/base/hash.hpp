@@ -11,8 +11,8 @@
 
 namespace tessera {
 
-/// @brief 128-bit hash that is summed half by half, each modulo 2^64: sums do not depend on order,
-/// and an MPI sum of the halves is the sum of the hashes.
+/// @brief 128-bit hash that is summed half by half, each modulo 2^64. So sums do not depend on
+/// order, and an MPI sum of the halves is the sum of the hashes.
 struct Hash128 {
   std::uint64_t low = 0;
   std::uint64_t high = 0;
@@ -39,11 +39,11 @@ struct Hash128 {
 /// @brief XXH3-128 of a byte range. Local.
 [[nodiscard]] Hash128 hash_bytes(std::span<const std::byte> bytes) noexcept;
 
-/// @brief Hash of one tet for a mesh digest: over its global vertex ids, the bits of its positions
-/// (shape (4, 3), corner by corner) and its material, in the order given. Local.
+/// @brief Hash of one tet for a mesh digest. Local.
 ///
-/// The digest of a mesh is the sum of this over its tets: one definition for who writes and who
-/// checks.
+/// It covers, in the order given, the tet's global vertex ids, the bits of its positions (corner by
+/// corner, shape (4, 3)) and its material. The digest of a mesh is the sum of this over its tets.
+/// Who writes and who checks use this one definition.
 [[nodiscard]] Hash128 hash_tet(std::span<const GlobalIndex, 4> vertex_ids,
                                std::span<const double, 12> xyz, std::int32_t material) noexcept;
 

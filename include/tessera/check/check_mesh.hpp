@@ -19,38 +19,51 @@ struct PieceSource {
 
 /// @brief What check_mesh() is asked for.
 struct CheckOptions {
-  /// Only some pieces of the mesh were made: ids need not be dense, and a triangle on one tet that
-  /// the boundary file lacks is an open seam, counted but no defect. Needs a boundary file to tell
-  /// the two apart.
+  /// Only some pieces of the mesh were made. Then ids need not be dense. A triangle on one tet that
+  /// the boundary file lacks is an open seam: it is counted, but is no defect. Only a boundary file
+  /// can tell the boundary from open seams, so it is needed.
   bool is_partial = false;
 };
 
 /// @brief Verifies a tet mesh in pieces, and its boundary file if there is one, from the arrays
-/// alone; trusts nothing of what made them.
+/// alone. Trusts nothing of what made them.
 ///
-/// Checked: sizes of arrays and ranges of indices; finite points; positive volumes; every triangle
-/// on one tet or on two with opposite orientation; one position per point id and one id per
-/// position; ids of points and cells dense from 0, no cell id twice; no unused points; every
-/// boundary edge on an even number of boundary triangles, and none folded onto another, as at a
-/// hanging node. The boundary file must hold every boundary triangle once, with outward orientation
-/// and the right tet and subdomain; besides these only triangles between two materials.
+/// Checked of the tets:
+/// - sizes of arrays and ranges of indices;
+/// - points are finite, and each is used;
+/// - volumes are positive;
+/// - every triangle is on one tet, or on two with opposite orientation;
+/// - a point id has one position, and a position one id;
+/// - ids of points and cells are dense from 0, and no cell id is there twice;
+/// - every boundary edge is on an even number of boundary triangles, and none of these is folded
+///   onto another, as at a hanging node.
 ///
-/// Points are matched by id. If ids are absent in some piece, not dense, or contradicted by the
-/// positions of most shared points, they are matched by the bits of their positions instead.
-/// Positions of inner points are compared within their piece only; that pieces overlap in space
-/// without sharing points is not detected.
+/// Checked of the boundary file: it holds every boundary triangle once, with outward orientation
+/// and the right tet and subdomain. Besides these it holds only triangles between two materials.
 ///
-/// A subdomain is what the cell array "subdomain" says, so a piece may hold several; a piece
+/// Points are matched by id. They are matched by the bits of their positions instead if ids are
+/// absent in some piece, not dense, or contradicted by the positions of most shared points.
+/// Positions of inner points are compared within their piece only. Pieces that overlap in space
+/// without sharing points are not detected.
+///
+/// A subdomain is what the cell array "subdomain" says, so a piece may hold several. A piece
 /// without that array is one subdomain, of the piece's number.
 ///
 /// A defect of the mesh is not an exception: it is in the report.
 ///
-/// Piece p is read by rank p mod size, twice if it has seam tets and is not the rank's only one.
-/// Memory: the largest piece about four times; the surfaces of 32 pieces, spread over the ranks; of
-/// the surfaces of the pieces before, the triangles on the boundary, at interfaces and towards
-/// pieces not read yet, one record of each different vertex and 16 bytes of each seam triangle; all
-/// vertices if points are matched by position. So it is small where neighbours in space have
-/// neighbouring numbers, and right in any order.
+/// Piece p is read by rank p mod size. It is read twice if it has seam tets and is not the rank's
+/// only piece.
+///
+/// Memory:
+/// - the largest piece about four times;
+/// - the surfaces of 32 pieces, spread over the ranks;
+/// - of the pieces read before: one record of each different vertex of their surfaces, 16 bytes of
+///   each seam triangle, and the triangles on the boundary, at interfaces and towards pieces not
+///   read yet;
+/// - all vertices if points are matched by position.
+///
+/// So it is small where neighbours in space have neighbouring numbers. The result is right in any
+/// order of pieces.
 /// @note Collective.
 /// @param[in] boundary Pieces of triangles, or nullptr if there is no boundary file.
 /// @throws InputError on all ranks if a piece cannot be read.

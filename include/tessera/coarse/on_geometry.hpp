@@ -15,9 +15,11 @@ namespace tessera::coarse {
 void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
                      const model::Model& model);
 
-/// @brief Remeshes a tessellation and puts it on the geometry; where the surface then cuts itself,
-/// as at a gap that is narrower than its triangles are long, the same again with shorter edges, a
-/// few times. It may still cut itself in the end: find_overlaps() says where. Local.
+/// @brief Remeshes a tessellation and puts it on the geometry. Local.
+///
+/// A surface may then cut itself, as at a gap that is narrower than its triangles are long. The
+/// same is done again with shorter edges there, a few times. It may still cut itself in the end:
+/// find_overlaps() says where.
 /// @param[in] reference  As put_on_geometry().
 /// @throws GeometryError if a projection fails.
 [[nodiscard]] PatchSurface remesh_on_geometry(const SurfaceReference& reference,

@@ -38,8 +38,11 @@ struct PatchSurface {
   }
 };
 
-/// @brief Puts a vertex of its own into each edge on no curve that several sheets have, of one
-/// patch or of two: they cut the same corner of the curve between them. Local.
+/// @brief Separates sheets that share an edge on no curve: each of them but the first gets a vertex
+/// of its own in the middle of the edge. Local.
+///
+/// The sheets, of one patch or of two, share it because they cut the same corner of the curve
+/// between them.
 void separate_patches(PatchSurface& surface);
 
 /// @brief Throws MeshError unless every edge has the triangles that PatchSurface promises, naming

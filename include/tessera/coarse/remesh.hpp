@@ -10,14 +10,18 @@
 
 namespace tessera::coarse {
 
-/// @brief A surface with well-shaped triangles of the wanted sizes on the reference: its edges are
-/// split, collapsed and flipped and its vertices smoothed, round by round @cite botsch2004; curves
-/// stay curves and fixed vertices stay.
+/// @brief A surface with well-shaped triangles of the wanted sizes on the reference. Local.
 ///
-/// What a mesher that advances a front needs to find, this has from the start: a closed surface. A
-/// step that would make a triangle worse than it has to be, or turn one over, is not taken; so it
-/// ends with a closed surface for any reference, if not always with good triangles. The same
-/// arguments give the same bits. Local.
+/// Round by round its edges are split, collapsed and flipped and its vertices smoothed. Curves stay
+/// curves and fixed vertices stay.
+/// @cite botsch2004
+///
+/// A mesher that advances a front has to find a closed surface; this one starts with it. It takes
+/// no step that would turn a triangle over, or make one worse than it has to be. So it ends with a
+/// closed surface for any reference, but not always with good triangles. The same arguments give
+/// the same bits.
+///
+/// Own code, because Debian 12 has no Mmg and CGAL's remesher is GPL.
 /// @pre validate() accepts the reference's surface.
 [[nodiscard]] PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options);
 

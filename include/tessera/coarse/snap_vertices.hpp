@@ -16,9 +16,11 @@ struct VertexDistance {
   static auto fields(auto& self) { return std::tie(self.largest, self.num_off); }
 };
 
-/// @brief Moves vertices that are off their patch or curve by more than its tolerance onto it, as
-/// far as the tets around stay sound, and measures what is left. A vertex between patches or at the
-/// end of curves is measured only: no single projection says where it belongs. Local.
+/// @brief Moves vertices that are off their patch or curve by more than its tolerance onto it, and
+/// measures what is left. Local.
+///
+/// A vertex moves only as far as the tets around it stay sound. A vertex between patches or at the
+/// end of curves is measured only: no single projection says where it belongs.
 /// @throws GeometryError if a projection fails.
 VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model);
 

@@ -15,10 +15,11 @@ struct Overlap {
   Vec3 place{};  ///< Where an edge of one goes through the other.
 };
 
-/// @brief Where a surface cuts itself, as where its triangles are longer than a gap is wide: pairs
-/// of triangles, ascending, of which an edge of one goes through the other. Triangles that share an
-/// edge, or only touch, or lie in one plane, are no such pair. Local; O(n log n) for a surface
-/// whose triangles are much smaller than it.
+/// @brief Where a surface cuts itself, as where its triangles are longer than a gap is wide. Local.
+///
+/// Gives the pairs of triangles, ascending, of which an edge of one goes through the other.
+/// Triangles that share an edge, only touch, or lie in one plane are no such pair. O(n log n) for a
+/// surface whose triangles are much smaller than it.
 [[nodiscard]] std::vector<Overlap> find_overlaps(const PatchSurface& surface);
 
 }  // namespace tessera::coarse

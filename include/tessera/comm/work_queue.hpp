@@ -14,9 +14,10 @@ namespace tessera::comm {
 
 /// @brief Hands every item of a list to exactly one rank, to whoever asks next.
 ///
-/// Rank 0 keeps the list and works on items itself: it serves the others whenever it calls
-/// progress(), so while it waits for its own job it must call that every few milliseconds.
-/// Two-sided messages, because a shared counter (MPI_Fetch_and_op) stalls while its owner sleeps.
+/// Rank 0 keeps the list and works on items itself. It serves the others whenever it calls
+/// progress(), so it must call that every few milliseconds while it waits for its own job. Own code
+/// with two-sided messages, because a shared counter (MPI_Fetch_and_op) stalls while its owner
+/// sleeps.
 ///
 /// Every rank: `while (const auto item = queue.next()) work(*item); queue.finish();`
 class WorkQueue {

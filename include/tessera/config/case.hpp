@@ -61,9 +61,9 @@ struct Case {
 [[nodiscard]] Case load_case(const std::filesystem::path& file,
                              std::span<const std::string> overrides = {});
 
-/// @brief load_case() on the text of a case file. `file` is where it would stand: it names the
-/// input in messages, `geometry.file` is relative to its folder, and the output folder is named
-/// after it. Local.
+/// @brief load_case() on the text of a case file. Local.
+/// @param[in] file Where the text would stand as a file. It names the input in messages and the
+/// output folder; `geometry.file` is relative to its folder.
 [[nodiscard]] Case parse_case(std::string_view text, const std::filesystem::path& file,
                               std::span<const std::string> overrides = {});
 

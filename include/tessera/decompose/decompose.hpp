@@ -12,15 +12,15 @@
 
 namespace tessera::decompose {
 
-/// @brief "auto" asks for at least this many coarse tets a subdomain: with fewer, most of them
-/// touch a seam and the quality of the seams is the quality of the mesh.
+/// @brief "auto" asks for at least this many coarse tets a subdomain. With fewer, most tets touch a
+/// seam, and then the quality of the seams is the quality of the mesh.
 inline constexpr LocalIndex kAutoCoarseTets = 100;
 
 /// @brief "auto" asks for at least this many predicted fine tets a subdomain: NETGEN is fastest on
 /// skins of 3 k to 15 k tets (12-14 k tets/s a core), below that the cost of a job shows.
 inline constexpr double kAutoFineTets = 3000.0;
 
-/// @brief "auto" asks for at least this many subdomains a part of the output: parts are made of
+/// @brief "auto" asks for at least this many subdomains a part of the output. Parts are made of
 /// whole subdomains, and 16 of them can be shared out to within some per cent.
 inline constexpr LocalIndex kAutoSubdomainsAPart = 16;
 
@@ -56,9 +56,10 @@ struct DecomposeResult {
 
 /// @brief Cuts a coarse mesh into subdomains that a volume mesher can fill one by one.
 ///
-/// Afterwards every subdomain is not empty, face-connected and of one material, and its skin is one
-/// closed surface without an edge of four triangles or a vertex where it touches itself; so it
-/// encloses neither another subdomain nor a void of the model. validate() checks all of it.
+/// Afterwards every subdomain is not empty, face-connected and of one material. Its skin is one
+/// closed surface: no edge has four triangles, and nowhere does the surface touch itself at a
+/// vertex. So a subdomain encloses neither another one nor a void of the model. validate() checks
+/// all of it.
 /// @note Local; the same bits for the same arguments. About linear in the number of tets.
 /// @param[in] tet_weight Shape (num_tets), > 0: predicted fine tets of each coarse tet.
 /// @throws ConfigError if more subdomains are requested than there are coarse tets.

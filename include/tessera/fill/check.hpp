@@ -13,9 +13,13 @@ struct FillFacts {
   double volume = 0.0;                     ///< Sum over the tets, output length unit cubed.
 };
 
-/// @brief Checks that tets fill a skin, whatever made them: the boundary of the tets is the skin,
-/// triangle for triangle; skin vertices have not moved by a bit; all tets are positive; the tets'
-/// volume is the volume enclosed by the skin (rel. 1e-9); no vertex is unused.
+/// @brief Checks that tets fill a skin, whatever made them.
+///
+/// - The boundary of the tets is the skin, triangle for triangle.
+/// - Skin vertices have not moved by a bit.
+/// - All tets are positive.
+/// - The tets' volume is the volume enclosed by the skin (rel. 1e-9).
+/// - No vertex is unused.
 /// @note Local; linear. Faces inside are matched by the sum of 64-bit hashes.
 /// @throws MeshError naming the first promise that is broken and where.
 [[nodiscard]] FillFacts check_fill(const FillInput& skin, const FillOutput& tets);

@@ -9,11 +9,18 @@
 
 namespace tessera::fill {
 
-/// @brief The tries of one subdomain, best first. For NETGEN: from the children of the coarse tets;
-/// from the skin alone; the same with another order of points (an inner cavity or a bad start can
-/// depend on it); relaxed grading with little optimisation, in a third order. Our own optimiser
-/// needs one try. The last one is always subdivision, which cannot fail on a skin whose coarse tets
-/// have positive children.
+/// @brief The tries of one subdomain, best first.
+///
+/// For NETGEN:
+/// - from the children of the coarse tets;
+/// - from the skin alone;
+/// - the same with another order of points, since an inner cavity or a bad start can depend on it;
+/// - relaxed grading with little optimisation, in a third order.
+///
+/// For our own optimiser: from the children, folded or not.
+///
+/// The last try is always subdivision. It cannot fail on a skin whose coarse tets have positive
+/// children.
 [[nodiscard]] std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind kernel);
 
 /// @brief The kernel that the case wants for each of the given materials (of subdomains, of tets).

@@ -10,11 +10,13 @@ namespace tessera::fill {
 
 /// @brief What NETGEN begins a fill with.
 ///
-/// The children of the coarse tets fill the skin already and have the same points however the mesh
-/// is cut, so the fill does not depend on the cut either, and there is nothing that could fail.
-/// Measured on shaft (L = 2, 1 / 64 subdomains, seams improved): 157.6 / 156.2 k tets, mean of the
-/// mean ratio 0.870 / 0.865, 6.6 / 6.4 s of CPU time to fill; from the skin alone 158.1 / 135.8 k,
-/// 0.866 / 0.846, 26.1 / 17.5 s.
+/// The children of the coarse tets fill the skin already, so there is nothing that could fail.
+/// Their points are the same however the mesh is cut, so the fill does not depend on the cut.
+///
+/// Measured on shaft (L = 2, 1 / 64 subdomains, seams improved): tets, mean of the mean ratio, CPU
+/// time to fill.
+///   children   157.6 / 156.2 k, 0.870 / 0.865, 6.6 / 6.4 s
+///   skin       158.1 / 135.8 k, 0.866 / 0.846, 26.1 / 17.5 s
 enum class FillStart : int { children, skin };
 [[nodiscard]] constexpr FillStart last_value(FillStart /*type*/) { return FillStart::skin; }
 

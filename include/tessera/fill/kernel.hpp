@@ -14,8 +14,8 @@ struct FillOutput {
   std::vector<LocalIndex> tet_vertices{};  ///< Shape (num_tets, 4); positive, VTK's order.
 };
 
-/// @brief A closed, outward oriented triangle surface, and what a fill of it begins with: tets that
-/// fill it, or the wanted edge length inside it.
+/// @brief What a fill gets: a closed, outward oriented triangle surface, and either tets that fill
+/// it already or the wanted edge length inside it.
 struct FillInput {
   std::vector<double> vertex_xyz{};  ///< Shape (num_vertices, 3).
   std::vector<LocalIndex>
@@ -46,10 +46,14 @@ class Kernel {
 
   /// @brief Makes the tets of `input.start` better or, if there are none, meshes the skin alone.
   ///
-  /// With a start it reads of the input the skin and the start, and of the settings
-  /// `optimize_steps`: with 0 it gives the start back. Without a start it reads the skin, the size
-  /// samples and all settings. Meshing a skin alone is for tries after the first: it takes
-  /// three to four times as long and may fail. subdomain::fill_subdomain() sets up both.
+  /// - With a start it reads the skin and the start, and of the settings `optimize_steps` only.
+  /// With
+  ///   0 steps it gives the start back.
+  /// - Without a start it reads the skin, the size samples and all settings. Meshing a skin alone
+  /// is
+  ///   for tries after the first: it takes three to four times as long and may fail.
+  ///
+  /// subdomain::fill_subdomain() sets up both.
   /// @note Local; may crash, exit or hang inside third-party code: run it in a job. A pure function
   /// of its arguments. The caller checks the result: nothing is promised about it.
   /// @throws NetgenError if the kernel gives up.

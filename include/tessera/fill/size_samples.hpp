@@ -14,11 +14,11 @@ namespace tessera::fill {
 [[nodiscard]] std::vector<double> vertex_sizes(const mesh::CoarseMesh& coarse);
 
 /// @brief Puts the background size into a fill: samples about one wanted edge apart in every coarse
-/// tet of the subdomain, each with the interpolated vertex size divided by 2^levels.
+/// tet of the subdomain. Each has the interpolated vertex size divided by 2^levels.
 ///
-/// Without it NETGEN grows the tets inside a skin by grading alone, and the result depends on how
+/// Without it NETGEN grows the tets inside a skin by grading alone. Then the result depends on how
 /// many skins there are: 11.8 k tets with 1 and 38.1 k with 32 (circle_on_cube, 2 levels). Sizes
-/// are interpolated because NETGEN takes the smallest of neighbouring samples: with one size a tet
+/// are interpolated because NETGEN takes the smallest of neighbouring samples. With one size a tet
 /// the smallest tets around would decide everywhere.
 /// @param[in] vertex_size vertex_sizes() of the mesh.
 /// @param[in] tets The coarse tets of the subdomain.

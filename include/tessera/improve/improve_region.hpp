@@ -33,20 +33,21 @@ struct RegionOutcome {
 
 /// @brief Why the new tets are not better than the old ones, in words; empty if they are.
 ///
-/// The worst tet may not become worse (smallest dihedral angle, smallest mean ratio) unless it
-/// stays better than 15 degrees and 0.4, and the mean of the mean ratio must rise.
+/// The mean of the mean ratio must rise. The worst tet may not become worse, in smallest dihedral
+/// angle and smallest mean ratio, unless it stays better than 15 degrees and 0.4.
 [[nodiscard]] std::string refusal(const ShapeSummary& before, const ShapeSummary& after);
 
 /// @brief Optimises a region's tets, gives them back to its subdomains, checks and judges them.
 ///
 /// A tet goes to the subdomain of the nearest old tet among those that hold all of its fixed
-/// vertices, so no vertex outside the region changes its identity; a tet behind a triangle on the
-/// region's boundary that faces none of its pieces stays where it was, so triangles on the geometry
-/// stay in their pieces. Where no subdomain may have a tet, it is split.
+/// vertices. So no vertex outside the region changes its identity. Some triangles of the region's
+/// boundary face none of its pieces. A tet behind such a triangle stays where it was, so triangles
+/// on the geometry stay in their pieces. Where no subdomain may have a tet, it is split.
 /// @note Local; a pure function of its arguments. The optimiser may crash: call it in a job.
-/// @throws NetgenError, MeshError if the optimiser gives up or breaks a promise: the boundary is
-/// the old one, fixed vertices have not moved, all tets are positive, the volume is the same (rel.
-/// 1e-9), every subdomain keeps tets in the region. The region then keeps its old tets, too.
+/// @throws NetgenError, MeshError if the optimiser gives up or breaks a promise. It promises that
+/// the boundary is the old one, fixed vertices have not moved, all tets are positive, the volume is
+/// the same (rel. 1e-9), and every subdomain keeps tets in the region. After an error the region
+/// keeps its old tets.
 [[nodiscard]] RegionOutcome improve_region(const RegionMesh& mesh, const Optimizer& optimizer,
                                            const OptimizeSettings& settings,
                                            const MeasureShapes& measure);

@@ -13,17 +13,19 @@
 #include "tessera/mesh/skeleton.hpp"
 
 /// Tets around the seams between subdomains are optimised once more, so that their quality does not
-/// depend on how many subdomains there are: first those around the faces between two subdomains,
-/// then around the curves where several meet, then around the ends of these.
+/// depend on how many subdomains there are. First come those around the faces between two
+/// subdomains, then those around the curves where several meet, then those around the ends of the
+/// curves.
 namespace tessera::improve {
 
 /// @brief Phases by dimension: 0 faces between two subdomains, 1 curves, 2 points.
 inline constexpr int kNumPhases = 3;
 
-/// @brief The places where subdomains of one material meet. All hosts of the skeleton that lie in
-/// the same two or more subdomains of a material are one *region*: the work of one job.
+/// @brief The places where subdomains of one material meet.
 ///
-/// SeamRegions are numbered by phase, then by their subdomains; the same in every process.
+/// A *region* is the work of one job: all hosts of the skeleton that lie in the same two or more
+/// subdomains of a material. Regions are numbered by phase, then by their subdomains, so they have
+/// the same numbers in every process.
 class SeamRegions {
  public:
   /// @note Local; O(n log n) in the skeleton's triangles.
@@ -39,8 +41,8 @@ class SeamRegions {
 
   [[nodiscard]] int phase_of(LocalIndex region) const;
 
-  /// @brief Region of the subdomains of `material` that host `host` lies in; kNoIndex if that is
-  /// at most one, or if the host is none of the skeleton's.
+  /// @brief The region of the subdomains of `material` that `host` lies in. kNoIndex if it lies in
+  /// one such subdomain or none, or is not of the skeleton.
   [[nodiscard]] LocalIndex region_of(mesh::HostEntity host, LocalIndex material) const;
 
   /// @brief The subdomains that meet in a region, ascending; at least two, of one material.
@@ -52,7 +54,8 @@ class SeamRegions {
   /// @brief The regions of one phase that a subdomain takes part in, ascending.
   [[nodiscard]] std::span<const LocalIndex> regions_of(LocalIndex subdomain, int phase) const;
 
-  /// @brief Host of the vertices that a region's improvement makes and several pieces share.
+  /// @brief Host of the new vertices that the improvement of a region makes and that several pieces
+  /// share.
   [[nodiscard]] mesh::HostEntity host_of(LocalIndex region) const
   {
     return hosts_.seam_region(region);
@@ -75,12 +78,13 @@ class SeamRegions {
 /// what 2, 3 and 4 gave.
 inline constexpr int kDefaultLayers = 3;
 
-/// @brief The region of a phase that each tet of a piece belongs to: the nearest one, the lowest of
-/// equally near ones; kNoIndex beyond `layers`. Shape (num_tets). So every tet is in one job of a
-/// phase at most, and jobs do not meet.
+/// @brief The region of a phase that each tet of a piece belongs to, or kNoIndex beyond `layers`.
+/// Shape (num_tets).
 ///
-/// Distance is counted in tets: those with a vertex on one of the region's hosts are layer 1. A
-/// pure function of the piece: a region's job and the merge of a piece see the same labels.
+/// That is the nearest region, and the lowest of equally near ones. So every tet is in one job of a
+/// phase at most, and jobs do not meet. Distance is counted in tets: those with a vertex on one of
+/// the region's hosts are layer 1. A pure function of the piece: a region's job and the merge of a
+/// piece see the same labels.
 /// @note Local; linear.
 [[nodiscard]] std::vector<LocalIndex> label_tets(const mesh::Piece& piece,
                                                  const SeamRegions& regions, int phase, int layers);

@@ -22,9 +22,9 @@ enum class ExistingFolder : int {
 /// @brief The output folder of one run, held by a lock for as long as this object lives.
 ///
 /// The lock is the file ".tessera.lock". It names its owner (host, process, start time) while it is
-/// held; empty, it stays as the mark of a folder that a Tessera run has used. The lock of a process
-/// that died on this host is taken over; of one on another host nobody can tell, so its file must
-/// be removed by hand. Rank 0 makes it; all functions are local.
+/// held. Afterwards it stays, empty, as the mark of a folder that a Tessera run has used. The lock
+/// of a process that died on this host is taken over. Whether a process on another host still lives
+/// nobody can tell, so its file must be removed by hand. Rank 0 makes it; all functions are local.
 class OutputFolder {
  public:
   /// @brief Makes the folder with its parents, or takes the existing one as `existing` says.

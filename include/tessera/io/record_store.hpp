@@ -13,10 +13,9 @@ namespace tessera::io {
 
 /// @brief Finished parts of a run as immutable, named records in a scratch folder.
 ///
-/// A piece goes here as soon as it is filled, so that memory holds only the pieces in flight and a
-/// run that died can be resumed. There is no state but the folder: ranks and their job processes
-/// each make their own RecordStore on it. Names are file names without suffix. All functions are
-/// local.
+/// A piece goes here as soon as it is filled. So memory holds only the pieces in flight, and a run
+/// that died can be resumed. There is no state but the folder: ranks and their job processes each
+/// make their own RecordStore on it. Names are file names without suffix. All functions are local.
 class RecordStore {
  public:
   /// @brief Opens the store, making its folder where needed. @throws OutputError

@@ -73,12 +73,15 @@ void throw_unless_ok(const JobOutcome& outcome, const std::string& what);
 
 /// @brief Runs loads and jobs in processes that may die without harm.
 ///
+/// Own code, because a job must start as a fork of a process that has loaded the model and knows no
+/// MPI.
+///
 /// The constructor forks a *zygote*, so construct it before MPI_Init and while the process has one
 /// thread. The zygote forks a *model zygote*, which runs load() and forks one process per job. If
-/// the model zygote dies in a load, a fresh one takes its place, and all earlier successful loads
-/// are gone: the outcome of that load says so. The same holds if somebody else kills it. If the
-/// zygote itself is killed, this and all later calls are `crashed`: a rank cannot fork another one
-/// after MPI_Init.
+/// the model zygote dies in a load, or somebody else kills it, a fresh one takes its place. Then
+/// all earlier successful loads are gone, and the outcome of the load or job says so. If the zygote
+/// itself is killed, this and all later calls are `crashed`: a rank cannot fork another one after
+/// MPI_Init.
 ///
 /// All processes end with the thread that constructed this object, however it ends. They ignore the
 /// signals that a process group gets (Ctrl-C), so that the rank decides. One job at a time;
@@ -110,12 +113,12 @@ class JobRunner {
   [[nodiscard]] JobOutcome run(std::span<const std::byte> request, const JobLimits& limits,
                                const WaitCallback& on_wait);
 
-  /// @brief Largest resident memory of the zygotes and one job together so far, bytes; pages that
+  /// @brief Largest resident memory of the zygotes and one job together so far, bytes. Pages that
   /// they share with each other count once.
   ///
-  /// Taken from what every process says at its end: the proportional sizes of the zygotes, the
-  /// private pages of a job, and what it gave back since its peak. Of a process that died only its
-  /// peak is known; less the size of the model zygote that is a lower bound.
+  /// Every process reports its part at its end: a zygote its proportional size, a job its private
+  /// pages and what it gave back since its peak. Of a process that died only the peak is known.
+  /// What counts for it is that less the size of the model zygote, a lower bound.
   [[nodiscard]] std::size_t peak_rss_bytes() const;
 
   /// @brief What was used since the last restart_usage(), or ever. Local.

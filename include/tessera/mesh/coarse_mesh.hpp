@@ -65,9 +65,12 @@ struct CoarseMesh {
   }
 };
 
-/// @brief Throws MeshError unless the mesh keeps what CoarseMesh promises: indices in range, every
-/// tet positive, every face a face of one or two tets (two only if their materials differ), every
-/// outer or inter-material triangle of a tet a face, sizes of the arrays consistent. Local.
+/// @brief Throws MeshError unless the mesh keeps what CoarseMesh promises. Local.
+///
+/// - Indices are in range and sizes of arrays are consistent.
+/// - Every tet is positive.
+/// - Every face is a face of one tet, or of two if their materials differ.
+/// - Every triangle of a tet that is outside or between two materials is a face.
 void validate(const CoarseMesh& mesh);
 
 }  // namespace tessera::mesh

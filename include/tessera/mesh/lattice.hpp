@@ -9,10 +9,10 @@
 /// @brief Closed forms of the lattices that L levels of splitting put on coarse edges and
 /// triangles.
 ///
-/// With n = 2^L, an edge (v0 < v1) carries points 0…n from v0 to v1; a triangle (v0 < v1 < v2)
-/// carries points (i, j), i, j >= 0, i + j <= n: i steps towards v1 and j towards v2. *Inner*
-/// points lie on no end point or side. A point that level l adds (step s = 2^(L-l)) is the midpoint
-/// of exactly one pair of older points, the same pair seen from everywhere.
+/// With n = 2^L, an edge (v0 < v1) carries points 0…n from v0 to v1. A triangle (v0 < v1 < v2)
+/// carries points (i, j) with i, j >= 0 and i + j <= n: i steps towards v1 and j towards v2.
+/// *Inner* points lie on no end point or side. Level l has the step s = 2^(L-l). A point that it
+/// adds is the midpoint of exactly one pair of older points, the same pair seen from everywhere.
 namespace tessera::mesh::lattice {
 
 /// @brief Largest number of levels: keeps every count of one coarse entity within LocalIndex.

@@ -15,10 +15,10 @@ namespace tessera::mesh {
 /// @brief The tets of one subdomain, finished and immutable.
 ///
 /// Vertices are numbered locally, those of the skin first. Global ids are not known before all
-/// pieces are: a skin vertex refers to (host, index), interior vertex i to (the piece's own host,
-/// i). Once seams were improved, "skin vertices" are those that several pieces may hold: a vertex
-/// of the refined skeleton that now lies inside the piece stays one, and new ones have hosts of
-/// their own (HostKind::seam_region).
+/// pieces are. So a skin vertex refers to (host, index), and interior vertex i to (the piece's own
+/// host, i). Once seams were improved, "skin vertices" are those that several pieces may hold. A
+/// vertex of the refined skeleton stays a skin vertex even if it now lies inside the piece. New
+/// ones have hosts of their own (HostKind::seam_region).
 struct Piece {
   LocalIndex subdomain = 0;
   LocalIndex material = 1;

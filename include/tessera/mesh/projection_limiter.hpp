@@ -19,8 +19,8 @@ enum class LatticeCarrier : std::int32_t { edge, triangle };
   return LatticeCarrier::triangle;
 }
 
-/// @brief Names a lattice point that is born on a skeleton edge or triangle: the same point has the
-/// same key at every number of levels, so a plan made on few levels holds for more.
+/// @brief Names a lattice point that is born on a skeleton edge or triangle. The point has the same
+/// key at every number of levels, so a plan made on few levels holds for more.
 struct LatticePointKey {
   LatticeCarrier carrier = LatticeCarrier::edge;
   LocalIndex entity = kNoIndex;  ///< Row of the skeleton's edges or triangles.

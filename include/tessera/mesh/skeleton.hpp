@@ -17,8 +17,9 @@ namespace tessera::mesh {
 /// process builds the same one for itself.
 ///
 /// Triangles and edges list their vertices in ascending order of coarse vertex numbers. Each edge
-/// carries one *canonical record* that says where its new points lie: on a curve; else on the
-/// surface of its lowest triangle on the geometry; else they are plain midpoints.
+/// carries one *canonical record* that says where its new points lie. They lie on its curve if it
+/// has one, else on the surface of its lowest triangle on the geometry. Without either they are
+/// plain midpoints.
 struct Skeleton {
   std::vector<LocalIndex> vertex_coarse{};  ///< Shape (num_vertices); coarse vertex, ascending.
   std::vector<LocalIndex> vertex_owner{};   ///< Lowest subdomain that holds the vertex.

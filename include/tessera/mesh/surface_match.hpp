@@ -17,9 +17,10 @@ struct SurfaceMatch {
 
 /// @brief Matches the boundary of tets with an outward surface, triangle for triangle.
 ///
-/// Every face of a tet is a triangle of the surface, seen from the right side, or one of two that
-/// face each other: those are hashed with opposite signs and must cancel. Together with positive
-/// tets of the surface's volume that leaves no room for gaps or overlaps.
+/// Every face of a tet must be a triangle of the surface, seen from the right side, or one of two
+/// that face each other. Faces that face each other are hashed with opposite signs and must cancel.
+/// If the tets are also positive and have the surface's volume, there is no room for gaps or
+/// overlaps.
 /// @param[in] triangle_vertices Shape (num_triangles, 3), no triangle twice.
 /// @param[in] num_surface_vertices All vertices of triangles are below it.
 /// @param[in] tet_vertices Shape (num_tets, 4).

@@ -42,7 +42,7 @@ struct TetPoint {
 }
 
 /// @brief Corners of the octahedron at the origin as sums of unit steps, for each choice of its
-/// diagonal: the diagonal's ends first, then the ring around it, such that (from, to, ring[m],
+/// diagonal. The diagonal's ends come first, then the ring around it, such that (from, to, ring[m],
 /// ring[m + 1]) is positive.
 inline constexpr std::array<std::array<TetPoint, 6>, 3> kOctahedra{
     {{{{1, 0, 0}, {0, 1, 1}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}}},
@@ -50,7 +50,9 @@ inline constexpr std::array<std::array<TetPoint, 6>, 3> kOctahedra{
      {{{0, 0, 1}, {1, 1, 0}, {1, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 1, 1}}}}};
 
 /// @brief Calls visit(a, b, c, d) for each of the (n/step)^3 children, all positive if the coarse
-/// tet is. `diagonal` in {0, 1, 2}: the octahedra are cut along the diagonal from the middle of the
+/// tet is.
+///
+/// `diagonal` in {0, 1, 2} says how octahedra are cut. The diagonal goes from the middle of the
 /// edge between corners 0 and diagonal + 1 to the middle of the opposite edge.
 /// @pre step divides n.
 template <class Visit>
@@ -79,7 +81,7 @@ constexpr void for_each_child(LocalIndex n, LocalIndex step, std::size_t diagona
 }
 
 /// @brief As for_each_child() with step 1, in the same order, but visit gets the tet_index() of the
-/// corners; they are sums of a row's first index and i, so a child costs a few additions.
+/// corners. Each index is the first one of its row plus i, so a child costs a few additions.
 template <class Visit>
 constexpr void for_each_child_index(LocalIndex n, std::size_t diagonal, Visit&& visit)
 {

@@ -12,9 +12,9 @@
 
 namespace tessera::mesh {
 
-/// @brief All lattice points of one coarse tet: on its faces those of the refined lattice, inside
-/// the midpoints of older points, level by level, so that what projection moved on the surface
-/// reaches the inside.
+/// @brief All lattice points of one coarse tet. Those on its faces are the refined lattice's. Those
+/// inside are midpoints of older points, level by level, so that what projection moved on the
+/// surface reaches the inside.
 class TetPoints {
  public:
   /// @param[in] tet Row of complex.tets. The references are not kept.

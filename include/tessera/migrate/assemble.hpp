@@ -42,14 +42,14 @@ struct AssembledMesh {
 
 /// @brief Joins pieces: finds what vertices they share, and the tets behind boundary triangles.
 ///
-/// Points are matched by id; by the bits of their positions if a piece has no ids, or if two
-/// positions have one id. Ids that are not dense from 0 are replaced: by rank, then in the order of
-/// the pieces. Materials are "attribute", or 1. Points that no tet uses are left out. A mesh
-/// without a boundary file gets one patch, 0, of all triangles on one tet.
+/// Points are matched by id. They are matched by the bits of their positions if a piece has no ids,
+/// or if two positions have one id. Ids that are not dense from 0 are replaced: by rank, then in
+/// the order of the pieces. Materials are "attribute", or 1. Points that no tet uses are left out.
+/// A mesh without a boundary file gets one patch, 0, of all triangles on one tet.
 /// @note Collective. For a given number of ranks and pieces on them the result is the same.
-/// @throws InputError on all ranks if the pieces do not make up a mesh: a tet with a corner twice,
-/// a triangle on three tets, a boundary triangle without tet or a triangle on one tet that the
-/// boundary file lacks.
+/// @throws InputError on all ranks if the pieces do not make up a mesh. Defects are a tet with a
+/// corner twice, a triangle on three tets, a boundary triangle without tet, and a triangle on one
+/// tet that the boundary file lacks.
 [[nodiscard]] AssembledMesh assemble(const comm::Communicator& comm, const MeshPieces& pieces);
 
 }  // namespace tessera::migrate

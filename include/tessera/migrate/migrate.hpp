@@ -17,10 +17,10 @@ struct Traffic {
 
 /// @brief Moves tets to other ranks, with the vertices and boundary triangles that belong to them.
 ///
-/// Only the owner of a vertex finds its new sharers: its old sharers tell the owner where they send
-/// their tets, and the owner tells the new sharers. Two sparse exchanges: sharers to owners; tets
-/// and lists of sharers to where they belong. Nothing is gathered, and a rank sends to ranks only
-/// that it shares a vertex with, sends tets to, or whose vertices it owned.
+/// Only the owner of a vertex finds its new sharers. The old sharers tell the owner where they send
+/// their tets, and the owner tells the new sharers. That takes two sparse exchanges: sharers to
+/// owners, then tets and lists of sharers to where they belong. Nothing is gathered. A rank sends
+/// only to ranks that it shares a vertex with, sends tets to, or whose vertices it owned.
 ///
 /// The result does not depend on where the tets were before. Sending every tet to where it is
 /// changes nothing, bit for bit.

@@ -67,8 +67,8 @@ class Model {
   /// the guesses below are ignored and the returned parameters are 0.
   [[nodiscard]] virtual bool has_parameters() const = 0;
 
-  /// @brief Largest distance by which a point of this surface may be off and still count as on it:
-  /// the CAD entity's own tolerance, at least 1e-8 of the box diagonal.
+  /// @brief A point counts as on this surface if it is off by no more than this: the CAD entity's
+  /// own tolerance, at least 1e-8 of the box diagonal.
   [[nodiscard]] virtual double surface_tolerance(LocalIndex surface) const = 0;
   [[nodiscard]] virtual double curve_tolerance(LocalIndex curve) const = 0;
 

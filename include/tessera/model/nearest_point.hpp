@@ -26,10 +26,9 @@ struct NearestPoint {
 
 /// @brief Search for the nearest point of many triangles or segments (`Part`: array of corners).
 ///
-/// A pure function of its argument: of equally near parts, the lowest number wins. An own bounding
-/// volume hierarchy, since that rule needs control over the walk and exact distances, which the
-/// well-kept libraries at hand do not offer together under a permissive licence (Boost's R-tree
-/// orders by box distance only, CGAL's tree is GPL).
+/// A pure function of its argument: of equally near parts, the lowest number wins. That rule needs
+/// control over the walk, and exact distances. Of the libraries at hand, Boost's R-tree orders by
+/// box distance only and CGAL's tree is GPL. So the bounding volume hierarchy is our own.
 template <class Part>
 class NearestPointSearch {
  public:

@@ -22,10 +22,11 @@ struct TriangleSoup {
   }
 };
 
-/// @brief Reads an ASCII or a binary STL file; which of the two is told by the size that the binary
-/// header promises, not by the word `solid`, which many binary files begin with as well.
+/// @brief Reads an ASCII or a binary STL file. Local.
 ///
-/// No number in the file is trusted for an allocation. Local.
+/// The size that the binary header promises tells which of the two it is. The word `solid` does
+/// not: many binary files begin with it as well. No number in the file is trusted for an
+/// allocation. The reader is our own, because NETGEN's dies of inconsistent triangles.
 /// @throws InputError naming the file and the line (ASCII) or offset (binary): missing, empty,
 /// truncated, not an STL file, a coordinate that is not a finite number.
 [[nodiscard]] TriangleSoup read_stl(const std::filesystem::path& file);

@@ -15,8 +15,8 @@ namespace tessera::model {
 ///
 /// A feature edge has a dihedral angle above the given one, or triangles of different `solid`s of
 /// the file. A patch is a set of triangles connected over other edges. A curve is a polyline of
-/// feature edges from one vertex where not exactly two of them meet to the next, or a closed loop;
-/// it may end inside a patch.
+/// feature edges. It ends at vertices where not exactly two feature edges meet, or is a closed
+/// loop. It may end inside a patch.
 struct SurfaceFeatures {
   std::vector<LocalIndex> triangle_patch{};  ///< Shape (num_triangles); numbered by first triangle.
   std::vector<std::string> patch_names{};    ///< From the `solid`, where that has a name.

@@ -61,12 +61,15 @@ struct CheckedSurface {
 
 /// @brief Makes a closed surface of loose triangles.
 ///
-/// Corners with the same bits become one vertex; where that leaves edges open, the vertices of open
-/// edges within 1e-6 of the box diagonal are joined, which is what single precision and six printed
-/// digits leave of equal points. Triangles without two different edges and repeated ones are
-/// dropped, triangles are turned to agree with their neighbours, and a shell with its inside out is
-/// turned: outermost shells point outwards, shells inside them bound cavities, and so on. Each of
-/// these is recorded. Nothing is invented: a hole stays an error.
+/// - Corners with the same bits become one vertex.
+/// - Where that leaves edges open, their vertices are joined if they are within 1e-6 of the box
+///   diagonal. Single precision and six printed digits leave equal points that far apart.
+/// - Repeated triangles, and those without two different edges, are dropped.
+/// - Triangles are turned to agree with their neighbours.
+/// - A shell with its inside out is turned: outermost shells point outwards, shells inside them
+///   bound cavities, and so on.
+///
+/// Each of these is recorded. Nothing is invented: a hole stays an error.
 ///
 /// Outer shells of one `solid` are one material. Local.
 /// @param name  What messages call the file.

@@ -8,8 +8,8 @@
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/piece.hpp"
 
-/// Who holds a vertex that several pieces share, when no closed form says it: pieces list their
-/// shared vertices, and each is *owned* by the lowest piece that lists it.
+/// Who holds a vertex that several pieces share, when no closed form says it. Pieces list their
+/// shared vertices, and the lowest piece that lists a vertex *owns* it.
 namespace tessera::number {
 
 /// @brief The shared vertices of a piece, ascending. Local.

@@ -40,30 +40,29 @@ struct OptimizeOptions {
   std::optional<InstructionSet> instruction_set{};  ///< Default: the last of the available ones.
 };
 
-/// @brief Makes tets better inside a fixed boundary: vertices move, edges and faces are swapped,
-/// vertices are merged, as the schedule says.
+/// @brief Makes tets better inside a fixed boundary. Vertices are moved and merged, edges and faces
+/// are swapped, as the schedule says.
 ///
 /// Promises, each for every valid input:
 /// - Fixed vertices and boundary triangles are those of the input, bit by bit.
 /// - Every tet is positive (kLeastMeanRatio), so the volume is that of the input to rounding.
-/// - No step makes a tet that is worse than the worst of the input, so the smallest mean ratio
-///   does not fall but by rounding.
+/// - No step makes a tet that is worse than the worst of the input. So the smallest mean ratio does
+///   not fall, but for rounding.
 /// - Vertices of the input that are left keep their order; so fixed vertices that come first stay
 ///   first. Tets lie along a space-filling curve through the input.
 /// - The result depends on the arguments alone: passes are counted, not timed, and every
-/// instruction
-///   set gives the same bits.
+///   instruction set gives the same bits.
 ///
-/// The energy of a tet is f = eta^-3 = S^3 / (432 w^2), S the sum of its squared edges and w six
-/// times its volume: no root, convex in each vertex while the tet is positive.
+/// The energy of a tet is f = eta^-3 = S^3 / (432 w^2). S is the sum of its squared edges, and w is
+/// six times its volume. f needs no root, and is convex in each vertex while the tet is positive.
 /// @cite freitag1997swapping  Swaps and smoothing together.
 /// @cite knupp2001  Energies of this kind and Newton's method for them.
 /// @param[in] mesh Vertices that no tet has are kept. No tets at all are valid.
-/// @throws MeshError naming the tet, if one has an index out of range, a corner that is not finite,
-/// or is flat or inverted; if a triangle belongs to more than two tets, or two tets lie on the same
-/// side of one; if the neighbours given are wrong; if there are 2^29 tets or more. With
-/// OptimizeOptions::untangle, a flat or inverted tet that stays so; it names the first that began
-/// so.
+/// @throws MeshError naming the tet, if one has an index out of range or a corner that is not
+/// finite, or is flat or inverted. Also if a triangle belongs to more than two tets, two tets lie
+/// on the same side of one, the neighbours given are wrong, or there are 2^29 tets or more. With
+/// OptimizeOptions::untangle tets may begin flat or inverted; it throws if one stays so, and names
+/// the first that began so.
 /// @note Local; linear in the tets: 1 to 2 microseconds each with AVX2.
 [[nodiscard]] OptimizeResult optimize(const TetMesh& mesh, const Schedule& schedule,
                                       const OptimizeOptions& options = {});

@@ -19,9 +19,9 @@ struct TetMesh {
   /// Shape (num_vertices); 1: a vertex off the boundary that must stay, too. Optional.
   std::vector<std::uint8_t> vertex_fixed{};
 
-  /// Shape (num_tets, 4); what lies across the face opposite to corner c of tet t: 4 u + d if that
-  /// face is opposite to corner d of tet u, kNoIndex if it is on the boundary. Optional: a caller
-  /// that knows the neighbours saves the search for them. It is checked.
+  /// Shape (num_tets, 4): what lies across the face opposite to corner c of tet t. It is kNoIndex
+  /// if that face is on the boundary, and 4 u + d if it is opposite to corner d of tet u.
+  /// Optional: a caller that knows the neighbours saves the search for them. It is checked.
   std::vector<LocalIndex> tet_neighbours{};
 };
 

@@ -68,9 +68,10 @@ class Histogram {
   std::vector<GlobalIndex> counts_;
 };
 
-/// @brief Kolmogorov-Smirnov distance between the values of `part` and the others of `whole`, to
-/// the width of a bin: the largest difference of the shares below any value, in [0, 1]. 0 if either
-/// is empty. @pre the same bins; `part` counts nothing that `whole` does not.
+/// @brief Kolmogorov-Smirnov distance between the values of `part` and the others of `whole`, in
+/// [0, 1]. It is the largest difference of the shares below any value, to the width of a bin. 0 if
+/// either is empty.
+/// @pre the same bins; `part` counts nothing that `whole` does not.
 [[nodiscard]] double ks_distance(const Histogram& part, const Histogram& whole);
 
 /// @brief Shape statistics of some tets. Extremes and counts are exact; the sum is that of the

@@ -20,7 +20,7 @@ using TetCorners = std::array<Vec3, 4>;
 [[nodiscard]] double mean_ratio(const TetCorners& corners) noexcept;
 
 /// @brief Mean ratio of one tet, and the range of the six angles between its faces, computed
-/// together; the angles as cosines, since extremes of many tets need one arc cosine only.
+/// together. The angles are kept as cosines, since extremes of many tets need one arc cosine only.
 struct TetShape {
   double mean_ratio = 0.0;
   double largest_cosine = -1.0;  ///< Of the smallest dihedral angle.

@@ -20,10 +20,10 @@ struct RefineContext {
   bool measure_distance = false;  ///< Fill mesh::RefinedLattice::distance; twice the projections.
 };
 
-/// @brief Refines the edges and triangles of a complex, level by level; new points on the geometry
-/// are projected at every level, curves first (DESIGN: one projection at the end would fold).
+/// @brief Refines the edges and triangles of a complex, level by level. New points on the geometry
+/// are projected at every level, curves first: one projection at the end would fold.
 ///
-/// A point's position depends on its coarse entity and the context only, so every subdomain that
+/// A point's position depends on its coarse entity and the context only. So every subdomain that
 /// shares it computes the same bits without a message.
 ///
 /// @note Local.

@@ -8,8 +8,8 @@
 namespace tessera::refine {
 
 /// @brief The skin of a subdomain from the refined lattice of its skin_complex(), or of the
-/// TetComplex::faces of all its tets: entities off the skeleton are passed over. Vertices have
-/// the numbers of mesh::LatticeNumbering.
+/// TetComplex::faces of all its tets. Entities off the skeleton are passed over. Vertices have the
+/// numbers of mesh::LatticeNumbering.
 /// @note Local.
 [[nodiscard]] mesh::Skin extract_skin(const mesh::Complex& complex,
                                       const mesh::RefinedLattice& lattice,

@@ -23,11 +23,11 @@ struct ReadOptions {
 /// @brief Reads this rank's share of a mesh, ours or another tool's; no rank holds the whole.
 ///
 /// With ReadPartition::files a mesh that was made with `output.parts = P` keeps its parts on P
-/// ranks; on more ranks than there are files, some ranks have no tets.
+/// ranks. If there are more ranks than files, some ranks have no tets.
 /// @note Collective; needs no Session.
 /// @param[in] mesh An output folder, or a .pvtu or .vtu file.
-/// @throws InputError on all ranks if a file is missing or damaged, the pieces are no conforming
-/// mesh, or it has fewer tets than ranks and is to be balanced; MeshError if it cannot be cut.
+/// @throws InputError on all ranks if a file is missing or damaged, if the pieces are no conforming
+/// mesh, or if it is to be balanced and has fewer tets than ranks; MeshError if it cannot be cut.
 [[nodiscard]] MeshShare read_mesh(const std::filesystem::path& mesh, const comm::Communicator& comm,
                                   const ReadOptions& options = {});
 

@@ -25,10 +25,13 @@ struct PieceFacts {
 /// @brief The first defect that pieces show when their figures are held against each other, in
 /// words; nothing if there is none.
 ///
-/// In this order: each subdomain of the ranges has one piece; a piece has the Euler characteristic
-/// of its coarse subdomain, and positive tets only; every seam with both sides there closes. After
-/// an exchange of tets, the faces of all tets cancel but for the outside, which is what it was, and
-/// so is the volume (rel. 1e-9).
+/// In this order:
+/// - each subdomain of the ranges has one piece;
+/// - a piece has positive tets only, and the Euler characteristic of its coarse subdomain;
+/// - every seam with both sides there closes.
+///
+/// After an exchange of tets, the faces of all tets cancel but for the outside. The outside and the
+/// volume (rel. 1e-9) are what they were.
 /// @param[in] ranges Ascending; the subdomains that were asked for.
 /// @note Local; linear in the coarse mesh and the pieces' number, whatever they hold.
 [[nodiscard]] std::optional<std::string> verify_pieces(const PartitionedMesh& cut,

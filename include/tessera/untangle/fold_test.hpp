@@ -25,9 +25,9 @@ namespace tessera::untangle {
 
 /// @brief New, smaller factors for the points that make a child of some tet flat or inverted.
 ///
-/// Level by level, on the first level that has a bad child the new points on the geometry of that
-/// tet are held back one step further; with all of them at 0 the level is a plain subdivision and
-/// every child is as good as its parent, so repeated calls end.
+/// Levels are tested one by one, up to the first that has a bad child. There, the new points on the
+/// geometry of that child's tet are held back one step further. With all of them at 0 the level is
+/// a plain subdivision and every child is as good as its parent, so repeated calls end.
 /// @param[in] complex Tets to test. @param[in] lattice Its points under `limiter`.
 /// @return Empty if no child is bad.
 /// @note Local.

@@ -14,7 +14,8 @@
 namespace tessera::verify {
 
 /// @brief What a piece shows on one inner skeleton triangle: the sum of the signed hashes of its
-/// fine triangles there, each over its vertices' mesh::HostPoint and the bits of their positions.
+/// fine triangles there. Each hash is over the vertices' mesh::HostPoint and the bits of their
+/// positions.
 struct SeamHash {
   LocalIndex triangle = kNoIndex;  ///< Skeleton triangle.
   Hash128 hash{};                  ///< Seen from the other side it is the negative of this.
