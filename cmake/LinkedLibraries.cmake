@@ -76,6 +76,7 @@ function(tessera_import_netgen)
 endfunction()
 
 tessera_find_package(MPI COMPONENTS CXX)
+tessera_find_package(fmt)
 tessera_find_package(spdlog)
 tessera_import_library(xxhash::xxhash xxhash.h xxhash)
 tessera_import_library(metis::metis metis.h metis)
