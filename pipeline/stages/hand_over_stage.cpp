@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
@@ -25,7 +27,7 @@ std::ptrdiff_t row_of(LocalIndex subdomain, const std::vector<subdomain::PieceSu
 // an error that all ranks have thrown already.
 void call(const PieceSink& on_piece, LocalIndex number, subdomain::PieceArrays piece)
 {
-  const std::string what = "on_piece has failed for piece " + std::to_string(number);
+  const std::string what = fmt::format("on_piece has failed for piece {}", number);
   try {
     on_piece(number, std::move(piece));
   } catch (const std::exception& error) {
@@ -59,7 +61,7 @@ void run_hand_over_stage(const std::vector<subdomain::SubdomainRange>& files,
   for_each_dynamic(in_order(files.size()), hand_over, stage, context);
   context.comm.sum_in_place(digests);
   for (std::size_t s = 0; s < digests.size(); ++s) filled.pieces[s].digest = digests[s];
-  stage.finish(std::to_string(files.size()) + " pieces");
+  stage.finish(fmt::format("{} pieces", files.size()));
 }
 
 }  // namespace tessera::pipeline

@@ -8,6 +8,8 @@
 #include <limits>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 namespace tessera::optimize {
@@ -40,8 +42,7 @@ void require_indices(const TetMesh& mesh)
   for (std::size_t i = 0; i < mesh.tet_vertices.size(); ++i) {
     const LocalIndex v = mesh.tet_vertices[i];
     if (v >= 0 && v < num_vertices) continue;
-    throw MeshError("tet " + std::to_string(i / 4) + " has vertex " + std::to_string(v) + " of "
-                    + std::to_string(num_vertices));
+    throw MeshError(fmt::format("tet {} has vertex {} of {}", i / 4, v, num_vertices));
   }
 }
 
@@ -52,7 +53,7 @@ void require_four_vertices(const TetMesh& mesh)
     std::copy_n(&mesh.tet_vertices[4 * t], 4, vertices.begin());
     std::sort(vertices.begin(), vertices.end());
     if (std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end()) continue;
-    throw MeshError("tet " + std::to_string(t) + " has a vertex twice");
+    throw MeshError(fmt::format("tet {} has a vertex twice", t));
   }
 }
 
@@ -64,8 +65,8 @@ void require_four_vertices(const TetMesh& mesh)
   const std::string whose =
       corner == mesh.tet_vertices.end()
           ? ", of no tet,"
-          : " of tet " + std::to_string((corner - mesh.tet_vertices.begin()) / 4);
-  throw MeshError("vertex " + std::to_string(v) + whose + " is not finite");
+          : fmt::format(" of tet {}", (corner - mesh.tet_vertices.begin()) / 4);
+  throw MeshError(fmt::format("vertex {}{} is not finite", v, whose));
 }
 
 void require_finite(const TetMesh& mesh)

@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
@@ -96,8 +98,8 @@ class NeighbourSearch {
       if (neighbours_[at(corner)] != kNoIndex) fail(corner, "has a triangle of three tets");
     }
     if (a.side() == b.side()) {
-      fail(a.corner(), "lies on the same side of a triangle as tet "
-                           + std::to_string(tet_origin_[at(tet_of(b.corner()))]));
+      fail(a.corner(), fmt::format("lies on the same side of a triangle as tet {}",
+                                   tet_origin_[at(tet_of(b.corner()))]));
     }
     neighbours_[at(a.corner())] = b.corner();
     neighbours_[at(b.corner())] = a.corner();
@@ -105,7 +107,7 @@ class NeighbourSearch {
 
   [[noreturn]] void fail(Corner corner, const std::string& what) const
   {
-    throw MeshError("tet " + std::to_string(tet_origin_[at(tet_of(corner))]) + " " + what);
+    throw MeshError(fmt::format("tet {} {}", tet_origin_[at(tet_of(corner))], what));
   }
 
   const std::vector<LocalIndex>& tet_vertices_;
@@ -142,8 +144,8 @@ void require_neighbours(const std::vector<LocalIndex>& tet_vertices,
     if (other == kNoIndex) continue;
     if (other < 0 || other >= num_corners || tet_neighbours[at(other)] != corner
         || !are_opposite(tet_vertices, corner, other)) {
-      throw MeshError("tet " + std::to_string(tet_of(corner)) + " has a wrong neighbour opposite to"
-                      + " its corner " + std::to_string(corner & 3));
+      throw MeshError(fmt::format("tet {} has a wrong neighbour opposite to its corner {}",
+                                  tet_of(corner), corner & 3));
     }
   }
 }

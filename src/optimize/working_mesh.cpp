@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 
 #include "optimize/input_check.hpp"
@@ -204,7 +206,7 @@ LocalIndex count_not_positive(const WorkingMesh& mesh)
 void require_positive(const WorkingMesh& mesh)
 {
   if (count_not_positive(mesh) == 0) return;
-  throw MeshError("tet " + std::to_string(mesh.first_not_positive) + " is flat or inverted");
+  throw MeshError(fmt::format("tet {} is flat or inverted", mesh.first_not_positive));
 }
 
 void tighten_bound(WorkingMesh& mesh)

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -30,8 +32,8 @@ migrate::DistributedMesh cut_anew(migrate::DistributedMesh mesh, const std::stri
 {
   const GlobalIndex num_tets = comm.sum(mesh.num_tets());
   if (num_tets < comm.size()) {
-    throw comm::Collective<InputError>(name + ": the mesh has only " + std::to_string(num_tets)
-                                       + " tets, fewer than ranks");
+    throw comm::Collective<InputError>(
+        fmt::format("{}: the mesh has only {} tets, fewer than ranks", name, num_tets));
   }
   migrate::Traffic traffic;
   return migrate::cut_into_parts(comm, std::move(mesh), {.num_parts = comm.size()}, traffic).mesh;
