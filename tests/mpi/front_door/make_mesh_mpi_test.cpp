@@ -14,6 +14,7 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/tessera.hpp"
 
+#include "support/mpi_tests.hpp"
 #include "support/shared_folder.hpp"
 
 namespace tessera {
@@ -279,9 +280,7 @@ int main(int argc, char** argv)
   tessera::Session session;
   tessera::session_of_this_process = &session;
   MPI_Init(&argc, &argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  int failed = RUN_ALL_TESTS();
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  const int failed = tessera::testing::run_tests_on_all_ranks(argc, argv);
   MPI_Finalize();
   return failed;
 }

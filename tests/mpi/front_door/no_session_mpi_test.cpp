@@ -7,6 +7,8 @@
 
 #include "tessera/tessera.hpp"
 
+#include "support/mpi_tests.hpp"
+
 namespace tessera {
 namespace {
 
@@ -49,9 +51,7 @@ int main(int argc, char** argv)
   if (rank != nullptr && std::atoi(rank) == 1) session = std::make_unique<tessera::Session>();
   tessera::has_session = session != nullptr;
   MPI_Init(&argc, &argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  int failed = RUN_ALL_TESTS();
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  const int failed = tessera::testing::run_tests_on_all_ranks(argc, argv);
   MPI_Finalize();
   return failed;
 }

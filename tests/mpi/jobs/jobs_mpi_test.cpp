@@ -14,6 +14,7 @@
 #include "tessera/jobs/job_runner.hpp"
 
 #include "support/failing_worker.hpp"
+#include "support/mpi_tests.hpp"
 
 namespace tessera::jobs {
 namespace {
@@ -96,9 +97,7 @@ int main(int argc, char** argv)
   tessera::jobs::runner_of_this_rank = runner.get();
 
   MPI_Init(&argc, &argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  int failed = RUN_ALL_TESTS();
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  const int failed = tessera::testing::run_tests_on_all_ranks(argc, argv);
   runner.reset();
   MPI_Finalize();
   return failed;

@@ -20,6 +20,7 @@
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/stages/untangle_and_fill.hpp"
+#include "support/mpi_tests.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -137,9 +138,7 @@ int main(int argc, char** argv)
   tessera::pipeline::runner_of_this_rank = runner.get();
 
   MPI_Init(&argc, &argv);
-  ::testing::InitGoogleTest(&argc, argv);
-  int failed = RUN_ALL_TESTS();
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+  const int failed = tessera::testing::run_tests_on_all_ranks(argc, argv);
   runner.reset();
   MPI_Finalize();
   return failed;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/subdomain/piece_file.hpp"
 
+#include <filesystem>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -106,6 +108,40 @@ TEST(FileRanges, AreContiguousAndOfAlmostEqualLength)
 }
 
 TEST(FileRanges, ZeroMeansAFileForEachSubdomain) { EXPECT_EQ(file_ranges(5, 0).size(), 5U); }
+
+struct PieceFiles : testing::FilledCube {
+  const testing::TemporaryFolder folder{};
+
+  PieceFiles()
+  {
+    std::filesystem::create_directory(folder / "mesh");
+    std::filesystem::create_directory(folder / "boundary");
+  }
+
+  [[nodiscard]] std::vector<std::filesystem::path> write(const io::OutputOptions& options) const
+  {
+    const WriteContext context = this->context();
+    PieceFile file(context, options);
+    for (const FilledPiece& filled : pieces()) file.add(filled.piece);
+    return file.write(folder.path(), 7);
+  }
+};
+
+TEST_F(PieceFiles, AreThoseThatWriteNames)
+{
+  const std::vector<std::filesystem::path> written = write({});
+  EXPECT_EQ(written, (std::vector<std::filesystem::path>{"mesh/piece_000007.vtu",
+                                                         "boundary/piece_000007.vtu"}));
+  EXPECT_EQ(io::read_vtu(folder.path() / written[0]).num_cells(), ids().num_tets());
+  EXPECT_EQ(io::read_vtu(folder.path() / written[1]).num_cells(), ids().num_boundary_triangles());
+}
+
+TEST_F(PieceFiles, AreOfTheFormatsAskedForAndNoOthers)
+{
+  EXPECT_EQ(write({.formats = {}}), std::vector<std::filesystem::path>{});
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "mesh"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "boundary"));
+}
 
 }  // namespace
 }  // namespace tessera::subdomain
