@@ -40,6 +40,8 @@ double file_bytes_per_tet(const io::OutputOptions& options)
 
 // Measured on torus and core with pieces of 1e4 to 3e5 tets; NETGEN from skins alone, which is its
 // slowest start.
+// Our optimiser: fills of the eleven cases took 1.3e-6 to 4e-6 s a tet. Its memory is that of the
+// children and the 250 bytes that optimize() states; neither was measured in a job.
 Rates built_in_rates(const io::OutputOptions& options)
 {
   const double file_bytes = file_bytes_per_tet(options);
