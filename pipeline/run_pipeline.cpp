@@ -11,6 +11,7 @@
 #include "pipeline/stages/improve_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/number_stage.hpp"
+#include "pipeline/stages/refine_stage.hpp"
 #include "pipeline/stages/untangle_and_fill.hpp"
 #include "pipeline/stages/verify_stage.hpp"
 #include "pipeline/stages/write_stage.hpp"
@@ -22,7 +23,7 @@ namespace {
 void load_workers(const RunResult& run, const subdomain::PartitionedMesh& cut,
                   const OutputPlan& output, RunContext& context)
 {
-  load_mesh(cut, run.resolved.refine.levels, run.largest_size, context);
+  load_mesh(cut, output.outline.fill_levels, run.largest_size, context);
   if (!output.outline.is_one_pass) return;
   load_numbers(output.outline.pieces, output.length_unit, run.resolved.output, context);
 }
@@ -30,6 +31,19 @@ void load_workers(const RunResult& run, const subdomain::PartitionedMesh& cut,
 bool wants_better_seams(const RunResult& run)
 {
   return run.resolved.improve.seams && !are_counts_known(run.kernels);
+}
+
+// From the levels that pieces were filled on to all.
+void split_pieces(RunResult& run, const subdomain::PartitionedMesh& cut, const OutputPlan& output,
+                  RunContext& context)
+{
+  const RunOutline& outline = output.outline;
+  const auto& ranges = outline.has_files ? outline.files : outline.jobs;
+  run.filled = run_refine_stage(
+      run.resolved,
+      {cut, outline.fill_levels, outline.levels, ranges, outline.has_files, output.length_unit},
+      run.limiter, std::move(run.filled), context);
+  run_verify_stage(cut, outline.jobs, run.filled, context);
 }
 
 }  // namespace
@@ -43,14 +57,17 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   load_workers(run, cut, output, context);
   require_disk_space(outline, run.resolved.output, context);
 
+  config::Case to_fill = run.resolved;
+  to_fill.refine.levels = outline.fill_levels;
   UntangledFill fill =
-      untangle_and_fill(run.resolved, {cut, run.kernels, outline.jobs, options.state}, context);
+      untangle_and_fill(to_fill, {cut, run.kernels, outline.jobs, options.state}, context);
   run.limiter = std::move(fill.limiter);
   run.filled = std::move(fill.filled);
   if (wants_better_seams(run)) {
     run.filled = run_improve_stage(run.resolved, cut, run.kernels, std::move(run.filled), context);
   }
   run_verify_stage(cut, outline.jobs, run.filled, context);
+  if (outline.splits_pieces()) split_pieces(run, cut, output, context);
 
   const number::IdLayout ids = number_mesh(run, cut, outline);
   run.num_vertices = ids.num_vertices();
@@ -61,7 +78,9 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
     run_hand_over_stage(outline.files, mesh, options.on_piece, run.filled, context);
     return run;
   }
-  if (!outline.is_one_pass) run_write_stage(run.resolved, outline.files, mesh, run.filled, context);
+  if (!outline.is_one_pass && !outline.splits_pieces()) {
+    run_write_stage(run.resolved, outline.files, mesh, run.filled, context);
+  }
   write_indices(run.resolved, outline.files, mesh, run.filled, context);
   return run;
 }

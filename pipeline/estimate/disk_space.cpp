@@ -36,7 +36,9 @@ DiskNeed disk_need(const RunOutline& outline, const Rates& rates)
       const KernelRates& kernel = rates.of(outline.kernels[at(s)]);
       const auto tets = static_cast<double>(outline.pieces[at(s)].tets);
       if (outline.has_files) need.file_bytes += kernel.file_bytes_per_tet * tets;
-      if (!outline.is_one_pass) need.store_bytes += copies * kernel.store_bytes_per_tet * tets;
+      if (!outline.is_one_pass) {
+        need.store_bytes += copies * kernel.store_bytes_per_tet * outline.filled_share() * tets;
+      }
     }
     if (!outline.has_files) continue;
     const GlobalIndex triangles = outline.boundary_triangles_of(file);

@@ -61,22 +61,30 @@ void RunOutline::hand_over_pieces()
   }
 }
 
+OutlineLevels outline_levels(const config::Case& run_case,
+                             const std::vector<fill::KernelKind>& kernels)
+{
+  const int all = run_case.refine.levels;
+  return {are_counts_known(kernels) ? all : fill::fill_levels(run_case.fill, all), all};
+}
+
 RunOutline outline_run(const subdomain::PartitionedMesh& cut,
-                       const std::vector<fill::KernelKind>& kernels, int levels,
+                       const std::vector<fill::KernelKind>& kernels, const OutlineLevels& levels,
                        const std::vector<subdomain::SubdomainRange>& files, bool improve_seams)
 {
-  RunOutline outline{.levels = levels,
+  RunOutline outline{.levels = levels.all,
+                     .fill_levels = levels.fill,
                      .num_coarse_tets = cut.coarse.num_tets(),
                      .kernels = kernels,
-                     .pieces = subdomain::count_subdivided_pieces(cut, levels),
+                     .pieces = subdomain::count_subdivided_pieces(cut, levels.all),
                      .files = files};
   outline.is_one_pass = are_counts_known(kernels);
   outline.num_skeleton_vertices =
-      mesh::HostLayout(cut.skeleton).num_skeleton_points(mesh::lattice::intervals(levels));
+      mesh::HostLayout(cut.skeleton).num_skeleton_points(mesh::lattice::intervals(levels.all));
   outline.seam_triangles.resize(kernels.size());
   for (LocalIndex s = 0; improve_seams && s < cut.num_subdomains(); ++s) {
     if (kernels[at(s)] == fill::KernelKind::subdivide) continue;
-    outline.seam_triangles[at(s)] = num_seam_triangles(cut.skeleton, s) << 2 * levels;
+    outline.seam_triangles[at(s)] = num_seam_triangles(cut.skeleton, s) << 2 * levels.fill;
   }
   outline.jobs = outline.is_one_pass ? files : subdomain::file_ranges(cut.num_subdomains(), 0);
   return outline;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ namespace tessera::pipeline {
 /// @brief What is known or expected of the fine mesh before any of it is made.
 struct RunOutline {
   int levels = 0;
+  int fill_levels = 0;  ///< On which pieces are filled; the same unless they are split further.
   LocalIndex num_coarse_tets = 0;
   std::vector<fill::KernelKind> kernels{};    ///< Shape (num_subdomains).
   std::vector<number::PieceCounts> pieces{};  ///< Shape (num_subdomains). Tets and interior
@@ -33,6 +35,12 @@ struct RunOutline {
   std::vector<subdomain::SubdomainRange> files{};  ///< What each file holds.
   bool has_files = true;  ///< False: finished pieces are handed over instead.
 
+  /// @brief Whether pieces are split after they were filled.
+  [[nodiscard]] bool splits_pieces() const { return fill_levels < levels; }
+
+  /// @brief Tets that a filled piece has for one that the mesh will have.
+  [[nodiscard]] double filled_share() const { return std::ldexp(1.0, 3 * (fill_levels - levels)); }
+
   /// @brief From now on there are no files: every piece waits in the store until it is handed over.
   void hand_over_pieces();
 
@@ -41,11 +49,22 @@ struct RunOutline {
   [[nodiscard]] bool improves_seams() const;
 };
 
+/// @brief On how many levels pieces are filled, and how many there are in all.
+struct OutlineLevels {
+  int fill = 0;
+  int all = 0;
+};
+
+/// @brief Those of a case. Where all is subdivided, pieces have all levels at once.
+[[nodiscard]] OutlineLevels outline_levels(const config::Case& run_case,
+                                           const std::vector<fill::KernelKind>& kernels);
+
 /// @brief The outline of a run with so many levels. Local; O(coarse tets).
 /// @param[in] files output.files, or those asked for; see run_pipeline().
 /// @param[in] improve_seams improve.seams.
 [[nodiscard]] RunOutline outline_run(const subdomain::PartitionedMesh& cut,
-                                     const std::vector<fill::KernelKind>& kernels, int levels,
+                                     const std::vector<fill::KernelKind>& kernels,
+                                     const OutlineLevels& levels,
                                      const std::vector<subdomain::SubdomainRange>& files,
                                      bool improve_seams);
 

@@ -22,6 +22,8 @@
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
+#include "tessera/subdomain/piece_surface.hpp"
+#include "tessera/subdomain/refine_piece.hpp"
 #include "tessera/subdomain/seam_optimizer.hpp"
 #include "tessera/untangle/fold_test.hpp"
 
@@ -29,10 +31,25 @@
 #include "pipeline/jobs/test_fault.hpp"
 #include "pipeline/jobs/worker_messages.hpp"
 #include "pipeline/store/fill_record.hpp"
+#include "pipeline/store/piece_surfaces.hpp"
 #include "pipeline/store/region_records.hpp"
 
 namespace tessera::pipeline {
 namespace {
+
+// What refine jobs start from.
+struct Refinement {
+  RefineSettings settings;
+  io::OutputOptions output;
+  subdomain::PieceRefiner refiner;
+  PieceSurfaces surfaces;
+  number::IdLayout ids;
+
+  [[nodiscard]] LocalIndex intervals() const
+  {
+    return mesh::lattice::intervals(settings.levels - settings.fill_levels);
+  }
+};
 
 // State of the model zygote; jobs are forked from it.
 class MeshWorker final : public jobs::Worker {
@@ -62,6 +79,7 @@ class MeshWorker final : public jobs::Worker {
   {
     ids_.reset();
     regions_.reset();
+    refinement_.reset();
     limiter_ = {};
     cut_.reset();
     coarse_ = std::move(load.coarse);
@@ -88,6 +106,17 @@ class MeshWorker final : public jobs::Worker {
     improve_options_ = load.options;
     kernels_ = std::move(load.kernels);
     regions_.emplace(cut_->skeleton, decomposition_);
+  }
+
+  void take(RefinementLoad load)
+  {
+    io::OutputOptions output{.formats = std::move(load.formats),
+                             .compression = load.compression,
+                             .cell_quality = load.cell_quality};
+    refinement_.emplace(Refinement{
+        load.settings, std::move(output), subdomain::PieceRefiner(*cut_, load.settings.fill_levels),
+        PieceSurfaces(output_, cut_->skeleton, decomposition_, load.settings.generation),
+        number::IdLayout::by_owner(load.settings.counts)});
   }
 
   [[nodiscard]] static Bytes answer(const ImportRequest& request)
@@ -200,6 +229,37 @@ class MeshWorker final : public jobs::Worker {
     return to_bytes(record);
   }
 
+  [[nodiscard]] Bytes answer(const RefineTask& task) const
+  {
+    fail_if_asked("refine", task.first);
+    const Refinement& to = *refinement_;
+    refine::RefineContext context = refine_context(limiter_);
+    context.levels = to.settings.levels;
+    context.measure_distance = true;
+    const mesh::HostLayout hosts(cut_->skeleton);
+    const subdomain::WriteContext numbers{
+        coarse_, cut_->skeleton, to.ids, to.settings.length_unit, [&](const mesh::Piece& piece) {
+          return subdomain::places_of_split_piece(piece, hosts,
+                                                  to.settings.counts[at(piece.subdomain)]);
+        }};
+    PieceBatch batch({.output = output_,
+                      .record = refined_name(task.batch),
+                      .file = task.batch,
+                      .plan = task.plan,
+                      .keep = task.keep},
+                     to.settings.has_files ? &numbers : nullptr, to.output);
+    RefineTaskResult made;
+    for (LocalIndex s = task.first; s < task.last; ++s) {
+      subdomain::RefinedPiece refined =
+          to.refiner.refine(to.surfaces.piece(s), to.surfaces.surroundings(s, to.intervals()),
+                            context, task.before[at(s - task.first)]);
+      made.folds.insert(made.folds.end(), refined.folds.begin(), refined.folds.end());
+      batch.add(std::move(refined.filled));
+    }
+    made.results = std::move(batch).finish();
+    return garbled_if_asked("refine", to_bytes(made), task.first);
+  }
+
   [[nodiscard]] Bytes answer(const SkinRequest& request) const
   {
     fail_if_asked("skin", request.subdomain);
@@ -238,6 +298,7 @@ class MeshWorker final : public jobs::Worker {
   improve::ImproveOptions improve_options_{};
   std::vector<fill::KernelKind> kernels_{};        ///< By subdomain, as the case wants them.
   std::optional<improve::SeamRegions> regions_{};  ///< If seams are to be improved.
+  std::optional<Refinement> refinement_{};         ///< If pieces are to be split further.
 };
 
 // Jobs allocate arrays and give them back all the time. Kept, their memory serves the next arrays;
@@ -332,6 +393,14 @@ Bytes improve_pieces_request(LocalIndex region, const std::vector<mesh::Piece>& 
 {
   return to_bytes(Request(ImprovePiecesRequest{region, pieces}));
 }
+
+Bytes load_refinement_message(const RefineSettings& settings, const io::OutputOptions& options)
+{
+  return to_bytes(
+      Load(RefinementLoad{settings, options.formats, options.compression, options.cell_quality}));
+}
+
+Bytes refine_request(const RefineTask& task) { return to_bytes(Request(task)); }
 
 Bytes skin_request(LocalIndex subdomain) { return to_bytes(Request(SkinRequest{subdomain})); }
 

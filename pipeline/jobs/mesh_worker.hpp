@@ -22,6 +22,7 @@
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/number/id_layout.hpp"
+#include "tessera/subdomain/piece_summary.hpp"
 
 /// Everything that runs in job processes because it calls NETGEN or OpenCASCADE, and the messages
 /// that start it. A job's result is the bytes that the stage reads back.
@@ -124,6 +125,53 @@ struct FillTask {
 /// read or stored. Result: bytes of a subdomain::RegionRecord.
 [[nodiscard]] Bytes improve_pieces_request(LocalIndex region,
                                            const std::vector<mesh::Piece>& pieces);
+
+/// @brief What jobs need to split pieces further.
+struct RefineSettings {
+  int fill_levels = 0;                        ///< That the pieces were filled on.
+  int levels = 0;                             ///< To be reached.
+  int generation = 0;                         ///< Of the pieces.
+  std::vector<number::PieceCounts> counts{};  ///< Of all pieces as they will be.
+  std::string length_unit{};
+  bool has_files = true;  ///< False: pieces go into the store.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.fill_levels, self.levels, self.generation, self.counts, self.length_unit,
+                    self.has_files);
+  }
+};
+
+/// @brief load: that pieces are to be split further. Needs the mesh.
+[[nodiscard]] Bytes load_refinement_message(const RefineSettings& settings,
+                                            const io::OutputOptions& options);
+
+/// @brief What a refine job makes: the pieces of the subdomains first…last-1.
+struct RefineTask {
+  LocalIndex batch = 0;  ///< Number of the record and of the file.
+  LocalIndex first = 0;
+  LocalIndex last = 0;
+  Hash128 plan{};    ///< What they are made from.
+  bool keep = true;  ///< false: measure only and store nothing, for a replay.
+  std::vector<subdomain::PieceSummary> before{};  ///< Of these pieces.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.batch, self.first, self.last, self.plan, self.keep, self.before);
+  }
+};
+
+struct RefineTaskResult {
+  std::vector<subdomain::FillResult> results{};
+  std::vector<mesh::PointLimit> folds{};  ///< Of those that are folded.
+
+  static auto fields(auto& self) { return std::tie(self.results, self.folds); }
+};
+
+/// @brief run: splits pieces further, checks them, and writes their file and record; result: bytes
+/// of a RefineTaskResult. If one is folded nothing is written. Needs model, mesh, plan and
+/// refinement.
+[[nodiscard]] Bytes refine_request(const RefineTask& task);
 
 /// @brief The skin of a subdomain, to be looked at.
 struct SkinMesh {

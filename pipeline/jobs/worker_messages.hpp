@@ -59,7 +59,20 @@ struct ImprovementLoad {
   static auto fields(auto& self) { return std::tie(self.options, self.kernels); }
 };
 
-using Load = std::variant<ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad>;
+struct RefinementLoad {
+  RefineSettings settings{};
+  std::vector<io::Format> formats{};
+  io::Compression compression = io::Compression::none;
+  bool cell_quality = false;
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.settings, self.formats, self.compression, self.cell_quality);
+  }
+};
+
+using Load =
+    std::variant<ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad, RefinementLoad>;
 
 struct ImportRequest {
   std::string file{};
@@ -106,6 +119,6 @@ struct SkinRequest {
 };
 
 using Request = std::variant<ImportRequest, BoxRequest, CoarseRequest, UntangleRequest, FillTask,
-                             ImproveRequest, ImprovePiecesRequest, SkinRequest>;
+                             ImproveRequest, ImprovePiecesRequest, RefineTask, SkinRequest>;
 
 }  // namespace tessera::pipeline

@@ -102,8 +102,8 @@ class Sampler {
   {
     SampleSet set = choose(kernel);
     if (set.jobs.empty()) return;
-    const RunOutline outline =
-        outline_run(cut_, run_.kernels, set.levels, outline_.files, run_.resolved.improve.seams);
+    const RunOutline outline = outline_run(cut_, run_.kernels, {set.levels, set.levels},
+                                           outline_.files, run_.resolved.improve.seams);
     own_.times.clear();
     fill(set, outline);
     note_work(set, outline);
@@ -121,10 +121,10 @@ class Sampler {
     for (const subdomain::SubdomainRange& job : outline_.jobs) {
       if (run_.kernels[at(job.first)] != kernel) continue;
       jobs.push_back(job);
-      cost_s.push_back(calibration_.rates.of(kernel).fill_cpu_s_per_tet
+      cost_s.push_back(calibration_.rates.of(kernel).fill_cpu_s_per_tet * outline_.filled_share()
                        * static_cast<double>(outline_.tets_of(job)));
     }
-    const SampleChoice choice = choose_samples(cost_s, outline_.levels);
+    const SampleChoice choice = choose_samples(cost_s, outline_.fill_levels);
     SampleSet set{.kernel = kernel, .levels = choice.levels};
     for (const std::size_t row : choice.jobs) set.jobs.push_back(jobs[row]);
     return set;
@@ -309,7 +309,7 @@ RunOutline corrected(RunOutline outline, const Calibration& calibration)
     piece.interior_vertices = std::llround(rates.interior_vertices_per_tet * tets);
   }
   for (const SampleSet& set : calibration.samples) {
-    if (set.levels != outline.levels) continue;
+    if (set.levels != outline.levels) continue;  // Also where pieces are split: by the rates.
     for (const subdomain::PieceSummary& piece : set.pieces) {
       outline.pieces[at(piece.subdomain)].tets = piece.num_tets;
       outline.pieces[at(piece.subdomain)].interior_vertices = piece.num_interior_vertices;

@@ -44,9 +44,9 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
   const subdomain::PartitionedMesh cut(run.coarse.mesh, run.decomposition.decomposition);
   std::vector<subdomain::SubdomainRange> files;
   all_or_none(context.comm, [&] { files = output_ranges(run, options); });
-  RunOutline outline =
-      outline_run(cut, run.kernels, run.resolved.refine.levels, files, run.resolved.improve.seams);
-  load_mesh(cut, run.resolved.refine.levels, run.largest_size, context);
+  RunOutline outline = outline_run(cut, run.kernels, outline_levels(run.resolved, run.kernels),
+                                   files, run.resolved.improve.seams);
+  load_mesh(cut, outline.fill_levels, run.largest_size, context);
   prepare.finish("");
 
   PredictionBasis basis{.memory = memory_before_fills(context),

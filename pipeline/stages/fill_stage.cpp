@@ -60,7 +60,7 @@ class Filler {
   {
     const Hash128 plan = plan_fingerprint(cut_fingerprint_, work_.cut.skeleton, work_.limiter,
                                           range.first, range.last);
-    const auto record = find_record(context_.folder, range.number, plan);
+    const auto record = find_record(context_.folder, record_name(range.number), plan);
     if (record && !is_poor(record->results)) return keep(record->results);
     Tries tries{.range = range, .plan = plan};
     for (const fill::FillTry& how :

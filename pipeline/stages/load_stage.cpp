@@ -46,6 +46,12 @@ void load_improvement(const improve::ImproveOptions& options,
   load_everywhere("improvement", load_improvement_message(options, kernels), context);
 }
 
+void load_refinement(const RefineSettings& settings, const io::OutputOptions& options,
+                     RunContext& context)
+{
+  load_everywhere("refinement", load_refinement_message(settings, options), context);
+}
+
 void load_limiter(const mesh::ProjectionLimiter& limiter, RunContext& context)
 {
   load_everywhere("plan", load_limiter_message(limiter), context);

@@ -11,6 +11,7 @@
 #include "tessera/number/id_layout.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 
+#include "pipeline/jobs/mesh_worker.hpp"
 #include "pipeline/runtime/run_context.hpp"
 
 /// Gives the workers of all ranks what their next jobs start from. All functions are collective and
@@ -28,6 +29,10 @@ void load_numbers(const std::vector<number::PieceCounts>& counts, const std::str
 /// @param[in] kernels Shape (num_subdomains), as the case wants them.
 void load_improvement(const improve::ImproveOptions& options,
                       const std::vector<fill::KernelKind>& kernels, RunContext& context);
+
+/// @brief What the refine jobs start from.
+void load_refinement(const RefineSettings& settings, const io::OutputOptions& options,
+                     RunContext& context);
 
 void load_limiter(const mesh::ProjectionLimiter& limiter, RunContext& context);
 

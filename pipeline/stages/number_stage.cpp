@@ -3,6 +3,7 @@
 
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
+#include "tessera/subdomain/piece_surface.hpp"
 
 #include "pipeline/store/improved_pieces.hpp"
 
@@ -11,7 +12,7 @@ namespace tessera::pipeline {
 number::IdLayout number_mesh(const RunResult& run, const subdomain::PartitionedMesh& cut,
                              const RunOutline& outline)
 {
-  if (run.filled.improvement.generation > 0) {
+  if (run.filled.improvement.generation > 0 || run.filled.are_refined) {
     return number::IdLayout::by_owner(subdomain::counts_of(run.filled.pieces));
   }
   return number::IdLayout::by_host(
@@ -22,6 +23,12 @@ number::IdLayout number_mesh(const RunResult& run, const subdomain::PartitionedM
 std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of_vertices(
     const RunResult& run, const subdomain::PartitionedMesh& cut, const RunContext& context)
 {
+  if (run.filled.are_refined) {
+    return [hosts = mesh::HostLayout(cut.skeleton),
+            counts = subdomain::counts_of(run.filled.pieces)](const mesh::Piece& piece) {
+      return subdomain::places_of_split_piece(piece, hosts, counts[at(piece.subdomain)]);
+    };
+  }
   const int generation = run.filled.improvement.generation;
   if (generation == 0) return {};
   return [pieces = ImprovedPieces(context.folder, cut.skeleton, generation)](

@@ -40,6 +40,8 @@ fs::path store_folder(const fs::path& output) { return output / "pieces"; }
 
 std::string record_name(LocalIndex batch) { return fmt::format("piece_{:06}", batch); }
 
+std::string refined_name(LocalIndex batch) { return fmt::format("refined_{:06}", batch); }
+
 WrittenFile measure_file(const fs::path& folder, const fs::path& path)
 {
   std::ifstream in(folder / path, std::ios::binary);
@@ -51,9 +53,10 @@ WrittenFile measure_file(const fs::path& folder, const fs::path& path)
   return {path.string(), size, hash_bytes(bytes)};
 }
 
-std::optional<FillRecord> find_record(const fs::path& output, LocalIndex batch, const Hash128& plan)
+std::optional<FillRecord> find_record(const fs::path& output, const std::string& name,
+                                      const Hash128& plan)
 {
-  const auto bytes = io::RecordStore(store_folder(output)).find(record_name(batch));
+  const auto bytes = io::RecordStore(store_folder(output)).find(name);
   if (!bytes) return std::nullopt;
   auto record = from_bytes<FillRecord>(*bytes);
   if (record.plan != plan) return std::nullopt;

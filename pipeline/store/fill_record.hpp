@@ -47,13 +47,16 @@ struct FillRecord {
 /// @brief Name of the record of one job's subdomains.
 [[nodiscard]] std::string record_name(LocalIndex batch);
 
+/// @brief The same for subdomains that were split further.
+[[nodiscard]] std::string refined_name(LocalIndex batch);
+
 /// @brief Size and hash of a file below `folder`, by reading it. @throws OutputError
 [[nodiscard]] WrittenFile measure_file(const std::filesystem::path& folder,
                                        const std::filesystem::path& path);
 
 /// @brief The record if it is sound, was made under that plan, and its files are whole. Local.
 [[nodiscard]] std::optional<FillRecord> find_record(const std::filesystem::path& output,
-                                                    LocalIndex batch, const Hash128& plan);
+                                                    const std::string& name, const Hash128& plan);
 
 /// @brief Hash of the coarse mesh and its subdomains. Local.
 [[nodiscard]] Hash128 cut_fingerprint(const subdomain::PartitionedMesh& cut);

@@ -36,6 +36,7 @@ struct FilledPieces {
   std::vector<Hash128> seam_sums{};  ///< Shape (num skeleton triangles): both sides' hashes, as the
                                      ///< pieces were filled.
   Improvement improvement{};
+  bool are_refined = false;  ///< They were split further after the improvement.
 
   /// @brief Of the pieces that were made: all, or those of the subdomains asked for. Local.
   [[nodiscard]] GlobalIndex num_tets() const;

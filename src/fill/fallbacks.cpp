@@ -10,6 +10,14 @@
 
 namespace tessera::fill {
 
+int fill_levels(const FillOptions& options, int levels)
+{
+  constexpr int kSplitByItself = 2;
+  const int wanted =
+      options.levels == 0 ? std::max(levels - kSplitByItself, kSplitByItself) : options.levels;
+  return std::min(wanted, levels);
+}
+
 std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind kernel)
 {
   const FillTry subdivision{.kernel = KernelKind::subdivide};

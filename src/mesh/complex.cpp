@@ -66,41 +66,6 @@ void add_edges(const std::vector<Triangle>& triangles, Complex& out)
   out.edge_vertices = flat_of(edges);
 }
 
-}  // namespace
-
-Complex skin_complex(const Skeleton& skeleton, LocalIndex subdomain)
-{
-  Complex out;
-  const auto skin = skeleton.triangles_of(subdomain);
-  out.triangle_skeleton.assign(skin.begin(), skin.end());
-  for (const LocalIndex t : skin) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      out.vertex_skeleton.push_back(skeleton.triangle_vertices[3 * at(t) + c]);
-      out.edge_skeleton.push_back(skeleton.triangle_edges[3 * at(t) + c]);
-    }
-  }
-  sort_unique(out.vertex_skeleton);
-  sort_unique(out.edge_skeleton);
-  const auto local_vertex = [&](LocalIndex v) { return index_in(out.vertex_skeleton, v); };
-  for (const LocalIndex v : out.vertex_skeleton) {
-    out.vertex_coarse.push_back(skeleton.vertex_coarse[at(v)]);
-  }
-  for (const LocalIndex e : out.edge_skeleton) {
-    out.edge_vertices.push_back(local_vertex(skeleton.edge_vertices[2 * at(e)]));
-    out.edge_vertices.push_back(local_vertex(skeleton.edge_vertices[2 * at(e) + 1]));
-  }
-  for (const LocalIndex t : skin) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      out.triangle_vertices.push_back(local_vertex(skeleton.triangle_vertices[3 * at(t) + c]));
-      out.triangle_edges.push_back(
-          index_in(out.edge_skeleton, skeleton.triangle_edges[3 * at(t) + c]));
-    }
-  }
-  return out;
-}
-
-namespace {
-
 // Row of the sorted flat array that holds these values, or kNoIndex.
 template <std::size_t N>
 LocalIndex find_row(const std::vector<LocalIndex>& flat, const std::array<LocalIndex, N>& values)
@@ -119,6 +84,55 @@ LocalIndex find_row(const std::vector<LocalIndex>& flat, const std::array<LocalI
   const bool is_found = low < flat.size() / N && std::equal(values.begin(), values.end(), row(low));
   return is_found ? static_cast<LocalIndex>(low) : kNoIndex;
 }
+
+}  // namespace
+
+LocalIndex find_edge(const Complex& complex, const std::array<LocalIndex, 2>& v)
+{
+  return find_row<2>(complex.edge_vertices, v);
+}
+
+LocalIndex find_triangle(const Complex& complex, const std::array<LocalIndex, 3>& v)
+{
+  return find_row<3>(complex.triangle_vertices, v);
+}
+
+Complex skeleton_complex(const Skeleton& skeleton, std::span<const LocalIndex> triangles)
+{
+  Complex out;
+  out.triangle_skeleton.assign(triangles.begin(), triangles.end());
+  for (const LocalIndex t : triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      out.vertex_skeleton.push_back(skeleton.triangle_vertices[3 * at(t) + c]);
+      out.edge_skeleton.push_back(skeleton.triangle_edges[3 * at(t) + c]);
+    }
+  }
+  sort_unique(out.vertex_skeleton);
+  sort_unique(out.edge_skeleton);
+  const auto local_vertex = [&](LocalIndex v) { return index_in(out.vertex_skeleton, v); };
+  for (const LocalIndex v : out.vertex_skeleton) {
+    out.vertex_coarse.push_back(skeleton.vertex_coarse[at(v)]);
+  }
+  for (const LocalIndex e : out.edge_skeleton) {
+    out.edge_vertices.push_back(local_vertex(skeleton.edge_vertices[2 * at(e)]));
+    out.edge_vertices.push_back(local_vertex(skeleton.edge_vertices[2 * at(e) + 1]));
+  }
+  for (const LocalIndex t : triangles) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      out.triangle_vertices.push_back(local_vertex(skeleton.triangle_vertices[3 * at(t) + c]));
+      out.triangle_edges.push_back(
+          index_in(out.edge_skeleton, skeleton.triangle_edges[3 * at(t) + c]));
+    }
+  }
+  return out;
+}
+
+Complex skin_complex(const Skeleton& skeleton, LocalIndex subdomain)
+{
+  return skeleton_complex(skeleton, skeleton.triangles_of(subdomain));
+}
+
+namespace {
 
 void tie_to_skeleton(const Skeleton& skeleton, Complex& complex)
 {

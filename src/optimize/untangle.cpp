@@ -13,7 +13,8 @@ namespace tessera::optimize {
 namespace {
 
 constexpr int kRounds = 12;
-constexpr int kSweeps = 4;  // A round.
+constexpr int kSweeps = 4;           // A round.
+constexpr double kFirstShare = 0.3;  // See sweep(); halved from round to round.
 
 // Below this mean ratio a tet's vertices are moved: with the inverted ones those that are squeezed
 // by them.
@@ -63,6 +64,11 @@ void sweep(WorkingMesh& mesh, double share)
   refresh_energies(mesh);
 }
 
+void sweep_until_positive(WorkingMesh& mesh, double share)
+{
+  for (int i = 0; i < kSweeps && count_not_positive(mesh) > 0; ++i) sweep(mesh, share);
+}
+
 void mark_all(WorkingMesh& mesh)
 {
   std::fill(mesh.tet_to_swap.begin(), mesh.tet_to_swap.end(), 1);
@@ -75,9 +81,9 @@ void untangle(WorkingMesh& mesh)
 {
   refresh_energies(mesh);
   mesh.worst_energy = kHighestEnergy;
-  double share = 0.3;
+  double share = kFirstShare;
   for (int round = 0; round < kRounds && count_not_positive(mesh) > 0; ++round) {
-    for (int i = 0; i < kSweeps && count_not_positive(mesh) > 0; ++i) sweep(mesh, share);
+    sweep_until_positive(mesh, share);
     mark_all(mesh);
     swap_pass(mesh, kRescue);
     // Moving and swapping have had their chance.
@@ -85,6 +91,16 @@ void untangle(WorkingMesh& mesh)
     share *= 0.5;
   }
   mark_all(mesh);
+}
+
+void untangle_by_moving(WorkingMesh& mesh)
+{
+  refresh_energies(mesh);
+  double share = kFirstShare;
+  for (int round = 0; round < kRounds && count_not_positive(mesh) > 0; ++round) {
+    sweep_until_positive(mesh, share);
+    share *= 0.5;
+  }
 }
 
 }  // namespace tessera::optimize

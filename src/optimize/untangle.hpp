@@ -9,4 +9,7 @@ namespace tessera::optimize {
 // tries swaps and collapses that leave positive tets only. Nothing happens if all are positive.
 void untangle(WorkingMesh& mesh);
 
+// The same by moving vertices alone: tets keep their corners.
+void untangle_by_moving(WorkingMesh& mesh);
+
 }  // namespace tessera::optimize

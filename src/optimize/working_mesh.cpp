@@ -171,6 +171,31 @@ WorkingMesh make_working_mesh(const TetMesh& input, const Kernels& kernels, bool
   return mesh;
 }
 
+WorkingMesh make_smoothing_mesh(const TetMesh& input)
+{
+  require_valid_arrays(input);
+  WorkingMesh mesh;
+  mesh.kernels = &kernels_of(available_instruction_sets().back());
+  mesh.scale = scale_of(input.vertex_xyz);
+  mesh.points = scaled_points(input.vertex_xyz, mesh.scale);
+  mesh.tet_vertices = input.tet_vertices;
+  mesh.vertex_fixed = input.vertex_fixed;
+  mesh.vertex_fixed.resize(mesh.points.size(), 0);
+  size_arrays(mesh);
+  return mesh;
+}
+
+std::vector<double> positions_of(const WorkingMesh& mesh, const TetMesh& input)
+{
+  const double unscale = 1.0 / mesh.scale;
+  std::vector<double> vertex_xyz = input.vertex_xyz;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (mesh.vertex_fixed[v] != 0) continue;
+    std::ranges::copy(unscale * to_vec3(mesh.points[v]), &vertex_xyz[3 * v]);
+  }
+  return vertex_xyz;
+}
+
 OptimizeResult to_result(const WorkingMesh& mesh, const TetMesh& input)
 {
   OptimizeResult result;

@@ -66,6 +66,10 @@ struct WorkingMesh {
 [[nodiscard]] WorkingMesh make_working_mesh(const TetMesh& mesh, const Kernels& kernels,
                                             bool may_be_tangled);
 
+// The same in the caller's order and without neighbours, for passes that only move vertices. The
+// fixed vertices are the flagged ones alone.
+[[nodiscard]] WorkingMesh make_smoothing_mesh(const TetMesh& mesh);
+
 // Tets that are flat or inverted, by their energies.
 [[nodiscard]] LocalIndex count_not_positive(const WorkingMesh& mesh);
 
@@ -74,6 +78,10 @@ void require_positive(const WorkingMesh& mesh);
 
 // Back to the caller's order and units.
 [[nodiscard]] OptimizeResult to_result(const WorkingMesh& mesh, const TetMesh& input);
+
+// Positions of all vertices in the caller's units, those of fixed ones bit by bit. Of a smoothing
+// mesh.
+[[nodiscard]] std::vector<double> positions_of(const WorkingMesh& mesh, const TetMesh& input);
 
 void refresh_energies(WorkingMesh& mesh);
 

@@ -132,4 +132,23 @@ FillResult measure_improved_piece(const mesh::Piece& piece, const number::Shared
   return result;
 }
 
+FillResult measure_split_piece(const mesh::Piece& piece, const mesh::Skin& skin,
+                               const mesh::Skeleton& surface, const std::vector<char>& on_seam,
+                               const PieceSummary& before)
+{
+  FillResult result;
+  PieceSummary& summary = result.summary;
+  summary = before;
+  summary.num_tets = piece.num_tets();
+  summary.num_interior_vertices = piece.num_interior_vertices();
+  summary.num_boundary = piece.num_boundary();
+  summary.boundary_area = outside_area(skin, surface);
+  summary.outside = verify::outside_hash(skin, surface);
+  summary.surface = verify::surface_hash(piece);
+  summary.euler_characteristic =
+      euler_characteristic(piece, measure_edges(piece, result.histograms), skin.num_triangles());
+  measure_tets(piece, on_seam, result);
+  return result;
+}
+
 }  // namespace tessera::subdomain

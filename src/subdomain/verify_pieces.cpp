@@ -54,17 +54,22 @@ Defect first_open_seam(const PartitionedMesh& cut, const PieceFacts& facts)
   return verify::first_open_seam(facts.seam_sums, cut.skeleton, is_made);
 }
 
-Defect first_of_exchange(const std::vector<PieceSummary>& pieces, double volume_before)
+Defect first_open_face(const std::vector<PieceSummary>& pieces)
 {
-  constexpr double kTolerance = 1e-9;
   Hash128 open;
-  double volume = 0.0;
   for (const PieceSummary& piece : pieces) {
     open += piece.surface;
     open -= piece.outside;
-    volume += piece.volume;
   }
-  if (open != Hash128{}) return "pieces do not meet after the improvement of their seams";
+  if (open == Hash128{}) return std::nullopt;
+  return "pieces do not meet after the improvement of their seams";
+}
+
+Defect first_of_exchange(const std::vector<PieceSummary>& pieces, double volume_before)
+{
+  constexpr double kTolerance = 1e-9;
+  double volume = 0.0;
+  for (const PieceSummary& piece : pieces) volume += piece.volume;
   if (std::abs(volume - volume_before) <= kTolerance * volume_before) return std::nullopt;
   return fmt::format("the improvement of seams has changed the volume from {:.12g} to {:.12g}",
                      volume_before, volume);
@@ -79,6 +84,9 @@ std::optional<std::string> verify_pieces(const PartitionedMesh& cut,
   if (auto defect = first_missing_or_extra(ranges, facts.pieces)) return defect;
   if (auto defect = first_broken(cut, facts.pieces)) return defect;
   if (auto defect = first_open_seam(cut, facts)) return defect;
+  if (facts.have_surfaces) {
+    if (auto defect = first_open_face(facts.pieces)) return defect;
+  }
   return facts.volume_before ? first_of_exchange(facts.pieces, *facts.volume_before) : std::nullopt;
 }
 

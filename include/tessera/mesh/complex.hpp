@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,15 @@ struct Complex {
  private:
   static LocalIndex count(std::size_t size) { return static_cast<LocalIndex>(size); }
 };
+
+/// @brief Row of the edge or triangle with these local vertices, which ascend; kNoIndex: there is
+/// none. Local; O(log n).
+[[nodiscard]] LocalIndex find_edge(const Complex& complex, const std::array<LocalIndex, 2>& v);
+[[nodiscard]] LocalIndex find_triangle(const Complex& complex, const std::array<LocalIndex, 3>& v);
+
+/// @brief Some triangles of the skeleton, in the order given, with their edges and vertices. Local.
+[[nodiscard]] Complex skeleton_complex(const Skeleton& skeleton,
+                                       std::span<const LocalIndex> triangles);
 
 /// @brief The skin of one subdomain: its skeleton triangles, in the order of
 /// Skeleton::triangles_of(). Local.

@@ -35,4 +35,14 @@ void measure_tets(const mesh::Piece& piece, const std::vector<char>& on_seam, Fi
                                                 const number::SharedBy& shared,
                                                 const PieceSummary& filled);
 
+/// @brief The figures of a piece that was split further. Without volume, owned vertices and the
+/// distances to the model. Local.
+/// @param[in] skin Of the piece; `surface` has the parents of its triangles.
+/// @param[in] on_seam Shape (num_skin_vertices): whether tets there are seam tets.
+/// @param[in] before The summary of the piece before it was split.
+[[nodiscard]] FillResult measure_split_piece(const mesh::Piece& piece, const mesh::Skin& skin,
+                                             const mesh::Skeleton& surface,
+                                             const std::vector<char>& on_seam,
+                                             const PieceSummary& before);
+
 }  // namespace tessera::subdomain

@@ -20,6 +20,7 @@ struct PieceFacts {
   /// Sum over the pieces as they were filled, output length unit cubed; nothing unless they have
   /// exchanged tets since.
   std::optional<double> volume_before{};
+  bool have_surfaces = false;  ///< PieceSummary::surface is known: pieces are not as filled.
 };
 
 /// @brief The first defect that pieces show when their figures are held against each other, in
@@ -30,8 +31,8 @@ struct PieceFacts {
 /// - a piece has positive tets only, and the Euler characteristic of its coarse subdomain;
 /// - every seam with both sides there closes.
 ///
-/// After an exchange of tets, the faces of all tets cancel but for the outside. The outside and the
-/// volume (rel. 1e-9) are what they were.
+/// Of pieces that are not as filled, the faces of all tets cancel but for the outside. After an
+/// exchange of tets the volume is what it was (rel. 1e-9).
 /// @param[in] ranges Ascending; the subdomains that were asked for.
 /// @note Local; linear in the coarse mesh and the pieces' number, whatever they hold.
 [[nodiscard]] std::optional<std::string> verify_pieces(const PartitionedMesh& cut,

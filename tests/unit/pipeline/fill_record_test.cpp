@@ -33,13 +33,13 @@ struct StoredFill : ::testing::Test {
 
   [[nodiscard]] bool is_found() const
   {
-    return find_record(output.path(), kBatch, plan).has_value();
+    return find_record(output.path(), record_name(kBatch), plan).has_value();
   }
 };
 
 TEST_F(StoredFill, ComesBackWhole)
 {
-  const auto record = find_record(output.path(), kBatch, plan);
+  const auto record = find_record(output.path(), record_name(kBatch), plan);
   ASSERT_TRUE(record.has_value());
   EXPECT_EQ(record->plan, plan);
   ASSERT_EQ(record->results.size(), 2U);
@@ -52,8 +52,8 @@ TEST_F(StoredFill, ComesBackWhole)
 
 TEST_F(StoredFill, OfAnotherPlanOrBatchIsNotFound)
 {
-  EXPECT_FALSE(find_record(output.path(), kBatch, {1, 3}));
-  EXPECT_FALSE(find_record(output.path(), kBatch + 1, plan));
+  EXPECT_FALSE(find_record(output.path(), record_name(kBatch), {1, 3}));
+  EXPECT_FALSE(find_record(output.path(), record_name(kBatch + 1), plan));
 }
 
 TEST_F(StoredFill, WithAChangedFileIsNotFound)

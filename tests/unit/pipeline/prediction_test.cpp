@@ -26,7 +26,8 @@ using fill::KernelKind;
 // geometry.
 RunOutline outline_of(LocalIndex count, KernelKind kernel)
 {
-  RunOutline outline{.levels = 2, .num_coarse_tets = 4000, .num_skeleton_vertices = 500};
+  RunOutline outline{
+      .levels = 2, .fill_levels = 2, .num_coarse_tets = 4000, .num_skeleton_vertices = 500};
   outline.kernels.assign(at(count), kernel);
   outline.is_one_pass = kernel == KernelKind::subdivide;
   for (LocalIndex s = 0; s < count; ++s) {
@@ -215,7 +216,8 @@ struct OutlineOfACube : ::testing::Test {
 
   [[nodiscard]] RunOutline outline(const std::vector<KernelKind>& kernels, int levels) const
   {
-    return outline_run(cut, kernels, levels, subdomain::file_ranges(cut.num_subdomains(), 0), true);
+    return outline_run(cut, kernels, {levels, levels},
+                       subdomain::file_ranges(cut.num_subdomains(), 0), true);
   }
 };
 

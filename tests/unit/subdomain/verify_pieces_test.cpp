@@ -242,7 +242,7 @@ struct VerifyImprovedPieces : VerifyFilledPieces {
           measure_improved_piece(piece, shared_by(piece.subdomain), before).summary);
     }
     const std::vector<Hash128> closed(at(body().skeleton.num_triangles()));
-    return verify_pieces(cut, ranges, {summaries, closed, volume_before});
+    return verify_pieces(cut, ranges, {summaries, closed, volume_before, true});
   }
 
   std::vector<mesh::Piece> improved{};

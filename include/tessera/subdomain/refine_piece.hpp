@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "tessera/mesh/piece.hpp"
+#include "tessera/mesh/projection_limiter.hpp"
+#include "tessera/number/surface_simplices.hpp"
+#include "tessera/refine/lattice_refiner.hpp"
+#include "tessera/subdomain/fill_subdomain.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
+#include "tessera/subdomain/piece_summary.hpp"
+
+/// From coarse to fine: pieces that were filled on few levels are split further, in closed form.
+namespace tessera::subdomain {
+
+/// @brief What a piece knows of the others when it is split.
+struct PieceSurroundings {
+  number::SurfaceList surface{};     ///< surface_of() it.
+  number::SharedSurface shared{};    ///< What its neighbours have of that.
+  number::SurfacePlaces places{};    ///< Who numbers it.
+  std::vector<mesh::Piece> halos{};  ///< halo_of() all neighbours of its material; ascending.
+};
+
+/// @brief A piece that was split, or why it could not be.
+struct RefinedPiece {
+  FilledPiece filled{};
+  /// New points on the geometry that must be held back, since tets beside them are folded. Empty
+  /// unless the piece is folded.
+  std::vector<mesh::PointLimit> folds{};
+};
+
+/// @brief Splits pieces from one number of levels to another.
+///
+/// A tet is split as a coarse tet is. Points on the geometry are those of the skeleton's lattice,
+/// all others midpoints. Then vertices are smoothed: those on seams first, all at once, by what
+/// both sides know; then those inside, one after the other. So pieces conform without a message,
+/// and the mesh gets better than the one it was made from.
+class PieceRefiner {
+ public:
+  /// @param[in] cut Borrowed. @param[in] levels That the pieces were filled on.
+  PieceRefiner(const PartitionedMesh& cut, int levels);
+  PieceRefiner(PieceRefiner&&) noexcept;
+  ~PieceRefiner();
+
+  /// @param[in] refine With the levels to reach; made from the arrays of the same mesh.
+  /// @param[in] before What is known of the piece; its kernel says whether vertices are smoothed.
+  /// @throws MeshError if the result breaks a promise of fill::check_fill(). GeometryError if a
+  /// projection fails.
+  /// @note Local; a pure function of its arguments.
+  [[nodiscard]] RefinedPiece refine(const mesh::Piece& piece, const PieceSurroundings& around,
+                                    const refine::RefineContext& refine,
+                                    const PieceSummary& before) const;
+
+ private:
+  struct State;
+  std::unique_ptr<const State> state_;
+};
+
+}  // namespace tessera::subdomain

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tessera/config/case.hpp"
+#include "tessera/mesh/projection_limiter.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
+#include "tessera/subdomain/piece_file.hpp"
+
+#include "pipeline/runtime/run_context.hpp"
+#include "pipeline/store/filled_pieces.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief What the refine stage works on. Borrowed.
+struct RefineWork {
+  const subdomain::PartitionedMesh& cut;
+  int fill_levels = 0;                                   ///< That the pieces were filled on.
+  int levels = 0;                                        ///< To be reached.
+  const std::vector<subdomain::SubdomainRange>& ranges;  ///< What each job makes: one file, or
+                                                         ///< one piece for the store.
+  bool has_files = true;
+  const std::string& length_unit;
+};
+
+/// @brief Splits the pieces of the store further, in closed form, and smooths them: jobs of all
+/// ranks, which write the files themselves. Where tets fold although they were smoothed, points are
+/// held back from the geometry, and the pieces around them are made again.
+/// @param[in,out] limiter The plan that the pieces were filled under; gets the new limits.
+/// @return The figures of the pieces as they are now.
+/// @note Collective.
+/// @throws MeshError on every rank if a piece cannot be split; OutputError; Interrupted.
+[[nodiscard]] FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& work,
+                                            mesh::ProjectionLimiter& limiter, FilledPieces filled,
+                                            RunContext& context);
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/store/piece_surfaces.hpp"
+
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tessera/base/bytes.hpp"
+#include "tessera/subdomain/piece_surface.hpp"
+
+#include "pipeline/store/fill_record.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+std::string list_name(LocalIndex subdomain) { return fmt::format("surface_{:06}", subdomain); }
+std::string shared_name(LocalIndex subdomain) { return fmt::format("halo_{:06}", subdomain); }
+
+// What a piece lets its neighbours know.
+struct SharedPart {
+  number::SharedSurface surface{};
+  mesh::Piece halo{};
+
+  static auto fields(auto& self) { return std::tie(self.surface, self.halo); }
+};
+
+number::SurfaceList find_list(const io::RecordStore& store, LocalIndex subdomain)
+{
+  return from_bytes<number::SurfaceList>(store.get(list_name(subdomain)));
+}
+
+SharedPart find_shared(const io::RecordStore& store, LocalIndex subdomain)
+{
+  return from_bytes<SharedPart>(store.get(shared_name(subdomain)));
+}
+
+}  // namespace
+
+PieceSurfaces::PieceSurfaces(const std::filesystem::path& output, const mesh::Skeleton& skeleton,
+                             const mesh::Decomposition& decomposition, int generation)
+    : store_(store_folder(output)),
+      decomposition_(decomposition),
+      neighbours_(mesh::neighbours_by_vertex(skeleton)),
+      generation_(generation)
+{
+}
+
+void PieceSurfaces::keep_list(LocalIndex subdomain) const
+{
+  store_.put(list_name(subdomain), to_bytes(subdomain::surface_of(piece(subdomain))));
+}
+
+number::PieceCounts PieceSurfaces::compare(LocalIndex subdomain, LocalIndex n) const
+{
+  const number::SurfaceList own = find_list(store_, subdomain);
+  std::vector<number::SurfaceList> others;
+  for (const LocalIndex other : neighbours_[at(subdomain)]) {
+    others.push_back(find_list(store_, other));
+  }
+  const mesh::Piece whole = piece(subdomain);
+  SharedPart part{.surface = number::compare_surfaces(own, others)};
+  part.halo = subdomain::halo_of(whole, own, part.surface);
+  store_.put(shared_name(subdomain), to_bytes(part));
+  return subdomain::count_split_piece(whole, own, part.surface, n);
+}
+
+subdomain::PieceSurroundings PieceSurfaces::surroundings(LocalIndex subdomain, LocalIndex n) const
+{
+  subdomain::PieceSurroundings around{.surface = find_list(store_, subdomain)};
+  around.shared = find_shared(store_, subdomain).surface;
+  std::vector<number::OwnedSurface> owners{{subdomain, around.shared.owned}};
+  for (const LocalIndex other : neighbours_[at(subdomain)]) {
+    const bool is_of_own_material =
+        decomposition_.subdomain_material[at(other)] == around.surface.material;
+    if (other > subdomain && !is_of_own_material) continue;
+    SharedPart part = find_shared(store_, other);
+    if (other < subdomain) owners.push_back({other, std::move(part.surface.owned)});
+    if (is_of_own_material) around.halos.push_back(std::move(part.halo));
+  }
+  around.places = number::place_surface(around.surface.simplices, owners, n);
+  return around;
+}
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "tessera/io/record_store.hpp"
+#include "tessera/mesh/decomposition.hpp"
+#include "tessera/mesh/piece.hpp"
+#include "tessera/mesh/skeleton.hpp"
+#include "tessera/number/id_layout.hpp"
+#include "tessera/subdomain/refine_piece.hpp"
+
+#include "pipeline/store/improved_pieces.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief The pieces of the store before they are split further, and what they tell each other.
+/// There is no state but the folder. All functions are local.
+///
+/// Three steps, each for all pieces before the next one begins: every piece lists its surface; the
+/// list is compared with those of its neighbours; the surroundings of a piece are known.
+class PieceSurfaces {
+ public:
+  /// @brief The arguments are borrowed. @param[in] generation Of the pieces.
+  PieceSurfaces(const std::filesystem::path& output, const mesh::Skeleton& skeleton,
+                const mesh::Decomposition& decomposition, int generation);
+
+  [[nodiscard]] mesh::Piece piece(LocalIndex subdomain) const
+  {
+    return stored_piece(store_, subdomain, generation_);
+  }
+
+  void keep_list(LocalIndex subdomain) const;
+
+  /// @brief Notes what the piece owns and what its neighbours need of it.
+  /// @return What it will hold with `n` intervals an edge.
+  [[nodiscard]] number::PieceCounts compare(LocalIndex subdomain, LocalIndex n) const;
+
+  [[nodiscard]] subdomain::PieceSurroundings surroundings(LocalIndex subdomain, LocalIndex n) const;
+
+ private:
+  io::RecordStore store_;
+  const mesh::Decomposition& decomposition_;
+  std::vector<std::vector<LocalIndex>> neighbours_;  ///< By subdomain, ascending.
+  int generation_;
+};
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "subdomain/geometry_places.hpp"
+
+#include <algorithm>
+#include <map>
+#include <span>
+
+namespace tessera::subdomain {
+namespace {
+
+namespace lattice = mesh::lattice;
+using lattice::TrianglePoint;
+
+constexpr std::size_t kHostsOfTriangle = 7;  // Itself, its edges and its vertices.
+
+// Triangles on the geometry by host of the skeleton.
+IndexLists triangles_by_host(const mesh::Skeleton& skeleton, const mesh::HostLayout& hosts)
+{
+  std::vector<LocalIndex> keys;
+  keys.reserve(kHostsOfTriangle * at(skeleton.num_triangles()));
+  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
+    const bool is_on_geometry = skeleton.triangle_patch[at(t)] != kNoIndex;
+    const auto push = [&](LocalIndex host) { keys.push_back(is_on_geometry ? host : kNoIndex); };
+    push(hosts.triangle(t));
+    for (std::size_t c = 0; c < 3; ++c) {
+      push(hosts.edge(skeleton.triangle_edges[3 * at(t) + c]));
+      push(hosts.vertex(skeleton.triangle_vertices[3 * at(t) + c]));
+    }
+  }
+  return rows_by_key(keys, hosts.num_on_skeleton(), kHostsOfTriangle);
+}
+
+// Local vertex with this name; kNoIndex: none of these has it.
+LocalIndex vertex_named(const std::vector<mesh::HostPoint>& names, const mesh::HostPoint& name)
+{
+  const auto found = std::ranges::lower_bound(names, name);
+  const bool is_there = found != names.end() && *found == name;
+  return is_there ? static_cast<LocalIndex>(found - names.begin()) : kNoIndex;
+}
+
+struct LatticeVertex {
+  LocalIndex vertex = kNoIndex;  // Of the complex.
+  TrianglePoint point{};
+};
+
+bool by_vertex(const LatticeVertex& a, const LatticeVertex& b) { return a.vertex < b.vertex; }
+
+void place_edge(LocalIndex row, const mesh::Complex& complex, LatticeVertex a, LatticeVertex b,
+                std::vector<GeometryPlace>& places)
+{
+  if (a.vertex == kNoIndex || b.vertex == kNoIndex) return;
+  if (b.vertex < a.vertex) std::swap(a, b);
+  const LocalIndex edge = mesh::find_edge(complex, {a.vertex, b.vertex});
+  if (edge == kNoIndex || places[at(edge)].is_on_geometry()) return;
+  places[at(edge)] = {row, {a.point, b.point}};
+}
+
+void place_triangle(LocalIndex row, const mesh::Complex& complex,
+                    std::array<LatticeVertex, 3> corners, std::vector<GeometryPlace>& places)
+{
+  std::ranges::sort(corners, by_vertex);
+  if (corners[0].vertex == kNoIndex) return;
+  const LocalIndex triangle =
+      mesh::find_triangle(complex, {corners[0].vertex, corners[1].vertex, corners[2].vertex});
+  if (triangle == kNoIndex) return;
+  places[at(triangle)] = {row, {corners[0].point, corners[1].point, corners[2].point}};
+}
+
+void put(std::vector<double>& xyz, std::size_t row, const Vec3& point)
+{
+  std::ranges::copy(point, &xyz[3 * row]);
+}
+
+// Fills the lattice of a complex, edges before triangles.
+class MidpointLattice {
+ public:
+  MidpointLattice(const mesh::Complex& complex, const GeometryPlaces& places,
+                  const mesh::RefinedLattice& geometry, LocalIndex n)
+      : complex_(complex), places_(places), geometry_(geometry), n_(n)
+  {
+    result_.n = n;
+    result_.edge_xyz.resize(3 * at(complex.num_edges()) * at(n + 1));
+    result_.triangle_xyz.resize(3 * at(complex.num_triangles())
+                                * at(lattice::num_triangle_points(n)));
+  }
+
+  mesh::RefinedLattice run(const std::vector<double>& vertex_xyz)
+  {
+    for (LocalIndex e = 0; e < complex_.num_edges(); ++e) fill_edge(e, vertex_xyz);
+    for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) fill_triangle(t);
+    return std::move(result_);
+  }
+
+ private:
+  void put_on_edge(LocalIndex e, LocalIndex k, const Vec3& point)
+  {
+    put(result_.edge_xyz, at(e) * at(n_ + 1) + at(k), point);
+  }
+
+  void put_on_triangle(LocalIndex t, const TrianglePoint& p, const Vec3& point)
+  {
+    put(result_.triangle_xyz,
+        at(t) * at(lattice::num_triangle_points(n_)) + at(lattice::triangle_index(n_, p.i, p.j)),
+        point);
+  }
+
+  void fill_edge(LocalIndex e, const std::vector<double>& vertex_xyz)
+  {
+    for (const LocalIndex end : {0, 1}) {
+      put_on_edge(e, end * n_,
+                  point_at(std::span(vertex_xyz), complex_.edge_vertices[2 * at(e) + at(end)]));
+    }
+    const GeometryPlace& place = places_.edges[at(e)];
+    for (LocalIndex step = n_ / 2; step >= 1; step /= 2) {
+      for (LocalIndex k = step; k < n_; k += 2 * step) {
+        put_on_edge(
+            e, k,
+            place.is_on_geometry()
+                ? geometry_.triangle_point(place.triangle, place.point(n_, k, 0))
+                : midpoint(result_.edge_point(e, k - step), result_.edge_point(e, k + step)));
+      }
+    }
+  }
+
+  void fill_triangle(LocalIndex t)
+  {
+    for (std::size_t side = 0; side < 3; ++side) {
+      for (LocalIndex k = 0; k <= n_; ++k) {
+        put_on_triangle(t, lattice::side_point(n_, side, k),
+                        result_.edge_point(complex_.triangle_edges[3 * at(t) + side], k));
+      }
+    }
+    for (LocalIndex step = n_ / 2; step >= 1; step /= 2) {
+      for (LocalIndex j = step; j < n_; j += step) {
+        for (LocalIndex i = step; i + j < n_; i += step) {
+          if ((i / step) % 2 != 0 || (j / step) % 2 != 0) fill_inner_point(t, {i, j}, step);
+        }
+      }
+    }
+  }
+
+  void fill_inner_point(LocalIndex t, const TrianglePoint& p, LocalIndex step)
+  {
+    const GeometryPlace& place = places_.of_triangles[at(t)];
+    if (place.is_on_geometry()) {
+      put_on_triangle(t, p, geometry_.triangle_point(place.triangle, place.point(n_, p.i, p.j)));
+      return;
+    }
+    const auto [a, b] = lattice::parents(p, step);
+    put_on_triangle(t, p, midpoint(result_.triangle_point(t, a), result_.triangle_point(t, b)));
+  }
+
+  const mesh::Complex& complex_;
+  const GeometryPlaces& places_;
+  const mesh::RefinedLattice& geometry_;
+  LocalIndex n_;
+  mesh::RefinedLattice result_{};
+};
+
+}  // namespace
+
+TrianglePoint GeometryPlace::point(LocalIndex n, LocalIndex i, LocalIndex j) const
+{
+  const auto& [a, b, c] = corners;
+  return {n * a.i + i * (b.i - a.i) + j * (c.i - a.i), n * a.j + i * (b.j - a.j) + j * (c.j - a.j)};
+}
+
+GeometryFinder::GeometryFinder(const mesh::Skeleton& skeleton, LocalIndex n)
+    : skeleton_(skeleton),
+      hosts_(skeleton),
+      n_(n),
+      triangles_of_host_(triangles_by_host(skeleton, hosts_))
+{
+}
+
+// Those of which two or more of the lattice's points are there: others have no edge in common with
+// the tets.
+std::vector<LocalIndex> GeometryFinder::triangles_around(
+    const std::vector<mesh::HostPoint>& names) const
+{
+  std::map<LocalIndex, int> num_points;
+  for (const mesh::HostPoint& name : names) {
+    if (name.host >= hosts_.num_on_skeleton()) continue;
+    for (const LocalIndex t : triangles_of_host_[name.host]) ++num_points[t];
+  }
+  std::vector<LocalIndex> triangles;
+  for (const auto& [triangle, count] : num_points) {
+    if (count > 1) triangles.push_back(triangle);
+  }
+  return triangles;
+}
+
+mesh::HostPoint GeometryFinder::name_of(LocalIndex triangle, const TrianglePoint& p) const
+{
+  const LocalIndex* vertices = &skeleton_.triangle_vertices[3 * at(triangle)];
+  if (p.i == n_) return {hosts_.vertex(vertices[1]), 0};
+  if (p.j == n_) return {hosts_.vertex(vertices[2]), 0};
+  if (p.i + p.j == 0) return {hosts_.vertex(vertices[0]), 0};
+  const LocalIndex* edges = &skeleton_.triangle_edges[3 * at(triangle)];
+  if (p.j == 0) return {hosts_.edge(edges[0]), p.i - 1};
+  if (p.i == 0) return {hosts_.edge(edges[1]), p.j - 1};
+  if (p.i + p.j == n_) return {hosts_.edge(edges[2]), p.j - 1};
+  return {hosts_.triangle(triangle), lattice::inner_triangle_index(n_, p.i, p.j)};
+}
+
+void GeometryFinder::place_lattice(LocalIndex row, const mesh::Complex& complex,
+                                   const std::vector<mesh::HostPoint>& names,
+                                   GeometryPlaces& places) const
+{
+  std::vector<LatticeVertex> vertices(at(lattice::num_triangle_points(n_)));
+  for (LocalIndex j = 0; j <= n_; ++j) {
+    for (LocalIndex i = 0; i + j <= n_; ++i) {
+      const mesh::HostPoint name = name_of(places.triangles[at(row)], {i, j});
+      vertices[at(lattice::triangle_index(n_, i, j))] = {vertex_named(names, name), {i, j}};
+    }
+  }
+  const auto at_point = [&](const TrianglePoint& p) {
+    return vertices[at(lattice::triangle_index(n_, p.i, p.j))];
+  };
+  lattice::for_each_small_triangle(
+      n_, 1, [&](const TrianglePoint& p, const TrianglePoint& q, const TrianglePoint& r) {
+        const std::array corners{at_point(p), at_point(q), at_point(r)};
+        place_edge(row, complex, corners[0], corners[1], places.edges);
+        place_edge(row, complex, corners[0], corners[2], places.edges);
+        place_edge(row, complex, corners[1], corners[2], places.edges);
+        place_triangle(row, complex, corners, places.of_triangles);
+      });
+}
+
+GeometryPlaces GeometryFinder::find(const mesh::Complex& complex,
+                                    const std::vector<mesh::HostPoint>& names) const
+{
+  GeometryPlaces places{.triangles = triangles_around(names)};
+  for (const mesh::HostPoint& name : names) {
+    const bool is_of_skeleton = name.host < hosts_.num_on_skeleton();
+    places.vertex_on_geometry.push_back(
+        is_of_skeleton && !triangles_of_host_[name.host].empty() ? 1 : 0);
+  }
+  places.edges.resize(at(complex.num_edges()));
+  places.of_triangles.resize(at(complex.num_triangles()));
+  for (LocalIndex row = 0; row < static_cast<LocalIndex>(places.triangles.size()); ++row) {
+    place_lattice(row, complex, names, places);
+  }
+  return places;
+}
+
+mesh::RefinedLattice midpoint_lattice(const mesh::Complex& complex,
+                                      const std::vector<double>& vertex_xyz,
+                                      const GeometryPlaces& places,
+                                      const mesh::RefinedLattice& geometry, LocalIndex n)
+{
+  return MidpointLattice(complex, places, geometry, n).run(vertex_xyz);
+}
+
+mesh::LatticePointKey key_of(const mesh::Skeleton& skeleton, LocalIndex triangle, LocalIndex n,
+                             const TrianglePoint& p)
+{
+  const LocalIndex* edges = &skeleton.triangle_edges[3 * at(triangle)];
+  if (p.j == 0) return mesh::LatticePointKey::on_edge(edges[0], n, p.i);
+  if (p.i == 0) return mesh::LatticePointKey::on_edge(edges[1], n, p.j);
+  if (p.i + p.j == n) return mesh::LatticePointKey::on_edge(edges[2], n, p.j);
+  return mesh::LatticePointKey::on_triangle(triangle, n, p);
+}
+
+}  // namespace tessera::subdomain

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tessera/base/index_lists.hpp"
+#include "tessera/mesh/complex.hpp"
+#include "tessera/mesh/host_layout.hpp"
+#include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/projection_limiter.hpp"
+#include "tessera/mesh/refined_lattice.hpp"
+#include "tessera/mesh/skeleton.hpp"
+
+namespace tessera::subdomain {
+
+// Where an edge or triangle of a piece lies in the lattice of a skeleton triangle on the geometry;
+// of an edge the first two corners count.
+struct GeometryPlace {
+  LocalIndex triangle = kNoIndex;  // Row of GeometryPlaces::triangles; kNoIndex: not on it.
+  std::array<mesh::lattice::TrianglePoint, 3> corners{};
+
+  [[nodiscard]] bool is_on_geometry() const { return triangle != kNoIndex; }
+
+  // Point (i, j) of the entity's own lattice with n intervals, in that of the skeleton triangle
+  // with n times its intervals.
+  [[nodiscard]] mesh::lattice::TrianglePoint point(LocalIndex n, LocalIndex i, LocalIndex j) const;
+};
+
+// The part of the geometry that some tets touch.
+struct GeometryPlaces {
+  std::vector<LocalIndex> triangles{};        // Of the skeleton; ascending.
+  std::vector<char> vertex_on_geometry{};     // Shape (num named vertices).
+  std::vector<GeometryPlace> edges{};         // Shape (num edges of the complex).
+  std::vector<GeometryPlace> of_triangles{};  // Shape (num triangles of the complex).
+};
+
+// Finds it by the names of the vertices: tets may be exchanged between pieces, but edges and
+// triangles on the geometry stay those of the skeleton's lattice.
+class GeometryFinder {
+ public:
+  // @param[in] skeleton Borrowed. @param[in] n Intervals of its edges.
+  GeometryFinder(const mesh::Skeleton& skeleton, LocalIndex n);
+
+  // @param[in] names Of the first vertices of the complex; ascending.
+  [[nodiscard]] GeometryPlaces find(const mesh::Complex& complex,
+                                    const std::vector<mesh::HostPoint>& names) const;
+
+ private:
+  [[nodiscard]] std::vector<LocalIndex> triangles_around(
+      const std::vector<mesh::HostPoint>& names) const;
+  [[nodiscard]] mesh::HostPoint name_of(LocalIndex triangle,
+                                        const mesh::lattice::TrianglePoint& p) const;
+  void place_lattice(LocalIndex row, const mesh::Complex& complex,
+                     const std::vector<mesh::HostPoint>& names, GeometryPlaces& places) const;
+
+  const mesh::Skeleton& skeleton_;
+  mesh::HostLayout hosts_;
+  LocalIndex n_;
+  IndexLists triangles_of_host_;  // On the geometry only; by host of the skeleton.
+};
+
+// The lattice of a complex whose edges and triangles on the geometry have their points already;
+// all others are midpoints, level by level.
+// @param[in] vertex_xyz Of the vertices of the complex, shape (num_vertices, 3).
+// @param[in] geometry The lattice of places.triangles.
+[[nodiscard]] mesh::RefinedLattice midpoint_lattice(const mesh::Complex& complex,
+                                                    const std::vector<double>& vertex_xyz,
+                                                    const GeometryPlaces& places,
+                                                    const mesh::RefinedLattice& geometry,
+                                                    LocalIndex n);
+
+// Name of a lattice point of a skeleton triangle that is no corner. @param[in] n Its intervals.
+[[nodiscard]] mesh::LatticePointKey key_of(const mesh::Skeleton& skeleton, LocalIndex triangle,
+                                           LocalIndex n, const mesh::lattice::TrianglePoint& p);
+
+}  // namespace tessera::subdomain

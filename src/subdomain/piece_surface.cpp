@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/subdomain/piece_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/fill/subdivide.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+#include "tessera/number/shared_vertices.hpp"
+
+#include "subdomain/piece_complex.hpp"
+
+namespace tessera::subdomain {
+namespace {
+
+std::array<mesh::HostPoint, 3> names_of(const mesh::Piece& piece,
+                                        const std::array<LocalIndex, 3>& triangle)
+{
+  std::array<mesh::HostPoint, 3> names;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (triangle[c] >= piece.num_skin_vertices()) {
+      throw MeshError(fmt::format("vertex {} of piece {} is on its surface and has no name",
+                                  triangle[c], piece.subdomain));
+    }
+    names[c] = piece.skin_point(triangle[c]);
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+// Which of the piece's vertices lie on a seam.
+std::vector<char> vertices_on_seams(const mesh::Piece& piece, const number::SurfaceList& surface,
+                                    const number::SharedSurface& shared)
+{
+  const std::vector<mesh::HostPoint>& names = surface.simplices.vertices;
+  std::vector<char> on_seam(at(piece.num_vertices()), 0);
+  for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
+    const auto row = std::ranges::lower_bound(names, piece.skin_point(v)) - names.begin();
+    on_seam[at(v)] = shared.vertex_on_seam[static_cast<std::size_t>(row)];
+  }
+  return on_seam;
+}
+
+// The vertices of `piece` that are flagged, in their order; `number` gets their new numbers.
+void copy_vertices(const mesh::Piece& piece, const std::vector<char>& is_used, mesh::Piece& to,
+                   std::vector<LocalIndex>& number)
+{
+  for (LocalIndex v = 0; v < piece.num_vertices(); ++v) {
+    if (is_used[at(v)] == 0) continue;
+    number[at(v)] = to.num_vertices();
+    const Vec3 position = point_at(std::span(piece.vertex_xyz), v);
+    to.vertex_xyz.insert(to.vertex_xyz.end(), position.begin(), position.end());
+    if (v >= piece.num_skin_vertices()) continue;
+    to.skin_host.push_back(piece.skin_host[at(v)]);
+    to.skin_index.push_back(piece.skin_index[at(v)]);
+  }
+}
+
+}  // namespace
+
+number::SurfaceList surface_of(const mesh::Piece& piece)
+{
+  number::SurfaceList list{.subdomain = piece.subdomain, .material = piece.material};
+  number::SurfaceSimplices& simplices = list.simplices;
+  simplices.vertices = number::shared_vertices(piece);
+  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(piece.tet_vertices)) {
+    if (triangle.tets[1] != kNoIndex) continue;
+    const auto [a, b, c] = names_of(piece, triangle.vertices);
+    simplices.triangles.push_back({a, b, c});
+    for (const auto& edge : {std::array{a, b}, std::array{a, c}, std::array{b, c}}) {
+      simplices.edges.push_back(edge);
+    }
+  }
+  std::ranges::sort(simplices.triangles);
+  std::ranges::sort(simplices.edges);
+  simplices.edges.erase(std::ranges::unique(simplices.edges).begin(), simplices.edges.end());
+  return list;
+}
+
+mesh::Piece halo_of(const mesh::Piece& piece, const number::SurfaceList& surface,
+                    const number::SharedSurface& shared)
+{
+  const std::vector<char> on_seam = vertices_on_seams(piece, surface, shared);
+  std::vector<char> is_used(at(piece.num_vertices()), 0);
+  std::vector<LocalIndex> tets;
+  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
+    const LocalIndex* v = &piece.tet_vertices[4 * at(t)];
+    if (std::none_of(v, v + 4, [&](LocalIndex i) { return on_seam[at(i)] != 0; })) continue;
+    tets.push_back(t);
+    for (std::size_t c = 0; c < 4; ++c) is_used[at(v[c])] = 1;
+  }
+  mesh::Piece halo{.subdomain = piece.subdomain, .material = piece.material};
+  std::vector<LocalIndex> number(at(piece.num_vertices()), kNoIndex);
+  copy_vertices(piece, is_used, halo, number);
+  for (const LocalIndex t : tets) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      halo.tet_vertices.push_back(number[at(piece.tet_vertices[4 * at(t) + c])]);
+    }
+  }
+  return halo;
+}
+
+number::PieceCounts count_split_piece(const mesh::Piece& piece, const number::SurfaceList& surface,
+                                      const number::SharedSurface& shared, LocalIndex n)
+{
+  const PieceComplex alone = make_piece_complex(piece, {}, surface.simplices);
+  const fill::SubdivisionCounts inside = fill::count_subdivision(alone.complex, n);
+  return {.interior_vertices = inside.interior_vertices,
+          .tets = inside.tets,
+          .boundary_triangles = GlobalIndex{piece.num_boundary()} * n * n,
+          .owned_vertices = inside.interior_vertices + shared.owned.num_points(n)};
+}
+
+std::vector<VertexPlace> places_of_split_piece(const mesh::Piece& piece,
+                                               const mesh::HostLayout& hosts,
+                                               const number::PieceCounts& counts)
+{
+  std::vector<VertexPlace> places;
+  places.reserve(at(piece.num_vertices()));
+  for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
+    places.push_back({hosts.row_of(piece.skin_host[at(v)]), piece.skin_index[at(v)]});
+  }
+  auto next = static_cast<LocalIndex>(counts.owned_vertices - counts.interior_vertices);
+  for (LocalIndex v = piece.num_skin_vertices(); v < piece.num_vertices(); ++v) {
+    places.push_back({piece.subdomain, next++});
+  }
+  return places;
+}
+
+}  // namespace tessera::subdomain
