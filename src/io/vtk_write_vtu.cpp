@@ -5,6 +5,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
+#include <vtkCellTypes.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
@@ -13,6 +14,7 @@
 #include <vtkIntArray.h>
 #include <vtkLongLongArray.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
@@ -36,6 +38,31 @@ namespace {
 using mesh::MeshArrays;
 
 static_assert(sizeof(vtkIdType) == sizeof(GlobalIndex), "ids are written without conversion");
+
+/// @brief A grid that knows the one type of its cells: the writer asks for the types, and VTK looks
+/// at all cells to find them.
+class OneTypeGrid : public vtkUnstructuredGrid {
+ public:
+  static OneTypeGrid* New();
+  vtkTypeMacro(OneTypeGrid, vtkUnstructuredGrid)
+
+  void SetCellsOfType(int type, vtkCellArray* cells)
+  {
+    type_ = static_cast<unsigned char>(type);
+    SetCells(type, cells);
+  }
+
+  void GetCellTypes(vtkCellTypes* types) override
+  {
+    types->Reset();
+    if (GetNumberOfCells() > 0) types->InsertNextType(type_);
+  }
+
+ private:
+  unsigned char type_ = VTK_EMPTY_CELL;
+};
+
+vtkStandardNewMacro(OneTypeGrid)
 
 /// @brief A VTK array on the memory of `values`, which must outlive it and is only read.
 template <class VtkArray, class T>
@@ -84,11 +111,11 @@ void add_texts(vtkFieldData& data, const std::map<std::string, std::vector<std::
 
 [[nodiscard]] vtkSmartPointer<vtkUnstructuredGrid> make_grid(const MeshArrays& piece)
 {
-  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  auto grid = vtkSmartPointer<OneTypeGrid>::New();
   const vtkNew<vtkPoints> points;
   points->SetData(view_of<vtkDoubleArray>("Points", piece.point_xyz, 3));
   grid->SetPoints(points);
-  grid->SetCells(piece.vertices_per_cell == 4 ? VTK_TETRA : VTK_TRIANGLE, make_cells(piece));
+  grid->SetCellsOfType(piece.vertices_per_cell == 4 ? VTK_TETRA : VTK_TRIANGLE, make_cells(piece));
 
   vtkPointData& point_data = *grid->GetPointData();
   vtkCellData& cell_data = *grid->GetCellData();
