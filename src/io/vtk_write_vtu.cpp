@@ -46,7 +46,7 @@ class OneTypeGrid : public vtkUnstructuredGrid {
   static OneTypeGrid* New();
   vtkTypeMacro(OneTypeGrid, vtkUnstructuredGrid)
 
-  void SetCellsOfType(int type, vtkCellArray* cells)
+      void SetCellsOfType(int type, vtkCellArray* cells)
   {
     type_ = static_cast<unsigned char>(type);
     SetCells(type, cells);
@@ -64,10 +64,10 @@ class OneTypeGrid : public vtkUnstructuredGrid {
 
 vtkStandardNewMacro(OneTypeGrid)
 
-/// @brief A VTK array on the memory of `values`, which must outlive it and is only read.
-template <class VtkArray, class T>
-[[nodiscard]] vtkSmartPointer<VtkArray> view_of(const char* name, const std::vector<T>& values,
-                                                int num_components = 1)
+    /// @brief A VTK array on the memory of `values`, which must outlive it and is only read.
+    template <class VtkArray, class T>
+    [[nodiscard]] vtkSmartPointer<VtkArray> view_of(const char* name, const std::vector<T>& values,
+                                                    int num_components = 1)
 {
   auto array = vtkSmartPointer<VtkArray>::New();
   array->SetName(name);

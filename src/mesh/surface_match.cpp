@@ -89,14 +89,19 @@ SurfaceMatch match_surface(std::span<const LocalIndex> triangle_vertices,
     const auto& v = tet.vertices;
     const std::array<Triangle, 4> faces{
         {{v[1], v[2], v[3]}, {v[0], v[2], v[3]}, {v[0], v[1], v[3]}, {v[0], v[1], v[2]}}};
-    const bool may_have_surface = v[2] < num_surface_vertices;
+    // As is_even_face() says. Without a branch, as none could be foretold.
+    const std::uint64_t sign = tet.is_even ? 1 : ~std::uint64_t{0};
+    if (v[2] >= num_surface_vertices) {  // Most tets: no face of theirs is on the surface.
+      unmatched +=
+          sign * (hash_of(faces[0]) - hash_of(faces[1]) + hash_of(faces[2]) - hash_of(faces[3]));
+      continue;
+    }
     for (std::size_t f = 0; f < 4; ++f) {
-      const bool is_even = tet.is_even_face(f);
-      if (may_have_surface && faces[f][2] < num_surface_vertices
-          && table.take(faces[f], is_even, static_cast<LocalIndex>(t))) {
+      if (faces[f][2] < num_surface_vertices
+          && table.take(faces[f], tet.is_even_face(f), static_cast<LocalIndex>(t))) {
         continue;
       }
-      unmatched += is_even ? hash_of(faces[f]) : 0 - hash_of(faces[f]);
+      unmatched += f % 2 == 0 ? sign * hash_of(faces[f]) : 0 - sign * hash_of(faces[f]);
     }
   }
   return {std::move(table).triangle_tet(), unmatched == 0};

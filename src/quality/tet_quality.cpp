@@ -11,7 +11,8 @@ namespace tessera::quality {
 
 namespace {
 
-// Two tets at once, one a lane, where T is Lanes; one tet where it is double. The bits are the same.
+// Two tets at once, one a lane, where T is Lanes; one tet where it is double. The bits are the
+// same.
 using Lanes = double __attribute__((vector_size(16)));
 constexpr std::size_t kNumLanes = 2;
 
@@ -75,8 +76,7 @@ Measures<T> measures_of(const Corners<T>& corners)
   std::array<Point<T>, 4> normals;
   for (std::size_t f = 0; f < 4; ++f) {
     const auto& [a, b, c] = mesh::kTetFaceCorners[f];
-    normals[f] =
-        cross_of(difference(corners[b], corners[a]), difference(corners[c], corners[a]));
+    normals[f] = cross_of(difference(corners[b], corners[a]), difference(corners[c], corners[a]));
   }
   const T zero{};
   Measures<T> found{
