@@ -116,6 +116,35 @@ TEST(OptimizeInterior, KeepsTheMaterialsApart)
   EXPECT_NEAR(volume_of(mesh, 2), 0.5, 1e-12);
 }
 
+// An octahedron cut along z, though it is shortest along x. Its faces are on patches of their own,
+// or those that differ in the sign of x alone share one.
+mesh::CoarseMesh octahedron(bool share_patches)
+{
+  mesh::CoarseMesh mesh;
+  mesh.vertex_xyz = {0.8, 0, 0, -0.8, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1};
+  mesh.tet_vertices = {5, 4, 0, 2, 5, 4, 2, 1, 5, 4, 1, 3, 5, 4, 3, 0};
+  mesh.tet_material.assign(4, 1);
+  mesh.material_names = {"body"};
+  for (LocalIndex f = 0; f < 8; ++f) {
+    const LocalIndex x = f / 4;
+    mesh.face_vertices.insert(mesh.face_vertices.end(), {x, 2 + f / 2 % 2, 4 + f % 2});
+    mesh.face_patch.push_back(share_patches ? f % 4 : f);
+  }
+  mesh.patch_surface.assign(8, 0);
+  mesh.patch_names.assign(8, "skin");
+  return mesh;
+}
+
+TEST(OptimizeInterior, MakesNoTetsWithTwoFacesOnAPatch)
+{
+  mesh::CoarseMesh plain = octahedron(false);
+  EXPECT_EQ(optimize_interior(plain).num_flips, 1) << "the shortest diagonal is the best";
+  EXPECT_NO_THROW(mesh::validate(plain));
+  mesh::CoarseMesh shared = octahedron(true);
+  EXPECT_EQ(optimize_interior(shared).num_flips, 0);
+  EXPECT_EQ(num_with_two_faces_on_a_patch(shared), 0);
+}
+
 TEST(OptimizeInterior, TakesTetsWithTwoFacesOnAPatchAway)
 {
   mesh::CoarseMesh ball = testing::ball(4);
