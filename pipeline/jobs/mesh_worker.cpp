@@ -15,6 +15,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/coarse/optimize_interior.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/model/scaled_model.hpp"
@@ -139,6 +140,7 @@ class MeshWorker final : public jobs::Worker {
     const auto mesher = make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
     CoarseTry made{.mesh = mesher->generate(options)};
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_);
+    if (options.optimize) coarse::optimize_interior(made.mesh);
     made.distance.largest *= scale_;
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     mesh::validate(made.mesh);
