@@ -69,7 +69,7 @@ class PieceSplitter {
     if (is_smoothed) smooth_inside(tets);
     RefinedPiece refined;
     if (!fill::all_positive(tets)) {
-      refined.folds = limits_at(folded_parents(tets));
+      refined.folds = limits_at(folded_parents(fill::subdivide(all_.complex, points)));
       refined.filled.result.summary = before;
       refined.filled.result.summary.is_folded = true;
       return refined;
@@ -239,18 +239,22 @@ class PieceSplitter {
     tets.tet_vertices = std::move(mesh.tet_vertices);
   }
 
-  [[nodiscard]] std::vector<LocalIndex> folded_parents(const fill::FillOutput& tets) const
+  // The piece's own tets with children that are not positive. @param[in] all Before smoothing: it
+  // may have made these good and tets beside them bad, whose points are to blame for nothing.
+  [[nodiscard]] std::vector<LocalIndex> folded_parents(const fill::FillOutput& all) const
   {
     std::vector<LocalIndex> parents;
-    const std::span<const double> xyz(tets.vertex_xyz);
-    for (std::size_t t = 0; 4 * t < tets.tet_vertices.size(); ++t) {
-      const LocalIndex* v = &tets.tet_vertices[4 * t];
-      const double volume = tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]),
-                                       point_at(xyz, v[2]), point_at(xyz, v[3]));
-      if (volume > 0.0) continue;
-      parents.push_back(all_.first_tet + static_cast<LocalIndex>(t) / num_children());
+    const std::span<const double> xyz(all.vertex_xyz);
+    for (LocalIndex tet = all_.first_tet; tet < all_.last_tet; ++tet) {
+      for (LocalIndex child = 0; child < num_children(); ++child) {
+        const LocalIndex* v = &all.tet_vertices[4 * at(tet * num_children() + child)];
+        const double volume = tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]),
+                                         point_at(xyz, v[2]), point_at(xyz, v[3]));
+        if (volume > 0.0) continue;
+        parents.push_back(tet);
+        break;
+      }
     }
-    parents.erase(std::ranges::unique(parents).begin(), parents.end());
     return parents;
   }
 
