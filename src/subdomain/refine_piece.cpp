@@ -58,8 +58,10 @@ class PieceSplitter {
   {
     places_ = finder.find(all_.complex.faces, all_.names);
     tie_surface_to_geometry();
-    const mesh::RefinedLattice geometry =
-        refine::refine_lattice(mesh::skeleton_complex(cut_.skeleton, places_.triangles), refine_);
+    refine::RefineContext unmeasured = refine_;
+    unmeasured.measure_distance = false;
+    const mesh::RefinedLattice geometry = refine::refine_lattice(
+        mesh::skeleton_complex(cut_.skeleton, places_.triangles), unmeasured);
     const mesh::RefinedLattice points =
         midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz, places_, geometry, n_);
     fill::FillOutput tets = fill::subdivide(all_.complex, points);
@@ -76,10 +78,7 @@ class PieceSplitter {
     }
     const mesh::Skin skin = skin_of(points, tets);
     refined.filled = check_and_measure(skin, std::move(tets), before);
-    PieceSummary& summary = refined.filled.result.summary;
-    summary.num_held_back = geometry.distance.num_held_back;
-    summary.model_distance = geometry.distance.largest;
-    summary.held_back_distance = geometry.distance.largest_held_back;
+    if (refine_.measure_distance) measure_distance(refined.filled.result.summary);
     return refined;
   }
 
@@ -282,6 +281,17 @@ class PieceSplitter {
       }
     }
     return limits;
+  }
+
+  // Of the piece's own points: the lattice above has those of its neighbours' tets, too.
+  void measure_distance(PieceSummary& summary) const
+  {
+    const auto distance =
+        refine::refine_lattice(mesh::skin_complex(cut_.skeleton, piece_.subdomain), refine_)
+            .distance;
+    summary.num_held_back = distance.num_held_back;
+    summary.model_distance = distance.largest;
+    summary.held_back_distance = distance.largest_held_back;
   }
 
   // With the names that owners give.
