@@ -65,10 +65,9 @@ class PieceSplitter {
     const mesh::RefinedLattice points =
         midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz, places_, geometry, n_);
     fill::FillOutput tets = fill::subdivide(all_.complex, points);
-    const bool is_smoothed = before.kernel != fill::KernelKind::subdivide;
-    if (is_smoothed) smooth_seams(tets);
+    if (around_.is_smoothed) smooth_seams(tets);
     tets = own_tets(std::move(tets));
-    if (is_smoothed) smooth_inside(tets);
+    if (around_.is_smoothed) smooth_inside(tets);
     RefinedPiece refined;
     if (!fill::all_positive(tets)) {
       refined.folds = limits_at(folded_parents(fill::subdivide(all_.complex, points)));
