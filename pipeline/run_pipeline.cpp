@@ -39,10 +39,10 @@ void split_pieces(RunResult& run, const subdomain::PartitionedMesh& cut, const O
 {
   const RunOutline& outline = output.outline;
   const auto& ranges = outline.has_files ? outline.files : outline.jobs;
-  run.filled = run_refine_stage(
-      run.resolved,
-      {cut, outline.fill_levels, outline.levels, ranges, outline.has_files, output.length_unit},
-      run.limiter, std::move(run.filled), context);
+  run.filled = run_refine_stage(run.resolved,
+                                {cut, run.kernels, outline.fill_levels, outline.levels, ranges,
+                                 outline.has_files, output.length_unit},
+                                run.limiter, std::move(run.filled), context);
   run_verify_stage(cut, outline.jobs, run.filled, context);
 }
 

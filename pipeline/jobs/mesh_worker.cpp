@@ -252,9 +252,10 @@ class MeshWorker final : public jobs::Worker {
                      to.settings.has_files ? &numbers : nullptr, to.output);
     RefineTaskResult made;
     for (LocalIndex s = task.first; s < task.last; ++s) {
+      subdomain::PieceSurroundings around = to.surfaces.surroundings(s, to.intervals());
+      around.is_smoothed = to.settings.kernels[at(s)] != fill::KernelKind::subdivide;
       subdomain::RefinedPiece refined =
-          to.refiner.refine(to.surfaces.piece(s), to.surfaces.surroundings(s, to.intervals()),
-                            context, task.before[at(s - task.first)]);
+          to.refiner.refine(to.surfaces.piece(s), around, context, task.before[at(s - task.first)]);
       made.folds.insert(made.folds.end(), refined.folds.begin(), refined.folds.end());
       batch.add(std::move(refined.filled));
     }

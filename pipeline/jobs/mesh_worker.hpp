@@ -132,13 +132,14 @@ struct RefineSettings {
   int levels = 0;                             ///< To be reached.
   int generation = 0;                         ///< Of the pieces.
   std::vector<number::PieceCounts> counts{};  ///< Of all pieces as they will be.
+  std::vector<fill::KernelKind> kernels{};    ///< By subdomain, as the case wants them.
   std::string length_unit{};
   bool has_files = true;  ///< False: pieces go into the store.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.fill_levels, self.levels, self.generation, self.counts, self.length_unit,
-                    self.has_files);
+    return std::tie(self.fill_levels, self.levels, self.generation, self.counts, self.kernels,
+                    self.length_unit, self.has_files);
   }
 };
 

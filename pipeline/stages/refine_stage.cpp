@@ -25,19 +25,21 @@ namespace {
 // All that the refined pieces are made from, but for the limiter.
 struct RefineOrigin {
   Hash128 cut{};
+  std::vector<fill::KernelKind> kernels{};
   int fill_levels = 0;
   int levels = 0;
   std::vector<subdomain::PieceSummary> pieces{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.cut, self.fill_levels, self.levels, self.pieces);
+    return std::tie(self.cut, self.kernels, self.fill_levels, self.levels, self.pieces);
   }
 };
 
 Hash128 origin_of(const RefineWork& work, const FilledPieces& filled)
 {
-  RefineOrigin origin{cut_fingerprint(work.cut), work.fill_levels, work.levels, filled.pieces};
+  RefineOrigin origin{cut_fingerprint(work.cut), work.kernels, work.fill_levels, work.levels,
+                      filled.pieces};
   for (subdomain::PieceSummary& piece : origin.pieces) piece.cpu_s = 0.0;  // As it happened to be.
   return hash_bytes(to_bytes(origin));
 }
@@ -209,6 +211,7 @@ FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& wo
                    .levels = work.levels,
                    .generation = filled.improvement.generation,
                    .counts = stage_work.count_pieces(),
+                   .kernels = work.kernels,
                    .length_unit = work.length_unit,
                    .has_files = work.has_files},
                   run_case.output, context);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tessera/config/case.hpp"
+#include "tessera/fill/options.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/piece_file.hpp"
@@ -17,6 +18,7 @@ namespace tessera::pipeline {
 /// @brief What the refine stage works on. Borrowed.
 struct RefineWork {
   const subdomain::PartitionedMesh& cut;
+  const std::vector<fill::KernelKind>& kernels;          ///< As the case wants them, by subdomain.
   int fill_levels = 0;                                   ///< That the pieces were filled on.
   int levels = 0;                                        ///< To be reached.
   const std::vector<subdomain::SubdomainRange>& ranges;  ///< What each job makes: one file, or

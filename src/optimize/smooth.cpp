@@ -7,6 +7,7 @@
 
 #include "tessera/base/error.hpp"
 
+#include "optimize/input_check.hpp"
 #include "optimize/passes.hpp"
 #include "optimize/tet_energy.hpp"
 #include "optimize/untangle.hpp"
@@ -109,6 +110,7 @@ std::vector<double> smooth(const TetMesh& mesh, const Schedule& schedule)
 std::vector<double> smooth_at_once(const TetMesh& mesh, const std::vector<std::uint8_t>& flags)
 {
   if (flags.size() != mesh.vertex_xyz.size() / 3) throw MeshError("flags are not one a vertex");
+  require_valid_arrays(mesh);
   WorkingMesh working = make_smoothing_mesh(tets_around(mesh, flags));
   refresh_stars(working);
   const std::vector<double> reaches = squared_reaches(working);

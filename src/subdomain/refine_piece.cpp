@@ -58,28 +58,26 @@ class PieceSplitter {
   {
     places_ = finder.find(all_.complex.faces, all_.names);
     tie_surface_to_geometry();
-    const mesh::RefinedLattice geometry =
-        refine::refine_lattice(mesh::skeleton_complex(cut_.skeleton, places_.triangles), refine_);
+    refine::RefineContext unmeasured = refine_;
+    unmeasured.measure_distance = false;
+    const mesh::RefinedLattice geometry = refine::refine_lattice(
+        mesh::skeleton_complex(cut_.skeleton, places_.triangles), unmeasured);
     const mesh::RefinedLattice points =
         midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz, places_, geometry, n_);
     fill::FillOutput tets = fill::subdivide(all_.complex, points);
-    const bool is_smoothed = before.kernel != fill::KernelKind::subdivide;
-    if (is_smoothed) smooth_seams(tets);
+    if (around_.is_smoothed) smooth_seams(tets);
     tets = own_tets(std::move(tets));
-    if (is_smoothed) smooth_inside(tets);
+    if (around_.is_smoothed) smooth_inside(tets);
     RefinedPiece refined;
     if (!fill::all_positive(tets)) {
-      refined.folds = limits_at(folded_parents(tets));
+      refined.folds = limits_at(folded_parents(fill::subdivide(all_.complex, points)));
       refined.filled.result.summary = before;
       refined.filled.result.summary.is_folded = true;
       return refined;
     }
     const mesh::Skin skin = skin_of(points, tets);
     refined.filled = check_and_measure(skin, std::move(tets), before);
-    PieceSummary& summary = refined.filled.result.summary;
-    summary.num_held_back = geometry.distance.num_held_back;
-    summary.model_distance = geometry.distance.largest;
-    summary.held_back_distance = geometry.distance.largest_held_back;
+    if (refine_.measure_distance) measure_distance(refined.filled.result.summary);
     return refined;
   }
 
@@ -239,18 +237,22 @@ class PieceSplitter {
     tets.tet_vertices = std::move(mesh.tet_vertices);
   }
 
-  [[nodiscard]] std::vector<LocalIndex> folded_parents(const fill::FillOutput& tets) const
+  // The piece's own tets with children that are not positive. @param[in] all Before smoothing: it
+  // may have made these good and tets beside them bad, whose points are to blame for nothing.
+  [[nodiscard]] std::vector<LocalIndex> folded_parents(const fill::FillOutput& all) const
   {
     std::vector<LocalIndex> parents;
-    const std::span<const double> xyz(tets.vertex_xyz);
-    for (std::size_t t = 0; 4 * t < tets.tet_vertices.size(); ++t) {
-      const LocalIndex* v = &tets.tet_vertices[4 * t];
-      const double volume = tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]),
-                                       point_at(xyz, v[2]), point_at(xyz, v[3]));
-      if (volume > 0.0) continue;
-      parents.push_back(all_.first_tet + static_cast<LocalIndex>(t) / num_children());
+    const std::span<const double> xyz(all.vertex_xyz);
+    for (LocalIndex tet = all_.first_tet; tet < all_.last_tet; ++tet) {
+      for (LocalIndex child = 0; child < num_children(); ++child) {
+        const LocalIndex* v = &all.tet_vertices[4 * at(tet * num_children() + child)];
+        const double volume = tet_volume(point_at(xyz, v[0]), point_at(xyz, v[1]),
+                                         point_at(xyz, v[2]), point_at(xyz, v[3]));
+        if (volume > 0.0) continue;
+        parents.push_back(tet);
+        break;
+      }
     }
-    parents.erase(std::ranges::unique(parents).begin(), parents.end());
     return parents;
   }
 
@@ -278,6 +280,17 @@ class PieceSplitter {
       }
     }
     return limits;
+  }
+
+  // Of the piece's own points: the lattice above has those of its neighbours' tets, too.
+  void measure_distance(PieceSummary& summary) const
+  {
+    const auto distance =
+        refine::refine_lattice(mesh::skin_complex(cut_.skeleton, piece_.subdomain), refine_)
+            .distance;
+    summary.num_held_back = distance.num_held_back;
+    summary.model_distance = distance.largest;
+    summary.held_back_distance = distance.largest_held_back;
   }
 
   // With the names that owners give.

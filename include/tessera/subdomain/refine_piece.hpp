@@ -21,6 +21,8 @@ struct PieceSurroundings {
   number::SharedSurface shared{};    ///< What its neighbours have of that.
   number::SurfacePlaces places{};    ///< Who numbers it.
   std::vector<mesh::Piece> halos{};  ///< halo_of() all neighbours of its material; ascending.
+  bool is_smoothed = true;           ///< Else new vertices off the geometry are midpoints. The same
+                                     ///< for all pieces of a material, whatever made them.
 };
 
 /// @brief A piece that was split, or why it could not be.
@@ -45,7 +47,7 @@ class PieceRefiner {
   ~PieceRefiner();
 
   /// @param[in] refine With the levels to reach; made from the arrays of the same mesh.
-  /// @param[in] before What is known of the piece; its kernel says whether vertices are smoothed.
+  /// @param[in] before What is known of the piece.
   /// @throws MeshError if the result breaks a promise of fill::check_fill(). GeometryError if a
   /// projection fails.
   /// @note Local; a pure function of its arguments.

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "tessera/model/model.hpp"
+#include "tessera/subdomain/fill_subdomain.hpp"
+#include "tessera/subdomain/piece_surface.hpp"
+#include "tessera/subdomain/refine_piece.hpp"
+
+#include "support/bodies.hpp"
+
+namespace tessera::testing {
+
+/// @brief The pieces of a body, filled; one kernel for all.
+[[nodiscard]] std::vector<subdomain::FilledPiece> fill_all(const Body& body,
+                                                           const model::Model& model, int levels,
+                                                           fill::KernelKind kernel);
+
+/// @brief Lets pieces exchange tets across their seams, in all phases.
+/// @return Number of regions that are better.
+LocalIndex improve_all(const Body& body, std::vector<subdomain::FilledPiece>& filled);
+
+/// @brief A piece that was split further, and what was known of it before.
+struct SplitPiece {
+  subdomain::PieceSurroundings around{};
+  number::PieceCounts counts{};  ///< count_split_piece().
+  subdomain::RefinedPiece made{};
+};
+
+/// @brief From and to which levels pieces are split.
+struct SplitTask {
+  int from = 0;
+  int to = 0;
+  fill::KernelKind kernel = fill::KernelKind::optimize;  ///< That the body is for; single pieces
+                                                         ///< may come from another.
+
+  [[nodiscard]] LocalIndex intervals() const { return LocalIndex{1} << (to - from); }
+};
+
+/// @brief Splits all pieces further, as the refine stage of the program does it.
+[[nodiscard]] std::vector<SplitPiece> split_all(const Body& body, const model::Model& model,
+                                                const SplitTask& task,
+                                                const std::vector<subdomain::FilledPiece>& filled,
+                                                const mesh::ProjectionLimiter& limiter = {});
+
+/// @brief The pieces alone.
+[[nodiscard]] std::vector<mesh::Piece> pieces_of(const std::vector<SplitPiece>& split);
+
+}  // namespace tessera::testing
