@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -58,10 +59,8 @@ class PieceSplitter {
   {
     places_ = finder.find(all_.complex.faces, all_.names);
     tie_surface_to_geometry();
-    refine::RefineContext unmeasured = refine_;
-    unmeasured.measure_distance = false;
-    const mesh::RefinedLattice geometry = refine::refine_lattice(
-        mesh::skeleton_complex(cut_.skeleton, places_.triangles), unmeasured);
+    order_places_by_need();
+    const mesh::RefinedLattice geometry = lattice_of_known_places();
     const mesh::RefinedLattice points =
         midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz, places_, geometry, n_);
     fill::FillOutput tets = fill::subdivide(all_.complex, points);
@@ -77,7 +76,10 @@ class PieceSplitter {
     }
     const mesh::Skin skin = skin_of(points, tets);
     refined.filled = check_and_measure(skin, std::move(tets), before);
-    if (refine_.measure_distance) measure_distance(refined.filled.result.summary);
+    PieceSummary& summary = refined.filled.result.summary;
+    summary.num_held_back = geometry.distance.num_held_back;
+    summary.model_distance = geometry.distance.largest;
+    summary.held_back_distance = geometry.distance.largest_held_back;
     return refined;
   }
 
@@ -104,6 +106,117 @@ class PieceSplitter {
       surface.triangle_patch[at(own)] =
           cut_.skeleton.triangle_patch[at(places_.triangles[at(place.triangle)])];
     }
+  }
+
+  // Whether vertices inside this simplex of the complex move with the seam that it lies on.
+  [[nodiscard]] bool is_free_on_seam(std::size_t simplex, mesh::HostKind kind) const
+  {
+    return is_of_surface(simplex, kind) && is_on_seam(simplex, kind)
+           && !is_on_geometry(simplex, kind);
+  }
+
+  [[nodiscard]] bool is_of_surface(std::size_t simplex, mesh::HostKind kind) const
+  {
+    const mesh::Complex& faces = all_.complex.faces;
+    switch (kind) {
+      case mesh::HostKind::vertex:
+        return faces.vertex_skeleton[simplex] != kNoIndex;
+      case mesh::HostKind::edge:
+        return faces.edge_skeleton[simplex] != kNoIndex;
+      default:
+        return faces.triangle_skeleton[simplex] != kNoIndex;
+    }
+  }
+
+  // Calls visit(simplex, kind) for the faces of a tet and their edges and vertices, for some more
+  // than once.
+  template <class Visit>
+  void for_each_face_of(LocalIndex tet, Visit&& visit) const
+  {
+    for (std::size_t c = 0; c < 4; ++c) {
+      visit(at(all_.complex.tet_vertices[4 * at(tet) + c]), mesh::HostKind::vertex);
+      const std::size_t t = at(all_.complex.tet_triangles[4 * at(tet) + c]);
+      visit(t, mesh::HostKind::triangle);
+      for (std::size_t side = 0; side < 3; ++side) {
+        visit(at(all_.complex.faces.triangle_edges[3 * t + side]), mesh::HostKind::edge);
+      }
+    }
+  }
+
+  // Its own tets, and those of the neighbours with vertices that move with a seam.
+  [[nodiscard]] bool needs_points_of(LocalIndex tet) const
+  {
+    if (all_.first_tet <= tet && tet < all_.last_tet) return true;
+    bool has_free = false;
+    for_each_face_of(tet, [&](std::size_t simplex, mesh::HostKind kind) {
+      has_free = has_free || is_free_on_seam(simplex, kind);
+    });
+    return has_free;
+  }
+
+  // Which of places_.triangles have points that matter.
+  [[nodiscard]] std::vector<char> needed_places() const
+  {
+    std::vector<char> is_needed(places_.triangles.size(), 0);
+    const auto need = [&](const GeometryPlace& place) {
+      if (place.is_on_geometry()) is_needed[at(place.triangle)] = 1;
+    };
+    for (LocalIndex tet = 0; tet < all_.mesh.num_tets(); ++tet) {
+      if (!needs_points_of(tet)) continue;
+      for_each_face_of(tet, [&](std::size_t simplex, mesh::HostKind kind) {
+        if (kind == mesh::HostKind::edge) need(places_.edges[simplex]);
+        if (kind == mesh::HostKind::triangle) need(places_.of_triangles[simplex]);
+      });
+    }
+    return is_needed;
+  }
+
+  // The skin's triangles first, then others with points that matter. The rest comes last:
+  // projection is dear, and nobody asks for these points.
+  void order_places_by_need()
+  {
+    const std::vector<char> is_needed = needed_places();
+    const auto skin = cut_.skeleton.triangles_of(piece_.subdomain);
+    std::vector<LocalIndex> order(skin.begin(), skin.end());
+    const auto append = [&](char need) {
+      for (std::size_t row = 0; row < is_needed.size(); ++row) {
+        const LocalIndex triangle = places_.triangles[row];
+        const bool is_of_skin = std::ranges::binary_search(skin, triangle);
+        if (!is_of_skin && is_needed[row] == need) order.push_back(triangle);
+      }
+    };
+    append(1);
+    places_.num_known = static_cast<LocalIndex>(order.size());
+    append(0);
+    std::map<LocalIndex, LocalIndex> row_of;
+    for (std::size_t row = 0; row < order.size(); ++row) {
+      row_of.emplace(order[row], static_cast<LocalIndex>(row));
+    }
+    for (auto* const list : {&places_.edges, &places_.of_triangles}) {
+      for (GeometryPlace& place : *list) {
+        if (place.is_on_geometry()) {
+          place.triangle = row_of.at(places_.triangles[at(place.triangle)]);
+        }
+      }
+    }
+    places_.triangles = std::move(order);
+  }
+
+  // Distances to the model are those of the skin alone: other triangles are of other skins.
+  [[nodiscard]] mesh::RefinedLattice lattice_of_known_places() const
+  {
+    mesh::RefinedLattice known =
+        refine::refine_lattice(mesh::skin_complex(cut_.skeleton, piece_.subdomain), refine_);
+    const auto num_of_skin = cut_.skeleton.triangles_of(piece_.subdomain).size();
+    const std::span<const LocalIndex> others =
+        std::span(places_.triangles).subspan(num_of_skin, at(places_.num_known) - num_of_skin);
+    refine::RefineContext unmeasured = refine_;
+    unmeasured.measure_distance = false;
+    const mesh::RefinedLattice more =
+        refine::refine_lattice(mesh::skeleton_complex(cut_.skeleton, others), unmeasured);
+    known.triangle_xyz.insert(known.triangle_xyz.end(), more.triangle_xyz.begin(),
+                              more.triangle_xyz.end());
+    return known;
   }
 
   [[nodiscard]] std::string name() const { return fmt::format("piece {}", piece_.subdomain); }
@@ -196,7 +309,7 @@ class PieceSplitter {
   void smooth_seams(fill::FillOutput& tets) const
   {
     const auto moves = [&](std::size_t simplex, mesh::HostKind kind) {
-      return is_on_seam(simplex, kind) && !is_on_geometry(simplex, kind);
+      return is_free_on_seam(simplex, kind);
     };
     optimize::TetMesh mesh{.vertex_xyz = std::move(tets.vertex_xyz),
                            .tet_vertices = std::move(tets.tet_vertices)};
@@ -280,17 +393,6 @@ class PieceSplitter {
       }
     }
     return limits;
-  }
-
-  // Of the piece's own points: the lattice above has those of its neighbours' tets, too.
-  void measure_distance(PieceSummary& summary) const
-  {
-    const auto distance =
-        refine::refine_lattice(mesh::skin_complex(cut_.skeleton, piece_.subdomain), refine_)
-            .distance;
-    summary.num_held_back = distance.num_held_back;
-    summary.model_distance = distance.largest;
-    summary.held_back_distance = distance.largest_held_back;
   }
 
   // With the names that owners give.
