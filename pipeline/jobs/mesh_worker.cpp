@@ -21,6 +21,7 @@
 #include "tessera/netgen/factory.hpp"
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
+#include "tessera/subdomain/improve_seam_region.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/seam_optimizer.hpp"
 #include "tessera/untangle/fold_test.hpp"
@@ -29,7 +30,6 @@
 #include "pipeline/jobs/test_fault.hpp"
 #include "pipeline/jobs/worker_messages.hpp"
 #include "pipeline/store/fill_record.hpp"
-#include "pipeline/store/region_records.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -169,20 +169,6 @@ class MeshWorker final : public jobs::Worker {
     return garbled_if_asked("fill", std::move(result), task.first);
   }
 
-  [[nodiscard]] Bytes answer(const ImproveRequest& request) const
-  {
-    const io::RecordStore store(store_folder(output_));
-    const auto pieces =
-        pieces_around({*cut_, *regions_, store, request.generation}, request.region);
-    store.put(region_name(request.region), improved(request.region, pieces));
-    return {};
-  }
-
-  [[nodiscard]] Bytes answer(const ImprovePiecesRequest& request) const
-  {
-    return improved(request.region, request.pieces);
-  }
-
   // All subdomains of a region are of one material, and so have one kernel.
   [[nodiscard]] std::unique_ptr<improve::Optimizer> optimizer_of(LocalIndex region) const
   {
@@ -191,12 +177,14 @@ class MeshWorker final : public jobs::Worker {
     return is_own ? subdomain::make_seam_optimizer() : netgen::make_optimizer();
   }
 
-  [[nodiscard]] Bytes improved(LocalIndex region, const std::vector<mesh::Piece>& pieces) const
+  [[nodiscard]] Bytes answer(const ImproveRequest& request) const
   {
+    const LocalIndex region = request.region;
+    const improve::RegionMesh mesh = region_mesh(request.bands, *regions_, region);
     const auto optimizer = make_faulty_if_asked(optimizer_of(region), region);
-    subdomain::RegionRecord record = subdomain::improve_tets(
-        subdomain::region_mesh(pieces, *regions_, region), improve_options_.rounds, *optimizer);
-    lose_tet_if_asked(record.update, region);
+    subdomain::RegionRecord record =
+        subdomain::improve_tets(mesh, improve_options_.rounds, *optimizer);
+    lose_tet_if_asked(record.updates, region);
     return to_bytes(record);
   }
 
@@ -323,14 +311,17 @@ Bytes untangle_request(const std::vector<UntangleTest>& tests,
 
 Bytes fill_request(const FillTask& task) { return to_bytes(Request(task)); }
 
-Bytes improve_request(LocalIndex region, int generation)
+Bytes improve_request(LocalIndex region, const std::vector<Bytes>& bands)
 {
-  return to_bytes(Request(ImproveRequest{region, generation}));
+  return to_bytes(Request(ImproveRequest{region, bands}));
 }
 
-Bytes improve_pieces_request(LocalIndex region, const std::vector<mesh::Piece>& pieces)
+improve::RegionMesh region_mesh(const std::vector<Bytes>& bands,
+                                const improve::SeamRegions& regions, LocalIndex region)
 {
-  return to_bytes(Request(ImprovePiecesRequest{region, pieces}));
+  std::vector<improve::Band> read;
+  for (const Bytes& band : bands) read.push_back(from_bytes<improve::Band>(band));
+  return improve::extract_region(read, regions, region);
 }
 
 Bytes skin_request(LocalIndex subdomain) { return to_bytes(Request(SkinRequest{subdomain})); }

@@ -14,6 +14,7 @@
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/fill/fill_try.hpp"
 #include "tessera/improve/options.hpp"
+#include "tessera/improve/region_mesh.hpp"
 #include "tessera/io/options.hpp"
 #include "tessera/jobs/job_runner.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -116,14 +117,15 @@ struct FillTask {
 /// FillResults. If one is folded there is no record. Needs model, mesh and plan.
 [[nodiscard]] Bytes fill_request(const FillTask& task);
 
-/// @brief run: improves one region of pieces of a generation and stores its record; see
-/// improve_job.hpp. Needs model, mesh and improvement; the result is empty.
-[[nodiscard]] Bytes improve_request(LocalIndex region, int generation);
+/// @brief run: improves one region; result: bytes of a subdomain::RegionRecord. Needs mesh and
+/// improvement. Nothing is read or stored.
+/// @param[in] bands Bytes of an improve::Band for each of the region's subdomains, in their order.
+[[nodiscard]] Bytes improve_request(LocalIndex region, const std::vector<Bytes>& bands);
 
-/// @brief run: the same on pieces that come with the request, those of pieces_around(); nothing is
-/// read or stored. Result: bytes of a subdomain::RegionRecord.
-[[nodiscard]] Bytes improve_pieces_request(LocalIndex region,
-                                           const std::vector<mesh::Piece>& pieces);
+/// @brief The mesh that such a job works on. Local.
+[[nodiscard]] improve::RegionMesh region_mesh(const std::vector<Bytes>& bands,
+                                              const improve::SeamRegions& regions,
+                                              LocalIndex region);
 
 /// @brief The skin of a subdomain, to be looked at.
 struct SkinMesh {

@@ -12,7 +12,7 @@ void run_verify_stage(const subdomain::PartitionedMesh& cut,
 {
   StageScope stage(context, "verify");
   subdomain::PieceFacts facts{filled.pieces, filled.seam_sums};
-  if (filled.improvement.generation > 0) facts.volume_before = filled.improvement.volume_before;
+  if (filled.improvement.pieces) facts.volume_before = filled.improvement.volume_before;
   context.comm.throw_if_any<MeshError>(subdomain::verify_pieces(cut, ranges, facts));
   stage.work_is_done();
   stage.finish("all seams close");

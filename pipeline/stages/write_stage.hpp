@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "tessera/config/case.hpp"
@@ -14,8 +15,8 @@ namespace tessera::pipeline {
 
 /// @brief Where finished pieces wait to be written.
 struct PieceStore {
-  std::filesystem::path folder{};  ///< The output folder.
-  int generation = 0;              ///< Of the pieces; see stored_piece().
+  std::filesystem::path folder{};                    ///< The output folder.
+  std::shared_ptr<const ImprovedPieces> improved{};  ///< nullptr: they are as they were filled.
 };
 
 /// @brief What one file will hold.
