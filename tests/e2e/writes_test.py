@@ -148,7 +148,7 @@ class FullDisk(WritesTest):
 
     def test_failed_jobs(self):
         """What cannot be kept of them is a warning."""
-        limit = 40000  # Above the records, below a failed job's inputs with the coarse mesh.
+        limit = 300000  # Above the records.
         fault = {"TESSERA_TEST_FAULT": "fill=throw@1"}
         folder = self.begun("out")
         (folder / "failure").mkdir()

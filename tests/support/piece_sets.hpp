@@ -43,7 +43,7 @@ struct PhaseCount {
   std::vector<std::string> refusals{};  ///< Of regions that keep their tets.
 };
 
-/// @brief Runs one phase over all pieces, as jobs and merges of a run would: every region sees the
+/// @brief Runs one phase over all pieces, as jobs and ranks of a run would: every region sees the
 /// pieces as the phase before left them.
 /// @param[in,out] pieces Shape (num_subdomains).
 [[nodiscard]] PhaseCount improve_phase(const improve::SeamRegions& regions, int phase,

@@ -92,8 +92,8 @@ inline constexpr int kDefaultLayers = 3;
 ///
 /// That is the nearest region, and the lowest of equally near ones. So every tet is in one job of a
 /// phase at most, and jobs do not meet. Distance is counted in tets: those with a vertex on one of
-/// the region's hosts are layer 1. A pure function of the piece: a region's job and the merge of a
-/// piece see the same labels.
+/// the region's hosts are layer 1. A pure function of the piece, or of the part of it that is
+/// given.
 /// @note Local; linear.
 [[nodiscard]] std::vector<LocalIndex> label_tets(const mesh::Piece& piece,
                                                  const SeamRegions& regions, int phase, int layers);
