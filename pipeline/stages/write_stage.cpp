@@ -58,7 +58,8 @@ GatheredFile gather_file(const subdomain::SubdomainRange& range, const io::Outpu
   const io::RecordStore store(store_folder(pieces.folder));
   GatheredFile gathered{.file = {mesh, options}};
   for (LocalIndex s = range.first; s < range.last; ++s) {
-    gathered.digests.push_back(gathered.file.add(stored_piece(store, s, pieces.generation)));
+    gathered.digests.push_back(gathered.file.add(
+        pieces.are_refined ? refined_piece(store, s) : stored_piece(store, s, pieces.generation)));
   }
   return gathered;
 }

@@ -16,6 +16,7 @@ namespace tessera::pipeline {
 struct PieceStore {
   std::filesystem::path folder{};  ///< The output folder.
   int generation = 0;              ///< Of the pieces; see stored_piece().
+  bool are_refined = false;        ///< They are those that were split further.
 };
 
 /// @brief What one file will hold.

@@ -30,6 +30,11 @@ mesh::Piece stored_piece(const io::RecordStore& store, LocalIndex subdomain, int
   return from_bytes<mesh::Piece>(from_bytes<FillRecord>(store.get(record_name(subdomain))).piece);
 }
 
+mesh::Piece refined_piece(const io::RecordStore& store, LocalIndex subdomain)
+{
+  return from_bytes<mesh::Piece>(from_bytes<FillRecord>(store.get(refined_name(subdomain))).piece);
+}
+
 ImprovedPieces::ImprovedPieces(const std::filesystem::path& output, const mesh::Skeleton& skeleton,
                                int generation)
     : store_(store_folder(output)),

@@ -19,6 +19,10 @@ namespace tessera::pipeline {
 [[nodiscard]] mesh::Piece stored_piece(const io::RecordStore& store, LocalIndex subdomain,
                                        int generation);
 
+/// @brief The piece that was split further, where such pieces wait in the store. Local.
+/// @throws InputError if its record is missing or damaged.
+[[nodiscard]] mesh::Piece refined_piece(const io::RecordStore& store, LocalIndex subdomain);
+
 /// @brief Name of an improved piece's record. @pre generation > 0
 [[nodiscard]] std::string improved_name(LocalIndex subdomain, int generation);
 
