@@ -145,8 +145,7 @@ FillResult measure_split_piece(const mesh::Piece& piece, const mesh::Skin& skin,
   summary.boundary_area = outside_area(skin, surface);
   summary.outside = verify::outside_hash(skin, surface);
   summary.surface = verify::surface_hash(piece);
-  summary.euler_characteristic =
-      euler_characteristic(piece, measure_edges(piece, result.histograms), skin.num_triangles());
+  measure_edges(piece, result.histograms);
   measure_tets(piece, on_seam, result);
   return result;
 }
