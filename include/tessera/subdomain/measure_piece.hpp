@@ -36,7 +36,8 @@ void measure_tets(const mesh::Piece& piece, const std::vector<char>& on_seam, Fi
                                                 const PieceSummary& filled);
 
 /// @brief The figures of a piece that was split further. Without volume, owned vertices and the
-/// distances to the model. Local.
+/// distances to the model. The Euler characteristic stays that of the fill: a piece that has
+/// exchanged tets may have another one. Local.
 /// @param[in] skin Of the piece; `surface` has the parents of its triangles.
 /// @param[in] on_seam Shape (num_skin_vertices): whether tets there are seam tets.
 /// @param[in] before The summary of the piece before it was split.

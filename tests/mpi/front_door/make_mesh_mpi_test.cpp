@@ -145,6 +145,32 @@ TEST_F(MakeMesh, HandedOverPiecesAreThoseOfTheFiles)
   }
 }
 
+TEST_F(MakeMesh, PiecesThatAreSplitFurtherAreHandedOver)
+{
+  for (const LocalIndex files : {0, 2}) {
+    config::Case given = brick(fill::KernelKind::optimize, "files" + std::to_string(files));
+    given.refine.levels = 2;
+    given.fill.levels = 1;
+    given.output.files = files;
+    const MeshResult made = make(given);
+    const MeshShare share = read_mesh(made.folder, comm_);
+    given.output.directory = folder_ / ("handed" + std::to_string(files));
+    EXPECT_THROW(static_cast<void>(make(given, throwing(std::runtime_error("no")))),
+                 comm::Collective<OutputError>);
+    Collected collected;
+    const MeshResult handed =
+        make(given, {.existing = io::ExistingFolder::resume,
+                     .on_piece = [&](const MeshPiece& piece) { collected.add(piece); }});
+    collected.sum_over_ranks(comm_);
+    EXPECT_TRUE(collected.is_consistent);
+    EXPECT_EQ(handed.digest, made.digest);
+    EXPECT_EQ(to_hex(collected.digest), made.digest);
+    EXPECT_EQ(collected.num_tets, made.num_tets);
+    EXPECT_EQ(collected.num_triangles, share.num_global_triangles);
+    EXPECT_NEAR(handed.volume, 2.0, 1e-9);
+  }
+}
+
 TEST_F(MakeMesh, PiecesOfSeveralSubdomainsAreHandedOverToo)
 {
   config::Case given = brick(fill::KernelKind::subdivide, "handed");
