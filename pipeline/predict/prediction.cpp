@@ -17,12 +17,12 @@ constexpr double kJobOverhead_s = 0.003;
 
 using TetRate = double KernelRates::*;
 
-// Tets of a range, each weighted with a rate of its subdomain's kernel.
+// Tets of a range as they are filled, each weighted with a rate of its subdomain's kernel.
 double cost_of(const subdomain::SubdomainRange& range, const PredictionBasis& basis, TetRate rate)
 {
   double cost = 0.0;
   for (LocalIndex s = range.first; s < range.last; ++s) {
-    cost += basis.rates.of(basis.outline.kernels[at(s)]).*rate
+    cost += basis.rates.of(basis.outline.kernels[at(s)]).*rate * basis.outline.filled_share()
             * static_cast<double>(basis.outline.pieces[at(s)].tets);
   }
   return cost;
@@ -80,6 +80,15 @@ std::vector<double> improvement_durations(const PredictionBasis& basis)
   return job_s;
 }
 
+std::vector<double> refine_durations(const RunOutline& outline)
+{
+  std::vector<double> job_s;
+  for (const subdomain::SubdomainRange& file : outline.files) {
+    job_s.push_back(kRefineCpuPerTet_s * static_cast<double>(outline.tets_of(file)));
+  }
+  return job_s;
+}
+
 void add_times(const PredictionBasis& basis, Prediction& prediction)
 {
   double serial_s = 0.0;
@@ -101,7 +110,9 @@ void add_times(const PredictionBasis& basis, Prediction& prediction)
   if (outline.improves_seams()) {
     add_shared_stage("improve", improvement_durations(basis), prediction, shared);
   }
-  if (!outline.is_one_pass) {
+  if (outline.splits_pieces()) {
+    add_shared_stage("refine", refine_durations(outline), prediction, shared);
+  } else if (!outline.is_one_pass) {
     add_shared_stage("write", durations(outline.files, basis, &KernelRates::write_cpu_s_per_tet),
                      prediction, shared);
   }
@@ -136,14 +147,16 @@ void add_disk(const PredictionBasis& basis, Prediction& prediction)
 void add_memory(const PredictionBasis& basis, Prediction& prediction)
 {
   const RunOutline& outline = basis.outline;
-  const double job = kJobBytes + largest_cost(outline.jobs, basis, &KernelRates::job_bytes_per_tet);
-  const double jobs = std::max(basis.memory.jobs_peak, basis.memory.loaded + job);
   GlobalIndex largest_file = 0;
   for (const subdomain::SubdomainRange& file : outline.files) {
     largest_file = std::max(largest_file, outline.tets_of(file));
   }
-  const double writer =
-      outline.is_one_pass ? 0.0 : kWriterBytesPerTet * static_cast<double>(largest_file);
+  const auto in_file = static_cast<double>(largest_file);
+  double job = kJobBytes + largest_cost(outline.jobs, basis, &KernelRates::job_bytes_per_tet);
+  if (outline.splits_pieces()) job = std::max(job, kJobBytes + kRefineBytesPerTet * in_file);
+  const double jobs = std::max(basis.memory.jobs_peak, basis.memory.loaded + job);
+  const bool is_written_by_ranks = !outline.is_one_pass && !outline.splits_pieces();
+  const double writer = is_written_by_ranks ? kWriterBytesPerTet * in_file : 0.0;
   prediction.largest_job_bytes = basis.memory.loaded + job;
   prediction.memory_per_rank_bytes = basis.memory.process + writer + jobs;
 }

@@ -25,7 +25,7 @@ namespace {
 // A job of this size takes half a second and about 100 MB.
 constexpr double kAutoSubdividedTets = 5e5;
 
-// A job that splits so many takes two to three seconds and about 600 MB.
+// A job that splits so many takes one to two seconds and about 450 MB.
 constexpr double kMostSplitTets = 2e6;
 
 // "auto" depends on the kernel. A mesher of skins wants few seams; subdivision wants jobs that fit
