@@ -40,6 +40,9 @@ DiskNeed disk_need(const RunOutline& outline, const Rates& rates)
       if (!outline.is_one_pass) {
         need.store_bytes += copies * kernel.store_bytes_per_tet * outline.filled_share() * tets;
       }
+      if (outline.splits_pieces() && !outline.has_files) {  // They wait there to be handed over.
+        need.store_bytes += kernel.store_bytes_per_tet * tets;
+      }
     }
     if (!outline.has_files) continue;
     const GlobalIndex triangles = outline.boundary_triangles_of(file);

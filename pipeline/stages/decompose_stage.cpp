@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,8 +29,22 @@ constexpr double kAutoSubdividedTets = 5e5;
 // A job that splits so many takes one to two seconds and about 450 MB.
 constexpr double kMostSplitTets = 2e6;
 
-// "auto" depends on the kernel. A mesher of skins wants few seams; subdivision wants jobs that fit
-// in memory.
+// Our optimiser fills so many in 30 ms. More subdomains have more seams, which cost as much again;
+// fewer leave ranks without work.
+constexpr double kAutoOptimizedTets = 2e4;
+constexpr double kLeastOptimized = 8.0;
+
+// How many subdomains "auto" wants where NETGEN fills none: its own skins want few seams, and
+// decompose() knows about that. Subdivision wants jobs that fit in memory.
+std::optional<double> number_without_netgen(const std::vector<fill::KernelKind>& kernels,
+                                            double num_tets, double num_filled)
+{
+  const auto is_netgen = [](fill::KernelKind kernel) { return kernel == fill::KernelKind::netgen; };
+  if (are_counts_known(kernels)) return std::ceil(num_tets / kAutoSubdividedTets);
+  if (std::ranges::any_of(kernels, is_netgen)) return std::nullopt;
+  return std::max(std::ceil(num_filled / kAutoOptimizedTets), kLeastOptimized);
+}
+
 decompose::DecomposeOptions options_of(const config::Case& run_case,
                                        const std::vector<fill::KernelKind>& kernels,
                                        const std::vector<double>& weights)
@@ -41,12 +56,13 @@ decompose::DecomposeOptions options_of(const config::Case& run_case,
   if (levels.fill < levels.all) {
     options.least = static_cast<LocalIndex>(std::ceil(total / kMostSplitTets));
   }
-  if (options.subdomains == 0 && are_counts_known(kernels)) {
-    const auto most = static_cast<double>(weights.size());
-    const double for_parts = 1.0 * decompose::kAutoSubdomainsAPart * options.parts;
-    options.subdomains = static_cast<int>(
-        std::clamp(std::max(std::ceil(total / kAutoSubdividedTets), for_parts), 1.0, most));
-  }
+  const double num_filled = std::ldexp(total, 3 * (levels.fill - levels.all));
+  const auto number = number_without_netgen(kernels, total, num_filled);
+  if (options.subdomains > 0 || !number) return options;
+  const double for_parts = 1.0 * decompose::kAutoSubdomainsAPart * options.parts;
+  const auto most = static_cast<double>(weights.size());
+  options.subdomains = static_cast<int>(
+      std::clamp(std::max({*number, for_parts, 1.0 * options.least}), 1.0, most));
   return options;
 }
 

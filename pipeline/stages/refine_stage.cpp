@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/refine_stage.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <set>
 #include <tuple>
@@ -141,17 +142,17 @@ class StageWork {
   [[nodiscard]] Hash128 fingerprint(const subdomain::SubdomainRange& range,
                                     const mesh::ProjectionLimiter& limiter) const
   {
-    if (limiter.entries().empty()) return origin_;
     std::set<LocalIndex> subdomains;
     for (LocalIndex s = range.first; s < range.last; ++s) {
       subdomains.insert(s);
       subdomains.insert(neighbours_[at(s)].begin(), neighbours_[at(s)].end());
     }
-    std::vector<Hash128> parts{origin_};
+    std::vector<Hash128> parts;
     for (const LocalIndex s : subdomains) {
       parts.push_back(plan_fingerprint(origin_, work_.cut.skeleton, limiter, s, s + 1));
     }
-    return hash_bytes(to_bytes(parts));
+    const auto is_unlimited = [&](const Hash128& part) { return part == origin_; };
+    return std::ranges::all_of(parts, is_unlimited) ? origin_ : hash_bytes(to_bytes(parts));
   }
 
   void refine(const subdomain::SubdomainRange& range, const mesh::ProjectionLimiter& limiter,

@@ -94,7 +94,7 @@ Hash128 plan_fingerprint(const Hash128& cut, const mesh::Skeleton& skeleton,
                          const bool is_on_edge = entry.key.carrier == mesh::LatticeCarrier::edge;
                          return (is_on_edge ? edges : triangles).contains(entry.key.entity);
                        });
-  return hash_bytes(to_bytes(limited));
+  return limited.limits.empty() ? cut : hash_bytes(to_bytes(limited));
 }
 
 }  // namespace tessera::pipeline

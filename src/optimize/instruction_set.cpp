@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/optimize/instruction_set.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "optimize/kernels.hpp"
 
 namespace tessera::optimize {
@@ -18,11 +21,22 @@ std::vector<InstructionSet> find_instruction_sets()
   return sets;
 }
 
+// TESSERA_TEST_INSTRUCTION_SET is the name of the last one to be used: the tests show with it that no
+// bit of the mesh depends on the processor. No option, for no user needs it.
+std::vector<InstructionSet> up_to_wanted_set(std::vector<InstructionSet> sets)
+{
+  const char* const wanted = std::getenv("TESSERA_TEST_INSTRUCTION_SET");
+  const auto last = std::ranges::find_if(
+      sets, [&](InstructionSet set) { return wanted != nullptr && name_of(set) == wanted; });
+  if (last != sets.end()) sets.erase(last + 1, sets.end());
+  return sets;
+}
+
 }  // namespace
 
 const std::vector<InstructionSet>& available_instruction_sets()
 {
-  static const std::vector<InstructionSet> sets = find_instruction_sets();
+  static const std::vector<InstructionSet> sets = up_to_wanted_set(find_instruction_sets());
   return sets;
 }
 

@@ -62,7 +62,7 @@ Defect first_open_face(const std::vector<PieceSummary>& pieces)
     open -= piece.outside;
   }
   if (open == Hash128{}) return std::nullopt;
-  return "pieces do not meet after the improvement of their seams";
+  return "pieces do not meet: the faces of their tets do not cancel";
 }
 
 Defect first_of_exchange(const std::vector<PieceSummary>& pieces, double volume_before)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The kernel "optimize": our own optimiser makes the children of the coarse tets better, in every subdomain and then
 across the seams."""
+import os
 import unittest
 
 import program
@@ -34,6 +35,17 @@ class Optimize(program.ProgramTest):
             other = self.made_by("optimize", f"ranks_{ranks}", ranks=ranks)
             self.assertEqual(program.figures(other), figures)
             self.assertEqual(program.mesh_files(other), program.mesh_files(alone))
+
+    def test_any_instruction_set(self):
+        levels = ("--set", "refine.levels=3", "--set", "fill.levels=auto")
+        wide = self.made_by("optimize", "wide", *levels)
+        for name in ("baseline", "AVX2"):
+            narrow = self.mesh(
+                self.case, name, "--set", "fill.kernel=optimize", *levels,
+                env=os.environ | {"TESSERA_TEST_INSTRUCTION_SET": name},
+            )
+            self.assertEqual(program.figures(narrow), program.figures(wide))
+            self.assertEqual(program.mesh_files(narrow), program.mesh_files(wide))
 
     def test_better_than_the_children_and_seams_too(self):
         children = self.checked(self.made_by("subdivide", "children"))

@@ -248,7 +248,7 @@ struct VerifyImprovedPieces : VerifyFilledPieces {
   std::vector<mesh::Piece> improved{};
 };
 
-constexpr const char* kDoNotMeet = "pieces do not meet after the improvement of their seams";
+constexpr const char* kDoNotMeet = "pieces do not meet: the faces of their tets do not cancel";
 
 TEST_F(VerifyImprovedPieces, SoundOnesPass) { EXPECT_EQ(verdict_on_improved(), std::nullopt); }
 
