@@ -73,7 +73,7 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   run.num_vertices = ids.num_vertices();
   run.num_tets = ids.num_tets();
   const subdomain::WriteContext mesh{cut.coarse, cut.skeleton, ids, output.length_unit,
-                                     places_of_vertices(run, cut, context)};
+                                     places_of_vertices(run, cut)};
   if (options.on_piece) {
     run_hand_over_stage(outline.files, mesh, options.on_piece, run.filled, context);
     return run;

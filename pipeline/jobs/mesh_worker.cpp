@@ -15,12 +15,14 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/coarse/optimize_interior.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/model/scaled_model.hpp"
 #include "tessera/netgen/factory.hpp"
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
+#include "tessera/subdomain/improve_seam_region.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/piece_surface.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
@@ -31,8 +33,6 @@
 #include "pipeline/jobs/test_fault.hpp"
 #include "pipeline/jobs/worker_messages.hpp"
 #include "pipeline/store/fill_record.hpp"
-#include "pipeline/store/piece_surfaces.hpp"
-#include "pipeline/store/region_records.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -42,13 +42,7 @@ struct Refinement {
   RefineSettings settings;
   io::OutputOptions output;
   subdomain::PieceRefiner refiner;
-  PieceSurfaces surfaces;
   number::IdLayout ids;
-
-  [[nodiscard]] LocalIndex intervals() const
-  {
-    return mesh::lattice::intervals(settings.levels - settings.fill_levels);
-  }
 };
 
 // State of the model zygote; jobs are forked from it.
@@ -113,10 +107,9 @@ class MeshWorker final : public jobs::Worker {
     io::OutputOptions output{.formats = std::move(load.formats),
                              .compression = load.compression,
                              .cell_quality = load.cell_quality};
-    refinement_.emplace(Refinement{
-        load.settings, std::move(output), subdomain::PieceRefiner(*cut_, load.settings.fill_levels),
-        PieceSurfaces(output_, cut_->skeleton, decomposition_, load.settings.generation),
-        number::IdLayout::by_owner(load.settings.counts)});
+    refinement_.emplace(Refinement{load.settings, std::move(output),
+                                   subdomain::PieceRefiner(*cut_, load.settings.fill_levels),
+                                   number::IdLayout::by_owner(load.settings.counts)});
   }
 
   [[nodiscard]] static Bytes answer(const ImportRequest& request)
@@ -139,6 +132,7 @@ class MeshWorker final : public jobs::Worker {
     const auto mesher = make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
     CoarseTry made{.mesh = mesher->generate(options)};
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_);
+    if (options.optimize) coarse::optimize_interior(made.mesh);
     made.distance.largest *= scale_;
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     mesh::validate(made.mesh);
@@ -198,20 +192,6 @@ class MeshWorker final : public jobs::Worker {
     return garbled_if_asked("fill", std::move(result), task.first);
   }
 
-  [[nodiscard]] Bytes answer(const ImproveRequest& request) const
-  {
-    const io::RecordStore store(store_folder(output_));
-    const auto pieces =
-        pieces_around({*cut_, *regions_, store, request.generation}, request.region);
-    store.put(region_name(request.region), improved(request.region, pieces));
-    return {};
-  }
-
-  [[nodiscard]] Bytes answer(const ImprovePiecesRequest& request) const
-  {
-    return improved(request.region, request.pieces);
-  }
-
   // All subdomains of a region are of one material, and so have one kernel.
   [[nodiscard]] std::unique_ptr<improve::Optimizer> optimizer_of(LocalIndex region) const
   {
@@ -220,18 +200,21 @@ class MeshWorker final : public jobs::Worker {
     return is_own ? subdomain::make_seam_optimizer() : netgen::make_optimizer();
   }
 
-  [[nodiscard]] Bytes improved(LocalIndex region, const std::vector<mesh::Piece>& pieces) const
+  [[nodiscard]] Bytes answer(const ImproveRequest& request) const
   {
+    const LocalIndex region = request.region;
+    const improve::RegionMesh mesh = region_mesh(request.bands, *regions_, region);
     const auto optimizer = make_faulty_if_asked(optimizer_of(region), region);
-    subdomain::RegionRecord record = subdomain::improve_tets(
-        subdomain::region_mesh(pieces, *regions_, region), improve_options_.rounds, *optimizer);
-    lose_tet_if_asked(record.update, region);
+    subdomain::RegionRecord record =
+        subdomain::improve_tets(mesh, improve_options_.rounds, *optimizer);
+    lose_tet_if_asked(record.updates, region);
     return to_bytes(record);
   }
 
   [[nodiscard]] Bytes answer(const RefineTask& task) const
   {
-    fail_if_asked("refine", task.first);
+    const LocalIndex first = task.pieces.front().piece.subdomain;
+    fail_if_asked("refine", first);
     const Refinement& to = *refinement_;
     refine::RefineContext context = refine_context(limiter_);
     context.levels = to.settings.levels;
@@ -249,16 +232,14 @@ class MeshWorker final : public jobs::Worker {
                       .keep = task.keep},
                      to.settings.has_files ? &numbers : nullptr, to.output);
     RefineTaskResult made;
-    for (LocalIndex s = task.first; s < task.last; ++s) {
-      subdomain::PieceSurroundings around = to.surfaces.surroundings(s, to.intervals());
-      around.is_smoothed = to.settings.kernels[at(s)] != fill::KernelKind::subdivide;
+    for (const PieceToRefine& one : task.pieces) {
       subdomain::RefinedPiece refined =
-          to.refiner.refine(to.surfaces.piece(s), around, context, task.before[at(s - task.first)]);
+          to.refiner.refine(one.piece, one.around, context, one.before);
       made.folds.insert(made.folds.end(), refined.folds.begin(), refined.folds.end());
       batch.add(std::move(refined.filled));
     }
     made.results = std::move(batch).finish();
-    return garbled_if_asked("refine", to_bytes(made), task.first);
+    return garbled_if_asked("refine", to_bytes(made), first);
   }
 
   [[nodiscard]] Bytes answer(const SkinRequest& request) const
@@ -385,14 +366,17 @@ Bytes untangle_request(const std::vector<UntangleTest>& tests,
 
 Bytes fill_request(const FillTask& task) { return to_bytes(Request(task)); }
 
-Bytes improve_request(LocalIndex region, int generation)
+Bytes improve_request(LocalIndex region, const std::vector<Bytes>& bands)
 {
-  return to_bytes(Request(ImproveRequest{region, generation}));
+  return to_bytes(Request(ImproveRequest{region, bands}));
 }
 
-Bytes improve_pieces_request(LocalIndex region, const std::vector<mesh::Piece>& pieces)
+improve::RegionMesh region_mesh(const std::vector<Bytes>& bands,
+                                const improve::SeamRegions& regions, LocalIndex region)
 {
-  return to_bytes(Request(ImprovePiecesRequest{region, pieces}));
+  std::vector<improve::Band> read;
+  for (const Bytes& band : bands) read.push_back(from_bytes<improve::Band>(band));
+  return improve::extract_region(read, regions, region);
 }
 
 Bytes load_refinement_message(const RefineSettings& settings, const io::OutputOptions& options)

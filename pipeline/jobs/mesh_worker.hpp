@@ -14,6 +14,7 @@
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/fill/fill_try.hpp"
 #include "tessera/improve/options.hpp"
+#include "tessera/improve/region_mesh.hpp"
 #include "tessera/io/options.hpp"
 #include "tessera/jobs/job_runner.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -23,6 +24,7 @@
 #include "tessera/model/model.hpp"
 #include "tessera/number/id_layout.hpp"
 #include "tessera/subdomain/piece_summary.hpp"
+#include "tessera/subdomain/refine_piece.hpp"
 
 /// Everything that runs in job processes because it calls NETGEN or OpenCASCADE, and the messages
 /// that start it. A job's result is the bytes that the stage reads back.
@@ -117,29 +119,27 @@ struct FillTask {
 /// FillResults. If one is folded there is no record. Needs model, mesh and plan.
 [[nodiscard]] Bytes fill_request(const FillTask& task);
 
-/// @brief run: improves one region of pieces of a generation and stores its record; see
-/// improve_job.hpp. Needs model, mesh and improvement; the result is empty.
-[[nodiscard]] Bytes improve_request(LocalIndex region, int generation);
+/// @brief run: improves one region; result: bytes of a subdomain::RegionRecord. Needs mesh and
+/// improvement. Nothing is read or stored.
+/// @param[in] bands Bytes of an improve::Band for each of the region's subdomains, in their order.
+[[nodiscard]] Bytes improve_request(LocalIndex region, const std::vector<Bytes>& bands);
 
-/// @brief run: the same on pieces that come with the request, those of pieces_around(); nothing is
-/// read or stored. Result: bytes of a subdomain::RegionRecord.
-[[nodiscard]] Bytes improve_pieces_request(LocalIndex region,
-                                           const std::vector<mesh::Piece>& pieces);
+/// @brief The mesh that such a job works on. Local.
+[[nodiscard]] improve::RegionMesh region_mesh(const std::vector<Bytes>& bands,
+                                              const improve::SeamRegions& regions,
+                                              LocalIndex region);
 
 /// @brief What jobs need to split pieces further.
 struct RefineSettings {
   int fill_levels = 0;                        ///< That the pieces were filled on.
   int levels = 0;                             ///< To be reached.
-  int generation = 0;                         ///< Of the pieces.
   std::vector<number::PieceCounts> counts{};  ///< Of all pieces as they will be.
-  std::vector<fill::KernelKind> kernels{};    ///< By subdomain, as the case wants them.
   std::string length_unit{};
   bool has_files = true;  ///< False: pieces go into the store.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.fill_levels, self.levels, self.generation, self.counts, self.kernels,
-                    self.length_unit, self.has_files);
+    return std::tie(self.fill_levels, self.levels, self.counts, self.length_unit, self.has_files);
   }
 };
 
@@ -147,19 +147,23 @@ struct RefineSettings {
 [[nodiscard]] Bytes load_refinement_message(const RefineSettings& settings,
                                             const io::OutputOptions& options);
 
-/// @brief What a refine job makes: the pieces of the subdomains first…last-1.
-struct RefineTask {
-  LocalIndex batch = 0;  ///< Number of the record and of the file.
-  LocalIndex first = 0;
-  LocalIndex last = 0;
-  Hash128 plan{};    ///< What they are made from.
-  bool keep = true;  ///< false: measure only and store nothing, for a replay.
-  std::vector<subdomain::PieceSummary> before{};  ///< Of these pieces.
+/// @brief A piece that is to be split further.
+struct PieceToRefine {
+  mesh::Piece piece{};
+  subdomain::PieceSurroundings around{};
+  subdomain::PieceSummary before{};
 
-  static auto fields(auto& self)
-  {
-    return std::tie(self.batch, self.first, self.last, self.plan, self.keep, self.before);
-  }
+  static auto fields(auto& self) { return std::tie(self.piece, self.around, self.before); }
+};
+
+/// @brief What a refine job makes: the pieces of one file, or one for the store.
+struct RefineTask {
+  LocalIndex batch = 0;                 ///< Number of the record and of the file.
+  Hash128 plan{};                       ///< What they are made from.
+  bool keep = true;                     ///< false: measure only and store nothing, for a replay.
+  std::vector<PieceToRefine> pieces{};  ///< In the order of subdomains.
+
+  static auto fields(auto& self) { return std::tie(self.batch, self.plan, self.keep, self.pieces); }
 };
 
 struct RefineTaskResult {

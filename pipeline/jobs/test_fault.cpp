@@ -285,16 +285,16 @@ std::unique_ptr<model::Model> nudged_if_asked(const model::Model& model, LocalIn
 
 // A tet with two new corners has no face on the geometry: without one behind it, the merge of the
 // piece would fail already.
-void lose_tet_if_asked(improve::RegionUpdate& update, LocalIndex region)
+void lose_tet_if_asked(std::vector<improve::PieceUpdate>& updates, LocalIndex region)
 {
   if (kind_at("improve", region) != "lose") return;
-  std::vector<LocalIndex>& tets = update.tet_vertices;
-  for (auto tet = tets.begin(); tet != tets.end(); tet += 4) {
-    if (std::count_if(tet, tet + 4, [](LocalIndex v) { return v < 0; }) < 2) continue;
-    const auto number = static_cast<LocalIndex>((tet - tets.begin()) / 4);
-    for (LocalIndex& offset : update.tet_offsets) offset -= offset > number ? 1 : 0;
-    tets.erase(tet, tet + 4);
-    return;
+  for (improve::PieceUpdate& update : updates) {
+    std::vector<LocalIndex>& tets = update.tet_vertices;
+    for (auto tet = tets.begin(); tet != tets.end(); tet += 4) {
+      if (std::count_if(tet, tet + 4, [](LocalIndex v) { return v < 0; }) < 2) continue;
+      tets.erase(tet, tet + 4);
+      return;
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
@@ -59,7 +60,7 @@ void fail_if_asked(std::string_view stage, LocalIndex item = kNoIndex);
 [[nodiscard]] std::unique_ptr<model::Model> nudged_if_asked(const model::Model& model,
                                                             LocalIndex subdomain);
 
-/// @brief Takes a tet with two new corners out of a region's update, if that is asked for.
-void lose_tet_if_asked(improve::RegionUpdate& update, LocalIndex region);
+/// @brief Takes a tet with two new corners out of a region's updates, if that is asked for.
+void lose_tet_if_asked(std::vector<improve::PieceUpdate>& updates, LocalIndex region);
 
 }  // namespace tessera::pipeline

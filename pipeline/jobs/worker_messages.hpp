@@ -100,16 +100,9 @@ struct UntangleRequest {
 
 struct ImproveRequest {
   LocalIndex region = kNoIndex;
-  int generation = 0;
+  std::vector<Bytes> bands{};  ///< Each of an improve::Band, in the order of the subdomains.
 
-  static auto fields(auto& self) { return std::tie(self.region, self.generation); }
-};
-
-struct ImprovePiecesRequest {
-  LocalIndex region = kNoIndex;
-  std::vector<mesh::Piece> pieces{};
-
-  static auto fields(auto& self) { return std::tie(self.region, self.pieces); }
+  static auto fields(auto& self) { return std::tie(self.region, self.bands); }
 };
 
 struct SkinRequest {
@@ -119,6 +112,6 @@ struct SkinRequest {
 };
 
 using Request = std::variant<ImportRequest, BoxRequest, CoarseRequest, UntangleRequest, FillTask,
-                             ImproveRequest, ImprovePiecesRequest, RefineTask, SkinRequest>;
+                             ImproveRequest, RefineTask, SkinRequest>;
 
 }  // namespace tessera::pipeline

@@ -25,6 +25,9 @@ namespace {
 // A job of this size takes half a second and about 100 MB.
 constexpr double kAutoSubdividedTets = 5e5;
 
+// A job that splits so many takes two to three seconds and about 600 MB.
+constexpr double kMostSplitTets = 2e6;
+
 // "auto" depends on the kernel. A mesher of skins wants few seams; subdivision wants jobs that fit
 // in memory.
 decompose::DecomposeOptions options_of(const config::Case& run_case,
@@ -33,8 +36,12 @@ decompose::DecomposeOptions options_of(const config::Case& run_case,
 {
   decompose::DecomposeOptions options = run_case.decompose;
   options.parts = run_case.output.parts;
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const OutlineLevels levels = outline_levels(run_case, kernels);
+  if (levels.fill < levels.all) {
+    options.least = static_cast<LocalIndex>(std::ceil(total / kMostSplitTets));
+  }
   if (options.subdomains == 0 && are_counts_known(kernels)) {
-    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
     const auto most = static_cast<double>(weights.size());
     const double for_parts = 1.0 * decompose::kAutoSubdomainsAPart * options.parts;
     options.subdomains = static_cast<int>(

@@ -44,7 +44,7 @@ void run_hand_over_stage(const std::vector<subdomain::SubdomainRange>& files,
                          FilledPieces& filled, RunContext& context)
 {
   StageScope stage(context, "hand over", static_cast<std::int64_t>(files.size()), "pieces");
-  const PieceStore store{context.folder, filled.improvement.generation, filled.are_refined};
+  const PieceStore store = store_of(filled, context.folder);
   std::vector<Hash128> digests(filled.pieces.size());
   const io::OutputOptions plain;
   subdomain::PieceArrays piece;

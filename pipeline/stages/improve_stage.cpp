@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -19,12 +22,11 @@
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/store/fill_record.hpp"
 #include "pipeline/store/improved_pieces.hpp"
-#include "pipeline/store/region_records.hpp"
 
 namespace tessera::pipeline {
 namespace {
 
-std::string phase_name(int phase) { return fmt::format("phase_{}", phase); }
+namespace fs = std::filesystem;
 
 // How the regions of one phase have ended: tried, improved, failed, limited.
 using Counts = std::vector<GlobalIndex>;
@@ -46,11 +48,13 @@ double volume_of(const std::vector<subdomain::PieceSummary>& pieces)
   return volume;
 }
 
+using RegionsByPhase = std::array<std::vector<LocalIndex>, improve::kNumPhases>;
+
 // The regions of each phase that are to be improved.
-std::array<std::vector<LocalIndex>, improve::kNumPhases> wanted_regions(
-    const improve::SeamRegions& regions, const std::vector<fill::KernelKind>& kernels)
+RegionsByPhase wanted_regions(const improve::SeamRegions& regions,
+                              const std::vector<fill::KernelKind>& kernels)
 {
-  std::array<std::vector<LocalIndex>, improve::kNumPhases> wanted;
+  RegionsByPhase wanted;
   for (LocalIndex region = 0; region < regions.num_regions(); ++region) {
     const LocalIndex subdomain = regions.subdomains_of(region).front();
     if (kernels[at(subdomain)] == fill::KernelKind::subdivide) continue;
@@ -59,41 +63,93 @@ std::array<std::vector<LocalIndex>, improve::kNumPhases> wanted_regions(
   return wanted;
 }
 
+// By phase, the pieces that its regions lie in, ascending.
+RegionsByPhase pieces_of_phases(const improve::SeamRegions& regions, const RegionsByPhase& wanted)
+{
+  RegionsByPhase pieces;
+  for (std::size_t phase = 0; phase < wanted.size(); ++phase) {
+    std::vector<LocalIndex>& some = pieces[phase];
+    for (const LocalIndex region : wanted[phase]) {
+      std::ranges::copy(regions.subdomains_of(region), std::back_inserter(some));
+    }
+    std::ranges::sort(some);
+    some.erase(std::ranges::unique(some).begin(), some.end());
+  }
+  return pieces;
+}
+
+std::int64_t total_size(const RegionsByPhase& lists)
+{
+  std::int64_t size = 0;
+  for (const auto& list : lists) size += std::ssize(list);
+  return size;
+}
+
+// Updates name vertices by their tags in the pieces, and a resumed run may have other pieces. A
+// poor piece is filled again, and its second try may succeed now where a limit had ended it.
+void drop_records_of_other_pieces(const std::vector<subdomain::PieceSummary>& pieces,
+                                  const io::RecordStore& store, const fs::path& folder)
+{
+  const std::string name = "improve";
+  std::vector<Hash128> contents;
+  for (const subdomain::PieceSummary& piece : pieces) contents.push_back(piece.content);
+  const Bytes record = to_bytes(contents);
+  if (store.find(name) == record) return;
+  io::remove_logs(folder);
+  store.put(name, record);
+}
+
+// What the improvement works on; the same on every rank.
+struct SeamWork {
+  const improve::SeamRegions& regions;
+  RegionsByPhase wanted{};  // Regions.
+  RegionsByPhase pieces{};  // That take part.
+
+  [[nodiscard]] bool takes_part(LocalIndex piece, int phase) const
+  {
+    return std::ranges::binary_search(pieces[static_cast<std::size_t>(phase)], piece);
+  }
+
+  // The piece's last phase before that one; kNoPhase if there is none.
+  [[nodiscard]] int phase_before(LocalIndex piece, int phase) const
+  {
+    while (--phase >= 0) {
+      if (takes_part(piece, phase)) return phase;
+    }
+    return ImprovedPieces::kNoPhase;
+  }
+
+  [[nodiscard]] bool is_last(LocalIndex piece, int phase) const
+  {
+    while (++phase < improve::kNumPhases) {
+      if (takes_part(piece, phase)) return false;
+    }
+    return true;
+  }
+};
+
 class SeamImprover {
  public:
   SeamImprover(const config::Case& run_case, const subdomain::PartitionedMesh& cut,
-               const improve::SeamRegions& regions, FilledPieces filled, RunContext& context,
-               StageScope& stage)
+               const SeamWork& work, FilledPieces filled, std::shared_ptr<ImprovedPieces> pieces,
+               RunContext& context, StageScope& stage)
       : run_case_(run_case),
         cut_(cut),
-        regions_(regions),
+        work_(work),
         filled_(std::move(filled)),
+        pieces_(std::move(pieces)),
         context_(context),
-        stage_(stage),
-        store_(store_folder(context.folder))
+        stage_(stage)
   {
     filled_.improvement.volume_before = volume_of(filled_.pieces);
-    all_or_none(context_.comm, [&] {
-      if (context_.comm.rank() == 0) drop_records_of_other_pieces();
-    });
   }
 
-  // Makes the next generation of pieces, unless a stopped run has done so.
-  void run_phase(int phase, const std::vector<LocalIndex>& wanted)
+  void run_phase(int phase)
   {
-    const int before = filled_.improvement.generation;
-    auto kept = on_root(context_.comm, [&] { return find_counts(phase); });
-    Counts counts(4, 0);
-    if (kept) {
-      counts = std::move(*kept);
-      num_done_ += std::ssize(wanted) + std::ssize(filled_.pieces);
-    } else {
-      counts = improve_regions(wanted);
-      merge(phase);
-      finish_phase(phase, before, counts);
-    }
+    const auto row = static_cast<std::size_t>(phase);
+    make_bands(phase, work_.pieces[row]);
+    const Counts counts = improve_regions(work_.wanted[row]);
     Improvement& improvement = filled_.improvement;
-    improvement.generation = phase + 1;
     improvement.num_regions += counts[0];
     improvement.num_improved += counts[1];
     improvement.num_failed += counts[2];
@@ -103,79 +159,73 @@ class SeamImprover {
   // Who owns which vertex, and the figures of the pieces as they are now.
   [[nodiscard]] FilledPieces number_shared_vertices() &&
   {
-    const ImprovedPieces pieces(context_.folder, cut_.skeleton, filled_.improvement.generation);
-    for_each_subdomain([&](LocalIndex s) { pieces.keep_list(pieces.piece(s)); });
     FilledPieces own;
     own.seam_sums.resize(filled_.seam_sums.size());
-    for_each_subdomain([&](LocalIndex s) {
-      own.add(subdomain::measure_improved_piece(pieces.piece(s), pieces.own_vertices(s),
-                                                filled_.pieces[at(s)]));
+    for_each_dynamic(in_order(filled_.pieces.size()),
+                     in_thread([&](LocalIndex s) { measure(s, own); }), stage_, context_,
+                     num_done_);
+    pieces_->records().share();
+    all_or_none(context_.comm, [&] {
+      for (subdomain::PieceSummary& piece : own.pieces) add_owned(piece, own.histograms);
     });
+    pieces_->records().share();
     FilledPieces all = combine(std::move(own), context_.comm);
     all.seam_sums = std::move(filled_.seam_sums);
     all.failures = std::move(filled_.failures);
     all.improvement = filled_.improvement;
+    all.improvement.pieces = pieces_;
     return all;
   }
 
  private:
-  // Those of a phase that is done.
-  [[nodiscard]] std::optional<Counts> find_counts(int phase) const
+  // Of the pieces as the phases before have left them.
+  void make_bands(int phase, const std::vector<LocalIndex>& pieces)
   {
-    const auto record = store_.find(phase_name(phase));
-    return record ? std::optional(from_bytes<Counts>(*record)) : std::nullopt;
+    for_each_dynamic(pieces, in_thread([&](LocalIndex s) {
+                       if (pieces_->has_bands(s, phase)) return;
+                       // A rim is written and read. If it is half of the piece, the piece is as
+                       // good.
+                       const GlobalIndex most =
+                           work_.is_last(s, phase) ? 0 : filled_.pieces[at(s)].num_tets / 2;
+                       pieces_->keep_bands(s, work_.phase_before(s, phase), phase, most);
+                     }),
+                     stage_, context_, num_done_);
+    num_done_ += std::ssize(pieces);
+    pieces_->records().share();
   }
 
-  // Updates name vertices by their numbers in the pieces, and a resumed run may have other pieces.
-  // A poor piece is filled again, and its second try may succeed now where a limit had ended it.
-  void drop_records_of_other_pieces() const
+  void measure(LocalIndex s, FilledPieces& own)
   {
-    const std::string name = "improve";
-    std::vector<Hash128> contents;
-    for (const subdomain::PieceSummary& piece : filled_.pieces) contents.push_back(piece.content);
-    const Bytes pieces = to_bytes(contents);
-    if (store_.find(name) == pieces && newest_pieces_are_whole()) return;
-    if (store_.contains(name)) remove_records();
-    store_.put(name, pieces);
+    const mesh::Piece piece = pieces_->piece(s);
+    own.add(subdomain::measure_improved_piece(piece, pieces_->expected_seams(piece),
+                                              filled_.pieces[at(s)]));
+    pieces_->keep_list(piece);
   }
 
-  // Of the last phase that is done; those before it are gone.
-  [[nodiscard]] bool newest_pieces_are_whole() const
+  // Where the lists say something else of the seams than was expected, the piece is read once more.
+  void add_owned(subdomain::PieceSummary& summary, quality::QualityHistograms& histograms)
   {
-    int generation = improve::kNumPhases;
-    while (generation > 0 && !store_.contains(phase_name(generation - 1))) --generation;
-    return generation == 0
-           || std::ranges::all_of(filled_.pieces, [&](const subdomain::PieceSummary& piece) {
-                return store_.find(improved_name(piece.subdomain, generation)).has_value();
-              });
-  }
-
-  void remove_records() const
-  {
-    for (LocalIndex r = 0; r < regions_.num_regions(); ++r) store_.remove(region_name(r));
-    for (int phase = 0; phase < improve::kNumPhases; ++phase) {
-      store_.remove(phase_name(phase));
-      for (const subdomain::PieceSummary& piece : filled_.pieces) {
-        store_.remove(improved_name(piece.subdomain, phase + 1));
-      }
+    const LocalIndex s = summary.subdomain;
+    const auto [shared, is_as_expected] = pieces_->own_vertices(s);
+    if (!is_as_expected) {
+      const mesh::Piece piece = pieces_->piece(s);
+      const auto figures = [&](const number::SharedBy& seams) {
+        return subdomain::measure_improved_piece(piece, seams, filled_.pieces[at(s)]);
+      };
+      const subdomain::FillResult expected = figures(pieces_->expected_seams(piece));
+      const subdomain::FillResult found = figures(shared);
+      summary.seam_tets = found.summary.seam_tets;
+      histograms.seam_mean_ratio.subtract(expected.histograms.seam_mean_ratio);
+      histograms.seam_mean_ratio.add(found.histograms.seam_mean_ratio);
     }
-  }
-
-  [[nodiscard]] ImproveContext phase_context() const
-  {
-    return {cut_, regions_, store_, filled_.improvement.generation};
-  }
-
-  void for_each_subdomain(const std::function<void(LocalIndex)>& work)
-  {
-    for_each_dynamic(in_order(filled_.pieces.size()), in_thread(work), stage_, context_, num_done_);
-    num_done_ += std::ssize(filled_.pieces);
+    summary.num_owned_vertices =
+        summary.num_interior_vertices + static_cast<GlobalIndex>(shared.owned.size());
   }
 
   [[nodiscard]] double num_tets_around(LocalIndex region) const
   {
     double sum = 0.0;
-    for (const LocalIndex s : regions_.subdomains_of(region)) {
+    for (const LocalIndex s : work_.regions.subdomains_of(region)) {
       sum += static_cast<double>(filled_.pieces[at(s)].num_tets);
     }
     return sum;
@@ -194,6 +244,7 @@ class SeamImprover {
         },
         stage_, context_, num_done_);
     num_done_ += std::ssize(wanted);
+    pieces_->records().share();
     context_.comm.sum_in_place(counts);
     return counts;
   }
@@ -202,78 +253,44 @@ class SeamImprover {
   subdomain::RegionRecord improve(LocalIndex region, double num_tets,
                                   const jobs::JobRunner::WaitCallback& on_wait)
   {
-    if (const auto kept = store_.find(region_name(region)))
-      return from_bytes<subdomain::RegionRecord>(*kept);
+    if (pieces_->has_region(region)) return pieces_->find_region(region);
     const std::string name = fmt::format("improve: region {}", region);
-    jobs::JobOutcome outcome =
-        run_job({name, improve_request(region, filled_.improvement.generation),
-                 job_limits(run_case_.fill, num_tets)},
-                on_wait, context_);
+    const std::vector<Bytes> bands = pieces_->bands_of(region);
+    const Bytes request = improve_request(region, bands);
+    const jobs::JobLimits limits = job_limits(run_case_.fill, num_tets);
+    const JobRequest job{name, request, limits};
+    jobs::JobOutcome outcome = run_job(job, on_wait, context_);
     throw_unless_of_the_job(outcome);
-    // A piece that cannot be read is no fault of the region.
-    if (outcome.error == ErrorKind::input) throw InputError(outcome.message + way_on(outcome));
     subdomain::RegionRecord record;
-    if (auto made = read_result(outcome, [&](const Bytes& /*empty*/) {
-          return from_bytes<subdomain::RegionRecord>(store_.get(region_name(region)));
-        })) {
+    if (auto made = read_result(outcome, from_bytes<subdomain::RegionRecord>)) {
       record = std::move(*made);
     } else {
       record = {.has_failed = true,
                 .was_limited = depends_on_machine(outcome),
                 .reason = outcome.message};
-      keep_failure(region, name, outcome);
-      store_.put(region_name(region), to_bytes(record));
+      keep_failure(region, job, outcome, bands);
     }
+    pieces_->keep_region(region, record);
     if (!record.is_improved) context_.log.debug("{} stays as it is: {}", name, record.reason);
     return record;
   }
 
-  // With its pieces: those in the store go when the run is over.
-  void keep_failure(LocalIndex region, const std::string& name, const jobs::JobOutcome& outcome)
+  void keep_failure(LocalIndex region, const JobRequest& job, const jobs::JobOutcome& outcome,
+                    const std::vector<Bytes>& bands)
   {
-    const std::vector<mesh::Piece> pieces = pieces_around(phase_context(), region);
-    const Bytes request = improve_pieces_request(region, pieces);
-    const jobs::JobLimits limits;
-    const auto kept = keep_failed_job({name, request, limits}, request, outcome, context_);
+    const auto kept = keep_failed_job(job, job.request, outcome, context_);
     keep_meshes_of_failed_region(
-        kept, [&] { return subdomain::region_mesh(pieces, regions_, region); }, cut_.coarse,
+        kept, [&] { return region_mesh(bands, work_.regions, region); }, cut_.coarse,
         cut_.decomposition, context_);
-  }
-
-  void merge(int phase)
-  {
-    const ImproveContext phase_work = phase_context();
-    for_each_subdomain([&](LocalIndex s) {
-      const std::string name = improved_name(s, phase + 1);
-      if (store_.find(name)) return;
-      store_.put(name, to_bytes(merge_regions(phase_work, s, phase)));
-    });
-  }
-
-  // From here on the phase counts as done: what only it needed can go. The pieces as they were
-  // filled stay, for a resumed run asks for them.
-  void finish_phase(int phase, int before, const Counts& counts)
-  {
-    all_or_none(context_.comm, [&] {
-      if (context_.comm.rank() != 0) return;
-      store_.put(phase_name(phase), to_bytes(counts));
-      for (LocalIndex r = regions_.first_of_phase(phase); r < regions_.first_of_phase(phase + 1);
-           ++r) {
-        store_.remove(region_name(r));
-      }
-      for (const subdomain::PieceSummary& piece : filled_.pieces) {
-        if (before > 0) store_.remove(improved_name(piece.subdomain, before));
-      }
-    });
   }
 
   const config::Case& run_case_;
   const subdomain::PartitionedMesh& cut_;
-  const improve::SeamRegions& regions_;
+  const SeamWork& work_;
   FilledPieces filled_;
+  std::shared_ptr<ImprovedPieces> pieces_;
   RunContext& context_;
   StageScope& stage_;
-  io::RecordStore store_;
   std::int64_t num_done_ = 0;
 };
 
@@ -283,24 +300,24 @@ FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::Pa
                                const std::vector<fill::KernelKind>& kernels, FilledPieces filled,
                                RunContext& context)
 {
-  const improve::SeamRegions regions(cut.skeleton, cut.decomposition);
-  const auto wanted = wanted_regions(regions, kernels);
-  std::int64_t num_regions = 0;
-  std::int64_t num_passes =
-      2;  // Over all pieces: those of number_shared_vertices(), and one a phase.
-  for (const auto& phase : wanted) {
-    num_regions += std::ssize(phase);
-    num_passes += phase.empty() ? 0 : 1;
-  }
+  const auto regions =
+      std::make_shared<const improve::SeamRegions>(cut.skeleton, cut.decomposition);
+  SeamWork work{.regions = *regions, .wanted = wanted_regions(*regions, kernels)};
+  const std::int64_t num_regions = total_size(work.wanted);
   if (num_regions == 0) return filled;
-  const std::int64_t num_steps = num_regions + num_passes * std::ssize(filled.pieces);
+  work.pieces = pieces_of_phases(*regions, work.wanted);
+  const std::int64_t num_steps = num_regions + total_size(work.pieces) + std::ssize(filled.pieces);
   StageScope stage(context, "improve", num_steps, "regions and pieces");
   load_improvement(run_case.improve, kernels, context);
-  SeamImprover improver(run_case, cut, regions, std::move(filled), context, stage);
-  for (int phase = 0; phase < improve::kNumPhases; ++phase) {
-    const auto& regions_of_phase = wanted[static_cast<std::size_t>(phase)];
-    if (!regions_of_phase.empty()) improver.run_phase(phase, regions_of_phase);
-  }
+  all_or_none(context.comm, [&] {
+    if (context.comm.rank() != 0) return;
+    const fs::path folder = store_folder(context.folder);
+    drop_records_of_other_pieces(filled.pieces, io::RecordStore(folder), folder);
+  });
+  auto pieces =
+      std::make_shared<ImprovedPieces>(context.folder, cut.skeleton, regions, context.comm);
+  SeamImprover improver(run_case, cut, work, std::move(filled), std::move(pieces), context, stage);
+  for (int phase = 0; phase < improve::kNumPhases; ++phase) improver.run_phase(phase);
   FilledPieces all = std::move(improver).number_shared_vertices();
   stage.finish(
       fmt::format("{} of {} regions are better", all.improvement.num_improved, num_regions));

@@ -18,12 +18,12 @@ namespace tessera::pipeline {
 /// Subdomains exchange tets and get new vertices. The geometry and the faces between materials stay
 /// as they are. A region whose job fails, or finds nothing better, keeps its tets.
 ///
-/// Pieces are read from the store, never changed there: each phase leaves a new generation.
-/// Records of a run that was stopped are taken up again. Does nothing if no two subdomains of a
-/// material that NETGEN fills meet.
+/// Pieces are read from the store, never changed there: the updates of the regions are kept beside
+/// them. Records of a run that was stopped are taken up again. Does nothing if no two subdomains of
+/// a material meet that are not subdivided.
 /// @param[in] kernels By subdomain, as the case wants them: what is subdivided stays as it is.
 /// @param[in] filled As the fill stage returned it; all pieces are in the store.
-/// @return `filled` with the figures of the improved pieces.
+/// @return `filled` with the figures of the improved pieces, and the way to these pieces.
 /// @note Collective. @throws OutputError, Interrupted on every rank.
 [[nodiscard]] FilledPieces run_improve_stage(const config::Case& run_case,
                                              const subdomain::PartitionedMesh& cut,

@@ -12,7 +12,7 @@ namespace tessera::pipeline {
 number::IdLayout number_mesh(const RunResult& run, const subdomain::PartitionedMesh& cut,
                              const RunOutline& outline)
 {
-  if (run.filled.improvement.generation > 0 || run.filled.are_refined) {
+  if (run.filled.improvement.pieces || run.filled.are_refined) {
     return number::IdLayout::by_owner(subdomain::counts_of(run.filled.pieces));
   }
   return number::IdLayout::by_host(
@@ -21,7 +21,7 @@ number::IdLayout number_mesh(const RunResult& run, const subdomain::PartitionedM
 }
 
 std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of_vertices(
-    const RunResult& run, const subdomain::PartitionedMesh& cut, const RunContext& context)
+    const RunResult& run, const subdomain::PartitionedMesh& cut)
 {
   if (run.filled.are_refined) {
     return [hosts = mesh::HostLayout(cut.skeleton),
@@ -29,10 +29,10 @@ std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of
       return subdomain::places_of_split_piece(piece, hosts, counts[at(piece.subdomain)]);
     };
   }
-  const int generation = run.filled.improvement.generation;
-  if (generation == 0) return {};
-  return [pieces = ImprovedPieces(context.folder, cut.skeleton, generation)](
-             const mesh::Piece& piece) { return pieces.places_of(piece); };
+  if (!run.filled.improvement.pieces) return {};
+  return [pieces = run.filled.improvement.pieces](const mesh::Piece& piece) {
+    return pieces->places_of(piece);
+  };
 }
 
 }  // namespace tessera::pipeline

@@ -11,7 +11,6 @@
 
 #include "pipeline/estimate/run_outline.hpp"
 #include "pipeline/run_result.hpp"
-#include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
 
@@ -23,7 +22,6 @@ namespace tessera::pipeline {
 
 /// @brief Who owns which vertex, once pieces have exchanged tets; else empty. Local.
 [[nodiscard]] std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)>
-places_of_vertices(const RunResult& run, const subdomain::PartitionedMesh& cut,
-                   const RunContext& context);
+places_of_vertices(const RunResult& run, const subdomain::PartitionedMesh& cut);
 
 }  // namespace tessera::pipeline

@@ -60,8 +60,8 @@ class StageWork {
         filled_(filled),
         context_(context),
         stage_(stage),
-        surfaces_(context.folder, work.cut.skeleton, work.cut.decomposition,
-                  filled.improvement.generation),
+        pieces_(store_of(filled, context.folder)),
+        surfaces_(pieces_, work.cut.skeleton, work.cut.decomposition),
         neighbours_(mesh::neighbours_by_vertex(work.cut.skeleton)),
         origin_(origin_of(work, filled))
   {
@@ -70,10 +70,11 @@ class StageWork {
   // What every piece will hold, and with it all ids.
   [[nodiscard]] std::vector<number::PieceCounts> count_pieces()
   {
-    const LocalIndex n = mesh::lattice::intervals(work_.levels - work_.fill_levels);
     for_each_piece([&](LocalIndex s) { surfaces_.keep_list(s); });
     std::vector<CountedPiece> own;
-    for_each_piece([&](LocalIndex s) { own.push_back({s, surfaces_.compare(s, n)}); });
+    for_each_piece([&](LocalIndex s) {
+      own.push_back({s, surfaces_.compare(s, num_intervals())});
+    });
     std::vector<number::PieceCounts> counts(filled_.pieces.size());
     for (const CountedPiece& piece : context_.comm.all_gather_rows(own)) {
       counts[at(piece.subdomain)] = piece.counts;
@@ -102,6 +103,21 @@ class StageWork {
   {
     for_each_dynamic(in_order(filled_.pieces.size()), in_thread(make), stage_, context_, num_done_);
     num_done_ += std::ssize(filled_.pieces);
+  }
+
+  // Of an edge of the pieces as they are.
+  [[nodiscard]] LocalIndex num_intervals() const
+  {
+    return mesh::lattice::intervals(work_.levels - work_.fill_levels);
+  }
+
+  // Of one material all pieces are smoothed or none: on seams both sides must do the same.
+  [[nodiscard]] PieceToRefine piece_to_refine(LocalIndex s) const
+  {
+    PieceToRefine one{stored_piece(pieces_, s), surfaces_.surroundings(s, num_intervals()),
+                      filled_.pieces[at(s)]};
+    one.around.is_smoothed = work_.kernels[at(s)] != fill::KernelKind::subdivide;
+    return one;
   }
 
   [[nodiscard]] double num_tets_of(const subdomain::SubdomainRange& range) const
@@ -141,14 +157,11 @@ class StageWork {
   void refine(const subdomain::SubdomainRange& range, const mesh::ProjectionLimiter& limiter,
               const jobs::JobRunner::WaitCallback& on_wait)
   {
-    RefineTask task{.batch = range.number,
-                    .first = range.first,
-                    .last = range.last,
-                    .plan = fingerprint(range, limiter)};
+    RefineTask task{.batch = range.number, .plan = fingerprint(range, limiter)};
     if (const auto record = find_record(context_.folder, refined_name(range.number), task.plan)) {
       return keep({.results = record->results, .folds = {}});
     }
-    task.before.assign(filled_.pieces.begin() + range.first, filled_.pieces.begin() + range.last);
+    for (LocalIndex s = range.first; s < range.last; ++s) task.pieces.push_back(piece_to_refine(s));
     const std::string name = fmt::format("refine: subdomain {}", range.first);
     const Bytes request = refine_request(task);
     const JobRequest job{name, request, job_limits(run_case_.fill, num_tets_of(range))};
@@ -175,6 +188,7 @@ class StageWork {
   const FilledPieces& filled_;
   RunContext& context_;
   StageScope& stage_;
+  PieceStore pieces_;
   PieceSurfaces surfaces_;
   std::vector<std::vector<LocalIndex>> neighbours_;
   Hash128 origin_;
@@ -209,9 +223,7 @@ FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& wo
   StageWork stage_work(run_case, work, filled, context, stage);
   load_refinement({.fill_levels = work.fill_levels,
                    .levels = work.levels,
-                   .generation = filled.improvement.generation,
                    .counts = stage_work.count_pieces(),
-                   .kernels = work.kernels,
                    .length_unit = work.length_unit,
                    .has_files = work.has_files},
                   run_case.output, context);

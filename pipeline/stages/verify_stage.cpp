@@ -12,7 +12,7 @@ void run_verify_stage(const subdomain::PartitionedMesh& cut,
 {
   StageScope stage(context, "verify");
   subdomain::PieceFacts facts{filled.pieces, filled.seam_sums};
-  const bool is_exchanged = filled.improvement.generation > 0;
+  const bool is_exchanged = filled.improvement.pieces != nullptr;
   facts.have_surfaces = is_exchanged || filled.are_refined;
   if (is_exchanged && !filled.are_refined) {
     facts.volume_before = filled.improvement.volume_before;

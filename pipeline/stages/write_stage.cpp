@@ -55,11 +55,9 @@ void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files,
 GatheredFile gather_file(const subdomain::SubdomainRange& range, const io::OutputOptions& options,
                          const subdomain::WriteContext& mesh, const PieceStore& pieces)
 {
-  const io::RecordStore store(store_folder(pieces.folder));
   GatheredFile gathered{.file = {mesh, options}};
   for (LocalIndex s = range.first; s < range.last; ++s) {
-    gathered.digests.push_back(gathered.file.add(
-        pieces.are_refined ? refined_piece(store, s) : stored_piece(store, s, pieces.generation)));
+    gathered.digests.push_back(gathered.file.add(stored_piece(pieces, s)));
   }
   return gathered;
 }
@@ -79,7 +77,7 @@ void run_write_stage(const config::Case& run_case,
 {
   const auto num_files = static_cast<LocalIndex>(files.size());
   StageScope stage(context, "write", num_files, "files");
-  const PieceStore pieces{context.folder, filled.improvement.generation};
+  const PieceStore pieces = store_of(filled, context.folder);
   std::vector<Hash128> digests(filled.pieces.size());
   for_each_dynamic(in_order(files.size()), in_thread([&](LocalIndex file) {
                      const subdomain::SubdomainRange& range = files[at(file)];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include "tessera/config/case.hpp"
@@ -9,15 +10,9 @@
 
 #include "pipeline/runtime/run_context.hpp"
 #include "pipeline/stages/fill_stage.hpp"
+#include "pipeline/store/piece_store.hpp"
 
 namespace tessera::pipeline {
-
-/// @brief Where finished pieces wait to be written.
-struct PieceStore {
-  std::filesystem::path folder{};  ///< The output folder.
-  int generation = 0;              ///< Of the pieces; see stored_piece().
-  bool are_refined = false;        ///< They are those that were split further.
-};
 
 /// @brief What one file will hold.
 struct GatheredFile {

@@ -5,7 +5,9 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -46,11 +48,11 @@ WrittenFile measure_file(const fs::path& folder, const fs::path& path)
 {
   std::ifstream in(folder / path, std::ios::binary);
   std::error_code error;
-  const auto size = fs::file_size(folder / path, error);
-  Bytes bytes(error ? 0 : size);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  const std::size_t size = fs::file_size(folder / path, error);
+  const auto bytes = std::make_unique_for_overwrite<char[]>(error ? 0 : size);
+  if (!error) in.read(bytes.get(), static_cast<std::streamsize>(size));
   if (error || !in) throw OutputError("cannot read back " + (folder / path).string());
-  return {path.string(), size, hash_bytes(bytes)};
+  return {path.string(), size, hash_bytes(std::as_bytes(std::span(bytes.get(), size)))};
 }
 
 std::optional<FillRecord> find_record(const fs::path& output, const std::string& name,

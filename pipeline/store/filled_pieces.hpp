@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "tessera/subdomain/piece_summary.hpp"
 
 namespace tessera::pipeline {
+
+class ImprovedPieces;
 
 /// @brief One that even subdivision could not fill under this plan.
 struct FoldedSubdomain {
@@ -19,8 +22,8 @@ struct FoldedSubdomain {
 
 /// @brief What the improvement of seams has done.
 struct Improvement {
-  int generation = 0;            ///< Of the pieces in the store; 0: as they were filled.
-  GlobalIndex num_regions = 0;   ///< That were tried.
+  std::shared_ptr<const ImprovedPieces> pieces{};  ///< nullptr: they are as they were filled.
+  GlobalIndex num_regions = 0;                     ///< That were tried.
   GlobalIndex num_improved = 0;  ///< Of these; the others were not better, or their job failed.
   GlobalIndex num_failed = 0;    ///< Jobs that died or found nothing valid.
   GlobalIndex num_limited = 0;   ///< Of these, for time or memory: not reproducible.

@@ -38,18 +38,19 @@ SharedPart find_shared(const io::RecordStore& store, LocalIndex subdomain)
 
 }  // namespace
 
-PieceSurfaces::PieceSurfaces(const std::filesystem::path& output, const mesh::Skeleton& skeleton,
-                             const mesh::Decomposition& decomposition, int generation)
-    : store_(store_folder(output)),
+PieceSurfaces::PieceSurfaces(PieceStore pieces, const mesh::Skeleton& skeleton,
+                             const mesh::Decomposition& decomposition)
+    : store_(store_folder(pieces.folder)),
       decomposition_(decomposition),
-      neighbours_(mesh::neighbours_by_vertex(skeleton)),
-      generation_(generation)
+      pieces_(std::move(pieces)),
+      neighbours_(mesh::neighbours_by_vertex(skeleton))
 {
 }
 
 void PieceSurfaces::keep_list(LocalIndex subdomain) const
 {
-  store_.put(list_name(subdomain), to_bytes(subdomain::surface_of(piece(subdomain))));
+  store_.put(list_name(subdomain),
+             to_bytes(subdomain::surface_of(stored_piece(pieces_, subdomain))));
 }
 
 number::PieceCounts PieceSurfaces::compare(LocalIndex subdomain, LocalIndex n) const
@@ -59,7 +60,7 @@ number::PieceCounts PieceSurfaces::compare(LocalIndex subdomain, LocalIndex n) c
   for (const LocalIndex other : neighbours_[at(subdomain)]) {
     others.push_back(find_list(store_, other));
   }
-  const mesh::Piece whole = piece(subdomain);
+  const mesh::Piece whole = stored_piece(pieces_, subdomain);
   SharedPart part{.surface = number::compare_surfaces(own, others)};
   part.halo = subdomain::halo_of(whole, own, part.surface);
   store_.put(shared_name(subdomain), to_bytes(part));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "tessera/io/record_store.hpp"
@@ -11,7 +10,7 @@
 #include "tessera/number/id_layout.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
 
-#include "pipeline/store/improved_pieces.hpp"
+#include "pipeline/store/piece_store.hpp"
 
 namespace tessera::pipeline {
 
@@ -22,14 +21,9 @@ namespace tessera::pipeline {
 /// list is compared with those of its neighbours; the surroundings of a piece are known.
 class PieceSurfaces {
  public:
-  /// @brief The arguments are borrowed. @param[in] generation Of the pieces.
-  PieceSurfaces(const std::filesystem::path& output, const mesh::Skeleton& skeleton,
-                const mesh::Decomposition& decomposition, int generation);
-
-  [[nodiscard]] mesh::Piece piece(LocalIndex subdomain) const
-  {
-    return stored_piece(store_, subdomain, generation_);
-  }
+  /// @brief The mesh is borrowed.
+  PieceSurfaces(PieceStore pieces, const mesh::Skeleton& skeleton,
+                const mesh::Decomposition& decomposition);
 
   void keep_list(LocalIndex subdomain) const;
 
@@ -42,8 +36,8 @@ class PieceSurfaces {
  private:
   io::RecordStore store_;
   const mesh::Decomposition& decomposition_;
+  PieceStore pieces_;
   std::vector<std::vector<LocalIndex>> neighbours_;  ///< By subdomain, ascending.
-  int generation_;
 };
 
 }  // namespace tessera::pipeline

@@ -9,6 +9,16 @@
 #include <xxhash.h>
 
 namespace tessera {
+namespace {
+
+struct TetRecord {
+  GlobalIndex vertex_ids[4]{};
+  double xyz[12]{};
+  std::int64_t material = 0;
+};
+static_assert(sizeof(TetRecord) == 136, "padding would leave bytes that are not set");
+
+}  // namespace
 
 Hash128 hash_bytes(std::span<const std::byte> bytes) noexcept
 {
@@ -19,16 +29,27 @@ Hash128 hash_bytes(std::span<const std::byte> bytes) noexcept
 Hash128 hash_tet(std::span<const GlobalIndex, 4> vertex_ids, std::span<const double, 12> xyz,
                  std::int32_t material) noexcept
 {
-  struct Record {
-    GlobalIndex vertex_ids[4];
-    double xyz[12];
-    std::int64_t material;
-  } record;
-  static_assert(sizeof(Record) == 136, "padding would leave bytes that are not set");
+  TetRecord record{.material = material};
   std::memcpy(record.vertex_ids, vertex_ids.data(), sizeof(record.vertex_ids));
   std::memcpy(record.xyz, xyz.data(), sizeof(record.xyz));
-  record.material = material;
   return hash_bytes(std::as_bytes(std::span(&record, 1)));
+}
+
+Hash128 hash_tets(std::span<const LocalIndex> tet_vertices, std::span<const GlobalIndex> vertex_ids,
+                  std::span<const double> xyz, std::span<const std::int32_t> materials) noexcept
+{
+  Hash128 sum;
+  TetRecord record{};
+  for (std::size_t t = 0; t < materials.size(); ++t) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      const std::size_t vertex = at(tet_vertices[4 * t + c]);
+      record.vertex_ids[c] = vertex_ids[vertex];
+      std::memcpy(&record.xyz[3 * c], &xyz[3 * vertex], 3 * sizeof(double));
+    }
+    record.material = materials[t];
+    sum += hash_bytes(std::as_bytes(std::span(&record, 1)));
+  }
+  return sum;
 }
 
 std::string to_hex(const Hash128& hash)

@@ -65,7 +65,12 @@ constexpr Key kKeys[] = {
      .meaning = "STL only: angle between two triangles from which their edge separates two "
                 "patches.",
      .reason = "NETGEN's own default"},
-
+    {.name = "coarse.optimize",
+     .rule = FlagRule{[](Case& c) -> bool& { return c.coarse.optimize; }},
+     .meaning = "Whether tets off the geometry are flipped and vertices moved so that the children "
+                "of the coarse tets become better.",
+     .reason = "what is subdivided gains most; what NETGEN or our optimiser makes better "
+               "afterwards gains little"},
     {.name = "coarse.timeout_s",
      .rule = RealRule{[](Case& c) -> double& { return c.coarse.timeout_s; }, 0.0, Bound::exclusive,
                       1e6, Bound::inclusive},

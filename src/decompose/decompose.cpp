@@ -40,15 +40,15 @@ void check_arguments(const mesh::CoarseMesh& mesh, const DecomposeOptions& optio
 }
 
 LocalIndex automatic_number(const mesh::CoarseMesh& mesh, std::span<const double> tet_weight,
-                            LocalIndex num_parts)
+                            const DecomposeOptions& options)
 {
   const double fine_tets = std::accumulate(tet_weight.begin(), tet_weight.end(), 0.0);
   const double by_fine_tets =
       std::min(fine_tets / kAutoFineTets, static_cast<double>(mesh.num_tets()));
   const LocalIndex by_coarse_tets = mesh.num_tets() / kAutoCoarseTets;
   const LocalIndex number = std::min(by_coarse_tets, static_cast<LocalIndex>(by_fine_tets));
-  const LocalIndex for_parts = std::min(kAutoSubdomainsAPart * num_parts, mesh.num_tets());
-  return std::max({1, number, for_parts});
+  const LocalIndex wanted = std::max({options.least, number, kAutoSubdomainsAPart * options.parts});
+  return std::clamp(wanted, 1, mesh.num_tets());
 }
 
 void measure(const TetGraph& graph, const mesh::Decomposition& decomposition,
@@ -77,9 +77,8 @@ DecomposeResult decompose(const mesh::CoarseMesh& mesh, const DecomposeOptions& 
 
   DecomposeResult result;
   DecomposeReport& report = result.report;
-  const LocalIndex number = options.subdomains > 0
-                                ? options.subdomains
-                                : automatic_number(mesh, tet_weight, options.parts);
+  const LocalIndex number =
+      options.subdomains > 0 ? options.subdomains : automatic_number(mesh, tet_weight, options);
   report.num_wanted = std::max(number, static_cast<LocalIndex>(pieces.size()));
 
   TetPartition partition = partition_pieces(graph, pieces, report.num_wanted, partitioner);

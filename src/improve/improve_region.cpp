@@ -53,7 +53,7 @@ RegionOutcome improve_region(const RegionMesh& mesh, const Optimizer& optimizer,
   outcome.after = measure(tets);
   outcome.reason = refusal(outcome.before, outcome.after);
   outcome.is_accepted = outcome.reason.empty();
-  if (outcome.is_accepted) outcome.update = make_update(mesh, tets, owners);
+  if (outcome.is_accepted) outcome.updates = make_updates(mesh, tets, owners);
   return outcome;
 }
 

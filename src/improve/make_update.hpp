@@ -10,9 +10,9 @@
 
 namespace tessera::improve {
 
-// The update that brings a region's new tets to their owners' pieces.
+// The updates that bring a region's new tets to their owners' pieces, by owner.
 // @pre an owner of a tet holds its fixed vertices.
-[[nodiscard]] RegionUpdate make_update(const RegionMesh& mesh, const TetMesh& tets,
-                                       const std::vector<LocalIndex>& owners);
+[[nodiscard]] std::vector<PieceUpdate> make_updates(const RegionMesh& mesh, const TetMesh& tets,
+                                                    const std::vector<LocalIndex>& owners);
 
 }  // namespace tessera::improve

@@ -40,10 +40,7 @@ struct BoundaryFace {
 
 class Extractor {
  public:
-  Extractor(std::span<const LabelledPiece> pieces, LocalIndex region)
-      : pieces_(pieces), region_(region)
-  {
-  }
+  explicit Extractor(std::span<const Band> bands) : bands_(bands) {}
 
   void run(RegionMesh& mesh)
   {
@@ -57,22 +54,12 @@ class Extractor {
   }
 
  private:
-  // Whether tet `t` of piece `p` is the region's.
-  [[nodiscard]] bool is_inside(std::size_t p, LocalIndex t) const
-  {
-    return pieces_[p].labels[at(t)] == region_;
-  }
-
   void mark_used()
   {
-    for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      const mesh::Piece& piece = pieces_[p].piece;
-      std::vector<char>& used = used_.emplace_back(at(piece.num_vertices()), 0);
-      number_.emplace_back(at(piece.num_vertices()), kNoIndex);
-      for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-        if (!is_inside(p, t)) continue;
-        for (std::size_t c = 0; c < 4; ++c) used[at(piece.tet_vertices[4 * at(t) + c])] = 1;
-      }
+    for (const Band& band : bands_) {
+      std::vector<char>& used = used_.emplace_back(at(band.num_vertices()), 0);
+      for (const LocalIndex v : band.tet_vertices) used[at(v)] = 1;
+      number_.emplace_back(at(band.num_vertices()), kNoIndex);
     }
   }
 
@@ -81,10 +68,9 @@ class Extractor {
   void glue_shared()
   {
     std::vector<SharedVertex> shared;
-    for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      const mesh::Piece& piece = pieces_[p].piece;
-      for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-        shared.push_back({piece.skin_point(v), {static_cast<LocalIndex>(p), v}});
+    for (std::size_t p = 0; p < bands_.size(); ++p) {
+      for (LocalIndex v = 0; v < bands_[p].num_skin_vertices(); ++v) {
+        shared.push_back({bands_[p].skin_point(v), {static_cast<LocalIndex>(p), v}});
       }
     }
     std::sort(shared.begin(), shared.end());
@@ -101,9 +87,8 @@ class Extractor {
 
   void add_interior()
   {
-    for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      const mesh::Piece& piece = pieces_[p].piece;
-      for (LocalIndex v = piece.num_skin_vertices(); v < piece.num_vertices(); ++v) {
+    for (std::size_t p = 0; p < bands_.size(); ++p) {
+      for (LocalIndex v = bands_[p].num_skin_vertices(); v < bands_[p].num_vertices(); ++v) {
         const PieceVertex place{static_cast<LocalIndex>(p), v};
         if (!is_used(place)) continue;
         add_place(place);
@@ -119,7 +104,7 @@ class Extractor {
 
   [[nodiscard]] const double* xyz_of(const PieceVertex& place) const
   {
-    return &pieces_[at(place.owner)].piece.vertex_xyz[3 * at(place.vertex)];
+    return &bands_[at(place.owner)].vertex_xyz[3 * at(place.vertex)];
   }
 
   // One more place of the vertex that is being numbered. The bits are compared, not the numbers.
@@ -137,15 +122,12 @@ class Extractor {
 
   void add_tets(RegionMesh& mesh) const
   {
-    for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      const mesh::Piece& piece = pieces_[p].piece;
-      for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-        if (!is_inside(p, t)) continue;
-        for (std::size_t c = 0; c < 4; ++c) {
-          mesh.tet_vertices.push_back(number_[p][at(piece.tet_vertices[4 * at(t) + c])]);
-        }
-        mesh.tet_owner.push_back(static_cast<LocalIndex>(p));
+    for (std::size_t p = 0; p < bands_.size(); ++p) {
+      for (const LocalIndex v : bands_[p].tet_vertices) {
+        mesh.tet_vertices.push_back(number_[p][at(v)]);
       }
+      mesh.tet_owner.insert(mesh.tet_owner.end(), at(bands_[p].num_tets()),
+                            static_cast<LocalIndex>(p));
     }
   }
 
@@ -175,7 +157,10 @@ class Extractor {
       }
       new_number[at(v)] = next++;
       add_position(v, mesh);
-      mesh.fixed_places.add(places_[v]);
+      for (const auto& [owner, vertex] : places_[v]) {
+        mesh.fixed_places.values.push_back({owner, bands_[at(owner)].vertex_tag[at(vertex)]});
+      }
+      mesh.fixed_places.end_list();
     }
     for (const LocalIndex v : free) {
       new_number[at(v)] = next++;
@@ -194,7 +179,7 @@ class Extractor {
     mesh.vertex_xyz.insert(mesh.vertex_xyz.end(), xyz, xyz + 3);
   }
 
-  // Tets of the pieces that are not of the region, but have a face on its boundary.
+  // Whose tets are in front of the boundary, if they are not of the region.
   void find_outside(RegionMesh& mesh) const
   {
     std::vector<BoundaryFace> faces;
@@ -204,41 +189,35 @@ class Extractor {
     }
     std::sort(faces.begin(), faces.end());
     mesh.triangle_outside.assign(at(mesh.num_triangles()), kNoIndex);
-    for (std::size_t p = 0; p < pieces_.size(); ++p) {
-      for (LocalIndex t = 0; t < pieces_[p].piece.num_tets(); ++t) {
-        if (!is_inside(p, t)) note_outside(p, t, faces, mesh);
+    for (std::size_t p = 0; p < bands_.size(); ++p) {
+      const std::vector<LocalIndex>& v = bands_[p].outside_triangles;
+      for (std::size_t i = 0; i < v.size(); i += 3) {
+        note_outside(p, {number_[p][at(v[i])], number_[p][at(v[i + 1])], number_[p][at(v[i + 2])]},
+                     faces, mesh);
       }
     }
   }
 
-  void note_outside(std::size_t p, LocalIndex t, const std::vector<BoundaryFace>& faces,
-                    RegionMesh& mesh) const
+  static void note_outside(std::size_t p, const std::array<LocalIndex, 3>& v,
+                           const std::vector<BoundaryFace>& faces, RegionMesh& mesh)
   {
-    std::array<LocalIndex, 4> v;
-    for (std::size_t c = 0; c < 4; ++c) {
-      v[c] = number_[p][at(pieces_[p].piece.tet_vertices[4 * at(t) + c])];
-    }
-    if (std::count(v.begin(), v.end(), kNoIndex) > 1) return;
-    for (const auto& [a, b, c] : mesh::kTetFaceCorners) {
-      if (v[a] == kNoIndex || v[b] == kNoIndex || v[c] == kNoIndex) continue;
-      const BoundaryFace wanted{mesh::sorted_triangle(v[a], v[b], v[c]), kNoIndex};
-      const auto found = std::lower_bound(faces.begin(), faces.end(), wanted);
-      if (found != faces.end() && found->vertices == wanted.vertices) {
-        mesh.triangle_outside[at(found->triangle)] = static_cast<LocalIndex>(p);
-      }
+    if (std::ranges::find(v, kNoIndex) != v.end()) return;
+    const BoundaryFace wanted{mesh::sorted_triangle(v[0], v[1], v[2]), kNoIndex};
+    const auto found = std::lower_bound(faces.begin(), faces.end(), wanted);
+    if (found != faces.end() && found->vertices == wanted.vertices) {
+      mesh.triangle_outside[at(found->triangle)] = static_cast<LocalIndex>(p);
     }
   }
 
-  std::span<const LabelledPiece> pieces_;
-  LocalIndex region_;
-  std::vector<std::vector<char>> used_{};          ///< By piece and its vertex.
-  std::vector<std::vector<LocalIndex>> number_{};  ///< By piece and its vertex: the region's.
+  std::span<const Band> bands_;
+  std::vector<std::vector<char>> used_{};          ///< By band and its vertex.
+  std::vector<std::vector<LocalIndex>> number_{};  ///< By band and its vertex: the region's.
   Lists<PieceVertex> places_{};                    ///< Of each vertex of the region.
 };
 
 }  // namespace
 
-RegionMesh extract_region(std::span<const LabelledPiece> pieces, const SeamRegions& regions,
+RegionMesh extract_region(std::span<const Band> bands, const SeamRegions& regions,
                           LocalIndex region)
 {
   const auto subdomains = regions.subdomains_of(region);
@@ -250,7 +229,7 @@ RegionMesh extract_region(std::span<const LabelledPiece> pieces, const SeamRegio
   mesh.region = region;
   mesh.host = regions.host_of(region);
   mesh.subdomains.assign(subdomains.begin(), subdomains.end());
-  Extractor(pieces, region).run(mesh);
+  Extractor(bands).run(mesh);
   return mesh;
 }
 

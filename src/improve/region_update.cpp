@@ -9,39 +9,18 @@
 namespace tessera::improve {
 namespace {
 
-enum class Use : char { nobody, one_owner, shared };
+// How many owners use each free vertex: kShared stands for several.
+constexpr LocalIndex kShared = -2;
 
-// Numbers of the free vertices as new vertices of the update: shared ones first.
-std::vector<LocalIndex> number_new_vertices(const TetMesh& tets, LocalIndex num_fixed,
-                                            const std::vector<LocalIndex>& owners,
-                                            RegionUpdate& update)
+std::vector<LocalIndex> users_of(const TetMesh& tets, const std::vector<LocalIndex>& owners)
 {
-  const std::size_t num_vertices = tets.vertex_xyz.size() / 3;
-  std::vector<Use> use(num_vertices, Use::nobody);
-  std::vector<LocalIndex> user(num_vertices, kNoIndex);
+  std::vector<LocalIndex> user(tets.vertex_xyz.size() / 3, kNoIndex);
   for (std::size_t i = 0; i < tets.tet_vertices.size(); ++i) {
-    const std::size_t v = at(tets.tet_vertices[i]);
+    LocalIndex& here = user[at(tets.tet_vertices[i])];
     const LocalIndex owner = owners[i / 4];
-    if (use[v] == Use::nobody) {
-      use[v] = Use::one_owner;
-      user[v] = owner;
-    } else if (user[v] != owner) {
-      use[v] = Use::shared;
-    }
+    here = here == kNoIndex || here == owner ? owner : kShared;
   }
-  std::vector<LocalIndex> number(num_vertices, kNoIndex);
-  const auto take = [&](Use wanted) {
-    for (std::size_t v = at(num_fixed); v < num_vertices; ++v) {
-      if (use[v] != wanted) continue;
-      number[v] = update.num_new_vertices();
-      update.vertex_xyz.insert(update.vertex_xyz.end(), &tets.vertex_xyz[3 * v],
-                               tets.vertex_xyz.data() + 3 * v + 3);
-    }
-  };
-  take(Use::shared);
-  update.num_shared = update.num_new_vertices();
-  take(Use::one_owner);
-  return number;
+  return user;
 }
 
 LocalIndex vertex_in_piece(const RegionMesh& mesh, LocalIndex fixed_vertex, LocalIndex owner)
@@ -52,27 +31,49 @@ LocalIndex vertex_in_piece(const RegionMesh& mesh, LocalIndex fixed_vertex, Loca
       ->vertex;
 }
 
-}  // namespace
-
-RegionUpdate make_update(const RegionMesh& mesh, const TetMesh& tets,
-                         const std::vector<LocalIndex>& owners)
+// One owner's tets, with their new vertices: shared ones first.
+PieceUpdate update_of(LocalIndex owner, const RegionMesh& mesh, const TetMesh& tets,
+                      const std::vector<LocalIndex>& owners, const std::vector<LocalIndex>& user)
 {
-  RegionUpdate update{.region = mesh.region, .host = mesh.host, .subdomains = mesh.subdomains};
-  const std::vector<LocalIndex> new_number =
-      number_new_vertices(tets, mesh.num_fixed(), owners, update);
-  update.tet_offsets.push_back(0);
-  for (LocalIndex owner = 0; owner < mesh.num_owners(); ++owner) {
-    for (std::size_t t = 0; t < owners.size(); ++t) {
-      if (owners[t] != owner) continue;
-      for (std::size_t c = 0; c < 4; ++c) {
-        const LocalIndex v = tets.tet_vertices[4 * t + c];
-        update.tet_vertices.push_back(v < mesh.num_fixed() ? vertex_in_piece(mesh, v, owner)
-                                                           : -1 - new_number[at(v)]);
+  PieceUpdate update{.region = mesh.region, .host = mesh.host};
+  std::vector<char> is_used(user.size(), 0);
+  for (std::size_t i = 0; i < tets.tet_vertices.size(); ++i) {
+    if (owners[i / 4] == owner) is_used[at(tets.tet_vertices[i])] = 1;
+  }
+  std::vector<LocalIndex> number(user.size(), kNoIndex);
+  for (const bool wants_shared : {true, false}) {
+    LocalIndex index = 0;  // Within the host.
+    for (std::size_t v = at(mesh.num_fixed()); v < user.size(); ++v) {
+      if ((user[v] == kShared) != wants_shared) continue;
+      if (is_used[v] != 0) {
+        number[v] = update.num_new_vertices();
+        update.vertex_xyz.insert(update.vertex_xyz.end(), &tets.vertex_xyz[3 * v],
+                                 tets.vertex_xyz.data() + 3 * v + 3);
+        if (wants_shared) update.shared_index.push_back(index);
       }
+      ++index;
     }
-    update.tet_offsets.push_back(static_cast<LocalIndex>(update.tet_vertices.size() / 4));
+  }
+  for (std::size_t i = 0; i < tets.tet_vertices.size(); ++i) {
+    if (owners[i / 4] != owner) continue;
+    const LocalIndex v = tets.tet_vertices[i];
+    update.tet_vertices.push_back(v < mesh.num_fixed() ? vertex_in_piece(mesh, v, owner)
+                                                       : -1 - number[at(v)]);
   }
   return update;
+}
+
+}  // namespace
+
+std::vector<PieceUpdate> make_updates(const RegionMesh& mesh, const TetMesh& tets,
+                                      const std::vector<LocalIndex>& owners)
+{
+  const std::vector<LocalIndex> user = users_of(tets, owners);
+  std::vector<PieceUpdate> updates;
+  for (LocalIndex owner = 0; owner < mesh.num_owners(); ++owner) {
+    updates.push_back(update_of(owner, mesh, tets, owners, user));
+  }
+  return updates;
 }
 
 }  // namespace tessera::improve

@@ -128,6 +128,11 @@ LocalIndex SeamRegions::region_of(mesh::HostEntity host, LocalIndex material) co
   return found == regions.end() ? kNoIndex : found->region;
 }
 
+bool SeamRegions::may_be_on_seam(mesh::HostEntity host) const
+{
+  return host >= hosts_.num_on_skeleton() || !host_regions_[host].empty();
+}
+
 std::span<const LocalIndex> SeamRegions::regions_of(LocalIndex subdomain, int phase) const
 {
   const auto regions = subdomain_regions_[subdomain];

@@ -85,13 +85,23 @@ SurfaceMatch match_surface(std::span<const LocalIndex> triangle_vertices,
   TriangleTable table(triangle_vertices);
   std::uint64_t unmatched = 0;
   for (std::size_t t = 0; 4 * t < tet_vertices.size(); ++t) {
-    const LocalIndex* v = &tet_vertices[4 * t];
-    for (const auto& [a, b, c] : kTetFaceCorners) {
-      const Triangle face = sorted_triangle(v[a], v[b], v[c]);
-      const bool is_even = is_even_triangle(v[a], v[b], v[c]);
-      const bool may_be_surface = face[2] < num_surface_vertices;
-      if (may_be_surface && table.take(face, is_even, static_cast<LocalIndex>(t))) continue;
-      unmatched += is_even ? hash_of(face) : 0 - hash_of(face);
+    const SortedTet tet = sorted_tet(tet_vertices.subspan(4 * t).first<4>());
+    const auto& v = tet.vertices;
+    const std::array<Triangle, 4> faces{
+        {{v[1], v[2], v[3]}, {v[0], v[2], v[3]}, {v[0], v[1], v[3]}, {v[0], v[1], v[2]}}};
+    // As is_even_face() says. Without a branch, as none could be foretold.
+    const std::uint64_t sign = tet.is_even ? 1 : ~std::uint64_t{0};
+    if (v[2] >= num_surface_vertices) {  // Most tets: no face of theirs is on the surface.
+      unmatched +=
+          sign * (hash_of(faces[0]) - hash_of(faces[1]) + hash_of(faces[2]) - hash_of(faces[3]));
+      continue;
+    }
+    for (std::size_t f = 0; f < 4; ++f) {
+      if (faces[f][2] < num_surface_vertices
+          && table.take(faces[f], tet.is_even_face(f), static_cast<LocalIndex>(t))) {
+        continue;
+      }
+      unmatched += f % 2 == 0 ? sign * hash_of(faces[f]) : 0 - sign * hash_of(faces[f]);
     }
   }
   return {std::move(table).triangle_tet(), unmatched == 0};

@@ -16,6 +16,11 @@ void Histogram::add(const Histogram& other)
   for (std::size_t b = 0; b < counts_.size(); ++b) counts_[b] += other.counts_[b];
 }
 
+void Histogram::subtract(const Histogram& other)
+{
+  for (std::size_t b = 0; b < counts_.size(); ++b) counts_[b] -= other.counts_[b];
+}
+
 void Histogram::set_counts(std::vector<GlobalIndex> counts)
 {
   if (counts.size() != counts_.size()) throw InputError("a histogram has other bins than expected");

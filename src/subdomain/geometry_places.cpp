@@ -92,6 +92,11 @@ class MidpointLattice {
   }
 
  private:
+  [[nodiscard]] bool is_known(const GeometryPlace& place) const
+  {
+    return place.is_on_geometry() && place.triangle < places_.num_known;
+  }
+
   void put_on_edge(LocalIndex e, LocalIndex k, const Vec3& point)
   {
     put(result_.edge_xyz, at(e) * at(n_ + 1) + at(k), point);
@@ -115,7 +120,7 @@ class MidpointLattice {
       for (LocalIndex k = step; k < n_; k += 2 * step) {
         put_on_edge(
             e, k,
-            place.is_on_geometry()
+            is_known(place)
                 ? geometry_.triangle_point(place.triangle, place.point(n_, k, 0))
                 : midpoint(result_.edge_point(e, k - step), result_.edge_point(e, k + step)));
       }
@@ -142,7 +147,7 @@ class MidpointLattice {
   void fill_inner_point(LocalIndex t, const TrianglePoint& p, LocalIndex step)
   {
     const GeometryPlace& place = places_.of_triangles[at(t)];
-    if (place.is_on_geometry()) {
+    if (is_known(place)) {
       put_on_triangle(t, p, geometry_.triangle_point(place.triangle, place.point(n_, p.i, p.j)));
       return;
     }
@@ -241,6 +246,7 @@ GeometryPlaces GeometryFinder::find(const mesh::Complex& complex,
   for (LocalIndex row = 0; row < static_cast<LocalIndex>(places.triangles.size()); ++row) {
     place_lattice(row, complex, names, places);
   }
+  places.num_known = static_cast<LocalIndex>(places.triangles.size());
   return places;
 }
 

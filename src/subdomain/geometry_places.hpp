@@ -29,7 +29,8 @@ struct GeometryPlace {
 
 // The part of the geometry that some tets touch.
 struct GeometryPlaces {
-  std::vector<LocalIndex> triangles{};        // Of the skeleton; ascending.
+  std::vector<LocalIndex> triangles{};        // Of the skeleton.
+  LocalIndex num_known = 0;                   // Of the triangles: those whose lattice is known.
   std::vector<char> vertex_on_geometry{};     // Shape (num named vertices).
   std::vector<GeometryPlace> edges{};         // Shape (num edges of the complex).
   std::vector<GeometryPlace> of_triangles{};  // Shape (num triangles of the complex).
@@ -60,10 +61,10 @@ class GeometryFinder {
   IndexLists triangles_of_host_;  // On the geometry only; by host of the skeleton.
 };
 
-// The lattice of a complex whose edges and triangles on the geometry have their points already;
-// all others are midpoints, level by level.
+// The lattice of a complex whose edges and triangles in known places have their points already; all
+// others are midpoints, level by level.
 // @param[in] vertex_xyz Of the vertices of the complex, shape (num_vertices, 3).
-// @param[in] geometry The lattice of places.triangles.
+// @param[in] geometry The lattice of the known triangles.
 [[nodiscard]] mesh::RefinedLattice midpoint_lattice(const mesh::Complex& complex,
                                                     const std::vector<double>& vertex_xyz,
                                                     const GeometryPlaces& places,

@@ -24,19 +24,6 @@ improve::ShapeSummary measure_shapes(const improve::TetMesh& mesh)
 
 }  // namespace
 
-improve::RegionMesh region_mesh(const std::vector<mesh::Piece>& pieces,
-                                const improve::SeamRegions& regions, LocalIndex region)
-{
-  const int phase = regions.phase_of(region);
-  std::vector<std::vector<LocalIndex>> labels;
-  for (const mesh::Piece& piece : pieces) {
-    labels.push_back(improve::label_tets(piece, regions, phase, improve::kDefaultLayers));
-  }
-  std::vector<improve::LabelledPiece> labelled;
-  for (std::size_t i = 0; i < pieces.size(); ++i) labelled.push_back({pieces[i], labels[i]});
-  return improve::extract_region(labelled, regions, region);
-}
-
 RegionRecord improve_tets(const improve::RegionMesh& mesh, int rounds,
                           const improve::Optimizer& optimizer)
 {
@@ -50,7 +37,7 @@ RegionRecord improve_tets(const improve::RegionMesh& mesh, int rounds,
         improve::improve_region(mesh, optimizer, settings, measure_shapes);
     record.is_improved = outcome.is_accepted;
     record.reason = std::move(outcome.reason);
-    record.update = std::move(outcome.update);
+    record.updates = std::move(outcome.updates);
   }
   return record;
 }

@@ -2,6 +2,7 @@
 #include "tessera/subdomain/measure_piece.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -70,16 +71,22 @@ GlobalIndex measure_edges(const mesh::Piece& piece, quality::QualityHistograms& 
 
 void measure_tets(const mesh::Piece& piece, const std::vector<char>& on_seam, FillResult& result)
 {
+  constexpr std::size_t kBlock = 256;  // Few enough for the nearest cache.
   const auto is_on_seam = [&](LocalIndex v) {
     return v < piece.num_skin_vertices() && on_seam[at(v)] != 0;
   };
   quality::ShapeSum all(result.histograms.mean_ratio);
   quality::ShapeSum on_seams(result.histograms.seam_mean_ratio);
-  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-    const quality::TetShape shape = quality::shape_of(piece.corners(t));
-    all.add(shape);
-    const LocalIndex* v = &piece.tet_vertices[4 * at(t)];
-    if (std::any_of(v, v + 4, is_on_seam)) on_seams.add(shape);
+  std::array<quality::TetShape, kBlock> shapes;
+  for (std::size_t first = 0; first < at(piece.num_tets()); first += kBlock) {
+    const std::size_t size = std::min(kBlock, at(piece.num_tets()) - first);
+    const auto tets = std::span(piece.tet_vertices).subspan(4 * first, 4 * size);
+    quality::shapes_of(piece.vertex_xyz, tets, std::span(shapes).first(size));
+    for (std::size_t t = 0; t < size; ++t) {
+      all.add(shapes[t]);
+      const LocalIndex* v = &tets[4 * t];
+      if (std::any_of(v, v + 4, is_on_seam)) on_seams.add(shapes[t]);
+    }
   }
   result.summary.tets = all.statistics();
   result.summary.seam_tets = on_seams.statistics();
@@ -144,7 +151,7 @@ FillResult measure_split_piece(const mesh::Piece& piece, const mesh::Skin& skin,
   summary.num_boundary = piece.num_boundary();
   summary.boundary_area = outside_area(skin, surface);
   summary.outside = verify::outside_hash(skin, surface);
-  summary.surface = verify::surface_hash(piece);
+  summary.surface = verify::surface_hash(skin);
   measure_edges(piece, result.histograms);
   measure_tets(piece, on_seam, result);
   return result;

@@ -121,19 +121,8 @@ PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh, bool with_
 
 Hash128 digest_of(const mesh::MeshArrays& tets)
 {
-  Hash128 digest;
-  const auto& attribute = tets.cell_ints.at("attribute");
-  for (std::size_t t = 0; t < attribute.size(); ++t) {
-    std::array<GlobalIndex, 4> ids;
-    std::array<double, 12> xyz;
-    for (std::size_t c = 0; c < 4; ++c) {
-      const auto point = static_cast<std::size_t>(tets.cell_points[4 * t + c]);
-      ids[c] = tets.point_ids[point];
-      for (std::size_t d = 0; d < 3; ++d) xyz[3 * c + d] = tets.point_xyz[3 * point + d];
-    }
-    digest += hash_tet(ids, xyz, attribute[t]);
-  }
-  return digest;
+  return hash_tets(tets.cell_points, tets.point_ids, tets.point_xyz,
+                   tets.cell_ints.at("attribute"));
 }
 
 }  // namespace tessera::subdomain

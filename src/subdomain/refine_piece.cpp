@@ -6,27 +6,21 @@
 #include <span>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "tessera/base/error.hpp"
 #include "tessera/fill/check.hpp"
 #include "tessera/fill/subdivide.hpp"
-#include "tessera/mesh/lattice_numbering.hpp"
-#include "tessera/mesh/tet_topology.hpp"
 #include "tessera/optimize/smooth.hpp"
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
 #include "subdomain/boundary_triangles.hpp"
 #include "subdomain/geometry_places.hpp"
-#include "subdomain/piece_complex.hpp"
+#include "subdomain/split_surface.hpp"
 
 namespace tessera::subdomain {
 
 struct PieceRefiner::State {
   const PartitionedMesh& cut;
   int levels;
-  mesh::HostLayout hosts;
   GeometryFinder finder;
 };
 
@@ -43,165 +37,55 @@ optimize::Schedule smoothing() { return {.steps = optimize::parse_steps("mww")};
 class PieceSplitter {
  public:
   PieceSplitter(const mesh::Piece& piece, const PieceSurroundings& around,
-                const refine::RefineContext& refine, const PartitionedMesh& cut, int levels)
+                const refine::RefineContext& refine, const PartitionedMesh& cut,
+                const GeometryFinder& finder, LocalIndex n)
       : piece_(piece),
         around_(around),
         refine_(refine),
-        cut_(cut),
         hosts_(cut.skeleton),
-        n_(lattice::intervals(refine.levels - levels)),
-        all_(make_piece_complex(piece, around.halos, around.surface.simplices))
+        n_(n),
+        surface_(piece, around, cut, finder, n),
+        all_(surface_.all())
   {
   }
 
-  RefinedPiece run(const GeometryFinder& finder, const PieceSummary& before)
+  RefinedPiece run(const PieceSummary& before) const
   {
-    places_ = finder.find(all_.complex.faces, all_.names);
-    tie_surface_to_geometry();
-    refine::RefineContext unmeasured = refine_;
-    unmeasured.measure_distance = false;
-    const mesh::RefinedLattice geometry = refine::refine_lattice(
-        mesh::skeleton_complex(cut_.skeleton, places_.triangles), unmeasured);
-    const mesh::RefinedLattice points =
-        midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz, places_, geometry, n_);
+    const mesh::RefinedLattice points = surface_.points(refine_);
     fill::FillOutput tets = fill::subdivide(all_.complex, points);
     if (around_.is_smoothed) smooth_seams(tets);
     tets = own_tets(std::move(tets));
     if (around_.is_smoothed) smooth_inside(tets);
     RefinedPiece refined;
     if (!fill::all_positive(tets)) {
-      refined.folds = limits_at(folded_parents(fill::subdivide(all_.complex, points)));
+      refined.folds =
+          surface_.limits_at(folded_parents(fill::subdivide(all_.complex, points)), refine_.levels);
       refined.filled.result.summary = before;
       refined.filled.result.summary.is_folded = true;
       return refined;
     }
     const mesh::Skin skin = skin_of(points, tets);
     refined.filled = check_and_measure(skin, std::move(tets), before);
-    if (refine_.measure_distance) measure_distance(refined.filled.result.summary);
+    PieceSummary& summary = refined.filled.result.summary;
+    summary.num_held_back = points.distance.num_held_back;
+    summary.model_distance = points.distance.largest;
+    summary.held_back_distance = points.distance.largest_held_back;
     return refined;
   }
 
  private:
   [[nodiscard]] LocalIndex num_children() const { return n_ * n_ * n_; }
 
-  // Patches and sides of the piece's surface, as subdivision asks them of a skeleton.
-  void tie_surface_to_geometry()
-  {
-    mesh::Skeleton& surface = all_.surface;
-    const std::vector<mesh::TriangleTets> triangles = mesh::triangles_of_tets(own_corners());
-    const mesh::Complex& faces = all_.complex.faces;
-    for (const mesh::TriangleTets& triangle : triangles) {
-      if (triangle.tets[1] != kNoIndex) continue;
-      const LocalIndex row = mesh::find_triangle(faces, triangle.vertices);
-      const LocalIndex own = faces.triangle_skeleton[at(row)];
-      if (own == kNoIndex) throw MeshError(name() + " has a face that its list lacks");
-      const GeometryPlace& place = places_.of_triangles[at(row)];
-      const bool points_out = is_outward(triangle);
-      LocalIndex* sides = &surface.triangle_subdomains[2 * at(own)];
-      sides[points_out ? 0 : 1] = piece_.subdomain;
-      sides[points_out ? 1 : 0] = other_side(place);
-      if (!place.is_on_geometry()) continue;
-      surface.triangle_patch[at(own)] =
-          cut_.skeleton.triangle_patch[at(places_.triangles[at(place.triangle)])];
-    }
-  }
-
-  [[nodiscard]] std::string name() const { return fmt::format("piece {}", piece_.subdomain); }
-
-  [[nodiscard]] std::span<const LocalIndex> own_corners() const
-  {
-    return std::span(all_.mesh.tet_vertices)
-        .subspan(4 * at(all_.first_tet), 4 * at(all_.last_tet - all_.first_tet));
-  }
-
-  // Whether the ascending orientation of a face of one tet points out of it.
-  [[nodiscard]] bool is_outward(const mesh::TriangleTets& triangle) const
-  {
-    const LocalIndex* tet = &own_corners()[4 * at(triangle.tets[0])];
-    const auto& [a, b, c] = mesh::kTetFaceCorners[at(triangle.corners[0])];
-    return mesh::is_even_triangle(tet[a], tet[b], tet[c]);
-  }
-
-  // What lies across a face. Beyond a seam it is some piece of the same material.
-  [[nodiscard]] LocalIndex other_side(const GeometryPlace& place) const
-  {
-    if (!place.is_on_geometry()) return cut_.num_subdomains();
-    const LocalIndex triangle = places_.triangles[at(place.triangle)];
-    const LocalIndex* sides = &cut_.skeleton.triangle_subdomains[2 * at(triangle)];
-    const auto is_of_own_material = [&](LocalIndex subdomain) {
-      return subdomain != kNoIndex
-             && cut_.decomposition.subdomain_material[at(subdomain)] == piece_.material;
-    };
-    return is_of_own_material(sides[0]) ? sides[1] : sides[0];
-  }
-
-  // Calls visit(simplex, kind, first point, number of points) for the piece's surface, in the order
-  // of its points.
-  template <class Visit>
-  void for_each_surface_simplex(Visit&& visit) const
-  {
-    LocalIndex first = 0;
-    const auto walk = [&](const std::vector<LocalIndex>& rows, mesh::HostKind kind) {
-      const LocalIndex points_each = mesh::num_points_of_host(kind, n_);
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        if (rows[i] == kNoIndex) continue;
-        visit(i, kind, first, points_each);
-        first += points_each;
-      }
-    };
-    const mesh::Complex& faces = all_.complex.faces;
-    walk(faces.vertex_skeleton, mesh::HostKind::vertex);
-    walk(faces.edge_skeleton, mesh::HostKind::edge);
-    walk(faces.triangle_skeleton, mesh::HostKind::triangle);
-  }
-
-  [[nodiscard]] bool is_on_geometry(std::size_t simplex, mesh::HostKind kind) const
-  {
-    switch (kind) {
-      case mesh::HostKind::vertex:
-        return places_.vertex_on_geometry[simplex] != 0;
-      case mesh::HostKind::edge:
-        return places_.edges[simplex].is_on_geometry();
-      default:
-        return places_.of_triangles[simplex].is_on_geometry();
-    }
-  }
-
-  [[nodiscard]] bool is_on_seam(std::size_t simplex, mesh::HostKind kind) const
-  {
-    const mesh::Complex& faces = all_.complex.faces;
-    switch (kind) {
-      case mesh::HostKind::vertex:
-        return around_.shared.vertex_on_seam[at(faces.vertex_skeleton[simplex])] != 0;
-      case mesh::HostKind::edge:
-        return around_.shared.edge_on_seam[at(faces.edge_skeleton[simplex])] != 0;
-      default:
-        return around_.shared.triangle_on_seam[at(faces.triangle_skeleton[simplex])] != 0;
-    }
-  }
-
-  // One flag for each point of the surface. @param[in] size Of the result; the rest has 0.
-  template <class Flag>
-  [[nodiscard]] std::vector<std::uint8_t> surface_flags(std::size_t size, Flag&& flag) const
-  {
-    std::vector<std::uint8_t> flags(size, 0);
-    for_each_surface_simplex(
-        [&](std::size_t simplex, mesh::HostKind kind, LocalIndex first, LocalIndex num_points) {
-          if (flag(simplex, kind)) std::fill_n(&flags[at(first)], num_points, 1);
-        });
-    return flags;
-  }
-
   // By what all pieces around a seam know: its tets as they were split.
   void smooth_seams(fill::FillOutput& tets) const
   {
     const auto moves = [&](std::size_t simplex, mesh::HostKind kind) {
-      return is_on_seam(simplex, kind) && !is_on_geometry(simplex, kind);
+      return surface_.is_free_on_seam(simplex, kind);
     };
     optimize::TetMesh mesh{.vertex_xyz = std::move(tets.vertex_xyz),
                            .tet_vertices = std::move(tets.tet_vertices)};
     tets.vertex_xyz =
-        optimize::smooth_at_once(mesh, surface_flags(mesh.vertex_xyz.size() / 3, moves));
+        optimize::smooth_at_once(mesh, surface_.surface_flags(mesh.vertex_xyz.size() / 3, moves));
     tets.tet_vertices = std::move(mesh.tet_vertices);
   }
 
@@ -228,11 +112,11 @@ class PieceSplitter {
   void smooth_inside(fill::FillOutput& tets) const
   {
     const auto stays = [&](std::size_t simplex, mesh::HostKind kind) {
-      return is_on_seam(simplex, kind) || is_on_geometry(simplex, kind);
+      return surface_.is_on_seam(simplex, kind) || surface_.is_on_geometry(simplex, kind);
     };
     optimize::TetMesh mesh{.vertex_xyz = std::move(tets.vertex_xyz),
                            .tet_vertices = std::move(tets.tet_vertices)};
-    mesh.vertex_fixed = surface_flags(mesh.vertex_xyz.size() / 3, stays);
+    mesh.vertex_fixed = surface_.surface_flags(mesh.vertex_xyz.size() / 3, stays);
     tets.vertex_xyz = optimize::smooth(mesh, smoothing());
     tets.tet_vertices = std::move(mesh.tet_vertices);
   }
@@ -256,43 +140,6 @@ class PieceSplitter {
     return parents;
   }
 
-  // All new points on the geometry that these tets have stay midpoints from now on.
-  [[nodiscard]] std::vector<mesh::PointLimit> limits_at(const std::vector<LocalIndex>& tets) const
-  {
-    std::vector<mesh::PointLimit> limits;
-    const auto hold_back = [&](const GeometryPlace& place, LocalIndex i, LocalIndex j) {
-      if (!place.is_on_geometry()) return;
-      limits.push_back({key_of(cut_.skeleton, places_.triangles[at(place.triangle)],
-                               lattice::intervals(refine_.levels), place.point(n_, i, j)),
-                        0.0});
-    };
-    const mesh::Complex& faces = all_.complex.faces;
-    for (const LocalIndex tet : tets) {
-      for (std::size_t c = 0; c < 4; ++c) {
-        const LocalIndex t = all_.complex.tet_triangles[4 * at(tet) + c];
-        for (std::size_t side = 0; side < 3; ++side) {
-          const GeometryPlace& edge = places_.edges[at(faces.triangle_edges[3 * at(t) + side])];
-          for (LocalIndex k = 1; k < n_; ++k) hold_back(edge, k, 0);
-        }
-        for (LocalIndex j = 1; j < n_; ++j) {
-          for (LocalIndex i = 1; i + j < n_; ++i) hold_back(places_.of_triangles[at(t)], i, j);
-        }
-      }
-    }
-    return limits;
-  }
-
-  // Of the piece's own points: the lattice above has those of its neighbours' tets, too.
-  void measure_distance(PieceSummary& summary) const
-  {
-    const auto distance =
-        refine::refine_lattice(mesh::skin_complex(cut_.skeleton, piece_.subdomain), refine_)
-            .distance;
-    summary.num_held_back = distance.num_held_back;
-    summary.model_distance = distance.largest;
-    summary.held_back_distance = distance.largest_held_back;
-  }
-
   // With the names that owners give.
   [[nodiscard]] mesh::Skin skin_of(const mesh::RefinedLattice& points,
                                    const fill::FillOutput& tets) const
@@ -302,8 +149,8 @@ class PieceSplitter {
     std::copy_n(tets.vertex_xyz.begin(), skin.vertex_xyz.size(), skin.vertex_xyz.begin());
     const auto& places = around_.places;
     const mesh::Complex& faces = all_.complex.faces;
-    for_each_surface_simplex([&](std::size_t simplex, mesh::HostKind kind, LocalIndex first,
-                                 LocalIndex num_points) {
+    surface_.for_each_surface_simplex([&](std::size_t simplex, mesh::HostKind kind,
+                                          LocalIndex first, LocalIndex num_points) {
       const number::SimplexPlace& place =
           kind == mesh::HostKind::vertex ? places.vertices[at(faces.vertex_skeleton[simplex])]
           : kind == mesh::HostKind::edge ? places.edges[at(faces.edge_skeleton[simplex])]
@@ -328,9 +175,10 @@ class PieceSplitter {
                                  .skin_index = skin.vertex_index,
                                  .tet_vertices = std::move(tets.tet_vertices)}};
     add_boundary(skin, all_.surface, facts.triangle_tet, filled.piece);
-    const auto on_seam = surface_flags(
-        at(skin.num_vertices()),
-        [&](std::size_t simplex, mesh::HostKind kind) { return is_on_seam(simplex, kind); });
+    const auto on_seam = surface_.surface_flags(at(skin.num_vertices()),
+                                                [&](std::size_t simplex, mesh::HostKind kind) {
+                                                  return surface_.is_on_seam(simplex, kind);
+                                                });
     filled.result = measure_split_piece(filled.piece, skin, all_.surface,
                                         {on_seam.begin(), on_seam.end()}, before);
     PieceSummary& summary = filled.result.summary;
@@ -343,19 +191,17 @@ class PieceSplitter {
   const mesh::Piece& piece_;
   const PieceSurroundings& around_;
   const refine::RefineContext& refine_;
-  const PartitionedMesh& cut_;
   mesh::HostLayout hosts_;
   LocalIndex n_;  // Intervals of an edge of the piece.
-  PieceComplex all_;
-  GeometryPlaces places_{};
+  SplitSurface surface_;
+  const PieceComplex& all_;  // Of the surface.
 };
 
 }  // namespace
 
 PieceRefiner::PieceRefiner(const PartitionedMesh& cut, int levels)
     : state_(std::make_unique<const State>(
-        State{cut, levels, mesh::HostLayout(cut.skeleton),
-              GeometryFinder(cut.skeleton, lattice::intervals(levels))}))
+        State{cut, levels, GeometryFinder(cut.skeleton, lattice::intervals(levels))}))
 {
 }
 
@@ -366,8 +212,8 @@ RefinedPiece PieceRefiner::refine(const mesh::Piece& piece, const PieceSurroundi
                                   const refine::RefineContext& refine,
                                   const PieceSummary& before) const
 {
-  return PieceSplitter(piece, around, refine, state_->cut, state_->levels)
-      .run(state_->finder, before);
+  const LocalIndex n = lattice::intervals(refine.levels - state_->levels);
+  return PieceSplitter(piece, around, refine, state_->cut, state_->finder, n).run(before);
 }
 
 }  // namespace tessera::subdomain

@@ -95,6 +95,13 @@ Hash128 surface_hash(const mesh::Piece& piece)
   return sum.sum();
 }
 
+Hash128 surface_hash(const mesh::Skin& skin)
+{
+  SignedSum sum;
+  for (LocalIndex t = 0; t < skin.num_triangles(); ++t) sum.add(triangle_of(skin, t));
+  return sum.sum();
+}
+
 Hash128 outside_hash(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
 {
   SignedSum sum;

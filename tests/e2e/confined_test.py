@@ -132,7 +132,7 @@ class SymbolicLinks(program.ProgramTest):
 
     FILES = (
         "mesh.pvtu", "boundary.pvtu", "case.toml", "report.json", "log/run.log", "log/rank_000000.log",
-        "pieces/run.record", "pieces/coarse.record", "pieces/piece_000000.record", "pieces/region_000000.record",
+        "pieces/run.record", "pieces/coarse.record", "pieces/piece_000000.record", "pieces/log_000000.record",
         "mesh/piece_000000.vtu", "boundary/piece_000000.vtu", "failure/coarse.vtu", "failure/fill_subdomain_1",
     )  # fmt: skip
     LEFT_ALONE = {"log/rank_000000.log", "failure/coarse.vtu", "failure/fill_subdomain_1"}

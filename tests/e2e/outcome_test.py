@@ -264,7 +264,7 @@ class CannotWrite(OutcomeTest):
         for ranks in RANKS:
             with self.subTest(ranks=ranks):
                 shutil.rmtree(self.folder / "out", ignore_errors=True)
-                self.assert_reports_full_disk(ranks, 0, "pieces/improved_")
+                self.assert_reports_full_disk(ranks, 0, "pieces/log_")
 
     def test_disk_full_when_the_mesh_is_written(self):
         for ranks in RANKS:

@@ -48,28 +48,41 @@ class Netgen(kill.RestartTest):
         self.assertNotRegex(out, r"(?m)^(coarse|decompose|plan) ", "stages that were done")
 
     def test_all_killed_while_seams_are_improved(self):
-        """In the midst of a phase, and when it is over but for what it leaves behind."""
-        for record in ("region_000003", "improved_1_000004", "phase_0", "improved_2_000001", "shared_000002"):
-            with self.subTest(record=record):
-                self.kill_run(lambda watch: watch.wait_for(self.record(record).exists), ranks=2)
+        """At the begin, in the midst, and at the end: the file of a rank grows all the time."""
+        for num_bytes in (1, 50_000, 200_000, 400_000):
+            with self.subTest(num_bytes=num_bytes):
+                self.kill_run(self.has_log_of(num_bytes), ranks=2)
                 self.resume(ranks=3)
 
     def test_records_of_other_pieces_are_not_taken(self):
         """What was improved is of no use once the pieces are others, as after a try that a limit had ended."""
-        self.kill_run(lambda watch: watch.wait_for(self.record("improved_1_000004").exists), ranks=2)
-        # Another run's patches: of these pieces they are wrong.
-        for name, other in (("region_000000", "region_000001"), ("improved_1_000004", "region_000002")):
-            self.record(name).write_bytes(self.record(other).read_bytes())
+        arguments = self.arguments
+        self.arguments = [self.write_case(max_size=0.45, subdomains=8, levels=2)]
+        self.kill_run(self.has_log_of(200_000), ranks=2)
+        logs = {log.name: log.read_bytes() for log in self.logs()}
+        self.arguments = arguments
+        self.kill_run(self.has_log_of(200_000), ranks=2)
+        for name, content in logs.items():  # Of these pieces they are wrong.
+            (self.record("improve").parent / name).write_bytes(content)
         self.record("improve").write_bytes(b"damaged")
         self.resume(ranks=2)
 
-    def test_damaged_piece_of_a_phase_that_is_done(self):
-        """The pieces before it are gone, so the improvement begins anew."""
-        self.kill_run(lambda watch: watch.wait_for(self.record("phase_0").exists), ranks=2)
-        num_done = len(list(self.record("phase_0").parent.glob("phase_*")))
-        piece = self.record(f"improved_{num_done}_000004")
-        piece.write_bytes(piece.read_bytes()[:-1])
-        self.resume(ranks=2)
+    def test_damaged_records_of_the_improvement(self):
+        """All that stands behind the damage is made again."""
+        for place in (0, 30, 5000, 100_000):
+            with self.subTest(place=place):
+                self.kill_run(self.has_log_of(200_000), ranks=2)
+                log = max(self.logs(), key=lambda file: file.stat().st_size)
+                content = bytearray(log.read_bytes())
+                content[place] ^= 1
+                log.write_bytes(content)
+                self.resume(ranks=2)
+
+    def logs(self):
+        return sorted(self.record("improve").parent.glob("log_*.record"))
+
+    def has_log_of(self, num_bytes):
+        return lambda watch: watch.wait_for(lambda: any(log.stat().st_size >= num_bytes for log in self.logs()))
 
     def test_signals_while_the_mesh_is_written(self):
         for number in (signal.SIGTERM, signal.SIGUSR1):

@@ -126,16 +126,34 @@ std::string flaw_of_triangles(const std::vector<mesh::Piece>& pieces)
   return count.first_flaw();
 }
 
+// A piece as the regions of a phase see it.
+struct PieceInPhase {
+  improve::PiecePart part{};
+  std::vector<improve::Band> bands{};
+  IndexLists tets{};
+  std::vector<improve::RegionExchange> exchanges{};
+};
+
+PieceInPhase piece_in_phase(const mesh::Piece& piece, const improve::SeamRegions& regions,
+                            int phase, int layers)
+{
+  PieceInPhase here{.part = improve::whole_piece(piece)};
+  const auto labels = improve::label_tets(piece, regions, phase, layers);
+  here.bands = improve::make_bands(here.part, labels, regions, phase);
+  here.tets = improve::tets_of_bands(here.part, labels, regions, phase);
+  return here;
+}
+
 improve::RegionOutcome improve_one(const improve::SeamRegions& regions, LocalIndex region,
                                    const ImproveSetup& setup,
-                                   const std::vector<mesh::Piece>& pieces,
-                                   const std::vector<std::vector<LocalIndex>>& labels)
+                                   const std::vector<PieceInPhase>& pieces)
 {
-  std::vector<improve::LabelledPiece> around;
+  std::vector<improve::Band> bands;
   for (const LocalIndex s : regions.subdomains_of(region)) {
-    around.push_back({pieces[at(s)], labels[at(s)]});
+    bands.push_back(
+        pieces[at(s)].bands[row_in(region, regions.regions_of(s, regions.phase_of(region)))]);
   }
-  return improve::improve_region(improve::extract_region(around, regions, region), setup.optimizer,
+  return improve::improve_region(improve::extract_region(bands, regions, region), setup.optimizer,
                                  setup.settings, setup.measure);
 }
 
@@ -205,31 +223,54 @@ std::vector<mesh::Piece> coarse_pieces(const Body& body)
   return pieces;
 }
 
+std::size_t row_in(LocalIndex value, std::span<const LocalIndex> ascending)
+{
+  return static_cast<std::size_t>(std::ranges::lower_bound(ascending, value) - ascending.begin());
+}
+
+std::vector<improve::Band> bands_of_region(const std::vector<mesh::Piece>& pieces,
+                                           const improve::SeamRegions& regions, LocalIndex region,
+                                           int layers)
+{
+  const int phase = regions.phase_of(region);
+  std::vector<improve::Band> bands;
+  for (const LocalIndex s : regions.subdomains_of(region)) {
+    bands.push_back(piece_in_phase(pieces[at(s)], regions, phase, layers)
+                        .bands[row_in(region, regions.regions_of(s, phase))]);
+  }
+  return bands;
+}
+
 PhaseCount improve_phase(const improve::SeamRegions& regions, int phase, const ImproveSetup& setup,
                          std::vector<mesh::Piece>& pieces)
 {
-  std::vector<std::vector<LocalIndex>> labels;
+  std::vector<PieceInPhase> states;
   for (const mesh::Piece& piece : pieces) {
-    labels.push_back(improve::label_tets(piece, regions, phase, setup.layers));
+    states.push_back(piece_in_phase(piece, regions, phase, setup.layers));
   }
   PhaseCount count;
-  std::vector<std::vector<improve::RegionUpdate>> updates(pieces.size());
   for (LocalIndex r = regions.first_of_phase(phase); r < regions.first_of_phase(phase + 1); ++r) {
     try {
-      const improve::RegionOutcome outcome = improve_one(regions, r, setup, pieces, labels);
+      const improve::RegionOutcome outcome = improve_one(regions, r, setup, states);
       if (!outcome.is_accepted) {
         count.refusals.push_back(outcome.reason);
         continue;
       }
       ++count.num_accepted;
       count.num_splits += outcome.num_splits;
-      for (const LocalIndex s : regions.subdomains_of(r)) updates[at(s)].push_back(outcome.update);
+      const auto subdomains = regions.subdomains_of(r);
+      for (std::size_t i = 0; i < subdomains.size(); ++i) {
+        PieceInPhase& state = states[at(subdomains[i])];
+        const auto row = row_in(r, regions.regions_of(subdomains[i], phase));
+        const auto old_tets = state.tets[static_cast<LocalIndex>(row)];
+        state.exchanges.push_back({{old_tets.begin(), old_tets.end()}, outcome.updates[i]});
+      }
     } catch (const MeshError& error) {
       count.refusals.emplace_back(error.what());
     }
   }
   for (std::size_t s = 0; s < pieces.size(); ++s) {
-    pieces[s] = improve::apply_updates(pieces[s], labels[s], updates[s]);
+    pieces[s] = improve::apply_updates(states[s].part, states[s].exchanges).piece;
   }
   return count;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,14 @@ namespace tessera::testing {
 
 /// @brief The coarse tets of each subdomain as a piece: what refinement by no level leaves.
 [[nodiscard]] std::vector<mesh::Piece> coarse_pieces(const Body& body);
+
+/// @brief The bands of a region. @param[in] pieces Shape (num_subdomains).
+[[nodiscard]] std::vector<improve::Band> bands_of_region(const std::vector<mesh::Piece>& pieces,
+                                                         const improve::SeamRegions& regions,
+                                                         LocalIndex region, int layers);
+
+/// @brief Row of a value in an ascending list that has it.
+[[nodiscard]] std::size_t row_in(LocalIndex value, std::span<const LocalIndex> ascending);
 
 /// @brief Mean ratio and dihedral angle of some tets.
 [[nodiscard]] improve::ShapeSummary measure_shapes(const improve::TetMesh& tets);
@@ -33,7 +43,7 @@ struct PhaseCount {
   std::vector<std::string> refusals{};  ///< Of regions that keep their tets.
 };
 
-/// @brief Runs one phase over all pieces, as jobs and merges of a run would: every region sees the
+/// @brief Runs one phase over all pieces, as jobs and ranks of a run would: every region sees the
 /// pieces as the phase before left them.
 /// @param[in,out] pieces Shape (num_subdomains).
 [[nodiscard]] PhaseCount improve_phase(const improve::SeamRegions& regions, int phase,

@@ -47,6 +47,16 @@ struct Hash128 {
 [[nodiscard]] Hash128 hash_tet(std::span<const GlobalIndex, 4> vertex_ids,
                                std::span<const double, 12> xyz, std::int32_t material) noexcept;
 
+/// @brief Sum of hash_tet() over many tets, in less time. Local.
+/// @param[in] tet_vertices Shape (num_tets, 4): rows of `vertex_ids` and `xyz`.
+/// @param[in] vertex_ids Shape (num_vertices).
+/// @param[in] xyz Shape (num_vertices, 3).
+/// @param[in] materials Shape (num_tets).
+[[nodiscard]] Hash128 hash_tets(std::span<const LocalIndex> tet_vertices,
+                                std::span<const GlobalIndex> vertex_ids,
+                                std::span<const double> xyz,
+                                std::span<const std::int32_t> materials) noexcept;
+
 /// @brief 32 lower-case hexadecimal digits, the high half first.
 [[nodiscard]] std::string to_hex(const Hash128& hash);
 

@@ -37,6 +37,8 @@ struct CoarseOptions {
   /// STL: dihedral angle from which an edge is a feature, degrees, in (0, 180).
   double feature_angle_deg = 30.0;
 
+  bool optimize = false;  ///< Whether optimize_interior() follows.
+
   SurfaceMesher surface_mesher = SurfaceMesher::netgen;
 
   double timeout_s = 300.0;  ///< CPU seconds of one try, > 0.
@@ -44,7 +46,7 @@ struct CoarseOptions {
   static auto fields(auto& self)
   {
     return std::tie(self.max_size, self.grading, self.curvature, self.feature_angle_deg,
-                    self.surface_mesher, self.timeout_s);
+                    self.optimize, self.surface_mesher, self.timeout_s);
   }
 
   friend bool operator==(const CoarseOptions&, const CoarseOptions&) = default;

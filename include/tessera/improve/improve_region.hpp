@@ -27,8 +27,8 @@ struct RegionOutcome {
   std::string reason{};       ///< Why the region keeps its old tets; empty if accepted.
   LocalIndex num_splits = 0;  ///< Vertices put in because tets could not be given to a subdomain.
   ShapeSummary before{};
-  ShapeSummary after{};   ///< Of the optimised tets, accepted or not.
-  RegionUpdate update{};  ///< Empty unless accepted.
+  ShapeSummary after{};                ///< Of the optimised tets, accepted or not.
+  std::vector<PieceUpdate> updates{};  ///< By owner; empty unless accepted.
 };
 
 /// @brief Why the new tets are not better than the old ones, in words; empty if they are.

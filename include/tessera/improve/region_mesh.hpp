@@ -6,21 +6,15 @@
 
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
+#include "tessera/improve/region_band.hpp"
 #include "tessera/improve/seam_regions.hpp"
-#include "tessera/mesh/piece.hpp"
 
 namespace tessera::improve {
-
-/// @brief A piece as a region's job sees it. Borrowed.
-struct LabelledPiece {
-  const mesh::Piece& piece;
-  std::span<const LocalIndex> labels;  ///< label_tets() of it.
-};
 
 /// @brief A vertex as one of the region's pieces knows it.
 struct PieceVertex {
   LocalIndex owner = kNoIndex;   ///< Row of RegionMesh::subdomains.
-  LocalIndex vertex = kNoIndex;  ///< Vertex of that piece.
+  LocalIndex vertex = kNoIndex;  ///< Tag of a vertex of that piece.
 
   friend bool operator==(const PieceVertex&, const PieceVertex&) = default;
 };
@@ -63,11 +57,11 @@ struct RegionMesh {
   }
 };
 
-/// @brief Takes the tets of a region out of its pieces; these stay as they are.
-/// @param[in] pieces Those of regions.subdomains_of(region), in that order.
-/// @note Local; O(n log n) in the region's tets, linear in the pieces'.
+/// @brief Glues a region's tets together.
+/// @param[in] bands Of regions.subdomains_of(region), in that order.
+/// @note Local; O(n log n) in the bands.
 /// @throws MeshError if a triangle would belong to three tets, or if more than 64 subdomains meet.
-[[nodiscard]] RegionMesh extract_region(std::span<const LabelledPiece> pieces,
-                                        const SeamRegions& regions, LocalIndex region);
+[[nodiscard]] RegionMesh extract_region(std::span<const Band> bands, const SeamRegions& regions,
+                                        LocalIndex region);
 
 }  // namespace tessera::improve

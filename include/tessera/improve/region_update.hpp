@@ -6,49 +6,63 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
-#include "tessera/mesh/piece.hpp"
+#include "tessera/improve/piece_part.hpp"
+#include "tessera/mesh/host_layout.hpp"
 
 namespace tessera::improve {
 
-/// @brief The new tets of one region, by the subdomain that gets them.
+/// @brief The new tets that one piece gets from one region.
 ///
-/// A tet names a vertex of its subdomain's piece by its number there, new vertex i by -1 - i. New
-/// vertices of several owners come first and are *shared*: their key is (host, i). The others are
-/// interior to the piece of their owner.
-struct RegionUpdate {
+/// A tet names a vertex of the piece by its tag, new vertex i by -1 - i. New vertices that several
+/// pieces share come first: their key is (host, shared_index). The others are interior to the
+/// piece.
+struct PieceUpdate {
   LocalIndex region = kNoIndex;
   mesh::HostEntity host = 0;               ///< SeamRegions::host_of() the region.
-  std::vector<LocalIndex> subdomains{};    ///< Shape (num_owners), ascending.
   std::vector<double> vertex_xyz{};        ///< Shape (num_new_vertices, 3).
-  LocalIndex num_shared = 0;               ///< Of the new vertices: the vertices of `host`.
-  std::vector<LocalIndex> tet_offsets{};   ///< Shape (num_owners + 1): tets of each owner.
+  std::vector<LocalIndex> shared_index{};  ///< Shape (num_shared), ascending.
   std::vector<LocalIndex> tet_vertices{};  ///< Shape (num_tets, 4); positive, VTK's order.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.region, self.host, self.subdomains, self.vertex_xyz, self.num_shared,
-                    self.tet_offsets, self.tet_vertices);
+    return std::tie(self.region, self.host, self.vertex_xyz, self.shared_index, self.tet_vertices);
   }
 
   [[nodiscard]] LocalIndex num_new_vertices() const
   {
     return static_cast<LocalIndex>(vertex_xyz.size() / 3);
   }
+  [[nodiscard]] LocalIndex num_shared() const
+  {
+    return static_cast<LocalIndex>(shared_index.size());
+  }
+  [[nodiscard]] LocalIndex num_tets() const
+  {
+    return static_cast<LocalIndex>(tet_vertices.size() / 4);
+  }
 
-  friend bool operator==(const RegionUpdate&, const RegionUpdate&) = default;
+  friend bool operator==(const PieceUpdate&, const PieceUpdate&) = default;
 };
 
-/// @brief The piece with the tets of some regions exchanged: those with the updates' labels go, the
-/// updates' come. Tets that stay come first, in their order, then the updates' in theirs; unused
-/// vertices are dropped, the others keep their order, shared ones first. The triangles on the
-/// geometry stay, with their new tets behind them.
-/// @param[in] labels label_tets() of the piece.
-/// @param[in] updates Accepted updates of regions of the piece, ascending by region; regions
-/// without one keep their tets.
-/// @note Local; linear in the piece, but for a sort of the triangles on the geometry.
-/// @throws MeshError if a update does not fit the piece.
-[[nodiscard]] mesh::Piece apply_updates(const mesh::Piece& piece,
-                                        std::span<const LocalIndex> labels,
-                                        std::span<const RegionUpdate> updates);
+/// @brief The tets that a piece gives for an update.
+struct RegionExchange {
+  std::vector<LocalIndex> old_tets{};  ///< Tags, ascending: all that the piece had in the region.
+  PieceUpdate update{};
+};
+
+/// @brief A part of a piece with the tets of some regions exchanged. Tets that stay come first, in
+/// their order, then the updates' in theirs; unused vertices are dropped, the others keep their
+/// order, shared ones first. New vertices and tets get the next tags. The triangles on the geometry
+/// stay, with their new tets behind them.
+///
+/// A part that is not the whole piece may lack vertices that a new tet has. It then does without
+/// that tet.
+/// @param[in] exchanges Of accepted updates, ascending by phase and region; an exchange may name
+/// tags that those before it have given. All updates of these phases: else tags would differ.
+/// @note Local; O(n log n) in the tets of the updates and in the triangles on the geometry, linear
+/// in the part.
+/// @throws MeshError if an update does not fit the piece.
+[[nodiscard]] PiecePart apply_updates(const PiecePart& part,
+                                      std::span<const RegionExchange> exchanges);
 
 }  // namespace tessera::improve

@@ -45,6 +45,15 @@ class SeamRegions {
   /// one such subdomain or none, or is not of the skeleton.
   [[nodiscard]] LocalIndex region_of(mesh::HostEntity host, LocalIndex material) const;
 
+  /// @brief The region whose improvement made the vertices of `host`; kNoIndex if none did.
+  [[nodiscard]] LocalIndex region_made(mesh::HostEntity host) const
+  {
+    return hosts_.kind_of(host) == mesh::HostKind::seam_region ? hosts_.row_of(host) : kNoIndex;
+  }
+
+  /// @brief Whether two subdomains of one material may hold the vertices of `host`. Local.
+  [[nodiscard]] bool may_be_on_seam(mesh::HostEntity host) const;
+
   /// @brief The subdomains that meet in a region, ascending; at least two, of one material.
   [[nodiscard]] std::span<const LocalIndex> subdomains_of(LocalIndex region) const
   {
@@ -83,8 +92,8 @@ inline constexpr int kDefaultLayers = 3;
 ///
 /// That is the nearest region, and the lowest of equally near ones. So every tet is in one job of a
 /// phase at most, and jobs do not meet. Distance is counted in tets: those with a vertex on one of
-/// the region's hosts are layer 1. A pure function of the piece: a region's job and the merge of a
-/// piece see the same labels.
+/// the region's hosts are layer 1. A pure function of the piece, or of the part of it that is
+/// given.
 /// @note Local; linear.
 [[nodiscard]] std::vector<LocalIndex> label_tets(const mesh::Piece& piece,
                                                  const SeamRegions& regions, int phase, int layers);

@@ -34,6 +34,38 @@ inline constexpr std::array<std::array<std::size_t, 2>, 6> kTetEdgeCorners{
   return (a < b) + (b < c) + (c < a) == 2;
 }
 
+/// @brief A tet's vertices in ascending order.
+struct SortedTet {
+  std::array<LocalIndex, 4> vertices{};
+  bool is_even = true;  ///< Whether the order the tet had is an even permutation of this one.
+
+  /// @brief Whether the face opposite to `vertices[i]`, seen from outside, is an even permutation
+  /// of its ascending order. @see is_even_triangle, kTetFaceCorners
+  [[nodiscard]] constexpr bool is_even_face(std::size_t i) const noexcept
+  {
+    return (i % 2 == 0) == is_even;
+  }
+};
+
+/// @brief Sorts the vertices of one tet. @pre all different.
+[[nodiscard]] constexpr SortedTet sorted_tet(std::span<const LocalIndex, 4> vertices) noexcept
+{
+  SortedTet tet{{vertices[0], vertices[1], vertices[2], vertices[3]}};
+  const auto order = [&tet](std::size_t low, std::size_t high) {
+    const LocalIndex a = tet.vertices[low];
+    const LocalIndex b = tet.vertices[high];
+    tet.vertices[low] = std::min(a, b);
+    tet.vertices[high] = std::max(a, b);
+    tet.is_even = tet.is_even != (b < a);
+  };
+  order(0, 1);
+  order(2, 3);
+  order(0, 2);
+  order(1, 3);
+  order(1, 2);
+  return tet;
+}
+
 /// @brief One triangle of a tet mesh and the one or two tets it belongs to.
 struct TriangleTets {
   std::array<LocalIndex, 3> vertices{};                ///< Ascending.

@@ -68,6 +68,8 @@ struct SimplexPlace {
   LocalIndex owner = kNoIndex;
   LocalIndex first = 0;
 
+  static auto fields(auto& self) { return std::tie(self.owner, self.first); }
+
   friend bool operator==(const SimplexPlace&, const SimplexPlace&) = default;
 };
 
@@ -76,6 +78,8 @@ struct SurfacePlaces {
   std::vector<SimplexPlace> vertices{};
   std::vector<SimplexPlace> edges{};
   std::vector<SimplexPlace> triangles{};
+
+  static auto fields(auto& self) { return std::tie(self.vertices, self.edges, self.triangles); }
 };
 
 /// @brief Finds the owner of every simplex. @param[in] owners What the piece itself and its lower

@@ -37,7 +37,8 @@ class Histogram {
       ++counts_[static_cast<std::size_t>(place)];
     }
   }
-  void add(const Histogram& other);  ///< @pre the same bins.
+  void add(const Histogram& other);       ///< @pre the same bins.
+  void subtract(const Histogram& other);  ///< @pre the same bins, and `other` was added before.
 
   [[nodiscard]] GlobalIndex total() const;
 

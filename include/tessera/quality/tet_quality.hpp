@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 
 namespace tessera::quality {
@@ -29,6 +30,13 @@ struct TetShape {
 
 /// @brief A face without area counts as cosines 1 and -1. @note Local.
 [[nodiscard]] TetShape shape_of(const TetCorners& corners) noexcept;
+
+/// @brief shape_of() of many tets: the same bits in less time. @note Local.
+/// @param[in] xyz Shape (num_vertices, 3).
+/// @param[in] tet_vertices Shape (shapes.size(), 4).
+/// @param[out] shapes One a tet.
+void shapes_of(std::span<const double> xyz, std::span<const LocalIndex> tet_vertices,
+               std::span<TetShape> shapes) noexcept;
 
 /// @brief Degrees in [0, 180]. @note Local.
 [[nodiscard]] double angle_deg(double cosine) noexcept;

@@ -8,30 +8,23 @@
 
 #include "tessera/improve/improve_region.hpp"
 #include "tessera/improve/seam_regions.hpp"
-#include "tessera/mesh/piece.hpp"
 
 namespace tessera::subdomain {
 
 /// @brief What the improvement of one seam region has ended with.
 struct RegionRecord {
   bool is_improved = false;
-  bool has_failed = false;         ///< The job died, or what it found was not valid.
-  bool was_limited = false;        ///< It died for time or memory: not reproducible.
-  std::string reason{};            ///< Why the region keeps its tets; empty if it is improved.
-  improve::RegionUpdate update{};  ///< Empty unless it is improved.
+  bool has_failed = false;   ///< The job died, or what it found was not valid.
+  bool was_limited = false;  ///< It died for time or memory: not reproducible.
+  std::string reason{};      ///< Why the region keeps its tets; empty if it is improved.
+  /// By piece, in the order of the region's subdomains; empty unless it is improved.
+  std::vector<improve::PieceUpdate> updates{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.is_improved, self.has_failed, self.was_limited, self.reason, self.update);
+    return std::tie(self.is_improved, self.has_failed, self.was_limited, self.reason, self.updates);
   }
 };
-
-/// @brief A region's tets, taken out of the pieces it lies in. Local; a pure function.
-/// @param[in] pieces Of regions.subdomains_of(region), in that order.
-/// @throws MeshError as improve::extract_region().
-[[nodiscard]] improve::RegionMesh region_mesh(const std::vector<mesh::Piece>& pieces,
-                                              const improve::SeamRegions& regions,
-                                              LocalIndex region);
 
 /// @brief Optimises the tets of one region and judges the result.
 /// @note Local; a pure function. The optimiser may crash: call it in a job process.

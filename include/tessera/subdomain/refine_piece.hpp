@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "tessera/mesh/piece.hpp"
@@ -23,6 +24,11 @@ struct PieceSurroundings {
   std::vector<mesh::Piece> halos{};  ///< halo_of() all neighbours of its material; ascending.
   bool is_smoothed = true;           ///< Else new vertices off the geometry are midpoints. The same
                                      ///< for all pieces of a material, whatever made them.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.surface, self.shared, self.places, self.halos, self.is_smoothed);
+  }
 };
 
 /// @brief A piece that was split, or why it could not be.

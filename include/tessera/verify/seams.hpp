@@ -32,6 +32,9 @@ struct SeamHash {
 /// themselves, so it is that of the piece's surface. Local; linear.
 [[nodiscard]] Hash128 surface_hash(const mesh::Piece& piece);
 
+/// @brief The same from a skin that is known to be the surface of a piece. Local.
+[[nodiscard]] Hash128 surface_hash(const mesh::Skin& skin);
+
 /// @brief The signed hashes of the skin's triangles on the outside of the model, summed. Over all
 /// pieces that is what their surface_hash() must sum up to, whatever the pieces have exchanged.
 /// Local.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -64,6 +65,19 @@ TEST(HashTet, IsThatOfItsRecordOnEveryMachine)
   EXPECT_EQ(to_hex(hash_bytes(std::as_bytes(std::span(&record, 1)))), Tet().hash());
   // From the published test of XXH3: nothing hashes to this.
   EXPECT_EQ(to_hex(hash_bytes({})), "99aa06d3014798d86001c324468d497f");
+}
+
+TEST(HashTets, IsTheSumOverTheTets)
+{
+  const std::vector<LocalIndex> tet_vertices{0, 1, 2, 3, 4, 3, 2, 1};
+  const std::vector<GlobalIndex> vertex_ids{10, 7, 8, 1LL << 40, 3};
+  const std::vector<double> xyz{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 2, 2, 2};
+  const Tet first{{10, 7, 8, 1LL << 40}, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, 5};
+  const Tet second{{3, 1LL << 40, 8, 7}, {2, 2, 2, 0, 0, 1, 0, 1, 0, 1, 0, 0}, -1};
+  Hash128 sum = hash_tet(first.ids, first.xyz, first.material);
+  sum += hash_tet(second.ids, second.xyz, second.material);
+  EXPECT_EQ(hash_tets(tet_vertices, vertex_ids, xyz, std::vector{5, -1}), sum);
+  EXPECT_EQ(hash_tets({}, {}, {}, {}), Hash128{});
 }
 
 TEST(Hash128, SumsDoNotDependOnOrderAndWrapAround)

@@ -25,6 +25,7 @@ max_size = 2
 grading = 0.2
 curvature = 3.5
 feature_angle_deg = 45
+optimize = true
 [decompose]
 subdomains = 12
 [refine]
@@ -74,6 +75,7 @@ TEST(LoadCase, EveryKeyReachesItsOwnOption)
   EXPECT_EQ(loaded.coarse.grading, 0.2);
   EXPECT_EQ(loaded.coarse.curvature, 3.5);
   EXPECT_EQ(loaded.coarse.feature_angle_deg, 45.0);
+  EXPECT_TRUE(loaded.coarse.optimize);
   EXPECT_EQ(loaded.decompose.subdomains, 12);
   EXPECT_EQ(loaded.refine.levels, 4);
   EXPECT_EQ(loaded.fill.kernel, fill::KernelKind::subdivide);

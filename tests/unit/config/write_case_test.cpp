@@ -19,7 +19,11 @@ Case complete_case()
 {
   Case wanted;
   wanted.geometry = {.file = "/m \"q\" \\ ü\t.geo", .scale = 1.0 / 3.0};
-  wanted.coarse = {.max_size = 1e-7, .grading = 0.1, .curvature = 99.5, .feature_angle_deg = 12.25};
+  wanted.coarse = {.max_size = 1e-7,
+                   .grading = 0.1,
+                   .curvature = 99.5,
+                   .feature_angle_deg = 12.25,
+                   .optimize = true};
   wanted.decompose.subdomains = 77;
   wanted.refine.levels = 0;
   wanted.fill = {
@@ -180,8 +184,8 @@ TEST(KnownKeys, AreThoseOfTheReferenceWithTheirWords)
       EXPECT_EQ(key.words.size(), 3U);
       EXPECT_EQ(key.words.front(), "netgen");
     }
-    EXPECT_EQ(key.words.size() == 2,
-              key.name == "improve.seams" || key.name == "output.cell_quality")
+    EXPECT_EQ(key.words.size() == 2, key.name == "coarse.optimize" || key.name == "improve.seams"
+                                         || key.name == "output.cell_quality")
         << key.name;
   }
 }

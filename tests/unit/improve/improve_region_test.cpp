@@ -78,10 +78,7 @@ struct OneRegion : ::testing::Test {
 
   OneRegion()
   {
-    const auto low = label_tets(pieces[0], regions, 0, 1);
-    const auto high = label_tets(pieces[1], regions, 0, 1);
-    mesh =
-        extract_region(std::vector<LabelledPiece>{{pieces[0], low}, {pieces[1], high}}, regions, 0);
+    mesh = extract_region(testing::bands_of_region(pieces, regions, 0, 1), regions, 0);
   }
 
   void expect_refused(const testing::ChangingOptimizer::Change& change, const std::string& because)
@@ -130,7 +127,7 @@ TEST_F(OneRegion, KeepsItsTetsWithAReasonIfTheNewOnesAreNotBetter)
   const RegionOutcome outcome = improve_region(mesh, nothing, {}, testing::measure_shapes);
   EXPECT_FALSE(outcome.is_accepted);
   EXPECT_NE(outcome.reason, "");
-  EXPECT_EQ(outcome.update, RegionUpdate{});
+  EXPECT_TRUE(outcome.updates.empty());
 }
 
 TEST_F(OneRegion, IsAPureFunction)
@@ -139,7 +136,8 @@ TEST_F(OneRegion, IsAPureFunction)
   const auto once = improve_region(mesh, optimizer, {}, testing::always_better());
   const auto again = improve_region(mesh, optimizer, {}, testing::always_better());
   EXPECT_TRUE(once.is_accepted);
-  EXPECT_EQ(to_bytes(once.update), to_bytes(again.update));
+  EXPECT_FALSE(once.updates.empty());
+  EXPECT_EQ(once.updates, again.updates);
 }
 
 TEST(Refusal, WantsABetterMeanAndNoWorseWorst)

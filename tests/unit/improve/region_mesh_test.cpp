@@ -31,15 +31,8 @@ struct RegionsOfOctants : ::testing::Test {
 
   [[nodiscard]] RegionMesh extract(LocalIndex region, int layers) const
   {
-    std::vector<std::vector<LocalIndex>> labels;
-    for (const LocalIndex s : regions.subdomains_of(region)) {
-      labels.push_back(label_tets(pieces[at(s)], regions, regions.phase_of(region), layers));
-    }
-    std::vector<LabelledPiece> around;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      around.push_back({pieces[at(regions.subdomains_of(region)[i])], labels[i]});
-    }
-    return extract_region(around, regions, region);
+    return extract_region(testing::bands_of_region(pieces, regions, region, layers), regions,
+                          region);
   }
 };
 

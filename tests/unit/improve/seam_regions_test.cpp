@@ -144,6 +144,24 @@ TEST(SeamRegions, HaveHostsOfTheirOwn)
   EXPECT_EQ(hosts.row_of(regions.host_of(3)), 3);
   EXPECT_EQ(regions.region_of(hosts.piece(0), 1), kNoIndex);
   EXPECT_EQ(regions.region_of(regions.host_of(3), 1), kNoIndex);
+  EXPECT_EQ(regions.region_made(regions.host_of(3)), 3);
+  EXPECT_EQ(regions.region_made(hosts.triangle(0)), kNoIndex);
+}
+
+TEST(SeamRegions, SayWhereTwoSubdomainsMayMeet)
+{
+  const Body body = octants_of(testing::kuhn_cube(2));
+  const SeamRegions regions(body.skeleton, body.decomposition);
+  const mesh::HostLayout hosts(body.skeleton);
+  LocalIndex num_on_seams = 0;
+  for (LocalIndex t = 0; t < body.skeleton.num_triangles(); ++t) {
+    const bool is_seam = body.skeleton.is_inside(t);
+    EXPECT_EQ(regions.may_be_on_seam(hosts.triangle(t)), is_seam);
+    num_on_seams += is_seam ? 1 : 0;
+  }
+  EXPECT_GT(num_on_seams, 0);
+  EXPECT_LT(num_on_seams, body.skeleton.num_triangles());
+  EXPECT_TRUE(regions.may_be_on_seam(regions.host_of(0)));
 }
 
 TEST(SeamRegions, AreNoneWithOneSubdomain)

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/mesh/tet_topology.hpp"
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/mesh/tet_edges.hpp"
 
 namespace tessera::mesh {
 namespace {
@@ -26,6 +31,34 @@ TEST(TetTopology, EvenTrianglesAreTheRotationsOfTheAscendingOrder)
   EXPECT_FALSE(is_even_triangle(1, 3, 2));
   EXPECT_FALSE(is_even_triangle(3, 2, 1));
   EXPECT_FALSE(is_even_triangle(2, 1, 3));
+}
+
+TEST(TetTopology, ASortedTetKnowsTheSidesOfItsFaces)
+{
+  std::array<LocalIndex, 4> tet{2, 3, 5, 8};
+  int orders = 0;
+  do {
+    const SortedTet sorted = sorted_tet(tet);
+    EXPECT_EQ(sorted.vertices, (std::array<LocalIndex, 4>{2, 3, 5, 8}));
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const auto& [a, b, c] = kTetFaceCorners[corner];
+      const auto opposite = std::ranges::find(sorted.vertices, tet[corner]);
+      EXPECT_EQ(sorted.is_even_face(static_cast<std::size_t>(opposite - sorted.vertices.begin())),
+                is_even_triangle(tet[a], tet[b], tet[c]));
+    }
+    ++orders;
+  } while (std::ranges::next_permutation(tet).found);
+  EXPECT_EQ(orders, 24);
+}
+
+TEST(TetTopology, VisitsEveryEdgeOnce)
+{
+  const std::vector<LocalIndex> tets{3, 1, 2, 0, 4, 3, 1, 2};
+  std::vector<std::pair<LocalIndex, LocalIndex>> edges;
+  for_each_edge(tets, 6, [&](LocalIndex a, LocalIndex b) { edges.emplace_back(a, b); });
+  std::ranges::sort(edges);
+  EXPECT_EQ(edges, (std::vector<std::pair<LocalIndex, LocalIndex>>{
+                       {0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}));
 }
 
 TEST(TetTopology, FindsTheSharedTriangleOfTwoTets)

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "tessera/check/report.hpp"
+#include "tessera/improve/region_band.hpp"
+#include "tessera/io/record_log.hpp"
 #include "tessera/migrate/assemble.hpp"
 #include "tessera/model/triangle_surface.hpp"
 #include "tessera/number/shared_vertices.hpp"
@@ -74,17 +76,17 @@ using Types = ::testing::Types<
     // The library's.
     Hash128, model::ImportOptions, model::ModelSource, model::TriangleSurface, mesh::Piece,
     mesh::CoarseMesh, mesh::Decomposition, mesh::LatticePointKey, mesh::PointLimit,
-    mesh::ProjectionLimiter, improve::RegionUpdate, improve::ImproveOptions,
-    subdomain::RegionRecord, subdomain::PieceSummary, subdomain::FillResult, subdomain::FailedTries,
-    verify::SeamHash, quality::TetStatistics, quality::QualityHistograms, fill::FillTry,
-    coarse::CoarseOptions, coarse::VertexDistance, decompose::DecomposeReport,
-    decompose::DecomposeResult, number::PieceCounts, mesh::HostPoint, number::VertexList,
-    check::SubdomainFigures, migrate::MeshBlock, migrate::TetColumn, IndexLists,
+    mesh::ProjectionLimiter, improve::Band, improve::PiecePart, improve::PieceUpdate,
+    improve::ImproveOptions, subdomain::RegionRecord, subdomain::PieceSummary,
+    subdomain::FillResult, subdomain::FailedTries, verify::SeamHash, quality::TetStatistics,
+    quality::QualityHistograms, fill::FillTry, coarse::CoarseOptions, coarse::VertexDistance,
+    decompose::DecomposeReport, decompose::DecomposeResult, number::PieceCounts, mesh::HostPoint,
+    number::VertexList, io::LogPlace, check::SubdomainFigures, migrate::MeshBlock,
+    migrate::TetColumn, IndexLists,
     // The program's.
     CoarseTry, UntangleTest, FillTask, SkinMesh, CoarseResult, WrittenFile, FillRecord,
     FoldedSubdomain, Plan, ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad,
-    ImportRequest, CoarseRequest, UntangleRequest, ImproveRequest, ImprovePiecesRequest,
-    SkinRequest>;
+    ImportRequest, CoarseRequest, UntangleRequest, ImproveRequest, SkinRequest>;
 TYPED_TEST_SUITE(ByteImage, Types);
 
 TYPED_TEST(ByteImage, BringsBackTheValueAndNothingOfAPartOfIt)

@@ -35,6 +35,19 @@ TEST(Histogram, CountsWhatIsOutsideAtTheEnds)
   EXPECT_EQ(histogram.total(), 6);
 }
 
+TEST(Histogram, SubtractsWhatWasAdded)
+{
+  Histogram histogram(0.0, 1.0, 4);
+  histogram.add(0.3);
+  const std::vector<GlobalIndex> before = histogram.counts();
+  Histogram other(0.0, 1.0, 4);
+  for (const double x : {0.1, 0.3, 0.9}) other.add(x);
+  histogram.add(other);
+  EXPECT_EQ(histogram.total(), 4);
+  histogram.subtract(other);
+  EXPECT_EQ(histogram.counts(), before);
+}
+
 TEST(Histogram, PercentilesOfNothingAreZero)
 {
   EXPECT_EQ(Histogram(2.0, 3.0, 10).percentile(0.5), 0.0);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -144,6 +146,31 @@ TEST(DihedralAngles, OfAFaceWithoutAreaIsFromZeroToAHalfTurn)
   const DihedralRange needle = dihedral_range({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}});
   EXPECT_EQ(needle.min_deg, 0.0);
   EXPECT_EQ(needle.max_deg, 180.0);
+}
+
+TEST(ShapesOf, HasTheBitsOfEveryTetAlone)
+{
+  std::vector<double> xyz;
+  std::mt19937 random(7);  // The same numbers everywhere.
+  for (int i = 0; i < 3 * 40; ++i) xyz.push_back(1e-3 * static_cast<double>(random() % 1000));
+  std::vector<LocalIndex> tet_vertices;
+  for (int i = 0; i < 4 * 101; ++i) tet_vertices.push_back(static_cast<LocalIndex>(random() % 40));
+  tet_vertices.insert(tet_vertices.end(), {5, 5, 6, 7, 8, 8, 8, 8});  // Without area.
+  for (const std::size_t num_tets : {std::size_t{0}, std::size_t{1}, tet_vertices.size() / 4}) {
+    std::vector<TetShape> shapes(num_tets);
+    shapes_of(xyz, std::span(tet_vertices).first(4 * num_tets), shapes);
+    for (std::size_t t = 0; t < num_tets; ++t) {
+      TetCorners corners;
+      for (std::size_t c = 0; c < 4; ++c) {
+        corners[c] = point_at(std::span<const double>(xyz), tet_vertices[4 * t + c]);
+      }
+      const TetShape alone = shape_of(corners);
+      EXPECT_EQ(shapes[t].mean_ratio, alone.mean_ratio);
+      EXPECT_EQ(shapes[t].mean_ratio, mean_ratio(corners));
+      EXPECT_EQ(shapes[t].largest_cosine, alone.largest_cosine);
+      EXPECT_EQ(shapes[t].smallest_cosine, alone.smallest_cosine);
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse/flip_tets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "tessera/mesh/tet_topology.hpp"
+
+#include "coarse/child_energy.hpp"
+
+namespace tessera::coarse {
+namespace {
+
+constexpr std::size_t kLargestRing = 7;  // Of the tets around an edge; larger ones seldom pay.
+
+// More than any sum over a ring of fair tets: first of all such tets become fewer.
+constexpr double kCostOfTwoFacesOnAPatch = 1000.0;
+
+constexpr double kLeastGain = 1e-6;  // Relative; less is rounding.
+
+std::array<LocalIndex, 2> edge_key(LocalIndex a, LocalIndex b)
+{
+  return {std::min(a, b), std::max(a, b)};
+}
+
+// The tets around an edge (a, b): corners of the ring in order, such that (a, b, ring[i],
+// ring[i+1]) is positive.
+struct Ring {
+  LocalIndex material = kNoIndex;
+  LocalIndex a = kNoIndex;
+  LocalIndex b = kNoIndex;
+  std::vector<LocalIndex> corners{};
+};
+
+// Cheapest way to fill a ring's cavity without its edge: a triangulation of the ring, with a tet on
+// either side of each triangle. Best of all corners between i and j, for each i < j.
+struct RingPlan {
+  std::array<std::array<double, kLargestRing>, kLargestRing> cost{};
+  std::array<std::array<std::size_t, kLargestRing>, kLargestRing> middle{};
+};
+
+class Flipper {
+ public:
+  Flipper(mesh::CoarseMesh& mesh, const Geometry& geometry)
+      : mesh_(mesh), geometry_(geometry), is_gone_(at(mesh.num_tets()), 0)
+  {
+    collect_edges();
+  }
+
+  LocalIndex run()
+  {
+    LocalIndex flips = 0;
+    for (std::size_t first = 0; first < edges_.size();) {
+      std::size_t last = first + 1;
+      while (last < edges_.size() && edges_[last].ends == edges_[first].ends) ++last;
+      flips += remove_edge(std::span(edges_).subspan(first, last - first)) ? 1 : 0;
+      first = last;
+    }
+    for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh_.tet_vertices)) {
+      flips += exchange_face(triangle) ? 1 : 0;
+    }
+    apply();
+    return flips;
+  }
+
+ private:
+  struct EdgeOfTet {
+    std::array<LocalIndex, 2> ends{};
+    LocalIndex tet = kNoIndex;
+    friend auto operator<=>(const EdgeOfTet&, const EdgeOfTet&) = default;
+  };
+
+  void collect_edges()
+  {
+    for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
+      const auto tet = mesh_.tet(t);
+      for (const auto& [i, j] : mesh::kTetEdgeCorners) {
+        edges_.push_back({edge_key(tet[i], tet[j]), t});
+      }
+    }
+    std::ranges::sort(edges_);
+  }
+
+  [[nodiscard]] bool is_edge(LocalIndex a, LocalIndex b) const
+  {
+    const EdgeOfTet wanted{edge_key(a, b), kNoIndex};
+    const auto found = std::ranges::lower_bound(edges_, wanted);
+    return found != edges_.end() && found->ends == wanted.ends;
+  }
+
+  // The sum of these is what flips make smaller. The root keeps one bad tet from hiding the others.
+  [[nodiscard]] double cost(LocalIndex a, LocalIndex b, LocalIndex c, LocalIndex d) const
+  {
+    const double energy =
+        child_energy({mesh_.position(a), mesh_.position(b), mesh_.position(c), mesh_.position(d)});
+    const bool is_bad = geometry_.has_two_faces_on_a_patch({a, b, c, d});
+    return std::sqrt(energy) + (is_bad ? kCostOfTwoFacesOnAPatch : 0.0);
+  }
+
+  // No corners if the tets do not close around the edge, or one of them is gone.
+  [[nodiscard]] Ring ring_of(std::span<const EdgeOfTet> around) const
+  {
+    Ring ring{mesh_.tet_material[at(around.front().tet)],
+              around.front().ends[0],
+              around.front().ends[1],
+              {}};
+    std::vector<std::array<LocalIndex, 2>> steps;
+    for (const EdgeOfTet& one : around) {
+      if (is_gone_[at(one.tet)] != 0) return ring;
+      steps.push_back(step_of(one));
+    }
+    std::vector<LocalIndex> corners{steps.front()[0]};
+    LocalIndex next = steps.front()[1];
+    while (next != corners.front() && corners.size() < steps.size()) {
+      corners.push_back(next);
+      const auto step = std::ranges::find(steps, next, [](const auto& s) { return s[0]; });
+      if (step == steps.end()) return ring;
+      next = (*step)[1];
+    }
+    if (next == corners.front() && corners.size() == steps.size()) ring.corners = corners;
+    return ring;
+  }
+
+  // The tet's two other corners, in the order in which they follow in the ring.
+  [[nodiscard]] std::array<LocalIndex, 2> step_of(const EdgeOfTet& one) const
+  {
+    std::array<LocalIndex, 2> others{};
+    std::size_t found = 0;
+    for (const LocalIndex v : mesh_.tet(one.tet)) {
+      if (v != one.ends[0] && v != one.ends[1]) others[found++] = v;
+    }
+    const double volume = tet_volume(mesh_.position(one.ends[0]), mesh_.position(one.ends[1]),
+                                     mesh_.position(others[0]), mesh_.position(others[1]));
+    if (volume < 0.0) std::swap(others[0], others[1]);
+    return others;
+  }
+
+  bool remove_edge(std::span<const EdgeOfTet> around)
+  {
+    if (around.size() < 3 || around.size() > kLargestRing) return false;
+    if (geometry_.has_edge(around.front().ends[0], around.front().ends[1])) return false;
+    const Ring ring = ring_of(around);
+    const std::size_t n = ring.corners.size();
+    if (n == 0) return false;
+    double before = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      before += cost(ring.a, ring.b, ring.corners[i], ring.corners[(i + 1) % n]);
+    }
+    const RingPlan plan = cheapest(ring);
+    if (!(plan.cost[0][n - 1] < (1.0 - kLeastGain) * before)) return false;
+    for (const EdgeOfTet& one : around) is_gone_[at(one.tet)] = 1;
+    add_tets(ring, plan, 0, n - 1);
+    return true;
+  }
+
+  [[nodiscard]] RingPlan cheapest(const Ring& ring) const
+  {
+    const std::vector<LocalIndex>& c = ring.corners;
+    RingPlan plan;
+    for (std::size_t length = 2; length < c.size(); ++length) {
+      for (std::size_t i = 0; i + length < c.size(); ++i) {
+        const std::size_t j = i + length;
+        plan.cost[i][j] = kNoTet;
+        // An edge of other tets must not come a second time.
+        if (length + 1 < c.size() && is_edge(c[i], c[j])) continue;
+        for (std::size_t k = i + 1; k < j; ++k) {
+          const double sum = plan.cost[i][k] + plan.cost[k][j] + cost(ring.a, c[i], c[k], c[j])
+                             + cost(ring.b, c[j], c[k], c[i]);
+          if (!(sum < plan.cost[i][j])) continue;
+          plan.cost[i][j] = sum;
+          plan.middle[i][j] = k;
+        }
+      }
+    }
+    return plan;
+  }
+
+  void add_tets(const Ring& ring, const RingPlan& plan, std::size_t i, std::size_t j)
+  {
+    if (j < i + 2) return;
+    const std::size_t k = plan.middle[i][j];
+    const std::vector<LocalIndex>& c = ring.corners;
+    add({ring.a, c[i], c[k], c[j]}, ring.material);
+    add({ring.b, c[j], c[k], c[i]}, ring.material);
+    add_tets(ring, plan, i, k);
+    add_tets(ring, plan, k, j);
+  }
+
+  // Two tets at a triangle become three around the edge between their opposite corners.
+  bool exchange_face(const mesh::TriangleTets& triangle)
+  {
+    const auto& [first, second] = triangle.tets;
+    if (second == kNoIndex || is_gone_[at(first)] != 0 || is_gone_[at(second)] != 0) return false;
+    const auto& corner = mesh::kTetFaceCorners[at(triangle.corners[0])];
+    const auto tet = mesh_.tet(first);
+    const std::array<LocalIndex, 3> f{tet[corner[0]], tet[corner[1]], tet[corner[2]]};
+    if (geometry_.patch_of(f[0], f[1], f[2]) != kNoIndex) return false;
+    const LocalIndex above =
+        mesh_.tet(second)[at(triangle.corners[1])];  // Where the normal points.
+    const LocalIndex below = tet[at(triangle.corners[0])];
+    if (is_edge(above, below)) return false;
+    double after = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) after += cost(below, above, f[i], f[(i + 1) % 3]);
+    const double before = cost(f[0], f[2], f[1], below) + cost(f[0], f[1], f[2], above);
+    if (!(after < (1.0 - kLeastGain) * before)) return false;
+    is_gone_[at(first)] = is_gone_[at(second)] = 1;
+    for (std::size_t i = 0; i < 3; ++i)
+      add({below, above, f[i], f[(i + 1) % 3]}, mesh_.tet_material[at(first)]);
+    return true;
+  }
+
+  void add(const Tet& tet, LocalIndex material)
+  {
+    new_tets_.insert(new_tets_.end(), tet.begin(), tet.end());
+    new_materials_.push_back(material);
+  }
+
+  // Tets that stay keep their order; new ones follow.
+  void apply()
+  {
+    std::vector<LocalIndex> tets;
+    std::vector<LocalIndex> materials;
+    for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
+      if (is_gone_[at(t)] != 0) continue;
+      const auto tet = mesh_.tet(t);
+      tets.insert(tets.end(), tet.begin(), tet.end());
+      materials.push_back(mesh_.tet_material[at(t)]);
+    }
+    tets.insert(tets.end(), new_tets_.begin(), new_tets_.end());
+    materials.insert(materials.end(), new_materials_.begin(), new_materials_.end());
+    mesh_.tet_vertices = std::move(tets);
+    mesh_.tet_material = std::move(materials);
+  }
+
+  mesh::CoarseMesh& mesh_;
+  const Geometry& geometry_;
+  std::vector<char> is_gone_;
+  std::vector<EdgeOfTet> edges_{};  // Ascending.
+  std::vector<LocalIndex> new_tets_{};
+  std::vector<LocalIndex> new_materials_{};
+};
+
+}  // namespace
+
+Geometry::Geometry(const mesh::CoarseMesh& mesh) : has_vertex_(at(mesh.num_vertices()), 0)
+{
+  for (std::size_t f = 0; f < mesh.face_patch.size(); ++f) {
+    const LocalIndex* corners = &mesh.face_vertices[3 * f];
+    faces_.push_back(
+        {mesh::sorted_triangle(corners[0], corners[1], corners[2]), mesh.face_patch[f]});
+    for (std::size_t c = 0; c < 3; ++c) {
+      has_vertex_[at(corners[c])] = 1;
+      edges_.push_back(edge_key(corners[c], corners[(c + 1) % 3]));
+    }
+  }
+  std::ranges::sort(faces_);
+  std::ranges::sort(edges_);
+}
+
+bool Geometry::has_edge(LocalIndex a, LocalIndex b) const
+{
+  return std::ranges::binary_search(edges_, edge_key(a, b));
+}
+
+LocalIndex Geometry::patch_of(LocalIndex a, LocalIndex b, LocalIndex c) const
+{
+  if (!has_vertex(a) || !has_vertex(b) || !has_vertex(c)) return kNoIndex;
+  const Face wanted{mesh::sorted_triangle(a, b, c), kNoIndex};
+  const auto found = std::ranges::lower_bound(faces_, wanted);
+  return found != faces_.end() && found->vertices == wanted.vertices ? found->patch : kNoIndex;
+}
+
+bool Geometry::has_two_faces_on_a_patch(const Tet& tet) const
+{
+  std::array<LocalIndex, 4> patches{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    const auto& [i, j, k] = mesh::kTetFaceCorners[c];
+    patches[c] = patch_of(tet[i], tet[j], tet[k]);
+    const auto before = std::span(patches).first(c);
+    if (patches[c] != kNoIndex && std::ranges::find(before, patches[c]) != before.end())
+      return true;
+  }
+  return false;
+}
+
+LocalIndex flip_tets(mesh::CoarseMesh& mesh, const Geometry& geometry)
+{
+  return Flipper(mesh, geometry).run();
+}
+
+}  // namespace tessera::coarse

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the benches that run `tessera mesh` share: what to mesh, one run, its figures."""
+import argparse
+import dataclasses
+import json
+import os
+import pathlib
+import resource
+import subprocess
+import sys
+import time
+
+
+@dataclasses.dataclass(frozen=True)
+class Subject:
+    """What a bench meshes: a model with its coarse size, or a case file as it is."""
+    name: str
+    file: pathlib.Path
+    max_size: str  # Empty: `file` is a case.
+
+    def case_in(self, folder):
+        if not self.max_size:
+            return self.file
+        case = folder / "case.toml"
+        case.write_text(f"[geometry]\nfile = '{self.file}'\n[coarse]\nmax_size = {self.max_size}\n")
+        return case
+
+
+def subject(argument):
+    """MODEL=MAX_SIZE or CASE.toml, for argparse."""
+    file, _, max_size = argument.rpartition("=") if "=" in argument else (argument, "", "")
+    path = pathlib.Path(file).resolve()
+    if not path.is_file():
+        raise argparse.ArgumentTypeError(f"{path} is no file")
+    if not max_size and path.suffix != ".toml":
+        raise argparse.ArgumentTypeError(f"{argument}: MODEL=MAX_SIZE or CASE.toml expected")
+    return Subject(f"{path.name}, {max_size}" if max_size else path.stem, path, max_size)
+
+
+@dataclasses.dataclass(frozen=True)
+class Run:
+    """What a run said and took. CPU time is that of all ranks and jobs, and of mpirun."""
+    report: dict
+    wall_s: float
+    cpu_s: float
+
+    @property
+    def tets(self):
+        return self.report["num_tets"]
+
+    def stage_cpu_s(self, name):
+        return sum(stage["cpu_s"] for stage in self.report["stages"] if stage["name"] == name)
+
+    def quality(self):
+        """Mean, 1st percentile and minimum of the mean ratio, smallest angle."""
+        found = self.report["quality"]
+        return {**{name: found["mean_ratio"][name] for name in ("mean", "p01", "min")},
+                "angle": found["min_dihedral_deg"]}
+
+
+def cpu_of_children():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def run_mesh(program, what, overrides, work, ranks=2):
+    """One run of a subject in the folder `work`. A degraded one counts; any other failure ends the bench."""
+    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    command = ["mpirun", "-n", str(ranks), "--bind-to", "none", "--oversubscribe", program, "mesh",
+               what.case_in(work), "--output", work / "mesh", "--overwrite", "--quiet"]
+    for override in overrides:
+        command += ["--set", override]
+    start, cpu = time.monotonic(), cpu_of_children()
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    wall_s, cpu_s = time.monotonic() - start, cpu_of_children() - cpu
+    if done.returncode not in (0, 3):
+        sys.exit(f"{what.name} with {', '.join(overrides)}: exit code {done.returncode}\n{done.stderr}")
+    return Run(json.loads((work / "mesh" / "report.json").read_text()), wall_s, cpu_s)
