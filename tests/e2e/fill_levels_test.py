@@ -81,7 +81,7 @@ class Cases(FillLevelsTest):
         self.assertAlmostEqual(one["boundary_area"], two["boundary_area"], delta=1e-9)
 
     def test_torus(self):
-        small = ("coarse.max_size=8", "decompose.subdomains=5")
+        small = ("coarse.max_size=8", "coarse.curvature=1", "decompose.subdomains=5")
         self.assert_conforms("torus", 1, OPTIMIZE, *small)
         self.assert_conforms("torus", 2, *small)
 
