@@ -81,7 +81,7 @@ class Cases(FillLevelsTest):
         self.assertAlmostEqual(one["boundary_area"], two["boundary_area"], delta=1e-9)
 
     def test_torus(self):
-        small = ("coarse.max_size=8", "decompose.subdomains=5")
+        small = ("coarse.max_size=8", "coarse.curvature=1", "decompose.subdomains=5")
         self.assert_conforms("torus", 1, OPTIMIZE, *small)
         self.assert_conforms("torus", 2, *small)
 
@@ -91,6 +91,43 @@ class Cases(FillLevelsTest):
         two = self.assert_conforms("sphere", 2, OPTIMIZE, "coarse.max_size=1")
         auto = self.assert_conforms("sphere", "auto", OPTIMIZE, "coarse.max_size=1")
         self.assertEqual(auto["digest"], two["digest"])
+
+
+# A thin can, so coarse that surfaces lie far from its tets.
+CAN = (
+    "algebraic3d\n"
+    "solid hole = cylinder (0, 0, -5; 0, 0, 5; 9.7) and plane (0, 0, -3; 0, 0, -1) and plane (0, 0, 3; 0, 0, 1);\n"
+    "solid all = cylinder (0, 0, -5; 0, 0, 5; 10) and plane (0, 0, -2; 0, 0, -1) and plane (0, 0, 2; 0, 0, 1);\n"
+    "solid can = all and not hole;\ntlo can;\n"
+)
+
+
+class Folds(FillLevelsTest):
+    """Children of filled tets that fold on finer levels, whatever is smoothed."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("can.geo", CAN)
+        self.case = self.write_case("can.toml", geometry="can.geo", max_size=7, subdomains=6)
+
+    def degraded(self, folder, *values, ranks=None):
+        values = ("coarse.curvature=0.6", "coarse.grading=1", OPTIMIZE, "fill.levels=1", *values)
+        outcome = self.run_program(
+            "mesh", self.case, "--output", folder, "--progress", "never", *sets(*values), ranks=ranks
+        )
+        self.assertEqual(outcome.code, DEGRADED, outcome.err)
+        self.assertIn("kept off the geometry", outcome.out)
+        return self.folder / folder
+
+    def test_points_are_held_back_until_no_tet_is_folded(self):
+        filled = self.checked(self.degraded("filled", "refine.levels=1"))
+        split = self.degraded("split", "refine.levels=3")
+        figures = self.checked(split)
+        self.assertGreater(figures["num_points_off_geometry"], filled["num_points_off_geometry"])
+        self.assert_is_split(figures, 2)
+        other = self.degraded("other", "refine.levels=3", ranks=3)
+        self.assertEqual(program.figures(other), figures)
+        self.assertEqual(program.mesh_files(other), program.mesh_files(split))
 
 
 class Options(FillLevelsTest):
