@@ -305,8 +305,13 @@ RunOutline corrected(RunOutline outline, const Calibration& calibration)
     const KernelRates& rates = calibration.rates.of(outline.kernels[s]);
     number::PieceCounts& piece = outline.pieces[s];
     const double tets = rates.tets_per_expected * static_cast<double>(piece.tets);
+    // Samples are of pieces before the split, which has closed forms.
+    const double vertices =
+        outline.splits_pieces()
+            ? rates.tets_per_expected * static_cast<double>(piece.interior_vertices)
+            : rates.interior_vertices_per_tet * tets;
     piece.tets = std::llround(tets);
-    piece.interior_vertices = std::llround(rates.interior_vertices_per_tet * tets);
+    piece.interior_vertices = std::llround(vertices);
   }
   for (const SampleSet& set : calibration.samples) {
     if (set.levels != outline.levels) continue;  // Also where pieces are split: by the rates.

@@ -61,8 +61,8 @@ decompose::DecomposeOptions options_of(const config::Case& run_case,
   if (options.subdomains > 0 || !number) return options;
   const double for_parts = 1.0 * decompose::kAutoSubdomainsAPart * options.parts;
   const auto most = static_cast<double>(weights.size());
-  options.subdomains = static_cast<int>(
-      std::clamp(std::max({*number, for_parts, 1.0 * options.least}), 1.0, most));
+  options.subdomains =
+      static_cast<int>(std::clamp(std::max({*number, for_parts, 1.0 * options.least}), 1.0, most));
   return options;
 }
 

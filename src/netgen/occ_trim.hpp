@@ -29,7 +29,8 @@ class OccTrim {
   [[nodiscard]] bool contains(const Uv& uv) const;
 
  private:
-  static constexpr int kNumCells = 32;  ///< A side; a boundary cell is then small, load still fast.
+  static constexpr int kNumCells =
+      64;  ///< A side: few points are in boundary cells, and load is fast.
   enum class Cell : char { unknown, boundary, inside, outside };
   using Place = std::array<int, 2>;
 

@@ -21,8 +21,8 @@ std::vector<InstructionSet> find_instruction_sets()
   return sets;
 }
 
-// TESSERA_TEST_INSTRUCTION_SET is the name of the last one to be used: the tests show with it that no
-// bit of the mesh depends on the processor. No option, for no user needs it.
+// TESSERA_TEST_INSTRUCTION_SET is the name of the last one to be used: the tests show with it that
+// no bit of the mesh depends on the processor. No option, for no user needs it.
 std::vector<InstructionSet> up_to_wanted_set(std::vector<InstructionSet> sets)
 {
   const char* const wanted = std::getenv("TESSERA_TEST_INSTRUCTION_SET");
