@@ -29,9 +29,9 @@ constexpr double kAutoSubdividedTets = 5e5;
 // A job that splits so many takes one to two seconds and about 450 MB.
 constexpr double kMostSplitTets = 2e6;
 
-// Our optimiser fills so many in 30 ms. More subdomains have more seams, which cost as much again;
+// Our optimiser fills so many in 70 ms. More subdomains have more seams, which cost as much again;
 // fewer leave ranks without work.
-constexpr double kAutoOptimizedTets = 2e4;
+constexpr double kAutoOptimizedTets = 5e4;
 constexpr double kLeastOptimized = 8.0;
 
 // How many subdomains "auto" wants where NETGEN fills none: its own skins want few seams, and

@@ -78,7 +78,8 @@ subdomain::PieceSurroundings PieceSurfaces::surroundings(LocalIndex subdomain, L
     if (other > subdomain && !is_of_own_material) continue;
     SharedPart part = find_shared(store_, other);
     if (other < subdomain) owners.push_back({other, std::move(part.surface.owned)});
-    if (is_of_own_material) around.halos.push_back(std::move(part.halo));
+    if (is_of_own_material)
+      around.halos.push_back(subdomain::halo_beside(part.halo, around.surface));
   }
   around.places = number::place_surface(around.surface.simplices, owners, n);
   return around;

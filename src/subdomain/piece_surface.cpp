@@ -60,6 +60,28 @@ void copy_vertices(const mesh::Piece& piece, const std::vector<char>& is_used, m
   }
 }
 
+// The tets with a flagged vertex, in their order, without boundary triangles.
+mesh::Piece tets_touching(const mesh::Piece& piece, const std::vector<char>& is_flagged)
+{
+  std::vector<char> is_used(at(piece.num_vertices()), 0);
+  std::vector<LocalIndex> tets;
+  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
+    const LocalIndex* v = &piece.tet_vertices[4 * at(t)];
+    if (std::none_of(v, v + 4, [&](LocalIndex i) { return is_flagged[at(i)] != 0; })) continue;
+    tets.push_back(t);
+    for (std::size_t c = 0; c < 4; ++c) is_used[at(v[c])] = 1;
+  }
+  mesh::Piece some{.subdomain = piece.subdomain, .material = piece.material};
+  std::vector<LocalIndex> number(at(piece.num_vertices()), kNoIndex);
+  copy_vertices(piece, is_used, some, number);
+  for (const LocalIndex t : tets) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      some.tet_vertices.push_back(number[at(piece.tet_vertices[4 * at(t) + c])]);
+    }
+  }
+  return some;
+}
+
 }  // namespace
 
 number::SurfaceList surface_of(const mesh::Piece& piece)
@@ -84,24 +106,17 @@ number::SurfaceList surface_of(const mesh::Piece& piece)
 mesh::Piece halo_of(const mesh::Piece& piece, const number::SurfaceList& surface,
                     const number::SharedSurface& shared)
 {
-  const std::vector<char> on_seam = vertices_on_seams(piece, surface, shared);
-  std::vector<char> is_used(at(piece.num_vertices()), 0);
-  std::vector<LocalIndex> tets;
-  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-    const LocalIndex* v = &piece.tet_vertices[4 * at(t)];
-    if (std::none_of(v, v + 4, [&](LocalIndex i) { return on_seam[at(i)] != 0; })) continue;
-    tets.push_back(t);
-    for (std::size_t c = 0; c < 4; ++c) is_used[at(v[c])] = 1;
+  return tets_touching(piece, vertices_on_seams(piece, surface, shared));
+}
+
+mesh::Piece halo_beside(const mesh::Piece& halo, const number::SurfaceList& surface)
+{
+  std::vector<char> is_shared(at(halo.num_vertices()), 0);
+  for (LocalIndex v = 0; v < halo.num_skin_vertices(); ++v) {
+    is_shared[at(v)] =
+        std::ranges::binary_search(surface.simplices.vertices, halo.skin_point(v)) ? 1 : 0;
   }
-  mesh::Piece halo{.subdomain = piece.subdomain, .material = piece.material};
-  std::vector<LocalIndex> number(at(piece.num_vertices()), kNoIndex);
-  copy_vertices(piece, is_used, halo, number);
-  for (const LocalIndex t : tets) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      halo.tet_vertices.push_back(number[at(piece.tet_vertices[4 * at(t) + c])]);
-    }
-  }
-  return halo;
+  return tets_touching(halo, is_shared);
 }
 
 number::PieceCounts count_split_piece(const mesh::Piece& piece, const number::SurfaceList& surface,

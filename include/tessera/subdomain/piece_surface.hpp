@@ -21,6 +21,10 @@ namespace tessera::subdomain {
 [[nodiscard]] mesh::Piece halo_of(const mesh::Piece& piece, const number::SurfaceList& surface,
                                   const number::SharedSurface& shared);
 
+/// @brief Of a neighbour's halo the tets that touch a piece: its other seams are no concern of that
+/// piece. Local; O(n log n). @param[in] surface Of the piece.
+[[nodiscard]] mesh::Piece halo_beside(const mesh::Piece& halo, const number::SurfaceList& surface);
+
 /// @brief What the piece will hold when every edge is split into `n`: closed forms. Local;
 /// O(m log m) in the tets.
 [[nodiscard]] number::PieceCounts count_split_piece(const mesh::Piece& piece,

@@ -18,12 +18,13 @@ namespace tessera::subdomain {
 
 /// @brief What a piece knows of the others when it is split.
 struct PieceSurroundings {
-  number::SurfaceList surface{};     ///< surface_of() it.
-  number::SharedSurface shared{};    ///< What its neighbours have of that.
-  number::SurfacePlaces places{};    ///< Who numbers it.
-  std::vector<mesh::Piece> halos{};  ///< halo_of() all neighbours of its material; ascending.
-  bool is_smoothed = true;           ///< Else new vertices off the geometry are midpoints. The same
-                                     ///< for all pieces of a material, whatever made them.
+  number::SurfaceList surface{};   ///< surface_of() it.
+  number::SharedSurface shared{};  ///< What its neighbours have of that.
+  number::SurfacePlaces places{};  ///< Who numbers it.
+  std::vector<mesh::Piece>
+      halos{};              ///< halo_beside() it of all neighbours of its material; ascending.
+  bool is_smoothed = true;  ///< Else new vertices off the geometry are midpoints. The same
+                            ///< for all pieces of a material, whatever made them.
 
   static auto fields(auto& self)
   {
