@@ -4,6 +4,7 @@ subdivision, with the same bits for any number of ranks and after any interrupti
 import json
 import os
 import signal
+import re
 import unittest
 
 import kill
@@ -261,7 +262,8 @@ class Killed(kill.RestartTest):
 
     def has_split(self, number):
         return lambda watch: watch.wait_for(
-            lambda: len(list((self.out / "pieces").glob("refined_*.record"))) >= number
+            lambda: sum(re.fullmatch(r"refined_\d+\.record", name) is not None
+                        for name in kill.names_in(self.out / "pieces")) >= number
         )
 
     def test_when_the_stage_begins(self):

@@ -42,7 +42,7 @@ class Watch:
 
     def wait_for_half_written_file(self, subfolder):
         """Until there is a file that has not got its final name; False if the run has ended first."""
-        return self.wait_for(lambda: any(".tmp-" in name for name in _names_in(self.folder / subfolder)))
+        return self.wait_for(lambda: any(".tmp-" in name for name in names_in(self.folder / subfolder)))
 
     def wait(self, seconds):
         """False if the run has ended by then."""
@@ -100,7 +100,8 @@ class Watch:
         raise AssertionError(f"waited {program.HANG_S} s in vain")
 
 
-def _names_in(folder):
+def names_in(folder):
+    """Names of the files there; none if there is no such folder, or it is gone by now."""
     with contextlib.suppress(FileNotFoundError):
         return os.listdir(folder)
     return []
@@ -169,7 +170,7 @@ class RestartTest(program.ProgramTest):
         """A moment: when there are so many finished pieces."""
 
         def count():
-            names = _names_in(self.out / "pieces")
+            names = names_in(self.out / "pieces")
             return sum(name.startswith("piece_") and name.endswith(".record") for name in names)
 
         return lambda watch: watch.wait_for(lambda: count() >= number)
