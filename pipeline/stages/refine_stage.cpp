@@ -12,6 +12,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/subdomain/count_pieces.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
@@ -213,6 +214,17 @@ mesh::ProjectionLimiter lowered(const mesh::ProjectionLimiter& limiter,
   return lower;
 }
 
+// Ids were given before any piece was split.
+void require_counted(const std::vector<subdomain::PieceSummary>& pieces,
+                     const std::vector<number::PieceCounts>& counts)
+{
+  for (const subdomain::PieceSummary& piece : pieces) {
+    if (subdomain::counts_of(piece) == counts[at(piece.subdomain)]) continue;
+    throw MeshError(fmt::format("piece {} does not hold what was reckoned before it was split",
+                                piece.subdomain));
+  }
+}
+
 }  // namespace
 
 FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& work,
@@ -222,9 +234,10 @@ FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& wo
   const auto num_steps = 2 * std::ssize(filled.pieces) + std::ssize(work.ranges);
   StageScope stage(context, "refine", num_steps, "pieces");
   StageWork stage_work(run_case, work, filled, context, stage);
+  const std::vector<number::PieceCounts> counts = stage_work.count_pieces();
   load_refinement({.fill_levels = work.fill_levels,
                    .levels = work.levels,
-                   .counts = stage_work.count_pieces(),
+                   .counts = counts,
                    .length_unit = work.length_unit,
                    .has_files = work.has_files},
                   run_case.output, context);
@@ -236,6 +249,7 @@ FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& wo
     if (all.folded.empty()) break;
     all_or_none(context.comm, [&] { limiter = lowered(limiter, folds); });
   }
+  all_or_none(context.comm, [&] { require_counted(all.pieces, counts); });
   all.seam_sums = std::move(filled.seam_sums);
   all.failures = std::move(filled.failures);
   all.improvement = filled.improvement;

@@ -7,25 +7,6 @@
 #include "optimize/working_mesh.hpp"
 
 namespace tessera::optimize {
-namespace {
-
-void run_step(WorkingMesh& mesh, Step step, const Schedule& schedule)
-{
-  switch (step) {
-    case Step::smooth:
-      return smooth_pass(mesh);
-    case Step::smooth_worst:
-      return smooth_worst_pass(mesh, schedule);
-    case Step::swap:
-      return swap_pass(mesh, schedule);
-    case Step::collapse:
-      return collapse_pass(mesh, schedule);
-    case Step::tighten:
-      return tighten_bound(mesh);
-  }
-}
-
-}  // namespace
 
 OptimizeResult optimize(const TetMesh& mesh, const Schedule& schedule,
                         const OptimizeOptions& options)

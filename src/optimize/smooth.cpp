@@ -16,19 +16,10 @@
 namespace tessera::optimize {
 namespace {
 
-void run_step(WorkingMesh& mesh, Step step, const Schedule& schedule)
+void require_moves_only(const Schedule& schedule)
 {
-  switch (step) {
-    case Step::smooth:
-      return smooth_pass(mesh);
-    case Step::smooth_worst:
-      return smooth_worst_pass(mesh, schedule);
-    case Step::tighten:
-      return tighten_bound(mesh);
-    case Step::swap:
-    case Step::collapse:
-      break;
-  }
+  const auto changes_tets = [](Step step) { return step == Step::swap || step == Step::collapse; };
+  if (std::ranges::none_of(schedule.steps, changes_tets)) return;
   throw ConfigError("smooth() moves vertices only: its steps are m, w and t");
 }
 
@@ -99,6 +90,7 @@ std::vector<double> smooth(const TetMesh& mesh, const Schedule& schedule)
   if (mesh.vertex_fixed.size() != mesh.vertex_xyz.size() / 3) {
     throw MeshError("flags of fixed vertices are not one each");
   }
+  require_moves_only(schedule);
   WorkingMesh working = make_smoothing_mesh(mesh);
   untangle_by_moving(working);
   tighten_bound(working);

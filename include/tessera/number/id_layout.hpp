@@ -23,6 +23,8 @@ struct PieceCounts {
     return std::tie(self.interior_vertices, self.tets, self.boundary_triangles,
                     self.owned_vertices);
   }
+
+  friend bool operator==(const PieceCounts&, const PieceCounts&) = default;
 };
 
 /// @brief Dense 64-bit ids 0…N-1 of vertices, tets and boundary triangles; the same for every
