@@ -23,7 +23,7 @@ namespace {
 void load_workers(const RunResult& run, const subdomain::PartitionedMesh& cut,
                   const OutputPlan& output, RunContext& context)
 {
-  load_mesh(cut, output.outline.fill_levels, run.largest_size, context);
+  load_mesh(cut, context);
   if (!output.outline.is_one_pass) return;
   load_numbers(output.outline.pieces, output.length_unit, run.resolved.output, context);
 }
@@ -39,10 +39,9 @@ void split_pieces(RunResult& run, const subdomain::PartitionedMesh& cut, const O
 {
   const RunOutline& outline = output.outline;
   const auto& ranges = outline.has_files ? outline.files : outline.jobs;
-  run.filled = run_refine_stage(run.resolved,
-                                {cut, run.kernels, outline.fill_levels, outline.levels, ranges,
-                                 outline.has_files, output.length_unit},
-                                run.limiter, std::move(run.filled), context);
+  run.filled = run_refine_stage(
+      run.resolved, {cut, run.kernels, run.splits, ranges, outline.has_files, output.length_unit},
+      run.limiter, std::move(run.filled), context);
   run_verify_stage(cut, outline.jobs, run.filled, context);
 }
 
@@ -51,16 +50,14 @@ void split_pieces(RunResult& run, const subdomain::PartitionedMesh& cut, const O
 RunResult run_pipeline(const config::Case& given, const RunOptions& options, RunContext& context)
 {
   RunResult run = run_coarse_part(given, options, context);  // Model, size, coarse, decompose.
-  const subdomain::PartitionedMesh cut(run.coarse.mesh, run.decomposition.decomposition);
+  const subdomain::PartitionedMesh cut = partitioned_mesh(run);
   const OutputPlan output = plan_output(run, cut, options, context);
   const RunOutline& outline = output.outline;
   load_workers(run, cut, output, context);
   require_disk_space(outline, run.resolved.output, context);
 
-  config::Case to_fill = run.resolved;
-  to_fill.refine.levels = outline.fill_levels;
   UntangledFill fill =
-      untangle_and_fill(to_fill, {cut, run.kernels, outline.jobs, options.state}, context);
+      untangle_and_fill(run.resolved, {cut, run.kernels, outline.jobs, options.state}, context);
   run.limiter = std::move(fill.limiter);
   run.filled = std::move(fill.filled);
   if (wants_better_seams(run)) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "tessera/config/case.hpp"
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/fill/options.hpp"
+#include "tessera/mesh/edge_levels.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
 
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/hand_over_stage.hpp"
@@ -27,9 +28,10 @@ struct RunOptions {
 /// @brief What a run has made; the same on every rank. The mesh itself is in the output folder.
 struct RunResult {
   config::Case resolved{};  ///< With size and levels as chosen.
-  double largest_size = std::numeric_limits<double>::infinity();  ///< largest_coarse_size().
   model::ModelSource model{};
   CoarseResult coarse{};
+  mesh::EdgeLevels levels{};  ///< Of the coarse edges, in all.
+  int splits = 0;             ///< How many of them follow after the fills.
   decompose::DecomposeResult decomposition{};
   std::vector<fill::KernelKind> kernels{};  ///< By subdomain, as the case wants them.
   mesh::ProjectionLimiter limiter{};
@@ -38,5 +40,11 @@ struct RunResult {
   GlobalIndex num_vertices = 0;               ///< Of the whole mesh, made or not.
   GlobalIndex num_tets = 0;
 };
+
+/// @brief The coarse mesh of a run, cut, with the levels on which pieces are filled. Local.
+[[nodiscard]] inline subdomain::PartitionedMesh partitioned_mesh(const RunResult& run)
+{
+  return {run.coarse.mesh, run.decomposition.decomposition, run.levels.shifted(-run.splits)};
+}
 
 }  // namespace tessera::pipeline

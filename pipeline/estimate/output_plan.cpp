@@ -32,8 +32,8 @@ OutputPlan plan_output(const RunResult& run, const subdomain::PartitionedMesh& c
   OutputPlan plan{.length_unit = output_length_unit(run)};
   all_or_none(context.comm, [&] {
     with_file_context(run.resolved, [&] {
-      plan.outline = outline_run(cut, run.kernels, outline_levels(run.resolved, run.kernels),
-                                 output_ranges(run, options), run.resolved.improve.seams);
+      plan.outline = outline_run(cut, run.kernels, run.splits, output_ranges(run, options),
+                                 run.resolved.improve.seams);
       if (options.on_piece) plan.outline.hand_over_pieces();
       if (const auto defect = file_too_large(plan.outline, run.resolved)) {
         throw ConfigError(*defect);

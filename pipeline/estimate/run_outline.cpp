@@ -5,18 +5,22 @@
 
 #include <fmt/format.h>
 
-#include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
 
 namespace tessera::pipeline {
 namespace {
 
-// On the geometry there are those between materials, and they are no seams.
-GlobalIndex num_seam_triangles(const mesh::Skeleton& skeleton, LocalIndex subdomain)
+// Fine ones. On the geometry there are those between materials, and they are no seams.
+GlobalIndex num_seam_triangles(const mesh::Skeleton& skeleton, const mesh::LatticeLevels& levels,
+                               LocalIndex subdomain)
 {
-  return std::ranges::count_if(skeleton.triangles_of(subdomain), [&](LocalIndex t) {
-    return skeleton.triangle_patch[at(t)] == kNoIndex;
-  });
+  GlobalIndex sum = 0;
+  for (const LocalIndex t : skeleton.triangles_of(subdomain)) {
+    if (skeleton.triangle_patch[at(t)] != kNoIndex) continue;
+    sum += mesh::num_small_triangles(skeleton, levels, t);
+  }
+  return sum;
 }
 
 template <class Count>
@@ -61,30 +65,31 @@ void RunOutline::hand_over_pieces()
   }
 }
 
-OutlineLevels outline_levels(const config::Case& run_case,
-                             const std::vector<fill::KernelKind>& kernels)
+int splits_after_fill(const fill::FillOptions& options,
+                      const std::vector<fill::KernelKind>& kernels, int levels)
 {
-  const int all = run_case.refine.levels;
-  return {are_counts_known(kernels) ? all : fill::fill_levels(run_case.fill, all), all};
+  return are_counts_known(kernels) ? 0 : levels - fill::fill_levels(options, levels);
 }
 
 RunOutline outline_run(const subdomain::PartitionedMesh& cut,
-                       const std::vector<fill::KernelKind>& kernels, const OutlineLevels& levels,
+                       const std::vector<fill::KernelKind>& kernels, int splits,
                        const std::vector<subdomain::SubdomainRange>& files, bool improve_seams)
 {
-  RunOutline outline{.levels = levels.all,
-                     .fill_levels = levels.fill,
+  const mesh::EdgeLevels all = cut.levels.shifted(splits);
+  RunOutline outline{.levels = all.largest(),
+                     .fill_levels = cut.levels.largest(),
                      .num_coarse_tets = cut.coarse.num_tets(),
                      .kernels = kernels,
-                     .pieces = subdomain::count_subdivided_pieces(cut, levels.all),
+                     .pieces = subdomain::count_subdivided_pieces(cut, all),
                      .files = files};
   outline.is_one_pass = are_counts_known(kernels);
   outline.num_skeleton_vertices =
-      mesh::HostLayout(cut.skeleton).num_skeleton_points(mesh::lattice::intervals(levels.all));
+      mesh::num_skeleton_points(cut.skeleton, mesh::lattice_levels(cut.skeleton, all));
+  const mesh::LatticeLevels filled = mesh::lattice_levels(cut.skeleton, cut.levels);
   outline.seam_triangles.resize(kernels.size());
   for (LocalIndex s = 0; improve_seams && s < cut.num_subdomains(); ++s) {
     if (kernels[at(s)] == fill::KernelKind::subdivide) continue;
-    outline.seam_triangles[at(s)] = num_seam_triangles(cut.skeleton, s) << 2 * levels.fill;
+    outline.seam_triangles[at(s)] = num_seam_triangles(cut.skeleton, filled, s);
   }
   outline.jobs = outline.is_one_pass ? files : subdomain::file_ranges(cut.num_subdomains(), 0);
   return outline;

@@ -19,7 +19,7 @@ namespace tessera::pipeline {
 
 /// @brief What is known or expected of the fine mesh before any of it is made.
 struct RunOutline {
-  int levels = 0;
+  int levels = 0;       ///< Of the finest coarse edge.
   int fill_levels = 0;  ///< On which pieces are filled; the same unless they are split further.
   LocalIndex num_coarse_tets = 0;
   std::vector<fill::KernelKind> kernels{};    ///< Shape (num_subdomains).
@@ -49,22 +49,17 @@ struct RunOutline {
   [[nodiscard]] bool improves_seams() const;
 };
 
-/// @brief On how many levels pieces are filled, and how many there are in all.
-struct OutlineLevels {
-  int fill = 0;
-  int all = 0;
-};
+/// @brief How many of the levels are left for pieces to be split after they were filled. Where all
+/// is subdivided that is none.
+[[nodiscard]] int splits_after_fill(const fill::FillOptions& options,
+                                    const std::vector<fill::KernelKind>& kernels, int levels);
 
-/// @brief Those of a case. Where all is subdivided, pieces have all levels at once.
-[[nodiscard]] OutlineLevels outline_levels(const config::Case& run_case,
-                                           const std::vector<fill::KernelKind>& kernels);
-
-/// @brief The outline of a run with so many levels. Local; O(coarse tets).
+/// @brief The outline of a run. Local; O(coarse tets).
+/// @param[in] cut With the levels on which pieces are filled. @param[in] splits Levels that follow.
 /// @param[in] files output.files, or those asked for; see run_pipeline().
 /// @param[in] improve_seams improve.seams.
 [[nodiscard]] RunOutline outline_run(const subdomain::PartitionedMesh& cut,
-                                     const std::vector<fill::KernelKind>& kernels,
-                                     const OutlineLevels& levels,
+                                     const std::vector<fill::KernelKind>& kernels, int splits,
                                      const std::vector<subdomain::SubdomainRange>& files,
                                      bool improve_seams);
 

@@ -78,9 +78,8 @@ class MeshWorker final : public jobs::Worker {
     cut_.reset();
     coarse_ = std::move(load.coarse);
     decomposition_ = std::move(load.decomposition);
-    levels_ = load.levels;
     output_ = std::move(load.output);
-    cut_.emplace(coarse_, decomposition_, load.largest_size);
+    cut_.emplace(coarse_, decomposition_, std::move(load.levels));
   }
 
   void take(LimiterLoad load) { limiter_ = std::move(load.limiter); }
@@ -91,8 +90,9 @@ class MeshWorker final : public jobs::Worker {
     output_options_.formats = std::move(load.formats);
     output_options_.compression = load.compression;
     output_options_.cell_quality = load.cell_quality;
-    ids_ = number::IdLayout::by_host(mesh::HostLayout(cut_->skeleton),
-                                     mesh::lattice::intervals(levels_), load.counts);
+    ids_ =
+        number::IdLayout::by_host(mesh::HostLayout(cut_->skeleton),
+                                  mesh::lattice_levels(cut_->skeleton, cut_->levels), load.counts);
   }
 
   void take(ImprovementLoad load)
@@ -108,7 +108,7 @@ class MeshWorker final : public jobs::Worker {
                              .compression = load.compression,
                              .cell_quality = load.cell_quality};
     refinement_.emplace(Refinement{load.settings, std::move(output),
-                                   subdomain::PieceRefiner(*cut_, load.settings.fill_levels),
+                                   subdomain::PieceRefiner(*cut_, load.settings.splits),
                                    number::IdLayout::by_owner(load.settings.counts)});
   }
 
@@ -158,7 +158,7 @@ class MeshWorker final : public jobs::Worker {
         untangle::tets_on_geometry(coarse_, cut_->tets[test.subdomain], cut_->on_geometry);
     const mesh::TetComplex complex = mesh::tet_complex(coarse_, cut_->skeleton, tets);
     refine::RefineContext context = refine_context(limiter);
-    context.levels = test.levels;
+    context.levels = context.levels.limited(test.levels);
     const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, context);
     auto folds = untangle::find_folds(complex, cut_->skeleton, lattice, limiter);
     // NETGEN begins with the skin alone if children are bad, and our optimiser untangles them. Both
@@ -178,7 +178,7 @@ class MeshWorker final : public jobs::Worker {
                                         .skeleton = cut_->skeleton,
                                         .model = nudged ? *nudged : *scaled_model_,
                                         .limiter = limiter_,
-                                        .levels = levels_,
+                                        .levels = cut_->levels,
                                         .measure_distance = true};
     std::optional<subdomain::WriteContext> numbers;
     if (ids_)
@@ -217,7 +217,6 @@ class MeshWorker final : public jobs::Worker {
     fail_if_asked("refine", first);
     const Refinement& to = *refinement_;
     refine::RefineContext context = refine_context(limiter_);
-    context.levels = to.settings.levels;
     context.measure_distance = true;
     const mesh::HostLayout hosts(cut_->skeleton);
     const subdomain::WriteContext numbers{
@@ -262,7 +261,7 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] refine::RefineContext refine_context(const mesh::ProjectionLimiter& limiter) const
   {
-    return {coarse_, cut_->skeleton, *scaled_model_, limiter, levels_};
+    return {coarse_, cut_->skeleton, *scaled_model_, limiter, cut_->levels};
   }
 
   double scale_ = 1.0;
@@ -272,7 +271,6 @@ class MeshWorker final : public jobs::Worker {
   mesh::Decomposition decomposition_{};
   std::optional<subdomain::PartitionedMesh> cut_{};
   mesh::ProjectionLimiter limiter_{};
-  int levels_ = 0;
   std::filesystem::path output_{};
   std::optional<number::IdLayout> ids_{};  ///< If they are known before the pieces are.
   std::string length_unit_{};
@@ -315,10 +313,9 @@ Bytes load_model_message(const model::ModelSource& source, double scale)
   return to_bytes(Load(ModelLoad{scale, source}));
 }
 
-Bytes load_mesh_message(const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
-                        int levels, double largest_size, const std::filesystem::path& output)
+Bytes load_mesh_message(const subdomain::PartitionedMesh& cut, const std::filesystem::path& output)
 {
-  return to_bytes(Load(MeshLoad{coarse, decomposition, levels, largest_size, output.string()}));
+  return to_bytes(Load(MeshLoad{cut.coarse, cut.decomposition, cut.levels, output.string()}));
 }
 
 Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,

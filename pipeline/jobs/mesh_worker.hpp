@@ -36,11 +36,10 @@ namespace tessera::pipeline {
 /// @brief load: the model. `scale`: output length units per file length unit.
 [[nodiscard]] Bytes load_model_message(const model::ModelSource& source, double scale);
 
-/// @brief load: coarse mesh and decomposition, the number of levels, the output folder, and the
-/// largest size of the coarse mesh that a fill may aim at (output length unit).
-[[nodiscard]] Bytes load_mesh_message(const mesh::CoarseMesh& coarse,
-                                      const mesh::Decomposition& decomposition, int levels,
-                                      double largest_size, const std::filesystem::path& output);
+/// @brief load: coarse mesh and decomposition, the levels on which pieces are filled, and the
+/// output folder.
+[[nodiscard]] Bytes load_mesh_message(const subdomain::PartitionedMesh& cut,
+                                      const std::filesystem::path& output);
 
 /// @brief load: the finished plan.
 [[nodiscard]] Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter);
@@ -131,15 +130,14 @@ struct FillTask {
 
 /// @brief What jobs need to split pieces further.
 struct RefineSettings {
-  int fill_levels = 0;                        ///< That the pieces were filled on.
-  int levels = 0;                             ///< To be reached.
+  int splits = 0;                             ///< Levels of the split.
   std::vector<number::PieceCounts> counts{};  ///< Of all pieces as they will be.
   std::string length_unit{};
   bool has_files = true;  ///< False: pieces go into the store.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.fill_levels, self.levels, self.counts, self.length_unit, self.has_files);
+    return std::tie(self.splits, self.counts, self.length_unit, self.has_files);
   }
 };
 

@@ -22,13 +22,12 @@ struct ModelLoad {
 struct MeshLoad {
   mesh::CoarseMesh coarse{};
   mesh::Decomposition decomposition{};
-  int levels = 0;
-  double largest_size = 0.0;
+  mesh::EdgeLevels levels{};
   std::string output{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.coarse, self.decomposition, self.levels, self.largest_size, self.output);
+    return std::tie(self.coarse, self.decomposition, self.levels, self.output);
   }
 };
 

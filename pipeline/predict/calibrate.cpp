@@ -102,12 +102,14 @@ class Sampler {
   {
     SampleSet set = choose(kernel);
     if (set.jobs.empty()) return;
-    const RunOutline outline = outline_run(cut_, run_.kernels, {set.levels, set.levels},
-                                           outline_.files, run_.resolved.improve.seams);
+    const subdomain::PartitionedMesh cut(cut_.coarse, cut_.decomposition,
+                                         cut_.levels.limited(set.levels));
+    const RunOutline outline =
+        outline_run(cut, run_.kernels, 0, outline_.files, run_.resolved.improve.seams);
     own_.times.clear();
-    fill(set, outline);
+    fill(set, cut, outline);
     note_work(set, outline);
-    note_files(set, outline);
+    note_files(set, cut, outline);
     calibration_.samples.push_back(std::move(set));
   }
 
@@ -131,22 +133,21 @@ class Sampler {
   }
 
   // As run_pipeline() does it, with the sampled jobs in place of all.
-  void fill(SampleSet& set, const RunOutline& outline)
+  void fill(SampleSet& set, const subdomain::PartitionedMesh& cut, const RunOutline& outline)
   {
-    config::Case run_case = run_.resolved;
-    run_case.refine.levels = set.levels;
-    load_mesh(cut_, set.levels, run_.largest_size, own_);
+    load_mesh(cut, own_);
     if (outline.is_one_pass) {
-      load_numbers(outline.pieces, length_unit_, run_case.output, own_);
+      load_numbers(outline.pieces, length_unit_, run_.resolved.output, own_);
     }
-    UntangleWork plan{.cut = cut_, .kernels = run_.kernels, .levels = set.levels};
+    UntangleWork plan{.cut = cut, .kernels = run_.kernels};
     for (const subdomain::SubdomainRange& job : set.jobs) {
       for (LocalIndex s = job.first; s < job.last; ++s) plan.subdomains.push_back(s);
     }
     std::ranges::sort(plan.subdomains);
     const mesh::ProjectionLimiter limiter = run_untangle_stage(plan, {}, own_);
     load_limiter(limiter, own_);
-    FilledPieces filled = run_fill_stage(run_case, {cut_, run_.kernels, limiter, set.jobs}, own_);
+    FilledPieces filled =
+        run_fill_stage(run_.resolved, {cut, run_.kernels, limiter, set.jobs}, own_);
     set.pieces = std::move(filled.pieces);
   }
 
@@ -209,7 +210,8 @@ class Sampler {
     return largest;
   }
 
-  void note_files(const SampleSet& set, const RunOutline& outline)
+  void note_files(const SampleSet& set, const subdomain::PartitionedMesh& cut,
+                  const RunOutline& outline)
   {
     GlobalIndex tets = 0;
     GlobalIndex boundary = 0;
@@ -219,7 +221,8 @@ class Sampler {
         boundary += find(set, s)->num_boundary;
       }
     }
-    const FileCosts costs = on_root(context_.comm, [&] { return measure_files(set, outline); });
+    const FileCosts costs =
+        on_root(context_.comm, [&] { return measure_files(set, cut, outline); });
     KernelRates& rates = calibration_.rates.of(set.kernel);
     divide(rates.file_bytes_per_tet, costs.mesh_bytes, static_cast<double>(tets));
     divide(rates.store_bytes_per_tet, costs.store_bytes, static_cast<double>(tets));
@@ -242,14 +245,15 @@ class Sampler {
   }
 
   // On rank 0: writes the samples, unless their jobs have done so, and looks at what there is.
-  [[nodiscard]] FileCosts measure_files(const SampleSet& set, const RunOutline& outline) const
+  [[nodiscard]] FileCosts measure_files(const SampleSet& set, const subdomain::PartitionedMesh& cut,
+                                        const RunOutline& outline) const
   {
     std::vector<number::PieceCounts> counts = outline.pieces;
     for (const subdomain::PieceSummary& piece : set.pieces)
       counts[at(piece.subdomain)] = subdomain::counts_of(piece);
-    const auto ids = number::IdLayout::by_host(mesh::HostLayout(cut_.skeleton),
-                                               mesh::lattice::intervals(set.levels), counts);
-    const subdomain::WriteContext mesh{cut_.coarse, cut_.skeleton, ids, length_unit_};
+    const auto ids = number::IdLayout::by_host(
+        mesh::HostLayout(cut.skeleton), mesh::lattice_levels(cut.skeleton, cut.levels), counts);
+    const subdomain::WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit_};
     const io::OutputOptions& options = run_.resolved.output;
     FileCosts costs;
     const fs::path empty = own_.folder / "header.vtu";

@@ -41,12 +41,11 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
 {
   const RunResult run = run_coarse_part(given, {}, context);
   StageScope prepare(context, "prepare");
-  const subdomain::PartitionedMesh cut(run.coarse.mesh, run.decomposition.decomposition);
+  const subdomain::PartitionedMesh cut = partitioned_mesh(run);
   std::vector<subdomain::SubdomainRange> files;
   all_or_none(context.comm, [&] { files = output_ranges(run, options); });
-  RunOutline outline = outline_run(cut, run.kernels, outline_levels(run.resolved, run.kernels),
-                                   files, run.resolved.improve.seams);
-  load_mesh(cut, outline.fill_levels, run.largest_size, context);
+  RunOutline outline = outline_run(cut, run.kernels, run.splits, files, run.resolved.improve.seams);
+  load_mesh(cut, context);
   prepare.finish("");
 
   PredictionBasis basis{.memory = memory_before_fills(context),

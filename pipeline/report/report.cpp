@@ -235,7 +235,8 @@ Json coarse_json(const RunResult& run)
           {"surface_mesher", word_of(run.coarse.options.surface_mesher)},
           {"tries", run.coarse.tries},
           {"failures", run.coarse.failures},
-          {"levels", run.resolved.refine.levels}};
+          {"levels", run.levels.largest()},
+          {"edges_by_level", run.levels.histogram()}};
 }
 
 Hash128 digest_of(const std::vector<subdomain::PieceSummary>& pieces)

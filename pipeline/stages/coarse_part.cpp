@@ -8,7 +8,9 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/fill/fallbacks.hpp"
+#include "tessera/refine/choose_levels.hpp"
 
+#include "pipeline/estimate/run_outline.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
@@ -20,9 +22,14 @@ namespace {
 // What the store keeps of a run before it fills.
 struct CutCoarseMesh {
   CoarseResult coarse{};
+  mesh::EdgeLevels levels{};
+  int splits = 0;
   decompose::DecomposeResult decomposition{};
 
-  static auto fields(auto& self) { return std::tie(self.coarse, self.decomposition); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.coarse, self.levels, self.splits, self.decomposition);
+  }
 };
 
 std::optional<CutCoarseMesh> kept_coarse_mesh(const RunState* state, const RunContext& context)
@@ -37,7 +44,8 @@ void keep_coarse_mesh(const RunResult& run, const RunState* state, const RunCont
 {
   all_or_none(context.comm, [&] {
     if (state == nullptr || context.comm.rank() != 0) return;
-    state->keep_coarse(to_bytes(CutCoarseMesh{run.coarse, run.decomposition}));
+    state->keep_coarse(
+        to_bytes(CutCoarseMesh{run.coarse, run.levels, run.splits, run.decomposition}));
   });
 }
 
@@ -49,18 +57,29 @@ void require_same_run(const RunResult& run, const RunState* state, const RunCont
   });
 }
 
-// Once more, finer, if the coarse mesh came out too coarse for the size that the case asks for.
-void refit_coarse_mesh(RunResult& run, double target, RunContext& context)
+// The same for all edges, unless the case says which size is wanted.
+mesh::EdgeLevels wanted_levels(const config::Case& resolved, const mesh::CoarseMesh& coarse)
 {
-  const auto size = corrected_max_size(run.coarse.mesh, run.coarse.options.max_size, target,
-                                       run.resolved.refine.levels);
-  if (!size) return;
-  run.resolved.coarse.max_size = *size;
-  const CoarseResult first = std::exchange(run.coarse, run_coarse_stage(run.resolved, context));
-  run.coarse.tries += first.tries;
-  run.coarse.failures.insert(run.coarse.failures.begin(), first.failures.begin(),
-                             first.failures.end());
-  run.coarse.was_limited = run.coarse.was_limited || first.was_limited;
+  if (resolved.size.target == 0.0) return resolved.refine.levels;
+  std::vector<LocalIndex> edges = refine::coarse_edges(coarse);
+  std::vector<double> num_wanted;
+  for (std::size_t e = 0; e < edges.size(); e += 2) {
+    const Vec3 edge = coarse.position(edges[e + 1]) - coarse.position(edges[e]);
+    num_wanted.push_back(norm(edge) / resolved.size.target);
+  }
+  return refine::choose_levels(coarse, std::move(edges), num_wanted, resolved.refine.levels);
+}
+
+// A piece that is split has at least so many levels everywhere.
+void choose_levels(RunResult& run, RunContext& context)
+{
+  const mesh::CoarseMesh& coarse = run.coarse.mesh;
+  const mesh::EdgeLevels wanted =
+      comm::on_root(context.comm, [&] { return wanted_levels(run.resolved, coarse); });
+  const auto kernels =
+      fill::kernels_of(run.resolved.fill, coarse.material_names, coarse.tet_material);
+  run.splits = splits_after_fill(run.resolved.fill, kernels, wanted.largest());
+  run.levels = wanted.raised(run.splits);
 }
 
 }  // namespace
@@ -72,14 +91,15 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   run.model = run_model_stage(given, context);
   require_same_run(run, options.state, context);
   run.resolved = resolve_size(given, context);
-  run.largest_size = largest_coarse_size(given.size.target, run.resolved.refine.levels);
   if (auto kept = kept_coarse_mesh(options.state, context)) {
     run.coarse = std::move(kept->coarse);
+    run.levels = std::move(kept->levels);
+    run.splits = kept->splits;
     run.decomposition = std::move(kept->decomposition);
   } else {
     run.coarse = run_coarse_stage(run.resolved, context);
-    if (given.size.target > 0.0) refit_coarse_mesh(run, given.size.target, context);
-    run.decomposition = run_decompose_stage(run.resolved, run.coarse.mesh, context);
+    choose_levels(run, context);
+    run.decomposition = run_decompose_stage(run, context);
     keep_coarse_mesh(run, options.state, context);
   }
   all_or_none(context.comm, [&] {

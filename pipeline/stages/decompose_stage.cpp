@@ -45,19 +45,15 @@ std::optional<double> number_without_netgen(const std::vector<fill::KernelKind>&
   return std::max(std::ceil(num_filled / kAutoOptimizedTets), kLeastOptimized);
 }
 
-decompose::DecomposeOptions options_of(const config::Case& run_case,
+decompose::DecomposeOptions options_of(const RunResult& run,
                                        const std::vector<fill::KernelKind>& kernels,
                                        const std::vector<double>& weights)
 {
-  decompose::DecomposeOptions options = run_case.decompose;
-  options.parts = run_case.output.parts;
+  decompose::DecomposeOptions options = run.resolved.decompose;
+  options.parts = run.resolved.output.parts;
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-  const OutlineLevels levels = outline_levels(run_case, kernels);
-  if (levels.fill < levels.all) {
-    options.least = static_cast<LocalIndex>(std::ceil(total / kMostSplitTets));
-  }
-  const double num_filled = std::ldexp(total, 3 * (levels.fill - levels.all));
-  const auto number = number_without_netgen(kernels, total, num_filled);
+  if (run.splits > 0) options.least = static_cast<LocalIndex>(std::ceil(total / kMostSplitTets));
+  const auto number = number_without_netgen(kernels, total, std::ldexp(total, -3 * run.splits));
   if (options.subdomains > 0 || !number) return options;
   const double for_parts = 1.0 * decompose::kAutoSubdomainsAPart * options.parts;
   const auto most = static_cast<double>(weights.size());
@@ -66,28 +62,26 @@ decompose::DecomposeOptions options_of(const config::Case& run_case,
   return options;
 }
 
-decompose::DecomposeResult cut(const config::Case& run_case, const mesh::CoarseMesh& coarse)
+decompose::DecomposeResult cut(const RunResult& run)
 {
+  const mesh::CoarseMesh& coarse = run.coarse.mesh;
   const std::vector<fill::KernelKind> kernels =
-      fill::kernels_of(run_case.fill, coarse.material_names, coarse.tet_material);
-  const std::vector<double> weights =
-      decompose::predicted_fine_tets(coarse, run_case.refine.levels);
+      fill::kernels_of(run.resolved.fill, coarse.material_names, coarse.tet_material);
+  const std::vector<double> weights = decompose::predicted_fine_tets(coarse, run.levels);
   const auto partitioner = decompose::make_metis_partitioner();
   decompose::DecomposeResult result =
-      decompose::decompose(coarse, options_of(run_case, kernels, weights), weights, *partitioner);
+      decompose::decompose(coarse, options_of(run, kernels, weights), weights, *partitioner);
   decompose::validate(coarse, result.decomposition);
   return result;
 }
 
 }  // namespace
 
-decompose::DecomposeResult run_decompose_stage(const config::Case& run_case,
-                                               const mesh::CoarseMesh& coarse, RunContext& context)
+decompose::DecomposeResult run_decompose_stage(const RunResult& run, RunContext& context)
 {
   StageScope stage(context, "decompose");
-  decompose::DecomposeResult result = on_root(context.comm, [&] {
-    return with_file_context(run_case, [&] { return cut(run_case, coarse); });
-  });
+  decompose::DecomposeResult result = on_root(
+      context.comm, [&] { return with_file_context(run.resolved, [&] { return cut(run); }); });
   stage.work_is_done();
   stage.finish(fmt::format("{} subdomains", result.report.num_subdomains));
   return result;

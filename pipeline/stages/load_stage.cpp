@@ -25,13 +25,9 @@ void load_everywhere(const std::string& kind, Bytes message, RunContext& context
 
 }  // namespace
 
-void load_mesh(const subdomain::PartitionedMesh& cut, int levels, double largest_size,
-               RunContext& context)
+void load_mesh(const subdomain::PartitionedMesh& cut, RunContext& context)
 {
-  load_everywhere(
-      "mesh",
-      load_mesh_message(cut.coarse, cut.decomposition, levels, largest_size, context.folder),
-      context);
+  load_everywhere("mesh", load_mesh_message(cut, context.folder), context);
 }
 
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,

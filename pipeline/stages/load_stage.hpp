@@ -18,9 +18,7 @@
 /// throw on every rank if a worker dies, or Interrupted on a signal.
 namespace tessera::pipeline {
 
-/// @param[in] largest_size RunResult::largest_size.
-void load_mesh(const subdomain::PartitionedMesh& cut, int levels, double largest_size,
-               RunContext& context);
+void load_mesh(const subdomain::PartitionedMesh& cut, RunContext& context);
 
 /// @brief From now on fill jobs write the output files themselves. @param[in] counts Of all pieces.
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/number_stage.hpp"
 
-#include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
 #include "tessera/subdomain/piece_surface.hpp"
 
@@ -16,7 +16,7 @@ number::IdLayout number_mesh(const RunResult& run, const subdomain::PartitionedM
     return number::IdLayout::by_owner(subdomain::counts_of(run.filled.pieces));
   }
   return number::IdLayout::by_host(
-      mesh::HostLayout(cut.skeleton), mesh::lattice::intervals(outline.levels),
+      mesh::HostLayout(cut.skeleton), mesh::lattice_levels(cut.skeleton, cut.levels),
       are_counts_known(outline.kernels) ? outline.pieces : subdomain::counts_of(run.filled.pieces));
 }
 

@@ -28,20 +28,18 @@ namespace {
 struct RefineOrigin {
   Hash128 cut{};
   std::vector<fill::KernelKind> kernels{};
-  int fill_levels = 0;
-  int levels = 0;
+  int splits = 0;
   std::vector<subdomain::PieceSummary> pieces{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.cut, self.kernels, self.fill_levels, self.levels, self.pieces);
+    return std::tie(self.cut, self.kernels, self.splits, self.pieces);
   }
 };
 
 Hash128 origin_of(const RefineWork& work, const FilledPieces& filled)
 {
-  RefineOrigin origin{cut_fingerprint(work.cut), work.kernels, work.fill_levels, work.levels,
-                      filled.pieces};
+  RefineOrigin origin{cut_fingerprint(work.cut), work.kernels, work.splits, filled.pieces};
   for (subdomain::PieceSummary& piece : origin.pieces) piece.cpu_s = 0.0;  // As it happened to be.
   return hash_bytes(to_bytes(origin));
 }
@@ -74,9 +72,7 @@ class StageWork {
   {
     for_each_piece([&](LocalIndex s) { surfaces_.keep_list(s); });
     std::vector<CountedPiece> own;
-    for_each_piece([&](LocalIndex s) {
-      own.push_back({s, surfaces_.compare(s, num_intervals())});
-    });
+    for_each_piece([&](LocalIndex s) { own.push_back({s, surfaces_.compare(s, work_.splits)}); });
     std::vector<number::PieceCounts> counts(filled_.pieces.size());
     for (const CountedPiece& piece : context_.comm.all_gather_rows(own)) {
       counts[at(piece.subdomain)] = piece.counts;
@@ -107,16 +103,10 @@ class StageWork {
     num_done_ += std::ssize(filled_.pieces);
   }
 
-  // Of an edge of the pieces as they are.
-  [[nodiscard]] LocalIndex num_intervals() const
-  {
-    return mesh::lattice::intervals(work_.levels - work_.fill_levels);
-  }
-
   // Of one material all pieces are smoothed or none: on seams both sides must do the same.
   [[nodiscard]] PieceToRefine piece_to_refine(LocalIndex s) const
   {
-    PieceToRefine one{stored_piece(pieces_, s), surfaces_.surroundings(s, num_intervals()),
+    PieceToRefine one{stored_piece(pieces_, s), surfaces_.surroundings(s, work_.splits),
                       filled_.pieces[at(s)]};
     one.around.is_smoothed = work_.kernels[at(s)] != fill::KernelKind::subdivide;
     return one;
@@ -127,7 +117,7 @@ class StageWork {
     GlobalIndex num_tets = 0;
     for (LocalIndex s = range.first; s < range.last; ++s)
       num_tets += filled_.pieces[at(s)].num_tets;
-    return static_cast<double>(num_tets << 3 * (work_.levels - work_.fill_levels));
+    return static_cast<double>(num_tets << 3 * work_.splits);
   }
 
   [[nodiscard]] std::vector<double> weights() const
@@ -235,8 +225,7 @@ FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& wo
   StageScope stage(context, "refine", num_steps, "pieces");
   StageWork stage_work(run_case, work, filled, context, stage);
   const std::vector<number::PieceCounts> counts = stage_work.count_pieces();
-  load_refinement({.fill_levels = work.fill_levels,
-                   .levels = work.levels,
+  load_refinement({.splits = work.splits,
                    .counts = counts,
                    .length_unit = work.length_unit,
                    .has_files = work.has_files},

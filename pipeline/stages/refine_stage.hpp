@@ -19,8 +19,7 @@ namespace tessera::pipeline {
 struct RefineWork {
   const subdomain::PartitionedMesh& cut;
   const std::vector<fill::KernelKind>& kernels;          ///< As the case wants them, by subdomain.
-  int fill_levels = 0;                                   ///< That the pieces were filled on.
-  int levels = 0;                                        ///< To be reached.
+  int splits = 0;                                        ///< Levels of the split.
   const std::vector<subdomain::SubdomainRange>& ranges;  ///< What each job makes: one file, or
                                                          ///< one piece for the store.
   bool has_files = true;

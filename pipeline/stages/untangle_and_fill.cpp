@@ -20,7 +20,7 @@ namespace tessera::pipeline {
 namespace {
 
 // The plan that a stopped run has left, or a first one.
-Plan first_plan(const UntangleAndFillWork& work, int levels, RunContext& context)
+Plan first_plan(const UntangleAndFillWork& work, RunContext& context)
 {
   auto kept = comm::on_root(
       context.comm, [&] { return work.state == nullptr ? std::nullopt : work.state->find_plan(); });
@@ -28,7 +28,6 @@ Plan first_plan(const UntangleAndFillWork& work, int levels, RunContext& context
   Plan plan{.kernels = work.kernels};
   plan.limiter = run_untangle_stage({.cut = work.cut,
                                      .kernels = plan.kernels,
-                                     .levels = levels,
                                      .subdomains = in_order(at(work.cut.num_subdomains()))},
                                     {}, context);
   return plan;
@@ -36,11 +35,10 @@ Plan first_plan(const UntangleAndFillWork& work, int levels, RunContext& context
 
 // Makes the plan anew for subdomains that were folded under it.
 Plan plan_for_folded(const Plan& before, const FilledPieces& filled,
-                     const subdomain::PartitionedMesh& cut, int levels, RunContext& context)
+                     const subdomain::PartitionedMesh& cut, RunContext& context)
 {
   Plan plan = with_folded_subdivided(before, filled);
-  UntangleWork work{
-      .cut = cut, .kernels = plan.kernels, .levels = levels, .depth = UntangleDepth::all_levels};
+  UntangleWork work{.cut = cut, .kernels = plan.kernels, .depth = UntangleDepth::all_levels};
   for (const FoldedSubdomain& one : filled.folded) work.subdomains.push_back(one.subdomain);
   plan.limiter = run_untangle_stage(work, std::move(plan.limiter), context);
   all_or_none(context.comm, [&] {
@@ -59,8 +57,7 @@ Plan plan_for_folded(const Plan& before, const FilledPieces& filled,
 UntangledFill untangle_and_fill(const config::Case& run_case, const UntangleAndFillWork& work,
                                 RunContext& context)
 {
-  const int levels = run_case.refine.levels;
-  Plan plan = first_plan(work, levels, context);
+  Plan plan = first_plan(work, context);
   UntangledFill result;
   for (;;) {
     all_or_none(context.comm, [&] {
@@ -70,7 +67,7 @@ UntangledFill untangle_and_fill(const config::Case& run_case, const UntangleAndF
     result.filled =
         run_fill_stage(run_case, {work.cut, plan.kernels, plan.limiter, work.ranges}, context);
     if (result.filled.folded.empty()) break;
-    plan = plan_for_folded(plan, result.filled, work.cut, levels, context);
+    plan = plan_for_folded(plan, result.filled, work.cut, context);
   }
   for (subdomain::PieceSummary& piece : result.filled.pieces) {
     if (std::ranges::binary_search(plan.limited, piece.subdomain)) piece.was_limited = true;

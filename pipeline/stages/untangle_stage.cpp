@@ -32,7 +32,8 @@ UntangleTest test_of(LocalIndex subdomain, const UntangleWork& work)
   const fill::KernelKind kernel = work.kernels[at(subdomain)];
   const bool is_first_look =
       kernel == fill::KernelKind::subdivide && work.depth == UntangleDepth::coarse_levels;
-  return {subdomain, kernel, is_first_look ? std::min(work.levels, kFirstLookLevels) : work.levels};
+  const int levels = work.cut.levels.largest();
+  return {subdomain, kernel, is_first_look ? std::min(levels, kFirstLookLevels) : levels};
 }
 
 // The tests of all jobs, at most kMostJobs.

@@ -18,7 +18,6 @@ enum class UntangleDepth : int { coarse_levels, all_levels };
 struct UntangleWork {
   const subdomain::PartitionedMesh& cut;
   const std::vector<fill::KernelKind>& kernels;  ///< Shape (num_subdomains).
-  int levels = 0;                                ///< Of the refinement.
   UntangleDepth depth = UntangleDepth::coarse_levels;
   std::vector<LocalIndex> subdomains{};  ///< To test first; those around what is found follow.
 };

@@ -69,8 +69,9 @@ std::optional<FillRecord> find_record(const fs::path& output, const std::string&
 
 Hash128 cut_fingerprint(const subdomain::PartitionedMesh& cut)
 {
-  const std::array<Hash128, 2> parts{hash_bytes(to_bytes(cut.coarse)),
-                                     hash_bytes(to_bytes(cut.decomposition))};
+  const std::array<Hash128, 3> parts{hash_bytes(to_bytes(cut.coarse)),
+                                     hash_bytes(to_bytes(cut.decomposition)),
+                                     hash_bytes(to_bytes(cut.levels))};
   return hash_bytes(to_bytes(parts));
 }
 

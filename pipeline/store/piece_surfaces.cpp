@@ -53,7 +53,7 @@ void PieceSurfaces::keep_list(LocalIndex subdomain) const
              to_bytes(subdomain::surface_of(stored_piece(pieces_, subdomain))));
 }
 
-number::PieceCounts PieceSurfaces::compare(LocalIndex subdomain, LocalIndex n) const
+number::PieceCounts PieceSurfaces::compare(LocalIndex subdomain, int splits) const
 {
   const number::SurfaceList own = find_list(store_, subdomain);
   std::vector<number::SurfaceList> others;
@@ -64,10 +64,10 @@ number::PieceCounts PieceSurfaces::compare(LocalIndex subdomain, LocalIndex n) c
   SharedPart part{.surface = number::compare_surfaces(own, others)};
   part.halo = subdomain::halo_of(whole, own, part.surface);
   store_.put(shared_name(subdomain), to_bytes(part));
-  return subdomain::count_split_piece(whole, own, part.surface, n);
+  return subdomain::count_split_piece(whole, own, part.surface, splits);
 }
 
-subdomain::PieceSurroundings PieceSurfaces::surroundings(LocalIndex subdomain, LocalIndex n) const
+subdomain::PieceSurroundings PieceSurfaces::surroundings(LocalIndex subdomain, int splits) const
 {
   subdomain::PieceSurroundings around{.surface = find_list(store_, subdomain)};
   around.shared = find_shared(store_, subdomain).surface;
@@ -81,7 +81,8 @@ subdomain::PieceSurroundings PieceSurfaces::surroundings(LocalIndex subdomain, L
     if (is_of_own_material)
       around.halos.push_back(subdomain::halo_beside(part.halo, around.surface));
   }
-  around.places = number::place_surface(around.surface.simplices, owners, n);
+  around.places =
+      number::place_surface(around.surface.simplices, owners, mesh::lattice::intervals(splits));
   return around;
 }
 

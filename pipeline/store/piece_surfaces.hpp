@@ -28,10 +28,10 @@ class PieceSurfaces {
   void keep_list(LocalIndex subdomain) const;
 
   /// @brief Notes what the piece owns and what its neighbours need of it.
-  /// @return What it will hold with `n` intervals an edge.
-  [[nodiscard]] number::PieceCounts compare(LocalIndex subdomain, LocalIndex n) const;
+  /// @return What it will hold after so many splits.
+  [[nodiscard]] number::PieceCounts compare(LocalIndex subdomain, int splits) const;
 
-  [[nodiscard]] subdomain::PieceSurroundings surroundings(LocalIndex subdomain, LocalIndex n) const;
+  [[nodiscard]] subdomain::PieceSurroundings surroundings(LocalIndex subdomain, int splits) const;
 
  private:
   io::RecordStore store_;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tessera/base/vec3.hpp"
-#include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/tet_grading.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::fill {
@@ -30,7 +30,7 @@ void for_each_sample(LocalIndex n, Visit&& visit)
 
 }  // namespace
 
-std::vector<double> vertex_sizes(const mesh::CoarseMesh& coarse)
+std::vector<double> vertex_sizes(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels)
 {
   std::vector<double> sum(at(coarse.num_vertices()), 0.0);
   std::vector<double> count(sum.size(), 0.0);
@@ -38,7 +38,8 @@ std::vector<double> vertex_sizes(const mesh::CoarseMesh& coarse)
   for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
     const auto tet = coarse.tet(t);
     for (const auto& [a, b] : mesh::kTetEdgeCorners) {
-      const double length = norm(coarse.position(tet[b]) - coarse.position(tet[a]));
+      const double length = std::ldexp(norm(coarse.position(tet[b]) - coarse.position(tet[a])),
+                                       -levels.of(tet[a], tet[b]));
       for (const LocalIndex v : {tet[a], tet[b]}) {
         sum[at(v)] += length;
         count[at(v)] += 1.0;
@@ -52,10 +53,11 @@ std::vector<double> vertex_sizes(const mesh::CoarseMesh& coarse)
 }
 
 void add_size_samples(const mesh::CoarseMesh& coarse, std::span<const LocalIndex> tets,
-                      const std::vector<double>& vertex_size, int levels, FillInput& input)
+                      const std::vector<double>& vertex_size, const mesh::EdgeLevels& levels,
+                      FillInput& input)
 {
-  const LocalIndex n = mesh::lattice::intervals(levels);
   for (const LocalIndex t : tets) {
+    const LocalIndex n = mesh::tet_grading(coarse, levels, t).intervals();
     const auto tet = coarse.tet(t);
     for_each_sample(n, [&](const std::array<double, 4>& weights) {
       Vec3 point{};
@@ -65,7 +67,7 @@ void add_size_samples(const mesh::CoarseMesh& coarse, std::span<const LocalIndex
         size += weights[c] * vertex_size[at(tet[c])];
       }
       input.size_xyz.insert(input.size_xyz.end(), point.begin(), point.end());
-      input.size_h.push_back(std::ldexp(size, -levels));
+      input.size_h.push_back(size);
     });
   }
 }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,7 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/lattice_numbering.hpp"
-#include "tessera/mesh/tet_face_map.hpp"
+#include "tessera/mesh/tet_grading.hpp"
 #include "tessera/mesh/tet_lattice.hpp"
 #include "tessera/mesh/tet_points.hpp"
 
@@ -21,65 +20,73 @@ namespace {
 
 namespace lattice = mesh::lattice;
 
-GlobalIndex num_tets_of(const mesh::TetComplex& complex, LocalIndex n)
+void require_local(GlobalIndex num_tets)
 {
-  return static_cast<GlobalIndex>(complex.tets.size()) * n * n * n;
+  if (4 * num_tets <= std::numeric_limits<LocalIndex>::max()) return;
+  throw MeshError(fmt::format(
+      "{} tets in one subdomain are too many for 32-bit indices; use more subdomains", num_tets));
 }
 
-void require_local(const mesh::TetComplex& complex, LocalIndex n)
+LocalIndex num_tets_in(const mesh::TetComplex& complex)
 {
-  const GlobalIndex num_corners = 4 * num_tets_of(complex, n);
-  if (num_corners > std::numeric_limits<LocalIndex>::max()) {
-    throw MeshError(
-        fmt::format("{} tets in one subdomain are too many for 32-bit indices; use more subdomains",
-                    num_corners / 4));
-  }
+  return static_cast<LocalIndex>(complex.tets.size());
 }
 
-// Subdivides one coarse tet after the other; the arrays by lattice point are reused.
+// Subdivides one coarse tet after the other; the array by lattice point is reused.
 class Subdivider {
  public:
   Subdivider(const mesh::TetComplex& complex, const mesh::RefinedLattice& lattice)
       : complex_(complex),
         lattice_(lattice),
-        n_(lattice.n),
-        numbering_(complex.faces, lattice.n),
-        number_(at(lattice::num_tet_points(lattice.n))),
+        numbering_(complex.faces, lattice.levels()),
         next_inner_(numbering_.num_points())
   {
-    const auto num_tets = static_cast<LocalIndex>(complex.tets.size());
-    const LocalIndex num_points = next_inner_ + num_tets * lattice::num_inner_tet_points(n_);
+    GlobalIndex num_tets = 0;
+    LocalIndex num_points = next_inner_;
+    for (LocalIndex t = 0; t < num_tets_in(complex); ++t) {
+      const mesh::TetGrading grading = mesh::tet_grading(complex, lattice, t);
+      num_tets += mesh::num_children(grading);
+      require_local(num_tets);
+      num_points += lattice::num_inner_tet_points(grading.intervals());
+    }
     result_.vertex_xyz.resize(3 * at(num_points));
-    result_.tet_vertices.reserve(4 * static_cast<std::size_t>(num_tets_of(complex, n_)));
+    result_.tet_vertices.resize(4 * static_cast<std::size_t>(num_tets));
+    next_corner_ = result_.tet_vertices.data();
   }
 
   FillOutput run()
   {
-    for (LocalIndex t = 0; t < static_cast<LocalIndex>(complex_.tets.size()); ++t) {
-      number_points(t);
+    for (LocalIndex t = 0; t < num_tets_in(complex_); ++t) {
       const mesh::TetPoints points(complex_, lattice_, t);
+      number_points(t, points);
       place_points(points);
-      append_children(points.diagonal());
+      append_children(points);
     }
     return std::move(result_);
   }
 
  private:
   // Inner points get the next numbers, in the order of tet_index().
-  void number_points(LocalIndex tet)
+  void number_points(LocalIndex tet, const mesh::TetPoints& points)
   {
-    std::fill(number_.begin(), number_.end(), kNoIndex);
-    const mesh::TetFaceMap map(complex_, tet);
-    for (std::size_t c = 0; c < 4; ++c) {
-      for (LocalIndex j = 0; j <= n_; ++j) {
-        for (LocalIndex i = 0; i + j <= n_; ++i) {
-          const LocalIndex place = lattice::tet_index(n_, map.tet_point(n_, c, {i, j}));
-          number_[at(place)] = numbering_.triangle_point(map.triangle(c), {i, j});
+    number_.assign(points.all().size(), kNoIndex);
+    mesh::for_each_outer_point(
+        complex_, lattice_.levels(), tet, points.grading(),
+        [&](LocalIndex place, LocalIndex triangle, const lattice::TrianglePoint& p) {
+          number_[at(place)] =
+              numbering_.triangle_point(triangle, lattice_.triangle_intervals(triangle), p);
+        },
+        [&](LocalIndex place, LocalIndex edge, LocalIndex k) {
+          number_[at(place)] = numbering_.edge_point(edge, k);
+        });
+    const LocalIndex n = points.intervals();
+    const LocalIndex step = n / points.grading().intervals();
+    for (LocalIndex k = step; k < n; k += step) {
+      for (LocalIndex j = step; j + k < n; j += step) {
+        for (LocalIndex i = step; i + j + k < n; i += step) {
+          number_[at(lattice::tet_index(n, {i, j, k}))] = next_inner_++;
         }
       }
-    }
-    for (LocalIndex& number : number_) {
-      if (number == kNoIndex) number = next_inner_++;
     }
   }
 
@@ -87,32 +94,31 @@ class Subdivider {
   void place_points(const mesh::TetPoints& points)
   {
     for (std::size_t place = 0; place < number_.size(); ++place) {
+      if (number_[place] == kNoIndex) continue;
       const Vec3& point = points.all()[place];
       std::copy(point.begin(), point.end(), &result_.vertex_xyz[3 * at(number_[place])]);
     }
   }
 
-  void append_children(std::size_t diagonal)
+  void append_children(const mesh::TetPoints& points)
   {
-    const std::size_t first = result_.tet_vertices.size();
-    result_.tet_vertices.resize(first + 4 * at(n_) * at(n_) * at(n_));
-    LocalIndex* to = &result_.tet_vertices[first];
-    lattice::for_each_child_index(n_, diagonal,
-                                  [&](LocalIndex a, LocalIndex b, LocalIndex c, LocalIndex d) {
-                                    to[0] = number_[at(a)];
-                                    to[1] = number_[at(b)];
-                                    to[2] = number_[at(c)];
-                                    to[3] = number_[at(d)];
-                                    to += 4;
-                                  });
+    LocalIndex* to = next_corner_;
+    points.for_each_child([&](LocalIndex a, LocalIndex b, LocalIndex c, LocalIndex d) {
+      to[0] = number_[at(a)];
+      to[1] = number_[at(b)];
+      to[2] = number_[at(c)];
+      to[3] = number_[at(d)];
+      to += 4;
+    });
+    next_corner_ = to;
   }
 
   const mesh::TetComplex& complex_;
   const mesh::RefinedLattice& lattice_;
-  LocalIndex n_;
   mesh::LatticeNumbering numbering_;
-  std::vector<LocalIndex> number_;  ///< By tet_index(): vertex of the piece.
+  std::vector<LocalIndex> number_{};  ///< By tet_index(): vertex of the piece, or kNoIndex.
   LocalIndex next_inner_;
+  LocalIndex* next_corner_ = nullptr;  ///< In the result.
   FillOutput result_{};
 };
 
@@ -120,22 +126,30 @@ class Subdivider {
 
 FillOutput subdivide(const mesh::TetComplex& complex, const mesh::RefinedLattice& lattice)
 {
-  require_local(complex, lattice.n);
   return Subdivider(complex, lattice).run();
 }
 
-SubdivisionCounts count_subdivision(const mesh::TetComplex& complex, LocalIndex n)
+SubdivisionCounts count_subdivision(const mesh::TetComplex& complex, const mesh::CoarseMesh& coarse,
+                                    const mesh::EdgeLevels& levels)
 {
   const mesh::Complex& faces = complex.faces;
-  const auto num_inside = [](const std::vector<LocalIndex>& skeleton) {
-    return static_cast<GlobalIndex>(std::count(skeleton.begin(), skeleton.end(), kNoIndex));
-  };
-  return {.tets = num_tets_of(complex, n),
-          .interior_vertices =
-              num_inside(faces.vertex_skeleton)
-              + num_inside(faces.edge_skeleton) * lattice::num_inner_edge_points(n)
-              + num_inside(faces.triangle_skeleton) * lattice::num_inner_triangle_points(n)
-              + static_cast<GlobalIndex>(complex.tets.size()) * lattice::num_inner_tet_points(n)};
+  const mesh::LatticeLevels of_faces = mesh::lattice_levels(faces, levels);
+  SubdivisionCounts counts{.interior_vertices =
+                               std::ranges::count(faces.vertex_skeleton, kNoIndex)};
+  for (LocalIndex e = 0; e < faces.num_edges(); ++e) {
+    if (faces.edge_skeleton[at(e)] != kNoIndex) continue;
+    counts.interior_vertices += lattice::num_inner_edge_points(of_faces.edge_intervals(e));
+  }
+  for (LocalIndex t = 0; t < faces.num_triangles(); ++t) {
+    if (faces.triangle_skeleton[at(t)] != kNoIndex) continue;
+    counts.interior_vertices += lattice::num_inner_triangle_points(of_faces.triangle_intervals(t));
+  }
+  for (const LocalIndex tet : complex.tets) {
+    const mesh::TetGrading grading = mesh::tet_grading(coarse, levels, tet);
+    counts.tets += mesh::num_children(grading);
+    counts.interior_vertices += lattice::num_inner_tet_points(grading.intervals());
+  }
+  return counts;
 }
 
 }  // namespace tessera::fill

@@ -152,6 +152,23 @@ void tie_to_skeleton(const Skeleton& skeleton, Complex& complex)
 
 }  // namespace
 
+std::array<LocalIndex, 6> edges_of_tet(const TetComplex& complex, LocalIndex tet)
+{
+  const LocalIndex* corners = &complex.tet_vertices[4 * at(tet)];
+  std::array<LocalIndex, 6> edges{};
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto [a, b] = kTetEdgeCorners[e];
+    const std::size_t off = kTetEdgeCorners[edges.size() - 1 - e][0];  // On the opposite edge.
+    const LocalIndex t = complex.tet_triangles[4 * at(tet) + off];
+    const LocalIndex lower = std::min(corners[a], corners[b]);
+    const LocalIndex upper = std::max(corners[a], corners[b]);
+    const LocalIndex* v = &complex.faces.triangle_vertices[3 * at(t)];
+    const std::size_t side = lower != v[0] ? 2 : upper == v[1] ? 0 : 1;
+    edges[e] = complex.faces.triangle_edges[3 * at(t) + side];
+  }
+  return edges;
+}
+
 TetComplex tet_complex(const CoarseMesh& coarse, const Skeleton& skeleton,
                        std::span<const LocalIndex> tets)
 {

@@ -30,15 +30,6 @@ LocalIndex HostLayout::num_of(HostKind kind) const
   return first_[static_cast<std::size_t>(kind) + 1] - first(kind);
 }
 
-GlobalIndex HostLayout::num_skeleton_points(LocalIndex n) const
-{
-  GlobalIndex sum = 0;
-  for (const HostKind kind : {HostKind::vertex, HostKind::edge, HostKind::triangle}) {
-    sum += GlobalIndex{num_of(kind)} * num_points_of_host(kind, n);
-  }
-  return sum;
-}
-
 LocalIndex num_points_of_host(HostKind kind, LocalIndex n)
 {
   if (kind == HostKind::vertex) return 1;

@@ -39,47 +39,60 @@ TrianglePoint TetFaceMap::triangle_point(LocalIndex n, std::size_t c, const TetP
   return {weights[corners_[c][1]], weights[corners_[c][2]]};
 }
 
-TetPoints::TetPoints(const TetComplex& complex, const RefinedLattice& lattice, LocalIndex tet)
-    : n_(lattice.n), points_(static_cast<std::size_t>(lattice::num_tet_points(lattice.n)))
+TetGrading tet_grading(const TetComplex& complex, const RefinedLattice& lattice, LocalIndex tet)
 {
-  copy_faces(complex, lattice, tet);
-  choose_diagonal();
+  const auto edges = edges_of_tet(complex, tet);
+  const LocalIndex* v = &complex.tet_vertices[4 * static_cast<std::size_t>(tet)];
+  std::array<int, 6> levels{};
+  std::array<Vec3, 4> corners{};
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    levels[e] = lattice.levels().edge(edges[e]);
+    auto [from, to] = kTetEdgeCorners[e];
+    if (v[to] < v[from]) std::swap(from, to);
+    corners[from] = lattice.edge_point(edges[e], 0);
+    corners[to] = lattice.edge_point(edges[e], lattice.edge_intervals(edges[e]));
+  }
+  return TetGrading::of(corners, {v[0], v[1], v[2], v[3]}, levels);
+}
+
+TetPoints::TetPoints(const TetComplex& complex, const RefinedLattice& lattice, LocalIndex tet)
+    : grading_(tet_grading(complex, lattice, tet)),
+      n_(grading_.intervals() * (grading_.is_uniform() ? 1 : 2)),
+      points_(static_cast<std::size_t>(lattice::num_tet_points(n_)))
+{
+  const auto place_at = [&](LocalIndex place) -> Vec3& {
+    return points_[static_cast<std::size_t>(place)];
+  };
+  for_each_outer_point(
+      complex, lattice.levels(), tet, grading_,
+      [&](LocalIndex place, LocalIndex triangle, const TrianglePoint& p) {
+        place_at(place) = lattice.triangle_point(triangle, p);
+      },
+      [&](LocalIndex place, LocalIndex edge, LocalIndex k) {
+        place_at(place) = lattice.edge_point(edge, k);
+      });
   fill_inside();
 }
 
-void TetPoints::copy_faces(const TetComplex& complex, const RefinedLattice& lattice, LocalIndex tet)
+DiagonalLengths TetPoints::diagonals_of(const ChildCorners& child) const
 {
-  const TetFaceMap map(complex, tet);
-  for (std::size_t c = 0; c < 4; ++c) {
-    for (LocalIndex j = 0; j <= n_; ++j) {
-      for (LocalIndex i = 0; i + j <= n_; ++i) {
-        const auto place = lattice::tet_index(n_, map.tet_point(n_, c, {i, j}));
-        points_[static_cast<std::size_t>(place)] = lattice.triangle_point(map.triangle(c), {i, j});
-      }
-    }
+  DiagonalLengths lengths{};
+  for (std::size_t e = 0; e < lengths.size(); ++e) {
+    const auto [a, b] = kTetEdgeCorners[e];
+    const auto [c, d] = kTetEdgeCorners[kTetEdgeCorners.size() - 1 - e];
+    const Vec3 diagonal =
+        midpoint(at(child[a]), at(child[b])) - midpoint(at(child[c]), at(child[d]));
+    lengths[e] = dot(diagonal, diagonal);
   }
-}
-
-void TetPoints::choose_diagonal()
-{
-  const std::array<Vec3, 4> corners{at({0, 0, 0}), at({n_, 0, 0}), at({0, n_, 0}), at({0, 0, n_})};
-  double shortest = 0.0;
-  for (std::size_t d = 0; d < 3; ++d) {
-    const Vec3 diagonal = midpoint(corners[0], corners[d + 1])
-                          - midpoint(corners[1 + (d + 1) % 3], corners[1 + (d + 2) % 3]);
-    const double length = dot(diagonal, diagonal);
-    if (d == 0 || length < shortest) {
-      shortest = length;
-      diagonal_ = d;
-    }
-  }
+  return lengths;
 }
 
 // A new inner point has two or four odd weights. With two it is the midpoint along the edge in
 // which they change. With four it is the middle of an octahedron: the midpoint of its diagonal.
 void TetPoints::fill_inside()
 {
-  for (LocalIndex step = n_ / 2; step >= 1; step /= 2) {
+  const LocalIndex last_step = n_ / grading_.intervals();
+  for (LocalIndex step = n_ / 2; step >= last_step; step /= 2) {
     for (LocalIndex k = step; k < n_; k += step) {
       for (LocalIndex j = step; j + k < n_; j += step) {
         for (LocalIndex i = step; i + j + k < n_; i += step) {
@@ -90,7 +103,7 @@ void TetPoints::fill_inside()
           std::array<LocalIndex, 3> by{};
           if (num_odd == 3) {
             by = {step, step, step};
-            by[diagonal_] = -step;
+            by[grading_.diagonal] = -step;
           } else {
             LocalIndex sign = 1;
             for (std::size_t d = 0; d < 3; ++d) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/number/id_layout.hpp"
 
+#include <utility>
+
 namespace tessera::number {
 
 using mesh::HostKind;
@@ -16,16 +18,25 @@ IdLayout::IdLayout(GlobalIndex num_skeleton_vertices, const std::vector<PieceCou
   }
 }
 
-IdLayout IdLayout::by_host(const mesh::HostLayout& hosts, LocalIndex n,
+IdLayout IdLayout::by_host(const mesh::HostLayout& hosts, const mesh::LatticeLevels& levels,
                            const std::vector<PieceCounts>& pieces)
 {
-  IdLayout ids(hosts.num_skeleton_points(n), pieces, &PieceCounts::interior_vertices);
-  SkeletonIds& skeleton = ids.skeleton_.emplace(SkeletonIds{.hosts = hosts});
-  skeleton.points_of_edge = mesh::num_points_of_host(HostKind::edge, n);
-  skeleton.points_of_triangle = mesh::num_points_of_host(HostKind::triangle, n);
-  skeleton.first_of_edges = hosts.num_of(HostKind::vertex);
-  skeleton.first_of_triangles =
-      skeleton.first_of_edges + skeleton.points_of_edge * hosts.num_of(HostKind::edge);
+  std::vector<GlobalIndex> first;
+  first.reserve(at(hosts.num_on_skeleton()));
+  GlobalIndex next = 0;
+  const auto give = [&](GlobalIndex num_points) {
+    first.push_back(next);
+    next += num_points;
+  };
+  for (LocalIndex v = 0; v < hosts.num_of(HostKind::vertex); ++v) give(1);
+  for (const std::int8_t level : levels.edges) {
+    give(mesh::num_points_of_host(HostKind::edge, mesh::lattice::intervals(level)));
+  }
+  for (const std::int8_t level : levels.triangles) {
+    give(mesh::num_points_of_host(HostKind::triangle, mesh::lattice::intervals(level)));
+  }
+  IdLayout ids(next, pieces, &PieceCounts::interior_vertices);
+  ids.skeleton_.emplace(SkeletonIds{hosts, std::move(first)});
   return ids;
 }
 
@@ -37,17 +48,10 @@ IdLayout IdLayout::by_owner(const std::vector<PieceCounts>& pieces)
 GlobalIndex IdLayout::vertex_id(const mesh::HostPoint& vertex) const
 {
   const SkeletonIds& skeleton = *skeleton_;
-  const LocalIndex row = skeleton.hosts.row_of(vertex.host);
-  switch (skeleton.hosts.kind_of(vertex.host)) {
-    case HostKind::vertex:
-      return row;
-    case HostKind::edge:
-      return skeleton.first_of_edges + skeleton.points_of_edge * row + vertex.index;
-    case HostKind::triangle:
-      return skeleton.first_of_triangles + skeleton.points_of_triangle * row + vertex.index;
-    default:
-      return interior_vertex_id(row, vertex.index);
+  if (vertex.host < skeleton.hosts.num_on_skeleton()) {
+    return skeleton.first[at(vertex.host)] + vertex.index;
   }
+  return interior_vertex_id(skeleton.hosts.row_of(vertex.host), vertex.index);
 }
 
 }  // namespace tessera::number

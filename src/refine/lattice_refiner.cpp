@@ -17,55 +17,36 @@ SurfaceParameters middle(const SurfaceParameters& a, const SurfaceParameters& b)
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
 }
 
-void store(std::vector<double>& xyz, std::size_t row, const Vec3& point)
-{
-  std::copy(point.begin(), point.end(), xyz.begin() + static_cast<std::ptrdiff_t>(3 * row));
-}
-
 // Refines one complex; lives for one call of refine_lattice().
 class LatticeRefiner {
  public:
-  LatticeRefiner(const mesh::Complex& complex, const RefineContext& context)
-      : complex_(complex),
-        context_(context),
-        n_(lattice::intervals(context.levels)),
-        edge_row_(at(n_) + 1),
-        triangle_row_(at(lattice::num_triangle_points(n_)))
+  LatticeRefiner(const mesh::Complex& complex, mesh::LatticeLevels levels,
+                 const RefineContext& context)
+      : complex_(complex), context_(context), result_(std::move(levels))
   {
-    const std::size_t edge_points = edge_row_ * at(complex.num_edges());
-    const std::size_t triangle_points = triangle_row_ * at(complex.num_triangles());
-    result_.n = n_;
-    result_.edge_xyz.resize(3 * edge_points);
-    result_.triangle_xyz.resize(3 * triangle_points);
-    if (context.model.has_parameters()) {
-      edge_parameters_.resize(edge_points);
-      triangle_uv_.resize(triangle_points);
-    }
+    if (!context.model.has_parameters()) return;
+    edge_parameters_.resize(result_.edge_points().size());
+    triangle_uv_.resize(result_.triangle_points().size());
   }
 
   mesh::RefinedLattice run()
   {
     for (LocalIndex e = 0; e < complex_.num_edges(); ++e) place_ends(e);
     for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) place_corners(t);
-    for (LocalIndex step = n_ / 2; step >= 1; step /= 2) {
-      for (LocalIndex e = 0; e < complex_.num_edges(); ++e) refine_edge(e, step);
-      for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) refine_triangle(t, step);
+    for (int level = 1; level <= result_.levels().largest(); ++level) {
+      for (LocalIndex e = 0; e < complex_.num_edges(); ++e) {
+        if (level <= result_.levels().edge(e)) refine_edge(e, result_.edge_intervals(e) >> level);
+      }
+      for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) {
+        if (level > result_.levels().triangle(t)) continue;
+        refine_triangle(t, result_.triangle_intervals(t) >> level);
+      }
     }
     return std::move(result_);
   }
 
  private:
   [[nodiscard]] bool has_parameters() const { return !triangle_uv_.empty(); }
-
-  [[nodiscard]] std::size_t edge_place(LocalIndex e, LocalIndex k) const
-  {
-    return at(e) * edge_row_ + at(k);
-  }
-
-  [[nodiscard]] std::size_t triangle_place(LocalIndex t, const TrianglePoint& p) const
-  {
-    return at(t) * triangle_row_ + at(lattice::triangle_index(n_, p.i, p.j));
-  }
 
   [[nodiscard]] Vec3 coarse_position(LocalIndex vertex) const
   {
@@ -76,36 +57,35 @@ class LatticeRefiner {
   {
     const LocalIndex edge = complex_.edge_skeleton[at(e)];
     for (LocalIndex end = 0; end < 2; ++end) {
-      const std::size_t place = edge_place(e, end * n_);
-      store(result_.edge_xyz, place, coarse_position(complex_.edge_vertices[2 * at(e) + at(end)]));
+      const LocalIndex k = end * result_.edge_intervals(e);
+      result_.place_edge_point(e, k, coarse_position(complex_.edge_vertices[2 * at(e) + at(end)]));
       if (edge == kNoIndex || !has_parameters()) continue;
       const double* p = &context_.skeleton.edge_parameters[2 * (2 * at(edge) + at(end))];
-      edge_parameters_[place] = {p[0], p[1]};
+      edge_parameters_[result_.edge_place(e, k)] = {p[0], p[1]};
     }
   }
 
   void place_corners(LocalIndex t)
   {
     const LocalIndex triangle = complex_.triangle_skeleton[at(t)];
-    const std::array<TrianglePoint, 3> corners{{{0, 0}, {n_, 0}, {0, n_}}};
+    const LocalIndex n = result_.triangle_intervals(t);
+    const std::array<TrianglePoint, 3> corners{{{0, 0}, {n, 0}, {0, n}}};
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t place = triangle_place(t, corners[c]);
-      store(result_.triangle_xyz, place,
-            coarse_position(complex_.triangle_vertices[3 * at(t) + c]));
+      result_.place_triangle_point(t, corners[c],
+                                   coarse_position(complex_.triangle_vertices[3 * at(t) + c]));
       if (triangle == kNoIndex || !has_parameters()) continue;
       const double* uv = &context_.skeleton.triangle_uv[2 * (3 * at(triangle) + c)];
-      triangle_uv_[place] = {uv[0], uv[1]};
+      triangle_uv_[result_.triangle_place(t, corners[c])] = {uv[0], uv[1]};
     }
   }
 
   void refine_edge(LocalIndex e, LocalIndex step)
   {
     const LocalIndex edge = complex_.edge_skeleton[at(e)];
-    for (LocalIndex k = step; k < n_; k += 2 * step) {
+    for (LocalIndex k = step; k < result_.edge_intervals(e); k += 2 * step) {
       const Vec3 chord = midpoint(result_.edge_point(e, k - step), result_.edge_point(e, k + step));
       const bool is_free = edge == kNoIndex || context_.skeleton.edge_patch[at(edge)] == kNoIndex;
-      store(result_.edge_xyz, edge_place(e, k),
-            is_free ? chord : place_on_geometry(e, k, step, chord));
+      result_.place_edge_point(e, k, is_free ? chord : place_on_geometry(e, k, step, chord));
     }
   }
 
@@ -115,8 +95,8 @@ class LatticeRefiner {
     const std::size_t edge = at(complex_.edge_skeleton[at(e)]);
     SurfaceParameters parameters{};
     if (has_parameters()) {
-      parameters = middle(edge_parameters_[edge_place(e, k - step)],
-                          edge_parameters_[edge_place(e, k + step)]);
+      parameters = middle(edge_parameters_[result_.edge_place(e, k - step)],
+                          edge_parameters_[result_.edge_place(e, k + step)]);
     }
     const LocalIndex curve = context_.skeleton.edge_curve[edge];
     const auto project = [&](const Vec3& point, const SurfaceParameters& guess) {
@@ -128,19 +108,22 @@ class LatticeRefiner {
       return model::SurfacePoint{on_curve.xyz, {on_curve.t, 0.0}};
     };
     const model::SurfacePoint projected = project(chord, parameters);
-    if (has_parameters()) edge_parameters_[edge_place(e, k)] = projected.uv;
-    return limit(chord, projected,
-                 mesh::LatticePointKey::on_edge(complex_.edge_skeleton[at(e)], n_, k), project);
+    if (has_parameters()) edge_parameters_[result_.edge_place(e, k)] = projected.uv;
+    return limit(
+        chord, projected,
+        mesh::LatticePointKey::on_edge(complex_.edge_skeleton[at(e)], result_.edge_intervals(e), k),
+        project);
   }
 
   void refine_triangle(LocalIndex t, LocalIndex step)
   {
+    const LocalIndex n = result_.triangle_intervals(t);
     for (std::size_t side = 0; side < 3; ++side) {
-      for (LocalIndex k = step; k < n_; k += 2 * step) copy_side_point(t, side, k, step);
+      for (LocalIndex k = step; k < n; k += 2 * step) copy_side_point(t, side, k, step);
     }
-    for (LocalIndex j = step; j < n_; j += step) {
+    for (LocalIndex j = step; j < n; j += step) {
       const bool row_is_old = (j / step) % 2 == 0;
-      for (LocalIndex i = step; i + j < n_; i += step) {
+      for (LocalIndex i = step; i + j < n; i += step) {
         if (row_is_old && (i / step) % 2 == 0) continue;
         refine_inner_point(t, {i, j}, step);
       }
@@ -151,12 +134,14 @@ class LatticeRefiner {
   // them, because triangles on two sides of a periodic seam need different branches.
   void copy_side_point(LocalIndex t, std::size_t side, LocalIndex k, LocalIndex step)
   {
-    const TrianglePoint p = lattice::side_point(n_, side, k);
-    const Vec3 point = result_.edge_point(complex_.triangle_edges[3 * at(t) + side], k);
-    store(result_.triangle_xyz, triangle_place(t, p), point);
+    const TrianglePoint p = lattice::side_point(result_.triangle_intervals(t), side, k);
+    const LocalIndex e = complex_.triangle_edges[3 * at(t) + side];
+    const int finer_by = result_.levels().edge(e) - result_.levels().triangle(t);
+    const Vec3 point = result_.edge_point(e, k << finer_by);
+    result_.place_triangle_point(t, p, point);
     const LocalIndex patch = patch_of(t);
     if (patch == kNoIndex || !has_parameters()) return;
-    triangle_uv_[triangle_place(t, p)] =
+    triangle_uv_[result_.triangle_place(t, p)] =
         context_.model.project_to_surface(surface_of(patch), point, guess_uv(t, p, step)).uv;
   }
 
@@ -171,19 +156,21 @@ class LatticeRefiner {
       };
       const model::SurfacePoint projected =
           project(chord, has_parameters() ? guess_uv(t, p, step) : SurfaceParameters{});
-      if (has_parameters()) triangle_uv_[triangle_place(t, p)] = projected.uv;
+      if (has_parameters()) triangle_uv_[result_.triangle_place(t, p)] = projected.uv;
       point = limit(chord, projected,
-                    mesh::LatticePointKey::on_triangle(complex_.triangle_skeleton[at(t)], n_, p),
+                    mesh::LatticePointKey::on_triangle(complex_.triangle_skeleton[at(t)],
+                                                       result_.triangle_intervals(t), p),
                     project);
     }
-    store(result_.triangle_xyz, triangle_place(t, p), point);
+    result_.place_triangle_point(t, p, point);
   }
 
   [[nodiscard]] SurfaceParameters guess_uv(LocalIndex t, const TrianglePoint& p,
                                            LocalIndex step) const
   {
     const auto [a, b] = lattice::parents(p, step);
-    return middle(triangle_uv_[triangle_place(t, a)], triangle_uv_[triangle_place(t, b)]);
+    return middle(triangle_uv_[result_.triangle_place(t, a)],
+                  triangle_uv_[result_.triangle_place(t, b)]);
   }
 
   [[nodiscard]] LocalIndex patch_of(LocalIndex t) const
@@ -217,19 +204,22 @@ class LatticeRefiner {
 
   const mesh::Complex& complex_;
   const RefineContext& context_;
-  LocalIndex n_;
-  std::size_t edge_row_;
-  std::size_t triangle_row_;
-  mesh::RefinedLattice result_{};
-  std::vector<SurfaceParameters> edge_parameters_{};  ///< As edge_xyz; only for parametric models.
-  std::vector<SurfaceParameters> triangle_uv_{};      ///< As triangle_xyz; likewise.
+  mesh::RefinedLattice result_;
+  std::vector<SurfaceParameters> edge_parameters_{};  ///< As edge_points(), of parametric models.
+  std::vector<SurfaceParameters> triangle_uv_{};      ///< As triangle_points(), likewise.
 };
 
 }  // namespace
 
+mesh::RefinedLattice refine_lattice(const mesh::Complex& complex, mesh::LatticeLevels levels,
+                                    const RefineContext& context)
+{
+  return LatticeRefiner(complex, std::move(levels), context).run();
+}
+
 mesh::RefinedLattice refine_lattice(const mesh::Complex& complex, const RefineContext& context)
 {
-  return LatticeRefiner(complex, context).run();
+  return refine_lattice(complex, mesh::lattice_levels(complex, context.levels), context);
 }
 
 }  // namespace tessera::refine

@@ -7,6 +7,7 @@
 
 #include "tessera/mesh/host_layout.hpp"
 #include "tessera/mesh/lattice_numbering.hpp"
+#include "tessera/mesh/triangle_grading.hpp"
 
 namespace tessera::refine {
 namespace {
@@ -23,7 +24,7 @@ class SkinBuilder {
         points_(points),
         skeleton_(skeleton),
         hosts_(skeleton),
-        numbering_(complex, points.n)
+        numbering_(complex, points.levels())
   {
     const std::size_t num_vertices = at(numbering_.num_skeleton_points());
     skin_.vertex_xyz.resize(3 * num_vertices);
@@ -53,7 +54,7 @@ class SkinBuilder {
       const LocalIndex v = complex_.edge_vertices[2 * at(e) + at(end)];
       const LocalIndex skeleton_vertex = complex_.vertex_skeleton[at(v)];
       if (skeleton_vertex == kNoIndex) continue;
-      place(numbering_.vertex(v), points_.edge_point(e, end * points_.n),
+      place(numbering_.vertex(v), points_.edge_point(e, end * points_.edge_intervals(e)),
             {hosts_.vertex(skeleton_vertex), 0});
     }
   }
@@ -61,18 +62,18 @@ class SkinBuilder {
   void place_inside_edge(LocalIndex e)
   {
     const mesh::HostEntity host = hosts_.edge(complex_.edge_skeleton[at(e)]);
-    for (LocalIndex k = 1; k < points_.n; ++k) {
+    for (LocalIndex k = 1; k < points_.edge_intervals(e); ++k) {
       place(numbering_.edge_point(e, k), points_.edge_point(e, k), {host, k - 1});
     }
   }
 
   void place_inside_triangle(LocalIndex t)
   {
-    const LocalIndex n = points_.n;
+    const LocalIndex n = points_.triangle_intervals(t);
     const mesh::HostEntity host = hosts_.triangle(complex_.triangle_skeleton[at(t)]);
     for (LocalIndex j = 1; j < n; ++j) {
       for (LocalIndex i = 1; i + j < n; ++i) {
-        place(numbering_.triangle_point(t, {i, j}), points_.triangle_point(t, {i, j}),
+        place(numbering_.triangle_point(t, n, {i, j}), points_.triangle_point(t, {i, j}),
               {host, lattice::inner_triangle_index(n, i, j)});
       }
     }
@@ -89,11 +90,13 @@ class SkinBuilder {
   {
     const LocalIndex parent = complex_.triangle_skeleton[at(t)];
     const bool ascending_is_outward = skeleton_.triangle_subdomains[2 * at(parent)] == subdomain;
-    lattice::for_each_small_triangle(
-        points_.n, 1, [&](const TrianglePoint& a, TrianglePoint b, TrianglePoint c) {
+    const mesh::TriangleGrading grading = mesh::triangle_grading(complex_, points_, t);
+    const LocalIndex n = grading.finest_intervals();
+    mesh::for_each_graded_triangle(
+        grading, [&](const TrianglePoint& a, TrianglePoint b, TrianglePoint c) {
           if (!ascending_is_outward) std::swap(b, c);
           for (const TrianglePoint& p : {a, b, c}) {
-            skin_.triangle_vertices.push_back(numbering_.triangle_point(t, p));
+            skin_.triangle_vertices.push_back(numbering_.triangle_point(t, n, p));
           }
           skin_.triangle_parent.push_back(parent);
         });

@@ -3,25 +3,25 @@
 
 #include "tessera/fill/subdivide.hpp"
 #include "tessera/mesh/complex.hpp"
-#include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 
 namespace tessera::subdomain {
 
-std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& cut, int levels)
+std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& cut,
+                                                         const mesh::EdgeLevels& levels)
 {
-  const LocalIndex n = mesh::lattice::intervals(levels);
+  const mesh::LatticeLevels of_skeleton = mesh::lattice_levels(cut.skeleton, levels);
   std::vector<number::PieceCounts> counts;
   for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
-    const auto inside =
-        fill::count_subdivision(mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets[s]), n);
-    GlobalIndex num_owned = 0;
+    const auto inside = fill::count_subdivision(
+        mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets[s]), cut.coarse, levels);
+    number::PieceCounts& piece = counts.emplace_back(
+        number::PieceCounts{.interior_vertices = inside.interior_vertices, .tets = inside.tets});
     for (const LocalIndex t : cut.skeleton.triangles_of(s)) {
       const bool is_on_geometry = cut.skeleton.triangle_patch[at(t)] != kNoIndex;
-      num_owned += is_on_geometry && cut.skeleton.triangle_owner(t) == s ? 1 : 0;
+      if (!is_on_geometry || cut.skeleton.triangle_owner(t) != s) continue;
+      piece.boundary_triangles += mesh::num_small_triangles(cut.skeleton, of_skeleton, t);
     }
-    counts.push_back({.interior_vertices = inside.interior_vertices,
-                      .tets = inside.tets,
-                      .boundary_triangles = num_owned * n * n});
   }
   return counts;
 }

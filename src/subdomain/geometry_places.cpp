@@ -2,8 +2,11 @@
 #include "subdomain/geometry_places.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <span>
+
+#include "tessera/mesh/triangle_grading.hpp"
 
 namespace tessera::subdomain {
 namespace {
@@ -66,22 +69,24 @@ void place_triangle(LocalIndex row, const mesh::Complex& complex,
   places[at(triangle)] = {row, {corners[0].point, corners[1].point, corners[2].point}};
 }
 
-void put(std::vector<double>& xyz, std::size_t row, const Vec3& point)
+mesh::LatticeLevels same_levels(const mesh::Complex& complex, int levels)
 {
-  std::ranges::copy(point, &xyz[3 * row]);
+  const auto level = static_cast<std::int8_t>(levels);
+  return {.edges = std::vector(at(complex.num_edges()), level),
+          .triangles = std::vector(at(complex.num_triangles()), level)};
 }
 
 // Fills the lattice of a complex, edges before triangles.
 class MidpointLattice {
  public:
   MidpointLattice(const mesh::Complex& complex, const GeometryPlaces& places,
-                  const mesh::RefinedLattice& geometry, LocalIndex n)
-      : complex_(complex), places_(places), geometry_(geometry), n_(n)
+                  const mesh::RefinedLattice& geometry, int levels)
+      : complex_(complex),
+        places_(places),
+        geometry_(geometry),
+        n_(lattice::intervals(levels)),
+        result_(same_levels(complex, levels))
   {
-    result_.n = n;
-    result_.edge_xyz.resize(3 * at(complex.num_edges()) * at(n + 1));
-    result_.triangle_xyz.resize(3 * at(complex.num_triangles())
-                                * at(lattice::num_triangle_points(n)));
   }
 
   mesh::RefinedLattice run(const std::vector<double>& vertex_xyz)
@@ -97,28 +102,17 @@ class MidpointLattice {
     return place.is_on_geometry() && place.triangle < places_.num_known;
   }
 
-  void put_on_edge(LocalIndex e, LocalIndex k, const Vec3& point)
-  {
-    put(result_.edge_xyz, at(e) * at(n_ + 1) + at(k), point);
-  }
-
-  void put_on_triangle(LocalIndex t, const TrianglePoint& p, const Vec3& point)
-  {
-    put(result_.triangle_xyz,
-        at(t) * at(lattice::num_triangle_points(n_)) + at(lattice::triangle_index(n_, p.i, p.j)),
-        point);
-  }
-
   void fill_edge(LocalIndex e, const std::vector<double>& vertex_xyz)
   {
     for (const LocalIndex end : {0, 1}) {
-      put_on_edge(e, end * n_,
-                  point_at(std::span(vertex_xyz), complex_.edge_vertices[2 * at(e) + at(end)]));
+      result_.place_edge_point(
+          e, end * n_,
+          point_at(std::span(vertex_xyz), complex_.edge_vertices[2 * at(e) + at(end)]));
     }
     const GeometryPlace& place = places_.edges[at(e)];
     for (LocalIndex step = n_ / 2; step >= 1; step /= 2) {
       for (LocalIndex k = step; k < n_; k += 2 * step) {
-        put_on_edge(
+        result_.place_edge_point(
             e, k,
             is_known(place)
                 ? geometry_.triangle_point(place.triangle, place.point(n_, k, 0))
@@ -131,8 +125,9 @@ class MidpointLattice {
   {
     for (std::size_t side = 0; side < 3; ++side) {
       for (LocalIndex k = 0; k <= n_; ++k) {
-        put_on_triangle(t, lattice::side_point(n_, side, k),
-                        result_.edge_point(complex_.triangle_edges[3 * at(t) + side], k));
+        result_.place_triangle_point(
+            t, lattice::side_point(n_, side, k),
+            result_.edge_point(complex_.triangle_edges[3 * at(t) + side], k));
       }
     }
     for (LocalIndex step = n_ / 2; step >= 1; step /= 2) {
@@ -148,18 +143,20 @@ class MidpointLattice {
   {
     const GeometryPlace& place = places_.of_triangles[at(t)];
     if (is_known(place)) {
-      put_on_triangle(t, p, geometry_.triangle_point(place.triangle, place.point(n_, p.i, p.j)));
+      result_.place_triangle_point(
+          t, p, geometry_.triangle_point(place.triangle, place.point(n_, p.i, p.j)));
       return;
     }
     const auto [a, b] = lattice::parents(p, step);
-    put_on_triangle(t, p, midpoint(result_.triangle_point(t, a), result_.triangle_point(t, b)));
+    result_.place_triangle_point(
+        t, p, midpoint(result_.triangle_point(t, a), result_.triangle_point(t, b)));
   }
 
   const mesh::Complex& complex_;
   const GeometryPlaces& places_;
   const mesh::RefinedLattice& geometry_;
   LocalIndex n_;
-  mesh::RefinedLattice result_{};
+  mesh::RefinedLattice result_;
 };
 
 }  // namespace
@@ -170,10 +167,12 @@ TrianglePoint GeometryPlace::point(LocalIndex n, LocalIndex i, LocalIndex j) con
   return {n * a.i + i * (b.i - a.i) + j * (c.i - a.i), n * a.j + i * (b.j - a.j) + j * (c.j - a.j)};
 }
 
-GeometryFinder::GeometryFinder(const mesh::Skeleton& skeleton, LocalIndex n)
+GeometryFinder::GeometryFinder(const mesh::Skeleton& skeleton, const mesh::CoarseMesh& coarse,
+                               const mesh::EdgeLevels& levels)
     : skeleton_(skeleton),
+      coarse_(coarse),
+      levels_(mesh::lattice_levels(skeleton, levels)),
       hosts_(skeleton),
-      n_(n),
       triangles_of_host_(triangles_by_host(skeleton, hosts_))
 {
 }
@@ -195,35 +194,55 @@ std::vector<LocalIndex> GeometryFinder::triangles_around(
   return triangles;
 }
 
-mesh::HostPoint GeometryFinder::name_of(LocalIndex triangle, const TrianglePoint& p) const
+// Of a point in a lattice with n intervals; without host if no piece has such a point.
+mesh::HostPoint GeometryFinder::name_of(LocalIndex triangle, LocalIndex n,
+                                        const TrianglePoint& p) const
 {
   const LocalIndex* vertices = &skeleton_.triangle_vertices[3 * at(triangle)];
-  if (p.i == n_) return {hosts_.vertex(vertices[1]), 0};
-  if (p.j == n_) return {hosts_.vertex(vertices[2]), 0};
+  if (p.i == n) return {hosts_.vertex(vertices[1]), 0};
+  if (p.j == n) return {hosts_.vertex(vertices[2]), 0};
   if (p.i + p.j == 0) return {hosts_.vertex(vertices[0]), 0};
-  const LocalIndex* edges = &skeleton_.triangle_edges[3 * at(triangle)];
-  if (p.j == 0) return {hosts_.edge(edges[0]), p.i - 1};
-  if (p.i == 0) return {hosts_.edge(edges[1]), p.j - 1};
-  if (p.i + p.j == n_) return {hosts_.edge(edges[2]), p.j - 1};
-  return {hosts_.triangle(triangle), lattice::inner_triangle_index(n_, p.i, p.j)};
+  const auto on_edge = [&](std::size_t side, LocalIndex k) -> mesh::HostPoint {
+    const LocalIndex e = skeleton_.triangle_edges[3 * at(triangle) + side];
+    const LocalIndex step = n / levels_.edge_intervals(e);
+    if (k % step != 0) return {kNoIndex, 0};
+    return {hosts_.edge(e), k / step - 1};
+  };
+  if (p.j == 0) return on_edge(0, p.i);
+  if (p.i == 0) return on_edge(1, p.j);
+  if (p.i + p.j == n) return on_edge(2, p.j);
+  const LocalIndex own = levels_.triangle_intervals(triangle);
+  const LocalIndex step = n / own;
+  if (p.i % step != 0 || p.j % step != 0) return {kNoIndex, 0};
+  return {hosts_.triangle(triangle), lattice::inner_triangle_index(own, p.i / step, p.j / step)};
+}
+
+int GeometryFinder::level_of(LocalIndex triangle) const
+{
+  const LocalIndex* sides = &skeleton_.triangle_edges[3 * at(triangle)];
+  return std::max({levels_.edge(sides[0]), levels_.edge(sides[1]), levels_.edge(sides[2])});
 }
 
 void GeometryFinder::place_lattice(LocalIndex row, const mesh::Complex& complex,
                                    const std::vector<mesh::HostPoint>& names,
                                    GeometryPlaces& places) const
 {
-  std::vector<LatticeVertex> vertices(at(lattice::num_triangle_points(n_)));
-  for (LocalIndex j = 0; j <= n_; ++j) {
-    for (LocalIndex i = 0; i + j <= n_; ++i) {
-      const mesh::HostPoint name = name_of(places.triangles[at(row)], {i, j});
-      vertices[at(lattice::triangle_index(n_, i, j))] = {vertex_named(names, name), {i, j}};
+  const LocalIndex triangle = places.triangles[at(row)];
+  const mesh::TriangleGrading grading =
+      mesh::triangle_grading(skeleton_, coarse_, levels_, triangle);
+  const LocalIndex n = grading.finest_intervals();
+  std::vector<LatticeVertex> vertices(at(lattice::num_triangle_points(n)));
+  for (LocalIndex j = 0; j <= n; ++j) {
+    for (LocalIndex i = 0; i + j <= n; ++i) {
+      const mesh::HostPoint name = name_of(triangle, n, {i, j});
+      vertices[at(lattice::triangle_index(n, i, j))] = {vertex_named(names, name), {i, j}};
     }
   }
   const auto at_point = [&](const TrianglePoint& p) {
-    return vertices[at(lattice::triangle_index(n_, p.i, p.j))];
+    return vertices[at(lattice::triangle_index(n, p.i, p.j))];
   };
-  lattice::for_each_small_triangle(
-      n_, 1, [&](const TrianglePoint& p, const TrianglePoint& q, const TrianglePoint& r) {
+  mesh::for_each_graded_triangle(
+      grading, [&](const TrianglePoint& p, const TrianglePoint& q, const TrianglePoint& r) {
         const std::array corners{at_point(p), at_point(q), at_point(r)};
         place_edge(row, complex, corners[0], corners[1], places.edges);
         place_edge(row, complex, corners[0], corners[2], places.edges);
@@ -253,9 +272,9 @@ GeometryPlaces GeometryFinder::find(const mesh::Complex& complex,
 mesh::RefinedLattice midpoint_lattice(const mesh::Complex& complex,
                                       const std::vector<double>& vertex_xyz,
                                       const GeometryPlaces& places,
-                                      const mesh::RefinedLattice& geometry, LocalIndex n)
+                                      const mesh::RefinedLattice& geometry, int levels)
 {
-  return MidpointLattice(complex, places, geometry, n).run(vertex_xyz);
+  return MidpointLattice(complex, places, geometry, levels).run(vertex_xyz);
 }
 
 mesh::LatticePointKey key_of(const mesh::Skeleton& skeleton, LocalIndex triangle, LocalIndex n,

@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "tessera/base/index_lists.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/complex.hpp"
+#include "tessera/mesh/edge_levels.hpp"
 #include "tessera/mesh/host_layout.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skeleton.hpp"
@@ -23,7 +26,7 @@ struct GeometryPlace {
   [[nodiscard]] bool is_on_geometry() const { return triangle != kNoIndex; }
 
   // Point (i, j) of the entity's own lattice with n intervals, in that of the skeleton triangle
-  // with n times its intervals.
+  // with n times the intervals that GeometryFinder::level_of() has.
   [[nodiscard]] mesh::lattice::TrianglePoint point(LocalIndex n, LocalIndex i, LocalIndex j) const;
 };
 
@@ -40,24 +43,29 @@ struct GeometryPlaces {
 // triangles on the geometry stay those of the skeleton's lattice.
 class GeometryFinder {
  public:
-  // @param[in] skeleton Borrowed. @param[in] n Intervals of its edges.
-  GeometryFinder(const mesh::Skeleton& skeleton, LocalIndex n);
+  // The arguments are borrowed. @param[in] levels Those on which the pieces were filled.
+  GeometryFinder(const mesh::Skeleton& skeleton, const mesh::CoarseMesh& coarse,
+                 const mesh::EdgeLevels& levels);
 
   // @param[in] names Of the first vertices of the complex; ascending.
   [[nodiscard]] GeometryPlaces find(const mesh::Complex& complex,
                                     const std::vector<mesh::HostPoint>& names) const;
 
+  // Level of the lattice of a skeleton triangle in which corners stand: that of its finest side.
+  [[nodiscard]] int level_of(LocalIndex triangle) const;
+
  private:
   [[nodiscard]] std::vector<LocalIndex> triangles_around(
       const std::vector<mesh::HostPoint>& names) const;
-  [[nodiscard]] mesh::HostPoint name_of(LocalIndex triangle,
+  [[nodiscard]] mesh::HostPoint name_of(LocalIndex triangle, LocalIndex n,
                                         const mesh::lattice::TrianglePoint& p) const;
   void place_lattice(LocalIndex row, const mesh::Complex& complex,
                      const std::vector<mesh::HostPoint>& names, GeometryPlaces& places) const;
 
   const mesh::Skeleton& skeleton_;
+  const mesh::CoarseMesh& coarse_;
+  mesh::LatticeLevels levels_;  // Of the skeleton.
   mesh::HostLayout hosts_;
-  LocalIndex n_;
   IndexLists triangles_of_host_;  // On the geometry only; by host of the skeleton.
 };
 
@@ -69,7 +77,7 @@ class GeometryFinder {
                                                     const std::vector<double>& vertex_xyz,
                                                     const GeometryPlaces& places,
                                                     const mesh::RefinedLattice& geometry,
-                                                    LocalIndex n);
+                                                    int levels);
 
 // Name of a lattice point of a skeleton triangle that is no corner. @param[in] n Its intervals.
 [[nodiscard]] mesh::LatticePointKey key_of(const mesh::Skeleton& skeleton, LocalIndex triangle,

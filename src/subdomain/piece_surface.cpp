@@ -120,10 +120,11 @@ mesh::Piece halo_beside(const mesh::Piece& halo, const number::SurfaceList& surf
 }
 
 number::PieceCounts count_split_piece(const mesh::Piece& piece, const number::SurfaceList& surface,
-                                      const number::SharedSurface& shared, LocalIndex n)
+                                      const number::SharedSurface& shared, int splits)
 {
+  const LocalIndex n = mesh::lattice::intervals(splits);
   const PieceComplex alone = make_piece_complex(piece, {}, surface.simplices);
-  const fill::SubdivisionCounts inside = fill::count_subdivision(alone.complex, n);
+  const fill::SubdivisionCounts inside = fill::count_subdivision(alone.complex, alone.mesh, splits);
   return {.interior_vertices = inside.interior_vertices,
           .tets = inside.tets,
           .boundary_triangles = GlobalIndex{piece.num_boundary()} * n * n,

@@ -20,7 +20,7 @@ namespace tessera::subdomain {
 
 struct PieceRefiner::State {
   const PartitionedMesh& cut;
-  int levels;
+  int splits;
   GeometryFinder finder;
 };
 
@@ -38,13 +38,13 @@ class PieceSplitter {
  public:
   PieceSplitter(const mesh::Piece& piece, const PieceSurroundings& around,
                 const refine::RefineContext& refine, const PartitionedMesh& cut,
-                const GeometryFinder& finder, LocalIndex n)
+                const GeometryFinder& finder, int splits)
       : piece_(piece),
         around_(around),
         refine_(refine),
         hosts_(cut.skeleton),
-        n_(n),
-        surface_(piece, around, cut, finder, n),
+        n_(lattice::intervals(splits)),
+        surface_(piece, around, cut, finder, splits),
         all_(surface_.all())
   {
   }
@@ -58,8 +58,7 @@ class PieceSplitter {
     if (around_.is_smoothed) smooth_inside(tets);
     RefinedPiece refined;
     if (!fill::all_positive(tets)) {
-      refined.folds =
-          surface_.limits_at(folded_parents(fill::subdivide(all_.complex, points)), refine_.levels);
+      refined.folds = surface_.limits_at(folded_parents(fill::subdivide(all_.complex, points)));
       refined.filled.result.summary = before;
       refined.filled.result.summary.is_folded = true;
       return refined;
@@ -199,9 +198,9 @@ class PieceSplitter {
 
 }  // namespace
 
-PieceRefiner::PieceRefiner(const PartitionedMesh& cut, int levels)
+PieceRefiner::PieceRefiner(const PartitionedMesh& cut, int splits)
     : state_(std::make_unique<const State>(
-        State{cut, levels, GeometryFinder(cut.skeleton, lattice::intervals(levels))}))
+        State{cut, splits, GeometryFinder(cut.skeleton, cut.coarse, cut.levels)}))
 {
 }
 
@@ -212,8 +211,8 @@ RefinedPiece PieceRefiner::refine(const mesh::Piece& piece, const PieceSurroundi
                                   const refine::RefineContext& refine,
                                   const PieceSummary& before) const
 {
-  const LocalIndex n = lattice::intervals(refine.levels - state_->levels);
-  return PieceSplitter(piece, around, refine, state_->cut, state_->finder, n).run(before);
+  return PieceSplitter(piece, around, refine, state_->cut, state_->finder, state_->splits)
+      .run(before);
 }
 
 }  // namespace tessera::subdomain

@@ -14,11 +14,13 @@ namespace tessera::subdomain {
 namespace lattice = mesh::lattice;
 
 SplitSurface::SplitSurface(const mesh::Piece& piece, const PieceSurroundings& around,
-                           const PartitionedMesh& cut, const GeometryFinder& finder, LocalIndex n)
+                           const PartitionedMesh& cut, const GeometryFinder& finder, int splits)
     : piece_(piece),
       around_(around),
       cut_(cut),
-      n_(n),
+      finder_(finder),
+      splits_(splits),
+      n_(lattice::intervals(splits)),
       all_(make_piece_complex(piece, around.halos, around.surface.simplices)),
       places_(finder.find(all_.complex.faces, all_.names))
 {
@@ -30,7 +32,7 @@ mesh::RefinedLattice SplitSurface::points(const refine::RefineContext& refine) c
 {
   const mesh::RefinedLattice known = lattice_of_known_places(refine);
   mesh::RefinedLattice points =
-      midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz, places_, known, n_);
+      midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz, places_, known, splits_);
   points.distance = known.distance;
   return points;
 }
@@ -140,18 +142,32 @@ void SplitSurface::order_places_by_need()
 mesh::RefinedLattice SplitSurface::lattice_of_known_places(
     const refine::RefineContext& refine) const
 {
-  mesh::RefinedLattice known =
-      refine::refine_lattice(mesh::skin_complex(cut_.skeleton, piece_.subdomain), refine);
+  const mesh::Complex skin = mesh::skin_complex(cut_.skeleton, piece_.subdomain);
+  mesh::RefinedLattice known = refine::refine_lattice(skin, levels_of(skin), refine);
   const auto num_of_skin = cut_.skeleton.triangles_of(piece_.subdomain).size();
   const std::span<const LocalIndex> others =
       std::span(places_.triangles).subspan(num_of_skin, at(places_.num_known) - num_of_skin);
   refine::RefineContext unmeasured = refine;
   unmeasured.measure_distance = false;
-  const mesh::RefinedLattice more =
-      refine::refine_lattice(mesh::skeleton_complex(cut_.skeleton, others), unmeasured);
-  known.triangle_xyz.insert(known.triangle_xyz.end(), more.triangle_xyz.begin(),
-                            more.triangle_xyz.end());
+  const mesh::Complex beside = mesh::skeleton_complex(cut_.skeleton, others);
+  known.append_triangles(refine::refine_lattice(beside, levels_of(beside), unmeasured));
   return known;
+}
+
+// Of triangles of the skeleton after the split. A side has the level of its finest triangle: more
+// than the mesh needs where another side of that triangle is finer.
+mesh::LatticeLevels SplitSurface::levels_of(const mesh::Complex& complex) const
+{
+  mesh::LatticeLevels levels{.edges = std::vector<std::int8_t>(at(complex.num_edges()), 0)};
+  for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
+    const int level = finder_.level_of(complex.triangle_skeleton[at(t)]) + splits_;
+    levels.triangles.push_back(static_cast<std::int8_t>(level));
+    for (std::size_t side = 0; side < 3; ++side) {
+      std::int8_t& of_side = levels.edges[at(complex.triangle_edges[3 * at(t) + side])];
+      of_side = std::max(of_side, levels.triangles.back());
+    }
+  }
+  return levels;
 }
 
 std::span<const LocalIndex> SplitSurface::own_corners() const
@@ -207,15 +223,14 @@ bool SplitSurface::is_on_seam(std::size_t simplex, mesh::HostKind kind) const
 }
 
 // All new points on the geometry that these tets have stay midpoints from now on.
-std::vector<mesh::PointLimit> SplitSurface::limits_at(const std::vector<LocalIndex>& tets,
-                                                      int levels) const
+std::vector<mesh::PointLimit> SplitSurface::limits_at(const std::vector<LocalIndex>& tets) const
 {
   std::vector<mesh::PointLimit> limits;
   const auto hold_back = [&](const GeometryPlace& place, LocalIndex i, LocalIndex j) {
     if (!place.is_on_geometry()) return;
-    limits.push_back({key_of(cut_.skeleton, places_.triangles[at(place.triangle)],
-                             lattice::intervals(levels), place.point(n_, i, j)),
-                      0.0});
+    const LocalIndex triangle = places_.triangles[at(place.triangle)];
+    const LocalIndex n = lattice::intervals(finder_.level_of(triangle) + splits_);
+    limits.push_back({key_of(cut_.skeleton, triangle, n, place.point(n_, i, j)), 0.0});
   };
   const mesh::Complex& faces = all_.complex.faces;
   for (const LocalIndex tet : tets) {

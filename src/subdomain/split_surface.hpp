@@ -22,9 +22,9 @@ namespace tessera::subdomain {
 // points of both.
 class SplitSurface {
  public:
-  // @param[in] n Intervals of an edge of the piece. The rest is borrowed.
+  // @param[in] splits Levels of the split. The rest is borrowed.
   SplitSurface(const mesh::Piece& piece, const PieceSurroundings& around,
-               const PartitionedMesh& cut, const GeometryFinder& finder, LocalIndex n);
+               const PartitionedMesh& cut, const GeometryFinder& finder, int splits);
 
   // The piece and the tets of its neighbours.
   [[nodiscard]] const PieceComplex& all() const { return all_; }
@@ -71,8 +71,7 @@ class SplitSurface {
   [[nodiscard]] bool is_on_seam(std::size_t simplex, mesh::HostKind kind) const;
 
   // All new points on the geometry that these tets have stay midpoints from now on.
-  [[nodiscard]] std::vector<mesh::PointLimit> limits_at(const std::vector<LocalIndex>& tets,
-                                                        int levels) const;
+  [[nodiscard]] std::vector<mesh::PointLimit> limits_at(const std::vector<LocalIndex>& tets) const;
 
  private:
   void tie_surface_to_geometry();
@@ -98,6 +97,7 @@ class SplitSurface {
   void order_places_by_need();
   [[nodiscard]] mesh::RefinedLattice lattice_of_known_places(
       const refine::RefineContext& refine) const;
+  [[nodiscard]] mesh::LatticeLevels levels_of(const mesh::Complex& complex) const;
   [[nodiscard]] std::span<const LocalIndex> own_corners() const;
   [[nodiscard]] bool is_outward(const mesh::TriangleTets& triangle) const;
   [[nodiscard]] LocalIndex other_side(const GeometryPlace& place) const;
@@ -105,7 +105,9 @@ class SplitSurface {
   const mesh::Piece& piece_;
   const PieceSurroundings& around_;
   const PartitionedMesh& cut_;
-  LocalIndex n_;
+  const GeometryFinder& finder_;
+  int splits_;
+  LocalIndex n_;  // Intervals of an edge of the piece.
   PieceComplex all_;
   GeometryPlaces places_;
 };

@@ -5,76 +5,98 @@
 
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/lattice.hpp"
-#include "tessera/mesh/tet_face_map.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/mesh/tet_lattice.hpp"
 #include "tessera/mesh/tet_points.hpp"
-#include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::untangle {
 namespace {
 
 namespace lattice = mesh::lattice;
 using lattice::TetPoint;
-using lattice::TrianglePoint;
 
-bool has_bad_child(const mesh::TetPoints& points, LocalIndex n, LocalIndex step)
+bool is_bad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+  return !(tet_volume(a, b, c, d) > 0.0);
+}
+
+// Of the children on one level; `level` is at most one more than the tet's own.
+bool has_bad_child(const mesh::TetPoints& points, int level)
 {
   bool bad = false;
+  if (level > points.grading().level) {
+    const auto& all = points.all();
+    points.for_each_child([&](LocalIndex a, LocalIndex b, LocalIndex c, LocalIndex d) {
+      bad = bad || is_bad(all[at(a)], all[at(b)], all[at(c)], all[at(d)]);
+    });
+    return bad;
+  }
   lattice::for_each_child(
-      n, step, points.diagonal(),
+      points.intervals(), points.intervals() >> level, points.grading().diagonal,
       [&](const TetPoint& a, const TetPoint& b, const TetPoint& c, const TetPoint& d) {
-        bad = bad || !(tet_volume(points.at(a), points.at(b), points.at(c), points.at(d)) > 0.0);
+        bad = bad || is_bad(points.at(a), points.at(b), points.at(c), points.at(d));
       });
   return bad;
+}
+
+// Whether a tet has children on a level that it has not on the one before.
+bool is_split_on(const mesh::TetGrading& grading, int level)
+{
+  return level <= grading.level + (grading.is_uniform() ? 0 : 1);
 }
 
 // Keys of the new points of one level on the geometry, on the faces and edges of one tet.
 class NewPoints {
  public:
-  NewPoints(const mesh::TetComplex& complex, const mesh::Skeleton& skeleton, LocalIndex n,
-            LocalIndex step)
-      : complex_(complex), skeleton_(skeleton), n_(n), step_(step)
+  NewPoints(const mesh::TetComplex& complex, const mesh::Skeleton& skeleton,
+            const mesh::LatticeLevels& levels, int level)
+      : complex_(complex), skeleton_(skeleton), levels_(levels), level_(level)
   {
   }
 
   [[nodiscard]] std::vector<mesh::LatticePointKey> of_tet(LocalIndex tet) const
   {
     std::vector<mesh::LatticePointKey> keys;
-    const mesh::Complex& faces = complex_.faces;
     for (std::size_t c = 0; c < 4; ++c) {
       const LocalIndex t = complex_.tet_triangles[4 * at(tet) + c];
       for (std::size_t side = 0; side < 3; ++side) {
-        append_edge(faces.edge_skeleton[at(faces.triangle_edges[3 * at(t) + side])], keys);
+        append_edge(complex_.faces.triangle_edges[3 * at(t) + side], keys);
       }
-      append_triangle(faces.triangle_skeleton[at(t)], keys);
+      append_triangle(t, keys);
     }
     return keys;
   }
 
  private:
-  void append_edge(LocalIndex edge, std::vector<mesh::LatticePointKey>& keys) const
+  void append_edge(LocalIndex e, std::vector<mesh::LatticePointKey>& keys) const
   {
+    const LocalIndex edge = complex_.faces.edge_skeleton[at(e)];
     if (edge == kNoIndex || skeleton_.edge_patch[at(edge)] == kNoIndex) return;
-    for (LocalIndex k = step_; k < n_; k += 2 * step_) {
-      keys.push_back(mesh::LatticePointKey::on_edge(edge, n_, k));
+    if (levels_.edge(e) < level_) return;
+    const LocalIndex n = lattice::intervals(level_);
+    for (LocalIndex k = 1; k < n; k += 2) {
+      keys.push_back(mesh::LatticePointKey::on_edge(edge, n, k));
     }
   }
 
-  void append_triangle(LocalIndex triangle, std::vector<mesh::LatticePointKey>& keys) const
+  void append_triangle(LocalIndex t, std::vector<mesh::LatticePointKey>& keys) const
   {
+    const LocalIndex triangle = complex_.faces.triangle_skeleton[at(t)];
     if (triangle == kNoIndex || skeleton_.triangle_patch[at(triangle)] == kNoIndex) return;
-    for (LocalIndex j = step_; j < n_; j += step_) {
-      for (LocalIndex i = step_; i + j < n_; i += step_) {
-        if ((i / step_) % 2 == 0 && (j / step_) % 2 == 0) continue;
-        keys.push_back(mesh::LatticePointKey::on_triangle(triangle, n_, {i, j}));
+    if (levels_.triangle(t) < level_) return;
+    const LocalIndex n = lattice::intervals(level_);
+    for (LocalIndex j = 1; j < n; ++j) {
+      for (LocalIndex i = 1; i + j < n; ++i) {
+        if (i % 2 == 0 && j % 2 == 0) continue;
+        keys.push_back(mesh::LatticePointKey::on_triangle(triangle, n, {i, j}));
       }
     }
   }
 
   const mesh::TetComplex& complex_;
   const mesh::Skeleton& skeleton_;
-  LocalIndex n_;
-  LocalIndex step_;
+  const mesh::LatticeLevels& levels_;
+  int level_;
 };
 
 }  // namespace
@@ -119,11 +141,12 @@ std::vector<mesh::PointLimit> find_folds(const mesh::TetComplex& complex,
                                          const mesh::ProjectionLimiter& limiter)
 {
   std::vector<mesh::PointLimit> smaller;
-  for (LocalIndex step = lattice.n / 2; step >= 1 && smaller.empty(); step /= 2) {
-    const NewPoints new_points(complex, skeleton, lattice.n, step);
+  const mesh::LatticeLevels& levels = lattice.levels();
+  for (int level = 1; level <= levels.largest() && smaller.empty(); ++level) {
+    const NewPoints new_points(complex, skeleton, levels, level);
     for (LocalIndex t = 0; t < static_cast<LocalIndex>(complex.tets.size()); ++t) {
-      const mesh::TetPoints points(complex, lattice, t);
-      if (!has_bad_child(points, lattice.n, step)) continue;
+      if (!is_split_on(mesh::tet_grading(complex, lattice, t), level)) continue;
+      if (!has_bad_child(mesh::TetPoints(complex, lattice, t), level)) continue;
       for (const mesh::LatticePointKey& key : new_points.of_tet(t)) {
         const double factor = limiter.factor(key);
         if (factor > 0.0) smaller.push_back({key, next_factor(factor)});

@@ -144,7 +144,7 @@ void print_table(const testing::Subject& subject, const Settings& settings)
       decompose::decompose(subject.coarse, {.subdomains = num_subdomains},
                            decompose::predicted_fine_tets(subject.coarse, settings.levels),
                            *decompose::make_metis_partitioner());
-  const subdomain::PartitionedMesh cut(subject.coarse, result.decomposition);
+  const subdomain::PartitionedMesh cut(subject.coarse, result.decomposition, settings.levels);
   std::printf("%s: %d coarse tets, %d subdomains\n", subject.file.c_str(),
               subject.coarse.num_tets(), cut.num_subdomains());
   const double start = cpu_seconds();

@@ -101,7 +101,8 @@ std::vector<double> ratios_of(const testing::Subject& subject, const mesh::Skele
   mesh::Skin skin = refine::extract_skin(complex, lattice, skeleton, subdomain);
   fill::FillInput input{.vertex_xyz = std::move(skin.vertex_xyz),
                         .triangle_vertices = std::move(skin.triangle_vertices)};
-  fill::add_size_samples(subject.coarse, tets, fill::vertex_sizes(subject.coarse), levels, input);
+  fill::add_size_samples(subject.coarse, tets, fill::vertex_sizes(subject.coarse, levels), levels,
+                         input);
   const fill::FillOutput filled = netgen::make_fill_kernel()->fill(input, {});
   const SampleGrid wanted(input);
   const std::span<const double> xyz(filled.vertex_xyz);

@@ -29,7 +29,7 @@ std::vector<mesh::Piece> filled_pieces(const Body& body, int levels)
   const testing::FlatModel model;
   const mesh::ProjectionLimiter limiter;
   const refine::RefineContext refine{body.coarse, body.skeleton, model, limiter, levels};
-  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition);
+  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition, levels);
   const auto kernel = netgen::make_fill_kernel();
   const fill::FillTry how{.start = fill::FillStart::skin, .settings = {.optimize_steps = 2}};
   std::vector<mesh::Piece> pieces;

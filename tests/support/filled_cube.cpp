@@ -19,7 +19,7 @@ subdomain::FilledPiece fill_of(const Body& body, int levels, LocalIndex subdomai
   const FlatModel model;
   const mesh::ProjectionLimiter limiter;
   const refine::RefineContext refine{body.coarse, body.skeleton, model, limiter, levels, true};
-  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition);
+  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition, levels);
   return subdomain::fill_subdomain(cut, refine, subdomain, how, *netgen::make_fill_kernel());
 }
 
@@ -35,7 +35,7 @@ void FilledCube::SetUpTestSuite()
     counts.push_back(subdomain::counts_of(summary));
   }
   const auto ids = number::IdLayout::by_host(mesh::HostLayout(body.skeleton),
-                                             mesh::lattice::intervals(kLevels), counts);
+                                             mesh::lattice_levels(body.skeleton, kLevels), counts);
   shared_ = new Shared{std::move(body), std::move(pieces), ids, "mm"};
 }
 

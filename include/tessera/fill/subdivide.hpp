@@ -3,14 +3,17 @@
 
 #include "tessera/base/types.hpp"
 #include "tessera/fill/kernel.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/complex.hpp"
+#include "tessera/mesh/edge_levels.hpp"
 #include "tessera/mesh/refined_lattice.hpp"
 
 namespace tessera::fill {
 
-/// @brief Fills a subdomain with the children of its coarse tets: 8^L each, enumerated in closed
-/// form. Their outer faces are the refined skin, whatever diagonals are chosen, so the piece
-/// conforms with pieces of any other kernel.
+/// @brief Fills a subdomain with the children of its coarse tets, enumerated in closed form: 8^L
+/// each, and some more where edges are one level finer (@see mesh::cut_tet()). Their outer faces
+/// are the refined skin, whatever diagonals are chosen, so the piece conforms with pieces of any
+/// other kernel.
 ///
 /// Every octahedron is cut along the shortest diagonal of its coarse tet (Bey's ordering: at most
 /// three similarity classes). Inner lattice points are midpoints of older points, level by level,
@@ -30,7 +33,9 @@ struct SubdivisionCounts {
   GlobalIndex interior_vertices = 0;
 };
 
-/// @brief Closed form of the numbers. Local. @param[in] n Intervals of an edge.
-[[nodiscard]] SubdivisionCounts count_subdivision(const mesh::TetComplex& complex, LocalIndex n);
+/// @brief Closed form of the numbers. Local. @param[in] complex Tets of `coarse`.
+[[nodiscard]] SubdivisionCounts count_subdivision(const mesh::TetComplex& complex,
+                                                  const mesh::CoarseMesh& coarse,
+                                                  const mesh::EdgeLevels& levels);
 
 }  // namespace tessera::fill

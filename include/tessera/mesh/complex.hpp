@@ -52,6 +52,9 @@ struct TetComplex {
   std::vector<LocalIndex> tet_vertices{};   ///< Shape (num_tets, 4); local, the coarse tet's order.
 };
 
+/// @brief Edges of tet `tet` in the order of kTetEdgeCorners: rows of complex.faces. Local.
+[[nodiscard]] std::array<LocalIndex, 6> edges_of_tet(const TetComplex& complex, LocalIndex tet);
+
 /// @brief Builds the complex of the given coarse tets. Local; O(n log n) in their number.
 [[nodiscard]] TetComplex tet_complex(const CoarseMesh& coarse, const Skeleton& skeleton,
                                      std::span<const LocalIndex> tets);

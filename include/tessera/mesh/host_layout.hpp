@@ -62,9 +62,6 @@ class HostLayout {
   /// @brief Vertices, edges and triangles: the hosts below this number are the skeleton's.
   [[nodiscard]] LocalIndex num_on_skeleton() const { return first(HostKind::piece); }
 
-  /// @brief Fine vertices on the skeleton. @param[in] n Intervals of an edge.
-  [[nodiscard]] GlobalIndex num_skeleton_points(LocalIndex n) const;
-
  private:
   static constexpr std::size_t kNumKinds = 5;
 

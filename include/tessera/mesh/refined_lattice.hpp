@@ -8,6 +8,7 @@
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 
 namespace tessera::mesh {
 
@@ -18,32 +19,68 @@ struct ModelDistance {
   LocalIndex num_held_back = 0;    ///< Their number.
 };
 
-/// @brief Positions of all lattice points of a complex.
-struct RefinedLattice {
-  LocalIndex n = 1;                    ///< Intervals of an edge.
-  std::vector<double> edge_xyz{};      ///< Shape (num_edges, n + 1, 3).
-  std::vector<double> triangle_xyz{};  ///< Shape (num_triangles, num_triangle_points(n), 3).
-  ModelDistance distance{};            ///< Measured if the context asks for it.
+/// @brief Positions of all lattice points of a complex, each edge and triangle with its own level.
+class RefinedLattice {
+ public:
+  RefinedLattice() = default;
 
-  [[nodiscard]] Vec3 edge_point(LocalIndex edge, LocalIndex k) const
+  /// @brief All points at the origin, for the caller to place.
+  explicit RefinedLattice(LatticeLevels levels);
+
+  [[nodiscard]] const LatticeLevels& levels() const { return levels_; }
+
+  /// @brief Intervals of an edge, and of the sides of a triangle's lattice.
+  [[nodiscard]] LocalIndex edge_intervals(LocalIndex e) const { return levels_.edge_intervals(e); }
+  [[nodiscard]] LocalIndex triangle_intervals(LocalIndex t) const
   {
-    return point_at(std::span(edge_xyz),
-                    static_cast<std::size_t>(edge) * row_of_edge() + offset(k));
+    return levels_.triangle_intervals(t);
   }
 
-  [[nodiscard]] Vec3 triangle_point(LocalIndex triangle, const lattice::TrianglePoint& p) const
+  /// @brief The most that any edge has.
+  [[nodiscard]] LocalIndex most_intervals() const { return lattice::intervals(levels_.largest()); }
+
+  [[nodiscard]] Vec3 edge_point(LocalIndex e, LocalIndex k) const
   {
-    return point_at(std::span(triangle_xyz), static_cast<std::size_t>(triangle) * row_of_triangle()
-                                                 + offset(lattice::triangle_index(n, p.i, p.j)));
+    return edge_points_[edge_place(e, k)];
   }
+  [[nodiscard]] Vec3 triangle_point(LocalIndex t, const lattice::TrianglePoint& p) const
+  {
+    return triangle_points_[triangle_place(t, p)];
+  }
+  void place_edge_point(LocalIndex e, LocalIndex k, const Vec3& point)
+  {
+    edge_points_[edge_place(e, k)] = point;
+  }
+  void place_triangle_point(LocalIndex t, const lattice::TrianglePoint& p, const Vec3& point)
+  {
+    triangle_points_[triangle_place(t, p)] = point;
+  }
+
+  /// @brief Appends the triangles of another lattice. Its edges stay behind.
+  void append_triangles(const RefinedLattice& other);
+
+  /// @brief All points of edges, and of triangles, one entity after the other.
+  [[nodiscard]] std::span<const Vec3> edge_points() const { return edge_points_; }
+  [[nodiscard]] std::span<const Vec3> triangle_points() const { return triangle_points_; }
+
+  /// @brief Place of a point in edge_points(), or in triangle_points().
+  [[nodiscard]] std::size_t edge_place(LocalIndex e, LocalIndex k) const
+  {
+    return first_of_edge_[at(e)] + at(k);
+  }
+  [[nodiscard]] std::size_t triangle_place(LocalIndex t, const lattice::TrianglePoint& p) const
+  {
+    return first_of_triangle_[at(t)] + at(lattice::triangle_index(triangle_intervals(t), p.i, p.j));
+  }
+
+  ModelDistance distance{};  ///< Measured if the context asks for it.
 
  private:
-  static std::size_t offset(LocalIndex i) { return static_cast<std::size_t>(i); }
-  [[nodiscard]] std::size_t row_of_edge() const { return offset(n) + 1; }
-  [[nodiscard]] std::size_t row_of_triangle() const
-  {
-    return offset(lattice::num_triangle_points(n));
-  }
+  LatticeLevels levels_{};
+  std::vector<std::size_t> first_of_edge_{};      ///< Shape (num_edges).
+  std::vector<std::size_t> first_of_triangle_{};  ///< Shape (num_triangles).
+  std::vector<Vec3> edge_points_{};
+  std::vector<Vec3> triangle_points_{};
 };
 
 }  // namespace tessera::mesh

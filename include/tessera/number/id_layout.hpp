@@ -7,6 +7,7 @@
 
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/host_layout.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 
 namespace tessera::number {
 
@@ -32,15 +33,15 @@ struct PieceCounts {
 ///
 /// Tets and boundary triangles are counted piece by piece. Vertices are counted in one of two ways:
 ///
-/// - by host: the vertices of the skeleton's vertices, edges and triangles (closed forms, see
-///   mesh::num_points_of_host()), then those inside the pieces (a prefix sum). Works before there
-///   are pieces.
+/// - by host: the vertices of the skeleton's vertices, edges and triangles (a closed form of their
+///   levels each), then those inside the pieces (a prefix sum). Works before there are pieces.
 /// - by owner: piece by piece, each counts the vertices it owns. Needed once pieces have exchanged
 ///   tets, for then the skeleton's closed forms do not hold.
 class IdLayout {
  public:
-  /// @param[in] pieces Counts of all subdomains, in their order. @param[in] n Intervals of an edge.
-  [[nodiscard]] static IdLayout by_host(const mesh::HostLayout& hosts, LocalIndex n,
+  /// @param[in] levels Of the skeleton. @param[in] pieces Counts of all subdomains, in their order.
+  [[nodiscard]] static IdLayout by_host(const mesh::HostLayout& hosts,
+                                        const mesh::LatticeLevels& levels,
                                         const std::vector<PieceCounts>& pieces);
 
   /// @param[in] pieces Counts of all subdomains, in their order.
@@ -80,13 +81,10 @@ class IdLayout {
   }
 
  private:
-  /// Where the ids of the skeleton's edges and triangles begin, and how many each has.
+  /// Where the ids of the skeleton's hosts begin.
   struct SkeletonIds {
     mesh::HostLayout hosts;
-    GlobalIndex points_of_edge = 0;
-    GlobalIndex points_of_triangle = 0;
-    GlobalIndex first_of_edges = 0;
-    GlobalIndex first_of_triangles = 0;
+    std::vector<GlobalIndex> first{};  ///< Shape (num_on_skeleton).
   };
 
   IdLayout(GlobalIndex num_skeleton_vertices, const std::vector<PieceCounts>& pieces,

@@ -3,6 +3,8 @@
 
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/complex.hpp"
+#include "tessera/mesh/edge_levels.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skeleton.hpp"
@@ -10,13 +12,13 @@
 
 namespace tessera::refine {
 
-/// @brief Everything a lattice point's position is a pure function of. Borrowed, not owned.
+/// @brief Everything a lattice point's position is a pure function of. Borrowed, but for levels.
 struct RefineContext {
   const mesh::CoarseMesh& coarse;
   const mesh::Skeleton& skeleton;
   const model::Model& model;
   const mesh::ProjectionLimiter& limiter;
-  int levels = 0;
+  mesh::EdgeLevels levels{};      ///< Of the coarse edges.
   bool measure_distance = false;  ///< Fill mesh::RefinedLattice::distance; twice the projections.
 };
 
@@ -29,6 +31,12 @@ struct RefineContext {
 /// @note Local.
 /// @throws GeometryError if a projection fails.
 [[nodiscard]] mesh::RefinedLattice refine_lattice(const mesh::Complex& complex,
+                                                  const RefineContext& context);
+
+/// @brief The same with levels of its own. A point has the same bits on any levels that have it.
+/// @param[in] levels Of the complex. No side of a triangle has less than the triangle.
+[[nodiscard]] mesh::RefinedLattice refine_lattice(const mesh::Complex& complex,
+                                                  mesh::LatticeLevels levels,
                                                   const RefineContext& context);
 
 }  // namespace tessera::refine

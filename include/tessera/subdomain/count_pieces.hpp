@@ -11,8 +11,8 @@ namespace tessera::subdomain {
 
 /// @brief What all subdomains will hold if each is subdivided: closed forms, no piece is made.
 /// Local.
-[[nodiscard]] std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& cut,
-                                                                       int levels);
+[[nodiscard]] std::vector<number::PieceCounts> count_subdivided_pieces(
+    const PartitionedMesh& cut, const mesh::EdgeLevels& levels);
 
 /// @brief What finished pieces hold. Local.
 [[nodiscard]] number::PieceCounts counts_of(const PieceSummary& piece);

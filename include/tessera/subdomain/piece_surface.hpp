@@ -25,12 +25,12 @@ namespace tessera::subdomain {
 /// piece. Local; O(n log n). @param[in] surface Of the piece.
 [[nodiscard]] mesh::Piece halo_beside(const mesh::Piece& halo, const number::SurfaceList& surface);
 
-/// @brief What the piece will hold when every edge is split into `n`: closed forms. Local;
+/// @brief What the piece will hold after so many splits of every edge: closed forms. Local;
 /// O(m log m) in the tets.
 [[nodiscard]] number::PieceCounts count_split_piece(const mesh::Piece& piece,
                                                     const number::SurfaceList& surface,
                                                     const number::SharedSurface& shared,
-                                                    LocalIndex n);
+                                                    int splits);
 
 /// @brief Who numbers the vertices of a piece that was split: its names say so. Local.
 /// @param[in] counts Of this piece. @return Shape (num_vertices).

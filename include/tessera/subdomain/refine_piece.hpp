@@ -40,7 +40,7 @@ struct RefinedPiece {
   std::vector<mesh::PointLimit> folds{};
 };
 
-/// @brief Splits pieces from one number of levels to another.
+/// @brief Splits the tets of pieces by some levels.
 ///
 /// A tet is split as a coarse tet is. Points on the geometry are those of the skeleton's lattice,
 /// all others midpoints. Then vertices are smoothed: those on seams first, all at once, by what
@@ -48,12 +48,13 @@ struct RefinedPiece {
 /// and the mesh gets better than the one it was made from.
 class PieceRefiner {
  public:
-  /// @param[in] cut Borrowed. @param[in] levels That the pieces were filled on.
-  PieceRefiner(const PartitionedMesh& cut, int levels);
+  /// @param[in] cut Borrowed; with the levels that the pieces were filled on. @param[in] splits How
+  /// many levels more.
+  PieceRefiner(const PartitionedMesh& cut, int splits);
   PieceRefiner(PieceRefiner&&) noexcept;
   ~PieceRefiner();
 
-  /// @param[in] refine With the levels to reach; made from the arrays of the same mesh.
+  /// @param[in] refine Made from the arrays of the same mesh. Its levels do not count.
   /// @param[in] before What is known of the piece.
   /// @throws MeshError if the result breaks a promise of fill::check_fill(). GeometryError if a
   /// projection fails.

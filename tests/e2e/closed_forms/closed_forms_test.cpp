@@ -174,7 +174,7 @@ TEST_P(ClosedFormsWithRims, RimVerticesLieOnTheCircles)
   for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
     const LocalIndex edge = complex.edge_skeleton[at(e)];
     if (!is_on_rim(body_, edge)) continue;
-    for (LocalIndex k = 0; k <= lattice.n; ++k) {
+    for (LocalIndex k = 0; k <= lattice.most_intervals(); ++k) {
       EXPECT_LE(form_.distance_from_rim(lattice.edge_point(e, k)), 1e-8 * form_.box_diagonal);
       if (k > 0) length += norm(lattice.edge_point(e, k) - lattice.edge_point(e, k - 1));
     }

@@ -56,8 +56,12 @@ struct UntangleAndFill : ::testing::Test {
     cube.refine.levels = 1;
     cube.decompose.subdomains = 3;
     static_cast<void>(run_model_stage(cube, context));
-    coarse = run_coarse_stage(cube, context);
-    cut = run_decompose_stage(cube, coarse.mesh, context);
+    RunResult run;
+    run.resolved = cube;
+    run.coarse = run_coarse_stage(cube, context);
+    run.levels = cube.refine.levels;
+    cut = run_decompose_stage(run, context);
+    coarse = std::move(run.coarse);
   }
 
   ~UntangleAndFill() override
@@ -70,10 +74,10 @@ struct UntangleAndFill : ::testing::Test {
   // The mesh is loaded as it is now.
   UntangledFill run(KernelKind kernel, const RunState* state = nullptr)
   {
-    const subdomain::PartitionedMesh mesh(coarse.mesh, cut.decomposition);
+    const subdomain::PartitionedMesh mesh(coarse.mesh, cut.decomposition, cube.refine.levels);
     const std::vector<KernelKind> kernels(at(mesh.num_subdomains()), kernel);
     const auto ranges = subdomain::file_ranges(mesh.num_subdomains(), 0);
-    load_mesh(mesh, cube.refine.levels, 1.0, context);
+    load_mesh(mesh, context);
     return untangle_and_fill(cube, {mesh, kernels, ranges, state}, context);
   }
 

@@ -25,7 +25,7 @@ struct SamplesOfCube : ::testing::Test {
   [[nodiscard]] FillInput samples(LocalIndex subdomain, int levels) const
   {
     FillInput input;
-    add_size_samples(cube, tets[subdomain], vertex_sizes(cube), levels, input);
+    add_size_samples(cube, tets[subdomain], vertex_sizes(cube, levels), levels, input);
     return input;
   }
 
@@ -112,7 +112,7 @@ TEST_F(SamplesOfCube, AreNoFurtherApartThanTheWantedEdge)
 TEST(VertexSizes, AreTheMeanEdgeOfTheTetsAround)
 {
   const mesh::CoarseMesh cube = testing::kuhn_cube(1);
-  const std::vector<double> sizes = vertex_sizes(cube);
+  const std::vector<double> sizes = vertex_sizes(cube, 0);
   ASSERT_EQ(sizes.size(), 8U);
   EXPECT_NEAR(sizes[0], (1.0 + std::sqrt(2.0) + std::sqrt(3.0)) / 3.0, 1e-15);
   for (const double size : sizes) {
@@ -125,7 +125,7 @@ TEST(VertexSizes, OfUnusedVerticesAreZero)
 {
   mesh::CoarseMesh cube = testing::kuhn_cube(1);
   cube.vertex_xyz.insert(cube.vertex_xyz.end(), {9, 9, 9});
-  EXPECT_EQ(vertex_sizes(cube).back(), 0.0);
+  EXPECT_EQ(vertex_sizes(cube, 0).back(), 0.0);
 }
 
 TEST_F(SamplesOfCube, AreAddedToWhatIsThere)
@@ -134,7 +134,7 @@ TEST_F(SamplesOfCube, AreAddedToWhatIsThere)
   input.vertex_xyz = {1, 2, 3};
   input.size_xyz = {7, 8, 9};
   input.size_h = {0.5};
-  add_size_samples(cube, tets[0], vertex_sizes(cube), 2, input);
+  add_size_samples(cube, tets[0], vertex_sizes(cube, 2), 2, input);
   EXPECT_EQ(input.vertex_xyz, (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(input.size_h.front(), 0.5);
   EXPECT_EQ(input.size_xyz.size(), 3 * input.size_h.size());
@@ -144,7 +144,7 @@ TEST_F(SamplesOfCube, AreAddedToWhatIsThere)
 TEST_F(SamplesOfCube, OfNoTetsAreNone)
 {
   FillInput input;
-  add_size_samples(cube, {}, vertex_sizes(cube), 1, input);
+  add_size_samples(cube, {}, vertex_sizes(cube, 1), 1, input);
   EXPECT_TRUE(input.size_h.empty());
 }
 

@@ -101,7 +101,7 @@ TEST(Subdivide, NumbersAreKnownBeforehand)
   for (int levels = 0; levels <= 4; ++levels) {
     for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
       const Subdivided filled(body, testing::FlatModel(), levels, s);
-      const auto counts = count_subdivision(filled.complex, mesh::lattice::intervals(levels));
+      const auto counts = count_subdivision(filled.complex, cube, levels);
       EXPECT_EQ(counts.tets, static_cast<GlobalIndex>(filled.tets.tet_vertices.size() / 4));
       EXPECT_EQ(
           counts.interior_vertices,
@@ -141,16 +141,15 @@ TEST(Subdivide, ChildrenOfACoarseTetHaveAtMostThreeShapes)
   }
 }
 
-TEST(Subdivide, PieceBeyond32BitsIsRefusedBeforeAnythingIsAllocated)
+TEST(Subdivide, PieceBeyond32BitsIsRefused)
 {
   const mesh::CoarseMesh cube = testing::kuhn_cube(1);
   const Body body(cube, testing::one_subdomain_a_material(cube));
   const auto tets_of = mesh::subdomain_tets(body.decomposition);
   const mesh::TetComplex complex = mesh::tet_complex(body.coarse, body.skeleton, tets_of[0]);
-  mesh::RefinedLattice lattice;
-  lattice.n = mesh::lattice::intervals(10);
+  const mesh::RefinedLattice lattice(mesh::lattice_levels(complex.faces, 9));
   EXPECT_THROW(static_cast<void>(subdivide(complex, lattice)), MeshError);
-  EXPECT_EQ(count_subdivision(complex, lattice.n).tets, GlobalIndex{6} << 30);
+  EXPECT_EQ(count_subdivision(complex, cube, 9).tets, GlobalIndex{6} << 27);
 }
 
 }  // namespace

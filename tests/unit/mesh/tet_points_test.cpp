@@ -29,13 +29,13 @@ struct PointsOfCube : ::testing::Test {
 // On a flat-sided model every lattice point is the affine image of its indices.
 TEST_F(PointsOfCube, AreAffineOnAFlatModel)
 {
-  const double n = lattice.n;
+  const double n = lattice.most_intervals();
   for (LocalIndex t = 0; t < 4; ++t) {
     const TetPoints points(complex, lattice, t);
     const auto corners = coarse.tet(tets[static_cast<std::size_t>(t)]);
-    for (LocalIndex k = 0; k <= lattice.n; ++k) {
-      for (LocalIndex j = 0; j + k <= lattice.n; ++j) {
-        for (LocalIndex i = 0; i + j + k <= lattice.n; ++i) {
+    for (LocalIndex k = 0; k <= lattice.most_intervals(); ++k) {
+      for (LocalIndex j = 0; j + k <= lattice.most_intervals(); ++j) {
+        for (LocalIndex i = 0; i + j + k <= lattice.most_intervals(); ++i) {
           const Vec3 origin = coarse.position(corners[0]);
           const Vec3 want = origin + (i / n) * (coarse.position(corners[1]) - origin)
                             + (j / n) * (coarse.position(corners[2]) - origin)
@@ -52,9 +52,10 @@ TEST_F(PointsOfCube, FaceMapIsItsOwnInverse)
   for (LocalIndex t = 0; t < 4; ++t) {
     const TetFaceMap map(complex, t);
     for (std::size_t c = 0; c < 4; ++c) {
-      for (LocalIndex j = 0; j <= lattice.n; ++j) {
-        for (LocalIndex i = 0; i + j <= lattice.n; ++i) {
-          const auto back = map.triangle_point(lattice.n, c, map.tet_point(lattice.n, c, {i, j}));
+      for (LocalIndex j = 0; j <= lattice.most_intervals(); ++j) {
+        for (LocalIndex i = 0; i + j <= lattice.most_intervals(); ++i) {
+          const auto back = map.triangle_point(lattice.most_intervals(), c,
+                                               map.tet_point(lattice.most_intervals(), c, {i, j}));
           EXPECT_EQ(back.i, i);
           EXPECT_EQ(back.j, j);
         }

@@ -22,6 +22,14 @@ namespace {
 
 using testing::Body;
 
+// All on the same level.
+mesh::LatticeLevels levels_of(const mesh::HostLayout& hosts, LocalIndex n)
+{
+  const auto level = static_cast<std::int8_t>(std::countr_zero(static_cast<unsigned>(n)));
+  return {.edges = std::vector(at(hosts.num_of(mesh::HostKind::edge)), level),
+          .triangles = std::vector(at(hosts.num_of(mesh::HostKind::triangle)), level)};
+}
+
 class IdsOfIntervals : public ::testing::TestWithParam<LocalIndex> {};
 
 TEST_P(IdsOfIntervals, CountEveryVertexOfAllHostsOnce)
@@ -29,7 +37,7 @@ TEST_P(IdsOfIntervals, CountEveryVertexOfAllHostsOnce)
   const LocalIndex n = GetParam();
   const mesh::HostLayout hosts(5, 9, 7, 3);
   const std::vector<PieceCounts> pieces{{3, 10, 4}, {0, 1, 0}, {8, 30, 2}};
-  const IdLayout ids = IdLayout::by_host(hosts, n, pieces);
+  const IdLayout ids = IdLayout::by_host(hosts, levels_of(hosts, n), pieces);
   ASSERT_TRUE(ids.is_by_host());
   std::vector<int> times(static_cast<std::size_t>(ids.num_vertices()), 0);
   for (mesh::HostEntity host = 0; host < hosts.seam_region(0); ++host) {
@@ -54,7 +62,8 @@ TEST_P(IdsOfIntervals, OfSkinsAreDenseAndShared)
   const mesh::CoarseMesh cube = testing::two_material_cube(2);
   const Body body(cube, testing::slabs(cube, 2));
   const IdLayout ids =
-      IdLayout::by_host(mesh::HostLayout(body.skeleton), GetParam(), std::vector<PieceCounts>(4));
+      IdLayout::by_host(mesh::HostLayout(body.skeleton),
+                        mesh::lattice_levels(body.skeleton, levels), std::vector<PieceCounts>(4));
   std::map<GlobalIndex, std::array<std::uint64_t, 3>> position_of;
   std::set<std::array<std::uint64_t, 3>> positions;
   for (LocalIndex s = 0; s < 4; ++s) {
@@ -77,7 +86,8 @@ INSTANTIATE_TEST_SUITE_P(Intervals, IdsOfIntervals, ::testing::Values(1, 2, 4, 8
 TEST(IdLayout, CellsArePrefixSums)
 {
   const std::vector<PieceCounts> pieces{{0, 10, 4}, {0, 0, 0}, {0, 5, 1}};
-  const IdLayout ids = IdLayout::by_host(mesh::HostLayout(1, 1, 1, 3), 1, pieces);
+  const mesh::HostLayout hosts(1, 1, 1, 3);
+  const IdLayout ids = IdLayout::by_host(hosts, levels_of(hosts, 1), pieces);
   EXPECT_EQ(ids.first_tet(0), 0);
   EXPECT_EQ(ids.first_tet(1), 10);
   EXPECT_EQ(ids.first_tet(2), 10);
@@ -88,10 +98,11 @@ TEST(IdLayout, CellsArePrefixSums)
 
 TEST(IdLayout, WithoutPiecesHasTheSkeletonOnly)
 {
-  const IdLayout ids = IdLayout::by_host(mesh::HostLayout(4, 6, 4, 0), 4, {});
+  const mesh::HostLayout hosts(4, 6, 4, 0);
+  const IdLayout ids = IdLayout::by_host(hosts, levels_of(hosts, 4), {});
   EXPECT_EQ(ids.num_vertices(), 4 + 6 * 3 + 4 * 3);
   EXPECT_EQ(ids.num_tets(), 0);
-  EXPECT_EQ(IdLayout::by_host(mesh::HostLayout(0, 0, 0, 0), 1, {}).num_vertices(), 0);
+  EXPECT_EQ(IdLayout::by_host(mesh::HostLayout(0, 0, 0, 0), {}, {}).num_vertices(), 0);
 }
 
 TEST(IdLayout, CountsBeyond32Bits)
@@ -101,8 +112,8 @@ TEST(IdLayout, CountsBeyond32Bits)
   const LocalIndex num_edges = 15'000'000;
   const LocalIndex num_triangles = 10'000'000;
   const mesh::HostLayout hosts(5'000'000, num_edges, num_triangles, 2);
-  const IdLayout ids =
-      IdLayout::by_host(hosts, n, {{kMany, 2 * kMany, kMany}, {kMany, 2 * kMany, kMany}});
+  const IdLayout ids = IdLayout::by_host(hosts, levels_of(hosts, n),
+                                         {{kMany, 2 * kMany, kMany}, {kMany, 2 * kMany, kMany}});
   const GlobalIndex of_edges = GlobalIndex{1023} * num_edges;
   const GlobalIndex of_triangles = GlobalIndex{1023 * 1022 / 2} * num_triangles;
   const GlobalIndex on_skeleton = 5'000'000 + of_edges + of_triangles;

@@ -125,14 +125,16 @@ TEST(CutFingerprint, ChangesWithMeshAndSubdomains)
   const mesh::CoarseMesh cube = testing::kuhn_cube(4);
   mesh::CoarseMesh moved = cube;
   moved.vertex_xyz[0] = -1e-9;
-  const auto of = [](const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition) {
-    return cut_fingerprint(subdomain::PartitionedMesh(coarse, decomposition));
+  const auto of = [](const mesh::CoarseMesh& coarse, const mesh::Decomposition& decomposition,
+                     int levels = 1) {
+    return cut_fingerprint(subdomain::PartitionedMesh(coarse, decomposition, levels));
   };
   const mesh::Decomposition four = testing::slabs(cube, 4);
   const mesh::Decomposition two = testing::slabs(cube, 2);
   EXPECT_EQ(of(cube, four), of(cube, four));
   EXPECT_NE(of(cube, four), of(moved, four));
   EXPECT_NE(of(cube, four), of(cube, two));
+  EXPECT_NE(of(cube, four), of(cube, four, 2));
 }
 
 }  // namespace

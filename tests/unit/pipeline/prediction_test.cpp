@@ -212,12 +212,10 @@ TEST(Corrected, LeavesWhatIsKnownExactly)
 struct OutlineOfACube : ::testing::Test {
   const mesh::CoarseMesh cube = testing::two_material_cube(4);
   const mesh::Decomposition decomposition = testing::slabs(cube, 2);
-  const subdomain::PartitionedMesh cut{cube, decomposition};
-
   [[nodiscard]] RunOutline outline(const std::vector<KernelKind>& kernels, int levels) const
   {
-    return outline_run(cut, kernels, {levels, levels},
-                       subdomain::file_ranges(cut.num_subdomains(), 0), true);
+    const subdomain::PartitionedMesh cut(cube, decomposition, levels);
+    return outline_run(cut, kernels, 0, subdomain::file_ranges(cut.num_subdomains(), 0), true);
   }
 };
 

@@ -47,15 +47,15 @@ std::map<std::array<LocalIndex, 3>, Bits> points_of(const RefinedComplex& refine
   for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
     const LocalIndex entity = complex.edge_skeleton[at(e)];
     if (entity == kNoIndex) continue;
-    for (LocalIndex k = 0; k <= lattice.n; ++k) {
+    for (LocalIndex k = 0; k <= lattice.most_intervals(); ++k) {
       points[{0, entity, k}] = bits(lattice.edge_point(e, k));
     }
   }
   for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
     const LocalIndex entity = complex.triangle_skeleton[at(t)];
     if (entity == kNoIndex) continue;
-    for_each_point(lattice.n, [&](const TrianglePoint& p) {
-      points[{1, entity, mesh::lattice::triangle_index(lattice.n, p.i, p.j)}] =
+    for_each_point(lattice.most_intervals(), [&](const TrianglePoint& p) {
+      points[{1, entity, mesh::lattice::triangle_index(lattice.most_intervals(), p.i, p.j)}] =
           bits(lattice.triangle_point(t, p));
     });
   }
@@ -129,8 +129,8 @@ TEST_P(LatticeOfLevel, SidesOfTrianglesAreTheirEdges)
     for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
       for (std::size_t side = 0; side < 3; ++side) {
         const LocalIndex edge = complex.triangle_edges[3 * at(t) + side];
-        for (LocalIndex k = 0; k <= lattice.n; ++k) {
-          const auto p = mesh::lattice::side_point(lattice.n, side, k);
+        for (LocalIndex k = 0; k <= lattice.most_intervals(); ++k) {
+          const auto p = mesh::lattice::side_point(lattice.most_intervals(), side, k);
           ASSERT_EQ(bits(lattice.triangle_point(t, p)), bits(lattice.edge_point(edge, k))) << name;
         }
       }
@@ -147,14 +147,14 @@ TEST_P(LatticeOfLevel, OldPointsStayWhereTheyAreInTheNextLevel)
     const auto& complex = refined.complex;
     const auto& coarse = refined.lattice;
     const auto fine = testing::refine_skin(made.body, *made.model, GetParam() + 1, 0).lattice;
-    ASSERT_EQ(fine.n, 2 * coarse.n);
+    ASSERT_EQ(fine.most_intervals(), 2 * coarse.most_intervals());
     for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
-      for (LocalIndex k = 0; k <= coarse.n; ++k) {
+      for (LocalIndex k = 0; k <= coarse.most_intervals(); ++k) {
         ASSERT_EQ(bits(fine.edge_point(e, 2 * k)), bits(coarse.edge_point(e, k))) << name;
       }
     }
     for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
-      for_each_point(coarse.n, [&](const TrianglePoint& p) {
+      for_each_point(coarse.most_intervals(), [&](const TrianglePoint& p) {
         ASSERT_EQ(bits(fine.triangle_point(t, {2 * p.i, 2 * p.j})),
                   bits(coarse.triangle_point(t, p)))
             << name;
@@ -171,7 +171,7 @@ void for_each_point_on_patches(const Body& body, const RefinedComplex& refined, 
     const LocalIndex triangle = refined.complex.triangle_skeleton[at(t)];
     const LocalIndex patch = body.skeleton.triangle_patch[at(triangle)];
     if (patch == kNoIndex) continue;
-    for_each_point(refined.lattice.n, [&](const TrianglePoint& p) {
+    for_each_point(refined.lattice.most_intervals(), [&](const TrianglePoint& p) {
       visit(patch, refined.lattice.triangle_point(t, p));
     });
   }
@@ -208,7 +208,7 @@ TEST_P(LatticeOfLevel, PointsOfTheCylinderLieOnMantleEndsAndRims)
       const LocalIndex edge = refined.complex.edge_skeleton[at(e)];
       const LocalIndex curve = made.body.skeleton.edge_curve[at(edge)];
       if (curve == kNoIndex) continue;
-      for (LocalIndex k = 0; k <= refined.lattice.n; ++k, ++on_rims) {
+      for (LocalIndex k = 0; k <= refined.lattice.most_intervals(); ++k, ++on_rims) {
         const Vec3 p = refined.lattice.edge_point(e, k);
         ASSERT_NEAR(std::hypot(p[0], p[1]), 1.0, 1e-12);
         ASSERT_EQ(p[2], curve == 0 ? 0.0 : 1.0);
@@ -223,14 +223,14 @@ TEST_P(LatticeOfLevel, IsAffineOnAFlatModel)
   const BodyOnModel made = bodies().at("cube");
   const Body& body = made.body;
   const auto [complex, lattice] = testing::refine_skin(body, *made.model, GetParam(), 2);
-  const double n = lattice.n;
+  const double n = lattice.most_intervals();
   for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
     std::array<Vec3, 3> corners;
     for (std::size_t c = 0; c < 3; ++c) {
       const LocalIndex v = complex.triangle_vertices[3 * at(t) + c];
       corners[c] = body.coarse.position(complex.vertex_coarse[at(v)]);
     }
-    for_each_point(lattice.n, [&, &lattice = lattice](const TrianglePoint& p) {
+    for_each_point(lattice.most_intervals(), [&, &lattice = lattice](const TrianglePoint& p) {
       const Vec3 affine = corners[0] + (p.i / n) * (corners[1] - corners[0])
                           + (p.j / n) * (corners[2] - corners[0]);
       ASSERT_LE(norm(lattice.triangle_point(t, p) - affine), 1e-15);
@@ -331,9 +331,8 @@ TEST(LatticeRefiner, ComplexWithoutEntitiesGivesNoPoints)
   const mesh::ProjectionLimiter none;
   const auto lattice = refine_lattice(
       mesh::Complex{}, {made.body.coarse, made.body.skeleton, *made.model, none, 2, true});
-  EXPECT_EQ(lattice.n, 4);
-  EXPECT_TRUE(lattice.edge_xyz.empty());
-  EXPECT_TRUE(lattice.triangle_xyz.empty());
+  EXPECT_TRUE(lattice.edge_points().empty());
+  EXPECT_TRUE(lattice.triangle_points().empty());
   EXPECT_EQ(lattice.distance.largest, 0.0);
 }
 

@@ -86,8 +86,8 @@ TEST_F(DistanceToModel, MeasuringMovesNothing)
 {
   const auto with = testing::refine_skin(body, sphere, 3, 0, {}, true).lattice;
   const auto without = testing::refine_skin(body, sphere, 3, 0, {}, false).lattice;
-  EXPECT_EQ(with.edge_xyz, without.edge_xyz);
-  EXPECT_EQ(with.triangle_xyz, without.triangle_xyz);
+  EXPECT_TRUE(std::ranges::equal(with.edge_points(), without.edge_points()));
+  EXPECT_TRUE(std::ranges::equal(with.triangle_points(), without.triangle_points()));
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ TEST_P(SkinOfLevel, NumberingCountsEveryLatticePointOnce)
   const auto refined = testing::refine_skin(body, testing::SphereModel({1.0}), GetParam(), 0);
   const auto& [complex, lattice] = refined;
   const mesh::Skin skin = extract_skin(complex, lattice, body.skeleton, 0);
-  const mesh::LatticeNumbering numbering(complex, lattice.n);
+  const mesh::LatticeNumbering numbering(complex, lattice.levels());
   EXPECT_EQ(numbering.num_points(), skin.num_vertices());
 
   std::set<LocalIndex> numbers;
@@ -136,7 +136,7 @@ TEST_P(SkinOfLevel, NumberingCountsEveryLatticePointOnce)
   for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
     for (LocalIndex j = 0; j <= n(); ++j) {
       for (LocalIndex i = 0; i + j <= n(); ++i) {
-        expect_at(numbering.triangle_point(t, {i, j}), lattice.triangle_point(t, {i, j}));
+        expect_at(numbering.triangle_point(t, n(), {i, j}), lattice.triangle_point(t, {i, j}));
       }
     }
   }

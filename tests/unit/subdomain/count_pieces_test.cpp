@@ -15,7 +15,7 @@ TEST(CountSubdividedPieces, AreThoseOfThePiecesThatAreMade)
 {
   const mesh::CoarseMesh cube = testing::two_material_cube(2);
   const testing::Body body(cube, testing::slabs(cube, 2));
-  const PartitionedMesh cut(body.coarse, body.decomposition);
+  const PartitionedMesh cut(body.coarse, body.decomposition, 0);
   for (int levels = 0; levels < 4; ++levels) {
     const auto counts = count_subdivided_pieces(cut, levels);
     ASSERT_EQ(counts.size(), 4U);

@@ -142,7 +142,7 @@ TEST_F(FillSubdomain, NoDefectOfAKernelPasses)
   const testing::FlatModel model;
   const mesh::ProjectionLimiter limiter;
   const refine::RefineContext refine{body().coarse, body().skeleton, model, limiter, 1, true};
-  const PartitionedMesh cut(body().coarse, body().decomposition);
+  const PartitionedMesh cut(body().coarse, body().decomposition, 1);
   const auto fill = [&](BrokenKernel::Defect defect) {
     static_cast<void>(fill_subdomain(cut, refine, 0, {}, BrokenKernel(defect)));
   };
@@ -164,7 +164,7 @@ TEST(FillSubdomainOnACurvedModel, ReportsDistancesAndHeldBackPoints)
   }
   const mesh::ProjectionLimiter limiter({{mesh::LatticePointKey::on_edge(edge, 2, 1), 0.5}});
   const refine::RefineContext refine{body.coarse, body.skeleton, lazy, limiter, 1, true};
-  const PartitionedMesh cut(body.coarse, body.decomposition);
+  const PartitionedMesh cut(body.coarse, body.decomposition, 1);
   const auto kernel = netgen::make_fill_kernel();
   const PieceSummary summary = fill_subdomain(cut, refine, 0, {}, *kernel).result.summary;
   EXPECT_EQ(summary.num_held_back, 1);

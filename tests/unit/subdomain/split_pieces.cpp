@@ -14,7 +14,7 @@ namespace {
 using subdomain::FilledPiece;
 
 // What every piece says of its surface, and what the others say of that.
-void compare_all(const Body& body, const std::vector<FilledPiece>& filled, LocalIndex n,
+void compare_all(const Body& body, const std::vector<FilledPiece>& filled, int splits,
                  std::vector<SplitPiece>& split)
 {
   const auto neighbours = mesh::neighbours_by_vertex(body.skeleton);
@@ -27,11 +27,11 @@ void compare_all(const Body& body, const std::vector<FilledPiece>& filled, Local
     subdomain::PieceSurroundings& around = split[s].around;
     around.shared = number::compare_surfaces(around.surface, others);
     split[s].counts =
-        subdomain::count_split_piece(filled[s].piece, around.surface, around.shared, n);
+        subdomain::count_split_piece(filled[s].piece, around.surface, around.shared, splits);
   }
 }
 
-void add_surroundings(const Body& body, const std::vector<FilledPiece>& filled, LocalIndex n,
+void add_surroundings(const Body& body, const std::vector<FilledPiece>& filled, int splits,
                       std::vector<SplitPiece>& split)
 {
   const auto neighbours = mesh::neighbours_by_vertex(body.skeleton);
@@ -46,7 +46,8 @@ void add_surroundings(const Body& body, const std::vector<FilledPiece>& filled, 
       around.halos.push_back(
           subdomain::halo_of(filled[at(other)].piece, beside.surface, beside.shared));
     }
-    around.places = number::place_surface(around.surface.simplices, owners, n);
+    around.places =
+        number::place_surface(around.surface.simplices, owners, mesh::lattice::intervals(splits));
   }
 }
 
@@ -56,7 +57,7 @@ std::vector<FilledPiece> fill_all(const Body& body, const model::Model& model, i
                                   fill::KernelKind kernel)
 {
   const mesh::ProjectionLimiter no_limits;
-  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition);
+  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition, levels);
   const auto netgen = netgen::make_fill_kernel();
   std::vector<FilledPiece> filled;
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
@@ -86,10 +87,10 @@ std::vector<SplitPiece> split_all(const Body& body, const model::Model& model,
                                   const mesh::ProjectionLimiter& limiter)
 {
   std::vector<SplitPiece> split;
-  compare_all(body, filled, task.intervals(), split);
-  add_surroundings(body, filled, task.intervals(), split);
-  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition);
-  const subdomain::PieceRefiner refiner(cut, task.from);
+  compare_all(body, filled, task.splits(), split);
+  add_surroundings(body, filled, task.splits(), split);
+  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition, task.from);
+  const subdomain::PieceRefiner refiner(cut, task.splits());
   const refine::RefineContext refine{body.coarse, body.skeleton, model, limiter, task.to, true};
   for (std::size_t s = 0; s < split.size(); ++s) {
     split[s].around.is_smoothed = task.kernel != fill::KernelKind::subdivide;

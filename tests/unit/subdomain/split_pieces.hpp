@@ -35,7 +35,8 @@ struct SplitTask {
   fill::KernelKind kernel = fill::KernelKind::optimize;  ///< That the body is for; single pieces
                                                          ///< may come from another.
 
-  [[nodiscard]] LocalIndex intervals() const { return LocalIndex{1} << (to - from); }
+  [[nodiscard]] int splits() const { return to - from; }
+  [[nodiscard]] LocalIndex intervals() const { return mesh::lattice::intervals(splits()); }
 };
 
 /// @brief Splits all pieces further, as the refine stage of the program does it.

@@ -94,7 +94,7 @@ struct VerifyFilledPieces : testing::FilledCube {
     return at(skin.triangle_vertices[3 * triangle]);
   }
 
-  const PartitionedMesh cut{body().coarse, body().decomposition};
+  const PartitionedMesh cut{body().coarse, body().decomposition, 1};
   std::vector<SubdomainRange> ranges{{.number = 0, .first = 0, .last = 2},
                                      {.number = 1, .first = 2, .last = 4}};
   std::vector<PieceInSkin> set{};

@@ -82,10 +82,10 @@ double worst_child(const Body& body, const model::Model& model, const Projection
     const auto tet = body.coarse.tet(t);
     const double whole = tet_volume(body.coarse.position(tet[0]), body.coarse.position(tet[1]),
                                     body.coarse.position(tet[2]), body.coarse.position(tet[3]));
-    for (LocalIndex step = refined.lattice.n; step >= 1; step /= 2) {
-      const double children = std::pow(refined.lattice.n / step, 3);
+    for (LocalIndex step = refined.lattice.most_intervals(); step >= 1; step /= 2) {
+      const double children = std::pow(refined.lattice.most_intervals() / step, 3);
       mesh::lattice::for_each_child(
-          refined.lattice.n, step, points.diagonal(),
+          refined.lattice.most_intervals(), step, points.grading().diagonal,
           [&](const auto& a, const auto& b, const auto& c, const auto& d) {
             const double volume =
                 tet_volume(points.at(a), points.at(b), points.at(c), points.at(d));
