@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <compare>
 
+#include "tessera/base/edit_distance.hpp"
+
 #include "config/text.hpp"
 
 namespace tessera::config {
