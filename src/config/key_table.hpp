@@ -19,6 +19,10 @@
 
 namespace tessera::config {
 
+/// @brief Lengths, scales and times beyond this are mistakes; toml11 turns an overflow into the
+/// largest double, which this excludes as well.
+inline constexpr double kHuge = 1e30;
+
 enum class Bound : int { inclusive, exclusive };
 
 // The kinds of keys: what a value may be, and the member of Case that holds it. The default is the
@@ -75,8 +79,8 @@ struct WordListRule {
   bool (*set)(Case&, std::span<const std::string_view>);
 };
 
-using Rule = std::variant<RealRule, IntegerRule, FlagRule, PathRule, TripleRule, WordRule,
-                          TextRule, WordListRule>;
+using Rule = std::variant<RealRule, IntegerRule, FlagRule, PathRule, TripleRule, WordRule, TextRule,
+                          WordListRule>;
 
 /// @brief The rule of a field of an enumeration with words.
 /// @param[in] field Captureless; from a Case& to a reference to the member.

@@ -121,9 +121,9 @@ std::string_view alternative_in(const TableList& list, const Table& table)
     const std::string_view other = alternative_of(list, key_in(list, entry));
     if (other.empty() || other == chosen) continue;
     if (first != nullptr) {
-      fail(entry.origin, fmt::format("{} stands beside {} ({}); must be one of {} in every [[{}]]",
-                                     entry.name, first->name, first->origin,
-                                     fmt::join(list.alternatives, ", "), list.name));
+      fail(entry.origin,
+           fmt::format("{} stands beside {} ({}); must be one of {} in every [[{}]]", entry.name,
+                       first->name, first->origin, fmt::join(list.alternatives, ", "), list.name));
     }
     chosen = other;
     first = &entry;

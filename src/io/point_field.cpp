@@ -41,9 +41,9 @@ std::string names_of_scalars(const XmlElement* data)
 
 bool has_array(const XmlElement* data, const std::string& name)
 {
-  return data != nullptr
-         && std::ranges::any_of(data->children,
-                                [&](const XmlElement& element) { return name_of(element) == name; });
+  return data != nullptr && std::ranges::any_of(data->children, [&](const XmlElement& element) {
+           return name_of(element) == name;
+         });
 }
 
 [[noreturn]] void fail_without_array(const XmlElement& piece, const std::string& array)
@@ -104,9 +104,8 @@ TetField with_file(TetField field, const std::string& file, const std::string& a
   require_complete(file);
   const XmlDocument document = parse_vtk_xml(file);
   const Encoding encoding = encoding_of(document);
-  for_each_piece(required_child(document.root, "UnstructuredGrid"), [&](const XmlElement& piece) {
-    append_piece(piece, encoding, array, field);
-  });
+  for_each_piece(required_child(document.root, "UnstructuredGrid"),
+                 [&](const XmlElement& piece) { append_piece(piece, encoding, array, field); });
   return field;
 }
 
@@ -114,8 +113,8 @@ TetField read_tets(const std::filesystem::path& path, const std::string& array)
 {
   TetField field;
   for (const std::filesystem::path& piece : piece_files(path)) {
-    field = naming_the_file(
-        piece, [&] { return with_file(std::move(field), load_file(piece), array); });
+    field = naming_the_file(piece,
+                            [&] { return with_file(std::move(field), load_file(piece), array); });
   }
   if (field.tet_points.empty()) {
     throw InputError(path.string() + ": it has no cells with a volume");
@@ -168,8 +167,7 @@ GridField empty_grid(const XmlElement& image, const Extent& whole)
 {
   const auto spacing = numbers_of<double, 3>(image, "Spacing", "1 1 1");
   const auto rows = numbers_of<double, 9>(image, "Direction", "1 0 0 0 1 0 0 0 1");
-  GridField grid{.origin = numbers_of<double, 3>(image, "Origin", "0 0 0"),
-                 .counts = whole.counts};
+  GridField grid{.origin = numbers_of<double, 3>(image, "Origin", "0 0 0"), .counts = whole.counts};
   for (std::size_t i = 0; i < 3; ++i) {
     require(spacing[i] > 0.0 && std::isfinite(spacing[i]), "its Spacing is not positive");
     require(whole.counts[i] >= 2, "it has no cells with a volume");
@@ -224,8 +222,7 @@ GridField read_grid(const std::string& file, const std::string& array)
   std::size_t num_values = 0;
   for_each_piece(image, [&](const XmlElement& element) {
     const Extent extent = extent_of(element, "Extent");
-    pieces.push_back(
-        {extent, read_point_array(element, encoding, array, extent.num_points())});
+    pieces.push_back({extent, read_point_array(element, encoding, array, extent.num_points())});
     num_values += pieces.back().values.size();
   });
   // Nothing is allocated for an extent that the values do not fill. What they leave out is NaN.

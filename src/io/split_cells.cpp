@@ -92,8 +92,7 @@ void add_cone(LocalIndex apex, const Side& side, const Points& corners, Points& 
 // cut by the diagonal from it, which is their lowest point too.
 void add_tets(const Shape& shape, const Points& corners, Points& tets)
 {
-  const auto lowest =
-      static_cast<std::size_t>(std::ranges::min_element(corners) - corners.begin());
+  const auto lowest = static_cast<std::size_t>(std::ranges::min_element(corners) - corners.begin());
   for (const Side& side : shape.sides) {
     if (std::ranges::find(side, lowest) == side.end()) {
       add_cone(corners[lowest], side, corners, tets);
@@ -115,8 +114,7 @@ std::vector<LocalIndex> split_into_tets(const MixedCells& cells, std::size_t num
     const std::optional<Shape> shape = shape_of(type);
     if (!shape) continue;
     const auto points = cells.points_of(cell);
-    require(points.size() >= shape->num_corners,
-            "a cell has not the number of points of its type");
+    require(points.size() >= shape->num_corners, "a cell has not the number of points of its type");
     corners.clear();
     for (const GlobalIndex point : points.first(shape->num_corners)) {
       require(point >= 0 && std::cmp_less(point, num_points),

@@ -21,7 +21,8 @@ namespace tessera::io {
 inline constexpr std::string_view kTooManyPoints = "it has more than 2^31 points; split it";
 
 /// @brief @throws InputError unless the condition holds.
-inline void require(bool condition, std::string_view what)  // No std::string: this stands in inner loops.
+inline void require(bool condition,
+                    std::string_view what)  // No std::string: this stands in inner loops.
 {
   if (!condition) throw InputError(std::string(what));
 }
@@ -63,8 +64,8 @@ struct MixedCells {
   }
 };
 
-/// @brief Cells of an element "Piece". @throws InputError if they are corrupt; points are not looked
-/// at.
+/// @brief Cells of an element "Piece". @throws InputError if they are corrupt; points are not
+/// looked at.
 [[nodiscard]] MixedCells read_cells(const XmlElement& piece, const Encoding& encoding);
 
 /// @brief Points of an element "Piece", shape (num_points, 3). @throws InputError

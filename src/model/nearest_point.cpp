@@ -189,8 +189,7 @@ void NearestPointSearch<Part>::look_into_leaf(const Node& leaf, const Vec3& poin
 
 // Quicker than the search by distance, as most boxes and tets are ruled out at once.
 template <class Part>
-LocalIndex NearestPointSearch<Part>::lowest_holding(const Vec3& point) const
-    requires IsTet<Part>
+LocalIndex NearestPointSearch<Part>::lowest_holding(const Vec3& point) const requires IsTet<Part>
 {
   std::array<LocalIndex, kDeepest> to_visit;
   std::size_t num_to_visit = 0;

@@ -10,7 +10,7 @@ namespace tessera::sizing {
 namespace {
 
 constexpr int kMostHalvings = 12;
-constexpr double kLargestChange = 0.3;     // Of the size along an interval, in parts of it.
+constexpr double kLargestChange = 0.3;         // Of the size along an interval, in parts of it.
 constexpr std::size_t kBlockSize = 1U << 14U;  // Edges at a time, so that memory is bounded.
 
 struct Edge {
@@ -50,8 +50,8 @@ class BlockOfEdges {
 
   void add(const Edge& edge, double size_at_begin, double size_at_end)
   {
-    open_.push_back({static_cast<std::uint32_t>(edges_.size()), 0.0, 1.0, size_at_begin,
-                     size_at_end});
+    open_.push_back(
+        {static_cast<std::uint32_t>(edges_.size()), 0.0, 1.0, size_at_begin, size_at_end});
     edges_.push_back(edge);
   }
 

@@ -19,8 +19,8 @@ std::string nearest_first(const std::string& pattern, std::span<const std::strin
   std::ranges::sort(sorted);
   const auto repeated = std::ranges::unique(sorted);
   sorted.erase(repeated.begin(), repeated.end());
-  std::ranges::stable_sort(
-      sorted, {}, [&](const std::string& name) { return edit_distance(pattern, name); });
+  std::ranges::stable_sort(sorted, {},
+                           [&](const std::string& name) { return edit_distance(pattern, name); });
   std::string text;
   for (std::size_t i = 0; i < std::min(sorted.size(), kMost); ++i) {
     text += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", sorted[i]);

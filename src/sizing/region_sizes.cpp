@@ -78,8 +78,8 @@ RegionSizes::Where RegionSizes::find(const MaterialPattern& material,
     if (matches[at(coarse.tet_material[at(t)] - 1)]) selected.add(coarse, coarse.tet(t));
   }
   if (selected.parts.empty()) {
-    throw ConfigError(fmt::format("material = \"{}\": the coarse mesh has no tet of it; leave it out",
-                                  material.pattern));
+    throw ConfigError(fmt::format(
+        "material = \"{}\": the coarse mesh has no tet of it; leave it out", material.pattern));
   }
   return Tets{model::TetSearch(selected.parts), selected.bounds};
 }

@@ -22,7 +22,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using FieldSizes = std::variant<TetSizes, GridSizes>;
 
-FieldSizes sizes_of(const mesh::TetField& field, double grading) { return TetSizes(field, grading); }
+FieldSizes sizes_of(const mesh::TetField& field, double grading)
+{
+  return TetSizes(field, grading);
+}
 FieldSizes sizes_of(const mesh::GridField& field, double grading)
 {
   return GridSizes(field, grading);
@@ -32,8 +35,8 @@ void require_meeting(const FieldSizes& field, const mesh::CoarseMesh& coarse)
 {
   Bounds model;
   for (LocalIndex v = 0; v < coarse.num_vertices(); ++v) model.include(coarse.position(v));
-  const Bounds& box = std::visit([](const auto& sizes) -> const Bounds& { return sizes.bounds(); },
-                                 field);
+  const Bounds& box =
+      std::visit([](const auto& sizes) -> const Bounds& { return sizes.bounds(); }, field);
   if (box.meets(model)) return;
   throw InputError(fmt::format(
       "its box is {}, which does not meet the model's, {}; it must be in output length units, so "
@@ -45,8 +48,8 @@ FieldSizes field_sizes(const SizeOptions& options, const mesh::CoarseMesh& coars
                        const mesh::PointField& field)
 {
   try {
-    FieldSizes sizes = std::visit(
-        [&](const auto& values) { return sizes_of(values, options.grading); }, field);
+    FieldSizes sizes =
+        std::visit([&](const auto& values) { return sizes_of(values, options.grading); }, field);
     require_meeting(sizes, coarse);
     return sizes;
   } catch (const InputError& error) {

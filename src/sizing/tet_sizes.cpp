@@ -74,9 +74,9 @@ TetField joined(const TetField& field)
   for (const LocalIndex point : sorted_points(field, result.tet_points)) {
     const Vec3 position = point_at(std::span(field.point_xyz), point);
     const std::size_t num_points = result.values.size();
-    const bool is_new = num_points == 0
-                        || point_at(std::span(std::as_const(result.point_xyz)), num_points - 1)
-                               != position;
+    const bool is_new =
+        num_points == 0
+        || point_at(std::span(std::as_const(result.point_xyz)), num_points - 1) != position;
     if (is_new) {
       result.point_xyz.insert(result.point_xyz.end(), position.begin(), position.end());
       result.values.push_back(field.values[at(point)]);
@@ -166,8 +166,7 @@ void TetSizes::lower(std::span<const double> xyz, std::span<double> sizes) const
     const Vec3 point = point_at(xyz, i);
     if (least_ + grading_ * bounds_.distance(point) >= sizes[i]) continue;  // Spares the search.
     const model::NearestPoint place = search_->nearest(point);
-    sizes[i] =
-        std::min(sizes[i], value_at(place) + grading_ * std::sqrt(place.squared_distance));
+    sizes[i] = std::min(sizes[i], value_at(place) + grading_ * std::sqrt(place.squared_distance));
   }
 }
 

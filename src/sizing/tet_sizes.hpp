@@ -26,8 +26,8 @@ class TetSizes {
   [[nodiscard]] double value_at(const model::NearestPoint& place) const;
 
   double grading_;
-  double least_ = 0.0;     // Of all values.
-  mesh::TetField field_;   // Points that tets use, each position once, growth limited.
+  double least_ = 0.0;    // Of all values.
+  mesh::TetField field_;  // Points that tets use, each position once, growth limited.
   Bounds bounds_{};
   std::unique_ptr<const model::TetSearch> search_{};
 };

@@ -12,8 +12,7 @@ mesh::PointField read_field(const sizing::SizeOptions& options)
   try {
     return io::read_point_field(options.field, options.field_array);
   } catch (const InputError& error) {
-    throw InputError(std::string("size.field: ") + error.what()
-                     + "; size.field_array names the array");
+    throw InputError(std::string("size.field: ") + error.what());
   }
 }
 

@@ -17,8 +17,8 @@ namespace tessera::io {
 /// - .vti: all pieces of the file together. The grid may be turned.
 ///
 /// Values are as they stand in the file: they may be anything, also NaN.
-/// @throws InputError naming the file and what is wrong: missing, of another kind, cut off, corrupt,
-/// without a cell that has a volume, without that array (with those that there are).
+/// @throws InputError naming the file and what is wrong: missing, of another kind, cut off,
+/// corrupt, without a cell that has a volume, without that array (with those that there are).
 [[nodiscard]] mesh::PointField read_point_field(const std::filesystem::path& path,
                                                 const std::string& array);
 

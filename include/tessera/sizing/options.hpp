@@ -27,6 +27,7 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 };
 
+/// @brief A ball, its surface included.
 struct Ball {
   Vec3 centre = kNoPoint;
   double radius = 0.0;  ///< > 0.

@@ -19,8 +19,8 @@ namespace tessera::sizing {
 /// - of every region its size, and outside of it that plus its growth times the distance. The
 ///   distance to a patch is that to its triangles in the coarse mesh;
 /// - the field, interpolated between its points. First the value of each point is lowered so that
-///   along no edge of the field's cells it grows faster than `size.grading`. Outside of the cells it
-///   is the value of the nearest point of them, plus `size.grading` times the distance.
+///   along no edge of the field's cells it grows faster than `size.grading`. Outside of the cells
+///   it is the value of the nearest point of them, plus `size.grading` times the distance.
 ///
 /// If none of these is given, it is infinite, or size.max.
 class SizeField {
@@ -55,8 +55,8 @@ class SizeField {
 };
 
 /// @brief For each edge of a coarse mesh, the integral of 1 / (wanted edge length) along it: the
-/// number of edges that it should become. Local; an edge's value does not depend on the other edges,
-/// or on its direction.
+/// number of edges that it should become. Local; an edge's value does not depend on the other
+/// edges, or on its direction.
 ///
 /// Every edge is halved in bulk rounds until no interval is longer than the sizes at its ends, and
 /// the size changes along none by more than a third: a small region in the middle of a long edge is

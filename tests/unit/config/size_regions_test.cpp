@@ -72,11 +72,11 @@ TEST(SizeKeys, RefuseWhatIsOutOfRange)
 
 TEST(SizeKeys, ARegionOrAFieldIsNoSizeOfAllElse)
 {
-  for (const char* line : {"size.field = 'f.vtu'",
-                           "[[size.region]]\nsize = 1\npatch = 'a'"}) {
+  for (const char* line : {"size.field = 'f.vtu'", "[[size.region]]\nsize = 1\npatch = 'a'"}) {
     const std::string text = std::string("geometry.file = 'a.geo'\n") + line + "\n";
-    EXPECT_NE(testing::message_of<ConfigError>([&] { (void)parse_case(text, "case.toml"); })
-                  .find("give either size.target or coarse.max_size"),
+    EXPECT_NE(testing::message_of<ConfigError>([&] {
+                (void)parse_case(text, "case.toml");
+              }).find("give either size.target or coarse.max_size"),
               std::string::npos);
   }
 }
@@ -142,9 +142,10 @@ TEST(SizeRegionErrors, MissingKeysNameTheLineOfTheirTable)
             "/cases/case.toml:3: no size.region.size; must be a number > 0 and <= 1e+30");
   EXPECT_EQ(region_error("size = 1\nbox.min = [0, 0, 0]"),
             "/cases/case.toml:3: no size.region.box.max; must be a list of three numbers");
-  EXPECT_EQ(region_error("size = 1"),
-            "/cases/case.toml:3: [[size.region]] has none of box, ball, cylinder, halfspace, patch, "
-            "material; must have one of them");
+  EXPECT_EQ(
+      region_error("size = 1"),
+      "/cases/case.toml:3: [[size.region]] has none of box, ball, cylinder, halfspace, patch, "
+      "material; must have one of them");
 }
 
 TEST(SizeRegionErrors, TwoShapesNameBoth)
@@ -159,13 +160,14 @@ TEST(SizeRegionErrors, WrongValuesNameTheirOwnLine)
 {
   for (const char* value : {"1", "[1, 2]", "[1, 2, 3, 4]", "[1, 2, 'x']", "[1, 2, nan]",
                             "[1, 2, 1e300]", "'a'", "[[1, 2, 3]]"}) {
-    const std::string message = region_error("size = 1\nball.radius = 1\nball.centre = "
-                                             + std::string(value));
+    const std::string message =
+        region_error("size = 1\nball.radius = 1\nball.centre = " + std::string(value));
     EXPECT_TRUE(message.starts_with("/cases/case.toml:6: size.region.ball.centre = ")) << message;
     EXPECT_TRUE(message.ends_with("must be a list of three numbers")) << message;
   }
-  EXPECT_NE(region_error("size = 0\npatch = 'a'").find("case.toml:4: size.region.size = 0: must be"),
-            std::string::npos);
+  EXPECT_NE(
+      region_error("size = 0\npatch = 'a'").find("case.toml:4: size.region.size = 0: must be"),
+      std::string::npos);
   EXPECT_NE(region_error("size = 1\npatch = ''").find("case.toml:5: size.region.patch = \"\""),
             std::string::npos);
   EXPECT_NE(region_error("size = 1\npatch = 'a'\ngrowth = 2")

@@ -116,9 +116,9 @@ TEST(Reference, ExamplesOfAListAreAValidTable)
   const Case loaded = parse_case("geometry.file = 'a'\nsize.target = 1\n" + region, "case.toml");
   EXPECT_EQ(loaded.fill.regions,
             (std::vector<fill::FillRegion>{{"steel", fill::KernelKind::subdivide}}));
-  EXPECT_EQ(loaded.size.regions,
-            (std::vector<sizing::SizeRegion>{
-                {sizing::Box{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}}, 0.1, 0.3}}));
+  EXPECT_EQ(
+      loaded.size.regions,
+      (std::vector<sizing::SizeRegion>{{sizing::Box{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}}, 0.1, 0.3}}));
 }
 
 TEST(Reference, NamesEveryKeyOfEveryListWithItsReason)

@@ -122,18 +122,17 @@ void expect_values_of_points(const TetField& field)
 TEST(PointFieldFile, CellsOfEveryKindBecomeTetsThatFillThemWhateverTheirNumbers)
 {
   const std::vector<int> hex{0, 1, 3, 2, 4, 5, 7, 6};
-  const std::vector<OneCell> cells{
-      {VTK_TETRA, {0, 1, 2, 4}, 1.0 / 6.0},
-      {VTK_QUADRATIC_TETRA, {0, 1, 2, 4}, 1.0 / 6.0, 6},
-      {VTK_LAGRANGE_TETRAHEDRON, {0, 1, 2, 4}, 1.0 / 6.0, 6},
-      {VTK_VOXEL, {0, 1, 2, 3, 4, 5, 6, 7}, 1.0},
-      {VTK_HEXAHEDRON, hex, 1.0},
-      {VTK_QUADRATIC_HEXAHEDRON, hex, 1.0, 12},
-      {VTK_TRIQUADRATIC_HEXAHEDRON, hex, 1.0, 19},
-      {VTK_WEDGE, {0, 1, 2, 4, 5, 6}, 0.5},
-      {VTK_QUADRATIC_WEDGE, {0, 1, 2, 4, 5, 6}, 0.5, 9},
-      {VTK_PYRAMID, {0, 1, 3, 2, 4}, 1.0 / 3.0},
-      {VTK_QUADRATIC_PYRAMID, {0, 1, 3, 2, 4}, 1.0 / 3.0, 8}};
+  const std::vector<OneCell> cells{{VTK_TETRA, {0, 1, 2, 4}, 1.0 / 6.0},
+                                   {VTK_QUADRATIC_TETRA, {0, 1, 2, 4}, 1.0 / 6.0, 6},
+                                   {VTK_LAGRANGE_TETRAHEDRON, {0, 1, 2, 4}, 1.0 / 6.0, 6},
+                                   {VTK_VOXEL, {0, 1, 2, 3, 4, 5, 6, 7}, 1.0},
+                                   {VTK_HEXAHEDRON, hex, 1.0},
+                                   {VTK_QUADRATIC_HEXAHEDRON, hex, 1.0, 12},
+                                   {VTK_TRIQUADRATIC_HEXAHEDRON, hex, 1.0, 19},
+                                   {VTK_WEDGE, {0, 1, 2, 4, 5, 6}, 0.5},
+                                   {VTK_QUADRATIC_WEDGE, {0, 1, 2, 4, 5, 6}, 0.5, 9},
+                                   {VTK_PYRAMID, {0, 1, 3, 2, 4}, 1.0 / 3.0},
+                                   {VTK_QUADRATIC_PYRAMID, {0, 1, 3, 2, 4}, 1.0 / 3.0, 8}};
   const TemporaryFolder folder;
   for (const OneCell& cell : cells) {
     std::vector<int> numbers(cell.corners.size());
@@ -156,28 +155,35 @@ TEST(PointFieldFile, CellsOfEveryKindBecomeTetsThatFillThemWhateverTheirNumbers)
   }
 }
 
-TEST(PointFieldFile, SidesOfNeighboursAreCutAlike)
+// Two hexahedra beside each other in x, with points in no order.
+void add_two_cells(vtkUnstructuredGrid& grid)
 {
-  // Two hexahedra; the triangles of tets on the common side, x = 1, must be there twice.
-  const TemporaryFolder folder;
-  const vtkNew<vtkUnstructuredGrid> grid;
   const vtkNew<vtkPoints> points;
   const std::array<int, 12> numbers{7, 2, 9, 4, 0, 11, 5, 1, 10, 3, 8, 6};
   points->SetNumberOfPoints(12);
-  const auto number = [&](int i, int j, int k) { return numbers.at(static_cast<std::size_t>(4 * i + 2 * j + k)); };
+  const auto number = [&](int i, int j, int k) {
+    return numbers.at(static_cast<std::size_t>(4 * i + 2 * j + k));
+  };
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 2; ++j) {
       for (int k = 0; k < 2; ++k) points->SetPoint(number(i, j, k), i, j, k);
     }
   }
-  grid->SetPoints(points);
+  grid.SetPoints(points);
   for (int i = 0; i < 2; ++i) {
-    const std::array<vtkIdType, 8> ids{number(i, 0, 0),     number(i + 1, 0, 0),
-                                       number(i + 1, 1, 0), number(i, 1, 0),
-                                       number(i, 0, 1),     number(i + 1, 0, 1),
-                                       number(i + 1, 1, 1), number(i, 1, 1)};
-    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids.data());
+    const std::array<vtkIdType, 8> ids{
+        number(i, 0, 0), number(i + 1, 0, 0), number(i + 1, 1, 0), number(i, 1, 0),
+        number(i, 0, 1), number(i + 1, 0, 1), number(i + 1, 1, 1), number(i, 1, 1)};
+    grid.InsertNextCell(VTK_HEXAHEDRON, 8, ids.data());
   }
+}
+
+TEST(PointFieldFile, SidesOfNeighboursAreCutAlike)
+{
+  // The triangles of tets on the common side, x = 1, must be there twice.
+  const TemporaryFolder folder;
+  const vtkNew<vtkUnstructuredGrid> grid;
+  add_two_cells(*grid);
   add_array(*grid, kArray);
   write(*grid, folder / "a.vtu");
   const auto field = std::get<TetField>(read_point_field(folder / "a.vtu", kArray));
@@ -272,8 +278,8 @@ TEST(PointFieldFile, AnImageInPiecesIsPutTogether)
       "<VTKFile type=\"ImageData\" version=\"1.0\"><ImageData WholeExtent=\"0 2 0 1 0 1\" "
       "Origin=\"0 0 0\" Spacing=\"1 1 1\">";
   const std::string tail = "</ImageData></VTKFile>\n";
-  write_bytes(folder / "a.vti", head + piece(1, 2, "2 3 5 6 8 9 11 12")
-                                    + piece(0, 1, "1 2 4 5 7 8 10 11") + tail);
+  write_bytes(folder / "a.vti",
+              head + piece(1, 2, "2 3 5 6 8 9 11 12") + piece(0, 1, "1 2 4 5 7 8 10 11") + tail);
   const auto grid = std::get<GridField>(read_point_field(folder / "a.vti", kArray));
   EXPECT_EQ(grid.values, (std::vector<double>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
 
@@ -338,6 +344,51 @@ TEST(PointFieldFile, FilesThatCannotBeReadAreNamed)
   add_cell({VTK_TRIANGLE, {0, 1, 2}, 0.0}, {0, 1, 2}, *triangle);
   write(*triangle, folder / "flat.vtu");
   EXPECT_NE(error_of("flat.vtu").find("it has no cells with a volume"), std::string::npos);
+}
+
+// What is read of damaged bytes is consistent, or an InputError with the name.
+void expect_sound_or_refused(const std::filesystem::path& path, const std::string& bytes)
+{
+  write_bytes(path, bytes);
+  try {
+    const mesh::PointField field = read_point_field(path, kArray);
+    if (const auto* grid = std::get_if<GridField>(&field)) {
+      std::size_t num_points = 1;
+      for (const LocalIndex count : grid->counts) num_points *= static_cast<std::size_t>(count);
+      EXPECT_EQ(grid->values.size(), num_points);
+      return;
+    }
+    const auto& tets = std::get<TetField>(field);
+    EXPECT_EQ(3 * tets.values.size(), tets.point_xyz.size());
+    EXPECT_TRUE(std::ranges::all_of(tets.tet_points, [&](LocalIndex point) {
+      return point >= 0 && static_cast<std::size_t>(point) < tets.values.size();
+    }));
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
+  }
+}
+
+TEST(PointFieldFile, DamagedFilesAreSoundOrRefused)
+{
+  const TemporaryFolder folder;
+  const vtkNew<vtkUnstructuredGrid> cells;
+  add_two_cells(*cells);
+  add_array(*cells, kArray);
+  write(*cells, folder / "a.vtu");
+  const vtkNew<vtkImageData> image;
+  image->SetDimensions(3, 4, 5);
+  add_array(*image, kArray);
+  write(*image, folder / "a.vti");
+  for (const char* name : {"a.vtu", "a.vti"}) {
+    const std::string bytes = testing::file_bytes(folder / name);
+    ASSERT_GT(bytes.size(), 500U);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+      std::string damaged = bytes;
+      damaged[i] = static_cast<char>(damaged[i] ^ (1 << i % 7));
+      expect_sound_or_refused(folder / name, damaged);
+      if (i % 9 == 0) expect_sound_or_refused(folder / name, bytes.substr(0, i));
+    }
+  }
 }
 
 }  // namespace

@@ -125,8 +125,8 @@ TEST(NearestPoint, SearchOfTetsFindsTheLowestThatHoldsThePoint)
   for (int copy = 0; copy < 2; ++copy) {
     for (int i = 0; i < 12; ++i) {
       const Vec3 corner{-1.0 + 0.2 * i, -0.5, -0.5};
-      tets.push_back({corner, corner + Vec3{1, 0, 0}, corner + Vec3{0, 1, 0.1},
-                      corner + Vec3{0.3, 0.3, 1}});
+      tets.push_back(
+          {corner, corner + Vec3{1, 0, 0}, corner + Vec3{0, 1, 0.1}, corner + Vec3{0.3, 0.3, 1}});
     }
   }
   expect_same_as_looking_at_all(tets, random_points(2000, 1.5));

@@ -85,8 +85,8 @@ TEST(EdgeSizeIntegrals, SeeASmallBallInTheMiddleOfALongEdge)
   constexpr double kRadius = 0.05;
   constexpr double kGrowth = 0.3;
   for (const double middle : {50.0, 37.123, 81.7}) {
-    const SizeOptions options{
-        .target = 100.0, .regions = {{Ball{{middle, 0.0, 0.0}, kRadius}, kSize, kGrowth}}};
+    const SizeOptions options{.target = 100.0,
+                              .regions = {{Ball{{middle, 0.0, 0.0}, kRadius}, kSize, kGrowth}}};
     const auto side = [&](double length) {
       return std::log1p(kGrowth * (length - kRadius) / kSize) / kGrowth;
     };
@@ -97,8 +97,7 @@ TEST(EdgeSizeIntegrals, SeeASmallBallInTheMiddleOfALongEdge)
 
 TEST(EdgeSizeIntegrals, StopWhenTheEdgeIsCutOftenEnough)
 {
-  const SizeOptions options{
-      .regions = {{HalfSpace{{0.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}}, 1e-9, 0.3}}};
+  const SizeOptions options{.regions = {{HalfSpace{{0.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}}, 1e-9, 0.3}}};
   EXPECT_NEAR(integral(edge_along_x(1.0), options), 1e9, 1.0);
 }
 
@@ -106,7 +105,8 @@ TEST(EdgeSizeIntegrals, DependOnNoOtherEdgeAndNoDirection)
 {
   const mesh::CoarseMesh cube = kuhn_cube(6);
   const std::vector<LocalIndex> edges = all_edges(cube);
-  const SizeField sizes({.target = 0.2, .regions = {{Ball{{0.4, 0.5, 0.6}, 0.1}, 0.003, 0.4}}}, cube);
+  const SizeField sizes({.target = 0.2, .regions = {{Ball{{0.4, 0.5, 0.6}, 0.1}, 0.003, 0.4}}},
+                        cube);
   const std::vector<double> together = edge_size_integrals(cube, edges, sizes);
   for (std::size_t e = 0; e < together.size(); e += 7) {
     const std::vector<LocalIndex> reversed{edges[2 * e + 1], edges[2 * e]};

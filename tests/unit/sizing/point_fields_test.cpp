@@ -53,7 +53,8 @@ GridField grid_field(int n, Value value)
   GridField field{{}, {Vec3{step, 0, 0}, {0, step, 0}, {0, 0, step}}, {n + 1, n + 1, n + 1}, {}};
   for (int k = 0; k <= n; ++k) {
     for (int j = 0; j <= n; ++j) {
-      for (int i = 0; i <= n; ++i) field.values.push_back(value(Vec3{i * step, j * step, k * step}));
+      for (int i = 0; i <= n; ++i)
+        field.values.push_back(value(Vec3{i * step, j * step, k * step}));
     }
   }
   return field;
@@ -95,20 +96,18 @@ TEST(PointFields, AreLinearInGrids) { expect_linear(size_field(grid_field(3, lin
 TEST(PointFields, GridsMayBeTurned)
 {
   // A quarter turn around z, and steps of different lengths: i along y, j against x.
-  const GridField field{{1.0, 0.0, 0.0},
-                        {Vec3{0.0, 0.5, 0.0}, {-0.25, 0.0, 0.0}, {0.0, 0.0, 1.0}},
-                        {3, 5, 2},
-                        [] {
-                          std::vector<double> values;
-                          for (int k = 0; k < 2; ++k) {
-                            for (int j = 0; j < 5; ++j) {
-                              for (int i = 0; i < 3; ++i) {
-                                values.push_back(linear({1.0 - 0.25 * j, 0.5 * i, 1.0 * k}));
-                              }
-                            }
-                          }
-                          return values;
-                        }()};
+  const GridField field{
+      {1.0, 0.0, 0.0}, {Vec3{0.0, 0.5, 0.0}, {-0.25, 0.0, 0.0}, {0.0, 0.0, 1.0}}, {3, 5, 2}, [] {
+        std::vector<double> values;
+        for (int k = 0; k < 2; ++k) {
+          for (int j = 0; j < 5; ++j) {
+            for (int i = 0; i < 3; ++i) {
+              values.push_back(linear({1.0 - 0.25 * j, 0.5 * i, 1.0 * k}));
+            }
+          }
+        }
+        return values;
+      }()};
   expect_linear(size_field(field));
 }
 

@@ -73,18 +73,18 @@ TEST(SizeField, DistanceToABox)
 {
   const Box box{{0.0, 0.1, 0.2}, {1.0, 0.5, 0.6}};
   EXPECT_DOUBLE_EQ(distance_to(box, {0.5, 0.3, 0.4}), 0.0);
-  EXPECT_DOUBLE_EQ(distance_to(box, {0.5, 0.3, 2.6}), 2.0);    // A side,
-  EXPECT_DOUBLE_EQ(distance_to(box, {4.0, 0.3, -3.8}), 5.0);   // an edge,
-  EXPECT_DOUBLE_EQ(distance_to(box, {-1.0, 2.5, 2.6}), 3.0);   // a corner.
+  EXPECT_DOUBLE_EQ(distance_to(box, {0.5, 0.3, 2.6}), 2.0);   // A side,
+  EXPECT_DOUBLE_EQ(distance_to(box, {4.0, 0.3, -3.8}), 5.0);  // an edge,
+  EXPECT_DOUBLE_EQ(distance_to(box, {-1.0, 2.5, 2.6}), 3.0);  // a corner.
 }
 
 TEST(SizeField, DistanceToACylinder)
 {
   const Cylinder cylinder{{0.0, 0.5, 0.5}, {1.0, 0.5, 0.5}, 0.25};
   EXPECT_NEAR(distance_to(cylinder, {0.3, 0.6, 0.7}), 0.0, 1e-15);
-  EXPECT_NEAR(distance_to(cylinder, {0.3, 0.5, 2.75}), 2.0, 1e-15);    // The mantle,
-  EXPECT_NEAR(distance_to(cylinder, {-1.5, 0.6, 0.5}), 1.5, 1e-15);    // an end,
-  EXPECT_NEAR(distance_to(cylinder, {4.0, 4.75, 0.5}), 5.0, 1e-14);    // its rim.
+  EXPECT_NEAR(distance_to(cylinder, {0.3, 0.5, 2.75}), 2.0, 1e-15);  // The mantle,
+  EXPECT_NEAR(distance_to(cylinder, {-1.5, 0.6, 0.5}), 1.5, 1e-15);  // an end,
+  EXPECT_NEAR(distance_to(cylinder, {4.0, 4.75, 0.5}), 5.0, 1e-14);  // its rim.
 }
 
 TEST(SizeField, DistanceToAHalfSpaceIsThatToItsPlaneOnTheSideOfTheNormal)
@@ -117,15 +117,15 @@ TEST(SizeField, DistanceToAMaterialIsZeroInItAndElseToItsTets)
 
 TEST(SizeField, SmallestOfAllWins)
 {
-  const SizeOptions options{.target = 0.3,
-                            .min = 0.05,
-                            .max = 0.25,
-                            .regions = {{Ball{{0.0, 0.0, 0.0}, 0.1}, 0.01, 0.5},
-                                        {Ball{{1.0, 0.0, 0.0}, 0.1}, 0.2, 0.5}}};
-  EXPECT_EQ(size_at(options, {0.0, 0.0, 0.0}), 0.05);            // The first ball, bounded.
-  EXPECT_DOUBLE_EQ(size_at(options, {0.3, 0.0, 0.0}), 0.11);     // The growth around it.
-  EXPECT_EQ(size_at(options, {1.0, 0.05, 0.0}), 0.2);            // The second ball.
-  EXPECT_EQ(size_at(options, {0.5, 1.0, 1.0}), 0.25);            // The target, bounded.
+  const SizeOptions options{
+      .target = 0.3,
+      .min = 0.05,
+      .max = 0.25,
+      .regions = {{Ball{{0.0, 0.0, 0.0}, 0.1}, 0.01, 0.5}, {Ball{{1.0, 0.0, 0.0}, 0.1}, 0.2, 0.5}}};
+  EXPECT_EQ(size_at(options, {0.0, 0.0, 0.0}), 0.05);         // The first ball, bounded.
+  EXPECT_DOUBLE_EQ(size_at(options, {0.3, 0.0, 0.0}), 0.11);  // The growth around it.
+  EXPECT_EQ(size_at(options, {1.0, 0.05, 0.0}), 0.2);         // The second ball.
+  EXPECT_EQ(size_at(options, {0.5, 1.0, 1.0}), 0.25);         // The target, bounded.
 }
 
 TEST(SizeField, GrowthIsTheGradingUnlessARegionHasItsOwn)
@@ -183,9 +183,10 @@ TEST(SizeFieldErrors, UnknownNamesListTheKnownOnesNearestFirst)
   mesh::CoarseMesh cube = two_material_cube(2);
   cube.patch_names = {"wall", "inlet", "outlet", "wall", "top", "bottom", "core"};
   cube.material_names = {"iron", "steel"};
-  EXPECT_EQ(error_of(one_region(PatchPattern{"inlt"}), cube),
-            "[[size.region]] number 1 (patch): patch = \"inlt\": the model has no such patch; it has "
-            "\"inlet\", \"wall\", \"core\", \"outlet\", \"top\", \"bottom\"");
+  EXPECT_EQ(
+      error_of(one_region(PatchPattern{"inlt"}), cube),
+      "[[size.region]] number 1 (patch): patch = \"inlt\": the model has no such patch; it has "
+      "\"inlet\", \"wall\", \"core\", \"outlet\", \"top\", \"bottom\"");
   SizeOptions options = one_region(MaterialPattern{"*"});
   options.regions.push_back({MaterialPattern{"stel"}, 0.1, 0.0});
   EXPECT_EQ(error_of(options, cube),
