@@ -78,6 +78,8 @@ class WrongCase(OutcomeTest):
             ("output.compression='gzip'", ["lz4"]),
             ("coarse.max_sise=1", ['did you mean "coarse.max_size"', "reference.toml"]),
             ("size.target=1", ["excludes"]),
+            ("size.field=none.vtu", ["size.field", "no effect"]),
+            ("size.max=1", ["size.max", "no effect"]),
         ):
             self.assert_refuses(
                 ["mesh", case, "--set", setting], WRONG_INPUT, f"--set {setting}", *words, ranks=[None]
