@@ -78,8 +78,6 @@ class WrongCase(OutcomeTest):
             ("output.compression='gzip'", ["lz4"]),
             ("coarse.max_sise=1", ['did you mean "coarse.max_size"', "reference.toml"]),
             ("size.target=1", ["excludes"]),
-            ("size.field=none.vtu", ["size.field", "no effect"]),
-            ("size.max=1", ["size.max", "no effect"]),
         ):
             self.assert_refuses(
                 ["mesh", case, "--set", setting], WRONG_INPUT, f"--set {setting}", *words, ranks=[None]
@@ -102,6 +100,13 @@ class WrongCase(OutcomeTest):
     def test_more_subdomains_than_coarse_tets(self):
         case = self.write_case(subdomains=100000)
         self.assert_refuses_case(case, WRONG_INPUT, "/ball.geo: decompose.subdomains is 100000", "tets", "fewer")
+
+    def test_sizes_that_differ_are_not_ignored(self):
+        case = self.write_case()
+        text = case.read_text()
+        for lines in ("[size]\nmax = 1\n", "[[size.region]]\npatch = '*'\nsize = 0.1\n"):
+            case.write_text(text + lines)
+            self.assert_refuses_case(case, WRONG_INPUT, "size.max", "size.region", "no effect")
 
     def test_region_of_an_unknown_material(self):
         case = self.write_case()
