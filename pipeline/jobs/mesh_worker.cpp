@@ -129,6 +129,7 @@ class MeshWorker final : public jobs::Worker {
   {
     coarse::CoarseOptions options = request.options;
     options.max_size /= scale_;
+    options.points = options.points.scaled(1.0 / scale_);
     const auto mesher = make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
     CoarseTry made{.mesh = mesher->generate(options)};
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_);

@@ -5,15 +5,13 @@
 #include <tuple>
 #include <utility>
 
-#include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/fill/fallbacks.hpp"
-#include "tessera/refine/choose_levels.hpp"
 
-#include "pipeline/estimate/run_outline.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
+#include "pipeline/stages/levels_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/stages/size_stage.hpp"
 
@@ -58,47 +56,25 @@ void require_same_run(const RunResult& run, const RunState* state, const RunCont
   });
 }
 
-// The same for all edges, unless the case says which size is wanted.
-mesh::EdgeLevels wanted_levels(const config::Case& resolved, const mesh::CoarseMesh& coarse)
+// A coarse mesh, and once more where it is too coarse for the sizes.
+void run_coarse_stages(RunResult& run, RunContext& context)
 {
-  if (resolved.size.target == 0.0) return resolved.refine.levels;
-  std::vector<LocalIndex> edges = refine::coarse_edges(coarse);
-  std::vector<double> num_wanted;
-  for (std::size_t e = 0; e < edges.size(); e += 2) {
-    const Vec3 edge = coarse.position(edges[e + 1]) - coarse.position(edges[e]);
-    num_wanted.push_back(norm(edge) / resolved.size.target);
+  run.coarse = run_coarse_stage(run.resolved, context);
+  if (mesh::SizePoints points = sizes_for_a_finer_mesh(run, context); !points.size.empty()) {
+    run.resolved.coarse.points = std::move(points);
+    const CoarseResult first = std::exchange(run.coarse, run_coarse_stage(run.resolved, context));
+    run.coarse.tries += first.tries;
+    run.coarse.failures.insert(run.coarse.failures.begin(), first.failures.begin(),
+                               first.failures.end());
+    run.coarse.was_limited = run.coarse.was_limited || first.was_limited;
   }
-  return refine::choose_levels(coarse, std::move(edges), num_wanted, resolved.refine.levels);
-}
-
-// A piece that is split has at least so many levels everywhere.
-void choose_levels(RunResult& run, RunContext& context)
-{
-  const mesh::CoarseMesh& coarse = run.coarse.mesh;
-  const mesh::EdgeLevels wanted =
-      comm::on_root(context.comm, [&] { return wanted_levels(run.resolved, coarse); });
-  const auto kernels =
-      fill::kernels_of(run.resolved.fill, coarse.material_names, coarse.tet_material);
-  run.splits = splits_after_fill(run.resolved.fill, kernels, wanted.largest());
-  run.levels = wanted.raised(run.splits);
-}
-
-// Nothing makes sizes differ yet, and no key may be ignored.
-void require_one_size(const sizing::SizeOptions& size, const RunContext& context)
-{
-  all_or_none(context.comm, [&] {
-    if (!is_graded(size) && size.min == 0.0 && size.max == 0.0) return;
-    throw ConfigError(
-        "size.min, size.max, size.field and [[size.region]] have no effect in this version; leave "
-        "them out");
-  });
+  choose_levels(run, context);
 }
 
 }  // namespace
 
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
 {
-  require_one_size(given.size, context);
   RunResult run;
   run.only_subdomains = options.only_subdomains;
   run.model = run_model_stage(given, context);
@@ -110,8 +86,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
     run.splits = kept->splits;
     run.decomposition = std::move(kept->decomposition);
   } else {
-    run.coarse = run_coarse_stage(run.resolved, context);
-    choose_levels(run, context);
+    run_coarse_stages(run, context);
     run.decomposition = run_decompose_stage(run, context);
     keep_coarse_mesh(run, options.state, context);
   }

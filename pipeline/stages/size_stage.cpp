@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "tessera/comm/all_or_none.hpp"
-#include "tessera/mesh/lattice.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
@@ -49,12 +48,11 @@ int levels_for(double num_fine_tets)
 
 config::Case resolve_size(const config::Case& given, RunContext& context)
 {
-  if (given.size.target == 0.0) return given;
+  if (given.size.target == 0.0 || given.coarse.max_size > 0.0) return given;
   const double box_diagonal = on_root(context.comm, [&] { return measure_box(given, context); });
   config::Case resolved = given;
   const int levels = levels_for(estimated_tets(box_diagonal, given.size.target));
   resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, levels);
-  resolved.refine.levels = mesh::lattice::kMaxLevels;
   context.log.info("size.target {}: coarse.max_size = {}", given.size.target,
                    resolved.coarse.max_size);
   return resolved;

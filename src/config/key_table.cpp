@@ -29,8 +29,8 @@ constexpr Key kKeys[] = {
      .rule = RealRule{[](Case& c) -> double& { return c.size.target; }, 0.0, Bound::exclusive,
                       kHuge, Bound::inclusive},
      .unit = "output length unit",
-     .meaning = "Wanted edge length of the mesh. Chooses coarse.max_size and refine.levels, and "
-                "therefore excludes them.",
+     .meaning = "Wanted edge length of the mesh: every coarse edge gets as many levels as it needs. "
+                "Chooses coarse.max_size, unless that is given.",
      .reason = "a size suits one model only; give this or coarse.max_size",
      .example = "1.0",
      .is_optional = true},
@@ -58,6 +58,16 @@ constexpr Key kKeys[] = {
                 "0.3, edges 10 lengths away may be longer by 3 lengths. Acts on size.field, and on "
                 "each [[size.region]] without a growth of its own.",
      .reason = "as coarse.grading: neighbouring edges then differ by about a third"},
+    {.name = "size.curvature",
+     .rule = RealRule{[](Case& c) -> double& { return c.size.curvature; }, 0.0, Bound::exclusive,
+                      1000.0, Bound::inclusive},
+     .unit = "edges per radius of curvature",
+     .meaning = "How finely the mesh follows curved surfaces: edges there are at most so many to a "
+                "radius long. The coarse mesh has coarse.curvature of them.",
+     .reason = "points are on the geometry anyway; what follows its curves more closely than "
+               "size.target has a reason that only the analysis knows",
+     .example = "8.0",
+     .is_optional = true},
     {.name = "size.field",
      .rule = PathRule{[](Case& c) -> std::filesystem::path& { return c.size.field; }},
      .meaning = "File with wanted sizes at points, as an error estimator writes it: .vtu, .pvtu or "
@@ -80,8 +90,8 @@ constexpr Key kKeys[] = {
          "Largest edge that NETGEN aims at in the coarse mesh. One edge in a hundred may come "
          "out 1.5 times as long, and small features make the mesh finer by themselves.",
      .reason = "a size suits one model only; give this or size.target",
-     .example = "10.0",
-     .excluded_by = "size.target"},
+     .derived_default = "with size.target, a few times that, depending on the model's box",
+     .example = "10.0"},
     {.name = "coarse.grading",
      .rule = RealRule{[](Case& c) -> double& { return c.coarse.grading; }, 0.0, Bound::exclusive,
                       1.0, Bound::inclusive},
@@ -125,10 +135,10 @@ constexpr Key kKeys[] = {
 
     {.name = "refine.levels",
      .rule = IntegerRule{[](Case& c) -> int& { return c.refine.levels; }, 0, 10},
-     .meaning = "Number of refinements L of the subdomains' surfaces: every coarse edge is split "
-                "into 2^L, and the mesh has about 8^L times as many tets.",
-     .reason = "the smallest number that refines at all",
-     .excluded_by = "size.target"},
+     .meaning = "Number of refinements L: every coarse edge is split into 2^L, and the mesh has "
+                "about 8^L times as many tets. With keys of [size], the largest number: each edge "
+                "has as many as it needs.",
+     .reason = "the smallest number that refines at all; with keys of [size], as many as needed"},
 
     {.name = "fill.kernel",
      .rule = word_rule([](Case& c) -> fill::KernelKind& { return c.fill.kernel; }),

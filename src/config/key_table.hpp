@@ -135,7 +135,6 @@ struct Key {
   std::string_view derived_default{};  ///< In words, for a default that no constant can hold.
   std::string_view example{};          ///< TOML value for the reference, if there is no default.
   bool is_optional = false;            ///< No constant default, and may be left out all the same.
-  std::string_view excluded_by{};      ///< Key that must not be given together with this one.
 };
 
 /// @brief A table that may stand any number of times, as `[[name]]`. Every key that is not optional

@@ -203,16 +203,12 @@ void apply(const Entry& entry, Case& into)
   fail_value(entry, allowed(key->rule));
 }
 
-void check_exclusions(const std::vector<Entry>& entries)
+// Where sizes are wanted, levels follow from them.
+void open_levels(const std::vector<Entry>& entries, Case& loaded)
 {
-  for (const Entry& entry : entries) {
-    const Key* key = find_key(entry.name);
-    if (key == nullptr || key->excluded_by.empty()) continue;
-    const auto other = std::ranges::find(entries, key->excluded_by, &Entry::name);
-    if (other == entries.end()) continue;
-    fail(entry.origin, fmt::format("{} excludes {} ({}): size.target chooses coarse.max_size and "
-                                   "refine.levels; give either it or them",
-                                   entry.name, other->name, other->origin));
+  const bool is_given = std::ranges::find(entries, "refine.levels", &Entry::name) != entries.end();
+  if (sizing::are_wanted(loaded.size) && !is_given) {
+    loaded.refine.levels = refine::kMostLevels;
   }
 }
 
@@ -223,6 +219,10 @@ void check_required(const Case& loaded, const std::string& where)
   }
   if (loaded.size.target == 0.0 && loaded.coarse.max_size == 0.0) {
     fail(where, "no size; give either size.target or coarse.max_size");
+  }
+  if (loaded.size.min > 0.0 && !sizing::are_wanted(loaded.size)) {
+    fail(where, "size.min alone says nothing; give size.target, size.max, size.curvature, size.field "
+                "or a [[size.region]] as well");
   }
   if (loaded.size.max > 0.0 && loaded.size.min > loaded.size.max) {
     fail(where, fmt::format("size.min = {} is above size.max = {}; it must not be",
@@ -278,7 +278,7 @@ Case parse_case(std::string_view text, const std::filesystem::path& file,
   const std::vector<Entry> entries = all_entries(text, file, overrides);
   Case loaded;
   for (const Entry& entry : entries) apply(entry, loaded);
-  check_exclusions(entries);
+  open_levels(entries, loaded);
   check_required(loaded, name);
   resolve_paths(file, loaded);
   return loaded;

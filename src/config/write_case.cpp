@@ -10,12 +10,6 @@
 namespace tessera::config {
 namespace {
 
-bool is_given(std::string_view name, const Case& from)
-{
-  const Key* key = find_key(name);
-  return key != nullptr && toml_value(key->rule, from).has_value();
-}
-
 // Writes "[table]" before the first key of each table.
 class TableHeadings {
  public:
@@ -109,7 +103,6 @@ std::string to_toml(const Case& resolved)
   for (const Key& key : all_keys()) {
     const std::optional<std::string> value = toml_value(key.rule, resolved);
     if (!value) continue;
-    if (!key.excluded_by.empty() && is_given(key.excluded_by, resolved)) continue;
     headings.before(key);
     out += fmt::format("{} = {}\n", last_part(key.name), *value);
   }

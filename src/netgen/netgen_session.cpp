@@ -2,6 +2,7 @@
 #include "netgen/netgen_session.hpp"
 
 #include <iostream>
+#include <span>
 #include <sstream>
 #include <typeinfo>
 
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/vec3.hpp"
 
 // Defined in libinterface.so and declared in no header of NETGEN 6.2.1905.
 namespace netgen {
@@ -83,6 +85,11 @@ std::string message_of_current_exception()
   parameters.maxh = options.max_size;
   parameters.grading = options.grading;
   parameters.curvaturesafety = options.curvature;
+  for (std::size_t i = 0; i < options.points.size.size(); ++i) {
+    const Vec3 point = point_at(std::span(options.points.xyz), i);
+    parameters.meshsize_points.Append(
+        {::netgen::Point<3>(point[0], point[1], point[2]), options.points.size[i]});
+  }
   return parameters;
 }
 

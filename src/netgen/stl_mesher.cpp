@@ -97,6 +97,7 @@ class StlMeshing {
   static ::netgen::MeshingParameters parameters(coarse::CoarseOptions options, double scale)
   {
     options.max_size *= scale;
+    options.points = options.points.scaled(scale);
     return coarse_parameters(options);
   }
 

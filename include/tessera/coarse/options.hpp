@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "tessera/base/enum_words.hpp"
+#include "tessera/mesh/size_points.hpp"
 
 namespace tessera::coarse {
 
@@ -43,10 +44,13 @@ struct CoarseOptions {
 
   double timeout_s = 300.0;  ///< CPU seconds of one try, > 0.
 
+  /// Largest edges at some places, made from the sizes of the case; remesh() takes no notice.
+  mesh::SizePoints points{};
+
   static auto fields(auto& self)
   {
     return std::tie(self.max_size, self.grading, self.curvature, self.feature_angle_deg,
-                    self.optimize, self.surface_mesher, self.timeout_s);
+                    self.optimize, self.surface_mesher, self.timeout_s, self.points);
   }
 
   friend bool operator==(const CoarseOptions&, const CoarseOptions&) = default;

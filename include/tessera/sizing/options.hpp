@@ -87,6 +87,8 @@ struct SizeOptions {
   double min = 0.0;      ///< No size below this is wanted, output length unit; 0: no bound.
   double max = 0.0;      ///< No size above this is wanted, output length unit; 0: no bound.
   double grading = 0.3;  ///< Largest growth of the size per length, in (0, 1].
+  double curvature = 0.0;  ///< Edges per radius of curvature that the surface has at least; 0: as
+                           ///< the coarse mesh makes them.
 
   std::filesystem::path field{};      ///< File with sizes at points; empty: none.
   std::string field_array = "size";   ///< Its point array.
@@ -99,6 +101,13 @@ struct SizeOptions {
 [[nodiscard]] inline bool is_graded(const SizeOptions& options)
 {
   return !options.regions.empty() || !options.field.empty();
+}
+
+/// @brief Whether the case says which size is wanted, if only at some places. Else all coarse edges
+/// are split alike. Local.
+[[nodiscard]] inline bool are_wanted(const SizeOptions& options)
+{
+  return options.target > 0.0 || options.max > 0.0 || options.curvature > 0.0 || is_graded(options);
 }
 
 /// @brief The shape's word in a case file: "box", "ball", "cylinder", "halfspace", "patch" or

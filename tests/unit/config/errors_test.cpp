@@ -203,15 +203,10 @@ TEST(ConfigErrors, BytesThatAreNoUtf8AreRefused)
             "case.toml:2: not valid TOML: holds bytes that are not UTF-8");
 }
 
-TEST(ConfigErrors, SizeTargetExcludesWhatItChooses)
+TEST(ConfigErrors, SmallestSizeAloneIsRefused)
 {
-  const std::string text = "geometry.file = 'a.geo'\nsize.target = 1\ncoarse.max_size = 2\n";
-  EXPECT_EQ(error_of(text),
-            "case.toml:3: coarse.max_size excludes size.target (case.toml:2): size.target chooses "
-            "coarse.max_size and refine.levels; give either it or them");
-  EXPECT_NE(error_of("geometry.file = 'a.geo'\nsize.target = 1\n", {"refine.levels=2"})
-                .find("--set refine.levels=2: refine.levels excludes size.target"),
-            std::string::npos);
+  const std::string text = "geometry.file = 'a.geo'\ncoarse.max_size = 2\nsize.min = 1\n";
+  EXPECT_NE(error_of(text).find("size.min alone says nothing"), std::string::npos);
 }
 
 TEST(ConfigErrors, ModelAndSizeAreRequired)

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stages/levels_stage.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tessera/comm/all_or_none.hpp"
+#include "tessera/fill/fallbacks.hpp"
+#include "tessera/refine/choose_levels.hpp"
+#include "tessera/sizing/coarse_sizes.hpp"
+#include "tessera/subdomain/read_size_field.hpp"
+
+#include "pipeline/estimate/run_outline.hpp"
+#include "pipeline/runtime/with_file_context.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+// Length of a coarse edge in wanted ones where nothing else tells, and how many times as long an edge
+// may be. Sizes of 1 to 4 need no other coarse mesh then.
+constexpr double kUsualLength = 4.0;
+constexpr double kMostTimesLonger = 4.0;
+
+double usual_length(const config::Case& resolved)
+{
+  if (resolved.size.target == 0.0) return kUsualLength;
+  return std::max(kUsualLength, resolved.coarse.max_size / resolved.size.target);
+}
+
+// How many wanted lengths each edge is long.
+std::vector<double> num_wanted(const sizing::SizeOptions& options, const mesh::CoarseMesh& coarse,
+                               const std::vector<LocalIndex>& edges)
+{
+  const sizing::SizeField sizes = subdomain::read_size_field(options, coarse);
+  std::vector<double> wanted = sizing::edge_size_integrals(coarse, edges, sizes);
+  if (options.curvature == 0.0) return wanted;
+  const std::vector<double> radii = sizing::lengths_in_radii(coarse, edges);
+  for (std::size_t e = 0; e < wanted.size(); ++e) {
+    wanted[e] = std::max(wanted[e], options.curvature * radii[e]);
+  }
+  return wanted;
+}
+
+mesh::EdgeLevels wanted_levels(const config::Case& resolved, const mesh::CoarseMesh& coarse)
+{
+  if (!sizing::are_wanted(resolved.size)) return resolved.refine.levels;
+  std::vector<LocalIndex> edges = refine::coarse_edges(coarse);
+  const std::vector<double> wanted = num_wanted(resolved.size, coarse, edges);
+  return refine::choose_levels(coarse, std::move(edges), wanted, resolved.refine.levels);
+}
+
+mesh::SizePoints points_of_smaller_sizes(const config::Case& resolved,
+                                         const mesh::CoarseMesh& coarse)
+{
+  const std::vector<LocalIndex> edges = refine::coarse_edges(coarse);
+  const sizing::SizeField sizes = subdomain::read_size_field(resolved.size, coarse);
+  const std::vector<double> wanted = sizing::edge_size_integrals(coarse, edges, sizes);
+  const double usual = usual_length(resolved);
+  const auto is_fine = [&](double num) { return num <= kMostTimesLonger * usual; };
+  if (std::ranges::all_of(wanted, is_fine)) return {};
+  return sizing::coarse_size_points(coarse, sizes, usual);
+}
+
+}  // namespace
+
+void choose_levels(RunResult& run, RunContext& context)
+{
+  StageScope stage(context, "levels");
+  const mesh::CoarseMesh& coarse = run.coarse.mesh;
+  const mesh::EdgeLevels wanted = comm::on_root(context.comm, [&] {
+    return with_file_context(run.resolved, [&] { return wanted_levels(run.resolved, coarse); });
+  });
+  const auto kernels =
+      fill::kernels_of(run.resolved.fill, coarse.material_names, coarse.tet_material);
+  run.splits = splits_after_fill(run.resolved.fill, kernels, wanted.largest());
+  run.levels = wanted.raised(run.splits);
+  stage.work_is_done();
+  stage.finish(run.levels.is_uniform() ? fmt::format("{} for all edges", run.levels.largest())
+                                       : fmt::format("up to {}", run.levels.largest()));
+}
+
+mesh::SizePoints sizes_for_a_finer_mesh(const RunResult& run, RunContext& context)
+{
+  if (!sizing::is_graded(run.resolved.size)) return {};
+  return comm::on_root(context.comm, [&] {
+    return with_file_context(
+        run.resolved, [&] { return points_of_smaller_sizes(run.resolved, run.coarse.mesh); });
+  });
+}
+
+}  // namespace tessera::pipeline
