@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
@@ -26,6 +25,7 @@
 #include "pipeline/report/report.hpp"
 #include "pipeline/run_pipeline.hpp"
 #include "pipeline/runtime/log.hpp"
+#include "pipeline/runtime/terminal.hpp"
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/store/run_state.hpp"
 
@@ -54,7 +54,7 @@ Progress::Style progress_style(const MeshOptions& options, const comm::Communica
   if (comm.rank() != 0 || options.verbosity == Verbosity::quiet) return Progress::Style::silent;
   const bool is_terminal =
       options.progress == ProgressMode::always
-      || (options.progress == ProgressMode::automatic && isatty(STDOUT_FILENO) != 0);
+      || (options.progress == ProgressMode::automatic && output_ends_on_terminal());
   return is_terminal ? Progress::Style::bar : Progress::Style::lines;
 }
 
