@@ -32,10 +32,6 @@
 namespace tessera::pipeline {
 namespace {
 
-// What a solver may expect of output.parts without a word; 1.06 was measured with 16 subdomains a
-// part.
-constexpr double kMostBalance = 1.1;
-
 enum class Purpose : int { mesh, prediction };
 
 // Before anything is done: what the case alone decides. All ranks have the same one.
@@ -217,12 +213,7 @@ class CaseRun {
            spdlog::logger& log) const
   {
     for (const std::string& reason : verdict.reasons) log.warn("degraded: {}", reason);
-    if (const double balance = balance_of_parts(run); balance > kMostBalance) {
-      log.warn(
-          "the largest part has {:.3g} times the average of tets; more "
-          "decompose.subdomains make smaller units to share out",
-          balance);
-    }
+    if (const auto warning = unbalanced_parts(run)) log.warn(*warning);
     log.info("{} tets in {} pieces, {:.1f} s: {}", run.filled.num_tets(), run.filled.pieces.size(),
              wall_time_s, given_.output.directory.string());
   }

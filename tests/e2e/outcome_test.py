@@ -97,10 +97,6 @@ class WrongCase(OutcomeTest):
         self.assert_refuses(["mesh", "none.toml"], WRONG_INPUT, "none.toml", "no such")
         self.assert_refuses(["mesh", "."], WRONG_INPUT, "is a folder", ranks=[None])
 
-    def test_more_subdomains_than_coarse_tets(self):
-        case = self.write_case(subdomains=100000)
-        self.assert_refuses_case(case, WRONG_INPUT, "/ball.geo: decompose.subdomains is 100000", "tets", "fewer")
-
     def test_region_of_an_unknown_material(self):
         case = self.write_case()
         region = "[[fill.region]]\nmaterial = 'steel'\nkernel = 'subdivide'\n"
