@@ -54,13 +54,18 @@ std::string lower_case_extension(const fs::path& file)
                   file.string(), allowed));
 }
 
+const FileKind* find_kind(const fs::path& file)
+{
+  const auto* const kind =
+      std::ranges::find(kFileKinds, lower_case_extension(file), &FileKind::extension);
+  return kind == std::ranges::end(kFileKinds) ? nullptr : kind;
+}
+
 const FileKind& kind_of(const fs::path& file)
 {
-  const std::string extension = lower_case_extension(file);
-  for (const FileKind& kind : kFileKinds) {
-    if (kind.extension == extension) return kind;
-  }
-  throw_unknown_kind(file);
+  const FileKind* const kind = find_kind(file);
+  if (kind == nullptr) throw_unknown_kind(file);
+  return *kind;
 }
 
 // Says what is wrong before a reader of NETGEN or OpenCASCADE, whose words help less, sees the
@@ -108,6 +113,8 @@ void require_model_file(const fs::path& file)
   static_cast<void>(kind_of(file));
   require_readable(file);
 }
+
+bool is_model_name(const fs::path& file) { return find_kind(file) != nullptr; }
 
 model::ModelSource import_model(const fs::path& file, const ImportOptions& options)
 {

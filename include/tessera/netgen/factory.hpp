@@ -12,12 +12,16 @@
 
 /// The only door to NETGEN and OpenCASCADE; free of their types. Everything behind it may crash,
 /// exit or hang, so the program calls it in jobs only, unless it says otherwise. In a build without
-/// NETGEN everything but netgen_version() throws ConfigError.
+/// NETGEN everything but is_model_name() and netgen_version() throws ConfigError.
 namespace tessera::netgen {
 
 /// @brief Looks at a CAD file's name and kind, reads nothing and calls no library: for any process.
 /// @note Local. @throws InputError if the file is missing, unreadable, empty or of an unknown kind.
 void require_model_file(const std::filesystem::path& file);
+
+/// @brief Whether a file's name is that of a CAD model, by its extension; the file need not exist.
+/// Calls no library: for any process. In a build without NETGEN no name is. Local.
+[[nodiscard]] bool is_model_name(const std::filesystem::path& file);
 
 /// @brief Reads a CAD file by its extension (.geo .stl .step .stp .iges .igs .brep) and checks it.
 /// @note Local.
