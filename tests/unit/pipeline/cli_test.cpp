@@ -176,7 +176,7 @@ TEST(CommandLine, HelpOfEveryLevelIsReturnedNotPrinted)
     EXPECT_NE(all.find(word), std::string::npos) << word;
   }
   const std::string mesh = parsed_as<PrintCommand>({"mesh", "--help"}).text;
-  for (const char* word : {"tessera mesh", "CASE.toml", "--set", "--output", "--overwrite",
+  for (const char* word : {"tessera mesh", "CASE.toml|MODEL", "--set", "--output", "--overwrite",
                            "--resume", "--dump-config", "--dry-run", "--ranks", "--only-subdomains",
                            "--progress", "--quiet", "--verbose"}) {
     EXPECT_NE(mesh.find(word), std::string::npos) << word;
@@ -244,7 +244,7 @@ TEST(DescribeCommandLine, HasTheProgramAndItsCommandsWithWhatTheyTake)
   const CommandHelp& mesh = all[1];
   EXPECT_EQ(mesh.name, "mesh");
   ASSERT_EQ(mesh.arguments.size(), 1U);
-  EXPECT_EQ(mesh.arguments.front().value, "CASE.toml");
+  EXPECT_EQ(mesh.arguments.front().value, "CASE.toml|MODEL");
   const auto option = [&](const std::string& name) {
     for (const OptionHelp& candidate : mesh.options) {
       if (candidate.names.back() == name) return candidate;
