@@ -230,6 +230,11 @@ void add_info(CLI::App& app, Parsed& parsed)
 {
   CLI::App* info = app.add_subcommand("info", "Say what a file holds");
   info->add_option("FILE", parsed.info.file, "A CAD model, case or mesh")->required();
+  info->add_flag("--json", parsed.info.json, "Of a model: print JSON");
+  info->add_option("--picture", parsed.info.picture,
+                   "Of a model: draw it from two sides, with the numbers of its faces")
+      ->type_name("FILE.png")
+      ->check(not_empty());
 }
 
 void add_replay(CLI::App& app, Parsed& parsed)

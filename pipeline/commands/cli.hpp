@@ -56,6 +56,8 @@ struct RepartitionCommand {
 /// @brief `tessera info`: say what a model, case or mesh file holds.
 struct InfoCommand {
   std::filesystem::path file{};
+  bool json = false;                               ///< Of a model: print JSON instead of text.
+  std::optional<std::filesystem::path> picture{};  ///< Of a model: draw it into this PNG file.
 };
 
 /// @brief `tessera replay`: run a job that failed once more, in this process.

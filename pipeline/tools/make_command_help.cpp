@@ -228,6 +228,7 @@ std::string completion_of(const std::string& value)
   if (value == "TABLE.KEY=VALUE") return "_tessera_set";
   if (value == "FILE") return "_tessera_files ''";
   if (value.starts_with("DIR")) return "_tessera_files";
+  if (value.ends_with(".png")) return "_tessera_files .png";
   if (value.ends_with(".pvtu")) return "_tessera_files .pvtu .vtu";
   if (value == "CASE.toml|MODEL")
     return "_tessera_files .toml .step .stp .iges .igs .brep .stl .geo";

@@ -106,6 +106,13 @@ class MesherOfModel final : public coarse::CoarseMesher {
   const LoadedModel& model_;
 };
 
+const LoadedModel& loaded(const model::Model& model)
+{
+  const auto* loaded = dynamic_cast<const LoadedModel*>(&model);
+  if (loaded == nullptr) throw MeshError("this needs a model of load_model()");
+  return *loaded;
+}
+
 }  // namespace
 
 void require_model_file(const fs::path& file)
@@ -136,11 +143,14 @@ std::unique_ptr<model::Model> load_model(const ModelSource& source)
   }
 }
 
+model::ModelDescription describe_model(const model::Model& model)
+{
+  return loaded(model).describe();
+}
+
 std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model)
 {
-  const auto* loaded = dynamic_cast<const LoadedModel*>(&model);
-  if (loaded == nullptr) throw MeshError("a coarse mesher needs a model of load_model()");
-  return std::make_unique<MesherOfModel>(*loaded);
+  return std::make_unique<MesherOfModel>(loaded(model));
 }
 
 }  // namespace tessera::netgen

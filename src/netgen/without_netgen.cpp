@@ -27,6 +27,8 @@ model::ModelSource import_model(const std::filesystem::path& /*file*/,
 
 std::unique_ptr<model::Model> load_model(const model::ModelSource& /*source*/) { refuse(); }
 
+model::ModelDescription describe_model(const model::Model& /*model*/) { refuse(); }
+
 std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& /*model*/)
 {
   refuse();

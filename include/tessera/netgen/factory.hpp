@@ -8,6 +8,7 @@
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/fill/kernel.hpp"
 #include "tessera/improve/optimizer.hpp"
+#include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 
 /// The only door to NETGEN and OpenCASCADE; free of their types. Everything behind it may crash,
@@ -32,6 +33,10 @@ void require_model_file(const std::filesystem::path& file);
 
 /// @brief Loads what import_model() read. @throws GeometryError if NETGEN refuses it.
 [[nodiscard]] std::unique_ptr<model::Model> load_model(const model::ModelSource& source);
+
+/// @brief What a model of load_model() holds.
+/// @note Local. @throws NetgenError if its faces cannot be triangulated.
+[[nodiscard]] model::ModelDescription describe_model(const model::Model& model);
 
 /// @brief A coarse mesher for a model of load_model(). The model must outlive it.
 [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model);
