@@ -9,7 +9,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
@@ -26,15 +25,12 @@
 #include "pipeline/report/report.hpp"
 #include "pipeline/run_pipeline.hpp"
 #include "pipeline/runtime/log.hpp"
+#include "pipeline/runtime/terminal.hpp"
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/store/run_state.hpp"
 
 namespace tessera::pipeline {
 namespace {
-
-// What a solver may expect of output.parts without a word; 1.06 was measured with 16 subdomains a
-// part.
-constexpr double kMostBalance = 1.1;
 
 enum class Purpose : int { mesh, prediction };
 
@@ -54,7 +50,7 @@ Progress::Style progress_style(const MeshOptions& options, const comm::Communica
   if (comm.rank() != 0 || options.verbosity == Verbosity::quiet) return Progress::Style::silent;
   const bool is_terminal =
       options.progress == ProgressMode::always
-      || (options.progress == ProgressMode::automatic && isatty(STDOUT_FILENO) != 0);
+      || (options.progress == ProgressMode::automatic && output_ends_on_terminal());
   return is_terminal ? Progress::Style::bar : Progress::Style::lines;
 }
 
@@ -217,12 +213,7 @@ class CaseRun {
            spdlog::logger& log) const
   {
     for (const std::string& reason : verdict.reasons) log.warn("degraded: {}", reason);
-    if (const double balance = balance_of_parts(run); balance > kMostBalance) {
-      log.warn(
-          "the largest part has {:.3g} times the average of tets; more "
-          "decompose.subdomains make smaller units to share out",
-          balance);
-    }
+    if (const auto warning = unbalanced_parts(run)) log.warn(*warning);
     log.info("{} tets in {} pieces, {:.1f} s: {}", run.filled.num_tets(), run.filled.pieces.size(),
              wall_time_s, given_.output.directory.string());
   }

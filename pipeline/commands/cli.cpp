@@ -51,6 +51,17 @@ int read_count(const std::string& option, const std::string& text, int low, int 
                              fmt::format("must be a whole number from {} to {}", low, high));
 }
 
+double read_size(const std::string& option, const std::string& text)
+{
+  constexpr double kLargest = 1e30;  // As size.target.
+  double size = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, size);
+  if (read.ec == std::errc() && read.ptr == end && size > 0.0 && size <= kLargest) return size;
+  throw CLI::ValidationError(fmt::format("{} {}", option, text),
+                             fmt::format("must be a number > 0 and <= {:g}", kLargest));
+}
+
 std::vector<LocalIndex> read_subdomains(const std::string& text)
 {
   const auto fail = [&](const std::string& what) {
@@ -107,6 +118,38 @@ void add_folder_options(CLI::App& mesh, MeshCommand& command, CLI::Option* dry_r
       ->excludes(dry_run);
 }
 
+// In place of a case file.
+void add_model_options(CLI::App& mesh, MeshCommand& command)
+{
+  const auto model = [&command]() -> ModelCase& {
+    return command.model ? *command.model : command.model.emplace();
+  };
+  const auto take_size = [model](const std::string& text) {
+    model().size = read_size("--size", text);
+  };
+  CLI::Option* size = mesh.add_option_function<std::string>(
+      "--size", take_size, "With a model: the wanted edge length (size.target)");
+  size->type_name("H");
+  const auto take_parts = [model](const std::string& text) {
+    constexpr int kMost = 1'000'000;
+    model().parts = read_count("--parts", text, 1, kMost);
+  };
+  mesh.add_option_function<std::string>(
+          "--parts", take_parts, "With a model: parts for a solver, a file each (output.parts)")
+      ->type_name("P")
+      ->needs(size);
+  const auto take_kernel = [model](const std::string& word) {
+    model().kernel = value_of<fill::KernelKind>(word);
+  };
+  const std::vector<std::string> words(kWords<fill::KernelKind>.begin(),
+                                       kWords<fill::KernelKind>.end());
+  mesh.add_option_function<std::string>("--kernel", take_kernel,
+                                        "With a model: what fills subdomains (fill.kernel)")
+      ->type_name(fmt::format("{}", fmt::join(words, "|")))
+      ->check(CLI::IsMember(words).description(""))
+      ->needs(size);
+}
+
 void add_progress(CLI::App& mesh, Parsed& parsed)
 {
   const std::vector<std::string> words(kWords<ProgressMode>.begin(), kWords<ProgressMode>.end());
@@ -118,10 +161,11 @@ void add_progress(CLI::App& mesh, Parsed& parsed)
 
 void add_mesh(CLI::App& app, Parsed& parsed)
 {
-  CLI::App* mesh = app.add_subcommand("mesh", "Make a mesh from a case file");
-  mesh->add_option("CASE.toml", parsed.mesh.case_file,
-                   "The case; configs/reference.toml has all keys")
+  CLI::App* mesh = app.add_subcommand("mesh", "Make a mesh from a case file or a CAD model");
+  mesh->add_option("CASE.toml|MODEL", parsed.mesh.file,
+                   "The case; configs/reference.toml has all keys. Or a CAD model, with --size")
       ->required();
+  add_model_options(*mesh, parsed.mesh);
   // One value an occurrence: otherwise `--set a.b=1 case.toml` would swallow the case file.
   mesh->add_option("--set", parsed.mesh.overrides, "Override a key of the case; may be repeated")
       ->type_name("TABLE.KEY=VALUE")
@@ -186,6 +230,11 @@ void add_info(CLI::App& app, Parsed& parsed)
 {
   CLI::App* info = app.add_subcommand("info", "Say what a file holds");
   info->add_option("FILE", parsed.info.file, "A CAD model, case or mesh")->required();
+  info->add_flag("--json", parsed.info.json, "Of a model: print JSON");
+  info->add_option("--picture", parsed.info.picture,
+                   "Of a model: draw it from two sides, with the numbers of its faces")
+      ->type_name("FILE.png")
+      ->check(not_empty());
 }
 
 void add_replay(CLI::App& app, Parsed& parsed)

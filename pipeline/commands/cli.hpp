@@ -9,13 +9,22 @@
 
 #include "tessera/base/enum_words.hpp"
 #include "tessera/base/types.hpp"
+#include "tessera/fill/options.hpp"
 #include "tessera/tessera.hpp"
 
 namespace tessera::pipeline {
 
-/// @brief `tessera mesh`: make a mesh from a case file.
+/// @brief What `tessera mesh` is told of a model that has no case file.
+struct ModelCase {
+  double size = 0.0;  ///< size.target.
+  int parts = 0;      ///< output.parts.
+  std::optional<fill::KernelKind> kernel{};
+};
+
+/// @brief `tessera mesh`: make a mesh from a case file, or from a model alone.
 struct MeshCommand {
-  std::filesystem::path case_file{};
+  std::filesystem::path file{};                   ///< The case, or the model.
+  std::optional<ModelCase> model{};               ///< If any of its options was given.
   std::vector<std::string> overrides{};           ///< "table.key=value", unchecked.
   std::optional<std::filesystem::path> output{};  ///< In place of output.directory.
   bool overwrite = false;                         ///< Use an output folder that is not empty.
@@ -47,6 +56,8 @@ struct RepartitionCommand {
 /// @brief `tessera info`: say what a model, case or mesh file holds.
 struct InfoCommand {
   std::filesystem::path file{};
+  bool json = false;                               ///< Of a model: print JSON instead of text.
+  std::optional<std::filesystem::path> picture{};  ///< Of a model: draw it into this PNG file.
 };
 
 /// @brief `tessera replay`: run a job that failed once more, in this process.

@@ -4,16 +4,20 @@
 #include <cstdio>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/config/case.hpp"
+#include "tessera/io/files.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/netgen/factory.hpp"
 
+#include "pipeline/commands/model_info.hpp"
+#include "pipeline/commands/model_picture.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
 #include "pipeline/runtime/run_context.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
@@ -46,33 +50,53 @@ std::string describe_mesh(const std::filesystem::path& file)
 }
 
 // The model is read in a job: the CAD libraries may crash on it.
-std::string describe_model(const std::filesystem::path& file, jobs::JobRunner& jobs)
+model::ModelSource read_source(const std::filesystem::path& file, jobs::JobRunner& jobs)
 {
   netgen::require_model_file(file);
   jobs::JobOutcome read =
       jobs.run(import_request(file, model::ImportOptions{}), kInfoLimits, wait_for_stop_signal());
-  const auto source = read_result(read, from_bytes<model::ModelSource>);
+  auto source = read_result(read, from_bytes<model::ModelSource>);
   throw_unless_read(read, file);
-  throw_unless_read(
-      jobs.load(load_model_message(*source, 1.0), kInfoLimits, wait_for_stop_signal()), file);
-  jobs::JobOutcome box = jobs.run(box_request(), kInfoLimits, wait_for_stop_signal());
-  const auto diagonal = read_result(box, box_diagonal_from_bytes);
-  throw_unless_read(box, file);
-  std::string text = fmt::format("model: box diagonal {:.6g} {}\n", *diagonal, source->length_unit);
-  for (const std::string& repair : source->repairs) text += fmt::format("repair: {}\n", repair);
-  return text;
+  return std::move(*source);
 }
 
-std::string describe(const std::filesystem::path& file, jobs::JobRunner& jobs)
+model::ModelDescription describe(const model::ModelSource& source,
+                                 const std::filesystem::path& file, jobs::JobRunner& jobs)
 {
+  throw_unless_read(jobs.load(load_model_message(source, 1.0), kInfoLimits, wait_for_stop_signal()),
+                    file);
+  jobs::JobOutcome described = jobs.run(describe_request(), kInfoLimits, wait_for_stop_signal());
+  auto description = read_result(described, description_from_bytes);
+  throw_unless_read(described, file);
+  return std::move(*description);
+}
+
+std::string describe_model(const InfoCommand& command, jobs::JobRunner& jobs)
+{
+  const model::ModelSource source = read_source(command.file, jobs);
+  const model::ModelDescription description = describe(source, command.file, jobs);
+  if (command.picture) {
+    const Bytes png = to_png(draw_model(description));
+    io::write_text_atomically(*command.picture,
+                              {reinterpret_cast<const char*>(png.data()), png.size()});
+  }
+  return command.json ? model_json(source, description) : model_text(source, description);
+}
+
+std::string describe(const InfoCommand& command, jobs::JobRunner& jobs)
+{
+  const std::filesystem::path& file = command.file;
   std::error_code error;
   if (std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found) {
     throw InputError(file.string() + ": no such file");
   }
   const std::string extension = file.extension().string();
-  if (extension == ".pvtu" || extension == ".vtu") return describe_mesh(file);
-  if (extension == ".toml") return config::to_toml(config::load_case(file));
-  return describe_model(file, jobs);
+  const bool is_mesh = extension == ".pvtu" || extension == ".vtu";
+  if (!is_mesh && extension != ".toml") return describe_model(command, jobs);
+  if (command.json || command.picture) {
+    throw ConfigError(file.string() + ": --json and --picture are for CAD models");
+  }
+  return is_mesh ? describe_mesh(file) : config::to_toml(config::load_case(file));
 }
 
 }  // namespace
@@ -80,7 +104,7 @@ std::string describe(const std::filesystem::path& file, jobs::JobRunner& jobs)
 ExitCode run_info_command(const InfoCommand& command, const comm::Communicator& comm,
                           jobs::JobRunner& jobs)
 {
-  const std::string text = on_root(comm, [&] { return describe(command.file, jobs); });
+  const std::string text = on_root(comm, [&] { return describe(command, jobs); });
   if (comm.rank() == 0) std::fputs(text.c_str(), stdout);
   return ExitCode::ok;
 }

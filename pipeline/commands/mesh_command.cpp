@@ -4,28 +4,63 @@
 #include <cstdio>
 #include <string>
 
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/config/case.hpp"
+#include "tessera/netgen/factory.hpp"
 
 #include "pipeline/run_case.hpp"
 
 namespace tessera::pipeline {
 namespace {
 
+// What the options of a model say, as a case file that stood beside the model would.
+config::Case case_of_model(const MeshCommand& command)
+{
+  const std::filesystem::path& file = command.file;
+  if (file.extension() == ".toml") {
+    throw ConfigError(fmt::format(
+        "{} is a case file: --size, --parts and --kernel are for a CAD model; in a case, --set "
+        "size.target, --set output.parts and --set fill.kernel do the same",
+        file.string()));
+  }
+  netgen::require_model_file(file);
+  config::Case made;
+  made.geometry.file = absolute(file);
+  made.size.target = command.model->size;
+  made.output.parts = command.model->parts;
+  made.fill.kernel = command.model->kernel.value_or(made.fill.kernel);
+  return config::parse_case(config::to_toml(made), file, command.overrides);
+}
+
+config::Case case_in(const MeshCommand& command)
+{
+  if (command.model) return case_of_model(command);
+  if (!netgen::is_model_name(command.file)) {
+    return config::load_case(command.file, command.overrides);
+  }
+  throw ConfigError(fmt::format(
+      "{0} is a CAD model, so its mesh needs --size H, the wanted edge length; `tessera info {0}` "
+      "suggests some",
+      command.file.string()));
+}
+
 // Rank 0 reads the file; the others get the resolved text, so no rank can see another case.
 config::Case read_case(const MeshCommand& command, const comm::Communicator& comm)
 {
   const std::string text = on_root(comm, [&] {
-    config::Case given = config::load_case(command.case_file, command.overrides);
+    config::Case given = case_in(command);
     if (command.output) given.output.directory = *command.output;
     return config::to_toml(given);
   });
-  return config::parse_case(text, command.case_file);
+  return config::parse_case(text, command.file);
 }
 
 MeshOptions options_of(const MeshCommand& command)
 {
-  MeshOptions options{.case_name = command.case_file.filename().string(),
+  MeshOptions options{.case_name = command.file.filename().string(),
                       .only_subdomains = command.only_subdomains,
                       .verbosity = command.verbosity,
                       .progress = command.progress};

@@ -125,6 +125,12 @@ class MeshWorker final : public jobs::Worker {
     return garbled_if_asked("box", to_bytes(scaled_model_->box_diagonal()));
   }
 
+  [[nodiscard]] Bytes answer(const DescribeRequest& /*request*/) const
+  {
+    fail_if_asked("describe");
+    return garbled_if_asked("describe", to_bytes(netgen::describe_model(*netgen_model_)));
+  }
+
   [[nodiscard]] Bytes answer(const CoarseRequest& request) const
   {
     coarse::CoarseOptions options = request.options;
@@ -349,6 +355,15 @@ double box_diagonal_from_bytes(std::span<const std::byte> result)
   const auto diagonal = from_bytes<double>(result);
   if (diagonal > 0.0 && std::isfinite(diagonal)) return diagonal;
   throw InputError("the model's box has no size");
+}
+
+Bytes describe_request() { return to_bytes(Request(DescribeRequest{})); }
+
+model::ModelDescription description_from_bytes(std::span<const std::byte> result)
+{
+  auto description = from_bytes<model::ModelDescription>(result);
+  description.require_sound();
+  return description;
 }
 
 Bytes coarse_request(const coarse::CoarseOptions& options)

@@ -21,6 +21,7 @@
 #include "tessera/mesh/decomposition.hpp"
 #include "tessera/mesh/piece.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
+#include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/number/id_layout.hpp"
 #include "tessera/subdomain/piece_summary.hpp"
@@ -65,6 +66,12 @@ namespace tessera::pipeline {
 
 /// @brief Reads the result of a box_request(). @throws InputError if it is no length.
 [[nodiscard]] double box_diagonal_from_bytes(std::span<const std::byte> result);
+
+/// @brief run: result: bytes of a model::ModelDescription in file length units. Needs the model.
+[[nodiscard]] Bytes describe_request();
+
+/// @brief Reads the result of a describe_request(). @throws InputError if it is damaged.
+[[nodiscard]] model::ModelDescription description_from_bytes(std::span<const std::byte> result);
 
 /// @brief What one try at the coarse mesh has given.
 struct CoarseTry {

@@ -21,8 +21,9 @@
 namespace tessera::pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 10> kStages{"import", "load", "box",     "coarse", "remesh",
-                                                   "plan",   "fill", "improve", "refine", "skin"};
+constexpr std::array<std::string_view, 11> kStages{"import",  "load",   "box",  "describe",
+                                                   "coarse",  "remesh", "plan", "fill",
+                                                   "improve", "refine", "skin"};
 constexpr std::array<std::string_view, 11> kKinds{
     "throw", "segv", "exit", "loop", "sleep", "memory", "garbage", "drop", "flat", "nudge", "lose"};
 

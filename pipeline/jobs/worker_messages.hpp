@@ -84,6 +84,10 @@ struct BoxRequest {
   static auto fields(auto& /*self*/) { return std::tie(); }
 };
 
+struct DescribeRequest {
+  static auto fields(auto& /*self*/) { return std::tie(); }
+};
+
 struct CoarseRequest {
   coarse::CoarseOptions options{};
 
@@ -111,6 +115,6 @@ struct SkinRequest {
 };
 
 using Request = std::variant<ImportRequest, BoxRequest, CoarseRequest, UntangleRequest, FillTask,
-                             ImproveRequest, RefineTask, SkinRequest>;
+                             ImproveRequest, RefineTask, SkinRequest, DescribeRequest>;
 
 }  // namespace tessera::pipeline

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,8 @@ struct RunFigures {
   std::vector<PredictedFigure> predicted{};  ///< Empty if there was no dry run of this run.
 };
 
-/// @brief Tets of the largest part of the output over the average; 1 without parts. Local.
-[[nodiscard]] double balance_of_parts(const RunResult& run);
+/// @brief What to say if parts of the output differ much in size. Local.
+[[nodiscard]] std::optional<std::string> unbalanced_parts(const RunResult& run);
 
 /// @brief What the caller of a finished run is told. Local.
 [[nodiscard]] MeshResult result_of(const RunResult& run, const Verdict& verdict);

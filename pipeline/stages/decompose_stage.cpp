@@ -77,9 +77,22 @@ decompose::DecomposeResult cut(const RunResult& run)
 
 }  // namespace
 
+std::optional<std::string> too_many_subdomains(const config::Case& run_case,
+                                               const mesh::CoarseMesh& coarse)
+{
+  if (run_case.decompose.subdomains <= coarse.num_tets()) return std::nullopt;
+  return fmt::format(
+      "decompose.subdomains is {}, but the coarse mesh has only {} tets: that is the most "
+      "subdomains there can be; a smaller coarse.max_size allows more",
+      run_case.decompose.subdomains, coarse.num_tets());
+}
+
 decompose::DecomposeResult run_decompose_stage(const RunResult& run, RunContext& context)
 {
   StageScope stage(context, "decompose");
+  if (const auto warning = too_many_subdomains(run.resolved, run.coarse.mesh)) {
+    context.log.warn(*warning);
+  }
   decompose::DecomposeResult result = on_root(
       context.comm, [&] { return with_file_context(run.resolved, [&] { return cut(run); }); });
   stage.work_is_done();

@@ -222,14 +222,16 @@ std::string names_of(const std::vector<OptionHelp>& options)
 }
 
 // What completes a value, as its placeholder says: words "a|b", a folder "DIR", a file with an
-// ending "MESH.pvtu", any "FILE"; nothing for others.
+// ending "MESH.pvtu", "CASE.toml|MODEL", any "FILE"; nothing for others.
 std::string completion_of(const std::string& value)
 {
   if (value == "TABLE.KEY=VALUE") return "_tessera_set";
   if (value == "FILE") return "_tessera_files ''";
   if (value.starts_with("DIR")) return "_tessera_files";
+  if (value.ends_with(".png")) return "_tessera_files .png";
   if (value.ends_with(".pvtu")) return "_tessera_files .pvtu .vtu";
-  if (value.ends_with(".toml")) return "_tessera_files .toml";
+  if (value == "CASE.toml|MODEL")
+    return "_tessera_files .toml .step .stp .iges .igs .brep .stl .geo";
   if (value.find('|') == std::string::npos) return ":";
   std::string words = value;
   std::ranges::replace(words, '|', ' ');

@@ -129,7 +129,8 @@ constexpr Key kKeys[] = {
      .rule =
          IntegerRule{[](Case& c) -> int& { return c.decompose.subdomains; }, 1, 1'000'000, "auto"},
      .meaning = "Wanted number of subdomains K, never a function of the number of ranks. A "
-                "request: there is at least one for each material, and repair may split some.",
+                "request: there is at least one for each material, at most one for each coarse "
+                "tet, and repair may split some.",
      .reason = "\"auto\" keeps subdomains large enough for good tets at their seams, at least "
                "about 100 coarse tets each"},
 

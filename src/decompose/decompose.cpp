@@ -26,12 +26,6 @@ void check_arguments(const mesh::CoarseMesh& mesh, const DecomposeOptions& optio
     throw ConfigError(fmt::format("decompose.subdomains is {}; it must be at least 1, or \"auto\"",
                                   options.subdomains));
   }
-  if (options.subdomains > mesh.num_tets()) {
-    throw ConfigError(
-        fmt::format("decompose.subdomains is {} but the coarse mesh has only {} tets; ask for "
-                    "fewer subdomains or a smaller coarse.max_size",
-                    options.subdomains, mesh.num_tets()));
-  }
   if (mesh.num_tets() == 0) throw MeshError("decompose: the coarse mesh has no tets");
   if (tet_weight.size() != static_cast<std::size_t>(mesh.num_tets())) {
     throw MeshError(
@@ -77,8 +71,9 @@ DecomposeResult decompose(const mesh::CoarseMesh& mesh, const DecomposeOptions& 
 
   DecomposeResult result;
   DecomposeReport& report = result.report;
-  const LocalIndex number =
-      options.subdomains > 0 ? options.subdomains : automatic_number(mesh, tet_weight, options);
+  const LocalIndex number = options.subdomains > 0
+                                ? std::min<LocalIndex>(options.subdomains, mesh.num_tets())
+                                : automatic_number(mesh, tet_weight, options);
   report.num_wanted = std::max(number, static_cast<LocalIndex>(pieces.size()));
 
   TetPartition partition = partition_pieces(graph, pieces, report.num_wanted, partitioner);

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -12,6 +13,8 @@
 
 #include "tessera/base/error.hpp"
 
+#include "netgen/csg_access.hpp"
+#include "netgen/csg_description.hpp"
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
@@ -116,9 +119,6 @@ void require_solid(const Geometry& geometry, const std::string& file_name)
   return box;
 }
 
-Point to_netgen(const Vec3& p) { return {p[0], p[1], p[2]}; }
-Vec3 from_netgen(const Point& p) { return {p(0), p(1), p(2)}; }
-
 // First-order distance of a point to a surface; NaN counts as far.
 double distance(const ::netgen::Surface& surface, const Point& point)
 {
@@ -152,6 +152,7 @@ class CsgModel final : public LoadedModel {
       LocalIndex surface, const Vec3& point, const model::SurfaceParameters& guess) const override;
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
                                                    double guess) const override;
+  [[nodiscard]] model::ModelDescription describe() const override;
   using LoadedModel::generate;
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                           const NetgenMeshUser& use) const override;
@@ -221,17 +222,13 @@ GeometryNumbers numbers_of(const Geometry& geometry)
   GeometryNumbers numbers;
   numbers.surface = [](const ::netgen::FaceDescriptor& face) { return face.SurfNr(); };
   numbers.patch_name = [](const ::netgen::FaceDescriptor& face) {
-    return face.GetBCName() == "default" ? std::string() : face.GetBCName();
+    return name_unless_default(face.GetBCName());
   };
   numbers.curve = [n = geometry.GetNSurf()](const ::netgen::Segment& segment) {
     const auto [low, high] = std::minmax(segment.surfnr1, segment.surfnr2);
     return low < 0 ? kNoIndex : low * n + high;
   };
-  numbers.material_name = [&geometry](int domain) {
-    const auto* object = geometry.GetTopLevelObject(domain - 1);
-    return object->GetMaterial().empty() ? std::string(object->GetSolid()->Name())
-                                         : object->GetMaterial();
-  };
+  numbers.material_name = [&geometry](int domain) { return name_of_solid(geometry, domain - 1); };
   return numbers;
 }
 
@@ -256,6 +253,33 @@ mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options,
       to_coarse_mesh(*mesh, numbers_of(*geometry), file_name_ + ": coarse mesh");
   session.run(file_name_, [&] { use(*geometry, *mesh); });
   return coarse;
+}
+
+// The triangles that NETGEN has for pictures leave out parts of cylinders and cones, so the surface
+// is meshed.
+model::ModelDescription CsgModel::describe() const
+{
+  constexpr double kSize = 0.1;  // In parts of the box diagonal.
+  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
+  coarse::CoarseOptions options;
+  options.max_size = kSize * box_diagonal_;
+  NetgenSession session(coarse_parameters(options));
+  session.parameters().perfstepsend = ::netgen::MESHCONST_OPTSURFACE;
+  std::shared_ptr<::netgen::Mesh> mesh;
+  const int failed = session.run(
+      file_name_ + ": surface", [&] { return geometry->GenerateMesh(mesh, session.parameters()); });
+  if (failed != 0) {
+    throw NetgenError(
+        fmt::format("{}: NETGEN cannot mesh its surface; {}", file_name_, session.words()));
+  }
+  model::ModelDescription described = describe_csg(*geometry, *mesh);
+  const GeometryNumbers numbers = numbers_of(*geometry);
+  std::set<LocalIndex> curves;
+  for (const ::netgen::Segment& segment : mesh->LineSegments())
+    curves.insert(numbers.curve(segment));
+  curves.erase(kNoIndex);
+  described.num_edges = static_cast<LocalIndex>(curves.size());
+  return described;
 }
 
 }  // namespace

@@ -54,13 +54,18 @@ std::string lower_case_extension(const fs::path& file)
                   file.string(), allowed));
 }
 
+const FileKind* find_kind(const fs::path& file)
+{
+  const auto* const kind =
+      std::ranges::find(kFileKinds, lower_case_extension(file), &FileKind::extension);
+  return kind == std::ranges::end(kFileKinds) ? nullptr : kind;
+}
+
 const FileKind& kind_of(const fs::path& file)
 {
-  const std::string extension = lower_case_extension(file);
-  for (const FileKind& kind : kFileKinds) {
-    if (kind.extension == extension) return kind;
-  }
-  throw_unknown_kind(file);
+  const FileKind* const kind = find_kind(file);
+  if (kind == nullptr) throw_unknown_kind(file);
+  return *kind;
 }
 
 // Says what is wrong before a reader of NETGEN or OpenCASCADE, whose words help less, sees the
@@ -101,6 +106,13 @@ class MesherOfModel final : public coarse::CoarseMesher {
   const LoadedModel& model_;
 };
 
+const LoadedModel& loaded(const model::Model& model)
+{
+  const auto* loaded = dynamic_cast<const LoadedModel*>(&model);
+  if (loaded == nullptr) throw MeshError("this needs a model of load_model()");
+  return *loaded;
+}
+
 }  // namespace
 
 void require_model_file(const fs::path& file)
@@ -108,6 +120,8 @@ void require_model_file(const fs::path& file)
   static_cast<void>(kind_of(file));
   require_readable(file);
 }
+
+bool is_model_name(const fs::path& file) { return find_kind(file) != nullptr; }
 
 model::ModelSource import_model(const fs::path& file, const ImportOptions& options)
 {
@@ -129,11 +143,14 @@ std::unique_ptr<model::Model> load_model(const ModelSource& source)
   }
 }
 
+model::ModelDescription describe_model(const model::Model& model)
+{
+  return loaded(model).describe();
+}
+
 std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model)
 {
-  const auto* loaded = dynamic_cast<const LoadedModel*>(&model);
-  if (loaded == nullptr) throw MeshError("a coarse mesher needs a model of load_model()");
-  return std::make_unique<MesherOfModel>(*loaded);
+  return std::make_unique<MesherOfModel>(loaded(model));
 }
 
 }  // namespace tessera::netgen

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 
 namespace netgen {
@@ -21,6 +22,9 @@ using NetgenMeshUser = std::function<void(const ::netgen::NetgenGeometry&, ::net
 /// @brief A loaded model of any format: projection, and one try at a coarse mesh.
 class LoadedModel : public model::Model, public coarse::CoarseMesher {
  public:
+  /// @brief What the model holds, for people. @throws NetgenError
+  [[nodiscard]] virtual model::ModelDescription describe() const = 0;
+
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const final
   {
     return generate(options, [](const auto&, auto&) {});

@@ -11,13 +11,19 @@
 
 namespace tessera::netgen {
 
-/// @brief Names of faces and solids; a shape and its reverse are the same key.
-using ShapeNames = NCollection_DataMap<TopoDS_Shape, std::string, TopTools_ShapeMapHasher>;
+/// @brief What a file says of a face or a solid.
+struct ShapeLabel {
+  std::string name{};    ///< Empty: none.
+  std::string colour{};  ///< "#RRGGBB"; empty: none.
+};
+
+/// @brief Labels of faces and solids; a shape and its reverse are the same key.
+using ShapeNames = NCollection_DataMap<TopoDS_Shape, ShapeLabel, TopTools_ShapeMapHasher>;
 
 /// @brief What a STEP, IGES or BREP file holds, coordinates in the file's own length unit.
 struct CadFile {
   TopoDS_Shape shape{};
-  ShapeNames names{};                  ///< Only those that the file names.
+  ShapeNames names{};                  ///< Only those that the file names or colours.
   std::string length_unit{};           ///< "mm", "m", "in", …; empty if the file does not say.
   std::vector<std::string> repairs{};  ///< What was changed since, one line each.
 };

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include <BinTools.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 
 #include "netgen/occ_shape.hpp"
 
@@ -16,15 +18,19 @@ namespace {
 struct StoredContent {
   std::string image{};  // As BinTools writes the shape.
   std::vector<std::string> face_names{};
+  std::vector<std::string> face_colours{};
   std::vector<std::string> solid_names{};
 
-  static auto fields(auto& self) { return std::tie(self.image, self.face_names, self.solid_names); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.image, self.face_names, self.face_colours, self.solid_names);
+  }
 };
 
-std::string name_in(const ShapeNames& names, const TopoDS_Shape& part)
+ShapeLabel label_in(const ShapeNames& names, const TopoDS_Shape& part)
 {
-  const std::string* name = names.Seek(part);
-  return name != nullptr ? *name : std::string();
+  const ShapeLabel* label = names.Seek(part);
+  return label != nullptr ? *label : ShapeLabel();
 }
 
 }  // namespace
@@ -34,11 +40,20 @@ Bytes occ_content(const CadFile& cad)
   std::ostringstream image(std::ios::binary);
   BinTools::Write(cad.shape, image, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
   StoredContent content{.image = image.str()};
-  for (const TopoDS_Shape& face : parts_of(cad.shape, TopAbs_FACE)) {
-    content.face_names.push_back(name_in(cad.names, face));
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    const ShapeLabel label = label_in(cad.names, faces(f));
+    content.face_names.push_back(label.name);
+    content.face_colours.push_back(label.colour);
   }
   for (TopExp_Explorer solids(cad.shape, TopAbs_SOLID); solids.More(); solids.Next()) {
-    content.solid_names.push_back(name_in(cad.names, solids.Current()));
+    const ShapeLabel label = label_in(cad.names, solids.Current());
+    content.solid_names.push_back(label.name);
+    for (const TopoDS_Shape& face : parts_of(solids.Current(), TopAbs_FACE)) {
+      auto& colour = content.face_colours[static_cast<std::size_t>(faces.FindIndex(face)) - 1];
+      if (colour.empty()) colour = label.colour;
+    }
   }
   return to_bytes(content);
 }
@@ -51,6 +66,7 @@ OccContent read_occ_content(std::span<const std::byte> bytes)
   BinTools::Read(content.shape, image);
   if (content.shape.IsNull()) throw InputError("the stored CAD model holds no shape");
   content.face_names = std::move(stored.face_names);
+  content.face_colours = std::move(stored.face_colours);
   content.solid_names = std::move(stored.solid_names);
   return content;
 }

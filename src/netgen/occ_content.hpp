@@ -16,8 +16,9 @@ namespace tessera::netgen {
 /// @brief A healed shape and its names as they travel in ModelSource::content.
 struct OccContent {
   TopoDS_Shape shape{};
-  std::vector<std::string> face_names{};   ///< In TopExp::MapShapes order; empty text: no name.
-  std::vector<std::string> solid_names{};  ///< In the order of TopExp_Explorer.
+  std::vector<std::string> face_names{};    ///< In TopExp::MapShapes order; empty text: no name.
+  std::vector<std::string> face_colours{};  ///< Beside face_names; its own, or that of a solid.
+  std::vector<std::string> solid_names{};   ///< In the order of TopExp_Explorer.
 };
 
 /// @brief ModelSource::content of a CAD file. Local.

@@ -112,10 +112,10 @@ void follow_names(const TopoDS_Shape& shape, ShapeNames& names,
   for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_FACE}) {
     for (const TopoDS_Shape& part : parts_of(shape, kind)) {
       if (!names.IsBound(part)) continue;
-      const std::string name = names.Find(part);
+      const ShapeLabel label = names.Find(part);
       for (const TopoDS_Shape& image : images_of(part)) {
         if (image.IsNull() || names.IsBound(image)) continue;
-        names.Bind(image, name);
+        names.Bind(image, label);
       }
     }
   }

@@ -20,6 +20,7 @@
 #include "netgen/occ_cad_file.hpp"
 #include "netgen/occ_content.hpp"
 #include "netgen/occ_curve.hpp"
+#include "netgen/occ_description.hpp"
 #include "netgen/occ_error.hpp"
 #include "netgen/occ_shape.hpp"
 #include "netgen/occ_surface.hpp"
@@ -50,6 +51,10 @@ class OccModel final : public LoadedModel {
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
                                                    double guess) const override;
   [[nodiscard]] double box_diagonal() const override { return box_diagonal_; }
+  [[nodiscard]] model::ModelDescription describe() const override
+  {
+    return with_occ_errors(file_name_, [&] { return describe_shape(content_); });
+  }
   using LoadedModel::generate;
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                           const NetgenMeshUser& use) const override;

@@ -20,6 +20,7 @@
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
+#include <Quantity_Color.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPControl_Controller.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
@@ -30,6 +31,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS_Compound.hxx>
+#include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XSControl_TransferReader.hxx>
@@ -148,10 +150,14 @@ bool is_default_name(const std::string& name)
          });
 }
 
-// Collects the parts of an assembly, each at its place, and their names.
+// Collects the parts of an assembly, each at its place, and their names and colours.
 class PartCollector {
  public:
-  explicit PartCollector(CadFile& cad) : cad_(cad) { BRep_Builder().MakeCompound(parts_); }
+  PartCollector(CadFile& cad, const TDF_Label& document)
+      : cad_(cad), colours_(XCAFDoc_DocumentTool::ColorTool(document))
+  {
+    BRep_Builder().MakeCompound(parts_);
+  }
 
   void collect(const TDF_Label& label, const TopLoc_Location& place)
   {
@@ -167,28 +173,51 @@ class PartCollector {
     }
     const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(label).Moved(place);
     BRep_Builder().Add(parts_, shape);
-    name_parts(label, shape, place);
+    label_parts(label, shape, place);
   }
 
   [[nodiscard]] const TopoDS_Compound& parts() const { return parts_; }
 
  private:
-  void name_parts(const TDF_Label& label, const TopoDS_Shape& shape, const TopLoc_Location& place)
+  void label_parts(const TDF_Label& label, const TopoDS_Shape& shape, const TopLoc_Location& place)
   {
-    const std::string part_name = name_of(label);
+    const ShapeLabel of_part = read_label(label);
     for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
-      if (!is_default_name(part_name)) cad_.names.Bind(solids.Current(), part_name);
+      bind(solids.Current(), of_part);
     }
     TDF_LabelSequence children;
     XCAFDoc_ShapeTool::GetSubShapes(label, children);
     for (const TDF_Label& child : children) {
-      const std::string name = name_of(child);
-      if (is_default_name(name)) continue;
-      cad_.names.Bind(XCAFDoc_ShapeTool::GetShape(child).Moved(place), name);
+      bind(XCAFDoc_ShapeTool::GetShape(child).Moved(place), read_label(child));
     }
   }
 
+  [[nodiscard]] ShapeLabel read_label(const TDF_Label& label) const
+  {
+    ShapeLabel read{.name = name_of(label)};
+    if (is_default_name(read.name)) read.name.clear();
+    Quantity_Color colour;
+    if (colours_->GetColor(label, XCAFDoc_ColorSurf, colour)
+        || colours_->GetColor(label, XCAFDoc_ColorGen, colour)) {
+      read.colour = Quantity_Color::ColorToHex(colour).ToCString();
+    }
+    return read;
+  }
+
+  // A solid that is a part and a child of it: what the child says comes first.
+  void bind(const TopoDS_Shape& shape, const ShapeLabel& label)
+  {
+    if (label.name.empty() && label.colour.empty()) return;
+    ShapeLabel both = label;
+    if (const ShapeLabel* const before = cad_.names.Seek(shape)) {
+      if (both.name.empty()) both.name = before->name;
+      if (both.colour.empty()) both.colour = before->colour;
+    }
+    cad_.names.Bind(shape, both);
+  }
+
   CadFile& cad_;
+  Handle(XCAFDoc_ColorTool) colours_;
   TopoDS_Compound parts_{};
 };
 
@@ -202,7 +231,7 @@ CadFile read_step(const fs::path& file)
   STEPCAFControl_Reader reader;
   Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
   reader.SetNameMode(Standard_True);
-  reader.SetColorMode(Standard_False);
+  reader.SetColorMode(Standard_True);
   reader.SetLayerMode(Standard_False);
   reader.SetPropsMode(Standard_False);
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
@@ -219,7 +248,7 @@ CadFile read_step(const fs::path& file)
   }
   TDF_LabelSequence roots;
   XCAFDoc_DocumentTool::ShapeTool(document->Main())->GetFreeShapes(roots);
-  PartCollector collector(cad);
+  PartCollector collector(cad, document->Main());
   for (const TDF_Label& root : roots) collector.collect(root, TopLoc_Location());
   cad.shape = collector.parts();
   return cad;
@@ -285,7 +314,7 @@ CadFile read_iges(const fs::path& file)
   }
   for (TopExp_Explorer faces(cad.shape, TopAbs_FACE); faces.More(); faces.Next()) {
     const std::string name = name_of(reader, faces.Current());
-    if (!name.empty()) cad.names.Bind(faces.Current(), name);
+    if (!name.empty()) cad.names.Bind(faces.Current(), {.name = name});
   }
   scale_to_unit(cad, iges_unit(reader, cad));
   return cad;

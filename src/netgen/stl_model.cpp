@@ -109,6 +109,8 @@ class StlModel final : public LoadedModel {
     return {found(search.nearest(point)), 0.0};
   }
 
+  [[nodiscard]] model::ModelDescription describe() const override;
+
   using LoadedModel::generate;
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                           const NetgenMeshUser& use) const override
@@ -143,6 +145,30 @@ class StlModel final : public LoadedModel {
   double box_diagonal_;
   std::string name_;
 };
+
+model::ModelDescription StlModel::describe() const
+{
+  model::ModelDescription described{.num_edges = features_.num_curves(),
+                                    .vertex_xyz = surface_.vertex_xyz,
+                                    .triangle_vertices = surface_.triangle_vertices,
+                                    .triangle_face = features_.triangle_patch};
+  for (const std::string& name : surface_.material_names)
+    described.solids.push_back({.name = name});
+  for (const std::string& name : features_.patch_names) {
+    const auto number = static_cast<LocalIndex>(described.faces.size()) + 1;
+    described.faces.push_back({.number = number, .name = name});
+  }
+  const Vec3 origin = surface_.position(0);
+  for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+    const auto [a, b, c] = surface_.corners(t);
+    const LocalIndex material = surface_.triangle_material[at(t)];
+    model::FaceDescription& face = described.faces[at(features_.triangle_patch[at(t)])];
+    face.area += 0.5 * norm(cross(b - a, c - a));
+    face.solids = {material};
+    described.solids[at(material - 1)].volume += tet_volume(origin, a, b, c);
+  }
+  return described;
+}
 
 // ModelSource::content of an STL file.
 struct StlContent {

@@ -17,6 +17,8 @@ namespace {
 
 void require_model_file(const std::filesystem::path& /*file*/) { refuse(); }
 
+bool is_model_name(const std::filesystem::path& /*file*/) { return false; }
+
 model::ModelSource import_model(const std::filesystem::path& /*file*/,
                                 const model::ImportOptions& /*options*/)
 {
@@ -24,6 +26,8 @@ model::ModelSource import_model(const std::filesystem::path& /*file*/,
 }
 
 std::unique_ptr<model::Model> load_model(const model::ModelSource& /*source*/) { refuse(); }
+
+model::ModelDescription describe_model(const model::Model& /*model*/) { refuse(); }
 
 std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& /*model*/)
 {

@@ -270,7 +270,7 @@ class OtherCommands(FaultsTest):
         self.for_all([Fault("fill", "segv", 0), Fault("fill", "sleep", 1)], look, "--dry-run")
 
     def test_info(self):
-        for stage, kind in (("import", "segv"), ("import", "sleep"), ("load", "exit"), ("box", "garbage")):
+        for stage, kind in (("import", "segv"), ("import", "sleep"), ("load", "exit"), ("describe", "garbage")):
             with self.subTest(stage=stage, kind=kind):
                 outcome = self.run_with(Fault(stage, kind), "info", "ball.geo")
                 self.assert_refused(outcome, WRONG_INPUT, "ball.geo", "cannot read this model", CAUSES[kind])

@@ -88,16 +88,17 @@ class Package(program.ProgramTest):
         return output_of("bash", "-c", COMPLETE, "-", script, *words, cwd=self.folder).split()
 
     def test_bash_completes_commands_options_files_and_words(self):
-        for name in ("a.toml", "b.pvtu", "c.vtu", "d.txt"):
+        for name in ("a.toml", "b.pvtu", "c.vtu", "d.txt", "e.step"):
             self.write(name, "")
         (self.folder / "folder").mkdir()
         for words, offered in (
             ([""], ["mesh", "check", "repartition", "info", "replay"]),
             (["--v"], ["--version"]),
             (["mesh", "--ov"], ["--overwrite"]),
-            (["mesh", ""], ["a.toml", "folder"]),
+            (["mesh", ""], ["a.toml", "e.step", "folder"]),
+            (["mesh", "e.step", "--kernel", "s"], ["subdivide"]),
             (["check", "--partial", ""], ["b.pvtu", "c.vtu", "folder"]),
-            (["info", ""], ["a.toml", "b.pvtu", "c.vtu", "d.txt", "folder"]),
+            (["info", ""], ["a.toml", "b.pvtu", "c.vtu", "d.txt", "e.step", "folder"]),
             (["mesh", "a.toml", "--output", ""], ["folder"]),
             (["mesh", "--progress", "a"], ["auto", "always"]),
             (["mesh", "--progress", "=", "n"], ["never"]),
@@ -105,7 +106,7 @@ class Package(program.ProgramTest):
             (["mesh", "--set", "coarse.max"], ["coarse.max_size="]),
             (["mesh", "--set", "output.compression", "=", "n"], ["none"]),
             (["mesh", "--set", "=", "output.cell_quality", "="], ["true", "false"]),
-            (["mesh", "--set", "refine.levels", "=", "2", ""], ["a.toml", "folder"]),
+            (["mesh", "--set", "refine.levels", "=", "2", ""], ["a.toml", "e.step", "folder"]),
         ):
             with self.subTest(words=words):
                 self.assertEqual(self.complete("tessera", *words), offered)

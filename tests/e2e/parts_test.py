@@ -40,6 +40,23 @@ class Parts(program.ProgramTest):
                             "decompose.subdomains=auto", "--set", f"fill.kernel={kernel}")
             self.assertGreaterEqual(program.figures(out)["num_subdomains"], 32)
 
+    def test_as_many_subdomains_as_there_are_coarse_tets(self):
+        wanted = "decompose.subdomains=100000"
+        for kernel in ("netgen", "subdivide"):
+            out = self.mesh(self.case, kernel, "--set", wanted, "--set", "coarse.max_size=1", "--set",
+                            f"fill.kernel={kernel}")
+            report = program.figures(out)
+            self.assertGreater(report["num_subdomains"], 20)
+            self.assertEqual(report["num_subdomains"], report["coarse"]["num_tets"])
+            self.assertEqual(len(report["warnings"]), 1)
+            for words in ("decompose.subdomains is 100000", f"only {report['num_subdomains']} tets"):
+                self.assertIn(words, report["warnings"][0])
+            self.assertIn(report["warnings"][0], (out / "log/run.log").read_text())
+            outcome = self.run_program("check", out / "mesh.pvtu")
+            self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
+        few = self.mesh(self.case, "few")
+        self.assertEqual(program.figures(few)["warnings"], [])
+
     def test_what_cannot_be_had(self):
         for arguments, words in (
             (("output.parts=41", "decompose.subdomains=2"), ("/ball.geo: output.parts is 41", "decompose.subdomains")),

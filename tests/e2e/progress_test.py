@@ -17,12 +17,12 @@ class Progress(program.ProgramTest):
         super().setUp()
         self.arguments = ["mesh", self.write_case(levels=1), "--output", "out"]
 
-    def output_on_terminal(self, *arguments):
+    def output_on_terminal(self, *arguments, ranks=None):
         """Standard output when it is a pseudo-terminal."""
         ours, theirs = pty.openpty()
         self.addCleanup(os.close, ours)
         process = subprocess.Popen(
-            program.command_line([*self.arguments, *arguments], None),
+            program.command_line([*self.arguments, *arguments], ranks),
             cwd=self.folder,
             stdin=subprocess.DEVNULL,
             stdout=theirs,
@@ -72,6 +72,30 @@ class Progress(program.ProgramTest):
 
     def test_file_has_no_bars(self):
         self.assert_is_plain(self.plain_output())
+
+    def output_in_file(self, command):
+        """What a run writes into a file that it has as its standard output."""
+        log = self.folder / "log"
+        with log.open("wb") as file:
+            process = subprocess.Popen(
+                command, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=file, stderr=subprocess.PIPE
+            )
+            self.addCleanup(program.end_tree, process)
+            self.assertEqual(process.wait(program.HANG_S), program.OK)
+        return log.read_bytes().decode()
+
+    def test_mpirun_into_a_file_has_no_bars(self):
+        command = program.command_line(self.arguments, 2)
+        self.assert_is_plain(self.output_in_file(command))
+        # The parent of the ranks need not be mpirun.
+        shell = [*command[:3], "sh", "-c", '"$@"; exit $?', "sh", *command[3:], "--overwrite"]
+        self.assert_is_plain(self.output_in_file(shell))
+
+    def test_mpirun_into_a_pipe_has_no_bars(self):
+        self.assert_is_plain(self.plain_output(ranks=2))
+
+    def test_mpirun_on_a_terminal_has_bars(self):
+        self.assert_has_bars(self.output_on_terminal(ranks=2))
 
     def test_several_ranks_speak_with_one_voice(self):
         self.assert_is_plain(self.plain_output("--progress", "never", ranks=3))

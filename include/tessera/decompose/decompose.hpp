@@ -27,7 +27,8 @@ inline constexpr LocalIndex kAutoSubdomainsAPart = 16;
 /// @brief What the decomposition was asked for and what it became. A *seam* triangle lies between
 /// two subdomains of one material.
 struct DecomposeReport {
-  LocalIndex num_wanted = 0;  ///< After "auto", and at least one a connected piece of a material.
+  /// After "auto"; at least one a connected piece of a material, at most one a coarse tet.
+  LocalIndex num_wanted = 0;
   LocalIndex num_subdomains = 0;         ///< What it became; >= num_wanted.
   LocalIndex num_moves = 0;              ///< Repair moves of one tet that were accepted.
   LocalIndex num_splits = 0;             ///< Subdomains cut in two because no move helped.
@@ -62,7 +63,7 @@ struct DecomposeResult {
 /// all of it.
 /// @note Local; the same bits for the same arguments. About linear in the number of tets.
 /// @param[in] tet_weight Shape (num_tets), > 0: predicted fine tets of each coarse tet.
-/// @throws ConfigError if more subdomains are requested than there are coarse tets.
+/// @throws ConfigError if a negative number of subdomains is requested.
 /// @throws MeshError if tet_weight has a wrong length or the partitioner gives invalid parts.
 [[nodiscard]] DecomposeResult decompose(const mesh::CoarseMesh& mesh,
                                         const DecomposeOptions& options,

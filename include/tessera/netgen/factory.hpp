@@ -8,16 +8,21 @@
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/fill/kernel.hpp"
 #include "tessera/improve/optimizer.hpp"
+#include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 
 /// The only door to NETGEN and OpenCASCADE; free of their types. Everything behind it may crash,
 /// exit or hang, so the program calls it in jobs only, unless it says otherwise. In a build without
-/// NETGEN everything but netgen_version() throws ConfigError.
+/// NETGEN everything but is_model_name() and netgen_version() throws ConfigError.
 namespace tessera::netgen {
 
 /// @brief Looks at a CAD file's name and kind, reads nothing and calls no library: for any process.
 /// @note Local. @throws InputError if the file is missing, unreadable, empty or of an unknown kind.
 void require_model_file(const std::filesystem::path& file);
+
+/// @brief Whether a file's name is that of a CAD model, by its extension; the file need not exist.
+/// Calls no library: for any process. In a build without NETGEN no name is. Local.
+[[nodiscard]] bool is_model_name(const std::filesystem::path& file);
 
 /// @brief Reads a CAD file by its extension (.geo .stl .step .stp .iges .igs .brep) and checks it.
 /// @note Local.
@@ -28,6 +33,10 @@ void require_model_file(const std::filesystem::path& file);
 
 /// @brief Loads what import_model() read. @throws GeometryError if NETGEN refuses it.
 [[nodiscard]] std::unique_ptr<model::Model> load_model(const model::ModelSource& source);
+
+/// @brief What a model of load_model() holds.
+/// @note Local. @throws NetgenError if its faces cannot be triangulated.
+[[nodiscard]] model::ModelDescription describe_model(const model::Model& model);
 
 /// @brief A coarse mesher for a model of load_model(). The model must outlive it.
 [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model);

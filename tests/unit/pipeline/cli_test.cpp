@@ -37,7 +37,7 @@ std::string error_of(const std::vector<const char*>& arguments)
 TEST(CommandLine, MeshNeedsOnlyACase)
 {
   const auto mesh = parsed_as<MeshCommand>({"mesh", "a case.toml"});
-  EXPECT_EQ(mesh.case_file, "a case.toml");
+  EXPECT_EQ(mesh.file, "a case.toml");
   EXPECT_TRUE(mesh.overrides.empty());
   EXPECT_FALSE(mesh.output.has_value());
   EXPECT_FALSE(mesh.overwrite || mesh.resume || mesh.dump_config || mesh.dry_run);
@@ -47,12 +47,39 @@ TEST(CommandLine, MeshNeedsOnlyACase)
   EXPECT_EQ(mesh.verbosity, Verbosity::normal);
 }
 
+TEST(CommandLine, MeshTakesAModelWithASize)
+{
+  EXPECT_FALSE(parsed_as<MeshCommand>({"mesh", "a.toml"}).model.has_value());
+  const auto alone = parsed_as<MeshCommand>({"mesh", "a.step", "--size", "0.5"});
+  ASSERT_TRUE(alone.model.has_value());
+  EXPECT_EQ(alone.model->size, 0.5);
+  EXPECT_EQ(alone.model->parts, 0);
+  EXPECT_FALSE(alone.model->kernel.has_value());
+  const auto all = parsed_as<MeshCommand>(
+      {"mesh", "--kernel=optimize", "--parts", "8", "--size", "1e-3", "a.step"});
+  EXPECT_EQ(all.model->size, 1e-3);
+  EXPECT_EQ(all.model->parts, 8);
+  EXPECT_EQ(all.model->kernel, fill::KernelKind::optimize);
+}
+
+TEST(CommandLine, RefusesASizeThatIsNone)
+{
+  for (const char* size : {"0", "-1", "nan", "inf", "1e31", "1 mm", "", "0x1"}) {
+    EXPECT_NE(error_of({"mesh", "a.step", "--size", size}).find("number > 0"), std::string::npos)
+        << size;
+  }
+  EXPECT_NE(error_of({"mesh", "a.step", "--parts", "8"}).find("--size"), std::string::npos);
+  EXPECT_NE(error_of({"mesh", "a.step", "--kernel", "netgen"}).find("--size"), std::string::npos);
+  EXPECT_NE(error_of({"mesh", "a.step", "--size", "1", "--kernel", "gmsh"}).find("subdivide"),
+            std::string::npos);
+}
+
 TEST(CommandLine, MeshTakesEveryOption)
 {
   const auto mesh = parsed_as<MeshCommand>(
       {"mesh", "--set", "a.b=1", "--set=c.d=x y", "case.toml", "--output", "out dir", "--overwrite",
        "--dump-config", "--dry-run", "--ranks", "100000", "--progress", "never", "-v"});
-  EXPECT_EQ(mesh.case_file, "case.toml");
+  EXPECT_EQ(mesh.file, "case.toml");
   EXPECT_EQ(mesh.overrides, (std::vector<std::string>{"a.b=1", "c.d=x y"}));
   EXPECT_EQ(mesh.output, "out dir");
   EXPECT_TRUE(mesh.overwrite && mesh.dump_config && mesh.dry_run);
@@ -149,7 +176,7 @@ TEST(CommandLine, HelpOfEveryLevelIsReturnedNotPrinted)
     EXPECT_NE(all.find(word), std::string::npos) << word;
   }
   const std::string mesh = parsed_as<PrintCommand>({"mesh", "--help"}).text;
-  for (const char* word : {"tessera mesh", "CASE.toml", "--set", "--output", "--overwrite",
+  for (const char* word : {"tessera mesh", "CASE.toml|MODEL", "--set", "--output", "--overwrite",
                            "--resume", "--dump-config", "--dry-run", "--ranks", "--only-subdomains",
                            "--progress", "--quiet", "--verbose"}) {
     EXPECT_NE(mesh.find(word), std::string::npos) << word;
@@ -217,7 +244,7 @@ TEST(DescribeCommandLine, HasTheProgramAndItsCommandsWithWhatTheyTake)
   const CommandHelp& mesh = all[1];
   EXPECT_EQ(mesh.name, "mesh");
   ASSERT_EQ(mesh.arguments.size(), 1U);
-  EXPECT_EQ(mesh.arguments.front().value, "CASE.toml");
+  EXPECT_EQ(mesh.arguments.front().value, "CASE.toml|MODEL");
   const auto option = [&](const std::string& name) {
     for (const OptionHelp& candidate : mesh.options) {
       if (candidate.names.back() == name) return candidate;

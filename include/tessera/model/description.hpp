@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+
+namespace tessera::model {
+
+/// @brief One face of a model.
+struct FaceDescription {
+  LocalIndex number = 0;             ///< The model's surface number plus 1.
+  std::string name{};                ///< Empty: the file has none.
+  std::string colour{};              ///< "#RRGGBB"; empty: the file has none.
+  double area = 0.0;                 ///< File length unit squared.
+  std::vector<LocalIndex> solids{};  ///< It bounds, ascending, from 1.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.number, self.name, self.colour, self.area, self.solids);
+  }
+};
+
+/// @brief One solid of a model: a material of the mesh.
+struct SolidDescription {
+  std::string name{};   ///< Empty: the file has none.
+  double volume = 0.0;  ///< File length unit cubed.
+
+  static auto fields(auto& self) { return std::tie(self.name, self.volume); }
+};
+
+/// @brief What people want to know of a model before they mesh it, with triangles to draw it.
+struct ModelDescription {
+  std::vector<SolidDescription> solids{};
+  std::vector<FaceDescription> faces{};         ///< By number.
+  LocalIndex num_edges = 0;                     ///< Curves where faces meet.
+  std::vector<double> vertex_xyz{};             ///< Shape (num_vertices, 3), file length unit.
+  std::vector<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3).
+  std::vector<LocalIndex> triangle_face{};      ///< Shape (num_triangles); row of faces.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.solids, self.faces, self.num_edges, self.vertex_xyz,
+                    self.triangle_vertices, self.triangle_face);
+  }
+
+  /// @throws InputError if the sizes do not match, an index is out of range or a value is no
+  /// number.
+  void require_sound() const;
+};
+
+}  // namespace tessera::model

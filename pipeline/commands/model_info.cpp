@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/commands/model_info.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tessera/base/vec3.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// N h^3 / V of a mesh with median edge h; small faces and curvature make more.
+constexpr double kTetsPerCube = 14.0;
+
+struct Box {
+  Vec3 low{};
+  Vec3 high{};
+  bool is_empty = true;
+
+  void add(const Vec3& p)
+  {
+    if (std::exchange(is_empty, false)) low = high = p;
+    for (std::size_t c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], p[c]);
+      high[c] = std::max(high[c], p[c]);
+    }
+  }
+};
+
+// Of the triangles: of the whole model, and face by face.
+struct Boxes {
+  Box model{};
+  std::vector<Box> faces{};
+};
+
+Boxes boxes_of(const model::ModelDescription& description)
+{
+  Boxes boxes;
+  boxes.faces.resize(description.faces.size());
+  for (std::size_t t = 0; t < description.triangle_face.size(); ++t) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 p =
+          point_at(std::span(description.vertex_xyz), description.triangle_vertices[3 * t + c]);
+      boxes.model.add(p);
+      boxes.faces[static_cast<std::size_t>(description.triangle_face[t])].add(p);
+    }
+  }
+  return boxes;
+}
+
+double volume_of(const model::ModelDescription& description)
+{
+  double volume = 0.0;
+  for (const model::SolidDescription& solid : description.solids) volume += solid.volume;
+  return volume;
+}
+
+std::vector<LocalIndex> faces_of_solids(const model::ModelDescription& description)
+{
+  std::vector<LocalIndex> numbers(description.solids.size(), 0);
+  for (const model::FaceDescription& face : description.faces) {
+    for (const LocalIndex solid : face.solids) ++numbers[static_cast<std::size_t>(solid) - 1];
+  }
+  return numbers;
+}
+
+std::string point_text(const Vec3& p)
+{
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p[0], p[1], p[2]);
+}
+
+std::string box_text(const Box& box)
+{
+  return box.is_empty ? "not drawn"
+                      : fmt::format("{} to {}", point_text(box.low), point_text(box.high));
+}
+
+// Two digits, such as 1.3 or 0.087: nobody wants to type more.
+double rounded(double value)
+{
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  const double steps = std::round(value / unit);
+  // Of a decimal text, so that 0.87 is not 0.8700000000000001.
+  return std::stod(fmt::format("{:.2g}", steps * unit));
+}
+
+double predicted_tets(double volume, double size)
+{
+  return kTetsPerCube * volume / (size * size * size);
+}
+
+std::string count_text(double count)
+{
+  if (count < 1e6) return fmt::format("{:.0f} k", std::max(1.0, count / 1e3));
+  return fmt::format("{:.1f} M", count / 1e6);
+}
+
+std::string face_text(const model::FaceDescription& face, const Box& box, const std::string& unit)
+{
+  std::string text = fmt::format("  {:>5}  {:<20} area {:.6g}{}, box {}", face.number,
+                                 face.name.empty() ? "-" : face.name, face.area,
+                                 unit.empty() ? "" : " " + unit + "²", box_text(box));
+  if (!face.colour.empty()) text += ", colour " + face.colour;
+  if (face.solids.size() > 1)
+    text += fmt::format(", between solids {}", fmt::join(face.solids, " and "));
+  return text + "\n";
+}
+
+std::string solids_text(const model::ModelDescription& description, const std::string& unit)
+{
+  std::string text = fmt::format("solids: {}\n", description.solids.size());
+  const std::vector<LocalIndex> num_faces = faces_of_solids(description);
+  for (std::size_t s = 0; s < description.solids.size(); ++s) {
+    const model::SolidDescription& solid = description.solids[s];
+    text += fmt::format("  {:>5}  {:<20} volume {:.6g}{}, {} faces\n", s + 1,
+                        solid.name.empty() ? "-" : solid.name, solid.volume,
+                        unit.empty() ? "" : " " + unit + "³", num_faces[s]);
+  }
+  return text;
+}
+
+std::string sizes_text(double volume)
+{
+  std::string text =
+      "sizes for `tessera mesh MODEL --size H`, with about so many tets (more where faces are "
+      "small):\n";
+  for (const SuggestedSize& suggested : suggested_sizes(volume)) {
+    text += fmt::format("  {:<7} {:<10g} {}\n", suggested.name, suggested.size,
+                        count_text(suggested.num_tets));
+  }
+  return text;
+}
+
+Json json_of(const Box& box)
+{
+  return box.is_empty ? Json(nullptr) : Json({{"low", box.low}, {"high", box.high}});
+}
+
+Json faces_json(const model::ModelDescription& description, const Boxes& boxes)
+{
+  Json faces = Json::array();
+  for (std::size_t f = 0; f < description.faces.size(); ++f) {
+    const model::FaceDescription& face = description.faces[f];
+    faces.push_back({{"number", face.number},
+                     {"name", face.name},
+                     {"colour", face.colour},
+                     {"area", face.area},
+                     {"box", json_of(boxes.faces[f])},
+                     {"solids", face.solids}});
+  }
+  return faces;
+}
+
+Json solids_json(const model::ModelDescription& description)
+{
+  Json solids = Json::array();
+  const std::vector<LocalIndex> num_faces = faces_of_solids(description);
+  for (std::size_t s = 0; s < description.solids.size(); ++s) {
+    solids.push_back({{"number", s + 1},
+                      {"name", description.solids[s].name},
+                      {"volume", description.solids[s].volume},
+                      {"num_faces", num_faces[s]}});
+  }
+  return solids;
+}
+
+}  // namespace
+
+std::vector<SuggestedSize> suggested_sizes(double volume)
+{
+  constexpr std::array<std::pair<const char*, double>, 3> kWanted{
+      {{"coarse", 2e4}, {"medium", 2e5}, {"fine", 2e6}}};
+  std::vector<SuggestedSize> sizes;
+  for (const auto& [name, num_tets] : kWanted) {
+    const double size = rounded(std::cbrt(kTetsPerCube * volume / num_tets));
+    sizes.push_back({name, size, predicted_tets(volume, size)});
+  }
+  return sizes;
+}
+
+std::string model_text(const model::ModelSource& source, const model::ModelDescription& description)
+{
+  const Boxes boxes = boxes_of(description);
+  const std::string& unit = source.length_unit;
+  std::string text =
+      fmt::format("model: box diagonal {:.6g} {}\nbox: {}\nlength unit: {}\n",
+                  norm(boxes.model.high - boxes.model.low), unit, box_text(boxes.model),
+                  unit.empty() ? "the file does not say" : unit);
+  text += solids_text(description, unit);
+  text += fmt::format("edges: {}\nfaces: {}\n", description.num_edges, description.faces.size());
+  for (std::size_t f = 0; f < description.faces.size(); ++f) {
+    text += face_text(description.faces[f], boxes.faces[f], unit);
+  }
+  for (const std::string& repair : source.repairs) text += fmt::format("repair: {}\n", repair);
+  return text + sizes_text(volume_of(description));
+}
+
+std::string model_json(const model::ModelSource& source, const model::ModelDescription& description)
+{
+  const Boxes boxes = boxes_of(description);
+  Json json{{"file", source.file_name},
+            {"length_unit", source.length_unit},
+            {"box", json_of(boxes.model)},
+            {"solids", solids_json(description)},
+            {"faces", faces_json(description, boxes)},
+            {"num_edges", description.num_edges},
+            {"repairs", source.repairs}};
+  json["sizes"] = Json::array();
+  for (const SuggestedSize& suggested : suggested_sizes(volume_of(description))) {
+    json["sizes"].push_back(
+        {{"name", suggested.name}, {"size", suggested.size}, {"num_tets", suggested.num_tets}});
+  }
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tessera::pipeline

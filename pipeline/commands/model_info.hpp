@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tessera/model/description.hpp"
+#include "tessera/model/model.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief An edge length for `tessera mesh MODEL --size`, and about how many tets it makes.
+struct SuggestedSize {
+  std::string name{};  ///< "coarse", "medium", "fine".
+  double size = 0.0;   ///< File length unit.
+  double num_tets = 0.0;
+};
+
+/// @brief Three sizes that suit a model of this volume (file length unit cubed, > 0). Local.
+[[nodiscard]] std::vector<SuggestedSize> suggested_sizes(double volume);
+
+/// @brief What `tessera info MODEL` prints. Local. @pre description.require_sound() does not throw.
+[[nodiscard]] std::string model_text(const model::ModelSource& source,
+                                     const model::ModelDescription& description);
+
+/// @brief The same as JSON. Local. @pre As model_text().
+[[nodiscard]] std::string model_json(const model::ModelSource& source,
+                                     const model::ModelDescription& description);
+
+}  // namespace tessera::pipeline

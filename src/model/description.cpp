@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/model/description.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::model {
+namespace {
+
+template <class Numbers>
+bool are_below(const Numbers& numbers, std::size_t size)
+{
+  return std::ranges::all_of(
+      numbers, [&](LocalIndex i) { return i >= 0 && static_cast<std::size_t>(i) < size; });
+}
+
+bool are_finite(const std::vector<double>& values)
+{
+  return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
+}
+
+bool is_sound(const ModelDescription& model)
+{
+  const bool fits = model.triangle_vertices.size() == 3 * model.triangle_face.size()
+                    && model.vertex_xyz.size() % 3 == 0;
+  if (!fits || !are_below(model.triangle_vertices, model.vertex_xyz.size() / 3)
+      || !are_below(model.triangle_face, model.faces.size()) || !are_finite(model.vertex_xyz)) {
+    return false;
+  }
+  const auto bounds_solids = [&](const FaceDescription& face) {
+    return std::ranges::all_of(face.solids, [&](LocalIndex solid) {
+      return solid >= 1 && static_cast<std::size_t>(solid) <= model.solids.size();
+    });
+  };
+  return !model.triangle_face.empty() && std::ranges::all_of(model.faces, bounds_solids);
+}
+
+}  // namespace
+
+void ModelDescription::require_sound() const
+{
+  if (!is_sound(*this)) throw InputError("the description of the model is damaged");
+}
+
+}  // namespace tessera::model

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include <csg.hpp>
+
+#include "tessera/base/vec3.hpp"
+
+namespace tessera::netgen {
+
+[[nodiscard]] inline ::netgen::Point<3> to_netgen(const Vec3& p) { return {p[0], p[1], p[2]}; }
+[[nodiscard]] inline Vec3 from_netgen(const ::netgen::Point<3>& p) { return {p(0), p(1), p(2)}; }
+
+/// @brief Name of a top-level object, from 0: its material, or what the file calls the solid.
+/// Local.
+[[nodiscard]] inline std::string name_of_solid(const ::netgen::CSGeometry& geometry, int solid)
+{
+  const auto* object = geometry.GetTopLevelObject(solid);
+  return object->GetMaterial().empty() ? std::string(object->GetSolid()->Name())
+                                       : object->GetMaterial();
+}
+
+/// @brief A name that NETGEN gives to what has none becomes empty. Local.
+[[nodiscard]] inline std::string name_unless_default(const std::string& bc_name)
+{
+  return bc_name == "default" ? std::string() : bc_name;
+}
+
+}  // namespace tessera::netgen

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/occ_description.hpp"
+
+#include <algorithm>
+
+#include <BRepGProp.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+
+#include "netgen/occ_shape.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+// How far triangles that are only looked at may be off, in parts of the box diagonal.
+constexpr double kDeflection = 1e-3;
+constexpr double kAngle_rad = 0.3;
+
+double area_of(const TopoDS_Shape& face)
+{
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties);
+  return properties.Mass();
+}
+
+double volume_of(const TopoDS_Shape& solid)
+{
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(solid, properties);
+  return properties.Mass();
+}
+
+// A face that cannot be triangulated is not drawn, and is in the list all the same.
+void add_triangles(const TopoDS_Face& face, LocalIndex row, model::ModelDescription& to)
+{
+  TopLoc_Location place;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+  if (mesh.IsNull()) return;
+  const auto first = static_cast<LocalIndex>(to.vertex_xyz.size() / 3);
+  for (int n = 1; n <= mesh->NbNodes(); ++n) {
+    const gp_Pnt point = mesh->Node(n).Transformed(place);
+    to.vertex_xyz.insert(to.vertex_xyz.end(), {point.X(), point.Y(), point.Z()});
+  }
+  for (int t = 1; t <= mesh->NbTriangles(); ++t) {
+    int a = 0;
+    int b = 0;
+    int c = 0;
+    mesh->Triangle(t).Get(a, b, c);
+    to.triangle_vertices.insert(to.triangle_vertices.end(),
+                                {first + a - 1, first + b - 1, first + c - 1});
+    to.triangle_face.push_back(row);
+  }
+}
+
+void add_solids(const OccContent& content, model::ModelDescription& to)
+{
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(content.shape, TopAbs_FACE, faces);
+  for (TopExp_Explorer solids(content.shape, TopAbs_SOLID); solids.More(); solids.Next()) {
+    const std::size_t number = to.solids.size() + 1;
+    to.solids.push_back({content.solid_names.at(number - 1), volume_of(solids.Current())});
+    for (const TopoDS_Shape& face : parts_of(solids.Current(), TopAbs_FACE)) {
+      auto& around = to.faces[static_cast<std::size_t>(faces.FindIndex(face)) - 1].solids;
+      around.push_back(static_cast<LocalIndex>(number));
+    }
+  }
+}
+
+}  // namespace
+
+model::ModelDescription describe_shape(const OccContent& content)
+{
+  model::ModelDescription described;
+  BRepTools::Clean(content.shape);
+  const BRepMesh_IncrementalMesh triangulation(
+      content.shape, kDeflection * box_diagonal_of(content.shape), Standard_False, kAngle_rad);
+  for (const TopoDS_Shape& face : parts_of(content.shape, TopAbs_FACE)) {
+    const auto row = described.faces.size();
+    described.faces.push_back({.number = static_cast<LocalIndex>(row) + 1,
+                               .name = content.face_names.at(row),
+                               .colour = content.face_colours.at(row),
+                               .area = area_of(face)});
+    add_triangles(TopoDS::Face(face), static_cast<LocalIndex>(row), described);
+  }
+  add_solids(content, described);
+  described.num_edges = static_cast<LocalIndex>(std::ranges::count_if(
+      parts_of(content.shape, TopAbs_EDGE),
+      [](const TopoDS_Shape& edge) { return !BRep_Tool::Degenerated(TopoDS::Edge(edge)); }));
+  return described;
+}
+
+}  // namespace tessera::netgen

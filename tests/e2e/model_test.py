@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A mesh from a CAD model alone, without a case file."""
+import shutil
+import unittest
+
+import program
+from program import OK, WRONG_INPUT
+
+GEOMETRY = program.CONFIGS / "geometry"
+
+
+class Model(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        shutil.copy(GEOMETRY / "cylinder.step", self.folder / "part.step")
+
+    def mesh_model(self, model, *arguments, **options):
+        outcome = self.run_program("mesh", model, *arguments, **options)
+        self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
+        return outcome
+
+    def test_the_case_it_made_gives_the_same_mesh(self):
+        self.mesh_model("part.step", "--size", "0.5", ranks=2)
+        out = self.folder / "outputs" / "part"
+        case = (out / "case.toml").read_text()
+        self.assertIn("target = 0.5", case)
+        self.assertIn(f'file = "{self.folder / "part.step"}"', case)
+        again = self.mesh(out / "case.toml", "again")
+        self.assertEqual(program.mesh_files(again), program.mesh_files(out))
+        self.assertEqual(program.figures(again)["digest"], program.figures(out)["digest"])
+
+    def test_options_are_keys_and_set_works_on_top(self):
+        self.mesh_model("part.step", "--size", "0.5", "--parts", 2, "--kernel", "subdivide", "--output", "a",
+                        "--set", "size.target=0.6", "--set", "output.cell_quality=true")
+        case = (self.folder / "a/case.toml").read_text()
+        for line in ("target = 0.6", "parts = 2", 'kernel = "subdivide"', "cell_quality = true"):
+            self.assertIn(line, case)
+        self.assertEqual(len(list((self.folder / "a/mesh").iterdir())), 2)
+
+    def test_every_kind_of_model(self):
+        for name, size in (("sphere.geo", 0.5), ("plate_with_hole.stl", 3), ("frustum.iges", 2), ("cone.brep", 1)):
+            with self.subTest(model=name):
+                self.mesh_model(GEOMETRY / name, "--size", size, "--kernel", "subdivide")
+                self.assertTrue((self.folder / "outputs" / name.split(".")[0] / "mesh.pvtu").exists())
+
+    def test_what_does_not_fit(self):
+        case = self.write_case()
+        self.write("part.obj", "v 0 0 0\n")
+        for arguments, words in (
+            (["part.step"], ["part.step is a CAD model", "--size", "tessera info part.step"]),
+            ([case, "--size", "1"], ["is a case file", "size.target"]),
+            (["none.step", "--size", "1"], ["none.step", "no such file"]),
+            (["part.obj", "--size", "1"], ["part.obj", ".step"]),
+            (["part.step", "--size", "1", "--set", "coarse.max_size=1"], ["coarse.max_size", "size.target"]),
+            (["part.step", "--size", "1", "--set", "size.targe=1"], ["size.target"]),
+        ):
+            for ranks in (None, 2):
+                with self.subTest(arguments=arguments, ranks=ranks):
+                    outcome = self.run_program("mesh", *arguments, ranks=ranks)
+                    self.assert_refused(outcome, WRONG_INPUT, *words)
+        self.assertFalse((self.folder / "outputs").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
