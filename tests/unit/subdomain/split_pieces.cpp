@@ -53,8 +53,8 @@ void add_surroundings(const Body& body, const std::vector<FilledPiece>& filled, 
 
 }  // namespace
 
-std::vector<FilledPiece> fill_all(const Body& body, const model::Model& model, int levels,
-                                  fill::KernelKind kernel)
+std::vector<FilledPiece> fill_all(const Body& body, const model::Model& model,
+                                  const mesh::EdgeLevels& levels, fill::KernelKind kernel)
 {
   const mesh::ProjectionLimiter no_limits;
   const subdomain::PartitionedMesh cut(body.coarse, body.decomposition, levels);
