@@ -14,10 +14,23 @@
 namespace tessera::testing {
 
 /// @brief The pieces of a body, filled; one kernel for all.
-[[nodiscard]] std::vector<subdomain::FilledPiece> fill_all(const Body& body,
-                                                           const model::Model& model,
-                                                           const mesh::EdgeLevels& levels,
-                                                           fill::KernelKind kernel);
+[[nodiscard]] std::vector<subdomain::FilledPiece> fill_all(
+    const Body& body, const model::Model& model, const mesh::EdgeLevels& levels,
+    fill::KernelKind kernel, const mesh::ProjectionLimiter& limiter = {});
+
+/// @brief What is held back of a body's points until no child of its tets is folded.
+struct Plan {
+  mesh::ProjectionLimiter limiter{};
+  int num_rounds = 0;  ///< That found folds.
+};
+
+/// @brief The plan stage of the program in one process.
+[[nodiscard]] Plan plan_of(const Body& body, const model::Model& model,
+                           const mesh::EdgeLevels& levels);
+
+/// @brief The limiter with some limits more.
+[[nodiscard]] mesh::ProjectionLimiter lower(const mesh::ProjectionLimiter& limiter,
+                                            std::vector<mesh::PointLimit> more);
 
 /// @brief Lets pieces exchange tets across their seams, in all phases.
 /// @return Number of regions that are better.
