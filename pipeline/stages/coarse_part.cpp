@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/fill/fallbacks.hpp"
@@ -82,10 +83,22 @@ void choose_levels(RunResult& run, RunContext& context)
   run.levels = wanted.raised(run.splits);
 }
 
+// Nothing makes sizes differ yet, and no key may be ignored.
+void require_one_size(const sizing::SizeOptions& size, const RunContext& context)
+{
+  all_or_none(context.comm, [&] {
+    if (!is_graded(size) && size.min == 0.0 && size.max == 0.0) return;
+    throw ConfigError(
+        "size.min, size.max, size.field and [[size.region]] have no effect in this version; leave "
+        "them out");
+  });
+}
+
 }  // namespace
 
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
 {
+  require_one_size(given.size, context);
   RunResult run;
   run.only_subdomains = options.only_subdomains;
   run.model = run_model_stage(given, context);

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <compare>
 
+#include "tessera/base/edit_distance.hpp"
+
 #include "config/text.hpp"
 
 namespace tessera::config {
 namespace {
-
-// Lengths, scales and times beyond this are mistakes; toml11 turns an overflow into the largest
-// double, which this excludes as well.
-constexpr double kHuge = 1e30;
 
 constexpr Key kKeys[] = {
     {.name = "geometry.file",
@@ -36,6 +34,43 @@ constexpr Key kKeys[] = {
      .reason = "a size suits one model only; give this or coarse.max_size",
      .example = "1.0",
      .is_optional = true},
+    {.name = "size.min",
+     .rule = RealRule{[](Case& c) -> double& { return c.size.min; }, 0.0, Bound::exclusive, kHuge,
+                      Bound::inclusive},
+     .unit = "output length unit",
+     .meaning = "No size below this is wanted anywhere, whatever size.target, size.field and "
+                "[[size.region]] say.",
+     .reason = "they say what is wanted",
+     .example = "0.1",
+     .is_optional = true},
+    {.name = "size.max",
+     .rule = RealRule{[](Case& c) -> double& { return c.size.max; }, 0.0, Bound::exclusive, kHuge,
+                      Bound::inclusive},
+     .unit = "output length unit",
+     .meaning = "No size above this is wanted anywhere.",
+     .reason = "a size may grow as far as the coarse mesh lets it",
+     .example = "2.0",
+     .is_optional = true},
+    {.name = "size.grading",
+     .rule = RealRule{[](Case& c) -> double& { return c.size.grading; }, 0.0, Bound::exclusive, 1.0,
+                      Bound::inclusive},
+     .meaning = "Largest growth of the wanted size per length, away from where it is smaller: at "
+                "0.3, edges 10 lengths away may be longer by 3 lengths. Acts on size.field, and on "
+                "each [[size.region]] without a growth of its own.",
+     .reason = "as coarse.grading: neighbouring edges then differ by about a third"},
+    {.name = "size.field",
+     .rule = PathRule{[](Case& c) -> std::filesystem::path& { return c.size.field; }},
+     .meaning = "File with wanted sizes at points, as an error estimator writes it: .vtu, .pvtu or "
+                ".vti. Relative to the folder of the case file. Between its points the size is "
+                "interpolated; outside of its cells it grows by size.grading.",
+     .reason = "one size everywhere is the rule",
+     .example = "\"field.vtu\"",
+     .is_optional = true},
+    {.name = "size.field_array",
+     .rule = TextRule{[](Case& c) -> std::string& { return c.size.field_array; }},
+     .meaning = "Name of the array of size.field that has the sizes: a point array with one "
+                "component, in output length units.",
+     .reason = "a name for what it holds"},
 
     {.name = "coarse.max_size",
      .rule = RealRule{[](Case& c) -> double& { return c.coarse.max_size; }, 0.0, Bound::exclusive,
@@ -205,35 +240,12 @@ constexpr Key kKeys[] = {
      .reason = "one more number a tet, and report.json has the histogram"},
 };
 
-constexpr Key kRegionKeys[] = {
-    {.name = "fill.region.material",
-     .rule = TextRule{[](Case& c) -> std::string& { return c.fill.regions.back().material; }},
-     .meaning = "Name of the material, as the model has it.",
-     .reason = "a region is told by its material",
-     .example = "\"steel\""},
-    {.name = "fill.region.kernel",
-     .rule = word_rule([](Case& c) -> fill::KernelKind& { return c.fill.regions.back().kernel; }),
-     .meaning = "As fill.kernel.",
-     .reason = "a region is there to name it",
-     .example = "\"subdivide\""},
-};
-
-constexpr TableList kTableLists[] = {
-    {.name = "fill.region",
-     .keys = kRegionKeys,
-     .unique_key = "fill.region.material",
-     .meaning = "The kernel for all subdomains of one material, in place of fill.kernel.",
-     .reason = "one kernel for all materials is the rule",
-     .size = [](const Case& c) { return c.fill.regions.size(); },
-     .resize = [](Case& c, std::size_t size) { c.fill.regions.resize(size); }},
-};
-
 // Whatever may stand in a case file.
 std::vector<std::string_view> all_names()
 {
   std::vector<std::string_view> names;
   for (const Key& key : kKeys) names.push_back(key.name);
-  for (const TableList& list : kTableLists) {
+  for (const TableList& list : all_table_lists()) {
     names.push_back(list.name);
     for (const Key& key : list.keys) names.push_back(key.name);
   }
@@ -258,18 +270,10 @@ Nearness nearness_of(std::string_view name, std::string_view known)
 
 std::span<const Key> all_keys() { return kKeys; }
 
-std::span<const TableList> all_table_lists() { return kTableLists; }
-
 const Key* find_key(std::string_view name)
 {
   const auto* found = std::ranges::find(kKeys, name, &Key::name);
   return found == std::end(kKeys) ? nullptr : found;
-}
-
-const TableList* find_table_list(std::string_view name)
-{
-  const auto* found = std::ranges::find(kTableLists, name, &TableList::name);
-  return found == std::end(kTableLists) ? nullptr : found;
 }
 
 std::string_view table_of(std::string_view name)

@@ -12,11 +12,16 @@
 #include <vector>
 
 #include "tessera/base/enum_words.hpp"
+#include "tessera/base/vec3.hpp"
 #include "tessera/config/case.hpp"
 
 #include "config/toml_document.hpp"
 
 namespace tessera::config {
+
+/// @brief Lengths, scales and times beyond this are mistakes; toml11 turns an overflow into the
+/// largest double, which this excludes as well.
+inline constexpr double kHuge = 1e30;
 
 enum class Bound : int { inclusive, exclusive };
 
@@ -47,6 +52,12 @@ struct PathRule {
   std::filesystem::path& (*field)(Case&);
 };
 
+/// @brief A point or a vector: three numbers.
+struct TripleRule {
+  Vec3& (*field)(Case&);
+  double largest;  ///< No coordinate is beyond it, on either side.
+};
+
 /// @brief A word of an enumeration; made by word_rule().
 struct WordRule {
   std::span<const std::string_view> words;
@@ -68,8 +79,8 @@ struct WordListRule {
   bool (*set)(Case&, std::span<const std::string_view>);
 };
 
-using Rule =
-    std::variant<RealRule, IntegerRule, FlagRule, PathRule, WordRule, TextRule, WordListRule>;
+using Rule = std::variant<RealRule, IntegerRule, FlagRule, PathRule, TripleRule, WordRule, TextRule,
+                          WordListRule>;
 
 /// @brief The rule of a field of an enumeration with words.
 /// @param[in] field Captureless; from a Case& to a reference to the member.
@@ -127,15 +138,22 @@ struct Key {
   std::string_view excluded_by{};      ///< Key that must not be given together with this one.
 };
 
-/// @brief A table that may stand any number of times, as `[[name]]`. Every key must be given.
+/// @brief A table that may stand any number of times, as `[[name]]`. Every key that is not optional
+/// must be given, but only one of the alternatives.
 struct TableList {
   std::string_view name;
-  std::span<const Key> keys;    ///< Their rules see the last element of a case's list.
-  std::string_view unique_key;  ///< No two elements have the same value of it. A TextRule.
+  std::span<const Key> keys;      ///< Their rules see the last element of a case's list.
+  std::string_view unique_key{};  ///< No two elements have the same value of it. A TextRule; empty:
+                                  ///< elements may be equal.
+  /// A key, or a prefix "word." of keys, after the list's name: "patch", "ball". Of these, an
+  /// element has just one, with all of its keys.
+  std::span<const std::string_view> alternatives{};
   std::string_view meaning;
   std::string_view reason;  ///< Why there are none unless given.
   std::size_t (*size)(const Case&);
   void (*resize)(Case&, std::size_t);
+  std::string (*defect)(const Case&) = nullptr;  ///< What is wrong with the last element as a
+                                                 ///< whole; empty: nothing.
 };
 
 /// @brief Every key outside of lists, table by table, in the order in which people read them.
@@ -149,6 +167,15 @@ struct TableList {
 
 /// @brief The list of that name, or null.
 [[nodiscard]] const TableList* find_table_list(std::string_view name);
+
+/// @brief The list that a key of that name would stand in, or null.
+[[nodiscard]] const TableList* list_around(std::string_view name);
+
+/// @brief "ball.radius" of "size.region.ball.radius". @pre The key is one of the list's.
+[[nodiscard]] std::string_view name_in_list(const TableList& list, const Key& key);
+
+/// @brief The alternative that the key belongs to, or "" if it stands beside all of them.
+[[nodiscard]] std::string_view alternative_of(const TableList& list, const Key& key);
 
 /// @brief Whether a key of all_keys() stands in that table.
 [[nodiscard]] bool is_table(std::string_view name);

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/config/case.hpp"
@@ -40,7 +41,7 @@ std::string file_name_for_messages(const fs::path& file) { return printable(file
 // A key of a list is known, but not where other keys stand.
 [[noreturn]] void fail_unknown_outside_lists(const std::string& name, const std::string& origin)
 {
-  const TableList* list = find_table_list(table_of(name));
+  const TableList* list = list_around(name);
   if (list == nullptr) fail_unknown(name, origin);
   fail(origin,
        fmt::format("{} stands outside of a list; {} must be {}", name, list->name, allowed(*list)));
@@ -104,42 +105,90 @@ std::vector<Entry> all_entries(std::string_view text, const fs::path& file,
        fmt::format("{} = {}: must be {}", entry.name, value_text(entry.value), must_be));
 }
 
+const Key& key_in(const TableList& list, const Entry& entry)
+{
+  const auto key = std::ranges::find(list.keys, entry.name, &Key::name);
+  if (key == list.keys.end()) fail_unknown(entry.name, entry.origin);
+  return *key;
+}
+
+// The alternative that the table has taken; empty if the list has none.
+std::string_view alternative_in(const TableList& list, const Table& table)
+{
+  std::string_view chosen;
+  const Entry* first = nullptr;
+  for (const Entry& entry : table.entries) {
+    const std::string_view other = alternative_of(list, key_in(list, entry));
+    if (other.empty() || other == chosen) continue;
+    if (first != nullptr) {
+      fail(entry.origin,
+           fmt::format("{} stands beside {} ({}); must be one of {} in every [[{}]]", entry.name,
+                       first->name, first->origin, fmt::join(list.alternatives, ", "), list.name));
+    }
+    chosen = other;
+    first = &entry;
+  }
+  if (chosen.empty() && !list.alternatives.empty()) {
+    fail(table.origin, fmt::format("[[{}]] has none of {}; must have one of them", list.name,
+                                   fmt::join(list.alternatives, ", ")));
+  }
+  return chosen;
+}
+
 // Fills the last element of the list.
 void apply_table(const TableList& list, const Table& table, Case& into)
 {
+  const std::string_view chosen = alternative_in(list, table);
   std::set<std::string_view> given;
   for (const Entry& entry : table.entries) {
-    const auto key = std::ranges::find(list.keys, entry.name, &Key::name);
-    if (key == list.keys.end()) fail_unknown(entry.name, entry.origin);
-    if (!assign(key->rule, entry.value, into)) fail_value(entry, allowed(key->rule));
-    given.insert(key->name);
+    const Key& key = key_in(list, entry);
+    if (!assign(key.rule, entry.value, into)) fail_value(entry, allowed(key.rule));
+    given.insert(key.name);
   }
   for (const Key& key : list.keys) {
-    if (given.contains(key.name)) continue;
+    const std::string_view alternative = alternative_of(list, key);
+    const bool is_needed = alternative.empty() ? !key.is_optional : alternative == chosen;
+    if (!is_needed || given.contains(key.name)) continue;
     fail(table.origin, fmt::format("no {}; must be {}", key.name, allowed(key.rule)));
   }
+  const std::string defect = list.defect == nullptr ? "" : list.defect(into);
+  if (!defect.empty()) fail(table.origin, fmt::format("[[{}]]: {}", list.name, defect));
 }
+
+// A list's elements by the value of the unique key.
+class UniqueElements {
+ public:
+  explicit UniqueElements(const TableList& list) : list_(list) {}
+
+  void add(const Table& table)
+  {
+    const auto unique = std::ranges::find(table.entries, list_.unique_key, &Entry::name);
+    const std::string text = value_text(unique->value);
+    const auto [first, is_new] = origins_.emplace(text, unique->origin);
+    if (is_new) return;
+    const bool is_elsewhere = first->second != unique->origin;
+    fail(unique->origin,
+         fmt::format("{} = {}: given twice{}; must be another one in every [[{}]]", unique->name,
+                     text, is_elsewhere ? fmt::format(" (first at {})", first->second) : "",
+                     list_.name));
+  }
+
+ private:
+  const TableList& list_;
+  std::map<std::string, std::string> origins_{};
+};
 
 void apply_list(const TableList& list, const Entry& entry, Case& into)
 {
   const auto* items = std::get_if<std::vector<Value>>(&entry.value.data);
   if (items == nullptr) fail_value(entry, allowed(list));
-  std::map<std::string, std::string> origins;  // By the value of the unique key.
+  UniqueElements elements(list);
   for (const Value& item : *items) {
     const auto* table = std::get_if<Table>(&item.data);
     if (table == nullptr) fail_value(entry, allowed(list));
     list.resize(into, list.size(into) + 1);
     apply_table(list, *table, into);
-
-    const auto unique = std::ranges::find(table->entries, list.unique_key, &Entry::name);
-    const std::string text = value_text(unique->value);
-    const auto [first, is_new] = origins.emplace(text, unique->origin);
-    if (is_new) continue;
-    const bool is_elsewhere = first->second != unique->origin;
-    fail(unique->origin,
-         fmt::format("{} = {}: given twice{}; must be another one in every [[{}]]", unique->name,
-                     text, is_elsewhere ? fmt::format(" (first at {})", first->second) : "",
-                     entry.name));
+    if (!list.unique_key.empty()) elements.add(*table);
   }
 }
 
@@ -175,6 +224,10 @@ void check_required(const Case& loaded, const std::string& where)
   if (loaded.size.target == 0.0 && loaded.coarse.max_size == 0.0) {
     fail(where, "no size; give either size.target or coarse.max_size");
   }
+  if (loaded.size.max > 0.0 && loaded.size.min > loaded.size.max) {
+    fail(where, fmt::format("size.min = {} is above size.max = {}; it must not be",
+                            number_text(loaded.size.min), number_text(loaded.size.max)));
+  }
   if (loaded.output.parts > 0 && loaded.output.files > 0) {
     fail(where, "output.parts excludes output.files: each part is one file; give either of them");
   }
@@ -182,8 +235,11 @@ void check_required(const Case& loaded, const std::string& where)
 
 void resolve_paths(const fs::path& case_file, Case& loaded)
 {
-  const fs::path model = case_file.parent_path() / loaded.geometry.file;
-  loaded.geometry.file = fs::absolute(model).lexically_normal();
+  const auto beside_case = [&](const fs::path& path) {
+    return fs::absolute(case_file.parent_path() / path).lexically_normal();
+  };
+  loaded.geometry.file = beside_case(loaded.geometry.file);
+  if (!loaded.size.field.empty()) loaded.size.field = beside_case(loaded.size.field);
   if (loaded.output.directory.empty()) loaded.output.directory = "outputs" / case_file.stem();
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "tessera/base/error.hpp"
 
@@ -73,6 +74,26 @@ bool assign_to(const PathRule& rule, const Value& value, Case& into)
   return true;
 }
 
+bool in_range(const TripleRule& rule, const Vec3& triple)
+{
+  return std::ranges::all_of(triple, [&](double x) { return std::abs(x) <= rule.largest; });
+}
+
+bool assign_to(const TripleRule& rule, const Value& value, Case& into)
+{
+  const auto* items = std::get_if<std::vector<Value>>(&value.data);
+  if (items == nullptr || items->size() != 3) return false;
+  Vec3 triple{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::optional<double> number = as_real((*items)[axis]);
+    if (!number) return false;
+    triple[axis] = *number;
+  }
+  if (!in_range(rule, triple)) return false;
+  rule.field(into) = triple;
+  return true;
+}
+
 bool assign_to(const WordRule& rule, const Value& value, Case& into)
 {
   const auto* text = std::get_if<std::string>(&value.data);
@@ -124,6 +145,12 @@ std::string word_list(std::span<const std::string_view> words)
   return result;
 }
 
+std::string triple_text(const Vec3& triple)
+{
+  return fmt::format("[{}, {}, {}]", number_text(triple[0]), number_text(triple[1]),
+                     number_text(triple[2]));
+}
+
 std::string path_value(const std::filesystem::path& path)
 {
   if (!is_utf8(path.string())) {
@@ -154,6 +181,7 @@ std::string allowed(const Rule& rule)
           },
           [](const FlagRule&) { return std::string("true or false"); },
           [](const PathRule&) { return std::string("a path in quotes, not empty"); },
+          [](const TripleRule&) { return std::string("a list of three numbers"); },
           [](const WordRule& word) {
             return (word.words.size() > 1 ? "one of " : "") + word_list(word.words);
           },
@@ -168,15 +196,20 @@ std::string allowed(const Rule& rule)
 std::string allowed(const TableList& list)
 {
   std::string keys;
+  std::string optional_keys;
   for (const Key& key : list.keys) {
-    keys.append(keys.empty() ? "" : " and ").append(last_part(key.name));
+    if (!alternative_of(list, key).empty()) continue;
+    std::string& into = key.is_optional ? optional_keys : keys;
+    into.append(into.empty() ? "" : " and ").append(name_in_list(list, key));
   }
-  return std::string("tables [[")
-      .append(list.name)
-      .append("]], each with ")
-      .append(keys)
-      .append(" and no two with the same ")
-      .append(last_part(list.unique_key));
+  if (!list.alternatives.empty()) {
+    keys.append(fmt::format(" and one of {}", fmt::join(list.alternatives, ", ")));
+  }
+  if (!optional_keys.empty()) keys.append("; they may have ").append(optional_keys);
+  if (!list.unique_key.empty()) {
+    keys.append(" and no two with the same ").append(last_part(list.unique_key));
+  }
+  return std::string("tables [[").append(list.name).append("]], each with ").append(keys);
 }
 
 std::optional<std::string> toml_value(const Rule& rule, const Case& from)
@@ -197,6 +230,10 @@ std::optional<std::string> toml_value(const Rule& rule, const Case& from)
           [&](const FlagRule& flag) { return Text(flag.field(copy) ? "true" : "false"); },
           [&](const PathRule& path) {
             return path.field(copy).empty() ? Text() : Text(path_value(path.field(copy)));
+          },
+          [&](const TripleRule& triple) {
+            const Vec3 value = triple.field(copy);
+            return in_range(triple, value) ? Text(triple_text(value)) : Text();
           },
           [&](const WordRule& word) { return Text(toml_string(word.get(copy))); },
           [&](const TextRule& text) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -20,8 +19,5 @@ namespace tessera::config {
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
 [[nodiscard]] bool is_utf8(std::string_view text);
-
-/// @brief Least number of characters to insert, delete or replace to turn `a` into `b`.
-[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 }  // namespace tessera::config

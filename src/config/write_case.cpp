@@ -74,11 +74,16 @@ void write_reference_list(std::string& out, const TableList& list)
   write_comment(out, fmt::format("Default: none, because: {}.", list.reason));
   out += fmt::format("# [[{}]]\n", list.name);
   for (const Key& key : list.keys) {
+    const std::string_view alternative = alternative_of(list, key);
+    const bool is_shown = alternative.empty() || alternative == list.alternatives.front();
+    const std::string_view standard = key.derived_default.empty() ? "none" : key.derived_default;
     out += '\n';
     write_comment(out, std::string(key.meaning));
+    if (!key.unit.empty()) write_comment(out, fmt::format("Unit: {}.", key.unit));
     write_comment(out, fmt::format("Allowed: {}.", allowed(key.rule)));
-    write_comment(out, fmt::format("Default: none, because: {}.", key.reason));
-    out += fmt::format("# {} = {}\n", last_part(key.name), key.example);
+    write_comment(out, fmt::format("Default: {}, because: {}.", standard, key.reason));
+    out +=
+        fmt::format("# {}{} = {}\n", is_shown ? "" : "or ", name_in_list(list, key), key.example);
   }
 }
 
@@ -89,7 +94,8 @@ void write_list(std::string& out, const TableList& list, const Case& resolved)
     list.resize(shortened, size);
     out += fmt::format("\n[[{}]]\n", list.name);
     for (const Key& key : list.keys) {
-      out += fmt::format("{} = {}\n", last_part(key.name), toml_value(key.rule, shortened).value());
+      const std::optional<std::string> value = toml_value(key.rule, shortened);
+      if (value) out += fmt::format("{} = {}\n", name_in_list(list, key), *value);
     }
   }
 }

@@ -12,6 +12,7 @@
 #include "arrays.hpp"
 #include "data_array.hpp"
 #include "mesh_file.hpp"
+#include "vtu_elements.hpp"
 #include "vtu_ghosts.hpp"
 #include "xml.hpp"
 
@@ -22,73 +23,6 @@ using mesh::MeshArrays;
 
 constexpr std::uint8_t kVtkTriangle = 5;
 constexpr std::uint8_t kVtkTetra = 10;
-
-constexpr std::string_view kTooManyPoints = "it has more than 2^31 points; split it";
-
-void require(bool condition, std::string_view what)  // No std::string: this stands in inner loops.
-{
-  if (!condition) throw InputError(std::string(what));
-}
-
-[[nodiscard]] std::string name_of(const XmlElement& element)
-{
-  return element.attribute_or("Name", "");
-}
-
-/// @brief The array's values as T. @throws InputError if there are not `num_values`, or they do not
-/// fit.
-template <class T>
-[[nodiscard]] std::vector<T> read_values(const XmlElement& element, const Encoding& encoding)
-{
-  auto values = values_as<T>(decode_array(element, encoding));
-  require(values.has_value(), fmt::format("array {} has values out of range", name_of(element)));
-  return *std::move(values);
-}
-
-[[nodiscard]] const XmlElement& required_child(const XmlElement& element, std::string_view name)
-{
-  const XmlElement* const child = element.child(name);
-  require(child != nullptr, fmt::format("element {} has no {}", element.name, name));
-  return *child;
-}
-
-[[nodiscard]] const XmlElement& named_array(const XmlElement& parent, std::string_view name)
-{
-  for (const XmlElement& element : parent.children) {
-    if (name_of(element) == name) return element;
-  }
-  throw InputError(fmt::format("element {} has no array {}", parent.name, name));
-}
-
-/// @brief Cells as stored: any mix of kinds.
-struct MixedCells {
-  std::vector<GlobalIndex> connectivity{};
-  std::vector<GlobalIndex> offsets{};  ///< End of each cell in `connectivity`.
-  std::vector<std::uint8_t> types{};
-
-  [[nodiscard]] std::span<const GlobalIndex> points_of(std::size_t cell) const
-  {
-    const auto begin = cell == 0 ? 0 : static_cast<std::size_t>(offsets[cell - 1]);
-    return std::span(connectivity).subspan(begin, static_cast<std::size_t>(offsets[cell]) - begin);
-  }
-};
-
-[[nodiscard]] MixedCells read_cells(const XmlElement& piece, const Encoding& encoding)
-{
-  MixedCells cells;
-  const std::size_t num_cells = piece.count_attribute("NumberOfCells");
-  if (num_cells == 0) return cells;
-  const XmlElement& element = required_child(piece, "Cells");
-  cells.connectivity = read_values<GlobalIndex>(named_array(element, "connectivity"), encoding);
-  cells.offsets = read_values<GlobalIndex>(named_array(element, "offsets"), encoding);
-  cells.types = read_values<std::uint8_t>(named_array(element, "types"), encoding);
-  require(cells.offsets.size() == num_cells && cells.types.size() == num_cells,
-          "the cells are not as many as the file says");
-  require(std::ranges::is_sorted(cells.offsets) && cells.offsets.front() >= 0
-              && std::cmp_less_equal(cells.offsets.back(), cells.connectivity.size()),
-          "the offsets of the cells are corrupt");
-  return cells;
-}
 
 /// @brief Which cells are kept, and how many there were.
 struct Selection {
@@ -238,18 +172,6 @@ void read_field_data(const XmlElement& grid, const Encoding& encoding, MeshArray
   }
 }
 
-[[nodiscard]] std::vector<double> read_points(const XmlElement& piece, const Encoding& encoding)
-{
-  const std::size_t num_points = piece.count_attribute("NumberOfPoints");
-  if (num_points == 0) return {};
-  const XmlElement& points = required_child(piece, "Points");
-  require(!points.children.empty(), "element Points has no array");
-  std::vector<double> xyz = read_values<double>(points.children.front(), encoding);
-  require(xyz.size() / 3 == num_points && xyz.size() % 3 == 0,
-          "the points are not as many as the file says");
-  return xyz;
-}
-
 /// @brief A piece element whose points and cells are read, but not yet reduced to one kind.
 struct RawPiece {
   const XmlElement* element = nullptr;
@@ -334,14 +256,6 @@ void append(MeshArrays& to, const MeshArrays& from)
     });
   };
   return !has(kVtkTetra) && has(kVtkTriangle) ? kVtkTriangle : kVtkTetra;
-}
-
-/// @brief A complete file ends with its root element, also when its data are raw bytes.
-void require_complete(std::string_view file)
-{
-  const std::size_t last = file.find_last_not_of(" \t\r\n");
-  require(last != std::string_view::npos && file.substr(0, last + 1).ends_with("</VTKFile>"),
-          "it is cut off, or no VTK XML file");
 }
 
 [[nodiscard]] MeshArrays read_document(std::string_view file)

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/morton_order.hpp"
 
 #include "optimize/input_check.hpp"
 #include "optimize/neighbours.hpp"
-#include "optimize/space_curve.hpp"
 #include "optimize/tet_energy.hpp"
 
 namespace tessera::optimize {
@@ -46,11 +46,34 @@ std::vector<LocalIndex> inverse_of(const std::vector<LocalIndex>& order)
   return inverse;
 }
 
+// Tets in the order of their lowest vertex; equal ones by tet. It needs no curve of its own, since
+// vertices lie along one.
+std::vector<LocalIndex> order_by_lowest_vertex(const std::vector<LocalIndex>& tet_vertices,
+                                               LocalIndex num_vertices)
+{
+  const std::size_t num_tets = tet_vertices.size() / 4;
+  const auto lowest = [&](std::size_t t) {
+    const LocalIndex* v = &tet_vertices[4 * t];
+    return at(std::min({v[0], v[1], v[2], v[3]}));
+  };
+  std::vector<LocalIndex> next(at(num_vertices) + 1, 0);
+  for (std::size_t t = 0; t < num_tets; ++t) ++next[lowest(t) + 1];
+  for (std::size_t v = 0; v < at(num_vertices); ++v) next[v + 1] += next[v];
+  std::vector<LocalIndex> order(num_tets);
+  for (std::size_t t = 0; t < num_tets; ++t) {
+    order[at(next[lowest(t)]++)] = static_cast<LocalIndex>(t);
+  }
+  return order;
+}
+
 // Copies points in a new order; returns where each vertex of the caller is now.
 std::vector<LocalIndex> order_points(const TetMesh& input, WorkingMesh& mesh)
 {
   const std::vector<Point> points = scaled_points(input.vertex_xyz, mesh.scale);
-  mesh.vertex_origin = morton_order(points);
+  // Neighbours in space are near in memory then: a tenth of the time of all passes.
+  constexpr std::size_t kWidth = sizeof(Point) / sizeof(double);
+  const auto* values = reinterpret_cast<const double*>(points.data());
+  mesh.vertex_origin = morton_order(std::span(values, kWidth * points.size()), kWidth);
   mesh.points.reserve(points.size());
   for (const LocalIndex v : mesh.vertex_origin) mesh.points.push_back(points[at(v)]);
   return inverse_of(mesh.vertex_origin);

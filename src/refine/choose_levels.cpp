@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <utility>
 
 #include "tessera/mesh/tet_edges.hpp"
@@ -14,11 +13,12 @@
 namespace tessera::refine {
 namespace {
 
-// Levels that reach so many parts, give or take the square root of two.
+constexpr double kLongestPart = 1.35;  // In wanted lengths, of an edge that is split straight.
+
 std::int8_t level_for(double num_wanted, int most)
 {
   int level = 0;
-  while (level < most && std::ldexp(std::numbers::sqrt2, level) < num_wanted) ++level;
+  while (level < most && std::ldexp(kLongestPart, level) < num_wanted) ++level;
   return static_cast<std::int8_t>(level);
 }
 

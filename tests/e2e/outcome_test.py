@@ -101,6 +101,13 @@ class WrongCase(OutcomeTest):
         case = self.write_case(subdomains=100000)
         self.assert_refuses_case(case, WRONG_INPUT, "/ball.geo: decompose.subdomains is 100000", "tets", "fewer")
 
+    def test_sizes_that_differ_are_not_ignored(self):
+        case = self.write_case()
+        text = case.read_text()
+        for lines in ("[size]\nmax = 1\n", "[[size.region]]\npatch = '*'\nsize = 0.1\n"):
+            case.write_text(text + lines)
+            self.assert_refuses_case(case, WRONG_INPUT, "size.max", "size.region", "no effect")
+
     def test_region_of_an_unknown_material(self):
         case = self.write_case()
         region = "[[fill.region]]\nmaterial = 'steel'\nkernel = 'subdivide'\n"

@@ -14,6 +14,7 @@
 #include "tessera/io/options.hpp"
 #include "tessera/quality/options.hpp"
 #include "tessera/refine/options.hpp"
+#include "tessera/sizing/options.hpp"
 
 namespace tessera::config {
 
@@ -25,22 +26,14 @@ struct GeometryOptions {
   friend bool operator==(const GeometryOptions&, const GeometryOptions&) = default;
 };
 
-/// @brief How fine; table `[size]` of a case file.
-struct SizeOptions {
-  /// Wanted edge length, output length unit, > 0; 0: not given, then coarse.max_size and
-  /// refine.levels say it.
-  double target = 0.0;
-
-  friend bool operator==(const SizeOptions&, const SizeOptions&) = default;
-};
-
 /// @brief Everything a run is told: the options of every stage. What a value may be, its unit and
 /// the reason for its default stand in configs/reference.toml.
 ///
 /// A loaded case has a model file, and either size.target or coarse.max_size (the other one is 0).
+/// Its model and size field, if it has one, have absolute paths.
 struct Case {
   GeometryOptions geometry{};
-  SizeOptions size{};
+  sizing::SizeOptions size{};
   coarse::CoarseOptions coarse{};
   decompose::DecomposeOptions decompose{};
   refine::RefineOptions refine{};
@@ -63,7 +56,7 @@ struct Case {
 
 /// @brief load_case() on the text of a case file. Local.
 /// @param[in] file Where the text would stand as a file. It names the input in messages and the
-/// output folder; `geometry.file` is relative to its folder.
+/// output folder; `geometry.file` and `size.field` are relative to its folder.
 [[nodiscard]] Case parse_case(std::string_view text, const std::filesystem::path& file,
                               std::span<const std::string> overrides = {});
 

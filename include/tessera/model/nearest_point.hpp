@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <memory>
 #include <span>
 #include <vector>
@@ -11,10 +12,10 @@
 
 namespace tessera::model {
 
-/// @brief The nearest point of a set of triangles or segments.
+/// @brief The nearest point of a set of triangles, segments or tets.
 struct NearestPoint {
   Vec3 xyz{};
-  LocalIndex part = kNoIndex;  ///< Number of the triangle or segment, in the order given.
+  LocalIndex part = kNoIndex;  ///< Number of the triangle, segment or tet, in the order given.
   double squared_distance = 0.0;
 };
 
@@ -24,7 +25,14 @@ struct NearestPoint {
                                     const Vec3& point) noexcept;
 [[nodiscard]] Vec3 nearest_point_of(const std::array<Vec3, 2>& segment, const Vec3& point) noexcept;
 
-/// @brief Search for the nearest point of many triangles or segments (`Part`: array of corners).
+/// @brief Nearest point of a tet, of either orientation or flat: the point itself if it is inside.
+[[nodiscard]] Vec3 nearest_point_of(const std::array<Vec3, 4>& tet, const Vec3& point) noexcept;
+
+template <class Part>
+concept IsTet = std::same_as<Part, std::array<Vec3, 4>>;
+
+/// @brief Search for the nearest point of many triangles, segments or tets (`Part`: array of
+/// corners).
 ///
 /// A pure function of its argument: of equally near parts, the lowest number wins. That rule needs
 /// control over the walk, and exact distances. Of the libraries at hand, Boost's R-tree orders by
@@ -54,6 +62,8 @@ class NearestPointSearch {
   LocalIndex build(std::span<const Part> parts, LocalIndex first, LocalIndex last);
   [[nodiscard]] Box padded_box(std::span<const Part> parts, LocalIndex first,
                                LocalIndex last) const;
+  /// The lowest tet that holds the point, or kNoIndex.
+  [[nodiscard]] LocalIndex lowest_holding(const Vec3& point) const requires IsTet<Part>;
   void look_into_leaf(const Node& leaf, const Vec3& point, NearestPoint& best) const;
   static double squared_distance(const Box& box, const Vec3& point) noexcept;
 
@@ -65,7 +75,9 @@ class NearestPointSearch {
 
 using TriangleSearch = NearestPointSearch<std::array<Vec3, 3>>;
 using SegmentSearch = NearestPointSearch<std::array<Vec3, 2>>;
+using TetSearch = NearestPointSearch<std::array<Vec3, 4>>;
 extern template class NearestPointSearch<std::array<Vec3, 3>>;
 extern template class NearestPointSearch<std::array<Vec3, 2>>;
+extern template class NearestPointSearch<std::array<Vec3, 4>>;
 
 }  // namespace tessera::model

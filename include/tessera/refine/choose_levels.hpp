@@ -16,8 +16,9 @@ namespace tessera::refine {
 /// @brief A level for each coarse edge: the smallest that makes its parts as short as wanted. Then
 /// edges are raised until in every tet levels differ by one at most.
 ///
-/// 2^l parts are enough for `num_wanted` if that is 2^l sqrt(2) or less: between half and twice as
-/// many the rounding is fair, and the median comes out at the wanted length.
+/// 2^l parts are enough for `num_wanted` if that is 1.35 * 2^l or less. Between 1.2 and sqrt(2) the
+/// number of tets at equal size is the same. With sqrt(2) the median edge of screw.step and
+/// linkrods.step is 1.09 and 1.01 of the wanted one, and the 99th percentile 1.86 and 1.74.
 /// @param[in] edges coarse_edges().
 /// @param[in] num_wanted Shape (num_edges). How many wanted lengths each edge is long: the integral
 /// of ds / h along it.

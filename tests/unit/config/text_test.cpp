@@ -36,15 +36,6 @@ TEST(Text, Utf8IsToldFromOtherBytes)
   }
 }
 
-TEST(Text, EditDistanceCountsInsertionsDeletionsAndReplacements)
-{
-  EXPECT_EQ(edit_distance("", "abc"), 3U);
-  EXPECT_EQ(edit_distance("max_size", "max_size"), 0U);
-  EXPECT_EQ(edit_distance("max_sise", "max_size"), 1U);
-  EXPECT_EQ(edit_distance("maxsize", "max_size"), 1U);
-  EXPECT_EQ(edit_distance("level", "levels"), edit_distance("levels", "level"));
-}
-
 TEST(Text, TrimmedLosesBlanksAtBothEndsOnly)
 {
   EXPECT_EQ(trimmed(" \t a b \r\n"), "a b");

@@ -58,8 +58,8 @@ TEST_F(SamplesOfCube, ArePositiveAndInside)
   }
 }
 
-// One size everywhere in the coarse mesh: the samples have it too, halved with every level.
-TEST_F(SamplesOfCube, HalveWithEveryLevel)
+// One size everywhere: the samples have it too, and there are more of them with every level.
+TEST_F(SamplesOfCube, HaveTheSizeOfTheVertices)
 {
   const std::vector<double> size(static_cast<std::size_t>(cube.num_vertices()), 0.75);
   std::size_t fewer = 0;
@@ -68,7 +68,7 @@ TEST_F(SamplesOfCube, HalveWithEveryLevel)
     add_size_samples(cube, tets[0], size, levels, input);
     EXPECT_GT(input.size_h.size(), fewer);
     fewer = input.size_h.size();
-    for (const double h : input.size_h) EXPECT_NEAR(h, std::ldexp(0.75, -levels), 1e-15);
+    for (const double h : input.size_h) EXPECT_NEAR(h, 0.75, 1e-15);
   }
 }
 
@@ -83,7 +83,7 @@ TEST_F(SamplesOfCube, InterpolateBetweenVertices)
   ASSERT_FALSE(input.size_h.empty());
   for (std::size_t i = 0; i < input.size_h.size(); ++i) {
     const Vec3 p = point_at(std::span<const double>(input.size_xyz), i);
-    EXPECT_NEAR(input.size_h[i], 0.25 * linear(p), 1e-15);
+    EXPECT_NEAR(input.size_h[i], linear(p), 1e-15);
   }
 }
 

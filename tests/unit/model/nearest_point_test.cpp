@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/model/nearest_point.hpp"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <random>
@@ -83,6 +84,52 @@ TEST(NearestPoint, OfATriangleIsItselfForAPointOnIt)
   for (const Vec3& corner : triangle) EXPECT_EQ(nearest_point_of(triangle, corner), corner);
   const Vec3 inside = (1.0 / 3.0) * (triangle[0] + triangle[1] + triangle[2]);
   EXPECT_LE(norm(nearest_point_of(triangle, inside) - inside), 1e-15);
+}
+
+using Tet = std::array<Vec3, 4>;
+
+TEST(NearestPoint, OfATetIsThePointItselfInsideAndElseThatOfItsNearestSide)
+{
+  // Both orientations, and a flat one.
+  for (const Tet& tet : {Tet{{{0, 0, 0}, {2, 0, 0}, {0.5, 1, 0.25}, {0.3, 0.2, 1.5}}},
+                         Tet{{{2, 0, 0}, {0, 0, 0}, {0.5, 1, 0.25}, {0.3, 0.2, 1.5}}},
+                         Tet{{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}}}}) {
+    const double volume = tet_volume(tet[0], tet[1], tet[2], tet[3]);
+    int num_inside = 0;
+    for (const Vec3& p : random_points(2000, 2.0)) {
+      double nearest_side = std::numeric_limits<double>::infinity();
+      bool is_inside = volume != 0.0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        Tet replaced = tet;
+        replaced[i] = p;
+        const double part = tet_volume(replaced[0], replaced[1], replaced[2], replaced[3]);
+        is_inside = is_inside && part * volume >= 0.0;
+        const Triangle side{tet[(i + 1) % 4], tet[(i + 2) % 4], tet[(i + 3) % 4]};
+        nearest_side = std::min(nearest_side, norm(nearest_point_of(side, p) - p));
+      }
+      num_inside += is_inside ? 1 : 0;
+      const Vec3 nearest = nearest_point_of(tet, p);
+      if (is_inside) {
+        EXPECT_EQ(nearest, p);
+      } else {
+        EXPECT_NEAR(norm(nearest - p), nearest_side, 1e-14);
+      }
+    }
+    EXPECT_EQ(num_inside > 0, volume != 0.0);
+  }
+}
+
+TEST(NearestPoint, SearchOfTetsFindsTheLowestThatHoldsThePoint)
+{
+  std::vector<Tet> tets;  // Twelve that overlap, each of them twice.
+  for (int copy = 0; copy < 2; ++copy) {
+    for (int i = 0; i < 12; ++i) {
+      const Vec3 corner{-1.0 + 0.2 * i, -0.5, -0.5};
+      tets.push_back(
+          {corner, corner + Vec3{1, 0, 0}, corner + Vec3{0, 1, 0.1}, corner + Vec3{0.3, 0.3, 1}});
+    }
+  }
+  expect_same_as_looking_at_all(tets, random_points(2000, 1.5));
 }
 
 TEST(NearestPoint, SearchOfASphereFindsWhatLookingAtAllTrianglesFinds)

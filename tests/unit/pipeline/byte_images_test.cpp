@@ -26,6 +26,8 @@ namespace tessera {
 
 namespace mesh {
 
+static void set_sample(EdgeLevels& levels) { levels = EdgeLevels({0, 1, 0, 2, 1, 2}, {3, 2, 3}); }
+
 static void set_sample(ProjectionLimiter& limiter)
 {
   limiter = ProjectionLimiter(
@@ -75,7 +77,7 @@ class ByteImage : public ::testing::Test {
 using Types = ::testing::Types<
     // The library's.
     Hash128, model::ImportOptions, model::ModelSource, model::TriangleSurface, mesh::Piece,
-    mesh::CoarseMesh, mesh::Decomposition, mesh::LatticePointKey, mesh::PointLimit,
+    mesh::CoarseMesh, mesh::Decomposition, mesh::EdgeLevels, mesh::LatticePointKey, mesh::PointLimit,
     mesh::ProjectionLimiter, improve::Band, improve::PiecePart, improve::PieceUpdate,
     improve::ImproveOptions, subdomain::RegionRecord, subdomain::PieceSummary,
     subdomain::FillResult, subdomain::FailedTries, verify::SeamHash, quality::TetStatistics,

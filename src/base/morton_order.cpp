@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "optimize/space_curve.hpp"
+#include "tessera/base/morton_order.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-namespace tessera::optimize {
+namespace tessera {
 namespace {
 
 constexpr int kBitsAnAxis = 10;
@@ -22,31 +22,50 @@ std::uint64_t spread_bits(std::uint64_t x)
   return x;
 }
 
+using Xyz = std::array<double, 3>;
+
 struct Box {
-  std::array<double, 3> low{};
+  Xyz low{};
   double cells_a_unit = 0.0;
 
-  [[nodiscard]] std::uint64_t code(const Point& p) const
+  [[nodiscard]] std::uint64_t code(const Xyz& xyz) const
   {
-    return spread_bits(cell(p.x, 0)) | (spread_bits(cell(p.y, 1)) << 1)
-           | (spread_bits(cell(p.z, 2)) << 2);
+    return spread_bits(cell(xyz, 0)) | (spread_bits(cell(xyz, 1)) << 1)
+           | (spread_bits(cell(xyz, 2)) << 2);
   }
 
  private:
-  [[nodiscard]] std::uint64_t cell(double value, std::size_t axis) const
+  [[nodiscard]] std::uint64_t cell(const Xyz& xyz, std::size_t axis) const
   {
-    const double place = (value - low[axis]) * cells_a_unit;
+    const double place = (xyz[axis] - low[axis]) * cells_a_unit;
     return place > 0.0 ? std::min(static_cast<std::uint64_t>(place), kLastCell) : 0;
   }
 };
 
+// The first three numbers of each row.
+class Rows {
+ public:
+  Rows(std::span<const double> values, std::size_t width) : values_(values), width_(width) {}
+
+  [[nodiscard]] std::size_t size() const { return values_.size() / width_; }
+  [[nodiscard]] Xyz operator[](std::size_t row) const
+  {
+    const double* at = &values_[width_ * row];
+    return {at[0], at[1], at[2]};
+  }
+
+ private:
+  std::span<const double> values_;
+  std::size_t width_;
+};
+
 // @pre points are finite, and so are their differences.
-Box box_around(const std::vector<Point>& points)
+Box box_around(const Rows& points)
 {
-  std::array<double, 3> low{points[0].x, points[0].y, points[0].z};
-  std::array<double, 3> high = low;
-  for (const Point& p : points) {
-    const std::array<double, 3> xyz{p.x, p.y, p.z};
+  Xyz low = points[0];
+  Xyz high = low;
+  for (std::size_t row = 0; row < points.size(); ++row) {
+    const Xyz xyz = points[row];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], xyz[axis]);
       high[axis] = std::max(high[axis], xyz[axis]);
@@ -71,9 +90,10 @@ void radix_sort(std::vector<std::uint64_t>& keys)
 
 }  // namespace
 
-std::vector<LocalIndex> morton_order(const std::vector<Point>& points)
+std::vector<LocalIndex> morton_order(std::span<const double> values, std::size_t width)
 {
-  if (points.empty()) return {};
+  const Rows points(values, width);
+  if (points.size() == 0) return {};
   const Box box = box_around(points);
   std::vector<std::uint64_t> keys(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) keys[i] = (box.code(points[i]) << 32) | i;
@@ -85,22 +105,4 @@ std::vector<LocalIndex> morton_order(const std::vector<Point>& points)
   return order;
 }
 
-std::vector<LocalIndex> order_by_lowest_vertex(const std::vector<LocalIndex>& tet_vertices,
-                                               LocalIndex num_vertices)
-{
-  const std::size_t num_tets = tet_vertices.size() / 4;
-  const auto lowest = [&](std::size_t t) {
-    const LocalIndex* v = &tet_vertices[4 * t];
-    return at(std::min({v[0], v[1], v[2], v[3]}));
-  };
-  std::vector<LocalIndex> next(at(num_vertices) + 1, 0);
-  for (std::size_t t = 0; t < num_tets; ++t) ++next[lowest(t) + 1];
-  for (std::size_t v = 0; v < at(num_vertices); ++v) next[v + 1] += next[v];
-  std::vector<LocalIndex> order(num_tets);
-  for (std::size_t t = 0; t < num_tets; ++t) {
-    order[at(next[lowest(t)]++)] = static_cast<LocalIndex>(t);
-  }
-  return order;
-}
-
-}  // namespace tessera::optimize
+}  // namespace tessera

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/name_patterns.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include "tessera/base/edit_distance.hpp"
+#include "tessera/base/error.hpp"
+
+namespace tessera::sizing {
+namespace {
+
+std::string nearest_first(const std::string& pattern, std::span<const std::string> names)
+{
+  constexpr std::size_t kMost = 12;
+  std::vector<std::string> sorted(names.begin(), names.end());
+  std::ranges::sort(sorted);
+  const auto repeated = std::ranges::unique(sorted);
+  sorted.erase(repeated.begin(), repeated.end());
+  std::ranges::stable_sort(sorted, {},
+                           [&](const std::string& name) { return edit_distance(pattern, name); });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(sorted.size(), kMost); ++i) {
+    text += fmt::format("{}\"{}\"", i == 0 ? "" : ", ", sorted[i]);
+  }
+  if (sorted.size() > kMost) text += fmt::format(" and {} more", sorted.size() - kMost);
+  return text;
+}
+
+}  // namespace
+
+std::vector<bool> matching_names(std::string_view kind, const std::string& pattern,
+                                 std::span<const std::string> names)
+{
+  std::vector<bool> matches;
+  for (const std::string& name : names) {
+    matches.push_back(name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0);
+  }
+  if (std::ranges::find(matches, true) != matches.end()) return matches;
+  throw ConfigError(fmt::format("{} = \"{}\": the model has no such {}; it has {}", kind, pattern,
+                                kind, nearest_first(pattern, names)));
+}
+
+}  // namespace tessera::sizing

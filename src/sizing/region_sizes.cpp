@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/region_sizes.hpp"
+
+#include <array>
+#include <vector>
+
+#include "tessera/base/error.hpp"
+
+#include "sizing/name_patterns.hpp"
+#include "sizing/solids.hpp"
+
+namespace tessera::sizing {
+namespace {
+
+// Corners of those rows of an index array whose label matches, and the box around them.
+template <std::size_t N>
+struct Selected {
+  std::vector<std::array<Vec3, N>> parts{};
+  Bounds bounds{};
+
+  void add(const mesh::CoarseMesh& coarse, std::span<const LocalIndex> vertices)
+  {
+    std::array<Vec3, N>& part = parts.emplace_back();
+    for (std::size_t i = 0; i < N; ++i) {
+      part[i] = coarse.position(vertices[i]);
+      bounds.include(part[i]);
+    }
+  }
+};
+
+Bounds bounds_of(const mesh::CoarseMesh& coarse)
+{
+  Bounds bounds;
+  for (LocalIndex v = 0; v < coarse.num_vertices(); ++v) bounds.include(coarse.position(v));
+  return bounds;
+}
+
+template <class Solid>
+double distance_to(const Solid& solid, const Vec3& point)
+{
+  return norm(point - nearest_point(solid, point));
+}
+
+}  // namespace
+
+template <class Solid>
+RegionSizes::Where RegionSizes::find(const Solid& solid, const mesh::CoarseMesh& coarse)
+{
+  if (meets(solid, coarse)) return solid;
+  throw ConfigError(
+      fmt::format("it meets nothing of the model, whose box is {}; move the region or leave it out "
+                  "(lengths are output units, so geometry.scale counts)",
+                  to_text(bounds_of(coarse))));
+}
+
+RegionSizes::Where RegionSizes::find(const PatchPattern& patch, const mesh::CoarseMesh& coarse)
+{
+  const std::vector<bool> matches = matching_names("patch", patch.pattern, coarse.patch_names);
+  Selected<3> selected;
+  for (LocalIndex f = 0; f < coarse.num_faces(); ++f) {
+    if (!matches[at(coarse.face_patch[at(f)])]) continue;
+    selected.add(coarse, std::span(coarse.face_vertices).subspan(3 * at(f), 3));
+  }
+  if (selected.parts.empty()) {
+    throw ConfigError(fmt::format(
+        "patch = \"{}\": the coarse mesh has no triangle on it; leave it out", patch.pattern));
+  }
+  return Triangles{model::TriangleSearch(selected.parts), selected.bounds};
+}
+
+RegionSizes::Where RegionSizes::find(const MaterialPattern& material,
+                                     const mesh::CoarseMesh& coarse)
+{
+  const std::vector<bool> matches =
+      matching_names("material", material.pattern, coarse.material_names);
+  Selected<4> selected;
+  for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
+    if (matches[at(coarse.tet_material[at(t)] - 1)]) selected.add(coarse, coarse.tet(t));
+  }
+  if (selected.parts.empty()) {
+    throw ConfigError(fmt::format(
+        "material = \"{}\": the coarse mesh has no tet of it; leave it out", material.pattern));
+  }
+  return Tets{model::TetSearch(selected.parts), selected.bounds};
+}
+
+RegionSizes::RegionSizes(const SizeRegion& region, double grading, const mesh::CoarseMesh& coarse)
+    : size_(region.size),
+      growth_(region.growth > 0.0 ? region.growth : grading),
+      where_(std::visit([&](const auto& shape) { return find(shape, coarse); }, region.shape))
+{
+}
+
+void RegionSizes::lower(std::span<const double> xyz, std::span<double> sizes) const
+{
+  const auto size_at = [this](double distance) { return size_ + growth_ * distance; };
+  const auto visit_where = [&]<class Place>(const Place& place) {
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      const Vec3 point = point_at(xyz, i);
+      if constexpr (std::is_same_v<Place, Triangles> || std::is_same_v<Place, Tets>) {
+        if (size_at(place.bounds.distance(point)) >= sizes[i]) continue;  // Spares the search.
+        const double squared = place.search.nearest(point).squared_distance;
+        sizes[i] = std::min(sizes[i], size_at(std::sqrt(squared)));
+      } else {
+        sizes[i] = std::min(sizes[i], size_at(distance_to(place, point)));
+      }
+    }
+  };
+  std::visit(visit_where, where_);
+}
+
+}  // namespace tessera::sizing
