@@ -83,13 +83,22 @@ void EdgeLevels::require_sound() const
   if (edge_vertices_.size() != 2 * levels_.size()) {
     throw InputError("levels of edges: arrays of different lengths");
   }
-  for (std::size_t row = 1; row < levels_.size(); ++row) {
-    if (row_of(edge_vertices_, row - 1) < row_of(edge_vertices_, row)) continue;
-    throw InputError("levels of edges: edges do not ascend");
+  Edge before{-1, -1};
+  for (std::size_t row = 0; row < levels_.size(); ++row) {
+    const Edge edge = row_of(edge_vertices_, row);
+    if (edge[0] < 0 || edge[0] >= edge[1] || edge <= before) {
+      throw InputError("levels of edges: edges do not ascend");
+    }
+    before = edge;
   }
   const auto is_level = [](int level) { return 0 <= level && level <= lattice::kMaxLevels; };
   if (!is_level(largest_) || !std::ranges::all_of(levels_, is_level)) {
     throw InputError("levels of edges: no such level");
+  }
+  if (levels_.empty()) return;
+  const auto [least, most] = std::ranges::minmax(levels_);
+  if (most != largest_ || least == most) {
+    throw InputError("levels of edges: the largest is another");
   }
 }
 

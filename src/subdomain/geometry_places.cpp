@@ -79,11 +79,9 @@ mesh::LatticeLevels same_levels(const mesh::Complex& complex, int levels)
 // Fills the lattice of a complex, edges before triangles.
 class MidpointLattice {
  public:
-  MidpointLattice(const mesh::Complex& complex, const GeometryPlaces& places,
-                  const mesh::RefinedLattice& geometry, int levels)
+  MidpointLattice(const mesh::Complex& complex, const KnownPoints& known, int levels)
       : complex_(complex),
-        places_(places),
-        geometry_(geometry),
+        known_(known),
         n_(lattice::intervals(levels)),
         result_(same_levels(complex, levels))
   {
@@ -97,9 +95,18 @@ class MidpointLattice {
   }
 
  private:
-  [[nodiscard]] bool is_known(const GeometryPlace& place) const
+  // Whether a point of a simplex in this place is not its own midpoint.
+  [[nodiscard]] bool is_known(const GeometryPlace& place, LocalIndex i, LocalIndex j) const
   {
-    return place.is_on_geometry() && place.triangle < places_.num_known;
+    if (!place.is_on_geometry() || place.triangle >= known_.places.num_known) return false;
+    const LocalIndex triangle = known_.places.triangles[at(place.triangle)];
+    const LocalIndex n = known_.lattice.triangle_intervals(place.triangle);
+    return known_.limiter.factor(key_of(known_.skeleton, triangle, n, place.point(n_, i, j))) > 0.0;
+  }
+
+  [[nodiscard]] Vec3 known_point(const GeometryPlace& place, LocalIndex i, LocalIndex j) const
+  {
+    return known_.lattice.triangle_point(place.triangle, place.point(n_, i, j));
   }
 
   void fill_edge(LocalIndex e, const std::vector<double>& vertex_xyz)
@@ -109,14 +116,13 @@ class MidpointLattice {
           e, end * n_,
           point_at(std::span(vertex_xyz), complex_.edge_vertices[2 * at(e) + at(end)]));
     }
-    const GeometryPlace& place = places_.edges[at(e)];
+    const GeometryPlace& place = known_.places.edges[at(e)];
     for (LocalIndex step = n_ / 2; step >= 1; step /= 2) {
       for (LocalIndex k = step; k < n_; k += 2 * step) {
-        result_.place_edge_point(
-            e, k,
-            is_known(place)
-                ? geometry_.triangle_point(place.triangle, place.point(n_, k, 0))
-                : midpoint(result_.edge_point(e, k - step), result_.edge_point(e, k + step)));
+        result_.place_edge_point(e, k,
+                                 is_known(place, k, 0) ? known_point(place, k, 0)
+                                                       : midpoint(result_.edge_point(e, k - step),
+                                                                  result_.edge_point(e, k + step)));
       }
     }
   }
@@ -141,10 +147,9 @@ class MidpointLattice {
 
   void fill_inner_point(LocalIndex t, const TrianglePoint& p, LocalIndex step)
   {
-    const GeometryPlace& place = places_.of_triangles[at(t)];
-    if (is_known(place)) {
-      result_.place_triangle_point(
-          t, p, geometry_.triangle_point(place.triangle, place.point(n_, p.i, p.j)));
+    const GeometryPlace& place = known_.places.of_triangles[at(t)];
+    if (is_known(place, p.i, p.j)) {
+      result_.place_triangle_point(t, p, known_point(place, p.i, p.j));
       return;
     }
     const auto [a, b] = lattice::parents(p, step);
@@ -153,8 +158,7 @@ class MidpointLattice {
   }
 
   const mesh::Complex& complex_;
-  const GeometryPlaces& places_;
-  const mesh::RefinedLattice& geometry_;
+  const KnownPoints& known_;
   LocalIndex n_;
   mesh::RefinedLattice result_;
 };
@@ -271,10 +275,9 @@ GeometryPlaces GeometryFinder::find(const mesh::Complex& complex,
 
 mesh::RefinedLattice midpoint_lattice(const mesh::Complex& complex,
                                       const std::vector<double>& vertex_xyz,
-                                      const GeometryPlaces& places,
-                                      const mesh::RefinedLattice& geometry, int levels)
+                                      const KnownPoints& known, int levels)
 {
-  return MidpointLattice(complex, places, geometry, levels).run(vertex_xyz);
+  return MidpointLattice(complex, known, levels).run(vertex_xyz);
 }
 
 mesh::LatticePointKey key_of(const mesh::Skeleton& skeleton, LocalIndex triangle, LocalIndex n,

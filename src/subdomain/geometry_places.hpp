@@ -69,15 +69,22 @@ class GeometryFinder {
   IndexLists triangles_of_host_;  // On the geometry only; by host of the skeleton.
 };
 
+// Points that are known before a complex is refined. All borrowed.
+struct KnownPoints {
+  const GeometryPlaces& places;
+  const mesh::RefinedLattice& lattice;  // Of the known triangles.
+  const mesh::Skeleton& skeleton;
+  const mesh::ProjectionLimiter& limiter;
+};
+
 // The lattice of a complex whose edges and triangles in known places have their points already; all
-// others are midpoints, level by level.
+// others are midpoints, level by level. So are points that are held back altogether: on an edge
+// that cuts a triangle of the skeleton, the middle of that edge is not where the skeleton's lattice
+// has it, and a tet is only sure to have positive children if its own midpoints are taken.
 // @param[in] vertex_xyz Of the vertices of the complex, shape (num_vertices, 3).
-// @param[in] geometry The lattice of the known triangles.
 [[nodiscard]] mesh::RefinedLattice midpoint_lattice(const mesh::Complex& complex,
                                                     const std::vector<double>& vertex_xyz,
-                                                    const GeometryPlaces& places,
-                                                    const mesh::RefinedLattice& geometry,
-                                                    int levels);
+                                                    const KnownPoints& known, int levels);
 
 // Name of a lattice point of a skeleton triangle that is no corner. @param[in] n Its intervals.
 [[nodiscard]] mesh::LatticePointKey key_of(const mesh::Skeleton& skeleton, LocalIndex triangle,

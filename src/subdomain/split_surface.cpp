@@ -32,7 +32,8 @@ mesh::RefinedLattice SplitSurface::points(const refine::RefineContext& refine) c
 {
   const mesh::RefinedLattice known = lattice_of_known_places(refine);
   mesh::RefinedLattice points =
-      midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz, places_, known, splits_);
+      midpoint_lattice(all_.complex.faces, all_.mesh.vertex_xyz,
+                       {places_, known, cut_.skeleton, refine.limiter}, splits_);
   points.distance = known.distance;
   return points;
 }

@@ -14,9 +14,9 @@ Body::Body(mesh::CoarseMesh given, mesh::Decomposition cut)
 {
 }
 
-RefinedComplex refine_skin(const Body& body, const model::Model& model, int levels,
-                           LocalIndex subdomain, const mesh::ProjectionLimiter& limiter,
-                           bool measure_distance)
+RefinedComplex refine_skin(const Body& body, const model::Model& model,
+                           const mesh::EdgeLevels& levels, LocalIndex subdomain,
+                           const mesh::ProjectionLimiter& limiter, bool measure_distance)
 {
   RefinedComplex refined{mesh::skin_complex(body.skeleton, subdomain), {}};
   refined.lattice = refine::refine_lattice(
@@ -24,8 +24,8 @@ RefinedComplex refine_skin(const Body& body, const model::Model& model, int leve
   return refined;
 }
 
-mesh::Skin skin_of(const Body& body, const model::Model& model, int levels, LocalIndex subdomain,
-                   const mesh::ProjectionLimiter& limiter)
+mesh::Skin skin_of(const Body& body, const model::Model& model, const mesh::EdgeLevels& levels,
+                   LocalIndex subdomain, const mesh::ProjectionLimiter& limiter)
 {
   const RefinedComplex refined = refine_skin(body, model, levels, subdomain, limiter);
   return refine::extract_skin(refined.complex, refined.lattice, body.skeleton, subdomain);

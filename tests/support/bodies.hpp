@@ -9,6 +9,7 @@
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/complex.hpp"
 #include "tessera/mesh/decomposition.hpp"
+#include "tessera/mesh/edge_levels.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skeleton.hpp"
@@ -36,14 +37,15 @@ struct RefinedComplex {
 };
 
 /// @brief Refines the skin of one subdomain.
-[[nodiscard]] RefinedComplex refine_skin(const Body& body, const model::Model& model, int levels,
-                                         LocalIndex subdomain,
+[[nodiscard]] RefinedComplex refine_skin(const Body& body, const model::Model& model,
+                                         const mesh::EdgeLevels& levels, LocalIndex subdomain,
                                          const mesh::ProjectionLimiter& limiter = {},
                                          bool measure_distance = false);
 
 /// @brief The refined skin of one subdomain.
-[[nodiscard]] mesh::Skin skin_of(const Body& body, const model::Model& model, int levels,
-                                 LocalIndex subdomain, const mesh::ProjectionLimiter& limiter = {});
+[[nodiscard]] mesh::Skin skin_of(const Body& body, const model::Model& model,
+                                 const mesh::EdgeLevels& levels, LocalIndex subdomain,
+                                 const mesh::ProjectionLimiter& limiter = {});
 
 /// @brief The bits of a position, for comparisons that a rounding error or a sign of zero fails.
 [[nodiscard]] inline std::array<std::uint64_t, 3> bits(const Vec3& p)

@@ -47,7 +47,8 @@ class EdgeLevels {
   /// @brief Coarse edges by level. Shape (largest() + 1); empty if all are the same.
   [[nodiscard]] std::vector<GlobalIndex> histogram() const;
 
-  /// @throws InputError unless the edges ascend and have levels that there can be.
+  /// @throws InputError unless the edges ascend and have levels that there can be, of which the
+  /// largest is the largest, and not all are the same.
   void require_sound() const;
 
   friend bool operator==(const EdgeLevels&, const EdgeLevels&) = default;

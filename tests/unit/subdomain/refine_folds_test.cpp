@@ -27,7 +27,7 @@ using testing::SplitPiece;
 // smoothing helps. It stands in one octant.
 class BumpyCube {
  public:
-  static constexpr testing::SplitTask kTask{1, 2};
+  static inline const testing::SplitTask kTask{1, 2};
 
   BumpyCube()
       : body(testing::kuhn_cube(2), testing::octants(testing::kuhn_cube(2))),

@@ -83,8 +83,9 @@ struct Way {
 
 std::string name_of(const Way& way)
 {
-  return way.sample + "From" + std::to_string(way.task.from) + "To" + std::to_string(way.task.to)
-         + "Kernel" + std::to_string(static_cast<int>(way.task.kernel))
+  return way.sample + "From" + std::to_string(way.task.from.largest()) + "To"
+         + std::to_string(way.task.to.largest()) + "Kernel"
+         + std::to_string(static_cast<int>(way.task.kernel))
          + (way.exchanges_tets ? "Exchanged" : "");
 }
 
@@ -130,7 +131,7 @@ PatchTriangle patch_triangle(LocalIndex patch, const std::vector<double>& xyz, c
 }
 
 // Those of all skins, as if every subdomain were refined at once; each once.
-std::set<PatchTriangle> triangles_of_skins(const Sample& sample, int levels)
+std::set<PatchTriangle> triangles_of_skins(const Sample& sample, const mesh::EdgeLevels& levels)
 {
   std::set<PatchTriangle> triangles;
   const Body& body = sample.body;
@@ -145,7 +146,7 @@ std::set<PatchTriangle> triangles_of_skins(const Sample& sample, int levels)
   return triangles;
 }
 
-double volume_of_skins(const Sample& sample, int levels)
+double volume_of_skins(const Sample& sample, const mesh::EdgeLevels& levels)
 {
   double volume = 0.0;
   for (LocalIndex s = 0; s < sample.body.num_subdomains(); ++s) {

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "split_pieces.hpp"
 
+#include <utility>
+
+#include <gtest/gtest.h>
+
 #include "tessera/improve/seam_regions.hpp"
 #include "tessera/mesh/skeleton.hpp"
 #include "tessera/netgen/factory.hpp"
 #include "tessera/subdomain/seam_optimizer.hpp"
+#include "tessera/untangle/fold_test.hpp"
 
 #include "support/piece_sets.hpp"
 
@@ -53,19 +58,50 @@ void add_surroundings(const Body& body, const std::vector<FilledPiece>& filled, 
 
 }  // namespace
 
-std::vector<FilledPiece> fill_all(const Body& body, const model::Model& model, int levels,
-                                  fill::KernelKind kernel)
+std::vector<FilledPiece> fill_all(const Body& body, const model::Model& model,
+                                  const mesh::EdgeLevels& levels, fill::KernelKind kernel,
+                                  const mesh::ProjectionLimiter& limiter)
 {
-  const mesh::ProjectionLimiter no_limits;
   const subdomain::PartitionedMesh cut(body.coarse, body.decomposition, levels);
   const auto netgen = netgen::make_fill_kernel();
   std::vector<FilledPiece> filled;
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
     filled.push_back(
-        subdomain::fill_subdomain(cut, {body.coarse, body.skeleton, model, no_limits, levels}, s,
-                                  {.kernel = kernel}, *netgen));
+        subdomain::fill_subdomain(cut, {body.coarse, body.skeleton, model, limiter, levels, true},
+                                  s, {.kernel = kernel}, *netgen));
   }
   return filled;
+}
+
+mesh::ProjectionLimiter lower(const mesh::ProjectionLimiter& limiter,
+                              std::vector<mesh::PointLimit> more)
+{
+  more.insert(more.end(), limiter.entries().begin(), limiter.entries().end());
+  return mesh::ProjectionLimiter(std::move(more));
+}
+
+Plan plan_of(const Body& body, const model::Model& model, const mesh::EdgeLevels& levels)
+{
+  constexpr int kMostRounds = 200;
+  const subdomain::PartitionedMesh cut(body.coarse, body.decomposition, levels);
+  Plan plan;
+  while (plan.num_rounds < kMostRounds) {
+    std::vector<mesh::PointLimit> folds;
+    for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
+      const mesh::TetComplex complex =
+          mesh::tet_complex(body.coarse, body.skeleton,
+                            untangle::tets_on_geometry(body.coarse, cut.tets[s], cut.on_geometry));
+      const auto points = refine::refine_lattice(
+          complex.faces, {body.coarse, body.skeleton, model, plan.limiter, levels});
+      const auto found = untangle::find_folds(complex, body.skeleton, points, plan.limiter);
+      folds.insert(folds.end(), found.begin(), found.end());
+    }
+    if (folds.empty()) return plan;
+    plan.limiter = lower(plan.limiter, std::move(folds));
+    ++plan.num_rounds;
+  }
+  ADD_FAILURE() << "folds after " << kMostRounds << " rounds";
+  return plan;
 }
 
 LocalIndex improve_all(const Body& body, std::vector<FilledPiece>& filled)

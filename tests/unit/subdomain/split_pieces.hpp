@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "tessera/mesh/edge_levels.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
 #include "tessera/subdomain/piece_surface.hpp"
@@ -13,9 +14,23 @@
 namespace tessera::testing {
 
 /// @brief The pieces of a body, filled; one kernel for all.
-[[nodiscard]] std::vector<subdomain::FilledPiece> fill_all(const Body& body,
-                                                           const model::Model& model, int levels,
-                                                           fill::KernelKind kernel);
+[[nodiscard]] std::vector<subdomain::FilledPiece> fill_all(
+    const Body& body, const model::Model& model, const mesh::EdgeLevels& levels,
+    fill::KernelKind kernel, const mesh::ProjectionLimiter& limiter = {});
+
+/// @brief What is held back of a body's points until no child of its tets is folded.
+struct Plan {
+  mesh::ProjectionLimiter limiter{};
+  int num_rounds = 0;  ///< That found folds.
+};
+
+/// @brief The plan stage of the program in one process.
+[[nodiscard]] Plan plan_of(const Body& body, const model::Model& model,
+                           const mesh::EdgeLevels& levels);
+
+/// @brief The limiter with some limits more.
+[[nodiscard]] mesh::ProjectionLimiter lower(const mesh::ProjectionLimiter& limiter,
+                                            std::vector<mesh::PointLimit> more);
 
 /// @brief Lets pieces exchange tets across their seams, in all phases.
 /// @return Number of regions that are better.
@@ -30,12 +45,12 @@ struct SplitPiece {
 
 /// @brief From and to which levels pieces are split.
 struct SplitTask {
-  int from = 0;
-  int to = 0;
+  mesh::EdgeLevels from = 0;
+  mesh::EdgeLevels to = 0;                               ///< Everywhere as many more.
   fill::KernelKind kernel = fill::KernelKind::optimize;  ///< That the body is for; single pieces
                                                          ///< may come from another.
 
-  [[nodiscard]] int splits() const { return to - from; }
+  [[nodiscard]] int splits() const { return to.largest() - from.largest(); }
   [[nodiscard]] LocalIndex intervals() const { return mesh::lattice::intervals(splits()); }
 };
 
