@@ -19,8 +19,8 @@
 namespace tessera::pipeline {
 namespace {
 
-// Length of a coarse edge in wanted ones where nothing else tells, and how many times as long an edge
-// may be. Sizes of 1 to 4 need no other coarse mesh then.
+// Length of a coarse edge in wanted ones where nothing else tells, and how many times as long an
+// edge may be. Sizes of 1 to 4 need no other coarse mesh then.
 constexpr double kUsualLength = 4.0;
 constexpr double kMostTimesLonger = 4.0;
 

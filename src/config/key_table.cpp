@@ -29,8 +29,9 @@ constexpr Key kKeys[] = {
      .rule = RealRule{[](Case& c) -> double& { return c.size.target; }, 0.0, Bound::exclusive,
                       kHuge, Bound::inclusive},
      .unit = "output length unit",
-     .meaning = "Wanted edge length of the mesh: every coarse edge gets as many levels as it needs. "
-                "Chooses coarse.max_size, unless that is given.",
+     .meaning =
+         "Wanted edge length of the mesh: every coarse edge gets as many levels as it needs. "
+         "Chooses coarse.max_size, unless that is given.",
      .reason = "a size suits one model only; give this or coarse.max_size",
      .example = "1.0",
      .is_optional = true},

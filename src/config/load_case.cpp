@@ -221,8 +221,9 @@ void check_required(const Case& loaded, const std::string& where)
     fail(where, "no size; give either size.target or coarse.max_size");
   }
   if (loaded.size.min > 0.0 && !sizing::are_wanted(loaded.size)) {
-    fail(where, "size.min alone says nothing; give size.target, size.max, size.curvature, size.field "
-                "or a [[size.region]] as well");
+    fail(where,
+         "size.min alone says nothing; give size.target, size.max, size.curvature, size.field "
+         "or a [[size.region]] as well");
   }
   if (loaded.size.max > 0.0 && loaded.size.min > loaded.size.max) {
     fail(where, fmt::format("size.min = {} is above size.max = {}; it must not be",

@@ -93,8 +93,8 @@ std::vector<double> lengths_in_radii(const mesh::CoarseMesh& coarse,
     }
   }
   for (std::size_t e = 0; e < curvature.size(); ++e) {
-    curvature[e] *= norm(coarse.position(edge_vertices[2 * e + 1])
-                         - coarse.position(edge_vertices[2 * e]));
+    curvature[e] *=
+        norm(coarse.position(edge_vertices[2 * e + 1]) - coarse.position(edge_vertices[2 * e]));
   }
   return curvature;
 }

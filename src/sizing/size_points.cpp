@@ -40,10 +40,10 @@ void append_children(const Cell& cell, std::vector<Cell>& cells)
     for (std::size_t c = 0; c < 4; ++c) point = point + (0.5 * weights[c]) * cell[c];
     return point;
   };
-  mesh::lattice::for_each_child(2, 1, 0, [&](const auto& a, const auto& b, const auto& c,
-                                             const auto& d) {
-    cells.push_back({at(a), at(b), at(c), at(d)});
-  });
+  mesh::lattice::for_each_child(2, 1, 0,
+                                [&](const auto& a, const auto& b, const auto& c, const auto& d) {
+                                  cells.push_back({at(a), at(b), at(c), at(d)});
+                                });
 }
 
 std::vector<Cell> cells_of(const mesh::CoarseMesh& coarse)
@@ -71,7 +71,7 @@ std::vector<double> sizes_in_the_middle(const std::vector<Cell>& cells, const Si
 }  // namespace
 
 mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const SizeField& sizes,
-                                      double factor)
+                                    double factor)
 {
   mesh::SizePoints points;
   std::vector<Cell> cells = cells_of(coarse);

@@ -19,11 +19,11 @@ namespace tessera::sizing {
 /// @param[in] factor Length of a coarse edge in wanted ones, > 0.
 /// @return Points in tets that are too long, each with the length wanted of coarse edges there.
 /// Local; a pure function of its arguments.
-[[nodiscard]] mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const SizeField& sizes,
-                                            double factor);
+[[nodiscard]] mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse,
+                                                  const SizeField& sizes, double factor);
 
-/// @brief For each edge of a coarse mesh, its length in radii of curvature of the surface beside it;
-/// 0 off the surface, and where that is flat. Local; O(n log n).
+/// @brief For each edge of a coarse mesh, its length in radii of curvature of the surface beside
+/// it; 0 off the surface, and where that is flat. Local; O(n log n).
 ///
 /// The surface turns by the angle between two triangles of one patch over two fifths of their
 /// heights on the common edge. So the radius of a cylinder comes out a fifth too small, that of a

@@ -84,9 +84,9 @@ struct SizeOptions {
   /// Wanted edge length, output length unit, > 0; 0: not given, then coarse.max_size and
   /// refine.levels say it.
   double target = 0.0;
-  double min = 0.0;      ///< No size below this is wanted, output length unit; 0: no bound.
-  double max = 0.0;      ///< No size above this is wanted, output length unit; 0: no bound.
-  double grading = 0.3;  ///< Largest growth of the size per length, in (0, 1].
+  double min = 0.0;        ///< No size below this is wanted, output length unit; 0: no bound.
+  double max = 0.0;        ///< No size above this is wanted, output length unit; 0: no bound.
+  double grading = 0.3;    ///< Largest growth of the size per length, in (0, 1].
   double curvature = 0.0;  ///< Edges per radius of curvature that the surface has at least; 0: as
                            ///< the coarse mesh makes them.
 
