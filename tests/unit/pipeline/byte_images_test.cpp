@@ -77,9 +77,9 @@ class ByteImage : public ::testing::Test {
 using Types = ::testing::Types<
     // The library's.
     Hash128, model::ImportOptions, model::ModelSource, model::TriangleSurface, mesh::Piece,
-    mesh::CoarseMesh, mesh::Decomposition, mesh::EdgeLevels, mesh::LatticePointKey, mesh::PointLimit,
-    mesh::ProjectionLimiter, improve::Band, improve::PiecePart, improve::PieceUpdate,
-    improve::ImproveOptions, subdomain::RegionRecord, subdomain::PieceSummary,
+    mesh::CoarseMesh, mesh::Decomposition, mesh::EdgeLevels, mesh::LatticePointKey,
+    mesh::PointLimit, mesh::ProjectionLimiter, improve::Band, improve::PiecePart,
+    improve::PieceUpdate, improve::ImproveOptions, subdomain::RegionRecord, subdomain::PieceSummary,
     subdomain::FillResult, subdomain::FailedTries, verify::SeamHash, quality::TetStatistics,
     quality::QualityHistograms, fill::FillTry, coarse::CoarseOptions, coarse::VertexDistance,
     decompose::DecomposeReport, decompose::DecomposeResult, number::PieceCounts, mesh::HostPoint,
