@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 #include <set>
 #include <utility>
@@ -51,20 +50,20 @@ int level_for(double num_wanted, int most = 10)
   return levels.largest();
 }
 
-TEST(ChooseLevels, RoundsAtTheSquareRootOfTwo)
+TEST(ChooseLevels, GivesPartsOfAtMost135PercentOfWhatIsWanted)
 {
   constexpr double kMost = std::numeric_limits<double>::max();
   EXPECT_EQ(level_for(0.0), 0);
   EXPECT_EQ(level_for(0.01), 0);
   EXPECT_EQ(level_for(1.0), 0);
   for (int level = 0; level < 10; ++level) {
-    const double limit = std::ldexp(std::numbers::sqrt2, level);
+    const double limit = std::ldexp(1.35, level);
     EXPECT_EQ(level_for(limit), level) << "the limit is enough";
     EXPECT_EQ(level_for(std::nextafter(limit, 0.0)), level);
     EXPECT_EQ(level_for(std::nextafter(limit, kMost)), level + 1);
     EXPECT_EQ(level_for(std::ldexp(1.0, level)), level);
-    EXPECT_EQ(level_for(std::ldexp(1.4, level)), level);
-    EXPECT_EQ(level_for(std::ldexp(1.5, level)), level + 1);
+    EXPECT_EQ(level_for(std::ldexp(1.3, level)), level);
+    EXPECT_EQ(level_for(std::ldexp(1.4, level)), level + 1);
   }
 }
 
