@@ -2,12 +2,14 @@
 #include "pipeline/stages/levels_stage.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/decompose/predicted_fine_tets.hpp"
 #include "tessera/fill/fallbacks.hpp"
 #include "tessera/refine/choose_levels.hpp"
 #include "tessera/sizing/coarse_sizes.hpp"
@@ -64,6 +66,24 @@ mesh::SizePoints points_of_smaller_sizes(const config::Case& resolved,
   return sizing::coarse_size_points(coarse, sizes, usual);
 }
 
+// A split is of all tets. It must not make the mesh much finer than is wanted: then there are fewer
+// splits, and the fills have more levels.
+int splits_of(const config::Case& resolved, const mesh::CoarseMesh& coarse,
+              const mesh::EdgeLevels& wanted)
+{
+  constexpr double kMostMoreTets = 1.1;
+  const auto kernels = fill::kernels_of(resolved.fill, coarse.material_names, coarse.tet_material);
+  int splits = splits_after_fill(resolved.fill, kernels, wanted.largest());
+  if (splits == 0 || wanted.is_uniform()) return splits;
+  const auto num_tets = [&](int least) {
+    const auto of_tets = decompose::predicted_fine_tets(coarse, wanted.raised(least));
+    return std::accumulate(of_tets.begin(), of_tets.end(), 0.0);
+  };
+  const double most = kMostMoreTets * num_tets(0);
+  while (splits > 0 && num_tets(splits) > most) --splits;
+  return splits;
+}
+
 }  // namespace
 
 void choose_levels(RunResult& run, RunContext& context)
@@ -73,9 +93,7 @@ void choose_levels(RunResult& run, RunContext& context)
   const mesh::EdgeLevels wanted = comm::on_root(context.comm, [&] {
     return with_file_context(run.resolved, [&] { return wanted_levels(run.resolved, coarse); });
   });
-  const auto kernels =
-      fill::kernels_of(run.resolved.fill, coarse.material_names, coarse.tet_material);
-  run.splits = splits_after_fill(run.resolved.fill, kernels, wanted.largest());
+  run.splits = splits_of(run.resolved, coarse, wanted);
   run.levels = wanted.raised(run.splits);
   stage.work_is_done();
   stage.finish(run.levels.is_uniform() ? fmt::format("{} for all edges", run.levels.largest())

@@ -153,10 +153,12 @@ constexpr Key kKeys[] = {
     {.name = "fill.levels",
      .rule =
          IntegerRule{[](Case& c) -> int& { return c.fill.levels; }, 1, fill::kAllLevels, "auto"},
-     .meaning = "On how many of the refine.levels subdomains are filled, by \"netgen\" or "
-                "\"optimize\", and seams improved. For the others tets are split into eight and "
-                "smoothed, which is many times as fast. More than refine.levels is all of them. "
-                "\"auto\" leaves two for the split, but fills on two at least.",
+     .meaning =
+         "On how many of the refine.levels subdomains are filled, by \"netgen\" or "
+         "\"optimize\", and seams improved. For the others tets are split into eight and "
+         "smoothed, which is many times as fast. More than refine.levels is all of them. "
+         "\"auto\" leaves two for the split, but fills on two at least. Where edges have levels "
+         "of their own, fewer are left for the split if it would make a tenth more tets.",
      .reason = "all levels: what was filled is what comes out"},
     {.name = "fill.timeout_s",
      .rule = RealRule{[](Case& c) -> double& { return c.fill.timeout_s; }, 0.0, Bound::inclusive,
