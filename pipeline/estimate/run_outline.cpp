@@ -31,6 +31,17 @@ GlobalIndex sum_over(const subdomain::SubdomainRange& range, Count&& count)
   return sum;
 }
 
+// A split makes eight of every tet, of those as well that were cut beside a finer edge.
+void count_split_tets(const subdomain::PartitionedMesh& cut, int splits,
+                      std::vector<number::PieceCounts>& pieces)
+{
+  const auto filled = subdomain::count_subdivided_pieces(cut, cut.levels);
+  for (std::size_t s = 0; s < pieces.size(); ++s) {
+    pieces[s].tets = filled[s].tets << 3 * splits;
+    pieces[s].boundary_triangles = filled[s].boundary_triangles << 2 * splits;
+  }
+}
+
 }  // namespace
 
 bool are_counts_known(const std::vector<fill::KernelKind>& kernels)
@@ -82,6 +93,7 @@ RunOutline outline_run(const subdomain::PartitionedMesh& cut,
                      .kernels = kernels,
                      .pieces = subdomain::count_subdivided_pieces(cut, all),
                      .files = files};
+  if (splits > 0) count_split_tets(cut, splits, outline.pieces);
   outline.is_one_pass = are_counts_known(kernels);
   outline.num_skeleton_vertices =
       mesh::num_skeleton_points(cut.skeleton, mesh::lattice_levels(cut.skeleton, all));

@@ -62,12 +62,21 @@ decompose::DecomposeOptions options_of(const RunResult& run,
   return options;
 }
 
+// Fine tets in place of each coarse one.
+std::vector<double> weights_of(const RunResult& run)
+{
+  std::vector<double> weights =
+      decompose::predicted_fine_tets(run.coarse.mesh, run.levels.shifted(-run.splits));
+  for (double& weight : weights) weight = std::ldexp(weight, 3 * run.splits);
+  return weights;
+}
+
 decompose::DecomposeResult cut(const RunResult& run)
 {
   const mesh::CoarseMesh& coarse = run.coarse.mesh;
   const std::vector<fill::KernelKind> kernels =
       fill::kernels_of(run.resolved.fill, coarse.material_names, coarse.tet_material);
-  const std::vector<double> weights = decompose::predicted_fine_tets(coarse, run.levels);
+  const std::vector<double> weights = weights_of(run);
   const auto partitioner = decompose::make_metis_partitioner();
   decompose::DecomposeResult result =
       decompose::decompose(coarse, options_of(run, kernels, weights), weights, *partitioner);

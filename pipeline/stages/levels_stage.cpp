@@ -2,6 +2,7 @@
 #include "pipeline/stages/levels_stage.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -66,8 +67,8 @@ mesh::SizePoints points_of_smaller_sizes(const config::Case& resolved,
   return sizing::coarse_size_points(coarse, sizes, usual);
 }
 
-// A split is of all tets. It must not make the mesh much finer than is wanted: then there are fewer
-// splits, and the fills have more levels.
+// A split is of all tets, those as well that were cut beside a finer edge. It must not make the
+// mesh much finer than is wanted: then there are fewer splits, and the fills have more levels.
 int splits_of(const config::Case& resolved, const mesh::CoarseMesh& coarse,
               const mesh::EdgeLevels& wanted)
 {
@@ -75,9 +76,10 @@ int splits_of(const config::Case& resolved, const mesh::CoarseMesh& coarse,
   const auto kernels = fill::kernels_of(resolved.fill, coarse.material_names, coarse.tet_material);
   int splits = splits_after_fill(resolved.fill, kernels, wanted.largest());
   if (splits == 0 || wanted.is_uniform()) return splits;
-  const auto num_tets = [&](int least) {
-    const auto of_tets = decompose::predicted_fine_tets(coarse, wanted.raised(least));
-    return std::accumulate(of_tets.begin(), of_tets.end(), 0.0);
+  const auto num_tets = [&](int num_splits) {
+    const auto filled = wanted.raised(num_splits).shifted(-num_splits);
+    const auto of_tets = decompose::predicted_fine_tets(coarse, filled);
+    return std::ldexp(std::accumulate(of_tets.begin(), of_tets.end(), 0.0), 3 * num_splits);
   };
   const double most = kMostMoreTets * num_tets(0);
   while (splits > 0 && num_tets(splits) > most) --splits;
