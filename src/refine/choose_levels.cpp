@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "tessera/mesh/tet_edges.hpp"
@@ -13,7 +15,7 @@
 namespace tessera::refine {
 namespace {
 
-constexpr double kLongestPart = 1.35;  // In wanted lengths, of an edge that is split straight.
+constexpr double kLongestPart = 1.4;  // In wanted lengths, of an edge that is split straight.
 
 std::int8_t level_for(double num_wanted, int most)
 {
@@ -22,48 +24,109 @@ std::int8_t level_for(double num_wanted, int most)
   return static_cast<std::int8_t>(level);
 }
 
-// Row of each edge of each tet. Shape (num_tets, 6).
-std::vector<LocalIndex> edges_of_tets(const mesh::CoarseMesh& coarse,
-                                      const std::vector<LocalIndex>& edges)
-{
-  std::vector<LocalIndex> first_with(at(coarse.num_vertices()) + 1, 0);  // By the lower vertex.
-  for (std::size_t row = 0; 2 * row < edges.size(); ++row) ++first_with[at(edges[2 * row]) + 1];
-  for (std::size_t v = 1; v < first_with.size(); ++v) first_with[v] += first_with[v - 1];
-  const auto row_of = [&](LocalIndex a, LocalIndex b) {
-    LocalIndex row = first_with[at(std::min(a, b))];
-    while (edges[2 * at(row) + 1] != std::max(a, b)) ++row;
+// Finds the rows of edges by their vertices.
+class EdgeRows {
+ public:
+  EdgeRows(const std::vector<LocalIndex>& edges, LocalIndex num_vertices)
+      : edges_(edges), first_with_(at(num_vertices) + 1, 0)
+  {
+    for (std::size_t i = 0; i < edges.size(); i += 2) ++first_with_[at(edges[i]) + 1];
+    std::partial_sum(first_with_.begin(), first_with_.end(), first_with_.begin());
+  }
+
+  [[nodiscard]] LocalIndex row_of(LocalIndex a, LocalIndex b) const
+  {
+    LocalIndex row = first_with_[at(std::min(a, b))];
+    while (edges_[2 * at(row) + 1] != std::max(a, b)) ++row;
     return row;
-  };
+  }
+
+ private:
+  const std::vector<LocalIndex>& edges_;
+  std::vector<LocalIndex> first_with_;  // By the lower vertex.
+};
+
+constexpr std::size_t kEdgesOfTet = mesh::kTetEdgeCorners.size();
+
+// Shape (num_tets, 6).
+std::vector<LocalIndex> edges_of_tets(const mesh::CoarseMesh& coarse, const EdgeRows& edges)
+{
   std::vector<LocalIndex> rows;
-  rows.reserve(mesh::kTetEdgeCorners.size() * at(coarse.num_tets()));
+  rows.reserve(kEdgesOfTet * at(coarse.num_tets()));
   for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
     const auto tet = coarse.tet(t);
-    for (const auto& [a, b] : mesh::kTetEdgeCorners) rows.push_back(row_of(tet[a], tet[b]));
+    for (const auto& [a, b] : mesh::kTetEdgeCorners) rows.push_back(edges.row_of(tet[a], tet[b]));
   }
   return rows;
 }
 
-// Only ever higher, and the least that keeps the rule: so the order of the tets does not matter.
-void raise_beside_higher(const std::vector<LocalIndex>& edges_of_tets,
-                         std::vector<std::int8_t>& levels)
+// Of the triangles on the geometry. Shape (num_faces, 3).
+std::vector<LocalIndex> edges_of_faces(const mesh::CoarseMesh& coarse, const EdgeRows& edges)
 {
-  constexpr std::size_t kEdges = mesh::kTetEdgeCorners.size();
-  for (bool has_changed = true; has_changed;) {
-    has_changed = false;
-    for (std::size_t first = 0; first < edges_of_tets.size(); first += kEdges) {
-      std::int8_t largest = 0;
-      for (std::size_t e = 0; e < kEdges; ++e) {
-        largest = std::max(largest, levels[at(edges_of_tets[first + e])]);
-      }
-      for (std::size_t e = 0; e < kEdges; ++e) {
-        std::int8_t& level = levels[at(edges_of_tets[first + e])];
-        if (level + 1 >= largest) continue;
-        level = static_cast<std::int8_t>(largest - 1);
-        has_changed = true;
+  std::vector<LocalIndex> rows;
+  rows.reserve(3 * at(coarse.num_faces()));
+  for (LocalIndex f = 0; f < coarse.num_faces(); ++f) {
+    const LocalIndex* v = &coarse.face_vertices[3 * at(f)];
+    rows.insert(rows.end(),
+                {edges.row_of(v[0], v[1]), edges.row_of(v[0], v[2]), edges.row_of(v[1], v[2])});
+  }
+  return rows;
+}
+
+// Edges are raised where a rule asks for it, and never lowered. So the order of tets and triangles
+// does not matter.
+class Raiser {
+ public:
+  explicit Raiser(std::vector<std::int8_t>& levels) : levels_(levels) {}
+
+  // In no tet do levels differ by more than one.
+  void even_out(std::span<const LocalIndex> of_tets)
+  {
+    for (bool has_changed = true; has_changed;) {
+      has_changed = false;
+      for (std::size_t first = 0; first < of_tets.size(); first += kEdgesOfTet) {
+        const auto edges = of_tets.subspan(first, kEdgesOfTet);
+        has_changed = raise(edges, largest(edges) - 1) || has_changed;
       }
     }
   }
-}
+
+  // No triangle has two finer sides: its children there would be slender, and no kernel betters the
+  // surface.
+  bool complete(std::span<const LocalIndex> of_faces)
+  {
+    bool has_changed = false;
+    for (std::size_t first = 0; first < of_faces.size(); first += 3) {
+      const auto sides = of_faces.subspan(first, 3);
+      const int most = largest(sides);
+      const auto num_finer =
+          std::ranges::count_if(sides, [&](LocalIndex e) { return levels_[at(e)] == most; });
+      if (num_finer == 2) has_changed = raise(sides, most) || has_changed;
+    }
+    return has_changed;
+  }
+
+ private:
+  [[nodiscard]] int largest(std::span<const LocalIndex> edges) const
+  {
+    int most = 0;
+    for (const LocalIndex e : edges) most = std::max<int>(most, levels_[at(e)]);
+    return most;
+  }
+
+  bool raise(std::span<const LocalIndex> edges, int least)
+  {
+    bool has_changed = false;
+    for (const LocalIndex e : edges) {
+      if (levels_[at(e)] >= least) continue;
+      levels_[at(e)] = static_cast<std::int8_t>(least);
+      has_changed = true;
+    }
+    return has_changed;
+  }
+
+  std::vector<std::int8_t>& levels_;
+};
 
 }  // namespace
 
@@ -86,7 +149,13 @@ mesh::EdgeLevels choose_levels(const mesh::CoarseMesh& coarse, std::vector<Local
   std::vector<std::int8_t> levels;
   levels.reserve(num_wanted.size());
   for (const double num : num_wanted) levels.push_back(level_for(num, most));
-  raise_beside_higher(edges_of_tets(coarse, edges), levels);
+  const EdgeRows rows(edges, coarse.num_vertices());
+  const std::vector<LocalIndex> of_tets = edges_of_tets(coarse, rows);
+  const std::vector<LocalIndex> of_faces = edges_of_faces(coarse, rows);
+  Raiser raiser(levels);
+  do {
+    raiser.even_out(of_tets);
+  } while (raiser.complete(of_faces));
   return {std::move(edges), std::move(levels)};
 }
 

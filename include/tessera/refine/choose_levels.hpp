@@ -14,11 +14,11 @@ namespace tessera::refine {
 [[nodiscard]] std::vector<LocalIndex> coarse_edges(const mesh::CoarseMesh& coarse);
 
 /// @brief A level for each coarse edge: the smallest that makes its parts as short as wanted. Then
-/// edges are raised until in every tet levels differ by one at most.
+/// edges are raised until in every tet levels differ by one at most, and no triangle on the
+/// geometry has two sides that are finer than the third.
 ///
-/// 2^l parts are enough for `num_wanted` if that is 1.35 * 2^l or less. Between 1.2 and sqrt(2) the
-/// number of tets at equal size is the same. With sqrt(2) the median edge of screw.step and
-/// linkrods.step is 1.09 and 1.01 of the wanted one, and the 99th percentile 1.86 and 1.74.
+/// 2^l parts are enough for `num_wanted` if that is 1.4 * 2^l or less. Between 1.2 and sqrt(2) the
+/// number of tets at equal size is the same.
 /// @param[in] edges coarse_edges().
 /// @param[in] num_wanted Shape (num_edges). How many wanted lengths each edge is long: the integral
 /// of ds / h along it.
