@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "tessera/mesh/sorted_rows.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::mesh {
@@ -64,25 +65,6 @@ void add_edges(const std::vector<Triangle>& triangles, Complex& out)
     for (const Edge& side : sides_of(triangle)) out.triangle_edges.push_back(index_in(edges, side));
   }
   out.edge_vertices = flat_of(edges);
-}
-
-// Row of the sorted flat array that holds these values, or kNoIndex.
-template <std::size_t N>
-LocalIndex find_row(const std::vector<LocalIndex>& flat, const std::array<LocalIndex, N>& values)
-{
-  const auto row = [&](std::size_t r) { return flat.begin() + static_cast<std::ptrdiff_t>(N * r); };
-  std::size_t low = 0;
-  std::size_t high = flat.size() / N;
-  while (low < high) {
-    const std::size_t middle = (low + high) / 2;
-    if (std::lexicographical_compare(row(middle), row(middle + 1), values.begin(), values.end())) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  const bool is_found = low < flat.size() / N && std::equal(values.begin(), values.end(), row(low));
-  return is_found ? static_cast<LocalIndex>(low) : kNoIndex;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/sorted_rows.hpp"
 
 namespace tessera::mesh {
 namespace {
@@ -34,14 +35,7 @@ EdgeLevels::EdgeLevels(std::vector<LocalIndex> edge_vertices, std::vector<std::i
 int EdgeLevels::of(LocalIndex a, LocalIndex b) const
 {
   if (is_uniform()) return largest_;
-  const Edge wanted{std::min(a, b), std::max(a, b)};
-  std::size_t low = 0;
-  std::size_t high = levels_.size();
-  while (high - low > 1) {
-    const std::size_t middle = (low + high) / 2;
-    (row_of(edge_vertices_, middle) <= wanted ? low : high) = middle;
-  }
-  return levels_[low];
+  return levels_[at(find_edge_row(edge_vertices_, a, b))];
 }
 
 template <class Change>

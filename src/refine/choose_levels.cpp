@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <utility>
 
+#include "tessera/mesh/sorted_rows.hpp"
 #include "tessera/mesh/tet_edges.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
@@ -24,51 +24,33 @@ std::int8_t level_for(double num_wanted, int most)
   return static_cast<std::int8_t>(level);
 }
 
-// Finds the rows of edges by their vertices.
-class EdgeRows {
- public:
-  EdgeRows(const std::vector<LocalIndex>& edges, LocalIndex num_vertices)
-      : edges_(edges), first_with_(at(num_vertices) + 1, 0)
-  {
-    for (std::size_t i = 0; i < edges.size(); i += 2) ++first_with_[at(edges[i]) + 1];
-    std::partial_sum(first_with_.begin(), first_with_.end(), first_with_.begin());
-  }
-
-  [[nodiscard]] LocalIndex row_of(LocalIndex a, LocalIndex b) const
-  {
-    LocalIndex row = first_with_[at(std::min(a, b))];
-    while (edges_[2 * at(row) + 1] != std::max(a, b)) ++row;
-    return row;
-  }
-
- private:
-  const std::vector<LocalIndex>& edges_;
-  std::vector<LocalIndex> first_with_;  // By the lower vertex.
-};
-
 constexpr std::size_t kEdgesOfTet = mesh::kTetEdgeCorners.size();
 
 // Shape (num_tets, 6).
-std::vector<LocalIndex> edges_of_tets(const mesh::CoarseMesh& coarse, const EdgeRows& edges)
+std::vector<LocalIndex> edges_of_tets(const mesh::CoarseMesh& coarse,
+                                      const std::vector<LocalIndex>& edges)
 {
   std::vector<LocalIndex> rows;
   rows.reserve(kEdgesOfTet * at(coarse.num_tets()));
   for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
     const auto tet = coarse.tet(t);
-    for (const auto& [a, b] : mesh::kTetEdgeCorners) rows.push_back(edges.row_of(tet[a], tet[b]));
+    for (const auto& [a, b] : mesh::kTetEdgeCorners)
+      rows.push_back(mesh::find_edge_row(edges, tet[a], tet[b]));
   }
   return rows;
 }
 
 // Of the triangles on the geometry. Shape (num_faces, 3).
-std::vector<LocalIndex> edges_of_faces(const mesh::CoarseMesh& coarse, const EdgeRows& edges)
+std::vector<LocalIndex> edges_of_faces(const mesh::CoarseMesh& coarse,
+                                       const std::vector<LocalIndex>& edges)
 {
   std::vector<LocalIndex> rows;
   rows.reserve(3 * at(coarse.num_faces()));
   for (LocalIndex f = 0; f < coarse.num_faces(); ++f) {
     const LocalIndex* v = &coarse.face_vertices[3 * at(f)];
-    rows.insert(rows.end(),
-                {edges.row_of(v[0], v[1]), edges.row_of(v[0], v[2]), edges.row_of(v[1], v[2])});
+    for (const auto& [a, b] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
+      rows.push_back(mesh::find_edge_row(edges, v[a], v[b]));
+    }
   }
   return rows;
 }
@@ -149,9 +131,8 @@ mesh::EdgeLevels choose_levels(const mesh::CoarseMesh& coarse, std::vector<Local
   std::vector<std::int8_t> levels;
   levels.reserve(num_wanted.size());
   for (const double num : num_wanted) levels.push_back(level_for(num, most));
-  const EdgeRows rows(edges, coarse.num_vertices());
-  const std::vector<LocalIndex> of_tets = edges_of_tets(coarse, rows);
-  const std::vector<LocalIndex> of_faces = edges_of_faces(coarse, rows);
+  const std::vector<LocalIndex> of_tets = edges_of_tets(coarse, edges);
+  const std::vector<LocalIndex> of_faces = edges_of_faces(coarse, edges);
   Raiser raiser(levels);
   do {
     raiser.even_out(of_tets);

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "tessera/base/vec3.hpp"
+#include "tessera/mesh/sorted_rows.hpp"
 #include "tessera/sizing/coarse_sizes.hpp"
 
 namespace tessera::sizing {
@@ -47,37 +48,14 @@ double curvature_across(const mesh::CoarseMesh& coarse, const Side& one, const S
   return angle * norm(along) / (kShareOfHeights * (norm(normal) + norm(beside)));
 }
 
-// Rows of edges by their vertices; the edges ascend.
-class EdgeRows {
- public:
-  explicit EdgeRows(std::span<const LocalIndex> edge_vertices) : edges_(edge_vertices) {}
-
-  [[nodiscard]] std::size_t row_of(LocalIndex a, LocalIndex b) const
-  {
-    const std::array<LocalIndex, 2> wanted{std::min(a, b), std::max(a, b)};
-    std::size_t low = 0;
-    std::size_t high = edges_.size() / 2;
-    while (high - low > 1) {
-      const std::size_t middle = (low + high) / 2;
-      const std::array<LocalIndex, 2> edge{edges_[2 * middle], edges_[2 * middle + 1]};
-      (edge <= wanted ? low : high) = middle;
-    }
-    return low;
-  }
-
- private:
-  std::span<const LocalIndex> edges_;
-};
-
 }  // namespace
 
 std::vector<double> lengths_in_radii(const mesh::CoarseMesh& coarse,
                                      std::span<const LocalIndex> edge_vertices)
 {
   std::vector<double> curvature(edge_vertices.size() / 2, 0.0);
-  const EdgeRows edges(edge_vertices);
   const auto raise = [&](LocalIndex a, LocalIndex b, double value) {
-    double& of_edge = curvature[edges.row_of(a, b)];
+    double& of_edge = curvature[at(mesh::find_edge_row(edge_vertices, a, b))];
     of_edge = std::max(of_edge, value);
   };
   const std::vector<Side> sides = sorted_sides(coarse);
