@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A mesh from a CAD model alone, without a case file."""
+import json
 import shutil
 import unittest
 
@@ -20,20 +21,31 @@ class Model(program.ProgramTest):
         return outcome
 
     def test_the_case_it_made_gives_the_same_mesh(self):
-        self.mesh_model("part.step", "--size", "0.5", ranks=2)
+        self.mesh_model("part.step", "--size", "1.5", ranks=2)
         out = self.folder / "outputs" / "part"
         case = (out / "case.toml").read_text()
-        self.assertIn("target = 0.5", case)
+        self.assertIn("target = 1.5", case)
         self.assertIn(f'file = "{self.folder / "part.step"}"', case)
         again = self.mesh(out / "case.toml", "again")
         self.assertEqual(program.mesh_files(again), program.mesh_files(out))
         self.assertEqual(program.figures(again)["digest"], program.figures(out)["digest"])
 
+    def test_the_size_is_met_on_as_many_levels_as_it_takes(self):
+        made = []
+        for size in (1.6, 0.8):
+            self.mesh_model("part.step", "--size", size, "--kernel", "subdivide", "--output", f"of_{size}")
+            report = json.loads((self.folder / f"of_{size}" / "report.json").read_text())
+            median = report["quality"]["edge_length"]["median"]
+            self.assertGreater(median, 0.75 * size)
+            self.assertLess(median, 1.25 * size)
+            made.append(report["num_tets"])
+        self.assertGreater(made[1], 5 * made[0])
+
     def test_options_are_keys_and_set_works_on_top(self):
-        self.mesh_model("part.step", "--size", "0.5", "--parts", 2, "--kernel", "subdivide", "--output", "a",
-                        "--set", "size.target=0.6", "--set", "output.cell_quality=true")
+        self.mesh_model("part.step", "--size", "1.5", "--parts", 2, "--kernel", "subdivide", "--output", "a",
+                        "--set", "size.target=1.2", "--set", "output.cell_quality=true")
         case = (self.folder / "a/case.toml").read_text()
-        for line in ("target = 0.6", "parts = 2", 'kernel = "subdivide"', "cell_quality = true"):
+        for line in ("target = 1.2", "parts = 2", 'kernel = "subdivide"', "cell_quality = true"):
             self.assertIn(line, case)
         self.assertEqual(len(list((self.folder / "a/mesh").iterdir())), 2)
 
@@ -51,7 +63,7 @@ class Model(program.ProgramTest):
             ([case, "--size", "1"], ["is a case file", "size.target"]),
             (["none.step", "--size", "1"], ["none.step", "no such file"]),
             (["part.obj", "--size", "1"], ["part.obj", ".step"]),
-            (["part.step", "--size", "1", "--set", "coarse.max_size=1"], ["coarse.max_size", "size.target"]),
+            (["part.step", "--size", "1", "--set", "size.min=2", "--set", "size.max=1"], ["size.min", "size.max"]),
             (["part.step", "--size", "1", "--set", "size.targe=1"], ["size.target"]),
         ):
             for ranks in (None, 2):
