@@ -30,7 +30,6 @@ config::Case case_of_model(const MeshCommand& command)
   config::Case made;
   made.geometry.file = absolute(file);
   made.size.target = command.model->size;
-  made.refine.levels = refine::kMostLevels;  // As in a case that does not name them.
   made.output.parts = command.model->parts;
   made.fill.kernel = command.model->kernel.value_or(made.fill.kernel);
   return config::parse_case(config::to_toml(made), file, command.overrides);

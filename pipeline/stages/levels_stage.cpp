@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -49,10 +50,12 @@ std::vector<double> num_wanted(const sizing::SizeOptions& options, const mesh::C
 
 mesh::EdgeLevels wanted_levels(const config::Case& resolved, const mesh::CoarseMesh& coarse)
 {
-  if (!sizing::are_wanted(resolved.size)) return resolved.refine.levels;
+  const bool are_wanted = sizing::are_wanted(resolved.size);
+  const int most = refine::levels_of(resolved.refine, are_wanted);
+  if (!are_wanted) return most;
   std::vector<LocalIndex> edges = refine::coarse_edges(coarse);
   const std::vector<double> wanted = num_wanted(resolved.size, coarse, edges);
-  return refine::choose_levels(coarse, std::move(edges), wanted, resolved.refine.levels);
+  return refine::choose_levels(coarse, std::move(edges), wanted, most);
 }
 
 mesh::SizePoints points_of_smaller_sizes(const config::Case& resolved,
@@ -90,16 +93,18 @@ int splits_of(const config::Case& resolved, const mesh::CoarseMesh& coarse,
 
 void choose_levels(RunResult& run, RunContext& context)
 {
-  StageScope stage(context, "levels");
+  std::optional<StageScope> stage;
+  if (sizing::are_wanted(run.resolved.size)) stage.emplace(context, "levels");
   const mesh::CoarseMesh& coarse = run.coarse.mesh;
   const mesh::EdgeLevels wanted = comm::on_root(context.comm, [&] {
     return with_file_context(run.resolved, [&] { return wanted_levels(run.resolved, coarse); });
   });
   run.splits = splits_of(run.resolved, coarse, wanted);
   run.levels = wanted.raised(run.splits);
-  stage.work_is_done();
-  stage.finish(run.levels.is_uniform() ? fmt::format("{} for all edges", run.levels.largest())
-                                       : fmt::format("up to {}", run.levels.largest()));
+  if (!stage) return;
+  stage->work_is_done();
+  stage->finish(run.levels.is_uniform() ? fmt::format("{} for all edges", run.levels.largest())
+                                        : fmt::format("up to {}", run.levels.largest()));
 }
 
 mesh::SizePoints sizes_for_a_finer_mesh(const RunResult& run, RunContext& context)

@@ -140,7 +140,10 @@ constexpr Key kKeys[] = {
      .meaning = "Number of refinements L: every coarse edge is split into 2^L, and the mesh has "
                 "about 8^L times as many tets. With keys of [size], the largest number: each edge "
                 "has as many as it needs.",
-     .reason = "the smallest number that refines at all; with keys of [size], as many as needed"},
+     .reason = "the smallest number that refines at all; where sizes are wanted, edges decide",
+     .derived_default = "1; with keys of [size], as many as needed",
+     .example = "2",
+     .is_optional = true},
 
     {.name = "fill.kernel",
      .rule = word_rule([](Case& c) -> fill::KernelKind& { return c.fill.kernel; }),

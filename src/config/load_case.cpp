@@ -203,15 +203,6 @@ void apply(const Entry& entry, Case& into)
   fail_value(entry, allowed(key->rule));
 }
 
-// Where sizes are wanted, levels follow from them.
-void open_levels(const std::vector<Entry>& entries, Case& loaded)
-{
-  const bool is_given = std::ranges::find(entries, "refine.levels", &Entry::name) != entries.end();
-  if (sizing::are_wanted(loaded.size) && !is_given) {
-    loaded.refine.levels = refine::kMostLevels;
-  }
-}
-
 void check_required(const Case& loaded, const std::string& where)
 {
   if (loaded.geometry.file.empty()) {
@@ -279,7 +270,6 @@ Case parse_case(std::string_view text, const std::filesystem::path& file,
   const std::vector<Entry> entries = all_entries(text, file, overrides);
   Case loaded;
   for (const Entry& entry : entries) apply(entry, loaded);
-  open_levels(entries, loaded);
   check_required(loaded, name);
   resolve_paths(file, loaded);
   return loaded;

@@ -24,7 +24,7 @@ double mesh_cube(int levels)
   const auto cut = decompose::decompose(coarse, {.subdomains = 4},
                                         decompose::predicted_fine_tets(coarse, levels),
                                         *decompose::make_metis_partitioner());
-  const subdomain::PartitionedMesh parts(coarse, cut.decomposition);
+  const subdomain::PartitionedMesh parts(coarse, cut.decomposition, levels);
   const mesh::ProjectionLimiter no_limits;
   const refine::RefineContext refine{coarse, parts.skeleton, *model, no_limits, levels};
   const auto kernel = netgen::make_fill_kernel();
