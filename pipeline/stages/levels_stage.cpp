@@ -20,9 +20,9 @@ namespace tessera::pipeline {
 namespace {
 
 // Length of a coarse edge in wanted ones where nothing else tells, and how many times as long an
-// edge may be. Sizes of 1 to 4 need no other coarse mesh then.
+// edge may be.
 constexpr double kUsualLength = 4.0;
-constexpr double kMostTimesLonger = 4.0;
+constexpr double kMostTimesLonger = 2.0;
 
 double usual_length(const config::Case& resolved)
 {
@@ -55,13 +55,9 @@ mesh::EdgeLevels wanted_levels(const config::Case& resolved, const mesh::CoarseM
 mesh::SizePoints points_of_smaller_sizes(const config::Case& resolved,
                                          const mesh::CoarseMesh& coarse)
 {
-  const std::vector<LocalIndex> edges = refine::coarse_edges(coarse);
   const sizing::SizeField sizes = subdomain::read_size_field(resolved.size, coarse);
-  const std::vector<double> wanted = sizing::edge_size_integrals(coarse, edges, sizes);
   const double usual = usual_length(resolved);
-  const auto is_fine = [&](double num) { return num <= kMostTimesLonger * usual; };
-  if (std::ranges::all_of(wanted, is_fine)) return {};
-  return sizing::coarse_size_points(coarse, sizes, usual);
+  return sizing::coarse_size_points(coarse, sizes, {usual, kMostTimesLonger * usual});
 }
 
 }  // namespace

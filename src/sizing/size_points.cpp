@@ -12,15 +12,22 @@ namespace {
 constexpr int kMostCuts = 10;
 constexpr std::size_t kMostCells = 4'000'000;
 
-using Cell = std::array<Vec3, 4>;
+// A coarse tet or a part of it.
+struct Cell {
+  std::array<Vec3, 4> corners{};
+  double longest_of_tet = 0.0;
 
-Vec3 middle_of(const Cell& cell) { return 0.25 * (cell[0] + cell[1] + cell[2] + cell[3]); }
+  [[nodiscard]] Vec3 middle() const
+  {
+    return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+  }
+};
 
-double longest_edge(const Cell& cell)
+double longest_edge(const std::array<Vec3, 4>& corners)
 {
   double longest = 0.0;
   for (const auto& [a, b] : mesh::kTetEdgeCorners) {
-    longest = std::max(longest, norm(cell[b] - cell[a]));
+    longest = std::max(longest, norm(corners[b] - corners[a]));
   }
   return longest;
 }
@@ -28,7 +35,7 @@ double longest_edge(const Cell& cell)
 double radius_of(const Cell& cell, const Vec3& middle)
 {
   double radius = 0.0;
-  for (const Vec3& corner : cell) radius = std::max(radius, norm(corner - middle));
+  for (const Vec3& corner : cell.corners) radius = std::max(radius, norm(corner - middle));
   return radius;
 }
 
@@ -37,12 +44,13 @@ void append_children(const Cell& cell, std::vector<Cell>& cells)
   const auto at = [&](const mesh::lattice::TetPoint& p) {
     const std::array<LocalIndex, 4> weights{2 - p.i - p.j - p.k, p.i, p.j, p.k};
     Vec3 point{};
-    for (std::size_t c = 0; c < 4; ++c) point = point + (0.5 * weights[c]) * cell[c];
+    for (std::size_t c = 0; c < 4; ++c) point = point + (0.5 * weights[c]) * cell.corners[c];
     return point;
   };
   mesh::lattice::for_each_child(2, 1, 0,
                                 [&](const auto& a, const auto& b, const auto& c, const auto& d) {
-                                  cells.push_back({at(a), at(b), at(c), at(d)});
+                                  cells.push_back(
+                                      {{at(a), at(b), at(c), at(d)}, cell.longest_of_tet});
                                 });
 }
 
@@ -51,8 +59,9 @@ std::vector<Cell> cells_of(const mesh::CoarseMesh& coarse)
   std::vector<Cell> cells;
   for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
     const auto v = coarse.tet(t);
-    cells.push_back({coarse.position(v[0]), coarse.position(v[1]), coarse.position(v[2]),
-                     coarse.position(v[3])});
+    const std::array<Vec3, 4> corners{coarse.position(v[0]), coarse.position(v[1]),
+                                      coarse.position(v[2]), coarse.position(v[3])};
+    cells.push_back({corners, longest_edge(corners)});
   }
   return cells;
 }
@@ -62,7 +71,7 @@ std::vector<double> sizes_in_the_middle(const std::vector<Cell>& cells, const Si
   std::vector<double> middles;
   middles.reserve(3 * cells.size());
   for (const Cell& cell : cells) {
-    const Vec3 middle = middle_of(cell);
+    const Vec3 middle = cell.middle();
     middles.insert(middles.end(), middle.begin(), middle.end());
   }
   return sizes.at(middles);
@@ -71,28 +80,30 @@ std::vector<double> sizes_in_the_middle(const std::vector<Cell>& cells, const Si
 }  // namespace
 
 mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const SizeField& sizes,
-                                    double factor)
+                                    const EdgeLengths& in_sizes)
 {
   mesh::SizePoints points;
+  bool is_needed = false;
   std::vector<Cell> cells = cells_of(coarse);
   for (int num_cuts = 0; !cells.empty(); ++num_cuts) {
     const std::vector<double> in_the_middle = sizes_in_the_middle(cells, sizes);
     std::vector<Cell> smaller;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const Vec3 middle = middle_of(cells[i]);
+      const Vec3 middle = cells[i].middle();
       const double reach = sizes.steepest() * radius_of(cells[i], middle);
-      const bool may_be_too_long =
-          longest_edge(cells[i]) > factor * std::max(0.0, in_the_middle[i] - reach);
+      const double least = std::max(0.0, in_the_middle[i] - reach);
+      const bool may_be_too_long = longest_edge(cells[i].corners) > in_sizes.usual * least;
+      is_needed = is_needed || cells[i].longest_of_tet > in_sizes.most * in_the_middle[i];
       if (may_be_too_long && num_cuts < kMostCuts && smaller.size() < kMostCells) {
         append_children(cells[i], smaller);
       } else if (num_cuts > 0) {
         points.xyz.insert(points.xyz.end(), middle.begin(), middle.end());
-        points.size.push_back(factor * in_the_middle[i]);
+        points.size.push_back(in_sizes.usual * in_the_middle[i]);
       }
     }
     cells = std::move(smaller);
   }
-  return points;
+  return is_needed ? points : mesh::SizePoints{};
 }
 
 }  // namespace tessera::sizing

@@ -10,17 +10,24 @@
 
 namespace tessera::sizing {
 
-/// @brief Where a coarse mesh should be finer, so that no edge of it needs many more levels than
-/// others: each gives parts of the wanted size after `factor` parts.
+/// @brief Lengths of coarse edges in wanted ones.
+struct EdgeLengths {
+  double usual = 0.0;  ///< What a finer coarse mesh shall have, > 0.
+  double most = 0.0;   ///< What a coarse mesh may have that stays as it is, > `usual`.
+};
+
+/// @brief Where a coarse mesh should be finer. An edge is split into parts of one length, so where
+/// the size falls steeply along a long one its parts are too long at one end.
 ///
 /// Tets are cut into eight in bulk rounds until none is longer than its edges may become. A size
 /// that grows with the distance cannot fall faster either, so a region inside of a tet is found by
 /// the size at its middle.
-/// @param[in] factor Length of a coarse edge in wanted ones, > 0.
-/// @return Points in tets that are too long, each with the length wanted of coarse edges there.
-/// Local; a pure function of its arguments.
+/// @return Points in tets that are too long, each with the length wanted of coarse edges there;
+/// none if no tet has an edge longer than `in_sizes.most` sizes somewhere in it. Local; a pure
+/// function of its arguments.
 [[nodiscard]] mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse,
-                                                  const SizeField& sizes, double factor);
+                                                  const SizeField& sizes,
+                                                  const EdgeLengths& in_sizes);
 
 /// @brief For each edge of a coarse mesh, its length in radii of curvature of the surface beside
 /// it; 0 off the surface, and where that is flat. Local; O(n log n).
