@@ -65,7 +65,7 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
     }
     io::write_text_atomically(
         context.folder / "prediction.json",
-        prediction_json(found, PredictedRun(given, run.model, run.only_subdomains)));
+        prediction_json(found, PredictedRun(given, run)));
   });
   return prediction_table(found);
 }
