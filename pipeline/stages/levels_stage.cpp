@@ -19,10 +19,11 @@
 namespace tessera::pipeline {
 namespace {
 
-// Length of a coarse edge in wanted ones where nothing else tells, and how many times as long an
-// edge may be.
+// Length of a coarse edge in wanted ones where nothing else tells.
 constexpr double kUsualLength = 4.0;
-constexpr double kMostTimesLonger = 2.0;
+
+// In wanted lengths. Where the size is the same along an edge, its parts have at most 1.35.
+constexpr double kLongestPart = 2.0;
 
 double usual_length(const config::Case& resolved)
 {
@@ -32,9 +33,9 @@ double usual_length(const config::Case& resolved)
 
 // How many wanted lengths each edge is long.
 std::vector<double> num_wanted(const sizing::SizeOptions& options, const mesh::CoarseMesh& coarse,
+                               const sizing::SizeField& sizes,
                                const std::vector<LocalIndex>& edges)
 {
-  const sizing::SizeField sizes = subdomain::read_size_field(options, coarse);
   std::vector<double> wanted = sizing::edge_size_integrals(coarse, edges, sizes);
   if (options.curvature == 0.0) return wanted;
   const std::vector<double> radii = sizing::lengths_in_radii(coarse, edges);
@@ -44,11 +45,11 @@ std::vector<double> num_wanted(const sizing::SizeOptions& options, const mesh::C
   return wanted;
 }
 
-mesh::EdgeLevels wanted_levels(const config::Case& resolved, const mesh::CoarseMesh& coarse)
+mesh::EdgeLevels wanted_levels(const config::Case& resolved, const mesh::CoarseMesh& coarse,
+                               const sizing::SizeField& sizes)
 {
-  if (!sizing::are_wanted(resolved.size)) return resolved.refine.levels;
   std::vector<LocalIndex> edges = refine::coarse_edges(coarse);
-  const std::vector<double> wanted = num_wanted(resolved.size, coarse, edges);
+  const std::vector<double> wanted = num_wanted(resolved.size, coarse, sizes, edges);
   return refine::choose_levels(coarse, std::move(edges), wanted, resolved.refine.levels);
 }
 
@@ -56,8 +57,8 @@ mesh::SizePoints points_of_smaller_sizes(const config::Case& resolved,
                                          const mesh::CoarseMesh& coarse)
 {
   const sizing::SizeField sizes = subdomain::read_size_field(resolved.size, coarse);
-  const double usual = usual_length(resolved);
-  return sizing::coarse_size_points(coarse, sizes, {usual, kMostTimesLonger * usual});
+  return sizing::coarse_size_points(coarse, wanted_levels(resolved, coarse, sizes), sizes,
+                                    {usual_length(resolved), kLongestPart});
 }
 
 }  // namespace
@@ -67,7 +68,11 @@ void choose_levels(RunResult& run, RunContext& context)
   StageScope stage(context, "levels");
   const mesh::CoarseMesh& coarse = run.coarse.mesh;
   const mesh::EdgeLevels wanted = comm::on_root(context.comm, [&] {
-    return with_file_context(run.resolved, [&] { return wanted_levels(run.resolved, coarse); });
+    return with_file_context(run.resolved, [&]() -> mesh::EdgeLevels {
+      if (!sizing::are_wanted(run.resolved.size)) return run.resolved.refine.levels;
+      return wanted_levels(run.resolved, coarse,
+                           subdomain::read_size_field(run.resolved.size, coarse));
+    });
   });
   const auto kernels =
       fill::kernels_of(run.resolved.fill, coarse.material_names, coarse.tet_material);

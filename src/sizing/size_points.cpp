@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "tessera/mesh/tet_lattice.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -15,7 +16,7 @@ constexpr std::size_t kMostCells = 4'000'000;
 // A coarse tet or a part of it.
 struct Cell {
   std::array<Vec3, 4> corners{};
-  double longest_of_tet = 0.0;
+  double longest_part = 0.0;  // Of the tet's edges, when each is split on its levels.
 
   [[nodiscard]] Vec3 middle() const
   {
@@ -50,18 +51,29 @@ void append_children(const Cell& cell, std::vector<Cell>& cells)
   mesh::lattice::for_each_child(2, 1, 0,
                                 [&](const auto& a, const auto& b, const auto& c, const auto& d) {
                                   cells.push_back(
-                                      {{at(a), at(b), at(c), at(d)}, cell.longest_of_tet});
+                                      {{at(a), at(b), at(c), at(d)}, cell.longest_part});
                                 });
 }
 
-std::vector<Cell> cells_of(const mesh::CoarseMesh& coarse)
+double longest_part(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels, LocalIndex t)
+{
+  const auto tet = coarse.tet(t);
+  double longest = 0.0;
+  for (const auto& [a, b] : mesh::kTetEdgeCorners) {
+    const double length = norm(coarse.position(tet[b]) - coarse.position(tet[a]));
+    longest = std::max(longest, std::ldexp(length, -levels.of(tet[a], tet[b])));
+  }
+  return longest;
+}
+
+std::vector<Cell> cells_of(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels)
 {
   std::vector<Cell> cells;
   for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
     const auto v = coarse.tet(t);
     const std::array<Vec3, 4> corners{coarse.position(v[0]), coarse.position(v[1]),
                                       coarse.position(v[2]), coarse.position(v[3])};
-    cells.push_back({corners, longest_edge(corners)});
+    cells.push_back({corners, longest_part(coarse, levels, t)});
   }
   return cells;
 }
@@ -79,12 +91,13 @@ std::vector<double> sizes_in_the_middle(const std::vector<Cell>& cells, const Si
 
 }  // namespace
 
-mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const SizeField& sizes,
+mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse,
+                                    const mesh::EdgeLevels& levels, const SizeField& sizes,
                                     const EdgeLengths& in_sizes)
 {
   mesh::SizePoints points;
   bool is_needed = false;
-  std::vector<Cell> cells = cells_of(coarse);
+  std::vector<Cell> cells = cells_of(coarse, levels);
   for (int num_cuts = 0; !cells.empty(); ++num_cuts) {
     const std::vector<double> in_the_middle = sizes_in_the_middle(cells, sizes);
     std::vector<Cell> smaller;
@@ -92,13 +105,13 @@ mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const SizeFi
       const Vec3 middle = cells[i].middle();
       const double reach = sizes.steepest() * radius_of(cells[i], middle);
       const double least = std::max(0.0, in_the_middle[i] - reach);
-      const bool may_be_too_long = longest_edge(cells[i].corners) > in_sizes.usual * least;
-      is_needed = is_needed || cells[i].longest_of_tet > in_sizes.most * in_the_middle[i];
+      const bool may_be_too_long = longest_edge(cells[i].corners) > in_sizes.coarse_edge * least;
+      is_needed = is_needed || cells[i].longest_part > in_sizes.longest_part * in_the_middle[i];
       if (may_be_too_long && num_cuts < kMostCuts && smaller.size() < kMostCells) {
         append_children(cells[i], smaller);
       } else if (num_cuts > 0) {
         points.xyz.insert(points.xyz.end(), middle.begin(), middle.end());
-        points.size.push_back(in_sizes.usual * in_the_middle[i]);
+        points.size.push_back(in_sizes.coarse_edge * in_the_middle[i]);
       }
     }
     cells = std::move(smaller);
