@@ -23,7 +23,7 @@ namespace {
 constexpr double kUsualLength = 4.0;
 
 // In wanted lengths. Where the size is the same along an edge, its parts have at most 1.35.
-constexpr double kLongestPart = 2.0;
+constexpr double kLongestPart = 1.5;
 
 double usual_length(const config::Case& resolved)
 {
