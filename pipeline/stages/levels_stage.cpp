@@ -19,8 +19,10 @@
 namespace tessera::pipeline {
 namespace {
 
-// Length of a coarse edge in wanted ones where nothing else tells.
-constexpr double kUsualLength = 4.0;
+// Largest size of a coarse mesh in wanted ones where nothing else tells. As of size.target, NETGEN's
+// edges come out longer: four parts of each are as long as is wanted. On a bar with a box of 0.1 to
+// 0.4, 95 % of the edges had at most 1.34 wanted ones with 3.3, 1.45 with 4 and 1.47 with 2.5.
+constexpr double kUsualLength = 3.3;
 
 // In wanted lengths. Where the size is the same along an edge, its parts have at most 1.35.
 constexpr double kLongestPart = 1.5;
@@ -86,10 +88,15 @@ void choose_levels(RunResult& run, RunContext& context)
 mesh::SizePoints sizes_for_a_finer_mesh(const RunResult& run, RunContext& context)
 {
   if (!sizing::is_graded(run.resolved.size)) return {};
-  return comm::on_root(context.comm, [&] {
+  StageScope stage(context, "levels");
+  mesh::SizePoints points = comm::on_root(context.comm, [&] {
     return with_file_context(
         run.resolved, [&] { return points_of_smaller_sizes(run.resolved, run.coarse.mesh); });
   });
+  stage.work_is_done();
+  stage.finish(points.size.empty() ? "the coarse mesh is fine enough"
+                                   : "a finer coarse mesh is needed");
+  return points;
 }
 
 }  // namespace tessera::pipeline

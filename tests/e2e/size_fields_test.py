@@ -119,18 +119,19 @@ class BarTest(program.ProgramTest):
     def made(self, text, *arguments, target=TARGET, ranks=2, output="out"):
         return self.mesh(self.write_bar(text, target), output, *SUBDIVIDE, *arguments, ranks=ranks)
 
-    def assert_follows(self, folder, size_at, within=1.7):
-        """All edges, and those where sizes are smallest alone, against the size at their middles."""
+    def assert_follows(self, folder, size_at):
+        """All edges, and those where sizes are smallest alone, against the size at their middles. `subdivide` moves
+        no point, and few edges are near a small region."""
         parts = []
         for a, b in edges_of(folder):
             size = size_at([0.5 * (p + q) for p, q in zip(a, b)])
             parts.append((size, math.dist(a, b) / size))
-        smallest = sorted(parts)[: max(20, len(parts) // 10)]
-        for some in (parts, smallest):
+        smallest = sorted(parts)[: len(parts) // 10]
+        for some, most_median, most in ((parts, 1.2, 1.7), (smallest, 1.5, 2.0)):
             lengths = sorted(part for _, part in some)
             self.assertGreater(statistics.median(lengths), 0.6)
-            self.assertLess(statistics.median(lengths), 1.25)
-            self.assertLess(lengths[int(0.95 * len(lengths))], within)
+            self.assertLess(statistics.median(lengths), most_median)
+            self.assertLess(lengths[int(0.95 * len(lengths))], most)
 
 
 def grown(distance_to, size, growth=GROWTH, most=TARGET):
@@ -192,7 +193,7 @@ class Regions(BarTest):
         out = self.made("[[size.region]]\nball = { centre = [4, 1, 1], radius = 0.02 }\nsize = 0.004\n")
         report = json.loads((out / "report.json").read_text())
         self.assertEqual(report["coarse"]["tries"], 2)
-        self.assert_follows(out, grown(lambda p: math.dist(p, (4, 1, 1)) - 0.02, 0.004), within=1.9)
+        self.assert_follows(out, grown(lambda p: math.dist(p, (4, 1, 1)) - 0.02, 0.004))
 
     def test_curvature(self):
         self.write("ball.geo", program.BALL)
@@ -311,9 +312,11 @@ class Killed(kill.RestartTest):
             "geometry.file = 'bar.geo'\ndecompose.subdomains = 8\n"
             f"[size]\ntarget = 0.2\nfield = 'field.vti'\n{CORNER_BALL}",
         )
-        cls_arguments = [case, "--set", "fill.kernel=optimize"]
-        Killed.field = maker.folder / "field.vti"
-        return cls_arguments
+        return [case, "--set", "fill.kernel=optimize"]
+
+    @property
+    def field(self):
+        return self.arguments[0].parent / "field.vti"
 
     def resume_refused(self):
         outcome = self.run_program("mesh", *self.arguments, "--output", "out", "--resume", ranks=2)
