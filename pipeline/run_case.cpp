@@ -241,8 +241,7 @@ class CaseRun {
         .memory_per_rank_bytes = static_cast<double>(run_figures.peak_rss_bytes_max),
         .wall_time_s = run_figures.wall_time_s,
         .stages = context.times};
-    return compare_with_prediction(given_.output.directory,
-                                   PredictedRun(given_, run), actual);
+    return compare_with_prediction(given_.output.directory, PredictedRun(given_, run), actual);
   }
 
   // The report of a run that has ended stays: it is what a refused --resume is judged by.

@@ -19,9 +19,10 @@
 namespace tessera::pipeline {
 namespace {
 
-// Largest size of a coarse mesh in wanted ones where nothing else tells. As of size.target, NETGEN's
-// edges come out longer: four parts of each are as long as is wanted. On a bar with a box of 0.1 to
-// 0.4, 95 % of the edges had at most 1.34 wanted ones with 3.3, 1.45 with 4 and 1.47 with 2.5.
+// Largest size of a coarse mesh in wanted ones where nothing else tells. As of size.target,
+// NETGEN's edges come out longer: four parts of each are as long as is wanted. On a bar with a box
+// of 0.1 to 0.4, 95 % of the edges had at most 1.34 wanted ones with 3.3, 1.45 with 4 and 1.47
+// with 2.5.
 constexpr double kUsualLength = 3.3;
 
 // In wanted lengths. Where the size is the same along an edge, its parts have at most 1.35.
@@ -35,8 +36,7 @@ double usual_length(const config::Case& resolved)
 
 // How many wanted lengths each edge is long.
 std::vector<double> num_wanted(const sizing::SizeOptions& options, const mesh::CoarseMesh& coarse,
-                               const sizing::SizeField& sizes,
-                               const std::vector<LocalIndex>& edges)
+                               const sizing::SizeField& sizes, const std::vector<LocalIndex>& edges)
 {
   std::vector<double> wanted = sizing::edge_size_integrals(coarse, edges, sizes);
   if (options.curvature == 0.0) return wanted;

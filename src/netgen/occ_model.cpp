@@ -209,8 +209,8 @@ void OccModel::guess_parameters(const coarse::SurfaceReference& reference, mesh:
   }
 }
 
-// NETGEN takes no notice of size points here. They must be set after the first step, which makes the
-// sizes, and before the second, which follows them.
+// NETGEN takes no notice of size points here. They must be set after the first step, which makes
+// the sizes, and before the second, which follows them.
 bool OccModel::generate_steps(::netgen::OCCGeometry& geometry,
                               ::netgen::MeshingParameters& parameters,
                               std::shared_ptr<::netgen::Mesh>& mesh)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/size_file.hpp"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <fstream>
 
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "tessera/base/error.hpp"
 

@@ -48,11 +48,10 @@ void append_children(const Cell& cell, std::vector<Cell>& cells)
     for (std::size_t c = 0; c < 4; ++c) point = point + (0.5 * weights[c]) * cell.corners[c];
     return point;
   };
-  mesh::lattice::for_each_child(2, 1, 0,
-                                [&](const auto& a, const auto& b, const auto& c, const auto& d) {
-                                  cells.push_back(
-                                      {{at(a), at(b), at(c), at(d)}, cell.longest_part});
-                                });
+  mesh::lattice::for_each_child(
+      2, 1, 0, [&](const auto& a, const auto& b, const auto& c, const auto& d) {
+        cells.push_back({{at(a), at(b), at(c), at(d)}, cell.longest_part});
+      });
 }
 
 double longest_part(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels, LocalIndex t)
@@ -91,9 +90,8 @@ std::vector<double> sizes_in_the_middle(const std::vector<Cell>& cells, const Si
 
 }  // namespace
 
-mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse,
-                                    const mesh::EdgeLevels& levels, const SizeField& sizes,
-                                    const EdgeLengths& in_sizes)
+mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels,
+                                    const SizeField& sizes, const EdgeLengths& in_sizes)
 {
   mesh::SizePoints points;
   bool is_needed = false;

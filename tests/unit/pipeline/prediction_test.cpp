@@ -270,15 +270,13 @@ struct PredictionFile : ::testing::Test {
   {
     DryRun dry_run{.prediction = predict(basis_of(4, KernelKind::netgen, 2))};
     dry_run.advice.must = {"more disk"};
-    io::write_text_atomically(
-        folder.path() / "prediction.json",
-        prediction_json(dry_run, PredictedRun(run_case, run)));
+    io::write_text_atomically(folder.path() / "prediction.json",
+                              prediction_json(dry_run, PredictedRun(run_case, run)));
   }
 
   [[nodiscard]] std::vector<PredictedFigure> compare() const
   {
-    return compare_with_prediction(folder.path(), PredictedRun(run_case, run),
-                                   actual);
+    return compare_with_prediction(folder.path(), PredictedRun(run_case, run), actual);
   }
 };
 
