@@ -17,6 +17,7 @@
 #include "tessera/io/vtu.hpp"
 #include "tessera/jobs/this_process.hpp"
 #include "tessera/netgen/factory.hpp"
+#include "tessera/subdomain/read_size_field.hpp"
 
 #include "pipeline/estimate/disk_space.hpp"
 #include "pipeline/estimate/only_subdomains.hpp"
@@ -169,7 +170,8 @@ class CaseRun {
     const model::ModelSource model = run_model_stage(given_, context);
     all_or_none(comm_, [&] {
       if (comm_.rank() != 0) return;
-      state.require_same_run(hash_bytes(model.content));
+      state.require_same_run(
+          {hash_bytes(model.content), subdomain::size_field_content(given_.size)});
       state.clear();
     });
     context.log.info("nothing to do: the run in {} has ended", given_.output.directory.string());
@@ -239,8 +241,7 @@ class CaseRun {
         .memory_per_rank_bytes = static_cast<double>(run_figures.peak_rss_bytes_max),
         .wall_time_s = run_figures.wall_time_s,
         .stages = context.times};
-    return compare_with_prediction(given_.output.directory,
-                                   PredictedRun(given_, run.model, run.only_subdomains), actual);
+    return compare_with_prediction(given_.output.directory, PredictedRun(given_, run), actual);
   }
 
   // The report of a run that has ended stays: it is what a refused --resume is judged by.

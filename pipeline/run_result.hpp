@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "tessera/base/hash.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/fill/options.hpp"
@@ -29,6 +30,7 @@ struct RunOptions {
 struct RunResult {
   config::Case resolved{};  ///< With size and levels as chosen.
   model::ModelSource model{};
+  Hash128 field_content{};  ///< Of size.field; zero without one.
   CoarseResult coarse{};
   mesh::EdgeLevels levels{};  ///< Of the coarse edges, in all.
   int splits = 0;             ///< How many of them follow after the fills.

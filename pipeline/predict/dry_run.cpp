@@ -63,9 +63,8 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
     if (auto defect = file_too_large(basis.outline, run.resolved)) {
       found.advice.must.push_back(*std::move(defect));
     }
-    io::write_text_atomically(
-        context.folder / "prediction.json",
-        prediction_json(found, PredictedRun(given, run.model, run.only_subdomains)));
+    io::write_text_atomically(context.folder / "prediction.json",
+                              prediction_json(found, PredictedRun(given, run)));
   });
   return prediction_table(found);
 }

@@ -158,18 +158,22 @@ void add_times(const Json& prediction, const ActualRun& actual,
 // All of a command that bears on the mesh.
 struct HashedCase {
   std::string toml{};
+  Hash128 field_content{};
   std::vector<LocalIndex> only_subdomains{};
 
-  static auto fields(auto& self) { return std::tie(self.toml, self.only_subdomains); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.toml, self.field_content, self.only_subdomains);
+  }
 };
 
 }  // namespace
 
-PredictedRun::PredictedRun(const config::Case& given, const model::ModelSource& model,
-                           const std::vector<LocalIndex>& only_subdomains)
-    : model_hash(to_hex(hash_bytes(model.content)))
+PredictedRun::PredictedRun(const config::Case& given, const RunResult& run)
+    : model_hash(to_hex(hash_bytes(run.model.content)))
 {
-  const HashedCase hashed{config::to_toml(without_limits(given)), only_subdomains};
+  const HashedCase hashed{config::to_toml(without_limits(given)), run.field_content,
+                          run.only_subdomains};
   case_hash = to_hex(hash_bytes(to_bytes(hashed)));
 }
 

@@ -9,6 +9,7 @@
 
 #include "pipeline/predict/calibrate.hpp"
 #include "pipeline/predict/prediction.hpp"
+#include "pipeline/run_result.hpp"
 
 /// What a dry run says: `DIR/prediction.json`, a table for people, and later the block "prediction"
 /// of report.json.
@@ -41,8 +42,7 @@ struct PredictedRun {
   std::string case_hash{};
   std::string model_hash{};
 
-  PredictedRun(const config::Case& given, const model::ModelSource& model,
-               const std::vector<LocalIndex>& only_subdomains);
+  PredictedRun(const config::Case& given, const RunResult& run);
 };
 
 /// @brief All that a dry run has found.

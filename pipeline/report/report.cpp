@@ -369,6 +369,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   if (!figures.predicted.empty()) json["prediction"] = prediction_json(figures.predicted);
   json["quality"] = quality_json(run.filled);
   json["model"] = model_json(run.model);
+  if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);
   json["coarse"] = coarse_json(run);
   json["decompose"] = decompose_json(run.decomposition.report);
   json["improve"] = improvement_json(run.filled.improvement);

@@ -8,6 +8,7 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/fill/fallbacks.hpp"
+#include "tessera/subdomain/read_size_field.hpp"
 
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
@@ -52,7 +53,7 @@ void require_same_run(const RunResult& run, const RunState* state, const RunCont
 {
   all_or_none(context.comm, [&] {
     if (state == nullptr || context.comm.rank() != 0) return;
-    state->require_same_run(hash_bytes(run.model.content));
+    state->require_same_run({hash_bytes(run.model.content), run.field_content});
   });
 }
 
@@ -78,6 +79,8 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   RunResult run;
   run.only_subdomains = options.only_subdomains;
   run.model = run_model_stage(given, context);
+  run.field_content =
+      comm::on_root(context.comm, [&] { return subdomain::size_field_content(given.size); });
   require_same_run(run, options.state, context);
   run.resolved = resolve_size(given, context);
   if (auto kept = kept_coarse_mesh(options.state, context)) {

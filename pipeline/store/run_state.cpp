@@ -38,12 +38,13 @@ std::string first_difference(const std::string& there, const std::string& here)
 struct Identity {
   std::string version{};  ///< record_version() of who made the records.
   std::string model{};    ///< Hash of what was read of the model file.
+  std::string field{};    ///< The same of size.field.
   std::vector<LocalIndex> only_subdomains{};
   bool has_files = true;
 
   static auto fields(auto& self)
   {
-    return std::tie(self.version, self.model, self.only_subdomains, self.has_files);
+    return std::tie(self.version, self.model, self.field, self.only_subdomains, self.has_files);
   }
 };
 
@@ -78,6 +79,7 @@ std::optional<Identity> identity_of(const std::filesystem::path& output,
   return read_report(output, [&](const nlohmann::json& report) {
     return Identity{record_version(report.at("version").get<std::string>()),
                     report.at("model").at("digest"),
+                    report.value("size_field_digest", to_hex(Hash128{})),
                     report.at("only_subdomains").get<std::vector<LocalIndex>>(), has_files};
   });
 }
@@ -117,9 +119,10 @@ void RunState::require_same_case(const config::Case& given) const
   }
 }
 
-void RunState::require_same_run(const Hash128& model) const
+void RunState::require_same_run(const InputContent& input) const
 {
-  const Identity now{record_version(), to_hex(model), only_subdomains_, has_files_};
+  const Identity now{record_version(), to_hex(input.model), to_hex(input.field), only_subdomains_,
+                     has_files_};
   const auto noted = identity_of(output_, store().find("run"), has_files_);
   if (!noted) {
     clear();
@@ -132,6 +135,8 @@ void RunState::require_same_run(const Hash128& model) const
   }
   if (noted->model != now.model)
     throw InputError(fmt::format("{}the model file has changed{}", what, kWayOut));
+  if (noted->field != now.field)
+    throw InputError(fmt::format("{}the file of size.field has changed{}", what, kWayOut));
   if (noted->only_subdomains != now.only_subdomains) {
     throw InputError(fmt::format("{}it was begun with other --only-subdomains{}", what, kWayOut));
   }

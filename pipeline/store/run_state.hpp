@@ -37,6 +37,12 @@ struct Plan {
   }
 };
 
+/// @brief Hashes of the files that a run reads.
+struct InputContent {
+  Hash128 model{};
+  Hash128 field{};  ///< Of size.field; zero without one.
+};
+
 /// @brief What a run leaves in its folder besides pieces: what `--resume` need not make again, and
 /// what tells whether it is the same run. Used by rank 0; all functions are local. A record that is
 /// damaged counts as absent.
@@ -60,10 +66,10 @@ class RunState {
   /// @throws InputError naming the first line that differs.
   void require_same_case(const config::Case& given) const;
 
-  /// @brief Notes version, model and subdomains of this run, or refuses if others are noted. If
+  /// @brief Notes version, input and subdomains of this run, or refuses if others are noted. If
   /// nothing sound is noted, nothing else there can be trusted, and it is removed.
   /// @throws InputError naming what has changed.
-  void require_same_run(const Hash128& model) const;
+  void require_same_run(const InputContent& input) const;
 
   void keep_coarse(std::span<const std::byte> coarse) const;
   [[nodiscard]] std::optional<Bytes> find_coarse() const;

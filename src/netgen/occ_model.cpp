@@ -65,6 +65,9 @@ class OccModel final : public LoadedModel {
   [[nodiscard]] GeometryNumbers numbers_for(const ::netgen::OCCGeometry& geometry) const;
   [[nodiscard]] std::string solid_name(LocalIndex material) const;
   [[nodiscard]] mesh::CoarseMesh remesh(const coarse::CoarseOptions& options) const;
+  static bool generate_steps(::netgen::OCCGeometry& geometry,
+                             ::netgen::MeshingParameters& parameters,
+                             std::shared_ptr<::netgen::Mesh>& mesh);
   static void guess_parameters(const coarse::SurfaceReference& reference, mesh::CoarseMesh& mesh);
   void triangulate() const;
   void locate_face_corners(mesh::CoarseMesh& mesh) const;
@@ -206,6 +209,22 @@ void OccModel::guess_parameters(const coarse::SurfaceReference& reference, mesh:
   }
 }
 
+// NETGEN takes no notice of size points here. They must be set after the first step, which makes
+// the sizes, and before the second, which follows them.
+bool OccModel::generate_steps(::netgen::OCCGeometry& geometry,
+                              ::netgen::MeshingParameters& parameters,
+                              std::shared_ptr<::netgen::Mesh>& mesh)
+{
+  const auto run = [&](int first_step, int last_step) {
+    parameters.perfstepsstart = first_step;
+    parameters.perfstepsend = last_step;
+    return geometry.GenerateMesh(mesh, parameters) == 0;
+  };
+  if (!run(::netgen::MESHCONST_ANALYSE, ::netgen::MESHCONST_ANALYSE)) return false;
+  for (const auto& wanted : parameters.meshsize_points) mesh->RestrictLocalH(wanted.pnt, wanted.h);
+  return run(::netgen::MESHCONST_MESHEDGES, ::netgen::MESHCONST_OPTVOLUME);
+}
+
 mesh::CoarseMesh OccModel::generate(const coarse::CoarseOptions& options,
                                     const NetgenMeshUser& use) const
 {
@@ -221,8 +240,8 @@ mesh::CoarseMesh OccModel::generate(const coarse::CoarseOptions& options,
     geometry.BuildFMap();
     geometry.CalcBoundingBox();
     auto mesh = std::make_shared<::netgen::Mesh>();
-    const int failed = geometry.GenerateMesh(mesh, session.parameters());
-    if (failed != 0) throw NetgenError("NETGEN gave up: " + session.words());
+    const bool is_made = generate_steps(geometry, session.parameters(), mesh);
+    if (!is_made) throw NetgenError("NETGEN gave up: " + session.words());
     mesh::CoarseMesh coarse = to_coarse_mesh(*mesh, numbers_for(geometry), file_name_);
     locate_face_corners(coarse);
     locate_segment_ends(coarse);

@@ -14,6 +14,7 @@
 
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
+#include "netgen/size_file.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -68,7 +69,8 @@ class StlMeshing {
         name_(name),
         scale_(scale_for_netgen(surface)),
         stl_parameters_(options),
-        session_(parameters(options, scale_))
+        size_file_(options.points.scaled(scale_)),
+        session_(parameters(options))
   {
   }
 
@@ -94,11 +96,13 @@ class StlMeshing {
   }
 
  private:
-  static ::netgen::MeshingParameters parameters(coarse::CoarseOptions options, double scale)
+  [[nodiscard]] ::netgen::MeshingParameters parameters(coarse::CoarseOptions options) const
   {
-    options.max_size *= scale;
-    options.points = options.points.scaled(scale);
-    return coarse_parameters(options);
+    options.max_size *= scale_;
+    options.points = {};
+    ::netgen::MeshingParameters result = coarse_parameters(options);
+    result.meshsizefilename = size_file_.path();
+    return result;
   }
 
   void give_triangles()
@@ -205,6 +209,7 @@ class StlMeshing {
   const std::string& name_;
   double scale_;
   StlParameters stl_parameters_;
+  SizeFile size_file_;
   NetgenSession session_;
   ::netgen::STLGeometry geometry_{};
   std::shared_ptr<::netgen::Mesh> mesh_{};

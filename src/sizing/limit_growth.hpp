@@ -19,13 +19,16 @@ void limit_growth(double growth, const ForEachNeighbour& for_each_neighbour,
                   std::span<double> values)
 {
   using Entry = std::pair<double, std::size_t>;
-  std::vector<Entry> all;
-  all.reserve(values.size());
+  std::vector<Entry> first;  // Others lower nobody, unless they are lowered themselves.
   for (std::size_t point = 0; point < values.size(); ++point) {
-    all.emplace_back(values[point], point);
+    bool is_too_steep = false;
+    for_each_neighbour(point, [&](std::size_t neighbour, double distance) {
+      is_too_steep = is_too_steep || values[point] + growth * distance < values[neighbour];
+    });
+    if (is_too_steep) first.emplace_back(values[point], point);
   }
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue(std::greater<>(),
-                                                                       std::move(all));
+                                                                       std::move(first));
   while (!queue.empty()) {
     const auto [value, point] = queue.top();
     queue.pop();

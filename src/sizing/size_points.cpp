@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "tessera/mesh/tet_lattice.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -12,15 +13,22 @@ namespace {
 constexpr int kMostCuts = 10;
 constexpr std::size_t kMostCells = 4'000'000;
 
-using Cell = std::array<Vec3, 4>;
+// A coarse tet or a part of it.
+struct Cell {
+  std::array<Vec3, 4> corners{};
+  double longest_part = 0.0;  // Of the tet's edges, when each is split on its levels.
 
-Vec3 middle_of(const Cell& cell) { return 0.25 * (cell[0] + cell[1] + cell[2] + cell[3]); }
+  [[nodiscard]] Vec3 middle() const
+  {
+    return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+  }
+};
 
-double longest_edge(const Cell& cell)
+double longest_edge(const std::array<Vec3, 4>& corners)
 {
   double longest = 0.0;
   for (const auto& [a, b] : mesh::kTetEdgeCorners) {
-    longest = std::max(longest, norm(cell[b] - cell[a]));
+    longest = std::max(longest, norm(corners[b] - corners[a]));
   }
   return longest;
 }
@@ -28,7 +36,7 @@ double longest_edge(const Cell& cell)
 double radius_of(const Cell& cell, const Vec3& middle)
 {
   double radius = 0.0;
-  for (const Vec3& corner : cell) radius = std::max(radius, norm(corner - middle));
+  for (const Vec3& corner : cell.corners) radius = std::max(radius, norm(corner - middle));
   return radius;
 }
 
@@ -37,22 +45,34 @@ void append_children(const Cell& cell, std::vector<Cell>& cells)
   const auto at = [&](const mesh::lattice::TetPoint& p) {
     const std::array<LocalIndex, 4> weights{2 - p.i - p.j - p.k, p.i, p.j, p.k};
     Vec3 point{};
-    for (std::size_t c = 0; c < 4; ++c) point = point + (0.5 * weights[c]) * cell[c];
+    for (std::size_t c = 0; c < 4; ++c) point = point + (0.5 * weights[c]) * cell.corners[c];
     return point;
   };
-  mesh::lattice::for_each_child(2, 1, 0,
-                                [&](const auto& a, const auto& b, const auto& c, const auto& d) {
-                                  cells.push_back({at(a), at(b), at(c), at(d)});
-                                });
+  mesh::lattice::for_each_child(
+      2, 1, 0, [&](const auto& a, const auto& b, const auto& c, const auto& d) {
+        cells.push_back({{at(a), at(b), at(c), at(d)}, cell.longest_part});
+      });
 }
 
-std::vector<Cell> cells_of(const mesh::CoarseMesh& coarse)
+double longest_part(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels, LocalIndex t)
+{
+  const auto tet = coarse.tet(t);
+  double longest = 0.0;
+  for (const auto& [a, b] : mesh::kTetEdgeCorners) {
+    const double length = norm(coarse.position(tet[b]) - coarse.position(tet[a]));
+    longest = std::max(longest, std::ldexp(length, -levels.of(tet[a], tet[b])));
+  }
+  return longest;
+}
+
+std::vector<Cell> cells_of(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels)
 {
   std::vector<Cell> cells;
   for (LocalIndex t = 0; t < coarse.num_tets(); ++t) {
     const auto v = coarse.tet(t);
-    cells.push_back({coarse.position(v[0]), coarse.position(v[1]), coarse.position(v[2]),
-                     coarse.position(v[3])});
+    const std::array<Vec3, 4> corners{coarse.position(v[0]), coarse.position(v[1]),
+                                      coarse.position(v[2]), coarse.position(v[3])};
+    cells.push_back({corners, longest_part(coarse, levels, t)});
   }
   return cells;
 }
@@ -62,7 +82,7 @@ std::vector<double> sizes_in_the_middle(const std::vector<Cell>& cells, const Si
   std::vector<double> middles;
   middles.reserve(3 * cells.size());
   for (const Cell& cell : cells) {
-    const Vec3 middle = middle_of(cell);
+    const Vec3 middle = cell.middle();
     middles.insert(middles.end(), middle.begin(), middle.end());
   }
   return sizes.at(middles);
@@ -70,29 +90,31 @@ std::vector<double> sizes_in_the_middle(const std::vector<Cell>& cells, const Si
 
 }  // namespace
 
-mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const SizeField& sizes,
-                                    double factor)
+mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels,
+                                    const SizeField& sizes, const EdgeLengths& in_sizes)
 {
   mesh::SizePoints points;
-  std::vector<Cell> cells = cells_of(coarse);
+  bool is_needed = false;
+  std::vector<Cell> cells = cells_of(coarse, levels);
   for (int num_cuts = 0; !cells.empty(); ++num_cuts) {
     const std::vector<double> in_the_middle = sizes_in_the_middle(cells, sizes);
     std::vector<Cell> smaller;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const Vec3 middle = middle_of(cells[i]);
+      const Vec3 middle = cells[i].middle();
       const double reach = sizes.steepest() * radius_of(cells[i], middle);
-      const bool may_be_too_long =
-          longest_edge(cells[i]) > factor * std::max(0.0, in_the_middle[i] - reach);
+      const double least = std::max(0.0, in_the_middle[i] - reach);
+      const bool may_be_too_long = longest_edge(cells[i].corners) > in_sizes.coarse_edge * least;
+      is_needed = is_needed || cells[i].longest_part > in_sizes.longest_part * in_the_middle[i];
       if (may_be_too_long && num_cuts < kMostCuts && smaller.size() < kMostCells) {
         append_children(cells[i], smaller);
       } else if (num_cuts > 0) {
         points.xyz.insert(points.xyz.end(), middle.begin(), middle.end());
-        points.size.push_back(factor * in_the_middle[i]);
+        points.size.push_back(in_sizes.coarse_edge * in_the_middle[i]);
       }
     }
     cells = std::move(smaller);
   }
-  return points;
+  return is_needed ? points : mesh::SizePoints{};
 }
 
 }  // namespace tessera::sizing

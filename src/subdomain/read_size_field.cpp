@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/subdomain/read_size_field.hpp"
 
+#include "tessera/base/bytes.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/io/point_field.hpp"
 
@@ -24,6 +25,11 @@ sizing::SizeField read_size_field(const sizing::SizeOptions& options,
   if (options.field.empty()) return {options, coarse};
   const mesh::PointField field = read_field(options);
   return {options, coarse, &field};
+}
+
+Hash128 size_field_content(const sizing::SizeOptions& options)
+{
+  return options.field.empty() ? Hash128{} : hash_bytes(to_bytes(read_field(options)));
 }
 
 }  // namespace tessera::subdomain

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of a tet mesh as numpy arrays: quality, sizes. Needs Debian's python3-numpy."""
+"""Figures of a tet mesh as numpy arrays: quality, sizes. Needs Debian's python3-numpy, and python3-vtk9 to
+read one from files."""
 import numpy
 
 BATCH = 200_000  # Tets at once, so that their quality needs little memory.
@@ -50,11 +51,43 @@ def quality(points, tets):
     }
 
 
-def edge_lengths(points, tets):
-    """Of every edge once."""
+def read_mesh(file):
+    """Points by their global ids, and tets."""
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+
+    reader = vtk.vtkXMLPUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    grid = reader.GetOutput()
+    tets = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    ids = vtk_to_numpy(grid.GetPointData().GetGlobalIds())
+    points = numpy.empty((int(ids.max()) + 1, 3))
+    points[ids] = vtk_to_numpy(grid.GetPoints().GetData())  # Those that pieces share are there twice.
+    return points, ids[tets]
+
+
+def edges_of(points, tets):
+    """The ends of every edge once."""
     keys = numpy.concatenate([numpy.sort(tets[:, edge], axis=1) for edge in EDGES]).astype(numpy.int64)
     ends = numpy.unique(keys[:, 0] * len(points) + keys[:, 1])
-    return numpy.linalg.norm(points[ends // len(points)] - points[ends % len(points)], axis=1)
+    return numpy.stack([ends // len(points), ends % len(points)], axis=1)
+
+
+def edge_lengths(points, tets):
+    """Of every edge once."""
+    ends = edges_of(points, tets)
+    return numpy.linalg.norm(points[ends[:, 0]] - points[ends[:, 1]], axis=1)
+
+
+def volume_ratios(points, tets):
+    """The larger by the smaller volume of each two tets with a common face."""
+    keys = numpy.sort(numpy.concatenate([tets[:, face] for face in FACES]), axis=1)
+    order = numpy.lexsort(keys.T)
+    is_pair = (keys[order[1:]] == keys[order[:-1]]).all(axis=1).nonzero()[0]
+    of_tets = volumes(points[tets])
+    one, other = (of_tets[order[is_pair + i] % len(tets)] for i in (0, 1))
+    return numpy.maximum(one, other) / numpy.minimum(one, other)
 
 
 def sizes(points, tets):

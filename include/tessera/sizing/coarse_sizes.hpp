@@ -5,22 +5,33 @@
 #include <vector>
 
 #include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/edge_levels.hpp"
 #include "tessera/mesh/size_points.hpp"
 #include "tessera/sizing/size_field.hpp"
 
 namespace tessera::sizing {
 
-/// @brief Where a coarse mesh should be finer, so that no edge of it needs many more levels than
-/// others: each gives parts of the wanted size after `factor` parts.
+/// @brief Lengths in wanted ones.
+struct EdgeLengths {
+  double coarse_edge = 0.0;   ///< Of the edges of a finer coarse mesh, > 0.
+  double longest_part = 0.0;  ///< Up to which the parts of an edge may be left as they are, > 0.
+};
+
+/// @brief Where a coarse mesh should be finer. An edge is split into parts of one length, so where
+/// the size falls steeply along a long one its parts are too long at one end, and a small region
+/// between edges gets none.
 ///
-/// Tets are cut into eight in bulk rounds until none is longer than its edges may become. A size
+/// Tets are cut into eight in bulk rounds until none is longer than coarse edges shall be. A size
 /// that grows with the distance cannot fall faster either, so a region inside of a tet is found by
 /// the size at its middle.
-/// @param[in] factor Length of a coarse edge in wanted ones, > 0.
-/// @return Points in tets that are too long, each with the length wanted of coarse edges there.
-/// Local; a pure function of its arguments.
+/// @param[in] levels Of the edges of `coarse`.
+/// @return Points in tets that are too long, each with the length wanted of coarse edges there;
+/// none if in no tet an edge has parts longer than `in_sizes.longest_part` sizes somewhere in the
+/// tet. Local; a pure function of its arguments.
 [[nodiscard]] mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse,
-                                                  const SizeField& sizes, double factor);
+                                                  const mesh::EdgeLevels& levels,
+                                                  const SizeField& sizes,
+                                                  const EdgeLengths& in_sizes);
 
 /// @brief For each edge of a coarse mesh, its length in radii of curvature of the surface beside
 /// it; 0 off the surface, and where that is flat. Local; O(n log n).

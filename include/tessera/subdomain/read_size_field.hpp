@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "tessera/base/hash.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/sizing/size_field.hpp"
 
@@ -10,5 +11,9 @@ namespace tessera::subdomain {
 /// @throws ConfigError as SizeField; InputError as SizeField and io::read_point_field().
 [[nodiscard]] sizing::SizeField read_size_field(const sizing::SizeOptions& options,
                                                 const mesh::CoarseMesh& coarse);
+
+/// @brief Hash of what stands in the file `options.field`, as SizeField::field_content(); zero if
+/// none is given. Local. @throws InputError as io::read_point_field().
+[[nodiscard]] Hash128 size_field_content(const sizing::SizeOptions& options);
 
 }  // namespace tessera::subdomain

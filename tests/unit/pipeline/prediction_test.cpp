@@ -252,8 +252,7 @@ TEST_F(OutlineOfACube, OfAFillIsNearTheTruth)
 struct PredictionFile : ::testing::Test {
   const testing::TemporaryFolder folder{};
   config::Case run_case{};
-  model::ModelSource model{};
-  std::vector<LocalIndex> only_subdomains{};
+  RunResult run{};
   ActualRun actual{.num_ranks = 2,
                    .tets = 11'000.0,
                    .vertices = 1400.0,
@@ -271,15 +270,13 @@ struct PredictionFile : ::testing::Test {
   {
     DryRun dry_run{.prediction = predict(basis_of(4, KernelKind::netgen, 2))};
     dry_run.advice.must = {"more disk"};
-    io::write_text_atomically(
-        folder.path() / "prediction.json",
-        prediction_json(dry_run, PredictedRun(run_case, model, only_subdomains)));
+    io::write_text_atomically(folder.path() / "prediction.json",
+                              prediction_json(dry_run, PredictedRun(run_case, run)));
   }
 
   [[nodiscard]] std::vector<PredictedFigure> compare() const
   {
-    return compare_with_prediction(folder.path(), PredictedRun(run_case, model, only_subdomains),
-                                   actual);
+    return compare_with_prediction(folder.path(), PredictedRun(run_case, run), actual);
   }
 };
 
@@ -324,10 +321,14 @@ TEST_F(PredictionFile, OfAnotherRunSaysNothing)
   run_case.refine.levels += 1;
   EXPECT_TRUE(compare().empty());
   run_case.refine.levels -= 1;
-  only_subdomains = {3};
+  run.only_subdomains = {3};
   EXPECT_TRUE(compare().empty());
-  only_subdomains = {};
-  model.content.push_back(std::byte{1});
+  run.only_subdomains = {};
+  run.field_content.low = 1;
+  EXPECT_TRUE(compare().empty());
+  run.field_content = {};
+  EXPECT_FALSE(compare().empty());
+  run.model.content.push_back(std::byte{1});
   EXPECT_TRUE(compare().empty());
 }
 
