@@ -29,7 +29,7 @@ namespace {
 // with 2.5.
 constexpr double kUsualLength = 3.3;
 
-// In wanted lengths. Where the size is the same along an edge, its parts have at most 1.35.
+// In wanted lengths. Where the size is the same along an edge, its parts have at most 1.4.
 constexpr double kLongestPart = 1.5;
 
 double usual_length(const config::Case& resolved)

@@ -224,8 +224,11 @@ std::optional<std::string> toml_value(const Rule& rule, const Case& from)
           },
           [&](const IntegerRule& integer) {
             const int value = integer.field(copy);
-            const bool is_word = value == 0 && !integer.word_for_zero.empty();
-            return Text(is_word ? toml_string(integer.word_for_zero) : fmt::to_string(value));
+            if (value == 0 && !integer.word_for_zero.empty()) {
+              return Text(toml_string(integer.word_for_zero));
+            }
+            const bool is_given = integer.low <= value && value <= integer.high;
+            return is_given ? Text(fmt::to_string(value)) : Text();
           },
           [&](const FlagRule& flag) { return Text(flag.field(copy) ? "true" : "false"); },
           [&](const PathRule& path) {

@@ -31,8 +31,8 @@ template <std::size_t N>
   return is_found ? static_cast<LocalIndex>(low) : kNoIndex;
 }
 
-/// @brief Row of the edge between two vertices, in any order. @param[in] edges Shape (num_edges, 2);
-/// each row ascends, and the rows as well.
+/// @brief Row of the edge between two vertices, in any order. @param[in] edges Shape (num_edges,
+/// 2); each row ascends, and the rows as well.
 [[nodiscard]] inline LocalIndex find_edge_row(std::span<const LocalIndex> edges, LocalIndex a,
                                               LocalIndex b)
 {
