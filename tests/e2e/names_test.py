@@ -100,15 +100,15 @@ class Names(program.ProgramTest):
 
     def test_what_fits_nothing_or_twice(self):
         entry = "[[geometry.name]]\nname = 'a'\n"
-        for names, words in (
+        for number, (names, words) in enumerate((
             (entry + "patch.faces = [99]\n", ["two_blocks.step", '"a"', "99", "1-12"]),
             (entry + "material.pattern = 'stel'\n", ['"steel"', '"copper"']),
             (entry + "patch.colour = '#123456'\n", ["no colours"]),
             (entry + "patch.box = { min = [900, 0, 0], max = [901, 1, 1] }\n", ["the model lies in"]),
             (entry + "patch.faces = [3]\n" + entry + "patch.faces = [3, 4]\n", ["face 3", "one entry only"]),
-        ):
+        )):
             with self.subTest(names=names):
-                outcome = self.run_program("mesh", self.blocks(names), "--output", "refused", "--overwrite",
+                outcome = self.run_program("mesh", self.blocks(names), "--output", f"refused_{number}",
                                            ranks=2)
                 self.assert_refused(outcome, WRONG_INPUT, *words)
 
