@@ -16,8 +16,14 @@ struct SuggestedSize {
   double num_tets = 0.0;
 };
 
-/// @brief Three sizes that suit a model of this volume (file length unit cubed, > 0). Local.
-[[nodiscard]] std::vector<SuggestedSize> suggested_sizes(double volume);
+/// @brief How much there is of a model, in file length units.
+struct Extent {
+  double volume = 0.0;  ///< Of all solids, > 0.
+  double area = 0.0;    ///< Of all faces.
+};
+
+/// @brief Three sizes that suit a model. Local.
+[[nodiscard]] std::vector<SuggestedSize> suggested_sizes(const Extent& extent);
 
 /// @brief What `tessera info MODEL` prints. Local. @pre description.require_sound() does not throw.
 [[nodiscard]] std::string model_text(const model::ModelSource& source,

@@ -14,6 +14,7 @@
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/levels_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
+#include "pipeline/stages/name_stage.hpp"
 #include "pipeline/stages/size_stage.hpp"
 
 namespace tessera::pipeline {
@@ -57,13 +58,23 @@ void require_same_run(const RunResult& run, const RunState* state, const RunCont
   });
 }
 
+CoarseResult named_coarse_mesh(const config::Case& resolved, const model::NamedParts& parts,
+                               RunContext& context)
+{
+  CoarseResult coarse = run_coarse_stage(resolved, context);
+  model::apply_names(parts, coarse.mesh);
+  return coarse;
+}
+
 // A coarse mesh, and once more where it is too coarse for the sizes.
 void run_coarse_stages(RunResult& run, RunContext& context)
 {
-  run.coarse = run_coarse_stage(run.resolved, context);
+  const model::NamedParts parts = find_named_parts(run.resolved, context);
+  run.coarse = named_coarse_mesh(run.resolved, parts, context);
   if (mesh::SizePoints points = sizes_for_a_finer_mesh(run, context); !points.size.empty()) {
     run.resolved.coarse.points = std::move(points);
-    const CoarseResult first = std::exchange(run.coarse, run_coarse_stage(run.resolved, context));
+    const CoarseResult first =
+        std::exchange(run.coarse, named_coarse_mesh(run.resolved, parts, context));
     run.coarse.tries += first.tries;
     run.coarse.failures.insert(run.coarse.failures.begin(), first.failures.begin(),
                                first.failures.end());

@@ -58,6 +58,11 @@ struct TripleRule {
   double largest;  ///< No coordinate is beyond it, on either side.
 };
 
+/// @brief A list of numbers from 1, without repetitions, not empty.
+struct NumberListRule {
+  std::vector<LocalIndex>& (*field)(Case&);
+};
+
 /// @brief A word of an enumeration; made by word_rule().
 struct WordRule {
   std::span<const std::string_view> words;
@@ -79,8 +84,8 @@ struct WordListRule {
   bool (*set)(Case&, std::span<const std::string_view>);
 };
 
-using Rule = std::variant<RealRule, IntegerRule, FlagRule, PathRule, TripleRule, WordRule, TextRule,
-                          WordListRule>;
+using Rule = std::variant<RealRule, IntegerRule, FlagRule, PathRule, TripleRule, NumberListRule,
+                          WordRule, TextRule, WordListRule>;
 
 /// @brief The rule of a field of an enumeration with words.
 /// @param[in] field Captureless; from a Case& to a reference to the member.
@@ -138,14 +143,14 @@ struct Key {
 };
 
 /// @brief A table that may stand any number of times, as `[[name]]`. Every key that is not optional
-/// must be given, but only one of the alternatives.
+/// must be given, but only of one of the alternatives.
 struct TableList {
   std::string_view name;
   std::span<const Key> keys;      ///< Their rules see the last element of a case's list.
   std::string_view unique_key{};  ///< No two elements have the same value of it. A TextRule; empty:
                                   ///< elements may be equal.
   /// A key, or a prefix "word." of keys, after the list's name: "patch", "ball". Of these, an
-  /// element has just one, with all of its keys.
+  /// element has just one, with all of its keys that are not optional.
   std::span<const std::string_view> alternatives{};
   std::string_view meaning;
   std::string_view reason;  ///< Why there are none unless given.

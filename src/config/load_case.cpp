@@ -147,8 +147,8 @@ void apply_table(const TableList& list, const Table& table, Case& into)
   }
   for (const Key& key : list.keys) {
     const std::string_view alternative = alternative_of(list, key);
-    const bool is_needed = alternative.empty() ? !key.is_optional : alternative == chosen;
-    if (!is_needed || given.contains(key.name)) continue;
+    const bool is_needed = alternative.empty() || alternative == chosen;
+    if (!is_needed || key.is_optional || given.contains(key.name)) continue;
     fail(table.origin, fmt::format("no {}; must be {}", key.name, allowed(key.rule)));
   }
   const std::string defect = list.defect == nullptr ? "" : list.defect(into);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -94,6 +95,23 @@ bool assign_to(const TripleRule& rule, const Value& value, Case& into)
   return true;
 }
 
+bool assign_to(const NumberListRule& rule, const Value& value, Case& into)
+{
+  const auto* items = std::get_if<std::vector<Value>>(&value.data);
+  if (items == nullptr || items->empty()) return false;
+  std::vector<LocalIndex> numbers;
+  for (const Value& item : *items) {
+    const auto* number = std::get_if<std::int64_t>(&item.data);
+    if (number == nullptr || *number < 1 || *number > std::numeric_limits<LocalIndex>::max()) {
+      return false;
+    }
+    if (std::ranges::count(numbers, *number) != 0) return false;
+    numbers.push_back(static_cast<LocalIndex>(*number));
+  }
+  rule.field(into) = std::move(numbers);
+  return true;
+}
+
 bool assign_to(const WordRule& rule, const Value& value, Case& into)
 {
   const auto* text = std::get_if<std::string>(&value.data);
@@ -182,6 +200,9 @@ std::string allowed(const Rule& rule)
           [](const FlagRule&) { return std::string("true or false"); },
           [](const PathRule&) { return std::string("a path in quotes, not empty"); },
           [](const TripleRule&) { return std::string("a list of three numbers"); },
+          [](const NumberListRule&) {
+            return std::string("a list of whole numbers from 1, without repetitions, not empty");
+          },
           [](const WordRule& word) {
             return (word.words.size() > 1 ? "one of " : "") + word_list(word.words);
           },
@@ -237,6 +258,10 @@ std::optional<std::string> toml_value(const Rule& rule, const Case& from)
           [&](const TripleRule& triple) {
             const Vec3 value = triple.field(copy);
             return in_range(triple, value) ? Text(triple_text(value)) : Text();
+          },
+          [&](const NumberListRule& list) {
+            const std::vector<LocalIndex>& numbers = list.field(copy);
+            return numbers.empty() ? Text() : Text(fmt::format("[{}]", fmt::join(numbers, ", ")));
           },
           [&](const WordRule& word) { return Text(toml_string(word.get(copy))); },
           [&](const TextRule& text) {

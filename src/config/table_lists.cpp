@@ -122,10 +122,133 @@ constexpr Key kSizeRegionKeys[] = {
      .example = "\"steel\""},
 };
 
+// The last name's criteria, which become those of that kind if they are of the other.
+template <class Kind>
+Kind& criteria_as(Case& c)
+{
+  auto& of = c.geometry.names.back().of;
+  if (!std::holds_alternative<Kind>(of)) of = Kind{};
+  return std::get<Kind>(of);
+}
+
+using model::FaceCriteria;
+using model::SolidCriteria;
+
+constexpr std::string_view kAllThatIsGiven = "all that is given must hold";
+constexpr std::string_view kLowestCorner =
+    "They lie inside of this box along the axes: its lowest corner.";
+constexpr std::string_view kHighestCorner =
+    "They lie inside of this box along the axes: its highest corner.";
+
+constexpr Key kNameKeys[] = {
+    {.name = "geometry.name.name",
+     .rule = TextRule{[](Case& c) -> std::string& { return c.geometry.names.back().name; }},
+     .meaning = "The name, in place of that in the file.",
+     .reason = "an entry is there to give it",
+     .example = "\"inlet\""},
+    {.name = "geometry.name.patch.faces",
+     .rule = NumberListRule{[](Case& c) -> std::vector<LocalIndex>& {
+       return criteria_as<FaceCriteria>(c).faces;
+     }},
+     .meaning = "Faces with these numbers, as tessera info lists them.",
+     .reason = kAllThatIsGiven,
+     .example = "[1, 2]",
+     .is_optional = true},
+    {.name = "geometry.name.patch.pattern",
+     .rule = TextRule{[](Case& c) -> std::string& { return criteria_as<FaceCriteria>(c).pattern; }},
+     .meaning = "Faces whose names in the file match it: * stands for any characters, ? for one, "
+                "[ab] for one of these.",
+     .reason = kAllThatIsGiven,
+     .example = "\"in*\"",
+     .is_optional = true},
+    {.name = "geometry.name.patch.colour",
+     .rule = TextRule{[](Case& c) -> std::string& { return criteria_as<FaceCriteria>(c).colour; }},
+     .meaning = "Faces of this colour, as tessera info prints it.",
+     .reason = kAllThatIsGiven,
+     .example = "\"#FF0000\"",
+     .is_optional = true},
+    {.name = "geometry.name.patch.normal",
+     .rule =
+         TripleRule{[](Case& c) -> Vec3& { return criteria_as<FaceCriteria>(c).normal; }, kHuge},
+     .meaning =
+         "Faces that point that way everywhere, out of the solid; of two solids, out of that "
+         "with the lower number. Of any length.",
+     .reason = kAllThatIsGiven,
+     .example = "[0.0, 0.0, 1.0]",
+     .is_optional = true},
+    {.name = "geometry.name.patch.tolerance_deg",
+     .rule = RealRule{[](Case& c) -> double& { return criteria_as<FaceCriteria>(c).tolerance_deg; },
+                      0.0, Bound::exclusive, 90.0, Bound::inclusive},
+     .unit = "degrees",
+     .meaning = "How far a triangle of the face may be off the normal.",
+     .reason = "flat faces are off by rounding only",
+     .derived_default = "5.0",
+     .example = "5.0",
+     .is_optional = true},
+    {.name = "geometry.name.patch.box.min",
+     .rule =
+         TripleRule{[](Case& c) -> Vec3& { return criteria_as<FaceCriteria>(c).box_min; }, kHuge},
+     .unit = "output length unit",
+     .meaning = kLowestCorner,
+     .reason = kAllThatIsGiven,
+     .example = "[0.0, 0.0, 0.0]",
+     .is_optional = true},
+    {.name = "geometry.name.patch.box.max",
+     .rule =
+         TripleRule{[](Case& c) -> Vec3& { return criteria_as<FaceCriteria>(c).box_max; }, kHuge},
+     .unit = "output length unit",
+     .meaning = kHighestCorner,
+     .reason = kAllThatIsGiven,
+     .example = "[1.0, 1.0, 0.0]",
+     .is_optional = true},
+    {.name = "geometry.name.material.solids",
+     .rule = NumberListRule{[](Case& c) -> std::vector<LocalIndex>& {
+       return criteria_as<SolidCriteria>(c).solids;
+     }},
+     .meaning = "Solids with these numbers, as tessera info lists them.",
+     .reason = kAllThatIsGiven,
+     .example = "[1]",
+     .is_optional = true},
+    {.name = "geometry.name.material.pattern",
+     .rule =
+         TextRule{[](Case& c) -> std::string& { return criteria_as<SolidCriteria>(c).pattern; }},
+     .meaning = "Solids whose names in the file match it, as of faces.",
+     .reason = kAllThatIsGiven,
+     .example = "\"st*\"",
+     .is_optional = true},
+    {.name = "geometry.name.material.box.min",
+     .rule =
+         TripleRule{[](Case& c) -> Vec3& { return criteria_as<SolidCriteria>(c).box_min; }, kHuge},
+     .unit = "output length unit",
+     .meaning = kLowestCorner,
+     .reason = kAllThatIsGiven,
+     .example = "[0.0, 0.0, 0.0]",
+     .is_optional = true},
+    {.name = "geometry.name.material.box.max",
+     .rule =
+         TripleRule{[](Case& c) -> Vec3& { return criteria_as<SolidCriteria>(c).box_max; }, kHuge},
+     .unit = "output length unit",
+     .meaning = kHighestCorner,
+     .reason = kAllThatIsGiven,
+     .example = "[1.0, 1.0, 1.0]",
+     .is_optional = true},
+};
+
+constexpr std::string_view kNamed[] = {"patch", "material"};
+
 constexpr std::string_view kShapes[] = {"box",       "ball",  "cylinder",
                                         "halfspace", "patch", "material"};
 
 constexpr TableList kTableLists[] = {
+    {.name = "geometry.name",
+     .keys = kNameKeys,
+     .alternatives = kNamed,
+     .meaning = "A name for faces of the model, which become one patch of the mesh, or for solids. "
+                "No face or solid may be chosen by two entries.",
+     .reason = "the names are those in the file",
+     .size = [](const Case& c) { return c.geometry.names.size(); },
+     .resize = [](Case& c, std::size_t size) { c.geometry.names.resize(size); },
+     .defect = [](const Case& c) { return model::defect_of(c.geometry.names.back()); }},
     {.name = "fill.region",
      .keys = kRegionKeys,
      .unique_key = "fill.region.material",

@@ -42,14 +42,15 @@ std::vector<KernelKind> kernels_of(const FillOptions& options,
 {
   std::vector<KernelKind> by_material(material_names.size(), options.kernel);
   for (const FillRegion& region : options.regions) {
-    const auto found = std::find(material_names.begin(), material_names.end(), region.material);
-    if (found == material_names.end()) {
+    if (std::ranges::find(material_names, region.material) == material_names.end()) {
       std::string text =
           fmt::format("fill.region: the model has no material \"{}\"; it has", region.material);
       for (const std::string& name : material_names) text += fmt::format(" \"{}\"", name);
       throw ConfigError(text);
     }
-    by_material[static_cast<std::size_t>(found - material_names.begin())] = region.kernel;
+    for (std::size_t m = 0; m < material_names.size(); ++m) {
+      if (material_names[m] == region.material) by_material[m] = region.kernel;
+    }
   }
   std::vector<KernelKind> kernels;
   kernels.reserve(materials.size());

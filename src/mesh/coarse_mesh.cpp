@@ -40,6 +40,9 @@ void validate_shapes(const CoarseMesh& mesh)
   require(mesh.segment_t.empty() || mesh.segment_t.size() == 2 * segments,
           "segment_t has a wrong length");
   require(mesh.patch_surface.size() == mesh.patch_names.size(), "patch_surface has a wrong length");
+  require(mesh.patch_row.empty() || mesh.patch_row.size() == mesh.patch_names.size(),
+          "patch_row has a wrong length");
+  require_indices_below(mesh.patch_row, mesh.num_patches(), "patch_row");
   require_indices_below(mesh.tet_vertices, mesh.num_vertices(), "tet_vertices");
   require_indices_below(mesh.face_vertices, mesh.num_vertices(), "face_vertices");
   require_indices_below(mesh.face_patch, mesh.num_patches(), "face_patch");

@@ -41,11 +41,18 @@ class Describer {
   {
     const ::netgen::FaceDescriptor& from = mesh_.GetFaceDescriptor(element.GetIndex());
     std::array<Vec3, 3> p{};
+    std::array<LocalIndex, 3> vertices{};
     for (std::size_t c = 0; c < 3; ++c) {
       const int point = element[static_cast<int>(c)];
       p[c] = from_netgen(mesh_.Point(point));
-      described_.triangle_vertices.push_back(point - 1);
+      vertices[c] = point - 1;
     }
+    // NETGEN's point out of DomainIn.
+    const bool is_in_lower =
+        from.DomainIn() > 0 && (from.DomainOut() <= 0 || from.DomainIn() < from.DomainOut());
+    if (!is_in_lower) std::swap(vertices[1], vertices[2]);
+    described_.triangle_vertices.insert(described_.triangle_vertices.end(), vertices.begin(),
+                                        vertices.end());
     model::FaceDescription& face = faces_[from.SurfNr()];
     face.name = name_unless_default(from.GetBCName());
     face.area += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));

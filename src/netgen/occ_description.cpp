@@ -2,6 +2,7 @@
 #include "netgen/occ_description.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
@@ -13,6 +14,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
 
 #include "netgen/occ_shape.hpp"
 
@@ -43,6 +45,8 @@ void add_triangles(const TopoDS_Face& face, LocalIndex row, model::ModelDescript
   TopLoc_Location place;
   const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
   if (mesh.IsNull()) return;
+  const bool is_turned =
+      (face.Orientation() == TopAbs_REVERSED) != place.Transformation().IsNegative();
   const auto first = static_cast<LocalIndex>(to.vertex_xyz.size() / 3);
   for (int n = 1; n <= mesh->NbNodes(); ++n) {
     const gp_Pnt point = mesh->Node(n).Transformed(place);
@@ -53,6 +57,7 @@ void add_triangles(const TopoDS_Face& face, LocalIndex row, model::ModelDescript
     int b = 0;
     int c = 0;
     mesh->Triangle(t).Get(a, b, c);
+    if (is_turned) std::swap(b, c);
     to.triangle_vertices.insert(to.triangle_vertices.end(),
                                 {first + a - 1, first + b - 1, first + c - 1});
     to.triangle_face.push_back(row);

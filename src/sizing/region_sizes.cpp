@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/name_patterns.hpp"
 
-#include "sizing/name_patterns.hpp"
 #include "sizing/solids.hpp"
 
 namespace tessera::sizing {

@@ -16,11 +16,31 @@ std::vector<std::string> names_or_none(const std::string& name)
   return name.empty() ? std::vector<std::string>{} : std::vector<std::string>{name};
 }
 
+// One name a row of files.
+std::vector<std::string> names_of_rows(const mesh::CoarseMesh& coarse)
+{
+  if (coarse.patch_row.empty()) return coarse.patch_names;
+  std::vector<std::string> names;
+  for (LocalIndex p = 0; p < coarse.num_patches(); ++p) {
+    const bool is_first = at(coarse.patch_row[at(p)]) == names.size();
+    if (is_first) names.push_back(coarse.patch_names[at(p)]);
+  }
+  return names;
+}
+
+std::vector<LocalIndex> rows_of_patches(std::vector<LocalIndex> patches,
+                                        const mesh::CoarseMesh& coarse)
+{
+  if (coarse.patch_row.empty()) return patches;
+  for (LocalIndex& patch : patches) patch = coarse.patch_row[at(patch)];
+  return patches;
+}
+
 mesh::MeshArrays with_names(const WriteContext& mesh)
 {
   mesh::MeshArrays arrays;
   arrays.field_texts["material_names"] = mesh.coarse.material_names;
-  arrays.field_texts["patch_names"] = mesh.coarse.patch_names;
+  arrays.field_texts["patch_names"] = names_of_rows(mesh.coarse);
   arrays.field_texts["length_unit"] = names_or_none(mesh.length_unit);
   arrays.field_texts["tessera_version"] = {std::string(version())};
   return arrays;
@@ -100,7 +120,7 @@ mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArray
   arrays.cell_ids.resize(at(piece.num_boundary()));
   std::iota(arrays.cell_ids.begin(), arrays.cell_ids.end(),
             mesh.ids.first_boundary_triangle(piece.subdomain));
-  arrays.cell_ints["patch"] = piece.boundary_patch;
+  arrays.cell_ints["patch"] = rows_of_patches(piece.boundary_patch, mesh.coarse);
   arrays.cell_ints["subdomain"].assign(at(piece.num_boundary()), piece.subdomain);
   auto& tet = arrays.cell_longs["tet"];
   for (const LocalIndex t : piece.boundary_tet) tet.push_back(tets.cell_ids[at(t)]);

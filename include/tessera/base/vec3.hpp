@@ -4,12 +4,18 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 namespace tessera {
 
 /// @brief Point or vector in space; unit: the output length unit unless said otherwise.
 using Vec3 = std::array<double, 3>;
+
+/// @brief Stands for a point that was not given.
+inline constexpr Vec3 kNoPoint{std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::infinity(),
+                               std::numeric_limits<double>::infinity()};
 
 [[nodiscard]] constexpr Vec3 operator+(const Vec3& a, const Vec3& b) noexcept
 {

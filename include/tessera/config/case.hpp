@@ -12,6 +12,7 @@
 #include "tessera/fill/options.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
+#include "tessera/model/options.hpp"
 #include "tessera/quality/options.hpp"
 #include "tessera/refine/options.hpp"
 #include "tessera/sizing/options.hpp"
@@ -20,8 +21,9 @@ namespace tessera::config {
 
 /// @brief What to mesh; table `[geometry]` of a case file.
 struct GeometryOptions {
-  std::filesystem::path file{};  ///< The CAD model; absolute in a loaded case.
-  double scale = 1.0;            ///< Output length units per file length unit, > 0.
+  std::filesystem::path file{};          ///< The CAD model; absolute in a loaded case.
+  double scale = 1.0;                    ///< Output length units per file length unit, > 0.
+  std::vector<model::PartName> names{};  ///< Of patches and materials.
 
   friend bool operator==(const GeometryOptions&, const GeometryOptions&) = default;
 };

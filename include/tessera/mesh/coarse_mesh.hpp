@@ -31,15 +31,19 @@ struct CoarseMesh {
   std::vector<LocalIndex> segment_curve{};     ///< Shape (num_segments); the Model's curve number.
   std::vector<double> segment_t{};  ///< Shape (num_segments, 2), end parameters; empty if none.
 
-  std::vector<std::string> patch_names{};     ///< Shape (num_patches).
-  std::vector<LocalIndex> patch_surface{};    ///< Shape (num_patches); the Model's surface number.
+  std::vector<std::string> patch_names{};   ///< Shape (num_patches).
+  std::vector<LocalIndex> patch_surface{};  ///< Shape (num_patches); the Model's surface number.
+  std::vector<LocalIndex> patch_row{};  ///< Shape (num_patches); row of the patch in files, dense
+                                        ///< from 0. Patches of one row have one name, that of its
+                                        ///< first patch. Empty: each patch is its own row.
   std::vector<std::string> material_names{};  ///< Entry m-1 names material m.
 
   static auto fields(auto& self)
   {
     return std::tie(self.vertex_xyz, self.tet_vertices, self.tet_material, self.face_vertices,
                     self.face_patch, self.face_uv, self.segment_vertices, self.segment_curve,
-                    self.segment_t, self.patch_names, self.patch_surface, self.material_names);
+                    self.segment_t, self.patch_names, self.patch_surface, self.patch_row,
+                    self.material_names);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }

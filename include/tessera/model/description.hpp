@@ -34,11 +34,12 @@ struct SolidDescription {
 /// @brief What people want to know of a model before they mesh it, with triangles to draw it.
 struct ModelDescription {
   std::vector<SolidDescription> solids{};
-  std::vector<FaceDescription> faces{};         ///< By number.
-  LocalIndex num_edges = 0;                     ///< Curves where faces meet.
-  std::vector<double> vertex_xyz{};             ///< Shape (num_vertices, 3), file length unit.
-  std::vector<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3).
-  std::vector<LocalIndex> triangle_face{};      ///< Shape (num_triangles); row of faces.
+  std::vector<FaceDescription> faces{};  ///< By number.
+  LocalIndex num_edges = 0;              ///< Curves where faces meet.
+  std::vector<double> vertex_xyz{};      ///< Shape (num_vertices, 3), file length unit.
+  /// Shape (num_triangles, 3). Normals point out of the solid; of two, out of the lower one.
+  std::vector<LocalIndex> triangle_vertices{};
+  std::vector<LocalIndex> triangle_face{};  ///< Shape (num_triangles); row of faces.
 
   static auto fields(auto& self)
   {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -11,11 +10,6 @@
 #include "tessera/base/vec3.hpp"
 
 namespace tessera::sizing {
-
-/// @brief Stands for a point that was not given.
-inline constexpr Vec3 kNoPoint{std::numeric_limits<double>::infinity(),
-                               std::numeric_limits<double>::infinity(),
-                               std::numeric_limits<double>::infinity()};
 
 // Shapes of a region; all lengths in the output length unit. Defaults stand for "not given".
 

@@ -75,6 +75,14 @@ TEST(KernelsOf, FollowTheRegionOfTheMaterial)
                                   KernelKind::netgen}));
 }
 
+TEST(KernelsOf, ARegionIsOfAllMaterialsWithItsName)
+{
+  FillOptions options;
+  options.regions = {{"core", KernelKind::subdivide}};
+  EXPECT_EQ(kernels_of(options, {"core", "shell", "core"}, {1, 2, 3}),
+            (std::vector{KernelKind::subdivide, KernelKind::netgen, KernelKind::subdivide}));
+}
+
 TEST(KernelsOf, AnUnknownMaterialIsRefusedWithTheKnownOnes)
 {
   FillOptions options;

@@ -2,6 +2,7 @@
 #include "pipeline/commands/model_info.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -33,15 +34,30 @@ model::ModelDescription unit_tet()
 TEST(ModelInfo, SuggestsSizesOfTwoDigitsThatFallWithTheTetsWanted)
 {
   for (const double volume : {1e-12, 0.3, 1.0, 5924.65, 1e15}) {
-    const auto sizes = suggested_sizes(volume);
+    const Extent extent{volume, 5.0 * std::cbrt(volume) * std::cbrt(volume)};
+    const auto sizes = suggested_sizes(extent);
     ASSERT_EQ(sizes.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(sizes[i].num_tets, i == 0 ? 2e4 : i == 1 ? 2e5 : 2e6, 0.2 * sizes[i].num_tets);
       EXPECT_LT(sizes[i].size, i == 0 ? 1e30 : sizes[i - 1].size);
     }
-    const double ratio = suggested_sizes(8.0 * volume)[0].size / sizes[0].size;
+    const double ratio = suggested_sizes({8.0 * volume, 4.0 * extent.area})[0].size / sizes[0].size;
     EXPECT_NEAR(ratio, 2.0, 0.2);
   }
+}
+
+TEST(ModelInfo, ThinWallsNeedLargerSizesForTheSameTets)
+{
+  EXPECT_GT(suggested_sizes({1.0, 60.0})[0].size, 1.3 * suggested_sizes({1.0, 6.0})[0].size);
+}
+
+TEST(ModelInfo, FlatFacesHaveNormals)
+{
+  const auto json = nlohmann::json::parse(model_json({}, unit_tet()));
+  EXPECT_EQ(json["faces"][0]["normal"], (std::vector<double>{1.0, 0.0, 0.0}));
+  model::ModelDescription bent = unit_tet();
+  bent.triangle_face[1] = 0;
+  EXPECT_TRUE(nlohmann::json::parse(model_json({}, bent))["faces"][0]["normal"].is_null());
 }
 
 TEST(ModelInfo, TextAndJsonNameFacesByTheirNumbers)

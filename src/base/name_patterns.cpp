@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sizing/name_patterns.hpp"
+#include "tessera/base/name_patterns.hpp"
 
 #include <algorithm>
 
@@ -9,8 +9,7 @@
 #include "tessera/base/edit_distance.hpp"
 #include "tessera/base/error.hpp"
 
-namespace tessera::sizing {
-namespace {
+namespace tessera {
 
 std::string nearest_first(const std::string& pattern, std::span<const std::string> names)
 {
@@ -29,18 +28,21 @@ std::string nearest_first(const std::string& pattern, std::span<const std::strin
   return text;
 }
 
-}  // namespace
+bool matches_pattern(const std::string& pattern, const std::string& name)
+{
+  return name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
 
 std::vector<bool> matching_names(std::string_view kind, const std::string& pattern,
                                  std::span<const std::string> names)
 {
   std::vector<bool> matches;
   for (const std::string& name : names) {
-    matches.push_back(name == pattern || fnmatch(pattern.c_str(), name.c_str(), 0) == 0);
+    matches.push_back(matches_pattern(pattern, name));
   }
   if (std::ranges::find(matches, true) != matches.end()) return matches;
   throw ConfigError(fmt::format("{} = \"{}\": the model has no such {}; it has {}", kind, pattern,
                                 kind, nearest_first(pattern, names)));
 }
 
-}  // namespace tessera::sizing
+}  // namespace tessera

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/model/options.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+
+namespace tessera::model {
+namespace {
+
+bool is_colour(const std::string& text)
+{
+  constexpr std::string_view kDigits = "0123456789abcdefABCDEF";
+  return text.size() == 7 && text.front() == '#'
+         && text.find_first_not_of(kDigits, 1) == std::string::npos;
+}
+
+std::string defect_of_box(const Vec3& min, const Vec3& max)
+{
+  if ((min == kNoPoint) != (max == kNoPoint)) return "box needs both box.min and box.max";
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (min[axis] > max[axis]) return "box.min must not be above box.max";
+  }
+  return {};
+}
+
+std::string defect(const FaceCriteria& of)
+{
+  const bool has_normal = of.normal != kNoPoint;
+  if (of.faces.empty() && of.pattern.empty() && of.colour.empty() && !has_normal
+      && of.box_min == kNoPoint && of.box_max == kNoPoint) {
+    return "patch needs one of faces, pattern, colour, normal, box";
+  }
+  if (!of.colour.empty() && !is_colour(of.colour)) {
+    return "patch.colour must be \"#RRGGBB\", as tessera info prints it";
+  }
+  if (of.normal == Vec3{}) return "patch.normal must not be zero";
+  if (of.tolerance_deg > 0.0 && !has_normal) return "patch.tolerance_deg is of a patch.normal";
+  return defect_of_box(of.box_min, of.box_max);
+}
+
+std::string defect(const SolidCriteria& of) { return defect_of_box(of.box_min, of.box_max); }
+
+}  // namespace
+
+std::string defect_of(const PartName& name)
+{
+  return std::visit([](const auto& of) { return defect(of); }, name.of);
+}
+
+}  // namespace tessera::model

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/model/part_names.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+
+#include "model/criteria.hpp"
+
+namespace tessera::model {
+namespace {
+
+// Below this part of the square on its longest side a triangle's normal is rounding.
+constexpr double kLeastArea = 1e-8;
+
+std::vector<LocalIndex> rows_that_fit_all(const std::vector<Criterion>& criteria)
+{
+  std::vector<LocalIndex> rows;
+  for (std::size_t row = 0; row < criteria.front().fits.size(); ++row) {
+    const auto fits = [&](const Criterion& criterion) { return criterion.fits[row]; };
+    if (std::ranges::all_of(criteria, fits)) rows.push_back(static_cast<LocalIndex>(row));
+  }
+  return rows;
+}
+
+// Of a criterion that nothing fits what there is; else what fits each of them.
+[[noreturn]] void fail_without_fit(const std::vector<Criterion>& criteria, const PartKind& kind)
+{
+  std::string each;
+  for (const Criterion& criterion : criteria) {
+    std::vector<LocalIndex> numbers;
+    for (std::size_t row = 0; row < criterion.fits.size(); ++row) {
+      if (criterion.fits[row]) numbers.push_back(kind.numbers[row]);
+    }
+    if (numbers.empty()) {
+      throw ConfigError(
+          fmt::format("no {} has {}; {}", kind.word, criterion.text, criterion.what_there_is));
+    }
+    each += fmt::format("{}{} has {} {}", each.empty() ? "" : ", ", criterion.text, kind.word,
+                        ranges_text(numbers));
+  }
+  throw ConfigError(fmt::format("no {} has all that is asked for: {}", kind.word, each));
+}
+
+// Names of one kind of part, row by row.
+class Naming {
+ public:
+  explicit Naming(PartKind kind) : kind_(std::move(kind)), names_(kind_.numbers.size()) {}
+
+  void add(const std::string& name, const std::vector<Criterion>& criteria)
+  {
+    const std::vector<LocalIndex> rows = rows_that_fit_all(criteria);
+    if (rows.empty()) fail_without_fit(criteria, kind_);
+    for (const LocalIndex row : rows) {
+      std::string& given = names_[at(row)];
+      if (!given.empty()) {
+        throw ConfigError(
+            fmt::format("{} {} has been named \"{}\" by an entry before; it can be "
+                        "chosen by one entry only",
+                        kind_.word, kind_.numbers[at(row)], given));
+      }
+      given = name;
+    }
+  }
+
+  [[nodiscard]] std::vector<NumberedName> result() const
+  {
+    std::vector<NumberedName> named;
+    for (std::size_t row = 0; row < names_.size(); ++row) {
+      if (!names_[row].empty()) named.push_back({kind_.numbers[row], names_[row]});
+    }
+    return named;
+  }
+
+ private:
+  PartKind kind_;
+  std::vector<std::string> names_;  // Empty: not named.
+};
+
+// Patches that have a name from the case become one row, at the place of the first of them.
+std::vector<LocalIndex> joined_rows(const NamedParts& parts, const mesh::CoarseMesh& coarse)
+{
+  std::map<std::string, LocalIndex> rows;
+  for (const NumberedName& face : parts.faces) rows[face.name] = kNoIndex;
+  std::vector<LocalIndex> patch_row;
+  LocalIndex next = 0;
+  for (const std::string& name : coarse.patch_names) {
+    const auto found = rows.find(name);
+    if (found == rows.end()) {
+      patch_row.push_back(next++);
+      continue;
+    }
+    if (found->second == kNoIndex) found->second = next++;
+    patch_row.push_back(found->second);
+  }
+  return patch_row;
+}
+
+}  // namespace
+
+std::vector<std::vector<Vec3>> face_normals(const ModelDescription& model)
+{
+  std::vector<std::vector<Vec3>> normals(model.faces.size());
+  for (std::size_t t = 0; t < model.triangle_face.size(); ++t) {
+    const auto corner = [&](std::size_t c) {
+      return point_at(std::span(model.vertex_xyz), model.triangle_vertices[3 * t + c]);
+    };
+    const Vec3 a = corner(1) - corner(0);
+    const Vec3 b = corner(2) - corner(0);
+    const Vec3 normal = cross(a, b);
+    const double longest = std::max({dot(a, a), dot(b, b), dot(b - a, b - a)});
+    if (!(norm(normal) > kLeastArea * longest)) continue;
+    normals[at(model.triangle_face[t])].push_back((1.0 / norm(normal)) * normal);
+  }
+  return normals;
+}
+
+NamedParts find_named_parts(const ModelDescription& model, std::span<const PartName> names,
+                            double scale)
+{
+  const CriteriaTest test(model, scale);
+  Naming faces(test.faces());
+  Naming solids(test.solids());
+  for (const PartName& entry : names) {
+    try {
+      if (const auto* of = std::get_if<FaceCriteria>(&entry.of)) {
+        faces.add(entry.name, test.criteria(*of));
+      } else {
+        solids.add(entry.name, test.criteria(std::get<SolidCriteria>(entry.of)));
+      }
+    } catch (const ConfigError& error) {
+      throw ConfigError(fmt::format("[[geometry.name]] \"{}\": {}", entry.name, error.what()));
+    }
+  }
+  return {faces.result(), solids.result()};
+}
+
+void apply_names(const NamedParts& parts, mesh::CoarseMesh& coarse)
+{
+  std::map<LocalIndex, std::string> of_face;
+  for (const NumberedName& face : parts.faces) of_face[face.number] = face.name;
+  for (LocalIndex p = 0; p < coarse.num_patches(); ++p) {
+    const auto found = of_face.find(coarse.patch_surface[at(p)] + 1);
+    if (found != of_face.end()) coarse.patch_names[at(p)] = found->second;
+  }
+  for (const NumberedName& solid : parts.solids) {
+    if (solid.number <= coarse.num_materials()) {
+      coarse.material_names[at(solid.number - 1)] = solid.name;
+    }
+  }
+  if (!parts.faces.empty()) coarse.patch_row = joined_rows(parts, coarse);
+}
+
+}  // namespace tessera::model
