@@ -5,6 +5,9 @@ import math
 import re
 import unittest
 
+from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+
 import program
 from program import DEGRADED, FAILED, OK, WRONG_INPUT
 
@@ -19,9 +22,6 @@ def sets(*values):
 
 def read(file):
     """The grid of a .pvtu, by VTK's own reader, and what it said."""
-    from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
-    from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
-
     reader = vtkXMLPUnstructuredGridReader()
     window = vtkStringOutputWindow()
     vtkOutputWindow.SetInstance(window)
@@ -166,6 +166,29 @@ class Volume(SecondOrderTest):
 
     def test_of_a_cylinder_converges(self):
         self.assert_converges("cylinder", 2.0 * math.pi, "geometry.file=" + str(program.CONFIGS / "geometry/cylinder.geo"))
+
+
+class ThinShell(SecondOrderTest):
+    """So thin that faces on the outside, once curved, would make their tets invalid."""
+
+    SHELL = (
+        "algebraic3d\nsolid outer = sphere (0, 0, 0; 1);\nsolid inner = sphere (0, 0, 0; 0.97);\n"
+        "solid shell = outer and not inner;\ntlo shell;\n"
+    )
+
+    def test_keeps_nodes_in_the_middle_is_degraded_and_valid(self):
+        self.write("shell.geo", self.SHELL)
+        case = self.write_case(geometry="shell.geo", max_size=1.0, subdomains=4)
+        options = ("--progress", "never", *sets("output.order=2", "fill.kernel=subdivide"))
+        found = []
+        for ranks in (None, 3):
+            outcome = self.run_program("mesh", case, "--output", f"out_{ranks}", *options, ranks=ranks)
+            self.assertEqual(outcome.code, DEGRADED, outcome.err)
+            found.append(self.checked(self.folder / f"out_{ranks}"))
+            self.assertIn("nodes of second order stayed in the middle", found[-1]["reason"])
+        self.assertEqual(found[0], found[1])
+        self.assertGreater(found[0]["second_order"]["num_straightened"], 0)
+        self.assertGreaterEqual(found[0]["num_points_off_geometry"], found[0]["second_order"]["num_straightened"])
 
 
 class Damage(SecondOrderTest):
