@@ -35,6 +35,18 @@ namespace {
 
 enum class Purpose : int { mesh, prediction };
 
+// What tets of second order are not made for.
+void require_order_possible(const config::Case& given, const MeshOptions& options, bool is_mesh)
+{
+  if (given.output.order == 1) return;
+  const char* const what = !is_mesh                           ? "--dry-run"
+                           : !options.only_subdomains.empty() ? "--only-subdomains"
+                           : options.on_piece                 ? "MeshOptions::on_piece"
+                                                              : nullptr;
+  if (what == nullptr) return;
+  throw ConfigError(fmt::format("{} knows tets of first order only; set output.order = 1", what));
+}
+
 // Before anything is done: what the case alone decides. All ranks have the same one.
 void require_possible(const config::Case& given, const MeshOptions& options)
 {
@@ -63,6 +75,7 @@ class CaseRun {
       : given_(given), options_(options), purpose_(purpose), comm_(comm), jobs_(jobs)
   {
     all_or_none(comm, [&] {
+      require_order_possible(given, options, is_mesh());
       require_possible(given, options);
       if (comm.rank() == 0) open_folder();
     });

@@ -33,15 +33,18 @@ bool wants_better_seams(const RunResult& run)
   return run.resolved.improve.seams && !are_counts_known(run.kernels);
 }
 
-// From the levels that pieces were filled on to all.
+// From the levels that pieces were filled on to all, or to tets of second order.
 void split_pieces(RunResult& run, const subdomain::PartitionedMesh& cut, const OutputPlan& output,
                   RunContext& context)
 {
   const RunOutline& outline = output.outline;
   const auto& ranges = outline.has_files ? outline.files : outline.jobs;
+  const subdomain::PieceSplit split{outline.is_curved ? 1 : run.splits, outline.is_curved};
+  const std::size_t num_limits = run.limiter.entries().size();
   run.filled = run_refine_stage(
-      run.resolved, {cut, run.kernels, run.splits, ranges, outline.has_files, output.length_unit},
+      run.resolved, {cut, run.kernels, split, ranges, outline.has_files, output.length_unit},
       run.limiter, std::move(run.filled), context);
+  if (outline.is_curved) run.num_straightened = run.limiter.entries().size() - num_limits;
   run_verify_stage(cut, outline.jobs, run.filled, context);
 }
 

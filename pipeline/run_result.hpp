@@ -37,6 +37,7 @@ struct RunResult {
   decompose::DecomposeResult decomposition{};
   std::vector<fill::KernelKind> kernels{};  ///< By subdomain, as the case wants them.
   mesh::ProjectionLimiter limiter{};
+  std::size_t num_straightened = 0;  ///< Of its points: nodes of second order.
   FilledPieces filled{};
   std::vector<LocalIndex> only_subdomains{};  ///< As asked for; empty: all.
   GlobalIndex num_vertices = 0;               ///< Of the whole mesh, made or not.

@@ -21,7 +21,8 @@ check::PieceSource source_of(const std::vector<std::filesystem::path>& files)
 {
   return {static_cast<LocalIndex>(files.size()), [&files](LocalIndex piece) {
             throw_if_stop_requested();
-            return io::read_vtu(files[static_cast<std::size_t>(piece)]);
+            return io::read_vtu(files[static_cast<std::size_t>(piece)],
+                                io::CellOrder::up_to_second);
           }};
 }
 
@@ -41,6 +42,9 @@ void print(const check::CheckReport& report)
   fmt::print("dihedral angles {:.2f} to {:.2f} deg, mean ratio: smallest {:.4f}, mean {:.4f}\n",
              report.quality.min_dihedral_deg, report.quality.max_dihedral_deg,
              report.quality.mean_ratio_min, report.quality.mean_ratio_mean);
+  if (report.order == 2)
+    fmt::print("second order: smallest scaled Jacobian at least {:.4f}\n",
+               report.scaled_jacobian_min);
   if (report.has_digest) fmt::print("digest {}\n", to_hex(report.digest));
   for (const std::string& note : report.notes) fmt::print("note: {}\n", note);
   for (const check::Defect& defect : report.defects) {

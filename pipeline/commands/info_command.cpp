@@ -36,7 +36,7 @@ std::string describe_mesh(const std::filesystem::path& file)
   const auto pieces = io::piece_files(file);
   for (const auto& path : pieces) {
     throw_if_stop_requested();
-    const mesh::MeshArrays piece = io::read_vtu(path);
+    const mesh::MeshArrays piece = io::read_vtu(path, io::CellOrder::up_to_second);
     num_points += piece.num_points();
     num_cells += piece.num_cells();
     if (!names.empty()) continue;

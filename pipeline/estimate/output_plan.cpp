@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/estimate/output_plan.hpp"
 
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/mesh/lattice.hpp"
 
 #include "pipeline/estimate/only_subdomains.hpp"
 #include "pipeline/runtime/with_file_context.hpp"
@@ -26,6 +29,21 @@ std::string output_length_unit(const RunResult& run)
   return run.resolved.geometry.scale == 1.0 ? run.model.length_unit : std::string{};
 }
 
+namespace {
+
+// A node of second order is a point of one level more.
+void curve(RunOutline& outline)
+{
+  constexpr int kMost = mesh::lattice::kMaxLevels - 1;
+  if (outline.levels > kMost) {
+    throw ConfigError(fmt::format(
+        "output.order = 2 leaves at most {} levels; set refine.levels = {}", kMost, kMost));
+  }
+  outline.curve_pieces();
+}
+
+}  // namespace
+
 OutputPlan plan_output(const RunResult& run, const subdomain::PartitionedMesh& cut,
                        const RunOptions& options, RunContext& context)
 {
@@ -35,6 +53,7 @@ OutputPlan plan_output(const RunResult& run, const subdomain::PartitionedMesh& c
       plan.outline = outline_run(cut, run.kernels, run.splits, output_ranges(run, options),
                                  run.resolved.improve.seams);
       if (options.on_piece) plan.outline.hand_over_pieces();
+      if (run.resolved.output.order == 2) curve(plan.outline);
       if (const auto defect = file_too_large(plan.outline, run.resolved)) {
         throw ConfigError(*defect);
       }

@@ -68,6 +68,17 @@ bool RunOutline::improves_seams() const
 void RunOutline::hand_over_pieces()
 {
   has_files = false;
+  fill_into_store();
+}
+
+void RunOutline::curve_pieces()
+{
+  is_curved = true;
+  fill_into_store();
+}
+
+void RunOutline::fill_into_store()
+{
   if (!is_one_pass) return;
   is_one_pass = false;
   jobs.clear();
@@ -109,15 +120,17 @@ RunOutline outline_run(const subdomain::PartitionedMesh& cut,
 
 std::optional<std::string> file_too_large(const RunOutline& outline, const config::Case& run_case)
 {
+  const GlobalIndex most =
+      outline.is_curved ? 4 * subdomain::kMostTetsOfFile / 10 : subdomain::kMostTetsOfFile;
   for (const subdomain::SubdomainRange& file : outline.files) {
     const GlobalIndex num_tets = outline.tets_of(file);
-    if (num_tets <= subdomain::kMostTetsOfFile) continue;
+    if (num_tets <= most) continue;
     const char* const key = run_case.output.parts > 0   ? "output.parts"
                             : run_case.output.files > 0 ? "output.files"
                                                         : "decompose.subdomains";
     return fmt::format(
         "{}: file {} of {} would hold {} tets, and its 32-bit indices reach to {}; choose more",
-        key, file.number, outline.files.size(), num_tets, subdomain::kMostTetsOfFile);
+        key, file.number, outline.files.size(), num_tets, most);
   }
   return std::nullopt;
 }

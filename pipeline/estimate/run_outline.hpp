@@ -33,10 +33,11 @@ struct RunOutline {
   bool is_one_pass = false;  ///< Fill jobs write the files themselves.
   std::vector<subdomain::SubdomainRange> jobs{};   ///< What each fill job makes.
   std::vector<subdomain::SubdomainRange> files{};  ///< What each file holds.
-  bool has_files = true;  ///< False: finished pieces are handed over instead.
+  bool has_files = true;   ///< False: finished pieces are handed over instead.
+  bool is_curved = false;  ///< Tets of second order.
 
-  /// @brief Whether pieces are split after they were filled.
-  [[nodiscard]] bool splits_pieces() const { return fill_levels < levels; }
+  /// @brief Whether pieces are split after they were filled, or get nodes of second order.
+  [[nodiscard]] bool splits_pieces() const { return fill_levels < levels || is_curved; }
 
   /// @brief Tets that a filled piece has for one that the mesh will have.
   [[nodiscard]] double filled_share() const { return std::ldexp(1.0, 3 * (fill_levels - levels)); }
@@ -44,9 +45,15 @@ struct RunOutline {
   /// @brief From now on there are no files: every piece waits in the store until it is handed over.
   void hand_over_pieces();
 
+  /// @brief From now on tets are of second order, for which every piece waits in the store.
+  void curve_pieces();
+
   [[nodiscard]] GlobalIndex tets_of(const subdomain::SubdomainRange& range) const;
   [[nodiscard]] GlobalIndex boundary_triangles_of(const subdomain::SubdomainRange& range) const;
   [[nodiscard]] bool improves_seams() const;
+
+ private:
+  void fill_into_store();
 };
 
 /// @brief How many of the levels are left for pieces to be split after they were filled. Where all

@@ -108,7 +108,7 @@ class MeshWorker final : public jobs::Worker {
                              .compression = load.compression,
                              .cell_quality = load.cell_quality};
     refinement_.emplace(Refinement{load.settings, std::move(output),
-                                   subdomain::PieceRefiner(*cut_, load.settings.splits),
+                                   subdomain::PieceRefiner(*cut_, load.settings.split),
                                    number::IdLayout::by_owner(load.settings.counts)});
   }
 

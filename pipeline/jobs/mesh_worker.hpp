@@ -137,14 +137,14 @@ struct FillTask {
 
 /// @brief What jobs need to split pieces further.
 struct RefineSettings {
-  int splits = 0;                             ///< Levels of the split.
+  subdomain::PieceSplit split{};
   std::vector<number::PieceCounts> counts{};  ///< Of all pieces as they will be.
   std::string length_unit{};
   bool has_files = true;  ///< False: pieces go into the store.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.splits, self.counts, self.length_unit, self.has_files);
+    return std::tie(self.split, self.counts, self.length_unit, self.has_files);
   }
 };
 

@@ -80,6 +80,15 @@ Json quality_json(const FilledPieces& filled)
   return json;
 }
 
+Json second_order_json(const RunResult& run)
+{
+  double least = 1.0;
+  for (const subdomain::PieceSummary& piece : run.filled.pieces) {
+    least = std::min(least, piece.min_scaled_jacobian);
+  }
+  return {{"num_straightened", run.num_straightened}, {"scaled_jacobian", {{"min", least}}}};
+}
+
 Json subdomains_json(const RunResult& run)
 {
   Json subdomains = Json::array();
@@ -312,12 +321,20 @@ Verdict judge(const RunResult& run)
     verdict.reasons.push_back(fmt::format("smallest mean ratio {:.4g} < wanted {:.4g}",
                                           tets.min_mean_ratio, targets.min_mean_ratio));
   }
-  if (!run.limiter.entries().empty()) {
+  const double held_back = largest(run.filled.pieces, &subdomain::PieceSummary::held_back_distance);
+  if (const std::size_t num = run.limiter.entries().size() - run.num_straightened; num > 0) {
     verdict.reasons.push_back(fmt::format(
         "{} points were kept off the geometry because the surface would have folded, by "
         "at most {:.3g}; a smaller coarse.max_size may help",
-        run.limiter.entries().size(),
-        largest(run.filled.pieces, &subdomain::PieceSummary::held_back_distance)));
+        num, held_back));
+  }
+  if (run.num_straightened > 0) {
+    verdict.reasons.push_back(fmt::format(
+        "{} nodes of second order stayed in the middle of their edges, where curved tets would not "
+        "have been valid, and are off the geometry by at most {:.3g}; one more of refine.levels "
+        "may "
+        "help",
+        run.num_straightened, held_back));
   }
   if (const coarse::VertexDistance& off = run.coarse.distance; off.num_off > 0) {
     verdict.reasons.push_back(fmt::format(
@@ -368,6 +385,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   json["stages"] = stages_json(times);
   if (!figures.predicted.empty()) json["prediction"] = prediction_json(figures.predicted);
   json["quality"] = quality_json(run.filled);
+  if (run.resolved.output.order == 2) json["second_order"] = second_order_json(run);
   json["model"] = model_json(run.model);
   if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);
   json["coarse"] = coarse_json(run);

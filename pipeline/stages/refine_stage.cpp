@@ -28,18 +28,18 @@ namespace {
 struct RefineOrigin {
   Hash128 cut{};
   std::vector<fill::KernelKind> kernels{};
-  int splits = 0;
+  subdomain::PieceSplit split{};
   std::vector<subdomain::PieceSummary> pieces{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.cut, self.kernels, self.splits, self.pieces);
+    return std::tie(self.cut, self.kernels, self.split, self.pieces);
   }
 };
 
 Hash128 origin_of(const RefineWork& work, const FilledPieces& filled)
 {
-  RefineOrigin origin{cut_fingerprint(work.cut), work.kernels, work.splits, filled.pieces};
+  RefineOrigin origin{cut_fingerprint(work.cut), work.kernels, work.split, filled.pieces};
   for (subdomain::PieceSummary& piece : origin.pieces) piece.cpu_s = 0.0;  // As it happened to be.
   return hash_bytes(to_bytes(origin));
 }
@@ -72,7 +72,7 @@ class StageWork {
   {
     for_each_piece([&](LocalIndex s) { surfaces_.keep_list(s); });
     std::vector<CountedPiece> own;
-    for_each_piece([&](LocalIndex s) { own.push_back({s, surfaces_.compare(s, work_.splits)}); });
+    for_each_piece([&](LocalIndex s) { own.push_back({s, surfaces_.compare(s, work_.split)}); });
     std::vector<number::PieceCounts> counts(filled_.pieces.size());
     for (const CountedPiece& piece : context_.comm.all_gather_rows(own)) {
       counts[at(piece.subdomain)] = piece.counts;
@@ -106,7 +106,7 @@ class StageWork {
   // Of one material all pieces are smoothed or none: on seams both sides must do the same.
   [[nodiscard]] PieceToRefine piece_to_refine(LocalIndex s) const
   {
-    PieceToRefine one{stored_piece(pieces_, s), surfaces_.surroundings(s, work_.splits),
+    PieceToRefine one{stored_piece(pieces_, s), surfaces_.surroundings(s, work_.split),
                       filled_.pieces[at(s)]};
     one.around.is_smoothed = work_.kernels[at(s)] != fill::KernelKind::subdivide;
     return one;
@@ -117,7 +117,7 @@ class StageWork {
     GlobalIndex num_tets = 0;
     for (LocalIndex s = range.first; s < range.last; ++s)
       num_tets += filled_.pieces[at(s)].num_tets;
-    return static_cast<double>(num_tets << 3 * work_.splits);
+    return static_cast<double>(num_tets << 3 * work_.split.levels);
   }
 
   [[nodiscard]] std::vector<double> weights() const
@@ -163,9 +163,9 @@ class StageWork {
     task.keep = false;  // A replay must not touch the run's folder.
     static_cast<void>(keep_failed_job(job, refine_request(task), outcome, context_));
     throw MeshError(fmt::format(
-        "subdomain {} could not be split further: {}; try another decompose.subdomains, a larger "
-        "fill.levels{}",
-        range.first, outcome.message,
+        "subdomain {} could not be {}: {}; try another decompose.subdomains, {}{}", range.first,
+        work_.split.is_curved ? "curved" : "split further", outcome.message,
+        work_.split.is_curved ? "output.order = 1" : "a larger fill.levels",
         depends_on_machine(outcome) ? ", a larger fill.memory_gib or fill.timeout_s" : ""));
   }
 
@@ -191,15 +191,15 @@ class StageWork {
 
 // New limits are always lower than those before; so this ends.
 mesh::ProjectionLimiter lowered(const mesh::ProjectionLimiter& limiter,
-                                const std::vector<mesh::PointLimit>& folds)
+                                const std::vector<mesh::PointLimit>& folds, const RefineWork& work)
 {
   std::vector<mesh::PointLimit> entries(limiter.entries().begin(), limiter.entries().end());
   entries.insert(entries.end(), folds.begin(), folds.end());
   mesh::ProjectionLimiter lower(std::move(entries));
   if (lower == limiter) {
     throw MeshError(
-        "tets are folded although their points are held back from the geometry; try a larger "
-        "fill.levels");
+        fmt::format("tets are folded although their points are held back from the geometry; try {}",
+                    work.split.is_curved ? "output.order = 1" : "a larger fill.levels"));
   }
   return lower;
 }
@@ -222,10 +222,10 @@ FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& wo
                               RunContext& context)
 {
   const auto num_steps = 2 * std::ssize(filled.pieces) + std::ssize(work.ranges);
-  StageScope stage(context, "refine", num_steps, "pieces");
+  StageScope stage(context, work.split.is_curved ? "curve" : "refine", num_steps, "pieces");
   StageWork stage_work(run_case, work, filled, context, stage);
   const std::vector<number::PieceCounts> counts = stage_work.count_pieces();
-  load_refinement({.splits = work.splits,
+  load_refinement({.split = work.split,
                    .counts = counts,
                    .length_unit = work.length_unit,
                    .has_files = work.has_files},
@@ -236,7 +236,7 @@ FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& wo
     auto [made, folds] = stage_work.refine_all(limiter);
     all = std::move(made);
     if (all.folded.empty()) break;
-    all_or_none(context.comm, [&] { limiter = lowered(limiter, folds); });
+    all_or_none(context.comm, [&] { limiter = lowered(limiter, folds, work); });
   }
   all_or_none(context.comm, [&] { require_counted(all.pieces, counts); });
   all.seam_sums = std::move(filled.seam_sums);

@@ -53,7 +53,8 @@ void PieceSurfaces::keep_list(LocalIndex subdomain) const
              to_bytes(subdomain::surface_of(stored_piece(pieces_, subdomain))));
 }
 
-number::PieceCounts PieceSurfaces::compare(LocalIndex subdomain, int splits) const
+number::PieceCounts PieceSurfaces::compare(LocalIndex subdomain,
+                                           const subdomain::PieceSplit& split) const
 {
   const number::SurfaceList own = find_list(store_, subdomain);
   std::vector<number::SurfaceList> others;
@@ -64,10 +65,11 @@ number::PieceCounts PieceSurfaces::compare(LocalIndex subdomain, int splits) con
   SharedPart part{.surface = number::compare_surfaces(own, others)};
   part.halo = subdomain::halo_of(whole, own, part.surface);
   store_.put(shared_name(subdomain), to_bytes(part));
-  return subdomain::count_split_piece(whole, own, part.surface, splits);
+  return subdomain::count_split_piece(whole, own, part.surface, split);
 }
 
-subdomain::PieceSurroundings PieceSurfaces::surroundings(LocalIndex subdomain, int splits) const
+subdomain::PieceSurroundings PieceSurfaces::surroundings(LocalIndex subdomain,
+                                                         const subdomain::PieceSplit& split) const
 {
   subdomain::PieceSurroundings around{.surface = find_list(store_, subdomain)};
   around.shared = find_shared(store_, subdomain).surface;
@@ -78,11 +80,11 @@ subdomain::PieceSurroundings PieceSurfaces::surroundings(LocalIndex subdomain, i
     if (other > subdomain && !is_of_own_material) continue;
     SharedPart part = find_shared(store_, other);
     if (other < subdomain) owners.push_back({other, std::move(part.surface.owned)});
-    if (is_of_own_material)
+    if (is_of_own_material && !split.is_curved)  // Nothing moves beside curved tets.
       around.halos.push_back(subdomain::halo_beside(part.halo, around.surface));
   }
-  around.places =
-      number::place_surface(around.surface.simplices, owners, mesh::lattice::intervals(splits));
+  around.places = number::place_surface(around.surface.simplices, owners,
+                                        mesh::lattice::intervals(split.levels));
   return around;
 }
 

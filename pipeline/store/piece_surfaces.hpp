@@ -28,10 +28,12 @@ class PieceSurfaces {
   void keep_list(LocalIndex subdomain) const;
 
   /// @brief Notes what the piece owns and what its neighbours need of it.
-  /// @return What it will hold after so many splits.
-  [[nodiscard]] number::PieceCounts compare(LocalIndex subdomain, int splits) const;
+  /// @return What it will hold after the split.
+  [[nodiscard]] number::PieceCounts compare(LocalIndex subdomain,
+                                            const subdomain::PieceSplit& split) const;
 
-  [[nodiscard]] subdomain::PieceSurroundings surroundings(LocalIndex subdomain, int splits) const;
+  [[nodiscard]] subdomain::PieceSurroundings surroundings(LocalIndex subdomain,
+                                                          const subdomain::PieceSplit& split) const;
 
  private:
   io::RecordStore store_;

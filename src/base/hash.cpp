@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/base/hash.hpp"
 
+#include <array>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -17,6 +18,13 @@ struct TetRecord {
   std::int64_t material = 0;
 };
 static_assert(sizeof(TetRecord) == 136, "padding would leave bytes that are not set");
+
+struct QuadraticTetRecord {
+  GlobalIndex node_ids[10]{};
+  double xyz[30]{};
+  std::int64_t material = 0;
+};
+static_assert(sizeof(QuadraticTetRecord) == 328, "padding would leave bytes that are not set");
 
 }  // namespace
 
@@ -48,6 +56,33 @@ Hash128 hash_tets(std::span<const LocalIndex> tet_vertices, std::span<const Glob
     }
     record.material = materials[t];
     sum += hash_bytes(std::as_bytes(std::span(&record, 1)));
+  }
+  return sum;
+}
+
+Hash128 hash_quadratic_tet(std::span<const GlobalIndex, 10> node_ids,
+                           std::span<const double, 30> xyz, std::int32_t material) noexcept
+{
+  QuadraticTetRecord record{.material = material};
+  std::memcpy(record.node_ids, node_ids.data(), sizeof(record.node_ids));
+  std::memcpy(record.xyz, xyz.data(), sizeof(record.xyz));
+  return hash_bytes(std::as_bytes(std::span(&record, 1)));
+}
+
+Hash128 hash_quadratic_tets(std::span<const LocalIndex> tet_nodes,
+                            std::span<const GlobalIndex> node_ids, std::span<const double> xyz,
+                            std::span<const std::int32_t> materials) noexcept
+{
+  Hash128 sum;
+  std::array<GlobalIndex, 10> ids{};
+  std::array<double, 30> positions{};
+  for (std::size_t t = 0; t < materials.size(); ++t) {
+    for (std::size_t c = 0; c < ids.size(); ++c) {
+      const std::size_t node = at(tet_nodes[ids.size() * t + c]);
+      ids[c] = node_ids[node];
+      std::memcpy(&positions[3 * c], &xyz[3 * node], 3 * sizeof(double));
+    }
+    sum += hash_quadratic_tet(ids, positions, materials[t]);
   }
   return sum;
 }

@@ -14,6 +14,7 @@
 
 #include "check/match_edges.hpp"
 #include "check/piece_topology.hpp"
+#include "check/second_order.hpp"
 
 namespace tessera::check {
 namespace {
@@ -142,6 +143,7 @@ void Checker::read_tets(PieceName name)
   }
   if (mesh.has_cell_ids) ++counts_.num_pieces_with_cell_ids;
   if (mesh.has_subdomains) ++counts_.num_pieces_with_subdomains;
+  if (mesh.is_of_second_order()) ++counts_.num_pieces_of_second_order;
   counts_.num_other_cells += mesh.arrays.num_other_cells;
   counts_.num_triangles += topology.num_inner_triangles;
   counts_.num_edges += topology.num_edges;
@@ -169,12 +171,12 @@ void Checker::take_ids(const PieceMesh& mesh, const PieceSurface& surface)
   for (const VertexRecord& vertex : surface.vertices)
     is_taken[static_cast<std::size_t>(vertex.point)] = true;
   std::vector<GlobalIndex> inner_ids;
-  for (const LocalIndex v : mesh.cell_vertices) {
-    if (v == kNoIndex || is_taken[static_cast<std::size_t>(v)]) continue;
+  for_each_used_vertex(mesh, [&](LocalIndex v) {
+    if (is_taken[static_cast<std::size_t>(v)]) return;
     is_taken[static_cast<std::size_t>(v)] = true;
     ++counts_.num_vertices;
     inner_ids.push_back(mesh.point_id(v));
-  }
+  });
   const LocalIndex piece = mesh.name.piece;
   if (mesh.identity == VertexIdentity::ids)
     append_runs(std::move(inner_ids), piece, point_id_space(), point_ids_, findings_);
@@ -301,8 +303,8 @@ void Checker::measure_seams()
     PieceRecords& records = records_[s];
     ++s;
     if (seam_points.empty()) return;
-    const mesh::MeshArrays mesh =
-        only_piece_ ? *std::exchange(only_piece_, {}) : tets_.read(name.piece);
+    mesh::MeshArrays mesh = only_piece_ ? *std::exchange(only_piece_, {}) : tets_.read(name.piece);
+    static_cast<void>(take_nodes(mesh));  // Shapes are those of the straight tets.
     if (mesh.num_cells() != num_tets(records)) throw InputError("changed while it was read");
     std::vector<bool> is_on_seam(static_cast<std::size_t>(mesh.num_points()), false);
     for (const LocalIndex point : seam_points)
@@ -340,6 +342,7 @@ void Checker::sum_over_ranks(Counts& counts) const
                                 &Counts::num_tet_pieces_with_point_ids,
                                 &Counts::num_pieces_with_cell_ids,
                                 &Counts::num_pieces_with_subdomains,
+                                &Counts::num_pieces_of_second_order,
                                 &Counts::num_other_cells,
                                 &Counts::num_boundary_pieces_without_tet,
                                 &Counts::num_boundary_pieces_without_patch,
@@ -389,11 +392,14 @@ void Checker::set_sums(CheckReport& report)
     report.volume += record.figures.volume;
     report.digest += record.figures.digest;
     report.boundary_area += record.boundary_area;
+    report.scaled_jacobian_min = std::min(report.scaled_jacobian_min, record.min_scaled_jacobian);
     shapes.add(record.shapes);
     seam_shapes.add(record.seam_shapes);
   }
+  report.order = counts_.num_pieces_of_second_order > 0 ? 2 : 1;
+  const GlobalIndex num_nodes = report.order == 2 ? report.num_edges : 0;
   report.euler_characteristic =
-      report.num_vertices - report.num_edges + report.num_triangles - report.num_tets;
+      report.num_vertices - num_nodes - report.num_edges + report.num_triangles - report.num_tets;
 
   comm_.sum_in_place(mean_ratios_.counts());
   comm_.sum_in_place(seam_mean_ratios_.counts());

@@ -61,6 +61,7 @@ class Checker {
     GlobalIndex num_tet_pieces_with_point_ids = 0;
     GlobalIndex num_pieces_with_cell_ids = 0;
     GlobalIndex num_pieces_with_subdomains = 0;
+    GlobalIndex num_pieces_of_second_order = 0;
     GlobalIndex num_other_cells = 0;
     GlobalIndex num_boundary_pieces_without_tet = 0;
     GlobalIndex num_boundary_pieces_without_patch = 0;

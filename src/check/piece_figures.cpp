@@ -11,6 +11,9 @@
 #include <fmt/format.h>
 
 #include "tessera/base/hash.hpp"
+#include "tessera/base/quadratic_tet.hpp"
+
+#include "check/second_order.hpp"
 
 namespace tessera::check {
 namespace {
@@ -44,6 +47,56 @@ Hash128 digest_of(const PieceMesh& mesh, LocalIndex cell)
   return hash_tet(ids, xyz, mesh.material(cell));
 }
 
+void report_volume(const PieceMesh& mesh, LocalIndex cell, double volume, Findings& findings)
+{
+  findings.add(Kind::non_positive_volume, {mesh.name.piece, cell}, [&] {
+    std::string text = fmt::format("{} has volume {:g}:", describe_cell(mesh, cell), volume);
+    for (const LocalIndex v : mesh.cell(cell))
+      text += fmt::format(" [{}]", describe_point(mesh, v));
+    return text;
+  });
+}
+
+Hash128 digest_of_nodes(const PieceMesh& mesh, LocalIndex cell)
+{
+  std::array<GlobalIndex, 10> ids{};
+  std::array<double, 30> xyz{};
+  const QuadraticTet positions = node_positions(mesh, cell);
+  const std::size_t row = static_cast<std::size_t>(cell);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    ids[i] = mesh.point_id(i < 4 ? mesh.cell(cell)[i] : mesh.cell_nodes[6 * row + i - 4]);
+    std::ranges::copy(positions[i], &xyz[3 * i]);
+  }
+  return hash_quadratic_tet(ids, xyz, mesh.material(cell));
+}
+
+// Volume of a tet of second order; its Jacobian must be positive everywhere.
+double measure_nodes(const PieceMesh& mesh, LocalIndex cell, PieceRecord& record,
+                     Findings& findings)
+{
+  const QuadraticTet nodes = node_positions(mesh, cell);
+  const JacobianBounds bounds = jacobian_bounds(nodes);
+  record.min_scaled_jacobian = std::min(record.min_scaled_jacobian, bounds.scaled_jacobian());
+  if (!bounds.is_positive()) {
+    findings.add(Kind::non_positive_jacobian, {mesh.name.piece, cell}, [&] {
+      return fmt::format("{}: its Jacobian is between {:g} and {:g}", describe_cell(mesh, cell),
+                         bounds.smallest, bounds.largest);
+    });
+  }
+  if (mesh.has_point_ids) record.figures.digest += digest_of_nodes(mesh, cell);
+  return curved_volume(nodes);
+}
+
+double measure_corners(const PieceMesh& mesh, LocalIndex cell, PieceRecord& record,
+                       Findings& findings)
+{
+  const auto corners = corner_positions(mesh, cell);
+  const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
+  if (!(volume > 0.0)) report_volume(mesh, cell, volume, findings);
+  if (mesh.has_point_ids) record.figures.digest += digest_of(mesh, cell);
+  return volume;
+}
+
 // Whether a cell of four different points that exist has one on a seam.
 bool has_seam_point(std::span<const LocalIndex, 4> points, const std::vector<bool>& is_on_seam)
 {
@@ -56,16 +109,6 @@ bool has_seam_point(std::span<const LocalIndex, 4> points, const std::vector<boo
       if (points[i] == points[j]) return false;
   }
   return is_seam_tet;
-}
-
-void report_volume(const PieceMesh& mesh, LocalIndex cell, double volume, Findings& findings)
-{
-  findings.add(Kind::non_positive_volume, {mesh.name.piece, cell}, [&] {
-    std::string text = fmt::format("{} has volume {:g}:", describe_cell(mesh, cell), volume);
-    for (const LocalIndex v : mesh.cell(cell))
-      text += fmt::format(" [{}]", describe_point(mesh, v));
-    return text;
-  });
 }
 
 }  // namespace
@@ -90,11 +133,10 @@ PieceRecords measure(const PieceMesh& mesh, MeanRatioCounts& counts, Findings& f
     PieceRecord& record = records.of(mesh.subdomain_of(c));
     if (record.figures.num_tets++ == 0) record.figures.material = mesh.material(c);
     if (mesh.is_left_out(c)) continue;
-    const auto corners = corner_positions(mesh, c);
-    const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
-    if (!(volume > 0.0)) report_volume(mesh, c, volume, findings);
+    const double volume = mesh.is_of_second_order() ? measure_nodes(mesh, c, record, findings)
+                                                    : measure_corners(mesh, c, record, findings);
     if (std::isfinite(volume)) record.figures.volume += volume;
-    if (mesh.has_point_ids) record.figures.digest += digest_of(mesh, c);
+    const auto corners = corner_positions(mesh, c);
     if (!is_finite(corners)) continue;
     const TetShape shape = shape_of(corners);
     record.shapes.add(shape);

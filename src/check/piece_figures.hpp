@@ -23,12 +23,14 @@ struct PieceRecord {
   SubdomainFigures figures{};
   LocalIndex piece = 0;
   double boundary_area = 0.0;
+  double min_scaled_jacobian = 1.0;  ///< Bound below that of each tet; 1 if all are straight.
   ShapeSums shapes{};
   ShapeSums seam_shapes{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.figures, self.piece, self.boundary_area, self.shapes, self.seam_shapes);
+    return std::tie(self.figures, self.piece, self.boundary_area, self.min_scaled_jacobian,
+                    self.shapes, self.seam_shapes);
   }
 };
 

@@ -11,6 +11,8 @@
 
 #include "tessera/base/error.hpp"
 
+#include "check/second_order.hpp"
+
 namespace tessera::check {
 namespace {
 
@@ -180,6 +182,7 @@ void set_cells(PieceMesh& mesh, Findings& findings)
                          describe_cell(mesh, c), describe_corners(mesh, c), mesh.num_points());
     });
   }
+  set_nodes(mesh, vertex_of, is_used, findings);
   for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
     if (is_used[static_cast<std::size_t>(p)]) continue;
     mesh.unused_points.push_back(p);
@@ -203,8 +206,9 @@ std::vector<std::int32_t> take_ints(mesh::MeshArrays& arrays, const std::string&
 PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, VertexIdentity identity,
                           Findings& findings)
 {
-  check_sizes(name, arrays, findings);
   PieceMesh mesh;
+  mesh.cell_nodes = take_nodes(arrays);
+  check_sizes(name, arrays, findings);
   mesh.name = name;
   mesh.has_point_ids = has_ids(name, "points", static_cast<std::size_t>(arrays.num_points()),
                                arrays.point_ids, findings);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -30,6 +31,8 @@ struct PieceMesh {
   bool has_cell_ids = false;
   std::vector<LocalIndex> cell_vertices{};  ///< Shape (num_cells, vertices_per_cell); the lowest of
                                             ///< the points that are one; -1 in cells left out.
+  std::vector<LocalIndex> cell_nodes{};     ///< Of cells of second order, else empty; shape
+                                            ///< (num_cells, 6 or 3), numbered as cell_vertices.
   std::vector<LocalIndex> unused_points{};
   std::vector<std::int32_t> attribute{};  ///< Shape (num_cells); material, 0 if the file has none.
   std::vector<std::int32_t> subdomain{};  ///< Shape (num_cells); if the file has none, the piece's
@@ -49,6 +52,12 @@ struct PieceMesh {
   {
     const auto width = static_cast<std::size_t>(arrays.vertices_per_cell);
     return std::span(cell_vertices).subspan(static_cast<std::size_t>(c) * width, width);
+  }
+  [[nodiscard]] bool is_of_second_order() const { return !cell_nodes.empty(); }
+  void leave_out(LocalIndex c)
+  {
+    const std::size_t width = cell(c).size();
+    std::fill_n(&cell_vertices[static_cast<std::size_t>(c) * width], width, kNoIndex);
   }
   [[nodiscard]] bool is_left_out(LocalIndex c) const { return cell(c)[0] == kNoIndex; }
   [[nodiscard]] GlobalIndex point_id(LocalIndex v) const

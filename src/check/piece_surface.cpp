@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "check/second_order.hpp"
+
 namespace tessera::check {
 namespace {
 
@@ -41,6 +43,21 @@ class VertexSelection {
   std::vector<LocalIndex> row_;
 };
 
+// With the nodes of its edges, those of second order: so both sides must agree on them. @param[in]
+// keys Of the vertices; ascending.
+TriangleKey key_of_triangle(const PieceMesh& mesh, std::span<const LocalIndex> vertices,
+                            LocalIndex cell, const std::array<VertexKey, 3>& keys)
+{
+  if (!mesh.is_of_second_order()) return key_of_vertices(keys);
+  std::array<VertexKey, 6> all{keys[0], keys[1], keys[2]};
+  for (std::size_t i = 0; i < 3; ++i) {  // The node opposite to each vertex, in their order.
+    const auto row = std::ranges::find(keys, mesh.key(vertices[i])) - keys.begin();
+    all[3 + static_cast<std::size_t>(row)] =
+        mesh.key(node_between(mesh, cell, vertices[(i + 1) % 3], vertices[(i + 2) % 3]));
+  }
+  return key_of_vertices(all);
+}
+
 // Key, parity and centroid of a triangle.
 TriangleRecord record_of(const PieceMesh& mesh, std::span<const LocalIndex> vertices,
                          LocalIndex cell)
@@ -50,7 +67,7 @@ TriangleRecord record_of(const PieceMesh& mesh, std::span<const LocalIndex> vert
                                 mesh.key(vertices[2])};
   record.is_odd = is_odd(keys[0], keys[1], keys[2]);
   std::sort(keys.begin(), keys.end());
-  record.key = key_of_vertices(keys);
+  record.key = key_of_triangle(mesh, vertices, cell, keys);
   const Vec3 sum =
       mesh.position(vertices[0]) + mesh.position(vertices[1]) + mesh.position(vertices[2]);
   for (std::size_t i = 0; i < 3; ++i) record.centroid[i] = static_cast<float>(sum[i] / 3.0);
@@ -144,12 +161,14 @@ PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology, 
       mark_seam(surface, rows, seam_keys);
     }
     shown.triangles.push_back(record);
+    for (std::size_t i = 0; mesh.is_of_second_order() && i < 3; ++i) {
+      selection.add(node_between(mesh, triangle.cell, v[i], v[(i + 1) % 3]), true, false);
+    }
   }
   if (mesh.identity == VertexIdentity::ids) {
     for (const LocalIndex p : mesh.unused_points) selection.add(p, false, false);
   } else {
-    for (const LocalIndex v : mesh.cell_vertices)
-      if (v != kNoIndex) selection.add(v, true, true);
+    for_each_used_vertex(mesh, [&](LocalIndex v) { selection.add(v, true, true); });
   }
   shown.vertices.insert(shown.vertices.end(), surface.vertices.begin(), surface.vertices.end());
   return surface;
@@ -162,6 +181,10 @@ void append_boundary(const PieceMesh& mesh, ShownRecords& shown)
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     if (mesh.is_left_out(c)) continue;
     for (const LocalIndex v : mesh.cell(c)) selection.add(v, false, false);
+    for (std::size_t i = 0; mesh.is_of_second_order() && i < 3; ++i) {
+      selection.add(node_between(mesh, c, mesh.cell(c)[i], mesh.cell(c)[(i + 1) % 3]), false,
+                    false);
+    }
     TriangleRecord record = record_of(mesh, mesh.cell(c), c);
     if (tet != mesh.arrays.cell_longs.end())
       record.cell_id = tet->second[static_cast<std::size_t>(c)];

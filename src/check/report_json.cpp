@@ -88,6 +88,9 @@ std::string to_json(const CheckReport& report)
   json.update(counts_to_json(report));
   json["digest"] = report.has_digest ? Json(to_hex(report.digest)) : Json();
   json["quality"] = quality_to_json(report);
+  if (report.order == 2) {
+    json["second_order"] = {{"scaled_jacobian", {{"min", report.scaled_jacobian_min}}}};
+  }
   json["subdomains"] = subdomains_to_json(report);
   return json.dump(2);
 }

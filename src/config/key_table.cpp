@@ -232,6 +232,12 @@ constexpr Key kKeys[] = {
      .rule = word_list_rule([](Case& c) -> std::vector<io::Format>& { return c.output.formats; }),
      .meaning = "Formats in which the mesh is written.",
      .reason = "ParaView and VTK read it in parallel; the only format of this version"},
+    {.name = "output.order",
+     .rule = IntegerRule{[](Case& c) -> int& { return c.output.order; }, 1, 2},
+     .meaning =
+         "Order of the tets. 2: a node on every edge, which lies on the geometry where the edge "
+         "does, so tets are curved there; each is certainly valid. Excludes fill.levels.",
+     .reason = "what every solver reads"},
     {.name = "output.compression",
      .rule = word_rule([](Case& c) -> io::Compression& { return c.output.compression; }),
      .meaning = "Compression of the arrays in the mesh files.",

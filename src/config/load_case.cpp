@@ -225,6 +225,16 @@ void check_required(const Case& loaded, const std::string& where)
   }
 }
 
+// Nodes of second order are put on the tets that were filled.
+void check_order(const Case& loaded, const std::string& where)
+{
+  if (loaded.output.order == 1 || loaded.fill.levels >= loaded.refine.levels) return;
+  if (loaded.fill.levels == fill::kAllLevels) return;
+  fail(where,
+       "output.order = 2 excludes fill.levels below refine.levels; leave out fill.levels, so that "
+       "subdomains are filled on all levels");
+}
+
 void resolve_paths(const fs::path& case_file, Case& loaded)
 {
   const auto beside_case = [&](const fs::path& path) {
@@ -271,6 +281,7 @@ Case parse_case(std::string_view text, const std::filesystem::path& file,
   Case loaded;
   for (const Entry& entry : entries) apply(entry, loaded);
   check_required(loaded, name);
+  check_order(loaded, name);
   resolve_paths(file, loaded);
   return loaded;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 
@@ -19,6 +20,24 @@ inline constexpr std::array<std::string_view, 6> kUsualPointIdNames{
 inline constexpr std::array<std::string_view, 6> kUsualCellIdNames{
     kCellIdsName,   "GlobalElementID",  "GlobalElementId",
     "GlobalCellID", "GlobalElementIds", "vtkGlobalCellIds"};
+
+/// @brief VTK's number of the kind of cells with so many points: tets and triangles of first and
+/// second order; 0 for another number.
+[[nodiscard]] constexpr std::uint8_t vtk_cell_type(int vertices_per_cell)
+{
+  switch (vertices_per_cell) {
+    case 3:
+      return 5;
+    case 4:
+      return 10;
+    case 6:
+      return 22;
+    case 10:
+      return 24;
+    default:
+      return 0;
+  }
+}
 
 /// @brief Whether the piece has point ids. An empty one always has, as an index of pieces with ids
 /// demands them of every piece.

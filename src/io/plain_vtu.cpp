@@ -128,11 +128,9 @@ struct CellKinds {
 
 [[nodiscard]] CellKinds kinds_of(const MeshArrays& piece)
 {
-  constexpr std::uint8_t kTriangle = 5;
-  constexpr std::uint8_t kTetra = 10;
   const auto num_cells = static_cast<std::size_t>(piece.num_cells());
   CellKinds kinds;
-  kinds.types.assign(num_cells, piece.vertices_per_cell == 4 ? kTetra : kTriangle);
+  kinds.types.assign(num_cells, vtk_cell_type(piece.vertices_per_cell));
   kinds.ends.reserve(num_cells);
   for (std::size_t cell = 1; cell <= num_cells; ++cell) {
     kinds.ends.push_back(static_cast<std::int32_t>(cell) * piece.vertices_per_cell);

@@ -107,7 +107,7 @@ void add_texts(vtkFieldData& data, const std::map<std::string, std::vector<std::
   const vtkNew<vtkPoints> points;
   points->SetData(view_of<vtkDoubleArray>("Points", piece.point_xyz, 3));
   grid->SetPoints(points);
-  grid->SetCells(piece.vertices_per_cell == 4 ? VTK_TETRA : VTK_TRIANGLE, make_cells(piece));
+  grid->SetCells(vtk_cell_type(piece.vertices_per_cell), make_cells(piece));
 
   vtkPointData& point_data = *grid->GetPointData();
   vtkCellData& cell_data = *grid->GetCellData();

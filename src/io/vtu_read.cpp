@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -21,8 +22,9 @@ namespace {
 
 using mesh::MeshArrays;
 
-constexpr std::uint8_t kVtkTriangle = 5;
-constexpr std::uint8_t kVtkTetra = 10;
+/// Points of a cell of the kinds that are read; earlier ones come first where a file has several.
+constexpr std::array kFirstOrder{4, 3};
+constexpr std::array kUpToSecondOrder{4, 3, 10, 6};
 
 /// @brief Which cells are kept, and how many there were.
 struct Selection {
@@ -178,12 +180,13 @@ struct RawPiece {
   MixedCells cells{};
 };
 
-[[nodiscard]] MeshArrays reduce(const RawPiece& raw, const Encoding& encoding, std::uint8_t kind)
+[[nodiscard]] MeshArrays reduce(const RawPiece& raw, const Encoding& encoding,
+                                int vertices_per_cell)
 {
   MeshArrays mesh;
-  mesh.vertices_per_cell = kind == kVtkTetra ? 4 : 3;
+  mesh.vertices_per_cell = vertices_per_cell;
   mesh.point_xyz = read_points(*raw.element, encoding);
-  const Selection selection = select_cells(raw.cells, kind);
+  const Selection selection = select_cells(raw.cells, vtk_cell_type(vertices_per_cell));
   mesh.num_other_cells = static_cast<GlobalIndex>(selection.num_cells - selection.kept.size());
   keep_cells(raw.cells, selection, mesh);
   if (const XmlElement* const data = raw.element->child("PointData")) {
@@ -247,18 +250,20 @@ void append(MeshArrays& to, const MeshArrays& from)
   to.num_other_cells += from.num_other_cells;
 }
 
-/// @brief Tets where there are any, or no cells at all; else triangles.
-[[nodiscard]] std::uint8_t kind_to_read(const std::vector<RawPiece>& pieces)
+/// @brief Points of a cell of the first of these kinds that is there; tets if none is.
+[[nodiscard]] int kind_to_read(const std::vector<RawPiece>& pieces, std::span<const int> kinds)
 {
-  const auto has = [&](std::uint8_t kind) {
+  const auto is_there = [&](int vertices_per_cell) {
     return std::ranges::any_of(pieces, [&](const RawPiece& piece) {
-      return std::ranges::find(piece.cells.types, kind) != piece.cells.types.end();
+      return std::ranges::find(piece.cells.types, vtk_cell_type(vertices_per_cell))
+             != piece.cells.types.end();
     });
   };
-  return !has(kVtkTetra) && has(kVtkTriangle) ? kVtkTriangle : kVtkTetra;
+  const auto found = std::ranges::find_if(kinds, is_there);
+  return found == kinds.end() ? kinds.front() : *found;
 }
 
-[[nodiscard]] MeshArrays read_document(std::string_view file)
+[[nodiscard]] MeshArrays read_document(std::string_view file, CellOrder order)
 {
   require_complete(file);
   const XmlDocument document = parse_vtk_xml(file);
@@ -270,7 +275,10 @@ void append(MeshArrays& to, const MeshArrays& from)
   }
   require(!pieces.empty(), "it has no piece");
 
-  const std::uint8_t kind = kind_to_read(pieces);
+  const std::span<const int> kinds = order == CellOrder::first
+                                         ? std::span<const int>(kFirstOrder)
+                                         : std::span<const int>(kUpToSecondOrder);
+  const int kind = kind_to_read(pieces, kinds);
   MeshArrays mesh = reduce(pieces.front(), encoding, kind);
   for (std::size_t i = 1; i < pieces.size(); ++i) append(mesh, reduce(pieces[i], encoding, kind));
   read_field_data(grid, encoding, mesh);
@@ -279,9 +287,9 @@ void append(MeshArrays& to, const MeshArrays& from)
 
 }  // namespace
 
-MeshArrays read_vtu(const std::filesystem::path& path)
+MeshArrays read_vtu(const std::filesystem::path& path, CellOrder order)
 {
-  return naming_the_file(path, [&] { return read_document(load_file(path)); });
+  return naming_the_file(path, [&] { return read_document(load_file(path), order); });
 }
 
 }  // namespace tessera::io

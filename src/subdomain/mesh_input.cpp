@@ -24,7 +24,13 @@ std::vector<mesh::MeshArrays> read_own(const std::vector<std::filesystem::path>&
   std::vector<mesh::MeshArrays> pieces;
   for (std::size_t f = first_of(comm.rank()); f < first_of(comm.rank() + 1); ++f) {
     before_each();
-    mesh::MeshArrays piece = io::read_vtu(files[f]);
+    mesh::MeshArrays piece = io::read_vtu(files[f], io::CellOrder::up_to_second);
+    if (piece.vertices_per_cell > 4) {
+      throw InputError(fmt::format(
+          "{}: its cells are of second order, which only tessera check reads; make the mesh with "
+          "output.order = 1",
+          files[f].string()));
+    }
     if (piece.num_cells() > 0 && piece.vertices_per_cell != vertices_per_cell) {
       throw InputError(fmt::format("{}: it has no {}", files[f].string(),
                                    vertices_per_cell == 4 ? "tets" : "triangles"));

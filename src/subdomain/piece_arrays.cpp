@@ -79,6 +79,22 @@ void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshAr
   number_by_owner(piece, mesh, arrays);
 }
 
+// Row by row the corners of cells and then their nodes on edges; the corners alone if there are no
+// nodes.
+std::vector<LocalIndex> with_nodes(std::vector<LocalIndex> corners, std::size_t num_corners,
+                                   const std::vector<LocalIndex>& nodes, std::size_t num_nodes)
+{
+  if (nodes.empty()) return corners;
+  std::vector<LocalIndex> both;
+  both.reserve(corners.size() + nodes.size());
+  for (std::size_t cell = 0; num_nodes * cell < nodes.size(); ++cell) {
+    both.insert(both.end(), &corners[num_corners * cell],
+                &corners[num_corners * cell] + num_corners);
+    both.insert(both.end(), &nodes[num_nodes * cell], &nodes[num_nodes * cell] + num_nodes);
+  }
+  return both;
+}
+
 // All but the positions and corners, which the piece itself gives away.
 mesh::MeshArrays tet_arrays(const mesh::Piece& piece, const WriteContext& mesh, bool with_quality)
 {
@@ -102,9 +118,10 @@ mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArray
                                  const WriteContext& mesh)
 {
   mesh::MeshArrays arrays = with_names(mesh);
-  arrays.vertices_per_cell = 3;
+  arrays.vertices_per_cell = piece.is_of_second_order() ? 6 : 3;
   std::vector<LocalIndex> new_point(at(piece.num_vertices()), kNoIndex);
   for (const LocalIndex v : piece.boundary_vertices) new_point[at(v)] = 0;
+  for (const LocalIndex v : piece.boundary_edge_nodes) new_point[at(v)] = 0;
   auto& owner = arrays.point_ints["owner"];
   for (std::size_t v = 0; v < new_point.size(); ++v) {
     if (new_point[v] == kNoIndex) continue;
@@ -114,7 +131,7 @@ mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArray
     arrays.point_ids.push_back(tets.point_ids[v]);
     owner.push_back(tets.point_ints.at("owner")[v]);
   }
-  for (const LocalIndex v : piece.boundary_vertices) {
+  for (const LocalIndex v : with_nodes(piece.boundary_vertices, 3, piece.boundary_edge_nodes, 3)) {
     arrays.cell_points.push_back(new_point[at(v)]);
   }
   arrays.cell_ids.resize(at(piece.num_boundary()));
@@ -135,12 +152,17 @@ PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh, bool with_
   arrays.tets = tet_arrays(piece, mesh, with_quality);
   arrays.boundary = boundary_arrays(piece, arrays.tets, mesh);
   arrays.tets.point_xyz = std::move(piece.vertex_xyz);
-  arrays.tets.cell_points = std::move(piece.tet_vertices);
+  if (piece.is_of_second_order()) arrays.tets.vertices_per_cell = 10;
+  arrays.tets.cell_points = with_nodes(std::move(piece.tet_vertices), 4, piece.tet_edge_nodes, 6);
   return arrays;
 }
 
 Hash128 digest_of(const mesh::MeshArrays& tets)
 {
+  if (tets.vertices_per_cell == 10) {
+    return hash_quadratic_tets(tets.cell_points, tets.point_ids, tets.point_xyz,
+                               tets.cell_ints.at("attribute"));
+  }
   return hash_tets(tets.cell_points, tets.point_ids, tets.point_xyz,
                    tets.cell_ints.at("attribute"));
 }

@@ -120,14 +120,15 @@ mesh::Piece halo_beside(const mesh::Piece& halo, const number::SurfaceList& surf
 }
 
 number::PieceCounts count_split_piece(const mesh::Piece& piece, const number::SurfaceList& surface,
-                                      const number::SharedSurface& shared, int splits)
+                                      const number::SharedSurface& shared, const PieceSplit& split)
 {
-  const LocalIndex n = mesh::lattice::intervals(splits);
+  const LocalIndex n = mesh::lattice::intervals(split.levels);
   const PieceComplex alone = make_piece_complex(piece, {}, surface.simplices);
-  const fill::SubdivisionCounts inside = fill::count_subdivision(alone.complex, alone.mesh, splits);
+  const fill::SubdivisionCounts inside =
+      fill::count_subdivision(alone.complex, alone.mesh, split.levels);
   return {.interior_vertices = inside.interior_vertices,
-          .tets = inside.tets,
-          .boundary_triangles = GlobalIndex{piece.num_boundary()} * n * n,
+          .tets = split.is_curved ? piece.num_tets() : inside.tets,
+          .boundary_triangles = GlobalIndex{piece.num_boundary()} * (split.is_curved ? 1 : n * n),
           .owned_vertices = inside.interior_vertices + shared.owned.num_points(n)};
 }
 

@@ -9,10 +9,10 @@
 #include "tessera/fill/check.hpp"
 #include "tessera/fill/subdivide.hpp"
 #include "tessera/optimize/smooth.hpp"
-#include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
 #include "subdomain/boundary_triangles.hpp"
+#include "subdomain/curve_piece.hpp"
 #include "subdomain/geometry_places.hpp"
 #include "subdomain/split_surface.hpp"
 
@@ -20,7 +20,7 @@ namespace tessera::subdomain {
 
 struct PieceRefiner::State {
   const PartitionedMesh& cut;
-  int splits;
+  PieceSplit split;
   GeometryFinder finder;
 };
 
@@ -42,7 +42,6 @@ class PieceSplitter {
       : piece_(piece),
         around_(around),
         refine_(refine),
-        hosts_(cut.skeleton),
         n_(lattice::intervals(splits)),
         surface_(piece, around, cut, finder, splits),
         all_(surface_.all())
@@ -139,26 +138,12 @@ class PieceSplitter {
     return parents;
   }
 
-  // With the names that owners give.
+  // With the positions after smoothing.
   [[nodiscard]] mesh::Skin skin_of(const mesh::RefinedLattice& points,
                                    const fill::FillOutput& tets) const
   {
-    mesh::Skin skin =
-        refine::extract_skin(all_.complex.faces, points, all_.surface, piece_.subdomain);
+    mesh::Skin skin = surface_.named_skin(points);
     std::copy_n(tets.vertex_xyz.begin(), skin.vertex_xyz.size(), skin.vertex_xyz.begin());
-    const auto& places = around_.places;
-    const mesh::Complex& faces = all_.complex.faces;
-    surface_.for_each_surface_simplex([&](std::size_t simplex, mesh::HostKind kind,
-                                          LocalIndex first, LocalIndex num_points) {
-      const number::SimplexPlace& place =
-          kind == mesh::HostKind::vertex ? places.vertices[at(faces.vertex_skeleton[simplex])]
-          : kind == mesh::HostKind::edge ? places.edges[at(faces.edge_skeleton[simplex])]
-                                         : places.triangles[at(faces.triangle_skeleton[simplex])];
-      for (LocalIndex i = 0; i < num_points; ++i) {
-        skin.vertex_host[at(first + i)] = hosts_.piece(place.owner);
-        skin.vertex_index[at(first + i)] = place.first + i;
-      }
-    });
     return skin;
   }
 
@@ -190,7 +175,6 @@ class PieceSplitter {
   const mesh::Piece& piece_;
   const PieceSurroundings& around_;
   const refine::RefineContext& refine_;
-  mesh::HostLayout hosts_;
   LocalIndex n_;  // Intervals of an edge of the piece.
   SplitSurface surface_;
   const PieceComplex& all_;  // Of the surface.
@@ -198,9 +182,9 @@ class PieceSplitter {
 
 }  // namespace
 
-PieceRefiner::PieceRefiner(const PartitionedMesh& cut, int splits)
+PieceRefiner::PieceRefiner(const PartitionedMesh& cut, const PieceSplit& split)
     : state_(std::make_unique<const State>(
-        State{cut, splits, GeometryFinder(cut.skeleton, cut.coarse, cut.levels)}))
+        State{cut, split, GeometryFinder(cut.skeleton, cut.coarse, cut.levels)}))
 {
 }
 
@@ -211,8 +195,12 @@ RefinedPiece PieceRefiner::refine(const mesh::Piece& piece, const PieceSurroundi
                                   const refine::RefineContext& refine,
                                   const PieceSummary& before) const
 {
-  return PieceSplitter(piece, around, refine, state_->cut, state_->finder, state_->splits)
-      .run(before);
+  const auto& [cut, split, finder] = *state_;
+  if (split.is_curved) {
+    const SplitSurface surface(piece, around, cut, finder, split.levels);
+    return PieceCurver(piece, around, surface).run(refine, before);
+  }
+  return PieceSplitter(piece, around, refine, cut, finder, split.levels).run(before);
 }
 
 }  // namespace tessera::subdomain

@@ -8,6 +8,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/refine/skin.hpp"
 
 namespace tessera::subdomain {
 
@@ -36,6 +37,26 @@ mesh::RefinedLattice SplitSurface::points(const refine::RefineContext& refine) c
                        {places_, known, cut_.skeleton, refine.limiter}, splits_);
   points.distance = known.distance;
   return points;
+}
+
+mesh::Skin SplitSurface::named_skin(const mesh::RefinedLattice& points) const
+{
+  const mesh::HostLayout hosts(cut_.skeleton);
+  const mesh::Complex& faces = all_.complex.faces;
+  const auto& places = around_.places;
+  mesh::Skin skin = refine::extract_skin(faces, points, all_.surface, piece_.subdomain);
+  for_each_surface_simplex(
+      [&](std::size_t simplex, mesh::HostKind kind, LocalIndex first, LocalIndex num_points) {
+        const number::SimplexPlace& place =
+            kind == mesh::HostKind::vertex ? places.vertices[at(faces.vertex_skeleton[simplex])]
+            : kind == mesh::HostKind::edge ? places.edges[at(faces.edge_skeleton[simplex])]
+                                           : places.triangles[at(faces.triangle_skeleton[simplex])];
+        for (LocalIndex i = 0; i < num_points; ++i) {
+          skin.vertex_host[at(first + i)] = hosts.piece(place.owner);
+          skin.vertex_index[at(first + i)] = place.first + i;
+        }
+      });
+  return skin;
 }
 
 // Patches and sides of the piece's surface, as subdivision asks them of a skeleton.

@@ -10,6 +10,7 @@
 #include "tessera/mesh/host_layout.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/mesh/refined_lattice.hpp"
+#include "tessera/mesh/skin.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
 
@@ -32,6 +33,9 @@ class SplitSurface {
   // All lattice points, on the geometry as far as they matter. Its distances to the model are those
   // of the skin alone: other triangles are of other skins.
   [[nodiscard]] mesh::RefinedLattice points(const refine::RefineContext& refine) const;
+
+  // The piece's surface with these points and the names that owners give.
+  [[nodiscard]] mesh::Skin named_skin(const mesh::RefinedLattice& points) const;
 
   // Calls visit(simplex, kind, first point, number of points) for the piece's surface, in the order
   // of its points.

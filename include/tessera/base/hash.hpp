@@ -57,6 +57,18 @@ struct Hash128 {
                                 std::span<const double> xyz,
                                 std::span<const std::int32_t> materials) noexcept;
 
+/// @brief The same of a tet of second order: shapes (10) and (10, 3), in the order of VTK's nodes.
+[[nodiscard]] Hash128 hash_quadratic_tet(std::span<const GlobalIndex, 10> node_ids,
+                                         std::span<const double, 30> xyz,
+                                         std::int32_t material) noexcept;
+
+/// @brief Sum of hash_quadratic_tet() over many tets. Local. @param[in] tet_nodes Shape
+/// (num_tets, 10). The rest is as for hash_tets().
+[[nodiscard]] Hash128 hash_quadratic_tets(std::span<const LocalIndex> tet_nodes,
+                                          std::span<const GlobalIndex> node_ids,
+                                          std::span<const double> xyz,
+                                          std::span<const std::int32_t> materials) noexcept;
+
 /// @brief 32 lower-case hexadecimal digits, the high half first.
 [[nodiscard]] std::string to_hex(const Hash128& hash);
 

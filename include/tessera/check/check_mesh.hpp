@@ -31,7 +31,8 @@ struct CheckOptions {
 /// Checked of the tets:
 /// - sizes of arrays and ranges of indices;
 /// - points are finite, and each is used;
-/// - volumes are positive;
+/// - volumes are positive; of tets of second order the Jacobian is, everywhere, by its bounds;
+/// - every edge of a tet of second order has one node, and every node one edge;
 /// - every triangle is on one tet, or on two with opposite orientation;
 /// - a point id has one position, and a position one id;
 /// - ids of points and cells are dense from 0, and no cell id is there twice;

@@ -66,7 +66,7 @@ struct CheckReport {
   Hash128 digest{};  ///< Sum of hash_tet over the tets; the material is "attribute", or 0.
 
   GlobalIndex num_tets = 0;
-  GlobalIndex num_vertices = 0;  ///< Different points that a tet uses.
+  GlobalIndex num_vertices = 0;  ///< Different points that a tet uses, nodes of edges included.
   GlobalIndex num_edges = 0;
   GlobalIndex num_triangles = 0;
   GlobalIndex num_boundary_triangles = 0;   ///< On one tet; without open seams if is_partial.
@@ -74,12 +74,14 @@ struct CheckReport {
   GlobalIndex num_seam_triangles = 0;       ///< Between two subdomains of the same "attribute".
   GlobalIndex num_open_seam_triangles = 0;  ///< On one tet, but not in the boundary file.
   GlobalIndex num_nonmanifold_edges = 0;    ///< Boundary edges with 4, 6, … boundary triangles.
-  GlobalIndex euler_characteristic = 0;     ///< V - E + F - T.
+  GlobalIndex euler_characteristic = 0;     ///< V - E + F - T; of second order, V are the corners.
   GlobalIndex num_components = 0;           ///< Sets of tets joined through triangles.
   GlobalIndex num_boundary_components = 0;  ///< Sets of triangles on one tet joined through edges.
 
+  int order = 1;                     ///< Of the tets; 2: they have nodes on their edges.
+  double scaled_jacobian_min = 1.0;  ///< Bound below smallest over largest Jacobian of each tet.
   double volume = 0.0;
-  double boundary_area = 0.0;
+  double boundary_area = 0.0;  ///< Of the triangles between corners.
   EdgeLengthFigures edge_length{};
   QualityFigures quality{};
   QualityFigures seam_quality{};  ///< Of tets with a vertex on a seam, open or not.

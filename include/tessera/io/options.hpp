@@ -44,6 +44,7 @@ struct OutputOptions {
   Compression compression = Compression::lz4;
   LocalIndex files = 0;       ///< Number of piece files; 0: one for each subdomain.
   LocalIndex parts = 0;       ///< Number of balanced, connected parts, a file each; 0: see `files`.
+  int order = 1;              ///< 1: straight tets; 2: with a node in the middle of every edge.
   bool cell_quality = false;  ///< Also write the mean ratio of every tet.
 
   friend bool operator==(const OutputOptions&, const OutputOptions&) = default;

@@ -47,10 +47,15 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::filesy
 /// @throws InputError naming the file and what is wrong.
 [[nodiscard]] std::vector<std::filesystem::path> piece_files(const std::filesystem::path& path);
 
+/// @brief Which cells a reader takes.
+enum class CellOrder { first, up_to_second };
+
 /// @brief Reads a .vtu of any tool, in every encoding that VTK's XML format has. Local.
 /// A build without VTK cannot read compressed arrays.
 ///
-/// - Cells: the linear tets; in a file without any, the linear triangles. Cells of all other kinds
+/// - Cells: the linear tets; in a file without any, the linear triangles. With
+///   CellOrder::up_to_second in a file without either the tets, else the triangles, of second
+///   order, as VTK_QUADRATIC_TETRA and VTK_QUADRATIC_TRIANGLE. Cells of all other kinds
 ///   are counted in `num_other_cells` and left out. A file without cells counts as one of tets.
 /// - Ghosts, cells that "vtkGhostType" says are copies of another piece's, are left out.
 /// - Ids: the array that the attribute GlobalIds names; else one of the usual names.
@@ -63,7 +68,8 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::filesy
 /// What is returned is consistent: sizes match, `cell_points` lie in 0…num_points-1.
 /// @throws InputError naming the file and what is wrong: missing, not a .vtu, cut off, corrupt,
 /// compressed in a build without VTK.
-[[nodiscard]] mesh::MeshArrays read_vtu(const std::filesystem::path& path);
+[[nodiscard]] mesh::MeshArrays read_vtu(const std::filesystem::path& path,
+                                        CellOrder order = CellOrder::first);
 
 /// @brief VTK's version, e.g. "9.1.0"; "none" in a build without VTK. Local.
 [[nodiscard]] std::string vtk_version();

@@ -13,9 +13,10 @@ namespace tessera::mesh {
 /// @brief Arrays of one piece file as written or read; nothing is derived, nothing is trusted.
 ///
 /// Plain exchange struct between the file format (io) and its users. Optional arrays are empty when
-/// the file has none. Cells are all of one kind: tets (4 vertices) or triangles (3).
+/// the file has none. Cells are all of one kind: tets (4 points; 10 of second order, in the order
+/// of VTK_QUADRATIC_TETRA) or triangles (3; 6 as VTK_QUADRATIC_TRIANGLE).
 struct MeshArrays {
-  int vertices_per_cell = 4;              ///< 4: tets, 3: boundary triangles.
+  int vertices_per_cell = 4;              ///< 4, 10: tets; 3, 6: boundary triangles.
   std::vector<double> point_xyz{};        ///< Shape (num_points, 3).
   std::vector<LocalIndex> cell_points{};  ///< Shape (num_cells, vertices_per_cell), from 0.
   std::vector<GlobalIndex> point_ids{};   ///< Shape (num_points); GLOBAL_IDS. Optional.

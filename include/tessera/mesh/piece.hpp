@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/quadratic_tet.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/host_layout.hpp"
@@ -30,12 +31,15 @@ struct Piece {
                                                 ///< geometry that this piece owns; outward.
   std::vector<LocalIndex> boundary_patch{};     ///< Shape (num_boundary).
   std::vector<LocalIndex> boundary_tet{};       ///< Shape (num_boundary); local tet behind it.
+  // Of a piece of second order; else empty. Nodes count as vertices.
+  std::vector<LocalIndex> tet_edge_nodes{};       ///< Shape (num_tets, 6), kQuadraticTetEdges.
+  std::vector<LocalIndex> boundary_edge_nodes{};  ///< Shape (num_boundary, 3): sides 01, 12, 20.
 
   static auto fields(auto& self)
   {
     return std::tie(self.subdomain, self.material, self.vertex_xyz, self.skin_host, self.skin_index,
                     self.tet_vertices, self.boundary_vertices, self.boundary_patch,
-                    self.boundary_tet);
+                    self.boundary_tet, self.tet_edge_nodes, self.boundary_edge_nodes);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
@@ -52,6 +56,8 @@ struct Piece {
   [[nodiscard]] LocalIndex num_tets() const { return count(tet_vertices.size(), 4); }
   [[nodiscard]] LocalIndex num_boundary() const { return count(boundary_patch.size(), 1); }
 
+  [[nodiscard]] bool is_of_second_order() const { return !tet_edge_nodes.empty(); }
+
   /// @brief Corner positions of tet `t`.
   [[nodiscard]] std::array<Vec3, 4> corners(LocalIndex t) const
   {
@@ -59,6 +65,20 @@ struct Piece {
     for (std::size_t c = 0; c < 4; ++c) {
       positions[c] =
           point_at(std::span(vertex_xyz), tet_vertices[4 * static_cast<std::size_t>(t) + c]);
+    }
+    return positions;
+  }
+
+  /// @brief Positions of the nodes of tet `t`. @pre is_of_second_order()
+  [[nodiscard]] QuadraticTet nodes(LocalIndex t) const
+  {
+    QuadraticTet positions;
+    const auto tet = static_cast<std::size_t>(t);
+    for (std::size_t c = 0; c < 4; ++c) {
+      positions[c] = point_at(std::span(vertex_xyz), tet_vertices[4 * tet + c]);
+    }
+    for (std::size_t e = 0; e < 6; ++e) {
+      positions[4 + e] = point_at(std::span(vertex_xyz), tet_edge_nodes[6 * tet + e]);
     }
     return positions;
   }

@@ -48,7 +48,8 @@ struct PieceArrays {
 /// @param[in] number Of the files. @pre the tets are in ascending order of their ids.
 [[nodiscard]] MeshPiece mesh_piece(PieceArrays arrays, LocalIndex number);
 
-/// @brief Sum of hash_tet() over the cells. Local. @pre ids and "attribute" are there.
+/// @brief Sum of hash_tet() over the cells, or of hash_quadratic_tet(). Local. @pre ids and
+/// "attribute" are there.
 [[nodiscard]] Hash128 digest_of(const mesh::MeshArrays& tets);
 
 }  // namespace tessera::subdomain

@@ -33,6 +33,7 @@ struct PieceSummary {
   double cpu_s = 0.0;               ///< Of the try that succeeded.
   bool was_limited = false;         ///< A try ended for time or memory: not reproducible.
   bool is_folded = false;  ///< A coarse tet has children that are not positive: there is no piece.
+  double min_scaled_jacobian = 1.0;  ///< Bound below that of every tet; 1 if all are straight.
   quality::TetStatistics tets{};
   quality::TetStatistics
       seam_tets{};    ///< Tets with a vertex between two subdomains of one material.
@@ -47,8 +48,8 @@ struct PieceSummary {
                     self.num_tets, self.num_interior_vertices, self.num_owned_vertices,
                     self.num_boundary, self.euler_characteristic, self.volume, self.boundary_area,
                     self.model_distance, self.held_back_distance, self.cpu_s, self.was_limited,
-                    self.is_folded, self.tets, self.seam_tets, self.outside, self.surface,
-                    self.content, self.digest);
+                    self.is_folded, self.min_scaled_jacobian, self.tets, self.seam_tets,
+                    self.outside, self.surface, self.content, self.digest);
   }
 };
 

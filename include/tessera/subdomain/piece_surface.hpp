@@ -5,6 +5,7 @@
 #include "tessera/number/id_layout.hpp"
 #include "tessera/number/surface_simplices.hpp"
 #include "tessera/subdomain/piece_arrays.hpp"
+#include "tessera/subdomain/refine_piece.hpp"
 
 /// What pieces tell their neighbours before they are split further.
 namespace tessera::subdomain {
@@ -25,12 +26,11 @@ namespace tessera::subdomain {
 /// piece. Local; O(n log n). @param[in] surface Of the piece.
 [[nodiscard]] mesh::Piece halo_beside(const mesh::Piece& halo, const number::SurfaceList& surface);
 
-/// @brief What the piece will hold after so many splits of every edge: closed forms. Local;
-/// O(m log m) in the tets.
+/// @brief What the piece will hold after the split: closed forms. Local; O(m log m) in the tets.
 [[nodiscard]] number::PieceCounts count_split_piece(const mesh::Piece& piece,
                                                     const number::SurfaceList& surface,
                                                     const number::SharedSurface& shared,
-                                                    int splits);
+                                                    const PieceSplit& split);
 
 /// @brief Who numbers the vertices of a piece that was split: its names say so. Local.
 /// @param[in] counts Of this piece. @return Shape (num_vertices).

@@ -32,10 +32,20 @@ struct PieceSurroundings {
   }
 };
 
+/// @brief How pieces are split.
+struct PieceSplit {
+  int levels = 0;          ///< Of every edge.
+  bool is_curved = false;  ///< Tets stay whole, and the points of one level become their nodes of
+                           ///< second order.
+
+  static auto fields(auto& self) { return std::tie(self.levels, self.is_curved); }
+};
+
 /// @brief A piece that was split, or why it could not be.
 struct RefinedPiece {
   FilledPiece filled{};
-  /// New points on the geometry that must be held back, since tets beside them are folded. Empty
+  /// New points on the geometry that must be held back, since tets beside them are folded, or not
+  /// certainly positive everywhere if they are curved. Empty
   /// unless the piece is folded.
   std::vector<mesh::PointLimit> folds{};
 };
@@ -46,11 +56,12 @@ struct RefinedPiece {
 /// all others midpoints. Then vertices are smoothed: those on seams first, all at once, by what
 /// both sides know; then those inside, one after the other. So pieces conform without a message,
 /// and the mesh gets better than the one it was made from.
+///
+/// With PieceSplit::is_curved tets get nodes instead, and nothing is smoothed.
 class PieceRefiner {
  public:
-  /// @param[in] cut Borrowed; with the levels that the pieces were filled on. @param[in] splits How
-  /// many levels more.
-  PieceRefiner(const PartitionedMesh& cut, int splits);
+  /// @param[in] cut Borrowed; with the levels that the pieces were filled on.
+  PieceRefiner(const PartitionedMesh& cut, const PieceSplit& split);
   PieceRefiner(PieceRefiner&&) noexcept;
   ~PieceRefiner();
 

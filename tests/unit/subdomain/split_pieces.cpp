@@ -32,7 +32,7 @@ void compare_all(const Body& body, const std::vector<FilledPiece>& filled, int s
     subdomain::PieceSurroundings& around = split[s].around;
     around.shared = number::compare_surfaces(around.surface, others);
     split[s].counts =
-        subdomain::count_split_piece(filled[s].piece, around.surface, around.shared, splits);
+        subdomain::count_split_piece(filled[s].piece, around.surface, around.shared, {splits});
   }
 }
 
@@ -126,7 +126,7 @@ std::vector<SplitPiece> split_all(const Body& body, const model::Model& model,
   compare_all(body, filled, task.splits(), split);
   add_surroundings(body, filled, task.splits(), split);
   const subdomain::PartitionedMesh cut(body.coarse, body.decomposition, task.from);
-  const subdomain::PieceRefiner refiner(cut, task.splits());
+  const subdomain::PieceRefiner refiner(cut, {task.splits()});
   const refine::RefineContext refine{body.coarse, body.skeleton, model, limiter, task.to, true};
   for (std::size_t s = 0; s < split.size(); ++s) {
     split[s].around.is_smoothed = task.kernel != fill::KernelKind::subdivide;
