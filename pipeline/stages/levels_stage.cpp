@@ -103,7 +103,8 @@ void choose_levels(RunResult& run, RunContext& context)
                            subdomain::read_size_field(run.resolved.size, coarse));
     });
   });
-  run.splits = splits_of(run.resolved, coarse, wanted);
+  run.splits =
+      with_file_context(run.resolved, [&] { return splits_of(run.resolved, coarse, wanted); });
   run.levels = wanted.raised(run.splits);
   if (!stage) return;
   stage->work_is_done();

@@ -77,7 +77,6 @@ class WrongCase(OutcomeTest):
             ("output.cell_quality=1", ["true or false"]),
             ("output.compression='gzip'", ["lz4"]),
             ("coarse.max_sise=1", ['did you mean "coarse.max_size"', "reference.toml"]),
-            ("size.min=1", ["size.min alone"]),
         ):
             self.assert_refuses(
                 ["mesh", case, "--set", setting], WRONG_INPUT, f"--set {setting}", *words, ranks=[None]
