@@ -9,13 +9,9 @@ import unittest
 
 import kill
 import program
-from program import DEGRADED, FAILED, OK
+from program import DEGRADED, FAILED, OK, sets
 
 OPTIMIZE = "fill.kernel=optimize"
-
-
-def sets(*values):
-    return [word for value in values for word in ("--set", value)]
 
 
 class FillLevelsTest(program.ProgramTest):

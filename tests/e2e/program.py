@@ -138,6 +138,17 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(outcome.code, OK, outcome.err)
         return self.folder / output
 
+    def assert_checked(self, folder, volume_tolerance):
+        """What `check` finds in the files is what the report says. Gives both."""
+        reported = figures(folder)
+        outcome = self.run_program("check", folder / "mesh.pvtu", "--json", ranks=2)
+        self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
+        found = json.loads(outcome.out)
+        for key in ("digest", "num_tets", "num_vertices"):
+            self.assertEqual(found[key], reported[key], key)
+        self.assertAlmostEqual(found["volume"], reported["volume"], delta=volume_tolerance * reported["volume"])
+        return reported, found
+
     def assert_refused(self, outcome, code, *words):
         """Ended with `code` and one message that holds `words`, and nothing like a crash."""
         self.assertEqual(outcome.code, code, outcome.err + outcome.out)
@@ -164,6 +175,11 @@ class ResultTest(ProgramTest):
         super().setUp()
         self.out = shutil.copytree(self.result, self.folder / "out")
         self.report = json.loads((self.out / "report.json").read_text())
+
+
+def sets(*values):
+    """The options that set keys: "table.key=value"."""
+    return [word for value in values for word in ("--set", value)]
 
 
 def mesh_files(folder):

@@ -9,15 +9,11 @@ from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 import program
-from program import DEGRADED, FAILED, OK, WRONG_INPUT
+from program import DEGRADED, FAILED, OK, WRONG_INPUT, sets
 
 # Corners of the edges that VTK's nodes 4 to 9 stand on.
 EDGES = [(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)]
 QUADRATIC_TRIANGLE, QUADRATIC_TETRA = 22, 24
-
-
-def sets(*values):
-    return [word for value in values for word in ("--set", value)]
 
 
 def read(file):
@@ -53,13 +49,7 @@ class SecondOrderTest(program.ProgramTest):
 
     def checked(self, folder):
         """Its figures; `check` finds the same in the files, and nothing wrong."""
-        figures = program.figures(folder)
-        outcome = self.run_program("check", folder / "mesh.pvtu", "--json", ranks=2)
-        self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
-        found = json.loads(outcome.out)
-        for key in ("digest", "num_tets", "num_vertices"):
-            self.assertEqual(found[key], figures[key], key)
-        self.assertAlmostEqual(found["volume"], figures["volume"], delta=1e-12 * figures["volume"])
+        figures, found = self.assert_checked(folder, volume_tolerance=1e-12)
         least = found["second_order"]["scaled_jacobian"]["min"]
         self.assertEqual(least, figures["second_order"]["scaled_jacobian"]["min"])
         self.assertGreater(least, 0.0)
