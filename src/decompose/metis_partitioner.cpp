@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
-#include <csignal>
 #include <cstddef>
 #include <string>
 
@@ -9,6 +8,8 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
+
+#include "base/held_signals.hpp"
 
 namespace tessera::decompose {
 namespace {
@@ -42,15 +43,13 @@ class MetisPartitioner final : public GraphPartitioner {
     idx_t parts = num_parts;
     idx_t cut = 0;
     std::vector<idx_t> part(static_cast<std::size_t>(num_vertices));
-    const auto run = [&] {
-      return METIS_PartGraphRecursive(
-          &num_vertices, &num_constraints, offsets.data(), neighbours.data(), vertex_weight.data(),
-          nullptr, edge_weight.data(), &parts, nullptr, nullptr, options.data(), &cut, part.data());
-    };
-    int status = run();
-    // METIS takes a SIGTERM that comes while it works for an error of its own. What goes well the
-    // second time was that, and whoever waits for the signal gets it.
-    if (status == METIS_ERROR && (status = run()) == METIS_OK) std::raise(SIGTERM);
+    // METIS takes a SIGTERM that comes while it works for an error of its own and jumps out of what
+    // it does, even out of malloc(): the next malloc() then waits for ever. Handlers that it puts
+    // back are lost after one signal.
+    const HeldSignals held{SIGTERM, SIGABRT};
+    const int status = METIS_PartGraphRecursive(
+        &num_vertices, &num_constraints, offsets.data(), neighbours.data(), vertex_weight.data(),
+        nullptr, edge_weight.data(), &parts, nullptr, nullptr, options.data(), &cut, part.data());
     if (status != METIS_OK) {
       throw MeshError(
           fmt::format("METIS failed with code {} on a graph of {} vertices and {} parts", status,
