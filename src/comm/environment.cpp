@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/comm/environment.hpp"
 
-#include "base/held_signals.hpp"
+#include "tessera/base/held_signals.hpp"
 
 namespace tessera::comm {
 

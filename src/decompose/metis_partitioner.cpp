@@ -7,9 +7,8 @@
 #include <metis.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/held_signals.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
-
-#include "base/held_signals.hpp"
 
 namespace tessera::decompose {
 namespace {
