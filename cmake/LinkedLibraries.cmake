@@ -80,6 +80,8 @@ tessera_find_package(fmt)
 tessera_find_package(spdlog)
 tessera_import_library(xxhash::xxhash xxhash.h xxhash)
 tessera_import_library(metis::metis metis.h metis)
+# HDF5 without MPI: ranks write their parts of its files by themselves.
+tessera_import_library(hdf5::hdf5 hdf5.h hdf5_serial PATH_SUFFIXES hdf5/serial)
 # PT-Scotch with 64-bit numbers, as meshes have more than 2^31 faces.
 tessera_import_library(ptscotch::ptscotch ptscotch.h ptscotch PATH_SUFFIXES scotch-int64)
 target_link_libraries(ptscotch::ptscotch INTERFACE MPI::MPI_CXX)

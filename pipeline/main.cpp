@@ -12,6 +12,7 @@
 
 #include "pipeline/commands/check_command.hpp"
 #include "pipeline/commands/cli.hpp"
+#include "pipeline/commands/convert_command.hpp"
 #include "pipeline/commands/info_command.hpp"
 #include "pipeline/commands/mesh_command.hpp"
 #include "pipeline/commands/repartition_command.hpp"
@@ -39,6 +40,9 @@ ExitCode run(const Command& command, const comm::Communicator& comm, jobs::JobRu
   if (const auto* repartition = std::get_if<RepartitionCommand>(&command)) {
     return run_repartition_command(*repartition, comm);
   }
+  if (const auto* convert = std::get_if<ConvertCommand>(&command)) {
+    return run_convert_command(*convert, comm);
+  }
   if (const auto* info = std::get_if<InfoCommand>(&command)) {
     return run_info_command(*info, comm, jobs);
   }
@@ -53,6 +57,7 @@ void require_answered(const Command& command)
 {
   const auto* const mesh = std::get_if<MeshCommand>(&command);
   if (std::holds_alternative<RepartitionCommand>(command)) return;
+  if (std::holds_alternative<ConvertCommand>(command)) return;
   if (mesh != nullptr && !mesh->dump_config && !mesh->dry_run) return;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw OutputError("cannot write to standard output");

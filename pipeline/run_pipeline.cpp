@@ -8,6 +8,7 @@
 #include "pipeline/estimate/disk_space.hpp"
 #include "pipeline/estimate/output_plan.hpp"
 #include "pipeline/stages/coarse_part.hpp"
+#include "pipeline/stages/export_stage.hpp"
 #include "pipeline/stages/improve_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/number_stage.hpp"
@@ -82,6 +83,7 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
     run_write_stage(run.resolved, outline.files, mesh, run.filled, context);
   }
   write_indices(run.resolved, outline.files, mesh, run.filled, context);
+  run_export_stage(run.resolved, context);
   return run;
 }
 

@@ -26,6 +26,7 @@ struct Parsed {
   bool verbose = false;
   CheckCommand check{};
   RepartitionCommand repartition{};
+  ConvertCommand convert{};
   InfoCommand info{};
   ReplayCommand replay{};
 };
@@ -226,6 +227,33 @@ void add_repartition(CLI::App& app, RepartitionCommand& command)
                         "Use the output folder even if it is not empty");
 }
 
+void add_convert(CLI::App& app, ConvertCommand& command)
+{
+  CLI::App* convert = app.add_subcommand("convert", "Write a mesh in formats of solvers");
+  convert->add_option("MESH.pvtu", command.mesh_file, "A .pvtu or .vtu file of tets")->required();
+  const auto take_format = [&command](const std::string& word) {
+    const io::Format format = *value_of<io::Format>(word);
+    if (std::ranges::find(command.formats, format) != command.formats.end())
+      throw CLI::ValidationError("--format " + word, "is given twice");
+    command.formats.push_back(format);
+  };
+  std::vector<std::string> words(kWords<io::Format>.begin(), kWords<io::Format>.end());
+  std::erase(words, word_of(io::Format::pvtu));
+  convert
+      ->add_option_function<std::string>("--format", take_format, "What to write; may be repeated")
+      ->type_name(fmt::format("{}", fmt::join(words, "|")))
+      ->check(CLI::IsMember(words).description(""))
+      ->trigger_on_parse()
+      ->take_all()
+      ->required();
+  convert->add_option("--output", command.output, "Folder of the files")
+      ->type_name("DIR")
+      ->check(not_empty())
+      ->required();
+  convert->add_flag("--overwrite", command.overwrite,
+                    "Use the output folder even if it is not empty");
+}
+
 void add_info(CLI::App& app, Parsed& parsed)
 {
   CLI::App* info = app.add_subcommand("info", "Say what a file holds");
@@ -257,6 +285,7 @@ void set_up(CLI::App& app, Parsed& parsed)
   add_mesh(app, parsed);
   add_check(app, parsed);
   add_repartition(app, parsed.repartition);
+  add_convert(app, parsed.convert);
   add_info(app, parsed);
   add_replay(app, parsed);
   for (CLI::App* command : app.get_subcommands({})) command->footer("");
@@ -266,6 +295,7 @@ Command to_command(const CLI::App& app, Parsed parsed)
 {
   if (app.got_subcommand("check")) return parsed.check;
   if (app.got_subcommand("repartition")) return parsed.repartition;
+  if (app.got_subcommand("convert")) return parsed.convert;
   if (app.got_subcommand("info")) return parsed.info;
   if (app.got_subcommand("replay")) return parsed.replay;
   parsed.mesh.progress = value_of<ProgressMode>(parsed.progress).value();

@@ -10,6 +10,7 @@
 #include "tessera/base/enum_words.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/fill/options.hpp"
+#include "tessera/io/options.hpp"
 #include "tessera/tessera.hpp"
 
 namespace tessera::pipeline {
@@ -53,6 +54,14 @@ struct RepartitionCommand {
   bool overwrite = false;  ///< Use an output folder that is not empty.
 };
 
+/// @brief `tessera convert`: write a mesh in other formats.
+struct ConvertCommand {
+  std::filesystem::path mesh_file{};
+  std::vector<io::Format> formats{};  ///< Not empty, none twice.
+  std::filesystem::path output{};
+  bool overwrite = false;  ///< Use an output folder that is not empty.
+};
+
 /// @brief `tessera info`: say what a model, case or mesh file holds.
 struct InfoCommand {
   std::filesystem::path file{};
@@ -70,8 +79,8 @@ struct PrintCommand {
   std::string text{};
 };
 
-using Command = std::variant<MeshCommand, CheckCommand, RepartitionCommand, InfoCommand,
-                             ReplayCommand, PrintCommand>;
+using Command = std::variant<MeshCommand, CheckCommand, RepartitionCommand, ConvertCommand,
+                             InfoCommand, ReplayCommand, PrintCommand>;
 
 /// @brief Read the command line. Pure: prints nothing and never ends the process, since every rank
 /// parses and only one may speak. Local.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/estimate/rates.hpp"
 
+#include "tessera/formats/export_mesh.hpp"
+
 namespace tessera::pipeline {
 namespace {
 
@@ -27,16 +29,10 @@ constexpr double kSecondOrderBytes = 3.2;
 // In all formats together.
 double file_bytes_per_tet(const io::OutputOptions& options)
 {
-  double bytes = 0.0;
-  for (const io::Format format : options.formats) {
-    switch (format) {
-      case io::Format::pvtu:
-        bytes +=
-            vtu_bytes_per_tet(options.compression) * (options.order == 2 ? kSecondOrderBytes : 1.0)
-            + (options.cell_quality ? kQualityBytes : 0.0);
-        break;
-    }
-  }
+  double bytes =
+      vtu_bytes_per_tet(options.compression) * (options.order == 2 ? kSecondOrderBytes : 1.0)
+      + (options.cell_quality ? kQualityBytes : 0.0);
+  for (const io::Format format : options.formats) bytes += formats::bytes_per_tet(format);
   return bytes;
 }
 

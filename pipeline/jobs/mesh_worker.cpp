@@ -87,7 +87,6 @@ class MeshWorker final : public jobs::Worker {
   void take(NumbersLoad load)
   {
     length_unit_ = std::move(load.length_unit);
-    output_options_.formats = std::move(load.formats);
     output_options_.compression = load.compression;
     output_options_.cell_quality = load.cell_quality;
     ids_ =
@@ -104,9 +103,7 @@ class MeshWorker final : public jobs::Worker {
 
   void take(RefinementLoad load)
   {
-    io::OutputOptions output{.formats = std::move(load.formats),
-                             .compression = load.compression,
-                             .cell_quality = load.cell_quality};
+    io::OutputOptions output{.compression = load.compression, .cell_quality = load.cell_quality};
     refinement_.emplace(Refinement{load.settings, std::move(output),
                                    subdomain::PieceRefiner(*cut_, load.settings.split),
                                    number::IdLayout::by_owner(load.settings.counts)});
@@ -328,8 +325,8 @@ Bytes load_mesh_message(const subdomain::PartitionedMesh& cut, const std::filesy
 Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
                            const std::string& length_unit, const io::OutputOptions& options)
 {
-  return to_bytes(Load(NumbersLoad{counts, length_unit, options.formats, options.compression,
-                                   options.cell_quality}));
+  return to_bytes(
+      Load(NumbersLoad{counts, length_unit, options.compression, options.cell_quality}));
 }
 
 Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter)
@@ -394,8 +391,7 @@ improve::RegionMesh region_mesh(const std::vector<Bytes>& bands,
 
 Bytes load_refinement_message(const RefineSettings& settings, const io::OutputOptions& options)
 {
-  return to_bytes(
-      Load(RefinementLoad{settings, options.formats, options.compression, options.cell_quality}));
+  return to_bytes(Load(RefinementLoad{settings, options.compression, options.cell_quality}));
 }
 
 Bytes refine_request(const RefineTask& task) { return to_bytes(Request(task)); }

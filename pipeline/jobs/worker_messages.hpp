@@ -40,14 +40,12 @@ struct LimiterLoad {
 struct NumbersLoad {
   std::vector<number::PieceCounts> counts{};
   std::string length_unit{};
-  std::vector<io::Format> formats{};
   io::Compression compression = io::Compression::none;
   bool cell_quality = false;
 
   static auto fields(auto& self)
   {
-    return std::tie(self.counts, self.length_unit, self.formats, self.compression,
-                    self.cell_quality);
+    return std::tie(self.counts, self.length_unit, self.compression, self.cell_quality);
   }
 };
 
@@ -60,13 +58,12 @@ struct ImprovementLoad {
 
 struct RefinementLoad {
   RefineSettings settings{};
-  std::vector<io::Format> formats{};
   io::Compression compression = io::Compression::none;
   bool cell_quality = false;
 
   static auto fields(auto& self)
   {
-    return std::tie(self.settings, self.formats, self.compression, self.cell_quality);
+    return std::tie(self.settings, self.compression, self.cell_quality);
   }
 };
 

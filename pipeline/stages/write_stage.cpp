@@ -99,13 +99,7 @@ void write_indices(const config::Case& run_case,
     if (context.comm.rank() != 0) return;
     const subdomain::PieceArrays schema =
         subdomain::piece_arrays({}, mesh, run_case.output.cell_quality);
-    for (const io::Format format : run_case.output.formats) {
-      switch (format) {
-        case io::Format::pvtu:
-          write_pvtu_indices(files, filled, schema, context.folder);
-          break;
-      }
-    }
+    write_pvtu_indices(files, filled, schema, context.folder);
   });
 }
 

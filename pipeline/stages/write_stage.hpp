@@ -34,9 +34,8 @@ std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,
                                 const io::OutputOptions& options,
                                 const subdomain::WriteContext& mesh, const PieceStore& pieces);
 
-/// @brief Turns the pieces of the store into files of the case's formats, and puts their digests
-/// into the summaries. For `pvtu` each range gets mesh/piece_NNNNNN.vtu and
-/// boundary/piece_NNNNNN.vtu.
+/// @brief Turns the pieces of the store into files, and puts their digests into the summaries.
+/// Each range gets mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu.
 /// @note Collective.
 /// @throws OutputError on every rank (disk full, permission).
 void run_write_stage(const config::Case& run_case,
@@ -44,8 +43,7 @@ void run_write_stage(const config::Case& run_case,
                      const subdomain::WriteContext& mesh, FilledPieces& filled,
                      RunContext& context);
 
-/// @brief Writes the indices of the case's formats (of `pvtu`, mesh.pvtu and boundary.pvtu): from
-/// now on there is a mesh.
+/// @brief Writes the indices mesh.pvtu and boundary.pvtu: from now on there is a mesh.
 /// @note Collective. @throws OutputError on every rank.
 void write_indices(const config::Case& run_case,
                    const std::vector<subdomain::SubdomainRange>& files,

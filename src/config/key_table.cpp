@@ -230,8 +230,10 @@ constexpr Key kKeys[] = {
      .is_optional = true},
     {.name = "output.formats",
      .rule = word_list_rule([](Case& c) -> std::vector<io::Format>& { return c.output.formats; }),
-     .meaning = "Formats in which the mesh is written.",
-     .reason = "ParaView and VTK read it in parallel; the only format of this version"},
+     .meaning =
+         "Formats in which the mesh is written. Pieces in pvtu are always written; the other "
+         "formats are made of them, as by `tessera convert`.",
+     .reason = "ParaView and VTK read it in parallel"},
     {.name = "output.order",
      .rule = IntegerRule{[](Case& c) -> int& { return c.output.order; }, 1, 2},
      .meaning =

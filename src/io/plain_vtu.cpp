@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "tessera/base/xml_escape.hpp"
+
 #include "arrays.hpp"
 #include "atomic_file.hpp"
 #include "vtu_ghosts.hpp"

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/xml_escape.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/io/vtu.hpp"
 

@@ -9,19 +9,13 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/xml_escape.hpp"
 
 namespace tessera::io {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
 constexpr std::size_t kMaxDepth = 64;
-
-struct Entity {
-  std::string_view written;
-  char character;
-};
-constexpr std::array kEntities{Entity{"&amp;", '&'}, Entity{"&lt;", '<'}, Entity{"&gt;", '>'},
-                               Entity{"&quot;", '"'}, Entity{"&apos;", '\''}};
 
 class Parser {
  public:
@@ -140,9 +134,10 @@ class Parser {
   {
     std::string plain;
     while (!text.empty()) {
-      const auto* entity = std::ranges::find_if(
-          kEntities, [&](const Entity& candidate) { return text.starts_with(candidate.written); });
-      const bool is_entity = entity != kEntities.end();
+      const auto* entity = std::ranges::find_if(kXmlEntities, [&](const XmlEntity& candidate) {
+        return text.starts_with(candidate.written);
+      });
+      const bool is_entity = entity != kXmlEntities.end();
       plain += is_entity ? entity->character : text.front();
       text.remove_prefix(is_entity ? entity->written.size() : 1);
     }
@@ -215,19 +210,5 @@ const XmlElement* XmlElement::child(std::string_view child_name) const
 }
 
 XmlDocument parse_vtk_xml(std::string_view file) { return Parser(file).parse(); }
-
-std::string xml_escape(std::string_view text)
-{
-  std::string escaped;
-  for (const char character : text) {
-    const auto* entity = std::ranges::find(kEntities, character, &Entity::character);
-    if (entity == kEntities.end()) {
-      escaped += character;
-    } else {
-      escaped += entity->written;
-    }
-  }
-  return escaped;
-}
 
 }  // namespace tessera::io

@@ -39,7 +39,4 @@ struct XmlDocument {
 /// the size of the file. @throws InputError saying what is wrong and at which byte.
 [[nodiscard]] XmlDocument parse_vtk_xml(std::string_view file);
 
-/// @brief `text` as the value of an XML attribute.
-[[nodiscard]] std::string xml_escape(std::string_view text);
-
 }  // namespace tessera::io

@@ -140,13 +140,7 @@ std::vector<std::filesystem::path> PieceFile::write(const std::filesystem::path&
                                                     LocalIndex file) const
 {
   std::vector<std::filesystem::path> written;
-  for (const io::Format format : options_.formats) {
-    switch (format) {
-      case io::Format::pvtu:
-        write_vtu_files(arrays_, file, options_.compression, folder, written);
-        break;
-    }
-  }
+  write_vtu_files(arrays_, file, options_.compression, folder, written);
   return written;
 }
 

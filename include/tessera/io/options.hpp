@@ -12,14 +12,16 @@ namespace tessera::io {
 /// @brief Forms that a mesh is written in.
 enum class Format : int {
   pvtu,  ///< Piece files in VTU, and indices of them in PVTU.
+  xdmf,  ///< HDF5 with an index in XDMF.
 };
-[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::pvtu; }
+[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::xdmf; }
 
-/// @brief Words of `output.formats`.
+/// @brief Words of `output.formats`, and of `tessera convert`.
 constexpr auto enum_words(Format /*tag*/)
 {
   return std::to_array<EnumWord<Format>>({
       {Format::pvtu, "pvtu"},
+      {Format::xdmf, "xdmf"},
   });
 }
 
@@ -39,8 +41,10 @@ constexpr auto enum_words(Compression /*tag*/)
 
 /// @brief Options of the output; table `[output]` of a case file.
 struct OutputOptions {
-  std::filesystem::path directory{};          ///< Relative to the working directory.
-  std::vector<Format> formats{Format::pvtu};  ///< Each is written; not empty, none twice.
+  std::filesystem::path directory{};  ///< Relative to the working directory.
+  /// Not empty, none twice. Piece files in `pvtu` are always written: all that reads a mesh reads
+  /// them.
+  std::vector<Format> formats{Format::pvtu};
   Compression compression = Compression::lz4;
   LocalIndex files = 0;       ///< Number of piece files; 0: one for each subdomain.
   LocalIndex parts = 0;       ///< Number of balanced, connected parts, a file each; 0: see `files`.

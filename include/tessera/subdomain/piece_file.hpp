@@ -46,9 +46,8 @@ class PieceFile {
   /// @brief Adds a piece and returns its digest. @pre pieces come in the order of subdomains.
   Hash128 add(mesh::Piece piece);
 
-  /// @brief Writes the tets and, unless there are none, the boundary triangles below `folder`, in
-  /// each of the formats of the options; of `pvtu`, mesh/piece_NNNNNN.vtu and
-  /// boundary/piece_NNNNNN.vtu.
+  /// @brief Writes the tets and, unless there are none, the boundary triangles below `folder`:
+  /// mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu.
   /// @return The files, relative to `folder`. @throws OutputError
   [[nodiscard]] std::vector<std::filesystem::path> write(const std::filesystem::path& folder,
                                                          LocalIndex file) const;

@@ -239,7 +239,7 @@ TEST(CommandLine, CommandsOfLaterVersionsAreRefused)
 TEST(DescribeCommandLine, HasTheProgramAndItsCommandsWithWhatTheyTake)
 {
   const std::vector<CommandHelp> all = describe_command_line();
-  ASSERT_EQ(all.size(), 6U);
+  ASSERT_EQ(all.size(), 7U);
   EXPECT_EQ(all.front().name, "");
   const CommandHelp& mesh = all[1];
   EXPECT_EQ(mesh.name, "mesh");

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "tessera/base/index_lists.hpp"
+#include "tessera/base/types.hpp"
+
+/// What writers of file formats see of a mesh: what all ranks know of it, and its pieces one at a
+/// time. Everything is numbered anew, by pieces: the points, tets and triangles of a piece have
+/// consecutive numbers that follow those of the pieces before it. So every piece has its place in a
+/// file that all write, and the numbers are the same for any number of ranks.
+namespace tessera::formats {
+
+/// @brief So many cells with this tag.
+struct TagCount {
+  std::int32_t tag = 0;
+  GlobalIndex count = 0;
+
+  static auto fields(auto& self) { return std::tie(self.tag, self.count); }
+};
+
+/// @brief A piece that shares points with another one.
+struct PieceNeighbour {
+  LocalIndex piece = 0;
+  GlobalIndex num_shared_points = 0;
+
+  static auto fields(auto& self) { return std::tie(self.piece, self.num_shared_points); }
+};
+
+/// @brief What is in one piece.
+struct PieceCounts {
+  GlobalIndex num_own_points = 0;  ///< Those that no lower piece has.
+  GlobalIndex num_points = 0;
+  GlobalIndex num_tets = 0;
+  GlobalIndex num_triangles = 0;
+  std::vector<TagCount> tets_of_material{};    ///< Ascending; none of zero.
+  std::vector<TagCount> triangles_of_patch{};  ///< Ascending; none of zero.
+  std::vector<PieceNeighbour> neighbours{};    ///< Ascending.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.num_own_points, self.num_points, self.num_tets, self.num_triangles,
+                    self.tets_of_material, self.triangles_of_patch, self.neighbours);
+  }
+};
+
+/// @brief What all ranks know of a mesh; the same on each.
+struct Outline {
+  std::vector<PieceCounts> pieces{};
+  std::vector<GlobalIndex> first_point{0};     ///< Shape (num_pieces + 1): of the own points.
+  std::vector<GlobalIndex> first_tet{0};       ///< Shape (num_pieces + 1).
+  std::vector<GlobalIndex> first_triangle{0};  ///< Shape (num_pieces + 1).
+  /// Names of the tags 1, 2, …; none empty, none twice.
+  std::vector<std::string> material_names{};
+  std::vector<std::string> patch_names{};  ///< As material_names.
+  std::string length_unit{};               ///< Empty if nobody knows it.
+
+  [[nodiscard]] LocalIndex num_pieces() const { return static_cast<LocalIndex>(pieces.size()); }
+  [[nodiscard]] GlobalIndex num_points() const { return first_point.back(); }
+  [[nodiscard]] GlobalIndex num_tets() const { return first_tet.back(); }
+  [[nodiscard]] GlobalIndex num_triangles() const { return first_triangle.back(); }
+};
+
+/// @brief A face between a tet of this piece and one of another piece.
+struct SeamFace {
+  LocalIndex side = 0;  ///< 4 * tet + corner opposite to the face; tet is a row here.
+  LocalIndex other_piece = 0;
+  GlobalIndex other_tet = 0;  ///< Its number in the whole mesh, from 0.
+};
+
+/// @brief One piece. Rows are local, numbers are those of the whole mesh, from 0.
+struct Piece {
+  LocalIndex number = 0;  ///< Of the piece, from 0.
+
+  /// Shape (num_points, 3). Own points come first: row i of them has the number first_point + i.
+  std::vector<double> point_xyz{};
+  std::vector<GlobalIndex> point_numbers{};  ///< Shape (num_points).
+  LocalIndex num_own_points = 0;
+
+  std::vector<LocalIndex> tet_points{};      ///< Shape (num_tets, 4): rows; positive.
+  std::vector<std::int32_t> tet_material{};  ///< Shape (num_tets): tags from 1.
+
+  /// Shape (num_triangles, 3): rows; each on the geometry, once in the mesh, seen from outside of
+  /// its tet.
+  std::vector<LocalIndex> triangle_points{};
+  std::vector<LocalIndex> triangle_side{};  ///< Shape (num_triangles): 4 * tet + opposite corner.
+  std::vector<std::int32_t> triangle_patch{};  ///< Shape (num_triangles): tags from 1.
+  /// Shape (num_triangles): 1 if there is a tet on the other side too, here or in another piece.
+  std::vector<std::uint8_t> is_inner_triangle{};
+
+  std::vector<LocalIndex> shared_points{};  ///< Rows of points that other pieces have; ascending.
+  IndexLists sharers{};           ///< Shape (num_shared, …): those other pieces, ascending.
+  std::vector<SeamFace> seams{};  ///< Ascending by side.
+
+  [[nodiscard]] LocalIndex num_points() const
+  {
+    return static_cast<LocalIndex>(point_numbers.size());
+  }
+  [[nodiscard]] LocalIndex num_tets() const { return static_cast<LocalIndex>(tet_material.size()); }
+  [[nodiscard]] LocalIndex num_triangles() const
+  {
+    return static_cast<LocalIndex>(triangle_patch.size());
+  }
+};
+
+}  // namespace tessera::formats

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstddef>
+#include <utility>
+
+#include "tessera/mesh/tet_topology.hpp"
+
+#include "formats/link_pieces.hpp"
+
+namespace tessera::formats {
+namespace {
+
+// New rows of a file's points: own ones first, each kind in the order of the file.
+std::vector<LocalIndex> new_rows(const LoadedPiece& loaded, const PieceLinks& links,
+                                 LocalIndex num_own)
+{
+  std::vector<LocalIndex> rows(at(loaded.num_points()), kNoIndex);
+  LocalIndex next_foreign = num_own;
+  for (std::size_t s = 0; s < links.shared_points.size(); ++s) {
+    if (links.shared_numbers[s] != kNoNumber) rows[at(links.shared_points[s])] = next_foreign++;
+  }
+  LocalIndex next_own = 0;
+  for (LocalIndex& row : rows) {
+    if (row == kNoIndex) row = next_own++;
+  }
+  return rows;
+}
+
+void add_points(const LoadedPiece& loaded, const PieceLinks& links,
+                const std::vector<LocalIndex>& rows, GlobalIndex first_point, Piece& piece)
+{
+  piece.point_xyz.resize(loaded.point_xyz.size());
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    for (std::size_t d = 0; d < 3; ++d)
+      piece.point_xyz[3 * at(rows[p]) + d] = loaded.point_xyz[3 * p + d];
+  }
+  piece.point_numbers.resize(rows.size());
+  for (LocalIndex i = 0; i < piece.num_own_points; ++i)
+    piece.point_numbers[at(i)] = first_point + i;
+  // Own ones are the first rows, so both kinds of shared points stay ascending.
+  for (const bool is_own : {true, false}) {
+    for (std::size_t s = 0; s < links.shared_points.size(); ++s) {
+      if ((links.shared_numbers[s] == kNoNumber) != is_own) continue;
+      const LocalIndex row = rows[at(links.shared_points[s])];
+      if (!is_own) piece.point_numbers[at(row)] = links.shared_numbers[s];
+      piece.shared_points.push_back(row);
+      piece.sharers.add(links.sharers[static_cast<LocalIndex>(s)]);
+    }
+  }
+}
+
+void add_triangles(const LoadedPiece& loaded, const PieceLinks& links, const Tags& tags,
+                   Piece& piece)
+{
+  const bool has_triangles = !loaded.triangle_side.empty();
+  piece.triangle_side =
+      has_triangles || links.is_inner_triangle.empty() ? loaded.triangle_side : links.open_sides;
+  for (std::size_t i = 0; i < piece.triangle_side.size(); ++i) {
+    const LocalIndex side = piece.triangle_side[i];
+    for (const std::size_t c : mesh::kTetFaceCorners[at(side % 4)])
+      piece.triangle_points.push_back(piece.tet_points[4 * at(side / 4) + c]);
+    piece.triangle_patch.push_back(tags.tag_of_patch.at(has_triangles ? loaded.patch[i] : 0));
+  }
+  piece.is_inner_triangle = links.is_inner_triangle;
+}
+
+}  // namespace
+
+Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links,
+                  const LinkedMesh& mesh)
+{
+  Piece piece;
+  piece.number = number;
+  piece.num_own_points = static_cast<LocalIndex>(mesh.outline.pieces[at(number)].num_own_points);
+  const std::vector<LocalIndex> rows = new_rows(loaded, links, piece.num_own_points);
+  add_points(loaded, links, rows, mesh.outline.first_point[at(number)], piece);
+  piece.tet_points = std::move(loaded.tet_points);
+  for (LocalIndex& point : piece.tet_points) point = rows[at(point)];
+  piece.tet_material.reserve(loaded.material.size());
+  for (const std::int32_t value : loaded.material)
+    piece.tet_material.push_back(mesh.tags.tag_of_material.at(value));
+  add_triangles(loaded, links, mesh.tags, piece);
+  piece.seams = links.seams;
+  return piece;
+}
+
+}  // namespace tessera::formats

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/formats/export_mesh.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "tessera/comm/all_or_none.hpp"
+
+#include "formats/link_pieces.hpp"
+#include "formats/piece_source.hpp"
+#include "formats/writer.hpp"
+
+namespace tessera::formats {
+namespace {
+
+using Writers = std::vector<std::unique_ptr<Writer>>;
+
+// Makes all writers before any writes: a format that cannot hold the mesh leaves nothing behind.
+Writers make_writers(const ExportRequest& request, const Outline& outline)
+{
+  Writers writers;
+  for (const io::Format format : request.formats) {
+    if (format == io::Format::pvtu) continue;
+    writers.push_back(make_writer(format, {outline, request.folder}));
+  }
+  return writers;
+}
+
+void on_first_rank(const comm::Communicator& comm, const Writers& writers, void (Writer::*step)())
+{
+  all_or_none(comm, [&] {
+    if (comm.rank() != 0) return;
+    for (const auto& writer : writers) ((*writer).*step)();
+  });
+}
+
+void write_pieces(const PieceSource& source, const LinkedMesh& mesh, const Writers& writers,
+                  LocalIndex first, const std::function<void()>& before_each)
+{
+  for (std::size_t i = 0; i < mesh.links.size(); ++i) {
+    before_each();
+    const LocalIndex number = first + static_cast<LocalIndex>(i);
+    const Piece piece = build_piece(source.load(number), number, mesh.links[i], mesh);
+    for (const auto& writer : writers) writer->write(piece);
+  }
+  for (const auto& writer : writers) writer->close();
+}
+
+}  // namespace
+
+Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm,
+                    const std::function<void()>& before_each)
+{
+  const PieceSource source(request.mesh, comm);
+  LinkedMesh mesh = link_pieces(source, comm, before_each);
+  Writers writers;
+  all_or_none(comm, [&] { writers = make_writers(request, mesh.outline); });
+  on_first_rank(comm, writers, &Writer::begin);
+  all_or_none(comm, [&] {
+    write_pieces(source, mesh, writers, source.first_of(comm.rank()), before_each);
+  });
+  on_first_rank(comm, writers, &Writer::commit);
+  return std::move(mesh.outline);
+}
+
+}  // namespace tessera::formats

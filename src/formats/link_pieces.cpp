@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "formats/link_pieces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
+#include "tessera/comm/record_exchange.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+#include "tessera/migrate/tet_neighbours.hpp"
+
+#include "formats/name_tags.hpp"
+
+namespace tessera::formats {
+namespace {
+
+// A face that one tet of a piece has.
+struct OpenFace {
+  TriangleKey key{};
+  LocalIndex piece = 0;
+  LocalIndex side = 0;
+
+  static auto fields(auto& self) { return std::tie(self.key, self.piece, self.side); }
+};
+
+// A point on such a face.
+struct SkinPoint {
+  VertexKey key{};
+  LocalIndex piece = 0;
+  LocalIndex row = 0;  // In its file, and later among the own points of its owner.
+
+  static auto fields(auto& self) { return std::tie(self.key, self.piece, self.row); }
+};
+
+struct OtherSide {
+  LocalIndex piece = kNoIndex;
+  LocalIndex tet = 0;
+
+  static auto fields(auto& self) { return std::tie(self.piece, self.tet); }
+};
+
+struct OtherPieces {
+  std::vector<LocalIndex> pieces{};
+
+  static auto fields(auto& self) { return std::tie(self.pieces); }
+};
+
+// What is found while a piece is there.
+struct Skin {
+  std::vector<OpenFace> faces{};
+  std::vector<SkinPoint> points{};
+};
+
+std::vector<LocalIndex> tets_behind(const LoadedPiece& piece)
+{
+  migrate::MeshBlock block;
+  block.vertex_ids.resize(piece.point_keys.size());
+  block.tet_ids.resize(piece.material.size());
+  block.tet_vertices = piece.tet_points;
+  return migrate::tets_behind_faces(block);
+}
+
+TriangleKey key_of_side(const LoadedPiece& piece, LocalIndex side)
+{
+  const LocalIndex* const corner = piece.tet_points.data() + 4 * at(side / 4);
+  const auto& [a, b, c] = mesh::kTetFaceCorners[at(side % 4)];
+  std::array<VertexKey, 3> keys{piece.point_keys[at(corner[a])], piece.point_keys[at(corner[b])],
+                                piece.point_keys[at(corner[c])]};
+  std::ranges::sort(keys);
+  return key_of_vertices(keys);
+}
+
+void add_skin(const LoadedPiece& piece, LocalIndex number, const std::vector<LocalIndex>& behind,
+              Skin& skin)
+{
+  std::vector<bool> is_on_skin(piece.point_keys.size(), false);
+  for (std::size_t side = 0; side < behind.size(); ++side) {
+    if (behind[side] != kNoIndex) continue;
+    const auto face = static_cast<LocalIndex>(side);
+    skin.faces.push_back({key_of_side(piece, face), number, face});
+    for (const std::size_t c : mesh::kTetFaceCorners[side % 4])
+      is_on_skin[at(piece.tet_points[4 * (side / 4) + c])] = true;
+  }
+  for (LocalIndex row = 0; row < piece.num_points(); ++row) {
+    if (is_on_skin[at(row)]) skin.points.push_back({piece.point_keys[at(row)], number, row});
+  }
+}
+
+std::vector<TagCount> counted(const std::vector<std::int32_t>& values)
+{
+  std::map<std::int32_t, GlobalIndex> counts;
+  for (const std::int32_t value : values) ++counts[value];
+  std::vector<TagCount> list;
+  for (const auto& [value, count] : counts) list.push_back({value, count});
+  return list;
+}
+
+// Pieces of a rank under way to being linked.
+class Linker {
+ public:
+  Linker(const PieceSource& source, const comm::Communicator& comm)
+      : source_(source), comm_(comm), first_(source.first_of(comm.rank()))
+  {
+    const auto num_own = at(source.first_of(comm.rank() + 1) - first_);
+    links_.resize(num_own);
+    counts_.resize(num_own);
+  }
+
+  void look_at_pieces(const std::function<void()>& before_each)
+  {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      before_each();
+      const LocalIndex number = first_ + static_cast<LocalIndex>(i);
+      const LoadedPiece piece = source_.load(number);
+      const std::vector<LocalIndex> behind = tets_behind(piece);
+      add_skin(piece, number, behind, skin_);
+      for (const LocalIndex side : piece.triangle_side)
+        links_[i].is_inner_triangle.push_back(behind[at(side)] == kNoIndex ? 0 : 1);
+      counts_[i] = {.num_points = piece.num_points(),
+                    .num_tets = piece.num_tets(),
+                    .num_triangles = static_cast<GlobalIndex>(piece.triangle_side.size()),
+                    .tets_of_material = counted(piece.material),
+                    .triangles_of_patch = counted(piece.patch)};
+      triangle_sides_.push_back(piece.triangle_side);
+    }
+  }
+
+  void link_faces()
+  {
+    const comm::RecordExchange<OpenFace> exchange(
+        skin_.faces, [](const OpenFace& face) { return hash_of(face.key); }, comm_);
+    const std::span<const OpenFace> received = exchange.received();
+    std::vector<OtherSide> others(received.size());
+    bool has_third = false;
+    comm::for_each_group(
+        received, [](const OpenFace& face) { return face.key; },
+        [](const OpenFace& face) { return std::tuple(face.piece, face.side); },
+        [&](std::span<const std::size_t> rows) {
+          if (rows.size() > 2) has_third = true;
+          if (rows.size() < 2) return;
+          others[rows[0]] = {received[rows[1]].piece, received[rows[1]].side / 4};
+          others[rows[1]] = {received[rows[0]].piece, received[rows[0]].side / 4};
+        });
+    if (comm_.sum(has_third ? 1 : 0) > 0)
+      throw comm::Collective<InputError>(
+          "the mesh has a triangle on more than two tets; `tessera check` says where");
+    const auto answers = exchange.answer<OtherSide>(others, comm_);
+    for (std::size_t f = 0; f < skin_.faces.size(); ++f) {
+      const OpenFace& face = skin_.faces[f];
+      PieceLinks& links = links_of(face.piece);
+      if (answers[f].piece == kNoIndex) {
+        links.open_sides.push_back(face.side);
+      } else {
+        links.seams.push_back({face.side, answers[f].piece, answers[f].tet});
+      }
+    }
+    skin_.faces = {};
+  }
+
+  void mark_inner_triangles()
+  {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      PieceLinks& links = links_[i];
+      for (std::size_t t = 0; t < triangle_sides_[i].size(); ++t) {
+        if (std::ranges::binary_search(links.seams, triangle_sides_[i][t], {}, &SeamFace::side))
+          links.is_inner_triangle[t] = 1;
+      }
+      if (source_.has_boundary()) continue;
+      const auto num_open = static_cast<GlobalIndex>(links.open_sides.size());
+      links.is_inner_triangle.assign(links.open_sides.size(), 0);
+      counts_[i].num_triangles = num_open;
+      if (num_open > 0) counts_[i].triangles_of_patch = {{0, num_open}};
+    }
+    triangle_sides_ = {};
+  }
+
+  void link_points()
+  {
+    const comm::RecordExchange<SkinPoint> exchange(
+        skin_.points, [](const SkinPoint& point) { return hash_of(point.key); }, comm_);
+    std::vector<OtherPieces> others(exchange.received().size());
+    for_each_shared(exchange.received(), [&](std::span<const std::size_t> rows) {
+      for (const std::size_t row : rows)
+        for (const std::size_t other : rows)
+          if (other != row) others[row].pieces.push_back(exchange.received()[other].piece);
+    });
+    const auto answers = exchange.answer<OtherPieces>(others, comm_);
+    std::vector<SkinPoint> shared;
+    for (std::size_t p = 0; p < skin_.points.size(); ++p) {
+      if (answers[p].pieces.empty()) continue;
+      shared.push_back(skin_.points[p]);
+      PieceLinks& links = links_of(skin_.points[p].piece);
+      links.shared_points.push_back(skin_.points[p].row);
+      links.sharers.add(answers[p].pieces);
+    }
+    skin_.points = std::move(shared);
+    count_own_points();
+  }
+
+  // Needs to know where the numbers of each piece begin.
+  void number_shared_points(const Outline& outline)
+  {
+    for (SkinPoint& point : skin_.points) point.row = own_row(point);
+    const comm::RecordExchange<SkinPoint> exchange(
+        skin_.points, [](const SkinPoint& point) { return hash_of(point.key); }, comm_);
+    const std::span<const SkinPoint> received = exchange.received();
+    std::vector<GlobalIndex> numbers(received.size(), kNoNumber);
+    for_each_shared(received, [&](std::span<const std::size_t> rows) {
+      const SkinPoint& owner = received[rows[0]];
+      for (const std::size_t row : rows.subspan(1))
+        numbers[row] = outline.first_point[at(owner.piece)] + owner.row;
+    });
+    const auto answers = exchange.answer<GlobalIndex>(numbers, comm_);
+    for (std::size_t p = 0; p < skin_.points.size(); ++p)
+      links_of(skin_.points[p].piece).shared_numbers.push_back(answers[p]);
+    for (PieceLinks& links : links_)
+      for (SeamFace& seam : links.seams) seam.other_tet += outline.first_tet[at(seam.other_piece)];
+  }
+
+  [[nodiscard]] const std::vector<PieceCounts>& counts() const { return counts_; }
+  [[nodiscard]] std::vector<PieceLinks> take_links() { return std::move(links_); }
+
+ private:
+  PieceLinks& links_of(LocalIndex piece) { return links_[at(piece - first_)]; }
+
+  template <class Visit>
+  static void for_each_shared(std::span<const SkinPoint> points, const Visit& visit)
+  {
+    comm::for_each_group(
+        points, [](const SkinPoint& point) { return point.key; },
+        [](const SkinPoint& point) { return std::tuple(point.piece, point.row); }, visit);
+  }
+
+  void count_own_points()
+  {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const LocalIndex number = first_ + static_cast<LocalIndex>(i);
+      GlobalIndex num_foreign = 0;
+      std::map<LocalIndex, GlobalIndex> shared_with;
+      for (LocalIndex p = 0; p < links_[i].sharers.num_lists(); ++p) {
+        const auto others = links_[i].sharers[p];
+        if (others.front() < number) ++num_foreign;
+        for (const LocalIndex other : others) ++shared_with[other];
+      }
+      counts_[i].num_own_points = counts_[i].num_points - num_foreign;
+      for (const auto& [other, num_points] : shared_with)
+        counts_[i].neighbours.push_back({other, num_points});
+    }
+  }
+
+  // Its row once the points of lower pieces are left out. @pre points come in order of their rows.
+  LocalIndex own_row(const SkinPoint& point)
+  {
+    if (point.piece != counted_piece_) {
+      counted_piece_ = point.piece;
+      next_shared_ = 0;
+      num_left_out_ = 0;
+    }
+    const bool is_own = links_of(point.piece).sharers[next_shared_++].front() > point.piece;
+    const LocalIndex row = point.row - num_left_out_;
+    if (!is_own) ++num_left_out_;
+    return row;
+  }
+
+  const PieceSource& source_;
+  const comm::Communicator& comm_;
+  LocalIndex first_;
+  std::vector<PieceLinks> links_{};
+  std::vector<PieceCounts> counts_{};
+  std::vector<std::vector<LocalIndex>> triangle_sides_{};
+  Skin skin_{};
+  LocalIndex counted_piece_ = kNoIndex;
+  LocalIndex next_shared_ = 0;
+  LocalIndex num_left_out_ = 0;
+};
+
+Outline outline_of(std::vector<PieceCounts> pieces)
+{
+  Outline outline;
+  outline.pieces = std::move(pieces);
+  for (const PieceCounts& piece : outline.pieces) {
+    outline.first_point.push_back(outline.first_point.back() + piece.num_own_points);
+    outline.first_tet.push_back(outline.first_tet.back() + piece.num_tets);
+    outline.first_triangle.push_back(outline.first_triangle.back() + piece.num_triangles);
+  }
+  return outline;
+}
+
+}  // namespace
+
+LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm,
+                       const std::function<void()>& before_each)
+{
+  Linker linker(source, comm);
+  all_or_none(comm, [&] { linker.look_at_pieces(before_each); });
+  linker.link_faces();
+  linker.mark_inner_triangles();
+  linker.link_points();
+  LinkedMesh mesh;
+  mesh.outline = outline_of(comm.all_gather_rows(linker.counts()));
+  linker.number_shared_points(mesh.outline);
+  mesh.links = linker.take_links();
+  mesh.tags = name_tags(source.names(), mesh.outline);
+  return mesh;
+}
+
+}  // namespace tessera::formats

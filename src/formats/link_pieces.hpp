@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "tessera/base/index_lists.hpp"
+#include "tessera/comm/communicator.hpp"
+#include "tessera/formats/piece.hpp"
+
+#include "formats/piece_source.hpp"
+
+namespace tessera::formats {
+
+/// @brief What a piece shares with others; rows are those of its file. Stays in memory while pieces
+/// come and go, so it has nothing of the size of a piece but of its surface.
+struct PieceLinks {
+  std::vector<LocalIndex> shared_points{};  ///< Ascending.
+  IndexLists sharers{};                     ///< Other pieces of each, ascending.
+  /// Numbers in the whole mesh of the shared points; of the own ones kNoNumber.
+  std::vector<GlobalIndex> shared_numbers{};
+  std::vector<SeamFace> seams{};                  ///< Ascending by side.
+  std::vector<LocalIndex> open_sides{};           ///< On no second tet anywhere; ascending.
+  std::vector<std::uint8_t> is_inner_triangle{};  ///< Shape (num_triangles).
+};
+inline constexpr GlobalIndex kNoNumber = -1;
+
+/// @brief From the values in files to tags from 1 with names.
+struct Tags {
+  std::map<std::int32_t, std::int32_t> tag_of_material{};
+  std::map<std::int32_t, std::int32_t> tag_of_patch{};
+};
+
+struct LinkedMesh {
+  Outline outline{};
+  Tags tags{};
+  std::vector<PieceLinks> links{};  ///< Of this rank's pieces.
+};
+
+/// @brief Reads all pieces once and finds what they share, how many there are of everything, and
+/// where the numbers of each begin.
+/// @note Collective. @throws InputError on all ranks.
+[[nodiscard]] LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm,
+                                     const std::function<void()>& before_each);
+
+/// @brief Joins what the files hold and what was found. Local.
+[[nodiscard]] Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links,
+                                const LinkedMesh& mesh);
+
+}  // namespace tessera::formats

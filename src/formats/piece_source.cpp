@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "formats/piece_source.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <span>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/vec3.hpp"
+#include "tessera/comm/all_or_none.hpp"
+#include "tessera/io/vtu.hpp"
+#include "tessera/mesh/mesh_arrays.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+#include "tessera/subdomain/mesh_input.hpp"
+
+namespace tessera::formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+mesh::MeshArrays read_cells(const fs::path& file, int vertices_per_cell)
+{
+  mesh::MeshArrays cells = io::read_vtu(file, io::CellOrder::up_to_second);
+  if (cells.vertices_per_cell > 4) {
+    throw InputError(
+        fmt::format("{}: its cells are of second order, which no other format is written of; make "
+                    "the mesh with output.order = 1",
+                    file.string()));
+  }
+  if (cells.num_cells() > 0 && cells.vertices_per_cell != vertices_per_cell) {
+    throw InputError(fmt::format("{}: it has no {}", file.string(),
+                                 vertices_per_cell == 4 ? "tets" : "triangles"));
+  }
+  return cells;
+}
+
+std::vector<VertexKey> keys_of_points(const mesh::MeshArrays& cells, VertexIdentity identity,
+                                      const fs::path& file)
+{
+  std::vector<VertexKey> keys;
+  keys.reserve(at(static_cast<LocalIndex>(cells.num_points())));
+  if (identity == VertexIdentity::ids) {
+    if (cells.point_ids.empty() && cells.num_points() > 0) {
+      throw InputError(file.string() + ": it has no ids of points, though other pieces have; "
+                       "`tessera repartition` gives all of them ids");
+    }
+    for (const GlobalIndex id : cells.point_ids) keys.push_back(key_of_id(id));
+  } else {
+    for (std::size_t p = 0; p < cells.point_xyz.size(); p += 3) {
+      keys.push_back(
+          key_of_position({cells.point_xyz[p], cells.point_xyz[p + 1], cells.point_xyz[p + 2]}));
+    }
+  }
+  return keys;
+}
+
+void require_positive(const LoadedPiece& piece, const fs::path& file)
+{
+  const std::span<const double> xyz(piece.point_xyz);
+  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
+    const LocalIndex* const corner = piece.tet_points.data() + 4 * at(t);
+    const double volume = tet_volume(point_at(xyz, corner[0]), point_at(xyz, corner[1]),
+                                     point_at(xyz, corner[2]), point_at(xyz, corner[3]));
+    if (volume > 0.0) continue;
+    throw InputError(fmt::format("{}: tet {} has no positive volume; `tessera check` says more",
+                                 file.string(), t));
+  }
+}
+
+// Rows of the boundary's points among those of the piece.
+std::vector<LocalIndex> rows_of(const std::vector<VertexKey>& boundary,
+                                const std::vector<VertexKey>& points, const fs::path& file)
+{
+  std::unordered_map<std::uint64_t, LocalIndex> rows_by_hash;
+  rows_by_hash.reserve(boundary.size());
+  for (std::size_t b = 0; b < boundary.size(); ++b) {
+    rows_by_hash.emplace(hash_of(boundary[b]), static_cast<LocalIndex>(b));
+  }
+  std::vector<LocalIndex> rows(boundary.size(), kNoIndex);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    const auto found = rows_by_hash.find(hash_of(points[p]));
+    if (found != rows_by_hash.end()) rows[at(found->second)] = static_cast<LocalIndex>(p);
+  }
+  if (std::ranges::find(rows, kNoIndex) == rows.end()) return rows;
+  throw InputError(file.string() + ": it has points that the tets of its piece have not");
+}
+
+using Triangle = std::array<LocalIndex, 3>;
+
+struct TriangleHash {
+  std::size_t operator()(const Triangle& triangle) const { return hash_of(triangle); }
+};
+
+// For triangles that do not say which tet is behind them: of two the one from whose outside it is
+// seen.
+class Sides {
+ public:
+  explicit Sides(const std::vector<Triangle>& triangles)
+  {
+    rows_.reserve(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const auto& [a, b, c] = triangles[i];
+      rows_.emplace(mesh::sorted_triangle(a, b, c), static_cast<LocalIndex>(i));
+    }
+  }
+
+  std::vector<LocalIndex> find(const std::vector<Triangle>& triangles,
+                               const std::vector<LocalIndex>& tet_points) const
+  {
+    std::vector<LocalIndex> side(triangles.size(), kNoIndex);
+    for (std::size_t t = 0; 4 * t < tet_points.size(); ++t) {
+      for (std::size_t corner = 0; corner < 4; ++corner) {
+        const auto& [i, j, k] = mesh::kTetFaceCorners[corner];
+        const Triangle face{tet_points[4 * t + i], tet_points[4 * t + j], tet_points[4 * t + k]};
+        const auto found = rows_.find(mesh::sorted_triangle(face[0], face[1], face[2]));
+        if (found == rows_.end()) continue;
+        const auto& [a, b, c] = triangles[at(found->second)];
+        const bool is_outside =
+            mesh::is_even_triangle(face[0], face[1], face[2]) == mesh::is_even_triangle(a, b, c);
+        LocalIndex& known = side[at(found->second)];
+        if (known == kNoIndex || is_outside) known = static_cast<LocalIndex>(4 * t + corner);
+      }
+    }
+    return side;
+  }
+
+ private:
+  std::unordered_map<Triangle, LocalIndex, TriangleHash> rows_{};
+};
+
+void add_triangles(const mesh::MeshArrays& boundary, const std::vector<VertexKey>& keys,
+                   const fs::path& file, LoadedPiece& piece)
+{
+  const std::vector<LocalIndex> row = rows_of(keys, piece.point_keys, file);
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 0; i + 2 < boundary.cell_points.size(); i += 3) {
+    const LocalIndex* const point = boundary.cell_points.data() + i;
+    triangles.push_back({row[at(point[0])], row[at(point[1])], row[at(point[2])]});
+  }
+  piece.triangle_side = Sides(triangles).find(triangles, piece.tet_points);
+  if (std::ranges::find(piece.triangle_side, kNoIndex) != piece.triangle_side.end()) {
+    throw InputError(file.string() + ": it has triangles that no tet of its piece has");
+  }
+  const auto patch = boundary.cell_ints.find("patch");
+  piece.patch = patch != boundary.cell_ints.end() ? patch->second
+                                                  : std::vector<std::int32_t>(triangles.size(), 0);
+}
+
+// What the first piece tells of all.
+struct FirstPiece {
+  bool has_ids = true;
+  FileNames names{};
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.has_ids, self.names.materials, self.names.patches, self.names.length_unit);
+  }
+};
+
+FileNames names_in(const mesh::MeshArrays& cells)
+{
+  const auto texts = [&](const std::string& name) {
+    const auto found = cells.field_texts.find(name);
+    return found == cells.field_texts.end() ? std::vector<std::string>{} : found->second;
+  };
+  const std::vector<std::string> unit = texts("length_unit");
+  return {texts("material_names"), texts("patch_names"), unit.empty() ? "" : unit.front()};
+}
+
+}  // namespace
+
+PieceSource::PieceSource(const fs::path& index, const comm::Communicator& comm)
+    : num_ranks_(comm.size()), tets_(subdomain::pieces_of(index, comm))
+{
+  find_boundary(index, comm);
+  const FirstPiece first = on_root(comm, [&] {
+    FirstPiece found;
+    if (tets_.empty()) return found;
+    const mesh::MeshArrays cells = read_cells(tets_.front(), 4);
+    found.has_ids = !cells.point_ids.empty() || cells.num_points() == 0;
+    found.names = names_in(cells);
+    return found;
+  });
+  identity_ = first.has_ids ? VertexIdentity::ids : VertexIdentity::positions;
+  names_ = first.names;
+}
+
+void PieceSource::find_boundary(const fs::path& index, const comm::Communicator& comm)
+{
+  const auto files = subdomain::boundary_pieces_of(index, comm);
+  if (!files) return;
+  std::map<fs::path, LocalIndex> piece_of;
+  for (LocalIndex p = 0; p < num_pieces(); ++p) piece_of[tets_[at(p)].filename()] = p;
+  boundary_.emplace(tets_.size());
+  for (const fs::path& file : *files) {
+    const auto piece = piece_of.find(file.filename());
+    if (piece == piece_of.end()) {
+      throw comm::Collective<InputError>(fmt::format("{}: {} has no piece {} that it belongs to",
+                                                     file.string(), index.string(),
+                                                     file.filename().string()));
+    }
+    (*boundary_)[at(piece->second)] = file;
+  }
+}
+
+LocalIndex PieceSource::first_of(Rank rank) const
+{
+  return static_cast<LocalIndex>(GlobalIndex{num_pieces()} * rank / num_ranks_);
+}
+
+LoadedPiece PieceSource::load(LocalIndex number) const
+{
+  const fs::path& file = tets_[at(number)];
+  mesh::MeshArrays cells = read_cells(file, 4);
+  LoadedPiece piece;
+  piece.point_keys = keys_of_points(cells, identity_, file);
+  piece.point_xyz = std::move(cells.point_xyz);
+  piece.tet_points = std::move(cells.cell_points);
+  const auto material = cells.cell_ints.find("attribute");
+  piece.material = material != cells.cell_ints.end()
+                       ? std::move(material->second)
+                       : std::vector<std::int32_t>(piece.tet_points.size() / 4, 1);
+  require_positive(piece, file);
+  if (!boundary_ || (*boundary_)[at(number)].empty()) return piece;
+  const fs::path& boundary_file = (*boundary_)[at(number)];
+  const mesh::MeshArrays boundary = read_cells(boundary_file, 3);
+  add_triangles(boundary, keys_of_points(boundary, identity_, boundary_file), boundary_file, piece);
+  return piece;
+}
+
+}  // namespace tessera::formats

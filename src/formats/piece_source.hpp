@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tessera/base/entity_key.hpp"
+#include "tessera/comm/communicator.hpp"
+
+namespace tessera::formats {
+
+/// @brief A piece as it stands in its files, with what is easily told of it.
+struct LoadedPiece {
+  std::vector<double> point_xyz{};          ///< Shape (num_points, 3).
+  std::vector<VertexKey> point_keys{};      ///< Shape (num_points): the same in all pieces.
+  std::vector<LocalIndex> tet_points{};     ///< Shape (num_tets, 4); positive.
+  std::vector<std::int32_t> material{};     ///< Shape (num_tets), as in the file.
+  std::vector<LocalIndex> triangle_side{};  ///< Shape (num_triangles): 4 * tet + opposite corner.
+  std::vector<std::int32_t> patch{};        ///< Shape (num_triangles), as in the file.
+
+  [[nodiscard]] LocalIndex num_points() const { return static_cast<LocalIndex>(point_keys.size()); }
+  [[nodiscard]] LocalIndex num_tets() const { return static_cast<LocalIndex>(material.size()); }
+};
+
+/// @brief Names that stand in the files of a mesh, row by row; empty where there are none.
+struct FileNames {
+  std::vector<std::string> materials{};  ///< Of "attribute" 1, 2, …
+  std::vector<std::string> patches{};    ///< Of "patch" 0, 1, …
+  std::string length_unit{};
+};
+
+/// @brief The files of a mesh, and which rank reads which.
+class PieceSource {
+ public:
+  /// @brief Finds the files, and how points of different pieces are recognised. @note Collective.
+  /// @throws InputError on all ranks, naming the file.
+  PieceSource(const std::filesystem::path& index, const comm::Communicator& comm);
+
+  [[nodiscard]] LocalIndex num_pieces() const { return static_cast<LocalIndex>(tets_.size()); }
+  /// @brief Whether files say which triangles are on the geometry.
+  [[nodiscard]] bool has_boundary() const { return boundary_.has_value(); }
+  [[nodiscard]] const FileNames& names() const { return names_; }
+
+  /// @brief The pieces of a rank: first…last-1.
+  [[nodiscard]] LocalIndex first_of(Rank rank) const;
+
+  /// @brief Reads a piece. Local. @throws InputError naming the file.
+  [[nodiscard]] LoadedPiece load(LocalIndex piece) const;
+
+  /// @brief Its file, for messages.
+  [[nodiscard]] const std::filesystem::path& file(LocalIndex piece) const
+  {
+    return tets_[at(piece)];
+  }
+
+ private:
+  void find_boundary(const std::filesystem::path& index, const comm::Communicator& comm);
+
+  int num_ranks_;
+  std::vector<std::filesystem::path> tets_;
+  std::optional<std::vector<std::filesystem::path>> boundary_{};  ///< Empty path: none.
+  VertexIdentity identity_ = VertexIdentity::ids;
+  FileNames names_{};
+};
+
+}  // namespace tessera::formats

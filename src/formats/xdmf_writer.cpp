@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "formats/xdmf_writer.hpp"
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tessera/base/xml_escape.hpp"
+#include "tessera/io/files.hpp"
+
+#include "formats/hdf5_file.hpp"
+#include "formats/shared_file.hpp"
+
+namespace tessera::formats {
+namespace {
+
+constexpr const char* kPoints = "/geometry/vertices";
+constexpr const char* kTets = "/viz/topology/cells";
+constexpr const char* kMaterial = "/cells/material";
+constexpr const char* kPiece = "/cells/piece";
+constexpr const char* kTriangles = "/boundary/triangles";
+constexpr const char* kPatch = "/boundary/patch";
+
+Hdf5Layout layout_of(const Outline& outline)
+{
+  const GlobalIndex num_tets = outline.num_tets();
+  const GlobalIndex num_triangles = outline.num_triangles();
+  return {.arrays = {{kPoints, Hdf5Type::float64, outline.num_points(), 3, {}},
+                     {kTets, Hdf5Type::int64, num_tets, 4, {{"cell_dim", 3}, {"cell_corners", 4}}},
+                     {kMaterial, Hdf5Type::int32, num_tets, 1, {}},
+                     {kPiece, Hdf5Type::int32, num_tets, 1, {}},
+                     {kTriangles, Hdf5Type::int64, num_triangles, 3, {}},
+                     {kPatch, Hdf5Type::int32, num_triangles, 1, {}}},
+          .texts = {{"/names/materials", outline.material_names},
+                    {"/names/patches", outline.patch_names}}};
+}
+
+std::string data_item(const Hdf5Array& array)
+{
+  const bool is_real = array.type == Hdf5Type::float64;
+  const int precision = array.type == Hdf5Type::int32 ? 4 : 8;
+  return fmt::format(
+      R"(<DataItem Dimensions="{} {}" NumberType="{}" Precision="{}" Format="HDF">mesh.h5:{}</DataItem>)",
+      array.num_rows, array.num_columns, is_real ? "Float" : "Int", precision, array.name);
+}
+
+std::string attribute(const char* name, const Hdf5Array& array)
+{
+  return fmt::format(
+      "      <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">{}"
+      "</Attribute>\n",
+      name, data_item(array));
+}
+
+std::string grid(const char* name, const char* kind, const Hdf5Array& points,
+                 const Hdf5Array& cells)
+{
+  return fmt::format(
+      "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
+      "      <Topology TopologyType=\"{}\" NumberOfElements=\"{}\" NodesPerElement=\"{}\">{}"
+      "</Topology>\n"
+      "      <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+      name, kind, cells.num_rows, cells.num_columns, data_item(cells), data_item(points));
+}
+
+// <Information Name="patch 1" Value="inlet"/>, one a tag.
+std::string names(const char* kind, const std::vector<std::string>& names_of_tags)
+{
+  std::string lines;
+  for (std::size_t i = 0; i < names_of_tags.size(); ++i) {
+    lines += fmt::format("      <Information Name=\"{} {}\" Value=\"{}\"/>\n", kind, i + 1,
+                         xml_escape(names_of_tags[i]));
+  }
+  return lines;
+}
+
+std::string xdmf_text(const Outline& outline)
+{
+  const Hdf5Layout layout = layout_of(outline);
+  const auto& [points, tets, material, piece, triangles, patch] =
+      std::tie(layout.arrays[0], layout.arrays[1], layout.arrays[2], layout.arrays[3],
+               layout.arrays[4], layout.arrays[5]);
+  std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
+                     + grid("mesh", "Tetrahedron", points, tets) + attribute("material", material)
+                     + attribute("piece", piece) + names("material", outline.material_names)
+                     + "    </Grid>\n";
+  if (outline.num_triangles() > 0) {
+    text += grid("boundary", "Triangle", points, triangles) + attribute("patch", patch)
+            + names("patch", outline.patch_names) + "    </Grid>\n";
+  }
+  return text + "  </Domain>\n</Xdmf>\n";
+}
+
+class XdmfWriter final : public Writer {
+ public:
+  explicit XdmfWriter(const WriterTarget& target)
+      : outline_(target.outline),
+        layout_(layout_of(target.outline)),
+        xdmf_(target.folder / "mesh.xdmf"),
+        file_(target.folder / "mesh.h5")
+  {
+  }
+
+  void begin() override
+  {
+    file_.create();
+    make_hdf5_file(file_.temporary_path(), layout_);
+  }
+
+  void write(const Piece& piece) override
+  {
+    if (offsets_.empty()) offsets_ = hdf5_offsets(file_.temporary_path(), layout_);
+    const GlobalIndex tet = outline_.first_tet[at(piece.number)];
+    const GlobalIndex triangle = outline_.first_triangle[at(piece.number)];
+    put<double>(kPoints, 3 * outline_.first_point[at(piece.number)],
+                std::span(piece.point_xyz).first(3 * at(piece.num_own_points)));
+    put<GlobalIndex>(kTets, 4 * tet, numbers(piece, piece.tet_points));
+    put<std::int32_t>(kMaterial, tet, piece.tet_material);
+    put<std::int32_t>(kPiece, tet, std::vector(piece.tet_material.size(), piece.number));
+    put<GlobalIndex>(kTriangles, 3 * triangle, numbers(piece, piece.triangle_points));
+    put<std::int32_t>(kPatch, triangle, piece.triangle_patch);
+  }
+
+  void close() override { file_.close(); }
+
+  void commit() override
+  {
+    file_.commit();
+    io::write_text_atomically(xdmf_, xdmf_text(outline_));
+  }
+
+ private:
+  template <class Value>
+  void put(const std::string& array, GlobalIndex first, std::span<const Value> values)
+  {
+    if (values.empty()) return;
+    file_.write(offsets_.at(array) + first * static_cast<GlobalIndex>(sizeof(Value)),
+                std::as_bytes(values));
+  }
+
+  static std::vector<GlobalIndex> numbers(const Piece& piece, const std::vector<LocalIndex>& rows)
+  {
+    std::vector<GlobalIndex> numbers;
+    numbers.reserve(rows.size());
+    for (const LocalIndex row : rows) numbers.push_back(piece.point_numbers[at(row)]);
+    return numbers;
+  }
+
+  const Outline& outline_;
+  Hdf5Layout layout_;
+  std::filesystem::path xdmf_;
+  SharedFile file_;
+  std::map<std::string, GlobalIndex> offsets_{};
+};
+
+}  // namespace
+
+std::unique_ptr<Writer> make_xdmf_writer(const WriterTarget& target)
+{
+  return std::make_unique<XdmfWriter>(target);
+}
+
+}  // namespace tessera::formats
