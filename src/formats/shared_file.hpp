@@ -29,9 +29,6 @@ class SharedFile {
   /// @throws OutputError
   void create();
 
-  /// @brief The temporary file was made by others, in this process. One rank.
-  void adopt() noexcept { created_ = true; }
-
   /// @brief Writes bytes at an offset. @pre some rank has created the file. @throws OutputError
   void write(GlobalIndex offset, std::span<const std::byte> bytes);
   void write(GlobalIndex offset, std::string_view text)
