@@ -25,6 +25,7 @@ constexpr double kMostBalance = 1.1;
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kReportBins = 20;
+constexpr std::size_t kAngleBins = 36;  // Of five degrees.
 
 quality::TetStatistics statistics_of(const std::vector<subdomain::PieceSummary>& pieces,
                                      quality::TetStatistics subdomain::PieceSummary::*part)
@@ -58,6 +59,19 @@ Json mean_ratio_json(const quality::TetStatistics& tets, const quality::Histogra
           {"histogram", histogram.coarsened(kReportBins)}};
 }
 
+Json worst_json(const quality::WorstTets& worst)
+{
+  Json tets = Json::array();
+  for (const quality::WorstTet& tet : worst.tets()) {
+    tets.push_back({{"mean_ratio", tet.mean_ratio},
+                    {"min_dihedral_deg", tet.min_dihedral_deg},
+                    {"max_dihedral_deg", tet.max_dihedral_deg},
+                    {"subdomain", tet.subdomain},
+                    {"centre", tet.centre}});
+  }
+  return tets;
+}
+
 Json quality_json(const FilledPieces& filled)
 {
   const auto tets = statistics_of(filled.pieces, &subdomain::PieceSummary::tets);
@@ -67,6 +81,9 @@ Json quality_json(const FilledPieces& filled)
   Json json{
       {"min_dihedral_deg", tets.min_dihedral_deg},
       {"max_dihedral_deg", tets.max_dihedral_deg},
+      {"dihedral_deg_histogram",
+       {{"smallest_of_tet", filled.histograms.min_dihedral_deg.coarsened(kAngleBins)},
+        {"largest_of_tet", filled.histograms.max_dihedral_deg.coarsened(kAngleBins)}}},
       {"edge_length",
        {{"p01", edge_length(0.01)}, {"median", edge_length(0.5)}, {"p99", edge_length(0.99)}}},
       {"mean_ratio", mean_ratio_json(tets, filled.histograms.mean_ratio)},
@@ -77,6 +94,7 @@ Json quality_json(const FilledPieces& filled)
     json["seam"]["ks_distance"] =
         quality::ks_distance(filled.histograms.seam_mean_ratio, filled.histograms.mean_ratio);
   }
+  json["worst"] = worst_json(filled.worst);
   return json;
 }
 
