@@ -12,6 +12,7 @@
 #include "tessera/model/model.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 
+#include "pipeline/drawing/mesh_scene.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/hand_over_stage.hpp"
 #include "pipeline/store/filled_pieces.hpp"
@@ -42,6 +43,7 @@ struct RunResult {
   std::vector<LocalIndex> only_subdomains{};  ///< As asked for; empty: all.
   GlobalIndex num_vertices = 0;               ///< Of the whole mesh, made or not.
   GlobalIndex num_tets = 0;
+  std::vector<MeshPicture> pictures{};  ///< On rank 0, if the case wants a report for people.
 };
 
 /// @brief The coarse mesh of a run, cut, with the levels on which pieces are filled. Local.

@@ -105,7 +105,7 @@ std::vector<Colour> palette_of(const std::vector<Colour>& colours)
   for (const Colour& colour : colours) {
     palette.push_back(toned(colour, kSideLight));
     for (int shade = 0; shade < Canvas::kNumShades; ++shade) {
-      palette.push_back(toned(colour, 0.5 + 0.5 * shade / (Canvas::kNumShades - 1)));
+      palette.push_back(toned(colour, 0.6 + 0.4 * shade / (Canvas::kNumShades - 1)));
     }
   }
   return palette;

@@ -182,6 +182,37 @@ Json model_json(const model::ModelSource& model)
           {"digest", to_hex(hash_bytes(model.content))}};
 }
 
+// By row of the files; patches of one row have one name.
+std::vector<std::string> patch_names(const mesh::CoarseMesh& coarse)
+{
+  if (coarse.patch_row.empty()) return coarse.patch_names;
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < coarse.patch_names.size(); ++p) {
+    const std::size_t row = at(coarse.patch_row[p]);
+    if (names.size() <= row) names.resize(row + 1);
+    names[row] = coarse.patch_names[p];
+  }
+  return names;
+}
+
+// Sums of subdomains in their order, so the same for any number of ranks.
+Json materials_json(const RunResult& run)
+{
+  Json materials = Json::array();
+  for (const std::string& name : run.coarse.mesh.material_names) {
+    const auto id = static_cast<LocalIndex>(materials.size()) + 1;
+    GlobalIndex num_tets = 0;
+    double volume = 0.0;
+    for (const subdomain::PieceSummary& piece : run.filled.pieces) {
+      if (piece.material != id) continue;
+      num_tets += piece.num_tets;
+      volume += piece.volume;
+    }
+    materials.push_back({{"id", id}, {"name", name}, {"tets", num_tets}, {"volume", volume}});
+  }
+  return materials;
+}
+
 Json decompose_json(const decompose::DecomposeReport& report)
 {
   return {{"seam_area", report.seam_area},
@@ -387,6 +418,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
 {
   const std::vector<subdomain::PieceSummary>& pieces = run.filled.pieces;
   Json json = head_json(verdict.exit_code, reason_of(verdict), figures);
+  json["reasons"] = verdict.reasons;
   json["warnings"] = warnings_json(run);
   add_counts(json, run);
   json["volume"] = sum(pieces, &subdomain::PieceSummary::volume);
@@ -406,6 +438,8 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   if (run.resolved.output.order == 2) json["second_order"] = second_order_json(run);
   json["model"] = model_json(run.model);
   if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);
+  json["patch_names"] = patch_names(run.coarse.mesh);
+  json["materials"] = materials_json(run);
   json["coarse"] = coarse_json(run);
   json["decompose"] = decompose_json(run.decomposition.report);
   json["improve"] = improvement_json(run.filled.improvement);
