@@ -50,8 +50,11 @@ class Raster {
       const Vec3 side = p[(c + 2) % 3] - p[(c + 1) % 3];
       heights_[c] = std::abs(twice_area_) / std::hypot(side[0], side[1]);
     }
-    const bool is_large = *std::ranges::min_element(heights_) >= kLeastHeight;
-    if (sides == Sides::drawn && is_large) side_width_ = kSideWidth;
+    // Lines of small triangles are thin, or there would be nothing but lines.
+    const double height = *std::ranges::min_element(heights_);
+    if (sides == Sides::drawn && height >= kLeastHeight) {
+      side_width_ = std::min(kSideWidth, kSideShare * height);
+    }
   }
 
   [[nodiscard]] bool is_seen() const { return std::abs(twice_area_) > 0.0; }
@@ -77,8 +80,9 @@ class Raster {
   }
 
  private:
-  static constexpr double kLeastHeight = 5.0;  // Pixels.
+  static constexpr double kLeastHeight = 1.5;  // Pixels.
   static constexpr double kSideWidth = 0.6;    // On either side of the line, pixels.
+  static constexpr double kSideShare = 0.12;   // Of the height.
 
   std::array<Vec3, 3> p_;
   std::array<double, 3> heights_{};

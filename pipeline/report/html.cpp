@@ -34,6 +34,7 @@ p { margin: 6px 0; max-width: 78ch; }
 .cards small { font-weight: 400; font-size: .8rem; color: var(--soft); }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 24px; align-items: start; }
 .pair > * { min-width: 0; }
+.wide { max-width: 860px; margin: 24px auto 0; }
 figure { margin: 0; }
 figure img, svg { width: 100%; height: auto; display: block; }
 figure img { border: 1px solid var(--line); border-radius: 6px; }
@@ -49,7 +50,7 @@ th:first-child, td:first-child { text-align: left; white-space: normal; overflow
 tr.better td:last-child { background: #e3f4e8; } tr.worse td:last-child { background: #fde8d7; }
 tr.other td:last-child { background: #eaf1fb; }
 pre { background: var(--tint); border: 1px solid var(--line); border-radius: 6px; padding: 10px 14px; margin: 8px 0; white-space: pre-wrap; overflow-wrap: anywhere; font-size: .9rem; }
-svg text { font-family: inherit; font-size: 12px; fill: #1d2733; } svg .soft { fill: #5b6775; }
+svg text { font-family: inherit; font-size: 12px; fill: #1d2733; } svg .tick { fill: #5b6775; }
 .notes li { margin: 6px 0; } .notes { padding-left: 22px; margin: 0; }
 footer { margin-top: 44px; padding-top: 10px; border-top: 1px solid var(--line); }
 @media print { main { max-width: none; padding: 0; } body { font-size: 11pt; }
@@ -102,7 +103,7 @@ std::string histogram_axis(const HistogramAxis& axis)
     const double share = static_cast<double>(tick) / axis.num_ticks;
     const char* const anchor = tick == 0 ? "start" : tick == axis.num_ticks ? "end" : "middle";
     text += fmt::format(
-        "<text class=\"soft\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{:g}{}</text>",
+        "<text class=\"tick\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{:g}{}</text>",
         share * kChartWidth, kChartHeight + 16.0, anchor,
         axis.low + share * (axis.high - axis.low), escaped(axis.unit));
   }
@@ -126,7 +127,7 @@ std::string bar_row(const Bar& bar, double scale, double y)
     x += width;
   }
   return row
-         + fmt::format("<text class=\"soft\" x=\"{:.2f}\" y=\"{}\">{}</text>", x + 8.0, y + 12.5,
+         + fmt::format("<text class=\"tick\" x=\"{:.2f}\" y=\"{}\">{}</text>", x + 8.0, y + 12.5,
                        escaped(bar.note));
 }
 

@@ -68,6 +68,16 @@ std::string pair_html(const std::vector<std::string>& figures)
   return html + "</div>\n";
 }
 
+// The cut has a row of its own.
+std::string pictures_html(const Report& report)
+{
+  std::vector<std::string> figures = picture_figures(report);
+  if (figures.size() < 3) return pair_html(figures);
+  const std::string last = figures.back();
+  figures.pop_back();
+  return pair_html(figures) + "<div class=\"wide\">" + last + "</div>\n";
+}
+
 std::string time_html(const Report& report)
 {
   const std::string bars = stages_html(report, longest_stage_s(report));
@@ -184,7 +194,7 @@ std::string report_page(const ReportSource& source)
   const Report report(source);
   std::string body = head_html(report) + verdict_html(report);
   body += section_html("Key figures", cards_html(report));
-  body += section_html("Pictures", pair_html(picture_figures(report)));
+  body += section_html("Pictures", pictures_html(report));
   body += section_html("Quality", pair_html(quality_figures(report)));
   body += section_html("Time, and who waited", time_html(report));
   body += section_html("Materials", materials_html(report));
