@@ -265,8 +265,7 @@ class CaseRun {
     if (!is_mesh() || state().finished()) return;
     RunFigures failed = local_figures();
     failed.peak_rss_bytes_max = peak_rss_bytes();
-    const std::string json =
-        failure_json(exit_code_of(error), error.what(), failed, context.times);
+    const std::string json = failure_json(exit_code_of(error), error.what(), failed, context.times);
     try {
       io::write_text_atomically(given_.output.directory / "report.json", json);
       write_page(json, {});

@@ -243,7 +243,9 @@ void add_compare(CLI::App& app, CompareCommand& command)
   CLI::App* compare = app.add_subcommand("compare", "Show two runs side by side");
   compare->add_option("DIR_A", command.folder_a, "Output folder of a run")->required();
   compare->add_option("DIR_B", command.folder_b, "Output folder of another run")->required();
-  compare->add_option("--output", command.output, "The page that is written; compare.html if not given")
+  compare
+      ->add_option("--output", command.output,
+                   "The page that is written; compare.html if not given")
       ->type_name("FILE.html")
       ->check(not_empty());
 }

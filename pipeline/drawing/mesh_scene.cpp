@@ -58,7 +58,8 @@ Colour mixed(const Colour& a, const Colour& b, double share_of_b)
 {
   Colour colour{};
   for (std::size_t c = 0; c < 3; ++c) {
-    colour[c] = static_cast<std::uint8_t>(std::lround((1.0 - share_of_b) * a[c] + share_of_b * b[c]));
+    colour[c] =
+        static_cast<std::uint8_t>(std::lround((1.0 - share_of_b) * a[c] + share_of_b * b[c]));
   }
   return colour;
 }

@@ -78,7 +78,8 @@ std::string sameness(const Report& a, const Report& b)
 std::string figures_table(const Report& a, const Report& b)
 {
   std::string html =
-      "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">figure</th><th scope=\"col\">A</th>"
+      "<div class=\"scroll\"><table><thead><tr><th scope=\"col\">figure</th><th "
+      "scope=\"col\">A</th>"
       "<th scope=\"col\">B</th><th scope=\"col\">B / A</th></tr></thead><tbody>\n";
   for (const Difference& row : differences_of(a, b)) {
     const std::string word = word_of_change(row.change);
@@ -128,15 +129,16 @@ std::vector<std::string> pictures_of(const Report& report, const std::string& le
 
 std::string stage_bars(const Report& a, const Report& b)
 {
+  constexpr double kHalf = 520.0;  // Pixels.
   const double full = std::max(longest_stage_s(a), longest_stage_s(b));
-  const std::string bars = pair_html(stages_html(a, full), stages_html(b, full));
+  const std::string bars = pair_html(stages_html(a, full, kHalf), stages_html(b, full, kHalf));
   return bars.empty() ? bars : bars + stages_legend();
 }
 
 std::string short_status(const char* letter, const Report& report)
 {
-  std::string text = fmt::format("{}: {} ({})", letter, report.text("/status"),
-                                 report.source.folder.string());
+  std::string text =
+      fmt::format("{}: {} ({})", letter, report.text("/status"), report.source.folder.string());
   if (const std::string reason = report.text("/reason"); !reason.empty()) text += ": " + reason;
   return text + "\n";
 }
@@ -147,8 +149,8 @@ std::string compare_page(const ReportSource& source_a, const ReportSource& sourc
 {
   const Report a(source_a);
   const Report b(source_b);
-  std::string body = fmt::format(
-      "<header><h1>Two runs side by side</h1><p>{}</p></header>\n", sameness(a, b));
+  std::string body =
+      fmt::format("<header><h1>Two runs side by side</h1><p>{}</p></header>\n", sameness(a, b));
   body += pair_html(heading_of("A", a) + verdict_html(a), heading_of("B", b) + verdict_html(b));
   body += section_html("Key figures", figures_table(a, b));
   body += section_html("Pictures", pairs_html(pictures_of(a, "a"), pictures_of(b, "b")));
@@ -168,8 +170,8 @@ std::string compare_text(const ReportSource& source_a, const ReportSource& sourc
   std::string text = short_status("A", a) + short_status("B", b) + sameness(a, b) + "\n\n"
                      + fmt::format("{:<20}{:>16}{:>16}{:>10}\n", "", "A", "B", "B / A");
   for (const Difference& row : differences_of(a, b)) {
-    const std::string line = fmt::format("{:<20}{:>16}{:>16}{:>10}", row.figure.name, row.a, row.b,
-                                         row.ratio);
+    const std::string line =
+        fmt::format("{:<20}{:>16}{:>16}{:>10}", row.figure.name, row.a, row.b, row.ratio);
     const std::string word = row.change == Change::other ? "" : word_of_change(row.change);
     text += line + (word.empty() ? "" : "  " + word) + "\n";
   }

@@ -34,6 +34,7 @@ p { margin: 6px 0; max-width: 78ch; }
 .cards small { font-weight: 400; font-size: .8rem; color: var(--soft); }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 24px; align-items: start; }
 .pair > * { min-width: 0; }
+.pair + .pair { margin-top: 24px; }
 .wide { max-width: 860px; margin: 24px auto 0; }
 figure { margin: 0; }
 figure img, svg { width: 100%; height: auto; display: block; }
@@ -96,16 +97,16 @@ std::string histogram_bars(const HistogramAxis& axis, const HistogramSeries& ser
 
 std::string histogram_axis(const HistogramAxis& axis)
 {
-  std::string text = fmt::format(
-      "<line x1=\"0\" x2=\"{0}\" y1=\"{1}\" y2=\"{1}\" stroke=\"#5b6775\"/>", kChartWidth,
-      kChartHeight);
+  std::string text =
+      fmt::format("<line x1=\"0\" x2=\"{0}\" y1=\"{1}\" y2=\"{1}\" stroke=\"#5b6775\"/>",
+                  kChartWidth, kChartHeight);
   for (int tick = 0; tick <= axis.num_ticks; ++tick) {
     const double share = static_cast<double>(tick) / axis.num_ticks;
     const char* const anchor = tick == 0 ? "start" : tick == axis.num_ticks ? "end" : "middle";
-    text += fmt::format(
-        "<text class=\"tick\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{:g}{}</text>",
-        share * kChartWidth, kChartHeight + 16.0, anchor,
-        axis.low + share * (axis.high - axis.low), escaped(axis.unit));
+    text +=
+        fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{:g}{}</text>",
+                    share * kChartWidth, kChartHeight + 16.0, anchor,
+                    axis.low + share * (axis.high - axis.low), escaped(axis.unit));
   }
   return text
          + fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
@@ -114,7 +115,7 @@ std::string histogram_axis(const HistogramAxis& axis)
 
 std::string bar_row(const Bar& bar, double scale, double y)
 {
-  constexpr double kNameWidth = 110.0;
+  constexpr double kNameWidth = 84.0;
   constexpr double kBarHeight = 16.0;
   std::string row = fmt::format("<text x=\"0\" y=\"{}\">{}</text>", y + 12.5, escaped(bar.name));
   double x = kNameWidth;
@@ -234,25 +235,25 @@ std::string bytes_text(double bytes)
 
 std::string histogram_svg(const HistogramAxis& axis, const std::vector<HistogramSeries>& series)
 {
-  std::string svg = fmt::format("<svg viewBox=\"-2 -4 {} {}\" role=\"img\" aria-label=\"{}\">",
-                                kChartWidth + 4.0, kChartHeight + kAxisHeight + 4.0,
-                                escaped("Histogram: " + axis.title));
+  std::string svg =
+      fmt::format("<svg viewBox=\"-2 -4 {} {}\" role=\"img\" aria-label=\"{}\">", kChartWidth + 4.0,
+                  kChartHeight + kAxisHeight + 4.0, escaped("Histogram: " + axis.title));
   const double largest = largest_count(series);
   for (const HistogramSeries& one : series) svg += histogram_bars(axis, one, largest);
   return svg + histogram_axis(axis) + "</svg>\n";
 }
 
-std::string bars_svg(const std::string& title, const std::vector<Bar>& bars, double full)
+std::string bars_svg(const BarAxis& axis, const std::vector<Bar>& bars)
 {
   constexpr double kRow = 24.0;
-  constexpr double kWidth = 1040.0;
-  constexpr double kFullBar = 640.0;
+  constexpr double kShareOfBar = 0.6;  // The rest is for names and notes.
+  const double scale = axis.full > 0.0 ? kShareOfBar * axis.width / axis.full : 0.0;
   std::string svg =
-      fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", kWidth,
-                  kRow * static_cast<double>(bars.size()), escaped(title));
+      fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", axis.width,
+                  kRow * static_cast<double>(bars.size()), escaped(axis.title));
   double y = 2.0;
   for (const Bar& bar : bars) {
-    svg += bar_row(bar, full > 0.0 ? kFullBar / full : 0.0, y);
+    svg += bar_row(bar, scale, y);
     y += kRow;
   }
   return svg + "</svg>\n";
@@ -283,7 +284,8 @@ std::string page_html(std::string_view title, const std::string& body)
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
+      "<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</"
+      "html>\n",
       escaped(title), kStyle, body);
 }
 

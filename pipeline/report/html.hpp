@@ -73,9 +73,15 @@ struct Bar {
   std::string note{};            ///< Behind the bar.
 };
 
-/// @brief A drawing (inline SVG) of horizontal bars. @param[in] full The value of a full bar.
-[[nodiscard]] std::string bars_svg(const std::string& title, const std::vector<Bar>& bars,
-                                   double full);
+/// @brief What a chart of bars is drawn on.
+struct BarAxis {
+  std::string title{};
+  double full = 1.0;      ///< The value of a full bar.
+  double width = 1040.0;  ///< Of the drawing, about as many pixels as it will have.
+};
+
+/// @brief A drawing (inline SVG) of horizontal bars.
+[[nodiscard]] std::string bars_svg(const BarAxis& axis, const std::vector<Bar>& bars);
 
 /// @brief A table; cells are HTML already. The first column holds text, the others numbers.
 [[nodiscard]] std::string table_html(const std::vector<std::string>& head,

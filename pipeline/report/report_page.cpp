@@ -51,11 +51,11 @@ std::string cards_html(const Report& report)
   for (const KeyFigure& figure : key_figures()) {
     if (!report.number(figure.pointer)) continue;
     const bool is_volume = std::string_view(figure.pointer) == "/volume";
-    html += fmt::format("<div><dt>{}</dt><dd data-key=\"{}\">{}{}</dd></div>\n", figure.name,
-                        figure.pointer, figure_text(report, figure),
-                        is_volume && !unit.empty()
-                            ? fmt::format(" <small>{}³</small>", escaped(unit))
-                            : std::string());
+    html +=
+        fmt::format("<div><dt>{}</dt><dd data-key=\"{}\">{}{}</dd></div>\n", figure.name,
+                    figure.pointer, figure_text(report, figure),
+                    is_volume && !unit.empty() ? fmt::format(" <small>{}³</small>", escaped(unit))
+                                               : std::string());
   }
   return html + "</dl>\n";
 }
@@ -80,7 +80,7 @@ std::string pictures_html(const Report& report)
 
 std::string time_html(const Report& report)
 {
-  const std::string bars = stages_html(report, longest_stage_s(report));
+  const std::string bars = stages_html(report, longest_stage_s(report), 1040.0);
   if (bars.empty()) return {};
   return bars + stages_legend();
 }
@@ -128,14 +128,18 @@ std::string again_html(const Report& report)
   };
   const std::string status = report.text("/status");
   const std::string folder = escaped(shell_word(report.source.folder.string()));
-  const std::string run = fmt::format("{}tessera mesh {} --output {}", start, in_folder("case.toml"), folder);
+  const std::string run =
+      fmt::format("{}tessera mesh {} --output {}", start, in_folder("case.toml"), folder);
   if (status != "ok" && status != "degraded") {
-    return fmt::format("<pre>{0} --resume\n{0} --overwrite</pre>\n<p class=\"soft\">The first goes on with what is "
-                       "finished, the second starts anew.</p>\n",
-                       run);
+    return fmt::format(
+        "<pre>{0} --resume\n{0} --overwrite</pre>\n<p class=\"soft\">The first goes on with what "
+        "is "
+        "finished, the second starts anew.</p>\n",
+        run);
   }
   return fmt::format(
-      "<pre>{} --overwrite\ntessera check {}</pre>\n<p class=\"soft\">The first makes the same mesh "
+      "<pre>{} --overwrite\ntessera check {}</pre>\n<p class=\"soft\">The first makes the same "
+      "mesh "
       "again, bit for bit, with any number of ranks. The second verifies it from its files alone. "
       "Give another --output to keep this mesh.</p>\n",
       run, in_folder("mesh.pvtu"));
@@ -158,8 +162,9 @@ std::string footer_html(const Report& report)
 
 std::string head_html(const Report& report)
 {
-  return fmt::format("<header><h1>{}</h1><p class=\"soft\">Report of a mesh, in the folder {}</p></header>\n",
-                     escaped(report.text("/case")), escaped(report.source.folder.string()));
+  return fmt::format(
+      "<header><h1>{}</h1><p class=\"soft\">Report of a mesh, in the folder {}</p></header>\n",
+      escaped(report.text("/case")), escaped(report.source.folder.string()));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ constexpr const char* kMissing = "–";
 constexpr const char* kBusyColour = "#2f6fb2";
 constexpr const char* kUnevenColour = "#e09a3e";
 constexpr const char* kIdleColour = "#d5dbe2";
+constexpr const char* kAloneColour = "#8e7cc3";
 
 constexpr Colour kSmallestColour{47, 111, 178};
 constexpr Colour kLargestColour{224, 154, 62};
@@ -37,6 +39,10 @@ std::string form_text(double value, FigureForm form)
     case FigureForm::plain:
       break;
   }
+  constexpr double kLarge = 1e4;  // From here on digits before the point are enough.
+  constexpr double kLargest = 1e15;
+  const double size = std::abs(value);
+  if (size >= kLarge && size < kLargest) return grouped(std::llround(value));
   return fmt::format("{:.5g}", value);
 }
 
@@ -155,7 +161,8 @@ std::string angle_figure(const Report& report)
                           {"largest angle", largest, {kLargestColour}}})
          + fmt::format(
              "<figcaption>{}Smallest angle of each tet {}largest angle of each tet. All lie "
-             "between {:.1f}° and {:.1f}°; those of the regular tet are 70.5°.</figcaption></figure>\n",
+             "between {:.1f}° and {:.1f}°; those of the regular tet are "
+             "70.5°.</figcaption></figure>\n",
              swatch(css_colour(kSmallestColour)), swatch(css_colour(kLargestColour)),
              report.number("/quality/min_dihedral_deg").value_or(0.0),
              report.number("/quality/max_dihedral_deg").value_or(0.0));
@@ -183,11 +190,29 @@ std::vector<Stage> stages_of(const Report& report)
   return stages;
 }
 
+// What only rank 0 does, with its jobs.
+bool is_of_one_rank(const Stage& stage)
+{
+  constexpr std::array<const char*, 6> kNames{"model",  "names",  "size",
+                                              "coarse", "levels", "decompose"};
+  return std::ranges::find(kNames, stage.name) != kNames.end();
+}
+
+std::vector<BarPart> stage_parts(const Stage& stage, bool is_parallel)
+{
+  if (is_parallel && is_of_one_rank(stage)) {
+    return {{stage.wall_s, kAloneColour, "rank 0 alone, all others wait"}};
+  }
+  return {{stage.least_s, kBusyColour, "all ranks at work"},
+          {stage.most_s - stage.least_s, kUnevenColour, "some ranks at work, others wait"},
+          {stage.wall_s - stage.most_s, kIdleColour, "exchange of results"}};
+}
+
 std::string stage_note(const Stage& stage, bool is_parallel)
 {
   const double waited = stage.most_s - stage.least_s;
   std::string note = duration_text(stage.wall_s);
-  if (is_parallel && waited >= 0.05 && waited >= 0.05 * stage.wall_s) {
+  if (is_parallel && !is_of_one_rank(stage) && waited >= 0.05 && waited >= 0.05 * stage.wall_s) {
     note += fmt::format("; a rank waited {} ({:.0f} %)", duration_text(waited),
                         100.0 * waited / stage.wall_s);
   }
@@ -202,10 +227,7 @@ std::vector<std::string> imbalance_advice(const Report& report)
   if (report.number("/num_ranks").value_or(1.0) < 2.0) return advice;
   for (const Stage& stage : stages_of(report)) {
     const double waited = stage.most_s - stage.least_s;
-    const bool is_shared = stage.name == "plan" || stage.name == "fill" || stage.name == "improve"
-                           || stage.name == "refine" || stage.name == "curve"
-                           || stage.name == "write";
-    if (!is_shared || waited < 0.1 * wall_s || waited < 0.3 * stage.most_s) continue;
+    if (is_of_one_rank(stage) || waited < 0.1 * wall_s || waited < 0.3 * stage.most_s) continue;
     advice.push_back(fmt::format(
         "In the stage {} a rank had nothing to do for {} of {}. More decompose.subdomains make "
         "smaller jobs, which are easier to share out; or use fewer ranks.",
@@ -217,7 +239,8 @@ std::vector<std::string> imbalance_advice(const Report& report)
 std::vector<std::string> failure_advice(const Report& report)
 {
   std::vector<std::string> advice;
-  if (const auto tries = report.number("/coarse/tries"); tries && !report.texts("/coarse/failures").empty()) {
+  if (const auto tries = report.number("/coarse/tries");
+      tries && !report.texts("/coarse/failures").empty()) {
     advice.push_back(
         fmt::format("The coarse mesh took {:.0f} tries. The first failure was: {}. The mesh is "
                     "sound; another coarse.max_size may spare the tries.",
@@ -234,10 +257,10 @@ std::vector<std::string> failure_advice(const Report& report)
     }
   }
   if (const auto failed = report.number("/improve/failed"); failed && *failed > 0.0) {
-    advice.push_back(
-        fmt::format("The improvement of {:.0f} seams failed; their tets stayed as they were filled. "
-                    "The folder failure has the details.",
-                    *failed));
+    advice.push_back(fmt::format(
+        "The improvement of {:.0f} seams failed; their tets stayed as they were filled. "
+        "The folder failure has the details.",
+        *failed));
   }
   return advice;
 }
@@ -331,14 +354,15 @@ std::string verdict_html(const Report& report)
   } else if (status == "degraded") {
     std::vector<std::string> reasons = report.texts("/reasons");
     if (reasons.empty()) reasons.push_back(report.text("/reason"));
-    body = "<strong>⚠ Degraded</strong><p>A valid mesh is saved, but something that was wanted "
-           "could not be had:</p>"
-           + list_html(reasons);
+    body =
+        "<strong>⚠ Degraded</strong><p>A valid mesh is saved, but something that was wanted "
+        "could not be had:</p>"
+        + list_html(reasons);
   } else {
     const double code = report.number("/exit_code").value_or(0.0);
     body = fmt::format(
-        "<strong>✗ {}</strong><p>There is no mesh. Exit code {:.0f}: {}</p><p><b>What to do:</b> "
-        "{}</p>",
+        "<strong>✗ {}</strong><p>There is no finished mesh. Exit code {:.0f}.</p><pre>{}</pre>"
+        "<p><b>What to do:</b> {}</p>",
         code == 75.0 ? "Stopped" : "Failed", code, escaped(report.text("/reason")),
         escaped(way_out(report)));
   }
@@ -350,15 +374,16 @@ std::string verdict_html(const Report& report)
 std::vector<std::string> picture_figures(const Report& report)
 {
   const std::vector<std::pair<std::string, std::string>> captions{
-      {"subdomains",
-       fmt::format("The outside by subdomain: {} of them were made one by one.",
-                   figure_text(report, key_figures()[2]))},
-      {"patches", "The outside by patch: the faces of the geometry, to which a solver's boundary "
-                  "conditions go."},
+      {"subdomains", fmt::format("The outside by subdomain: {} of them were made one by one.",
+                                 figure_text(report, key_figures()[2]))},
+      {"patches",
+       "The outside by patch: the faces of the geometry, to which a solver's boundary "
+       "conditions go."},
       {"cut", "Cut open: the tets that a plane meets, by mean ratio. Red is bad, blue is good."}};
   std::vector<std::string> figures;
   for (const auto& [name, caption] : captions) {
-    if (report.source.pictures.contains(name)) figures.push_back(figure_html(report, name, caption));
+    if (report.source.pictures.contains(name))
+      figures.push_back(figure_html(report, name, caption));
   }
   return figures;
 }
@@ -377,7 +402,7 @@ double longest_stage_s(const Report& report)
   return longest;
 }
 
-std::string stages_html(const Report& report, double full)
+std::string stages_html(const Report& report, double full, double width)
 {
   const bool is_parallel = report.number("/num_ranks").value_or(1.0) > 1.0;
   std::vector<Bar> bars;
@@ -385,19 +410,17 @@ std::string stages_html(const Report& report, double full)
     Bar& bar = bars.emplace_back();
     bar.name = stage.name;
     bar.note = stage_note(stage, is_parallel);
-    bar.parts = {{stage.least_s, kBusyColour, "all ranks at work"},
-                 {stage.most_s - stage.least_s, kUnevenColour, "some ranks at work, others wait"},
-                 {stage.wall_s - stage.most_s, kIdleColour, "exchange, or one rank alone"}};
+    bar.parts = stage_parts(stage, is_parallel);
   }
-  return bars.empty() ? std::string() : bars_svg("Times of the stages", bars, full);
+  return bars.empty() ? std::string() : bars_svg({"Times of the stages", full, width}, bars);
 }
 
 std::string stages_legend()
 {
   return fmt::format(
       "<ul class=\"legend\"><li>{}all ranks at work</li><li>{}some ranks at work, others "
-      "wait</li><li>{}exchange, or one rank alone</li></ul>\n",
-      swatch(kBusyColour), swatch(kUnevenColour), swatch(kIdleColour));
+      "wait</li><li>{}exchange of results</li><li>{}rank 0 alone, all others wait</li></ul>\n",
+      swatch(kBusyColour), swatch(kUnevenColour), swatch(kIdleColour), swatch(kAloneColour));
 }
 
 std::string worst_tets_html(const Report& report)
@@ -417,9 +440,8 @@ std::string worst_tets_html(const Report& report)
     row.push_back(fmt::format("{:.2f}°", tet.value("max_dihedral_deg", 0.0)));
     rows.push_back(std::move(row));
   }
-  return table_html({"tet", "x", "y", "z", "subdomain", "mean ratio", "smallest angle",
-                     "largest angle"},
-                    rows);
+  return table_html(
+      {"tet", "x", "y", "z", "subdomain", "mean ratio", "smallest angle", "largest angle"}, rows);
 }
 
 std::vector<std::string> advice_of(const Report& report)
@@ -436,6 +458,12 @@ std::vector<std::string> advice_of(const Report& report)
         "fill.timeout_s, fill.memory_gib or coarse.timeout_s if you need the same one everywhere.");
   }
   for (std::string& one : imbalance_advice(report)) advice.push_back(std::move(one));
+  if (report.text("/reason").find("< wanted") != std::string::npos) {
+    advice.emplace_back(
+        "A wanted quality was missed. The table above says where the worst tets are. A smaller "
+        "coarse.max_size, coarse.optimize = true or another fill.kernel makes better ones; the "
+        "shapes of small features of the model set a limit.");
+  }
   constexpr double kPoor = 0.1;
   if (const auto least = report.number("/quality/mean_ratio/min"); least && *least < kPoor) {
     advice.push_back(fmt::format(

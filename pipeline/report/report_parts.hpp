@@ -59,8 +59,10 @@ struct KeyFigure {
 /// @brief Mean ratio, then dihedral angles, each with its caption; empty without them.
 [[nodiscard]] std::vector<std::string> quality_figures(const Report& report);
 
-/// @brief Bars of the stages. @param[in] full Seconds of a full bar.
-[[nodiscard]] std::string stages_html(const Report& report, double full);
+/// @brief Bars of the stages.
+/// @param[in] full Seconds of a full bar.
+/// @param[in] width Of the drawing, pixels.
+[[nodiscard]] std::string stages_html(const Report& report, double full, double width);
 [[nodiscard]] double longest_stage_s(const Report& report);
 [[nodiscard]] std::string stages_legend();
 

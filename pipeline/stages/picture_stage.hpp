@@ -16,8 +16,8 @@ namespace tessera::pipeline {
 /// number of ranks.
 ///
 /// Files that the run has written are read back one at a time, as long as they are few enough: what
-/// the pictures cost is bounded, whatever the size of the mesh. Else coarse triangles and tets stand
-/// for them.
+/// the pictures cost is bounded, whatever the size of the mesh. Else coarse triangles and tets
+/// stand for them.
 /// @param[in] files That hold the pieces; empty: there are no files.
 /// @note Collective. @throws Interrupted on every rank.
 /// @return On rank 0 the pictures; elsewhere nothing.
