@@ -266,12 +266,15 @@ class CaseRun {
     RunFigures failed = local_figures();
     failed.peak_rss_bytes_max = peak_rss_bytes();
     const std::string json = failure_json(exit_code_of(error), error.what(), failed, context.times);
-    try {
-      io::write_text_atomically(given_.output.directory / "report.json", json);
-      write_page(json, {});
-    } catch (const Error& second) {
-      context.log.warn("a report is missing: {}", second.what());
-    }
+    const auto try_to = [&](const auto& write) {
+      try {
+        write();
+      } catch (const Error& second) {
+        context.log.warn("a report is missing: {}", second.what());
+      }
+    };
+    try_to([&] { io::write_text_atomically(given_.output.directory / "report.json", json); });
+    try_to([&] { write_page(json, {}); });
   }
 
   void write_page(const std::string& json, const std::vector<MeshPicture>& pictures) const

@@ -13,6 +13,7 @@
 #include "tessera/io/vtu.hpp"
 #include "tessera/netgen/factory.hpp"
 
+#include "pipeline/report/quality_json.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 
 namespace tessera::pipeline {
@@ -21,19 +22,6 @@ namespace {
 // What a solver may expect of output.parts without a word; 1.06 was measured with 16 subdomains a
 // part.
 constexpr double kMostBalance = 1.1;
-
-using Json = nlohmann::ordered_json;
-
-constexpr std::size_t kReportBins = 20;
-constexpr std::size_t kAngleBins = 36;  // Of five degrees.
-
-quality::TetStatistics statistics_of(const std::vector<subdomain::PieceSummary>& pieces,
-                                     quality::TetStatistics subdomain::PieceSummary::*part)
-{
-  quality::TetStatistics all;
-  for (const subdomain::PieceSummary& piece : pieces) all.add(piece.*part);
-  return all;
-}
 
 double largest(const std::vector<subdomain::PieceSummary>& pieces,
                double subdomain::PieceSummary::*member)
@@ -49,53 +37,6 @@ double sum(const std::vector<subdomain::PieceSummary>& pieces,
   double sum = 0.0;
   for (const subdomain::PieceSummary& piece : pieces) sum += piece.*member;
   return sum;
-}
-
-Json mean_ratio_json(const quality::TetStatistics& tets, const quality::Histogram& histogram)
-{
-  return {{"min", tets.min_mean_ratio},
-          {"p01", histogram.percentile(0.01)},
-          {"mean", tets.mean_mean_ratio()},
-          {"histogram", histogram.coarsened(kReportBins)}};
-}
-
-Json worst_json(const quality::WorstTets& worst)
-{
-  Json tets = Json::array();
-  for (const quality::WorstTet& tet : worst.tets()) {
-    tets.push_back({{"mean_ratio", tet.mean_ratio},
-                    {"min_dihedral_deg", tet.min_dihedral_deg},
-                    {"max_dihedral_deg", tet.max_dihedral_deg},
-                    {"subdomain", tet.subdomain},
-                    {"centre", tet.centre}});
-  }
-  return tets;
-}
-
-Json quality_json(const FilledPieces& filled)
-{
-  const auto tets = statistics_of(filled.pieces, &subdomain::PieceSummary::tets);
-  const auto seam = statistics_of(filled.pieces, &subdomain::PieceSummary::seam_tets);
-  const quality::Histogram& edges = filled.histograms.log2_edge_length;
-  const auto edge_length = [&](double share) { return std::exp2(edges.percentile(share)); };
-  Json json{
-      {"min_dihedral_deg", tets.min_dihedral_deg},
-      {"max_dihedral_deg", tets.max_dihedral_deg},
-      {"dihedral_deg_histogram",
-       {{"smallest_of_tet", filled.histograms.min_dihedral_deg.coarsened(kAngleBins)},
-        {"largest_of_tet", filled.histograms.max_dihedral_deg.coarsened(kAngleBins)}}},
-      {"edge_length",
-       {{"p01", edge_length(0.01)}, {"median", edge_length(0.5)}, {"p99", edge_length(0.99)}}},
-      {"mean_ratio", mean_ratio_json(tets, filled.histograms.mean_ratio)},
-      {"seam", {{"num_tets", seam.num_tets}}}};
-  if (seam.num_tets > 0) {
-    json["seam"]["min_dihedral_deg"] = seam.min_dihedral_deg;
-    json["seam"]["mean_ratio"] = mean_ratio_json(seam, filled.histograms.seam_mean_ratio);
-    json["seam"]["ks_distance"] =
-        quality::ks_distance(filled.histograms.seam_mean_ratio, filled.histograms.mean_ratio);
-  }
-  json["worst"] = worst_json(filled.worst);
-  return json;
 }
 
 Json second_order_json(const RunResult& run)
@@ -211,6 +152,12 @@ Json materials_json(const RunResult& run)
     materials.push_back({{"id", id}, {"name", name}, {"tets", num_tets}, {"volume", volume}});
   }
   return materials;
+}
+
+void add_names(Json& json, const RunResult& run)
+{
+  json["patch_names"] = patch_names(run.coarse.mesh);
+  json["materials"] = materials_json(run);
 }
 
 Json decompose_json(const decompose::DecomposeReport& report)
@@ -360,7 +307,7 @@ std::optional<std::string> unbalanced_parts(const RunResult& run)
 Verdict judge(const RunResult& run)
 {
   Verdict verdict;
-  const auto tets = statistics_of(run.filled.pieces, &subdomain::PieceSummary::tets);
+  const quality::TetStatistics tets = statistics_of_tets(run.filled.pieces);
   const quality::QualityTargets& targets = run.resolved.quality;
   if (tets.min_dihedral_deg < targets.min_dihedral_deg) {
     verdict.reasons.push_back(fmt::format("smallest dihedral angle {:.4g} deg < wanted {:.4g} deg",
@@ -438,8 +385,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   if (run.resolved.output.order == 2) json["second_order"] = second_order_json(run);
   json["model"] = model_json(run.model);
   if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);
-  json["patch_names"] = patch_names(run.coarse.mesh);
-  json["materials"] = materials_json(run);
+  add_names(json, run);
   json["coarse"] = coarse_json(run);
   json["decompose"] = decompose_json(run.decomposition.report);
   json["improve"] = improvement_json(run.filled.improvement);

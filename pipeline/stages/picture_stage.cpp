@@ -19,6 +19,8 @@ namespace {
 // What a core reads and draws in about a second.
 constexpr GlobalIndex kMostTriangles = 1'500'000;
 constexpr GlobalIndex kMostTets = 4'000'000;
+// Of one file: a rank needs some 130 bytes a tet to read it.
+constexpr GlobalIndex kMostTetsOfAFile = 1'000'000;
 
 enum class Content { boundary, tets };
 
@@ -88,7 +90,7 @@ class PlanMaker {
     const std::vector<LocalIndex> subdomains = cut_subdomains(file.first, file.last);
     if (subdomains.empty()) return;
     const GlobalIndex num_tets = sum(file, &subdomain::PieceSummary::num_tets);
-    if (num_tets_ + num_tets > kMostTets) {
+    if (num_tets > kMostTetsOfAFile || num_tets_ + num_tets > kMostTets) {
       plan_.coarse_cut.insert(plan_.coarse_cut.end(), subdomains.begin(), subdomains.end());
       return;
     }

@@ -30,6 +30,7 @@ FILES = (
     "boundary/piece_000001.vtu",
     "mesh.pvtu",
     "boundary.pvtu",
+    "report.html",
     "report.json",
 )
 
