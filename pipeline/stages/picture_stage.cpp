@@ -155,12 +155,9 @@ std::vector<MeshPicture> run_picture_stage(const RunResult& run,
                                            const std::vector<subdomain::SubdomainRange>& files,
                                            RunContext& context)
 {
-  const io::OutputOptions& output = run.resolved.output;
-  if (!output.report_html) return {};
+  if (!run.resolved.output.report_html) return {};
   MeshScene scene(cut.coarse.vertex_xyz);
-  const bool can_read = std::ranges::count(output.formats, io::Format::pvtu) > 0;
-  const DrawingPlan plan =
-      PlanMaker(run, cut, scene).plan(can_read ? files : std::vector<subdomain::SubdomainRange>{});
+  const DrawingPlan plan = PlanMaker(run, cut, scene).plan(files);
   StageScope stage(context, "pictures", std::ssize(plan.files), "files");
   if (context.comm.rank() == 0) draw_coarse(run, cut, plan, scene);
   draw_files(plan, scene, stage, context);
