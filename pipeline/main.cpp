@@ -12,6 +12,7 @@
 
 #include "pipeline/commands/check_command.hpp"
 #include "pipeline/commands/cli.hpp"
+#include "pipeline/commands/compare_command.hpp"
 #include "pipeline/commands/convert_command.hpp"
 #include "pipeline/commands/info_command.hpp"
 #include "pipeline/commands/mesh_command.hpp"
@@ -45,6 +46,9 @@ ExitCode run(const Command& command, const comm::Communicator& comm, jobs::JobRu
   }
   if (const auto* info = std::get_if<InfoCommand>(&command)) {
     return run_info_command(*info, comm, jobs);
+  }
+  if (const auto* compare = std::get_if<CompareCommand>(&command)) {
+    return run_compare_command(*compare, comm);
   }
   if (const auto* replay = std::get_if<ReplayCommand>(&command)) {
     return run_replay_command(*replay, comm);

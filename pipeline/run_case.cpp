@@ -24,6 +24,7 @@
 #include "pipeline/predict/dry_run.hpp"
 #include "pipeline/predict/prediction_file.hpp"
 #include "pipeline/report/report.hpp"
+#include "pipeline/report/report_page.hpp"
 #include "pipeline/run_pipeline.hpp"
 #include "pipeline/runtime/log.hpp"
 #include "pipeline/runtime/terminal.hpp"
@@ -214,8 +215,9 @@ class CaseRun {
     all_or_none(comm_, [&] {
       if (comm_.rank() != 0) return;
       run_figures.predicted = predicted(run, run_figures, context);
-      io::write_text_atomically(given_.output.directory / "report.json",
-                                report_json(run, verdict, run_figures, context.times));
+      const std::string json = report_json(run, verdict, run_figures, context.times);
+      write_page(json, run.pictures);  // First: a run with a report.json has ended.
+      io::write_text_atomically(given_.output.directory / "report.json", json);
       folder_->remove_half_written();  // Of jobs that were killed and done again.
       state.clear();
       // What a later try made good needs no diagnosis; a region that failed has had but one.
@@ -276,13 +278,24 @@ class CaseRun {
     if (!is_mesh() || state().finished()) return;
     RunFigures failed = local_figures();
     failed.peak_rss_bytes_max = peak_rss_bytes();
-    try {
-      io::write_text_atomically(
-          given_.output.directory / "report.json",
-          failure_json(exit_code_of(error), error.what(), failed, context.times));
-    } catch (const Error& second) {
-      context.log.warn("report.json is missing: {}", second.what());
-    }
+    const std::string json = failure_json(exit_code_of(error), error.what(), failed, context.times);
+    const auto try_to = [&](const auto& write) {
+      try {
+        write();
+      } catch (const Error& second) {
+        context.log.warn("a report is missing: {}", second.what());
+      }
+    };
+    try_to([&] { io::write_text_atomically(given_.output.directory / "report.json", json); });
+    try_to([&] { write_page(json, {}); });
+  }
+
+  void write_page(const std::string& json, const std::vector<MeshPicture>& pictures) const
+  {
+    if (!given_.output.report_html) return;
+    const std::filesystem::path& folder = given_.output.directory;
+    io::write_text_atomically(folder / "report.html",
+                              report_page(report_source(json, pictures, folder)));
   }
 
   [[nodiscard]] std::size_t peak_rss_bytes() const

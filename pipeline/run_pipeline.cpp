@@ -12,6 +12,7 @@
 #include "pipeline/stages/improve_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/number_stage.hpp"
+#include "pipeline/stages/picture_stage.hpp"
 #include "pipeline/stages/refine_stage.hpp"
 #include "pipeline/stages/untangle_and_fill.hpp"
 #include "pipeline/stages/verify_stage.hpp"
@@ -77,12 +78,14 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
                                      places_of_vertices(run, cut)};
   if (options.on_piece) {
     run_hand_over_stage(outline.files, mesh, options.on_piece, run.filled, context);
+    run.pictures = run_picture_stage(run, cut, {}, context);
     return run;
   }
   if (!outline.is_one_pass && !outline.splits_pieces()) {
     run_write_stage(run.resolved, outline.files, mesh, run.filled, context);
   }
   write_indices(run.resolved, outline.files, mesh, run.filled, context);
+  run.pictures = run_picture_stage(run, cut, outline.files, context);
   run.files = run_export_stage(run.resolved, context);
   return run;
 }

@@ -13,6 +13,7 @@
 #include "tessera/model/model.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 
+#include "pipeline/drawing/mesh_scene.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/hand_over_stage.hpp"
 #include "pipeline/store/filled_pieces.hpp"
@@ -44,6 +45,7 @@ struct RunResult {
   GlobalIndex num_vertices = 0;               ///< Of the whole mesh, made or not.
   GlobalIndex num_tets = 0;
   std::vector<formats::PieceCounts> files{};  ///< Of run_export_stage(); may be empty.
+  std::vector<MeshPicture> pictures{};  ///< On rank 0, if the case wants a report for people.
 };
 
 /// @brief The coarse mesh of a run, cut, with the levels on which pieces are filled. Local.

@@ -28,6 +28,7 @@ struct Parsed {
   RepartitionCommand repartition{};
   ConvertCommand convert{};
   InfoCommand info{};
+  CompareCommand compare{};
   ReplayCommand replay{};
 };
 
@@ -265,6 +266,18 @@ void add_info(CLI::App& app, Parsed& parsed)
       ->check(not_empty());
 }
 
+void add_compare(CLI::App& app, CompareCommand& command)
+{
+  CLI::App* compare = app.add_subcommand("compare", "Show two runs side by side");
+  compare->add_option("DIR_A", command.folder_a, "Output folder of a run")->required();
+  compare->add_option("DIR_B", command.folder_b, "Output folder of another run")->required();
+  compare
+      ->add_option("--output", command.output,
+                   "The page that is written; compare.html if not given")
+      ->type_name("FILE.html")
+      ->check(not_empty());
+}
+
 void add_replay(CLI::App& app, Parsed& parsed)
 {
   CLI::App* replay = app.add_subcommand(
@@ -287,6 +300,7 @@ void set_up(CLI::App& app, Parsed& parsed)
   add_repartition(app, parsed.repartition);
   add_convert(app, parsed.convert);
   add_info(app, parsed);
+  add_compare(app, parsed.compare);
   add_replay(app, parsed);
   for (CLI::App* command : app.get_subcommands({})) command->footer("");
 }
@@ -297,6 +311,7 @@ Command to_command(const CLI::App& app, Parsed parsed)
   if (app.got_subcommand("repartition")) return parsed.repartition;
   if (app.got_subcommand("convert")) return parsed.convert;
   if (app.got_subcommand("info")) return parsed.info;
+  if (app.got_subcommand("compare")) return parsed.compare;
   if (app.got_subcommand("replay")) return parsed.replay;
   parsed.mesh.progress = value_of<ProgressMode>(parsed.progress).value();
   if (parsed.quiet) parsed.mesh.verbosity = Verbosity::quiet;

@@ -69,6 +69,13 @@ struct InfoCommand {
   std::optional<std::filesystem::path> picture{};  ///< Of a model: draw it into this PNG file.
 };
 
+/// @brief `tessera compare`: two runs side by side.
+struct CompareCommand {
+  std::filesystem::path folder_a{};  ///< Output folders.
+  std::filesystem::path folder_b{};
+  std::filesystem::path output{"compare.html"};
+};
+
 /// @brief `tessera replay`: run a job that failed once more, in this process.
 struct ReplayCommand {
   std::filesystem::path folder{};  ///< DIR/failure/JOB.
@@ -80,7 +87,7 @@ struct PrintCommand {
 };
 
 using Command = std::variant<MeshCommand, CheckCommand, RepartitionCommand, ConvertCommand,
-                             InfoCommand, ReplayCommand, PrintCommand>;
+                             InfoCommand, CompareCommand, ReplayCommand, PrintCommand>;
 
 /// @brief Read the command line. Pure: prints nothing and never ends the process, since every rank
 /// parses and only one may speak. Local.

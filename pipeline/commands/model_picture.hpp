@@ -3,7 +3,7 @@
 
 #include "tessera/model/description.hpp"
 
-#include "pipeline/commands/png.hpp"
+#include "pipeline/drawing/png.hpp"
 
 namespace tessera::pipeline {
 

@@ -13,6 +13,7 @@
 #include "tessera/io/vtu.hpp"
 #include "tessera/netgen/factory.hpp"
 
+#include "pipeline/report/quality_json.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 
 namespace tessera::pipeline {
@@ -21,18 +22,6 @@ namespace {
 // What a solver may expect of output.parts without a word; 1.06 was measured with 16 subdomains a
 // part.
 constexpr double kMostBalance = 1.1;
-
-using Json = nlohmann::ordered_json;
-
-constexpr std::size_t kReportBins = 20;
-
-quality::TetStatistics statistics_of(const std::vector<subdomain::PieceSummary>& pieces,
-                                     quality::TetStatistics subdomain::PieceSummary::*part)
-{
-  quality::TetStatistics all;
-  for (const subdomain::PieceSummary& piece : pieces) all.add(piece.*part);
-  return all;
-}
 
 double largest(const std::vector<subdomain::PieceSummary>& pieces,
                double subdomain::PieceSummary::*member)
@@ -48,36 +37,6 @@ double sum(const std::vector<subdomain::PieceSummary>& pieces,
   double sum = 0.0;
   for (const subdomain::PieceSummary& piece : pieces) sum += piece.*member;
   return sum;
-}
-
-Json mean_ratio_json(const quality::TetStatistics& tets, const quality::Histogram& histogram)
-{
-  return {{"min", tets.min_mean_ratio},
-          {"p01", histogram.percentile(0.01)},
-          {"mean", tets.mean_mean_ratio()},
-          {"histogram", histogram.coarsened(kReportBins)}};
-}
-
-Json quality_json(const FilledPieces& filled)
-{
-  const auto tets = statistics_of(filled.pieces, &subdomain::PieceSummary::tets);
-  const auto seam = statistics_of(filled.pieces, &subdomain::PieceSummary::seam_tets);
-  const quality::Histogram& edges = filled.histograms.log2_edge_length;
-  const auto edge_length = [&](double share) { return std::exp2(edges.percentile(share)); };
-  Json json{
-      {"min_dihedral_deg", tets.min_dihedral_deg},
-      {"max_dihedral_deg", tets.max_dihedral_deg},
-      {"edge_length",
-       {{"p01", edge_length(0.01)}, {"median", edge_length(0.5)}, {"p99", edge_length(0.99)}}},
-      {"mean_ratio", mean_ratio_json(tets, filled.histograms.mean_ratio)},
-      {"seam", {{"num_tets", seam.num_tets}}}};
-  if (seam.num_tets > 0) {
-    json["seam"]["min_dihedral_deg"] = seam.min_dihedral_deg;
-    json["seam"]["mean_ratio"] = mean_ratio_json(seam, filled.histograms.seam_mean_ratio);
-    json["seam"]["ks_distance"] =
-        quality::ks_distance(filled.histograms.seam_mean_ratio, filled.histograms.mean_ratio);
-  }
-  return json;
 }
 
 Json second_order_json(const RunResult& run)
@@ -162,6 +121,43 @@ Json model_json(const model::ModelSource& model)
   return {{"repairs", model.repairs},
           {"length_unit", model.length_unit},
           {"digest", to_hex(hash_bytes(model.content))}};
+}
+
+// By row of the files; patches of one row have one name.
+std::vector<std::string> patch_names(const mesh::CoarseMesh& coarse)
+{
+  if (coarse.patch_row.empty()) return coarse.patch_names;
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < coarse.patch_names.size(); ++p) {
+    const std::size_t row = at(coarse.patch_row[p]);
+    if (names.size() <= row) names.resize(row + 1);
+    names[row] = coarse.patch_names[p];
+  }
+  return names;
+}
+
+// Sums of subdomains in their order, so the same for any number of ranks.
+Json materials_json(const RunResult& run)
+{
+  Json materials = Json::array();
+  for (const std::string& name : run.coarse.mesh.material_names) {
+    const auto id = static_cast<LocalIndex>(materials.size()) + 1;
+    GlobalIndex num_tets = 0;
+    double volume = 0.0;
+    for (const subdomain::PieceSummary& piece : run.filled.pieces) {
+      if (piece.material != id) continue;
+      num_tets += piece.num_tets;
+      volume += piece.volume;
+    }
+    materials.push_back({{"id", id}, {"name", name}, {"tets", num_tets}, {"volume", volume}});
+  }
+  return materials;
+}
+
+void add_names(Json& json, const RunResult& run)
+{
+  json["patch_names"] = patch_names(run.coarse.mesh);
+  json["materials"] = materials_json(run);
 }
 
 Json decompose_json(const decompose::DecomposeReport& report)
@@ -323,7 +319,7 @@ std::optional<std::string> unbalanced_parts(const RunResult& run)
 Verdict judge(const RunResult& run)
 {
   Verdict verdict;
-  const auto tets = statistics_of(run.filled.pieces, &subdomain::PieceSummary::tets);
+  const quality::TetStatistics tets = statistics_of_tets(run.filled.pieces);
   const quality::QualityTargets& targets = run.resolved.quality;
   if (tets.min_dihedral_deg < targets.min_dihedral_deg) {
     verdict.reasons.push_back(fmt::format("smallest dihedral angle {:.4g} deg < wanted {:.4g} deg",
@@ -381,6 +377,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
 {
   const std::vector<subdomain::PieceSummary>& pieces = run.filled.pieces;
   Json json = head_json(verdict.exit_code, reason_of(verdict), figures);
+  json["reasons"] = verdict.reasons;
   json["warnings"] = warnings_json(run);
   add_counts(json, run);
   json["volume"] = sum(pieces, &subdomain::PieceSummary::volume);
@@ -400,6 +397,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   if (run.resolved.output.order == 2) json["second_order"] = second_order_json(run);
   json["model"] = model_json(run.model);
   if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);
+  add_names(json, run);
   json["coarse"] = coarse_json(run);
   json["decompose"] = decompose_json(run.decomposition.report);
   json["improve"] = improvement_json(run.filled.improvement);

@@ -32,6 +32,7 @@ void FilledPieces::add(const subdomain::FillResult& result)
   }
   pieces.push_back(result.summary);
   histograms.add(result.histograms);
+  worst.add(result.worst);
   for (const verify::SeamHash& seam : result.seams) seam_sums[at(seam.triangle)] += seam.hash;
 }
 
@@ -48,6 +49,9 @@ FilledPieces combine(FilledPieces own, const comm::Communicator& comm)
   sum_over_ranks(all.histograms.mean_ratio, comm);
   sum_over_ranks(all.histograms.seam_mean_ratio, comm);
   sum_over_ranks(all.histograms.log2_edge_length, comm);
+  sum_over_ranks(all.histograms.min_dihedral_deg, comm);
+  sum_over_ranks(all.histograms.max_dihedral_deg, comm);
+  for (const quality::WorstTets& worst : comm.all_gather_values(own.worst)) all.worst.add(worst);
   all.seam_sums = std::move(own.seam_sums);
   comm.sum_in_place(all.seam_sums);
   return all;

@@ -36,6 +36,7 @@ struct FilledPieces {
   std::vector<FoldedSubdomain> folded{};           ///< By subdomain.
   std::vector<subdomain::FailedTries> failures{};  ///< Of all these; by subdomain.
   quality::QualityHistograms histograms{};         ///< Over all pieces.
+  quality::WorstTets worst{};                      ///< Over all pieces.
   std::vector<Hash128> seam_sums{};  ///< Shape (num skeleton triangles): both sides' hashes, as the
                                      ///< pieces were filled.
   Improvement improvement{};

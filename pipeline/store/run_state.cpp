@@ -90,6 +90,7 @@ config::Case without_limits(config::Case run_case)
 {
   const config::Case plain;
   run_case.output.directory = plain.output.directory;
+  run_case.output.report_html = plain.output.report_html;
   run_case.coarse.timeout_s = plain.coarse.timeout_s;
   run_case.fill.timeout_s = plain.fill.timeout_s;
   run_case.fill.memory_gib = plain.fill.memory_gib;

@@ -229,6 +229,7 @@ std::string completion_of(const std::string& value)
   if (value == "FILE") return "_tessera_files ''";
   if (value.starts_with("DIR")) return "_tessera_files";
   if (value.ends_with(".png")) return "_tessera_files .png";
+  if (value.ends_with(".html")) return "_tessera_files .html";
   if (value.ends_with(".pvtu")) return "_tessera_files .pvtu .vtu";
   if (value == "CASE.toml|MODEL")
     return "_tessera_files .toml .step .stp .iges .igs .brep .stl .geo";

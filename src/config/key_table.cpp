@@ -263,6 +263,10 @@ constexpr Key kKeys[] = {
      .rule = FlagRule{[](Case& c) -> bool& { return c.output.cell_quality; }},
      .meaning = "Also write the mean ratio of every tet.",
      .reason = "one more number a tet, and report.json has the histogram"},
+    {.name = "output.report_html",
+     .rule = FlagRule{[](Case& c) -> bool& { return c.output.report_html; }},
+     .meaning = "Also write report.html, the report for people, with pictures of the mesh.",
+     .reason = "the pictures take a second or two, however large the mesh is"},
 };
 
 // Whatever may stand in a case file.

@@ -21,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Files and folders that a run makes; nothing else is ever removed.
-constexpr std::array kRunFiles{"mesh.pvtu", "boundary.pvtu", "case.toml", "report.json"};
+constexpr std::array kRunFiles{"mesh.pvtu", "boundary.pvtu", "case.toml", "report.json",
+                               "report.html"};
 constexpr std::array kPieceFolders{"mesh", "boundary", "pieces"};
 constexpr std::array kOwnFolders{"log", "failure", "dry_run"};
 

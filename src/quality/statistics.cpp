@@ -110,6 +110,8 @@ void QualityHistograms::add(const QualityHistograms& other)
   mean_ratio.add(other.mean_ratio);
   seam_mean_ratio.add(other.seam_mean_ratio);
   log2_edge_length.add(other.log2_edge_length);
+  min_dihedral_deg.add(other.min_dihedral_deg);
+  max_dihedral_deg.add(other.max_dihedral_deg);
 }
 
 TetStatistics ShapeSum::statistics() const

@@ -2,6 +2,7 @@
 #include "tessera/quality/tet_quality.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -124,6 +125,41 @@ Corners<Lanes> corners_of(std::span<const double> xyz, const LocalIndex* first,
   return corners;
 }
 
+// From a cosine to the degrees below its angle: a guess from equal steps of the cosine, and from
+// there on degree by degree.
+class AngleTable {
+ public:
+  AngleTable()
+  {
+    for (std::size_t d = 0; d < cosines_.size(); ++d) {
+      cosines_[d] = std::cos(static_cast<double>(d) * std::numbers::pi / 180.0);
+    }
+    std::size_t degrees = 0;
+    for (std::size_t step = 0; step < kSteps; ++step) {
+      const double largest = 1.0 - 2.0 * static_cast<double>(step) / kSteps;
+      while (degrees < kLast && largest <= cosines_[degrees + 1]) ++degrees;
+      guesses_[step] = degrees;
+    }
+  }
+
+  [[nodiscard]] std::size_t whole_degrees(double cosine) const
+  {
+    if (!(cosine < 1.0)) return 0;
+    if (cosine <= -1.0) return kLast;
+    const auto step = static_cast<std::size_t>((1.0 - cosine) * (0.5 * kSteps));
+    std::size_t degrees = guesses_[std::min(step, kSteps - 1)];
+    while (degrees < kLast && cosine <= cosines_[degrees + 1]) ++degrees;
+    return degrees;
+  }
+
+ private:
+  static constexpr std::size_t kLast = 179;
+  static constexpr std::size_t kSteps = 1024;
+
+  std::array<double, kLast + 2> cosines_{};
+  std::array<std::size_t, kSteps> guesses_{};
+};
+
 }  // namespace
 
 double mean_ratio(const TetCorners& corners) noexcept
@@ -152,6 +188,12 @@ void shapes_of(std::span<const double> xyz, std::span<const LocalIndex> tet_vert
 double angle_deg(double cosine) noexcept
 {
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
+}
+
+std::size_t whole_degrees(double cosine) noexcept
+{
+  static const AngleTable kTable;
+  return kTable.whole_degrees(cosine);
 }
 
 }  // namespace tessera::quality

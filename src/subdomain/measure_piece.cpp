@@ -53,6 +53,17 @@ std::vector<char> seam_vertices(const mesh::Piece& piece, const number::SharedBy
   return on_seam;
 }
 
+quality::WorstTet worst_tet(const mesh::Piece& piece, LocalIndex tet,
+                            const quality::TetShape& shape)
+{
+  const auto& [a, b, c, d] = piece.corners(tet);
+  return {.subdomain = piece.subdomain,
+          .centre = 0.25 * ((a + b) + (c + d)),
+          .mean_ratio = shape.mean_ratio,
+          .min_dihedral_deg = quality::angle_deg(shape.largest_cosine),
+          .max_dihedral_deg = quality::angle_deg(shape.smallest_cosine)};
+}
+
 }  // namespace
 
 GlobalIndex measure_edges(const mesh::Piece& piece, quality::QualityHistograms& histograms)
@@ -84,6 +95,10 @@ void measure_tets(const mesh::Piece& piece, const std::vector<char>& on_seam, Fi
     quality::shapes_of(piece.vertex_xyz, tets, std::span(shapes).first(size));
     for (std::size_t t = 0; t < size; ++t) {
       all.add(shapes[t]);
+      result.histograms.add_angles(shapes[t]);
+      if (result.worst.takes(shapes[t].mean_ratio)) {
+        result.worst.add(worst_tet(piece, static_cast<LocalIndex>(first + t), shapes[t]));
+      }
       const LocalIndex* v = &tets[4 * t];
       if (std::any_of(v, v + 4, is_on_seam)) on_seams.add(shapes[t]);
     }

@@ -131,7 +131,7 @@ class SymbolicLinks(program.ProgramTest):
     """In the output folder they are replaced or refused; what they lead to stays as it is."""
 
     FILES = (
-        "mesh.pvtu", "boundary.pvtu", "case.toml", "report.json", "log/run.log", "log/rank_000000.log",
+        "mesh.pvtu", "boundary.pvtu", "case.toml", "report.html", "report.json", "log/run.log", "log/rank_000000.log",
         "pieces/run.record", "pieces/coarse.record", "pieces/piece_000000.record", "pieces/log_000000.record",
         "mesh/piece_000000.vtu", "boundary/piece_000000.vtu", "failure/coarse.vtu", "failure/fill_subdomain_1",
     )  # fmt: skip

@@ -92,7 +92,7 @@ class Package(program.ProgramTest):
             self.write(name, "")
         (self.folder / "folder").mkdir()
         for words, offered in (
-            ([""], ["mesh", "check", "repartition", "info", "replay"]),
+            ([""], ["mesh", "check", "repartition", "info", "compare", "replay"]),
             (["--v"], ["--version"]),
             (["mesh", "--ov"], ["--overwrite"]),
             (["mesh", ""], ["a.toml", "e.step", "folder"]),

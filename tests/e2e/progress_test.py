@@ -8,7 +8,7 @@ import unittest
 
 import program
 
-STAGES = ["model", "coarse", "decompose", "plan", "fill", "improve", "verify", "write"]
+STAGES = ["model", "coarse", "decompose", "plan", "fill", "improve", "verify", "write", "pictures"]
 CONTROL_CHARACTERS = re.compile(r"[\x00-\x09\x0b-\x1f\x7f]")
 
 

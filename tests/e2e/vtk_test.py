@@ -11,13 +11,15 @@ import program
 
 # Keys of report.json that scripts rely on; a dictionary: what is inside.
 REPORT_KEYS = {
-    "schema": int, "version": str, "status": str, "exit_code": int, "reason": str, "case": str,
+    "schema": int, "version": str, "status": str, "exit_code": int, "reason": str, "reasons": list,
+    "case": str,
     "num_ranks": int, "num_subdomains": int, "num_tets": int, "num_vertices": int,
     "volume": float, "boundary_area": float, "model_distance_max": float,
     "reproducible": bool, "digest": str,
     "wall_time_s": float, "tets_per_second": float, "peak_rss_bytes_max": int, "stages": list,
     "quality": {
-        "min_dihedral_deg": float, "max_dihedral_deg": float,
+        "min_dihedral_deg": float, "max_dihedral_deg": float, "worst": list,
+        "dihedral_deg_histogram": {"smallest_of_tet": list, "largest_of_tet": list},
         "edge_length": {"p01": float, "median": float, "p99": float},
         "mean_ratio": {"min": float, "p01": float, "mean": float, "histogram": list},
         "seam": {
@@ -25,10 +27,10 @@ REPORT_KEYS = {
             "mean_ratio": {"min": float, "p01": float, "mean": float, "histogram": list},
         },
     },
-    "subdomains": list,
+    "subdomains": list, "patch_names": list, "materials": list,
     "libraries": {"netgen": str, "metis": str, "vtk": str, "mpi": str},
 }  # fmt: skip
-STAGES = ["model", "coarse", "decompose", "plan", "fill", "improve", "verify", "write"]
+STAGES = ["model", "coarse", "decompose", "plan", "fill", "improve", "verify", "write", "pictures"]
 NUM_SUBDOMAINS = 4
 
 
@@ -166,7 +168,7 @@ class OutputFolder(program.ResultTest):
     def test_every_file_has_its_final_name(self):
         pieces = [f"piece_{i:06}.vtu" for i in range(NUM_SUBDOMAINS)]
         expected = {
-            *("mesh.pvtu", "boundary.pvtu", "case.toml", "report.json", ".tessera.lock", "log/run.log"),
+            *("mesh.pvtu", "boundary.pvtu", "case.toml", "report.html", "report.json", ".tessera.lock", "log/run.log"),
             *(f"mesh/{piece}" for piece in pieces),
             *(f"log/rank_{rank:06}.log" for rank in range(2)),
         }

@@ -30,6 +30,7 @@ FILES = (
     "boundary/piece_000001.vtu",
     "mesh.pvtu",
     "boundary.pvtu",
+    "report.html",
     "report.json",
 )
 
@@ -121,7 +122,7 @@ class FullDisk(WritesTest):
 
     def test_piece_files(self):
         """Without improvement, and uncompressed, they are larger than all records."""
-        plain = ("--set", "improve.seams=false", "--set", "output.compression='none'")
+        plain = ("--set", "improve.seams=false", "--set", "output.compression='none'", "--set", "refine.levels=2")
         one_pass = ("--set", "fill.kernel='subdivide'", *plain)
         for name, settings in (("stored", plain), ("one_pass", one_pass)):
             with self.subTest(name):

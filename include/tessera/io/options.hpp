@@ -50,6 +50,7 @@ struct OutputOptions {
   LocalIndex parts = 0;       ///< Number of balanced, connected parts, a file each; 0: see `files`.
   int order = 1;              ///< 1: straight tets; 2: with a node in the middle of every edge.
   bool cell_quality = false;  ///< Also write the mean ratio of every tet.
+  bool report_html = true;    ///< Also write the report for people, with pictures.
 
   friend bool operator==(const OutputOptions&, const OutputOptions&) = default;
 };

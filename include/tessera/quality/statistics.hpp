@@ -37,6 +37,8 @@ class Histogram {
       ++counts_[static_cast<std::size_t>(place)];
     }
   }
+  /// @brief Counts one value of a bin. @pre bin < counts().size()
+  void add_to_bin(std::size_t bin) { ++counts_[bin]; }
   void add(const Histogram& other);       ///< @pre the same bins.
   void subtract(const Histogram& other);  ///< @pre the same bins, and `other` was added before.
 
@@ -100,13 +102,23 @@ struct QualityHistograms {
   Histogram seam_mean_ratio{0.0, 1.0, 2000};  ///< Of the seam tets.
   /// Of log2(edge length / output length unit): 64 bins an octave (1.1 % wide), from -40 to 40.
   Histogram log2_edge_length{-40.0, 40.0, std::size_t{80} * 64};
+  Histogram min_dihedral_deg{0.0, 180.0, 180};  ///< The smallest angle of every tet.
+  Histogram max_dihedral_deg{0.0, 180.0, 180};  ///< The largest one.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.mean_ratio, self.seam_mean_ratio, self.log2_edge_length);
+    return std::tie(self.mean_ratio, self.seam_mean_ratio, self.log2_edge_length,
+                    self.min_dihedral_deg, self.max_dihedral_deg);
   }
 
   void add(const QualityHistograms& other);
+
+  /// @brief Counts the extreme dihedral angles of a tet.
+  void add_angles(const TetShape& shape)
+  {
+    min_dihedral_deg.add_to_bin(whole_degrees(shape.largest_cosine));
+    max_dihedral_deg.add_to_bin(whole_degrees(shape.smallest_cosine));
+  }
 };
 
 /// @brief Gathers the shapes of tets, one after the other, into statistics and a histogram.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include "tessera/base/types.hpp"
@@ -40,5 +41,8 @@ void shapes_of(std::span<const double> xyz, std::span<const LocalIndex> tet_vert
 
 /// @brief Degrees in [0, 180]. @note Local.
 [[nodiscard]] double angle_deg(double cosine) noexcept;
+
+/// @brief Whole degrees of an angle, in 0…179, without an arc cosine. @note Local.
+[[nodiscard]] std::size_t whole_degrees(double cosine) noexcept;
 
 }  // namespace tessera::quality

@@ -9,6 +9,7 @@
 #include "tessera/base/types.hpp"
 #include "tessera/fill/options.hpp"
 #include "tessera/quality/statistics.hpp"
+#include "tessera/quality/worst_tets.hpp"
 #include "tessera/verify/seams.hpp"
 
 namespace tessera::subdomain {
@@ -58,11 +59,12 @@ struct FillResult {
   PieceSummary summary{};
   std::vector<std::string> failures{};  ///< What the tries before said, in their order.
   quality::QualityHistograms histograms{};
+  quality::WorstTets worst{};
   std::vector<verify::SeamHash> seams{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.summary, self.failures, self.histograms, self.seams);
+    return std::tie(self.summary, self.failures, self.histograms, self.worst, self.seams);
   }
 };
 

@@ -67,6 +67,20 @@ TEST_P(CommunicatorPieces, SumsOfUnsignedWrapAround)
   EXPECT_EQ(values.back(), 5 * ranks);
 }
 
+TEST_P(CommunicatorPieces, MaximumIsThatOfAllRanksEntryByEntry)
+{
+  // Each entry is largest on another rank.
+  std::vector<std::uint64_t> values(20);
+  const auto ranks = static_cast<std::uint64_t>(comm_.size());
+  const auto rank = static_cast<std::uint64_t>(comm_.rank());
+  for (std::uint64_t i = 0; i < 20; ++i) {
+    const std::uint64_t rest = (i + rank) % ranks;
+    values[i] = std::numeric_limits<std::uint64_t>::max() - rest;
+  }
+  comm_.max_in_place(values);
+  EXPECT_EQ(values, std::vector<std::uint64_t>(20, std::numeric_limits<std::uint64_t>::max()));
+}
+
 TEST_P(CommunicatorPieces, ExchangeDeliversEveryMessageOnceInOrderOfSenders)
 {
   // Rank r writes r + 1 messages to every rank, itself included, one of them empty.

@@ -49,6 +49,7 @@ Case complete_case()
   wanted.output.compression = io::Compression::none;
   wanted.output.files = 12;
   wanted.output.cell_quality = true;
+  wanted.output.report_html = false;
   return wanted;
 }
 
@@ -207,7 +208,8 @@ TEST(KnownKeys, AreThoseOfTheReferenceWithTheirWords)
       EXPECT_EQ(key.words.front(), "netgen");
     }
     EXPECT_EQ(key.words.size() == 2, key.name == "coarse.optimize" || key.name == "improve.seams"
-                                         || key.name == "output.cell_quality")
+                                         || key.name == "output.cell_quality"
+                                         || key.name == "output.report_html")
         << key.name;
   }
 }

@@ -223,6 +223,18 @@ TEST(CommandLine, WrongUseIsOneLineThatSaysHowToGetHelp)
   }
 }
 
+TEST(CommandLine, CompareTakesTwoFoldersAndAFile)
+{
+  const auto compare = parsed_as<CompareCommand>({"compare", "out/a", "out/b"});
+  EXPECT_EQ(compare.folder_a, "out/a");
+  EXPECT_EQ(compare.folder_b, "out/b");
+  EXPECT_EQ(compare.output, "compare.html");
+  EXPECT_EQ(parsed_as<CompareCommand>({"compare", "a", "b", "--output", "x.html"}).output,
+            "x.html");
+  EXPECT_NE(error_of({"compare", "a"}), "no error");
+  EXPECT_NE(error_of({"compare", "a", "b", "--output", ""}), "no error");
+}
+
 TEST(CommandLine, UnknownCommandsAndOptionsAreNamed)
 {
   for (const char* stranger : {"polish", "-x", "--polish"}) {
@@ -239,7 +251,7 @@ TEST(CommandLine, CommandsOfLaterVersionsAreRefused)
 TEST(DescribeCommandLine, HasTheProgramAndItsCommandsWithWhatTheyTake)
 {
   const std::vector<CommandHelp> all = describe_command_line();
-  ASSERT_EQ(all.size(), 7U);
+  ASSERT_EQ(all.size(), 8U);
   EXPECT_EQ(all.front().name, "");
   const CommandHelp& mesh = all[1];
   EXPECT_EQ(mesh.name, "mesh");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -171,6 +172,25 @@ TEST(ShapesOf, HasTheBitsOfEveryTetAlone)
       EXPECT_EQ(shapes[t].smallest_cosine, alone.smallest_cosine);
     }
   }
+}
+
+TEST(WholeDegrees, AreThoseOfTheAngle)
+{
+  for (int tenth = 0; tenth <= 1800; ++tenth) {
+    if (tenth % 10 == 0 && tenth > 0) continue;  // Rounding decides there.
+    const double angle = 0.1 * tenth;
+    const double cosine = std::cos(angle * std::numbers::pi / 180.0);
+    EXPECT_EQ(whole_degrees(cosine), static_cast<std::size_t>(angle)) << angle;
+  }
+}
+
+TEST(WholeDegrees, HavePlacesForFlatAnglesAndForNoNumber)
+{
+  EXPECT_EQ(whole_degrees(1.0), 0U);
+  EXPECT_EQ(whole_degrees(-1.0), 179U);
+  EXPECT_EQ(whole_degrees(1.0 + 1e-12), 0U);
+  EXPECT_EQ(whole_degrees(-1.0 - 1e-12), 179U);
+  EXPECT_EQ(whole_degrees(std::numeric_limits<double>::quiet_NaN()), 0U);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Picture {
   }
 };
 
-/// @brief The picture as a PNG file, not compressed: about a byte a pixel. Local.
+/// @brief The picture as a PNG file. Equal pictures give equal bytes. Local.
 [[nodiscard]] Bytes to_png(const Picture& picture);
 
 }  // namespace tessera::pipeline

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/drawing/mesh_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tessera/mesh/tet_topology.hpp"
+#include "tessera/quality/tet_quality.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+constexpr Room kRoom{.width = 1100, .most_height = 900, .margin = 24};
+constexpr LocalIndex kNumBins = 10;
+constexpr LocalIndex kPlain = kNumBins;  // Row of what has no quality: the surface behind the cut.
+
+constexpr Vec3 kEye{1.0, -1.7, 1.1};
+constexpr std::array<Vec3, 3> kEyeOfCut{{{1.7, -0.8, 0.6}, {0.6, -1.7, 0.7}, {0.5, -0.9, 1.7}}};
+
+// A plane through vertices of a regular mesh would touch tets instead of cutting them.
+constexpr double kOffMiddle = 0.0137;
+
+CutPlane plane_for(std::span<const double> xyz)
+{
+  Vec3 low{};
+  Vec3 high{};
+  low.fill(std::numeric_limits<double>::max());
+  high.fill(std::numeric_limits<double>::lowest());
+  for (std::size_t i = 0; i < xyz.size(); ++i) {
+    low[i % 3] = std::min(low[i % 3], xyz[i]);
+    high[i % 3] = std::max(high[i % 3], xyz[i]);
+  }
+  const Vec3 extent = high - low;
+  // Of equal sides the one that faces the eye most.
+  std::size_t axis = 1;
+  for (const std::size_t other : {std::size_t{0}, std::size_t{2}}) {
+    if (extent[other] < (1.0 - 1e-9) * extent[axis]) axis = other;
+  }
+  return {.axis = axis,
+          .towards_eye = axis == 1 ? -1.0 : 1.0,
+          .position = 0.5 * (low[axis] + high[axis]) + kOffMiddle * extent[axis]};
+}
+
+Canvas canvas_for(const Vec3& eye, std::span<const double> xyz)
+{
+  return Canvas(fit_camera(view_from(eye), xyz, kRoom));
+}
+
+template <class Values>
+LocalIndex value_of(const Values& arrays, const std::string& name, GlobalIndex cell)
+{
+  const auto found = arrays.find(name);
+  return found == arrays.end() ? 0 : found->second[static_cast<std::size_t>(cell)];
+}
+
+Colour mixed(const Colour& a, const Colour& b, double share_of_b)
+{
+  Colour colour{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    colour[c] =
+        static_cast<std::uint8_t>(std::lround((1.0 - share_of_b) * a[c] + share_of_b * b[c]));
+  }
+  return colour;
+}
+
+}  // namespace
+
+const std::vector<Colour>& quality_colours()
+{
+  static const std::vector<Colour> kColours = [] {
+    constexpr std::array<Colour, 5> kAnchors{
+        {{176, 24, 48}, {240, 140, 60}, {250, 226, 140}, {132, 196, 200}, {48, 104, 176}}};
+    std::vector<Colour> colours;
+    for (LocalIndex bin = 0; bin < kNumBins; ++bin) {
+      const double place = 4.0 * bin / (kNumBins - 1);
+      const auto anchor = std::min<std::size_t>(static_cast<std::size_t>(place), 3);
+      colours.push_back(
+          mixed(kAnchors[anchor], kAnchors[anchor + 1], place - static_cast<double>(anchor)));
+    }
+    return colours;
+  }();
+  return kColours;
+}
+
+MeshScene::MeshScene(std::span<const double> xyz)
+    : plane_(plane_for(xyz)),
+      subdomains_(canvas_for(kEye, xyz)),
+      patches_(subdomains_),
+      cut_(canvas_for(kEyeOfCut[plane_.axis], xyz))
+{
+}
+
+void MeshScene::draw_surface(const Triangle& corners, LocalIndex subdomain, LocalIndex patch,
+                             Sides sides)
+{
+  subdomains_.draw(corners, subdomain, sides);
+  patches_.draw(corners, patch);
+  const auto stays = [&](const Vec3& p) { return plane_.height(p) <= 0.0; };
+  if (std::ranges::any_of(corners, stays)) cut_.draw(corners, kPlain, sides);
+}
+
+void MeshScene::draw_boundary(const mesh::MeshArrays& boundary)
+{
+  const auto width = static_cast<std::size_t>(boundary.vertices_per_cell);
+  // Of second order: a triangle at each corner, and the one between the nodes of the sides.
+  const bool is_curved = width == 6;
+  constexpr std::array<std::array<std::size_t, 3>, 4> kParts{
+      {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
+  constexpr std::array<std::array<std::size_t, 3>, 1> kWhole{{{0, 1, 2}}};
+  const std::span<const std::array<std::size_t, 3>> parts =
+      is_curved ? std::span<const std::array<std::size_t, 3>>(kParts) : kWhole;
+  const std::span<const double> xyz(boundary.point_xyz);
+  for (GlobalIndex cell = 0; cell < boundary.num_cells(); ++cell) {
+    const LocalIndex* const v = &boundary.cell_points[width * static_cast<std::size_t>(cell)];
+    const LocalIndex subdomain = value_of(boundary.cell_ints, "subdomain", cell);
+    const LocalIndex patch = value_of(boundary.cell_ints, "patch", cell);
+    for (const auto& [a, b, c] : parts) {
+      draw_surface({point_at(xyz, v[a]), point_at(xyz, v[b]), point_at(xyz, v[c])}, subdomain,
+                   patch, is_curved ? Sides::hidden : Sides::drawn);
+    }
+  }
+}
+
+void MeshScene::draw_coarse_boundary(const subdomain::PartitionedMesh& cut,
+                                     const std::vector<char>& is_made)
+{
+  const mesh::Skeleton& skeleton = cut.skeleton;
+  const auto is_there = [&](LocalIndex s) { return s != kNoIndex && is_made[at(s)] != 0; };
+  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
+    const LocalIndex* const sides = &skeleton.triangle_subdomains[2 * at(t)];
+    if (is_there(sides[0]) == is_there(sides[1])) continue;
+    Triangle corners{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const LocalIndex v = skeleton.triangle_vertices[3 * at(t) + c];
+      corners[c] = cut.coarse.position(skeleton.vertex_coarse[at(v)]);
+    }
+    LocalIndex patch = skeleton.triangle_patch[at(t)];
+    if (patch == kNoIndex) {
+      patch = cut.coarse.num_patches();  // Where the made part ends.
+    } else if (!cut.coarse.patch_row.empty()) {
+      patch = cut.coarse.patch_row[at(patch)];
+    }
+    draw_surface(corners, is_there(sides[0]) ? sides[0] : sides[1], patch, Sides::hidden);
+  }
+}
+
+void MeshScene::draw_cut_tet(const std::array<Vec3, 4>& corners, double mean_ratio)
+{
+  const auto stays = [&](const Vec3& p) { return plane_.height(p) <= 0.0; };
+  if (std::ranges::all_of(corners, stays) || std::ranges::none_of(corners, stays)) return;
+  const LocalIndex bin =
+      std::clamp(static_cast<LocalIndex>(mean_ratio * kNumBins), 0, kNumBins - 1);
+  for (const auto& [a, b, c] : mesh::kTetFaceCorners) {
+    cut_.draw({corners[a], corners[b], corners[c]}, bin, Sides::drawn);
+  }
+}
+
+void MeshScene::draw_cut_tets(const mesh::MeshArrays& tets)
+{
+  const auto width = static_cast<std::size_t>(tets.vertices_per_cell);
+  const std::span<const double> xyz(tets.point_xyz);
+  for (GlobalIndex cell = 0; cell < tets.num_cells(); ++cell) {
+    const LocalIndex* const v = &tets.cell_points[width * static_cast<std::size_t>(cell)];
+    const std::array<Vec3, 4> corners{point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]),
+                                      point_at(xyz, v[3])};
+    draw_cut_tet(corners, quality::mean_ratio(corners));
+  }
+}
+
+void MeshScene::draw_coarse_cut(const subdomain::PartitionedMesh& cut, LocalIndex subdomain,
+                                double mean_ratio)
+{
+  for (const LocalIndex t : cut.tets[subdomain]) {
+    const auto v = cut.coarse.tet(t);
+    draw_cut_tet({cut.coarse.position(v[0]), cut.coarse.position(v[1]), cut.coarse.position(v[2]),
+                  cut.coarse.position(v[3])},
+                 mean_ratio);
+  }
+}
+
+bool MeshScene::is_cut(const subdomain::PartitionedMesh& cut, LocalIndex subdomain) const
+{
+  constexpr double kBulge = 0.1;  // Of the extent across the plane.
+  double low = std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::lowest();
+  for (const LocalIndex t : cut.tets[subdomain]) {
+    for (const LocalIndex v : cut.coarse.tet(t)) {
+      const double height = plane_.height(cut.coarse.position(v));
+      low = std::min(low, height);
+      high = std::max(high, height);
+    }
+  }
+  const double bulge = kBulge * (high - low);
+  return low - bulge <= 0.0 && high + bulge > 0.0;
+}
+
+std::vector<MeshPicture> MeshScene::pictures() const
+{
+  std::vector<Colour> cut_colours = quality_colours();
+  cut_colours.push_back({205, 205, 200});
+  const Paint distinct{.colours = distinct_colours()};
+  return {{"subdomains", to_png(paint(subdomains_, distinct))},
+          {"patches", to_png(paint(patches_, distinct))},
+          {"cut", to_png(paint(cut_, {.colours = cut_colours, .has_borders = false}))}};
+}
+
+}  // namespace tessera::pipeline
