@@ -176,11 +176,12 @@ class Mesh:
 
         return _convert.to_meshio(self)
 
-    def to_dolfinx(self, comm: Optional[Comm] = None) -> DolfinxMesh:
+    def to_dolfinx(self, comm: Optional[Comm] = None, *, ghosts: bool = False) -> DolfinxMesh:
         """The mesh for DOLFINx, in our partition: each rank keeps its tets. Collective.
 
         Args:
             comm: Default: that of the mesh, else MPI.COMM_SELF. The mesh is read anew if it is not spread over it.
+            ghosts: Also copies of other ranks' tets behind the own tets' faces, for integrals over inner facets.
 
         Returns:
             (mesh, cell_tags, facet_tags): tags of cells are materials; tags of facets are patch + 1, see
@@ -188,7 +189,7 @@ class Mesh:
         """
         from . import _dolfinx
 
-        return _dolfinx.to_dolfinx(self.over(comm), comm)
+        return _dolfinx.to_dolfinx(self.over(comm), comm, ghosts)
 
     def to_petsc(self, comm: Optional[Comm] = None) -> Any:
         """A PETSc.DMPlex, interpolated, in our partition: each rank keeps its tets. Collective.

@@ -7,7 +7,8 @@ from typing import Any, Optional
 import numpy as np
 
 from ._errors import InputError
-from ._exchange import Comm, ask, ranges, send
+from ._exchange import Comm, ask, send
+from ._faces import ranks_with_points
 from ._imports import needed
 from ._mesh import Mesh
 from ._share import rows_of
@@ -92,7 +93,7 @@ def _rank(mesh: Mesh) -> int:
 def _tagged_faces(plex: Any, mesh: Mesh, own: int) -> tuple[np.ndarray, np.ndarray]:
     """The plex's face for each triangle, and its tag; also for triangles of other ranks that this rank has."""
     corners, tags = mesh.point_ids[mesh.triangles], mesh.patches + 1
-    whom, row = _sharers_of_triangles(mesh)
+    whom, row = ranks_with_points(mesh, mesh.triangles)
     _, more_corners, more_tags = send(mesh.comm, whom, corners[row], tags[row])
     corners, tags = np.concatenate([corners, more_corners]), np.concatenate([tags, more_tags])
     rows = rows_of(mesh.point_ids, corners.ravel(), "a triangle without points").reshape(corners.shape)
@@ -111,20 +112,6 @@ def _cells_behind(cells: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray,
     face = first[kind.ravel()[len(faces) :]]  # The first one that is alike; a cell's, if there is any.
     triangle = np.flatnonzero(face < len(faces))
     return triangle, near[face[triangle] % max(len(near), 1)], face[triangle] // max(len(near), 1)
-
-
-def _sharers_of_triangles(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """(rank, triangle) of the other ranks that have all three points; not all of them have the face."""
-    offsets, ranks = mesh.sharers.offsets, mesh.sharers.ranks.astype(np.int64)
-    size = 1 if mesh.comm is None else mesh.comm.Get_size()
-    known = np.repeat(np.arange(len(mesh.sharers)), np.diff(offsets)) * size + ranks
-    first = mesh.triangles[:, 0]
-    counts = np.diff(offsets)[first]
-    rank, triangle = ranks[ranges(offsets[first], counts)], np.repeat(np.arange(len(first)), counts)
-    for corner in (1, 2):
-        both = np.isin(mesh.triangles[triangle, corner].astype(np.int64) * size + rank, known)
-        rank, triangle = rank[both], triangle[both]
-    return rank, triangle
 
 
 def _label(plex: Any, names: tuple[str, ...], points: np.ndarray, values: np.ndarray) -> None:
