@@ -5,14 +5,16 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import shutil
 import sys
 import tempfile
 import warnings
+import weakref
 from typing import Any, Mapping, Optional, Union
 
 from . import _program
 from ._errors import BY_EXIT_CODE, DegradedWarning, ProgramDied
-from ._exchange import Comm, on_root
+from ._exchange import Comm, on_root, rank_of
 from ._mesh import Mesh
 from ._read import read, report_of
 
@@ -67,14 +69,14 @@ def mesh(
     arguments = ["mesh", os.fspath(model), *_words(options), *_settings(keys or {})]
     arguments += [word for word, on in (("--overwrite", overwrite), ("--resume", resume)) if on]
     arguments += ["-q"] if quiet else ["--progress", "always" if sys.stdout.isatty() else "never"]
-    kept: list[tempfile.TemporaryDirectory] = []  # On rank 0.
-    folder = on_root(comm, lambda: _run(arguments, _output_folder(output, kept), ranks))
+    folder = on_root(comm, lambda: _run_into(arguments, output, ranks))
     if comm is None:
         about = {"folder": folder, "file": folder / "mesh.pvtu", "report": report_of(folder), "comm": None}
         made = Mesh(lambda: read(folder).fields(), **about)
     else:
         made = read(folder, comm)
-    made._temporary = kept  # Goes, with the folder, when the mesh goes.
+    if output is None and rank_of(comm) == 0:
+        weakref.finalize(made, shutil.rmtree, folder, ignore_errors=True)
     return made
 
 
@@ -91,13 +93,16 @@ def _settings(keys: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def _output_folder(
-    output: Union[str, os.PathLike, None], kept: list[tempfile.TemporaryDirectory]
-) -> pathlib.Path:
+def _run_into(arguments: list[str], output: Union[str, os.PathLike, None], ranks: int) -> pathlib.Path:
+    """Runs the program; the folder that it has written."""
     if output is not None:
-        return pathlib.Path(output).absolute()
-    kept.append(tempfile.TemporaryDirectory(prefix="tessera_"))
-    return pathlib.Path(kept[0].name)
+        return _run(arguments, pathlib.Path(output).absolute(), ranks)
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="tessera_"))
+    try:
+        return _run(arguments, folder, ranks)
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
 
 
 def _run(arguments: list[str], folder: pathlib.Path, ranks: int) -> pathlib.Path:
@@ -108,7 +113,8 @@ def _run(arguments: list[str], folder: pathlib.Path, ranks: int) -> pathlib.Path
     code, said = _program.run(command)
     message = _program.messages_of(said)
     if code == _DEGRADED:
-        warnings.warn(message or "the run is degraded", DegradedWarning, stacklevel=4)
+        report = report_of(folder) or {}
+        warnings.warn(report.get("reason") or message, DegradedWarning, stacklevel=5)
     elif code != _OK:
         error = BY_EXIT_CODE.get(code, ProgramDied)
         raise error(message or f"{' '.join(command)} ended with code {code}", code)

@@ -104,7 +104,6 @@ class Mesh:
     def __init__(self, load: Optional[Callable[[], dict[str, Any]]] = None, **fields: Any):
         self.__dict__.update(fields)
         self._load = load
-        self._temporary: list[Any] = []  # What the folder lasts with.
 
     def __getattr__(self, name: str) -> Any:
         # Only of what is not there yet.

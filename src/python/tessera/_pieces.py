@@ -75,12 +75,15 @@ def _read_grid(file: pathlib.Path) -> Any:
     core = vtk("vtkCommonCore")
     window, before = core.vtkStringOutputWindow(), core.vtkOutputWindow.GetInstance()
     core.vtkOutputWindow.SetInstance(window)
+    verbosity = core.vtkLogger.GetCurrentVerbosityCutoff()
+    core.vtkLogger.SetStderrVerbosity(core.vtkLogger.VERBOSITY_OFF)  # The exception says it.
     try:
         reader = vtk("vtkIOXML").vtkXMLUnstructuredGridReader()
         reader.SetFileName(str(file))
         reader.Update()
     finally:
         core.vtkOutputWindow.SetInstance(before)
+        core.vtkLogger.SetStderrVerbosity(verbosity)
     said = " ".join(window.GetOutput().split())
     if said or reader.GetErrorCode() != 0:
         raise InputError(f"{file}: VTK cannot read it: {said or 'error code ' + str(reader.GetErrorCode())}")
