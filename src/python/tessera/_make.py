@@ -68,7 +68,7 @@ def mesh(
     options = {"--size": size, "--parts": parts, "--kernel": kernel}
     arguments = ["mesh", os.fspath(model), *_words(options), *_settings(keys or {})]
     arguments += [word for word, on in (("--overwrite", overwrite), ("--resume", resume)) if on]
-    arguments += ["-q"] if quiet else ["--progress", "always" if sys.stdout.isatty() else "never"]
+    arguments += ["-q"] if quiet else ["--progress", "always" if _on_terminal() else "never"]
     folder = on_root(comm, lambda: _run_into(arguments, output, ranks))
     if comm is None:
         about = {"folder": folder, "file": folder / "mesh.pvtu", "report": report_of(folder), "comm": None}
@@ -78,6 +78,11 @@ def mesh(
     if output is None and rank_of(comm) == 0:
         weakref.finalize(made, shutil.rmtree, folder, ignore_errors=True)
     return made
+
+
+def _on_terminal() -> bool:
+    """Whether bars can be drawn; under mpirun each rank's output looks like a terminal."""
+    return sys.stdout.isatty() and "OMPI_COMM_WORLD_RANK" not in os.environ
 
 
 def _words(options: Mapping[str, Any]) -> list[str]:
