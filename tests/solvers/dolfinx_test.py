@@ -16,6 +16,8 @@ SOLVED = 1e-8
 CONDUCTIVITY = (1.0, 10.0, 100.0)  # By material.
 # Temperatures of the two outer patches that are farthest from each other.
 HOT, COLD = 400.0, 300.0
+# Of the bracket's curved patches: two holes of radius 4 through 5, a quarter of a cylinder of radius 5 and length 20.
+CURVED_AREAS = (40.0 * np.pi, 40.0 * np.pi, 50.0 * np.pi)
 DIRECT = {"ksp_type": "preonly", "pc_type": "lu", "pc_factor_mat_solver_type": "mumps"}
 
 
@@ -158,6 +160,23 @@ def conduction(comm, folder, hot, cold):
     }
 
 
+def curved(comm, folder):
+    """Volume and areas of the patches of a mesh of second order."""
+    import ufl
+    from dolfinx import fem
+    from petsc4py import PETSc
+
+    share, (mesh, _, facet_tags) = converted(comm, folder)
+    assert share.order == 2
+    one = fem.Constant(mesh, PETSc.ScalarType(1.0))
+    degree = {"quadrature_degree": 6}
+    outer = ufl.Measure("ds", mesh, subdomain_data=facet_tags, metadata=degree)
+    return {
+        "volume": assembled(comm, one * ufl.dx(metadata=degree)),
+        "areas": [assembled(comm, one * outer(tag)) for tag in range(1, len(share.names.patches) + 1)],
+    }
+
+
 def opposite_ends(mesh):
     """The two outer patches whose middles are farthest from each other."""
     tags = outer_patches(mesh)
@@ -208,6 +227,30 @@ class Dolfinx(RanksTest):
                 self.assertTrue(COLD < one["mean"] < HOT)
                 for key, value in one.items():
                     self.assertAlmostEqual(three[key] / value, 1.0, delta=SOLVED)
+
+    def test_second_order_becomes_a_curved_mesh(self):
+        import tessera
+
+        folder = self.folder / "curved"
+        mesh = tessera.mesh(
+            self.root / "configs/cases/bracket.toml",
+            keys={**python_ranks.COARSER, "output.order": 2},
+            output=folder,
+            quiet=True,
+        )
+        for ranks in RANKS:
+            with self.subTest(ranks=ranks):
+                found = self.on_ranks(ranks, curved, folder)
+                self.assertAlmostEqual(found["volume"] / mesh.report["volume"], 1.0, delta=TIGHT)
+                for area in CURVED_AREAS:  # Straight triangles are some 1e-3 off.
+                    nearest = min(found["areas"], key=lambda one: abs(one - area))
+                    self.assertAlmostEqual(nearest / area, 1.0, delta=1e-5)
+
+    def test_the_example_of_the_page_runs(self):
+        case = self.root / "configs/cases/core.toml"
+        one, three = (self.run_example(ranks, "heat.py", case, 1, 2).split()[-1] for ranks in RANKS)
+        self.assertGreater(float(one), 0.0)
+        self.assertAlmostEqual(float(three) / float(one), 1.0, delta=SOLVED)
 
 
 if __name__ == "__main__":

@@ -67,11 +67,20 @@ class RanksTest(unittest.TestCase):
         out = self.folder / "result.json"
         out.unlink(missing_ok=True)
         script = sys.modules[function.__module__].__file__
-        command = ["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "-n", str(ranks), sys.executable, "-B"]
-        command += [script, "--on-ranks", function.__name__, out, *map(str, arguments)]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=HANG_S, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        self.run_script(ranks, script, "--on-ranks", function.__name__, out, *arguments)
         return json.loads(out.read_text())
+
+    def run_example(self, ranks, name, *arguments):
+        """What a script of tests/examples/python prints."""
+        return self.run_script(ranks, self.root / "tests/examples/python" / name, *arguments)
+
+    def run_script(self, ranks, *script):
+        command = ["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "-n", str(ranks), sys.executable, "-B"]
+        done = subprocess.run(
+            [*command, *map(str, script)], capture_output=True, text=True, timeout=HANG_S, check=False
+        )
+        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
+        return done.stdout
 
 
 def volumes(mesh):
