@@ -27,7 +27,8 @@ for patch, temperature in ((int(sys.argv[2]), 400.0), (int(sys.argv[3]), 300.0))
 u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
 nothing = fem.Constant(mesh, ScalarType(0.0))
 flow = conductivity * ufl.inner(ufl.grad(u), ufl.grad(v)) * ufl.dx
-temperature = LinearProblem(flow, nothing * v * ufl.dx, bcs=ends).solve()
+options = {"ksp_type": "cg", "pc_type": "jacobi", "ksp_rtol": 1e-12}
+temperature = LinearProblem(flow, nothing * v * ufl.dx, bcs=ends, petsc_options=options).solve()
 
 energy = conductivity * ufl.inner(ufl.grad(temperature), ufl.grad(temperature)) * ufl.dx
 heat = comm.allreduce(fem.assemble_scalar(fem.form(energy))) / 100.0
