@@ -66,30 +66,24 @@ def to_pyvista(mesh: Mesh, boundary: bool) -> Any:
     return pyvista.wrap(to_vtk(mesh, boundary))
 
 
-def to_meshio(mesh: Mesh) -> Any:
+def to_meshio(mesh: Mesh, gmsh: bool) -> Any:
     meshio = needed("meshio", "python3-meshio", "to_meshio()")
+    blocks = [(_MESHIO_TYPES[cells.shape[1]], cells) for cells in (mesh.cells, mesh.triangles)]
+    if not gmsh:
+        no_patch, no_material = np.full(len(mesh.cells), -1, np.int32), np.zeros(len(mesh.triangles), np.int32)
+        cell_data = {"material": [mesh.materials, no_material], "patch": [no_patch, mesh.patches]}
+        return meshio.Mesh(mesh.points, blocks, cell_data=cell_data)
     material_tag, patch_tag = _tags_by_name(mesh.names.materials), _tags_by_name(mesh.names.patches)
-    # Where a material and a patch have one name, Gmsh's format, which has one list of names, tells them apart.
-    both = set(mesh.names.materials) & set(mesh.names.patches)
-    field_data = {name: np.array([tag, 3]) for name, tag in zip(mesh.names.materials, material_tag)}
+    cell_data = {
+        "gmsh:physical": [material_tag[mesh.materials - 1], patch_tag[mesh.patches]],
+        "gmsh:geometrical": [mesh.materials, mesh.patches + 1],
+    }
+    names = {name: np.array([tag, 3]) for name, tag in zip(mesh.names.materials, material_tag)}
     for name, tag in zip(mesh.names.patches, patch_tag):
-        field_data[f"{name} (patch)" if name in both else name] = np.array([tag, 2])
-    num_cells, num_triangles = len(mesh.cells), len(mesh.triangles)
-    materials, patches = mesh.materials, mesh.patches + 1
-    return meshio.Mesh(
-        mesh.points,
-        [
-            (_MESHIO_TYPES[mesh.cells.shape[1]], mesh.cells),
-            (_MESHIO_TYPES[mesh.triangles.shape[1]], mesh.triangles),
-        ],
-        cell_data={
-            "material": [materials, np.zeros(num_triangles, np.int32)],
-            "patch": [np.full(num_cells, -1, np.int32), mesh.patches],
-            "gmsh:physical": [material_tag[materials - 1], patch_tag[patches - 1]],
-            "gmsh:geometrical": [materials, patches],
-        },
-        field_data=field_data,
-    )
+        # There is one list of names for both.
+        both = name in mesh.names.materials
+        names[f"{name} (patch)" if both else name] = np.array([tag, 2])
+    return meshio.Mesh(mesh.points, blocks, cell_data=cell_data, field_data=names)
 
 
 def _tags_by_name(names: list[str]) -> np.ndarray:

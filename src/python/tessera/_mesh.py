@@ -166,14 +166,16 @@ class Mesh:
 
         return _convert.to_pyvista(self, boundary)
 
-    def to_meshio(self) -> Any:
+    def to_meshio(self, *, gmsh: bool = False) -> Any:
         """A meshio.Mesh of cells and triangles. Local.
 
-        `cell_data` has "material", "patch", and the arrays that Gmsh's formats want, so names survive there.
+        Args:
+            gmsh: False: `cell_data` has "material" (0 of triangles) and "patch" (-1 of cells). True: it has the
+                tags that Gmsh's format 2.2 wants, and `field_data` their names, so names survive there.
         """
         from . import _convert
 
-        return _convert.to_meshio(self)
+        return _convert.to_meshio(self, gmsh)
 
     def to_dolfinx(self, comm: Optional[Comm] = None, *, ghosts: bool = False) -> DolfinxMesh:
         """The mesh for DOLFINx, in our partition: each rank keeps its tets. Collective.
