@@ -3,6 +3,7 @@
 import contextlib
 import gc
 import io
+import itertools
 import os
 import pathlib
 import re
@@ -26,7 +27,10 @@ os.environ["TESSERA"] = program.PROGRAM
 import tessera  # noqa: E402  From the sources.
 
 EXAMPLE = pathlib.Path(__file__).resolve().parents[1] / "examples" / "python" / "part.py"
-INTERRUPTED = "import sys, tessera; tessera.mesh(sys.argv[1], output='out', ranks=int(sys.argv[2]), keys={'refine.levels': 4})"
+INTERRUPTED = (
+    "import sys, tessera\n"
+    "tessera.mesh(sys.argv[1], output='out', ranks=int(sys.argv[2]), keys={'refine.levels': 4})\n"
+)
 
 
 def volumes(mesh):
@@ -190,11 +194,10 @@ class Package(program.ProgramTest):
 
     def test_the_program_is_looked_for_and_the_error_says_where(self):
         def found(**changes):
-            environment = {k: v for k, v in os.environ.items() if k not in ("TESSERA", "PATH")} | changes
+            environment = {k: v for k, v in os.environ.items() if k not in ("TESSERA", "PATH", "PYTHONPATH")} | changes
             code = "import tessera; print(tessera.find_program())"
-            return subprocess.run(
-                [sys.executable, "-c", code], env={"PYTHONPATH": str(PACKAGE), **environment}, capture_output=True, text=True
-            )
+            environment.setdefault("PYTHONPATH", str(PACKAGE))
+            return subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True)
 
         here = str(pathlib.Path(program.PROGRAM).parent)
         self.assertEqual(found(TESSERA=program.PROGRAM).stdout.strip(), program.PROGRAM)
@@ -208,7 +211,8 @@ class Package(program.ProgramTest):
         beside = found(PATH=here, PYTHONPATH=str(installed)).stdout.strip()
         self.assertEqual(beside, str(self.folder / "prefix/bin/tessera"))
         (self.folder / "prefix/bin/tessera").unlink()
-        self.assertRegex(found(PATH="", PYTHONPATH=str(installed)).stderr, "(?s)ProgramNotFound.*pipeline/run.*TESSERA")
+        nowhere = found(PATH="", PYTHONPATH=str(installed)).stderr
+        self.assertRegex(nowhere, "(?s)ProgramNotFound.*pipeline/run.*TESSERA")
 
     def test_the_version_is_the_programs(self):
         said = self.run_program("--version").out.split()[1]
@@ -216,7 +220,7 @@ class Package(program.ProgramTest):
 
     def test_an_interrupted_run_leaves_no_process(self):
         case = self.write_case(subdomains=8)
-        for ranks, number in ((1, signal.SIGINT), (2, signal.SIGINT), (1, signal.SIGKILL), (2, signal.SIGKILL)):
+        for ranks, number in itertools.product((1, 2), (signal.SIGINT, signal.SIGKILL)):
             with self.subTest(ranks=ranks, signal=number.name):
                 process = self.start_command(
                     [sys.executable, "-c", INTERRUPTED, str(case), str(ranks)],
@@ -351,7 +355,8 @@ class Package(program.ProgramTest):
 
 
 def copy_package(folder):
-    program.shutil.copytree(PACKAGE / "tessera", folder / "tessera", ignore=program.shutil.ignore_patterns("__pycache__"))
+    no_bytes = program.shutil.ignore_patterns("__pycache__")
+    program.shutil.copytree(PACKAGE / "tessera", folder / "tessera", ignore=no_bytes)
     metadata = folder / f"tessera-{tessera.__version__}.dist-info"
     metadata.mkdir()
     (metadata / "METADATA").write_text(f"Metadata-Version: 2.1\nName: tessera\nVersion: {tessera.__version__}\n")

@@ -60,7 +60,8 @@ class RanksTest(unittest.TestCase):
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = pathlib.Path(temporary.name)
         for name in cls.meshes:
-            tessera.mesh(cls.root / f"configs/cases/{name}.toml", ranks=2, output=cls.folder / name, quiet=True, keys=COARSER)
+            case = cls.root / f"configs/cases/{name}.toml"
+            tessera.mesh(case, ranks=2, output=cls.folder / name, quiet=True, keys=COARSER)
 
     def on_ranks(self, ranks, function, *arguments):
         """What a function of this script returns on rank 0 of so many."""
@@ -75,10 +76,9 @@ class RanksTest(unittest.TestCase):
         return self.run_script(ranks, self.root / "tests/examples/python" / name, *arguments)
 
     def run_script(self, ranks, *script):
-        command = ["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "-n", str(ranks), sys.executable, "-B"]
-        done = subprocess.run(
-            [*command, *map(str, script)], capture_output=True, text=True, timeout=HANG_S, check=False
-        )
+        start = ["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "-n", str(ranks)]
+        command = [*start, sys.executable, "-B", *map(str, script)]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=HANG_S, check=False)
         self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
         return done.stdout
 

@@ -99,7 +99,8 @@ def _cells_of(
     types = numpy(grid.GetCellTypesArray())
     found = [kind for kind in kinds if np.any(types == kind)]
     if len(found) != 1:
-        raise InputError(f"{file}: it has {'two orders of' if found else 'no'} {'tets' if kinds is TETS else 'triangles'}")
+        what = "tets" if kinds is TETS else "triangles"
+        raise InputError(f"{file}: it has {'two orders of' if found else 'no'} {what}")
     rows = np.flatnonzero(types == found[0])
     starts = numpy(grid.GetCells().GetOffsetsArray())[rows].astype(np.int64)
     width = kinds[found[0]]

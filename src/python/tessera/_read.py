@@ -7,13 +7,11 @@ import os
 import pathlib
 from typing import Any, Optional, Union
 
-import numpy as np
-
 from . import _share
 from ._errors import InputError
 from ._exchange import Comm, all_or_none, on_root, rank_of, size_of
 from ._mesh import Mesh, Names
-from ._pieces import TETS, TRIANGLES, Piece, piece_files, read_piece, share_of
+from ._pieces import TETS, TRIANGLES, piece_files, read_piece, share_of
 
 _INDEX = "mesh.pvtu"
 
