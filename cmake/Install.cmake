@@ -1,5 +1,5 @@
-# `cmake --install`: the library, its headers, the program with its man page and completion, documents,
-# examples of cases, and the package for find_package(tessera).
+# `cmake --install`: the library, its headers, the program with its man page and completion, the Python
+# package, documents, examples of cases, and the package for find_package(tessera).
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
@@ -13,6 +13,18 @@ if(TARGET tessera_program)
     RENAME tessera
   )
 endif()
+
+# The Python package, where Debian's python3 looks. Its version stands in metadata, as pip would write it.
+set(python_folder lib/python3/dist-packages)
+install(
+  DIRECTORY src/python/tessera DESTINATION ${python_folder}
+  FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE
+)
+configure_file(cmake/PythonMetadata.in ${PROJECT_BINARY_DIR}/python/METADATA @ONLY)
+install(
+  FILES ${PROJECT_BINARY_DIR}/python/METADATA
+  DESTINATION ${python_folder}/tessera-${PROJECT_VERSION}.dist-info
+)
 
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -19,18 +19,35 @@ string(
          "pieces, under MPI. The same case gives the same bits for every number of ranks.\n"
          "It also checks meshes and cuts them anew for a solver.\n"
          ".\n"
-         "This package has the program, its library with headers, and a CMake package."
+         "This package has the program, its library with headers, a CMake package, and a\n"
+         "Python package."
 )
 # What libraries are needed dpkg-shlibdeps sees; the program is started by mpirun.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)
-# For who compiles against the headers; ParaView shows the results.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libopenmpi-dev, cmake, paraview")
+# For `import tessera` in Python.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-vtk9")
+# For who compiles against the headers; ParaView shows the results; Python hands meshes to the others.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS
+    "libopenmpi-dev, cmake, paraview, python3-mpi4py, python3-dolfinx, python3-petsc4py, python3-meshio"
+)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 # Debian's way to tell the loader of a new library; the scripts that cpack writes are another.
 file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
+# Python's byte code, which would else stay behind when the package is removed.
+file(
+  CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/postinst
+  CONTENT "#!/bin/sh\nset -e\n! command -v py3compile >/dev/null || py3compile -p tessera\n"
+)
+file(
+  CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/prerm
+  CONTENT "#!/bin/sh\nset -e\n! command -v py3clean >/dev/null || py3clean -p tessera\n"
+)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
+    ${PROJECT_BINARY_DIR}/debian/triggers ${PROJECT_BINARY_DIR}/debian/postinst
+    ${PROJECT_BINARY_DIR}/debian/prerm
+)
 
 include(CPack)

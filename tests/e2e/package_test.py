@@ -6,6 +6,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import unittest
 
 import program
@@ -17,6 +18,8 @@ CPACK = os.environ["TESSERA_CPACK"]
 FILES = (
     "bin/tessera",
     "include/tessera/io/vtu.hpp",
+    "lib/python3/dist-packages/tessera/__init__.py",
+    "lib/python3/dist-packages/tessera/py.typed",
     "share/man/man1/tessera.1.gz",
     "share/bash-completion/completions/tessera",
     "share/doc/tessera/copyright",
@@ -82,6 +85,23 @@ class Package(program.ProgramTest):
             outcome = self.finish(self.start_command([program.MPIEXEC, "-n", "2", tessera, *command]))
             self.assertEqual(outcome.code, program.OK, outcome.err + outcome.out)
 
+    def test_python_finds_the_program_beside_the_package_and_meshes(self):
+        packages = self.usr / "lib/python3/dist-packages"
+        self.assertEqual([*packages.rglob("__pycache__")], [])
+        case = self.usr / "share/tessera/cases/brick.toml"
+        code = (
+            "import sys, tessera\n"
+            "mesh = tessera.mesh(sys.argv[1], keys={'size.target': 0.3}, quiet=True, ranks=2)\n"
+            "print(tessera.__file__, tessera.find_program(), tessera.__version__)\n"
+            "print(len(mesh.cells) == mesh.report['num_tets'] > 0)\n"
+        )
+        environment = {k: v for k, v in os.environ.items() if k != "TESSERA"} | {"PYTHONPATH": str(packages)}
+        process = self.start_command([sys.executable, "-B", "-c", code, str(case)], env=environment)
+        outcome = self.finish(process)
+        version = output_of(program.PROGRAM, "--version").split()[1]
+        found = [f"{packages}/tessera/__init__.py", f"{self.usr}/bin/tessera", version, "True"]
+        self.assertEqual(outcome.out.split(), found, outcome.err)
+
     def complete(self, *words):
         """What bash offers for the last word, in the folder of this test."""
         script = self.usr / "share/bash-completion/completions/tessera"
@@ -92,7 +112,7 @@ class Package(program.ProgramTest):
             self.write(name, "")
         (self.folder / "folder").mkdir()
         for words, offered in (
-            ([""], ["mesh", "check", "repartition", "info", "compare", "replay"]),
+            ([""], ["mesh", "check", "repartition", "convert", "info", "compare", "replay"]),
             (["--v"], ["--version"]),
             (["mesh", "--ov"], ["--overwrite"]),
             (["mesh", ""], ["a.toml", "e.step", "folder"]),
