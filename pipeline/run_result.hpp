@@ -45,7 +45,7 @@ struct RunResult {
   GlobalIndex num_vertices = 0;               ///< Of the whole mesh, made or not.
   GlobalIndex num_tets = 0;
   std::vector<formats::PieceCounts> files{};  ///< Of run_export_stage(); may be empty.
-  std::vector<MeshPicture> pictures{};  ///< On rank 0, if the case wants a report for people.
+  std::vector<MeshPicture> pictures{};        ///< On rank 0, if the case wants a report for people.
 };
 
 /// @brief The coarse mesh of a run, cut, with the levels on which pieces are filled. Local.

@@ -33,8 +33,8 @@ void put_chunk(Octets& out, std::string_view kind, const Octets& data)
   out.insert(out.end(), kind.begin(), kind.end());
   out.insert(out.end(), data.begin(), data.end());
   const auto chunk = std::span(out).subspan(begin);
-  put_32(out, static_cast<std::uint32_t>(
-                  crc32(0, chunk.data(), static_cast<unsigned>(chunk.size()))));
+  put_32(out,
+         static_cast<std::uint32_t>(crc32(0, chunk.data(), static_cast<unsigned>(chunk.size()))));
 }
 
 // Each row begins with the number of its filter: none.
