@@ -2,8 +2,8 @@
 #include "formats/pvtu_cells_writer.hpp"
 
 #include <cstdint>
+#include <map>
 #include <numeric>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,9 +40,18 @@ class VtuText {
     xml_ += fmt::format(R"(<DataArray type="{}" Name="{}"{} format="appended" offset="{}"/>)"
                         "\n",
                         type, name, more, arrays_.size());
-    const std::uint64_t size = values.size() * sizeof(Value);
-    append(&size, sizeof(size));
-    append(values.data(), size);
+    append_block(values.data(), values.size() * sizeof(Value));
+  }
+
+  void texts(const std::string& name, const std::vector<std::string>& texts)
+  {
+    xml_ += fmt::format(
+        R"(<Array type="String" Name="{}" NumberOfTuples="{}" format="appended" offset="{}"/>)"
+        "\n",
+        name, texts.size(), arrays_.size());
+    std::string characters;
+    for (const std::string& text : texts) characters += text + '\0';
+    append_block(characters.data(), characters.size());
   }
 
   void write(SharedFile& file) const
@@ -55,8 +64,9 @@ class VtuText {
   }
 
  private:
-  void append(const void* data, std::size_t size)
+  void append_block(const void* data, std::uint64_t size)
   {
+    arrays_.append(reinterpret_cast<const char*>(&size), sizeof(size));
     arrays_.append(static_cast<const char*>(data), size);
   }
 
@@ -69,6 +79,10 @@ class PvtuCellsWriter final : public Writer {
   explicit PvtuCellsWriter(const WriterTarget& target)
       : outline_(target.outline), folder_(target.folder)
   {
+    texts_["material_names"] = outline_.material_names;
+    auto& names = texts_["attribute_names"] = outline_.material_names;
+    names.insert(names.end(), outline_.patch_names.begin(), outline_.patch_names.end());
+    if (!outline_.length_unit.empty()) texts_["length_unit"] = {outline_.length_unit};
   }
 
   void begin() override { io::make_own_folder(folder_ / kPieceFolder); }
@@ -79,7 +93,9 @@ class PvtuCellsWriter final : public Writer {
     text.element(
         "<?xml version=\"1.0\"?>\n"
         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-        "header_type=\"UInt64\">\n<UnstructuredGrid>\n");
+        "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n");
+    for (const auto& [name, texts] : texts_) text.texts(name, texts);
+    text.element("</FieldData>\n");
     text.element(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
                              piece.num_points(), piece.num_tets() + piece.num_triangles()));
     put_data(piece, text);
@@ -100,11 +116,7 @@ class PvtuCellsWriter final : public Writer {
     schema.cell_points.assign(4, 0);
     schema.cell_ids.assign(1, 0);
     schema.cell_ints["attribute"] = {};
-    schema.field_texts["material_names"] = outline_.material_names;
-    schema.field_texts["attribute_names"] = outline_.material_names;
-    auto& names = schema.field_texts["attribute_names"];
-    names.insert(names.end(), outline_.patch_names.begin(), outline_.patch_names.end());
-    if (!outline_.length_unit.empty()) schema.field_texts["length_unit"] = {outline_.length_unit};
+    schema.field_texts = texts_;
     std::vector<fs::path> files;
     for (LocalIndex p = 0; p < outline_.num_pieces(); ++p)
       files.push_back(fs::path(kPieceFolder) / file_name(p));
@@ -151,6 +163,7 @@ class PvtuCellsWriter final : public Writer {
 
   const Outline& outline_;
   const fs::path& folder_;
+  std::map<std::string, std::vector<std::string>> texts_{};
 };
 
 }  // namespace
