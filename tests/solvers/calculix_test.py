@@ -11,9 +11,11 @@ from solver_test import Mesh, read_pvtu, run
 
 YOUNG, POISSON, TENSION, LENGTH = 1000.0, 0.3, 2.0, 2.0
 BAR = """algebraic3d
-solid bar = plane (0, 0, 0; -1, 0, 0) -bcname=left and plane (2, 0, 0; 1, 0, 0) -bcname=right
-  and plane (0, 0, 0; 0, -1, 0) -bcname=sides and plane (0, 1, 0; 0, 1, 0) -bcname=sides
-  and plane (0, 0, 0; 0, 0, -1) -bcname=sides and plane (0, 0, 1; 0, 0, 1) -bcname=sides;
+solid left = plane (0, 0, 0; -1, 0, 0) -bcname=left;
+solid right = plane (2, 0, 0; 1, 0, 0) -bcname=right;
+solid sides = plane (0, 0, 0; 0, -1, 0) and plane (0, 1, 0; 0, 1, 0)
+  and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1; 0, 0, 1) -bcname=sides;
+solid bar = left and right and sides;
 tlo bar;
 """
 CASE = """geometry.file = "bar.geo"

@@ -31,13 +31,16 @@ class Files(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.meshes = {case: Mesh(case, 3) for case in CASES}
-        for mesh in cls.meshes.values():
+        cls.folders = {}
+        for case, mesh in cls.meshes.items():
             cls.addClassCleanup(mesh.remove)
+            for word in ("abaqus", "medit", "exodus"):
+                cls.folders[case, word] = mesh.convert(word)
 
     def each(self, word, name):
         for case, mesh in self.meshes.items():
             with self.subTest(case=case):
-                yield mesh, mesh.convert(word) / name
+                yield mesh, self.folders[case, word] / name
 
     def assert_points(self, mesh, found):
         points, _, arrays, _ = read_pvtu(mesh.mesh / "mesh.pvtu")
