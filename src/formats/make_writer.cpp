@@ -11,6 +11,7 @@
 
 namespace tessera::formats {
 
+// Measured on core with 5.4e6 tets; of text (52 and 44) with the digits that 1e8 tets need more.
 double bytes_per_tet(io::Format format)
 {
   switch (format) {
@@ -19,13 +20,13 @@ double bytes_per_tet(io::Format format)
     case io::Format::xdmf:
       return 46.0;
     case io::Format::abaqus:
-      return 48.0;
+      return 63.0;
     case io::Format::medit:
-      return 48.0;
+      return 52.0;
     case io::Format::exodus:
-      return 48.0;
+      return 37.0;
     case io::Format::pvtu_cells:
-      return 48.0;
+      return 44.0;
   }
   return 0.0;
 }
