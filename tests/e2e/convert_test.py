@@ -370,23 +370,20 @@ class Errors(ConvertTest):
 
     def test_killed(self):
         """Nothing has its final name, and the next one begins anew."""
-        whole = hashes(self.converted("whole", "--format", "medit", "--format", "exodus"))
-        for rounds in range(20):
-            output = f"killed_{rounds}"
-            process = self.start("convert", self.source, "--format", "medit", "--format", "exodus", "--output", output)
-            folder = self.folder / output
-            program.wait_until(lambda at=folder, of=process: list(at.glob("*.tmp-*")) or of.poll() is not None, "files")
-            process.send_signal(signal.SIGKILL)
-            process.communicate()
-            if process.returncode != OK:
-                self.assertLessEqual(set(hashes(folder)) - set(whole), {"mesh.mesh.tmp-0", "mesh.exo.tmp-0"})
-                for name in set(hashes(folder)) & set(whole):
-                    self.assertEqual(hashes(folder)[name], whole[name])
-                outcome = self.convert(output, "--format", "medit", "--format", "exodus", "--overwrite")
-                self.assertEqual(outcome.code, OK, outcome.err)
-                self.assertEqual(hashes(folder), whole)
-                return
-        self.fail("no convert was killed in time")
+        settings = program.sets("fill.kernel='subdivide'", "refine.levels=3", "improve.seams=false")
+        source = self.mesh(self.case, "large", *settings) / "mesh.pvtu"
+        command = ("convert", source, "--format", "medit", "--format", "exodus", "--output")
+        self.assertEqual(self.run_program(*command, "whole").code, OK)
+        folder = self.folder / "killed"
+        process = self.start(*command, "killed")
+        program.wait_until(lambda: len(list(folder.glob("*.tmp-*"))) == 2, "files that are being written")
+        process.send_signal(signal.SIGKILL)
+        process.communicate()
+        self.assertEqual(process.returncode, -signal.SIGKILL)
+        self.assertEqual(set(hashes(folder)), {"mesh.mesh.tmp-0", "mesh.exo.tmp-0"})
+        outcome = self.run_program(*command, "killed", "--overwrite")
+        self.assertEqual(outcome.code, OK, outcome.err)
+        self.assertEqual(hashes(folder), hashes(self.folder / "whole"))
 
 
 if __name__ == "__main__":
