@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstddef>
+#include <tuple>
 #include <utility>
 
 #include "tessera/mesh/tet_topology.hpp"
@@ -63,6 +65,16 @@ void add_triangles(const LoadedPiece& loaded, const PieceLinks& links, const Tag
   piece.is_inner_triangle = links.is_inner_triangle;
 }
 
+void add_patch_points(const std::vector<PatchPoint>& patch_points,
+                      const std::vector<LocalIndex>& rows, Piece& piece)
+{
+  for (const PatchPoint& point : patch_points)
+    piece.patch_points.push_back({rows[at(point.point)], point.patch});
+  std::ranges::sort(piece.patch_points, [](const PatchPoint& a, const PatchPoint& b) {
+    return std::tie(a.patch, a.point) < std::tie(b.patch, b.point);
+  });
+}
+
 }  // namespace
 
 Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links,
@@ -79,6 +91,7 @@ Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links
   for (const std::int32_t value : loaded.material)
     piece.tet_material.push_back(mesh.tags.tag_of_material.at(value));
   add_triangles(loaded, links, mesh.tags, piece);
+  add_patch_points(links.patch_points, rows, piece);
   piece.seams = links.seams;
   return piece;
 }

@@ -44,11 +44,13 @@ class Handle {
   herr_t (*end_)(hid_t);
 };
 
-// HDF5 tells standard error of every error, which has its message already.
+// HDF5 tells standard error of every error, which has its message already. At the end of the
+// program it closes files again that it could not close on a full disk, and crashes.
 class Silence {
  public:
   Silence()
   {
+    H5dont_atexit();
     H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }

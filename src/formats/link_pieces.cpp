@@ -17,6 +17,7 @@
 #include "tessera/migrate/tet_neighbours.hpp"
 
 #include "formats/name_tags.hpp"
+#include "formats/patch_points.hpp"
 
 namespace tessera::formats {
 namespace {
@@ -55,6 +56,7 @@ struct OtherPieces {
 // What is found while a piece is there.
 struct Skin {
   std::vector<OpenFace> faces{};
+  std::vector<std::array<LocalIndex, 3>> face_points{};  // Rows of the faces' corners.
   std::vector<SkinPoint> points{};
 };
 
@@ -67,12 +69,18 @@ std::vector<LocalIndex> tets_behind(const LoadedPiece& piece)
   return migrate::tets_behind_faces(block);
 }
 
-TriangleKey key_of_side(const LoadedPiece& piece, LocalIndex side)
+std::array<LocalIndex, 3> points_of_side(const LoadedPiece& piece, LocalIndex side)
 {
   const LocalIndex* const corner = piece.tet_points.data() + 4 * at(side / 4);
   const auto& [a, b, c] = mesh::kTetFaceCorners[at(side % 4)];
-  std::array<VertexKey, 3> keys{piece.point_keys[at(corner[a])], piece.point_keys[at(corner[b])],
-                                piece.point_keys[at(corner[c])]};
+  return {corner[a], corner[b], corner[c]};
+}
+
+TriangleKey key_of_points(const LoadedPiece& piece, const std::array<LocalIndex, 3>& points)
+{
+  const auto& [a, b, c] = points;
+  std::array<VertexKey, 3> keys{piece.point_keys[at(a)], piece.point_keys[at(b)],
+                                piece.point_keys[at(c)]};
   std::ranges::sort(keys);
   return key_of_vertices(keys);
 }
@@ -84,9 +92,10 @@ void add_skin(const LoadedPiece& piece, LocalIndex number, const std::vector<Loc
   for (std::size_t side = 0; side < behind.size(); ++side) {
     if (behind[side] != kNoIndex) continue;
     const auto face = static_cast<LocalIndex>(side);
-    skin.faces.push_back({key_of_side(piece, face), number, face});
-    for (const std::size_t c : mesh::kTetFaceCorners[side % 4])
-      is_on_skin[at(piece.tet_points[4 * (side / 4) + c])] = true;
+    const std::array<LocalIndex, 3> points = points_of_side(piece, face);
+    skin.faces.push_back({key_of_points(piece, points), number, face});
+    skin.face_points.push_back(points);
+    for (const LocalIndex point : points) is_on_skin[at(point)] = true;
   }
   for (LocalIndex row = 0; row < piece.num_points(); ++row) {
     if (is_on_skin[at(row)]) skin.points.push_back({piece.point_keys[at(row)], number, row});
@@ -121,8 +130,7 @@ class Linker {
       const LoadedPiece piece = source_.load(number);
       const std::vector<LocalIndex> behind = tets_behind(piece);
       add_skin(piece, number, behind, skin_);
-      for (const LocalIndex side : piece.triangle_side)
-        links_[i].is_inner_triangle.push_back(behind[at(side)] == kNoIndex ? 0 : 1);
+      add_triangles(piece, behind, links_[i]);
       counts_[i] = {.num_points = piece.num_points(),
                     .num_tets = piece.num_tets(),
                     .num_triangles = static_cast<GlobalIndex>(piece.triangle_side.size()),
@@ -157,11 +165,13 @@ class Linker {
       PieceLinks& links = links_of(face.piece);
       if (answers[f].piece == kNoIndex) {
         links.open_sides.push_back(face.side);
+        if (!source_.has_boundary()) add_patch_points(skin_.face_points[f], 0, links.patch_points);
       } else {
         links.seams.push_back({face.side, answers[f].piece, answers[f].tet});
       }
     }
     skin_.faces = {};
+    skin_.face_points = {};
   }
 
   void mark_inner_triangles()
@@ -224,11 +234,37 @@ class Linker {
       for (SeamFace& seam : links.seams) seam.other_tet += outline.first_tet[at(seam.other_piece)];
   }
 
+  /// @return How many points of each patch each piece has.
+  std::vector<std::vector<TagCount>> link_patch_points(const Tags& tags)
+  {
+    std::vector<VertexKey> keys;
+    keys.reserve(skin_.points.size());
+    for (const SkinPoint& point : skin_.points) keys.push_back(point.key);
+    share_out_patch_points(links_, keys, tags, first_, comm_);
+    std::vector<std::vector<TagCount>> counts;
+    for (const PieceLinks& links : links_) {
+      std::vector<std::int32_t> patches;
+      for (const PatchPoint& point : links.patch_points) patches.push_back(point.patch);
+      counts.push_back(counted(patches));
+    }
+    return counts;
+  }
+
   [[nodiscard]] const std::vector<PieceCounts>& counts() const { return counts_; }
   [[nodiscard]] std::vector<PieceLinks> take_links() { return std::move(links_); }
 
  private:
   PieceLinks& links_of(LocalIndex piece) { return links_[at(piece - first_)]; }
+
+  static void add_triangles(const LoadedPiece& piece, const std::vector<LocalIndex>& behind,
+                            PieceLinks& links)
+  {
+    for (std::size_t t = 0; t < piece.triangle_side.size(); ++t) {
+      const LocalIndex side = piece.triangle_side[t];
+      links.is_inner_triangle.push_back(behind[at(side)] == kNoIndex ? 0 : 1);
+      add_patch_points(points_of_side(piece, side), piece.patch[t], links.patch_points);
+    }
+  }
 
   template <class Visit>
   static void for_each_shared(std::span<const SkinPoint> points, const Visit& visit)
@@ -305,9 +341,12 @@ LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm
   linker.link_points();
   LinkedMesh mesh;
   mesh.outline = outline_of(comm.all_gather_rows(linker.counts()));
+  mesh.tags = name_tags(source.names(), mesh.outline);
+  const auto points_of_patch = comm.all_gather_rows(linker.link_patch_points(mesh.tags));
+  for (std::size_t p = 0; p < points_of_patch.size(); ++p)
+    mesh.outline.pieces[p].points_of_patch = points_of_patch[p];
   linker.number_shared_points(mesh.outline);
   mesh.links = linker.take_links();
-  mesh.tags = name_tags(source.names(), mesh.outline);
   return mesh;
 }
 

@@ -23,8 +23,10 @@ struct PieceLinks {
   std::vector<SeamFace> seams{};                  ///< Ascending by side.
   std::vector<LocalIndex> open_sides{};           ///< On no second tet anywhere; ascending.
   std::vector<std::uint8_t> is_inner_triangle{};  ///< Shape (num_triangles).
+  std::vector<PatchPoint> patch_points{};         ///< As Piece::patch_points.
 };
 inline constexpr GlobalIndex kNoNumber = -1;
+inline constexpr std::int32_t kNoPatch = 0;
 
 /// @brief From the values in files to tags from 1 with names.
 struct Tags {

@@ -22,8 +22,9 @@ namespace fs = std::filesystem;
 
 /// Files and folders that a run makes; nothing else is ever removed.
 constexpr std::array kRunFiles{"mesh.pvtu", "boundary.pvtu", "case.toml", "report.json",
-                               "report.html"};
-constexpr std::array kPieceFolders{"mesh", "boundary", "pieces"};
+                               "report.html", "mesh.xdmf", "mesh.h5",  // These and the next ones of other formats.
+                               "mesh.inp",  "mesh.mesh",     "mesh.exo",  "cells.pvtu"};
+constexpr std::array kPieceFolders{"mesh", "boundary", "pieces", "cells"};
 constexpr std::array kOwnFolders{"log", "failure", "dry_run"};
 
 /// What a dry run makes: no reason to refuse the run that it predicts. The prediction outlives an

@@ -61,7 +61,7 @@ def read_pvtu(file):
 
 
 class Mesh:
-    """A mesh of one of the cases in configs/cases, in a folder of its own."""
+    """A mesh of one of the cases in configs/cases, or of a case file, in a folder of its own."""
 
     def __init__(self, case, parts, *settings):
         options = _arguments()[0]
@@ -69,9 +69,10 @@ class Mesh:
         self.root = options.root.resolve()
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tessera_solver_"))
         self.mesh = self.folder / "mesh"
+        file = case if isinstance(case, pathlib.Path) else self.root / f"configs/cases/{case}.toml"
         keys = ["fill.kernel='optimize'", f"output.parts={parts}", *settings]
         run([
-            self.program, "mesh", self.root / f"configs/cases/{case}.toml", "--output", self.mesh,
+            self.program, "mesh", file, "--output", self.mesh,
             *[word for key in keys for word in ("--set", key)],
         ])  # fmt: skip
 

@@ -40,12 +40,14 @@ struct PieceCounts {
   GlobalIndex num_triangles = 0;
   std::vector<TagCount> tets_of_material{};    ///< Ascending; none of zero.
   std::vector<TagCount> triangles_of_patch{};  ///< Ascending; none of zero.
+  std::vector<TagCount> points_of_patch{};     ///< Piece::patch_points; ascending; none of zero.
   std::vector<PieceNeighbour> neighbours{};    ///< Ascending.
 
   static auto fields(auto& self)
   {
     return std::tie(self.num_own_points, self.num_points, self.num_tets, self.num_triangles,
-                    self.tets_of_material, self.triangles_of_patch, self.neighbours);
+                    self.tets_of_material, self.triangles_of_patch, self.points_of_patch,
+                    self.neighbours);
   }
 };
 
@@ -73,6 +75,12 @@ struct SeamFace {
   GlobalIndex other_tet = 0;  ///< Its number in the whole mesh, from 0.
 };
 
+/// @brief A point that triangles of a patch have.
+struct PatchPoint {
+  LocalIndex point = 0;    ///< A row.
+  std::int32_t patch = 0;  ///< A tag.
+};
+
 /// @brief One piece. Rows are local, numbers are those of the whole mesh, from 0.
 struct Piece {
   LocalIndex number = 0;  ///< Of the piece, from 0.
@@ -92,6 +100,11 @@ struct Piece {
   std::vector<std::int32_t> triangle_patch{};  ///< Shape (num_triangles): tags from 1.
   /// Shape (num_triangles): 1 if there is a tet on the other side too, here or in another piece.
   std::vector<std::uint8_t> is_inner_triangle{};
+
+  /// Ascending by patch, then by row. Of the pieces that have triangles of a patch on a point, the
+  /// lowest has it here, which need not own it: so all pieces together have each point of a patch
+  /// once.
+  std::vector<PatchPoint> patch_points{};
 
   std::vector<LocalIndex> shared_points{};  ///< Rows of points that other pieces have; ascending.
   IndexLists sharers{};           ///< Shape (num_shared, …): those other pieces, ascending.

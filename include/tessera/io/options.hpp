@@ -11,10 +11,14 @@ namespace tessera::io {
 
 /// @brief Forms that a mesh is written in.
 enum class Format : int {
-  pvtu,  ///< Piece files in VTU, and indices of them in PVTU.
-  xdmf,  ///< HDF5 with an index in XDMF.
+  pvtu,        ///< Piece files in VTU, and indices of them in PVTU.
+  xdmf,        ///< HDF5 with an index in XDMF.
+  abaqus,      ///< Text, for CalculiX and Abaqus.
+  medit,       ///< Text, for FreeFEM.
+  exodus,      ///< Binary, for ParaView and MOOSE.
+  pvtu_cells,  ///< As pvtu, with the triangles in the grids of the tets, for GEOS.
 };
-[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::xdmf; }
+[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::pvtu_cells; }
 
 /// @brief Words of `output.formats`, and of `tessera convert`.
 constexpr auto enum_words(Format /*tag*/)
@@ -22,6 +26,10 @@ constexpr auto enum_words(Format /*tag*/)
   return std::to_array<EnumWord<Format>>({
       {Format::pvtu, "pvtu"},
       {Format::xdmf, "xdmf"},
+      {Format::abaqus, "abaqus"},
+      {Format::medit, "medit"},
+      {Format::exodus, "exodus"},
+      {Format::pvtu_cells, "pvtu-cells"},
   });
 }
 

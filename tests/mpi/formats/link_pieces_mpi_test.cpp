@@ -213,6 +213,39 @@ TEST_P(LinkPieces, NeighboursSayHowManyPointsTheyShare)
   }
 }
 
+TEST_P(LinkPieces, APointOfAPatchIsListedOnceForEachPatchThatHasIt)
+{
+  std::set<std::tuple<std::int32_t, GlobalIndex>> expected;
+  std::vector<GlobalIndex> corners;  // Patch and number, in turn.
+  std::vector<GlobalIndex> listed;
+  for (const Piece& piece : own_) {
+    for (std::size_t c = 0; c < piece.triangle_points.size(); ++c) {
+      corners.push_back(piece.triangle_patch[c / 3]);
+      corners.push_back(piece.point_numbers[at(piece.triangle_points[c])]);
+    }
+    std::map<std::int32_t, GlobalIndex> counts;
+    for (const PatchPoint& point : piece.patch_points) {
+      listed.push_back(point.patch);
+      listed.push_back(piece.point_numbers[at(point.point)]);
+      ++counts[point.patch];
+    }
+    const auto& told = mesh_.outline.pieces[at(piece.number)].points_of_patch;
+    EXPECT_EQ(told.size(), counts.size());
+    for (const TagCount& count : told) EXPECT_EQ(count.count, counts[count.tag]);
+  }
+  const std::vector<GlobalIndex> all_corners = comm_.all_gather_rows(corners);
+  for (std::size_t i = 0; i < all_corners.size(); i += 2)
+    expected.emplace(static_cast<std::int32_t>(all_corners[i]), all_corners[i + 1]);
+  const std::vector<GlobalIndex> all = comm_.all_gather_rows(listed);
+  std::set<std::tuple<std::int32_t, GlobalIndex>> found;
+  for (std::size_t i = 0; i < all.size(); i += 2) {
+    const bool is_new = found.emplace(static_cast<std::int32_t>(all[i]), all[i + 1]).second;
+    EXPECT_TRUE(is_new) << "patch " << all[i] << ", point " << all[i + 1];
+  }
+  EXPECT_GE(found.size(), 98U);  // Points on the surface of the cube; on two patches twice.
+  EXPECT_EQ(found, expected);
+}
+
 INSTANTIATE_TEST_SUITE_P(AllFiles, LinkPieces,
                          ::testing::Values(Files::whole, Files::without_ids,
                                            Files::without_boundary));
