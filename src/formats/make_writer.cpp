@@ -2,6 +2,9 @@
 #include "tessera/base/error.hpp"
 #include "tessera/formats/export_mesh.hpp"
 
+#include "formats/msh2_writer.hpp"
+#include "formats/msh_parts_writer.hpp"
+#include "formats/msh_writer.hpp"
 #include "formats/writer.hpp"
 #include "formats/xdmf_writer.hpp"
 
@@ -14,6 +17,12 @@ double bytes_per_tet(io::Format format)
       return 0.0;
     case io::Format::xdmf:
       return 46.0;
+    case io::Format::msh:
+      return 50.0;
+    case io::Format::msh2:
+      return 70.0;
+    case io::Format::msh_parts:
+      return 70.0;
   }
   return 0.0;
 }
@@ -25,6 +34,12 @@ std::unique_ptr<Writer> make_writer(io::Format format, const WriterTarget& targe
       break;
     case io::Format::xdmf:
       return make_xdmf_writer(target);
+    case io::Format::msh:
+      return make_msh_writer(target);
+    case io::Format::msh2:
+      return make_msh2_writer(target);
+    case io::Format::msh_parts:
+      return make_msh_parts_writer(target);
   }
   throw ConfigError("the pieces are in pvtu already");
 }

@@ -11,10 +11,13 @@ namespace tessera::io {
 
 /// @brief Forms that a mesh is written in.
 enum class Format : int {
-  pvtu,  ///< Piece files in VTU, and indices of them in PVTU.
-  xdmf,  ///< HDF5 with an index in XDMF.
+  pvtu,       ///< Piece files in VTU, and indices of them in PVTU.
+  xdmf,       ///< HDF5 with an index in XDMF.
+  msh,        ///< Gmsh's MSH 4.1, binary, one file.
+  msh2,       ///< Gmsh's MSH 2.2, text, one file.
+  msh_parts,  ///< Gmsh's MSH 4.1, binary, a file for each piece, with ghost tets.
 };
-[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::xdmf; }
+[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::msh_parts; }
 
 /// @brief Words of `output.formats`, and of `tessera convert`.
 constexpr auto enum_words(Format /*tag*/)
@@ -22,6 +25,9 @@ constexpr auto enum_words(Format /*tag*/)
   return std::to_array<EnumWord<Format>>({
       {Format::pvtu, "pvtu"},
       {Format::xdmf, "xdmf"},
+      {Format::msh, "msh"},
+      {Format::msh2, "msh2"},
+      {Format::msh_parts, "msh-parts"},
   });
 }
 
