@@ -60,14 +60,14 @@ class MshFiles(program.ResultTest):
         case = maker.write_case(geometry="two.geo", max_size=1.0, subdomains=NUM_SUBDOMAINS)
         out = maker.mesh(case, "out", ranks=2)
         outcome = maker.run_program(
-            "convert", out / "mesh.pvtu", *ALL_FORMATS, "--output", "msh", ranks=2
+            "convert", out / "mesh.pvtu", *ALL_FORMATS, "--output", "out/msh", ranks=2
         )
         assert outcome.code == program.OK, outcome.err
-        return maker.folder
+        return out
 
     def setUp(self):
         super().setUp()
-        self.pieces = [Piece(file) for file in sorted((self.out / "out" / "mesh").glob("*.vtu"))]
+        self.pieces = [Piece(file) for file in sorted((self.out / "mesh").glob("*.vtu"))]
         self.assertGreaterEqual(len(self.pieces), NUM_SUBDOMAINS)
         self.xyz = np.full((max(piece.ids.max() for piece in self.pieces) + 1, 3), np.nan)
         for piece in self.pieces:
@@ -222,7 +222,7 @@ class MshFiles(program.ResultTest):
         hashes = {}
         for ranks in (1, 2, 3):
             outcome = self.run_program(
-                "convert", self.out / "out" / "mesh.pvtu", *ALL_FORMATS, "--output", f"n{ranks}",
+                "convert", self.out / "mesh.pvtu", *ALL_FORMATS, "--output", f"n{ranks}",
                 ranks=ranks,
             )  # fmt: skip
             self.assertEqual(outcome.code, program.OK, outcome.err)
@@ -233,7 +233,7 @@ class MshFiles(program.ResultTest):
         self.assertEqual(hashes[1], hashes[3])
 
     def test_a_smaller_mesh_leaves_no_parts_of_a_larger_one(self):
-        convert = ["convert", self.out / "out" / "mesh.pvtu", "--format", "msh-parts", "--output"]
+        convert = ["convert", self.out / "mesh.pvtu", "--format", "msh-parts", "--output"]
         folder = self.out / "msh"
         extra = folder / f"mesh_{len(self.pieces) + 1}.msh"
         extra.write_text("of a larger mesh")
