@@ -18,11 +18,11 @@ double bytes_per_tet(io::Format format)
     case io::Format::xdmf:
       return 46.0;
     case io::Format::msh:
-      return 50.0;
+      return 48.0;
     case io::Format::msh2:
-      return 70.0;
+      return 63.0;
     case io::Format::msh_parts:
-      return 70.0;
+      return 54.0;
   }
   return 0.0;
 }

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Gmsh opens all three forms of MSH files, and meshio and PETSc those that they read: elements, groups,
-partitions and ghosts, volumes and areas by name."""
+"""Gmsh opens all three forms of MSH files, and meshio, PETSc and gmshToFoam those that they read:
+elements, groups, partitions and ghosts, volumes and areas by name."""
 import json
 import multiprocessing
+import os
+import re
 import unittest
 
 import gmsh
@@ -228,6 +230,33 @@ class Gmsh(unittest.TestCase):
                 by_name = {name: sums[tag] for name, (tag, dim) in groups if dim == dimension}
                 self.assert_sizes(by_name, expected)
 
+    def test_gmsh_to_foam(self):
+        """Patches on the outside become patches, those within zones of faces, materials zones of cells."""
+        for case, mesh in self.meshes.items():
+            with self.subTest(case=case):
+                self.check_foam(mesh, mesh.folder / "foam", self.files[case]["msh2"] / "mesh_v2.msh")
+
+    def check_foam(self, mesh, folder, file):
+        (folder / "system").mkdir(parents=True)
+        (folder / "system/controlDict").write_text(CONTROL, encoding="utf-8")
+        environment = os.environ | {"WM_PROJECT_DIR": "/usr/share/openfoam"}
+        run(["gmshToFoam", "-case", folder, file], env=environment)
+        said = run(["checkMesh", "-case", folder], env=environment)
+        self.assertRegex(said, rf"cells: +{mesh.num_tets()}\n")
+        self.assertIn("Mesh OK.", said)
+        boundary = (folder / "constant/polyMesh/boundary").read_text(encoding="utf-8")
+        counts = dict(re.findall(r"(\S+)\s*{[^}]*nFaces\s+(\d+);", boundary))
+        _, _, arrays, texts = read_pvtu(mesh.mesh / "boundary.pvtu")
+        outer = mesh.outer_areas()
+        expected = dict.fromkeys(mesh.areas(), 0)
+        for patch, count in enumerate(np.bincount(arrays["patch"]).tolist()):
+            name = texts["patch_names"][patch]
+            expected[name] += count if name in outer else 0
+        self.assertEqual({name: int(count) for name, count in counts.items()}, expected)
+        zones = (folder / "constant/polyMesh/cellZones").read_text(encoding="utf-8")
+        for name in mesh.volumes():
+            self.assertRegex(zones, rf"\n{name}\n{{")
+
     def test_petsc(self):
         for case, mesh in self.meshes.items():
             with self.subTest(case=case):
@@ -248,6 +277,12 @@ class Gmsh(unittest.TestCase):
             "Face Sets": {str(i): int(faces[i]) for i in np.flatnonzero(faces)},
         }
         self.assertEqual(json.loads(said.splitlines()[-1]), expected)
+
+
+CONTROL = """FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }
+application none; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1;
+writeControl timeStep; writeInterval 1;
+"""
 
 
 def num_tets_of(file):
