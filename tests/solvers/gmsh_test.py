@@ -238,7 +238,8 @@ class Gmsh(unittest.TestCase):
 
     def check_foam(self, mesh, folder, file):
         (folder / "system").mkdir(parents=True)
-        (folder / "system/controlDict").write_text(CONTROL, encoding="utf-8")
+        for name, text in FOAM_FILES.items():
+            (folder / "system" / name).write_text(FOAM_HEAD.format(name) + text, encoding="utf-8")
         environment = os.environ | {"WM_PROJECT_DIR": "/usr/share/openfoam"}
         run(["gmshToFoam", "-case", folder, file], env=environment)
         said = run(["checkMesh", "-case", folder], env=environment)
@@ -279,10 +280,14 @@ class Gmsh(unittest.TestCase):
         self.assertEqual(json.loads(said.splitlines()[-1]), expected)
 
 
-CONTROL = """FoamFile { version 2.0; format ascii; class dictionary; object controlDict; }
-application none; startFrom startTime; startTime 0; stopAt endTime; endTime 1; deltaT 1;
-writeControl timeStep; writeInterval 1;
-"""
+# What OpenFOAM's tools must find beside a mesh.
+FOAM_HEAD = "FoamFile {{ version 2.0; format ascii; class dictionary; object {}; }}\n"
+FOAM_FILES = {
+    "controlDict": "application none; startFrom startTime; startTime 0; stopAt endTime; endTime 1;\n"
+    "deltaT 1; writeControl timeStep; writeInterval 1;\n",
+    "fvSchemes": "divSchemes {} gradSchemes {} laplacianSchemes {}\n",
+    "fvSolution": "",
+}
 
 
 def num_tets_of(file):
