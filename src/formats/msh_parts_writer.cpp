@@ -113,6 +113,11 @@ class MshPart {
     std::vector<GlobalIndex> nodes;
     for (const std::vector<GlobalIndex>* const numbers : {&piece_.point_numbers, &ghosts_.points})
       for (const GlobalIndex number : *numbers) nodes.push_back(number + 1);
+    // A piece of another tool may be empty, and its part then has no volume of its own.
+    if (nodes.empty()) {
+      bytes_.add(msh4_nodes_head(1, 0, 0, 0)).add(kMshEndNodes);
+      return;
+    }
     const auto [first, last] = std::ranges::minmax(nodes);
     bytes_.add(msh4_nodes_head(tags_.volume(piece_.number), static_cast<GlobalIndex>(nodes.size()),
                                first, last));

@@ -6,6 +6,11 @@ NUM_CORNERS = {2: 3, 4: 4}  # By type of element: triangle, tet.
 TRIANGLE, TET = 2, 4
 
 
+def assert_range(tags, number, first, last):
+    assert len(tags) == number
+    assert number == 0 or (tags.min(), tags.max()) == (first, last)
+
+
 class Msh:
     """What an MSH file says.
 
@@ -138,7 +143,7 @@ class Msh:
             nodes.append(self._array("<u8", number).astype(int))
             xyz.append(self._array("<f8", number, 3))
         self.nodes, self.xyz = np.concatenate(nodes), np.concatenate(xyz)
-        assert (len(self.nodes), self.nodes.min(), self.nodes.max()) == (num_nodes, first, last)
+        assert_range(self.nodes, num_nodes, first, last)
 
     def _read_Elements(self):
         if self.version == "2.2":
@@ -150,8 +155,8 @@ class Msh:
             assert (dimension, entity) in self.physicals or entity in self.ghost_parts
             rows = self._array("<u8", self._sizes(1)[0], NUM_CORNERS[kind] + 1)
             self.blocks.append((dimension, entity, kind, rows.astype(int)))
-        tags = np.concatenate([block[:, 0] for *_, block in self.blocks])
-        assert (len(tags), tags.min(), tags.max()) == (num_elements, first, last)
+        tags = np.concatenate([np.empty(0, int), *(block[:, 0] for *_, block in self.blocks)])
+        assert_range(tags, num_elements, first, last)
 
     def _read_elements_as_text(self):
         groups = {}

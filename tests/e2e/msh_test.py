@@ -5,12 +5,14 @@ import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkIntArray, vtkStringArray
+from vtkmodules.vtkCommonCore import vtkIntArray, vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter
 
 import program
 from check_test import KUHN_TETS, write_cube
 from msh_file import TET, TRIANGLE, Msh
+from repartition_test import INDEX
 from vtk_test import read, texts
 
 NUM_SUBDOMAINS = 5
@@ -275,6 +277,26 @@ class ForeignMeshes(program.ProgramTest):
             self.assertEqual(len(msh.elements(TET)[0]), 6)
             self.assertEqual(len(msh.elements(TRIANGLE)[0]), 12)
             self.assertEqual(len(msh.ghosts), 0)
+
+    def test_an_empty_piece_has_an_empty_part(self):
+        write_cube(self.folder / "full.vtu", KUHN_TETS)
+        writer = vtkXMLUnstructuredGridWriter()
+        points = vtkPoints()
+        points.SetDataTypeToDouble()
+        grid = vtkUnstructuredGrid()
+        grid.SetPoints(points)
+        writer.SetInputData(grid)
+        writer.SetFileName(str(self.folder / "empty.vtu"))
+        self.assertEqual(writer.Write(), 1)
+        self.write("two.pvtu", INDEX.format("".join(f'<Piece Source="{n}.vtu"/>' for n in ("full", "empty"))))
+        outcome = self.run_program("convert", "two.pvtu", *ALL_FORMATS, "--output", "out", ranks=2)
+        self.assertEqual(outcome.code, program.OK, outcome.err)
+        content = (self.folder / "out" / "mesh_2.msh").read_bytes()
+        self.assertEqual(content.count(b"$End"), 6)
+        parts = [Msh(self.folder / "out" / f"mesh_{number}.msh") for number in (1, 2)]
+        self.assertEqual([len(part.elements(TET)[0]) for part in parts], [6, 0])
+        self.assertEqual([len(part.nodes) for part in parts], [8, 0])
+        self.assertEqual([part.num_parts for part in parts], [2, 2])
 
 
 if __name__ == "__main__":
