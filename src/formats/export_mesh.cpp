@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/formats/export_mesh.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
 #include "tessera/comm/all_or_none.hpp"
 
+#include "formats/ghosts.hpp"
 #include "formats/link_pieces.hpp"
 #include "formats/piece_source.hpp"
 #include "formats/writer.hpp"
@@ -34,13 +36,22 @@ void on_first_rank(const comm::Communicator& comm, const Writers& writers, void 
   });
 }
 
-void write_pieces(const PieceSource& source, const LinkedMesh& mesh, const Writers& writers,
+// What is written, as far as it is in memory.
+struct LinkedPieces {
+  LinkedMesh mesh{};
+  std::vector<Ghosts> ghosts{};  // By this rank's pieces; empty if no writer needs them.
+};
+
+// Ghosts go with the piece, so memory is given back on the way.
+void write_pieces(const PieceSource& source, LinkedPieces& linked, const Writers& writers,
                   LocalIndex first, const std::function<void()>& before_each)
 {
+  const LinkedMesh& mesh = linked.mesh;
   for (std::size_t i = 0; i < mesh.links.size(); ++i) {
     before_each();
     const LocalIndex number = first + static_cast<LocalIndex>(i);
-    const Piece piece = build_piece(source.load(number), number, mesh.links[i], mesh);
+    Piece piece = build_piece(source.load(number), number, mesh.links[i], mesh);
+    if (!linked.ghosts.empty()) piece.ghosts = std::move(linked.ghosts[i]);
     for (const auto& writer : writers) writer->write(piece);
   }
   for (const auto& writer : writers) writer->close();
@@ -52,15 +63,17 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
                     const std::function<void()>& before_each)
 {
   const PieceSource source(request.mesh, comm);
-  LinkedMesh mesh = link_pieces(source, comm, before_each);
+  LinkedPieces linked{.mesh = link_pieces(source, comm, before_each)};
   Writers writers;
-  all_or_none(comm, [&] { writers = make_writers(request, mesh.outline); });
+  all_or_none(comm, [&] { writers = make_writers(request, linked.mesh.outline); });
+  if (std::ranges::any_of(writers, [](const auto& writer) { return writer->needs_ghosts(); }))
+    linked.ghosts = collect_ghosts(source, linked.mesh, comm, before_each);
   on_first_rank(comm, writers, &Writer::begin);
   all_or_none(comm, [&] {
-    write_pieces(source, mesh, writers, source.first_of(comm.rank()), before_each);
+    write_pieces(source, linked, writers, source.first_of(comm.rank()), before_each);
   });
   on_first_rank(comm, writers, &Writer::commit);
-  return std::move(mesh.outline);
+  return std::move(linked.mesh.outline);
 }
 
 Outline outline_of(const std::filesystem::path& mesh, const comm::Communicator& comm,

@@ -111,6 +111,16 @@ std::vector<TagCount> counted(const std::vector<std::int32_t>& values)
   return list;
 }
 
+Box box_of(const std::vector<double>& point_xyz)
+{
+  Box box;
+  for (std::size_t p = 0; 3 * p < point_xyz.size(); ++p) {
+    const Vec3 point = point_at(std::span(point_xyz), p);
+    box.add({point, point});
+  }
+  return box;
+}
+
 // Pieces of a rank under way to being linked.
 class Linker {
  public:
@@ -135,7 +145,8 @@ class Linker {
                     .num_tets = piece.num_tets(),
                     .num_triangles = static_cast<GlobalIndex>(piece.triangle_side.size()),
                     .tets_of_material = counted(piece.material),
-                    .triangles_of_patch = counted(piece.patch)};
+                    .triangles_of_patch = counted(piece.patch),
+                    .box = box_of(piece.point_xyz)};
       triangle_sides_.push_back(piece.triangle_side);
     }
   }

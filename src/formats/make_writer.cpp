@@ -6,6 +6,9 @@
 #include "formats/exodus_writer.hpp"
 #include "formats/medit_writer.hpp"
 #include "formats/pvtu_cells_writer.hpp"
+#include "formats/msh2_writer.hpp"
+#include "formats/msh_parts_writer.hpp"
+#include "formats/msh_writer.hpp"
 #include "formats/writer.hpp"
 #include "formats/xdmf_writer.hpp"
 
@@ -27,6 +30,12 @@ double bytes_per_tet(io::Format format)
       return 37.0;
     case io::Format::pvtu_cells:
       return 44.0;
+    case io::Format::msh:
+      return 48.0;
+    case io::Format::msh2:
+      return 63.0;
+    case io::Format::msh_parts:
+      return 54.0;
   }
   return 0.0;
 }
@@ -46,6 +55,12 @@ std::unique_ptr<Writer> make_writer(io::Format format, const WriterTarget& targe
       return make_exodus_writer(target);
     case io::Format::pvtu_cells:
       return make_pvtu_cells_writer(target);
+    case io::Format::msh:
+      return make_msh_writer(target);
+    case io::Format::msh2:
+      return make_msh2_writer(target);
+    case io::Format::msh_parts:
+      return make_msh_parts_writer(target);
   }
   throw ConfigError("the pieces are in pvtu already");
 }

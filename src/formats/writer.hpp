@@ -15,6 +15,9 @@ class Writer {
  public:
   virtual ~Writer() = default;
 
+  /// @brief Whether pieces must come with their ghosts, for which all are read once more.
+  [[nodiscard]] virtual bool needs_ghosts() const { return false; }
+
   /// @brief Makes folders, and files that all write to, with what stands before and after the
   /// pieces. Rank 0 alone.
   virtual void begin() = 0;

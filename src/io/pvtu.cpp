@@ -101,7 +101,8 @@ void put_texts(std::string& out, const std::string& name, const std::vector<std:
 [[nodiscard]] fs::path piece_path(const fs::path& folder, const std::string& source)
 {
   if (source.empty()) throw InputError("a piece has no file name");
-  const fs::path base = fs::absolute(folder).lexically_normal();
+  // Of an index in the working directory the folder is empty, which fs::absolute() refuses.
+  const fs::path base = (fs::current_path() / folder).lexically_normal();
   if (!is_within(base, (base / source).lexically_normal())) {
     throw InputError(fmt::format("piece {} is outside of the folder of its index", source));
   }

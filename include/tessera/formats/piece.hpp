@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
 
 /// What writers of file formats see of a mesh: what all ranks know of it, and its pieces one at a
 /// time. Everything is numbered anew, by pieces: the points, tets and triangles of a piece have
@@ -32,6 +34,22 @@ struct PieceNeighbour {
   static auto fields(auto& self) { return std::tie(self.piece, self.num_shared_points); }
 };
 
+/// @brief A box along the axes around points; around none the lowest is above the highest.
+struct Box {
+  Vec3 lowest = kNoPoint;
+  Vec3 highest = -1.0 * kNoPoint;
+
+  void add(const Box& other)
+  {
+    for (std::size_t d = 0; d < 3; ++d) {
+      lowest[d] = std::min(lowest[d], other.lowest[d]);
+      highest[d] = std::max(highest[d], other.highest[d]);
+    }
+  }
+
+  static auto fields(auto& self) { return std::tie(self.lowest, self.highest); }
+};
+
 /// @brief What is in one piece.
 struct PieceCounts {
   GlobalIndex num_own_points = 0;  ///< Those that no lower piece has.
@@ -42,12 +60,13 @@ struct PieceCounts {
   std::vector<TagCount> triangles_of_patch{};  ///< Ascending; none of zero.
   std::vector<TagCount> points_of_patch{};     ///< Piece::patch_points; ascending; none of zero.
   std::vector<PieceNeighbour> neighbours{};    ///< Ascending.
+  Box box{};
 
   static auto fields(auto& self)
   {
     return std::tie(self.num_own_points, self.num_points, self.num_tets, self.num_triangles,
                     self.tets_of_material, self.triangles_of_patch, self.points_of_patch,
-                    self.neighbours);
+                    self.neighbours, self.box);
   }
 };
 
@@ -81,6 +100,16 @@ struct PatchPoint {
   std::int32_t patch = 0;  ///< A tag.
 };
 
+/// @brief Tets of other pieces that share a point with a piece, and those of their points that the
+/// piece has not. Numbers are those of the whole mesh, from 0.
+struct Ghosts {
+  std::vector<GlobalIndex> tets{};        ///< Shape (num_ghosts): ascending.
+  std::vector<LocalIndex> tet_piece{};    ///< Shape (num_ghosts): whose they are.
+  std::vector<GlobalIndex> tet_points{};  ///< Shape (num_ghosts, 4): numbers; positive.
+  std::vector<GlobalIndex> points{};      ///< Shape (num_ghost_points): ascending.
+  std::vector<double> point_xyz{};        ///< Shape (num_ghost_points, 3).
+};
+
 /// @brief One piece. Rows are local, numbers are those of the whole mesh, from 0.
 struct Piece {
   LocalIndex number = 0;  ///< Of the piece, from 0.
@@ -109,6 +138,7 @@ struct Piece {
   std::vector<LocalIndex> shared_points{};  ///< Rows of points that other pieces have; ascending.
   IndexLists sharers{};           ///< Shape (num_shared, …): those other pieces, ascending.
   std::vector<SeamFace> seams{};  ///< Ascending by side.
+  Ghosts ghosts{};                ///< Only for writers that need them.
 
   [[nodiscard]] LocalIndex num_points() const
   {

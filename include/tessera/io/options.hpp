@@ -11,12 +11,19 @@ namespace tessera::io {
 
 /// @brief Forms that a mesh is written in.
 enum class Format : int {
-  pvtu,        ///< Piece files in VTU, and indices of them in PVTU.
-  xdmf,        ///< HDF5 with an index in XDMF.
-  abaqus,      ///< Text, for CalculiX and Abaqus.
-  medit,       ///< Text, for FreeFEM.
-  exodus,      ///< Binary, for ParaView and MOOSE.
-  pvtu_cells,  ///< As pvtu, with the triangles in the grids of the tets, for GEOS.
+  pvtu,             ///< Piece files in VTU, and indices of them in PVTU.
+  xdmf,             ///< HDF5 with an index in XDMF.
+  abaqus,           ///< Text, for CalculiX and Abaqus.
+  elmer,            ///< Elmer's partitioning.N.
+  exodus,           ///< Binary, for ParaView and MOOSE.
+  medit,            ///< Text, for FreeFEM.
+  mfem,             ///< MFEM's parallel mesh, a file a piece.
+  msh,              ///< Gmsh's MSH 4.1, binary, one file.
+  msh2,             ///< Gmsh's MSH 2.2, text, one file.
+  msh_parts,        ///< Gmsh's MSH 4.1, binary, a file for each piece, with ghost tets.
+  openfoam,         ///< A decomposed case of OpenFOAM.
+  openfoam_serial,  ///< A case of OpenFOAM for one process.
+  pvtu_cells,       ///< As pvtu, with the triangles in the grids of the tets, for GEOS.
 };
 [[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::pvtu_cells; }
 
@@ -27,8 +34,15 @@ constexpr auto enum_words(Format /*tag*/)
       {Format::pvtu, "pvtu"},
       {Format::xdmf, "xdmf"},
       {Format::abaqus, "abaqus"},
-      {Format::medit, "medit"},
+      {Format::elmer, "elmer"},
       {Format::exodus, "exodus"},
+      {Format::medit, "medit"},
+      {Format::mfem, "mfem"},
+      {Format::msh, "msh"},
+      {Format::msh2, "msh2"},
+      {Format::msh_parts, "msh-parts"},
+      {Format::openfoam, "openfoam"},
+      {Format::openfoam_serial, "openfoam-serial"},
       {Format::pvtu_cells, "pvtu-cells"},
   });
 }

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "formats/ghosts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "tessera/comm/all_or_none.hpp"
+#include "tessera/comm/record_exchange.hpp"
+
+namespace tessera::formats {
+namespace {
+
+// A tet on its way to a piece that it touches.
+struct GhostTet {
+  LocalIndex target = 0;
+  LocalIndex piece = 0;
+  GlobalIndex number = 0;
+  std::array<GlobalIndex, 4> points{};
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.target, self.piece, self.number, self.points);
+  }
+};
+
+// A point of such a tet.
+struct GhostPoint {
+  LocalIndex target = 0;
+  GlobalIndex number = 0;
+  Vec3 position{};
+
+  static auto fields(auto& self) { return std::tie(self.target, self.number, self.position); }
+};
+
+struct GhostSet {
+  std::vector<GhostTet> tets{};
+  std::vector<GhostPoint> points{};
+};
+
+// What other pieces need of one.
+class GhostFinder {
+ public:
+  explicit GhostFinder(const Piece& piece) : piece_(piece)
+  {
+    list_of_.assign(at(piece.num_points()), kNoIndex);
+    for (std::size_t s = 0; s < piece.shared_points.size(); ++s)
+      list_of_[at(piece.shared_points[s])] = static_cast<LocalIndex>(s);
+  }
+
+  GhostSet find()
+  {
+    for (LocalIndex t = 0; t < piece_.num_tets(); ++t) {
+      const auto corners = std::span(piece_.tet_points).subspan(4 * at(t), 4);
+      for (const LocalIndex target : targets_of(corners)) add(t, corners, target);
+    }
+    std::ranges::sort(needed_);
+    const auto repeated = std::ranges::unique(needed_);
+    needed_.erase(repeated.begin(), repeated.end());
+    for (const auto& [target, row] : needed_) {
+      found_.points.push_back(
+          {target, piece_.point_numbers[at(row)], point_at(std::span(piece_.point_xyz), row)});
+    }
+    return std::move(found_);
+  }
+
+ private:
+  [[nodiscard]] std::span<const LocalIndex> sharers(LocalIndex row) const
+  {
+    const LocalIndex list = list_of_[at(row)];
+    return list == kNoIndex ? std::span<const LocalIndex>{} : piece_.sharers[list];
+  }
+
+  const std::vector<LocalIndex>& targets_of(std::span<const LocalIndex> corners)
+  {
+    targets_.clear();
+    for (const LocalIndex row : corners)
+      targets_.insert(targets_.end(), sharers(row).begin(), sharers(row).end());
+    std::ranges::sort(targets_);
+    const auto repeated = std::ranges::unique(targets_);
+    targets_.erase(repeated.begin(), repeated.end());
+    return targets_;
+  }
+
+  void add(LocalIndex tet, std::span<const LocalIndex> corners, LocalIndex target)
+  {
+    GhostTet ghost{target, piece_.number, tet};
+    for (std::size_t c = 0; c < 4; ++c) {
+      ghost.points[c] = piece_.point_numbers[at(corners[c])];
+      if (!std::ranges::binary_search(sharers(corners[c]), target))
+        needed_.push_back({target, corners[c]});
+    }
+    found_.tets.push_back(ghost);
+  }
+
+  const Piece& piece_;
+  std::vector<LocalIndex> list_of_{};  // By row: of its sharers.
+  std::vector<LocalIndex> targets_{};
+  std::vector<std::pair<LocalIndex, LocalIndex>> needed_{};  // Target and row.
+  GhostSet found_{};
+};
+
+// Sends records to the ranks of their targets, and sorts out by target what comes.
+class Delivery {
+ public:
+  Delivery(const PieceSource& source, const comm::Communicator& comm)
+      : comm_(comm), first_(source.first_of(comm.rank()))
+  {
+    for (Rank rank = 0; rank < comm.size(); ++rank) {
+      const LocalIndex num_pieces = source.first_of(rank + 1) - source.first_of(rank);
+      rank_of_.insert(rank_of_.end(), at(num_pieces), rank);
+    }
+  }
+
+  template <class Record>
+  void send(std::span<const Record> records, std::vector<std::vector<Record>*> received) const
+  {
+    const auto rank_of = [&](const Record& record) {
+      return static_cast<std::uint64_t>(rank_of_[at(record.target)]);
+    };
+    const comm::RecordExchange<Record> exchange(records, rank_of, comm_);
+    for (const Record& record : exchange.received())
+      received[at(record.target - first_)]->push_back(record);
+  }
+
+ private:
+  const comm::Communicator& comm_;
+  LocalIndex first_;
+  std::vector<Rank> rank_of_{};
+};
+
+void deliver(const GhostSet& sent, const Delivery& delivery, std::vector<GhostSet>& received)
+{
+  std::vector<std::vector<GhostTet>*> tets;
+  std::vector<std::vector<GhostPoint>*> points;
+  for (GhostSet& set : received) {
+    tets.push_back(&set.tets);
+    points.push_back(&set.points);
+  }
+  delivery.send(std::span(sent.tets), tets);
+  delivery.send(std::span(sent.points), points);
+}
+
+// Ghosts in the order of their numbers, which does not depend on who sent when.
+Ghosts sorted(GhostSet set, const Outline& outline)
+{
+  Ghosts ghosts;
+  for (GhostTet& tet : set.tets) tet.number += outline.first_tet[at(tet.piece)];
+  std::ranges::sort(set.tets, {}, &GhostTet::number);
+  for (const GhostTet& tet : set.tets) {
+    ghosts.tets.push_back(tet.number);
+    ghosts.tet_piece.push_back(tet.piece);
+    ghosts.tet_points.insert(ghosts.tet_points.end(), tet.points.begin(), tet.points.end());
+  }
+  set.tets = {};
+  std::ranges::sort(set.points, {}, &GhostPoint::number);
+  for (const GhostPoint& point : set.points) {
+    if (!ghosts.points.empty() && ghosts.points.back() == point.number) continue;
+    ghosts.points.push_back(point.number);
+    ghosts.point_xyz.insert(ghosts.point_xyz.end(), point.position.begin(), point.position.end());
+  }
+  return ghosts;
+}
+
+LocalIndex most_pieces_of_a_rank(const PieceSource& source, int num_ranks)
+{
+  LocalIndex most = 0;
+  for (Rank rank = 0; rank < num_ranks; ++rank)
+    most = std::max(most, source.first_of(rank + 1) - source.first_of(rank));
+  return most;
+}
+
+}  // namespace
+
+std::vector<Ghosts> collect_ghosts(const PieceSource& source, const LinkedMesh& mesh,
+                                   const comm::Communicator& comm,
+                                   const std::function<void()>& before_each)
+{
+  const Delivery delivery(source, comm);
+  const LocalIndex num_rounds = most_pieces_of_a_rank(source, comm.size());
+  std::vector<GhostSet> received(mesh.links.size());
+  // A piece at a time on each rank, so that little is under way at once.
+  for (LocalIndex round = 0; round < num_rounds; ++round) {
+    GhostSet sent;
+    all_or_none(comm, [&] {
+      if (at(round) >= mesh.links.size()) return;
+      before_each();
+      const LocalIndex number = source.first_of(comm.rank()) + round;
+      sent =
+          GhostFinder(build_piece(source.load(number), number, mesh.links[at(round)], mesh)).find();
+    });
+    deliver(sent, delivery, received);
+  }
+  std::vector<Ghosts> ghosts;
+  for (GhostSet& set : received) ghosts.push_back(sorted(std::exchange(set, {}), mesh.outline));
+  return ghosts;
+}
+
+}  // namespace tessera::formats

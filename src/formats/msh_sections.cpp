@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "formats/msh_sections.hpp"
+
+#include <bit>
+#include <set>
+
+#include <fmt/format.h>
+
+namespace tessera::formats {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "arrays are written as they are");
+
+constexpr std::size_t kMaxNameBytes = 127;
+
+// Shortened to so many bytes, not within a character of UTF-8.
+std::string shortened(std::string name, std::size_t num_bytes)
+{
+  if (name.size() <= num_bytes) return name;
+  while (num_bytes > 0 && (static_cast<unsigned char>(name[num_bytes]) & 0xC0U) == 0x80U)
+    --num_bytes;
+  name.resize(num_bytes);
+  return name;
+}
+
+// Readers split lines by quotes and take backslashes for escapes.
+std::string readable(std::string name)
+{
+  for (char& character : name) {
+    const auto code = static_cast<unsigned char>(character);
+    if (character == '"' || character == '\\' || code < 0x20 || code == 0x7F) character = '_';
+  }
+  return shortened(std::move(name), kMaxNameBytes);
+}
+
+std::string made_unique(const std::string& name, std::set<std::string>& taken)
+{
+  std::string unique = readable(name);
+  for (int number = 2; !taken.insert(unique).second; ++number) {
+    const std::string suffix = fmt::format("_{}", number);
+    unique = shortened(readable(name), kMaxNameBytes - suffix.size()) + suffix;
+  }
+  return unique;
+}
+
+Box box_of_mesh(const Outline& outline)
+{
+  Box box;
+  for (const PieceCounts& piece : outline.pieces) box.add(piece.box);
+  return box;
+}
+
+// By tag - 1.
+std::vector<Box> boxes_of_tags(const Outline& outline, std::vector<TagCount> PieceCounts::*counts,
+                               std::size_t num_tags)
+{
+  std::vector<Box> boxes(num_tags);
+  for (const PieceCounts& piece : outline.pieces)
+    for (const TagCount& count : piece.*counts) boxes[at(count.tag - 1)].add(piece.box);
+  const Box all = box_of_mesh(outline);
+  for (Box& box : boxes)
+    if (box.lowest[0] > box.highest[0]) box = all;
+  return boxes;
+}
+
+}  // namespace
+
+std::int32_t msh_tag_of_patch(const Outline& outline, std::int32_t patch)
+{
+  return static_cast<std::int32_t>(outline.material_names.size()) + patch;
+}
+
+MshCells msh_triangles(const Outline& outline, const Piece& piece)
+{
+  return {kMshTriangle, piece.triangle_points, piece.triangle_patch,
+          outline.pieces[at(piece.number)].triangles_of_patch,
+          outline.num_tets() + outline.first_triangle[at(piece.number)] + 1};
+}
+
+MshCells msh_tets(const Outline& outline, const Piece& piece)
+{
+  return {kMshTet, piece.tet_points, piece.tet_material,
+          outline.pieces[at(piece.number)].tets_of_material,
+          outline.first_tet[at(piece.number)] + 1};
+}
+
+std::vector<GlobalIndex> msh4_records(const Piece& piece, const MshCells& cells,
+                                      const TagCount& count)
+{
+  const std::size_t num_points = cells.type.num_points;
+  std::vector<GlobalIndex> records;
+  records.reserve(static_cast<std::size_t>(count.count) * (num_points + 1));
+  for (std::size_t c = 0; c < cells.tags.size(); ++c) {
+    if (cells.tags[c] != count.tag) continue;
+    records.push_back(cells.first_element + static_cast<GlobalIndex>(c));
+    for (const LocalIndex row : cells.points.subspan(num_points * c, num_points))
+      records.push_back(piece.point_numbers[at(row)] + 1);
+  }
+  return records;
+}
+
+std::vector<MshEntity> msh_entities(const Outline& outline)
+{
+  std::set<std::string> taken;
+  std::vector<MshEntity> materials;
+  std::vector<MshEntity> entities;
+  const std::vector<Box> material_boxes =
+      boxes_of_tags(outline, &PieceCounts::tets_of_material, outline.material_names.size());
+  for (const std::string& name : outline.material_names) {
+    const auto row = materials.size();
+    materials.push_back({kMshTet.dimension, static_cast<std::int32_t>(row) + 1,
+                         made_unique(name, taken), material_boxes[row]});
+  }
+  const std::vector<Box> patch_boxes =
+      boxes_of_tags(outline, &PieceCounts::triangles_of_patch, outline.patch_names.size());
+  for (const std::string& name : outline.patch_names) {
+    const auto row = entities.size();
+    const auto patch = static_cast<std::int32_t>(row) + 1;
+    entities.push_back({kMshTriangle.dimension, msh_tag_of_patch(outline, patch),
+                        made_unique(name, taken), patch_boxes[row]});
+  }
+  entities.insert(entities.end(), materials.begin(), materials.end());
+  return entities;
+}
+
+std::string msh_physical_names(const std::vector<MshEntity>& entities)
+{
+  std::string text = fmt::format("$PhysicalNames\n{}\n", entities.size());
+  for (const MshEntity& entity : entities)
+    text += fmt::format("{} {} \"{}\"\n", entity.dimension, entity.tag, entity.name);
+  return text + "$EndPhysicalNames\n";
+}
+
+std::string msh4_head(const std::vector<MshEntity>& entities)
+{
+  MshBytes bytes;
+  // The 1 tells readers the order of bytes.
+  bytes.add("$MeshFormat\n4.1 1 8\n").add(1).add("\n$EndMeshFormat\n");
+  bytes.add(msh_physical_names(entities)).add("$Entities\n");
+  GlobalIndex num_surfaces = 0;
+  for (const MshEntity& entity : entities)
+    if (entity.dimension == kMshTriangle.dimension) ++num_surfaces;
+  bytes.add(GlobalIndex{0}).add(GlobalIndex{0}).add(num_surfaces);
+  bytes.add(static_cast<GlobalIndex>(entities.size()) - num_surfaces);
+  for (const MshEntity& entity : entities) {
+    bytes.add(entity.tag);
+    msh4_add_entity(entity, bytes);
+  }
+  return bytes.add("\n$EndEntities\n").text();
+}
+
+void msh4_add_entity(const MshEntity& entity, MshBytes& bytes)
+{
+  bytes.add(entity.box);
+  bytes.add(GlobalIndex{1}).add(entity.tag);  // Its physical groups.
+  bytes.add(GlobalIndex{0});                  // What bounds it.
+}
+
+std::string msh4_nodes_head(std::int32_t entity, GlobalIndex num_nodes, GlobalIndex first,
+                            GlobalIndex last)
+{
+  MshBytes bytes;
+  bytes.add("$Nodes\n").add(GlobalIndex{1}).add(num_nodes).add(first).add(last);
+  return bytes.add(kMshTet.dimension).add(entity).add(0).add(num_nodes).text();
+}
+
+std::string msh4_elements_head(GlobalIndex num_blocks, GlobalIndex num_elements, GlobalIndex first,
+                               GlobalIndex last)
+{
+  MshBytes bytes;
+  bytes.add("$Elements\n").add(num_blocks).add(num_elements).add(first).add(last);
+  return bytes.text();
+}
+
+std::string msh4_block_head(const MshCellType& type, std::int32_t entity, GlobalIndex num_elements)
+{
+  MshBytes bytes;
+  return bytes.add(type.dimension).add(entity).add(type.number).add(num_elements).text();
+}
+
+}  // namespace tessera::formats

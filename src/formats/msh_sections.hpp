@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tessera/formats/piece.hpp"
+
+/// What the forms of Gmsh's MSH files have in common. Entities and physical groups have the same
+/// tags: materials 1…M, patches M+1…M+P, because some readers have one list of groups for all
+/// dimensions. Points have their numbers plus 1, tets too, and triangles follow the tets.
+namespace tessera::formats {
+
+/// @brief A kind of cell as MSH numbers it.
+struct MshCellType {
+  std::int32_t dimension = 0;
+  std::int32_t number = 0;
+  std::size_t num_points = 0;
+};
+inline constexpr MshCellType kMshTriangle{2, 2, 3};
+inline constexpr MshCellType kMshTet{3, 4, 4};
+
+/// @brief Bytes of numbers, one behind the other. MSH's size_t is a GlobalIndex here.
+class MshBytes {
+ public:
+  MshBytes& add(std::int32_t value) { return add_bytes(&value, sizeof(value)); }
+  MshBytes& add(GlobalIndex value) { return add_bytes(&value, sizeof(value)); }
+  MshBytes& add(const Box& box)
+  {
+    return add_bytes(box.lowest.data(), sizeof(box.lowest))
+        .add_bytes(box.highest.data(), sizeof(box.highest));
+  }
+  MshBytes& add(std::string_view text) { return add_bytes(text.data(), text.size()); }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] std::string take() && { return std::move(text_); }
+
+ private:
+  MshBytes& add_bytes(const void* data, std::size_t size)
+  {
+    text_.append(static_cast<const char*>(data), size);
+    return *this;
+  }
+
+  std::string text_{};
+};
+
+/// @brief An array as the bytes that it has in a file. Borrowed.
+template <class Value>
+[[nodiscard]] std::string_view bytes_of(const std::vector<Value>& values)
+{
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+}
+
+/// @brief The tag of a patch in files. Local.
+[[nodiscard]] std::int32_t msh_tag_of_patch(const Outline& outline, std::int32_t patch);
+
+/// @brief Cells of one kind of a piece.
+struct MshCells {
+  MshCellType type{};
+  std::span<const LocalIndex> points{};  ///< Shape (num_cells, type.num_points): rows.
+  std::span<const std::int32_t> tags{};  ///< Shape (num_cells): materials or patches.
+  std::span<const TagCount> counts{};    ///< How many cells have which tag; ascending.
+  GlobalIndex first_element = 0;         ///< Tag of the first cell in files.
+};
+
+/// @brief The triangles of a piece. Local. Borrows from both.
+[[nodiscard]] MshCells msh_triangles(const Outline& outline, const Piece& piece);
+
+/// @brief The tets of a piece. Local. Borrows from both.
+[[nodiscard]] MshCells msh_tets(const Outline& outline, const Piece& piece);
+
+/// @brief What a block of version 4.1 holds of a piece: of each cell with a tag, its own tag as an
+/// element and those of its nodes. Local.
+/// @return Shape (count.count, cells.type.num_points + 1).
+[[nodiscard]] std::vector<GlobalIndex> msh4_records(const Piece& piece, const MshCells& cells,
+                                                    const TagCount& count);
+
+/// @brief A model's entity, which is a physical group too.
+struct MshEntity {
+  std::int32_t dimension = 0;
+  std::int32_t tag = 0;
+  std::string name{};
+  Box box{};  ///< Of the pieces that have cells of it; of the mesh if none has.
+};
+
+/// @brief Patches, then materials. Names can be read by all readers: of 127 bytes at most, without
+/// quotes, backslashes and control characters, none twice. Local.
+[[nodiscard]] std::vector<MshEntity> msh_entities(const Outline& outline);
+
+/// @brief $PhysicalNames, which is text in binary files too. Local.
+[[nodiscard]] std::string msh_physical_names(const std::vector<MshEntity>& entities);
+
+/// @brief What binary files of version 4.1 begin with, up to $EndEntities. Local.
+[[nodiscard]] std::string msh4_head(const std::vector<MshEntity>& entities);
+
+/// @brief $Nodes up to the tags of its only block. Local.
+/// @param[in] entity Of dimension 3. @param[in] first, last Least and greatest tag.
+[[nodiscard]] std::string msh4_nodes_head(std::int32_t entity, GlobalIndex num_nodes,
+                                          GlobalIndex first, GlobalIndex last);
+
+/// @brief $Elements up to its first block. Local.
+[[nodiscard]] std::string msh4_elements_head(GlobalIndex num_blocks, GlobalIndex num_elements,
+                                             GlobalIndex first, GlobalIndex last);
+
+/// @brief Begins a block of elements. Local.
+[[nodiscard]] std::string msh4_block_head(const MshCellType& type, std::int32_t entity,
+                                          GlobalIndex num_elements);
+
+/// @brief An entity in $Entities or $PartitionedEntities behind its first tags. Local.
+void msh4_add_entity(const MshEntity& entity, MshBytes& bytes);
+
+inline constexpr const char* kMshEndNodes = "\n$EndNodes\n";
+inline constexpr const char* kMshEndElements = "\n$EndElements\n";
+
+}  // namespace tessera::formats
