@@ -80,6 +80,9 @@ Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links
     piece.tet_material.push_back(mesh.tags.tag_of_material.at(value));
   add_triangles(loaded, links, mesh.tags, piece);
   piece.seams = links.seams;
+  for (const auto& [a, b] : links.shared_edges)
+    piece.shared_edges.push_back({rows[at(a)], rows[at(b)]});
+  piece.edge_sharers = links.edge_sharers;
   return piece;
 }
 

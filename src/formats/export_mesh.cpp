@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/formats/export_mesh.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -52,7 +53,10 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
                     const std::function<void()>& before_each)
 {
   const PieceSource source(request.mesh, comm);
-  LinkedMesh mesh = link_pieces(source, comm, before_each);
+  const bool wants_edges =
+      std::ranges::find(request.formats, io::Format::mfem) != request.formats.end();
+  LinkedMesh mesh = link_pieces(source, comm, before_each,
+                                wants_edges ? SharedEdges::wanted : SharedEdges::not_wanted);
   Writers writers;
   all_or_none(comm, [&] { writers = make_writers(request, mesh.outline); });
   on_first_rank(comm, writers, &Writer::begin);

@@ -14,9 +14,10 @@
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/record_exchange.hpp"
 #include "tessera/mesh/tet_topology.hpp"
-#include "tessera/migrate/tet_neighbours.hpp"
 
+#include "formats/link_edges.hpp"
 #include "formats/name_tags.hpp"
+#include "formats/tets_behind.hpp"
 
 namespace tessera::formats {
 namespace {
@@ -46,10 +47,10 @@ struct OtherSide {
   static auto fields(auto& self) { return std::tie(self.piece, self.tet); }
 };
 
-struct OtherPieces {
-  std::vector<LocalIndex> pieces{};
-
-  static auto fields(auto& self) { return std::tie(self.pieces); }
+// Those of a piece, as in its file.
+struct Triangles {
+  std::vector<LocalIndex> side{};
+  std::vector<std::int32_t> patch{};
 };
 
 // What is found while a piece is there.
@@ -57,15 +58,6 @@ struct Skin {
   std::vector<OpenFace> faces{};
   std::vector<SkinPoint> points{};
 };
-
-std::vector<LocalIndex> tets_behind(const LoadedPiece& piece)
-{
-  migrate::MeshBlock block;
-  block.vertex_ids.resize(piece.point_keys.size());
-  block.tet_ids.resize(piece.material.size());
-  block.tet_vertices = piece.tet_points;
-  return migrate::tets_behind_faces(block);
-}
 
 TriangleKey key_of_side(const LoadedPiece& piece, LocalIndex side)
 {
@@ -105,8 +97,8 @@ std::vector<TagCount> counted(const std::vector<std::int32_t>& values)
 // Pieces of a rank under way to being linked.
 class Linker {
  public:
-  Linker(const PieceSource& source, const comm::Communicator& comm)
-      : source_(source), comm_(comm), first_(source.first_of(comm.rank()))
+  Linker(const PieceSource& source, const comm::Communicator& comm, SharedEdges edges)
+      : source_(source), comm_(comm), edges_(edges), first_(source.first_of(comm.rank()))
   {
     const auto num_own = at(source.first_of(comm.rank() + 1) - first_);
     links_.resize(num_own);
@@ -119,8 +111,9 @@ class Linker {
       before_each();
       const LocalIndex number = first_ + static_cast<LocalIndex>(i);
       const LoadedPiece piece = source_.load(number);
-      const std::vector<LocalIndex> behind = tets_behind(piece);
+      const std::vector<LocalIndex> behind = tets_behind(piece.num_points(), piece.tet_points);
       add_skin(piece, number, behind, skin_);
+      if (edges_ == SharedEdges::wanted) skin_edges_.push_back(skin_edges(piece, behind));
       for (const LocalIndex side : piece.triangle_side)
         links_[i].is_inner_triangle.push_back(behind[at(side)] == kNoIndex ? 0 : 1);
       counts_[i] = {.num_points = piece.num_points(),
@@ -128,7 +121,7 @@ class Linker {
                     .num_triangles = static_cast<GlobalIndex>(piece.triangle_side.size()),
                     .tets_of_material = counted(piece.material),
                     .triangles_of_patch = counted(piece.patch)};
-      triangle_sides_.push_back(piece.triangle_side);
+      triangles_.push_back({piece.triangle_side, piece.patch});
     }
   }
 
@@ -168,17 +161,22 @@ class Linker {
   {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       PieceLinks& links = links_[i];
-      for (std::size_t t = 0; t < triangle_sides_[i].size(); ++t) {
-        if (std::ranges::binary_search(links.seams, triangle_sides_[i][t], {}, &SeamFace::side))
-          links.is_inner_triangle[t] = 1;
-      }
-      if (source_.has_boundary()) continue;
       const auto num_open = static_cast<GlobalIndex>(links.open_sides.size());
+      counts_[i].num_open_faces = num_open;
+      std::vector<std::int32_t> outer_patches;
+      for (std::size_t t = 0; t < triangles_[i].side.size(); ++t) {
+        if (std::ranges::binary_search(links.seams, triangles_[i].side[t], {}, &SeamFace::side))
+          links.is_inner_triangle[t] = 1;
+        if (links.is_inner_triangle[t] == 0) outer_patches.push_back(triangles_[i].patch[t]);
+      }
+      counts_[i].outer_triangles_of_patch = counted(outer_patches);
+      if (source_.has_boundary()) continue;
       links.is_inner_triangle.assign(links.open_sides.size(), 0);
       counts_[i].num_triangles = num_open;
       if (num_open > 0) counts_[i].triangles_of_patch = {{0, num_open}};
+      counts_[i].outer_triangles_of_patch = counts_[i].triangles_of_patch;
     }
-    triangle_sides_ = {};
+    triangles_ = {};
   }
 
   void link_points()
@@ -201,7 +199,9 @@ class Linker {
       links.sharers.add(answers[p].pieces);
     }
     skin_.points = std::move(shared);
-    count_own_points();
+    count_shared();
+    if (edges_ == SharedEdges::wanted)
+      link_edges(std::exchange(skin_edges_, {}), first_, comm_, links_);
   }
 
   // Needs to know where the numbers of each piece begin.
@@ -238,7 +238,7 @@ class Linker {
         [](const SkinPoint& point) { return std::tuple(point.piece, point.row); }, visit);
   }
 
-  void count_own_points()
+  void count_shared()
   {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const LocalIndex number = first_ + static_cast<LocalIndex>(i);
@@ -250,8 +250,10 @@ class Linker {
         for (const LocalIndex other : others) ++shared_with[other];
       }
       counts_[i].num_own_points = counts_[i].num_points - num_foreign;
+      std::map<LocalIndex, GlobalIndex> num_faces;
+      for (const SeamFace& seam : links_[i].seams) ++num_faces[seam.other_piece];
       for (const auto& [other, num_points] : shared_with)
-        counts_[i].neighbours.push_back({other, num_points});
+        counts_[i].neighbours.push_back({other, num_points, num_faces[other]});
     }
   }
 
@@ -271,11 +273,13 @@ class Linker {
 
   const PieceSource& source_;
   const comm::Communicator& comm_;
+  SharedEdges edges_;
   LocalIndex first_;
   std::vector<PieceLinks> links_{};
   std::vector<PieceCounts> counts_{};
-  std::vector<std::vector<LocalIndex>> triangle_sides_{};
+  std::vector<Triangles> triangles_{};
   Skin skin_{};
+  std::vector<SkinEdges> skin_edges_{};
   LocalIndex counted_piece_ = kNoIndex;
   LocalIndex next_shared_ = 0;
   LocalIndex num_left_out_ = 0;
@@ -296,9 +300,9 @@ Outline outline_of(std::vector<PieceCounts> pieces)
 }  // namespace
 
 LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm,
-                       const std::function<void()>& before_each)
+                       const std::function<void()>& before_each, SharedEdges edges)
 {
-  Linker linker(source, comm);
+  Linker linker(source, comm, edges);
   all_or_none(comm, [&] { linker.look_at_pieces(before_each); });
   linker.link_faces();
   linker.mark_inner_triangles();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -28,8 +29,12 @@ struct TagCount {
 struct PieceNeighbour {
   LocalIndex piece = 0;
   GlobalIndex num_shared_points = 0;
+  GlobalIndex num_shared_faces = 0;
 
-  static auto fields(auto& self) { return std::tie(self.piece, self.num_shared_points); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.piece, self.num_shared_points, self.num_shared_faces);
+  }
 };
 
 /// @brief What is in one piece.
@@ -40,12 +45,16 @@ struct PieceCounts {
   GlobalIndex num_triangles = 0;
   std::vector<TagCount> tets_of_material{};    ///< Ascending; none of zero.
   std::vector<TagCount> triangles_of_patch{};  ///< Ascending; none of zero.
-  std::vector<PieceNeighbour> neighbours{};    ///< Ascending.
+  /// The same without those that have a tet on the other side too.
+  std::vector<TagCount> outer_triangles_of_patch{};
+  GlobalIndex num_open_faces = 0;            ///< Of tets: with no tet on the other side anywhere.
+  std::vector<PieceNeighbour> neighbours{};  ///< Ascending.
 
   static auto fields(auto& self)
   {
     return std::tie(self.num_own_points, self.num_points, self.num_tets, self.num_triangles,
-                    self.tets_of_material, self.triangles_of_patch, self.neighbours);
+                    self.tets_of_material, self.triangles_of_patch, self.outer_triangles_of_patch,
+                    self.num_open_faces, self.neighbours);
   }
 };
 
@@ -96,6 +105,10 @@ struct Piece {
   std::vector<LocalIndex> shared_points{};  ///< Rows of points that other pieces have; ascending.
   IndexLists sharers{};           ///< Shape (num_shared, …): those other pieces, ascending.
   std::vector<SeamFace> seams{};  ///< Ascending by side.
+
+  /// Shape (num_shared_edges): points of edges that other pieces have; empty unless asked for.
+  std::vector<std::array<LocalIndex, 2>> shared_edges{};
+  IndexLists edge_sharers{};  ///< Shape (num_shared_edges, …): those other pieces, ascending.
 
   [[nodiscard]] LocalIndex num_points() const
   {

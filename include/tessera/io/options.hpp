@@ -11,10 +11,14 @@ namespace tessera::io {
 
 /// @brief Forms that a mesh is written in.
 enum class Format : int {
-  pvtu,  ///< Piece files in VTU, and indices of them in PVTU.
-  xdmf,  ///< HDF5 with an index in XDMF.
+  pvtu,             ///< Piece files in VTU, and indices of them in PVTU.
+  xdmf,             ///< HDF5 with an index in XDMF.
+  elmer,            ///< Elmer's partitioning.N.
+  mfem,             ///< MFEM's parallel mesh, a file a piece.
+  openfoam,         ///< A decomposed case of OpenFOAM.
+  openfoam_serial,  ///< A case of OpenFOAM for one process.
 };
-[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::xdmf; }
+[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::openfoam_serial; }
 
 /// @brief Words of `output.formats`, and of `tessera convert`.
 constexpr auto enum_words(Format /*tag*/)
@@ -22,6 +26,10 @@ constexpr auto enum_words(Format /*tag*/)
   return std::to_array<EnumWord<Format>>({
       {Format::pvtu, "pvtu"},
       {Format::xdmf, "xdmf"},
+      {Format::elmer, "elmer"},
+      {Format::mfem, "mfem"},
+      {Format::openfoam, "openfoam"},
+      {Format::openfoam_serial, "openfoam-serial"},
   });
 }
 
