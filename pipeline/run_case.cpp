@@ -47,6 +47,18 @@ void require_order_possible(const config::Case& given, const MeshOptions& option
   throw ConfigError(fmt::format("{} knows tets of first order only; set output.order = 1", what));
 }
 
+// Other formats hold straight tets only, and need files to be made of.
+void require_formats_possible(const config::Case& given, const MeshOptions& options)
+{
+  if (given.output.formats == std::vector{io::Format::pvtu}) return;
+  if (given.output.order == 2) {
+    throw ConfigError(
+        "output.formats: only pvtu holds tets of second order; set output.order = 1 or "
+        "output.formats = [\"pvtu\"]");
+  }
+  if (options.on_piece) throw ConfigError("output.formats: MeshOptions::on_piece writes no files");
+}
+
 // Before anything is done: what the case alone decides. All ranks have the same one.
 void require_possible(const config::Case& given, const MeshOptions& options)
 {
@@ -76,6 +88,7 @@ class CaseRun {
   {
     all_or_none(comm, [&] {
       require_order_possible(given, options, is_mesh());
+      require_formats_possible(given, options);
       require_possible(given, options);
       if (comm.rank() == 0) open_folder();
     });

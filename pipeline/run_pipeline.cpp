@@ -83,7 +83,7 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
     run_write_stage(run.resolved, outline.files, mesh, run.filled, context);
   }
   write_indices(run.resolved, outline.files, mesh, run.filled, context);
-  run_export_stage(run.resolved, context);
+  run.files = run_export_stage(run.resolved, context);
   return run;
 }
 

@@ -7,6 +7,7 @@
 #include "tessera/config/case.hpp"
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/fill/options.hpp"
+#include "tessera/formats/piece.hpp"
 #include "tessera/mesh/edge_levels.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/model/model.hpp"
@@ -42,6 +43,7 @@ struct RunResult {
   std::vector<LocalIndex> only_subdomains{};  ///< As asked for; empty: all.
   GlobalIndex num_vertices = 0;               ///< Of the whole mesh, made or not.
   GlobalIndex num_tets = 0;
+  std::vector<formats::PieceCounts> files{};  ///< Of run_export_stage(); may be empty.
 };
 
 /// @brief The coarse mesh of a run, cut, with the levels on which pieces are filled. Local.

@@ -224,6 +224,18 @@ Json libraries_json()
           {"mpi", comm::mpi_version()}};
 }
 
+// [file, other file, points that both have], each pair once.
+Json file_neighbours_json(const std::vector<formats::PieceCounts>& files)
+{
+  Json pairs = Json::array();
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    for (const formats::PieceNeighbour& other : files[f].neighbours) {
+      if (at(other.piece) > f) pairs.push_back({f, other.piece, other.num_shared_points});
+    }
+  }
+  return pairs;
+}
+
 // Names from CAD files are in any encoding: what is not UTF-8 is replaced, not refused.
 std::string text_of(const Json& json)
 {
@@ -394,6 +406,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   if (run.resolved.output.parts > 0) {
     json["parts"] = {{"tets", tets_of_parts(run)}, {"balance", balance_of_parts(run)}};
   }
+  if (!run.files.empty()) json["file_neighbours"] = file_neighbours_json(run.files);
   json["subdomains"] = subdomains_json(run);
   json["subdomain_graph"] = graph_json(run.decomposition.decomposition);
   json["libraries"] = libraries_json();

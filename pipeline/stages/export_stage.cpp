@@ -2,6 +2,8 @@
 #include "pipeline/stages/export_stage.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,17 +13,22 @@
 
 namespace tessera::pipeline {
 
-void run_export_stage(const config::Case& run_case, RunContext& context)
+std::vector<formats::PieceCounts> run_export_stage(const config::Case& run_case,
+                                                   RunContext& context)
 {
   std::vector<io::Format> others = run_case.output.formats;
   std::erase(others, io::Format::pvtu);
-  if (others.empty()) return;
-  StageScope stage(context, "export");
-  const formats::Outline mesh =
-      formats::export_mesh({context.folder / "mesh.pvtu", others, context.folder}, context.comm,
-                           throw_if_stop_requested);
+  const bool is_first_order = run_case.output.order == 1;
+  if (others.empty() && (run_case.output.parts == 0 || !is_first_order)) return {};
+  StageScope stage(context, others.empty() ? "neighbours" : "export");
+  const std::filesystem::path index = context.folder / "mesh.pvtu";
+  formats::Outline mesh = others.empty()
+                              ? formats::outline_of(index, context.comm, throw_if_stop_requested)
+                              : formats::export_mesh({index, others, context.folder}, context.comm,
+                                                     throw_if_stop_requested);
   stage.work_is_done();
-  stage.finish(fmt::format("{} formats, {} tets", others.size(), mesh.num_tets()));
+  stage.finish(fmt::format("{} pieces in {} more formats", mesh.num_pieces(), others.size()));
+  return std::move(mesh.pieces);
 }
 
 }  // namespace tessera::pipeline

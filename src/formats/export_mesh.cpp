@@ -67,4 +67,10 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
   return std::move(mesh.outline);
 }
 
+Outline outline_of(const std::filesystem::path& mesh, const comm::Communicator& comm,
+                   const std::function<void()>& before_each)
+{
+  return link_pieces(PieceSource(mesh, comm), comm, before_each).outline;
+}
+
 }  // namespace tessera::formats

@@ -134,8 +134,41 @@ class Sides {
   std::unordered_map<Triangle, LocalIndex, TriangleHash> rows_{};
 };
 
+// The side of tet `t` with the points of the triangle.
+LocalIndex side_of(const Triangle& triangle, std::size_t t,
+                   const std::vector<LocalIndex>& tet_points)
+{
+  LocalIndex side = kNoIndex;
+  int num_others = 0;
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    if (std::ranges::find(triangle, tet_points[4 * t + corner]) != triangle.end()) continue;
+    side = static_cast<LocalIndex>(4 * t + corner);
+    ++num_others;
+  }
+  return num_others == 1 ? side : kNoIndex;
+}
+
+// For triangles that say which tet is behind them; empty if they do not.
+std::vector<LocalIndex> sides_by_id(const std::vector<Triangle>& triangles,
+                                    const mesh::MeshArrays& boundary,
+                                    const std::vector<GlobalIndex>& tet_ids,
+                                    const std::vector<LocalIndex>& tet_points)
+{
+  const auto tets = boundary.cell_longs.find("tet");
+  if (tets == boundary.cell_longs.end() || !std::ranges::is_sorted(tet_ids)) return {};
+  std::vector<LocalIndex> sides;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto found = std::ranges::lower_bound(tet_ids, tets->second[i]);
+    if (found == tet_ids.end() || *found != tets->second[i]) return {};
+    const auto row = static_cast<std::size_t>(found - tet_ids.begin());
+    sides.push_back(side_of(triangles[i], row, tet_points));
+  }
+  return sides;
+}
+
 void add_triangles(const mesh::MeshArrays& boundary, const std::vector<VertexKey>& keys,
-                   const fs::path& file, LoadedPiece& piece)
+                   const std::vector<GlobalIndex>& tet_ids, const fs::path& file,
+                   LoadedPiece& piece)
 {
   const std::vector<LocalIndex> row = rows_of(keys, piece.point_keys, file);
   std::vector<Triangle> triangles;
@@ -143,7 +176,9 @@ void add_triangles(const mesh::MeshArrays& boundary, const std::vector<VertexKey
     const LocalIndex* const point = boundary.cell_points.data() + i;
     triangles.push_back({row[at(point[0])], row[at(point[1])], row[at(point[2])]});
   }
-  piece.triangle_side = Sides(triangles).find(triangles, piece.tet_points);
+  piece.triangle_side = sides_by_id(triangles, boundary, tet_ids, piece.tet_points);
+  if (piece.triangle_side.empty())
+    piece.triangle_side = Sides(triangles).find(triangles, piece.tet_points);
   if (std::ranges::find(piece.triangle_side, kNoIndex) != piece.triangle_side.end()) {
     throw InputError(file.string() + ": it has triangles that no tet of its piece has");
   }
@@ -230,7 +265,8 @@ LoadedPiece PieceSource::load(LocalIndex number) const
   if (!boundary_ || (*boundary_)[at(number)].empty()) return piece;
   const fs::path& boundary_file = (*boundary_)[at(number)];
   const mesh::MeshArrays boundary = read_cells(boundary_file, 3);
-  add_triangles(boundary, keys_of_points(boundary, identity_, boundary_file), boundary_file, piece);
+  add_triangles(boundary, keys_of_points(boundary, identity_, boundary_file), cells.cell_ids,
+                boundary_file, piece);
   return piece;
 }
 

@@ -25,6 +25,18 @@ constexpr const char* kMaterial = "/cells/material";
 constexpr const char* kPiece = "/cells/piece";
 constexpr const char* kTriangles = "/boundary/triangles";
 constexpr const char* kPatch = "/boundary/patch";
+// Of the partition: where the points, tets and triangles of each piece begin, shape
+// (num_pieces + 1, 3), and rows of (piece, other piece, points that both have).
+constexpr const char* kFirsts = "/pieces/first_point_tet_triangle";
+constexpr const char* kNeighbours = "/pieces/neighbours";
+
+GlobalIndex num_neighbours(const Outline& outline)
+{
+  GlobalIndex sum = 0;
+  for (const PieceCounts& piece : outline.pieces)
+    sum += static_cast<GlobalIndex>(piece.neighbours.size());
+  return sum;
+}
 
 Hdf5Layout layout_of(const Outline& outline)
 {
@@ -35,7 +47,9 @@ Hdf5Layout layout_of(const Outline& outline)
                      {kMaterial, Hdf5Type::int32, num_tets, 1, {}},
                      {kPiece, Hdf5Type::int32, num_tets, 1, {}},
                      {kTriangles, Hdf5Type::int64, num_triangles, 3, {}},
-                     {kPatch, Hdf5Type::int32, num_triangles, 1, {}}},
+                     {kPatch, Hdf5Type::int32, num_triangles, 1, {}},
+                     {kFirsts, Hdf5Type::int64, outline.num_pieces() + 1, 3, {}},
+                     {kNeighbours, Hdf5Type::int64, num_neighbours(outline), 3, {}}},
           .texts = {{"/names/materials", outline.material_names},
                     {"/names/patches", outline.patch_names}}};
 }
@@ -110,11 +124,11 @@ class XdmfWriter final : public Writer {
   {
     file_.create();
     make_hdf5_file(file_.temporary_path(), layout_);
+    write_partition();
   }
 
   void write(const Piece& piece) override
   {
-    if (offsets_.empty()) offsets_ = hdf5_offsets(file_.temporary_path(), layout_);
     const GlobalIndex tet = outline_.first_tet[at(piece.number)];
     const GlobalIndex triangle = outline_.first_triangle[at(piece.number)];
     put<double>(kPoints, 3 * outline_.first_point[at(piece.number)],
@@ -135,10 +149,27 @@ class XdmfWriter final : public Writer {
   }
 
  private:
+  void write_partition()
+  {
+    std::vector<GlobalIndex> firsts;
+    std::vector<GlobalIndex> neighbours;
+    for (std::size_t p = 0; p < outline_.first_tet.size(); ++p) {
+      firsts.insert(firsts.end(),
+                    {outline_.first_point[p], outline_.first_tet[p], outline_.first_triangle[p]});
+    }
+    for (LocalIndex p = 0; p < outline_.num_pieces(); ++p) {
+      for (const PieceNeighbour& other : outline_.pieces[at(p)].neighbours)
+        neighbours.insert(neighbours.end(), {p, other.piece, other.num_shared_points});
+    }
+    put<GlobalIndex>(kFirsts, 0, firsts);
+    put<GlobalIndex>(kNeighbours, 0, neighbours);
+  }
+
   template <class Value>
   void put(const std::string& array, GlobalIndex first, std::span<const Value> values)
   {
     if (values.empty()) return;
+    if (offsets_.empty()) offsets_ = hdf5_offsets(file_.temporary_path(), layout_);
     file_.write(offsets_.at(array) + first * static_cast<GlobalIndex>(sizeof(Value)),
                 std::as_bytes(values));
   }

@@ -1,9 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """output.parts: balanced parts of whole subdomains, one file each, the same for any number of ranks."""
+import itertools
 import unittest
+
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 import program
 from program import OK, WRONG_INPUT
+
+
+def point_ids(file):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    return set(vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("GlobalPointIds")).tolist())
+
+
+def shared_points(folder):
+    """[file, other file, points that both have], as report.json has it."""
+    ids = [point_ids(file) for file in sorted((folder / "mesh").iterdir())]
+    pairs = itertools.combinations(range(len(ids)), 2)
+    counts = [[a, b, len(ids[a] & ids[b])] for a, b in pairs]
+    return [count for count in counts if count[2] > 0]
 
 
 class Parts(program.ProgramTest):
@@ -18,6 +37,7 @@ class Parts(program.ProgramTest):
         self.assertEqual(sum(figures["parts"]["tets"]), figures["num_tets"])
         # Shared out by predicted tets, which for pieces of some hundred are a fifth off.
         self.assertLess(figures["parts"]["balance"], 1.3)
+        self.assertEqual(figures["file_neighbours"], shared_points(alone))
         self.assertEqual(sorted(f.name for f in (alone / "mesh").iterdir()), [f"piece_{i:06}.vtu" for i in range(3)])
         for ranks in (2, 3):
             other = self.mesh(self.case, f"ranks_{ranks}", "--set", "output.parts=3", ranks=ranks)

@@ -29,6 +29,11 @@ struct ExportRequest {
 Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm,
                     const std::function<void()>& before_each);
 
+/// @brief What pieces have and share, from their files alone: the first of the two readings.
+/// @note Collective. @throws as export_mesh().
+[[nodiscard]] Outline outline_of(const std::filesystem::path& mesh, const comm::Communicator& comm,
+                                 const std::function<void()>& before_each);
+
 /// @brief Bytes on disk for each tet of a large mesh, beside the piece files. Local.
 [[nodiscard]] double bytes_per_tet(io::Format format);
 

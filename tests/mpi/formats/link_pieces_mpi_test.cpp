@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tessera/comm/communicator.hpp"
+#include "tessera/io/vtu.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+
+#include "support/box_pieces.hpp"
+#include "support/shared_folder.hpp"
+
+#include "formats/link_pieces.hpp"
+
+namespace tessera::formats {
+namespace {
+
+namespace fs = std::filesystem;
+
+const testing::BoxPieces kBox(1, 2);  // 8 pieces of 48 tets, 125 points, 192 triangles outside.
+
+enum class Files { whole, without_ids, without_boundary };
+
+mesh::MeshArrays tets_of(LocalIndex piece, Files files)
+{
+  mesh::MeshArrays tets = kBox.tets(piece);
+  if (files == Files::without_ids) tets.point_ids.clear();
+  if (files == Files::without_ids) tets.cell_ids.clear();
+  tets.field_texts = {{"material_names", {"steel"}}, {"patch_names", {"skin", "", "skin"}}};
+  return tets;
+}
+
+mesh::MeshArrays boundary_of(LocalIndex piece, Files files)
+{
+  mesh::MeshArrays triangles = kBox.boundary(piece);
+  if (files == Files::without_ids) {
+    triangles.point_ids.clear();
+    triangles.cell_longs.clear();
+  }
+  for (std::size_t i = 0; i < triangles.cell_ints["patch"].size(); ++i)
+    triangles.cell_ints["patch"][i] = static_cast<std::int32_t>(i % 3);
+  return triangles;
+}
+
+// A corner of a tet or triangle as all pieces tell it.
+using Position = std::array<double, 3>;
+
+struct Point {
+  GlobalIndex number = 0;
+  Position position{};
+
+  static auto fields(auto& self) { return std::tie(self.number, self.position); }
+};
+
+struct Seam {
+  LocalIndex piece = 0;
+  GlobalIndex tet = 0;
+  LocalIndex other_piece = 0;
+  GlobalIndex other_tet = 0;
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.piece, self.tet, self.other_piece, self.other_tet);
+  }
+};
+
+class LinkPieces : public ::testing::TestWithParam<Files> {
+ protected:
+  LinkPieces()
+  {
+    if (comm_.rank() == 0) write_files();
+    comm_.barrier();
+    const PieceSource source(folder_ / "mesh.pvtu", comm_);
+    mesh_ = link_pieces(source, comm_, [] {});
+    for (std::size_t i = 0; i < mesh_.links.size(); ++i) {
+      const LocalIndex number = source.first_of(comm_.rank()) + static_cast<LocalIndex>(i);
+      own_.push_back(build_piece(source.load(number), number, mesh_.links[i], mesh_));
+    }
+  }
+
+  void write_files() const
+  {
+    fs::create_directories(folder_ / "mesh");
+    fs::create_directories(folder_ / "boundary");
+    std::vector<fs::path> tets;
+    std::vector<fs::path> boundary;
+    for (LocalIndex p = 0; p < kBox.num_pieces(); ++p) {
+      const std::string name = "piece_" + std::to_string(p) + ".vtu";
+      tets.push_back(fs::path("mesh") / name);
+      boundary.push_back(fs::path("boundary") / name);
+      io::write_vtu(tets_of(p, GetParam()), folder_ / tets.back(), io::Compression::none);
+      io::write_vtu(boundary_of(p, GetParam()), folder_ / boundary.back(), io::Compression::none);
+    }
+    io::write_pvtu(folder_ / "mesh.pvtu", tets, tets_of(0, GetParam()));
+    if (GetParam() != Files::without_boundary)
+      io::write_pvtu(folder_ / "boundary.pvtu", boundary, boundary_of(0, GetParam()));
+  }
+
+  static Position position(const Piece& piece, LocalIndex row)
+  {
+    const auto first = 3 * at(row);
+    return {piece.point_xyz[first], piece.point_xyz[first + 1], piece.point_xyz[first + 2]};
+  }
+
+  comm::Communicator comm_{MPI_COMM_WORLD};
+  testing::SharedFolder folder_{comm_};
+  LinkedMesh mesh_{};
+  std::vector<Piece> own_{};
+};
+
+TEST_P(LinkPieces, APointHasOneNumberAndEveryNumberAPoint)
+{
+  std::vector<Point> points;
+  for (const Piece& piece : own_)
+    for (LocalIndex row = 0; row < piece.num_points(); ++row)
+      points.push_back({piece.point_numbers[at(row)], position(piece, row)});
+  std::map<GlobalIndex, Position> position_of;
+  std::map<Position, GlobalIndex> number_of;
+  for (const Point& point : comm_.all_gather_rows(points)) {
+    EXPECT_EQ(position_of.emplace(point.number, point.position).first->second, point.position);
+    EXPECT_EQ(number_of.emplace(point.position, point.number).first->second, point.number);
+  }
+  EXPECT_EQ(position_of.size(), 125U);
+  EXPECT_EQ(position_of.begin()->first, 0);
+  EXPECT_EQ(position_of.rbegin()->first, 124);
+  EXPECT_EQ(mesh_.outline.num_points(), 125);
+}
+
+TEST_P(LinkPieces, OwnPointsComeFirstAndHaveTheNumbersOfThePiece)
+{
+  for (const Piece& piece : own_) {
+    const GlobalIndex first = mesh_.outline.first_point[at(piece.number)];
+    for (LocalIndex row = 0; row < piece.num_own_points; ++row)
+      EXPECT_EQ(piece.point_numbers[at(row)], first + row);
+    for (LocalIndex row = piece.num_own_points; row < piece.num_points(); ++row)
+      EXPECT_LT(piece.point_numbers[at(row)], first);
+    ASSERT_EQ(piece.sharers.num_lists(), static_cast<LocalIndex>(piece.shared_points.size()));
+    EXPECT_TRUE(std::ranges::is_sorted(piece.shared_points));
+    for (LocalIndex s = 0; s < piece.sharers.num_lists(); ++s) {
+      const bool is_own = piece.shared_points[at(s)] < piece.num_own_points;
+      EXPECT_EQ(piece.sharers[s].front() > piece.number, is_own);
+    }
+  }
+}
+
+TEST_P(LinkPieces, SeamsNameTheTetOnTheOtherSide)
+{
+  std::vector<Seam> seams;
+  for (const Piece& piece : own_) {
+    for (const SeamFace& seam : piece.seams)
+      seams.push_back({piece.number, mesh_.outline.first_tet[at(piece.number)] + seam.side / 4,
+                       seam.other_piece, seam.other_tet});
+  }
+  const std::vector<Seam> all = comm_.all_gather_rows(seams);
+  std::multiset<std::tuple<LocalIndex, GlobalIndex, LocalIndex, GlobalIndex>> found;
+  for (const Seam& seam : all)
+    found.emplace(seam.piece, seam.tet, seam.other_piece, seam.other_tet);
+  EXPECT_EQ(all.size(), 2U * 12U * 8U);  // Twelve faces between pieces, of eight triangles each.
+  for (const Seam& seam : all) {
+    EXPECT_NE(seam.piece, seam.other_piece);
+    EXPECT_EQ(found.count({seam.other_piece, seam.other_tet, seam.piece, seam.tet}), 1U);
+  }
+}
+
+TEST_P(LinkPieces, TrianglesAreFacesSeenFromOutside)
+{
+  GlobalIndex num_own = 0;
+  for (const Piece& piece : own_) {
+    num_own += piece.num_triangles();
+    for (LocalIndex i = 0; i < piece.num_triangles(); ++i) {
+      const LocalIndex side = piece.triangle_side[at(i)];
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t corner = mesh::kTetFaceCorners[at(side % 4)][c];
+        EXPECT_EQ(piece.triangle_points[3 * at(i) + c],
+                  piece.tet_points[4 * at(side / 4) + corner]);
+      }
+      EXPECT_EQ(piece.is_inner_triangle[at(i)], 0);
+    }
+  }
+  EXPECT_EQ(comm_.sum(num_own), 192);
+  EXPECT_EQ(mesh_.outline.num_triangles(), 192);
+}
+
+TEST_P(LinkPieces, TagsBeginAtOneAndPatchesOfOneNameAreOne)
+{
+  EXPECT_EQ(mesh_.outline.material_names, std::vector<std::string>{"steel"});
+  EXPECT_EQ(mesh_.outline.patch_names, (std::vector<std::string>{"skin", "patch_2"}));
+  std::map<std::int32_t, GlobalIndex> triangles;
+  for (const PieceCounts& piece : mesh_.outline.pieces) {
+    EXPECT_EQ(piece.tets_of_material.front().tag, 1);
+    for (const TagCount& count : piece.triangles_of_patch) triangles[count.tag] += count.count;
+  }
+  const bool has_patches = GetParam() != Files::without_boundary;
+  EXPECT_EQ(triangles[1], has_patches ? 128 : 192);
+  EXPECT_EQ(triangles[2], has_patches ? 64 : 0);
+}
+
+TEST_P(LinkPieces, NeighboursSayHowManyPointsTheyShare)
+{
+  for (LocalIndex p = 0; p < mesh_.outline.num_pieces(); ++p) {
+    std::multiset<GlobalIndex> shared;
+    for (const PieceNeighbour& neighbour : mesh_.outline.pieces[at(p)].neighbours)
+      shared.insert(neighbour.num_shared_points);
+    // Three faces, three edges and a corner of a cube of 3 x 3 x 3 points.
+    EXPECT_EQ(shared, (std::multiset<GlobalIndex>{1, 3, 3, 3, 9, 9, 9}));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllFiles, LinkPieces,
+                         ::testing::Values(Files::whole, Files::without_ids,
+                                           Files::without_boundary));
+
+}  // namespace
+}  // namespace tessera::formats

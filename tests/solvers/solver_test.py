@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of solvers share: meshes of two cases, and what VTK says of them."""
+import argparse
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+
+
+def _arguments():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--tessera", type=pathlib.Path, required=True, help="the program")
+    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).parents[2])
+    return parser.parse_known_args()
+
+
+def main():
+    """Runs the tests of the calling script; arguments that are not ours go to unittest."""
+    unittest.main(argv=[sys.argv[0], *_arguments()[1]])
+
+
+def run(command, folder=None, timeout_s=300, **more):
+    """Its standard output; an AssertionError with all that it said if it fails."""
+    done = subprocess.run(
+        [str(word) for word in command], cwd=folder, timeout=timeout_s, text=True, check=False,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **more,
+    )  # fmt: skip
+    if done.returncode != 0:
+        raise AssertionError(f"{command} ended with {done.returncode}:\n{done.stdout[-4000:]}")
+    return done.stdout
+
+
+def mpirun(ranks, command, **more):
+    return run(["mpirun", "--oversubscribe", "-n", ranks, *command], **more)
+
+
+def read_pvtu(file):
+    """Points, cells and arrays by name of a mesh of one kind of cells."""
+    reader = vtkXMLPUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    grid = reader.GetOutput()
+    num_cells = grid.GetNumberOfCells()
+    cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(num_cells, -1)
+    arrays = {}
+    for data in (grid.GetPointData(), grid.GetCellData()):
+        for i in range(data.GetNumberOfArrays()):
+            arrays[data.GetArrayName(i)] = vtk_to_numpy(data.GetArray(i))
+    texts = {}
+    for i in range(grid.GetFieldData().GetNumberOfArrays()):
+        lines = grid.GetFieldData().GetAbstractArray(i)
+        texts[lines.GetName()] = [lines.GetValue(j) for j in range(lines.GetNumberOfValues())]
+    return vtk_to_numpy(grid.GetPoints().GetData()), cells, arrays, texts
+
+
+class Mesh:
+    """A mesh of one of the cases in configs/cases, in a folder of its own."""
+
+    def __init__(self, case, parts, *settings):
+        options = _arguments()[0]
+        self.program = options.tessera.resolve()
+        self.root = options.root.resolve()
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tessera_solver_"))
+        self.mesh = self.folder / "mesh"
+        keys = ["fill.kernel='optimize'", f"output.parts={parts}", *settings]
+        run([
+            self.program, "mesh", self.root / f"configs/cases/{case}.toml", "--output", self.mesh,
+            *[word for key in keys for word in ("--set", key)],
+        ])  # fmt: skip
+
+    def remove(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def convert(self, name):
+        """Folder with the mesh in another format."""
+        folder = self.folder / name
+        run([self.program, "convert", self.mesh / "mesh.pvtu", "--format", name, "--output", folder])
+        return folder
+
+    def report(self):
+        return json.loads((self.mesh / "report.json").read_text(encoding="utf-8"))
+
+    def num_tets(self):
+        return len(read_pvtu(self.mesh / "mesh.pvtu")[1])
+
+    def volumes(self):
+        """By name of the material."""
+        points, tets, arrays, texts = read_pvtu(self.mesh / "mesh.pvtu")
+        a, b, c, d = (points[tets[:, i]] for i in range(4))
+        volumes = numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6.0
+        sums = numpy.bincount(arrays["attribute"], weights=volumes)
+        return dict(zip(texts["material_names"], sums[1:].tolist()))
+
+    def areas(self):
+        """By name of the patch; those of one name together, inner ones once."""
+        points, triangles, arrays, texts = read_pvtu(self.mesh / "boundary.pvtu")
+        a, b, c = (points[triangles[:, i]] for i in range(3))
+        areas = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2.0
+        sums = {}
+        for patch, area in enumerate(numpy.bincount(arrays["patch"], weights=areas)):
+            name = texts["patch_names"][patch]
+            sums[name] = sums.get(name, 0.0) + float(area)
+        return sums
+
+    def outer_areas(self):
+        """As areas(), of faces with one tet only."""
+        tets = read_pvtu(self.mesh / "mesh.pvtu")
+        ids = tets[2]["GlobalPointIds"][tets[1]]
+        faces = numpy.sort(numpy.concatenate([numpy.delete(ids, i, axis=1) for i in range(4)]))
+        faces, count = numpy.unique(numpy.sort(faces, axis=1), axis=0, return_counts=True)
+        inner = {tuple(face) for face in faces[count == 2]}
+        points, triangles, arrays, texts = read_pvtu(self.mesh / "boundary.pvtu")
+        corners = numpy.sort(arrays["GlobalPointIds"][triangles], axis=1)
+        a, b, c = (points[triangles[:, i]] for i in range(3))
+        areas = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2.0
+        sums = {}
+        for corner, patch, area in zip(corners, arrays["patch"], areas):
+            if tuple(corner) not in inner:
+                name = texts["patch_names"][patch]
+                sums[name] = sums.get(name, 0.0) + float(area)
+        return sums
