@@ -56,7 +56,8 @@ struct LinkedMesh {
 /// where the numbers of each begin.
 /// @note Collective. @throws InputError on all ranks.
 [[nodiscard]] LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm,
-                                     const std::function<void()>& before_each, SharedEdges edges);
+                                     const std::function<void()>& before_each,
+                                     SharedEdges edges = SharedEdges::not_wanted);
 
 /// @brief Joins what the files hold and what was found. Local.
 [[nodiscard]] Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links,
