@@ -21,11 +21,11 @@ double bytes_per_tet(io::Format format)
     case io::Format::elmer:
       return 60.0;
     case io::Format::mfem:
-      return 60.0;
+      return 45.0;
     case io::Format::openfoam:
-      return 60.0;
+      return 57.0;
     case io::Format::openfoam_serial:
-      return 60.0;
+      return 57.0;
   }
   return 0.0;
 }

@@ -124,7 +124,8 @@ TEST(ConfigErrors, WordListsRefuseUnknownRepeatedAndNoWords)
   }
   EXPECT_TRUE(error_of_key("[output]\nformats = [\"vtk\"]")
                   .starts_with("case.toml:6: output.formats = [\"vtk\"]: must be a list without "
-                               "repetitions, not empty, of: \"pvtu\", \"xdmf\""));
+                               "repetitions, not empty, of: \"pvtu\", \"xdmf\", \"elmer\", \"mfem\", "
+                               "\"openfoam\", \"openfoam-serial\""));
 }
 
 TEST(ConfigErrors, AWordThatNoKernelHasIsRefusedWithThoseThatThereAre)
