@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -58,15 +61,37 @@ GlobalIndex num_outer_triangles(const PieceCounts& piece)
   return sum;
 }
 
+std::string system_text(const SystemFile& file)
+{
+  return foam_header({.format = "ascii", .kind = "dictionary", .location = "system"}, file.name)
+         + file.text;
+}
+
 // Keeps one that is there: it is the user's.
 void add_system_file(const std::filesystem::path& folder, const SystemFile& file)
 {
   const std::filesystem::path path = folder / "system" / file.name;
   io::make_own_folder(folder / "system");
-  if (std::filesystem::exists(path)) return;
-  write_whole_file(
-      path, foam_header({.format = "ascii", .kind = "dictionary", .location = "system"}, file.name)
-                + file.text);
+  if (!std::filesystem::exists(path)) write_whole_file(path, system_text(file));
+}
+
+SystemFile decomposition(const std::string& num_processors)
+{
+  return {"decomposeParDict",
+          fmt::format("numberOfSubdomains {};\nmethod scotch;\n", num_processors)};
+}
+
+// Whether it is one of ours, for whatever number of processors.
+bool is_own_decomposition(const std::filesystem::path& path)
+{
+  std::ifstream file(path);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  constexpr const char* kDigits = "0123456789";
+  const auto key = text.find("numberOfSubdomains");
+  if (key == std::string::npos) return false;
+  const auto begin = text.find_first_of(kDigits, key);
+  const auto end = text.find_first_not_of(kDigits, begin);
+  return text == system_text(decomposition(text.substr(std::min(begin, text.size()), end - begin)));
 }
 
 }  // namespace
@@ -112,9 +137,10 @@ void write_foam_system(const std::filesystem::path& folder)
 
 void write_foam_decomposition(const std::filesystem::path& folder, LocalIndex num_processors)
 {
-  add_system_file(folder,
-                  {"decomposeParDict",
-                   fmt::format("numberOfSubdomains {};\nmethod scotch;\n", num_processors)});
+  const SystemFile file = decomposition(std::to_string(num_processors));
+  const std::filesystem::path path = folder / "system" / file.name;
+  if (is_own_decomposition(path)) write_whole_file(path, system_text(file));
+  add_system_file(folder, file);
 }
 
 }  // namespace tessera::formats

@@ -41,8 +41,8 @@ inline constexpr GlobalIndex kMaxFoamFaces = INT32_MAX / 3;
 /// keeps those that are there. One process. @throws OutputError
 void write_foam_system(const std::filesystem::path& folder);
 
-/// @brief Writes decomposeParDict, without which nothing runs in parallel; keeps one that is there.
-/// One process. @throws OutputError
+/// @brief Writes decomposeParDict, without which nothing runs in parallel; keeps one that is there,
+/// unless it is ours. One process. @throws OutputError
 void write_foam_decomposition(const std::filesystem::path& folder, LocalIndex num_processors);
 
 }  // namespace tessera::formats

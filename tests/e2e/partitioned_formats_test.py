@@ -413,10 +413,17 @@ class PartitionedFormats(program.ProgramTest):
 
     def test_openfoam_keeps_what_users_wrote(self):
         self.assertEqual(self.convert("out").code, OK)
-        dictionary = self.folder / "out/system/controlDict"
-        dictionary.write_text("mine")
-        self.assertEqual(self.convert("out", "--overwrite").code, OK)
-        self.assertEqual(dictionary.read_text(), "mine")
+        system = self.folder / "out/system"
+        (system / "controlDict").write_text("mine")
+        numbers = system / "decomposeParDict"
+        ours = numbers.read_text()
+        self.assertIn(f"numberOfSubdomains {PARTS};", ours)
+        of_another_mesh = ours.replace(str(PARTS), "24")
+        for found, expected in ((of_another_mesh, ours), (of_another_mesh + "mine", of_another_mesh + "mine")):
+            numbers.write_text(found)
+            self.assertEqual(self.convert("out", "--overwrite").code, OK)
+            self.assertEqual(numbers.read_text(), expected)
+        self.assertEqual((system / "controlDict").read_text(), "mine")
 
 
 if __name__ == "__main__":

@@ -218,10 +218,17 @@ class Openfoam(unittest.TestCase):
         numpy.testing.assert_allclose(parallel, serial, rtol=0.0, atol=1e-8)
 
     def test_reconstructed_from_parts(self):
-        """reconstructParMesh joins the parts to a mesh that checkMesh accepts."""
-        folder = self.folders["bracket"]["openfoam"]
-        run(["reconstructParMesh", "-constant", "-mergeTol", "1e-9"], folder=folder, env=OPENFOAM)
+        """reconstructParMesh joins the parts to a mesh that checkMesh accepts, and reconstructPar the
+        fields on them."""
+        serial, _ = self.solve("core", lambda part, name: part.values_where_normals_meet(name, linear))
+        folder = self.folders["core"]["openfoam"]
+        for command in (["reconstructParMesh", "-constant"], ["reconstructPar"]):
+            run(command, folder=folder, env=OPENFOAM)
         self.assertIn("Mesh OK.", run(["checkMesh", "-constant"], folder=folder, env=OPENFOAM))
+        joined = Case(folder)
+        self.assertEqual(joined.num_cells(), len(serial))
+        exact = linear(joined.cell_centres())
+        numpy.testing.assert_allclose(joined.temperatures(), exact, rtol=0.0, atol=1e-7 * numpy.ptp(exact))
 
 
 if __name__ == "__main__":
