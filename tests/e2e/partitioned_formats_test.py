@@ -7,6 +7,7 @@ import itertools
 import pathlib
 import re
 import resource
+import shutil
 import sys
 import unittest
 
@@ -362,6 +363,27 @@ class PartitionedFormats(program.ProgramTest):
         mesh = PolyMesh(self.source)
         self.assert_openfoam([mesh])
         self.assertEqual(len({tuple(point) for point in mesh.points.tolist()}), len(mesh.points))
+
+    def test_faces_without_a_patch(self):
+        """Those of a part whose triangles are missing; OpenFOAM wants every face in a patch."""
+        mesh = shutil.copytree(self.source, self.folder / "mesh")
+        index = (mesh / "boundary.pvtu").read_text().splitlines(keepends=True)
+        pieces = [line for line in index if "<Piece" in line]
+        self.assertEqual(len(pieces), PARTS)
+        (mesh / "boundary.pvtu").write_text("".join(line for line in index if line != pieces[0]))
+        formats = ("--format", "openfoam", "--format", "openfoam-serial")
+        outcome = self.run_program("convert", mesh / "mesh.pvtu", *formats, "--output", "out", ranks=2)
+        self.assertEqual(outcome.code, OK, outcome.err)
+        whole, numbers = PolyMesh(self.folder / "out"), []
+        self.assert_upper_triangular(whole)
+        for number in range(PARTS):
+            part = PolyMesh(self.folder / f"out/processor{number}")
+            self.assert_upper_triangular(part)
+            self.assertEqual(list(part.outer_patches()), list(whole.patches))
+            numbers.append({name: end - begin for name, (_, begin, end, _) in part.outer_patches().items()})
+        self.assertEqual([bool(number["defaultFaces"]) for number in numbers], [True] + [False] * (PARTS - 1))
+        for name, (_, begin, end, _) in whole.patches.items():
+            self.assertEqual(end - begin, sum(number[name] for number in numbers))
 
     def test_any_number_of_ranks(self):
         """The same bits, also as `mesh` writes them itself."""

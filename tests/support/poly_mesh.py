@@ -6,9 +6,9 @@ import numpy
 
 
 def body_of(file):
-    """What follows the head of a binary file."""
+    """What follows the head of a binary file, and the comment that OpenFOAM puts behind it."""
     content = file.read_bytes()
-    return content[content.index(b"}\n") + 2 :]
+    return re.sub(rb"\A\s*//.*\n", b"", content[content.index(b"}\n") + 2 :])
 
 
 def read_list(content, kind, begin=0):
@@ -50,7 +50,7 @@ class PolyMesh:
     def read_boundary(file):
         """By name: type, first face, end of its faces, both processors."""
         patches = {}
-        for name, text in re.findall(r"(\S+)\n\{\n(.*?)\}", body_of(file).decode(), re.DOTALL):
+        for name, text in re.findall(r"(\S+)\s*\{(.*?)\}", body_of(file).decode(), re.DOTALL):
             entry = dict(re.findall(r"(\w+) +([^;]+);", text))
             begin = int(entry["startFace"])
             pair = tuple(int(entry[key]) for key in ("myProcNo", "neighbProcNo") if key in entry)
