@@ -15,6 +15,8 @@
 #include "tessera/migrate/partition.hpp"
 #include "tessera/subdomain/mesh_input.hpp"
 
+#include "subdomain/consecutive_points.hpp"
+
 namespace tessera::subdomain {
 namespace {
 
@@ -156,6 +158,7 @@ MeshShare read_mesh(const std::filesystem::path& mesh, const comm::Communicator&
       ghosts_of(assembled.mesh, options.num_ghost_layers, comm);
   MeshShare share = own_share(std::move(assembled.mesh), comm);
   for (const migrate::GhostTets& of_rank : ghosts) add_ghosts(of_rank, share);
+  if (options.consecutive_points) number_consecutively(share, comm);
   add_names(std::move(texts), share);
   share.notes = std::move(assembled.notes);
   return share;

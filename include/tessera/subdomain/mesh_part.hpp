@@ -59,6 +59,11 @@ struct MeshShare : MeshPart {
   /// ascending.
   IndexLists point_sharers{};
 
+  /// With ReadOptions::consecutive_points, shape (num_points): numbers from 0 such that those of
+  /// the points that a rank owns follow each other, and those of the ranks below it. Else empty.
+  std::vector<GlobalIndex> point_numbers{};
+  GlobalIndex first_own_number = 0;  ///< The number of the first point that this rank owns.
+
   GlobalIndex num_global_points = 0;     ///< Of the whole mesh, as the next two.
   GlobalIndex num_global_tets = 0;       ///< Each counted on the rank that has it as its own.
   GlobalIndex num_global_triangles = 0;  ///< On the geometry.

@@ -17,6 +17,8 @@ enum class ReadPartition : int {
 /// @brief How read_mesh() deals a mesh out.
 struct ReadOptions {
   ReadPartition partition = ReadPartition::files;
+  /// Also number the points by ranks, as PETSc and DOLFINx want them: `point_numbers`.
+  bool consecutive_points = false;
   int num_ghost_layers = 0;  ///< Layers of other ranks' tets around the share; see find_ghosts().
 };
 

@@ -302,6 +302,30 @@ TEST_F(ReadMesh, GhostsAreTheTetsOfOthersWithinTheLayers)
   }
 }
 
+TEST_F(ReadMesh, NumbersOfPointsFollowTheRanks)
+{
+  const MeshShare share = read({.consecutive_points = true, .num_ghost_layers = 1});
+  ASSERT_EQ(share.point_numbers.size(), share.point_ids.size());
+  GlobalIndex next = share.first_own_number;
+  std::vector<std::array<GlobalIndex, 2>> ids;  // With numbers.
+  for (std::size_t p = 0; p < share.point_ids.size(); ++p) {
+    ids.push_back({share.point_ids[p], share.point_numbers[p]});
+    if (share.point_owner[p] != comm_.rank()) continue;
+    EXPECT_EQ(share.point_numbers[p], next++);
+  }
+  std::map<GlobalIndex, GlobalIndex> number_of;
+  std::set<GlobalIndex> numbers;
+  for (const auto& [id, number] : comm_.all_gather_rows(ids)) {
+    EXPECT_EQ(number_of.emplace(id, number).first->second, number);
+    numbers.insert(number);
+  }
+  EXPECT_EQ(number_of.size(), 125U);
+  EXPECT_EQ(numbers.size(), 125U);
+  EXPECT_EQ(*numbers.begin(), 0);
+  EXPECT_EQ(*numbers.rbegin(), 124);
+  EXPECT_TRUE(read().point_numbers.empty());
+}
+
 TEST_F(ReadMesh, BalancedGivesEveryRankAnEqualShare)
 {
   const MeshShare share = read({.partition = ReadPartition::balanced, .num_ghost_layers = 1});
