@@ -53,10 +53,12 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
                     const std::function<void()>& before_each)
 {
   const PieceSource source(request.mesh, comm);
-  const bool wants_edges =
-      std::ranges::find(request.formats, io::Format::mfem) != request.formats.end();
-  LinkedMesh mesh = link_pieces(source, comm, before_each,
-                                wants_edges ? SharedEdges::wanted : SharedEdges::not_wanted);
+  const auto has = [&](io::Format format) {
+    return std::ranges::find(request.formats, format) != request.formats.end();
+  };
+  LinkedMesh mesh = link_pieces(
+      source, comm, before_each,
+      {.shared_edges = has(io::Format::mfem), .face_numbers = has(io::Format::openfoam)});
   Writers writers;
   all_or_none(comm, [&] { writers = make_writers(request, mesh.outline); });
   on_first_rank(comm, writers, &Writer::begin);

@@ -12,6 +12,7 @@
 #include "tessera/io/files.hpp"
 
 #include "formats/foam_text.hpp"
+#include "formats/number_faces.hpp"
 #include "formats/whole_file.hpp"
 
 namespace tessera::formats {
@@ -103,13 +104,6 @@ GlobalIndex num_patch_faces(const PieceCounts& piece, std::int32_t tag)
   return found == piece.outer_triangles_of_patch.end() ? 0 : found->count;
 }
 
-GlobalIndex num_inner_faces(const PieceCounts& piece)
-{
-  GlobalIndex with_two = 4 * piece.num_tets - piece.num_open_faces;
-  for (const PieceNeighbour& neighbour : piece.neighbours) with_two -= neighbour.num_shared_faces;
-  return with_two / 2;
-}
-
 FoamCase foam_case(const Outline& outline)
 {
   FoamCase result;
@@ -128,6 +122,19 @@ FoamCase foam_case(const Outline& outline)
     add_patch(names[i], static_cast<std::int32_t>(i) + 1);
   add_patch(names.back(), kNoPatchTag);
   return result;
+}
+
+FoamLayout foam_layout(const Outline& outline)
+{
+  FoamLayout layout{.names = foam_case(outline), .inner = {outline, 0, [&](LocalIndex piece) {
+                                                             return num_owned_faces(outline, piece);
+                                                           }}};
+  for (const FoamPatch& patch : layout.names.patches) {
+    layout.patches.emplace_back(outline, layout.num_faces(), [&](LocalIndex piece) {
+      return num_patch_faces(outline.pieces[at(piece)], patch.tag);
+    });
+  }
+  return layout;
 }
 
 void write_foam_system(const std::filesystem::path& folder)

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,40 @@ struct FoamCase {
 /// @brief Outer triangles of a patch in a piece, or its faces without a patch. Local.
 [[nodiscard]] GlobalIndex num_patch_faces(const PieceCounts& piece, std::int32_t tag);
 
-/// @brief Faces with both tets in the piece. Local.
-[[nodiscard]] GlobalIndex num_inner_faces(const PieceCounts& piece);
+/// @brief Where the share of each piece begins in an array of the whole mesh.
+class Places {
+ public:
+  Places(const Outline& outline, GlobalIndex begin,
+         const std::function<GlobalIndex(LocalIndex piece)>& count_of)
+      : begins_{begin}
+  {
+    for (LocalIndex piece = 0; piece < outline.num_pieces(); ++piece)
+      begins_.push_back(begins_.back() + count_of(piece));
+  }
+
+  [[nodiscard]] GlobalIndex of(LocalIndex piece) const { return begins_[at(piece)]; }
+  [[nodiscard]] GlobalIndex begin() const { return begins_.front(); }
+  [[nodiscard]] GlobalIndex end() const { return begins_.back(); }
+  [[nodiscard]] GlobalIndex size() const { return end() - begin(); }
+
+ private:
+  std::vector<GlobalIndex> begins_;
+};
+
+/// @brief Where the faces of the pieces stand in the serial mesh.
+struct FoamLayout {
+  FoamCase names{};
+  Places inner;                   ///< Faces between two tets, in the piece of the lower one.
+  std::vector<Places> patches{};  ///< Of names.patches.
+
+  [[nodiscard]] GlobalIndex num_faces() const
+  {
+    return patches.empty() ? inner.end() : patches.back().end();
+  }
+};
+
+/// @brief Local.
+[[nodiscard]] FoamLayout foam_layout(const Outline& outline);
 
 /// @brief The most faces of one mesh: its lists have indices of 32 bits into their corners.
 inline constexpr GlobalIndex kMaxFoamFaces = INT32_MAX / 3;

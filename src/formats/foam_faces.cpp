@@ -28,7 +28,7 @@ std::vector<LocalIndex> faces_without_patch(const Piece& piece)
 
 }  // namespace
 
-std::vector<FoamFace> foam_inner_faces(const Piece& piece, GlobalIndex first_tet, FoamOwned owned)
+std::vector<FoamFace> foam_inner_faces(const Piece& piece, GlobalIndex first_tet)
 {
   const std::vector<LocalIndex> behind = tets_behind(piece.num_points(), piece.tet_points);
   std::vector<FoamFace> faces;
@@ -39,8 +39,7 @@ std::vector<FoamFace> foam_inner_faces(const Piece& piece, GlobalIndex first_tet
     for (LocalIndex side = 4 * tet; side < 4 * tet + 4; ++side) {
       if (behind[at(side)] > tet) faces.push_back({side, first_tet + behind[at(side)]});
       if (seam == piece.seams.end() || seam->side != side) continue;
-      if (owned == FoamOwned::in_mesh && seam->other_piece > piece.number)
-        faces.push_back({side, seam->other_tet});
+      if (seam->other_piece > piece.number) faces.push_back({side, seam->other_tet});
       ++seam;
     }
     std::ranges::sort(faces.begin() + first_of_tet, faces.end(), {}, &FoamFace::neighbour);

@@ -18,16 +18,10 @@ struct FoamFace {
   GlobalIndex neighbour = 0;  ///< Number in the whole mesh, above the owner's.
 };
 
-/// @brief Which faces have their owner in a piece.
-enum class FoamOwned : int {
-  in_piece,  ///< Those with both tets in the piece.
-  in_mesh,   ///< Also those with the second tet in a later piece.
-};
-
-/// @brief Faces between two tets, by owner and then by neighbour. Local; linear in time.
+/// @brief Faces between two tets of which the lower one is in the piece, by owner and then by
+/// neighbour; the neighbour may be in a later piece. Local; linear in time.
 /// @param[in] first_tet Number of the piece's first tet in the whole mesh.
-[[nodiscard]] std::vector<FoamFace> foam_inner_faces(const Piece& piece, GlobalIndex first_tet,
-                                                     FoamOwned owned);
+[[nodiscard]] std::vector<FoamFace> foam_inner_faces(const Piece& piece, GlobalIndex first_tet);
 
 /// @brief Faces to another piece, in an order that both pieces find. Local.
 [[nodiscard]] std::vector<LocalIndex> foam_seam_faces(const Piece& piece, GlobalIndex first_tet,

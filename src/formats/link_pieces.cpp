@@ -17,6 +17,7 @@
 
 #include "formats/link_edges.hpp"
 #include "formats/name_tags.hpp"
+#include "formats/number_faces.hpp"
 #include "formats/tets_behind.hpp"
 
 namespace tessera::formats {
@@ -56,6 +57,7 @@ struct Triangles {
 // What is found while a piece is there.
 struct Skin {
   std::vector<OpenFace> faces{};
+  std::vector<LocalIndex> inner_faces_up_to{};  // Of each, see PieceLinks.
   std::vector<SkinPoint> points{};
 };
 
@@ -73,10 +75,17 @@ void add_skin(const LoadedPiece& piece, LocalIndex number, const std::vector<Loc
               Skin& skin)
 {
   std::vector<bool> is_on_skin(piece.point_keys.size(), false);
+  LocalIndex num_inner = 0;
   for (std::size_t side = 0; side < behind.size(); ++side) {
+    if (side % 4 == 0) {
+      num_inner += static_cast<LocalIndex>(std::ranges::count_if(
+          std::span(behind).subspan(side, 4),
+          [&](LocalIndex other) { return other > static_cast<LocalIndex>(side / 4); }));
+    }
     if (behind[side] != kNoIndex) continue;
     const auto face = static_cast<LocalIndex>(side);
     skin.faces.push_back({key_of_side(piece, face), number, face});
+    skin.inner_faces_up_to.push_back(num_inner);
     for (const std::size_t c : mesh::kTetFaceCorners[side % 4])
       is_on_skin[at(piece.tet_points[4 * (side / 4) + c])] = true;
   }
@@ -97,8 +106,8 @@ std::vector<TagCount> counted(const std::vector<std::int32_t>& values)
 // Pieces of a rank under way to being linked.
 class Linker {
  public:
-  Linker(const PieceSource& source, const comm::Communicator& comm, SharedEdges edges)
-      : source_(source), comm_(comm), edges_(edges), first_(source.first_of(comm.rank()))
+  Linker(const PieceSource& source, const comm::Communicator& comm, const LinkOptions& options)
+      : source_(source), comm_(comm), options_(options), first_(source.first_of(comm.rank()))
   {
     const auto num_own = at(source.first_of(comm.rank() + 1) - first_);
     links_.resize(num_own);
@@ -113,7 +122,7 @@ class Linker {
       const LoadedPiece piece = source_.load(number);
       const std::vector<LocalIndex> behind = tets_behind(piece.num_points(), piece.tet_points);
       add_skin(piece, number, behind, skin_);
-      if (edges_ == SharedEdges::wanted) skin_edges_.push_back(skin_edges(piece, behind));
+      if (options_.shared_edges) skin_edges_.push_back(skin_edges(piece, behind));
       for (const LocalIndex side : piece.triangle_side)
         links_[i].is_inner_triangle.push_back(behind[at(side)] == kNoIndex ? 0 : 1);
       counts_[i] = {.num_points = piece.num_points(),
@@ -152,9 +161,11 @@ class Linker {
         links.open_sides.push_back(face.side);
       } else {
         links.seams.push_back({face.side, answers[f].piece, answers[f].tet});
+        links.inner_faces_up_to.push_back(skin_.inner_faces_up_to[f]);
       }
     }
     skin_.faces = {};
+    skin_.inner_faces_up_to = {};
   }
 
   void mark_inner_triangles()
@@ -200,8 +211,7 @@ class Linker {
     }
     skin_.points = std::move(shared);
     count_shared();
-    if (edges_ == SharedEdges::wanted)
-      link_edges(std::exchange(skin_edges_, {}), first_, comm_, links_);
+    if (options_.shared_edges) link_edges(std::exchange(skin_edges_, {}), first_, comm_, links_);
   }
 
   // Needs to know where the numbers of each piece begin.
@@ -222,6 +232,7 @@ class Linker {
       links_of(skin_.points[p].piece).shared_numbers.push_back(answers[p]);
     for (PieceLinks& links : links_)
       for (SeamFace& seam : links.seams) seam.other_tet += outline.first_tet[at(seam.other_piece)];
+    if (options_.face_numbers) number_seam_faces(outline, first_, comm_, links_);
   }
 
   [[nodiscard]] const std::vector<PieceCounts>& counts() const { return counts_; }
@@ -273,7 +284,7 @@ class Linker {
 
   const PieceSource& source_;
   const comm::Communicator& comm_;
-  SharedEdges edges_;
+  LinkOptions options_;
   LocalIndex first_;
   std::vector<PieceLinks> links_{};
   std::vector<PieceCounts> counts_{};
@@ -300,9 +311,9 @@ Outline outline_of(std::vector<PieceCounts> pieces)
 }  // namespace
 
 LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm,
-                       const std::function<void()>& before_each, SharedEdges edges)
+                       const std::function<void()>& before_each, const LinkOptions& options)
 {
-  Linker linker(source, comm, edges);
+  Linker linker(source, comm, options);
   all_or_none(comm, [&] { linker.look_at_pieces(before_each); });
   linker.link_faces();
   linker.mark_inner_triangles();

@@ -22,7 +22,9 @@ struct PieceLinks {
   IndexLists sharers{};                     ///< Other pieces of each, ascending.
   /// Numbers in the whole mesh of the shared points; of the own ones kNoNumber.
   std::vector<GlobalIndex> shared_numbers{};
-  std::vector<SeamFace> seams{};                          ///< Ascending by side.
+  std::vector<SeamFace> seams{};  ///< Ascending by side.
+  /// Shape (num_seams): faces with both tets in the piece that tets up to this one own.
+  std::vector<LocalIndex> inner_faces_up_to{};
   std::vector<LocalIndex> open_sides{};                   ///< On no second tet anywhere; ascending.
   std::vector<std::uint8_t> is_inner_triangle{};          ///< Shape (num_triangles).
   std::vector<std::array<LocalIndex, 2>> shared_edges{};  ///< Empty unless wanted.
@@ -37,8 +39,11 @@ struct OtherPieces {
   static auto fields(auto& self) { return std::tie(self.pieces); }
 };
 
-/// @brief What pieces are asked for that they share. Points and faces are always found.
-enum class SharedEdges { not_wanted, wanted };
+/// @brief What is found beside shared points and faces.
+struct LinkOptions {
+  bool shared_edges = false;
+  bool face_numbers = false;  ///< Of the faces between pieces.
+};
 
 /// @brief From the values in files to tags from 1 with names.
 struct Tags {
@@ -57,7 +62,7 @@ struct LinkedMesh {
 /// @note Collective. @throws InputError on all ranks.
 [[nodiscard]] LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm,
                                      const std::function<void()>& before_each,
-                                     SharedEdges edges = SharedEdges::not_wanted);
+                                     const LinkOptions& options = {});
 
 /// @brief Joins what the files hold and what was found. Local.
 [[nodiscard]] Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links,

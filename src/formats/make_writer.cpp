@@ -23,7 +23,7 @@ double bytes_per_tet(io::Format format)
     case io::Format::mfem:
       return 45.0;
     case io::Format::openfoam:
-      return 57.0;
+      return 70.0;
     case io::Format::openfoam_serial:
       return 57.0;
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,71 +23,29 @@
 namespace tessera::formats {
 namespace {
 
-// Where the share of each piece begins in an array.
-class Places {
- public:
-  Places(const Outline& outline, GlobalIndex begin,
-         const std::function<GlobalIndex(LocalIndex piece)>& count_of)
-      : begins_{begin}
-  {
-    for (LocalIndex piece = 0; piece < outline.num_pieces(); ++piece)
-      begins_.push_back(begins_.back() + count_of(piece));
-  }
-
-  [[nodiscard]] GlobalIndex of(LocalIndex piece) const { return begins_[at(piece)]; }
-  [[nodiscard]] GlobalIndex begin() const { return begins_.front(); }
-  [[nodiscard]] GlobalIndex end() const { return begins_.back(); }
-  [[nodiscard]] GlobalIndex size() const { return end() - begin(); }
-
- private:
-  std::vector<GlobalIndex> begins_;
-};
-
-GlobalIndex num_owned_inner_faces(const Outline& outline, LocalIndex number)
+FoamLayout layout_of(const Outline& outline)
 {
-  const PieceCounts& piece = outline.pieces[at(number)];
-  GlobalIndex count = num_inner_faces(piece);
-  for (const PieceNeighbour& neighbour : piece.neighbours)
-    if (neighbour.piece > number) count += neighbour.num_shared_faces;
-  return count;
+  FoamLayout layout = foam_layout(outline);
+  if (layout.num_faces() <= kMaxFoamFaces) return layout;
+  throw ConfigError(
+      fmt::format("the mesh has {} faces, but OpenFOAM with labels of 32 bits can have {} in one "
+                  "process; take openfoam, with output.parts",
+                  layout.num_faces(), kMaxFoamFaces));
 }
 
-// How the whole mesh is laid out.
-struct Layout {
-  FoamCase names{};
-  Places inner;
-  std::vector<Places> patches{};  // Faces of each.
-  std::vector<Places> zones{};    // Tets of each, from 0.
-
-  [[nodiscard]] GlobalIndex num_faces() const
-  {
-    return patches.empty() ? inner.end() : patches.back().end();
-  }
-};
-
-Layout layout_of(const Outline& outline)
+// Tets of each material, from 0.
+std::vector<Places> zones_of(const Outline& outline)
 {
-  Layout layout{.names = foam_case(outline),
-                .inner = {outline, 0,
-                          [&](LocalIndex piece) { return num_owned_inner_faces(outline, piece); }}};
-  for (const FoamPatch& patch : layout.names.patches) {
-    layout.patches.emplace_back(outline, layout.num_faces(), [&](LocalIndex piece) {
-      return num_patch_faces(outline.pieces[at(piece)], patch.tag);
-    });
-  }
-  for (std::size_t m = 0; m < layout.names.zones.size(); ++m) {
-    layout.zones.emplace_back(outline, 0, [&](LocalIndex piece) {
+  std::vector<Places> zones;
+  for (std::size_t m = 0; m < outline.material_names.size(); ++m) {
+    zones.emplace_back(outline, 0, [&](LocalIndex piece) {
       const auto& counts = outline.pieces[at(piece)].tets_of_material;
       const auto found =
           std::ranges::find(counts, static_cast<std::int32_t>(m) + 1, &TagCount::tag);
       return found == counts.end() ? 0 : found->count;
     });
   }
-  if (layout.num_faces() <= kMaxFoamFaces) return layout;
-  throw ConfigError(
-      fmt::format("the mesh has {} faces, but OpenFOAM with labels of 32 bits can have {} in one "
-                  "process; take openfoam, with output.parts",
-                  layout.num_faces(), kMaxFoamFaces));
+  return zones;
 }
 
 constexpr GlobalIndex kLabelSize = sizeof(std::int32_t);
@@ -116,16 +73,15 @@ struct ZoneFile {
   std::string tail{};
 };
 
-ZoneFile zone_file(const Layout& layout)
+ZoneFile zone_file(const std::vector<std::string>& names, const std::vector<Places>& zones)
 {
   ZoneFile file;
-  std::string between = foam_header({.kind = "regIOobject"}, "cellZones")
-                        + fmt::format("{}\n(\n", layout.zones.size());
-  for (std::size_t m = 0; m < layout.zones.size(); ++m) {
-    const GlobalIndex length = layout.zones[m].size();
+  std::string between =
+      foam_header({.kind = "regIOobject"}, "cellZones") + fmt::format("{}\n(\n", zones.size());
+  for (std::size_t m = 0; m < zones.size(); ++m) {
+    const GlobalIndex length = zones[m].size();
     file.sections.push_back(
-        {between + foam_zone_head(layout.names.zones[m]) + foam_list_head(length), length,
-         kLabelSize});
+        {between + foam_zone_head(names[m]) + foam_list_head(length), length, kLabelSize});
     between = std::string(foam_list_tail(length)) + std::string(kFoamZoneTail);
   }
   file.tail = between + ")\n";
@@ -141,6 +97,7 @@ class OpenfoamSerialWriter final : public Writer {
         folder_(target.folder),
         mesh_(target.folder / "constant" / "polyMesh"),
         layout_(layout_of(target.outline)),
+        zone_places_(zones_of(target.outline)),
         points_(mesh_ / "points",
                 list_section({.kind = "vectorField"}, "points", outline_.num_points(), kPointSize),
                 list_end(outline_.num_points())),
@@ -153,7 +110,8 @@ class OpenfoamSerialWriter final : public Writer {
                    list_section({.kind = "labelList", .note = note()}, "neighbour",
                                 layout_.inner.size(), kLabelSize),
                    list_end(layout_.inner.size())),
-        zones_(mesh_ / "cellZones", zone_file(layout_).sections, zone_file(layout_).tail)
+        zones_(mesh_ / "cellZones", zone_file(layout_.names.zones, zone_places_).sections,
+               zone_file(layout_.names.zones, zone_places_).tail)
   {
   }
 
@@ -205,7 +163,7 @@ class OpenfoamSerialWriter final : public Writer {
   void write_inner_faces(const Piece& piece)
   {
     const std::vector<FoamFace> inner =
-        foam_inner_faces(piece, outline_.first_tet[at(piece.number)], FoamOwned::in_mesh);
+        foam_inner_faces(piece, outline_.first_tet[at(piece.number)]);
     std::vector<LocalIndex> sides;
     std::vector<std::int32_t> neighbours;
     for (const FoamFace& face : inner) {
@@ -237,15 +195,16 @@ class OpenfoamSerialWriter final : public Writer {
   void write_zones(const Piece& piece)
   {
     const std::vector<std::vector<std::int32_t>> tets =
-        foam_zone_tets(piece, layout_.zones.size(), outline_.first_tet[at(piece.number)]);
+        foam_zone_tets(piece, zone_places_.size(), outline_.first_tet[at(piece.number)]);
     for (std::size_t m = 0; m < tets.size(); ++m)
-      zones_.write(m, layout_.zones[m].of(piece.number), foam_bytes(std::span(tets[m])));
+      zones_.write(m, zone_places_[m].of(piece.number), foam_bytes(std::span(tets[m])));
   }
 
   const Outline& outline_;
   const std::filesystem::path& folder_;
   std::filesystem::path mesh_;
-  Layout layout_;
+  FoamLayout layout_;
+  std::vector<Places> zone_places_;
   RecordFile points_;
   RecordFile faces_;
   RecordFile owner_;

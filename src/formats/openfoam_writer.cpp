@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "formats/openfoam_writer.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -16,6 +19,7 @@
 #include "formats/foam_case.hpp"
 #include "formats/foam_faces.hpp"
 #include "formats/foam_text.hpp"
+#include "formats/number_faces.hpp"
 #include "formats/whole_file.hpp"
 
 namespace tessera::formats {
@@ -56,18 +60,25 @@ struct FaceList {
   std::vector<std::int32_t> owner{};
   std::vector<std::int32_t> neighbour{};
   std::vector<FoamBoundary> patches{};
+  /// Of faceProcAddressing: 1 + the number in the serial mesh, negative if seen from the other
+  /// side.
+  std::vector<GlobalIndex> serial{};
 
   [[nodiscard]] GlobalIndex size() const { return static_cast<GlobalIndex>(owner.size()); }
 };
 
 class ProcessorFaces {
  public:
-  ProcessorFaces(const Piece& piece, const Outline& outline, const FoamCase& names)
+  ProcessorFaces(const Piece& piece, const Outline& outline, const FoamLayout& layout)
       : piece_(piece), first_tet_(outline.first_tet[at(piece.number)])
   {
-    add_inner_faces();
-    for (const FoamPatch& patch : names.patches)
+    add_inner_faces(layout.inner.of(piece.number));
+    for (std::size_t k = 0; k < layout.patches.size(); ++k) {
+      const FoamPatch& patch = layout.names.patches[k];
       add_patch({.name = patch.name}, foam_patch_faces(piece, patch.tag));
+      for (GlobalIndex i = 0; i < list_.patches.back().num_faces; ++i)
+        list_.serial.push_back(layout.patches[k].of(piece.number) + i + 1);
+    }
     for (const PieceNeighbour& neighbour : outline.pieces[at(piece.number)].neighbours) {
       if (neighbour.num_shared_faces > 0) add_seam(neighbour.piece);
     }
@@ -76,20 +87,31 @@ class ProcessorFaces {
   [[nodiscard]] FaceList take() { return std::move(list_); }
 
  private:
-  void add_inner_faces()
+  // Those to later pieces are no inner faces here, but have their places among them in the whole.
+  void add_inner_faces(GlobalIndex first_face)
   {
-    for (const FoamFace& face : foam_inner_faces(piece_, first_tet_, FoamOwned::in_piece)) {
+    GlobalIndex number = first_face;
+    for (const FoamFace& face : foam_inner_faces(piece_, first_tet_)) {
+      ++number;
+      if (face.neighbour >= first_tet_ + piece_.num_tets()) continue;
       add(face.side);
       list_.neighbour.push_back(static_cast<std::int32_t>(face.neighbour - first_tet_));
+      list_.serial.push_back(number);
     }
   }
 
   void add_seam(LocalIndex other)
   {
+    const std::vector<LocalIndex> sides = foam_seam_faces(piece_, first_tet_, other);
     add_patch({.name = fmt::format("procBoundary{}to{}", piece_.number, other),
                .processor = piece_.number,
                .other_processor = other},
-              foam_seam_faces(piece_, first_tet_, other));
+              sides);
+    for (const LocalIndex side : sides) {
+      const auto seam = std::ranges::lower_bound(piece_.seams, side, {}, &SeamFace::side);
+      const GlobalIndex number = seam->face_number + 1;
+      list_.serial.push_back(other > piece_.number ? number : -number);
+    }
   }
 
   void add_patch(FoamBoundary patch, const std::vector<LocalIndex>& sides)
@@ -112,6 +134,14 @@ class ProcessorFaces {
   FaceList list_{};
 };
 
+std::vector<std::int32_t> labels_of(const std::vector<GlobalIndex>& numbers)
+{
+  std::vector<std::int32_t> labels;
+  labels.reserve(numbers.size());
+  for (const GlobalIndex number : numbers) labels.push_back(static_cast<std::int32_t>(number));
+  return labels;
+}
+
 std::string faces_text(const FaceList& faces)
 {
   std::vector<std::int32_t> begins(faces.owner.size() + 1);
@@ -133,7 +163,7 @@ std::string zones_text(const Piece& piece, const std::vector<std::string>& names
 class OpenfoamWriter final : public Writer {
  public:
   explicit OpenfoamWriter(const WriterTarget& target)
-      : outline_(target.outline), folder_(target.folder), case_(foam_case(target.outline))
+      : outline_(target.outline), folder_(target.folder), layout_(foam_layout(target.outline))
   {
     require_labels_suffice(outline_);
   }
@@ -149,7 +179,7 @@ class OpenfoamWriter final : public Writer {
   {
     const fs::path mesh = folder_of_processor(folder_, piece.number) / "constant" / "polyMesh";
     io::make_own_folder(mesh);
-    const FaceList faces = ProcessorFaces(piece, outline_, case_).take();
+    const FaceList faces = ProcessorFaces(piece, outline_, layout_).take();
     write_whole_file(mesh / "points",
                      foam_header({.kind = "vectorField"}, "points")
                          + foam_list(std::span(piece.point_xyz), piece.num_points()) + "\n");
@@ -157,7 +187,8 @@ class OpenfoamWriter final : public Writer {
     write_labels(mesh, {.kind = "labelList", .note = note(piece, faces)}, "owner", faces.owner);
     write_labels(mesh, {.kind = "labelList", .note = note(piece, faces)}, "neighbour",
                  faces.neighbour);
-    write_whole_file(mesh / "cellZones", zones_text(piece, case_.zones));
+    write_whole_file(mesh / "cellZones", zones_text(piece, layout_.names.zones));
+    if (layout_.num_faces() < INT32_MAX) write_addressing(mesh, piece, faces);
     write_whole_file(mesh / "boundary", foam_boundary(faces.patches));
   }
 
@@ -168,6 +199,22 @@ class OpenfoamWriter final : public Writer {
                        piece.num_tets(), faces.size(), faces.neighbour.size());
   }
 
+  // What a processor's entities are in the serial mesh, for reconstructPar and decomposePar.
+  void write_addressing(const fs::path& mesh, const Piece& piece, const FaceList& faces) const
+  {
+    std::vector<std::int32_t> cells(piece.tet_material.size());
+    std::iota(cells.begin(), cells.end(),
+              static_cast<std::int32_t>(outline_.first_tet[at(piece.number)]));
+    std::vector<std::int32_t> patches(faces.patches.size(), -1);
+    std::iota(patches.begin(),
+              patches.begin() + static_cast<std::ptrdiff_t>(layout_.patches.size()), 0);
+    const FoamKind kind{.kind = "labelList"};
+    write_labels(mesh, kind, "cellProcAddressing", cells);
+    write_labels(mesh, kind, "faceProcAddressing", labels_of(faces.serial));
+    write_labels(mesh, kind, "pointProcAddressing", labels_of(piece.point_numbers));
+    write_labels(mesh, kind, "boundaryProcAddressing", patches);
+  }
+
   static void write_labels(const fs::path& mesh, const FoamKind& kind, const std::string& name,
                            const std::vector<std::int32_t>& labels)
   {
@@ -176,7 +223,7 @@ class OpenfoamWriter final : public Writer {
 
   const Outline& outline_;
   const fs::path& folder_;
-  FoamCase case_;
+  FoamLayout layout_;
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from writes_test import without_files_of_mpi
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from poly_mesh import PolyMesh  # noqa: E402
+from poly_mesh import PolyMesh, body_of, read_list  # noqa: E402
 
 PARTS = 6
 FORMATS = ("elmer", "mfem", "openfoam", "openfoam-serial")
@@ -364,6 +364,30 @@ class PartitionedFormats(program.ProgramTest):
         self.assert_openfoam([mesh])
         self.assertEqual(len({tuple(point) for point in mesh.points.tolist()}), len(mesh.points))
 
+    def test_openfoam_addressing(self):
+        """What a processor has is, by its addressing, what stands in the serial mesh."""
+        whole, num_turned = PolyMesh(self.source), 0
+        for number in range(PARTS):
+            folder = self.source / f"processor{number}"
+            part = PolyMesh(folder)
+            cells, faces, points, patches = (
+                read_list(body_of(folder / f"constant/polyMesh/{kind}ProcAddressing"), "<i4")[0]
+                for kind in ("cell", "face", "point", "boundary")
+            )
+            numpy.testing.assert_array_equal(whole.points[points], part.points)
+            self.assertEqual((len(cells), len(faces)), (part.num_cells(), len(part.faces)))
+            rows, is_turned = numpy.abs(faces) - 1, faces < 0
+            there = whole.faces[rows]
+            there[is_turned] = there[is_turned][:, [0, 2, 1]]
+            numpy.testing.assert_array_equal(points[part.faces], there)
+            owners = whole.owner[rows]
+            owners[is_turned] = whole.neighbour[rows[is_turned]]
+            numpy.testing.assert_array_equal(cells[part.owner], owners)
+            num_outer = len(whole.patches)
+            self.assertEqual(patches.tolist(), [*range(num_outer), *[-1] * (len(part.patches) - num_outer)])
+            num_turned += int(is_turned.sum())
+        self.assertGreater(num_turned, 0)
+
     def test_faces_without_a_patch(self):
         """Those of a part whose triangles are missing; OpenFOAM wants every face in a patch."""
         mesh = shutil.copytree(self.source, self.folder / "mesh")
@@ -392,7 +416,7 @@ class PartitionedFormats(program.ProgramTest):
             folders.append(self.folder / f"ranks_{ranks}")
             self.assertEqual(self.convert(folders[-1].name, ranks=ranks).code, OK)
         first = hashes(folders[0])
-        self.assertEqual(len(first), 1 + PARTS + 1 + 5 * PARTS + 4 + 6 * PARTS + 6)
+        self.assertEqual(len(first), 1 + PARTS + 1 + 5 * PARTS + 4 + 10 * PARTS + 6)
         for folder in folders[1:]:
             self.assertEqual(hashes(folder), first)
         by_mesh = hashes(self.source)

@@ -80,6 +80,9 @@ struct SeamFace {
   LocalIndex side = 0;  ///< 4 * tet + corner opposite to the face; tet is a row here.
   LocalIndex other_piece = 0;
   GlobalIndex other_tet = 0;  ///< Its number in the whole mesh, from 0.
+  /// Its number among all faces between two tets, by the lower tet and then by the higher one, from
+  /// 0; -1 unless asked for.
+  GlobalIndex face_number = -1;
 };
 
 /// @brief One piece. Rows are local, numbers are those of the whole mesh, from 0.
