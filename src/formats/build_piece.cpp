@@ -93,6 +93,9 @@ Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links
   add_triangles(loaded, links, mesh.tags, piece);
   add_patch_points(links.patch_points, rows, piece);
   piece.seams = links.seams;
+  for (const auto& [a, b] : links.shared_edges)
+    piece.shared_edges.push_back({rows[at(a)], rows[at(b)]});
+  piece.edge_sharers = links.edge_sharers;
   return piece;
 }
 

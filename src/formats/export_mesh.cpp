@@ -63,7 +63,12 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
                     const std::function<void()>& before_each)
 {
   const PieceSource source(request.mesh, comm);
-  LinkedPieces linked{.mesh = link_pieces(source, comm, before_each)};
+  const auto has = [&](io::Format format) {
+    return std::ranges::find(request.formats, format) != request.formats.end();
+  };
+  const LinkOptions options{.shared_edges = has(io::Format::mfem),
+                            .face_numbers = has(io::Format::openfoam)};
+  LinkedPieces linked{.mesh = link_pieces(source, comm, before_each, options)};
   Writers writers;
   all_or_none(comm, [&] { writers = make_writers(request, linked.mesh.outline); });
   if (std::ranges::any_of(writers, [](const auto& writer) { return writer->needs_ghosts(); }))

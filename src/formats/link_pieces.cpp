@@ -14,10 +14,12 @@
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/record_exchange.hpp"
 #include "tessera/mesh/tet_topology.hpp"
-#include "tessera/migrate/tet_neighbours.hpp"
 
+#include "formats/link_edges.hpp"
 #include "formats/name_tags.hpp"
+#include "formats/number_faces.hpp"
 #include "formats/patch_points.hpp"
+#include "formats/tets_behind.hpp"
 
 namespace tessera::formats {
 namespace {
@@ -47,27 +49,19 @@ struct OtherSide {
   static auto fields(auto& self) { return std::tie(self.piece, self.tet); }
 };
 
-struct OtherPieces {
-  std::vector<LocalIndex> pieces{};
-
-  static auto fields(auto& self) { return std::tie(self.pieces); }
+// Those of a piece, as in its file.
+struct Triangles {
+  std::vector<LocalIndex> side{};
+  std::vector<std::int32_t> patch{};
 };
 
 // What is found while a piece is there.
 struct Skin {
   std::vector<OpenFace> faces{};
   std::vector<std::array<LocalIndex, 3>> face_points{};  // Rows of the faces' corners.
+  std::vector<LocalIndex> inner_faces_up_to{};           // Of each, see PieceLinks.
   std::vector<SkinPoint> points{};
 };
-
-std::vector<LocalIndex> tets_behind(const LoadedPiece& piece)
-{
-  migrate::MeshBlock block;
-  block.vertex_ids.resize(piece.point_keys.size());
-  block.tet_ids.resize(piece.material.size());
-  block.tet_vertices = piece.tet_points;
-  return migrate::tets_behind_faces(block);
-}
 
 std::array<LocalIndex, 3> points_of_side(const LoadedPiece& piece, LocalIndex side)
 {
@@ -89,12 +83,19 @@ void add_skin(const LoadedPiece& piece, LocalIndex number, const std::vector<Loc
               Skin& skin)
 {
   std::vector<bool> is_on_skin(piece.point_keys.size(), false);
+  LocalIndex num_inner = 0;
   for (std::size_t side = 0; side < behind.size(); ++side) {
+    if (side % 4 == 0) {
+      num_inner += static_cast<LocalIndex>(std::ranges::count_if(
+          std::span(behind).subspan(side, 4),
+          [&](LocalIndex other) { return other > static_cast<LocalIndex>(side / 4); }));
+    }
     if (behind[side] != kNoIndex) continue;
     const auto face = static_cast<LocalIndex>(side);
     const std::array<LocalIndex, 3> points = points_of_side(piece, face);
     skin.faces.push_back({key_of_points(piece, points), number, face});
     skin.face_points.push_back(points);
+    skin.inner_faces_up_to.push_back(num_inner);
     for (const LocalIndex point : points) is_on_skin[at(point)] = true;
   }
   for (LocalIndex row = 0; row < piece.num_points(); ++row) {
@@ -124,8 +125,8 @@ Box box_of(const std::vector<double>& point_xyz)
 // Pieces of a rank under way to being linked.
 class Linker {
  public:
-  Linker(const PieceSource& source, const comm::Communicator& comm)
-      : source_(source), comm_(comm), first_(source.first_of(comm.rank()))
+  Linker(const PieceSource& source, const comm::Communicator& comm, const LinkOptions& options)
+      : source_(source), comm_(comm), options_(options), first_(source.first_of(comm.rank()))
   {
     const auto num_own = at(source.first_of(comm.rank() + 1) - first_);
     links_.resize(num_own);
@@ -138,8 +139,9 @@ class Linker {
       before_each();
       const LocalIndex number = first_ + static_cast<LocalIndex>(i);
       const LoadedPiece piece = source_.load(number);
-      const std::vector<LocalIndex> behind = tets_behind(piece);
+      const std::vector<LocalIndex> behind = tets_behind(piece.num_points(), piece.tet_points);
       add_skin(piece, number, behind, skin_);
+      if (options_.shared_edges) skin_edges_.push_back(skin_edges(piece, behind));
       add_triangles(piece, behind, links_[i]);
       counts_[i] = {.num_points = piece.num_points(),
                     .num_tets = piece.num_tets(),
@@ -147,7 +149,7 @@ class Linker {
                     .tets_of_material = counted(piece.material),
                     .triangles_of_patch = counted(piece.patch),
                     .box = box_of(piece.point_xyz)};
-      triangle_sides_.push_back(piece.triangle_side);
+      triangles_.push_back({piece.triangle_side, piece.patch});
     }
   }
 
@@ -179,27 +181,34 @@ class Linker {
         if (!source_.has_boundary()) add_patch_points(skin_.face_points[f], 0, links.patch_points);
       } else {
         links.seams.push_back({face.side, answers[f].piece, answers[f].tet});
+        links.inner_faces_up_to.push_back(skin_.inner_faces_up_to[f]);
       }
     }
     skin_.faces = {};
     skin_.face_points = {};
+    skin_.inner_faces_up_to = {};
   }
 
   void mark_inner_triangles()
   {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       PieceLinks& links = links_[i];
-      for (std::size_t t = 0; t < triangle_sides_[i].size(); ++t) {
-        if (std::ranges::binary_search(links.seams, triangle_sides_[i][t], {}, &SeamFace::side))
-          links.is_inner_triangle[t] = 1;
-      }
-      if (source_.has_boundary()) continue;
       const auto num_open = static_cast<GlobalIndex>(links.open_sides.size());
+      counts_[i].num_open_faces = num_open;
+      std::vector<std::int32_t> outer_patches;
+      for (std::size_t t = 0; t < triangles_[i].side.size(); ++t) {
+        if (std::ranges::binary_search(links.seams, triangles_[i].side[t], {}, &SeamFace::side))
+          links.is_inner_triangle[t] = 1;
+        if (links.is_inner_triangle[t] == 0) outer_patches.push_back(triangles_[i].patch[t]);
+      }
+      counts_[i].outer_triangles_of_patch = counted(outer_patches);
+      if (source_.has_boundary()) continue;
       links.is_inner_triangle.assign(links.open_sides.size(), 0);
       counts_[i].num_triangles = num_open;
       if (num_open > 0) counts_[i].triangles_of_patch = {{0, num_open}};
+      counts_[i].outer_triangles_of_patch = counts_[i].triangles_of_patch;
     }
-    triangle_sides_ = {};
+    triangles_ = {};
   }
 
   void link_points()
@@ -222,7 +231,8 @@ class Linker {
       links.sharers.add(answers[p].pieces);
     }
     skin_.points = std::move(shared);
-    count_own_points();
+    count_shared();
+    if (options_.shared_edges) link_edges(std::exchange(skin_edges_, {}), first_, comm_, links_);
   }
 
   // Needs to know where the numbers of each piece begin.
@@ -243,6 +253,7 @@ class Linker {
       links_of(skin_.points[p].piece).shared_numbers.push_back(answers[p]);
     for (PieceLinks& links : links_)
       for (SeamFace& seam : links.seams) seam.other_tet += outline.first_tet[at(seam.other_piece)];
+    if (options_.face_numbers) number_seam_faces(outline, first_, comm_, links_);
   }
 
   /// @return How many points of each patch each piece has.
@@ -285,7 +296,7 @@ class Linker {
         [](const SkinPoint& point) { return std::tuple(point.piece, point.row); }, visit);
   }
 
-  void count_own_points()
+  void count_shared()
   {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const LocalIndex number = first_ + static_cast<LocalIndex>(i);
@@ -297,8 +308,10 @@ class Linker {
         for (const LocalIndex other : others) ++shared_with[other];
       }
       counts_[i].num_own_points = counts_[i].num_points - num_foreign;
+      std::map<LocalIndex, GlobalIndex> num_faces;
+      for (const SeamFace& seam : links_[i].seams) ++num_faces[seam.other_piece];
       for (const auto& [other, num_points] : shared_with)
-        counts_[i].neighbours.push_back({other, num_points});
+        counts_[i].neighbours.push_back({other, num_points, num_faces[other]});
     }
   }
 
@@ -318,11 +331,13 @@ class Linker {
 
   const PieceSource& source_;
   const comm::Communicator& comm_;
+  LinkOptions options_;
   LocalIndex first_;
   std::vector<PieceLinks> links_{};
   std::vector<PieceCounts> counts_{};
-  std::vector<std::vector<LocalIndex>> triangle_sides_{};
+  std::vector<Triangles> triangles_{};
   Skin skin_{};
+  std::vector<SkinEdges> skin_edges_{};
   LocalIndex counted_piece_ = kNoIndex;
   LocalIndex next_shared_ = 0;
   LocalIndex num_left_out_ = 0;
@@ -343,9 +358,9 @@ Outline outline_of(std::vector<PieceCounts> pieces)
 }  // namespace
 
 LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm,
-                       const std::function<void()>& before_each)
+                       const std::function<void()>& before_each, const LinkOptions& options)
 {
-  Linker linker(source, comm);
+  Linker linker(source, comm, options);
   all_or_none(comm, [&] { linker.look_at_pieces(before_each); });
   linker.link_faces();
   linker.mark_inner_triangles();

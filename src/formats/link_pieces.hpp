@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
+#include <tuple>
 #include <vector>
 
 #include "tessera/base/index_lists.hpp"
@@ -20,13 +22,30 @@ struct PieceLinks {
   IndexLists sharers{};                     ///< Other pieces of each, ascending.
   /// Numbers in the whole mesh of the shared points; of the own ones kNoNumber.
   std::vector<GlobalIndex> shared_numbers{};
-  std::vector<SeamFace> seams{};                  ///< Ascending by side.
-  std::vector<LocalIndex> open_sides{};           ///< On no second tet anywhere; ascending.
-  std::vector<std::uint8_t> is_inner_triangle{};  ///< Shape (num_triangles).
-  std::vector<PatchPoint> patch_points{};         ///< As Piece::patch_points.
+  std::vector<SeamFace> seams{};  ///< Ascending by side.
+  /// Shape (num_seams): faces with both tets in the piece that tets up to this one own.
+  std::vector<LocalIndex> inner_faces_up_to{};
+  std::vector<LocalIndex> open_sides{};                   ///< On no second tet anywhere; ascending.
+  std::vector<std::uint8_t> is_inner_triangle{};          ///< Shape (num_triangles).
+  std::vector<PatchPoint> patch_points{};                 ///< As Piece::patch_points.
+  std::vector<std::array<LocalIndex, 2>> shared_edges{};  ///< Empty unless wanted.
+  IndexLists edge_sharers{};                              ///< Other pieces of each, ascending.
 };
 inline constexpr GlobalIndex kNoNumber = -1;
 inline constexpr std::int32_t kNoPatch = 0;
+
+/// @brief The other pieces that have something, ascending; an answer to the piece that asks.
+struct OtherPieces {
+  std::vector<LocalIndex> pieces{};
+
+  static auto fields(auto& self) { return std::tie(self.pieces); }
+};
+
+/// @brief What is found beside shared points and faces.
+struct LinkOptions {
+  bool shared_edges = false;
+  bool face_numbers = false;  ///< Of the faces between pieces.
+};
 
 /// @brief From the values in files to tags from 1 with names.
 struct Tags {
@@ -44,7 +63,8 @@ struct LinkedMesh {
 /// where the numbers of each begin.
 /// @note Collective. @throws InputError on all ranks.
 [[nodiscard]] LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm,
-                                     const std::function<void()>& before_each);
+                                     const std::function<void()>& before_each,
+                                     const LinkOptions& options = {});
 
 /// @brief Joins what the files hold and what was found. Local.
 [[nodiscard]] Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links,

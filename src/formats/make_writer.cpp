@@ -3,12 +3,16 @@
 #include "tessera/formats/export_mesh.hpp"
 
 #include "formats/abaqus_writer.hpp"
+#include "formats/elmer_writer.hpp"
 #include "formats/exodus_writer.hpp"
 #include "formats/medit_writer.hpp"
-#include "formats/pvtu_cells_writer.hpp"
+#include "formats/mfem_writer.hpp"
 #include "formats/msh2_writer.hpp"
 #include "formats/msh_parts_writer.hpp"
 #include "formats/msh_writer.hpp"
+#include "formats/openfoam_serial_writer.hpp"
+#include "formats/openfoam_writer.hpp"
+#include "formats/pvtu_cells_writer.hpp"
 #include "formats/writer.hpp"
 #include "formats/xdmf_writer.hpp"
 
@@ -20,22 +24,30 @@ double bytes_per_tet(io::Format format)
   switch (format) {
     case io::Format::pvtu:
       return 0.0;
-    case io::Format::xdmf:
-      return 46.0;
     case io::Format::abaqus:
       return 63.0;
-    case io::Format::medit:
-      return 52.0;
+    case io::Format::elmer:
+      return 60.0;
     case io::Format::exodus:
       return 37.0;
-    case io::Format::pvtu_cells:
-      return 44.0;
-    case io::Format::msh:
-      return 48.0;
+    case io::Format::medit:
+      return 52.0;
+    case io::Format::mfem:
+      return 45.0;
     case io::Format::msh2:
       return 63.0;
+    case io::Format::msh:
+      return 48.0;
     case io::Format::msh_parts:
       return 54.0;
+    case io::Format::openfoam:
+      return 70.0;
+    case io::Format::openfoam_serial:
+      return 57.0;
+    case io::Format::pvtu_cells:
+      return 44.0;
+    case io::Format::xdmf:
+      return 46.0;
   }
   return 0.0;
 }
@@ -45,22 +57,30 @@ std::unique_ptr<Writer> make_writer(io::Format format, const WriterTarget& targe
   switch (format) {
     case io::Format::pvtu:
       break;
-    case io::Format::xdmf:
-      return make_xdmf_writer(target);
     case io::Format::abaqus:
       return make_abaqus_writer(target);
-    case io::Format::medit:
-      return make_medit_writer(target);
+    case io::Format::elmer:
+      return make_elmer_writer(target);
     case io::Format::exodus:
       return make_exodus_writer(target);
-    case io::Format::pvtu_cells:
-      return make_pvtu_cells_writer(target);
-    case io::Format::msh:
-      return make_msh_writer(target);
+    case io::Format::medit:
+      return make_medit_writer(target);
+    case io::Format::mfem:
+      return make_mfem_writer(target);
     case io::Format::msh2:
       return make_msh2_writer(target);
+    case io::Format::msh:
+      return make_msh_writer(target);
     case io::Format::msh_parts:
       return make_msh_parts_writer(target);
+    case io::Format::openfoam:
+      return make_openfoam_writer(target);
+    case io::Format::openfoam_serial:
+      return make_openfoam_serial_writer(target);
+    case io::Format::pvtu_cells:
+      return make_pvtu_cells_writer(target);
+    case io::Format::xdmf:
+      return make_xdmf_writer(target);
   }
   throw ConfigError("the pieces are in pvtu already");
 }

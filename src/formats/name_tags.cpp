@@ -85,6 +85,7 @@ Tags name_tags(const FileNames& names, Outline& outline)
   for (PieceCounts& piece : outline.pieces) {
     piece.tets_of_material = tagged(piece.tets_of_material, tags.tag_of_material);
     piece.triangles_of_patch = tagged(piece.triangles_of_patch, tags.tag_of_patch);
+    piece.outer_triangles_of_patch = tagged(piece.outer_triangles_of_patch, tags.tag_of_patch);
   }
   outline.length_unit = names.length_unit;
   return tags;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -21,9 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Files and folders that a run makes; nothing else is ever removed.
-constexpr std::array kRunFiles{"mesh.pvtu", "boundary.pvtu", "case.toml", "report.json",
-                               "report.html", "mesh.xdmf", "mesh.h5",  // These and the next ones of other formats.
-                               "mesh.inp",  "mesh.mesh",     "mesh.exo",  "cells.pvtu"};
+constexpr std::array kRunFiles{"mesh.pvtu",   "boundary.pvtu", "case.toml",    "report.json",
+                               "report.html", "mesh.xdmf",     "boundary.xdmf", "mesh.h5",
+                               "mesh.inp",    "mesh.mesh",     "mesh.exo",     "mesh.msh",
+                               "mesh_v2.msh", "mesh.names",    "cells.pvtu"};
 constexpr std::array kPieceFolders{"mesh", "boundary", "pieces", "cells"};
 constexpr std::array kOwnFolders{"log", "failure", "dry_run"};
 
@@ -35,6 +37,23 @@ template <class Names>
 [[nodiscard]] bool has_name(const Names& names, const std::string& name)
 {
   return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// @brief Whether `name` is a number between `head` and `tail`.
+[[nodiscard]] bool is_numbered(std::string_view name, std::string_view head, std::string_view tail)
+{
+  if (name.size() <= head.size() + tail.size()) return false;
+  if (!name.starts_with(head) || !name.ends_with(tail)) return false;
+  name.remove_prefix(head.size());
+  name.remove_suffix(tail.size());
+  return name.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// @brief Files of a run, and of other formats with a file a piece.
+[[nodiscard]] bool is_run_file(const std::string& name)
+{
+  return has_name(kRunFiles, name) || is_numbered(name, "mesh_", ".msh")
+         || is_numbered(name, "mesh.", "");
 }
 
 [[noreturn]] void fail(const std::string& what, const fs::path& path, const std::error_code& error)
@@ -122,6 +141,26 @@ void remove_pieces(const fs::path& folder)
   fs::remove(folder, error);  // Fails, as it should, when a foreign file is in it.
 }
 
+/// @brief Removes what formats with folders of their own have made: Elmer's parts, and of a case of
+/// OpenFOAM its meshes, but nothing that a solver has added.
+void remove_folder_of_format(const fs::path& folder)
+{
+  const std::string name = folder.filename().string();
+  const bool is_part = is_numbered(name, "partitioning.", "");
+  if (!is_part && name != "constant" && !is_numbered(name, "processor", "")) return;
+  std::error_code error;  // What is not empty stays.
+  if (is_part) {
+    for (const fs::directory_entry& entry : entries_of(folder))
+      if (entry.path().filename().string().starts_with("part.")) remove_tree(entry.path());
+  } else {
+    const fs::path constant = name == "constant" ? folder : folder / "constant";
+    if (fs::is_symlink(fs::symlink_status(constant))) return;
+    remove_tree(constant / "polyMesh");
+    fs::remove(constant, error);
+  }
+  fs::remove(folder, error);
+}
+
 void remove_unless_folder(const fs::path& path)
 {
   if (!fs::is_directory(fs::symlink_status(path))) remove_tree(path);
@@ -137,10 +176,11 @@ void remove_earlier_run(const fs::path& folder)
     const std::string name = entry.path().filename().string();
     const bool is_folder = entry.is_directory() && !entry.is_symlink();
     if (name == "case.toml") continue;
+    if (is_folder) remove_folder_of_format(entry.path());
     if (is_folder && has_name(kPieceFolders, name)) {
       remove_pieces(entry.path());
     } else if (is_folder ? has_name(kOwnFolders, name)
-                         : has_name(kRunFiles, name) || has_name(kPieceFolders, name)
+                         : is_run_file(name) || has_name(kPieceFolders, name)
                                || has_name(kOwnFolders, name) || is_temporary_name(name)) {
       remove_tree(entry.path());
     }

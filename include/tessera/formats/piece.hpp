@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -30,8 +31,12 @@ struct TagCount {
 struct PieceNeighbour {
   LocalIndex piece = 0;
   GlobalIndex num_shared_points = 0;
+  GlobalIndex num_shared_faces = 0;
 
-  static auto fields(auto& self) { return std::tie(self.piece, self.num_shared_points); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.piece, self.num_shared_points, self.num_shared_faces);
+  }
 };
 
 /// @brief A box along the axes around points; around none the lowest is above the highest.
@@ -58,15 +63,18 @@ struct PieceCounts {
   GlobalIndex num_triangles = 0;
   std::vector<TagCount> tets_of_material{};    ///< Ascending; none of zero.
   std::vector<TagCount> triangles_of_patch{};  ///< Ascending; none of zero.
-  std::vector<TagCount> points_of_patch{};     ///< Piece::patch_points; ascending; none of zero.
-  std::vector<PieceNeighbour> neighbours{};    ///< Ascending.
+  /// The same without those that have a tet on the other side too.
+  std::vector<TagCount> outer_triangles_of_patch{};
+  std::vector<TagCount> points_of_patch{};   ///< Piece::patch_points; ascending; none of zero.
+  GlobalIndex num_open_faces = 0;            ///< Of tets: with no tet on the other side anywhere.
+  std::vector<PieceNeighbour> neighbours{};  ///< Ascending.
   Box box{};
 
   static auto fields(auto& self)
   {
     return std::tie(self.num_own_points, self.num_points, self.num_tets, self.num_triangles,
-                    self.tets_of_material, self.triangles_of_patch, self.points_of_patch,
-                    self.neighbours, self.box);
+                    self.tets_of_material, self.triangles_of_patch, self.outer_triangles_of_patch,
+                    self.points_of_patch, self.num_open_faces, self.neighbours, self.box);
   }
 };
 
@@ -92,6 +100,9 @@ struct SeamFace {
   LocalIndex side = 0;  ///< 4 * tet + corner opposite to the face; tet is a row here.
   LocalIndex other_piece = 0;
   GlobalIndex other_tet = 0;  ///< Its number in the whole mesh, from 0.
+  /// Its number among all faces between two tets, by the lower tet and then by the higher one, from
+  /// 0; -1 unless asked for.
+  GlobalIndex face_number = -1;
 };
 
 /// @brief A point that triangles of a patch have.
@@ -139,6 +150,10 @@ struct Piece {
   IndexLists sharers{};           ///< Shape (num_shared, …): those other pieces, ascending.
   std::vector<SeamFace> seams{};  ///< Ascending by side.
   Ghosts ghosts{};                ///< Only for writers that need them.
+
+  /// Shape (num_shared_edges): points of edges that other pieces have; empty unless asked for.
+  std::vector<std::array<LocalIndex, 2>> shared_edges{};
+  IndexLists edge_sharers{};  ///< Shape (num_shared_edges, …): those other pieces, ascending.
 
   [[nodiscard]] LocalIndex num_points() const
   {

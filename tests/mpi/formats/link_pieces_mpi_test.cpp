@@ -71,6 +71,14 @@ struct Seam {
   }
 };
 
+// An edge that a piece has, by positions of its ends.
+struct EdgeOfPiece {
+  std::array<Position, 2> ends{};
+  LocalIndex piece = 0;
+
+  static auto fields(auto& self) { return std::tie(self.ends, self.piece); }
+};
+
 class LinkPieces : public ::testing::TestWithParam<Files> {
  protected:
   LinkPieces()
@@ -78,7 +86,7 @@ class LinkPieces : public ::testing::TestWithParam<Files> {
     if (comm_.rank() == 0) write_files();
     comm_.barrier();
     const PieceSource source(folder_ / "mesh.pvtu", comm_);
-    mesh_ = link_pieces(source, comm_, [] {});
+    mesh_ = link_pieces(source, comm_, [] {}, {.shared_edges = true, .face_numbers = true});
     for (std::size_t i = 0; i < mesh_.links.size(); ++i) {
       const LocalIndex number = source.first_of(comm_.rank()) + static_cast<LocalIndex>(i);
       own_.push_back(build_piece(source.load(number), number, mesh_.links[i], mesh_));
@@ -107,6 +115,13 @@ class LinkPieces : public ::testing::TestWithParam<Files> {
   {
     const auto first = 3 * at(row);
     return {piece.point_xyz[first], piece.point_xyz[first + 1], piece.point_xyz[first + 2]};
+  }
+
+  static std::array<Position, 2> ends(const Piece& piece, LocalIndex a, LocalIndex b)
+  {
+    std::array<Position, 2> both{position(piece, a), position(piece, b)};
+    std::ranges::sort(both);
+    return both;
   }
 
   comm::Communicator comm_{MPI_COMM_WORLD};
@@ -244,6 +259,50 @@ TEST_P(LinkPieces, APointOfAPatchIsListedOnceForEachPatchThatHasIt)
   }
   EXPECT_GE(found.size(), 98U);  // Points on the surface of the cube; on two patches twice.
   EXPECT_EQ(found, expected);
+}
+
+TEST_P(LinkPieces, CountsOfFacesAddUp)
+{
+  for (const PieceCounts& piece : mesh_.outline.pieces) {
+    std::multiset<GlobalIndex> shared;
+    for (const PieceNeighbour& neighbour : piece.neighbours)
+      shared.insert(neighbour.num_shared_faces);
+    EXPECT_EQ(shared, (std::multiset<GlobalIndex>{0, 0, 0, 0, 8, 8, 8}));
+    EXPECT_EQ(piece.num_open_faces, 24);
+    ASSERT_EQ(piece.outer_triangles_of_patch.size(), piece.triangles_of_patch.size());
+    for (std::size_t i = 0; i < piece.triangles_of_patch.size(); ++i)
+      EXPECT_EQ(piece.outer_triangles_of_patch[i].count, piece.triangles_of_patch[i].count);
+  }
+}
+
+TEST_P(LinkPieces, SharedEdgesAreThoseThatPiecesHave)
+{
+  std::vector<EdgeOfPiece> edges;
+  for (const Piece& piece : own_) {
+    for (std::size_t t = 0; t < piece.tet_material.size(); ++t) {
+      const LocalIndex* const corner = piece.tet_points.data() + 4 * t;
+      for (const auto& [a, b] : mesh::kTetEdgeCorners)
+        edges.push_back({ends(piece, corner[a], corner[b]), piece.number});
+    }
+  }
+  std::map<std::array<Position, 2>, std::set<LocalIndex>> pieces_of;
+  for (const EdgeOfPiece& edge : comm_.all_gather_rows(edges))
+    pieces_of[edge.ends].insert(edge.piece);
+  std::map<LocalIndex, std::size_t> num_shared;
+  for (const auto& [edge, pieces] : pieces_of)
+    if (pieces.size() > 1)
+      for (const LocalIndex piece : pieces) ++num_shared[piece];
+  for (const Piece& piece : own_) {
+    EXPECT_EQ(piece.shared_edges.size(), num_shared[piece.number]);
+    EXPECT_GT(piece.shared_edges.size(), 0U);
+    ASSERT_EQ(piece.edge_sharers.num_lists(), static_cast<LocalIndex>(piece.shared_edges.size()));
+    for (std::size_t e = 0; e < piece.shared_edges.size(); ++e) {
+      std::set<LocalIndex> others =
+          pieces_of[ends(piece, piece.shared_edges[e][0], piece.shared_edges[e][1])];
+      others.erase(piece.number);
+      EXPECT_TRUE(std::ranges::equal(piece.edge_sharers[static_cast<LocalIndex>(e)], others));
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(AllFiles, LinkPieces,

@@ -122,9 +122,11 @@ TEST(ConfigErrors, WordListsRefuseUnknownRepeatedAndNoWords)
               std::string::npos)
         << formats;
   }
-  EXPECT_TRUE(error_of_key("[output]\nformats = [\"vtk\"]")
-                  .starts_with("case.toml:6: output.formats = [\"vtk\"]: must be a list without "
-                               "repetitions, not empty, of: \"pvtu\", \"xdmf\""));
+  EXPECT_TRUE(
+      error_of_key("[output]\nformats = [\"vtk\"]")
+          .starts_with("case.toml:6: output.formats = [\"vtk\"]: must be a list without "
+                       "repetitions, not empty, of: \"pvtu\", \"xdmf\", \"elmer\", \"mfem\", "
+                       "\"openfoam\", \"openfoam-serial\""));
 }
 
 TEST(ConfigErrors, AWordThatNoKernelHasIsRefusedWithThoseThatThereAre)

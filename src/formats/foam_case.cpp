@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "formats/foam_case.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "tessera/io/files.hpp"
+
+#include "formats/foam_text.hpp"
+#include "formats/number_faces.hpp"
+#include "formats/whole_file.hpp"
+
+namespace tessera::formats {
+namespace {
+
+struct SystemFile {
+  const char* name = nullptr;
+  std::string text{};
+};
+
+const std::array kSystemFiles{
+    SystemFile{"controlDict", R"(application     laplacianFoam;
+startFrom       startTime;
+startTime       0;
+stopAt          endTime;
+endTime         1;
+deltaT          1;
+writeControl    timeStep;
+writeInterval   1;
+writeFormat     binary;
+)"},
+    SystemFile{"fvSchemes", R"(ddtSchemes { default steadyState; }
+gradSchemes { default Gauss linear; }
+divSchemes { default none; }
+laplacianSchemes { default Gauss linear corrected; }
+interpolationSchemes { default linear; }
+snGradSchemes { default corrected; }
+)"},
+    SystemFile{"fvSolution", R"(solvers
+{
+    T
+    {
+        solver          PCG;
+        preconditioner  DIC;
+        tolerance       1e-12;
+        relTol          0;
+    }
+}
+SIMPLE { nNonOrthogonalCorrectors 10; }
+)"},
+};
+
+GlobalIndex num_outer_triangles(const PieceCounts& piece)
+{
+  GlobalIndex sum = 0;
+  for (const TagCount& count : piece.outer_triangles_of_patch) sum += count.count;
+  return sum;
+}
+
+std::string system_text(const SystemFile& file)
+{
+  return foam_header({.format = "ascii", .kind = "dictionary", .location = "system"}, file.name)
+         + file.text;
+}
+
+// Keeps one that is there: it is the user's.
+void add_system_file(const std::filesystem::path& folder, const SystemFile& file)
+{
+  const std::filesystem::path path = folder / "system" / file.name;
+  io::make_own_folder(folder / "system");
+  if (!std::filesystem::exists(path)) write_whole_file(path, system_text(file));
+}
+
+SystemFile decomposition(const std::string& num_processors)
+{
+  return {"decomposeParDict",
+          fmt::format("numberOfSubdomains {};\nmethod scotch;\n", num_processors)};
+}
+
+// Whether it is one of ours, for whatever number of processors.
+bool is_own_decomposition(const std::filesystem::path& path)
+{
+  std::ifstream file(path);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  constexpr const char* kDigits = "0123456789";
+  const auto key = text.find("numberOfSubdomains");
+  if (key == std::string::npos) return false;
+  const auto begin = text.find_first_of(kDigits, key);
+  const auto end = text.find_first_not_of(kDigits, begin);
+  return text == system_text(decomposition(text.substr(std::min(begin, text.size()), end - begin)));
+}
+
+}  // namespace
+
+GlobalIndex num_patch_faces(const PieceCounts& piece, std::int32_t tag)
+{
+  if (tag == kNoPatchTag) return piece.num_open_faces - num_outer_triangles(piece);
+  const auto found = std::ranges::find(piece.outer_triangles_of_patch, tag, &TagCount::tag);
+  return found == piece.outer_triangles_of_patch.end() ? 0 : found->count;
+}
+
+FoamCase foam_case(const Outline& outline)
+{
+  FoamCase result;
+  result.zones = foam_words(outline.material_names);
+  // One name more, for the faces without a patch: so it is none of the others.
+  std::vector<std::string> names = outline.patch_names;
+  names.emplace_back("defaultFaces");
+  names = foam_words(names);
+  const auto add_patch = [&](const std::string& name, std::int32_t tag) {
+    const bool has_faces = std::ranges::any_of(outline.pieces, [tag](const PieceCounts& piece) {
+      return num_patch_faces(piece, tag) > 0;
+    });
+    if (has_faces) result.patches.push_back({name, tag});
+  };
+  for (std::size_t i = 0; i + 1 < names.size(); ++i)
+    add_patch(names[i], static_cast<std::int32_t>(i) + 1);
+  add_patch(names.back(), kNoPatchTag);
+  return result;
+}
+
+FoamLayout foam_layout(const Outline& outline)
+{
+  FoamLayout layout{.names = foam_case(outline), .inner = {outline, 0, [&](LocalIndex piece) {
+                                                             return num_owned_faces(outline, piece);
+                                                           }}};
+  for (const FoamPatch& patch : layout.names.patches) {
+    layout.patches.emplace_back(outline, layout.num_faces(), [&](LocalIndex piece) {
+      return num_patch_faces(outline.pieces[at(piece)], patch.tag);
+    });
+  }
+  return layout;
+}
+
+void write_foam_system(const std::filesystem::path& folder)
+{
+  for (const SystemFile& file : kSystemFiles) add_system_file(folder, file);
+}
+
+void write_foam_decomposition(const std::filesystem::path& folder, LocalIndex num_processors)
+{
+  const SystemFile file = decomposition(std::to_string(num_processors));
+  const std::filesystem::path path = folder / "system" / file.name;
+  if (is_own_decomposition(path)) write_whole_file(path, system_text(file));
+  add_system_file(folder, file);
+}
+
+}  // namespace tessera::formats
