@@ -99,15 +99,21 @@ std::string file_of(const std::string& grid)
          + "    </Grid>\n  </Domain>\n</Xdmf>\n";
 }
 
-  std::string text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
-                     + grid("mesh", "Tetrahedron", points, tets) + attribute("material", material)
-                     + attribute("piece", piece) + names("material", outline.material_names)
-                     + "    </Grid>\n";
-  if (outline.num_triangles() > 0) {
-    text += grid("boundary", "Triangle", points, triangles) + attribute("patch", patch)
-            + names("patch", outline.patch_names) + "    </Grid>\n";
-  }
-  return text + "  </Domain>\n</Xdmf>\n";
+// A file of its own for each grid: meshio takes no more than one.
+std::string mesh_text(const Outline& outline, const Hdf5Layout& layout)
+{
+  const auto& [points, tets, material, piece] =
+      std::tie(layout.arrays[0], layout.arrays[1], layout.arrays[2], layout.arrays[3]);
+  return file_of(grid("mesh", "Tetrahedron", points, tets) + attribute("material", material)
+                 + attribute("piece", piece) + names("material", outline.material_names));
+}
+
+std::string boundary_text(const Outline& outline, const Hdf5Layout& layout)
+{
+  const auto& [points, triangles, patch] =
+      std::tie(layout.arrays[0], layout.arrays[4], layout.arrays[5]);
+  return file_of(grid("boundary", "Triangle", points, triangles) + attribute("patch", patch)
+                 + names("patch", outline.patch_names));
 }
 
 class XdmfWriter final : public Writer {
@@ -115,7 +121,7 @@ class XdmfWriter final : public Writer {
   explicit XdmfWriter(const WriterTarget& target)
       : outline_(target.outline),
         layout_(layout_of(target.outline)),
-        xdmf_(target.folder / "mesh.xdmf"),
+        folder_(target.folder),
         file_(target.folder / "mesh.h5")
   {
   }
@@ -145,7 +151,10 @@ class XdmfWriter final : public Writer {
   void commit() override
   {
     file_.commit();
-    io::write_text_atomically(xdmf_, xdmf_text(outline_));
+    if (outline_.num_triangles() > 0) {
+      io::write_text_atomically(folder_ / "boundary.xdmf", boundary_text(outline_, layout_));
+    }
+    io::write_text_atomically(folder_ / "mesh.xdmf", mesh_text(outline_, layout_));
   }
 
  private:
@@ -184,7 +193,7 @@ class XdmfWriter final : public Writer {
 
   const Outline& outline_;
   Hdf5Layout layout_;
-  std::filesystem::path xdmf_;
+  const std::filesystem::path& folder_;
   SharedFile file_;
   std::map<std::string, GlobalIndex> offsets_{};
 };

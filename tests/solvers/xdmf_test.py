@@ -7,6 +7,7 @@ import unittest
 import xml.etree.ElementTree
 
 import h5py
+import meshio
 import solver_test
 from solver_test import Mesh, mpirun
 
@@ -70,6 +71,14 @@ class Xdmf(unittest.TestCase):
                     found = mpirun(ranks, ["/usr/bin/python3", "-c", PETSC, folder / "mesh.h5"])
                     self.assertEqual(found.split()[-2:], [str(self.meshes[case].num_tets()), "3"])
 
+    def test_meshio(self):
+        mesh, folder = self.meshes["core"], self.folders["core"]
+        tets = meshio.read(folder / "mesh.xdmf")
+        self.assertEqual(len(tets.cells_dict["tetra"]), mesh.num_tets())
+        self.assertEqual(set(tets.cell_data_dict["material"]["tetra"].ravel()), {1, 2, 3})
+        triangles = meshio.read(folder / "boundary.xdmf")
+        self.assertEqual(set(triangles.cell_data_dict["patch"]["triangle"].ravel()), {1, 2, 3})
+
     def test_names_are_there(self):
         mesh, folder = self.meshes["core"], self.folders["core"]
         with h5py.File(folder / "mesh.h5") as file:
@@ -77,8 +86,10 @@ class Xdmf(unittest.TestCase):
             self.assertEqual(texts, list(mesh.areas()))
             self.assertEqual(set(file["/boundary/patch"][:, 0]), {1, 2, 3})
             self.assertEqual(file["/viz/topology/cells"].shape, (mesh.num_tets(), 4))
-        root = xml.etree.ElementTree.parse(folder / "mesh.xdmf").getroot()
-        names = {line.get("Name"): line.get("Value") for line in root.iter("Information")}
+        names = {}
+        for file in ("mesh.xdmf", "boundary.xdmf"):
+            root = xml.etree.ElementTree.parse(folder / file).getroot()
+            names |= {line.get("Name"): line.get("Value") for line in root.iter("Information")}
         self.assertEqual(names["patch 2"], "core_skin")
         self.assertEqual(names["material 1"], "core")
 

@@ -137,6 +137,37 @@ TEST(OutputFolder, OverwriteRemovesWhatARunMakesAndKeepsTheRest)
   EXPECT_EQ(left, expected);
 }
 
+TEST(OutputFolder, OverwriteRemovesOtherFormatsAndKeepsWhatSolversAdd)
+{
+  const TemporaryFolder folder;
+  const fs::path run = folder / "run";
+  make_earlier_run(run);
+  fs::create_directory(folder / "elsewhere");
+  testing::write_bytes(folder / "elsewhere/polyMesh", "mine");
+  for (const char* const made :
+       {"mesh_12.msh", "mesh.000003", "mesh.exo", "partitioning.2/part.1.nodes",
+        "processor0/constant/polyMesh/points", "constant/polyMesh/faces",
+        "processor1/constant/polyMesh/points"}) {
+    fs::create_directories((run / made).parent_path());
+    testing::write_bytes(run / made, "ours");
+  }
+  for (const char* const foreign : {"mesh_fine.msh", "processor0/0", "system", "mesh.2b"})
+    testing::write_bytes(run / foreign, "mine");
+  fs::create_directory(run / "processor2");
+  fs::create_directory_symlink(folder / "elsewhere", run / "processor2/constant");
+  ASSERT_EQ(refusal(run, ExistingFolder::overwrite), "");
+
+  std::vector<std::string> left;
+  for (const auto& entry : fs::recursive_directory_iterator(run))
+    left.push_back(entry.path().lexically_relative(run).string());
+  std::ranges::sort(left);
+  const std::vector<std::string> expected{
+      kLock,          "mesh.2b",    "mesh_fine.msh",       "processor0",
+      "processor0/0", "processor2", "processor2/constant", "system"};
+  EXPECT_EQ(left, expected);
+  EXPECT_TRUE(fs::exists(folder / "elsewhere/polyMesh"));
+}
+
 TEST(OutputFolder, OverwriteAndResumeRefuseAFolderThatNoRunHasUsed)
 {
   const TemporaryFolder folder;
