@@ -14,6 +14,7 @@
 
 #include "formats/labels.hpp"
 #include "formats/limits.hpp"
+#include "formats/plain_name.hpp"
 #include "formats/record_file.hpp"
 #include "formats/tag_groups.hpp"
 #include "formats/text_records.hpp"
@@ -65,7 +66,7 @@ class Sections {
     const auto labels = labels_of(materials.names(), {kAllElements}, kLongestLabel);
     for (std::size_t m = 0; m < labels.size(); ++m) {
       add(fmt::format("** material {}: {}\n*ELEMENT, TYPE=C3D4, ELSET={}\n", materials.tag(m),
-                      one_line(materials.names()[m]), labels[m]),
+                      plain_name(materials.names()[m]), labels[m]),
           materials.total(m), 5 * (width_ + 1));
     }
     next_head_ = fmt::format("*ELSET, ELSET={}\n{}", kAllElements, lines_of(labels));
@@ -77,7 +78,7 @@ class Sections {
     const auto labels = labels_of(surfaces.names(), {}, kLongestLabel - kNodeSetPrefix.size());
     for (std::size_t s = 0; s < labels.size(); ++s) {
       add(fmt::format("** patch {}: {}\n*SURFACE, NAME={}, TYPE=ELEMENT\n", surfaces.tag(s),
-                      one_line(surfaces.names()[s]), labels[s]),
+                      plain_name(surfaces.names()[s]), labels[s]),
           surfaces.total(s), width_ + kSideOppositeToCorner[0].size());
     }
     for (std::size_t s = 0; s < labels.size(); ++s) {

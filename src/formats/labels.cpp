@@ -2,9 +2,11 @@
 #include "formats/labels.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 #include <string_view>
 
-#include <fmt/format.h>
+#include "formats/plain_name.hpp"
 
 namespace tessera::formats {
 namespace {
@@ -30,31 +32,15 @@ char label_character(char c)
 std::vector<std::string> labels_of(const std::vector<std::string>& names,
                                    const std::vector<std::string>& reserved, std::size_t longest)
 {
+  std::set<std::string> taken(reserved.begin(), reserved.end());
   std::vector<std::string> labels;
-  const auto is_taken = [&](const std::string& label) {
-    return std::ranges::find(labels, label) != labels.end()
-           || std::ranges::find(reserved, label) != reserved.end();
-  };
   for (const std::string& name : names) {
     std::string start = name;
     std::ranges::transform(start, start.begin(), label_character);
     if (start.empty() || !is_one_of(kLetters, start.front())) start.insert(0, "X_");
-    start.resize(std::min(start.size(), longest));
-    std::string label = start;
-    for (int number = 2; is_taken(label); ++number) {
-      const std::string suffix = fmt::format("_{}", number);
-      label = start.substr(0, longest - suffix.size()) + suffix;
-    }
-    labels.push_back(label);
+    labels.push_back(unique_name(start, std::identity{}, taken, longest));
   }
   return labels;
-}
-
-std::string one_line(std::string text)
-{
-  std::ranges::replace_if(
-      text, [](char c) { return c == '\n' || c == '\r'; }, '_');
-  return text;
 }
 
 }  // namespace tessera::formats

@@ -14,7 +14,4 @@ namespace tessera::formats {
                                                  const std::vector<std::string>& reserved,
                                                  std::size_t longest);
 
-/// @brief The text without line ends, for a comment. Local.
-[[nodiscard]] std::string one_line(std::string text);
-
 }  // namespace tessera::formats

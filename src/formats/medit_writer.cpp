@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "formats/labels.hpp"
 #include "formats/limits.hpp"
+#include "formats/plain_name.hpp"
 #include "formats/record_file.hpp"
 #include "formats/text_records.hpp"
 
@@ -42,7 +42,7 @@ std::string names(const char* kind, const std::vector<std::string>& names_of_tag
 {
   std::string lines;
   for (std::size_t i = 0; i < names_of_tags.size(); ++i)
-    lines += fmt::format("# {} {} {}\n", kind, i + 1, one_line(names_of_tags[i]));
+    lines += fmt::format("# {} {} {}\n", kind, i + 1, plain_name(names_of_tags[i]));
   return lines;
 }
 

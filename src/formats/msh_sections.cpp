@@ -2,9 +2,12 @@
 #include "formats/msh_sections.hpp"
 
 #include <bit>
+#include <functional>
 #include <set>
 
 #include <fmt/format.h>
+
+#include "formats/plain_name.hpp"
 
 namespace tessera::formats {
 namespace {
@@ -13,34 +16,10 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 
 constexpr std::size_t kMaxNameBytes = 127;
 
-// Shortened to so many bytes, not within a character of UTF-8.
-std::string shortened(std::string name, std::size_t num_bytes)
-{
-  if (name.size() <= num_bytes) return name;
-  while (num_bytes > 0 && (static_cast<unsigned char>(name[num_bytes]) & 0xC0U) == 0x80U)
-    --num_bytes;
-  name.resize(num_bytes);
-  return name;
-}
-
 // Readers split lines by quotes and take backslashes for escapes.
-std::string readable(std::string name)
-{
-  for (char& character : name) {
-    const auto code = static_cast<unsigned char>(character);
-    if (character == '"' || character == '\\' || code < 0x20 || code == 0x7F) character = '_';
-  }
-  return shortened(std::move(name), kMaxNameBytes);
-}
-
 std::string made_unique(const std::string& name, std::set<std::string>& taken)
 {
-  std::string unique = readable(name);
-  for (int number = 2; !taken.insert(unique).second; ++number) {
-    const std::string suffix = fmt::format("_{}", number);
-    unique = shortened(readable(name), kMaxNameBytes - suffix.size()) + suffix;
-  }
-  return unique;
+  return unique_name(plain_name(name, "\"\\"), std::identity{}, taken, kMaxNameBytes);
 }
 
 Box box_of_mesh(const Outline& outline)

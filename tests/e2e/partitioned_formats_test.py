@@ -318,21 +318,23 @@ class PartitionedFormats(program.ProgramTest):
             found = hashes(output)
             self.assertLessEqual(set(found.items()) - {(".tessera.lock", found[".tessera.lock"])}, set(sound.items()))
 
-    def test_a_folder_in_the_way(self):
-        """Says which file cannot be written; --overwrite then goes on."""
+    def test_a_file_in_the_way(self):
+        """Says which folder cannot be made; --overwrite then goes on."""
         (self.folder / "out").mkdir()
         (self.folder / "out/.tessera.lock").touch()
-        faces = self.folder / "out/processor1/constant/polyMesh/faces"
-        faces.mkdir(parents=True)
+        blocker = self.folder / "out/processor1"
+        blocker.touch()
         outcome = self.convert("out", "--overwrite", ranks=2)
-        self.assert_refused(outcome, CANNOT_WRITE, "cannot write out/processor1/constant/polyMesh/faces")
+        self.assert_refused(outcome, CANNOT_WRITE, "out/processor1")
         self.assertEqual(list((self.folder / "out").rglob("*.tmp-*")), [])
-        faces.rmdir()
+        blocker.unlink()
         self.assertEqual(self.convert("out", "--overwrite", ranks=2).code, OK)
 
     def test_openfoam_case_of_more_processors(self):
         """OpenFOAM counts the folders: one too many is refused before anything is written."""
-        (self.folder / "out" / f"processor{PARTS}").mkdir(parents=True)
+        result = self.folder / "out" / f"processor{PARTS}/100/T"
+        result.parent.mkdir(parents=True)
+        result.touch()
         (self.folder / "out/.tessera.lock").touch()
         outcome = self.convert("out", "--overwrite")
         self.assert_refused(outcome, CANNOT_WRITE, f"processor{PARTS}")

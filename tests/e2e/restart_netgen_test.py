@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The same for a run of NETGEN, whose pieces wait in the store until all are there."""
+import contextlib
 import os
 import signal
 import unittest
@@ -79,10 +80,17 @@ class Netgen(kill.RestartTest):
                 self.resume(ranks=2)
 
     def logs(self):
-        return sorted(self.record("improve").parent.glob("log_*.record"))
+        """None if the store is gone, as it is when a run has ended."""
+        store = self.record("improve").parent
+        return sorted(store / name for name in kill.names_in(store) if name.startswith("log_") and name.endswith(".record"))
 
     def has_log_of(self, num_bytes):
-        return lambda watch: watch.wait_for(lambda: any(log.stat().st_size >= num_bytes for log in self.logs()))
+        def has_grown():
+            with contextlib.suppress(FileNotFoundError):
+                return any(log.stat().st_size >= num_bytes for log in self.logs())
+            return False
+
+        return lambda watch: watch.wait_for(has_grown)
 
     def test_signals_while_the_mesh_is_written(self):
         for number in (signal.SIGTERM, signal.SIGUSR1):

@@ -6,8 +6,8 @@ import tempfile
 import unittest
 
 import numpy
-import solver_test
-from solver_test import Mesh, read_pvtu, run
+import solver_meshes
+from solver_meshes import Mesh, read_pvtu, run
 
 YOUNG, POISSON, TENSION, LENGTH = 1000.0, 0.3, 2.0, 2.0
 BAR = """algebraic3d
@@ -149,4 +149,4 @@ class CalculiX(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    solver_test.main()
+    solver_meshes.main()

@@ -4,8 +4,8 @@ import json
 import pathlib
 import unittest
 
-import solver_test
-from solver_test import Mesh, mpirun, read_pvtu, run
+import solver_meshes
+from solver_meshes import Mesh, mpirun, read_pvtu, run
 
 SOURCE = pathlib.Path(__file__).parent / "dealii"
 
@@ -55,4 +55,4 @@ class DealII(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    solver_test.main()
+    solver_meshes.main()

@@ -3,8 +3,8 @@
 import re
 import unittest
 
-import solver_test
-from solver_test import Mesh, run
+import solver_meshes
+from solver_meshes import Mesh, run
 
 # Prints "region TAG VOLUME", "label TAG AREA", "error SPACE VALUE".
 SCRIPT = """
@@ -83,4 +83,4 @@ class FreeFem(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    solver_test.main()
+    solver_meshes.main()

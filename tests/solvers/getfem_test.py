@@ -5,8 +5,8 @@ import unittest
 
 import getfem
 import numpy as np
-import solver_test
-from solver_test import Mesh, read_pvtu
+import solver_meshes
+from solver_meshes import Mesh, read_pvtu
 
 
 class Problem:
@@ -113,4 +113,4 @@ class GetFEM(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    solver_test.main()
+    solver_meshes.main()

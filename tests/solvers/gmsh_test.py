@@ -10,8 +10,8 @@ import unittest
 import gmsh
 import meshio
 import numpy as np
-import solver_test
-from solver_test import Mesh, read_pvtu, run
+import solver_meshes
+from solver_meshes import Mesh, read_pvtu, run
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 NUM_PARTS = 3
@@ -298,4 +298,4 @@ def num_tets_of(file):
 
 
 if __name__ == "__main__":
-    solver_test.main()
+    solver_meshes.main()

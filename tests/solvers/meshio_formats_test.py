@@ -4,8 +4,8 @@ import unittest
 
 import meshio
 import numpy
-import solver_test
-from solver_test import Mesh, read_pvtu
+import solver_meshes
+from solver_meshes import Mesh, read_pvtu
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOExodus import vtkExodusIIReader as Exodus
 
@@ -125,4 +125,4 @@ class Files(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    solver_test.main()
+    solver_meshes.main()

@@ -9,8 +9,8 @@ import sys
 import unittest
 
 import numpy
-import solver_test
-from solver_test import Mesh, mpirun, run
+import solver_meshes
+from solver_meshes import Mesh, mpirun, run
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from poly_mesh import PolyMesh, read_list  # noqa: E402
@@ -231,4 +231,4 @@ class Openfoam(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    solver_test.main()
+    solver_meshes.main()

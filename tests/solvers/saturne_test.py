@@ -5,8 +5,8 @@ import re
 import unittest
 
 import numpy
-import solver_test
-from solver_test import Mesh, read_pvtu, run
+import solver_meshes
+from solver_meshes import Mesh, read_pvtu, run
 
 PROGRAMS = pathlib.Path("/usr/lib/code_saturne")
 
@@ -77,4 +77,4 @@ class Saturne(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    solver_test.main()
+    solver_meshes.main()

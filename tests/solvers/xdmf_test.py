@@ -8,8 +8,8 @@ import xml.etree.ElementTree
 
 import h5py
 import meshio
-import solver_test
-from solver_test import Mesh, mpirun
+import solver_meshes
+from solver_meshes import Mesh, mpirun
 
 HERE = pathlib.Path(__file__).parent
 PETSC = """
@@ -95,4 +95,4 @@ class Xdmf(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    solver_test.main()
+    solver_meshes.main()

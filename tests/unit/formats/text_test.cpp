@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/labels.hpp"
+#include "formats/plain_name.hpp"
 #include "formats/text_records.hpp"
 
 namespace tessera::formats {
@@ -57,7 +58,7 @@ TEST(Labels, AreNeverTheSameNorReserved)
   EXPECT_EQ(labels_of({name, name}, {}, 12), (Labels{"AAAAAAAAAAAA", "AAAAAAAAAA_2"}));
 }
 
-TEST(OneLine, HasNoLineEnds) { EXPECT_EQ(one_line("a\nb\rc"), "a_b_c"); }
+TEST(PlainName, HasNoLineEnds) { EXPECT_EQ(plain_name("a\nb\rc"), "a_b_c"); }
 
 }  // namespace
 }  // namespace tessera::formats

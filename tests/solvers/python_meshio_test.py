@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mesh.to_meshio(): cells, materials, patches and names, also after a way through Gmsh's formats.
 
-    tests/solvers/meshio_test.py --tessera build/release/bin/tessera
+    tests/solvers/python_meshio_test.py --tessera build/release/bin/tessera
 """
 import sys
 
