@@ -93,27 +93,40 @@ std::string names(const char* kind, const std::vector<std::string>& names_of_tag
   return lines;
 }
 
-std::string file_of(const std::string& grid)
+constexpr const char* kGridEnd = "    </Grid>\n";
+
+std::string file_of(const std::string& grids)
 {
-  return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n" + grid
-         + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+  return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n" + grids
+         + "  </Domain>\n</Xdmf>\n";
 }
 
-// A file of its own for each grid: meshio takes no more than one.
-std::string mesh_text(const Outline& outline, const Hdf5Layout& layout)
+// The same as meshio has names: with the dimension of the cells.
+std::string meshio_names(int dimension, const std::vector<std::string>& names_of_tags)
+{
+  std::string maps;
+  for (std::size_t i = 0; i < names_of_tags.size(); ++i) {
+    maps += fmt::format("<map key=\"{}\" dim=\"{}\">{}</map>", xml_escape(names_of_tags[i]),
+                        dimension, i + 1);
+  }
+  return "      <Information Name=\"field_data\"><![CDATA[<main>" + maps
+         + "</main>]]></Information>\n";
+}
+
+// Without its names and its end.
+std::string tets_grid(const Hdf5Layout& layout)
 {
   const auto& [points, tets, material, piece] =
       std::tie(layout.arrays[0], layout.arrays[1], layout.arrays[2], layout.arrays[3]);
-  return file_of(grid("mesh", "Tetrahedron", points, tets) + attribute("material", material)
-                 + attribute("piece", piece) + names("material", outline.material_names));
+  return grid("mesh", "Tetrahedron", points, tets) + attribute("material", material)
+         + attribute("piece", piece);
 }
 
-std::string boundary_text(const Outline& outline, const Hdf5Layout& layout)
+std::string boundary_grid(const Hdf5Layout& layout)
 {
   const auto& [points, triangles, patch] =
       std::tie(layout.arrays[0], layout.arrays[4], layout.arrays[5]);
-  return file_of(grid("boundary", "Triangle", points, triangles) + attribute("patch", patch)
-                 + names("patch", outline.patch_names));
+  return grid("boundary", "Triangle", points, triangles) + attribute("patch", patch);
 }
 
 class XdmfWriter final : public Writer {
@@ -151,13 +164,25 @@ class XdmfWriter final : public Writer {
   void commit() override
   {
     file_.commit();
+    const std::string tets = tets_grid(layout_);
+    const std::string boundary = boundary_grid(layout_);
+    const std::vector<std::string>& materials = outline_.material_names;
+    const std::vector<std::string>& patches = outline_.patch_names;
+    std::string both = tets + names("material", materials) + kGridEnd;
     if (outline_.num_triangles() > 0) {
-      io::write_text_atomically(folder_ / "boundary.xdmf", boundary_text(outline_, layout_));
+      both += boundary + names("patch", patches) + kGridEnd;
+      write_index("boundary.xdmf", boundary + meshio_names(2, patches) + kGridEnd);
     }
-    io::write_text_atomically(folder_ / "mesh.xdmf", mesh_text(outline_, layout_));
+    write_index("tets.xdmf", tets + meshio_names(3, materials) + kGridEnd);
+    write_index("mesh.xdmf", both);
   }
 
  private:
+  void write_index(const std::string& name, const std::string& grids) const
+  {
+    io::write_text_atomically(folder_ / name, file_of(grids));
+  }
+
   void write_partition()
   {
     std::vector<GlobalIndex> firsts;

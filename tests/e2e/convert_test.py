@@ -21,7 +21,7 @@ import program
 from program import CANNOT_WRITE, OK, WRONG_INPUT
 
 FILES = {
-    "xdmf": ["mesh.h5", "mesh.xdmf", "boundary.xdmf"],
+    "xdmf": ["mesh.h5", "mesh.xdmf", "tets.xdmf", "boundary.xdmf"],
     "abaqus": ["mesh.inp"],
     "medit": ["mesh.mesh"],
     "exodus": ["mesh.exo"],

@@ -19,10 +19,8 @@ CG = {"ksp_type": "cg", "pc_type": "bjacobi", "ksp_rtol": 1e-13, "ksp_max_it": 1
 def read(file):
     with XDMFFile(COMM, file, "r") as xdmf:
         mesh = xdmf.read_mesh(name="mesh")
-        materials = xdmf.read_meshtags(mesh, name="mesh")
-    mesh.topology.create_connectivity(2, 3)
-    with XDMFFile(COMM, file.replace("mesh.xdmf", "boundary.xdmf"), "r") as xdmf:
-        return mesh, materials, xdmf.read_meshtags(mesh, name="boundary")
+        mesh.topology.create_connectivity(2, 3)
+        return mesh, xdmf.read_meshtags(mesh, name="mesh"), xdmf.read_meshtags(mesh, name="boundary")
 
 
 def total(expression):

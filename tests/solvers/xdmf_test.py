@@ -73,9 +73,11 @@ class Xdmf(unittest.TestCase):
 
     def test_meshio(self):
         mesh, folder = self.meshes["core"], self.folders["core"]
-        tets = meshio.read(folder / "mesh.xdmf")
+        tets = meshio.read(folder / "tets.xdmf")
         self.assertEqual(len(tets.cells_dict["tetra"]), mesh.num_tets())
         self.assertEqual(set(tets.cell_data_dict["material"]["tetra"].ravel()), {1, 2, 3})
+        self.assertEqual({name: tuple(tag) for name, tag in tets.field_data.items()},
+                         {"core": (1, 3), "shell": (2, 3), "matrix": (3, 3)})
         triangles = meshio.read(folder / "boundary.xdmf")
         self.assertEqual(set(triangles.cell_data_dict["patch"]["triangle"].ravel()), {1, 2, 3})
 
@@ -86,10 +88,8 @@ class Xdmf(unittest.TestCase):
             self.assertEqual(texts, list(mesh.areas()))
             self.assertEqual(set(file["/boundary/patch"][:, 0]), {1, 2, 3})
             self.assertEqual(file["/viz/topology/cells"].shape, (mesh.num_tets(), 4))
-        names = {}
-        for file in ("mesh.xdmf", "boundary.xdmf"):
-            root = xml.etree.ElementTree.parse(folder / file).getroot()
-            names |= {line.get("Name"): line.get("Value") for line in root.iter("Information")}
+        root = xml.etree.ElementTree.parse(folder / "mesh.xdmf").getroot()
+        names = {line.get("Name"): line.get("Value") for line in root.iter("Information")}
         self.assertEqual(names["patch 2"], "core_skin")
         self.assertEqual(names["material 1"], "core")
 
