@@ -67,7 +67,8 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
     return std::ranges::find(request.formats, format) != request.formats.end();
   };
   const LinkOptions options{.shared_edges = has(io::Format::mfem),
-                            .face_numbers = has(io::Format::openfoam)};
+                            .face_numbers = has(io::Format::openfoam),
+                            .patch_points = has(io::Format::abaqus) || has(io::Format::exodus)};
   LinkedPieces linked{.mesh = link_pieces(source, comm, before_each, options)};
   Writers writers;
   all_or_none(comm, [&] { writers = make_writers(request, linked.mesh.outline); });

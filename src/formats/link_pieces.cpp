@@ -178,7 +178,8 @@ class Linker {
       PieceLinks& links = links_of(face.piece);
       if (answers[f].piece == kNoIndex) {
         links.open_sides.push_back(face.side);
-        if (!source_.has_boundary()) add_patch_points(skin_.face_points[f], 0, links.patch_points);
+        if (options_.patch_points && !source_.has_boundary())
+          add_patch_points(skin_.face_points[f], 0, links.patch_points);
       } else {
         links.seams.push_back({face.side, answers[f].piece, answers[f].tet});
         links.inner_faces_up_to.push_back(skin_.inner_faces_up_to[f]);
@@ -278,13 +279,14 @@ class Linker {
  private:
   PieceLinks& links_of(LocalIndex piece) { return links_[at(piece - first_)]; }
 
-  static void add_triangles(const LoadedPiece& piece, const std::vector<LocalIndex>& behind,
-                            PieceLinks& links)
+  void add_triangles(const LoadedPiece& piece, const std::vector<LocalIndex>& behind,
+                     PieceLinks& links) const
   {
     for (std::size_t t = 0; t < piece.triangle_side.size(); ++t) {
       const LocalIndex side = piece.triangle_side[t];
       links.is_inner_triangle.push_back(behind[at(side)] == kNoIndex ? 0 : 1);
-      add_patch_points(points_of_side(piece, side), piece.patch[t], links.patch_points);
+      if (options_.patch_points)
+        add_patch_points(points_of_side(piece, side), piece.patch[t], links.patch_points);
     }
   }
 
@@ -368,9 +370,11 @@ LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm
   LinkedMesh mesh;
   mesh.outline = outline_of(comm.all_gather_rows(linker.counts()));
   mesh.tags = name_tags(source.names(), mesh.outline);
-  const auto points_of_patch = comm.all_gather_rows(linker.link_patch_points(mesh.tags));
-  for (std::size_t p = 0; p < points_of_patch.size(); ++p)
-    mesh.outline.pieces[p].points_of_patch = points_of_patch[p];
+  if (options.patch_points) {
+    const auto points_of_patch = comm.all_gather_rows(linker.link_patch_points(mesh.tags));
+    for (std::size_t p = 0; p < points_of_patch.size(); ++p)
+      mesh.outline.pieces[p].points_of_patch = points_of_patch[p];
+  }
   linker.number_shared_points(mesh.outline);
   mesh.links = linker.take_links();
   return mesh;

@@ -25,9 +25,9 @@ struct PieceLinks {
   std::vector<SeamFace> seams{};  ///< Ascending by side.
   /// Shape (num_seams): faces with both tets in the piece that tets up to this one own.
   std::vector<LocalIndex> inner_faces_up_to{};
-  std::vector<LocalIndex> open_sides{};                   ///< On no second tet anywhere; ascending.
-  std::vector<std::uint8_t> is_inner_triangle{};          ///< Shape (num_triangles).
-  std::vector<PatchPoint> patch_points{};                 ///< As Piece::patch_points.
+  std::vector<LocalIndex> open_sides{};           ///< On no second tet anywhere; ascending.
+  std::vector<std::uint8_t> is_inner_triangle{};  ///< Shape (num_triangles).
+  std::vector<PatchPoint> patch_points{};         ///< As Piece::patch_points; empty unless wanted.
   std::vector<std::array<LocalIndex, 2>> shared_edges{};  ///< Empty unless wanted.
   IndexLists edge_sharers{};                              ///< Other pieces of each, ascending.
 };
@@ -45,6 +45,7 @@ struct OtherPieces {
 struct LinkOptions {
   bool shared_edges = false;
   bool face_numbers = false;  ///< Of the faces between pieces.
+  bool patch_points = false;  ///< And PieceCounts::points_of_patch.
 };
 
 /// @brief From the values in files to tags from 1 with names.

@@ -65,7 +65,7 @@ struct PieceCounts {
   std::vector<TagCount> triangles_of_patch{};  ///< Ascending; none of zero.
   /// The same without those that have a tet on the other side too.
   std::vector<TagCount> outer_triangles_of_patch{};
-  std::vector<TagCount> points_of_patch{};   ///< Piece::patch_points; ascending; none of zero.
+  std::vector<TagCount> points_of_patch{};   ///< Piece::patch_points; if asked for.
   GlobalIndex num_open_faces = 0;            ///< Of tets: with no tet on the other side anywhere.
   std::vector<PieceNeighbour> neighbours{};  ///< Ascending.
   Box box{};
@@ -143,7 +143,7 @@ struct Piece {
 
   /// Ascending by patch, then by row. Of the pieces that have triangles of a patch on a point, the
   /// lowest has it here, which need not own it: so all pieces together have each point of a patch
-  /// once.
+  /// once. Empty unless asked for.
   std::vector<PatchPoint> patch_points{};
 
   std::vector<LocalIndex> shared_points{};  ///< Rows of points that other pieces have; ascending.

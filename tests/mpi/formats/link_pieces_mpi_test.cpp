@@ -86,7 +86,8 @@ class LinkPieces : public ::testing::TestWithParam<Files> {
     if (comm_.rank() == 0) write_files();
     comm_.barrier();
     const PieceSource source(folder_ / "mesh.pvtu", comm_);
-    mesh_ = link_pieces(source, comm_, [] {}, {.shared_edges = true, .face_numbers = true});
+    mesh_ = link_pieces(source, comm_, [] {},
+                        {.shared_edges = true, .face_numbers = true, .patch_points = true});
     for (std::size_t i = 0; i < mesh_.links.size(); ++i) {
       const LocalIndex number = source.first_of(comm_.rank()) + static_cast<LocalIndex>(i);
       own_.push_back(build_piece(source.load(number), number, mesh_.links[i], mesh_));
