@@ -129,16 +129,19 @@ class FaultyMesher final : public coarse::CoarseMesher {
  public:
   explicit FaultyMesher(std::unique_ptr<coarse::CoarseMesher> sound) : sound_(std::move(sound)) {}
 
-  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override
+  [[nodiscard]] coarse::CoarseSurface mesh_surface(
+      const coarse::CoarseOptions& options) const override
   {
-    const std::string kind = kind_at(stage_of(options), kNoIndex);
-    fail(kind);
-    mesh::CoarseMesh mesh = sound_->generate(options);
-    if (kind == "drop") {
-      drop_a_tet(mesh.tet_vertices);
-      mesh.tet_material.pop_back();
-    }
-    return mesh;
+    fail(kind_at(stage_of(options), kNoIndex));
+    return sound_->mesh_surface(options);
+  }
+
+  [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
+                                               const coarse::CoarseOptions& options) const override
+  {
+    coarse::DomainTets tets = sound_->mesh_domain(skin, options);
+    if (kind_at(stage_of(options), kNoIndex) == "drop") drop_a_tet(tets.tet_vertices);
+    return tets;
   }
 
  private:

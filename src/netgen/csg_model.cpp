@@ -153,11 +153,12 @@ class CsgModel final : public LoadedModel {
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
                                                    double guess) const override;
   [[nodiscard]] model::ModelDescription describe() const override;
-  using LoadedModel::generate;
-  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
-                                          const NetgenMeshUser& use) const override;
+  using LoadedModel::mesh_surface;
+  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
+                                                   const NetgenSurfaceUser& use) const override;
 
  private:
+  [[nodiscard]] const std::string& name() const override { return file_name_; }
   [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
   void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
 
@@ -229,11 +230,15 @@ GeometryNumbers numbers_of(const Geometry& geometry)
     return low < 0 ? kNoIndex : low * n + high;
   };
   numbers.material_name = [&geometry](int domain) { return name_of_solid(geometry, domain - 1); };
+  numbers.max_size = [&geometry](int domain) {
+    const ::netgen::TopLevelObject& object = *geometry.GetTopLevelObject(domain - 1);
+    return std::min(object.GetMaxH(), object.GetSolid()->GetMaxH());
+  };
   return numbers;
 }
 
-mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options,
-                                    const NetgenMeshUser& use) const
+coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& options,
+                                             const NetgenSurfaceUser& use) const
 {
   if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
     throw NetgenError("a .geo model has no triangles that could be remeshed");
@@ -241,18 +246,16 @@ mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options,
   // NETGEN adds points to the geometry that it meshes and takes names out of it. So every try gets
   // a fresh one and is a pure function of the options.
   const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
-  NetgenSession session(coarse_parameters(options));
+  const std::string what = file_name_ + ": coarse mesh";
+  NetgenSession session(surface_parameters(options));
   std::shared_ptr<::netgen::Mesh> mesh;
-  const int failed = session.run(file_name_ + ": coarse mesh", [&] {
-    return geometry->GenerateMesh(mesh, session.parameters());
-  });
-  if (failed != 0)
-    throw NetgenError(
-        fmt::format("{}: coarse mesh: NETGEN gave up; {}", file_name_, session.words()));
-  mesh::CoarseMesh coarse =
-      to_coarse_mesh(*mesh, numbers_of(*geometry), file_name_ + ": coarse mesh");
-  session.run(file_name_, [&] { use(*geometry, *mesh); });
-  return coarse;
+  const int failed =
+      session.run(what, [&] { return geometry->GenerateMesh(mesh, session.parameters()); });
+  if (failed != 0) throw NetgenError(fmt::format("{}: NETGEN gave up; {}", what, session.words()));
+  coarse::CoarseSurface surface =
+      to_coarse_surface(*mesh, numbers_of(*geometry), options.max_size, what);
+  session.run(file_name_, [&] { use(*geometry, *mesh, 1.0, surface); });
+  return surface;
 }
 
 // The triangles that NETGEN has for pictures leave out parts of cylinders and cones, so the surface
@@ -263,8 +266,7 @@ model::ModelDescription CsgModel::describe() const
   const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
   coarse::CoarseOptions options;
   options.max_size = kSize * box_diagonal_;
-  NetgenSession session(coarse_parameters(options));
-  session.parameters().perfstepsend = ::netgen::MESHCONST_OPTSURFACE;
+  NetgenSession session(surface_parameters(options));
   std::shared_ptr<::netgen::Mesh> mesh;
   const int failed = session.run(
       file_name_ + ": surface", [&] { return geometry->GenerateMesh(mesh, session.parameters()); });

@@ -97,9 +97,16 @@ class MesherOfModel final : public coarse::CoarseMesher {
  public:
   explicit MesherOfModel(const LoadedModel& model) : model_(model) {}
 
-  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override
+  [[nodiscard]] coarse::CoarseSurface mesh_surface(
+      const coarse::CoarseOptions& options) const override
   {
-    return model_.generate(options);
+    return model_.mesh_surface(options);
+  }
+
+  [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
+                                               const coarse::CoarseOptions& options) const override
+  {
+    return model_.mesh_domain(skin, options);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/model/description.hpp"
@@ -16,8 +17,12 @@ class NetgenGeometry;
 
 namespace tessera::netgen {
 
-/// @brief What is done with NETGEN's own form of a coarse mesh, while its geometry still lives.
+/// @brief What is done with NETGEN's own form of a mesh, while its geometry still lives.
 using NetgenMeshUser = std::function<void(const ::netgen::NetgenGeometry&, ::netgen::Mesh&)>;
+
+/// @brief The same of a surface. NETGEN's lengths are `scale` times those of `ours`.
+using NetgenSurfaceUser = std::function<void(const ::netgen::NetgenGeometry&, ::netgen::Mesh&,
+                                             double scale, const coarse::CoarseSurface& ours)>;
 
 /// @brief A loaded model of any format: projection, and one try at a coarse mesh.
 class LoadedModel : public model::Model, public coarse::CoarseMesher {
@@ -25,16 +30,29 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   /// @brief What the model holds, for people. @throws NetgenError
   [[nodiscard]] virtual model::ModelDescription describe() const = 0;
 
-  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const final
+  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options) const final
   {
-    return generate(options, [](const auto&, auto&) {});
+    return mesh_surface(options, [](const auto&...) {});
   }
 
-  /// @brief As generate(), and lets `use` go on with the mesh in NETGEN. There NETGEN can do what
-  /// Tessera does otherwise (refine it), so the two can be compared on one coarse mesh.
+  /// @brief As mesh_surface(), and lets `use` go on with the surface in NETGEN, if NETGEN made it.
   /// @throws Also what `use` throws.
-  [[nodiscard]] virtual mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
-                                                  const NetgenMeshUser& use) const = 0;
+  [[nodiscard]] virtual coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
+                                                           const NetgenSurfaceUser& use) const = 0;
+
+  [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
+                                               const coarse::CoarseOptions& options) const final;
+
+  /// @brief As generate(options), and lets `use` go on with the mesh in NETGEN. There NETGEN can do
+  /// what Tessera does otherwise (refine it), so the two can be compared on one coarse mesh.
+  /// @throws Also what `use` throws.
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
+                                          const NetgenMeshUser& use) const;
+  using CoarseMesher::generate;
+
+ protected:
+  /// @brief What messages call the model.
+  [[nodiscard]] virtual const std::string& name() const = 0;
 };
 
 // One pair of functions a format; the contracts are those of import_model() and load_model().

@@ -2,6 +2,8 @@
 #include "netgen/mesh_conversion.hpp"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,7 +15,7 @@ namespace {
 
 using ::netgen::PointIndex;
 
-// Builds the coarse mesh array by array; each step needs the ones before it.
+// Builds the coarse surface array by array; faces need the patches.
 class Conversion {
  public:
   Conversion(const ::netgen::Mesh& from, const GeometryNumbers& numbers)
@@ -21,47 +23,21 @@ class Conversion {
   {
   }
 
-  mesh::CoarseMesh run()
+  coarse::CoarseSurface run(double max_size)
   {
-    keep_vertices_of_tets();
-    add_tets();
+    add_vertices();
     add_patches();
     add_faces();
     if (numbers_.curve) add_segments();
+    add_materials(to_, max_size, numbers_.material_name);
     return std::move(to_);
   }
 
  private:
-  void keep_vertices_of_tets()
+  void add_vertices()
   {
-    new_vertex_.assign(from_.GetNP(), kNoIndex);
-    for (const auto& element : from_.VolumeElements()) {
-      if (element.IsDeleted()) continue;
-      if (element.GetType() != ::netgen::TET) throw NetgenError("a volume element is no tet");
-      for (int c = 0; c < 4; ++c) new_vertex_.at(place(element[c])) = 0;
-    }
-    LocalIndex next = 0;
-    for (std::size_t v = 0; v < new_vertex_.size(); ++v) {
-      if (new_vertex_[v] == kNoIndex) continue;
-      new_vertex_[v] = next++;
-      const auto& point = from_[PointIndex(static_cast<int>(v) + PointIndex::BASE)];
-      for (int axis = 0; axis < 3; ++axis) to_.vertex_xyz.push_back(point(axis));
-    }
-    if (next == 0) throw NetgenError("NETGEN made no tets");
-  }
-
-  void add_tets()
-  {
-    LocalIndex num_materials = 0;
-    for (const auto& element : from_.VolumeElements()) {
-      if (element.IsDeleted()) continue;
-      for (const int c : kNetgenTetOrder) to_.tet_vertices.push_back(vertex(element[c]));
-      to_.tet_material.push_back(element.GetIndex());
-      num_materials = std::max(num_materials, element.GetIndex());
-    }
-    for (LocalIndex m = 1; m <= num_materials; ++m) {
-      const std::string name = numbers_.material_name ? numbers_.material_name(m) : "";
-      to_.material_names.push_back(name.empty() ? fmt::format("material_{}", m) : name);
+    for (const auto& point : from_.Points()) {
+      for (int axis = 0; axis < 3; ++axis) mesh_.vertex_xyz.push_back(point(axis));
     }
   }
 
@@ -74,12 +50,12 @@ class Conversion {
     }
     for (std::size_t d = 1; d < patch_of_descriptor_.size(); ++d) {
       if (patch_of_descriptor_[d] == kNoIndex) continue;
-      patch_of_descriptor_[d] = to_.num_patches();
+      patch_of_descriptor_[d] = mesh_.num_patches();
       const auto& face = from_.GetFaceDescriptor(static_cast<int>(d));
-      const std::string name = numbers_.patch_name ? numbers_.patch_name(face) : "";
-      to_.patch_surface.push_back(numbers_.surface(face));
-      to_.patch_names.push_back(name.empty() ? fmt::format("patch_{}", to_.num_patches() + 1)
-                                             : name);
+      mesh_.patch_surface.push_back(numbers_.surface(face));
+      mesh_.patch_names.push_back(patch_name(numbers_.patch_name ? numbers_.patch_name(face) : "",
+                                             mesh_.num_patches() + 1));
+      to_.patch_domains.push_back({face.DomainIn(), face.DomainOut()});
     }
   }
 
@@ -89,12 +65,12 @@ class Conversion {
       if (element.IsDeleted()) continue;
       if (element.GetType() != ::netgen::TRIG)
         throw NetgenError("a surface element is no triangle");
-      to_.face_patch.push_back(patch_of_descriptor_.at(descriptor(element)));
+      mesh_.face_patch.push_back(patch_of_descriptor_.at(descriptor(element)));
       for (int c = 0; c < 3; ++c) {
-        to_.face_vertices.push_back(vertex(element[c]));
+        mesh_.face_vertices.push_back(vertex(element[c]));
         if (!numbers_.uv) continue;
         const model::SurfaceParameters uv = numbers_.uv(element, c);
-        to_.face_uv.insert(to_.face_uv.end(), uv.begin(), uv.end());
+        mesh_.face_uv.insert(mesh_.face_uv.end(), uv.begin(), uv.end());
       }
     }
   }
@@ -104,40 +80,76 @@ class Conversion {
     for (const ::netgen::Segment& segment : from_.LineSegments()) {
       if (!segment[0].IsValid()) continue;  // Deleted.
       const LocalIndex curve = numbers_.curve(segment);
-      const std::array<LocalIndex, 2> ends{vertex(segment[0]), vertex(segment[1])};
-      if (curve == kNoIndex || ends[0] == kNoIndex || ends[1] == kNoIndex) continue;
-      to_.segment_vertices.insert(to_.segment_vertices.end(), ends.begin(), ends.end());
-      to_.segment_curve.push_back(curve);
+      if (curve == kNoIndex) continue;
+      mesh_.segment_vertices.insert(mesh_.segment_vertices.end(),
+                                    {vertex(segment[0]), vertex(segment[1])});
+      mesh_.segment_curve.push_back(curve);
       if (!numbers_.t) continue;
-      for (int end = 0; end < 2; ++end) to_.segment_t.push_back(numbers_.t(segment, end));
+      for (int end = 0; end < 2; ++end) mesh_.segment_t.push_back(numbers_.t(segment, end));
     }
   }
 
-  static std::size_t place(PointIndex p) { return static_cast<std::size_t>(p - PointIndex::BASE); }
   static std::size_t descriptor(const ::netgen::Element2d& element)
   {
     return static_cast<std::size_t>(element.GetIndex());
   }
-  [[nodiscard]] LocalIndex vertex(PointIndex p) const { return new_vertex_.at(place(p)); }
+  static LocalIndex vertex(PointIndex p) { return p - PointIndex::BASE; }
 
   const ::netgen::Mesh& from_;
   const GeometryNumbers& numbers_;
-  std::vector<LocalIndex> new_vertex_{};           // kNoIndex: no vertex of a tet.
   std::vector<LocalIndex> patch_of_descriptor_{};  // Descriptors count from 1.
-  mesh::CoarseMesh to_{};
+  coarse::CoarseSurface to_{};
+  mesh::CoarseMesh& mesh_ = to_.mesh;
 };
 
 }  // namespace
 
-mesh::CoarseMesh to_coarse_mesh(const ::netgen::Mesh& from, const GeometryNumbers& numbers,
-                                const std::string& what)
+std::string patch_name(const std::string& name_in_file, LocalIndex number)
+{
+  return name_in_file.empty() ? fmt::format("patch_{}", number) : name_in_file;
+}
+
+void add_materials(coarse::CoarseSurface& surface, double max_size,
+                   const std::function<std::string(LocalIndex)>& name)
+{
+  LocalIndex num_materials = 0;
+  for (const auto& domains : surface.patch_domains) {
+    num_materials = std::max({num_materials, domains[0], domains[1]});
+  }
+  for (LocalIndex m = 1; m <= num_materials; ++m) {
+    const std::string given = name ? name(m) : "";
+    surface.mesh.material_names.push_back(given.empty() ? fmt::format("material_{}", m) : given);
+  }
+  surface.domain_max_size.assign(at(num_materials), max_size);
+}
+
+coarse::CoarseSurface to_coarse_surface(const ::netgen::Mesh& from, const GeometryNumbers& numbers,
+                                        double max_size, const std::string& what)
 {
   try {
-    mesh::CoarseMesh mesh = Conversion(from, numbers).run();
-    mesh::validate(mesh);
-    return mesh;
+    coarse::CoarseSurface surface = Conversion(from, numbers).run(max_size);
+    if (surface.domain_max_size.empty()) throw NetgenError("NETGEN's surface encloses nothing");
+    if (!numbers.max_size) return surface;
+    for (std::size_t d = 0; d < surface.domain_max_size.size(); ++d) {
+      double& size = surface.domain_max_size[d];
+      size = std::min(size, numbers.max_size(static_cast<int>(d) + 1));
+    }
+    return surface;
   } catch (const MeshError& error) {
     throw NetgenError(fmt::format("{}: {}", what, error.what()));
+  }
+}
+
+void add_tets(::netgen::Mesh& mesh, const std::vector<LocalIndex>& tet_vertices, int domain)
+{
+  for (std::size_t t = 0; t < tet_vertices.size(); t += 4) {
+    ::netgen::Element tet(4);
+    for (std::size_t c = 0; c < 4; ++c) {
+      const int place = kNetgenTetOrder[c];
+      tet[place] = tet_vertices[t + c] + PointIndex::BASE;
+    }
+    tet.SetIndex(domain);
+    mesh.AddVolumeElement(tet);
   }
 }
 

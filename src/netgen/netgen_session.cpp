@@ -93,6 +93,13 @@ std::string message_of_current_exception()
   return parameters;
 }
 
+::netgen::MeshingParameters surface_parameters(const coarse::CoarseOptions& options)
+{
+  ::netgen::MeshingParameters parameters = coarse_parameters(options);
+  parameters.perfstepsend = ::netgen::MESHCONST_OPTSURFACE;
+  return parameters;
+}
+
 struct NetgenSession::Saved {
   ::netgen::MeshingParameters parameters = ::netgen::mparam;
   int message_level = ::netgen::printmessage_importance;

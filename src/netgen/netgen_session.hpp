@@ -16,6 +16,9 @@ namespace tessera::netgen {
 /// @brief NETGEN's settings for a coarse mesh; every format uses these.
 [[nodiscard]] ::netgen::MeshingParameters coarse_parameters(const coarse::CoarseOptions& options);
 
+/// @brief The same, for NETGEN to end with the surface.
+[[nodiscard]] ::netgen::MeshingParameters surface_parameters(const coarse::CoarseOptions& options);
+
 /// @brief Holds NETGEN's global state while this process works with it; restores it at its end.
 ///
 /// Some of NETGEN's meshers read the global `::netgen::mparam` and not their argument. All write to

@@ -55,16 +55,17 @@ class OccModel final : public LoadedModel {
   {
     return with_occ_errors(file_name_, [&] { return describe_shape(content_); });
   }
-  using LoadedModel::generate;
-  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
-                                          const NetgenMeshUser& use) const override;
+  using LoadedModel::mesh_surface;
+  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
+                                                   const NetgenSurfaceUser& use) const override;
 
  private:
+  [[nodiscard]] const std::string& name() const override { return file_name_; }
   [[nodiscard]] const OccSurface& surface_at(LocalIndex surface) const;
   [[nodiscard]] const OccCurve& curve_at(LocalIndex curve) const;
   [[nodiscard]] GeometryNumbers numbers_for(const ::netgen::OCCGeometry& geometry) const;
   [[nodiscard]] std::string solid_name(LocalIndex material) const;
-  [[nodiscard]] mesh::CoarseMesh remesh(const coarse::CoarseOptions& options) const;
+  [[nodiscard]] coarse::CoarseSurface remesh(const coarse::CoarseOptions& options) const;
   static bool generate_steps(::netgen::OCCGeometry& geometry,
                              ::netgen::MeshingParameters& parameters,
                              std::shared_ptr<::netgen::Mesh>& mesh);
@@ -171,18 +172,18 @@ GeometryNumbers OccModel::numbers_for(const ::netgen::OCCGeometry& geometry) con
 }
 
 // Where NETGEN cannot mesh a face: OpenCASCADE's triangles, made well-shaped and put on the faces.
-mesh::CoarseMesh OccModel::remesh(const coarse::CoarseOptions& options) const
+coarse::CoarseSurface OccModel::remesh(const coarse::CoarseOptions& options) const
 {
   const coarse::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
   const coarse::PatchSurface surface = coarse::remesh_on_geometry(reference, *this, options);
   const SurfaceNames names{
       [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
       [this](LocalIndex material) { return solid_name(material); }};
-  mesh::CoarseMesh mesh = mesh_volume(surface, options, names, file_name_);
-  guess_parameters(reference, mesh);
-  locate_face_corners(mesh);
-  locate_segment_ends(mesh);
-  return mesh;
+  coarse::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names, file_name_);
+  guess_parameters(reference, coarse.mesh);
+  locate_face_corners(coarse.mesh);
+  locate_segment_ends(coarse.mesh);
+  return coarse;
 }
 
 // Those of the tessellation, a little inside each face and segment: at a seam that is their side.
@@ -222,11 +223,11 @@ bool OccModel::generate_steps(::netgen::OCCGeometry& geometry,
   };
   if (!run(::netgen::MESHCONST_ANALYSE, ::netgen::MESHCONST_ANALYSE)) return false;
   for (const auto& wanted : parameters.meshsize_points) mesh->RestrictLocalH(wanted.pnt, wanted.h);
-  return run(::netgen::MESHCONST_MESHEDGES, ::netgen::MESHCONST_OPTVOLUME);
+  return run(::netgen::MESHCONST_MESHEDGES, ::netgen::MESHCONST_OPTSURFACE);
 }
 
-mesh::CoarseMesh OccModel::generate(const coarse::CoarseOptions& options,
-                                    const NetgenMeshUser& use) const
+coarse::CoarseSurface OccModel::mesh_surface(const coarse::CoarseOptions& options,
+                                             const NetgenSurfaceUser& use) const
 {
   if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
     return with_occ_errors(file_name_, [&] { return remesh(options); });
@@ -242,10 +243,11 @@ mesh::CoarseMesh OccModel::generate(const coarse::CoarseOptions& options,
     auto mesh = std::make_shared<::netgen::Mesh>();
     const bool is_made = generate_steps(geometry, session.parameters(), mesh);
     if (!is_made) throw NetgenError("NETGEN gave up: " + session.words());
-    mesh::CoarseMesh coarse = to_coarse_mesh(*mesh, numbers_for(geometry), file_name_);
-    locate_face_corners(coarse);
-    locate_segment_ends(coarse);
-    use(geometry, *mesh);
+    coarse::CoarseSurface coarse =
+        to_coarse_surface(*mesh, numbers_for(geometry), options.max_size, file_name_);
+    locate_face_corners(coarse.mesh);
+    locate_segment_ends(coarse.mesh);
+    use(geometry, *mesh, 1.0, coarse);
     return coarse;
   });
 }

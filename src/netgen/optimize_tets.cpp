@@ -6,25 +6,6 @@
 #include "netgen/mesh_conversion.hpp"
 
 namespace tessera::netgen {
-namespace {
-
-using ::netgen::PointIndex;
-
-void add_tets(::netgen::Mesh& mesh, const std::vector<LocalIndex>& tet_vertices)
-{
-  for (std::size_t t = 0; t < tet_vertices.size(); t += 4) {
-    ::netgen::Element tet(4);
-    for (std::size_t c = 0; c < 4; ++c) {
-      const int place = kNetgenTetOrder[c];
-      tet[place] = tet_vertices[t + c] + PointIndex::BASE;
-    }
-    tet.SetIndex(1);
-    mesh.AddVolumeElement(tet);
-  }
-}
-
-}  // namespace
-
 OrderedTets optimize_tets(const std::vector<double>& vertex_xyz,
                           const std::vector<LocalIndex>& tet_vertices,
                           const std::vector<LocalIndex>& triangle_vertices, LocalIndex num_fixed,

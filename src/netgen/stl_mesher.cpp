@@ -67,6 +67,7 @@ class StlMeshing {
       : surface_(surface),
         features_(features),
         name_(name),
+        max_size_(options.max_size),
         scale_(scale_for_netgen(surface)),
         stl_parameters_(options),
         size_file_(options.points.scaled(scale_)),
@@ -74,25 +75,24 @@ class StlMeshing {
   {
   }
 
-  mesh::CoarseMesh run(const NetgenMeshUser& use)
+  coarse::CoarseSurface run(const NetgenSurfaceUser& use)
   {
     session_.run(name_ + ": loading into NETGEN", [&] { give_triangles(); });
     give_feature_edges();
     session_.run(name_ + ": coarse mesh", [&] {
       mesh_up_to(::netgen::MESHCONST_ANALYSE, ::netgen::MESHCONST_MESHEDGES);
       give_domains();
-      mesh_up_to(::netgen::MESHCONST_MESHSURFACE, ::netgen::MESHCONST_OPTVOLUME);
+      mesh_up_to(::netgen::MESHCONST_MESHSURFACE, ::netgen::MESHCONST_OPTSURFACE);
     });
-    if (geometry_.surfacemeshed == 0 || geometry_.volumemeshed == 0) {
-      throw NetgenError(fmt::format("{}: NETGEN gave up on the coarse {} mesh{}", name_,
-                                    geometry_.surfacemeshed == 0 ? "surface" : "volume",
+    if (geometry_.surfacemeshed == 0) {
+      throw NetgenError(fmt::format("{}: NETGEN gave up on the coarse surface mesh{}", name_,
                                     session_.words().empty() ? "" : ": " + session_.words()));
     }
     take_own_numbers();
-    mesh::CoarseMesh mesh = to_coarse_mesh(*mesh_, numbers(), name_);
-    for (double& x : mesh.vertex_xyz) x /= scale_;
-    session_.run(name_, [&] { use(geometry_, *mesh_); });
-    return mesh;
+    coarse::CoarseSurface surface = to_coarse_surface(*mesh_, numbers(), max_size_, name_);
+    for (double& x : surface.mesh.vertex_xyz) x /= scale_;
+    session_.run(name_, [&] { use(geometry_, *mesh_, scale_, surface); });
+    return surface;
   }
 
  private:
@@ -207,6 +207,7 @@ class StlMeshing {
   const model::TriangleSurface& surface_;
   const model::SurfaceFeatures& features_;
   const std::string& name_;
+  double max_size_;
   double scale_;
   StlParameters stl_parameters_;
   SizeFile size_file_;
@@ -218,10 +219,10 @@ class StlMeshing {
 
 }  // namespace
 
-mesh::CoarseMesh mesh_stl_surface(const model::TriangleSurface& surface,
-                                  const model::SurfaceFeatures& features,
-                                  const coarse::CoarseOptions& options, const std::string& name,
-                                  const NetgenMeshUser& use)
+coarse::CoarseSurface mesh_stl_surface(const model::TriangleSurface& surface,
+                                       const model::SurfaceFeatures& features,
+                                       const coarse::CoarseOptions& options,
+                                       const std::string& name, const NetgenSurfaceUser& use)
 {
   return StlMeshing(surface, features, options, name).run(use);
 }

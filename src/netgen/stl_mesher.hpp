@@ -12,7 +12,7 @@
 
 namespace tessera::netgen {
 
-/// @brief Coarse mesh of an STL surface by NETGEN's STL mesher, with our patches and curves.
+/// @brief Coarse surface of an STL surface by NETGEN's STL mesher, with our patches and curves.
 ///
 /// NETGEN gets our triangles and our feature edges and no other, so it never decides by an angle of
 /// its own. Inside a patch it may add edges, to start a face or to unroll it. These are not
@@ -20,10 +20,11 @@ namespace tessera::netgen {
 /// @param name  What messages call the model.
 /// @param use   Gets NETGEN's mesh, scaled by a power of two.
 /// @note May crash or hang inside NETGEN.
-/// @throws NetgenError if NETGEN gives up or the result is not a valid mesh.
-[[nodiscard]] mesh::CoarseMesh mesh_stl_surface(const model::TriangleSurface& surface,
-                                                const model::SurfaceFeatures& features,
-                                                const coarse::CoarseOptions& options,
-                                                const std::string& name, const NetgenMeshUser& use);
+/// @throws NetgenError if NETGEN gives up.
+[[nodiscard]] coarse::CoarseSurface mesh_stl_surface(const model::TriangleSurface& surface,
+                                                     const model::SurfaceFeatures& features,
+                                                     const coarse::CoarseOptions& options,
+                                                     const std::string& name,
+                                                     const NetgenSurfaceUser& use);
 
 }  // namespace tessera::netgen

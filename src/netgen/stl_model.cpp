@@ -111,24 +111,26 @@ class StlModel final : public LoadedModel {
 
   [[nodiscard]] model::ModelDescription describe() const override;
 
-  using LoadedModel::generate;
-  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
-                                          const NetgenMeshUser& use) const override
+  using LoadedModel::mesh_surface;
+  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
+                                                   const NetgenSurfaceUser& use) const override
   {
     if (options.surface_mesher == coarse::SurfaceMesher::remesh) return remesh(options);
     return mesh_stl_surface(surface_, features_, options, name_, use);
   }
 
  private:
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
   // Where NETGEN cannot mesh the surface or never ends: our own triangles, made well-shaped.
-  [[nodiscard]] mesh::CoarseMesh remesh(const coarse::CoarseOptions& options) const
+  [[nodiscard]] coarse::CoarseSurface remesh(const coarse::CoarseOptions& options) const
   {
     const coarse::SurfaceReference reference(patches_of(surface_, features_));
     const SurfaceNames names{
         [this](LocalIndex patch) { return features_.patch_names[at(patch)]; },
         [this](LocalIndex material) { return surface_.material_names[at(material - 1)]; }};
-    return mesh_volume(coarse::remesh_on_geometry(reference, *this, options), options, names,
-                       name_);
+    return to_coarse_surface(coarse::remesh_on_geometry(reference, *this, options),
+                             options.max_size, names, name_);
   }
 
   // Nothing is near a point that is not finite.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/volume_mesher.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +10,7 @@
 #include <meshing.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/optimize_domain.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 
 #include "netgen/mesh_conversion.hpp"
@@ -19,40 +22,82 @@ namespace {
 
 using ::netgen::PointIndex;
 
-::netgen::PointIndex number_of(LocalIndex v) { return {v + PointIndex::BASE}; }
+// Of optimising and making legal what came of it: then vertices are moved only.
+constexpr int kMostRounds = 3;
 
-void add_surface(::netgen::Mesh& mesh, const coarse::PatchSurface& surface)
+PointIndex number_of(LocalIndex v) { return {v + PointIndex::BASE}; }
+
+// With patches and curves: NETGEN wants no tet with two faces on one patch.
+void add_skin(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
 {
-  for (const Vec3& point : surface.vertex_xyz) mesh.AddPoint(to_netgen(point));
-  for (LocalIndex p = 0; p < surface.num_patches(); ++p) {
-    const auto& [below, above] = surface.patch_materials[at(p)];
-    mesh.AddFaceDescriptor(::netgen::FaceDescriptor(p + 1, below, above, 0));
+  for (std::size_t v = 0; v < skin.vertex.size(); ++v) {
+    mesh.AddPoint(to_netgen(point_at(std::span(skin.vertex_xyz), v)));
   }
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const auto& v = surface.triangles[t];
+  const LocalIndex num_patches = 1 + *std::ranges::max_element(skin.triangle_patch);
+  for (LocalIndex p = 0; p < num_patches; ++p) {
+    mesh.AddFaceDescriptor(::netgen::FaceDescriptor(p + 1, 1, 0, 0));
+  }
+  for (std::size_t t = 0; t < skin.triangle_patch.size(); ++t) {
+    const LocalIndex* v = &skin.triangle_vertices[3 * t];
     ::netgen::Element2d triangle(number_of(v[0]), number_of(v[1]), number_of(v[2]));
-    triangle.SetIndex(surface.triangle_patch[t] + 1);
+    triangle.SetIndex(skin.triangle_patch[t] + 1);
     mesh.AddSurfaceElement(triangle);
   }
-  for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+  for (std::size_t e = 0; e < skin.edge_vertices.size(); e += 2) {
     ::netgen::Segment segment;
-    segment[0] = number_of(surface.edges[e][0]);
-    segment[1] = number_of(surface.edges[e][1]);
-    segment.edgenr = surface.edge_curve[e] + 1;
+    segment[0] = number_of(skin.edge_vertices[e]);
+    segment[1] = number_of(skin.edge_vertices[e + 1]);
     mesh.AddSegment(segment);
   }
 }
 
-GeometryNumbers numbers_of(const SurfaceNames& names)
+void add_all(::netgen::Mesh& mesh, const coarse::DomainTets& tets)
 {
-  GeometryNumbers numbers;
-  numbers.surface = [](const ::netgen::FaceDescriptor& face) { return face.SurfNr() - 1; };
-  numbers.patch_name = [&names](const ::netgen::FaceDescriptor& face) {
-    return names.patch(face.SurfNr() - 1);
-  };
-  numbers.material_name = names.material;
-  numbers.curve = [](const ::netgen::Segment& segment) { return segment.edgenr - 1; };
-  return numbers;
+  for (std::size_t v = mesh.GetNP(); v < tets.vertex_xyz.size() / 3; ++v) {
+    mesh.AddPoint(to_netgen(point_at(std::span(tets.vertex_xyz), v)));
+  }
+  add_tets(mesh, tets.tet_vertices);
+}
+
+coarse::DomainTets tets_in(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
+{
+  mesh.Compress();
+  const auto num_fixed = static_cast<LocalIndex>(skin.vertex.size());
+  OrderedTets tets = tets_of(mesh, point_order(num_fixed, 0));
+  if (tets.tet_vertices.empty()) throw NetgenError("NETGEN made no tets");
+  return {std::move(tets.vertex_xyz), std::move(tets.tet_vertices)};
+}
+
+void set_sizes(::netgen::Mesh& mesh, const ::netgen::MeshingParameters& parameters)
+{
+  mesh.CalcLocalH(parameters.grading);
+  for (const auto& wanted : parameters.meshsize_points) mesh.RestrictLocalH(wanted.pnt, wanted.h);
+}
+
+coarse::DomainTets first_tets(const coarse::DomainSkin& skin, NetgenSession& session)
+{
+  ::netgen::Mesh mesh;
+  add_skin(mesh, skin);
+  set_sizes(mesh, session.parameters());
+  if (::netgen::MeshVolume(session.parameters(), mesh) != ::netgen::MESHING3_OK) {
+    throw NetgenError("NETGEN gave up on the coarse volume mesh: " + session.words());
+  }
+  ::netgen::RemoveIllegalElements(mesh);
+  return tets_in(mesh, skin);
+}
+
+// A tet with two faces on one patch has children that become flat where the patch is smooth. Our
+// optimiser makes one in a thousand of them.
+std::optional<coarse::DomainTets> without_illegal_tets(const coarse::DomainSkin& skin,
+                                                       const coarse::DomainTets& tets)
+{
+  ::netgen::Mesh mesh;
+  add_skin(mesh, skin);
+  add_all(mesh, tets);
+  mesh.CalcSurfacesOfNode();
+  if (mesh.MarkIllegalElements() == 0) return std::nullopt;
+  ::netgen::RemoveIllegalElements(mesh);
+  return tets_in(mesh, skin);
 }
 
 std::string name_of(const coarse::PatchSurface& surface, const SurfaceNames& names,
@@ -78,24 +123,57 @@ void require_apart(const coarse::PatchSurface& surface, const SurfaceNames& name
       fmt::join(place, ", ")));
 }
 
+// Patches without triangles are left out.
+void add_patches(const coarse::PatchSurface& from, const SurfaceNames& names,
+                 coarse::CoarseSurface& to)
+{
+  std::vector<LocalIndex> row(at(from.num_patches()), kNoIndex);
+  for (const LocalIndex patch : from.triangle_patch) row[at(patch)] = 0;
+  for (LocalIndex p = 0; p < from.num_patches(); ++p) {
+    if (row[at(p)] == kNoIndex) continue;
+    row[at(p)] = to.mesh.num_patches();
+    to.mesh.patch_surface.push_back(p);
+    to.mesh.patch_names.push_back(patch_name(names.patch(p), to.mesh.num_patches() + 1));
+    to.patch_domains.push_back(from.patch_materials[at(p)]);
+  }
+  for (const LocalIndex patch : from.triangle_patch) to.mesh.face_patch.push_back(row[at(patch)]);
+}
+
 }  // namespace
 
-mesh::CoarseMesh mesh_volume(const coarse::PatchSurface& surface,
-                             const coarse::CoarseOptions& options, const SurfaceNames& names,
-                             const std::string& what)
+coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface, double max_size,
+                                        const SurfaceNames& names, const std::string& what)
 {
   require_apart(surface, names, what);
-  NetgenSession session(coarse_parameters(options));
+  coarse::CoarseSurface result;
+  mesh::CoarseMesh& mesh = result.mesh;
+  for (const Vec3& p : surface.vertex_xyz)
+    mesh.vertex_xyz.insert(mesh.vertex_xyz.end(), p.begin(), p.end());
+  for (const auto& v : surface.triangles)
+    mesh.face_vertices.insert(mesh.face_vertices.end(), v.begin(), v.end());
+  for (const auto& v : surface.edges)
+    mesh.segment_vertices.insert(mesh.segment_vertices.end(), v.begin(), v.end());
+  mesh.segment_curve = surface.edge_curve;
+  add_patches(surface, names, result);
+  add_materials(result, max_size, names.material);
+  return result;
+}
+
+coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin, const coarse::CoarseOptions& options,
+                               const std::string& what)
+{
+  coarse::CoarseOptions here = options;
+  here.max_size = std::min(here.max_size, skin.max_size);
+  NetgenSession session(coarse_parameters(here));
   return session.run(what, [&] {
-    ::netgen::Mesh mesh;
-    add_surface(mesh, surface);
-    mesh.CalcLocalH(options.grading);
-    if (::netgen::MeshVolume(session.parameters(), mesh) != ::netgen::MESHING3_OK) {
-      throw NetgenError("NETGEN gave up on the coarse volume mesh: " + session.words());
+    coarse::DomainTets tets = first_tets(skin, session);
+    for (int round = 0; round < kMostRounds; ++round) {
+      tets = coarse::optimize_domain(std::move(tets));
+      auto legal = without_illegal_tets(skin, tets);
+      if (!legal) return tets;
+      tets = std::move(*legal);
     }
-    ::netgen::RemoveIllegalElements(mesh);
-    ::netgen::OptimizeVolume(session.parameters(), mesh);
-    return to_coarse_mesh(mesh, numbers_of(names), what);
+    return coarse::smooth_domain(std::move(tets));
   });
 }
 

@@ -14,7 +14,7 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "mesh": BASE | {"comm"},
     "model": CORE,
     "netgen": CORE | {"model", "coarse", "fill", "improve"},
-    "coarse": CORE | {"model"},
+    "coarse": CORE | {"model", "optimize"},
     "decompose": CORE | {"model"},
     "untangle": CORE | {"model"},
     "refine": CORE | {"model"},

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <tuple>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+
+namespace tessera::coarse {
+
+/// @brief The coarse mesh before it has tets: triangles that enclose *domains*, each to be filled
+/// for itself. Domain d becomes material d.
+struct CoarseSurface {
+  mesh::CoarseMesh mesh{};  ///< Without tets. Vertices may be of no face.
+
+  /// Shape (num_patches, 2): the domain that normals of a patch's faces point out of, and the one
+  /// they point into; from 1, 0: none.
+  std::vector<std::array<LocalIndex, 2>> patch_domains{};
+
+  /// Shape (num_domains): largest edge in each, file length unit, > 0.
+  std::vector<double> domain_max_size{};
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.mesh, self.patch_domains, self.domain_max_size);
+  }
+
+  [[nodiscard]] LocalIndex num_domains() const
+  {
+    return static_cast<LocalIndex>(domain_max_size.size());
+  }
+};
+
+/// @brief The closed surface of one domain.
+struct DomainSkin {
+  std::vector<LocalIndex> vertex{};             ///< Shape (num_vertices): row of the mesh's.
+  std::vector<double> vertex_xyz{};             ///< Shape (num_vertices, 3).
+  std::vector<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3); normals point out.
+  std::vector<LocalIndex> triangle_patch{};     ///< Shape (num_triangles).
+  std::vector<LocalIndex> edge_vertices{};      ///< Shape (num_edges, 2): those on curves.
+  double max_size = 0.0;                        ///< Largest edge, file length unit, > 0.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.vertex, self.vertex_xyz, self.triangle_vertices, self.triangle_patch,
+                    self.edge_vertices, self.max_size);
+  }
+};
+
+/// @brief Tets that fill a DomainSkin. Its vertices come first, in their places.
+struct DomainTets {
+  std::vector<double> vertex_xyz{};        ///< Shape (num_vertices, 3).
+  std::vector<LocalIndex> tet_vertices{};  ///< Shape (num_tets, 4); positive, VTK's order.
+
+  static auto fields(auto& self) { return std::tie(self.vertex_xyz, self.tet_vertices); }
+};
+
+/// @brief The skin of domain `domain`, from 1. Local; empty if no face bounds it.
+[[nodiscard]] DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain);
+
+/// @brief The coarse mesh: the surface with the tets of all domains. Vertices that no tet has are
+/// dropped, and segments with them.
+/// @param[in] skins  skin_of() every domain, in their order.
+/// @param[in] tets   Those of every domain.
+/// @note Local. @throws MeshError if the result is not valid: mesh::validate().
+[[nodiscard]] mesh::CoarseMesh fill_surface(CoarseSurface surface,
+                                            const std::vector<DomainSkin>& skins,
+                                            const std::vector<DomainTets>& tets);
+
+}  // namespace tessera::coarse

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/loaded_model.hpp"
+
+#include <vector>
+
+#include <meshing.hpp>
+
+#include "netgen/mesh_conversion.hpp"
+#include "netgen/skin_mesh.hpp"
+#include "netgen/volume_mesher.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+// Vertices of the surface are in NETGEN's mesh already, in their order.
+void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& tets, int domain,
+                    double scale, ::netgen::Mesh& mesh)
+{
+  const std::size_t num_skin = skin.vertex.size();
+  const auto first_inner = static_cast<LocalIndex>(mesh.GetNP());
+  for (std::size_t v = num_skin; v < tets.vertex_xyz.size() / 3; ++v) {
+    mesh.AddPoint(to_netgen(scale * point_at(std::span(tets.vertex_xyz), v)));
+  }
+  std::vector<LocalIndex> vertices;
+  for (const LocalIndex v : tets.tet_vertices) {
+    vertices.push_back(at(v) < num_skin ? skin.vertex[at(v)]
+                                        : first_inner + v - static_cast<LocalIndex>(num_skin));
+  }
+  add_tets(mesh, vertices, domain);
+}
+
+}  // namespace
+
+coarse::DomainTets LoadedModel::mesh_domain(const coarse::DomainSkin& skin,
+                                            const coarse::CoarseOptions& options) const
+{
+  return netgen::mesh_domain(skin, options, name() + ": coarse mesh");
+}
+
+mesh::CoarseMesh LoadedModel::generate(const coarse::CoarseOptions& options,
+                                       const NetgenMeshUser& use) const
+{
+  mesh::CoarseMesh coarse;
+  const auto fill = [&](const ::netgen::NetgenGeometry& geometry, ::netgen::Mesh& mesh,
+                        double scale, const coarse::CoarseSurface& surface) {
+    std::vector<coarse::DomainSkin> skins;
+    std::vector<coarse::DomainTets> tets;
+    for (LocalIndex domain = 1; domain <= surface.num_domains(); ++domain) {
+      skins.push_back(coarse::skin_of(surface, domain));
+      tets.push_back(mesh_domain(skins.back(), options));
+      give_to_netgen(skins.back(), tets.back(), domain, scale, mesh);
+    }
+    coarse = coarse::fill_surface(surface, skins, tets);
+    use(geometry, mesh);
+  };
+  static_cast<void>(mesh_surface(options, fill));
+  return coarse;
+}
+
+}  // namespace tessera::netgen
