@@ -128,19 +128,44 @@ class MeshWorker final : public jobs::Worker {
     return garbled_if_asked("describe", to_bytes(netgen::describe_model(*netgen_model_)));
   }
 
-  [[nodiscard]] Bytes answer(const CoarseRequest& request) const
+  // The mesher works in file length units.
+  [[nodiscard]] coarse::CoarseOptions for_mesher(coarse::CoarseOptions options) const
   {
-    coarse::CoarseOptions options = request.options;
     options.max_size /= scale_;
     options.points = options.points.scaled(1.0 / scale_);
-    const auto mesher = make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
-    CoarseTry made{.mesh = mesher->generate(options)};
+    return options;
+  }
+
+  [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> coarse_mesher() const
+  {
+    return make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
+  }
+
+  [[nodiscard]] Bytes answer(const CoarseSurfaceRequest& request) const
+  {
+    return to_bytes(coarse_mesher()->mesh_surface(for_mesher(request.options)));
+  }
+
+  [[nodiscard]] Bytes answer(const CoarseDomainRequest& request) const
+  {
+    return to_bytes(coarse_mesher()->mesh_domain(request.skin, for_mesher(request.options)));
+  }
+
+  [[nodiscard]] Bytes answer(const CoarseMeshRequest& request) const
+  {
+    std::vector<coarse::DomainSkin> skins;
+    std::vector<coarse::DomainTets> tets;
+    for (const FilledDomain& one : request.filled) {
+      skins.push_back(coarse::skin_of(request.surface, one.domain));
+      tets.push_back(one.tets);
+    }
+    CoarseTry made{.mesh = coarse::fill_surface(request.surface, skins, tets)};
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_);
-    if (options.optimize) coarse::optimize_interior(made.mesh);
+    if (request.options.optimize) coarse::optimize_interior(made.mesh);
     made.distance.largest *= scale_;
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     mesh::validate(made.mesh);
-    return garbled_if_asked(stage_of(options), to_bytes(made));
+    return garbled_if_asked(stage_of(request.options), to_bytes(made));
   }
 
   [[nodiscard]] Bytes answer(const UntangleRequest& request) const
@@ -363,9 +388,20 @@ model::ModelDescription description_from_bytes(std::span<const std::byte> result
   return description;
 }
 
-Bytes coarse_request(const coarse::CoarseOptions& options)
+Bytes coarse_surface_request(const coarse::CoarseOptions& options)
 {
-  return to_bytes(Request(CoarseRequest{options}));
+  return to_bytes(Request(CoarseSurfaceRequest{options}));
+}
+
+Bytes coarse_domain_request(coarse::DomainSkin skin, const coarse::CoarseOptions& options)
+{
+  return to_bytes(Request(CoarseDomainRequest{std::move(skin), options}));
+}
+
+Bytes coarse_mesh_request(coarse::CoarseSurface surface, std::vector<FilledDomain> filled,
+                          const coarse::CoarseOptions& options)
+{
+  return to_bytes(Request(CoarseMeshRequest{std::move(surface), std::move(filled), options}));
 }
 
 Bytes untangle_request(const std::vector<UntangleTest>& tests,

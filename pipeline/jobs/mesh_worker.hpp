@@ -10,6 +10,7 @@
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/hash.hpp"
+#include "tessera/coarse/coarse_surface.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/fill/fill_try.hpp"
@@ -81,8 +82,29 @@ struct CoarseTry {
   static auto fields(auto& self) { return std::tie(self.mesh, self.distance); }
 };
 
-/// @brief run: one try at the coarse mesh; result: bytes of a CoarseTry. Needs the model.
-[[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options);
+/// @brief run: the coarse surface; result: bytes of a coarse::CoarseSurface in file length units.
+/// Needs the model.
+[[nodiscard]] Bytes coarse_surface_request(const coarse::CoarseOptions& options);
+
+/// @brief run: fills one domain of such a surface; result: bytes of coarse::DomainTets. Needs the
+/// model.
+[[nodiscard]] Bytes coarse_domain_request(coarse::DomainSkin skin,
+                                          const coarse::CoarseOptions& options);
+
+/// @brief The tets of one domain of a coarse surface.
+struct FilledDomain {
+  LocalIndex domain = 0;  ///< From 1.
+  coarse::DomainTets tets{};
+
+  static auto fields(auto& self) { return std::tie(self.domain, self.tets); }
+};
+
+/// @brief run: puts the coarse mesh together and its vertices onto the geometry; result: bytes of a
+/// CoarseTry. Needs the model.
+/// @param[in] filled All domains, in their order.
+[[nodiscard]] Bytes coarse_mesh_request(coarse::CoarseSurface surface,
+                                        std::vector<FilledDomain> filled,
+                                        const coarse::CoarseOptions& options);
 
 /// @brief One subdomain that a plan job tests.
 struct UntangleTest {

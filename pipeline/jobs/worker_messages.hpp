@@ -85,10 +85,25 @@ struct DescribeRequest {
   static auto fields(auto& /*self*/) { return std::tie(); }
 };
 
-struct CoarseRequest {
+struct CoarseSurfaceRequest {
   coarse::CoarseOptions options{};
 
   static auto fields(auto& self) { return std::tie(self.options); }
+};
+
+struct CoarseDomainRequest {
+  coarse::DomainSkin skin{};
+  coarse::CoarseOptions options{};
+
+  static auto fields(auto& self) { return std::tie(self.skin, self.options); }
+};
+
+struct CoarseMeshRequest {
+  coarse::CoarseSurface surface{};
+  std::vector<FilledDomain> filled{};  ///< All domains, in their order.
+  coarse::CoarseOptions options{};
+
+  static auto fields(auto& self) { return std::tie(self.surface, self.filled, self.options); }
 };
 
 struct UntangleRequest {
@@ -111,7 +126,8 @@ struct SkinRequest {
   static auto fields(auto& self) { return std::tie(self.subdomain); }
 };
 
-using Request = std::variant<ImportRequest, BoxRequest, CoarseRequest, UntangleRequest, FillTask,
-                             ImproveRequest, RefineTask, SkinRequest, DescribeRequest>;
+using Request = std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDomainRequest,
+                             CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
+                             RefineTask, SkinRequest, DescribeRequest>;
 
 }  // namespace tessera::pipeline

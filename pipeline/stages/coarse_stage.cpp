@@ -10,9 +10,8 @@
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
-#include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
-#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/stages/coarse_try.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -39,44 +38,54 @@ std::string name_of(const coarse::CoarseOptions& options)
   return fmt::format("{}max_size {:g}", is_remesh ? "remeshed triangles, " : "", options.max_size);
 }
 
-CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
+std::string all_failures(const CoarseResult& result)
+{
+  std::string text;
+  for (const std::string& failure : result.failures) text += "\n  " + failure;
+  return text;
+}
+
+void throw_if_hopeless(const jobs::JobOutcome& outcome, const std::string& file)
+{
+  // Another try would be another mesh, and nothing is wrong with this one.
+  if (was_killed_from_outside(outcome)) {
+    throw MeshError(fmt::format("coarse: {}{}", outcome.message, way_on(outcome)));
+  }
+  if (is_final(outcome)) jobs::throw_unless_ok(outcome, file);
+}
+
+// The mesh is that of rank 0 only.
+CoarseResult first_that_works(const config::Case& run_case, StageScope& stage, RunContext& context)
 {
   const jobs::JobLimits limits{run_case.coarse.timeout_s, kStall_s, kMemory_gib};
+  const std::string file = run_case.geometry.file.string();
   CoarseResult result;
   bool was_endless = false;
   for (const coarse::CoarseOptions& options : coarse_fallbacks(run_case.coarse)) {
     // NETGEN's surface mesher that did not end once would not end at another size either.
     const bool is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen;
     if (was_endless && is_netgen) continue;
-    const Bytes request = coarse_request(options);
-    const JobRequest job{"coarse", request, limits};
-    jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
-    auto made = read_result(outcome, from_bytes<CoarseTry>);
-    keep_if_failed(job, outcome, context);
+    CoarseAttempt attempt = try_coarse_mesh(options, limits, stage, context);
+    const jobs::JobOutcome& outcome = attempt.outcome;
     ++result.tries;
-    if (made) {
-      result.mesh = std::move(made->mesh);
-      result.distance = made->distance;
-      result.options = options;
+    result.options = options;
+    if (outcome.status == jobs::JobStatus::ok) {
+      if (attempt.made) {
+        result.mesh = std::move(attempt.made->mesh);
+        result.distance = attempt.made->distance;
+      }
       return result;
     }
-    throw_if_cancelled(outcome);
-    // Another try would be another mesh, and nothing is wrong with this one.
-    if (was_killed_from_outside(outcome)) {
-      throw MeshError(fmt::format("coarse: {}{}", outcome.message, way_on(outcome)));
-    }
-    if (is_final(outcome)) jobs::throw_unless_ok(outcome, run_case.geometry.file.string());
+    all_or_none(context.comm, [&] { throw_if_hopeless(outcome, file); });
     result.failures.push_back(fmt::format("{}: {}", name_of(options), outcome.message));
     context.log.warn("coarse: try {} failed: {}", result.tries, result.failures.back());
     was_endless = was_endless || is_endless(outcome);
     result.was_limited = result.was_limited || depends_on_machine(outcome);
   }
-  std::string failures;
-  for (const std::string& failure : result.failures) failures += "\n  " + failure;
   throw MeshError(
       fmt::format("{}: no coarse mesh could be made; try another coarse.max_size, a longer "
                   "coarse.timeout_s, or repair the model{}",
-                  run_case.geometry.file.string(), failures));
+                  file, all_failures(result)));
 }
 
 }  // namespace
@@ -105,7 +114,8 @@ std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions&
 CoarseResult run_coarse_stage(const config::Case& run_case, RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseResult result = on_root(context.comm, [&] { return first_that_works(run_case, context); });
+  CoarseResult result = first_that_works(run_case, stage, context);
+  result = on_root(context.comm, [&] { return std::move(result); });
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),
                            result.mesh.num_patches(), result.mesh.num_materials()));

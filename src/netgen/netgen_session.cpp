@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/netgen_session.hpp"
 
+#include <cmath>
 #include <iostream>
 #include <span>
 #include <sstream>
@@ -91,6 +92,12 @@ std::string message_of_current_exception()
         {::netgen::Point<3>(point[0], point[1], point[2]), options.points.size[i]});
   }
   return parameters;
+}
+
+double scale_for_netgen(double box_diagonal)
+{
+  constexpr double kDiagonal = 100.0;
+  return std::exp2(std::round(std::log2(kDiagonal / box_diagonal)));
 }
 
 ::netgen::MeshingParameters surface_parameters(const coarse::CoarseOptions& options)

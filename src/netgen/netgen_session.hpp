@@ -19,6 +19,11 @@ namespace tessera::netgen {
 /// @brief The same, for NETGEN to end with the surface.
 [[nodiscard]] ::netgen::MeshingParameters surface_parameters(const coarse::CoarseOptions& options);
 
+/// @brief What NETGEN's meshers get lengths multiplied by: some have absolute lengths in them
+/// (segments below 1e-10, boxes grown by 10), so they always see a model of about one size. It is a
+/// power of two: no bit of a position is lost on the way there and back.
+[[nodiscard]] double scale_for_netgen(double box_diagonal);
+
 /// @brief Holds NETGEN's global state while this process works with it; restores it at its end.
 ///
 /// Some of NETGEN's meshers read the global `::netgen::mparam` and not their argument. All write to

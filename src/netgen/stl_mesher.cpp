@@ -50,16 +50,6 @@ class StlParameters {
   ::netgen::STLDoctorParams saved_doctor_ = ::netgen::stldoctor;
 };
 
-// NETGEN's STL mesher has absolute lengths in it (segments below 1e-10, boxes grown by 10), so it
-// always sees a model of about this size. The factor is a power of two: no bit of a position is
-// lost on the way there and back.
-constexpr double kDiagonalForNetgen = 100.0;
-
-double scale_for_netgen(const model::TriangleSurface& surface)
-{
-  return std::exp2(std::round(std::log2(kDiagonalForNetgen / model::box_diagonal(surface))));
-}
-
 class StlMeshing {
  public:
   StlMeshing(const model::TriangleSurface& surface, const model::SurfaceFeatures& features,
@@ -68,7 +58,7 @@ class StlMeshing {
         features_(features),
         name_(name),
         max_size_(options.max_size),
-        scale_(scale_for_netgen(surface)),
+        scale_(scale_for_netgen(model::box_diagonal(surface))),
         stl_parameters_(options),
         size_file_(options.points.scaled(scale_)),
         session_(parameters(options))

@@ -100,6 +100,32 @@ std::optional<coarse::DomainTets> without_illegal_tets(const coarse::DomainSkin&
   return tets_in(mesh, skin);
 }
 
+coarse::DomainTets good_tets(const coarse::DomainSkin& skin, NetgenSession& session)
+{
+  coarse::DomainTets tets = first_tets(skin, session);
+  for (int round = 0; round < kMostRounds; ++round) {
+    tets = coarse::optimize_domain(std::move(tets));
+    auto legal = without_illegal_tets(skin, tets);
+    if (!legal) return tets;
+    tets = std::move(*legal);
+  }
+  return coarse::smooth_domain(std::move(tets));
+}
+
+double box_diagonal(const std::vector<double>& vertex_xyz)
+{
+  Vec3 least = point_at(std::span(vertex_xyz), 0);
+  Vec3 most = least;
+  for (std::size_t v = 0; v < vertex_xyz.size() / 3; ++v) {
+    const Vec3 point = point_at(std::span(vertex_xyz), v);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      least[axis] = std::min(least[axis], point[axis]);
+      most[axis] = std::max(most[axis], point[axis]);
+    }
+  }
+  return norm(most - least);
+}
+
 std::string name_of(const coarse::PatchSurface& surface, const SurfaceNames& names,
                     std::size_t triangle)
 {
@@ -162,19 +188,16 @@ coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface, dou
 coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin, const coarse::CoarseOptions& options,
                                const std::string& what)
 {
-  coarse::CoarseOptions here = options;
-  here.max_size = std::min(here.max_size, skin.max_size);
-  NetgenSession session(coarse_parameters(here));
-  return session.run(what, [&] {
-    coarse::DomainTets tets = first_tets(skin, session);
-    for (int round = 0; round < kMostRounds; ++round) {
-      tets = coarse::optimize_domain(std::move(tets));
-      auto legal = without_illegal_tets(skin, tets);
-      if (!legal) return tets;
-      tets = std::move(*legal);
-    }
-    return coarse::smooth_domain(std::move(tets));
-  });
+  const double scale = scale_for_netgen(box_diagonal(skin.vertex_xyz));
+  coarse::CoarseOptions scaled = options;
+  scaled.max_size = scale * std::min(options.max_size, skin.max_size);
+  scaled.points = options.points.scaled(scale);
+  coarse::DomainSkin scaled_skin = skin;
+  for (double& x : scaled_skin.vertex_xyz) x *= scale;
+  NetgenSession session(coarse_parameters(scaled));
+  coarse::DomainTets tets = session.run(what, [&] { return good_tets(scaled_skin, session); });
+  for (double& x : tets.vertex_xyz) x /= scale;
+  return tets;
 }
 
 }  // namespace tessera::netgen

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/error.hpp"
@@ -58,6 +59,12 @@ struct JobOutcome {
   double cpu_s = 0.0;                ///< CPU time used, seconds.
   double wall_s = 0.0;               ///< Wall time, seconds.
   std::size_t peak_rss_bytes = 0;    ///< Largest resident memory seen of the job process.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.status, self.code, self.error, self.loads_are_lost, self.message,
+                    self.result, self.cpu_s, self.wall_s, self.peak_rss_bytes);
+  }
 };
 
 /// @brief What the worker processes of one rank have used.

@@ -88,7 +88,8 @@ using Types = ::testing::Types<
     // The program's.
     CoarseTry, UntangleTest, FillTask, SkinMesh, CoarseResult, WrittenFile, FillRecord,
     FoldedSubdomain, Plan, ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad,
-    ImportRequest, CoarseRequest, UntangleRequest, ImproveRequest, SkinRequest>;
+    ImportRequest, CoarseSurfaceRequest, CoarseDomainRequest, CoarseMeshRequest, UntangleRequest,
+    ImproveRequest, SkinRequest>;
 TYPED_TEST_SUITE(ByteImage, Types);
 
 TYPED_TEST(ByteImage, BringsBackTheValueAndNothingOfAPartOfIt)
