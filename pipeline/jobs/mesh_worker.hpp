@@ -12,6 +12,7 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
+#include "tessera/cut/cut_tree.hpp"
 #include "tessera/fill/fill_try.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/improve/region_mesh.hpp"
