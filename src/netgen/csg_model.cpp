@@ -14,6 +14,7 @@
 #include "tessera/base/error.hpp"
 
 #include "netgen/csg_access.hpp"
+#include "netgen/csg_cut.hpp"
 #include "netgen/csg_description.hpp"
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
@@ -30,9 +31,6 @@ namespace {
 
 using Geometry = ::netgen::CSGeometry;
 using Point = ::netgen::Point<3>;
-
-// NETGEN's own value: surfaces that differ by less, relative to the bounding box, are one surface.
-constexpr double kIdenticSurfaces = 1e-8;
 
 // A point counts as on an entity within this part of the box diagonal.
 constexpr double kTolerance = 1e-8;
@@ -156,6 +154,8 @@ class CsgModel final : public LoadedModel {
   using LoadedModel::generate;
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                           const NetgenMeshUser& use) const override;
+  [[nodiscard]] cut::CutMesh generate_cut(const coarse::CoarseOptions& options,
+                                          const cut::CutTree& tree) const override;
 
  private:
   [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
@@ -217,6 +217,12 @@ model::CurvePoint CsgModel::project_to_curve(LocalIndex curve, const Vec3& point
   return {from_netgen(found), 0.0};
 }
 
+LocalIndex curve_of(const ::netgen::Segment& segment, int num_surfaces)
+{
+  const auto [low, high] = std::minmax(segment.surfnr1, segment.surfnr2);
+  return low < 0 || high >= num_surfaces ? kNoIndex : low * num_surfaces + high;
+}
+
 GeometryNumbers numbers_of(const Geometry& geometry)
 {
   GeometryNumbers numbers;
@@ -225,10 +231,21 @@ GeometryNumbers numbers_of(const Geometry& geometry)
     return name_unless_default(face.GetBCName());
   };
   numbers.curve = [n = geometry.GetNSurf()](const ::netgen::Segment& segment) {
-    const auto [low, high] = std::minmax(segment.surfnr1, segment.surfnr2);
-    return low < 0 ? kNoIndex : low * n + high;
+    return curve_of(segment, n);
   };
-  numbers.material_name = [&geometry](int domain) { return name_of_solid(geometry, domain - 1); };
+  numbers.material_name = [&geometry](LocalIndex m) { return name_of_solid(geometry, m - 1); };
+  return numbers;
+}
+
+// Of a mesh of the parts, in the numbers of the uncut geometry.
+GeometryNumbers numbers_of_parts(const Geometry& uncut, const CutObjects& objects, FaceOrder& order)
+{
+  GeometryNumbers numbers = numbers_of(uncut);
+  numbers.material = [&](int domain) { return objects.solid.at(at(domain - 1)) + 1; };
+  numbers.patch = [&](const ::netgen::FaceDescriptor& face) {
+    if (face.SurfNr() >= objects.num_surfaces) throw NetgenError("a cut lies on the surface");
+    return order.row_of(face, objects);
+  };
   return numbers;
 }
 
@@ -253,6 +270,29 @@ mesh::CoarseMesh CsgModel::generate(const coarse::CoarseOptions& options,
       to_coarse_mesh(*mesh, numbers_of(*geometry), file_name_ + ": coarse mesh");
   session.run(file_name_, [&] { use(*geometry, *mesh); });
   return coarse;
+}
+
+cut::CutMesh CsgModel::generate_cut(const coarse::CoarseOptions& options,
+                                    const cut::CutTree& tree) const
+{
+  const std::string what = file_name_ + ": coarse mesh of the parts";
+  const std::unique_ptr<Geometry> uncut = parse(text_, file_name_);
+  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
+  NetgenSession session(coarse_parameters(options));
+  return session.run(what, [&] {
+    FaceOrder order(*uncut, session.parameters());
+    const CutObjects objects = cut_geometry(*geometry, tree);
+    std::shared_ptr<::netgen::Mesh> mesh;
+    if (geometry->GenerateMesh(mesh, session.parameters()) != 0) {
+      throw NetgenError("NETGEN gave up; " + session.words());
+    }
+    auto [coarse, tet_domain] =
+        to_domain_mesh(*mesh, numbers_of_parts(*geometry_, objects, order), what);
+    separate_patches(coarse);
+    cut::CutMesh made{std::move(coarse), {}};
+    for (const LocalIndex domain : tet_domain) made.tet_part.push_back(objects.part[at(domain - 1)]);
+    return made;
+  });
 }
 
 // The triangles that NETGEN has for pictures leave out parts of cylinders and cones, so the surface

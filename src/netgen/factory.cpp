@@ -115,6 +115,12 @@ const LoadedModel& loaded(const model::Model& model)
 
 }  // namespace
 
+cut::CutMesh LoadedModel::generate_cut(const coarse::CoarseOptions& /*options*/,
+                                       const cut::CutTree& /*tree*/) const
+{
+  throw ConfigError("decompose.method = \"geometry\" needs a solid model: CSG, STEP, IGES or BREP");
+}
+
 void require_model_file(const fs::path& file)
 {
   static_cast<void>(kind_of(file));
@@ -151,6 +157,12 @@ model::ModelDescription describe_model(const model::Model& model)
 std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model)
 {
   return std::make_unique<MesherOfModel>(loaded(model));
+}
+
+cut::CutMesh mesh_parts(const model::Model& model, const coarse::CoarseOptions& options,
+                        const cut::CutTree& tree)
+{
+  return loaded(model).generate_cut(options, tree);
 }
 
 }  // namespace tessera::netgen

@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/cut/cut_mesh.hpp"
+#include "tessera/cut/cut_tree.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 
@@ -35,6 +37,13 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   /// @throws Also what `use` throws.
   [[nodiscard]] virtual mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                                   const NetgenMeshUser& use) const = 0;
+
+  /// @brief As generate(), of the parts that `tree` cuts the model into; the result is in the
+  /// numbers of the uncut model.
+  /// @throws ConfigError if the model has no solids that could be cut.
+  /// @throws NetgenError also if a part cannot be made.
+  [[nodiscard]] virtual cut::CutMesh generate_cut(const coarse::CoarseOptions& options,
+                                                  const cut::CutTree& tree) const;
 };
 
 // One pair of functions a format; the contracts are those of import_model() and load_model().

@@ -2,6 +2,8 @@
 #include "netgen/mesh_conversion.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,14 +23,14 @@ class Conversion {
   {
   }
 
-  mesh::CoarseMesh run()
+  DomainMesh run()
   {
     keep_vertices_of_tets();
     add_tets();
     add_patches();
     add_faces();
     if (numbers_.curve) add_segments();
-    return std::move(to_);
+    return {std::move(to_), std::move(tet_domain_)};
   }
 
  private:
@@ -56,8 +58,9 @@ class Conversion {
     for (const auto& element : from_.VolumeElements()) {
       if (element.IsDeleted()) continue;
       for (const int c : kNetgenTetOrder) to_.tet_vertices.push_back(vertex(element[c]));
-      to_.tet_material.push_back(element.GetIndex());
-      num_materials = std::max(num_materials, element.GetIndex());
+      tet_domain_.push_back(element.GetIndex());
+      to_.tet_material.push_back(material(element.GetIndex()));
+      num_materials = std::max(num_materials, to_.tet_material.back());
     }
     for (LocalIndex m = 1; m <= num_materials; ++m) {
       const std::string name = numbers_.material_name ? numbers_.material_name(m) : "";
@@ -69,17 +72,23 @@ class Conversion {
   void add_patches()
   {
     patch_of_descriptor_.assign(static_cast<std::size_t>(from_.GetNFD()) + 1, kNoIndex);
+    std::map<LocalIndex, std::vector<int>> descriptors;  // By what they have in common.
     for (const auto& element : from_.SurfaceElements()) {
-      if (!element.IsDeleted()) patch_of_descriptor_.at(descriptor(element)) = 0;
+      if (element.IsDeleted() || patch_of_descriptor_.at(descriptor(element)) == 0) continue;
+      const auto& face = from_.GetFaceDescriptor(element.GetIndex());
+      if (is_inside(face)) continue;
+      patch_of_descriptor_[descriptor(element)] = 0;
+      descriptors[numbers_.patch ? numbers_.patch(face) : element.GetIndex()].push_back(
+          element.GetIndex());
     }
-    for (std::size_t d = 1; d < patch_of_descriptor_.size(); ++d) {
-      if (patch_of_descriptor_[d] == kNoIndex) continue;
-      patch_of_descriptor_[d] = to_.num_patches();
-      const auto& face = from_.GetFaceDescriptor(static_cast<int>(d));
+    for (const auto& [order, of_patch] : descriptors) {
+      for (const int d : of_patch) {
+        patch_of_descriptor_[static_cast<std::size_t>(d)] = to_.num_patches();
+      }
+      const auto& face = from_.GetFaceDescriptor(of_patch.front());
       const std::string name = numbers_.patch_name ? numbers_.patch_name(face) : "";
       to_.patch_surface.push_back(numbers_.surface(face));
-      to_.patch_names.push_back(name.empty() ? fmt::format("patch_{}", to_.num_patches() + 1)
-                                             : name);
+      to_.patch_names.push_back(name.empty() ? default_patch_name(to_.num_patches()) : name);
     }
   }
 
@@ -89,6 +98,7 @@ class Conversion {
       if (element.IsDeleted()) continue;
       if (element.GetType() != ::netgen::TRIG)
         throw NetgenError("a surface element is no triangle");
+      if (patch_of_descriptor_.at(descriptor(element)) == kNoIndex) continue;
       to_.face_patch.push_back(patch_of_descriptor_.at(descriptor(element)));
       for (int c = 0; c < 3; ++c) {
         to_.face_vertices.push_back(vertex(element[c]));
@@ -113,6 +123,18 @@ class Conversion {
     }
   }
 
+  [[nodiscard]] LocalIndex material(int domain) const
+  {
+    return numbers_.material ? numbers_.material(domain) : domain;
+  }
+
+  // Between two parts of one material.
+  [[nodiscard]] bool is_inside(const ::netgen::FaceDescriptor& face) const
+  {
+    return numbers_.material && face.DomainIn() > 0 && face.DomainOut() > 0
+           && material(face.DomainIn()) == material(face.DomainOut());
+  }
+
   static std::size_t place(PointIndex p) { return static_cast<std::size_t>(p - PointIndex::BASE); }
   static std::size_t descriptor(const ::netgen::Element2d& element)
   {
@@ -125,20 +147,29 @@ class Conversion {
   std::vector<LocalIndex> new_vertex_{};           // kNoIndex: no vertex of a tet.
   std::vector<LocalIndex> patch_of_descriptor_{};  // Descriptors count from 1.
   mesh::CoarseMesh to_{};
+  std::vector<LocalIndex> tet_domain_{};
 };
 
 }  // namespace
 
-mesh::CoarseMesh to_coarse_mesh(const ::netgen::Mesh& from, const GeometryNumbers& numbers,
-                                const std::string& what)
+std::string default_patch_name(LocalIndex patch) { return fmt::format("patch_{}", patch + 1); }
+
+DomainMesh to_domain_mesh(const ::netgen::Mesh& from, const GeometryNumbers& numbers,
+                          const std::string& what)
 {
   try {
-    mesh::CoarseMesh mesh = Conversion(from, numbers).run();
-    mesh::validate(mesh);
-    return mesh;
+    DomainMesh made = Conversion(from, numbers).run();
+    mesh::validate(made.mesh);
+    return made;
   } catch (const MeshError& error) {
     throw NetgenError(fmt::format("{}: {}", what, error.what()));
   }
+}
+
+mesh::CoarseMesh to_coarse_mesh(const ::netgen::Mesh& from, const GeometryNumbers& numbers,
+                                const std::string& what)
+{
+  return to_domain_mesh(from, numbers, what).mesh;
 }
 
 }  // namespace tessera::netgen

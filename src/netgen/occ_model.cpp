@@ -20,6 +20,7 @@
 #include "netgen/occ_cad_file.hpp"
 #include "netgen/occ_content.hpp"
 #include "netgen/occ_curve.hpp"
+#include "netgen/occ_cut.hpp"
 #include "netgen/occ_description.hpp"
 #include "netgen/occ_error.hpp"
 #include "netgen/occ_shape.hpp"
@@ -58,18 +59,24 @@ class OccModel final : public LoadedModel {
   using LoadedModel::generate;
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                           const NetgenMeshUser& use) const override;
+  [[nodiscard]] cut::CutMesh generate_cut(const coarse::CoarseOptions& options,
+                                          const cut::CutTree& tree) const override;
 
  private:
   [[nodiscard]] const OccSurface& surface_at(LocalIndex surface) const;
   [[nodiscard]] const OccCurve& curve_at(LocalIndex curve) const;
   [[nodiscard]] GeometryNumbers numbers_for(const ::netgen::OCCGeometry& geometry) const;
+  [[nodiscard]] GeometryNumbers numbers_of_parts(const ::netgen::OCCGeometry& geometry,
+                                                 const CutShape& cut) const;
   [[nodiscard]] std::string solid_name(LocalIndex material) const;
   [[nodiscard]] mesh::CoarseMesh remesh(const coarse::CoarseOptions& options) const;
   static bool generate_steps(::netgen::OCCGeometry& geometry,
                              ::netgen::MeshingParameters& parameters,
                              std::shared_ptr<::netgen::Mesh>& mesh);
   static void guess_parameters(const coarse::SurfaceReference& reference, mesh::CoarseMesh& mesh);
-  void triangulate() const;
+  void triangulate(const TopoDS_Shape& shape) const;
+  static std::shared_ptr<::netgen::Mesh> mesh_geometry(::netgen::OCCGeometry& geometry,
+                                                       NetgenSession& session);
   void locate_face_corners(mesh::CoarseMesh& mesh) const;
   void locate_segment_ends(mesh::CoarseMesh& mesh) const;
 
@@ -127,17 +134,19 @@ model::CurvePoint OccModel::project_to_curve(LocalIndex curve, const Vec3& point
 
 // NETGEN makes a triangulation where there is none, and then reads it unchecked. So it is made and
 // checked here. It is always made anew, so that every call starts from the same state.
-void OccModel::triangulate() const
+void OccModel::triangulate(const TopoDS_Shape& shape) const
 {
   constexpr double kDeflection = 0.01;  // Of an edge's length; what NETGEN takes.
-  BRepTools::Clean(content_.shape);
-  const BRepMesh_IncrementalMesh triangulation(content_.shape, kDeflection, Standard_True);
-  for (int i = 1; i <= faces_.Extent(); ++i) {
+  BRepTools::Clean(shape);
+  const BRepMesh_IncrementalMesh triangulation(shape, kDeflection, Standard_True);
+  int number = 0;
+  for (const TopoDS_Shape& face : parts_of(shape, TopAbs_FACE)) {
     TopLoc_Location place;
-    if (!BRep_Tool::Triangulation(TopoDS::Face(faces_(i)), place).IsNull()) continue;
+    ++number;
+    if (!BRep_Tool::Triangulation(TopoDS::Face(face), place).IsNull()) continue;
     throw NetgenError(
         fmt::format("{}: OpenCASCADE cannot triangulate face {}; repair it in the CAD program",
-                    file_name_, i - 1));
+                    file_name_, number - 1));
   }
 }
 
@@ -166,6 +175,27 @@ GeometryNumbers OccModel::numbers_for(const ::netgen::OCCGeometry& geometry) con
   };
   numbers.t = [](const ::netgen::Segment& segment, int end) {
     return segment.epgeominfo[end].dist;
+  };
+  return numbers;
+}
+
+// Of a mesh of the parts, in the numbers of the uncut model.
+GeometryNumbers OccModel::numbers_of_parts(const ::netgen::OCCGeometry& geometry,
+                                           const CutShape& cut) const
+{
+  GeometryNumbers numbers = numbers_for(geometry);
+  numbers.material = [&](int domain) { return cut.solid.at(at(domain - 1)) + 1; };
+  numbers.surface = [&](const ::netgen::FaceDescriptor& face) {
+    const LocalIndex number = CutShape::number_in(cut.faces, geometry.fmap(face.SurfNr()));
+    if (number == kNoIndex) throw NetgenError("a cut lies on the surface");
+    return number;
+  };
+  numbers.patch = numbers.surface;
+  numbers.patch_name = [this, surface = numbers.surface](const ::netgen::FaceDescriptor& face) {
+    return content_.face_names.at(static_cast<std::size_t>(surface(face)));
+  };
+  numbers.curve = [&](const ::netgen::Segment& segment) {
+    return CutShape::number_in(cut.edges, geometry.emap(segment.epgeominfo[0].edgenr));
   };
   return numbers;
 }
@@ -233,20 +263,48 @@ mesh::CoarseMesh OccModel::generate(const coarse::CoarseOptions& options,
   }
   NetgenSession session(coarse_parameters(options));
   return session.run("coarse mesh of " + file_name_, [&] {
-    triangulate();
     ::netgen::OCCGeometry geometry;
     geometry.shape = content_.shape;
-    geometry.changed = 1;
-    geometry.BuildFMap();
-    geometry.CalcBoundingBox();
-    auto mesh = std::make_shared<::netgen::Mesh>();
-    const bool is_made = generate_steps(geometry, session.parameters(), mesh);
-    if (!is_made) throw NetgenError("NETGEN gave up: " + session.words());
+    triangulate(geometry.shape);
+    const auto mesh = mesh_geometry(geometry, session);
     mesh::CoarseMesh coarse = to_coarse_mesh(*mesh, numbers_for(geometry), file_name_);
     locate_face_corners(coarse);
     locate_segment_ends(coarse);
     use(geometry, *mesh);
     return coarse;
+  });
+}
+
+// Its shape is triangulated.
+std::shared_ptr<::netgen::Mesh> OccModel::mesh_geometry(::netgen::OCCGeometry& geometry,
+                                                        NetgenSession& session)
+{
+  geometry.changed = 1;
+  geometry.BuildFMap();
+  geometry.CalcBoundingBox();
+  auto mesh = std::make_shared<::netgen::Mesh>();
+  const bool is_made = generate_steps(geometry, session.parameters(), mesh);
+  if (!is_made) throw NetgenError("NETGEN gave up: " + session.words());
+  return mesh;
+}
+
+cut::CutMesh OccModel::generate_cut(const coarse::CoarseOptions& options,
+                                    const cut::CutTree& tree) const
+{
+  NetgenSession session(coarse_parameters(options));
+  return session.run("coarse mesh of the parts of " + file_name_, [&] {
+    const CutShape cut = cut_shape(content_.shape, tree);
+    ::netgen::OCCGeometry geometry;
+    geometry.shape = cut.shape;
+    triangulate(geometry.shape);
+    const auto mesh = mesh_geometry(geometry, session);
+    auto [coarse, tet_domain] =
+        to_domain_mesh(*mesh, numbers_of_parts(geometry, cut), file_name_);
+    locate_face_corners(coarse);
+    locate_segment_ends(coarse);
+    cut::CutMesh made{std::move(coarse), {}};
+    for (const LocalIndex domain : tet_domain) made.tet_part.push_back(cut.part[at(domain - 1)]);
+    return made;
   });
 }
 

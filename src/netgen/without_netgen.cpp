@@ -34,6 +34,12 @@ std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& /*m
   refuse();
 }
 
+cut::CutMesh mesh_parts(const model::Model& /*model*/, const coarse::CoarseOptions& /*options*/,
+                        const cut::CutTree& /*tree*/)
+{
+  refuse();
+}
+
 std::unique_ptr<fill::Kernel> make_fill_kernel() { refuse(); }
 
 std::unique_ptr<improve::Optimizer> make_optimizer() { refuse(); }

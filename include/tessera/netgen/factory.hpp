@@ -6,6 +6,8 @@
 #include <string>
 
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/cut/cut_mesh.hpp"
+#include "tessera/cut/cut_tree.hpp"
 #include "tessera/fill/kernel.hpp"
 #include "tessera/improve/optimizer.hpp"
 #include "tessera/model/description.hpp"
@@ -40,6 +42,15 @@ void require_model_file(const std::filesystem::path& file);
 
 /// @brief A coarse mesher for a model of load_model(). The model must outlive it.
 [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model);
+
+/// @brief One try at the coarse mesh of a model of load_model(), of the parts that `tree` cuts it
+/// into. Everything in it is in the numbers of the uncut model.
+/// @note Local; may crash, exit or hang inside third-party code: run it in a job.
+/// @throws ConfigError if the model has no solids that could be cut: an STL file.
+/// @throws NetgenError if a part cannot be made or meshed.
+[[nodiscard]] cut::CutMesh mesh_parts(const model::Model& model,
+                                      const coarse::CoarseOptions& options,
+                                      const cut::CutTree& tree);
 
 /// @brief NETGEN's volume mesher as a fill kernel.
 [[nodiscard]] std::unique_ptr<fill::Kernel> make_fill_kernel();
