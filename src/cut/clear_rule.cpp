@@ -3,10 +3,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <optional>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "cut/directions.hpp"
 #include "cut/judge_plane.hpp"
@@ -19,17 +17,16 @@
 namespace tessera::cut {
 namespace {
 
-constexpr std::size_t kNumOffsets = 128;   // Of each direction.
-constexpr std::size_t kMostOfDirection = 4;  // Planes of one direction that are looked at closely.
-constexpr std::size_t kMostLookedAt = 32;    // Of all.
+constexpr std::size_t kNumOffsets = 128;     // Of each direction.
+constexpr std::size_t kMostOfDirection = 8;  // Planes of one direction that are looked at closely.
 
 // How much larger than wanted a side may be: tried one after the other.
 constexpr std::array kLargestImbalance{0.2, 0.6};
 
 // What a plane must have.
-constexpr double kLeastClearance = 0.25;    // In sizes of the features.
+constexpr double kLeastClearance = 0.25;  // In sizes of the features.
 constexpr double kLeastAngle_deg = 20.0;
-constexpr double kLeastEdge = 0.2;          // In coarse sizes, or the part's thickness.
+constexpr double kLeastEdge = 0.2;  // In coarse sizes, or the part's thickness.
 
 // Costs of what differ by less are equal: the first one is taken. So rounding does not choose.
 constexpr double kSameCost = 1e-6;
@@ -69,13 +66,8 @@ class ClearSearch {
   Proposal run()
   {
     for (const double largest : kLargestImbalance) {
-      const Candidate* best = nullptr;
-      std::vector<Candidate> candidates = promising(largest);
-      for (Candidate& candidate : candidates) {
-        candidate.cost += closer_cost(candidate);
-        if (candidate.cost < (best == nullptr ? std::numeric_limits<double>::infinity() : best->cost - kSameCost)) best = &candidate;
-      }
-      if (best != nullptr) return {plane_of(*best), best->num_below, {}};
+      const std::optional<Candidate> best = best_of(promising(largest));
+      if (best) return {plane_of(*best), best->num_below, {}};
     }
     return {std::nullopt, 1, "no plane keeps clear of its features"};
   }
@@ -97,7 +89,22 @@ class ClearSearch {
     return {directions_[candidate.direction].normal, candidate.offset};
   }
 
-  // The best planes of all directions by what costs little to know.
+  // Looks closely at one after the other, until none can be better than the best one.
+  [[nodiscard]] std::optional<Candidate> best_of(const std::vector<Candidate>& candidates) const
+  {
+    std::optional<Candidate> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Candidate& candidate : candidates) {
+      if (candidate.cost >= least - kSameCost) break;
+      const double cost = candidate.cost + closer_cost(candidate);
+      if (cost >= least - kSameCost) continue;
+      least = cost;
+      best = candidate;
+    }
+    return best;
+  }
+
+  // The best planes of all directions by what costs little to know, the best one first.
   std::vector<Candidate> promising(double largest_imbalance) const
   {
     std::vector<Candidate> all;
@@ -115,7 +122,7 @@ class ClearSearch {
       keep_best(own, kMostOfDirection);
       all.insert(all.end(), own.begin(), own.end());
     }
-    keep_best(all, kMostLookedAt);
+    keep_best(all, all.size());
     return all;
   }
 
@@ -140,12 +147,11 @@ class ClearSearch {
     const double above = (1.0 - fraction) * parts / (num_parts_ - candidate.num_below);
     const double imbalance = std::max(below, above) - 1.0;
     if (!(imbalance <= largest_imbalance)) return false;
-    const double clearance =
-        clearance_of(directions_[candidate.direction].landmarks, candidate.offset, coarse_size_,
-                     kLargestClearance);
+    const double clearance = clearance_of(directions_[candidate.direction].landmarks,
+                                          candidate.offset, coarse_size_, kLargestClearance);
     if (clearance < kLeastClearance) return false;
-    candidate.cost = 2.0 * imbalance + 3.0 * square(std::max(0.0, 1.0 - clearance))
-                     + area / area_unit_;
+    candidate.cost =
+        2.0 * imbalance + 3.0 * square(std::max(0.0, 1.0 - clearance)) + area / area_unit_;
     return true;
   }
 

@@ -81,7 +81,8 @@ class Cutter {
   {
     if (b < a) std::swap(a, b);
     const auto key = (static_cast<std::uint64_t>(a) << 32U) | static_cast<std::uint64_t>(b);
-    const auto [place, is_new] = crossings_.try_emplace(key, static_cast<LocalIndex>(points_.size()));
+    const auto [place, is_new] =
+        crossings_.try_emplace(key, static_cast<LocalIndex>(points_.size()));
     if (is_new) {
       const double share = heights_[at(a)] / (heights_[at(a)] - heights_[at(b)]);
       points_.push_back(points_[at(a)] + share * (points_[at(b)] - points_[at(a)]));

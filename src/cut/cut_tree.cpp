@@ -44,8 +44,8 @@ class Walk {
       seen_[at(row)] = true;
       const CutNode& node = tree_.nodes[at(row)];
       if (node.is_leaf()) {
-        is_sound_ = node.part == static_cast<LocalIndex>(solids_.size())
-                    && node.below == kNoIndex && node.above == kNoIndex;
+        is_sound_ = node.part == static_cast<LocalIndex>(solids_.size()) && node.below == kNoIndex
+                    && node.above == kNoIndex;
         solids_.push_back(solid);
       } else {
         is_sound_ = node.below > row && node.above > row && std::isfinite(node.plane.offset)
@@ -80,8 +80,7 @@ void CutTree::require_sound() const
 {
   Walk walk(*this);
   const std::vector<LocalIndex> solids = walk.run();
-  if (!walk.is_sound() || !walk.saw_all()
-      || num_parts != static_cast<LocalIndex>(solids.size())) {
+  if (!walk.is_sound() || !walk.saw_all() || num_parts != static_cast<LocalIndex>(solids.size())) {
     throw InputError("the tree of cut planes is damaged");
   }
 }

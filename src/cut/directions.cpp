@@ -8,10 +8,10 @@
 namespace tessera::cut {
 namespace {
 
-constexpr double kSame = 0.9994;          // Cosine of 2 degrees: nearer ones are the same.
-constexpr double kFlat = 0.9998;          // Sum of area times normal, over the area.
-constexpr double kRound = 1e-3;           // Share of the normals' spread that is along the axis.
-constexpr std::size_t kMostOfAKind = 4;   // Flat faces' normals, round faces' axes.
+constexpr double kSame = 0.9994;         // Cosine of 2 degrees: nearer ones are the same.
+constexpr double kFlat = 0.9998;         // Sum of area times normal, over the area.
+constexpr double kRound = 1e-3;          // Share of the normals' spread that is along the axis.
+constexpr std::size_t kMostOfAKind = 4;  // Flat faces' normals, round faces' axes.
 
 class Directions {
  public:
@@ -44,8 +44,7 @@ std::map<LocalIndex, FaceShape> shapes_of_faces(const PartSurface& part)
   for (const SurfaceTriangle& triangle : part.triangles) {
     const auto& [a, b, c] = triangle.vertices;
     const Vec3 origin = part.points[at(a)];
-    const Vec3 normal =
-        0.5 * cross(part.points[at(b)] - origin, part.points[at(c)] - origin);
+    const Vec3 normal = 0.5 * cross(part.points[at(b)] - origin, part.points[at(c)] - origin);
     const double area = norm(normal);
     if (!(area > 0.0)) continue;
     FaceShape& shape = shapes[triangle.face];

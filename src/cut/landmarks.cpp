@@ -36,10 +36,10 @@ std::vector<Landmark> LandmarkFinder::find(const std::vector<double>& heights) c
     for (std::size_t c = 0; c < 3; ++c) {
       const LocalIndex v = triangle.vertices[c];
       if (num_edges_[at(v)] > 0) continue;
-      num_changes[at(v)] += is_above(triangle.vertices[(c + 1) % 3], v)
-                                    != is_above(triangle.vertices[(c + 2) % 3], v)
-                                ? 1
-                                : 0;
+      num_changes[at(v)] +=
+          is_above(triangle.vertices[(c + 1) % 3], v) != is_above(triangle.vertices[(c + 2) % 3], v)
+              ? 1
+              : 0;
     }
   }
   std::vector<Landmark> found;

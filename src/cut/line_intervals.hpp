@@ -11,9 +11,9 @@ namespace tessera::cut {
 
 /// Where the border of a cap crosses a line.
 struct LineCrossing {
-  double place = 0.0;            ///< Along the line.
-  LocalIndex point = kNoIndex;   ///< What stands there; breaks ties.
-  bool goes_below = false;       ///< The border comes from above the line.
+  double place = 0.0;           ///< Along the line.
+  LocalIndex point = kNoIndex;  ///< What stands there; breaks ties.
+  bool goes_below = false;      ///< The border comes from above the line.
 };
 
 /// @brief Calls visit(from, to) for the pieces of the line inside the cap, between points of

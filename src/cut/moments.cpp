@@ -107,9 +107,9 @@ Moments moments_of(const PartSurface& part)
     std::size_t row = 0;
     for (std::size_t a = 0; a < 3; ++a) {
       for (std::size_t b = a; b < 3; ++b) {
-        second[row++] += volume / 20.0
-                         * (sum[a] * sum[b] + p[0][a] * p[0][b] + p[1][a] * p[1][b]
-                            + p[2][a] * p[2][b]);
+        second[row++] +=
+            volume / 20.0
+            * (sum[a] * sum[b] + p[0][a] * p[0][b] + p[1][a] * p[1][b] + p[2][a] * p[2][b]);
       }
     }
   });
@@ -144,8 +144,7 @@ double volume_below(const PartSurface& part, const Vec3& normal, const std::vect
     const double depth = mean_depth({heights[at(i)], heights[at(j)], heights[at(k)]});
     if (depth == 0.0) return;
     const Vec3& p = part.points[at(i)];
-    volume -=
-        0.5 * dot(normal, cross(part.points[at(j)] - p, part.points[at(k)] - p)) * depth;
+    volume -= 0.5 * dot(normal, cross(part.points[at(j)] - p, part.points[at(k)] - p)) * depth;
   });
   return volume;
 }

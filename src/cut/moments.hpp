@@ -13,7 +13,8 @@ namespace tessera::cut {
 struct Moments {
   double volume = 0.0;
   Vec3 centre{};
-  std::array<Vec3, 3> axes{};  ///< Of inertia, of length 1; along the first one the part is longest.
+  std::array<Vec3, 3>
+      axes{};  ///< Of inertia, of length 1; along the first one the part is longest.
 };
 
 /// @brief Integrates over the inside of a closed surface.

@@ -26,8 +26,8 @@ struct FeatureEdge {
 /// Where a plane has cut a solid. It has no triangles: a fan from any point of it to its border,
 /// with signs, integrates as its triangles would.
 struct Cap {
-  Vec3 normal{};               ///< Of the plane, either way.
-  LocalIndex label = kNoIndex; ///< Behind the rows of faces; both sides of a cut have the same.
+  Vec3 normal{};                ///< Of the plane, either way.
+  LocalIndex label = kNoIndex;  ///< Behind the rows of faces; both sides of a cut have the same.
   std::vector<std::array<LocalIndex, 2>> border{};  ///< Closed; to the left of it is the cap.
 };
 

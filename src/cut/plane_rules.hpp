@@ -14,8 +14,8 @@ namespace tessera::cut {
 /// What a rule says about one part.
 struct Proposal {
   std::optional<Plane> plane{};
-  LocalIndex num_below = 1;       ///< Parts that what is below the plane should become.
-  std::string whole_because{};    ///< Where there is no plane.
+  LocalIndex num_below = 1;     ///< Parts that what is below the plane should become.
+  std::string whole_because{};  ///< Where there is no plane.
 };
 
 /// A way to choose the plane that cuts a part.

@@ -53,8 +53,7 @@ Profile profile_of(const PartSurface& part, const Vec3& normal, const std::vecto
     std::array h{heights[at(i)], heights[at(j)], heights[at(k)]};
     std::ranges::sort(h);
     const Vec3& p = part.points[at(i)];
-    const double weight =
-        -0.5 * dot(normal, cross(part.points[at(j)] - p, part.points[at(k)] - p));
+    const double weight = -0.5 * dot(normal, cross(part.points[at(j)] - p, part.points[at(k)] - p));
     std::size_t entry = entry_above(h[0]);
     for (; entry < num_entries && profile.offset(entry) < h[2]; ++entry) {
       if (profile.offset(entry) <= h[0]) continue;

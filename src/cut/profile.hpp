@@ -9,10 +9,10 @@ namespace tessera::cut {
 
 /// What planes of one direction have below them, at offsets of equal distance.
 struct Profile {
-  double first = 0.0;             ///< Offset of entry 0.
-  double step = 0.0;              ///< Between entries.
-  std::vector<double> volume{};   ///< Below each plane.
-  std::vector<double> area{};     ///< Of the cut.
+  double first = 0.0;            ///< Offset of entry 0.
+  double step = 0.0;             ///< Between entries.
+  std::vector<double> volume{};  ///< Below each plane.
+  std::vector<double> area{};    ///< Of the cut.
 
   [[nodiscard]] double offset(std::size_t entry) const
   {

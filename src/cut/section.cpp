@@ -32,7 +32,8 @@ class Sectioner {
     for (const Cap& cap : part_.caps) cross_cap(cap);
     section_.shortest_edge = shortest_edge();
     section_.area = std::abs(section_.area);
-    const double sine = std::min(smallest_sine_, std::sqrt(1.0 - largest_cosine_ * largest_cosine_));
+    const double sine =
+        std::min(smallest_sine_, std::sqrt(1.0 - largest_cosine_ * largest_cosine_));
     section_.angle_deg = std::asin(std::clamp(sine, 0.0, 1.0)) * 180.0 / std::numbers::pi;
     return section_;
   }
@@ -111,9 +112,8 @@ class Sectioner {
     pieces_.push_back({from, to, norm(points_[at(to)] - points_[at(from)])});
     section_.perimeter += pieces_.back().length;
     const Vec3& origin = points_.front();
-    section_.area += 0.5
-                     * dot(plane_.normal, cross(points_[at(from)] - origin,
-                                                points_[at(to)] - origin));
+    section_.area +=
+        0.5 * dot(plane_.normal, cross(points_[at(from)] - origin, points_[at(to)] - origin));
   }
 
   // Pieces between two corners are one edge; a loop without corners is one, too.

@@ -58,8 +58,7 @@ class Sheets {
 
   [[nodiscard]] std::vector<LocalIndex> solids_of_face(LocalIndex triangle) const
   {
-    std::vector<LocalIndex> solids =
-        model_.faces[at(welded_.triangles[at(triangle)].face)].solids;
+    std::vector<LocalIndex> solids = model_.faces[at(welded_.triangles[at(triangle)].face)].solids;
     for (LocalIndex& solid : solids) --solid;
     std::ranges::sort(solids);
     solids.erase(std::ranges::unique(solids).begin(), solids.end());

@@ -48,8 +48,7 @@ void measure_curves(PartSurface& surface, double coarse_size)
   for (const FeatureEdge& edge : surface.edges) {
     ends.insert(ends.end(), edge.vertices.begin(), edge.vertices.end());
   }
-  const IndexLists edges_at =
-      rows_by_key(ends, static_cast<LocalIndex>(surface.points.size()), 2);
+  const IndexLists edges_at = rows_by_key(ends, static_cast<LocalIndex>(surface.points.size()), 2);
   UnionFind curves(num_edges);
   for (LocalIndex v = 0; v < edges_at.num_lists(); ++v) {
     const auto here = edges_at[v];

@@ -44,7 +44,8 @@ std::vector<LocalIndex> joined_points(const std::vector<Vec3>& points)
     }
   }
   std::vector<LocalIndex> result(points.size());
-  for (LocalIndex v = 0; v < static_cast<LocalIndex>(points.size()); ++v) result[at(v)] = joined.find(v);
+  for (LocalIndex v = 0; v < static_cast<LocalIndex>(points.size()); ++v)
+    result[at(v)] = joined.find(v);
   return result;
 }
 

@@ -70,8 +70,7 @@ void write_picture(const model::ModelDescription& model, const cut::CutTree& tre
   for (std::size_t t = 0; t < model.triangle_face.size(); ++t) {
     Polygon corners;
     for (std::size_t c = 0; c < 3; ++c) {
-      corners.push_back(
-          point_at(std::span(model.vertex_xyz), model.triangle_vertices[3 * t + c]));
+      corners.push_back(point_at(std::span(model.vertex_xyz), model.triangle_vertices[3 * t + c]));
     }
     const auto& solids = model.faces[at(model.triangle_face[t])].solids;
     if (solids.empty()) continue;
@@ -99,12 +98,11 @@ void print_row(const cut::CutChoice& choice, const cut::CutOptions& options, dou
   }
   std::printf("%5d  %-6s  %5d  %7.2f  %9.3f  %7.3f  %5.1f  %6.2f  %6.0f\n", options.parts,
               std::string(word_of(options.rule)).c_str(), choice.tree.num_parts,
-              choice.report.balance, clearance, edge, angle_deg,
-              area / std::cbrt(volume * volume), cpu_ms);
+              choice.report.balance, clearance, edge, angle_deg, area / std::cbrt(volume * volume),
+              cpu_ms);
   for (const cut::CutPart& part : choice.report.parts) {
     if (part.whole_because.empty()) continue;
-    std::printf("       one part instead of %d: %s\n", part.num_wanted,
-                part.whole_because.c_str());
+    std::printf("       one part instead of %d: %s\n", part.num_wanted, part.whole_because.c_str());
   }
 }
 

@@ -34,10 +34,10 @@ constexpr auto enum_words(PlaneRule /*tag*/)
 /// @brief Into what planes cut a model, and by which rule.
 struct CutOptions {
   PlaneRule rule = PlaneRule::clear;
-  LocalIndex parts = 1;       ///< Wanted number of parts, >= 1; each solid has at least one.
-  double coarse_size = 0.0;   ///< Edge length of the coarse mesh, file length unit, > 0.
-  std::vector<Plane> given{}; ///< Cut every part that they cross, in this order, before the rule.
-  std::uint64_t seed = 1;     ///< Of the rule `random`.
+  LocalIndex parts = 1;        ///< Wanted number of parts, >= 1; each solid has at least one.
+  double coarse_size = 0.0;    ///< Edge length of the coarse mesh, file length unit, > 0.
+  std::vector<Plane> given{};  ///< Cut every part that they cross, in this order, before the rule.
+  std::uint64_t seed = 1;      ///< Of the rule `random`.
 
   static auto fields(auto& self)
   {
