@@ -5,12 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 
+#include "cut/foreign_lines.hpp"
 #include "cut/judge_plane.hpp"
 #include "cut/moments.hpp"
 #include "cut/plane_rules.hpp"
@@ -26,6 +29,7 @@ struct Leaf {
   LocalIndex node = kNoIndex;
   LocalIndex solid = kNoIndex;
   PartSurface surface{};
+  std::vector<HalfSpace> cell{};  // That it is in.
   double volume = 0.0;
   LocalIndex num_wanted = 1;
   std::string whole_because{};
@@ -88,26 +92,54 @@ class Planner {
   // A leaf becomes a node with two leaves.
   std::pair<Leaf, Leaf> split(const Leaf& leaf, const Plane& plane, bool is_given)
   {
-    PlaneJudgement judgement = judge_plane(leaf.surface, plane, options_.coarse_size);
+    PartSurface lined = with_lines(leaf);
+    std::erase_if(lined.edges, [&](const FeatureEdge& edge) {
+      return edge.foreign != kNoIndex && choice_.tree.nodes[at(edge.foreign)].plane == plane;
+    });
+    PlaneJudgement judgement = judge_plane(lined, plane, options_.coarse_size);
     judgement.node = leaf.node;
     judgement.solid = leaf.solid;
     judgement.is_given = is_given;
     choice_.report.planes.push_back(judgement);
-    CutSides sides = cut_part(leaf.surface, plane, next_label_++, options_.coarse_size);
-    const auto child = [&](PartSurface& surface) {
+    const LocalIndex label = next_label_++;
+    CutSides sides = cut_part(leaf.surface, plane, label, options_.coarse_size);
+    lines_.keep(sides.traces, leaf.node);
+    const auto child = [&](PartSurface& surface, bool is_upper) {
       const double volume = volume_of(surface);
-      return Leaf{.node = add_node(),
+      Leaf result{.node = add_node(),
                   .solid = leaf.solid,
                   .surface = std::move(surface),
+                  .cell = leaf.cell,
                   .volume = std::max(volume, 0.0)};
+      result.cell.push_back({plane, label, is_upper});
+      return result;
     };
-    Leaf below = child(sides.below);
-    Leaf above = child(sides.above);
+    Leaf below = child(sides.below, false);
+    Leaf above = child(sides.above, true);
     CutNode& node = choice_.tree.nodes[at(leaf.node)];
     node.plane = plane;
     node.below = below.node;
     node.above = above.node;
     return {std::move(below), std::move(above)};
+  }
+
+  [[nodiscard]] PartSurface with_lines(const Leaf& leaf) const
+  {
+    return lines_.with_lines(leaf.surface, leaf.solid, leaf.cell, options_.coarse_size);
+  }
+
+  [[nodiscard]] Proposal ask(const Leaf& leaf) const
+  {
+    const PartSurface lined = with_lines(leaf);
+    std::set<LocalIndex> nodes;
+    for (const FeatureEdge& edge : lined.edges) {
+      if (edge.foreign != kNoIndex) nodes.insert(edge.foreign);
+    }
+    std::vector<ForeignPlane> foreign;
+    for (const LocalIndex node : nodes) {
+      foreign.push_back({node, choice_.tree.nodes[at(node)].plane});
+    }
+    return rule_->propose({lined, leaf.num_wanted, foreign});
   }
 
   void cut_by_given(std::size_t row)
@@ -152,7 +184,7 @@ class Planner {
     if (leaf.num_wanted > 1) {
       const std::string& unfit = solids_[at(leaf.solid)].unfit_because;
       Proposal proposal{.whole_because = unfit};
-      if (unfit.empty()) proposal = rule_->propose(leaf.surface, leaf.num_wanted);
+      if (unfit.empty()) proposal = ask(leaf);
       if (proposal.plane) {
         auto [below, above] = split(leaf, *proposal.plane, false);
         below.num_wanted = proposal.num_below;
@@ -211,6 +243,7 @@ class Planner {
   std::vector<SolidSurface> solids_;
   LocalIndex next_label_;
   std::unique_ptr<Rule> rule_;
+  ForeignLines lines_{};
   std::vector<Leaf> leaves_{};
   CutChoice choice_{};
 };

@@ -14,17 +14,21 @@ class Side {
  public:
   explicit Side(const std::vector<Vec3>& points) : points_(points) {}
 
-  void add_triangle(const std::array<LocalIndex, 3>& vertices, LocalIndex face)
+  void add_triangle(const std::array<LocalIndex, 3>& vertices, const SurfaceTriangle& of)
   {
-    surface_.triangles.push_back({{own(vertices[0]), own(vertices[1]), own(vertices[2])}, face});
+    surface_.triangles.push_back(
+        {{own(vertices[0]), own(vertices[1]), own(vertices[2])}, of.face, of.neighbour});
   }
 
   void add_edge(LocalIndex a, LocalIndex b, const FeatureEdge& of)
   {
-    surface_.edges.push_back({{own(a), own(b)}, of.faces, of.size});
+    surface_.edges.push_back({{own(a), own(b)}, of.faces, of.size, of.foreign});
   }
 
-  void begin_cap(const Cap& of) { cap_ = {.normal = of.normal, .label = of.label, .border = {}}; }
+  void begin_cap(const Cap& of)
+  {
+    cap_ = {.normal = of.normal, .label = of.label, .is_upper = of.is_upper, .border = {}};
+  }
   void add_border(LocalIndex a, LocalIndex b) { cap_.border.push_back({own(a), own(b)}); }
   void end_cap()
   {
@@ -69,7 +73,7 @@ class Cutter {
     for (const FeatureEdge& edge : part_.edges) cut_edge(edge);
     for (const Cap& cap : part_.caps) cut_cap(cap);
     add_new_cap();
-    return {below_.take(), above_.take()};
+    return {below_.take(), above_.take(), std::move(traces_)};
   }
 
  private:
@@ -94,17 +98,21 @@ class Cutter {
   {
     auto [a, b, c] = triangle.vertices;
     if (is_below(a) == is_below(b) && is_below(b) == is_below(c)) {
-      side_of(a).add_triangle(triangle.vertices, triangle.face);
+      side_of(a).add_triangle(triangle.vertices, triangle);
       return;
     }
     // a is alone on its side.
     while (is_below(b) != is_below(c)) std::tie(a, b, c) = std::tuple(b, c, a);
     const LocalIndex p = crossing(a, b);
     const LocalIndex q = crossing(c, a);
-    side_of(a).add_triangle({a, p, q}, triangle.face);
-    side_of(b).add_triangle({p, b, c}, triangle.face);
-    side_of(b).add_triangle({p, c, q}, triangle.face);
+    side_of(a).add_triangle({a, p, q}, triangle);
+    side_of(b).add_triangle({p, b, c}, triangle);
+    side_of(b).add_triangle({p, c, q}, triangle);
     add_section(is_below(a) ? std::array{q, p} : std::array{p, q}, triangle.face);
+    if (triangle.neighbour == kNoIndex) return;
+    traces_.push_back({.ends = {points_[at(p)], points_[at(q)]},
+                       .face = triangle.face,
+                       .neighbour = triangle.neighbour});
   }
 
   // A piece of the new cap's border, as it goes around the part below.
@@ -148,6 +156,9 @@ class Cutter {
       below_.add_border(from, to);
       above_.add_border(to, from);
       add_section({to, from}, cap.label);
+      traces_.push_back({.ends = {points_[at(from)], points_[at(to)]},
+                         .face = cap.label,
+                         .is_upper = cap.is_upper});
     });
     below_.end_cap();
     above_.end_cap();
@@ -155,8 +166,9 @@ class Cutter {
 
   void add_new_cap()
   {
-    const Cap cap{.normal = plane_.normal, .label = label_, .border = {}};
+    Cap cap{.normal = plane_.normal, .label = label_, .is_upper = false, .border = {}};
     below_.begin_cap(cap);
+    cap.is_upper = true;
     above_.begin_cap(cap);
     for (const auto& [a, b] : section_) {
       below_.add_border(a, b);
@@ -174,6 +186,7 @@ class Cutter {
   std::vector<double> heights_;
   std::unordered_map<std::uint64_t, LocalIndex> crossings_{};  // By edge; only looked up.
   std::vector<std::array<LocalIndex, 2>> section_{};
+  std::vector<Trace> traces_{};
   Side below_{points_};
   Side above_{points_};
 };

@@ -12,8 +12,12 @@ LandmarkFinder::LandmarkFinder(const PartSurface& part, double coarse_size)
       coarse_size_(coarse_size),
       num_edges_(part.points.size(), 0),
       size_(part.points.size(), coarse_size),
-      neighbours_(part.points.size(), {kNoIndex, kNoIndex})
+      neighbours_(part.points.size(), {kNoIndex, kNoIndex}),
+      has_triangle_(part.points.size(), false)
 {
+  for (const SurfaceTriangle& triangle : part.triangles) {
+    for (const LocalIndex v : triangle.vertices) has_triangle_[at(v)] = true;
+  }
   for (const FeatureEdge& edge : part.edges) {
     for (std::size_t end = 0; end < 2; ++end) {
       const std::size_t v = at(edge.vertices[end]);
@@ -45,7 +49,7 @@ std::vector<Landmark> LandmarkFinder::find(const std::vector<double>& heights) c
   std::vector<Landmark> found;
   for (LocalIndex v = 0; v < static_cast<LocalIndex>(heights.size()); ++v) {
     const LocalIndex num_edges = num_edges_[at(v)];
-    const bool is_clear = num_edges == 0   ? num_changes[at(v)] == 2
+    const bool is_clear = num_edges == 0   ? num_changes[at(v)] == 2 || !has_triangle_[at(v)]
                           : num_edges == 2 ? !touches_curve(v, heights)
                                            : false;
     if (!is_clear) found.push_back({heights[at(v)], size_[at(v)]});

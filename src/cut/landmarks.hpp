@@ -30,6 +30,7 @@ class LandmarkFinder {
   std::vector<LocalIndex> num_edges_{};                  // At each point.
   std::vector<double> size_{};                           // Of each point.
   std::vector<std::array<LocalIndex, 2>> neighbours_{};  // Along the curve, for points inside one.
+  std::vector<bool> has_triangle_{};
 };
 
 /// @brief Distance of a plane from the nearest landmark, in its size; at most `largest`.

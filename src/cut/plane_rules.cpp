@@ -25,10 +25,10 @@ Proposal cut_across(const PartSurface& part, const Moments& moments, const Vec3&
 
 class PcaRule final : public Rule {
  public:
-  Proposal propose(const PartSurface& part, LocalIndex num_parts) override
+  Proposal propose(const Question& question) override
   {
-    const Moments moments = moments_of(part);
-    return cut_across(part, moments, moments.axes[0], num_parts);
+    const Moments moments = moments_of(question.part);
+    return cut_across(question.part, moments, moments.axes[0], question.num_parts);
   }
 };
 
@@ -36,9 +36,9 @@ class RandomRule final : public Rule {
  public:
   explicit RandomRule(std::uint64_t seed) : generator_(seed) {}
 
-  Proposal propose(const PartSurface& part, LocalIndex num_parts) override
+  Proposal propose(const Question& question) override
   {
-    return cut_across(part, moments_of(part), direction(), num_parts);
+    return cut_across(question.part, moments_of(question.part), direction(), question.num_parts);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tessera/cut/options.hpp"
 
@@ -18,6 +19,19 @@ struct Proposal {
   std::string whole_because{};  ///< Where there is no plane.
 };
 
+/// A plane that cuts what is on the other side of a cap, or of a face between two solids.
+struct ForeignPlane {
+  LocalIndex node = kNoIndex;  ///< FeatureEdge::foreign of its lines.
+  Plane plane{};
+};
+
+/// What a rule is asked about.
+struct Question {
+  const PartSurface& part;                      ///< With the lines of foreign planes.
+  LocalIndex num_parts = 2;                     ///< That the part should become, >= 2.
+  const std::vector<ForeignPlane>& foreign;     ///< Those that draw lines.
+};
+
 /// A way to choose the plane that cuts a part.
 class Rule {
  public:
@@ -26,8 +40,7 @@ class Rule {
   Rule& operator=(const Rule&) = delete;
   virtual ~Rule() = default;
 
-  /// @param num_parts That the part should become, >= 2.
-  [[nodiscard]] virtual Proposal propose(const PartSurface& part, LocalIndex num_parts) = 0;
+  [[nodiscard]] virtual Proposal propose(const Question& question) = 0;
 };
 
 [[nodiscard]] std::unique_ptr<Rule> make_rule(const CutOptions& options);

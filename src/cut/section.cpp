@@ -65,7 +65,9 @@ class Sectioner {
   {
     const auto [a, b] = edge.vertices;
     if (is_below(a) == is_below(b)) return;
-    is_corner_[at(crossing(a, b))] = true;
+    const LocalIndex corner = crossing(a, b);
+    is_corner_[at(corner)] = true;
+    if (edge.foreign != kNoIndex) foreign_.push_back({edge.faces[0], corner});
     const double length = norm(part_.points[at(b)] - part_.points[at(a)]);
     if (length < noise_) return;
     smallest_sine_ = std::min(smallest_sine_, std::abs(heights_[at(b)] - heights_[at(a)]) / length);
@@ -102,8 +104,30 @@ class Sectioner {
     }
     if (trace.empty()) return;
     largest_cosine_ = std::max(largest_cosine_, std::abs(dot(cap.normal, plane_.normal)));
-    for_each_interval(std::move(trace),
-                      [&](LocalIndex from, LocalIndex to) { add_piece(to, from); });
+    for_each_interval(std::move(trace), [&](LocalIndex from, LocalIndex to) {
+      add_trace(to, from, cap.label);
+    });
+  }
+
+  // Lines of others on a cap divide what is between its borders.
+  void add_trace(LocalIndex from, LocalIndex to, LocalIndex label)
+  {
+    const Vec3 along = points_[at(to)] - points_[at(from)];
+    const auto place = [&](LocalIndex point) {
+      return dot(points_[at(point)] - points_[at(from)], along);
+    };
+    std::vector<LocalIndex> stops;
+    for (const auto& [face, point] : foreign_) {
+      if (face == label && place(point) > 0.0 && place(point) < dot(along, along)) {
+        stops.push_back(point);
+      }
+    }
+    std::ranges::sort(stops, {}, [&](LocalIndex point) { return std::pair(place(point), point); });
+    stops.push_back(to);
+    for (const LocalIndex stop : stops) {
+      add_piece(from, stop);
+      from = stop;
+    }
   }
 
   // In the direction that goes around the part below.
@@ -146,6 +170,7 @@ class Sectioner {
   std::unordered_map<std::uint64_t, LocalIndex> numbers_{};  // By edge; only looked up.
   std::vector<Vec3> points_{};
   std::vector<bool> is_corner_{};
+  std::vector<std::array<LocalIndex, 2>> foreign_{};  // Where lines of others are crossed: face, point.
   std::vector<Piece> pieces_{};
   double smallest_sine_ = 1.0;
   double largest_cosine_ = 0.0;

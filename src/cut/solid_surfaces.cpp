@@ -149,7 +149,10 @@ std::vector<SolidSurface> solid_surfaces(const model::ModelDescription& model, d
   for (LocalIndex s = 0; s < num_solids; ++s) {
     Collector collector(welded);
     for (const LocalIndex t : triangles_of[s]) {
-      collector.add(welded.triangles[at(t)], solids[at(t)][0] != s);
+      const bool is_turned = solids[at(t)][0] != s;
+      SurfaceTriangle triangle = welded.triangles[at(t)];
+      triangle.neighbour = solids[at(t)][is_turned ? 0 : 1];
+      collector.add(triangle, is_turned);
     }
     result.push_back(collector.finish(model.solids[at(s)].volume, coarse_size));
   }
