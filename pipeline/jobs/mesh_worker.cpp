@@ -143,7 +143,7 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] Bytes answer(const CoarseSurfaceRequest& request) const
   {
-    return to_bytes(coarse_mesher()->mesh_surface(for_mesher(request.options)));
+    return to_bytes(coarse_mesher()->mesh_surface(for_mesher(request.options), request.planes));
   }
 
   [[nodiscard]] Bytes answer(const CoarseDomainRequest& request) const
@@ -159,13 +159,30 @@ class MeshWorker final : public jobs::Worker {
       skins.push_back(coarse::skin_of(request.surface, one.domain));
       tets.push_back(one.tets);
     }
-    CoarseTry made{.mesh = coarse::fill_surface(request.surface, skins, tets)};
+    cut::CutMesh filled = coarse::fill_surface(request.surface, skins, tets);
+    CoarseTry made{.mesh = std::move(filled.mesh), .tet_part = std::move(filled.tet_part)};
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_);
-    if (request.options.optimize) coarse::optimize_interior(made.mesh);
+    if (request.options.optimize) {
+      coarse::optimize_interior(made.mesh);
+      if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
+    }
     made.distance.largest *= scale_;
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     mesh::validate(made.mesh);
     return garbled_if_asked(stage_of(request.options), to_bytes(made));
+  }
+
+  // After tets were flipped: by their centroids.
+  [[nodiscard]] static std::vector<LocalIndex> parts_of_tets(const mesh::CoarseMesh& mesh,
+                                                             const cut::CutTree& planes)
+  {
+    std::vector<LocalIndex> tet_part;
+    for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+      Vec3 sum{};
+      for (const LocalIndex v : mesh.tet(t)) sum = sum + mesh.position(v);
+      tet_part.push_back(planes.part_of(mesh.tet_material[at(t)] - 1, 0.25 * sum));
+    }
+    return tet_part;
   }
 
   [[nodiscard]] Bytes answer(const UntangleRequest& request) const
@@ -388,9 +405,9 @@ model::ModelDescription description_from_bytes(std::span<const std::byte> result
   return description;
 }
 
-Bytes coarse_surface_request(const coarse::CoarseOptions& options)
+Bytes coarse_surface_request(const coarse::CoarseOptions& options, const cut::CutTree& planes)
 {
-  return to_bytes(Request(CoarseSurfaceRequest{options}));
+  return to_bytes(Request(CoarseSurfaceRequest{options, planes}));
 }
 
 Bytes coarse_domain_request(coarse::DomainSkin skin, const coarse::CoarseOptions& options)
@@ -399,9 +416,10 @@ Bytes coarse_domain_request(coarse::DomainSkin skin, const coarse::CoarseOptions
 }
 
 Bytes coarse_mesh_request(coarse::CoarseSurface surface, std::vector<FilledDomain> filled,
-                          const coarse::CoarseOptions& options)
+                          const coarse::CoarseOptions& options, const cut::CutTree& planes)
 {
-  return to_bytes(Request(CoarseMeshRequest{std::move(surface), std::move(filled), options}));
+  return to_bytes(
+      Request(CoarseMeshRequest{std::move(surface), std::move(filled), options, planes}));
 }
 
 Bytes untangle_request(const std::vector<UntangleTest>& tests,

@@ -13,6 +13,7 @@
 #include "tessera/coarse/coarse_surface.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
+#include "tessera/cut/cut_tree.hpp"
 #include "tessera/fill/fill_try.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/improve/region_mesh.hpp"
@@ -77,14 +78,17 @@ namespace tessera::pipeline {
 /// @brief What one try at the coarse mesh has given.
 struct CoarseTry {
   mesh::CoarseMesh mesh{};
+  std::vector<LocalIndex> tet_part{};  ///< Shape (num_tets), if the model was cut.
   coarse::VertexDistance distance{};
 
-  static auto fields(auto& self) { return std::tie(self.mesh, self.distance); }
+  static auto fields(auto& self) { return std::tie(self.mesh, self.tet_part, self.distance); }
 };
 
 /// @brief run: the coarse surface; result: bytes of a coarse::CoarseSurface in file length units.
 /// Needs the model.
-[[nodiscard]] Bytes coarse_surface_request(const coarse::CoarseOptions& options);
+/// @param[in] planes Into which parts the model is cut before; without nodes: not at all.
+[[nodiscard]] Bytes coarse_surface_request(const coarse::CoarseOptions& options,
+                                           const cut::CutTree& planes);
 
 /// @brief run: fills one domain of such a surface; result: bytes of coarse::DomainTets. Needs the
 /// model.
@@ -104,7 +108,8 @@ struct FilledDomain {
 /// @param[in] filled All domains, in their order.
 [[nodiscard]] Bytes coarse_mesh_request(coarse::CoarseSurface surface,
                                         std::vector<FilledDomain> filled,
-                                        const coarse::CoarseOptions& options);
+                                        const coarse::CoarseOptions& options,
+                                        const cut::CutTree& planes);
 
 /// @brief One subdomain that a plan job tests.
 struct UntangleTest {

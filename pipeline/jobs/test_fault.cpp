@@ -129,11 +129,11 @@ class FaultyMesher final : public coarse::CoarseMesher {
  public:
   explicit FaultyMesher(std::unique_ptr<coarse::CoarseMesher> sound) : sound_(std::move(sound)) {}
 
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(
-      const coarse::CoarseOptions& options) const override
+  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
+                                                   const cut::CutTree& planes) const override
   {
     fail(kind_at(stage_of(options), kNoIndex));
-    return sound_->mesh_surface(options);
+    return sound_->mesh_surface(options, planes);
   }
 
   [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,

@@ -87,8 +87,9 @@ struct DescribeRequest {
 
 struct CoarseSurfaceRequest {
   coarse::CoarseOptions options{};
+  cut::CutTree planes{};
 
-  static auto fields(auto& self) { return std::tie(self.options); }
+  static auto fields(auto& self) { return std::tie(self.options, self.planes); }
 };
 
 struct CoarseDomainRequest {
@@ -102,8 +103,12 @@ struct CoarseMeshRequest {
   coarse::CoarseSurface surface{};
   std::vector<FilledDomain> filled{};  ///< All domains, in their order.
   coarse::CoarseOptions options{};
+  cut::CutTree planes{};
 
-  static auto fields(auto& self) { return std::tie(self.surface, self.filled, self.options); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.surface, self.filled, self.options, self.planes);
+  }
 };
 
 struct UntangleRequest {

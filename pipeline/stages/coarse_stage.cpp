@@ -54,30 +54,59 @@ void throw_if_hopeless(const jobs::JobOutcome& outcome, const std::string& file)
   if (is_final(outcome)) jobs::throw_unless_ok(outcome, file);
 }
 
+// Options, and whether the model is cut before.
+struct Attempt {
+  coarse::CoarseOptions options{};
+  bool is_cut = false;
+};
+
+// Parts that NETGEN cannot mesh once are tried finer once. What worked uncut must go on to work.
+std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTree& planes)
+{
+  constexpr std::size_t kTriesOfParts = 2;
+  const std::vector<coarse::CoarseOptions> fallbacks = coarse_fallbacks(run_case.coarse);
+  std::vector<Attempt> attempts;
+  if (planes.num_parts > 0) {
+    for (std::size_t i = 0; i < kTriesOfParts; ++i) attempts.push_back({fallbacks[i], true});
+  }
+  for (const coarse::CoarseOptions& options : fallbacks) attempts.push_back({options, false});
+  return attempts;
+}
+
 // The mesh is that of rank 0 only.
-CoarseResult first_that_works(const config::Case& run_case, StageScope& stage, RunContext& context)
+CoarseResult first_that_works(const config::Case& run_case, const cut::CutTree& planes,
+                              StageScope& stage, RunContext& context)
 {
   const jobs::JobLimits limits{run_case.coarse.timeout_s, kStall_s, kMemory_gib};
   const std::string file = run_case.geometry.file.string();
   CoarseResult result;
   bool was_endless = false;
-  for (const coarse::CoarseOptions& options : coarse_fallbacks(run_case.coarse)) {
+  bool was_cut = false;
+  for (const auto& [options, is_cut] : attempts_at(run_case, planes)) {
+    if (was_cut && !is_cut) {
+      context.log.warn("coarse: the parts of the model cannot be meshed; it is meshed as a whole");
+      was_endless = false;
+    }
+    was_cut = is_cut;
     // NETGEN's surface mesher that did not end once would not end at another size either.
     const bool is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen;
     if (was_endless && is_netgen) continue;
-    CoarseAttempt attempt = try_coarse_mesh(options, limits, stage, context);
-    const jobs::JobOutcome& outcome = attempt.outcome;
+    CoarseAttempt made =
+        try_coarse_mesh({options, is_cut ? planes : cut::CutTree{}}, limits, stage, context);
+    const jobs::JobOutcome& outcome = made.outcome;
     ++result.tries;
     result.options = options;
     if (outcome.status == jobs::JobStatus::ok) {
-      if (attempt.made) {
-        result.mesh = std::move(attempt.made->mesh);
-        result.distance = attempt.made->distance;
+      if (made.made) {
+        result.mesh = std::move(made.made->mesh);
+        result.tet_part = std::move(made.made->tet_part);
+        result.distance = made.made->distance;
       }
       return result;
     }
     all_or_none(context.comm, [&] { throw_if_hopeless(outcome, file); });
-    result.failures.push_back(fmt::format("{}: {}", name_of(options), outcome.message));
+    result.failures.push_back(
+        fmt::format("{}{}: {}", is_cut ? "in parts, " : "", name_of(options), outcome.message));
     context.log.warn("coarse: try {} failed: {}", result.tries, result.failures.back());
     was_endless = was_endless || is_endless(outcome);
     result.was_limited = result.was_limited || depends_on_machine(outcome);
@@ -111,10 +140,11 @@ std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions&
   return fallbacks;
 }
 
-CoarseResult run_coarse_stage(const config::Case& run_case, RunContext& context)
+CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& planes,
+                              RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseResult result = first_that_works(run_case, stage, context);
+  CoarseResult result = first_that_works(run_case, planes, stage, context);
   result = on_root(context.comm, [&] { return std::move(result); });
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),

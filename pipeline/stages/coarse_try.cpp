@@ -38,12 +38,11 @@ struct SurfaceTry {
   static auto fields(auto& self) { return std::tie(self.outcome, self.surface); }
 };
 
-SurfaceTry try_surface(const coarse::CoarseOptions& options, const jobs::JobLimits& limits,
-                       RunContext& context)
+SurfaceTry try_surface(const CoarsePlan& plan, const jobs::JobLimits& limits, RunContext& context)
 {
   return comm::on_root(context.comm, [&] {
     SurfaceTry made;
-    const Bytes request = coarse_surface_request(options);
+    const Bytes request = coarse_surface_request(plan.options, plan.planes);
     made.surface = result_of<coarse::CoarseSurface>({"coarse", request, limits},
                                                     wait_for_stop_signal(), made.outcome, context);
     return made;
@@ -68,8 +67,8 @@ DomainShare fill_domains(const coarse::CoarseSurface& surface, const coarse::Coa
 {
   DomainShare share;
   std::vector<double> num_triangles(at(surface.num_domains()));
-  for (const LocalIndex patch : surface.mesh.face_patch) {
-    for (const LocalIndex domain : surface.patch_domains[at(patch)]) {
+  for (const auto& domains : surface.face_domains) {
+    for (const LocalIndex domain : domains) {
       if (domain > 0) num_triangles[at(domain - 1)] += 1.0;
     }
   }
@@ -103,12 +102,12 @@ std::vector<FilledDomain> gather(const std::vector<FilledDomain>& filled,
 
 }  // namespace
 
-CoarseAttempt try_coarse_mesh(const coarse::CoarseOptions& options, const jobs::JobLimits& limits,
+CoarseAttempt try_coarse_mesh(const CoarsePlan& plan, const jobs::JobLimits& limits,
                               StageScope& stage, RunContext& context)
 {
-  SurfaceTry first = try_surface(options, limits, context);
+  SurfaceTry first = try_surface(plan, limits, context);
   if (!first.surface) return {std::move(first.outcome), {}};
-  const DomainShare share = fill_domains(*first.surface, options, limits, stage, context);
+  const DomainShare share = fill_domains(*first.surface, plan.options, limits, stage, context);
   auto failed = context.comm.all_gather_rows(share.failed);
   if (!failed.empty()) {
     const auto lowest = std::ranges::min_element(failed, {}, &FailedDomain::domain);
@@ -117,8 +116,8 @@ CoarseAttempt try_coarse_mesh(const coarse::CoarseOptions& options, const jobs::
   std::vector<FilledDomain> filled = gather(share.filled, context.comm);
   CoarseAttempt attempt;
   attempt.outcome = comm::on_root(context.comm, [&] {
-    const Bytes request =
-        coarse_mesh_request(std::move(*first.surface), std::move(filled), options);
+    const Bytes request = coarse_mesh_request(std::move(*first.surface), std::move(filled),
+                                              plan.options, plan.planes);
     jobs::JobOutcome outcome;
     attempt.made = result_of<CoarseTry>({"coarse: whole", request, limits}, wait_for_stop_signal(),
                                         outcome, context);

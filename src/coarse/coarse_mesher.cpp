@@ -6,9 +6,10 @@
 
 namespace tessera::coarse {
 
-mesh::CoarseMesh CoarseMesher::generate(const CoarseOptions& options) const
+cut::CutMesh CoarseMesher::generate_parts(const CoarseOptions& options,
+                                          const cut::CutTree& planes) const
 {
-  CoarseSurface surface = mesh_surface(options);
+  CoarseSurface surface = mesh_surface(options, planes);
   std::vector<DomainSkin> skins;
   std::vector<DomainTets> tets;
   for (LocalIndex domain = 1; domain <= surface.num_domains(); ++domain) {

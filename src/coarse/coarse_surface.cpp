@@ -51,6 +51,23 @@ std::vector<double> positions_of(const std::vector<LocalIndex>& rows,
   return xyz;
 }
 
+void drop_cuts(mesh::CoarseMesh& mesh)
+{
+  mesh::CoarseMesh left;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    if (mesh.face_patch[at(f)] == kNoIndex) continue;
+    left.face_patch.push_back(mesh.face_patch[at(f)]);
+    const auto* v = &mesh.face_vertices[3 * at(f)];
+    left.face_vertices.insert(left.face_vertices.end(), v, v + 3);
+    if (mesh.face_uv.empty()) continue;
+    const auto* uv = &mesh.face_uv[6 * at(f)];
+    left.face_uv.insert(left.face_uv.end(), uv, uv + 6);
+  }
+  mesh.face_patch = std::move(left.face_patch);
+  mesh.face_vertices = std::move(left.face_vertices);
+  mesh.face_uv = std::move(left.face_uv);
+}
+
 // A segment with an end that is not kept bounds nothing.
 void drop_segments(const KeptVertices& kept, mesh::CoarseMesh& mesh)
 {
@@ -58,7 +75,7 @@ void drop_segments(const KeptVertices& kept, mesh::CoarseMesh& mesh)
   for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {
     const LocalIndex a = kept.number(mesh.segment_vertices[2 * at(s)]);
     const LocalIndex b = kept.number(mesh.segment_vertices[2 * at(s) + 1]);
-    if (a == kNoIndex || b == kNoIndex) continue;
+    if (mesh.segment_curve[at(s)] == kNoIndex || a == kNoIndex || b == kNoIndex) continue;
     left.segment_vertices.insert(left.segment_vertices.end(), {a, b});
     left.segment_curve.push_back(mesh.segment_curve[at(s)]);
     if (mesh.segment_t.empty()) continue;
@@ -103,14 +120,14 @@ DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain)
   const mesh::CoarseMesh& mesh = surface.mesh;
   DomainSkin skin{.max_size = surface.domain_max_size[at(domain - 1)]};
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    const LocalIndex patch = mesh.face_patch[at(f)];
-    const auto& [out_of, into] = surface.patch_domains[at(patch)];
+    const auto& [out_of, into] = surface.face_domains[at(f)];
     if (out_of != domain && into != domain) continue;
     const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
     skin.triangle_vertices.insert(skin.triangle_vertices.end(), {v[0], v[1], v[2]});
     if (out_of != domain)
       std::swap(skin.triangle_vertices.end()[-1], skin.triangle_vertices.end()[-2]);
-    skin.triangle_patch.push_back(patch);
+    const LocalIndex patch = mesh.face_patch[at(f)];
+    skin.triangle_patch.push_back(patch == kNoIndex ? mesh.num_patches() : patch);
   }
   KeptVertices kept(mesh.num_vertices());
   kept.keep(skin.triangle_vertices);
@@ -127,17 +144,20 @@ DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain)
   return skin;
 }
 
-mesh::CoarseMesh fill_surface(CoarseSurface surface, const std::vector<DomainSkin>& skins,
-                              const std::vector<DomainTets>& tets)
+cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainSkin>& skins,
+                          const std::vector<DomainTets>& tets)
 {
-  mesh::CoarseMesh mesh = std::move(surface.mesh);
+  cut::CutMesh filled{std::move(surface.mesh), {}};
   for (std::size_t d = 0; d < tets.size(); ++d) {
-    add_tets(skins[d], tets[d], static_cast<LocalIndex>(d) + 1, mesh);
+    add_tets(skins[d], tets[d], surface.domain_material[d], filled.mesh);
+    if (surface.domain_part.empty()) continue;
+    filled.tet_part.resize(at(filled.mesh.num_tets()), surface.domain_part[d]);
   }
-  if (mesh.num_tets() == 0) throw MeshError("the coarse mesh has no tets");
-  keep_vertices_of_tets(mesh);
-  mesh::validate(mesh);
-  return mesh;
+  if (filled.mesh.num_tets() == 0) throw MeshError("the coarse mesh has no tets");
+  drop_cuts(filled.mesh);
+  keep_vertices_of_tets(filled.mesh);
+  mesh::validate(filled.mesh);
+  return filled;
 }
 
 }  // namespace tessera::coarse

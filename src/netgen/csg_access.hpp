@@ -12,6 +12,9 @@ namespace tessera::netgen {
 [[nodiscard]] inline ::netgen::Point<3> to_netgen(const Vec3& p) { return {p[0], p[1], p[2]}; }
 [[nodiscard]] inline Vec3 from_netgen(const ::netgen::Point<3>& p) { return {p(0), p(1), p(2)}; }
 
+/// NETGEN's own value: surfaces that differ by less, relative to the bounding box, are one surface.
+inline constexpr double kIdenticSurfaces = 1e-8;
+
 /// @brief Name of a top-level object, from 0: its material, or what the file calls the solid.
 /// Local.
 [[nodiscard]] inline std::string name_of_solid(const ::netgen::CSGeometry& geometry, int solid)

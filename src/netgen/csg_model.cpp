@@ -14,6 +14,8 @@
 #include "tessera/base/error.hpp"
 
 #include "netgen/csg_access.hpp"
+#include "netgen/csg_crossings.hpp"
+#include "netgen/csg_cut.hpp"
 #include "netgen/csg_description.hpp"
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
@@ -30,9 +32,6 @@ namespace {
 
 using Geometry = ::netgen::CSGeometry;
 using Point = ::netgen::Point<3>;
-
-// NETGEN's own value: surfaces that differ by less, relative to the bounding box, are one surface.
-constexpr double kIdenticSurfaces = 1e-8;
 
 // A point counts as on an entity within this part of the box diagonal.
 constexpr double kTolerance = 1e-8;
@@ -156,6 +155,8 @@ class CsgModel final : public LoadedModel {
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
+  [[nodiscard]] coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
+                                                 const cut::CutTree& tree) const override;
 
  private:
   [[nodiscard]] const std::string& name() const override { return file_name_; }
@@ -165,6 +166,7 @@ class CsgModel final : public LoadedModel {
   std::string file_name_;
   std::string text_;
   std::unique_ptr<Geometry> geometry_;
+  ::netgen::Box<3> box_{};
   double box_diagonal_ = 0.0;
   double tolerance_ = 0.0;
 };
@@ -176,7 +178,8 @@ CsgModel::CsgModel(const model::ModelSource& source)
 {
   require_solid(*geometry_, file_name_);
   NetgenSession session;
-  box_diagonal_ = session.run(file_name_, [&] { return extent(*geometry_, file_name_).Diam(); });
+  box_ = session.run(file_name_, [&] { return extent(*geometry_, file_name_); });
+  box_diagonal_ = box_.Diam();
   tolerance_ = kTolerance * box_diagonal_;
 }
 
@@ -218,6 +221,12 @@ model::CurvePoint CsgModel::project_to_curve(LocalIndex curve, const Vec3& point
   return {from_netgen(found), 0.0};
 }
 
+LocalIndex curve_of(const ::netgen::Segment& segment, int num_surfaces)
+{
+  const auto [low, high] = std::minmax(segment.surfnr1, segment.surfnr2);
+  return low < 0 || high >= num_surfaces ? kNoIndex : low * num_surfaces + high;
+}
+
 GeometryNumbers numbers_of(const Geometry& geometry)
 {
   GeometryNumbers numbers;
@@ -226,13 +235,28 @@ GeometryNumbers numbers_of(const Geometry& geometry)
     return name_unless_default(face.GetBCName());
   };
   numbers.curve = [n = geometry.GetNSurf()](const ::netgen::Segment& segment) {
-    const auto [low, high] = std::minmax(segment.surfnr1, segment.surfnr2);
-    return low < 0 ? kNoIndex : low * n + high;
+    return curve_of(segment, n);
   };
-  numbers.material_name = [&geometry](int domain) { return name_of_solid(geometry, domain - 1); };
+  numbers.material_name = [&geometry](LocalIndex m) { return name_of_solid(geometry, m - 1); };
   numbers.max_size = [&geometry](int domain) {
     const ::netgen::TopLevelObject& object = *geometry.GetTopLevelObject(domain - 1);
     return std::min(object.GetMaxH(), object.GetSolid()->GetMaxH());
+  };
+  return numbers;
+}
+
+// Of a mesh of the parts, in the numbers of the uncut geometry.
+GeometryNumbers numbers_of_parts(const Geometry& uncut, const CutObjects& objects, FaceOrder& order)
+{
+  GeometryNumbers numbers = numbers_of(uncut);
+  numbers.material = [&](int domain) { return objects.solid.at(at(domain - 1)) + 1; };
+  numbers.part = [&](int domain) { return objects.part.at(at(domain - 1)); };
+  numbers.max_size = [&, of_solid = numbers.max_size](int domain) {
+    return of_solid(objects.solid.at(at(domain - 1)) + 1);
+  };
+  numbers.patch = [&](const ::netgen::FaceDescriptor& face) {
+    if (face.SurfNr() >= objects.num_surfaces) throw NetgenError("a cut lies on the surface");
+    return order.row_of(face, objects);
   };
   return numbers;
 }
@@ -256,6 +280,28 @@ coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& option
       to_coarse_surface(*mesh, numbers_of(*geometry), options.max_size, what);
   session.run(file_name_, [&] { use(*geometry, *mesh, 1.0, surface); });
   return surface;
+}
+
+coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
+                                           const cut::CutTree& tree) const
+{
+  const std::string what = file_name_ + ": coarse mesh of the parts";
+  const std::unique_ptr<Geometry> uncut = parse(text_, file_name_);
+  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
+  NetgenSession session(surface_parameters(options));
+  return session.run(what, [&] {
+    FaceOrder order(*uncut, session.parameters());
+    const CutObjects objects = cut_geometry(*geometry, tree);
+    add_crossings(*geometry, objects, box_);
+    std::shared_ptr<::netgen::Mesh> mesh;
+    if (geometry->GenerateMesh(mesh, session.parameters()) != 0) {
+      throw NetgenError("NETGEN gave up; " + session.words());
+    }
+    coarse::CoarseSurface surface = to_coarse_surface(
+        *mesh, numbers_of_parts(*geometry_, objects, order), options.max_size, what);
+    separate_patches(surface.mesh);
+    return surface;
+  });
 }
 
 // The triangles that NETGEN has for pictures leave out parts of cylinders and cones, so the surface

@@ -97,10 +97,10 @@ class MesherOfModel final : public coarse::CoarseMesher {
  public:
   explicit MesherOfModel(const LoadedModel& model) : model_(model) {}
 
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(
-      const coarse::CoarseOptions& options) const override
+  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
+                                                   const cut::CutTree& planes) const override
   {
-    return model_.mesh_surface(options);
+    return model_.mesh_surface(options, planes);
   }
 
   [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,

@@ -5,6 +5,8 @@
 
 #include <meshing.hpp>
 
+#include "tessera/base/error.hpp"
+
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/skin_mesh.hpp"
 #include "netgen/volume_mesher.hpp"
@@ -31,6 +33,19 @@ void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& te
 
 }  // namespace
 
+coarse::CoarseSurface LoadedModel::mesh_surface(const coarse::CoarseOptions& options,
+                                                const cut::CutTree& planes) const
+{
+  if (planes.num_parts > 0) return mesh_parts(options, planes);
+  return mesh_surface(options, [](const auto&...) {});
+}
+
+coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*options*/,
+                                              const cut::CutTree& /*tree*/) const
+{
+  throw ConfigError("decompose.method = \"geometry\" needs a solid model: CSG, STEP, IGES or BREP");
+}
+
 coarse::DomainTets LoadedModel::mesh_domain(const coarse::DomainSkin& skin,
                                             const coarse::CoarseOptions& options) const
 {
@@ -50,7 +65,7 @@ mesh::CoarseMesh LoadedModel::generate(const coarse::CoarseOptions& options,
       tets.push_back(mesh_domain(skins.back(), options));
       give_to_netgen(skins.back(), tets.back(), domain, scale, mesh);
     }
-    coarse = coarse::fill_surface(surface, skins, tets);
+    coarse = coarse::fill_surface(surface, skins, tets).mesh;
     use(geometry, mesh);
   };
   static_cast<void>(mesh_surface(options, fill));

@@ -30,15 +30,18 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   /// @brief What the model holds, for people. @throws NetgenError
   [[nodiscard]] virtual model::ModelDescription describe() const = 0;
 
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options) const final
-  {
-    return mesh_surface(options, [](const auto&...) {});
-  }
+  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
+                                                   const cut::CutTree& planes) const final;
 
-  /// @brief As mesh_surface(), and lets `use` go on with the surface in NETGEN, if NETGEN made it.
+  /// @brief The surface of the uncut model. Lets `use` go on with it in NETGEN, if NETGEN made it.
   /// @throws Also what `use` throws.
   [[nodiscard]] virtual coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                            const NetgenSurfaceUser& use) const = 0;
+
+  /// @brief The surfaces of the parts that `tree` cuts the model into.
+  /// @throws ConfigError if the model has no solids that could be cut.
+  [[nodiscard]] virtual coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
+                                                         const cut::CutTree& tree) const;
 
   [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
                                                const coarse::CoarseOptions& options) const final;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -29,7 +31,7 @@ class Conversion {
     add_patches();
     add_faces();
     if (numbers_.curve) add_segments();
-    add_materials(to_, max_size, numbers_.material_name);
+    add_domains(max_size);
     return std::move(to_);
   }
 
@@ -45,17 +47,22 @@ class Conversion {
   void add_patches()
   {
     patch_of_descriptor_.assign(static_cast<std::size_t>(from_.GetNFD()) + 1, kNoIndex);
+    std::map<LocalIndex, std::set<int>> descriptors;  // By what they have in common.
     for (const auto& element : from_.SurfaceElements()) {
-      if (!element.IsDeleted()) patch_of_descriptor_.at(descriptor(element)) = 0;
+      if (element.IsDeleted()) continue;
+      const auto& face = from_.GetFaceDescriptor(element.GetIndex());
+      if (is_cut(face)) continue;
+      const LocalIndex order = numbers_.patch ? numbers_.patch(face) : element.GetIndex();
+      descriptors[order].insert(element.GetIndex());
     }
-    for (std::size_t d = 1; d < patch_of_descriptor_.size(); ++d) {
-      if (patch_of_descriptor_[d] == kNoIndex) continue;
-      patch_of_descriptor_[d] = mesh_.num_patches();
-      const auto& face = from_.GetFaceDescriptor(static_cast<int>(d));
+    for (const auto& [order, of_patch] : descriptors) {
+      for (const int d : of_patch) {
+        patch_of_descriptor_[static_cast<std::size_t>(d)] = mesh_.num_patches();
+      }
+      const auto& face = from_.GetFaceDescriptor(*of_patch.begin());
+      const std::string name = numbers_.patch_name ? numbers_.patch_name(face) : "";
       mesh_.patch_surface.push_back(numbers_.surface(face));
-      mesh_.patch_names.push_back(patch_name(numbers_.patch_name ? numbers_.patch_name(face) : "",
-                                             mesh_.num_patches() + 1));
-      to_.patch_domains.push_back({face.DomainIn(), face.DomainOut()});
+      mesh_.patch_names.push_back(name.empty() ? default_patch_name(mesh_.num_patches()) : name);
     }
   }
 
@@ -65,7 +72,9 @@ class Conversion {
       if (element.IsDeleted()) continue;
       if (element.GetType() != ::netgen::TRIG)
         throw NetgenError("a surface element is no triangle");
+      const auto& face = from_.GetFaceDescriptor(element.GetIndex());
       mesh_.face_patch.push_back(patch_of_descriptor_.at(descriptor(element)));
+      to_.face_domains.push_back({face.DomainIn(), face.DomainOut()});
       for (int c = 0; c < 3; ++c) {
         mesh_.face_vertices.push_back(vertex(element[c]));
         if (!numbers_.uv) continue;
@@ -79,14 +88,36 @@ class Conversion {
   {
     for (const ::netgen::Segment& segment : from_.LineSegments()) {
       if (!segment[0].IsValid()) continue;  // Deleted.
-      const LocalIndex curve = numbers_.curve(segment);
-      if (curve == kNoIndex) continue;
       mesh_.segment_vertices.insert(mesh_.segment_vertices.end(),
                                     {vertex(segment[0]), vertex(segment[1])});
-      mesh_.segment_curve.push_back(curve);
+      mesh_.segment_curve.push_back(numbers_.curve(segment));
       if (!numbers_.t) continue;
       for (int end = 0; end < 2; ++end) mesh_.segment_t.push_back(numbers_.t(segment, end));
     }
+  }
+
+  void add_domains(double max_size)
+  {
+    netgen::add_domains(
+        to_, max_size, [this](LocalIndex domain) { return material(domain); },
+        numbers_.material_name);
+    if (to_.domain_material.empty()) throw NetgenError("NETGEN's surface encloses nothing");
+    for (LocalIndex domain = 1; domain <= to_.num_domains(); ++domain) {
+      if (numbers_.part) to_.domain_part.push_back(numbers_.part(domain));
+      if (!numbers_.max_size) continue;
+      to_.domain_max_size[at(domain - 1)] = std::min(max_size, numbers_.max_size(domain));
+    }
+  }
+
+  [[nodiscard]] LocalIndex material(int domain) const
+  {
+    return numbers_.material ? numbers_.material(domain) : domain;
+  }
+
+  [[nodiscard]] bool is_cut(const ::netgen::FaceDescriptor& face) const
+  {
+    return numbers_.material && face.DomainIn() > 0 && face.DomainOut() > 0
+           && material(face.DomainIn()) == material(face.DomainOut());
   }
 
   static std::size_t descriptor(const ::netgen::Element2d& element)
@@ -104,37 +135,33 @@ class Conversion {
 
 }  // namespace
 
-std::string patch_name(const std::string& name_in_file, LocalIndex number)
-{
-  return name_in_file.empty() ? fmt::format("patch_{}", number) : name_in_file;
-}
+std::string default_patch_name(LocalIndex patch) { return fmt::format("patch_{}", patch + 1); }
 
-void add_materials(coarse::CoarseSurface& surface, double max_size,
-                   const std::function<std::string(LocalIndex)>& name)
+void add_domains(coarse::CoarseSurface& surface, double max_size,
+                 const std::function<LocalIndex(LocalIndex)>& material,
+                 const std::function<std::string(LocalIndex)>& material_name)
 {
+  LocalIndex num_domains = 0;
+  for (const auto& [out_of, into] : surface.face_domains) {
+    num_domains = std::max({num_domains, out_of, into});
+  }
+  surface.domain_max_size.assign(at(num_domains), max_size);
   LocalIndex num_materials = 0;
-  for (const auto& domains : surface.patch_domains) {
-    num_materials = std::max({num_materials, domains[0], domains[1]});
+  for (LocalIndex domain = 1; domain <= num_domains; ++domain) {
+    surface.domain_material.push_back(material(domain));
+    num_materials = std::max(num_materials, surface.domain_material.back());
   }
   for (LocalIndex m = 1; m <= num_materials; ++m) {
-    const std::string given = name ? name(m) : "";
+    const std::string given = material_name ? material_name(m) : "";
     surface.mesh.material_names.push_back(given.empty() ? fmt::format("material_{}", m) : given);
   }
-  surface.domain_max_size.assign(at(num_materials), max_size);
 }
 
 coarse::CoarseSurface to_coarse_surface(const ::netgen::Mesh& from, const GeometryNumbers& numbers,
                                         double max_size, const std::string& what)
 {
   try {
-    coarse::CoarseSurface surface = Conversion(from, numbers).run(max_size);
-    if (surface.domain_max_size.empty()) throw NetgenError("NETGEN's surface encloses nothing");
-    if (!numbers.max_size) return surface;
-    for (std::size_t d = 0; d < surface.domain_max_size.size(); ++d) {
-      double& size = surface.domain_max_size[d];
-      size = std::min(size, numbers.max_size(static_cast<int>(d) + 1));
-    }
-    return surface;
+    return Conversion(from, numbers).run(max_size);
   } catch (const MeshError& error) {
     throw NetgenError(fmt::format("{}: {}", what, error.what()));
   }

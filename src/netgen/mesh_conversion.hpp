@@ -26,10 +26,18 @@ struct GeometryNumbers {
   std::function<LocalIndex(const ::netgen::FaceDescriptor&)> surface{};
   /// Name of a patch in the file; empty text: none, "patch_N" is used, N from 1.
   std::function<std::string(const ::netgen::FaceDescriptor&)> patch_name{};
-  /// Model's curve number of a segment, kNoIndex to leave the segment out. Without it: no segments.
+  /// Model's curve number of a segment, kNoIndex: it is on none. Without it: no segments.
   std::function<LocalIndex(const ::netgen::Segment&)> curve{};
-  /// Name of a domain (from 1) in the file; empty text: none, "material_N" is used.
-  std::function<std::string(int)> material_name{};
+  /// Name of a material (from 1) in the file; empty text: none, "material_N" is used.
+  std::function<std::string(LocalIndex)> material_name{};
+  /// Material of a domain (both from 1), if domains are parts of materials: faces between two of
+  /// one material are cuts. Without it: each domain is a material.
+  std::function<LocalIndex(int)> material{};
+  /// Part of the CutTree that a domain (from 1) is, if it is one.
+  std::function<LocalIndex(int)> part{};
+  /// Descriptors with one value make one patch; patches are in the order of these values. Without
+  /// it: each descriptor is a patch.
+  std::function<LocalIndex(const ::netgen::FaceDescriptor&)> patch{};
   /// Largest edge that the file wants in a domain (from 1), file length unit.
   std::function<double(int)> max_size{};
   /// Parameters of corner 0…2 of a surface element; it has the surface number given.
@@ -39,21 +47,23 @@ struct GeometryNumbers {
 };
 
 /// @brief NETGEN's surface mesh as a coarse surface: from 0, all vertices, one patch a face
-/// descriptor that has triangles.
-/// @param[in] what     Put before an error: which mesh.
+/// descriptor that has triangles, unless `numbers` says otherwise.
 /// @param[in] max_size Largest edge in domains for which the file wants no smaller one.
+/// @param[in] what     Put before an error: which mesh.
 /// @throws NetgenError if it has other elements than triangles, or encloses nothing.
 [[nodiscard]] coarse::CoarseSurface to_coarse_surface(const ::netgen::Mesh& from,
                                                       const GeometryNumbers& numbers,
                                                       double max_size, const std::string& what);
 
-/// @brief The name of a patch, from the file's; empty: "patch_N", N from 1. Local.
-[[nodiscard]] std::string patch_name(const std::string& name_in_file, LocalIndex number);
+/// @brief Name of a patch (from 0) to which the file gives none.
+[[nodiscard]] std::string default_patch_name(LocalIndex patch);
 
-/// @brief Adds the materials that the patches' domains ask for. Local.
-/// @param[in] name May be empty, and give empty texts: "material_N".
-void add_materials(coarse::CoarseSurface& surface, double max_size,
-                   const std::function<std::string(LocalIndex)>& name);
+/// @brief Adds the domains that faces bound, and their materials. Local.
+/// @param[in] material      Of a domain, both from 1.
+/// @param[in] material_name May be empty, and give empty texts: "material_N".
+void add_domains(coarse::CoarseSurface& surface, double max_size,
+                 const std::function<LocalIndex(LocalIndex)>& material,
+                 const std::function<std::string(LocalIndex)>& material_name);
 
 /// @brief Adds tets of ours, corners as rows of vertices, all of one domain. Local.
 void add_tets(::netgen::Mesh& mesh, const std::vector<LocalIndex>& tet_vertices, int domain = 1);

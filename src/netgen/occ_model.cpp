@@ -20,6 +20,7 @@
 #include "netgen/occ_cad_file.hpp"
 #include "netgen/occ_content.hpp"
 #include "netgen/occ_curve.hpp"
+#include "netgen/occ_cut.hpp"
 #include "netgen/occ_description.hpp"
 #include "netgen/occ_error.hpp"
 #include "netgen/occ_shape.hpp"
@@ -58,19 +59,25 @@ class OccModel final : public LoadedModel {
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
+  [[nodiscard]] coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
+                                                 const cut::CutTree& tree) const override;
 
  private:
   [[nodiscard]] const std::string& name() const override { return file_name_; }
   [[nodiscard]] const OccSurface& surface_at(LocalIndex surface) const;
   [[nodiscard]] const OccCurve& curve_at(LocalIndex curve) const;
   [[nodiscard]] GeometryNumbers numbers_for(const ::netgen::OCCGeometry& geometry) const;
+  [[nodiscard]] GeometryNumbers numbers_of_parts(const ::netgen::OCCGeometry& geometry,
+                                                 const CutShape& cut) const;
   [[nodiscard]] std::string solid_name(LocalIndex material) const;
   [[nodiscard]] coarse::CoarseSurface remesh(const coarse::CoarseOptions& options) const;
   static bool generate_steps(::netgen::OCCGeometry& geometry,
                              ::netgen::MeshingParameters& parameters,
                              std::shared_ptr<::netgen::Mesh>& mesh);
   static void guess_parameters(const coarse::SurfaceReference& reference, mesh::CoarseMesh& mesh);
-  void triangulate() const;
+  void triangulate(const TopoDS_Shape& shape) const;
+  static std::shared_ptr<::netgen::Mesh> mesh_geometry(::netgen::OCCGeometry& geometry,
+                                                       NetgenSession& session);
   void locate_face_corners(mesh::CoarseMesh& mesh) const;
   void locate_segment_ends(mesh::CoarseMesh& mesh) const;
 
@@ -128,17 +135,19 @@ model::CurvePoint OccModel::project_to_curve(LocalIndex curve, const Vec3& point
 
 // NETGEN makes a triangulation where there is none, and then reads it unchecked. So it is made and
 // checked here. It is always made anew, so that every call starts from the same state.
-void OccModel::triangulate() const
+void OccModel::triangulate(const TopoDS_Shape& shape) const
 {
   constexpr double kDeflection = 0.01;  // Of an edge's length; what NETGEN takes.
-  BRepTools::Clean(content_.shape);
-  const BRepMesh_IncrementalMesh triangulation(content_.shape, kDeflection, Standard_True);
-  for (int i = 1; i <= faces_.Extent(); ++i) {
+  BRepTools::Clean(shape);
+  const BRepMesh_IncrementalMesh triangulation(shape, kDeflection, Standard_True);
+  int number = 0;
+  for (const TopoDS_Shape& face : parts_of(shape, TopAbs_FACE)) {
     TopLoc_Location place;
-    if (!BRep_Tool::Triangulation(TopoDS::Face(faces_(i)), place).IsNull()) continue;
+    ++number;
+    if (!BRep_Tool::Triangulation(TopoDS::Face(face), place).IsNull()) continue;
     throw NetgenError(
         fmt::format("{}: OpenCASCADE cannot triangulate face {}; repair it in the CAD program",
-                    file_name_, i - 1));
+                    file_name_, number - 1));
   }
 }
 
@@ -167,6 +176,28 @@ GeometryNumbers OccModel::numbers_for(const ::netgen::OCCGeometry& geometry) con
   };
   numbers.t = [](const ::netgen::Segment& segment, int end) {
     return segment.epgeominfo[end].dist;
+  };
+  return numbers;
+}
+
+// Of a mesh of the parts, in the numbers of the uncut model.
+GeometryNumbers OccModel::numbers_of_parts(const ::netgen::OCCGeometry& geometry,
+                                           const CutShape& cut) const
+{
+  GeometryNumbers numbers = numbers_for(geometry);
+  numbers.material = [&](int domain) { return cut.solid.at(at(domain - 1)) + 1; };
+  numbers.part = [&](int domain) { return cut.part.at(at(domain - 1)); };
+  numbers.surface = [&](const ::netgen::FaceDescriptor& face) {
+    const LocalIndex number = CutShape::number_in(cut.faces, geometry.fmap(face.SurfNr()));
+    if (number == kNoIndex) throw NetgenError("a cut lies on the surface");
+    return number;
+  };
+  numbers.patch = numbers.surface;
+  numbers.patch_name = [this, surface = numbers.surface](const ::netgen::FaceDescriptor& face) {
+    return content_.face_names.at(static_cast<std::size_t>(surface(face)));
+  };
+  numbers.curve = [&](const ::netgen::Segment& segment) {
+    return CutShape::number_in(cut.edges, geometry.emap(segment.epgeominfo[0].edgenr));
   };
   return numbers;
 }
@@ -234,15 +265,10 @@ coarse::CoarseSurface OccModel::mesh_surface(const coarse::CoarseOptions& option
   }
   NetgenSession session(coarse_parameters(options));
   return session.run("coarse mesh of " + file_name_, [&] {
-    triangulate();
     ::netgen::OCCGeometry geometry;
     geometry.shape = content_.shape;
-    geometry.changed = 1;
-    geometry.BuildFMap();
-    geometry.CalcBoundingBox();
-    auto mesh = std::make_shared<::netgen::Mesh>();
-    const bool is_made = generate_steps(geometry, session.parameters(), mesh);
-    if (!is_made) throw NetgenError("NETGEN gave up: " + session.words());
+    triangulate(geometry.shape);
+    const auto mesh = mesh_geometry(geometry, session);
     coarse::CoarseSurface coarse =
         to_coarse_surface(*mesh, numbers_for(geometry), options.max_size, file_name_);
     locate_face_corners(coarse.mesh);
@@ -252,18 +278,50 @@ coarse::CoarseSurface OccModel::mesh_surface(const coarse::CoarseOptions& option
   });
 }
 
+// Its shape is triangulated.
+std::shared_ptr<::netgen::Mesh> OccModel::mesh_geometry(::netgen::OCCGeometry& geometry,
+                                                        NetgenSession& session)
+{
+  geometry.changed = 1;
+  geometry.BuildFMap();
+  geometry.CalcBoundingBox();
+  auto mesh = std::make_shared<::netgen::Mesh>();
+  const bool is_made = generate_steps(geometry, session.parameters(), mesh);
+  if (!is_made) throw NetgenError("NETGEN gave up: " + session.words());
+  return mesh;
+}
+
+coarse::CoarseSurface OccModel::mesh_parts(const coarse::CoarseOptions& options,
+                                           const cut::CutTree& tree) const
+{
+  NetgenSession session(coarse_parameters(options));
+  return session.run("coarse mesh of the parts of " + file_name_, [&] {
+    const CutShape cut = cut_shape(content_.shape, tree);
+    ::netgen::OCCGeometry geometry;
+    geometry.shape = cut.shape;
+    triangulate(geometry.shape);
+    const auto mesh = mesh_geometry(geometry, session);
+    coarse::CoarseSurface coarse =
+        to_coarse_surface(*mesh, numbers_of_parts(geometry, cut), options.max_size, file_name_);
+    locate_face_corners(coarse.mesh);
+    locate_segment_ends(coarse.mesh);
+    return coarse;
+  });
+}
+
 // What NETGEN has at a corner is only a guess: its optimiser moves points and forgets parameters.
 void OccModel::locate_face_corners(mesh::CoarseMesh& mesh) const
 {
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
     const auto at = static_cast<std::size_t>(f);
+    const LocalIndex patch = mesh.face_patch[at];
+    if (patch == kNoIndex) continue;  // Of a cut.
     std::array<Vec3, 3> corners{};
     std::array<model::SurfaceParameters, 3> guesses{};
     for (std::size_t c = 0; c < 3; ++c) {
       corners[c] = mesh.position(mesh.face_vertices[3 * at + c]);
       guesses[c] = {mesh.face_uv[2 * (3 * at + c)], mesh.face_uv[2 * (3 * at + c) + 1]};
     }
-    const LocalIndex patch = mesh.face_patch[at];
     const LocalIndex surface = mesh.patch_surface[static_cast<std::size_t>(patch)];
     const auto uv = surface_at(surface).triangle_parameters(corners, guesses);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -277,6 +335,7 @@ void OccModel::locate_face_corners(mesh::CoarseMesh& mesh) const
 void OccModel::locate_segment_ends(mesh::CoarseMesh& mesh) const
 {
   for (std::size_t end = 0; end < mesh.segment_t.size(); ++end) {
+    if (mesh.segment_curve[end / 2] == kNoIndex) continue;  // Bounds a cut.
     const OccCurve& curve = curve_at(mesh.segment_curve[end / 2]);
     const Vec3 point = mesh.position(mesh.segment_vertices[end]);
     mesh.segment_t[end] = curve.locate(point, mesh.segment_t[end]).t;

@@ -159,10 +159,13 @@ void add_patches(const coarse::PatchSurface& from, const SurfaceNames& names,
     if (row[at(p)] == kNoIndex) continue;
     row[at(p)] = to.mesh.num_patches();
     to.mesh.patch_surface.push_back(p);
-    to.mesh.patch_names.push_back(patch_name(names.patch(p), to.mesh.num_patches() + 1));
-    to.patch_domains.push_back(from.patch_materials[at(p)]);
+    const std::string name = names.patch(p);
+    to.mesh.patch_names.push_back(name.empty() ? default_patch_name(row[at(p)]) : name);
   }
-  for (const LocalIndex patch : from.triangle_patch) to.mesh.face_patch.push_back(row[at(patch)]);
+  for (const LocalIndex patch : from.triangle_patch) {
+    to.mesh.face_patch.push_back(row[at(patch)]);
+    to.face_domains.push_back(from.patch_materials[at(patch)]);
+  }
 }
 
 }  // namespace
@@ -181,13 +184,15 @@ coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface, dou
     mesh.segment_vertices.insert(mesh.segment_vertices.end(), v.begin(), v.end());
   mesh.segment_curve = surface.edge_curve;
   add_patches(surface, names, result);
-  add_materials(result, max_size, names.material);
+  add_domains(
+      result, max_size, [](LocalIndex domain) { return domain; }, names.material);
   return result;
 }
 
 coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin, const coarse::CoarseOptions& options,
                                const std::string& what)
 {
+  if (skin.vertex.empty()) return {};
   const double scale = scale_for_netgen(box_diagonal(skin.vertex_xyz));
   coarse::CoarseOptions scaled = options;
   scaled.max_size = scale * std::min(options.max_size, skin.max_size);

@@ -3,6 +3,8 @@
 
 #include "tessera/coarse/coarse_surface.hpp"
 #include "tessera/coarse/options.hpp"
+#include "tessera/cut/cut_mesh.hpp"
+#include "tessera/cut/cut_tree.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
 namespace tessera::coarse {
@@ -14,9 +16,13 @@ class CoarseMesher {
   virtual ~CoarseMesher() = default;
 
   /// @brief One try with these options; the caller has the sequence of fallbacks.
-  /// @throws NetgenError with NETGEN's own words if it gives up.
+  /// @param[in] planes Into which parts the model is cut before; without nodes: not at all. The
+  /// result is in the numbers of the uncut model all the same.
+  /// @throws NetgenError with NETGEN's own words if it gives up, or cannot make a part.
   /// @throws GeometryError if the model has no closed solid.
-  [[nodiscard]] virtual CoarseSurface mesh_surface(const CoarseOptions& options) const = 0;
+  /// @throws ConfigError if there are planes, but no solids that could be cut: an STL file.
+  [[nodiscard]] virtual CoarseSurface mesh_surface(const CoarseOptions& options,
+                                                   const cut::CutTree& planes) const = 0;
 
   /// @brief Fills one domain of such a surface. A pure function of the arguments.
   /// @throws NetgenError with NETGEN's own words if it gives up.
@@ -24,7 +30,12 @@ class CoarseMesher {
                                                const CoarseOptions& options) const = 0;
 
   /// @brief All steps in turn. @throws MeshError also if the result is not a valid mesh.
-  [[nodiscard]] mesh::CoarseMesh generate(const CoarseOptions& options) const;
+  [[nodiscard]] cut::CutMesh generate_parts(const CoarseOptions& options,
+                                            const cut::CutTree& planes) const;
+  [[nodiscard]] mesh::CoarseMesh generate(const CoarseOptions& options) const
+  {
+    return generate_parts(options, {}).mesh;
+  }
 };
 
 }  // namespace tessera::coarse

@@ -6,25 +6,29 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
+#include "tessera/cut/cut_mesh.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
 namespace tessera::coarse {
 
 /// @brief The coarse mesh before it has tets: triangles that enclose *domains*, each to be filled
-/// for itself. Domain d becomes material d.
+/// for itself. A domain is a material, or a part of one; cuts between parts are no patch.
 struct CoarseSurface {
-  mesh::CoarseMesh mesh{};  ///< Without tets. Vertices may be of no face.
+  mesh::CoarseMesh mesh{};  ///< Without tets. Vertices may be of no face. Faces of cuts have the
+                            ///< patch kNoIndex, and segments that only bound these such a curve.
 
-  /// Shape (num_patches, 2): the domain that normals of a patch's faces point out of, and the one
-  /// they point into; from 1, 0: none.
-  std::vector<std::array<LocalIndex, 2>> patch_domains{};
+  /// Shape (num_faces, 2): the domain that the normal of a face points out of, and the one it
+  /// points into; from 1, 0: none.
+  std::vector<std::array<LocalIndex, 2>> face_domains{};
 
-  /// Shape (num_domains): largest edge in each, file length unit, > 0.
-  std::vector<double> domain_max_size{};
+  std::vector<LocalIndex> domain_material{};  ///< Shape (num_domains); from 1.
+  std::vector<LocalIndex> domain_part{};      ///< Shape (num_domains), of a CutTree; or empty.
+  std::vector<double> domain_max_size{};  ///< Shape (num_domains): largest edge, file length unit.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.mesh, self.patch_domains, self.domain_max_size);
+    return std::tie(self.mesh, self.face_domains, self.domain_material, self.domain_part,
+                    self.domain_max_size);
   }
 
   [[nodiscard]] LocalIndex num_domains() const
@@ -38,7 +42,7 @@ struct DomainSkin {
   std::vector<LocalIndex> vertex{};             ///< Shape (num_vertices): row of the mesh's.
   std::vector<double> vertex_xyz{};             ///< Shape (num_vertices, 3).
   std::vector<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3); normals point out.
-  std::vector<LocalIndex> triangle_patch{};     ///< Shape (num_triangles).
+  std::vector<LocalIndex> triangle_patch{};     ///< Shape (num_triangles); those of cuts come last.
   std::vector<LocalIndex> edge_vertices{};      ///< Shape (num_edges, 2): those on curves.
   double max_size = 0.0;                        ///< Largest edge, file length unit, > 0.
 
@@ -60,13 +64,13 @@ struct DomainTets {
 /// @brief The skin of domain `domain`, from 1. Local; empty if no face bounds it.
 [[nodiscard]] DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain);
 
-/// @brief The coarse mesh: the surface with the tets of all domains. Vertices that no tet has are
-/// dropped, and segments with them.
+/// @brief The coarse mesh: the surface with the tets of all domains, without its cuts. Vertices
+/// that no tet has are dropped, and segments with them.
 /// @param[in] skins  skin_of() every domain, in their order.
 /// @param[in] tets   Those of every domain.
+/// @return Also the parts of the tets, if domains are parts.
 /// @note Local. @throws MeshError if the result is not valid: mesh::validate().
-[[nodiscard]] mesh::CoarseMesh fill_surface(CoarseSurface surface,
-                                            const std::vector<DomainSkin>& skins,
-                                            const std::vector<DomainTets>& tets);
+[[nodiscard]] cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainSkin>& skins,
+                                        const std::vector<DomainTets>& tets);
 
 }  // namespace tessera::coarse
