@@ -36,8 +36,8 @@ constexpr double kCostOfOwnPlane = 0.05;
 struct Candidate {
   Plane plane{};
   LocalIndex num_below = 1;
-  double cost = 0.0;                   // As far as it is known.
-  LocalIndex foreign = kNoIndex;       // ForeignPlane::node.
+  double cost = 0.0;              // As far as it is known.
+  LocalIndex foreign = kNoIndex;  // ForeignPlane::node.
 };
 
 double square(double x) { return x * x; }
@@ -127,8 +127,8 @@ class ClearSearch {
   {
     const double imbalance = share_out(volume_below / moments_.volume, candidate);
     if (!(imbalance <= kLargestImbalance) || clearance < kLeastClearance) return;
-    candidate.cost += 2.0 * imbalance + 3.0 * square(std::max(0.0, 1.0 - clearance))
-                      + area / area_unit_;
+    candidate.cost +=
+        2.0 * imbalance + 3.0 * square(std::max(0.0, 1.0 - clearance)) + area / area_unit_;
     candidates_.push_back(candidate);
   }
 
