@@ -31,7 +31,7 @@ struct FeatureEdge {
 struct Cap {
   Vec3 normal{};                ///< Of the plane, either way.
   LocalIndex label = kNoIndex;  ///< Behind the rows of faces; both sides of a cut have the same.
-  bool is_upper = false;  ///< The part is above the plane.
+  bool is_upper = false;        ///< The part is above the plane.
   std::vector<std::array<LocalIndex, 2>> border{};  ///< Closed; to the left of it is the cap.
 };
 

@@ -27,9 +27,9 @@ struct ForeignPlane {
 
 /// What a rule is asked about.
 struct Question {
-  const PartSurface& part;                      ///< With the lines of foreign planes.
-  LocalIndex num_parts = 2;                     ///< That the part should become, >= 2.
-  const std::vector<ForeignPlane>& foreign;     ///< Those that draw lines.
+  const PartSurface& part;                   ///< With the lines of foreign planes.
+  LocalIndex num_parts = 2;                  ///< That the part should become, >= 2.
+  const std::vector<ForeignPlane>& foreign;  ///< Those that draw lines.
 };
 
 /// A way to choose the plane that cuts a part.

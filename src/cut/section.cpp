@@ -104,9 +104,8 @@ class Sectioner {
     }
     if (trace.empty()) return;
     largest_cosine_ = std::max(largest_cosine_, std::abs(dot(cap.normal, plane_.normal)));
-    for_each_interval(std::move(trace), [&](LocalIndex from, LocalIndex to) {
-      add_trace(to, from, cap.label);
-    });
+    for_each_interval(std::move(trace),
+                      [&](LocalIndex from, LocalIndex to) { add_trace(to, from, cap.label); });
   }
 
   // Lines of others on a cap divide what is between its borders.
@@ -170,7 +169,8 @@ class Sectioner {
   std::unordered_map<std::uint64_t, LocalIndex> numbers_{};  // By edge; only looked up.
   std::vector<Vec3> points_{};
   std::vector<bool> is_corner_{};
-  std::vector<std::array<LocalIndex, 2>> foreign_{};  // Where lines of others are crossed: face, point.
+  std::vector<std::array<LocalIndex, 2>>
+      foreign_{};  // Where lines of others are crossed: face, point.
   std::vector<Piece> pieces_{};
   double smallest_sine_ = 1.0;
   double largest_cosine_ = 0.0;

@@ -21,8 +21,7 @@ using ::netgen::TopLevelObject;
 
 class Cutter {
  public:
-  Cutter(Geometry& geometry, const cut::CutTree& tree)
-      : geometry_(geometry), tree_(tree)
+  Cutter(Geometry& geometry, const cut::CutTree& tree) : geometry_(geometry), tree_(tree)
   {
     cut_.num_surfaces = geometry.GetNSurf();
   }
@@ -66,8 +65,7 @@ class Cutter {
     if (node.part != kNoIndex) return add_object(solid, node.part);
     Solid* const below = half_space(row);
     add_parts(node.below, named(new Solid(Solid::SECTION, solid, below)));
-    add_parts(node.above,
-              named(new Solid(Solid::SECTION, solid, new Solid(Solid::SUB, below))));
+    add_parts(node.above, named(new Solid(Solid::SECTION, solid, new Solid(Solid::SUB, below))));
   }
 
   Solid* half_space(LocalIndex row)
@@ -134,8 +132,9 @@ void require_cuttable(const Geometry& geometry)
   const bool is_numbered = geometry.GetNIdentifications() > 0 || geometry.singfaces.Size() > 0
                            || geometry.singedges.Size() > 0 || geometry.singpoints.Size() > 0;
   if (is_numbered) {
-    throw NetgenError("a geometry with identified faces, or with singular faces, edges or points, "
-                      "cannot be cut");
+    throw NetgenError(
+        "a geometry with identified faces, or with singular faces, edges or points, "
+        "cannot be cut");
   }
 }
 
@@ -191,9 +190,8 @@ void separate_patches(mesh::CoarseMesh& mesh)
     if (is_new && is_taken[at(patch)]) {
       found->second = mesh.num_patches();
       const std::string name = mesh.patch_names[at(patch)];
-      mesh.patch_names.push_back(name == default_patch_name(patch)
-                                     ? default_patch_name(found->second)
-                                     : name);
+      mesh.patch_names.push_back(
+          name == default_patch_name(patch) ? default_patch_name(found->second) : name);
       mesh.patch_surface.push_back(mesh.patch_surface[at(patch)]);
     }
     is_taken[at(patch)] = true;

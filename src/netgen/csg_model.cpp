@@ -290,7 +290,8 @@ cut::CutMesh CsgModel::generate_cut(const coarse::CoarseOptions& options,
         to_domain_mesh(*mesh, numbers_of_parts(*geometry_, objects, order), what);
     separate_patches(coarse);
     cut::CutMesh made{std::move(coarse), {}};
-    for (const LocalIndex domain : tet_domain) made.tet_part.push_back(objects.part[at(domain - 1)]);
+    for (const LocalIndex domain : tet_domain)
+      made.tet_part.push_back(objects.part[at(domain - 1)]);
     return made;
   });
 }

@@ -30,8 +30,8 @@ struct GeometryNumbers {
   std::function<LocalIndex(const ::netgen::Segment&)> curve{};
   /// Name of a material (from 1) in the file; empty text: none, "material_N" is used.
   std::function<std::string(LocalIndex)> material_name{};
-  /// Material of a domain (both from 1), if domains are parts of materials: faces between two of one
-  /// material are left out, and so are their segments. Without it: each domain is a material.
+  /// Material of a domain (both from 1), if domains are parts of materials: faces between two of
+  /// one material are left out, and so are their segments. Without it: each domain is a material.
   std::function<LocalIndex(int)> material{};
   /// Descriptors with one value make one patch; patches are in the order of these values. Without
   /// it: each descriptor is a patch.

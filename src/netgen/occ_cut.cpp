@@ -101,7 +101,8 @@ TopoDS_Shape face_of(const Polygon& polygon, const cut::Plane& plane)
   BRepBuilderAPI_MakePolygon wire;
   for (const Vec3& point : polygon) wire.Add(to_occ(point));
   wire.Close();
-  const gp_Pln on(to_occ(polygon.front()), gp_Dir(plane.normal[0], plane.normal[1], plane.normal[2]));
+  const gp_Pln on(to_occ(polygon.front()),
+                  gp_Dir(plane.normal[0], plane.normal[1], plane.normal[2]));
   BRepBuilderAPI_MakeFace face(on, wire.Wire());
   if (!face.IsDone()) throw NetgenError("OpenCASCADE cannot make the face of a cut");
   return face.Face();
@@ -248,9 +249,9 @@ class Cutter {
           pieces_[s].begin(), pieces_[s].end(), 0.0,
           [](double so_far, const TopoDS_Shape& piece) { return so_far + mass_of(piece).volume; });
       if (std::abs(sum - whole) <= kTolerance * std::abs(whole)) continue;
-      throw NetgenError(fmt::format(
-          "OpenCASCADE's parts of solid {} have a volume of {:g}, the solid has {:g}", s + 1, sum,
-          whole));
+      throw NetgenError(
+          fmt::format("OpenCASCADE's parts of solid {} have a volume of {:g}, the solid has {:g}",
+                      s + 1, sum, whole));
     }
   }
 

@@ -13,7 +13,7 @@ namespace tessera::netgen {
 
 /// @brief The parts of a shape. Faces between two of them are shared.
 struct CutShape {
-  TopoDS_Shape shape{};            ///< A compound of solids, part by part.
+  TopoDS_Shape shape{};             ///< A compound of solids, part by part.
   std::vector<LocalIndex> solid{};  ///< By solid of TopExp_Explorer: that of the uncut shape.
   std::vector<LocalIndex> part{};   ///< By solid; several may be of one part.
   /// Faces and edges that are of one of the uncut shape: its number there, from 0. Others are new.

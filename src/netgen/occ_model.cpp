@@ -298,8 +298,7 @@ cut::CutMesh OccModel::generate_cut(const coarse::CoarseOptions& options,
     geometry.shape = cut.shape;
     triangulate(geometry.shape);
     const auto mesh = mesh_geometry(geometry, session);
-    auto [coarse, tet_domain] =
-        to_domain_mesh(*mesh, numbers_of_parts(geometry, cut), file_name_);
+    auto [coarse, tet_domain] = to_domain_mesh(*mesh, numbers_of_parts(geometry, cut), file_name_);
     locate_face_corners(coarse);
     locate_segment_ends(coarse);
     cut::CutMesh made{std::move(coarse), {}};

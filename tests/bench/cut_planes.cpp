@@ -8,8 +8,8 @@
 // smallest clearance (of features, in their sizes), the shortest edge of a cut (coarse sizes), the
 // smallest angle, the area of all cuts over that of a side of a cube of the model's volume, and
 // milliseconds of CPU. With --mesh, against the coarse mesh of the uncut model: the smallest edge,
-// the number of tets, seconds of CPU; and the smallest dihedral angle of both, degrees. Each mesh is
-// made in a child process. PREFIX: a picture of each choice, PREFIX-RULE-PARTS.png.
+// the number of tets, seconds of CPU; and the smallest dihedral angle of both, degrees. Each mesh
+// is made in a child process. PREFIX: a picture of each choice, PREFIX-RULE-PARTS.png.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -119,9 +119,8 @@ MeshFigures figures_of(const Make& make)
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
     quality::TetCorners corners;
     for (std::size_t c = 0; c < 4; ++c) corners[c] = mesh.position(mesh.tet(t)[c]);
-    figures.min_dihedral_deg =
-        std::min(figures.min_dihedral_deg,
-                 quality::angle_deg(quality::shape_of(corners).largest_cosine));
+    figures.min_dihedral_deg = std::min(
+        figures.min_dihedral_deg, quality::angle_deg(quality::shape_of(corners).largest_cosine));
   }
   return figures;
 }
@@ -170,16 +169,15 @@ void print_judgement(const cut::CutChoice& choice, const cut::CutOptions& option
   }
   std::printf("%5d  %-6s  %5d  %7.2f  %9.3f  %7.3f  %5.1f  %6.2f  %6.0f", options.parts,
               std::string(word_of(options.rule)).c_str(), choice.tree.num_parts,
-              choice.report.balance, clearance, edge, angle_deg,
-              area / std::cbrt(volume * volume), cpu_ms);
+              choice.report.balance, clearance, edge, angle_deg, area / std::cbrt(volume * volume),
+              cpu_ms);
 }
 
 void print_reasons(const cut::CutReport& report)
 {
   for (const cut::CutPart& part : report.parts) {
     if (part.whole_because.empty()) continue;
-    std::printf("       one part instead of %d: %s\n", part.num_wanted,
-                part.whole_because.c_str());
+    std::printf("       one part instead of %d: %s\n", part.num_wanted, part.whole_because.c_str());
   }
 }
 
@@ -205,8 +203,8 @@ class Bench {
   void run()
   {
     std::printf("%s: %zu triangles, %zu faces, %zu solids, coarse size %g\n",
-                arguments_.file.c_str(), described_.triangle_face.size(),
-                described_.faces.size(), described_.solids.size(), arguments_.coarse_size);
+                arguments_.file.c_str(), described_.triangle_face.size(), described_.faces.size(),
+                described_.solids.size(), arguments_.coarse_size);
     if (arguments_.meshes) mesh_uncut();
     std::printf("parts  rule      got  balance  clearance     edge  angle    area  CPU ms%s\n",
                 arguments_.meshes ? "   min edge    tets  CPU s  dihedral" : "");
@@ -222,8 +220,8 @@ class Bench {
  private:
   void mesh_uncut()
   {
-    const auto figures = figures_in_child(
-        [&] { return netgen::make_coarse_mesher(*model_)->generate(coarse_); });
+    const auto figures =
+        figures_in_child([&] { return netgen::make_coarse_mesher(*model_)->generate(coarse_); });
     if (!figures) throw NetgenError("the uncut model cannot be meshed");
     uncut_ = *figures;
     std::printf("uncut: smallest edge %.4g, %.0f tets, %.2f s, dihedral angle %.2f\n",
@@ -246,8 +244,8 @@ class Bench {
 
   void mesh_parts(const cut::CutTree& tree)
   {
-    const auto figures = figures_in_child(
-        [&] { return netgen::mesh_parts(*model_, coarse_, tree).mesh; });
+    const auto figures =
+        figures_in_child([&] { return netgen::mesh_parts(*model_, coarse_, tree).mesh; });
     if (!figures) {
       std::printf("   cannot be meshed");
       return;

@@ -64,8 +64,8 @@ TEST(CsgCut, HalvesOfACubeAreOneMaterialWithoutAPatchBetweenThem)
 TEST(CsgCut, PiecesOfASphereAreOnePatch)
 {
   const auto model = load(kSphere);
-  const cut::CutTree tree = tree_of({branch({{0, 0, 1}, 3.2}, leaf(),
-                                            branch({{1, 0, 0}, 1.3}, leaf(), leaf()))});
+  const cut::CutTree tree =
+      tree_of({branch({{0, 0, 1}, 3.2}, leaf(), branch({{1, 0, 0}, 1.3}, leaf(), leaf()))});
   const cut::CutMesh cut = netgen::mesh_parts(*model, options_of(0.7), tree);
   testing::expect_parts_in_their_cells(cut, tree, 1e-12);
   EXPECT_EQ(cut.mesh.patch_names, std::vector<std::string>{"hull"});
@@ -75,8 +75,8 @@ TEST(CsgCut, PiecesOfASphereAreOnePatch)
 TEST(CsgCut, MaterialsAndPatchesOfTwoSolidsAreThoseOfTheUncutModel)
 {
   const auto model = load(kHole);
-  const cut::CutTree tree = tree_of({branch({{1, 0, 0}, 0.47}, leaf(), leaf()),
-                                     branch({{0, 0, 1}, 0.6}, leaf(), leaf())});
+  const cut::CutTree tree = tree_of(
+      {branch({{1, 0, 0}, 0.47}, leaf(), leaf()), branch({{0, 0, 1}, 0.6}, leaf(), leaf())});
   const cut::CutMesh cut = netgen::mesh_parts(*model, options_of(0.3), tree);
   testing::expect_parts_in_their_cells(cut, tree, 1e-12);
   const mesh::CoarseMesh uncut = uncut_mesh(*model, 0.3);

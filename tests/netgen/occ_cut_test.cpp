@@ -9,8 +9,9 @@
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/netgen/factory.hpp"
 
-#include "netgen/occ_fixture.hpp"
 #include "support/cut_meshes.hpp"
+
+#include "netgen/occ_fixture.hpp"
 
 namespace tessera {
 namespace {
@@ -50,17 +51,16 @@ void expect_equal_models(const CutModel& cut, const cut::CutTree& tree)
 
 TEST(OccCut, PartsOfABracketKeepItsFacesAndEdges)
 {
-  const cut::CutTree tree = tree_of({branch({{1, 0, 0}, 7}, leaf(),
-                                            branch({{0, 1, 0}, 6}, leaf(), leaf()))});
+  const cut::CutTree tree =
+      tree_of({branch({{1, 0, 0}, 7}, leaf(), branch({{0, 1, 0}, 6}, leaf(), leaf()))});
   const CutModel bracket("bracket.step", 5.0, tree);
   expect_equal_models(bracket, tree);
 }
 
 TEST(OccCut, TracesOfTwoPlanesThatCrossOnAThirdMeetConformingly)
 {
-  const cut::CutTree tree =
-      tree_of({branch({{1, 0, 0}, 1}, branch({{0, 1, 0}, 2}, leaf(), leaf()),
-                      branch({{0, 0, 1}, 3}, leaf(), leaf()))});
+  const cut::CutTree tree = tree_of({branch({{1, 0, 0}, 1}, branch({{0, 1, 0}, 2}, leaf(), leaf()),
+                                            branch({{0, 0, 1}, 3}, leaf(), leaf()))});
   expect_equal_models(CutModel("sphere.step", 4.0, tree), tree);
 }
 
@@ -75,8 +75,8 @@ TEST(OccCut, ASeamOfAPeriodicFaceMayBeCutAway)
 // Traces of both cross on the face between the blocks.
 TEST(OccCut, BlocksThatShareAFaceAreCutEachByItsOwnPlanes)
 {
-  const cut::CutTree tree = tree_of(
-      {branch({{0, 1, 0}, 4.4}, leaf(), leaf()), branch({{0, 0, 1}, 5.3}, leaf(), leaf())});
+  const cut::CutTree tree =
+      tree_of({branch({{0, 1, 0}, 4.4}, leaf(), leaf()), branch({{0, 0, 1}, 5.3}, leaf(), leaf())});
   expect_equal_models(CutModel("two_blocks.step", 3.0, tree), tree);
 }
 
