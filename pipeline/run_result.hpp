@@ -5,6 +5,7 @@
 
 #include "tessera/base/hash.hpp"
 #include "tessera/config/case.hpp"
+#include "tessera/cut/choose_planes.hpp"
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/fill/options.hpp"
 #include "tessera/formats/piece.hpp"
@@ -33,6 +34,7 @@ struct RunResult {
   config::Case resolved{};  ///< With size and levels as chosen.
   model::ModelSource model{};
   Hash128 field_content{};  ///< Of size.field; zero without one.
+  cut::CutChoice planes{};  ///< Without nodes unless the model is cut before it is meshed.
   CoarseResult coarse{};
   mesh::EdgeLevels levels{};  ///< Of the coarse edges, in all.
   int splits = 0;             ///< How many of them follow after the fills.

@@ -133,14 +133,38 @@ class MeshWorker final : public jobs::Worker {
     coarse::CoarseOptions options = request.options;
     options.max_size /= scale_;
     options.points = options.points.scaled(1.0 / scale_);
-    const auto mesher = make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
-    CoarseTry made{.mesh = mesher->generate(options)};
+    CoarseTry made = coarse_try(options, request.planes);
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_);
-    if (options.optimize) coarse::optimize_interior(made.mesh);
+    if (options.optimize) {
+      coarse::optimize_interior(made.mesh);
+      if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
+    }
     made.distance.largest *= scale_;
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     mesh::validate(made.mesh);
     return garbled_if_asked(stage_of(options), to_bytes(made));
+  }
+
+  [[nodiscard]] CoarseTry coarse_try(const coarse::CoarseOptions& options,
+                                     const cut::CutTree& planes) const
+  {
+    const auto mesher = make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
+    if (planes.num_parts == 0) return {.mesh = mesher->generate(options)};
+    cut::CutMesh cut = netgen::mesh_parts(*netgen_model_, options, planes);
+    return {.mesh = std::move(cut.mesh), .tet_part = std::move(cut.tet_part)};
+  }
+
+  // After tets were flipped: by their centroids.
+  [[nodiscard]] static std::vector<LocalIndex> parts_of_tets(const mesh::CoarseMesh& mesh,
+                                                             const cut::CutTree& planes)
+  {
+    std::vector<LocalIndex> tet_part;
+    for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+      Vec3 sum{};
+      for (const LocalIndex v : mesh.tet(t)) sum = sum + mesh.position(v);
+      tet_part.push_back(planes.part_of(mesh.tet_material[at(t)] - 1, 0.25 * sum));
+    }
+    return tet_part;
   }
 
   [[nodiscard]] Bytes answer(const UntangleRequest& request) const
@@ -363,9 +387,9 @@ model::ModelDescription description_from_bytes(std::span<const std::byte> result
   return description;
 }
 
-Bytes coarse_request(const coarse::CoarseOptions& options)
+Bytes coarse_request(const coarse::CoarseOptions& options, const cut::CutTree& planes)
 {
-  return to_bytes(Request(CoarseRequest{options}));
+  return to_bytes(Request(CoarseRequest{options, planes}));
 }
 
 Bytes untangle_request(const std::vector<UntangleTest>& tests,

@@ -12,6 +12,7 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
+#include "tessera/cut/cut_tree.hpp"
 #include "tessera/fill/fill_try.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/improve/region_mesh.hpp"
@@ -76,13 +77,16 @@ namespace tessera::pipeline {
 /// @brief What one try at the coarse mesh has given.
 struct CoarseTry {
   mesh::CoarseMesh mesh{};
+  std::vector<LocalIndex> tet_part{};  ///< Shape (num_tets), if the model was cut.
   coarse::VertexDistance distance{};
 
-  static auto fields(auto& self) { return std::tie(self.mesh, self.distance); }
+  static auto fields(auto& self) { return std::tie(self.mesh, self.tet_part, self.distance); }
 };
 
 /// @brief run: one try at the coarse mesh; result: bytes of a CoarseTry. Needs the model.
-[[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options);
+/// @param[in] planes Into which parts the model is cut before; without nodes: not at all.
+[[nodiscard]] Bytes coarse_request(const coarse::CoarseOptions& options,
+                                   const cut::CutTree& planes);
 
 /// @brief One subdomain that a plan job tests.
 struct UntangleTest {

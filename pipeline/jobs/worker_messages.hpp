@@ -87,8 +87,9 @@ struct DescribeRequest {
 
 struct CoarseRequest {
   coarse::CoarseOptions options{};
+  cut::CutTree planes{};
 
-  static auto fields(auto& self) { return std::tie(self.options); }
+  static auto fields(auto& self) { return std::tie(self.options, self.planes); }
 };
 
 struct UntangleRequest {

@@ -11,6 +11,7 @@
 #include "tessera/subdomain/read_size_field.hpp"
 
 #include "pipeline/stages/coarse_stage.hpp"
+#include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/levels_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
@@ -22,6 +23,7 @@ namespace {
 
 // What the store keeps of a run before it fills.
 struct CutCoarseMesh {
+  cut::CutChoice planes{};
   CoarseResult coarse{};
   mesh::EdgeLevels levels{};
   int splits = 0;
@@ -29,7 +31,7 @@ struct CutCoarseMesh {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.coarse, self.levels, self.splits, self.decomposition);
+    return std::tie(self.planes, self.coarse, self.levels, self.splits, self.decomposition);
   }
 };
 
@@ -46,7 +48,7 @@ void keep_coarse_mesh(const RunResult& run, const RunState* state, const RunCont
   all_or_none(context.comm, [&] {
     if (state == nullptr || context.comm.rank() != 0) return;
     state->keep_coarse(
-        to_bytes(CutCoarseMesh{run.coarse, run.levels, run.splits, run.decomposition}));
+        to_bytes(CutCoarseMesh{run.planes, run.coarse, run.levels, run.splits, run.decomposition}));
   });
 }
 
@@ -58,10 +60,10 @@ void require_same_run(const RunResult& run, const RunState* state, const RunCont
   });
 }
 
-CoarseResult named_coarse_mesh(const config::Case& resolved, const model::NamedParts& parts,
+CoarseResult named_coarse_mesh(const RunResult& run, const model::NamedParts& parts,
                                RunContext& context)
 {
-  CoarseResult coarse = run_coarse_stage(resolved, context);
+  CoarseResult coarse = run_coarse_stage(run.resolved, run.planes.tree, context);
   model::apply_names(parts, coarse.mesh);
   return coarse;
 }
@@ -70,11 +72,12 @@ CoarseResult named_coarse_mesh(const config::Case& resolved, const model::NamedP
 void run_coarse_stages(RunResult& run, RunContext& context)
 {
   const model::NamedParts parts = find_named_parts(run.resolved, context);
-  run.coarse = named_coarse_mesh(run.resolved, parts, context);
+  run.planes = choose_cuts(run, context);
+  run.coarse = named_coarse_mesh(run, parts, context);
   if (mesh::SizePoints points = sizes_for_a_finer_mesh(run, context); !points.size.empty()) {
     run.resolved.coarse.points = std::move(points);
     const CoarseResult first =
-        std::exchange(run.coarse, named_coarse_mesh(run.resolved, parts, context));
+        std::exchange(run.coarse, named_coarse_mesh(run, parts, context));
     run.coarse.tries += first.tries;
     run.coarse.failures.insert(run.coarse.failures.begin(), first.failures.begin(),
                                first.failures.end());
@@ -95,6 +98,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   require_same_run(run, options.state, context);
   run.resolved = resolve_size(given, context);
   if (auto kept = kept_coarse_mesh(options.state, context)) {
+    run.planes = std::move(kept->planes);
     run.coarse = std::move(kept->coarse);
     run.levels = std::move(kept->levels);
     run.splits = kept->splits;

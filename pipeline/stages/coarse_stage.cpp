@@ -39,16 +39,42 @@ std::string name_of(const coarse::CoarseOptions& options)
   return fmt::format("{}max_size {:g}", is_remesh ? "remeshed triangles, " : "", options.max_size);
 }
 
-CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
+// Options, and whether the model is cut before.
+struct Attempt {
+  coarse::CoarseOptions options{};
+  bool is_cut = false;
+};
+
+// Parts that NETGEN cannot mesh once are tried finer once. What worked uncut must go on to work.
+std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTree& planes)
+{
+  constexpr std::size_t kTriesOfParts = 2;
+  const std::vector<coarse::CoarseOptions> fallbacks = coarse_fallbacks(run_case.coarse);
+  std::vector<Attempt> attempts;
+  if (planes.num_parts > 0) {
+    for (std::size_t i = 0; i < kTriesOfParts; ++i) attempts.push_back({fallbacks[i], true});
+  }
+  for (const coarse::CoarseOptions& options : fallbacks) attempts.push_back({options, false});
+  return attempts;
+}
+
+CoarseResult first_that_works(const config::Case& run_case, const cut::CutTree& planes,
+                              RunContext& context)
 {
   const jobs::JobLimits limits{run_case.coarse.timeout_s, kStall_s, kMemory_gib};
   CoarseResult result;
   bool was_endless = false;
-  for (const coarse::CoarseOptions& options : coarse_fallbacks(run_case.coarse)) {
+  bool was_cut = false;
+  for (const auto& [options, is_cut] : attempts_at(run_case, planes)) {
+    if (was_cut && !is_cut) {
+      context.log.warn("coarse: the parts of the model cannot be meshed; it is meshed as a whole");
+      was_endless = false;
+    }
+    was_cut = is_cut;
     // NETGEN's surface mesher that did not end once would not end at another size either.
     const bool is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen;
     if (was_endless && is_netgen) continue;
-    const Bytes request = coarse_request(options);
+    const Bytes request = coarse_request(options, is_cut ? planes : cut::CutTree{});
     const JobRequest job{"coarse", request, limits};
     jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
     auto made = read_result(outcome, from_bytes<CoarseTry>);
@@ -56,6 +82,7 @@ CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
     ++result.tries;
     if (made) {
       result.mesh = std::move(made->mesh);
+      result.tet_part = std::move(made->tet_part);
       result.distance = made->distance;
       result.options = options;
       return result;
@@ -66,7 +93,8 @@ CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
       throw MeshError(fmt::format("coarse: {}{}", outcome.message, way_on(outcome)));
     }
     if (is_final(outcome)) jobs::throw_unless_ok(outcome, run_case.geometry.file.string());
-    result.failures.push_back(fmt::format("{}: {}", name_of(options), outcome.message));
+    result.failures.push_back(fmt::format("{}{}: {}", is_cut ? "in parts, " : "",
+                                          name_of(options), outcome.message));
     context.log.warn("coarse: try {} failed: {}", result.tries, result.failures.back());
     was_endless = was_endless || is_endless(outcome);
     result.was_limited = result.was_limited || depends_on_machine(outcome);
@@ -102,10 +130,12 @@ std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions&
   return fallbacks;
 }
 
-CoarseResult run_coarse_stage(const config::Case& run_case, RunContext& context)
+CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& planes,
+                              RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseResult result = on_root(context.comm, [&] { return first_that_works(run_case, context); });
+  CoarseResult result = on_root(
+      context.comm, [&] { return first_that_works(run_case, planes, context); });
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),
                            result.mesh.num_patches(), result.mesh.num_materials()));

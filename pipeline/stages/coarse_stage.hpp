@@ -6,6 +6,7 @@
 
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/config/case.hpp"
+#include "tessera/cut/cut_tree.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
 #include "pipeline/runtime/run_context.hpp"
@@ -15,6 +16,7 @@ namespace tessera::pipeline {
 /// @brief The coarse mesh and how it was got.
 struct CoarseResult {
   mesh::CoarseMesh mesh{};
+  std::vector<LocalIndex> tet_part{};   ///< Of the parts it was meshed in; empty: as a whole.
   coarse::CoarseOptions options{};      ///< Those of the try that succeeded.
   int tries = 0;                        ///< Tries that were needed, from 1.
   coarse::VertexDistance distance{};    ///< Output length unit.
@@ -23,7 +25,7 @@ struct CoarseResult {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.mesh, self.options, self.tries, self.distance, self.failures,
+    return std::tie(self.mesh, self.tet_part, self.options, self.tries, self.distance, self.failures,
                     self.was_limited);
   }
 };
@@ -35,8 +37,12 @@ struct CoarseResult {
     const coarse::CoarseOptions& asked);
 
 /// @brief Makes the coarse mesh in jobs of rank 0 and gives it to all ranks.
+///
+/// If parts that planes make of the model cannot be meshed, it is meshed as a whole.
+/// @param[in] planes Into which parts the model is cut; without nodes: not at all.
 /// @note Collective.
 /// @throws GeometryError, MeshError on every rank, with the words of every try, if none succeeds.
-[[nodiscard]] CoarseResult run_coarse_stage(const config::Case& run_case, RunContext& context);
+[[nodiscard]] CoarseResult run_coarse_stage(const config::Case& run_case,
+                                            const cut::CutTree& planes, RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -14,7 +14,9 @@ namespace {
 
 constexpr jobs::JobLimits kDescribeLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
 
-model::ModelDescription describe(const config::Case& given, RunContext& context)
+}  // namespace
+
+model::ModelDescription describe_model(const config::Case& given, RunContext& context)
 {
   const Bytes request = describe_request();
   const JobRequest job{"describe", request, kDescribeLimits};
@@ -23,11 +25,9 @@ model::ModelDescription describe(const config::Case& given, RunContext& context)
   keep_if_failed(job, outcome, context);
   throw_if_cancelled(outcome);
   outcome.message += way_on(outcome);
-  jobs::throw_unless_ok(outcome, given.geometry.file.string() + ": names of its parts");
+  jobs::throw_unless_ok(outcome, given.geometry.file.string() + ": its faces and solids");
   return std::move(*description);
 }
-
-}  // namespace
 
 model::NamedParts find_named_parts(const config::Case& given, RunContext& context)
 {
@@ -35,7 +35,7 @@ model::NamedParts find_named_parts(const config::Case& given, RunContext& contex
   StageScope stage(context, "names");
   model::NamedParts parts = comm::on_root(context.comm, [&] {
     return with_file_context(given, [&] {
-      return model::find_named_parts(describe(given, context), given.geometry.names,
+      return model::find_named_parts(describe_model(given, context), given.geometry.names,
                                      given.geometry.scale);
     });
   });

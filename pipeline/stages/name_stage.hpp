@@ -2,11 +2,17 @@
 #pragma once
 
 #include "tessera/config/case.hpp"
+#include "tessera/model/description.hpp"
 #include "tessera/model/part_names.hpp"
 
 #include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
+
+/// @brief What the model holds, file length unit.
+/// @note For rank 0: runs a job of it. @throws what the job fails for.
+[[nodiscard]] model::ModelDescription describe_model(const config::Case& given,
+                                                     RunContext& context);
 
 /// @brief Which faces and solids of the model the case names; asks nothing of the model if the case
 /// names none.

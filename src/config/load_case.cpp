@@ -235,6 +235,12 @@ void check_order(const Case& loaded, const std::string& where)
        "subdomains are filled on all levels");
 }
 
+void check_planes(const Case& loaded, const std::string& where)
+{
+  if (loaded.planes.given.empty() || loaded.decompose.method == decompose::Method::geometry) return;
+  fail(where, "[[decompose.plane]] cuts the model; it needs decompose.method = \"geometry\"");
+}
+
 void resolve_paths(const fs::path& case_file, Case& loaded)
 {
   const auto beside_case = [&](const fs::path& path) {
@@ -282,6 +288,7 @@ Case parse_case(std::string_view text, const std::filesystem::path& file,
   for (const Entry& entry : entries) apply(entry, loaded);
   check_required(loaded, name);
   check_order(loaded, name);
+  check_planes(loaded, name);
   resolve_paths(file, loaded);
   return loaded;
 }

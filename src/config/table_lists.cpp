@@ -234,6 +234,20 @@ constexpr Key kNameKeys[] = {
      .is_optional = true},
 };
 
+constexpr Key kPlaneKeys[] = {
+    {.name = "decompose.plane.point",
+     .rule = TripleRule{[](Case& c) -> Vec3& { return c.planes.given.back().point; }, kHuge},
+     .unit = "output length unit",
+     .meaning = "A point of the plane.",
+     .reason = "a plane is told by it",
+     .example = "[0.5, 0.0, 0.0]"},
+    {.name = "decompose.plane.normal",
+     .rule = TripleRule{[](Case& c) -> Vec3& { return c.planes.given.back().normal; }, kHuge},
+     .meaning = "The direction across the plane. Of any length.",
+     .reason = "a plane is told by it",
+     .example = "[1.0, 0.0, 0.0]"},
+};
+
 constexpr std::string_view kNamed[] = {"patch", "material"};
 
 constexpr std::string_view kShapes[] = {"box",       "ball",  "cylinder",
@@ -249,6 +263,15 @@ constexpr TableList kTableLists[] = {
      .size = [](const Case& c) { return c.geometry.names.size(); },
      .resize = [](Case& c, std::size_t size) { c.geometry.names.resize(size); },
      .defect = [](const Case& c) { return model::defect_of(c.geometry.names.back()); }},
+    {.name = "decompose.plane",
+     .keys = kPlaneKeys,
+     .meaning = "A plane that cuts the model, with decompose.method = \"geometry\": every part that "
+                "it crosses, in the order of the entries. Others follow by decompose.planes if "
+                "decompose.subdomains asks for more parts.",
+     .reason = "decompose.planes chooses them",
+     .size = [](const Case& c) { return c.planes.given.size(); },
+     .resize = [](Case& c, std::size_t size) { c.planes.given.resize(size); },
+     .defect = [](const Case& c) { return cut::defect_of(c.planes.given.back()); }},
     {.name = "fill.region",
      .keys = kRegionKeys,
      .unique_key = "fill.region.material",

@@ -2,7 +2,9 @@
 #include "cut/solid_surfaces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,7 +27,9 @@ constexpr double kLargestGap = 1e-3;  // Sum of area times normal, over the area
 // A curve counts as a third of its length: of a full circle that is two radii.
 constexpr double kSizeOverLength = 1.0 / 3.0;
 
-void add_feature_edges(PartSurface& surface)
+using Seams = std::set<std::array<LocalIndex, 2>>;
+
+void add_feature_edges(const Seams& seams, PartSurface& surface)
 {
   for_each_edge_group(sorted_edges(surface.triangles), [&](std::span<const TriangleEdge> edge) {
     const LocalIndex first = surface.triangles[at(edge.front().triangle)].face;
@@ -34,7 +38,8 @@ void add_feature_edges(PartSurface& surface)
       const LocalIndex face = surface.triangles[at(use.triangle)].face;
       if (face != first) second = face;
     }
-    if (edge.size() == 2 && first == second) return;
+    const bool is_seam = seams.contains(edge.front().vertices);
+    if (edge.size() == 2 && first == second && !is_seam) return;
     surface.edges.push_back(
         {edge.front().vertices, {std::min(first, second), std::max(first, second)}, 0.0});
   });
@@ -108,13 +113,23 @@ class Collector {
 
   SolidSurface finish(double described_volume, double coarse_size)
   {
-    add_feature_edges(surface_);
+    add_feature_edges(own_seams(), surface_);
     measure_curves(surface_, coarse_size);
     std::string reason = reason_against(surface_, described_volume);
     return {std::move(surface_), std::move(reason)};
   }
 
  private:
+  [[nodiscard]] Seams own_seams() const
+  {
+    Seams seams;
+    for (const auto& [a, b] : welded_.seams) {
+      const auto [low, high] = std::minmax(own_[at(a)], own_[at(b)]);
+      if (low != kNoIndex) seams.insert({low, high});
+    }
+    return seams;
+  }
+
   const WeldedModel& welded_;
   std::vector<LocalIndex> own_;
   PartSurface surface_{};

@@ -49,6 +49,28 @@ std::vector<LocalIndex> joined_points(const std::vector<Vec3>& points)
   return result;
 }
 
+// Edges of one triangle before points were joined, and of two of the same face after it.
+std::set<std::array<LocalIndex, 2>> seams_of(const std::vector<SurfaceTriangle>& apart,
+                                             const std::vector<LocalIndex>& joined)
+{
+  std::vector<SurfaceTriangle> ends;
+  for_each_edge_group(sorted_edges(apart), [&](std::span<const TriangleEdge> edge) {
+    if (edge.size() != 1) return;
+    const auto& [a, b] = edge.front().vertices;
+    const auto [low, high] = std::minmax(joined[at(a)], joined[at(b)]);
+    if (low != high) ends.push_back({{low, high, low}, apart[at(edge.front().triangle)].face});
+  });
+  std::ranges::sort(ends, {}, [](const SurfaceTriangle& end) {
+    return std::pair(end.vertices, end.face);
+  });
+  std::set<std::array<LocalIndex, 2>> seams;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    if (ends[i].vertices != ends[i - 1].vertices || ends[i].face != ends[i - 1].face) continue;
+    seams.insert({ends[i].vertices[0], ends[i].vertices[1]});
+  }
+  return seams;
+}
+
 }  // namespace
 
 WeldedModel weld_faces(const model::ModelDescription& model)
@@ -64,11 +86,12 @@ WeldedModel weld_faces(const model::ModelDescription& model)
     welded.points.push_back(point_at(xyz, order[i]));
   }
   const std::vector<LocalIndex> joined = joined_points(welded.points);
+  std::vector<SurfaceTriangle> apart;
   for (std::size_t t = 0; t < model.triangle_face.size(); ++t) {
     std::array<LocalIndex, 3> v{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      v[c] = joined[at(place[at(model.triangle_vertices[3 * t + c])])];
-    }
+    for (std::size_t c = 0; c < 3; ++c) v[c] = place[at(model.triangle_vertices[3 * t + c])];
+    apart.push_back({v, model.triangle_face[t]});
+    for (LocalIndex& vertex : v) vertex = joined[at(vertex)];
     if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
     std::ranges::rotate(v, std::ranges::min_element(v));
     welded.triangles.push_back({v, model.triangle_face[t]});
@@ -76,6 +99,7 @@ WeldedModel weld_faces(const model::ModelDescription& model)
   std::ranges::sort(welded.triangles, {}, [](const SurfaceTriangle& triangle) {
     return std::pair(triangle.vertices, triangle.face);
   });
+  welded.seams = seams_of(apart, joined);
   return welded;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace tessera::cut {
 struct WeldedModel {
   std::vector<Vec3> points{};                ///< By position.
   std::vector<SurfaceTriangle> triangles{};  ///< Lowest vertex first; by vertices, then face.
+  /// Where a face meets itself, as a cylinder does: an edge of the model. Lower vertex first.
+  std::set<std::array<LocalIndex, 2>> seams{};
 };
 
 /// @brief Joins points that are within 1e-6 of the box diagonal, and drops what has no area then.

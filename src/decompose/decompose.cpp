@@ -20,7 +20,7 @@ namespace tessera::decompose {
 namespace {
 
 void check_arguments(const mesh::CoarseMesh& mesh, const DecomposeOptions& options,
-                     std::span<const double> tet_weight)
+                     std::span<const double> tet_weight, std::span<const LocalIndex> tet_part)
 {
   if (options.subdomains < 0) {
     throw ConfigError(fmt::format("decompose.subdomains is {}; it must be at least 1, or \"auto\"",
@@ -30,6 +30,10 @@ void check_arguments(const mesh::CoarseMesh& mesh, const DecomposeOptions& optio
   if (tet_weight.size() != static_cast<std::size_t>(mesh.num_tets())) {
     throw MeshError(
         fmt::format("decompose: {} weights for {} tets", tet_weight.size(), mesh.num_tets()));
+  }
+  if (!tet_part.empty() && tet_part.size() != tet_weight.size()) {
+    throw MeshError(
+        fmt::format("decompose: parts of {} tets for {}", tet_part.size(), mesh.num_tets()));
   }
 }
 
@@ -63,11 +67,12 @@ void measure(const TetGraph& graph, const mesh::Decomposition& decomposition,
 }  // namespace
 
 DecomposeResult decompose(const mesh::CoarseMesh& mesh, const DecomposeOptions& options,
-                          std::span<const double> tet_weight, const GraphPartitioner& partitioner)
+                          std::span<const double> tet_weight, const GraphPartitioner& partitioner,
+                          std::span<const LocalIndex> tet_part)
 {
-  check_arguments(mesh, options, tet_weight);
+  check_arguments(mesh, options, tet_weight, tet_part);
   const TetGraph graph = make_tet_graph(mesh, tet_weight);
-  const auto pieces = connected_pieces(graph);
+  const auto pieces = connected_pieces(graph, tet_part);
 
   DecomposeResult result;
   DecomposeReport& report = result.report;

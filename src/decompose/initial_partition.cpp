@@ -79,12 +79,23 @@ void raise_number(const TetGraph& graph, TetPartition& partition, LocalIndex num
 
 }  // namespace
 
-std::vector<std::vector<LocalIndex>> connected_pieces(const TetGraph& graph)
+std::vector<std::vector<LocalIndex>> connected_pieces(const TetGraph& graph,
+                                                      std::span<const LocalIndex> tet_part)
 {
-  std::vector<LocalIndex> all(static_cast<std::size_t>(graph.num_tets()));
-  std::iota(all.begin(), all.end(), 0);
-  auto pieces = RegionSearch(graph).components(all);
+  std::vector<LocalIndex> one_part;
+  if (tet_part.empty()) {
+    one_part.assign(static_cast<std::size_t>(graph.num_tets()), 0);
+    tet_part = one_part;
+  }
+  const LocalIndex num_parts = 1 + *std::max_element(tet_part.begin(), tet_part.end());
+  const IndexLists part_tets = rows_by_key(tet_part, num_parts);
+  RegionSearch search(graph);
+  std::vector<std::vector<LocalIndex>> pieces;
+  for (LocalIndex part = 0; part < num_parts; ++part) {
+    for (auto& piece : search.components(part_tets[part])) pieces.push_back(std::move(piece));
+  }
   for (auto& piece : pieces) std::sort(piece.begin(), piece.end());
+  std::sort(pieces.begin(), pieces.end());
   return pieces;
 }
 

@@ -9,8 +9,11 @@
 
 namespace tessera::decompose {
 
-/// @brief The face-connected pieces of each material, by lowest tet; each ascending.
-[[nodiscard]] std::vector<std::vector<LocalIndex>> connected_pieces(const TetGraph& graph);
+/// @brief The face-connected pieces of each material, and of each part if there are parts, by lowest
+/// tet; each ascending.
+/// @param[in] tet_part Shape (num_tets), >= 0, or empty.
+[[nodiscard]] std::vector<std::vector<LocalIndex>> connected_pieces(
+    const TetGraph& graph, std::span<const LocalIndex> tet_part);
 
 /// @brief Parts for each piece: at least one, at most its tets, else in proportion to its weight.
 /// @pre pieces.size() <= num_parts <= number of tets.

@@ -14,6 +14,7 @@
 #include "tessera/base/error.hpp"
 
 #include "netgen/csg_access.hpp"
+#include "netgen/csg_crossings.hpp"
 #include "netgen/csg_cut.hpp"
 #include "netgen/csg_description.hpp"
 #include "netgen/loaded_model.hpp"
@@ -164,6 +165,7 @@ class CsgModel final : public LoadedModel {
   std::string file_name_;
   std::string text_;
   std::unique_ptr<Geometry> geometry_;
+  ::netgen::Box<3> box_{};
   double box_diagonal_ = 0.0;
   double tolerance_ = 0.0;
 };
@@ -175,7 +177,8 @@ CsgModel::CsgModel(const model::ModelSource& source)
 {
   require_solid(*geometry_, file_name_);
   NetgenSession session;
-  box_diagonal_ = session.run(file_name_, [&] { return extent(*geometry_, file_name_).Diam(); });
+  box_ = session.run(file_name_, [&] { return extent(*geometry_, file_name_); });
+  box_diagonal_ = box_.Diam();
   tolerance_ = kTolerance * box_diagonal_;
 }
 
@@ -282,6 +285,7 @@ cut::CutMesh CsgModel::generate_cut(const coarse::CoarseOptions& options,
   return session.run(what, [&] {
     FaceOrder order(*uncut, session.parameters());
     const CutObjects objects = cut_geometry(*geometry, tree);
+    add_crossings(*geometry, objects, box_);
     std::shared_ptr<::netgen::Mesh> mesh;
     if (geometry->GenerateMesh(mesh, session.parameters()) != 0) {
       throw NetgenError("NETGEN gave up; " + session.words());

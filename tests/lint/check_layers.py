@@ -13,7 +13,6 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "jobs": BASE,
     "mesh": BASE | {"comm"},
     "model": CORE,
-    "cut": CORE | {"model"},
     "netgen": CORE | {"model", "cut", "coarse", "fill", "improve"},
     "coarse": CORE | {"model"},
     "decompose": CORE | {"model"},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tessera/coarse/options.hpp"
+#include "tessera/cut/options.hpp"
 #include "tessera/decompose/options.hpp"
 #include "tessera/fill/options.hpp"
 #include "tessera/improve/options.hpp"
@@ -38,6 +39,7 @@ struct Case {
   sizing::SizeOptions size{};
   coarse::CoarseOptions coarse{};
   decompose::DecomposeOptions decompose{};
+  cut::PlaneSettings planes{};  ///< Of decompose.method "geometry".
   refine::RefineOptions refine{};
   fill::FillOptions fill{};
   improve::ImproveOptions improve{};

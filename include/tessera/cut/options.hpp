@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <tuple>
 #include <vector>
 
@@ -45,5 +46,28 @@ struct CutOptions {
 
   friend bool operator==(const CutOptions&, const CutOptions&) = default;
 };
+
+/// @brief A plane that the user gives; table `[[decompose.plane]]` of a case file.
+struct GivenPlane {
+  Vec3 point = kNoPoint;   ///< On the plane, output length unit.
+  Vec3 normal = kNoPoint;  ///< Of any length but 0.
+
+  friend bool operator==(const GivenPlane&, const GivenPlane&) = default;
+};
+
+/// @brief What a case says of the planes that cut the model; keys of its table `[decompose]`.
+struct PlaneSettings {
+  PlaneRule rule = PlaneRule::clear;
+  std::vector<GivenPlane> given{};
+
+  friend bool operator==(const PlaneSettings&, const PlaneSettings&) = default;
+};
+
+/// @brief What is wrong with a plane whose keys have values that are right one by one; empty if
+/// nothing is. Local.
+[[nodiscard]] inline std::string defect_of(const GivenPlane& plane)
+{
+  return plane.normal == Vec3{} ? "normal must not be zero" : "";
+}
 
 }  // namespace tessera::cut

@@ -63,12 +63,15 @@ struct DecomposeResult {
 /// all of it.
 /// @note Local; the same bits for the same arguments. About linear in the number of tets.
 /// @param[in] tet_weight Shape (num_tets), > 0: predicted fine tets of each coarse tet.
+/// @param[in] tet_part Shape (num_tets), >= 0: parts of which subdomains are made, at least one
+/// each; repair may move single tets, and small bits, between them. Empty: there are none.
 /// @throws ConfigError if a negative number of subdomains is requested.
-/// @throws MeshError if tet_weight has a wrong length or the partitioner gives invalid parts.
+/// @throws MeshError if tet_weight or tet_part has a wrong length or the partitioner gives invalid parts.
 [[nodiscard]] DecomposeResult decompose(const mesh::CoarseMesh& mesh,
                                         const DecomposeOptions& options,
                                         std::span<const double> tet_weight,
-                                        const GraphPartitioner& partitioner);
+                                        const GraphPartitioner& partitioner,
+                                        std::span<const LocalIndex> tet_part = {});
 
 /// @brief Throws MeshError, naming subdomain and vertex, unless the decomposition keeps every
 /// promise of decompose() and its graph is the symmetric one of the shared triangles. Local.

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/cut/choose_planes.hpp"
+#include "tessera/model/description.hpp"
+
+#include "pipeline/run_result.hpp"
+#include "pipeline/runtime/run_context.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief The planes that cut the model of a run before it is meshed, chosen on rank 0; without
+/// nodes if its coarse mesh is to be cut.
+/// @note Collective: the model is described in a job of rank 0.
+/// @throws ConfigError on every rank if the model has no solids that could be cut, or a given plane
+/// meets none.
+[[nodiscard]] cut::CutChoice choose_cuts(const RunResult& run, RunContext& context);
+
+/// @brief Wanted number of parts of a model: as many as subdomains are asked for. With "auto", as
+/// many as the coarse mesh is worth, or, if planes are given, those that they make. Local.
+[[nodiscard]] LocalIndex num_parts_for(const config::Case& resolved,
+                                       const model::ModelDescription& model);
+
+}  // namespace tessera::pipeline
