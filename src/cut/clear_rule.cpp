@@ -47,16 +47,11 @@ constexpr double kCostOfOwnPlane = 0.05;
 struct Candidate {
   Plane plane{};
   LocalIndex num_below = 1;
-<<<<<<< HEAD
-  double cost = 0.0;              // As far as it is known.
-  LocalIndex foreign = kNoIndex;  // ForeignPlane::node.
-=======
   LocalIndex foreign = kNoIndex;  // ForeignPlane::node.
   double imbalance = 0.0;
   double clearance = 0.0;
   double cost = 0.0;                 // Without what the section costs.
   std::optional<Section> section{};  // Once it was looked at.
->>>>>>> cutplanes
 };
 
 double square(double x) { return x * x; }
@@ -151,18 +146,11 @@ class ClearSearch {
   // Keeps a candidate if it may be taken, as far as that is known.
   void add(Candidate candidate, double volume_below, double area, double clearance)
   {
-<<<<<<< HEAD
-    const double imbalance = share_out(volume_below / moments_.volume, candidate);
-    if (!(imbalance <= kLargestImbalance) || clearance < kLeastClearance) return;
-    candidate.cost +=
-        2.0 * imbalance + 3.0 * square(std::max(0.0, 1.0 - clearance)) + area / area_unit_;
-=======
     candidate.imbalance = share_out(volume_below / moments_.volume, candidate);
     candidate.clearance = clearance;
     if (!(candidate.imbalance <= kImbalances.back()) || clearance < kLeastClearance) return;
     candidate.cost += 2.0 * candidate.imbalance + 3.0 * square(std::max(0.0, 1.0 - clearance))
                       + area / area_unit_;
->>>>>>> cutplanes
     candidates_.push_back(candidate);
   }
 
