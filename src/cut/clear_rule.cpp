@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -17,15 +18,25 @@ namespace tessera::cut {
 namespace {
 
 constexpr std::size_t kNumOffsets = 128;     // Of each direction.
-constexpr std::size_t kMostOfDirection = 8;  // Planes of one direction that are looked at closely.
+constexpr std::size_t kMostOfDirection = 6;  // Planes of one direction and band that are kept.
 
-// By how much of itself a side may be larger than wanted.
-constexpr double kLargestImbalance = 0.6;
+// By how much of itself a side may be larger than wanted: the ends of bands.
+constexpr std::array kImbalances{0.15, 0.35, 0.7};
 
 // What a plane must have.
-constexpr double kLeastClearance = 0.25;  // In sizes of the features.
-constexpr double kLeastAngle_deg = 20.0;
-constexpr double kLeastEdge = 0.2;  // In coarse sizes, or the part's thickness.
+struct Demand {
+  double imbalance = 0.0;  // At most.
+  double clearance = 0.0;  // At least, in sizes of the features.
+  double edge = 0.0;       // At least, in coarse sizes or the part's thickness.
+  double angle_deg = 0.0;  // At least.
+};
+
+// Tried one after the other: what is unbalanced is better than what is narrow.
+constexpr double kLeastClearance = 0.25;
+constexpr std::array kDemands{Demand{kImbalances[0], 0.5, 0.4, 30.0},
+                              Demand{kImbalances[1], 0.5, 0.4, 30.0},
+                              Demand{kImbalances[0], kLeastClearance, 0.2, 20.0},
+                              Demand{kImbalances[2], kLeastClearance, 0.2, 20.0}};
 
 // Costs of what differ by less are equal: the first one is taken. So rounding does not choose.
 constexpr double kSameCost = 1e-6;
@@ -36,8 +47,11 @@ constexpr double kCostOfOwnPlane = 0.05;
 struct Candidate {
   Plane plane{};
   LocalIndex num_below = 1;
-  double cost = 0.0;              // As far as it is known.
   LocalIndex foreign = kNoIndex;  // ForeignPlane::node.
+  double imbalance = 0.0;
+  double clearance = 0.0;
+  double cost = 0.0;                 // Without what the section costs.
+  std::optional<Section> section{};  // Once it was looked at.
 };
 
 double square(double x) { return x * x; }
@@ -58,10 +72,12 @@ class ClearSearch {
     std::ranges::stable_sort(candidates_, {}, cost_without_noise);
   }
 
-  Proposal run() const
+  Proposal run()
   {
-    const Candidate* best = this->best();
-    if (best != nullptr) return {best->plane, best->num_below, {}};
+    for (const Demand& demand : kDemands) {
+      const Candidate* best = best_of(demand);
+      if (best != nullptr) return {best->plane, best->num_below, {}};
+    }
     return {std::nullopt, 1, "no plane keeps clear of its features"};
   }
 
@@ -109,26 +125,32 @@ class ClearSearch {
     const std::vector<double> heights = part_.heights({normal, 0.0});
     const Profile profile = profile_of(part_, normal, heights, kNumOffsets);
     const std::vector<Landmark> landmarks = finder.find(heights);
-    const std::size_t first = candidates_.size();
+    std::vector<Candidate> own;
+    std::swap(own, candidates_);
     for (std::size_t entry = 1; entry + 1 < kNumOffsets; ++entry) {
       const double offset = profile.offset(entry);
       add({.plane = {normal, offset}, .cost = kCostOfOwnPlane}, profile.volume[entry],
           profile.area[entry], clearance_of(landmarks, offset, coarse_size_, kLargestClearance));
     }
-    const auto own = candidates_.begin() + static_cast<std::ptrdiff_t>(first);
-    std::stable_sort(own, candidates_.end(), [](const Candidate& a, const Candidate& b) {
-      return cost_without_noise(a) < cost_without_noise(b);
-    });
-    candidates_.resize(std::min(candidates_.size(), first + kMostOfDirection));
+    std::swap(own, candidates_);
+    std::ranges::stable_sort(own, {}, cost_without_noise);
+    std::array<std::size_t, kImbalances.size()> num_kept{};
+    for (const Candidate& candidate : own) {
+      const auto band = std::ranges::lower_bound(kImbalances, candidate.imbalance);
+      if (num_kept[static_cast<std::size_t>(band - kImbalances.begin())]++ < kMostOfDirection) {
+        candidates_.push_back(candidate);
+      }
+    }
   }
 
   // Keeps a candidate if it may be taken, as far as that is known.
   void add(Candidate candidate, double volume_below, double area, double clearance)
   {
-    const double imbalance = share_out(volume_below / moments_.volume, candidate);
-    if (!(imbalance <= kLargestImbalance) || clearance < kLeastClearance) return;
-    candidate.cost +=
-        2.0 * imbalance + 3.0 * square(std::max(0.0, 1.0 - clearance)) + area / area_unit_;
+    candidate.imbalance = share_out(volume_below / moments_.volume, candidate);
+    candidate.clearance = clearance;
+    if (!(candidate.imbalance <= kImbalances.back()) || clearance < kLeastClearance) return;
+    candidate.cost += 2.0 * candidate.imbalance + 3.0 * square(std::max(0.0, 1.0 - clearance))
+                      + area / area_unit_;
     candidates_.push_back(candidate);
   }
 
@@ -145,13 +167,21 @@ class ClearSearch {
   }
 
   // Looks closely at one after the other, until none can be better than the best one.
-  [[nodiscard]] const Candidate* best() const
+  [[nodiscard]] const Candidate* best_of(const Demand& demand)
   {
     const Candidate* best = nullptr;
     double least = std::numeric_limits<double>::infinity();
-    for (const Candidate& candidate : candidates_) {
+    for (Candidate& candidate : candidates_) {
       if (candidate.cost >= least - kSameCost) break;
-      const double cost = candidate.cost + closer_cost(candidate);
+      if (candidate.imbalance > demand.imbalance || candidate.clearance < demand.clearance) {
+        continue;
+      }
+      const Section& section = look_at(candidate);
+      const double edge = section.shortest_edge / edge_unit_;
+      if (section.angle_deg < demand.angle_deg || edge < demand.edge) continue;
+      const double cost = candidate.cost
+                          + 1.5 * square(std::max(0.0, 1.0 - section.angle_deg / 60.0))
+                          + 2.0 * square(std::max(0.0, 1.0 - edge));
       if (cost >= least - kSameCost) continue;
       least = cost;
       best = &candidate;
@@ -159,21 +189,17 @@ class ClearSearch {
     return best;
   }
 
-  // Infinite if the plane must not be taken.
-  [[nodiscard]] double closer_cost(const Candidate& candidate) const
+  const Section& look_at(Candidate& candidate) const
   {
-    const auto section_in = [&](const PartSurface& part) {
-      return section_of(part, candidate.plane, part.heights(candidate.plane), coarse_size_);
-    };
-    const Section section = candidate.foreign == kNoIndex
-                                ? section_in(part_)
-                                : section_in(without_lines_of(candidate.foreign));
-    const double edge = section.shortest_edge / edge_unit_;
-    if (section.angle_deg < kLeastAngle_deg || edge < kLeastEdge) {
-      return std::numeric_limits<double>::infinity();
+    if (!candidate.section) {
+      const auto section_in = [&](const PartSurface& part) {
+        return section_of(part, candidate.plane, part.heights(candidate.plane), coarse_size_);
+      };
+      candidate.section = candidate.foreign == kNoIndex
+                              ? section_in(part_)
+                              : section_in(without_lines_of(candidate.foreign));
     }
-    return 1.5 * square(std::max(0.0, 1.0 - section.angle_deg / 60.0))
-           + 2.0 * square(std::max(0.0, 1.0 - edge));
+    return *candidate.section;
   }
 
   const Question& question_;

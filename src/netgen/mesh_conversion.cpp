@@ -19,6 +19,8 @@ using ::netgen::PointIndex;
 
 // Builds the coarse surface array by array; faces need the patches.
 class Conversion {
+  using Ends = std::array<LocalIndex, 2>;  // Of a segment, lower one first.
+
  public:
   Conversion(const ::netgen::Mesh& from, const GeometryNumbers& numbers)
       : from_(from), numbers_(numbers)
@@ -31,6 +33,7 @@ class Conversion {
     add_patches();
     add_faces();
     if (numbers_.curve) add_segments();
+    if (numbers_.material) require_all_curves();
     add_domains(max_size);
     return std::move(to_);
   }
@@ -88,9 +91,12 @@ class Conversion {
   {
     for (const ::netgen::Segment& segment : from_.LineSegments()) {
       if (!segment[0].IsValid()) continue;  // Deleted.
-      mesh_.segment_vertices.insert(mesh_.segment_vertices.end(),
-                                    {vertex(segment[0]), vertex(segment[1])});
-      mesh_.segment_curve.push_back(numbers_.curve(segment));
+      const LocalIndex curve = numbers_.curve(segment);
+      const Ends ends{vertex(segment[0]), vertex(segment[1])};
+      const auto [low, high] = std::minmax(ends[0], ends[1]);
+      (curve == kNoIndex ? off_curves_ : on_curves_).insert({low, high});
+      mesh_.segment_vertices.insert(mesh_.segment_vertices.end(), ends.begin(), ends.end());
+      mesh_.segment_curve.push_back(curve);
       if (!numbers_.t) continue;
       for (int end = 0; end < 2; ++end) mesh_.segment_t.push_back(numbers_.t(segment, end));
     }
@@ -106,6 +112,24 @@ class Conversion {
       if (numbers_.part) to_.domain_part.push_back(numbers_.part(domain));
       if (!numbers_.max_size) continue;
       to_.domain_max_size[at(domain - 1)] = std::min(max_size, numbers_.max_size(domain));
+    }
+  }
+
+  // Where a cut follows an edge of the model, NETGEN may have told it by the plane.
+  void require_all_curves() const
+  {
+    std::map<Ends, LocalIndex> surface_beside;
+    for (std::size_t corner = 0; corner < mesh_.face_vertices.size(); ++corner) {
+      const LocalIndex patch = mesh_.face_patch[corner / 3];
+      if (patch == kNoIndex) continue;  // Of a cut.
+      const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+      const auto [low, high] =
+          std::minmax(mesh_.face_vertices[corner], mesh_.face_vertices[next]);
+      const Ends ends{low, high};
+      if (!off_curves_.contains(ends) || on_curves_.contains(ends)) continue;
+      const LocalIndex surface = mesh_.patch_surface[at(patch)];
+      if (surface_beside.emplace(ends, surface).first->second == surface) continue;
+      throw NetgenError("a cut follows an edge of the model");
     }
   }
 
@@ -129,6 +153,8 @@ class Conversion {
   const ::netgen::Mesh& from_;
   const GeometryNumbers& numbers_;
   std::vector<LocalIndex> patch_of_descriptor_{};  // Descriptors count from 1.
+  std::set<Ends> on_curves_{};
+  std::set<Ends> off_curves_{};
   coarse::CoarseSurface to_{};
   mesh::CoarseMesh& mesh_ = to_.mesh;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -60,18 +61,21 @@ double smallest_clearance(const CutReport& report)
 model::ModelDescription shuffled(const model::ModelDescription& model)
 {
   model::ModelDescription result = model;
-  std::vector<std::size_t> order(model.triangle_face.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::shuffle(order, std::mt19937(7));
-  result.triangle_vertices.clear();
-  result.vertex_xyz.clear();
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    result.triangle_face[i] = model.triangle_face[order[i]];
+  std::mt19937 generator(7);
+  std::vector<std::size_t> triangles(model.triangle_face.size());
+  std::iota(triangles.begin(), triangles.end(), 0);
+  std::ranges::shuffle(triangles, generator);
+  std::vector<LocalIndex> places(model.vertex_xyz.size() / 3);
+  std::iota(places.begin(), places.end(), 0);
+  std::ranges::shuffle(places, generator);
+  for (std::size_t v = 0; v < places.size(); ++v) {
+    std::copy_n(&model.vertex_xyz[3 * v], 3, &result.vertex_xyz[3 * at(places[v])]);
+  }
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    result.triangle_face[i] = model.triangle_face[triangles[i]];
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto v = model.triangle_vertices[3 * order[i] + (c + i) % 3];
-      const Vec3 p = point_at(std::span(model.vertex_xyz), v);
-      result.triangle_vertices.push_back(static_cast<LocalIndex>(3 * i + c));
-      result.vertex_xyz.insert(result.vertex_xyz.end(), p.begin(), p.end());
+      const LocalIndex v = model.triangle_vertices[3 * triangles[i] + (c + i) % 3];
+      result.triangle_vertices[3 * i + c] = places[at(v)];
     }
   }
   return result;

@@ -48,8 +48,10 @@ LocalIndex ModelBuilder::add_face(std::vector<LocalIndex> solids)
 void ModelBuilder::add_triangle(LocalIndex face, const Vec3& a, const Vec3& b, const Vec3& c)
 {
   for (const Vec3& p : {a, b, c}) {
-    model_.triangle_vertices.push_back(static_cast<LocalIndex>(model_.vertex_xyz.size() / 3));
-    model_.vertex_xyz.insert(model_.vertex_xyz.end(), p.begin(), p.end());
+    const auto [place, is_new] = points_.try_emplace(
+        {face, p}, static_cast<LocalIndex>(model_.vertex_xyz.size() / 3));
+    if (is_new) model_.vertex_xyz.insert(model_.vertex_xyz.end(), p.begin(), p.end());
+    model_.triangle_vertices.push_back(place->second);
   }
   model_.triangle_face.push_back(face);
 }

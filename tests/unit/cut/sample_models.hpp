@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "tessera/base/vec3.hpp"
@@ -9,8 +11,7 @@
 
 namespace tessera::testing {
 
-/// @brief Makes a description of loose triangles: each has points of its own, as those of different
-/// faces of a CAD file.
+/// @brief Makes a description. Each face has points of its own, as those of CAD files have.
 class ModelBuilder {
  public:
   /// @param solids That the face bounds, from 1. @return Its row.
@@ -26,6 +27,7 @@ class ModelBuilder {
 
  private:
   model::ModelDescription model_{};
+  std::map<std::pair<LocalIndex, Vec3>, LocalIndex> points_{};
 };
 
 [[nodiscard]] double enclosed_volume(const model::ModelDescription& model);

@@ -2,6 +2,9 @@
 // Which triangles bound a solid, and where its faces meet.
 #include "cut/solid_surfaces.hpp"
 
+#include <algorithm>
+#include <span>
+
 #include <gtest/gtest.h>
 
 #include "cut/moments.hpp"
@@ -29,6 +32,20 @@ TEST(SolidSurfaces, FeatureEdgesAreWhereFacesMeet)
   EXPECT_EQ(solids.front().surface.points.size(), 50U);
   const auto round = solid_surfaces(testing::torus(2.0, 0.5, 8), 0.5);
   EXPECT_TRUE(round.front().surface.edges.empty());
+}
+
+TEST(SolidSurfaces, ASeamOfAFaceIsAnEdge)
+{
+  model::ModelDescription model = testing::cylinder(1.0, 2.0, 24);
+  // The round face gets points of its own where it ends, as if it were rolled up.
+  const auto first = std::ranges::find(model.triangle_face, 2) - model.triangle_face.begin();
+  for (const auto corner : {3 * first, 3 * first + 3, 3 * first + 5}) {
+    LocalIndex& v = model.triangle_vertices[static_cast<std::size_t>(corner)];
+    const Vec3 p = point_at(std::span(model.vertex_xyz), v);
+    v = static_cast<LocalIndex>(model.vertex_xyz.size() / 3);
+    model.vertex_xyz.insert(model.vertex_xyz.end(), p.begin(), p.end());
+  }
+  EXPECT_GT(solid_surfaces(model, 0.5).front().surface.edges.size(), 48U);
 }
 
 TEST(SolidSurfaces, SmallCurvesHaveSmallSizes)
