@@ -4,17 +4,26 @@ import itertools
 import unittest
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader
 
 import program
 from program import OK, WRONG_INPUT
 
 
-def point_ids(file):
-    reader = vtkXMLUnstructuredGridReader()
+def read(file):
+    reader = vtkXMLPUnstructuredGridReader() if file.suffix == ".pvtu" else vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()
-    return set(vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("GlobalPointIds")).tolist())
+    return reader.GetOutput()
+
+
+def point_ids(file):
+    return set(vtk_to_numpy(read(file).GetPointData().GetArray("GlobalPointIds")).tolist())
+
+
+def neighbours(file):
+    """The field data of a mesh's file."""
+    return vtk_to_numpy(read(file).GetFieldData().GetArray("neighbours")).tolist()
 
 
 def shared_points(folder):
@@ -38,6 +47,7 @@ class Parts(program.ProgramTest):
         # Shared out by predicted tets, which for pieces of some hundred are a fifth off.
         self.assertLess(figures["parts"]["balance"], 1.3)
         self.assertEqual(figures["file_neighbours"], shared_points(alone))
+        self.assertEqual(neighbours(alone / "mesh.pvtu"), shared_points(alone))
         self.assertEqual(sorted(f.name for f in (alone / "mesh").iterdir()), [f"piece_{i:06}.vtu" for i in range(3)])
         for ranks in (2, 3):
             other = self.mesh(self.case, f"ranks_{ranks}", "--set", "output.parts=3", ranks=ranks)
@@ -45,6 +55,22 @@ class Parts(program.ProgramTest):
             self.assertEqual(program.mesh_files(other), program.mesh_files(alone))
         outcome = self.run_program("check", alone / "mesh.pvtu")
         self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
+
+    def test_neighbours_in_the_files_of_other_commands(self):
+        alone = self.mesh(self.case, "alone", "--set", "output.parts=3")
+        for ranks in (1, 2):
+            again = self.folder / f"again_{ranks}"
+            outcome = self.run_program("repartition", alone / "mesh.pvtu", "--parts", 4, "--output", again, ranks=ranks)
+            self.assertEqual(outcome.code, OK, outcome.err)
+            self.assertGreater(len(shared_points(again)), 3)
+            self.assertEqual(neighbours(again / "mesh.pvtu"), shared_points(again))
+        outcome = self.run_program("convert", alone / "mesh.pvtu", "--format", "pvtu-cells", "--output", "cells")
+        self.assertEqual(outcome.code, OK, outcome.err)
+        pairs = shared_points(alone)
+        self.assertEqual(neighbours(self.folder / "cells/cells.pvtu"), pairs)
+        for piece, file in enumerate(sorted((self.folder / "cells/cells").iterdir())):
+            own = [[a, b, n] for a, b, n in pairs if a == piece] + [[b, a, n] for a, b, n in pairs if b == piece]
+            self.assertEqual(neighbours(file), sorted(own))
 
     def test_subdivision_writes_parts_in_one_pass(self):
         out = self.mesh(self.case, "out", "--set", "output.parts=4", "--set", "fill.kernel=subdivide", ranks=2)

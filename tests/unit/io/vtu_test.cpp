@@ -207,6 +207,24 @@ TEST(WritePvtu, VtkReadsAllPiecesWithoutAWarning)
   EXPECT_EQ(names->GetValue(2), mesh.field_texts.at("patch_names")[2]);
 }
 
+TEST(WritePvtu, NamesNeighboursInTheFieldData)
+{
+  const TemporaryFolder folder;
+  const MeshArrays mesh = testing::sample_tets(1);
+  write_vtu(mesh, folder / "a.vtu", Compression::lz4);
+  const std::vector<SharedPoints> neighbours{{0, 1, 5}, {0, 2, 5'000'000'000}};
+  write_pvtu(folder / "mesh.pvtu", {"a.vtu", "a.vtu", "a.vtu"}, mesh, neighbours);
+  const auto grid = read_with_vtk<vtkXMLPUnstructuredGridReader>(folder / "mesh.pvtu");
+  vtkDataArray* const rows = grid->GetFieldData()->GetArray("neighbours");
+  ASSERT_NE(rows, nullptr);
+  ASSERT_EQ(rows->GetNumberOfTuples(), 2);
+  ASSERT_EQ(rows->GetNumberOfComponents(), 3);
+  EXPECT_EQ(rows->GetComponent(0, 2), 5.0);
+  EXPECT_EQ(rows->GetComponent(1, 1), 2.0);
+  EXPECT_EQ(rows->GetComponent(1, 2), 5e9);
+  EXPECT_EQ(piece_files(folder / "mesh.pvtu").size(), 3U);
+}
+
 TEST(WritePvtu, VtkReadsAnEmptyPieceAmongOthersWithoutAWarning)
 {
   const TemporaryFolder folder;
