@@ -36,9 +36,8 @@ bool has_boundary(const subdomain::SubdomainRange& range,
 }
 
 // An index without pieces is valid: a schema from an empty piece.
-void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files,
-                        const RunResult& run, const subdomain::PieceArrays& schema,
-                        const std::filesystem::path& folder)
+void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files, const RunResult& run,
+                        const subdomain::PieceArrays& schema, const std::filesystem::path& folder)
 {
   std::vector<std::filesystem::path> tets;
   std::vector<std::filesystem::path> boundary;
@@ -48,8 +47,7 @@ void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files,
       boundary.push_back(subdomain::piece_path("boundary", range.number));
     }
   }
-  io::write_pvtu(folder / "mesh.pvtu", tets, schema.tets,
-                 formats::shared_points(run.files));
+  io::write_pvtu(folder / "mesh.pvtu", tets, schema.tets, formats::shared_points(run.files));
   io::write_pvtu(folder / "boundary.pvtu", boundary, schema.boundary);
 }
 
