@@ -62,22 +62,6 @@ class Parts(program.ProgramTest):
         outcome = self.run_program("check", alone / "mesh.pvtu")
         self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
 
-    def test_neighbours_in_the_files_of_other_commands(self):
-        alone = self.mesh(self.case, "alone", "--set", "output.parts=3")
-        for ranks in (1, 2):
-            again = self.folder / f"again_{ranks}"
-            outcome = self.run_program("repartition", alone / "mesh.pvtu", "--parts", 4, "--output", again, ranks=ranks)
-            self.assertEqual(outcome.code, OK, outcome.err)
-            self.assertGreater(len(shared_points(again)), 3)
-            self.assertEqual(neighbours(again / "mesh.pvtu"), shared_points(again))
-        outcome = self.run_program("convert", alone / "mesh.pvtu", "--format", "pvtu-cells", "--output", "cells")
-        self.assertEqual(outcome.code, OK, outcome.err)
-        pairs = shared_points(alone)
-        self.assertEqual(neighbours(self.folder / "cells/cells.pvtu"), pairs)
-        for piece, file in enumerate(sorted((self.folder / "cells/cells").iterdir())):
-            own = [[a, b, n] for a, b, n in pairs if a == piece] + [[b, a, n] for a, b, n in pairs if b == piece]
-            self.assertEqual(neighbours(file), sorted(own))
-
     def test_subdivision_writes_parts_in_one_pass(self):
         out = self.mesh(self.case, "out", "--set", "output.parts=4", "--set", "fill.kernel=subdivide", ranks=2)
         parts = program.figures(out)["parts"]
@@ -85,6 +69,22 @@ class Parts(program.ProgramTest):
         self.assertLess(parts["balance"], 1.1)
         outcome = self.run_program("check", out / "mesh.pvtu", ranks=2)
         self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
+        self.check_other_commands(out)
+
+    def check_other_commands(self, mesh):
+        """The files of `repartition` and `convert` say who shares points, too."""
+        again = self.folder / "again"
+        outcome = self.run_program("repartition", mesh / "mesh.pvtu", "--parts", 3, "--output", again, ranks=2)
+        self.assertEqual(outcome.code, OK, outcome.err)
+        self.assertGreater(len(shared_points(again)), 1)
+        self.assertEqual(neighbours(again / "mesh.pvtu"), shared_points(again))
+        outcome = self.run_program("convert", mesh / "mesh.pvtu", "--format", "pvtu-cells", "--output", "cells")
+        self.assertEqual(outcome.code, OK, outcome.err)
+        pairs = shared_points(mesh)
+        self.assertEqual(neighbours(self.folder / "cells/cells.pvtu"), pairs)
+        for piece, file in enumerate(sorted((self.folder / "cells/cells").iterdir())):
+            own = [[a, b, n] for a, b, n in pairs if a == piece] + [[b, a, n] for a, b, n in pairs if b == piece]
+            self.assertEqual(neighbours(file), sorted(own))
 
     def test_automatic_subdomains_are_enough_for_the_parts(self):
         for kernel in ("netgen", "subdivide"):
