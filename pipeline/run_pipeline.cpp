@@ -84,9 +84,10 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   if (!outline.is_one_pass && !outline.splits_pieces()) {
     run_write_stage(run.resolved, outline.files, mesh, run.filled, context);
   }
-  write_indices(run.resolved, outline.files, mesh, run.filled, context);
+  write_indices(run, outline.files, mesh, context);
   run.pictures = run_picture_stage(run, cut, outline.files, context);
   run.files = run_export_stage(run.resolved, context);
+  if (!run.files.empty()) write_indices(run, outline.files, mesh, context);
   return run;
 }
 

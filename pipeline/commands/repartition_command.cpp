@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/commands/repartition_command.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,6 +42,21 @@ Hash128 sum_over_ranks(const Hash128& hash, const comm::Communicator& comm)
   std::vector<Hash128> sum{hash};
   comm.sum_in_place(sum);
   return sum.front();
+}
+
+// Adds the rows of each pair up.
+std::vector<io::SharedPoints> sum_of_pairs(std::vector<io::SharedPoints> rows)
+{
+  std::ranges::sort(rows);
+  std::vector<io::SharedPoints> sums;
+  for (const io::SharedPoints& row : rows) {
+    if (!sums.empty() && sums.back().piece == row.piece && sums.back().other == row.other) {
+      sums.back().num_points += row.num_points;
+    } else {
+      sums.push_back(row);
+    }
+  }
+  return sums;
 }
 
 bool is_inside(const fs::path& path, const fs::path& folder)
@@ -156,9 +173,26 @@ class Repartition {
     all_or_none(comm_, [&] {
       for (const migrate::GhostTets& ghosts : parts) write_part(context, ghosts);
     });
+    const std::vector<io::SharedPoints> neighbours = shared_points(vertex_parts);
     all_or_none(comm_, [&] {
-      if (comm_.rank() == 0) write_indices(context);
+      if (comm_.rank() == 0) write_indices(context, neighbours);
     });
+  }
+
+  // Every vertex is counted on the rank that owns it.
+  std::vector<io::SharedPoints> shared_points(const IndexLists& vertex_parts) const
+  {
+    std::map<std::pair<LocalIndex, LocalIndex>, GlobalIndex> counts;
+    for (LocalIndex v = 0; v < mesh_.mesh.num_vertices(); ++v) {
+      if (mesh_.mesh.owner(v, comm_.rank()) != comm_.rank()) continue;
+      const auto parts = vertex_parts[v];
+      for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (std::size_t j = i + 1; j < parts.size(); ++j) ++counts[{parts[i], parts[j]}];
+      }
+    }
+    std::vector<io::SharedPoints> own;
+    for (const auto& [pair, count] : counts) own.push_back({pair.first, pair.second, count});
+    return sum_of_pairs(comm_.all_gather_rows(own));
   }
 
   void write_part(const subdomain::PartContext& context, const migrate::GhostTets& ghosts) const
@@ -173,7 +207,8 @@ class Repartition {
                   io::usual_compression());
   }
 
-  void write_indices(const subdomain::PartContext& context) const
+  void write_indices(const subdomain::PartContext& context,
+                     const std::vector<io::SharedPoints>& neighbours) const
   {
     std::vector<fs::path> tets;
     std::vector<fs::path> boundary;
@@ -185,7 +220,7 @@ class Repartition {
     }
     constexpr LocalIndex kNoPart = -1;  // Nothing but the names of arrays.
     const subdomain::PieceArrays schema = subdomain::part_arrays(context, kNoPart, nullptr);
-    io::write_pvtu(command_.output / "mesh.pvtu", tets, schema.tets);
+    io::write_pvtu(command_.output / "mesh.pvtu", tets, schema.tets, neighbours);
     io::write_pvtu(command_.output / "boundary.pvtu", boundary, schema.boundary);
   }
 

@@ -10,10 +10,12 @@
 #include "tessera/base/version.hpp"
 #include "tessera/comm/mpi_version.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
+#include "tessera/formats/export_mesh.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/netgen/factory.hpp"
 
 #include "pipeline/report/cuts_json.hpp"
+#include "pipeline/report/names_json.hpp"
 #include "pipeline/report/quality_json.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
@@ -125,43 +127,6 @@ Json model_json(const model::ModelSource& model)
           {"digest", to_hex(hash_bytes(model.content))}};
 }
 
-// By row of the files; patches of one row have one name.
-std::vector<std::string> patch_names(const mesh::CoarseMesh& coarse)
-{
-  if (coarse.patch_row.empty()) return coarse.patch_names;
-  std::vector<std::string> names;
-  for (std::size_t p = 0; p < coarse.patch_names.size(); ++p) {
-    const std::size_t row = at(coarse.patch_row[p]);
-    if (names.size() <= row) names.resize(row + 1);
-    names[row] = coarse.patch_names[p];
-  }
-  return names;
-}
-
-// Sums of subdomains in their order, so the same for any number of ranks.
-Json materials_json(const RunResult& run)
-{
-  Json materials = Json::array();
-  for (const std::string& name : run.coarse.mesh.material_names) {
-    const auto id = static_cast<LocalIndex>(materials.size()) + 1;
-    GlobalIndex num_tets = 0;
-    double volume = 0.0;
-    for (const subdomain::PieceSummary& piece : run.filled.pieces) {
-      if (piece.material != id) continue;
-      num_tets += piece.num_tets;
-      volume += piece.volume;
-    }
-    materials.push_back({{"id", id}, {"name", name}, {"tets", num_tets}, {"volume", volume}});
-  }
-  return materials;
-}
-
-void add_names(Json& json, const RunResult& run)
-{
-  json["patch_names"] = patch_names(run.coarse.mesh);
-  json["materials"] = materials_json(run);
-}
-
 Json decompose_json(const RunResult& run)
 {
   const decompose::DecomposeReport& report = run.decomposition.report;
@@ -228,10 +193,8 @@ Json libraries_json()
 Json file_neighbours_json(const std::vector<formats::PieceCounts>& files)
 {
   Json pairs = Json::array();
-  for (std::size_t f = 0; f < files.size(); ++f) {
-    for (const formats::PieceNeighbour& other : files[f].neighbours) {
-      if (at(other.piece) > f) pairs.push_back({f, other.piece, other.num_shared_points});
-    }
+  for (const auto& [file, other, num_points] : formats::shared_points(files)) {
+    pairs.push_back({file, other, num_points});
   }
   return pairs;
 }

@@ -119,6 +119,26 @@ std::string materials_html(const Report& report)
   return table_html({"material", "attribute", "tets", "volume"}, rows);
 }
 
+std::string patches_html(const Report& report)
+{
+  const Json* const patches = report.find("/patches");
+  if (patches == nullptr || patches->empty()) return {};
+  constexpr std::size_t kMostRows = 100;
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& patch : *patches) {
+    if (rows.size() == kMostRows) break;
+    rows.push_back({escaped(patch.value("name", "")), std::to_string(patch.value("id", 0)),
+                    grouped(patch.value("triangles", GlobalIndex{0})),
+                    fmt::format("{:.6g}", patch.value("area", 0.0))});
+  }
+  std::string html = table_html({"name", "patch", "triangles", "area"}, rows);
+  if (patches->size() > kMostRows) {
+    html += fmt::format("<p class=\"soft\">The other {} are in report.json.</p>\n",
+                        patches->size() - kMostRows);
+  }
+  return html;
+}
+
 std::string again_html(const Report& report)
 {
   const int ranks = static_cast<int>(report.number("/num_ranks").value_or(1.0));
@@ -203,6 +223,7 @@ std::string report_page(const ReportSource& source)
   body += section_html("Quality", pair_html(quality_figures(report)));
   body += section_html("Time, and who waited", time_html(report));
   body += section_html("Materials", materials_html(report));
+  body += section_html("Patches", patches_html(report));
   body += section_html("The ten worst tets", worst_html(report));
   body += section_html("Warnings", advice_html(report));
   body += section_html("Run it again", again_html(report));

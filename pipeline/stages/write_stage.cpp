@@ -8,11 +8,13 @@
 #include <fmt/format.h>
 
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/formats/export_mesh.hpp"
 #include "tessera/io/record_store.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/subdomain/piece_arrays.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/run_result.hpp"
 #include "pipeline/store/fill_record.hpp"
 #include "pipeline/store/improved_pieces.hpp"
 
@@ -34,19 +36,18 @@ bool has_boundary(const subdomain::SubdomainRange& range,
 }
 
 // An index without pieces is valid: a schema from an empty piece.
-void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files,
-                        const FilledPieces& filled, const subdomain::PieceArrays& schema,
-                        const std::filesystem::path& folder)
+void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files, const RunResult& run,
+                        const subdomain::PieceArrays& schema, const std::filesystem::path& folder)
 {
   std::vector<std::filesystem::path> tets;
   std::vector<std::filesystem::path> boundary;
   for (const subdomain::SubdomainRange& range : files) {
     tets.push_back(subdomain::piece_path("mesh", range.number));
-    if (has_boundary(range, filled.pieces)) {
+    if (has_boundary(range, run.filled.pieces)) {
       boundary.push_back(subdomain::piece_path("boundary", range.number));
     }
   }
-  io::write_pvtu(folder / "mesh.pvtu", tets, schema.tets);
+  io::write_pvtu(folder / "mesh.pvtu", tets, schema.tets, formats::shared_points(run.files));
   io::write_pvtu(folder / "boundary.pvtu", boundary, schema.boundary);
 }
 
@@ -90,16 +91,14 @@ void run_write_stage(const config::Case& run_case,
   stage.finish(fmt::format("{} files", num_files));
 }
 
-void write_indices(const config::Case& run_case,
-                   const std::vector<subdomain::SubdomainRange>& files,
-                   const subdomain::WriteContext& mesh, const FilledPieces& filled,
-                   RunContext& context)
+void write_indices(const RunResult& run, const std::vector<subdomain::SubdomainRange>& files,
+                   const subdomain::WriteContext& mesh, RunContext& context)
 {
   all_or_none(context.comm, [&] {
     if (context.comm.rank() != 0) return;
     const subdomain::PieceArrays schema =
-        subdomain::piece_arrays({}, mesh, run_case.output.cell_quality);
-    write_pvtu_indices(files, filled, schema, context.folder);
+        subdomain::piece_arrays({}, mesh, run.resolved.output.cell_quality);
+    write_pvtu_indices(files, run, schema, context.folder);
   });
 }
 

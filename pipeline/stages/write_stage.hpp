@@ -14,6 +14,8 @@
 
 namespace tessera::pipeline {
 
+struct RunResult;
+
 /// @brief What one file will hold.
 struct GatheredFile {
   subdomain::PieceFile file;
@@ -43,11 +45,10 @@ void run_write_stage(const config::Case& run_case,
                      const subdomain::WriteContext& mesh, FilledPieces& filled,
                      RunContext& context);
 
-/// @brief Writes the indices mesh.pvtu and boundary.pvtu: from now on there is a mesh.
+/// @brief Writes the indices mesh.pvtu and boundary.pvtu: from now on there is a mesh. If it is
+/// known which files share points (RunResult::files), mesh.pvtu says so.
 /// @note Collective. @throws OutputError on every rank.
-void write_indices(const config::Case& run_case,
-                   const std::vector<subdomain::SubdomainRange>& files,
-                   const subdomain::WriteContext& mesh, const FilledPieces& filled,
-                   RunContext& context);
+void write_indices(const RunResult& run, const std::vector<subdomain::SubdomainRange>& files,
+                   const subdomain::WriteContext& mesh, RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -59,6 +59,17 @@ void write_pieces(const PieceSource& source, LinkedPieces& linked, const Writers
 
 }  // namespace
 
+std::vector<io::SharedPoints> shared_points(const std::vector<PieceCounts>& pieces)
+{
+  std::vector<io::SharedPoints> pairs;
+  for (LocalIndex p = 0; at(p) < pieces.size(); ++p) {
+    for (const PieceNeighbour& other : pieces[at(p)].neighbours) {
+      if (other.piece > p) pairs.push_back({p, other.piece, other.num_shared_points});
+    }
+  }
+  return pairs;
+}
+
 Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm,
                     const std::function<void()>& before_each)
 {

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/formats/export_mesh.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/io/vtu.hpp"
 
@@ -95,6 +96,7 @@ class PvtuCellsWriter final : public Writer {
         "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
         "header_type=\"UInt64\">\n<UnstructuredGrid>\n<FieldData>\n");
     for (const auto& [name, texts] : texts_) text.texts(name, texts);
+    put_neighbours(piece.number, text);
     text.element("</FieldData>\n");
     text.element(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
                              piece.num_points(), piece.num_tets() + piece.num_triangles()));
@@ -120,10 +122,22 @@ class PvtuCellsWriter final : public Writer {
     std::vector<fs::path> files;
     for (LocalIndex p = 0; p < outline_.num_pieces(); ++p)
       files.push_back(fs::path(kPieceFolder) / file_name(p));
-    io::write_pvtu(folder_ / "cells.pvtu", files, schema);
+    io::write_pvtu(folder_ / "cells.pvtu", files, schema, shared_points(outline_.pieces));
   }
 
  private:
+  // As in the index, but the piece itself comes first in each row.
+  void put_neighbours(LocalIndex piece, VtuText& text) const
+  {
+    std::vector<GlobalIndex> rows;
+    for (const PieceNeighbour& other : outline_.pieces[at(piece)].neighbours) {
+      rows.insert(rows.end(), {piece, other.piece, other.num_shared_points});
+    }
+    if (rows.empty()) return;
+    text.array("Int64", "neighbours", rows,
+               fmt::format(R"( NumberOfComponents="3" NumberOfTuples="{}")", rows.size() / 3));
+  }
+
   void put_data(const Piece& piece, VtuText& text) const
   {
     std::vector<GlobalIndex> ids(at(piece.num_tets()));

@@ -55,8 +55,31 @@ void put_texts(std::string& out, const std::string& name, const std::vector<std:
   out += "      </Array>\n";
 }
 
+void put_neighbours(std::string& out, const std::vector<SharedPoints>& neighbours)
+{
+  out += fmt::format(
+      "      <DataArray type=\"Int64\" Name=\"neighbours\" NumberOfComponents=\"3\" "
+      "NumberOfTuples=\"{}\" format=\"ascii\">\n",
+      neighbours.size());
+  for (const auto& [piece, other, num_points] : neighbours) {
+    out += fmt::format("{} {} {}\n", piece, other, num_points);
+  }
+  out += "      </DataArray>\n";
+}
+
+void put_field_data(std::string& out, const mesh::MeshArrays& schema,
+                    const std::vector<SharedPoints>& neighbours)
+{
+  if (schema.field_texts.empty() && neighbours.empty()) return;
+  out += "    <FieldData>\n";
+  for (const auto& [name, texts] : schema.field_texts) put_texts(out, name, texts);
+  if (!neighbours.empty()) put_neighbours(out, neighbours);
+  out += "    </FieldData>\n";
+}
+
 [[nodiscard]] std::string index_text(const std::vector<fs::path>& pieces,
-                                     const mesh::MeshArrays& schema)
+                                     const mesh::MeshArrays& schema,
+                                     const std::vector<SharedPoints>& neighbours)
 {
   std::string out = fmt::format(
       "<?xml version=\"1.0\"?>\n"
@@ -64,11 +87,7 @@ void put_texts(std::string& out, const std::string& name, const std::vector<std:
       "header_type=\"UInt64\">\n"
       "  <PUnstructuredGrid GhostLevel=\"{}\">\n",
       schema.num_ghost_layers);
-  if (!schema.field_texts.empty()) {
-    out += "    <FieldData>\n";
-    for (const auto& [name, texts] : schema.field_texts) put_texts(out, name, texts);
-    out += "    </FieldData>\n";
-  }
+  put_field_data(out, schema, neighbours);
   put_ids(out, "PPointData", kPointIdsName, has_point_ids(schema));
   put_arrays(out, "Int32", schema.point_ints);
   if (schema.num_ghost_layers > 0) put_array(out, "UInt8", kGhostName);
@@ -140,9 +159,9 @@ void put_texts(std::string& out, const std::string& name, const std::vector<std:
 }  // namespace
 
 void write_pvtu(const fs::path& path, const std::vector<fs::path>& pieces,
-                const mesh::MeshArrays& schema)
+                const mesh::MeshArrays& schema, const std::vector<SharedPoints>& neighbours)
 {
-  write_text_atomically(path, index_text(pieces, schema));
+  write_text_atomically(path, index_text(pieces, schema, neighbours));
 }
 
 std::vector<fs::path> piece_files(const fs::path& path)

@@ -49,11 +49,11 @@ RefinedPiece PieceCurver::run(const refine::RefineContext& refine, const PieceSu
     if (!bounds.is_positive()) invalid.push_back(all_.first_tet + t);
   }
   if (!invalid.empty()) {
-    made.folds = surface_.limits_at(invalid);
-    made.filled = {};
-    made.filled.result.summary = before;
-    made.filled.result.summary.is_folded = true;
-    return made;
+    RefinedPiece folded;
+    folded.folds = surface_.limits_at(invalid);
+    folded.filled.result.summary = before;
+    folded.filled.result.summary.is_folded = true;
+    return folded;
   }
   made.filled.result = measure(made.filled.piece, skin, before);
   PieceSummary& summary = made.filled.result.summary;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <ranges>
 #include <span>
 
 #include "tessera/mesh/tet_edges.hpp"
@@ -18,9 +20,23 @@ double outside_area(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
   for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
     if (skeleton.is_inside(skin.triangle_parent[at(t)])) continue;
     const LocalIndex* v = &skin.triangle_vertices[3 * at(t)];
-    const Vec3 a = point_at(xyz, v[0]);
-    area += 0.5 * norm(cross(point_at(xyz, v[1]) - a, point_at(xyz, v[2]) - a));
+    area += triangle_area(point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]));
   }
+  return area;
+}
+
+// Of a boundary triangle; of second order that of the four triangles between corners and nodes.
+double boundary_triangle_area(const mesh::Piece& piece, std::size_t row)
+{
+  const auto corner = [&](std::size_t i) {
+    return point_at(std::span(piece.vertex_xyz), piece.boundary_vertices[3 * row + i]);
+  };
+  if (!piece.is_of_second_order()) return triangle_area(corner(0), corner(1), corner(2));
+  const auto node = [&](std::size_t i) {
+    return point_at(std::span(piece.vertex_xyz), piece.boundary_edge_nodes[3 * row + i]);
+  };
+  double area = triangle_area(node(0), node(1), node(2));
+  for (std::size_t i = 0; i < 3; ++i) area += triangle_area(corner(i), node(i), node((i + 2) % 3));
   return area;
 }
 
@@ -117,6 +133,19 @@ double volume_of(const mesh::Piece& piece)
   return volume;
 }
 
+std::vector<PatchArea> patch_areas(const mesh::Piece& piece)
+{
+  std::map<LocalIndex, PatchArea> areas;
+  for (std::size_t row = 0; row < piece.boundary_patch.size(); ++row) {
+    PatchArea& patch = areas[piece.boundary_patch[row]];
+    patch.patch = piece.boundary_patch[row];
+    ++patch.num_triangles;
+    patch.area += boundary_triangle_area(piece, row);
+  }
+  const auto values = std::views::values(areas);
+  return {values.begin(), values.end()};
+}
+
 FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& skin,
                                 const mesh::Piece& piece)
 {
@@ -127,6 +156,7 @@ FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& sk
   summary.num_tets = piece.num_tets();
   summary.num_interior_vertices = piece.num_interior_vertices();
   summary.num_boundary = piece.num_boundary();
+  summary.patches = patch_areas(piece);
   summary.boundary_area = outside_area(skin, cut.skeleton);
   summary.outside = verify::outside_hash(skin, cut.skeleton);
   summary.euler_characteristic =
@@ -147,6 +177,7 @@ FillResult measure_improved_piece(const mesh::Piece& piece, const number::Shared
   summary.num_owned_vertices =
       summary.num_interior_vertices + static_cast<GlobalIndex>(shared.owned.size());
   summary.num_boundary = piece.num_boundary();
+  summary.patches = patch_areas(piece);
   summary.volume = volume_of(piece);
   summary.surface = verify::surface_hash(piece);
   measure_edges(piece, result.histograms);
@@ -164,6 +195,7 @@ FillResult measure_split_piece(const mesh::Piece& piece, const mesh::Skin& skin,
   summary.num_tets = piece.num_tets();
   summary.num_interior_vertices = piece.num_interior_vertices();
   summary.num_boundary = piece.num_boundary();
+  summary.patches = patch_areas(piece);
   summary.boundary_area = outside_area(skin, surface);
   summary.outside = verify::outside_hash(skin, surface);
   summary.surface = verify::surface_hash(skin);

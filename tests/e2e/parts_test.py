@@ -2,6 +2,7 @@
 """output.parts: balanced parts of whole subdomains, one file each, the same for any number of ranks."""
 import itertools
 import unittest
+import xml.etree.ElementTree
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
@@ -10,11 +11,25 @@ import program
 from program import OK, WRONG_INPUT
 
 
-def point_ids(file):
+def read(file):
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()
-    return set(vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("GlobalPointIds")).tolist())
+    return reader.GetOutput()
+
+
+def point_ids(file):
+    return set(vtk_to_numpy(read(file).GetPointData().GetArray("GlobalPointIds")).tolist())
+
+
+def neighbours(file):
+    """The field data of a mesh's file. Of an index VTK shows none."""
+    if file.suffix == ".pvtu":
+        array = xml.etree.ElementTree.parse(file).find(".//FieldData/DataArray[@Name='neighbours']")
+        rows = [[int(word) for word in line.split()] for line in array.text.strip().splitlines()]
+        assert len(rows) == int(array.get("NumberOfTuples"))
+        return rows
+    return vtk_to_numpy(read(file).GetFieldData().GetArray("neighbours")).tolist()
 
 
 def shared_points(folder):
@@ -38,6 +53,7 @@ class Parts(program.ProgramTest):
         # Shared out by predicted tets, which for pieces of some hundred are a fifth off.
         self.assertLess(figures["parts"]["balance"], 1.3)
         self.assertEqual(figures["file_neighbours"], shared_points(alone))
+        self.assertEqual(neighbours(alone / "mesh.pvtu"), shared_points(alone))
         self.assertEqual(sorted(f.name for f in (alone / "mesh").iterdir()), [f"piece_{i:06}.vtu" for i in range(3)])
         for ranks in (2, 3):
             other = self.mesh(self.case, f"ranks_{ranks}", "--set", "output.parts=3", ranks=ranks)
@@ -53,6 +69,22 @@ class Parts(program.ProgramTest):
         self.assertLess(parts["balance"], 1.1)
         outcome = self.run_program("check", out / "mesh.pvtu", ranks=2)
         self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
+        self.check_other_commands(out)
+
+    def check_other_commands(self, mesh):
+        """The files of `repartition` and `convert` say who shares points, too."""
+        again = self.folder / "again"
+        outcome = self.run_program("repartition", mesh / "mesh.pvtu", "--parts", 3, "--output", again, ranks=2)
+        self.assertEqual(outcome.code, OK, outcome.err)
+        self.assertGreater(len(shared_points(again)), 1)
+        self.assertEqual(neighbours(again / "mesh.pvtu"), shared_points(again))
+        outcome = self.run_program("convert", mesh / "mesh.pvtu", "--format", "pvtu-cells", "--output", "cells")
+        self.assertEqual(outcome.code, OK, outcome.err)
+        pairs = shared_points(mesh)
+        self.assertEqual(neighbours(self.folder / "cells/cells.pvtu"), pairs)
+        for piece, file in enumerate(sorted((self.folder / "cells/cells").iterdir())):
+            own = [[a, b, n] for a, b, n in pairs if a == piece] + [[b, a, n] for a, b, n in pairs if b == piece]
+            self.assertEqual(neighbours(file), sorted(own))
 
     def test_automatic_subdomains_are_enough_for_the_parts(self):
         for kernel in ("netgen", "subdivide"):

@@ -27,7 +27,7 @@ REPORT_KEYS = {
             "mean_ratio": {"min": float, "p01": float, "mean": float, "histogram": list},
         },
     },
-    "subdomains": list, "patch_names": list, "materials": list,
+    "subdomains": list, "patch_names": list, "patches": list, "materials": list,
     "libraries": {"netgen": str, "metis": str, "vtk": str, "mpi": str},
 }  # fmt: skip
 STAGES = ["model", "coarse", "decompose", "plan", "fill", "improve", "verify", "write", "pictures"]
@@ -112,6 +112,20 @@ class OutputFolder(program.ResultTest):
             self.assertGreater(tet, 0.0)
             volume += tet
         self.assertAlmostEqual(volume / self.report["volume"], 1.0, delta=1e-12)
+
+    def test_patches_of_the_report_are_those_of_the_file(self):
+        grid, _ = read(self.out / "boundary.pvtu")
+        names = texts(grid, "patch_names")
+        counts, areas = [0] * len(names), [0.0] * len(names)
+        for c, row in enumerate(values(grid.GetCellData().GetArray("patch"))):
+            counts[row] += 1
+            areas[row] += grid.GetCell(c).ComputeArea()
+        self.assertGreater(len(names), 6)
+        self.assertEqual([patch["name"] for patch in self.report["patches"]], names)
+        self.assertEqual([patch["id"] for patch in self.report["patches"]], list(range(len(names))))
+        self.assertEqual([patch["triangles"] for patch in self.report["patches"]], counts)
+        for patch, area in zip(self.report["patches"], areas):
+            self.assertAlmostEqual(patch["area"] / area, 1.0, delta=1e-12)
 
     def test_owner_is_the_lowest_subdomain_that_holds_the_point(self):
         grid, _ = read(self.out / "mesh.pvtu")

@@ -4,36 +4,32 @@
 A test script is both sides: unittest in the process that one starts, and, started anew under mpirun with the name
 of one of its functions, the ranks.
 """
-import argparse
 import json
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
 
+import numpy as np
+import solver_meshes
+
 CASES = ("core", "bracket")
 # An eighth of the tets: the same patches, materials and seams, and minutes less.
 COARSER = {"refine.levels": 1}
-HANG_S = 300.0
 
 
 def main(ranks_functions):
     """Runs unittest, or on a rank the function that the command line names."""
     if len(sys.argv) > 2 and sys.argv[1] == "--on-ranks":
         return on_ranks(ranks_functions[sys.argv[2]], *sys.argv[3:])
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--tessera", required=True, type=pathlib.Path, help="the program")
-    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2])
-    arguments, rest = parser.parse_known_args()
-    os.environ["TESSERA"] = str(arguments.tessera.absolute())
-    os.environ["PYTHONPATH"] = f"{arguments.root.absolute()}/src/python:{os.environ.get('PYTHONPATH', '')}"
-    sys.path.insert(0, f"{arguments.root.absolute()}/src/python")
-    RanksTest.root = arguments.root.absolute()
-    if os.geteuid() == 0:  # In a container; Open MPI wants it to be said.
-        os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    return unittest.main(argv=[sys.argv[0], *rest])
+    options, _ = solver_meshes.arguments()
+    package = f"{options.root}/src/python"
+    os.environ["TESSERA"] = str(options.tessera)
+    os.environ["PYTHONPATH"] = f"{package}:{os.environ.get('PYTHONPATH', '')}"
+    sys.path.insert(0, package)
+    RanksTest.root = options.root
+    return solver_meshes.main()
 
 
 def on_ranks(function, out, *arguments):
@@ -76,34 +72,22 @@ class RanksTest(unittest.TestCase):
         return self.run_script(ranks, self.root / "tests/examples/python" / name, *arguments)
 
     def run_script(self, ranks, *script):
-        start = ["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "-n", str(ranks)]
-        command = [*start, sys.executable, "-B", *map(str, script)]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=HANG_S, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr + done.stdout)
-        return done.stdout
+        return solver_meshes.mpirun(ranks, [sys.executable, "-B", *script])
 
 
 def volumes(mesh):
     """Of each own tet of a tessera.Mesh."""
-    import numpy as np
-
-    a, b, c, d = (mesh.points[mesh.cells[: mesh.num_own_cells, i]] for i in range(4))
-    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6.0
+    return solver_meshes.tet_volumes(mesh.points, mesh.cells[: mesh.num_own_cells])
 
 
 def areas(mesh):
     """Of each triangle of a tessera.Mesh."""
-    import numpy as np
-
-    a, b, c = (mesh.points[mesh.triangles[:, i]] for i in range(3))
-    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    return solver_meshes.triangle_areas(mesh.points, mesh.triangles)
 
 
 def outer_patches(mesh):
     """Tags (patch + 1) of the patches that no tet is behind on the other side: their triangles' points are on one
     tet only. For a whole mesh."""
-    import numpy as np
-
     faces = np.sort(np.concatenate([np.delete(mesh.cells, i, axis=1) for i in range(4)]), axis=1)
     both = np.concatenate([faces, np.sort(mesh.triangles, axis=1)])
     _, kind, count = np.unique(both, axis=0, return_inverse=True, return_counts=True)

@@ -4,9 +4,8 @@ import pathlib
 import re
 import unittest
 
-import numpy
 import solver_meshes
-from solver_meshes import Mesh, read_pvtu, run
+from solver_meshes import Mesh, run
 
 PROGRAMS = pathlib.Path("/usr/lib/code_saturne")
 
@@ -40,25 +39,14 @@ class Saturne(unittest.TestCase):
         for case, mesh in self.meshes.items():
             with self.subTest(case=case):
                 found = self.counts_by_group(case)
-                _, _, arrays, texts = read_pvtu(mesh.mesh / "mesh.pvtu")
-                cells = numpy.bincount(arrays["attribute"])[1:].tolist()
-                for name, count in zip(texts["material_names"], cells):
-                    self.assertEqual(found.pop(name), {"cells": count})
+                for material in mesh.report()["materials"]:
+                    self.assertEqual(found.pop(material["name"]), {"cells": material["tets"]})
                 outer, names = mesh.outer_areas(), list(mesh.areas())
-                faces = self.triangles_by_patch(mesh)
+                faces = mesh.triangles()
                 for name in names:
                     kind = "boundary faces" if name in outer else "interior faces"
                     self.assertEqual(found.pop(name), {kind: faces[name]})
                 self.assertEqual(found, {})
-
-    @staticmethod
-    def triangles_by_patch(mesh):
-        _, _, arrays, texts = read_pvtu(mesh.mesh / "boundary.pvtu")
-        counts = {}
-        for patch, count in enumerate(numpy.bincount(arrays["patch"]).tolist()):
-            name = texts["patch_names"][patch]
-            counts[name] = counts.get(name, 0) + count
-        return counts
 
     def test_the_solver_finds_the_volume_and_no_boundary_within(self):
         for case, mesh in self.meshes.items():
@@ -70,7 +58,7 @@ class Saturne(unittest.TestCase):
                 self.assertEqual(int(self.number(case, r"Number of cells: +(\d+)")), mesh.num_tets())
                 outer = set(mesh.outer_areas())
                 on_outside = sum(
-                    count for name, count in self.triangles_by_patch(mesh).items() if name in outer
+                    count for name, count in mesh.triangles().items() if name in outer
                 )
                 boundary = int(self.number(case, r"Number of boundary faces: +(\d+)"))
                 self.assertEqual(boundary, on_outside)

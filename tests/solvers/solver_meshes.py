@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of solvers share: meshes of two cases, and what VTK says of them."""
+"""What the tests of solvers share: meshes of two cases, what report.json and VTK say of them, and how other
+programs are started. Those of the Python package add python_ranks.py to it."""
 import argparse
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -10,20 +12,23 @@ import tempfile
 import unittest
 
 import numpy
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+
+if os.geteuid() == 0:  # In a container; Open MPI wants it to be said.
+    os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
 
 
-def _arguments():
+def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("--tessera", type=pathlib.Path, required=True, help="the program")
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).parents[2])
-    return parser.parse_known_args()
+    options, rest = parser.parse_known_args()
+    options.tessera, options.root = options.tessera.resolve(), options.root.resolve()
+    return options, rest
 
 
 def main():
     """Runs the tests of the calling script; arguments that are not ours go to unittest."""
-    unittest.main(argv=[sys.argv[0], *_arguments()[1]])
+    unittest.main(argv=[sys.argv[0], *arguments()[1]])
 
 
 def run(command, folder=None, timeout_s=300, **more):
@@ -38,11 +43,26 @@ def run(command, folder=None, timeout_s=300, **more):
 
 
 def mpirun(ranks, command, **more):
-    return run(["mpirun", "--oversubscribe", "-n", ranks, *command], **more)
+    return run(["mpirun", "--quiet", "--oversubscribe", "--bind-to", "none", "-n", ranks, *command], **more)
+
+
+def tet_volumes(points, tets):
+    """Of each tet."""
+    a, b, c, d = (points[tets[:, i]] for i in range(4))
+    return numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6.0
+
+
+def triangle_areas(points, triangles):
+    """Of each triangle."""
+    a, b, c = (points[triangles[:, i]] for i in range(3))
+    return numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2.0
 
 
 def read_pvtu(file):
     """Points, cells and arrays by name of a mesh of one kind of cells."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy  # Not beside the VTK of a solver.
+    from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+
     reader = vtkXMLPUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()
@@ -56,6 +76,8 @@ def read_pvtu(file):
     texts = {}
     for i in range(grid.GetFieldData().GetNumberOfArrays()):
         lines = grid.GetFieldData().GetAbstractArray(i)
+        if not lines.IsA("vtkStringArray"):
+            continue
         texts[lines.GetName()] = [lines.GetValue(j) for j in range(lines.GetNumberOfValues())]
     return vtk_to_numpy(grid.GetPoints().GetData()), cells, arrays, texts
 
@@ -64,9 +86,8 @@ class Mesh:
     """A mesh of one of the cases in configs/cases, or of a case file, in a folder of its own."""
 
     def __init__(self, case, parts, *settings):
-        options = _arguments()[0]
-        self.program = options.tessera.resolve()
-        self.root = options.root.resolve()
+        options = arguments()[0]
+        self.program, self.root = options.tessera, options.root
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="tessera_solver_"))
         self.mesh = self.folder / "mesh"
         file = case if isinstance(case, pathlib.Path) else self.root / f"configs/cases/{case}.toml"
@@ -89,25 +110,24 @@ class Mesh:
         return json.loads((self.mesh / "report.json").read_text(encoding="utf-8"))
 
     def num_tets(self):
-        return len(read_pvtu(self.mesh / "mesh.pvtu")[1])
+        return self.report()["num_tets"]
 
     def volumes(self):
         """By name of the material."""
-        points, tets, arrays, texts = read_pvtu(self.mesh / "mesh.pvtu")
-        a, b, c, d = (points[tets[:, i]] for i in range(4))
-        volumes = numpy.einsum("ij,ij->i", numpy.cross(b - a, c - a), d - a) / 6.0
-        sums = numpy.bincount(arrays["attribute"], weights=volumes)
-        return dict(zip(texts["material_names"], sums[1:].tolist()))
+        return self._sums("materials", "volume")
 
     def areas(self):
         """By name of the patch; those of one name together, inner ones once."""
-        points, triangles, arrays, texts = read_pvtu(self.mesh / "boundary.pvtu")
-        a, b, c = (points[triangles[:, i]] for i in range(3))
-        areas = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2.0
+        return self._sums("patches", "area")
+
+    def triangles(self):
+        """How many, by name as areas()."""
+        return self._sums("patches", "triangles")
+
+    def _sums(self, kind, figure):
         sums = {}
-        for patch, area in enumerate(numpy.bincount(arrays["patch"], weights=areas)):
-            name = texts["patch_names"][patch]
-            sums[name] = sums.get(name, 0.0) + float(area)
+        for one in self.report()[kind]:
+            sums[one["name"]] = sums.get(one["name"], 0) + one[figure]
         return sums
 
     def outer_areas(self):
@@ -119,10 +139,8 @@ class Mesh:
         inner = {tuple(face) for face in faces[count == 2]}
         points, triangles, arrays, texts = read_pvtu(self.mesh / "boundary.pvtu")
         corners = numpy.sort(arrays["GlobalPointIds"][triangles], axis=1)
-        a, b, c = (points[triangles[:, i]] for i in range(3))
-        areas = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2.0
         sums = {}
-        for corner, patch, area in zip(corners, arrays["patch"], areas):
+        for corner, patch, area in zip(corners, arrays["patch"], triangle_areas(points, triangles)):
             if tuple(corner) not in inner:
                 name = texts["patch_names"][patch]
                 sums[name] = sums.get(name, 0.0) + float(area)

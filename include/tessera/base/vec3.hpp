@@ -44,6 +44,11 @@ inline constexpr Vec3 kNoPoint{std::numeric_limits<double>::infinity(),
 
 [[nodiscard]] inline double norm(const Vec3& a) noexcept { return std::sqrt(dot(a, a)); }
 
+[[nodiscard]] inline double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) noexcept
+{
+  return 0.5 * norm(cross(b - a, c - a));
+}
+
 [[nodiscard]] constexpr Vec3 midpoint(const Vec3& a, const Vec3& b) noexcept
 {
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};

@@ -8,6 +8,7 @@
 #include "tessera/comm/communicator.hpp"
 #include "tessera/formats/piece.hpp"
 #include "tessera/io/options.hpp"
+#include "tessera/io/vtu.hpp"
 
 namespace tessera::formats {
 
@@ -33,6 +34,9 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
 /// @note Collective. @throws as export_mesh().
 [[nodiscard]] Outline outline_of(const std::filesystem::path& mesh, const comm::Communicator& comm,
                                  const std::function<void()>& before_each);
+
+/// @brief The pairs of pieces that share points, ascending. Local.
+[[nodiscard]] std::vector<io::SharedPoints> shared_points(const std::vector<PieceCounts>& pieces);
 
 /// @brief Bytes on disk for each tet of a large mesh, beside the piece files. Local.
 [[nodiscard]] double bytes_per_tet(io::Format format);

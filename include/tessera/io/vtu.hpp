@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "tessera/io/options.hpp"
@@ -32,13 +33,25 @@ void require_compression(Compression compression);
 /// @brief The default compression; none in a build without VTK. Local.
 [[nodiscard]] Compression usual_compression();
 
+/// @brief Points that two pieces both have. Pieces are numbered in the order of their index.
+struct SharedPoints {
+  LocalIndex piece = 0;
+  LocalIndex other = 0;  ///< Above `piece`.
+  GlobalIndex num_points = 0;
+
+  static auto fields(auto& self) { return std::tie(self.piece, self.other, self.num_points); }
+
+  friend auto operator<=>(const SharedPoints&, const SharedPoints&) = default;
+};
+
 /// @brief Writes the index (.pvtu) of piece files that all have the arrays of `schema`. Local.
 ///
 /// @param pieces paths relative to the folder of `path`, in the order in which they are read.
 /// @param schema any one piece; only its names and which optional arrays are there matter.
+/// @param neighbours become the field data "neighbours", shape (pairs, 3), unless there are none.
 /// @throws OutputError naming the file and the cause.
 void write_pvtu(const std::filesystem::path& path, const std::vector<std::filesystem::path>& pieces,
-                const mesh::MeshArrays& schema);
+                const mesh::MeshArrays& schema, const std::vector<SharedPoints>& neighbours = {});
 
 /// @brief The piece files that a .pvtu names, in its order; a .vtu is its own only piece. Local.
 ///

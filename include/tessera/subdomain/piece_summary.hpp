@@ -14,6 +14,15 @@
 
 namespace tessera::subdomain {
 
+/// @brief The boundary triangles that a piece has of one patch.
+struct PatchArea {
+  LocalIndex patch = 0;
+  GlobalIndex num_triangles = 0;
+  double area = 0.0;  ///< Output length unit squared; of second order, of four triangles a face.
+
+  static auto fields(auto& self) { return std::tie(self.patch, self.num_triangles, self.area); }
+};
+
 /// @brief The scalars that a run keeps of every finished piece: O(subdomains) on every rank.
 struct PieceSummary {
   LocalIndex subdomain = kNoIndex;
@@ -28,11 +37,12 @@ struct PieceSummary {
   GlobalIndex num_boundary = 0;           ///< Triangles on the geometry that this piece owns.
   GlobalIndex euler_characteristic = 0;   ///< V - E + F - T of the piece; 1 for a ball.
   double volume = 0.0;                    ///< Output length unit cubed.
-  double boundary_area = 0.0;       ///< Outside of the model only; output length unit squared.
-  double model_distance = 0.0;      ///< Largest, of the points not held back; output length unit.
-  double held_back_distance = 0.0;  ///< Largest, of the held-back points; output length unit.
-  double cpu_s = 0.0;               ///< Of the try that succeeded.
-  bool was_limited = false;         ///< A try ended for time or memory: not reproducible.
+  double boundary_area = 0.0;        ///< Outside of the model only; output length unit squared.
+  std::vector<PatchArea> patches{};  ///< Of num_boundary; ascending, none without triangles.
+  double model_distance = 0.0;       ///< Largest, of the points not held back; output length unit.
+  double held_back_distance = 0.0;   ///< Largest, of the held-back points; output length unit.
+  double cpu_s = 0.0;                ///< Of the try that succeeded.
+  bool was_limited = false;          ///< A try ended for time or memory: not reproducible.
   bool is_folded = false;  ///< A coarse tet has children that are not positive: there is no piece.
   double min_scaled_jacobian = 1.0;  ///< Bound below that of every tet; 1 if all are straight.
   quality::TetStatistics tets{};
@@ -48,9 +58,9 @@ struct PieceSummary {
     return std::tie(self.subdomain, self.material, self.kernel, self.tries, self.num_held_back,
                     self.num_tets, self.num_interior_vertices, self.num_owned_vertices,
                     self.num_boundary, self.euler_characteristic, self.volume, self.boundary_area,
-                    self.model_distance, self.held_back_distance, self.cpu_s, self.was_limited,
-                    self.is_folded, self.min_scaled_jacobian, self.tets, self.seam_tets,
-                    self.outside, self.surface, self.content, self.digest);
+                    self.patches, self.model_distance, self.held_back_distance, self.cpu_s,
+                    self.was_limited, self.is_folded, self.min_scaled_jacobian, self.tets,
+                    self.seam_tets, self.outside, self.surface, self.content, self.digest);
   }
 };
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/io/vtu.hpp"
 
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
@@ -205,6 +208,21 @@ TEST(WritePvtu, VtkReadsAllPiecesWithoutAWarning)
       vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("patch_names"));
   ASSERT_NE(names, nullptr);
   EXPECT_EQ(names->GetValue(2), mesh.field_texts.at("patch_names")[2]);
+}
+
+TEST(WritePvtu, NamesNeighboursInTheFieldData)
+{
+  const TemporaryFolder folder;
+  const MeshArrays mesh = testing::sample_tets(1);
+  write_vtu(mesh, folder / "a.vtu", Compression::lz4);
+  const std::vector<SharedPoints> neighbours{{0, 1, 5}, {0, 2, 5'000'000'000}};
+  write_pvtu(folder / "mesh.pvtu", {"a.vtu", "a.vtu", "a.vtu"}, mesh, neighbours);
+  const auto grid = read_with_vtk<vtkXMLPUnstructuredGridReader>(folder / "mesh.pvtu");
+  EXPECT_EQ(grid->GetNumberOfCells(), 3 * mesh.num_cells());
+  std::ifstream file(folder / "mesh.pvtu");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find("0 1 5\n0 2 5000000000\n"), std::string::npos);
+  EXPECT_EQ(piece_files(folder / "mesh.pvtu").size(), 3U);
 }
 
 TEST(WritePvtu, VtkReadsAnEmptyPieceAmongOthersWithoutAWarning)

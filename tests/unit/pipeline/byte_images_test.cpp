@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -95,7 +96,8 @@ TYPED_TEST_SUITE(ByteImage, Types);
 TYPED_TEST(ByteImage, BringsBackTheValueAndNothingOfAPartOfIt)
 {
   const auto value = sample<TypeParam>();
-  EXPECT_NE(to_bytes(value), to_bytes(TypeParam{}));
+  // On the stack, GCC 12 thinks that members of some might be read before they are made.
+  EXPECT_NE(to_bytes(value), to_bytes(*std::make_unique<TypeParam>()));
   testing::expect_different_fields(value);
   testing::expect_round_trip(value);
 }

@@ -143,6 +143,21 @@ TEST(Report, SumsAndExtremesAreOverAllPieces)
   EXPECT_NEAR(report["quality"]["edge_length"]["median"].get<double>(), 2.0, 0.02);
 }
 
+TEST(Report, PatchesOfARowAreSummed)
+{
+  RunResult run = run_of_two_pieces();
+  run.coarse.mesh.patch_names = {"wall", "inlet", "wall"};
+  run.coarse.mesh.patch_row = {0, 1, 0};
+  run.filled.pieces[0].patches = {{0, 2, 0.5}, {2, 1, 0.25}};
+  run.filled.pieces[1].patches = {{1, 3, 1.5}, {2, 1, 0.25}};
+  EXPECT_EQ(report_of(run)["patches"],
+            Json::parse(R"([{"id": 0, "name": "wall", "triangles": 4, "area": 1.0},
+                            {"id": 1, "name": "inlet", "triangles": 3, "area": 1.5}])"));
+  run.coarse.mesh.patch_row = {};
+  EXPECT_EQ(report_of(run)["patches"][2],
+            Json::parse(R"({"id": 2, "name": "wall", "triangles": 2, "area": 0.5})"));
+}
+
 TEST(Report, HasEveryKeyOfTheSchema)
 {
   const Json report = report_of(run_of_two_pieces());

@@ -2,6 +2,7 @@
 #include "tessera/subdomain/measure_piece.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -46,6 +47,22 @@ TEST_F(MeasureImprovedPiece, FindsWhatWasMeasuredWhenItWasFilled)
     EXPECT_GT(before.seam_tets.num_tets, 0);
     EXPECT_LT(before.seam_tets.num_tets, before.num_tets);
   }
+}
+
+TEST_F(MeasureImprovedPiece, PatchesOfAllPiecesAreThoseOfTheCube)
+{
+  std::map<LocalIndex, double> areas;
+  for (const FilledPiece& filled : pieces()) {
+    GlobalIndex num_triangles = 0;
+    for (const PatchArea& patch : filled.result.summary.patches) {
+      areas[patch.patch] += patch.area;
+      num_triangles += patch.num_triangles;
+    }
+    EXPECT_EQ(num_triangles, filled.result.summary.num_boundary);
+    EXPECT_EQ(measured(filled.piece, {}).patches.size(), filled.result.summary.patches.size());
+  }
+  ASSERT_EQ(areas.size(), 7U) << "Six sides, and the face between the materials.";
+  for (const auto& [patch, area] : areas) EXPECT_NEAR(area, 1.0, 1e-12) << patch;
 }
 
 TEST_F(MeasureImprovedPiece, EveryVertexCountsForOnePiece)

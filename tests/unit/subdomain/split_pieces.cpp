@@ -24,7 +24,7 @@ void compare_all(const Body& body, const std::vector<FilledPiece>& filled, int s
 {
   const auto neighbours = mesh::neighbours_by_vertex(body.skeleton);
   for (const FilledPiece& one : filled) {
-    split.push_back({.around = {.surface = subdomain::surface_of(one.piece)}});
+    split.emplace_back().around.surface = subdomain::surface_of(one.piece);
   }
   for (std::size_t s = 0; s < split.size(); ++s) {
     std::vector<number::SurfaceList> others;

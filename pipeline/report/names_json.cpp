@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/report/names_json.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tessera::pipeline {
+namespace {
+
+// By row of the files; patches of one row have one name.
+std::vector<std::string> patch_names(const mesh::CoarseMesh& coarse)
+{
+  if (coarse.patch_row.empty()) return coarse.patch_names;
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < coarse.patch_names.size(); ++p) {
+    const std::size_t row = at(coarse.patch_row[p]);
+    if (names.size() <= row) names.resize(row + 1);
+    names[row] = coarse.patch_names[p];
+  }
+  return names;
+}
+
+// Sums of subdomains in their order, so the same for any number of ranks.
+Json materials_json(const RunResult& run)
+{
+  Json materials = Json::array();
+  for (const std::string& name : run.coarse.mesh.material_names) {
+    const auto id = static_cast<LocalIndex>(materials.size()) + 1;
+    GlobalIndex num_tets = 0;
+    double volume = 0.0;
+    for (const subdomain::PieceSummary& piece : run.filled.pieces) {
+      if (piece.material != id) continue;
+      num_tets += piece.num_tets;
+      volume += piece.volume;
+    }
+    materials.push_back({{"id", id}, {"name", name}, {"tets", num_tets}, {"volume", volume}});
+  }
+  return materials;
+}
+
+// By row of the files; summed as materials are.
+Json patches_json(const RunResult& run, const std::vector<std::string>& names)
+{
+  const std::vector<LocalIndex>& row_of = run.coarse.mesh.patch_row;
+  std::vector<subdomain::PatchArea> rows(names.size());
+  for (const subdomain::PieceSummary& piece : run.filled.pieces) {
+    for (const subdomain::PatchArea& part : piece.patches) {
+      subdomain::PatchArea& row = rows[at(row_of.empty() ? part.patch : row_of[at(part.patch)])];
+      row.num_triangles += part.num_triangles;
+      row.area += part.area;
+    }
+  }
+  Json patches = Json::array();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    patches.push_back({{"id", r},
+                       {"name", names[r]},
+                       {"triangles", rows[r].num_triangles},
+                       {"area", rows[r].area}});
+  }
+  return patches;
+}
+
+}  // namespace
+
+void add_names(Json& json, const RunResult& run)
+{
+  const std::vector<std::string> names = patch_names(run.coarse.mesh);
+  json["patch_names"] = names;
+  json["patches"] = patches_json(run, names);
+  json["materials"] = materials_json(run);
+}
+
+}  // namespace tessera::pipeline
