@@ -21,7 +21,7 @@ constexpr std::size_t kNumOffsets = 128;     // Of each direction.
 constexpr std::size_t kMostOfDirection = 6;  // Planes of one direction and band that are kept.
 
 // By how much of itself a side may be larger than wanted: the ends of bands.
-constexpr std::array kImbalances{0.15, 0.35, 0.7};
+constexpr std::array kImbalances{0.12, 0.3, 0.6};
 
 // What a plane must have.
 struct Demand {

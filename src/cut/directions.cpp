@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace tessera::cut {
 namespace {
@@ -109,6 +110,11 @@ std::vector<Vec3> candidate_directions(const PartSurface& part, const Moments& m
   for (const Vec3& sum : {u + v, u - v, u + w, u - w, v + w, v - w}) directions.add(sum);
   for (const double y : {1.0, -1.0}) {
     for (const double z : {1.0, -1.0}) directions.add(u + y * v + z * w);
+  }
+  for (const double y : {2.0, -2.0, 0.5, -0.5}) {
+    for (const auto& [a, b] : {std::pair(u, v), std::pair(u, w), std::pair(v, w)}) {
+      directions.add(a + y * b);
+    }
   }
   return directions.take();
 }
