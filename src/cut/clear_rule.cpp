@@ -32,11 +32,11 @@ struct Demand {
 };
 
 // Tried one after the other: what is unbalanced is better than what is narrow.
-constexpr double kLeastClearance = 0.25;
+constexpr double kLeastClearance = 0.35;
 constexpr std::array kDemands{Demand{kImbalances[0], 0.5, 0.4, 30.0},
                               Demand{kImbalances[1], 0.5, 0.4, 30.0},
-                              Demand{kImbalances[0], kLeastClearance, 0.2, 20.0},
-                              Demand{kImbalances[2], kLeastClearance, 0.2, 20.0}};
+                              Demand{kImbalances[0], kLeastClearance, 0.3, 25.0},
+                              Demand{kImbalances[2], kLeastClearance, 0.3, 25.0}};
 
 // Costs of what differ by less are equal: the first one is taken. So rounding does not choose.
 constexpr double kSameCost = 1e-6;
