@@ -13,7 +13,9 @@
 #include "tessera/io/vtu.hpp"
 #include "tessera/netgen/factory.hpp"
 
+#include "pipeline/report/cuts_json.hpp"
 #include "pipeline/report/quality_json.hpp"
+#include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 
 namespace tessera::pipeline {
@@ -109,8 +111,8 @@ double balance_of_parts(const RunResult& run)
 Json warnings_json(const RunResult& run)
 {
   Json warnings = Json::array();
-  for (const auto& warning :
-       {too_many_subdomains(run.resolved, run.coarse.mesh), unbalanced_parts(run)}) {
+  for (const auto& warning : {too_many_subdomains(run.resolved, run.coarse.mesh),
+                              unbalanced_parts(run), parts_not_meshed(run)}) {
     if (warning) warnings.push_back(*warning);
   }
   return warnings;
@@ -160,9 +162,11 @@ void add_names(Json& json, const RunResult& run)
   json["materials"] = materials_json(run);
 }
 
-Json decompose_json(const decompose::DecomposeReport& report)
+Json decompose_json(const RunResult& run)
 {
-  return {{"seam_area", report.seam_area},
+  const decompose::DecomposeReport& report = run.decomposition.report;
+  return {{"method", word_of(run.resolved.decompose.method)},
+          {"seam_area", report.seam_area},
           {"min_seam_dihedral_deg", report.min_seam_dihedral_deg},
           {"heaviest_over_average", report.max_weight / report.mean_weight},
           {"merges", report.num_merges},
@@ -399,7 +403,8 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);
   add_names(json, run);
   json["coarse"] = coarse_json(run);
-  json["decompose"] = decompose_json(run.decomposition.report);
+  json["decompose"] = decompose_json(run);
+  if (is_cut(run)) json["decompose"].update(cuts_json(run));
   json["improve"] = improvement_json(run.filled.improvement);
   if (run.resolved.output.parts > 0) {
     json["parts"] = {{"tets", tets_of_parts(run)}, {"balance", balance_of_parts(run)}};

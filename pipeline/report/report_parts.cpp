@@ -185,7 +185,7 @@ std::vector<Stage> stages_of(const Report& report)
 // What only rank 0 does, with its jobs.
 bool is_of_one_rank(const Stage& stage)
 {
-  constexpr std::array<const char*, 6> kNames{"model",  "names",  "size",
+  constexpr std::array<const char*, 7> kNames{"model",  "names",  "size",     "cut",
                                               "coarse", "levels", "decompose"};
   return std::ranges::find(kNames, stage.name) != kNames.end();
 }

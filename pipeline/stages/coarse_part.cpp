@@ -76,8 +76,7 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   run.coarse = named_coarse_mesh(run, parts, context);
   if (mesh::SizePoints points = sizes_for_a_finer_mesh(run, context); !points.size.empty()) {
     run.resolved.coarse.points = std::move(points);
-    const CoarseResult first =
-        std::exchange(run.coarse, named_coarse_mesh(run, parts, context));
+    const CoarseResult first = std::exchange(run.coarse, named_coarse_mesh(run, parts, context));
     run.coarse.tries += first.tries;
     run.coarse.failures.insert(run.coarse.failures.begin(), first.failures.begin(),
                                first.failures.end());

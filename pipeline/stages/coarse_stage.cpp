@@ -93,8 +93,8 @@ CoarseResult first_that_works(const config::Case& run_case, const cut::CutTree& 
       throw MeshError(fmt::format("coarse: {}{}", outcome.message, way_on(outcome)));
     }
     if (is_final(outcome)) jobs::throw_unless_ok(outcome, run_case.geometry.file.string());
-    result.failures.push_back(fmt::format("{}{}: {}", is_cut ? "in parts, " : "",
-                                          name_of(options), outcome.message));
+    result.failures.push_back(
+        fmt::format("{}{}: {}", is_cut ? "in parts, " : "", name_of(options), outcome.message));
     context.log.warn("coarse: try {} failed: {}", result.tries, result.failures.back());
     was_endless = was_endless || is_endless(outcome);
     result.was_limited = result.was_limited || depends_on_machine(outcome);
@@ -134,8 +134,8 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
                               RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseResult result = on_root(
-      context.comm, [&] { return first_that_works(run_case, planes, context); });
+  CoarseResult result =
+      on_root(context.comm, [&] { return first_that_works(run_case, planes, context); });
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),
                            result.mesh.num_patches(), result.mesh.num_materials()));

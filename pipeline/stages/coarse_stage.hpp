@@ -25,8 +25,8 @@ struct CoarseResult {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.mesh, self.tet_part, self.options, self.tries, self.distance, self.failures,
-                    self.was_limited);
+    return std::tie(self.mesh, self.tet_part, self.options, self.tries, self.distance,
+                    self.failures, self.was_limited);
   }
 };
 

@@ -44,6 +44,15 @@ cut::CutChoice choose(const config::Case& resolved, RunContext& context)
 
 }  // namespace
 
+std::optional<std::string> parts_not_meshed(const RunResult& run)
+{
+  if (!is_cut(run) || !run.coarse.tet_part.empty()) return std::nullopt;
+  return fmt::format(
+      "the model is cut into {} parts, but these could not be meshed; it was meshed as a whole, as "
+      "with decompose.method = \"mesh\"",
+      run.planes.tree.num_parts);
+}
+
 LocalIndex num_parts_for(const config::Case& resolved, const model::ModelDescription& model)
 {
   if (resolved.decompose.subdomains > 0) return resolved.decompose.subdomains;
@@ -68,7 +77,10 @@ cut::CutChoice choose_cuts(const RunResult& run, RunContext& context)
     return with_file_context(run.resolved, [&] { return choose(run.resolved, context); });
   });
   stage.work_is_done();
-  stage.finish(fmt::format("{} parts", choice.tree.num_parts));
+  const auto num_whole = std::ranges::count_if(
+      choice.report.parts, [](const cut::CutPart& part) { return !part.whole_because.empty(); });
+  stage.finish(fmt::format("{} parts of {}, {} of them could not be cut well",
+                           choice.tree.num_parts, choice.report.num_wanted, num_whole));
   return choice;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "tessera/cut/choose_planes.hpp"
 #include "tessera/model/description.hpp"
 
@@ -8,6 +11,12 @@
 #include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
+
+/// @brief Whether planes were chosen for the model of a run. Local.
+[[nodiscard]] inline bool is_cut(const RunResult& run) { return run.planes.tree.num_parts > 0; }
+
+/// @brief What to say if the parts could not be meshed. Local.
+[[nodiscard]] std::optional<std::string> parts_not_meshed(const RunResult& run);
 
 /// @brief The planes that cut the model of a run before it is meshed, chosen on rank 0; without
 /// nodes if its coarse mesh is to be cut.

@@ -78,9 +78,8 @@ decompose::DecomposeResult cut(const RunResult& run)
       fill::kernels_of(run.resolved.fill, coarse.material_names, coarse.tet_material);
   const std::vector<double> weights = weights_of(run);
   const auto partitioner = decompose::make_metis_partitioner();
-  decompose::DecomposeResult result =
-      decompose::decompose(coarse, options_of(run, kernels, weights), weights, *partitioner,
-                           run.coarse.tet_part);
+  decompose::DecomposeResult result = decompose::decompose(
+      coarse, options_of(run, kernels, weights), weights, *partitioner, run.coarse.tet_part);
   decompose::validate(coarse, result.decomposition);
   return result;
 }

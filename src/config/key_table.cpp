@@ -137,17 +137,19 @@ constexpr Key kKeys[] = {
 
     {.name = "decompose.method",
      .rule = word_rule([](Case& c) -> decompose::Method& { return c.decompose.method; }),
-     .meaning = "What is cut into subdomains. \"mesh\": the coarse mesh. \"geometry\": the model, by "
-                "planes, before it is meshed; subdomains end at these planes. The model must be "
-                "CSG, STEP, IGES or BREP. Where no plane cuts well, or the parts cannot be meshed, "
-                "the coarse mesh is cut as well.",
+     .meaning =
+         "What is cut into subdomains. \"mesh\": the coarse mesh. \"geometry\": the model, by "
+         "planes, before it is meshed; subdomains end at these planes. The model must be "
+         "CSG, STEP, IGES or BREP. Where no plane cuts well, or the parts cannot be meshed, "
+         "the coarse mesh is cut as well.",
      .reason = "METIS cuts every mesh, and finds less area"},
     {.name = "decompose.planes",
      .rule = word_rule([](Case& c) -> cut::PlaneRule& { return c.planes.rule; }),
-     .meaning = "How planes are chosen, with decompose.method = \"geometry\". \"clear\": the best of "
-                "many, which are balanced and stay away from corners and faces that they do not "
-                "cross; a part that none cuts well stays whole. \"pca\": through the centre of mass, "
-                "across the longest axis. \"random\": through the centre of mass, in any direction.",
+     .meaning =
+         "How planes are chosen, with decompose.method = \"geometry\". \"clear\": the best of "
+         "many, which are balanced and stay away from corners and faces that they do not "
+         "cross; a part that none cuts well stays whole. \"pca\": through the centre of mass, "
+         "across the longest axis. \"random\": through the centre of mass, in any direction.",
      .reason = "a plane in a bad place leaves thin slices, and these tiny tets"},
 
     {.name = "refine.levels",

@@ -265,9 +265,10 @@ constexpr TableList kTableLists[] = {
      .defect = [](const Case& c) { return model::defect_of(c.geometry.names.back()); }},
     {.name = "decompose.plane",
      .keys = kPlaneKeys,
-     .meaning = "A plane that cuts the model, with decompose.method = \"geometry\": every part that "
-                "it crosses, in the order of the entries. Others follow by decompose.planes if "
-                "decompose.subdomains asks for more parts.",
+     .meaning =
+         "A plane that cuts the model, with decompose.method = \"geometry\": every part that "
+         "it crosses, in the order of the entries. Others follow by decompose.planes if "
+         "decompose.subdomains asks for more parts.",
      .reason = "decompose.planes chooses them",
      .size = [](const Case& c) { return c.planes.given.size(); },
      .resize = [](Case& c, std::size_t size) { c.planes.given.resize(size); },

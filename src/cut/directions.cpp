@@ -103,9 +103,11 @@ void add_of_faces(const PartSurface& part, Directions& to)
 std::vector<Vec3> candidate_directions(const PartSurface& part, const Moments& moments)
 {
   Directions directions;
-  for (const Vec3& axis : moments.axes) directions.add(axis);
+  // Exact ones first, in place of axes of inertia that are off by rounding: planes that are nearly
+  // parallel to a face, or across an axis, cost NETGEN minutes.
   for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) directions.add(axis);
   add_of_faces(part, directions);
+  for (const Vec3& axis : moments.axes) directions.add(axis);
   const auto& [u, v, w] = moments.axes;
   for (const Vec3& sum : {u + v, u - v, u + w, u - w, v + w, v - w}) directions.add(sum);
   for (const double y : {1.0, -1.0}) {

@@ -60,9 +60,8 @@ std::set<std::array<LocalIndex, 2>> seams_of(const std::vector<SurfaceTriangle>&
     const auto [low, high] = std::minmax(joined[at(a)], joined[at(b)]);
     if (low != high) ends.push_back({{low, high, low}, apart[at(edge.front().triangle)].face});
   });
-  std::ranges::sort(ends, {}, [](const SurfaceTriangle& end) {
-    return std::pair(end.vertices, end.face);
-  });
+  std::ranges::sort(ends, {},
+                    [](const SurfaceTriangle& end) { return std::pair(end.vertices, end.face); });
   std::set<std::array<LocalIndex, 2>> seams;
   for (std::size_t i = 1; i < ends.size(); ++i) {
     if (ends[i].vertices != ends[i - 1].vertices || ends[i].face != ends[i - 1].face) continue;

@@ -9,8 +9,8 @@
 
 namespace tessera::decompose {
 
-/// @brief The face-connected pieces of each material, and of each part if there are parts, by lowest
-/// tet; each ascending.
+/// @brief The face-connected pieces of each material, and of each part if there are parts, by
+/// lowest tet; each ascending.
 /// @param[in] tet_part Shape (num_tets), >= 0, or empty.
 [[nodiscard]] std::vector<std::vector<LocalIndex>> connected_pieces(
     const TetGraph& graph, std::span<const LocalIndex> tet_part);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,8 @@ using ::netgen::PointIndex;
 
 // Builds the coarse mesh array by array; each step needs the ones before it.
 class Conversion {
+  using Ends = std::array<LocalIndex, 2>;  // Of a segment, lower one first.
+
  public:
   Conversion(const ::netgen::Mesh& from, const GeometryNumbers& numbers)
       : from_(from), numbers_(numbers)
@@ -30,6 +33,7 @@ class Conversion {
     add_patches();
     add_faces();
     if (numbers_.curve) add_segments();
+    if (numbers_.material) require_all_curves();
     return {std::move(to_), std::move(tet_domain_)};
   }
 
@@ -114,12 +118,30 @@ class Conversion {
     for (const ::netgen::Segment& segment : from_.LineSegments()) {
       if (!segment[0].IsValid()) continue;  // Deleted.
       const LocalIndex curve = numbers_.curve(segment);
-      const std::array<LocalIndex, 2> ends{vertex(segment[0]), vertex(segment[1])};
-      if (curve == kNoIndex || ends[0] == kNoIndex || ends[1] == kNoIndex) continue;
+      const Ends ends{vertex(segment[0]), vertex(segment[1])};
+      if (ends[0] == kNoIndex || ends[1] == kNoIndex) continue;
+      const auto [low, high] = std::minmax(ends[0], ends[1]);
+      (curve == kNoIndex ? left_out_ : kept_).insert({low, high});
+      if (curve == kNoIndex) continue;
       to_.segment_vertices.insert(to_.segment_vertices.end(), ends.begin(), ends.end());
       to_.segment_curve.push_back(curve);
       if (!numbers_.t) continue;
       for (int end = 0; end < 2; ++end) to_.segment_t.push_back(numbers_.t(segment, end));
+    }
+  }
+
+  // Where a cut follows an edge of the model, NETGEN may have told it by the plane.
+  void require_all_curves() const
+  {
+    std::map<Ends, LocalIndex> surface_beside;
+    for (std::size_t corner = 0; corner < to_.face_vertices.size(); ++corner) {
+      const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+      const auto [low, high] = std::minmax(to_.face_vertices[corner], to_.face_vertices[next]);
+      const Ends ends{low, high};
+      if (!left_out_.contains(ends) || kept_.contains(ends)) continue;
+      const LocalIndex surface = to_.patch_surface[at(to_.face_patch[corner / 3])];
+      if (surface_beside.emplace(ends, surface).first->second == surface) continue;
+      throw NetgenError("a cut follows an edge of the model");
     }
   }
 
@@ -146,6 +168,8 @@ class Conversion {
   const GeometryNumbers& numbers_;
   std::vector<LocalIndex> new_vertex_{};           // kNoIndex: no vertex of a tet.
   std::vector<LocalIndex> patch_of_descriptor_{};  // Descriptors count from 1.
+  std::set<Ends> kept_{};
+  std::set<Ends> left_out_{};  // Of no curve.
   mesh::CoarseMesh to_{};
   std::vector<LocalIndex> tet_domain_{};
 };

@@ -66,7 +66,8 @@ struct DecomposeResult {
 /// @param[in] tet_part Shape (num_tets), >= 0: parts of which subdomains are made, at least one
 /// each; repair may move single tets, and small bits, between them. Empty: there are none.
 /// @throws ConfigError if a negative number of subdomains is requested.
-/// @throws MeshError if tet_weight or tet_part has a wrong length or the partitioner gives invalid parts.
+/// @throws MeshError if tet_weight or tet_part has a wrong length or the partitioner gives invalid
+/// parts.
 [[nodiscard]] DecomposeResult decompose(const mesh::CoarseMesh& mesh,
                                         const DecomposeOptions& options,
                                         std::span<const double> tet_weight,
