@@ -44,6 +44,9 @@ constexpr double kSameCost = 1e-6;
 // Taking a plane of a neighbour saves lines on the border between them.
 constexpr double kCostOfOwnPlane = 0.05;
 
+// Where an oblique plane cuts a curved face, the mesher finds a curve that is not simple.
+constexpr double kCostOfOblique = 0.3;
+
 struct Candidate {
   Plane plane{};
   LocalIndex num_below = 1;
@@ -68,7 +71,9 @@ class ClearSearch {
   {
     add_foreign();
     const LandmarkFinder finder(part_, coarse_size);
-    for (const Vec3& normal : candidate_directions(part_, moments_)) add_of(normal, finder);
+    for (const Direction& direction : candidate_directions(part_, moments_)) {
+      add_of(direction, finder);
+    }
     std::ranges::stable_sort(candidates_, {}, cost_without_noise);
   }
 
@@ -120,8 +125,10 @@ class ClearSearch {
   }
 
   // The best planes of a direction by what costs little to know.
-  void add_of(const Vec3& normal, const LandmarkFinder& finder)
+  void add_of(const Direction& direction, const LandmarkFinder& finder)
   {
+    const Vec3& normal = direction.normal;
+    const double own_cost = kCostOfOwnPlane + (direction.is_plain ? 0.0 : kCostOfOblique);
     const std::vector<double> heights = part_.heights({normal, 0.0});
     const Profile profile = profile_of(part_, normal, heights, kNumOffsets);
     const std::vector<Landmark> landmarks = finder.find(heights);
@@ -129,8 +136,8 @@ class ClearSearch {
     std::swap(own, candidates_);
     for (std::size_t entry = 1; entry + 1 < kNumOffsets; ++entry) {
       const double offset = profile.offset(entry);
-      add({.plane = {normal, offset}, .cost = kCostOfOwnPlane}, profile.volume[entry],
-          profile.area[entry], clearance_of(landmarks, offset, coarse_size_, kLargestClearance));
+      add({.plane = {normal, offset}, .cost = own_cost}, profile.volume[entry], profile.area[entry],
+          clearance_of(landmarks, offset, coarse_size_, kLargestClearance));
     }
     std::swap(own, candidates_);
     std::ranges::stable_sort(own, {}, cost_without_noise);

@@ -59,8 +59,8 @@ void measure_curves(PartSurface& surface, double coarse_size)
   std::vector<bool> is_inside(surface.points.size(), false);
   for (LocalIndex v = 0; v < edges_at.num_lists(); ++v) {
     const auto here = edges_at[v];
-    is_inside[at(v)] = here.size() == 2
-                       && surface.edges[at(here[0])].faces == surface.edges[at(here[1])].faces;
+    is_inside[at(v)] =
+        here.size() == 2 && surface.edges[at(here[0])].faces == surface.edges[at(here[1])].faces;
     if (is_inside[at(v)]) curves.join(here[0], here[1]);
   }
   std::vector<double> length(at(num_edges), 0.0);

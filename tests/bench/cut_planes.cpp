@@ -9,7 +9,8 @@
 // smallest angle, the area of all cuts over that of a side of a cube of the model's volume, and
 // milliseconds of CPU. With --mesh, against the coarse mesh of the uncut model: the smallest edge,
 // the number of tets, seconds of CPU; and the smallest dihedral angle of both, degrees. Each mesh
-// is made in a child process. PREFIX: a picture of each choice, PREFIX-RULE-PARTS.png.
+// is made in a child process, in 120 seconds at most. PREFIX: a picture of each choice,
+// PREFIX-RULE-PARTS.png.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,6 +95,8 @@ void write_picture(const model::ModelDescription& model, const cut::CutTree& tre
   out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
 }
 
+constexpr unsigned kMostSeconds = 120;  // For one mesh; thin slices may take hours.
+
 struct MeshFigures {
   double shortest_edge = std::numeric_limits<double>::infinity();
   double min_dihedral_deg = 180.0;
@@ -135,6 +138,7 @@ std::optional<MeshFigures> figures_in_child(const Make& make)
   const pid_t child = fork();
   if (child == 0) {
     try {
+      alarm(kMostSeconds);
       std::freopen("/dev/null", "w", stdout);
       const MeshFigures figures = figures_of(make);
       _exit(write(ends[1], &figures, sizeof(figures)) == sizeof(figures) ? 0 : 1);
