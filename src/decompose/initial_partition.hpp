@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "tessera/decompose/graph_partitioner.hpp"
@@ -13,7 +14,7 @@ namespace tessera::decompose {
 /// lowest tet; each ascending.
 /// @param[in] tet_part Shape (num_tets), >= 0, or empty.
 [[nodiscard]] std::vector<std::vector<LocalIndex>> connected_pieces(
-    const TetGraph& graph, std::span<const LocalIndex> tet_part);
+    const TetGraph& graph, std::span<const LocalIndex> tet_part = {});
 
 /// @brief Parts for each piece: at least one, at most its tets, else in proportion to its weight.
 /// @pre pieces.size() <= num_parts <= number of tets.

@@ -15,6 +15,7 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "model": CORE,
     "netgen": CORE | {"model", "cut", "coarse", "fill", "improve"},
     "coarse": CORE | {"model"},
+    "cut": CORE | {"model"},
     "decompose": CORE | {"model"},
     "untangle": CORE | {"model"},
     "refine": CORE | {"model"},

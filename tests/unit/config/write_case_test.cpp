@@ -207,7 +207,8 @@ TEST(KnownKeys, AreThoseOfTheReferenceWithTheirWords)
       EXPECT_EQ(key.words.size(), 3U);
       EXPECT_EQ(key.words.front(), "netgen");
     }
-    EXPECT_EQ(key.words.size() == 2, key.name == "coarse.optimize" || key.name == "improve.seams"
+    EXPECT_EQ(key.words.size() == 2, key.name == "coarse.optimize" || key.name == "decompose.method"
+                                         || key.name == "improve.seams"
                                          || key.name == "output.cell_quality"
                                          || key.name == "output.report_html")
         << key.name;

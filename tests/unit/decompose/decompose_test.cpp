@@ -98,6 +98,44 @@ TEST(Decompose, GivesEachPieceOfAMaterialItsShare)
   EXPECT_GE(std::count(material.begin(), material.end(), 2), 9);
 }
 
+// Slabs of a cube, across the first axis.
+std::vector<LocalIndex> slabs_of(const mesh::CoarseMesh& mesh, LocalIndex num_slabs)
+{
+  std::vector<LocalIndex> tet_part;
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    double sum = 0.0;
+    for (const LocalIndex v : mesh.tet(t)) sum += mesh.position(v)[0];
+    tet_part.push_back(static_cast<LocalIndex>(0.25 * sum * num_slabs));
+  }
+  return tet_part;
+}
+
+TEST(Decompose, CutsNoSubdomainOutOfTwoParts)
+{
+  const auto mesh = testing::kuhn_cube(8);
+  const std::vector<LocalIndex> tet_part = slabs_of(mesh, 4);
+  const auto weight = predicted_fine_tets(mesh, 1);
+  for (const LocalIndex k : {1, 4, 11}) {
+    const auto result =
+        decompose(mesh, {.subdomains = k}, weight, *make_metis_partitioner(), tet_part);
+    validate(mesh, result.decomposition);
+    EXPECT_GE(result.decomposition.num_subdomains(), std::max(k, 4));
+    std::vector<std::set<LocalIndex>> parts(at(result.decomposition.num_subdomains()));
+    for (std::size_t t = 0; t < tet_part.size(); ++t) {
+      parts[at(result.decomposition.tet_subdomain[t])].insert(tet_part[t]);
+    }
+    for (const auto& of_subdomain : parts) EXPECT_EQ(of_subdomain.size(), 1U);
+  }
+}
+
+TEST(Decompose, RefusesPartsOfAnotherMesh)
+{
+  const auto mesh = testing::kuhn_cube(2);
+  const auto weight = predicted_fine_tets(mesh, 1);
+  const std::vector<LocalIndex> tet_part(3, 0);
+  EXPECT_THROW((void)decompose(mesh, {}, weight, *make_metis_partitioner(), tet_part), MeshError);
+}
+
 TEST(AllotParts, FollowsTheWeightsBetweenOneAndAllTetsOfAPiece)
 {
   const auto mesh = testing::two_material_cube(2);
