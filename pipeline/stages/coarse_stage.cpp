@@ -39,12 +39,19 @@ std::string name_of(const coarse::CoarseOptions& options)
   return fmt::format("{}max_size {:g}", is_remesh ? "remeshed triangles, " : "", options.max_size);
 }
 
+// A mesh that the user brings is the coarse mesh; no other one could be made.
+std::vector<coarse::CoarseOptions> tries_for(const config::Case& run_case)
+{
+  if (model::is_mesh_name(run_case.geometry.file)) return {run_case.coarse};
+  return coarse_fallbacks(run_case.coarse);
+}
+
 CoarseResult first_that_works(const config::Case& run_case, RunContext& context)
 {
   const jobs::JobLimits limits{run_case.coarse.timeout_s, kStall_s, kMemory_gib};
   CoarseResult result;
   bool was_endless = false;
-  for (const coarse::CoarseOptions& options : coarse_fallbacks(run_case.coarse)) {
+  for (const coarse::CoarseOptions& options : tries_for(run_case)) {
     // NETGEN's surface mesher that did not end once would not end at another size either.
     const bool is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen;
     if (was_endless && is_netgen) continue;

@@ -33,6 +33,9 @@ constexpr FileKind kFileKinds[] = {
     {".iges", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
     {".igs", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
     {".brep", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".msh", import_own_mesh},
+    {".vol", import_own_mesh},
+    {".vtu", import_own_mesh},
 };
 
 std::string lower_case_extension(const fs::path& file)
@@ -129,7 +132,7 @@ model::ModelSource import_model(const fs::path& file, const ImportOptions& optio
   return kind_of(file).import(file, options);
 }
 
-std::unique_ptr<model::Model> load_model(const ModelSource& source)
+std::unique_ptr<LoadedModel> load_any_model(const ModelSource& source)
 {
   switch (source.format) {
     case model::Format::csg:
@@ -138,9 +141,16 @@ std::unique_ptr<model::Model> load_model(const ModelSource& source)
       return load_stl(source);
     case model::Format::occ:
       return load_occ(source);
+    case model::Format::own:
+      return load_own_mesh(source);
     default:
       throw InputError(source.file_name + ": unknown format of model");
   }
+}
+
+std::unique_ptr<model::Model> load_model(const ModelSource& source)
+{
+  return load_any_model(source);
 }
 
 model::ModelDescription describe_model(const model::Model& model)

@@ -37,6 +37,9 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
                                                   const NetgenMeshUser& use) const = 0;
 };
 
+/// @brief load_model(), as what it is. @throws As load_model().
+[[nodiscard]] std::unique_ptr<LoadedModel> load_any_model(const model::ModelSource& source);
+
 // One pair of functions a format; the contracts are those of import_model() and load_model().
 [[nodiscard]] model::ModelSource import_csg(const std::filesystem::path& file);
 [[nodiscard]] std::unique_ptr<LoadedModel> load_csg(const model::ModelSource& source);
@@ -44,6 +47,10 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
 [[nodiscard]] model::ModelSource import_stl(const std::filesystem::path& file,
                                             const model::ImportOptions& options);
 [[nodiscard]] std::unique_ptr<LoadedModel> load_stl(const model::ModelSource& source);
+
+[[nodiscard]] model::ModelSource import_own_mesh(const std::filesystem::path& file,
+                                                 const model::ImportOptions& options);
+[[nodiscard]] std::unique_ptr<LoadedModel> load_own_mesh(const model::ModelSource& source);
 
 [[nodiscard]] model::ModelSource import_occ(const std::filesystem::path& file);
 [[nodiscard]] std::unique_ptr<LoadedModel> load_occ(const model::ModelSource& source);

@@ -13,7 +13,7 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "jobs": BASE,
     "mesh": BASE | {"comm"},
     "model": CORE,
-    "netgen": CORE | {"model", "coarse", "fill", "improve"},
+    "netgen": CORE | {"model", "coarse", "fill", "improve", "io"},
     "coarse": CORE | {"model"},
     "decompose": CORE | {"model"},
     "untangle": CORE | {"model"},
