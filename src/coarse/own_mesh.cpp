@@ -173,6 +173,7 @@ class OwnMeshBuilder {
       material = own_.mesh.num_materials() + 1;
       const auto name = file_.tet_group_names.find(tag);
       const bool is_named = has_groups && name != file_.tet_group_names.end();
+      own_.material_is_named.push_back(is_named ? 1 : 0);
       const bool is_tagged = tag != 0 || material_of.size() > 1;
       own_.mesh.material_names.push_back(
           is_named ? name->second : fmt::format("material_{}", is_tagged ? tag : material));
@@ -327,8 +328,11 @@ class OwnMeshBuilder {
 
 void OwnMesh::require_sound() const
 {
-  if (patch_entity.size() == mesh.patch_names.size()) return;
-  throw InputError("an own mesh has not one entity for each patch");
+  const bool is_sound = patch_entity.size() == mesh.patch_names.size()
+                        && patch_is_named.size() == mesh.patch_names.size()
+                        && material_is_named.size() == mesh.material_names.size()
+                        && face_materials.size() == mesh.face_patch.size();
+  if (!is_sound) throw InputError("the arrays of a mesh do not fit together");
 }
 
 OwnMesh make_own_mesh(const model::TetMeshFile& file, const std::string& name,

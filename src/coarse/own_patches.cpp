@@ -86,6 +86,7 @@ class PatchMaker {
     mesh.patch_names.push_back(name_of(tag, called, row));
     used_names_.insert(mesh.patch_names.back());
     own_.patch_entity.push_back(tag.entity);
+    own_.patch_is_named.push_back(tag.group != 0 && group_names_.contains(tag.group) ? 1 : 0);
     return patch;
   }
 
@@ -117,6 +118,7 @@ void add_patches(const std::vector<BoundaryFace>& faces,
   for (const BoundaryFace& face : faces) {
     own.mesh.face_vertices.insert(own.mesh.face_vertices.end(), face.vertices.begin(),
                                   face.vertices.end());
+    own.face_materials.push_back(face.materials);
   }
   const auto first_of_set = smooth_sets(faces, own.mesh, feature_angle_deg);
   PatchMaker(group_names, own).add(faces, first_of_set);

@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/coarse/fit_to_cad.hpp"
+#include "tessera/coarse/surface_reference.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 
@@ -35,6 +37,17 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   /// @throws Also what `use` throws.
   [[nodiscard]] virtual mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                                   const NetgenMeshUser& use) const = 0;
+
+  /// @brief The surface as triangles with edges of about that length, to fit a mesh to it.
+  /// @throws NetgenError, ConfigError if the model is a mesh.
+  [[nodiscard]] virtual coarse::CadSurface triangles_for_fit(double size) const = 0;
+
+  /// @brief Puts parameters into a mesh that fit_to_cad() made, if the model has some.
+  /// @param[in] reference Of triangles_for_fit().
+  virtual void add_parameters(const coarse::SurfaceReference& /*reference*/,
+                              mesh::CoarseMesh& /*mesh*/) const
+  {
+  }
 };
 
 /// @brief load_model(), as what it is. @throws As load_model().

@@ -8,6 +8,7 @@
 #include <meshing.hpp>
 
 #include "tessera/base/types.hpp"
+#include "tessera/coarse/fit_to_cad.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/model/model.hpp"
 
@@ -45,5 +46,11 @@ struct GeometryNumbers {
 [[nodiscard]] mesh::CoarseMesh to_coarse_mesh(const ::netgen::Mesh& from,
                                               const GeometryNumbers& numbers,
                                               const std::string& what);
+
+/// @brief The triangles of a NETGEN surface mesh, one patch a face descriptor that has some, without
+/// size and names of solids.
+/// @param[in] numbers With numbers of curves.
+[[nodiscard]] coarse::CadSurface surface_of_mesh(const ::netgen::Mesh& from,
+                                                 const GeometryNumbers& numbers);
 
 }  // namespace tessera::netgen

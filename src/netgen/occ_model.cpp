@@ -55,6 +55,9 @@ class OccModel final : public LoadedModel {
   {
     return with_occ_errors(file_name_, [&] { return describe_shape(content_); });
   }
+  [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
+  void add_parameters(const coarse::SurfaceReference& reference,
+                      mesh::CoarseMesh& mesh) const override;
   using LoadedModel::generate;
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                           const NetgenMeshUser& use) const override;
@@ -179,10 +182,29 @@ mesh::CoarseMesh OccModel::remesh(const coarse::CoarseOptions& options) const
       [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
       [this](LocalIndex material) { return solid_name(material); }};
   mesh::CoarseMesh mesh = mesh_volume(surface, options, names, file_name_);
+  add_parameters(reference, mesh);
+  return mesh;
+}
+
+coarse::CadSurface OccModel::triangles_for_fit(double size) const
+{
+  return with_occ_errors(file_name_, [&] {
+    coarse::CadSurface cad{.triangles = tessellation_of(content_.shape, size),
+                           .size = size,
+                           .patch_names = content_.face_names,
+                           .solid_names = content_.solid_names};
+    for (LocalIndex p = 0; p < faces_.Extent(); ++p) cad.patch_surface.push_back(p);
+    for (LocalIndex c = 0; c < edges_.Extent(); ++c) cad.curve_number.push_back(c);
+    return cad;
+  });
+}
+
+void OccModel::add_parameters(const coarse::SurfaceReference& reference,
+                              mesh::CoarseMesh& mesh) const
+{
   guess_parameters(reference, mesh);
   locate_face_corners(mesh);
   locate_segment_ends(mesh);
-  return mesh;
 }
 
 // Those of the tessellation, a little inside each face and segment: at a seam that is their side.

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -14,6 +16,7 @@
 #include "tessera/coarse/own_mesh.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/model/tet_mesh_file.hpp"
+#include "tessera/netgen/factory.hpp"
 
 #include "netgen/loaded_model.hpp"
 
@@ -25,8 +28,9 @@ constexpr double kTolerance = 1e-8;  // of the box diagonal, as Model promises
 // ModelSource::content of a mesh file.
 struct OwnMeshContent {
   coarse::OwnMesh own{};
+  std::optional<model::ModelSource> cad{};
 
-  static auto fields(auto& self) { return std::tie(self.own); }
+  static auto fields(auto& self) { return std::tie(self.own, self.cad); }
 };
 
 double box_diagonal_of(const mesh::CoarseMesh& mesh)
@@ -71,6 +75,10 @@ class FlatOwnModel final : public LoadedModel {
     return {point, 0.0};
   }
   [[nodiscard]] model::ModelDescription describe() const override;
+  [[nodiscard]] coarse::CadSurface triangles_for_fit(double) const override
+  {
+    throw ConfigError("a mesh is no CAD model that another mesh could be fitted to");
+  }
 
   using LoadedModel::generate;
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions&,
@@ -123,6 +131,83 @@ model::ModelDescription describe_mesh(const mesh::CoarseMesh& mesh)
 
 model::ModelDescription FlatOwnModel::describe() const { return describe_mesh(own_.mesh); }
 
+// A mesh and the CAD model that it is of. Projection is the CAD's.
+class CadOwnModel final : public LoadedModel {
+ public:
+  CadOwnModel(coarse::OwnMesh own, std::unique_ptr<LoadedModel> cad, std::string name)
+      : own_(std::move(own)), cad_(std::move(cad)), name_(std::move(name))
+  {
+  }
+
+  [[nodiscard]] bool has_parameters() const override { return cad_->has_parameters(); }
+  [[nodiscard]] double surface_tolerance(LocalIndex surface) const override
+  {
+    return cad_->surface_tolerance(surface);
+  }
+  [[nodiscard]] double curve_tolerance(LocalIndex curve) const override
+  {
+    return cad_->curve_tolerance(curve);
+  }
+  [[nodiscard]] double box_diagonal() const override { return cad_->box_diagonal(); }
+  [[nodiscard]] model::SurfacePoint project_to_surface(
+      LocalIndex surface, const Vec3& point, const model::SurfaceParameters& guess) const override
+  {
+    return cad_->project_to_surface(surface, point, guess);
+  }
+  [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
+                                                   double guess) const override
+  {
+    return cad_->project_to_curve(curve, point, guess);
+  }
+  [[nodiscard]] model::ModelDescription describe() const override;
+  [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override
+  {
+    return cad_->triangles_for_fit(size);
+  }
+
+  using LoadedModel::generate;
+  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions&,
+                                          const NetgenMeshUser&) const override
+  {
+    return fitted();
+  }
+
+ private:
+  [[nodiscard]] mesh::CoarseMesh fitted() const
+  {
+    const coarse::CadSurface cad = cad_->triangles_for_fit(coarse::size_for_fit(own_.mesh));
+    const coarse::SurfaceReference reference(cad.triangles);
+    mesh::CoarseMesh mesh = coarse::fit_to_cad(own_, cad, reference, *cad_, name_);
+    cad_->add_parameters(reference, mesh);
+    mesh::validate(mesh);
+    return mesh;
+  }
+
+  coarse::OwnMesh own_;
+  std::unique_ptr<LoadedModel> cad_;
+  std::string name_;
+};
+
+// Faces are the CAD's, since they have its numbers; solids are the mesh's materials.
+model::ModelDescription CadOwnModel::describe() const
+{
+  model::ModelDescription described = cad_->describe();
+  const mesh::CoarseMesh mesh = fitted();
+  const model::ModelDescription of_mesh = describe_mesh(mesh);
+  described.solids = of_mesh.solids;
+  for (model::FaceDescription& face : described.faces) face.solids.clear();
+  for (LocalIndex p = 0; p < mesh.num_patches(); ++p) {
+    const auto face = std::ranges::find(described.faces, mesh.patch_surface[at(p)] + 1,
+                                        &model::FaceDescription::number);
+    if (face == described.faces.end()) continue;
+    face->name = mesh.patch_names[at(p)];
+    std::vector<LocalIndex> both;
+    std::ranges::set_union(face->solids, of_mesh.faces[at(p)].solids, std::back_inserter(both));
+    face->solids = std::move(both);
+  }
+  return described;
+}
+
 model::TetMeshFile read_mesh_file(const std::filesystem::path& file)
 {
   std::string extension = file.extension().string();
@@ -139,8 +224,14 @@ model::ModelSource import_own_mesh(const std::filesystem::path& file,
   OwnMeshContent content;
   content.own =
       coarse::make_own_mesh(read_mesh_file(file), file.string(), options.feature_angle_deg);
+  if (!options.cad.empty()) content.cad = import_model(options.cad, {options.feature_angle_deg});
   model::ModelSource source{.format = model::Format::own, .file_name = file.string()};
   source.repairs = content.own.repairs;
+  if (content.cad) {
+    source.length_unit = content.cad->length_unit;
+    source.repairs.insert(source.repairs.end(), content.cad->repairs.begin(),
+                          content.cad->repairs.end());
+  }
   source.content = to_bytes(content);
   return source;
 }
@@ -148,7 +239,9 @@ model::ModelSource import_own_mesh(const std::filesystem::path& file,
 std::unique_ptr<LoadedModel> load_own_mesh(const model::ModelSource& source)
 {
   auto content = from_bytes<OwnMeshContent>(source.content);
-  return std::make_unique<FlatOwnModel>(std::move(content.own));
+  if (!content.cad) return std::make_unique<FlatOwnModel>(std::move(content.own));
+  return std::make_unique<CadOwnModel>(std::move(content.own), load_any_model(*content.cad),
+                                       source.file_name);
 }
 
 }  // namespace tessera::netgen

@@ -111,6 +111,17 @@ class StlModel final : public LoadedModel {
 
   [[nodiscard]] model::ModelDescription describe() const override;
 
+  [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override
+  {
+    coarse::CadSurface cad{.triangles = patches_of(surface_, features_),
+                           .size = size,
+                           .patch_names = features_.patch_names,
+                           .solid_names = surface_.material_names};
+    for (LocalIndex p = 0; p < features_.num_patches(); ++p) cad.patch_surface.push_back(p);
+    for (LocalIndex c = 0; c < features_.num_curves(); ++c) cad.curve_number.push_back(c);
+    return cad;
+  }
+
   using LoadedModel::generate;
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
                                           const NetgenMeshUser& use) const override

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -17,9 +18,18 @@ struct OwnMesh {
   /// parameters. File length unit.
   mesh::CoarseMesh mesh{};
   std::vector<std::int32_t> patch_entity{};  ///< What the file calls the entity; 0: unknown.
+  std::vector<char> patch_is_named{};     ///< Shape (num_patches); whether the file has the name.
+  std::vector<char> material_is_named{};  ///< Shape (num_materials), likewise.
+  /// Shape (num_faces). Entry 0: the material that the face is seen from outside of; entry 1: the
+  /// other one, higher, or 0: none.
+  std::vector<std::array<LocalIndex, 2>> face_materials{};
   std::vector<std::string> repairs{};        ///< What was changed or made up, one line each.
 
-  static auto fields(auto& self) { return std::tie(self.mesh, self.patch_entity, self.repairs); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.mesh, self.patch_entity, self.patch_is_named, self.material_is_named,
+                    self.face_materials, self.repairs);
+  }
 
   /// @throws InputError if the parts do not fit together.
   void require_sound() const;
