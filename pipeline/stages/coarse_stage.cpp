@@ -24,7 +24,7 @@ constexpr double kMemory_gib = 16.0;
 bool is_final(const jobs::JobOutcome& outcome)
 {
   return outcome.error == ErrorKind::geometry || outcome.error == ErrorKind::input
-         || outcome.loads_are_lost;
+         || outcome.error == ErrorKind::config || outcome.loads_are_lost;
 }
 
 bool is_endless(const jobs::JobOutcome& outcome)
@@ -100,6 +100,7 @@ std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions&
   coarse::CoarseOptions rounder = asked;
   rounder.curvature *= 2.0;
   fallbacks.push_back(rounder);
+  if (asked.mesher == coarse::Mesher::gmsh) return fallbacks;
   for (const double factor : {1.0, 0.5}) {
     coarse::CoarseOptions remeshed = asked;
     remeshed.max_size *= factor;

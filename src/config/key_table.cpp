@@ -99,12 +99,17 @@ constexpr Key kKeys[] = {
                 "component, in output length units.",
      .reason = "a name for what it holds"},
 
+    {.name = "coarse.mesher",
+     .rule = word_rule([](Case& c) -> coarse::Mesher& { return c.coarse.mesher; }),
+     .meaning = "The program that makes the coarse mesh: \"netgen\", or \"gmsh\", which must be "
+                "installed, for .step, .iges and .brep. Gmsh has no coarse.grading.",
+     .reason = "NETGEN reads every kind of model and is always there"},
     {.name = "coarse.max_size",
      .rule = RealRule{[](Case& c) -> double& { return c.coarse.max_size; }, 0.0, Bound::exclusive,
                       kHuge, Bound::inclusive},
      .unit = "output length unit",
      .meaning =
-         "Largest edge that NETGEN aims at in the coarse mesh. One edge in a hundred may come "
+         "Largest edge that the mesher aims at in the coarse mesh. One edge in a hundred may come "
          "out 1.5 times as long, and small features make the mesh finer by themselves.",
      .reason = "a size suits one model only; give this or size.target",
      .derived_default = "with size.target, a few times that, depending on the model's box",

@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 
+#include "netgen/gmsh_mesher.hpp"
 #include "netgen/loaded_model.hpp"
 
 namespace tessera::netgen {
@@ -102,7 +103,8 @@ class MesherOfModel final : public coarse::CoarseMesher {
 
   [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options) const override
   {
-    return model_.generate(options);
+    return options.mesher == coarse::Mesher::gmsh ? mesh_with_gmsh(model_, options)
+                                                  : model_.generate(options);
   }
 
  private:
@@ -117,6 +119,11 @@ const LoadedModel& loaded(const model::Model& model)
 }
 
 }  // namespace
+
+void LoadedModel::write_brep(const fs::path& /*file*/) const
+{
+  throw ConfigError("coarse.mesher = \"gmsh\" is for .step, .iges and .brep; leave it out");
+}
 
 void require_model_file(const fs::path& file)
 {

@@ -42,6 +42,10 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   /// @throws NetgenError, ConfigError if the model is a mesh.
   [[nodiscard]] virtual coarse::CadSurface triangles_for_fit(double size) const = 0;
 
+  /// @brief Writes the model as a BREP file, its faces in the order of their numbers.
+  /// @throws ConfigError if it is none of OpenCASCADE's.
+  virtual void write_brep(const std::filesystem::path& file) const;
+
   /// @brief Puts parameters into a mesh that fit_to_cad() made, if the model has some.
   /// @param[in] reference Of triangles_for_fit().
   virtual void add_parameters(const coarse::SurfaceReference& /*reference*/,

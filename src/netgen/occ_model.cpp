@@ -56,6 +56,7 @@ class OccModel final : public LoadedModel {
     return with_occ_errors(file_name_, [&] { return describe_shape(content_); });
   }
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
+  void write_brep(const std::filesystem::path& file) const override;
   void add_parameters(const coarse::SurfaceReference& reference,
                       mesh::CoarseMesh& mesh) const override;
   using LoadedModel::generate;
@@ -197,6 +198,15 @@ coarse::CadSurface OccModel::triangles_for_fit(double size) const
     for (LocalIndex c = 0; c < edges_.Extent(); ++c) cad.curve_number.push_back(c);
     return cad;
   });
+}
+
+// In the oldest version of the format, which every program reads.
+void OccModel::write_brep(const std::filesystem::path& file) const
+{
+  const bool is_written =
+      BRepTools::Write(content_.shape, file.c_str(), Standard_False, Standard_False,
+                       TopTools_FormatVersion_VERSION_1);
+  if (!is_written) throw OutputError(file.string() + ": cannot be written");
 }
 
 void OccModel::add_parameters(const coarse::SurfaceReference& reference,
