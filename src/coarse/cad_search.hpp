@@ -54,7 +54,7 @@ class CadSearch {
   const CadSurface& cad_;
   const SurfaceReference& reference_;
   const model::Model& model_;
-  std::vector<Box> boxes_{};                             // Of the patches' triangles.
+  std::vector<Box> boxes_{};  // Of the patches' triangles.
   std::vector<std::set<LocalIndex>> patches_of_curve_{};
   std::vector<Vec3> corners_{};
 };

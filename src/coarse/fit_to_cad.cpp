@@ -182,9 +182,10 @@ class Fitter {
       fail(fmt::format("no face has all corners of the boundary triangle at {}",
                        place_text(middle)));
     }
-    fail(fmt::format("the boundary vertex at {} is off by {:g}, the largest distance; {} is nearest",
-                     place_text(mesh_.position(farthest)), largest,
-                     face_text(search_.nearest_patch(mesh_.position(farthest)).first)));
+    fail(
+        fmt::format("the boundary vertex at {} is off by {:g}, the largest distance; {} is nearest",
+                    place_text(mesh_.position(farthest)), largest,
+                    face_text(search_.nearest_patch(mesh_.position(farthest)).first)));
   }
 
   // Every triangle of the CAD has one of the mesh near it.

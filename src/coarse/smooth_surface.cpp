@@ -33,7 +33,10 @@ Vec3 in_plane(const Vec3& chord, const Vec3& normal)
 
 double cosine_of(double angle_deg) { return std::cos(angle_deg * std::numbers::pi / 180.0); }
 
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
+double angle_between(const Vec3& a, const Vec3& b)
+{
+  return std::atan2(norm(cross(a, b)), dot(a, b));
+}
 
 // Whether the face runs along the edge from its lower to its higher vertex.
 bool ascends(const LocalIndex* face, const std::array<LocalIndex, 2>& edge)
@@ -159,7 +162,9 @@ void SmoothSurface::make_segments(double feature_angle_deg)
     const Vec3 along = unit(to - from);
     Vec3 at_a = tangent(a, s, least_cosine);
     Vec3 at_b = tangent(b, s, least_cosine);
-    const auto mirrored = [&](const Vec3& other) { return other - 2.0 * dot(other, along) * along; };
+    const auto mirrored = [&](const Vec3& other) {
+      return other - 2.0 * dot(other, along) * along;
+    };
     const bool is_straight = at_a == Vec3{} && at_b == Vec3{};
     if (is_straight) at_a = along;
     if (at_a == Vec3{}) at_a = mirrored(at_b);

@@ -10,6 +10,9 @@ namespace {
 
 using Triangle = std::array<LocalIndex, 3>;
 
+// Along an axis all triangles of a flat side would be met at once.
+constexpr Vec3 kSweep{0.8, 0.5, 0.33};
+
 struct Interval {
   double low = 0.0;
   double high = 0.0;
@@ -23,17 +26,23 @@ class TouchSearch {
     for (const Triangle& t : triangles) {
       corners_.push_back({point_at(xyz, t[0]), point_at(xyz, t[1]), point_at(xyz, t[2])});
     }
-    for (std::size_t t = 0; t < triangles.size(); ++t) order_.push_back(t);
-    std::ranges::sort(order_, {}, [this](std::size_t t) { return extent(t, 0).low; });
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto& [a, b, c] = corners_[t];
+      const std::array<double, 3> along{dot(kSweep, a), dot(kSweep, b), dot(kSweep, c)};
+      const auto [low, high] = std::ranges::minmax(along);
+      sweep_.push_back({low, high});
+      order_.push_back(t);
+    }
+    std::ranges::sort(order_, {}, [this](std::size_t t) { return sweep_[t].low; });
   }
 
-  // Sweeps a plane along x; only triangles that it cuts at the same time can touch.
+  // Sweeps a plane; only triangles that it cuts at the same time can touch.
   std::optional<TouchingFaces> run() const
   {
     std::vector<std::size_t> open;
     for (const std::size_t t : order_) {
-      const double front = extent(t, 0).low - tolerance_;
-      std::erase_if(open, [&](std::size_t o) { return extent(o, 0).high < front; });
+      const double front = sweep_[t].low - tolerance_;
+      std::erase_if(open, [&](std::size_t o) { return sweep_[o].high < front; });
       for (const std::size_t o : open) {
         if (!are_boxes_near(o, t)) continue;
         if (const auto place = touch(o, t)) return TouchingFaces{o, t, *place};
@@ -83,7 +92,8 @@ class TouchSearch {
   const std::vector<Triangle>& triangles_;
   double tolerance_;
   std::vector<std::array<Vec3, 3>> corners_{};
-  std::vector<std::size_t> order_{};
+  std::vector<Interval> sweep_{};
+  std::vector<std::size_t> order_{};  // By where the sweep meets them.
 };
 
 }  // namespace

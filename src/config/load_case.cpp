@@ -217,7 +217,8 @@ void check_own_mesh(const Case& loaded, bool is_mesh, const std::string& where)
                             geometry.smooth ? "smooth" : "cad"));
   }
   const std::string kind = geometry.file.extension().string();
-  if (loaded.coarse.mesher == coarse::Mesher::gmsh && (is_mesh || kind == ".geo" || kind == ".stl")) {
+  if (loaded.coarse.mesher == coarse::Mesher::gmsh
+      && (is_mesh || kind == ".geo" || kind == ".stl")) {
     fail(where, fmt::format("coarse.mesher = \"gmsh\" is for .step, .iges and .brep; {}",
                             is_mesh ? "the mesh in geometry.file is the coarse mesh"
                                     : "leave it out for " + kind));

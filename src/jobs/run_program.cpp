@@ -73,7 +73,8 @@ ProgramOutcome run_program(const std::vector<std::string>& arguments,
   int wait_status = 0;
   const std::optional<JobStatus> broken = wait_for(child, limits, wait_status);
   if (broken) return {.status = *broken, .code = SIGKILL};
-  if (WIFSIGNALED(wait_status)) return {.status = JobStatus::crashed, .code = WTERMSIG(wait_status)};
+  if (WIFSIGNALED(wait_status))
+    return {.status = JobStatus::crashed, .code = WTERMSIG(wait_status)};
   const int code = WEXITSTATUS(wait_status);
   return {.status = code == 0 ? JobStatus::ok : JobStatus::exited,
           .code = code,

@@ -160,8 +160,7 @@ class CsgModel final : public LoadedModel {
 
  private:
   [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
-  [[nodiscard]] std::shared_ptr<::netgen::Mesh> mesh_surface(Geometry& geometry,
-                                                             double size) const;
+  [[nodiscard]] std::shared_ptr<::netgen::Mesh> mesh_surface(Geometry& geometry, double size) const;
   void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
 
   std::string file_name_;
@@ -267,8 +266,8 @@ std::shared_ptr<::netgen::Mesh> CsgModel::mesh_surface(Geometry& geometry, doubl
   NetgenSession session(coarse_parameters(options));
   session.parameters().perfstepsend = ::netgen::MESHCONST_OPTSURFACE;
   std::shared_ptr<::netgen::Mesh> mesh;
-  const int failed = session.run(
-      file_name_ + ": surface", [&] { return geometry.GenerateMesh(mesh, session.parameters()); });
+  const int failed = session.run(file_name_ + ": surface",
+                                 [&] { return geometry.GenerateMesh(mesh, session.parameters()); });
   if (failed != 0) {
     throw NetgenError(
         fmt::format("{}: NETGEN cannot mesh its surface; {}", file_name_, session.words()));

@@ -162,8 +162,7 @@ class SurfaceConversion {
       to_.patch_surface.push_back(numbers_.surface(face));
       to_.patch_names.push_back(numbers_.patch_name ? numbers_.patch_name(face) : "");
     }
-    to_.triangles.triangles.push_back(
-        {number(element[0]), number(element[1]), number(element[2])});
+    to_.triangles.triangles.push_back({number(element[0]), number(element[1]), number(element[2])});
     to_.triangles.triangle_patch.push_back(entry->second);
   }
 
@@ -173,11 +172,12 @@ class SurfaceConversion {
     for (const ::netgen::Segment& segment : from_.LineSegments()) {
       const LocalIndex curve = numbers_.curve(segment);
       if (!segment[0].IsValid() || curve == kNoIndex) continue;
-      const auto [a, b] = std::minmax(number(segment[0]), number(segment[1]));
+      const LocalIndex a = number(segment[0]);
+      const LocalIndex b = number(segment[1]);
       const auto next = static_cast<LocalIndex>(row_of_curve_.size());
       const auto [row, is_new] = row_of_curve_.try_emplace(curve, next);
       if (is_new) to_.curve_number.push_back(curve);
-      curve_of_edge.emplace(std::array{a, b}, row->second);
+      curve_of_edge.emplace(std::array{std::min(a, b), std::max(a, b)}, row->second);
     }
     for (const auto& [edge, curve] : curve_of_edge) {
       to_.triangles.edges.push_back(edge);

@@ -47,8 +47,8 @@ struct GeometryNumbers {
                                               const GeometryNumbers& numbers,
                                               const std::string& what);
 
-/// @brief The triangles of a NETGEN surface mesh, one patch a face descriptor that has some, without
-/// size and names of solids.
+/// @brief The triangles of a NETGEN surface mesh, one patch a face descriptor that has some,
+/// without size and names of solids.
 /// @param[in] numbers With numbers of curves.
 [[nodiscard]] coarse::CadSurface surface_of_mesh(const ::netgen::Mesh& from,
                                                  const GeometryNumbers& numbers);

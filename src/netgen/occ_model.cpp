@@ -203,9 +203,8 @@ coarse::CadSurface OccModel::triangles_for_fit(double size) const
 // In the oldest version of the format, which every program reads.
 void OccModel::write_brep(const std::filesystem::path& file) const
 {
-  const bool is_written =
-      BRepTools::Write(content_.shape, file.c_str(), Standard_False, Standard_False,
-                       TopTools_FormatVersion_VERSION_1);
+  const bool is_written = BRepTools::Write(content_.shape, file.c_str(), Standard_False,
+                                           Standard_False, TopTools_FormatVersion_VERSION_1);
   if (!is_written) throw OutputError(file.string() + ": cannot be written");
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <span>
 #include <cctype>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -292,9 +292,10 @@ model::TetMeshFile read_vtu_mesh(const std::filesystem::path& file)
     refuse("it has no linear tets; a coarse mesh is one of linear tets");
   }
   if (const GlobalIndex num = tets.num_other_cells - triangles.num_cells(); num != 0) {
-    refuse(fmt::format("it has {} cells that are neither linear tets nor linear triangles; leave "
-                       "out lines and points, and split other cells into tets",
-                       num));
+    refuse(
+        fmt::format("it has {} cells that are neither linear tets nor linear triangles; leave "
+                    "out lines and points, and split other cells into tets",
+                    num));
   }
   if (tets.point_xyz != triangles.point_xyz) refuse("it has ghosts; save it without them");
   model::TetMeshFile mesh{.point_xyz = tets.point_xyz};
@@ -304,8 +305,8 @@ model::TetMeshFile read_vtu_mesh(const std::filesystem::path& file)
       if (!std::isfinite(x)) refuse(fmt::format("point {} is no finite number", p));
     }
   }
-  mesh.tets = cells_of(
-      tets, tags_of(tets, {"material", "attribute", "gmsh:physical", "CellEntityIds"}));
+  mesh.tets =
+      cells_of(tets, tags_of(tets, {"material", "attribute", "gmsh:physical", "CellEntityIds"}));
   mesh.tet_group_names = names_in(tets, "material_names", 1);
   std::vector<std::int32_t> patches =
       tags_of(triangles, {"patch", "gmsh:physical", "CellEntityIds"});
@@ -351,8 +352,7 @@ std::unique_ptr<LoadedModel> load_own_mesh(const model::ModelSource& source)
 {
   auto content = from_bytes<OwnMeshContent>(source.content);
   if (content.is_smooth) {
-    return std::make_unique<SmoothOwnModel>(std::move(content.own.mesh),
-                                            content.feature_angle_deg);
+    return std::make_unique<SmoothOwnModel>(std::move(content.own.mesh), content.feature_angle_deg);
   }
   if (!content.cad) return std::make_unique<FlatOwnModel>(std::move(content.own.mesh));
   return std::make_unique<CadOwnModel>(std::move(content.own), load_any_model(*content.cad),

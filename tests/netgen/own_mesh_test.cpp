@@ -14,8 +14,9 @@
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/netgen/factory.hpp"
 
-#include "netgen/loaded_model.hpp"
 #include "support/temporary_file.hpp"
+
+#include "netgen/loaded_model.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -23,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::TemporaryFile;
 
-// Corners of a face to a part of the box's diagonal: vertex numbers differ, and files have 16 digits.
+// Corners of a face to a part of the box's diagonal: vertex numbers differ, and files have 16
+// digits.
 using Corners = std::array<std::array<long long, 3>, 3>;
 
 std::map<Corners, LocalIndex> surface_by_place(const mesh::CoarseMesh& mesh, double box_diagonal)
@@ -59,9 +61,8 @@ class OwnMeshOf : public ::testing::TestWithParam<Sample> {
     model_ = load_any_model(import_model(cad_, {}));
     coarse::CoarseOptions options;
     options.max_size = GetParam().size;
-    made_ = model_->generate(options, [&](const auto&, ::netgen::Mesh& mesh) {
-      mesh.Save(file_.path().string());
-    });
+    made_ = model_->generate(
+        options, [&](const auto&, ::netgen::Mesh& mesh) { mesh.Save(file_.path().string()); });
   }
 
   [[nodiscard]] mesh::CoarseMesh read_with(const model::ImportOptions& options) const
@@ -101,8 +102,8 @@ INSTANTIATE_TEST_SUITE_P(Models, OwnMeshOf,
                                            Sample{"bracket.step", 8.0}, Sample{"cone.brep", 4.0},
                                            Sample{"core.geo", 4.0}, Sample{"cylinder.geo", 4.0},
                                            Sample{"shaft.geo", 16.0}),
-                         [](const auto& info) {
-                           std::string name = info.param.name;
+                         [](const auto& of) {
+                           std::string name = of.param.name;
                            std::ranges::replace(name, '.', '_');
                            return name;
                          });
@@ -110,8 +111,8 @@ INSTANTIATE_TEST_SUITE_P(Models, OwnMeshOf,
 TEST(OwnMesh, OfAnotherSizeIsRefusedWithTheDistance)
 {
   const fs::path folder(TESSERA_GEOMETRY_DIR);
-  const auto model = load_any_model(
-      import_model(folder / "cylinder.msh", {.cad = folder / "torus.step"}));
+  const auto model =
+      load_any_model(import_model(folder / "cylinder.msh", {.cad = folder / "torus.step"}));
   try {
     (void)model->generate({});
     FAIL() << "not refused";

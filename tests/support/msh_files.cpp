@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
+#include <iomanip>
+#include <sstream>
 #include <string_view>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace tessera::testing {
 namespace {
@@ -16,6 +16,16 @@ namespace {
 constexpr int kTriangle = 2;
 constexpr int kTet = 4;
 constexpr int kFirstPatchGroup = 101;
+
+// Doubles with all of their digits.
+template <class... Parts>
+std::string joined(const Parts&... parts)
+{
+  std::ostringstream out;
+  out << std::setprecision(17);
+  ((out << parts), ...);
+  return out.str();
+}
 
 // Numbers as words, or raw; text lines end themselves.
 class Writer {
@@ -30,7 +40,7 @@ class Writer {
       std::memcpy(bytes.data(), &value, sizeof(T));
       out_.append(bytes.data(), bytes.size());
     } else {
-      out_ += fmt::format("{} ", value);
+      out_ += joined(value, " ");
     }
   }
   void ints(std::initializer_list<std::int32_t> values)
@@ -49,7 +59,7 @@ class Writer {
   {
     if (!is_raw_) out_ += '\n';
   }
-  void line(std::string_view text) { out_ += fmt::format("{}\n", text); }
+  void line(std::string_view text) { out_ += joined(text, "\n"); }
   void begin_raw() { is_raw_ = is_binary_; }
   void end_raw()
   {
@@ -90,12 +100,12 @@ std::vector<Cell> cells_of(const mesh::CoarseMesh& mesh)
 void write_names(const mesh::CoarseMesh& mesh, Writer& out)
 {
   out.line("$PhysicalNames");
-  out.line(fmt::format("{}", mesh.num_patches() + mesh.num_materials()));
+  out.line(joined(mesh.num_patches() + mesh.num_materials()));
   for (LocalIndex p = 0; p < mesh.num_patches(); ++p) {
-    out.line(fmt::format("2 {} \"{}\"", kFirstPatchGroup + p, mesh.patch_names[at(p)]));
+    out.line(joined("2 ", kFirstPatchGroup + p, " \"", mesh.patch_names[at(p)], "\""));
   }
   for (LocalIndex m = 0; m < mesh.num_materials(); ++m) {
-    out.line(fmt::format("3 {} \"{}\"", m + 1, mesh.material_names[at(m)]));
+    out.line(joined("3 ", m + 1, " \"", mesh.material_names[at(m)], "\""));
   }
   out.line("$EndPhysicalNames");
 }
@@ -103,7 +113,7 @@ void write_names(const mesh::CoarseMesh& mesh, Writer& out)
 void write_old(const mesh::CoarseMesh& mesh, bool is_binary, Writer& out)
 {
   out.line("$Nodes");
-  out.line(fmt::format("{}", mesh.num_vertices()));
+  out.line(joined(mesh.num_vertices()));
   out.begin_raw();
   for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
     out.number<std::int32_t>(v + 1);
@@ -113,7 +123,7 @@ void write_old(const mesh::CoarseMesh& mesh, bool is_binary, Writer& out)
   out.end_raw();
   out.line("$EndNodes\n$Elements");
   const std::vector<Cell> cells = cells_of(mesh);
-  out.line(fmt::format("{}", cells.size()));
+  out.line(joined(cells.size()));
   out.begin_raw();
   std::int32_t number = 0;
   for (const Cell& cell : cells) {
@@ -192,7 +202,7 @@ std::string msh_text(const mesh::CoarseMesh& mesh, MshForm form)
   const bool is_old = form == MshForm::text22 || form == MshForm::binary22;
   Writer out(is_binary);
   out.line("$MeshFormat");
-  out.line(fmt::format("{} {} 8", is_old ? "2.2" : "4.1", is_binary ? 1 : 0));
+  out.line(joined(is_old ? "2.2" : "4.1", " ", is_binary ? 1 : 0, " 8"));
   out.begin_raw();
   if (is_binary) out.ints({1});
   out.end_raw();
@@ -205,32 +215,33 @@ std::string msh_text(const mesh::CoarseMesh& mesh, MshForm form)
 
 std::string vol_text(const mesh::CoarseMesh& mesh)
 {
-  std::string text = "mesh3d\ndimension\n3\ngeomtype\n0\n\n# surfnr bcnr domin domout np p1 p2 p3\n";
-  text += fmt::format("surfaceelements\n{}\n", mesh.num_faces());
+  std::string text =
+      "mesh3d\ndimension\n3\ngeomtype\n0\n\n# surfnr bcnr domin domout np p1 p2 p3\n";
+  text += joined("surfaceelements\n", mesh.num_faces(), "\n");
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
     const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
     const LocalIndex patch = mesh.face_patch[at(f)] + 1;
-    text += fmt::format(" {} {} 1 0 3 {} {} {}\n", patch, patch, v[0] + 1, v[1] + 1, v[2] + 1);
+    text += joined(" ", patch, " ", patch, " 1 0 3 ", v[0] + 1, " ", v[1] + 1, " ", v[2] + 1, "\n");
   }
-  text += fmt::format("\n# matnr np p1 p2 p3 p4\nvolumeelements\n{}\n", mesh.num_tets());
+  text += joined("\n# matnr np p1 p2 p3 p4\nvolumeelements\n", mesh.num_tets(), "\n");
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
     const auto v = mesh.tet(t);
-    text += fmt::format("{} 4 {} {} {} {}\n", mesh.tet_material[at(t)], v[0] + 1, v[1] + 1, v[3] + 1,
-                        v[2] + 1);
+    text += joined(mesh.tet_material[at(t)], " 4 ", v[0] + 1, " ", v[1] + 1, " ", v[3] + 1, " ",
+                   v[2] + 1, "\n");
   }
-  text += fmt::format("\nedgesegmentsgi2\n1\n1 0 1 2 -1 -1 1 0 1 0\n\npoints\n{}\n",
-                      mesh.num_vertices());
+  text +=
+      joined("\nedgesegmentsgi2\n1\n1 0 1 2 -1 -1 1 0 1 0\n\npoints\n", mesh.num_vertices(), "\n");
   for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
     const Vec3 p = mesh.position(v);
-    text += fmt::format("{} {} {}\n", p[0], p[1], p[2]);
+    text += joined(p[0], " ", p[1], " ", p[2], "\n");
   }
-  text += fmt::format("\nmaterials\n{}\n", mesh.num_materials());
+  text += joined("\nmaterials\n", mesh.num_materials(), "\n");
   for (LocalIndex m = 0; m < mesh.num_materials(); ++m) {
-    text += fmt::format("{} {}\n", m + 1, mesh.material_names[at(m)]);
+    text += joined(m + 1, " ", mesh.material_names[at(m)], "\n");
   }
-  text += fmt::format("\nbcnames\n{}\n", mesh.num_patches());
+  text += joined("\nbcnames\n", mesh.num_patches(), "\n");
   for (LocalIndex p = 0; p < mesh.num_patches(); ++p) {
-    text += fmt::format("{} {}\n", p + 1, mesh.patch_names[at(p)]);
+    text += joined(p + 1, " ", mesh.patch_names[at(p)], "\n");
   }
   return text + "\nendmesh\n";
 }

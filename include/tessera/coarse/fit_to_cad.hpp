@@ -14,8 +14,8 @@ namespace tessera::coarse {
 
 /// @brief The surface of a CAD model as triangles, and what the model calls its parts.
 struct CadSurface {
-  PatchSurface triangles{};  ///< Without patches that have no triangle.
-  double size = 0.0;         ///< Edge length that the triangles were made for, > 0.
+  PatchSurface triangles{};                 ///< Without patches that have no triangle.
+  double size = 0.0;                        ///< Edge length that the triangles were made for, > 0.
   std::vector<LocalIndex> patch_surface{};  ///< Shape (num_patches); the Model's surface number.
   std::vector<LocalIndex> curve_number{};   ///< The Model's number of each curve.
   std::vector<std::string> patch_names{};   ///< Shape (num_patches); empty: no name.

@@ -23,7 +23,7 @@ struct OwnMesh {
   /// Shape (num_faces). Entry 0: the material that the face is seen from outside of; entry 1: the
   /// other one, higher, or 0: none.
   std::vector<std::array<LocalIndex, 2>> face_materials{};
-  std::vector<std::string> repairs{};        ///< What was changed or made up, one line each.
+  std::vector<std::string> repairs{};  ///< What was changed or made up, one line each.
 
   static auto fields(auto& self)
   {

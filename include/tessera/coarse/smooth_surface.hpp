@@ -58,8 +58,8 @@ class SmoothSurface {
 
   const mesh::CoarseMesh* mesh_;  // While it is built.
   std::map<Edge, std::vector<LocalIndex>> edge_faces_{};
-  std::map<Edge, std::size_t> sharp_{};                            // Row of segments_.
-  std::map<LocalIndex, std::vector<std::size_t>> sharp_at_{};      // Segments at a vertex.
+  std::map<Edge, std::size_t> sharp_{};                        // Row of segments_.
+  std::map<LocalIndex, std::vector<std::size_t>> sharp_at_{};  // Segments at a vertex.
   std::vector<Vec3> face_normals_{};
   std::vector<Vec3> corner_normals_{};  // Shape (num_faces, 3).
   std::vector<Segment> segments_{};

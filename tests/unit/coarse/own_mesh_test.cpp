@@ -188,7 +188,7 @@ TEST(OwnMesh, RefusesABrokenMeshWithThePlace)
   expect_refused(doubled, "has one corner twice");
 
   TetMeshFile loose = file_of(testing::kuhn_cube(1));
-  loose.triangles.points[0] = loose.triangles.points[0] == 0 ? 7 : 0;
+  std::copy_n(std::array{1, 2, 4}.begin(), 3, loose.triangles.points.begin());
   expect_refused(loose, "triangle 1 at (");
   expect_refused(TetMeshFile{}, "it has no tets");
 
@@ -229,7 +229,7 @@ TEST(OwnMesh, BodiesThatShareAnEdgeOnlyAreTaken)
   TetMeshFile file = one_tet();
   const LocalIndex a = add_point(file, {0, -1, 0});
   const LocalIndex b = add_point(file, {0, 0, -1});
-  add_tet(file, {0, a, 1, b});
+  add_tet(file, {0, 1, a, b});
   EXPECT_EQ(made(file).mesh.num_tets(), 2);
 }
 

@@ -97,8 +97,8 @@ TEST(SmoothSurface, HasItsVerticesAndTheSamePointsOnBothSidesOfAnEdge)
       const std::size_t next = (c + 1) % 3;
       const Vec3 middle = surface.on_face(
           {0.5 * (uv[2 * c] + uv[2 * next]), 0.5 * (uv[2 * c + 1] + uv[2 * next + 1])});
-      const auto [found, is_new] = middle_of_edge.try_emplace(
-          std::minmax(v, mesh.face_vertices[3 * at(f) + next]), middle);
+      const auto [found, is_new] =
+          middle_of_edge.try_emplace(std::minmax(v, mesh.face_vertices[3 * at(f) + next]), middle);
       if (is_new) continue;
       ++num_compared;
       EXPECT_LT(norm(found->second - middle), 1e-15);
