@@ -39,6 +39,7 @@ void require_same_way(bool has_callback, const comm::Communicator& comm)
 config::Case checked(config::Case given, const std::string& case_name)
 {
   if (!given.geometry.file.empty()) given.geometry.file = absolute(given.geometry.file);
+  if (!given.geometry.cad.empty()) given.geometry.cad = absolute(given.geometry.cad);
   config::Case result = config::parse_case(config::to_toml(given), case_name);
   result.output.directory = absolute(result.output.directory);
   return result;

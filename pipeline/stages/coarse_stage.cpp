@@ -23,7 +23,7 @@ constexpr double kMemory_gib = 16.0;
 bool is_final(const jobs::JobOutcome& outcome)
 {
   return outcome.error == ErrorKind::geometry || outcome.error == ErrorKind::input
-         || outcome.loads_are_lost;
+         || outcome.error == ErrorKind::config || outcome.loads_are_lost;
 }
 
 bool is_endless(const jobs::JobOutcome& outcome)
@@ -54,6 +54,13 @@ void throw_if_hopeless(const jobs::JobOutcome& outcome, const std::string& file)
   if (is_final(outcome)) jobs::throw_unless_ok(outcome, file);
 }
 
+// A mesh that the user brings is the coarse mesh; no other one could be made.
+std::vector<coarse::CoarseOptions> tries_for(const config::Case& run_case)
+{
+  if (model::is_mesh_name(run_case.geometry.file)) return {run_case.coarse};
+  return coarse_fallbacks(run_case.coarse);
+}
+
 // Options, and whether the model is cut before.
 struct Attempt {
   coarse::CoarseOptions options{};
@@ -64,7 +71,7 @@ struct Attempt {
 std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTree& planes)
 {
   constexpr std::size_t kTriesOfParts = 2;
-  const std::vector<coarse::CoarseOptions> fallbacks = coarse_fallbacks(run_case.coarse);
+  const std::vector<coarse::CoarseOptions> fallbacks = tries_for(run_case);
   std::vector<Attempt> attempts;
   if (planes.num_parts > 0) {
     for (std::size_t i = 0; i < kTriesOfParts; ++i) attempts.push_back({fallbacks[i], true});
@@ -131,6 +138,7 @@ std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions&
   coarse::CoarseOptions rounder = asked;
   rounder.curvature *= 2.0;
   fallbacks.push_back(rounder);
+  if (asked.mesher == coarse::Mesher::gmsh) return fallbacks;
   for (const double factor : {1.0, 0.5}) {
     coarse::CoarseOptions remeshed = asked;
     remeshed.max_size *= factor;

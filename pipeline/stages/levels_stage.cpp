@@ -115,6 +115,9 @@ void choose_levels(RunResult& run, RunContext& context)
 mesh::SizePoints sizes_for_a_finer_mesh(const RunResult& run, RunContext& context)
 {
   if (!sizing::is_graded(run.resolved.size)) return {};
+  // A mesh is as it is, and Gmsh takes no sizes at points.
+  if (model::is_mesh_name(run.resolved.geometry.file)) return {};
+  if (run.resolved.coarse.mesher == coarse::Mesher::gmsh) return {};
   StageScope stage(context, "levels");
   mesh::SizePoints points = comm::on_root(context.comm, [&] {
     return with_file_context(

@@ -42,7 +42,8 @@ model::ModelSource run_model_stage(const config::Case& run_case, RunContext& con
   StageScope stage(context, "model");
   const std::filesystem::path& file = run_case.geometry.file;
   model::ModelSource source = on_root(context.comm, [&] {
-    const Bytes request = import_request(file, {run_case.coarse.feature_angle_deg});
+    const Bytes request = import_request(
+        file, {run_case.coarse.feature_angle_deg, run_case.geometry.cad, run_case.geometry.smooth});
     const JobRequest job{"model", request, kModelLimits};
     jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
     auto read = read_result(outcome, from_bytes<model::ModelSource>);

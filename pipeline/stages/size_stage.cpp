@@ -49,6 +49,7 @@ int levels_for(double num_fine_tets)
 config::Case resolve_size(const config::Case& given, RunContext& context)
 {
   if (given.size.target == 0.0 || given.coarse.max_size > 0.0) return given;
+  if (model::is_mesh_name(given.geometry.file)) return given;
   const double box_diagonal = on_root(context.comm, [&] { return measure_box(given, context); });
   config::Case resolved = given;
   const int levels = levels_for(estimated_tets(box_diagonal, given.size.target));

@@ -14,10 +14,26 @@ namespace {
 constexpr Key kKeys[] = {
     {.name = "geometry.file",
      .rule = PathRule{[](Case& c) -> std::filesystem::path& { return c.geometry.file; }},
-     .meaning = "The CAD model: .geo (NETGEN's CSG), .stl, .step/.stp, .iges/.igs or .brep. "
-                "Relative to the folder of the case file.",
+     .meaning = "The CAD model: .geo (NETGEN's CSG), .stl, .step/.stp, .iges/.igs or .brep. Or a "
+                "mesh of linear tets that is the coarse mesh: .msh (Gmsh's, 2.2 or 4.1), .vol "
+                "(NETGEN's) or .vtu. Relative to the folder of the case file.",
      .reason = "every case names its model",
      .example = "\"model.step\""},
+    {.name = "geometry.cad",
+     .rule = PathRule{[](Case& c) -> std::filesystem::path& { return c.geometry.cad; }},
+     .meaning =
+         "Of a mesh in geometry.file: the CAD model that it is a mesh of, in the same length "
+         "unit. New points on the boundary go onto it. Relative to the folder of the case "
+         "file.",
+     .reason = "a mesh is refined as it is",
+     .example = "\"model.step\"",
+     .is_optional = true},
+    {.name = "geometry.smooth",
+     .rule = FlagRule{[](Case& c) -> bool& { return c.geometry.smooth; }},
+     .meaning = "Of a mesh in geometry.file without geometry.cad: whether new points on the "
+                "boundary go onto a smooth surface through its vertices. Edges sharper than "
+                "coarse.feature_angle_deg stay.",
+     .reason = "only who made the mesh knows whether its surface is meant to be round"},
     {.name = "geometry.scale",
      .rule = RealRule{[](Case& c) -> double& { return c.geometry.scale; }, 0.0, Bound::exclusive,
                       kHuge, Bound::inclusive},
@@ -83,12 +99,17 @@ constexpr Key kKeys[] = {
                 "component, in output length units.",
      .reason = "a name for what it holds"},
 
+    {.name = "coarse.mesher",
+     .rule = word_rule([](Case& c) -> coarse::Mesher& { return c.coarse.mesher; }),
+     .meaning = "The program that makes the coarse mesh: \"netgen\", or \"gmsh\", which must be "
+                "installed, for .step, .iges and .brep. Gmsh has no coarse.grading.",
+     .reason = "NETGEN reads every kind of model and is always there"},
     {.name = "coarse.max_size",
      .rule = RealRule{[](Case& c) -> double& { return c.coarse.max_size; }, 0.0, Bound::exclusive,
                       kHuge, Bound::inclusive},
      .unit = "output length unit",
      .meaning =
-         "Largest edge that NETGEN aims at in the coarse mesh. One edge in a hundred may come "
+         "Largest edge that the mesher aims at in the coarse mesh. One edge in a hundred may come "
          "out 1.5 times as long, and small features make the mesh finer by themselves.",
      .reason = "a size suits one model only; give this or size.target",
      .derived_default = "with size.target, a few times that, depending on the model's box",
@@ -108,8 +129,8 @@ constexpr Key kKeys[] = {
      .rule = RealRule{[](Case& c) -> double& { return c.coarse.feature_angle_deg; }, 0.0,
                       Bound::exclusive, 180.0, Bound::exclusive},
      .unit = "degrees",
-     .meaning = "STL only: angle between two triangles from which their edge separates two "
-                "patches.",
+     .meaning = "STL and meshes: angle between two triangles from which their edge separates "
+                "two patches.",
      .reason = "NETGEN's own default"},
     {.name = "coarse.optimize",
      .rule = FlagRule{[](Case& c) -> bool& { return c.coarse.optimize; }},

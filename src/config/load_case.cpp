@@ -203,14 +203,44 @@ void apply(const Entry& entry, Case& into)
   fail_value(entry, allowed(key->rule));
 }
 
+// What only a CAD model, or only a mesh, has.
+void check_own_mesh(const Case& loaded, bool is_mesh, const std::string& where)
+{
+  const GeometryOptions& geometry = loaded.geometry;
+  if (is_mesh && loaded.coarse.max_size > 0.0) {
+    fail(where,
+         "coarse.max_size is for a CAD model; the mesh in geometry.file is the coarse mesh, with "
+         "the sizes that it has");
+  }
+  if (!is_mesh && (!geometry.cad.empty() || geometry.smooth)) {
+    fail(where, fmt::format("geometry.{} is for a mesh in geometry.file (.msh, .vol, .vtu)",
+                            geometry.smooth ? "smooth" : "cad"));
+  }
+  const std::string kind = geometry.file.extension().string();
+  if (loaded.coarse.mesher == coarse::Mesher::gmsh
+      && (is_mesh || kind == ".geo" || kind == ".stl")) {
+    fail(where, fmt::format("coarse.mesher = \"gmsh\" is for .step, .iges and .brep; {}",
+                            is_mesh ? "the mesh in geometry.file is the coarse mesh"
+                                    : "leave it out for " + kind));
+  }
+  if (geometry.smooth && !geometry.cad.empty()) {
+    fail(where, "geometry.smooth excludes geometry.cad: the CAD model has the smooth surface");
+  }
+  if (model::is_mesh_name(geometry.cad)) {
+    fail(where, "geometry.cad names a mesh; it must be a CAD model");
+  }
+}
+
 void check_required(const Case& loaded, const std::string& where)
 {
   if (loaded.geometry.file.empty()) {
     fail(where, "no geometry.file; every case names its CAD model");
   }
-  if (loaded.size.target == 0.0 && loaded.coarse.max_size == 0.0) {
+  const bool is_mesh = model::is_mesh_name(loaded.geometry.file);
+  if (loaded.size.target == 0.0 && loaded.coarse.max_size == 0.0 && !is_mesh) {
     fail(where, "no size; give either size.target or coarse.max_size");
   }
+  check_own_mesh(loaded, is_mesh, where);
   if (loaded.size.min > 0.0 && !sizing::are_wanted(loaded.size)) {
     fail(where,
          "size.min alone says nothing; give size.target, size.max, size.curvature, size.field "
@@ -247,6 +277,7 @@ void resolve_paths(const fs::path& case_file, Case& loaded)
     return fs::absolute(case_file.parent_path() / path).lexically_normal();
   };
   loaded.geometry.file = beside_case(loaded.geometry.file);
+  if (!loaded.geometry.cad.empty()) loaded.geometry.cad = beside_case(loaded.geometry.cad);
   if (!loaded.size.field.empty()) loaded.size.field = beside_case(loaded.size.field);
   if (loaded.output.directory.empty()) loaded.output.directory = "outputs" / case_file.stem();
 }

@@ -25,6 +25,14 @@ using mesh::MeshArrays;
 /// Points of a cell of the kinds that are read; earlier ones come first where a file has several.
 constexpr std::array kFirstOrder{4, 3};
 constexpr std::array kUpToSecondOrder{4, 3, 10, 6};
+constexpr std::array kTriangles{3};
+
+std::span<const int> kinds_of(CellOrder order)
+{
+  if (order == CellOrder::triangles) return kTriangles;
+  if (order == CellOrder::first) return kFirstOrder;
+  return kUpToSecondOrder;
+}
 
 /// @brief Which cells are kept, and how many there were.
 struct Selection {
@@ -275,10 +283,7 @@ void append(MeshArrays& to, const MeshArrays& from)
   }
   require(!pieces.empty(), "it has no piece");
 
-  const std::span<const int> kinds = order == CellOrder::first
-                                         ? std::span<const int>(kFirstOrder)
-                                         : std::span<const int>(kUpToSecondOrder);
-  const int kind = kind_to_read(pieces, kinds);
+  const int kind = kind_to_read(pieces, kinds_of(order));
   MeshArrays mesh = reduce(pieces.front(), encoding, kind);
   for (std::size_t i = 1; i < pieces.size(); ++i) append(mesh, reduce(pieces[i], encoding, kind));
   read_field_data(grid, encoding, mesh);

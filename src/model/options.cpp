@@ -2,6 +2,7 @@
 #include "tessera/model/options.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <string_view>
 
@@ -42,6 +43,14 @@ std::string defect(const FaceCriteria& of)
 std::string defect(const SolidCriteria& of) { return defect_of_box(of.box_min, of.box_max); }
 
 }  // namespace
+
+bool is_mesh_name(const std::filesystem::path& file)
+{
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".msh" || extension == ".vol" || extension == ".vtu";
+}
 
 std::string defect_of(const PartName& name)
 {

@@ -82,21 +82,22 @@ class Naming {
   std::vector<std::string> names_;  // Empty: not named.
 };
 
-// Patches that have a name from the case become one row, at the place of the first of them.
+// Patches that have a name from the case become one row, at the place of the first of them. Others
+// stay in the row that they have.
 std::vector<LocalIndex> joined_rows(const NamedParts& parts, const mesh::CoarseMesh& coarse)
 {
   std::map<std::string, LocalIndex> rows;
   for (const NumberedName& face : parts.faces) rows[face.name] = kNoIndex;
   std::vector<LocalIndex> patch_row;
+  std::map<LocalIndex, LocalIndex> row_before;
   LocalIndex next = 0;
-  for (const std::string& name : coarse.patch_names) {
-    const auto found = rows.find(name);
-    if (found == rows.end()) {
-      patch_row.push_back(next++);
-      continue;
-    }
-    if (found->second == kNoIndex) found->second = next++;
-    patch_row.push_back(found->second);
+  for (LocalIndex p = 0; p < coarse.num_patches(); ++p) {
+    const auto found = rows.find(coarse.patch_names[at(p)]);
+    const LocalIndex before = coarse.patch_row.empty() ? p : coarse.patch_row[at(p)];
+    LocalIndex& row = found != rows.end() ? found->second
+                                          : row_before.try_emplace(before, kNoIndex).first->second;
+    if (row == kNoIndex) row = next++;
+    patch_row.push_back(row);
   }
   return patch_row;
 }

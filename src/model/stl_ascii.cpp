@@ -10,6 +10,8 @@
 
 #include "tessera/base/error.hpp"
 
+#include "file_cursor.hpp"
+
 namespace tessera::model {
 namespace {
 
@@ -98,16 +100,6 @@ class AsciiReader {
   }
 
   [[nodiscard]] std::string here() const { return fmt::format("{}:{}: ", name_, line_); }
-
-  static std::string printable(std::string_view word)
-  {
-    constexpr std::size_t kLongest = 40;
-    std::string text(word.substr(0, kLongest));
-    for (char& c : text) {
-      if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
-    }
-    return text;
-  }
 
   bool at_end()
   {

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <string_view>
 
@@ -15,6 +13,7 @@
 
 #include "tessera/base/error.hpp"
 
+#include "file_cursor.hpp"
 #include "stl_ascii.hpp"
 
 namespace tessera::model {
@@ -26,19 +25,6 @@ constexpr std::size_t kHeaderSize = 80;
 constexpr std::size_t kTrianglesAt = 84;
 constexpr std::size_t kTriangleSize = 50;
 constexpr std::size_t kNormalSize = 12;
-
-std::string read_bytes(const std::filesystem::path& file)
-{
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw InputError(file.string() + ": no such file");
-  }
-  std::ifstream in(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in.good() && !in.eof()) throw InputError(file.string() + ": cannot be read");
-  if (bytes.empty()) throw InputError(file.string() + ": is empty, or cannot be read");
-  return bytes;
-}
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at)
 {

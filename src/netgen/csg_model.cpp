@@ -152,6 +152,7 @@ class CsgModel final : public LoadedModel {
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
                                                    double guess) const override;
   [[nodiscard]] model::ModelDescription describe() const override;
+  [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
@@ -159,8 +160,9 @@ class CsgModel final : public LoadedModel {
                                                  const cut::CutTree& tree) const override;
 
  private:
-  [[nodiscard]] const std::string& name() const override { return file_name_; }
   [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
+  [[nodiscard]] std::shared_ptr<::netgen::Mesh> netgen_surface(Geometry& geometry,
+                                                                double size) const;
   void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
 
   std::string file_name_;
@@ -306,20 +308,38 @@ coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
 
 // The triangles that NETGEN has for pictures leave out parts of cylinders and cones, so the surface
 // is meshed.
-model::ModelDescription CsgModel::describe() const
+std::shared_ptr<::netgen::Mesh> CsgModel::netgen_surface(Geometry& geometry, double size) const
 {
-  constexpr double kSize = 0.1;  // In parts of the box diagonal.
-  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
   coarse::CoarseOptions options;
-  options.max_size = kSize * box_diagonal_;
+  options.max_size = size;
   NetgenSession session(surface_parameters(options));
   std::shared_ptr<::netgen::Mesh> mesh;
-  const int failed = session.run(
-      file_name_ + ": surface", [&] { return geometry->GenerateMesh(mesh, session.parameters()); });
+  const int failed = session.run(file_name_ + ": surface",
+                                 [&] { return geometry.GenerateMesh(mesh, session.parameters()); });
   if (failed != 0) {
     throw NetgenError(
         fmt::format("{}: NETGEN cannot mesh its surface; {}", file_name_, session.words()));
   }
+  return mesh;
+}
+
+coarse::CadSurface CsgModel::triangles_for_fit(double size) const
+{
+  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
+  const auto mesh = netgen_surface(*geometry, size);
+  coarse::CadSurface cad = surface_of_mesh(*mesh, numbers_of(*geometry));
+  cad.size = size;
+  for (int solid = 0; solid < geometry->GetNTopLevelObjects(); ++solid) {
+    cad.solid_names.push_back(name_of_solid(*geometry, solid));
+  }
+  return cad;
+}
+
+model::ModelDescription CsgModel::describe() const
+{
+  constexpr double kSize = 0.1;  // In parts of the box diagonal.
+  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
+  const auto mesh = netgen_surface(*geometry, kSize * box_diagonal_);
   model::ModelDescription described = describe_csg(*geometry, *mesh);
   const GeometryNumbers numbers = numbers_of(*geometry);
   std::set<LocalIndex> curves;

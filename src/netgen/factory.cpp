@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 
+#include "netgen/gmsh_mesher.hpp"
 #include "netgen/loaded_model.hpp"
 
 namespace tessera::netgen {
@@ -33,6 +34,9 @@ constexpr FileKind kFileKinds[] = {
     {".iges", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
     {".igs", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
     {".brep", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".msh", import_own_mesh},
+    {".vol", import_own_mesh},
+    {".vtu", import_own_mesh},
 };
 
 std::string lower_case_extension(const fs::path& file)
@@ -100,7 +104,9 @@ class MesherOfModel final : public coarse::CoarseMesher {
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const cut::CutTree& planes) const override
   {
-    return model_.mesh_surface(options, planes);
+    if (options.mesher == coarse::Mesher::netgen) return model_.mesh_surface(options, planes);
+    if (planes.num_parts > 0) throw ConfigError("Gmsh meshes whole models only, not their parts");
+    return {.mesh = mesh_with_gmsh(model_, options)};
   }
 
   [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
@@ -122,6 +128,11 @@ const LoadedModel& loaded(const model::Model& model)
 
 }  // namespace
 
+void LoadedModel::write_brep(const fs::path& /*file*/) const
+{
+  throw ConfigError("coarse.mesher = \"gmsh\" is for .step, .iges and .brep; leave it out");
+}
+
 void require_model_file(const fs::path& file)
 {
   static_cast<void>(kind_of(file));
@@ -136,7 +147,7 @@ model::ModelSource import_model(const fs::path& file, const ImportOptions& optio
   return kind_of(file).import(file, options);
 }
 
-std::unique_ptr<model::Model> load_model(const ModelSource& source)
+std::unique_ptr<LoadedModel> load_any_model(const ModelSource& source)
 {
   switch (source.format) {
     case model::Format::csg:
@@ -145,9 +156,16 @@ std::unique_ptr<model::Model> load_model(const ModelSource& source)
       return load_stl(source);
     case model::Format::occ:
       return load_occ(source);
+    case model::Format::own:
+      return load_own_mesh(source);
     default:
       throw InputError(source.file_name + ": unknown format of model");
   }
+}
+
+std::unique_ptr<model::Model> load_model(const ModelSource& source)
+{
+  return load_any_model(source);
 }
 
 model::ModelDescription describe_model(const model::Model& model)

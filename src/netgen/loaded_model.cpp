@@ -49,7 +49,7 @@ coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*opt
 coarse::DomainTets LoadedModel::mesh_domain(const coarse::DomainSkin& skin,
                                             const coarse::CoarseOptions& options) const
 {
-  return netgen::mesh_domain(skin, options, name() + ": coarse mesh");
+  return netgen::mesh_domain(skin, options);
 }
 
 mesh::CoarseMesh LoadedModel::generate(const coarse::CoarseOptions& options,

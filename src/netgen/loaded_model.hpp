@@ -7,6 +7,8 @@
 #include <string>
 
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/coarse/fit_to_cad.hpp"
+#include "tessera/coarse/surface_reference.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 
@@ -53,10 +55,24 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
                                           const NetgenMeshUser& use) const;
   using CoarseMesher::generate;
 
- protected:
-  /// @brief What messages call the model.
-  [[nodiscard]] virtual const std::string& name() const = 0;
+  /// @brief The surface as triangles with edges of about that length, to fit a mesh to it.
+  /// @throws NetgenError, ConfigError if the model is a mesh.
+  [[nodiscard]] virtual coarse::CadSurface triangles_for_fit(double size) const = 0;
+
+  /// @brief Writes the model as a BREP file, its faces in the order of their numbers.
+  /// @throws ConfigError if it is none of OpenCASCADE's.
+  virtual void write_brep(const std::filesystem::path& file) const;
+
+  /// @brief Puts parameters into a mesh that fit_to_cad() made, if the model has some.
+  /// @param[in] reference Of triangles_for_fit().
+  virtual void add_parameters(const coarse::SurfaceReference& /*reference*/,
+                              mesh::CoarseMesh& /*mesh*/) const
+  {
+  }
 };
+
+/// @brief load_model(), as what it is. @throws As load_model().
+[[nodiscard]] std::unique_ptr<LoadedModel> load_any_model(const model::ModelSource& source);
 
 // One pair of functions a format; the contracts are those of import_model() and load_model().
 [[nodiscard]] model::ModelSource import_csg(const std::filesystem::path& file);
@@ -65,6 +81,10 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
 [[nodiscard]] model::ModelSource import_stl(const std::filesystem::path& file,
                                             const model::ImportOptions& options);
 [[nodiscard]] std::unique_ptr<LoadedModel> load_stl(const model::ModelSource& source);
+
+[[nodiscard]] model::ModelSource import_own_mesh(const std::filesystem::path& file,
+                                                 const model::ImportOptions& options);
+[[nodiscard]] std::unique_ptr<LoadedModel> load_own_mesh(const model::ModelSource& source);
 
 [[nodiscard]] model::ModelSource import_occ(const std::filesystem::path& file);
 [[nodiscard]] std::unique_ptr<LoadedModel> load_occ(const model::ModelSource& source);

@@ -159,7 +159,78 @@ class Conversion {
   mesh::CoarseMesh& mesh_ = to_.mesh;
 };
 
+class SurfaceConversion {
+ public:
+  SurfaceConversion(const ::netgen::Mesh& from, const GeometryNumbers& numbers)
+      : from_(from), numbers_(numbers)
+  {
+  }
+
+  coarse::CadSurface run()
+  {
+    for (int p = 1; p <= static_cast<int>(from_.GetNP()); ++p) {
+      const auto& point = from_.Point(p);
+      to_.triangles.vertex_xyz.push_back({point(0), point(1), point(2)});
+    }
+    to_.triangles.vertex_is_fixed.assign(to_.triangles.vertex_xyz.size(), 0);
+    for (const auto& element : from_.SurfaceElements()) {
+      if (!element.IsDeleted()) add(element);
+    }
+    add_edges();
+    return std::move(to_);
+  }
+
+ private:
+  // NETGEN's point out of DomainIn.
+  void add(const ::netgen::Element2d& element)
+  {
+    const auto [entry, is_new] =
+        patch_of_.try_emplace(element.GetIndex(), to_.triangles.num_patches());
+    if (is_new) {
+      const ::netgen::FaceDescriptor& face = from_.GetFaceDescriptor(element.GetIndex());
+      to_.triangles.patch_materials.push_back(
+          {std::max(face.DomainIn(), 0), std::max(face.DomainOut(), 0)});
+      to_.patch_surface.push_back(numbers_.surface(face));
+      to_.patch_names.push_back(numbers_.patch_name ? numbers_.patch_name(face) : "");
+    }
+    to_.triangles.triangles.push_back({number(element[0]), number(element[1]), number(element[2])});
+    to_.triangles.triangle_patch.push_back(entry->second);
+  }
+
+  void add_edges()
+  {
+    std::map<std::array<LocalIndex, 2>, LocalIndex> curve_of_edge;
+    for (const ::netgen::Segment& segment : from_.LineSegments()) {
+      const LocalIndex curve = numbers_.curve(segment);
+      if (!segment[0].IsValid() || curve == kNoIndex) continue;
+      const LocalIndex a = number(segment[0]);
+      const LocalIndex b = number(segment[1]);
+      const auto next = static_cast<LocalIndex>(row_of_curve_.size());
+      const auto [row, is_new] = row_of_curve_.try_emplace(curve, next);
+      if (is_new) to_.curve_number.push_back(curve);
+      curve_of_edge.emplace(std::array{std::min(a, b), std::max(a, b)}, row->second);
+    }
+    for (const auto& [edge, curve] : curve_of_edge) {
+      to_.triangles.edges.push_back(edge);
+      to_.triangles.edge_curve.push_back(curve);
+    }
+  }
+
+  static LocalIndex number(PointIndex p) { return p - PointIndex::BASE; }
+
+  const ::netgen::Mesh& from_;
+  const GeometryNumbers& numbers_;
+  std::map<int, LocalIndex> patch_of_{};             // By descriptor.
+  std::map<LocalIndex, LocalIndex> row_of_curve_{};  // By the model's number.
+  coarse::CadSurface to_{};
+};
+
 }  // namespace
+
+coarse::CadSurface surface_of_mesh(const ::netgen::Mesh& from, const GeometryNumbers& numbers)
+{
+  return SurfaceConversion(from, numbers).run();
+}
 
 std::string default_patch_name(LocalIndex patch) { return fmt::format("patch_{}", patch + 1); }
 

@@ -10,6 +10,7 @@
 
 #include "tessera/base/types.hpp"
 #include "tessera/coarse/coarse_surface.hpp"
+#include "tessera/coarse/fit_to_cad.hpp"
 #include "tessera/model/model.hpp"
 
 namespace tessera::netgen {
@@ -67,5 +68,11 @@ void add_domains(coarse::CoarseSurface& surface, double max_size,
 
 /// @brief Adds tets of ours, corners as rows of vertices, all of one domain. Local.
 void add_tets(::netgen::Mesh& mesh, const std::vector<LocalIndex>& tet_vertices, int domain = 1);
+
+/// @brief The triangles of a NETGEN surface mesh, one patch a face descriptor that has some,
+/// without size and names of solids.
+/// @param[in] numbers With numbers of curves.
+[[nodiscard]] coarse::CadSurface surface_of_mesh(const ::netgen::Mesh& from,
+                                                 const GeometryNumbers& numbers);
 
 }  // namespace tessera::netgen

@@ -56,6 +56,10 @@ class OccModel final : public LoadedModel {
   {
     return with_occ_errors(file_name_, [&] { return describe_shape(content_); });
   }
+  [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
+  void write_brep(const std::filesystem::path& file) const override;
+  void add_parameters(const coarse::SurfaceReference& reference,
+                      mesh::CoarseMesh& mesh) const override;
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
@@ -63,7 +67,6 @@ class OccModel final : public LoadedModel {
                                                  const cut::CutTree& tree) const override;
 
  private:
-  [[nodiscard]] const std::string& name() const override { return file_name_; }
   [[nodiscard]] const OccSurface& surface_at(LocalIndex surface) const;
   [[nodiscard]] const OccCurve& curve_at(LocalIndex curve) const;
   [[nodiscard]] GeometryNumbers numbers_for(const ::netgen::OCCGeometry& geometry) const;
@@ -211,10 +214,37 @@ coarse::CoarseSurface OccModel::remesh(const coarse::CoarseOptions& options) con
       [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
       [this](LocalIndex material) { return solid_name(material); }};
   coarse::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names, file_name_);
-  guess_parameters(reference, coarse.mesh);
-  locate_face_corners(coarse.mesh);
-  locate_segment_ends(coarse.mesh);
+  add_parameters(reference, coarse.mesh);
   return coarse;
+}
+
+coarse::CadSurface OccModel::triangles_for_fit(double size) const
+{
+  return with_occ_errors(file_name_, [&] {
+    coarse::CadSurface cad{.triangles = tessellation_of(content_.shape, size),
+                           .size = size,
+                           .patch_names = content_.face_names,
+                           .solid_names = content_.solid_names};
+    for (LocalIndex p = 0; p < faces_.Extent(); ++p) cad.patch_surface.push_back(p);
+    for (LocalIndex c = 0; c < edges_.Extent(); ++c) cad.curve_number.push_back(c);
+    return cad;
+  });
+}
+
+// In the oldest version of the format, which every program reads.
+void OccModel::write_brep(const std::filesystem::path& file) const
+{
+  const bool is_written = BRepTools::Write(content_.shape, file.c_str(), Standard_False,
+                                           Standard_False, TopTools_FormatVersion_VERSION_1);
+  if (!is_written) throw OutputError(file.string() + ": cannot be written");
+}
+
+void OccModel::add_parameters(const coarse::SurfaceReference& reference,
+                              mesh::CoarseMesh& mesh) const
+{
+  guess_parameters(reference, mesh);
+  locate_face_corners(mesh);
+  locate_segment_ends(mesh);
 }
 
 // Those of the tessellation, a little inside each face and segment: at a seam that is their side.

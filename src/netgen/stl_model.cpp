@@ -111,6 +111,17 @@ class StlModel final : public LoadedModel {
 
   [[nodiscard]] model::ModelDescription describe() const override;
 
+  [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override
+  {
+    coarse::CadSurface cad{.triangles = patches_of(surface_, features_),
+                           .size = size,
+                           .patch_names = features_.patch_names,
+                           .solid_names = surface_.material_names};
+    for (LocalIndex p = 0; p < features_.num_patches(); ++p) cad.patch_surface.push_back(p);
+    for (LocalIndex c = 0; c < features_.num_curves(); ++c) cad.curve_number.push_back(c);
+    return cad;
+  }
+
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override
@@ -120,8 +131,6 @@ class StlModel final : public LoadedModel {
   }
 
  private:
-  [[nodiscard]] const std::string& name() const override { return name_; }
-
   // Where NETGEN cannot mesh the surface or never ends: our own triangles, made well-shaped.
   [[nodiscard]] coarse::CoarseSurface remesh(const coarse::CoarseOptions& options) const
   {

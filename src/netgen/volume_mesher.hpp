@@ -27,11 +27,9 @@ struct SurfaceNames {
 
 /// @brief Fills a domain: NETGEN's volume mesher, then our optimiser, which is some twenty times
 /// faster than NETGEN's. Sizes inside follow from the skin, the options' grading and their points.
-/// @param[in] what Put before an error: which model.
 /// @note Local; may crash or hang inside NETGEN.
 /// @throws NetgenError if NETGEN gives up.
 [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
-                                             const coarse::CoarseOptions& options,
-                                             const std::string& what);
+                                             const coarse::CoarseOptions& options);
 
 }  // namespace tessera::netgen

@@ -55,6 +55,7 @@ CASES = {
     "core": Expected(1000, 1e-9, ("core", "shell", "matrix"), CORE_PATCHES),
     "cylinder": Expected(math.pi * 5**2 * 20, 0.05, ("cylinder",), CYLINDER_PATCHES, ("mm",)),
     "frustum": Expected(FRUSTUM, 0.05, ("material_1",), numbered(3)),
+    "own_mesh": Expected(math.pi * 5**2 * 20, 0.1, ("rod",), frozenset({"jacket", "ends"}), ("mm",)),
     # The sum of the signed volumes under the triangles of the file.
     "plate": Expected(52942.7655, 0.01, ("material_1",), numbered(7)),
     "shaft": Expected(

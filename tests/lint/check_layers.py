@@ -13,7 +13,7 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "jobs": BASE,
     "mesh": BASE | {"comm"},
     "model": CORE,
-    "netgen": CORE | {"model", "cut", "coarse", "fill", "improve"},
+    "netgen": CORE | {"model", "cut", "coarse", "fill", "improve", "io"},
     "coarse": CORE | {"model", "cut", "optimize"},
     "cut": CORE | {"model"},
     "decompose": CORE | {"model"},

@@ -29,8 +29,25 @@ constexpr auto enum_words(SurfaceMesher /*tag*/)
   });
 }
 
+/// @brief The program that makes the coarse mesh.
+enum class Mesher : int {
+  netgen,  ///< NETGEN, linked.
+  gmsh,    ///< Gmsh, run as a program.
+};
+[[nodiscard]] constexpr Mesher last_value(Mesher /*type*/) { return Mesher::gmsh; }
+
+/// @brief Words of `coarse.mesher`.
+constexpr auto enum_words(Mesher /*tag*/)
+{
+  return std::to_array<EnumWord<Mesher>>({
+      {Mesher::netgen, "netgen"},
+      {Mesher::gmsh, "gmsh"},
+  });
+}
+
 /// @brief Options of the coarse mesh; table `[coarse]` of a case file.
 struct CoarseOptions {
+  Mesher mesher = Mesher::netgen;
   double max_size = 0.0;   ///< Largest edge that the mesher aims at (some come out longer), output
                            ///< length unit, > 0; 0: size.target says it.
   double grading = 0.3;    ///< Growth of the size away from small features, in (0, 1].
@@ -49,8 +66,9 @@ struct CoarseOptions {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.max_size, self.grading, self.curvature, self.feature_angle_deg,
-                    self.optimize, self.surface_mesher, self.timeout_s, self.points);
+    return std::tie(self.mesher, self.max_size, self.grading, self.curvature,
+                    self.feature_angle_deg, self.optimize, self.surface_mesher, self.timeout_s,
+                    self.points);
   }
 
   friend bool operator==(const CoarseOptions&, const CoarseOptions&) = default;

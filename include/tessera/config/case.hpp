@@ -22,8 +22,10 @@ namespace tessera::config {
 
 /// @brief What to mesh; table `[geometry]` of a case file.
 struct GeometryOptions {
-  std::filesystem::path file{};          ///< The CAD model; absolute in a loaded case.
-  double scale = 1.0;                    ///< Output length units per file length unit, > 0.
+  std::filesystem::path file{};  ///< CAD model or coarse mesh; absolute in a loaded case.
+  std::filesystem::path cad{};   ///< CAD model of a coarse mesh, absolute; empty: none is given.
+  bool smooth = false;           ///< Whether the surface of a coarse mesh is made smooth.
+  double scale = 1.0;            ///< Output length units per file length unit, > 0.
   std::vector<model::PartName> names{};  ///< Of patches and materials.
 
   friend bool operator==(const GeometryOptions&, const GeometryOptions&) = default;
@@ -32,7 +34,8 @@ struct GeometryOptions {
 /// @brief Everything a run is told: the options of every stage. What a value may be, its unit and
 /// the reason for its default stand in configs/reference.toml.
 ///
-/// A loaded case has a model file, and either size.target or coarse.max_size (the other one is 0).
+/// A loaded case has a model file, and either size.target or coarse.max_size (the other one is 0);
+/// if that file is a mesh, no coarse.max_size.
 /// Its model and size field, if it has one, have absolute paths.
 struct Case {
   GeometryOptions geometry{};

@@ -61,7 +61,11 @@ void write_pvtu(const std::filesystem::path& path, const std::vector<std::filesy
 [[nodiscard]] std::vector<std::filesystem::path> piece_files(const std::filesystem::path& path);
 
 /// @brief Which cells a reader takes.
-enum class CellOrder { first, up_to_second };
+enum class CellOrder {
+  first,
+  up_to_second,
+  triangles,  ///< The linear triangles alone, also in a file of tets.
+};
 
 /// @brief Reads a .vtu of any tool, in every encoding that VTK's XML format has. Local.
 /// A build without VTK cannot read compressed arrays.

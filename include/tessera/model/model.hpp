@@ -16,22 +16,30 @@ namespace tessera::model {
 
 /// @brief What import needs to know beside the file.
 struct ImportOptions {
-  /// STL: dihedral angle, degrees in (0, 180), from which an edge separates two patches.
+  /// STL, mesh files: dihedral angle, degrees in (0, 180), from which an edge separates two
+  /// patches.
   double feature_angle_deg = 30.0;
+  std::filesystem::path cad{};  ///< Of a mesh file: the CAD model it is of; empty: none.
+  bool smooth = false;          ///< Of a mesh file without CAD model: its surface is made smooth.
 
-  static auto fields(auto& self) { return std::tie(self.feature_angle_deg); }
+  static auto fields(auto& self) { return std::tie(self.feature_angle_deg, self.cad, self.smooth); }
 };
 
-enum class Format : int { csg, stl, occ };  ///< occ: STEP, IGES and BREP, kept as one BREP.
-[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::occ; }
+enum class Format : int {
+  csg,
+  stl,
+  occ,  ///< STEP, IGES and BREP, kept as one BREP.
+  own,  ///< A tet mesh that is the coarse mesh itself.
+};
+[[nodiscard]] constexpr Format last_value(Format /*type*/) { return Format::own; }
 
 /// @brief What every rank loads the model from: the bytes that rank 0 read (and healed), so that no
 /// rank can see another file than the others.
 struct ModelSource {
   Format format = Format::csg;
-  std::string file_name{};             ///< For messages only.
-  std::string length_unit{};           ///< "mm", "m", …; empty if the file does not say.
-  Bytes content{};                     ///< .geo text; checked STL triangles; BREP and names.
+  std::string file_name{};    ///< For messages only.
+  std::string length_unit{};  ///< "mm", "m", …; empty if the file does not say.
+  Bytes content{};  ///< .geo text; checked STL triangles; BREP and names; checked mesh and CAD.
   std::vector<std::string> repairs{};  ///< What import changed, one line each; for the report.
 
   static auto fields(auto& self)

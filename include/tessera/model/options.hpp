@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <variant>
 #include <vector>
@@ -48,6 +49,10 @@ struct PartName {
 
   friend bool operator==(const PartName&, const PartName&) = default;
 };
+
+/// @brief Whether a file's name is that of a tet mesh, which then is the coarse mesh: .msh, .vol or
+/// .vtu, in lower or upper case. The file need not exist. Local.
+[[nodiscard]] bool is_mesh_name(const std::filesystem::path& file);
 
 /// @brief What is wrong with criteria whose values are right one by one; empty if nothing is.
 /// Local.
