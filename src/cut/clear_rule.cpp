@@ -21,7 +21,7 @@ constexpr std::size_t kNumOffsets = 128;     // Of each direction.
 constexpr std::size_t kMostOfDirection = 6;  // Planes of one direction and band that are kept.
 
 // By how much of itself a side may be larger than wanted: the ends of bands.
-constexpr std::array kImbalances{0.15, 0.35, 0.7};
+constexpr std::array kImbalances{0.12, 0.3, 0.6};
 
 // What a plane must have.
 struct Demand {
@@ -32,17 +32,20 @@ struct Demand {
 };
 
 // Tried one after the other: what is unbalanced is better than what is narrow.
-constexpr double kLeastClearance = 0.25;
+constexpr double kLeastClearance = 0.35;
 constexpr std::array kDemands{Demand{kImbalances[0], 0.5, 0.4, 30.0},
                               Demand{kImbalances[1], 0.5, 0.4, 30.0},
-                              Demand{kImbalances[0], kLeastClearance, 0.2, 20.0},
-                              Demand{kImbalances[2], kLeastClearance, 0.2, 20.0}};
+                              Demand{kImbalances[0], kLeastClearance, 0.3, 25.0},
+                              Demand{kImbalances[2], kLeastClearance, 0.3, 25.0}};
 
 // Costs of what differ by less are equal: the first one is taken. So rounding does not choose.
 constexpr double kSameCost = 1e-6;
 
 // Taking a plane of a neighbour saves lines on the border between them.
 constexpr double kCostOfOwnPlane = 0.05;
+
+// Where an oblique plane cuts a curved face, the mesher finds a curve that is not simple.
+constexpr double kCostOfOblique = 0.3;
 
 struct Candidate {
   Plane plane{};
@@ -68,7 +71,9 @@ class ClearSearch {
   {
     add_foreign();
     const LandmarkFinder finder(part_, coarse_size);
-    for (const Vec3& normal : candidate_directions(part_, moments_)) add_of(normal, finder);
+    for (const Direction& direction : candidate_directions(part_, moments_)) {
+      add_of(direction, finder);
+    }
     std::ranges::stable_sort(candidates_, {}, cost_without_noise);
   }
 
@@ -120,8 +125,10 @@ class ClearSearch {
   }
 
   // The best planes of a direction by what costs little to know.
-  void add_of(const Vec3& normal, const LandmarkFinder& finder)
+  void add_of(const Direction& direction, const LandmarkFinder& finder)
   {
+    const Vec3& normal = direction.normal;
+    const double own_cost = kCostOfOwnPlane + (direction.is_plain ? 0.0 : kCostOfOblique);
     const std::vector<double> heights = part_.heights({normal, 0.0});
     const Profile profile = profile_of(part_, normal, heights, kNumOffsets);
     const std::vector<Landmark> landmarks = finder.find(heights);
@@ -129,8 +136,8 @@ class ClearSearch {
     std::swap(own, candidates_);
     for (std::size_t entry = 1; entry + 1 < kNumOffsets; ++entry) {
       const double offset = profile.offset(entry);
-      add({.plane = {normal, offset}, .cost = kCostOfOwnPlane}, profile.volume[entry],
-          profile.area[entry], clearance_of(landmarks, offset, coarse_size_, kLargestClearance));
+      add({.plane = {normal, offset}, .cost = own_cost}, profile.volume[entry], profile.area[entry],
+          clearance_of(landmarks, offset, coarse_size_, kLargestClearance));
     }
     std::swap(own, candidates_);
     std::ranges::stable_sort(own, {}, cost_without_noise);

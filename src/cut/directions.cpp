@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace tessera::cut {
 namespace {
@@ -20,16 +21,19 @@ class Directions {
     const double length = norm(direction);
     if (!(length > 0.0)) return;
     const Vec3 unit = turned_forward((1.0 / length) * direction);
-    for (const Vec3& known : found_) {
-      if (std::abs(dot(known, unit)) > kSame) return;
+    for (const Direction& known : found_) {
+      if (std::abs(dot(known.normal, unit)) > kSame) return;
     }
-    found_.push_back(unit);
+    found_.push_back({unit, are_plain_});
   }
 
-  std::vector<Vec3> take() { return std::move(found_); }
+  void end_plain() { are_plain_ = false; }
+
+  std::vector<Direction> take() { return std::move(found_); }
 
  private:
-  std::vector<Vec3> found_{};
+  std::vector<Direction> found_{};
+  bool are_plain_ = true;
 };
 
 struct FaceShape {
@@ -99,18 +103,24 @@ void add_of_faces(const PartSurface& part, Directions& to)
 
 }  // namespace
 
-std::vector<Vec3> candidate_directions(const PartSurface& part, const Moments& moments)
+std::vector<Direction> candidate_directions(const PartSurface& part, const Moments& moments)
 {
   Directions directions;
   // Exact ones first, in place of axes of inertia that are off by rounding: planes that are nearly
   // parallel to a face, or across an axis, cost NETGEN minutes.
   for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) directions.add(axis);
   add_of_faces(part, directions);
+  directions.end_plain();
   for (const Vec3& axis : moments.axes) directions.add(axis);
   const auto& [u, v, w] = moments.axes;
   for (const Vec3& sum : {u + v, u - v, u + w, u - w, v + w, v - w}) directions.add(sum);
   for (const double y : {1.0, -1.0}) {
     for (const double z : {1.0, -1.0}) directions.add(u + y * v + z * w);
+  }
+  for (const double y : {2.0, -2.0, 0.5, -0.5}) {
+    for (const auto& [a, b] : {std::pair(u, v), std::pair(u, w), std::pair(v, w)}) {
+      directions.add(a + y * b);
+    }
   }
   return directions.take();
 }

@@ -8,9 +8,16 @@
 
 namespace tessera::cut {
 
+/// Normal of planes.
+struct Direction {
+  Vec3 normal{};
+  bool is_plain =
+      false;  ///< Along a coordinate axis, or one of the model: its cuts are simple curves.
+};
+
 /// @brief Normals of planes worth a look, no two of them near each other: axes of inertia,
 /// coordinate axes, normals of large flat faces, axes of large round ones, and a few between.
-[[nodiscard]] std::vector<Vec3> candidate_directions(const PartSurface& part,
-                                                     const Moments& moments);
+[[nodiscard]] std::vector<Direction> candidate_directions(const PartSurface& part,
+                                                          const Moments& moments);
 
 }  // namespace tessera::cut

@@ -24,8 +24,9 @@ namespace {
 constexpr double kLargestVolumeError = 0.05;
 constexpr double kLargestGap = 1e-3;  // Sum of area times normal, over the area.
 
-// A curve counts as a third of its length: of a full circle that is two radii.
-constexpr double kSizeOverLength = 1.0 / 3.0;
+// Half of a curve is left if a plane cuts it in its middle. Of a full circle a third is two radii.
+constexpr double kSizeOverLength = 1.0 / 2.0;
+constexpr double kSizeOfLoop = 1.0 / 3.0;
 
 using Seams = std::set<std::array<LocalIndex, 2>>;
 
@@ -55,19 +56,23 @@ void measure_curves(PartSurface& surface, double coarse_size)
   }
   const IndexLists edges_at = rows_by_key(ends, static_cast<LocalIndex>(surface.points.size()), 2);
   UnionFind curves(num_edges);
+  std::vector<bool> is_inside(surface.points.size(), false);
   for (LocalIndex v = 0; v < edges_at.num_lists(); ++v) {
     const auto here = edges_at[v];
-    if (here.size() == 2 && surface.edges[at(here[0])].faces == surface.edges[at(here[1])].faces) {
-      curves.join(here[0], here[1]);
-    }
+    is_inside[at(v)] =
+        here.size() == 2 && surface.edges[at(here[0])].faces == surface.edges[at(here[1])].faces;
+    if (is_inside[at(v)]) curves.join(here[0], here[1]);
   }
   std::vector<double> length(at(num_edges), 0.0);
+  std::vector<double> share(at(num_edges), kSizeOfLoop);
   for (LocalIndex e = 0; e < num_edges; ++e) {
     const auto& [a, b] = surface.edges[at(e)].vertices;
     length[at(curves.find(e))] += norm(surface.points[at(b)] - surface.points[at(a)]);
+    if (!is_inside[at(a)] || !is_inside[at(b)]) share[at(curves.find(e))] = kSizeOverLength;
   }
   for (LocalIndex e = 0; e < num_edges; ++e) {
-    surface.edges[at(e)].size = std::min(coarse_size, kSizeOverLength * length[at(curves.find(e))]);
+    const std::size_t curve = at(curves.find(e));
+    surface.edges[at(e)].size = std::min(coarse_size, share[curve] * length[curve]);
   }
 }
 

@@ -9,7 +9,8 @@
 // smallest angle, the area of all cuts over that of a side of a cube of the model's volume, and
 // milliseconds of CPU. With --mesh, against the coarse mesh of the uncut model: the smallest edge,
 // the number of tets, seconds of CPU; and the smallest dihedral angle of both, degrees. Each mesh
-// is made in a child process. PREFIX: a picture of each choice, PREFIX-RULE-PARTS.png.
+// is made in a child process, in 120 seconds of CPU at most. PREFIX: a picture of each choice,
+// PREFIX-RULE-PARTS.png.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,6 +26,7 @@
 #include <string_view>
 #include <vector>
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -94,6 +96,8 @@ void write_picture(const model::ModelDescription& model, const cut::CutTree& tre
   out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
 }
 
+constexpr rlim_t kMostSeconds = 120;  // Of CPU, for one mesh; thin slices may take hours.
+
 struct MeshFigures {
   double shortest_edge = std::numeric_limits<double>::infinity();
   double min_dihedral_deg = 180.0;
@@ -135,6 +139,8 @@ std::optional<MeshFigures> figures_in_child(const Make& make)
   const pid_t child = fork();
   if (child == 0) {
     try {
+      const rlimit limit{kMostSeconds, kMostSeconds};
+      setrlimit(RLIMIT_CPU, &limit);
       std::freopen("/dev/null", "w", stdout);
       const MeshFigures figures = figures_of(make);
       _exit(write(ends[1], &figures, sizeof(figures)) == sizeof(figures) ? 0 : 1);

@@ -113,15 +113,20 @@ TEST(ChoosePlanes, PartsHaveTheVolumeOfTheirPoints)
 {
   const model::ModelDescription model = testing::box(3, 2, 1);
   const CutChoice choice = choose_checked(model, {.parts = 7, .coarse_size = 0.2});
-  constexpr int kSide = 40;
+  // Points that fill the box evenly, in no layers.
+  constexpr int kNumPoints = 1'000'000;
+  constexpr Vec3 kSteps{0.8191725134, 0.6710436067, 0.5497004779};
+  const Vec3 size{3.0, 2.0, 1.0};
   std::vector<double> volume(at(choice.tree.num_parts), 0.0);
-  for (int i = 0; i < kSide * kSide * kSide; ++i) {
-    const Vec3 p{3.0 * (i % kSide + 0.5) / kSide, 2.0 * (i / kSide % kSide + 0.5) / kSide,
-                 (i / (kSide * kSide) + 0.5) / kSide};
-    volume[at(choice.tree.part_of(0, p))] += 6.0 / (kSide * kSide * kSide);
+  for (int i = 0; i < kNumPoints; ++i) {
+    Vec3 p{};
+    for (std::size_t d = 0; d < 3; ++d) {
+      p[d] = size[d] * (i * kSteps[d] - std::floor(i * kSteps[d]));
+    }
+    volume[at(choice.tree.part_of(0, p))] += 6.0 / kNumPoints;
   }
   for (std::size_t p = 0; p < volume.size(); ++p) {
-    EXPECT_NEAR(volume[p], choice.report.parts[p].volume, 0.06);
+    EXPECT_NEAR(volume[p], choice.report.parts[p].volume, 0.005);
   }
 }
 

@@ -48,8 +48,8 @@ LocalIndex ModelBuilder::add_face(std::vector<LocalIndex> solids)
 void ModelBuilder::add_triangle(LocalIndex face, const Vec3& a, const Vec3& b, const Vec3& c)
 {
   for (const Vec3& p : {a, b, c}) {
-    const auto [place, is_new] = points_.try_emplace(
-        {face, p}, static_cast<LocalIndex>(model_.vertex_xyz.size() / 3));
+    const auto [place, is_new] =
+        points_.try_emplace({face, p}, static_cast<LocalIndex>(model_.vertex_xyz.size() / 3));
     if (is_new) model_.vertex_xyz.insert(model_.vertex_xyz.end(), p.begin(), p.end());
     model_.triangle_vertices.push_back(place->second);
   }

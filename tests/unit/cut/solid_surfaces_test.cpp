@@ -58,7 +58,7 @@ TEST(SolidSurfaces, SmallCurvesHaveSmallSizes)
     largest = std::max(largest, edge.size);
   }
   EXPECT_NEAR(smallest, 0.12, 0.01);
-  EXPECT_NEAR(largest, 1.0 / 3.0, 1e-9);
+  EXPECT_NEAR(largest, 0.5, 1e-9);
 }
 
 TEST(SolidSurfaces, AMissingFaceMakesASolidUnfit)
