@@ -149,6 +149,7 @@ CutObjects cut_geometry(Geometry& geometry, const cut::CutTree& tree)
 FaceOrder::FaceOrder(Geometry& uncut, ::netgen::MeshingParameters parameters)
 {
   parameters.perfstepsend = ::netgen::MESHCONST_MESHEDGES;
+  parameters.uselocalh = 0;  // Sizes do not matter, and without them edges are meshed only once.
   std::shared_ptr<::netgen::Mesh> mesh;
   if (uncut.GenerateMesh(mesh, parameters) != 0) throw NetgenError("no edges of the uncut model");
   for (int d = 1; d <= mesh->GetNFD(); ++d) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/cut/choose_planes.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/netgen/factory.hpp"
 
@@ -70,6 +71,18 @@ TEST(OccCut, ASeamOfAPeriodicFaceMayBeCutAway)
       tree_of({branch({{0, 1, 0}, 0.5}, leaf(), branch({{1, 0, 0}, 0.7}, leaf(), leaf()))});
   expect_equal_models(CutModel("torus.step", 2.5, tree), tree);
   expect_equal_models(CutModel("cylinder.step", 3.0, tree), tree);
+}
+
+// The seams of its holes are edges for NETGEN, with tiny tets beside those that a plane comes near.
+TEST(OccCut, ChosenPlanesMakeFewMoreTets)
+{
+  const auto model = testing::load_own("bracket.step");
+  const cut::CutChoice choice =
+      cut::choose_planes(netgen::describe_model(*model), {.parts = 6, .coarse_size = 5.0});
+  EXPECT_EQ(choice.tree.num_parts, 6);
+  const CutModel bracket("bracket.step", 5.0, choice.tree);
+  expect_equal_models(bracket, choice.tree);
+  EXPECT_LE(bracket.cut.mesh.num_tets(), 1.15 * bracket.uncut.num_tets());
 }
 
 // Traces of both cross on the face between the blocks.

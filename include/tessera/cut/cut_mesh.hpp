@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <tuple>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -14,8 +13,6 @@ namespace tessera::cut {
 struct CutMesh {
   mesh::CoarseMesh mesh{};
   std::vector<LocalIndex> tet_part{};  ///< Shape (num_tets); parts of the CutTree.
-
-  static auto fields(auto& self) { return std::tie(self.mesh, self.tet_part); }
 };
 
 }  // namespace tessera::cut

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/check/report.hpp"
+#include "tessera/cut/choose_planes.hpp"
 #include "tessera/improve/region_band.hpp"
 #include "tessera/io/record_log.hpp"
 #include "tessera/migrate/assemble.hpp"
@@ -51,6 +52,18 @@ static void set_sample(TriangleSurface& surface)
 
 }  // namespace model
 
+namespace cut {
+
+static void set_sample(CutTree& tree)
+{
+  tree.solid_root = {0};
+  tree.nodes = {
+      {.plane = {{0.0, 1.0, 0.0}, 2.5}, .below = 1, .above = 2}, {.part = 0}, {.part = 1}};
+  tree.num_parts = 2;
+}
+
+}  // namespace cut
+
 namespace quality {
 
 static void set_sample(Histogram& histogram)
@@ -85,7 +98,7 @@ using Types = ::testing::Types<
     quality::QualityHistograms, fill::FillTry, coarse::CoarseOptions, coarse::VertexDistance,
     decompose::DecomposeReport, decompose::DecomposeResult, number::PieceCounts, mesh::HostPoint,
     number::VertexList, io::LogPlace, check::SubdomainFigures, migrate::MeshBlock,
-    migrate::TetColumn, IndexLists,
+    migrate::TetColumn, IndexLists, cut::CutReport, cut::CutChoice,
     // The program's.
     CoarseTry, UntangleTest, FillTask, SkinMesh, CoarseResult, WrittenFile, FillRecord,
     FoldedSubdomain, Plan, ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad,
