@@ -3,9 +3,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <utility>
 
 namespace tessera::cut {
+
+namespace {
+
+// Of each face the largest size of its curves. So a small hole's wall is as small as its rims.
+std::map<LocalIndex, double> sizes_of_faces(const PartSurface& part)
+{
+  std::set<LocalIndex> caps;
+  for (const Cap& cap : part.caps) caps.insert(cap.label);
+  std::map<LocalIndex, double> sizes;
+  for (const FeatureEdge& edge : part.edges) {
+    if (edge.foreign != kNoIndex || caps.contains(edge.faces[0]) || caps.contains(edge.faces[1])) {
+      continue;
+    }
+    for (const LocalIndex face : edge.faces) sizes[face] = std::max(sizes[face], edge.size);
+  }
+  return sizes;
+}
+
+}  // namespace
 
 LandmarkFinder::LandmarkFinder(const PartSurface& part, double coarse_size)
     : part_(part),
@@ -15,8 +36,17 @@ LandmarkFinder::LandmarkFinder(const PartSurface& part, double coarse_size)
       neighbours_(part.points.size(), {kNoIndex, kNoIndex}),
       has_triangle_(part.points.size(), false)
 {
+  const std::map<LocalIndex, double> sizes = sizes_of_faces(part);
   for (const SurfaceTriangle& triangle : part.triangles) {
-    for (const LocalIndex v : triangle.vertices) has_triangle_[at(v)] = true;
+    const auto size = sizes.find(triangle.face);
+    for (const LocalIndex v : triangle.vertices) {
+      has_triangle_[at(v)] = true;
+      if (size != sizes.end()) size_[at(v)] = std::min(coarse_size, size->second);
+    }
+  }
+  // At curves their sizes count, not those of the faces.
+  for (const FeatureEdge& edge : part.edges) {
+    for (const LocalIndex v : edge.vertices) size_[at(v)] = coarse_size;
   }
   for (const FeatureEdge& edge : part.edges) {
     for (std::size_t end = 0; end < 2; ++end) {
