@@ -239,7 +239,9 @@ Json improvement_json(const Improvement& improvement)
 
 Json coarse_json(const RunResult& run)
 {
+  const bool is_own = model::is_mesh_name(run.resolved.geometry.file);
   return {{"num_tets", run.coarse.mesh.num_tets()},
+          {"mesher", is_own ? std::string_view("own") : word_of(run.coarse.options.mesher)},
           {"max_size", run.coarse.options.max_size},
           {"surface_mesher", word_of(run.coarse.options.surface_mesher)},
           {"tries", run.coarse.tries},

@@ -189,8 +189,7 @@ coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface, dou
   return result;
 }
 
-coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin, const coarse::CoarseOptions& options,
-                               const std::string& what)
+coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin, const coarse::CoarseOptions& options)
 {
   if (skin.vertex.empty()) return {};
   const double scale = scale_for_netgen(box_diagonal(skin.vertex_xyz));

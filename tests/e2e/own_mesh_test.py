@@ -226,6 +226,9 @@ class Gmsh(OwnMeshTest):
             f"geometry.file = '{model}'\ncoarse.max_size = {max_size}\ncoarse.mesher = 'gmsh'\nrefine.levels = 1\n{more}",
         )
 
+    def fake_gmsh(self, commands):
+        self.write("gmsh", f"#!/bin/sh\n{commands}\n").chmod(0o755)
+
     def test_makes_the_coarse_mesh_of_a_cad_model(self):
         for name, size in (("bracket.step", 10.0), ("two_blocks.step", 5.0), ("frustum.iges", 0.5)):
             with self.subTest(name):
@@ -238,7 +241,8 @@ class Gmsh(OwnMeshTest):
 
     def test_is_refused_where_it_is_not_installed_or_cannot_help(self):
         bracket = CONFIGS / "geometry" / "bracket.step"
-        without = {**os.environ, "PATH": str(self.folder)}
+        self.fake_gmsh("exit 127")  # What stands for a program that is not there.
+        without = {**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"}
         case = self.gmsh_case(bracket, 10.0)
         outcome = self.run_program("mesh", case, "--output", "out", env=without)
         self.assert_refused(outcome, WRONG_INPUT, "install it", 'coarse.mesher = "netgen"')
@@ -247,8 +251,7 @@ class Gmsh(OwnMeshTest):
         self.assert_refused(outcome, WRONG_INPUT, "is for .step, .iges and .brep")
 
     def test_that_fails_is_quoted(self):
-        fake = self.write("gmsh", "#!/bin/sh\necho 'Error   : no luck today'\nexit 1\n")
-        fake.chmod(0o755)
+        self.fake_gmsh("echo 'Error   : no luck today'\nexit 1")
         with_fake = {**os.environ, "PATH": f"{self.folder}:{os.environ['PATH']}"}
         case = self.gmsh_case(CONFIGS / "geometry" / "bracket.step", 10.0)
         outcome = self.run_program("mesh", case, "--output", "out", env=with_fake)

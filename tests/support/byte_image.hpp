@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -44,6 +45,7 @@ class Sampler {
   }
 
   void fill(std::string& text) { text = "text " + std::to_string(++last_); }
+  void fill(std::filesystem::path& path) { path = "path_" + std::to_string(++last_); }
 
   template <class T>
   void fill(std::vector<T>& values)

@@ -25,6 +25,7 @@ struct ImportOptions {
   static auto fields(auto& self) { return std::tie(self.feature_angle_deg, self.cad, self.smooth); }
 };
 
+/// @brief What a model was read from.
 enum class Format : int {
   csg,
   stl,

@@ -219,6 +219,22 @@ TEST(ConfigErrors, ModelAndSizeAreRequired)
   EXPECT_NE(error_of("# only a comment").find("no geometry.file"), std::string::npos);
 }
 
+TEST(ConfigErrors, AMeshNeedsNoSizeAndHasKeysOfItsOwn)
+{
+  const auto says = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(error_of(text).find(part), std::string::npos) << error_of(text);
+  };
+  EXPECT_NO_THROW((void)parse_case("geometry.file = 'a.MSH'", "case.toml"));
+  EXPECT_NO_THROW((void)parse_case("geometry.file = 'a.vol'\ngeometry.cad = 'a.geo'", "case.toml"));
+  says("geometry.file = 'a.msh'\ncoarse.max_size = 1", "coarse.max_size is for a CAD model");
+  says("geometry.file = 'a.msh'\ncoarse.mesher = 'gmsh'", "is the coarse mesh");
+  says("geometry.file = 'a.msh'\ngeometry.cad = 'b.vtu'", "geometry.cad names a mesh");
+  says("geometry.file = 'a.msh'\ngeometry.cad = 'b.stl'\ngeometry.smooth = true", "excludes");
+  says("geometry.file = 'a.stl'\ncoarse.max_size = 1\ngeometry.cad = 'b.stl'", "is for a mesh");
+  says("geometry.file = 'a.stl'\ncoarse.max_size = 1\ncoarse.mesher = 'gmsh'",
+       "leave it out for .stl");
+}
+
 TEST(ConfigErrors, OverridesNameThemselves)
 {
   EXPECT_EQ(error_of_override("coarse.grading"),
