@@ -162,7 +162,7 @@ class CsgModel final : public LoadedModel {
  private:
   [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
   [[nodiscard]] std::shared_ptr<::netgen::Mesh> netgen_surface(Geometry& geometry,
-                                                                double size) const;
+                                                               double size) const;
   void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
 
   std::string file_name_;

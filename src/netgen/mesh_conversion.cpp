@@ -123,8 +123,7 @@ class Conversion {
       const LocalIndex patch = mesh_.face_patch[corner / 3];
       if (patch == kNoIndex) continue;  // Of a cut.
       const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
-      const auto [low, high] =
-          std::minmax(mesh_.face_vertices[corner], mesh_.face_vertices[next]);
+      const auto [low, high] = std::minmax(mesh_.face_vertices[corner], mesh_.face_vertices[next]);
       const Ends ends{low, high};
       if (!off_curves_.contains(ends) || on_curves_.contains(ends)) continue;
       const LocalIndex surface = mesh_.patch_surface[at(patch)];

@@ -199,7 +199,8 @@ coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin, const coarse::Coa
   coarse::DomainSkin scaled_skin = skin;
   for (double& x : scaled_skin.vertex_xyz) x *= scale;
   NetgenSession session(coarse_parameters(scaled));
-  coarse::DomainTets tets = session.run("coarse volume mesh", [&] { return good_tets(scaled_skin, session); });
+  coarse::DomainTets tets =
+      session.run("coarse volume mesh", [&] { return good_tets(scaled_skin, session); });
   for (double& x : tets.vertex_xyz) x /= scale;
   return tets;
 }

@@ -15,8 +15,9 @@ namespace tessera::coarse {
 /// for itself. A domain is a material, or a part of one; cuts between parts are no patch. A mesh
 /// that is filled already has no domains.
 struct CoarseSurface {
-  mesh::CoarseMesh mesh{};  ///< Without the tets of domains. Vertices may be of no face. Faces of cuts have the
-                            ///< patch kNoIndex, and segments that only bound these such a curve.
+  mesh::CoarseMesh
+      mesh{};  ///< Without the tets of domains. Vertices may be of no face. Faces of cuts have the
+               ///< patch kNoIndex, and segments that only bound these such a curve.
 
   /// Shape (num_faces, 2): the domain that the normal of a face points out of, and the one it
   /// points into; from 1, 0: none.
