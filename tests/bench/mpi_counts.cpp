@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// For the bench `scale`: preloaded into the program (LD_PRELOAD), it writes down every call of MPI in
-// src/comm that moves data. At MPI_Finalize each rank writes DIR/mpi_RANK.tsv, with DIR from
+// For the bench `scale`: preloaded into the program (LD_PRELOAD), it writes down every call of MPI
+// in src/comm that moves data. At MPI_Finalize each rank writes DIR/mpi_RANK.tsv, with DIR from
 // TESSERA_MPI_COUNTS:
 //   call  entered  left  bytes sent  bytes received
 // Times are seconds of the machine's clock. Bytes are those of the caller's own buffers: what MPI
@@ -123,18 +123,16 @@ int MPI_Gather(const void* data, int count, MPI_Datatype type, void* all, int on
 {
   const long long received =
       rank_in(comm) == root ? bytes_of(one, all_type) * (size_of(comm) - 1) : 0;
-  return noted("gather", bytes_of(count, type), received, [&] {
-    return PMPI_Gather(data, count, type, all, one, all_type, root, comm);
-  });
+  return noted("gather", bytes_of(count, type), received,
+               [&] { return PMPI_Gather(data, count, type, all, one, all_type, root, comm); });
 }
 
 int MPI_Allreduce(const void* data, void* result, int count, MPI_Datatype type, MPI_Op operation,
                   MPI_Comm comm)
 {
   const long long bytes = bytes_of(count, type);
-  return noted("reduce", bytes, bytes, [&] {
-    return PMPI_Allreduce(data, result, count, type, operation, comm);
-  });
+  return noted("reduce", bytes, bytes,
+               [&] { return PMPI_Allreduce(data, result, count, type, operation, comm); });
 }
 
 int MPI_Reduce(const void* data, void* result, int count, MPI_Datatype type, MPI_Op operation,
@@ -142,9 +140,8 @@ int MPI_Reduce(const void* data, void* result, int count, MPI_Datatype type, MPI
 {
   const long long bytes = bytes_of(count, type);
   const bool is_root = rank_in(comm) == root;
-  return noted("reduce", is_root ? 0 : bytes, is_root ? bytes : 0, [&] {
-    return PMPI_Reduce(data, result, count, type, operation, root, comm);
-  });
+  return noted("reduce", is_root ? 0 : bytes, is_root ? bytes : 0,
+               [&] { return PMPI_Reduce(data, result, count, type, operation, root, comm); });
 }
 
 int MPI_Exscan(const void* data, void* result, int count, MPI_Datatype type, MPI_Op operation,
