@@ -154,14 +154,16 @@ Camera fit_camera(const View& view, std::span<const double> xyz, const Room& roo
   return camera;
 }
 
-Canvas::Canvas(const Camera& camera)
-    : camera_(camera),
-      pixels_(static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height))
+Canvas::Canvas(const Camera& camera) : camera_(camera) {}
+
+std::size_t Canvas::num_pixels() const
 {
+  return static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height);
 }
 
 std::uint64_t Canvas::pixel(int x, int y) const
 {
+  if (pixels_.empty()) return 0;
   return pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(camera_.width)
                  + static_cast<std::size_t>(x)];
 }
@@ -173,6 +175,7 @@ void Canvas::draw(const std::array<Vec3, 3>& corners, LocalIndex row, Sides side
                          [&](const Vec3& corner) { return camera_.on_picture(corner); });
   const Raster raster(p, sides);
   if (!raster.is_seen()) return;
+  if (pixels_.empty()) pixels_.resize(num_pixels());
   const auto [x_low, x_high] = std::minmax({p[0][0], p[1][0], p[2][0]});
   const auto [y_low, y_high] = std::minmax({p[0][1], p[1][1], p[2][1]});
   const std::uint64_t low_row_first = (kRowMask - static_cast<std::uint64_t>(row)) << 8U;

@@ -75,8 +75,11 @@ class Canvas {
   [[nodiscard]] int shade(int x, int y) const;     ///< 0…kNumShades-1.
   [[nodiscard]] bool is_side(int x, int y) const;  ///< The line of a side.
 
-  /// @brief Shape (height, width): to be put together by the larger number.
+  /// @brief Shape (height, width), or empty as long as nothing is drawn: to be put together by the
+  /// larger number. Zeros are as good as nothing.
   [[nodiscard]] std::vector<std::uint64_t>& pixels() { return pixels_; }
+
+  [[nodiscard]] std::size_t num_pixels() const;
 
  private:
   [[nodiscard]] std::uint64_t pixel(int x, int y) const;

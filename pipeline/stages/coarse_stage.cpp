@@ -38,11 +38,14 @@ std::string name_of(const coarse::CoarseOptions& options)
   return fmt::format("{}max_size {:g}", is_remesh ? "remeshed triangles, " : "", options.max_size);
 }
 
-std::string all_failures(const CoarseResult& result)
+[[noreturn]] void throw_no_mesh(const CoarseResult& result, const std::string& file)
 {
-  std::string text;
-  for (const std::string& failure : result.failures) text += "\n  " + failure;
-  return text;
+  std::string failures;
+  for (const std::string& failure : result.failures) failures += "\n  " + failure;
+  throw MeshError(
+      fmt::format("{}: no coarse mesh could be made; try another coarse.max_size, a longer "
+                  "coarse.timeout_s, or repair the model{}",
+                  file, failures));
 }
 
 void throw_if_hopeless(const jobs::JobOutcome& outcome, const std::string& file)
@@ -74,13 +77,15 @@ std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTre
   const std::vector<coarse::CoarseOptions> fallbacks = tries_for(run_case);
   std::vector<Attempt> attempts;
   if (planes.num_parts > 0) {
-    for (std::size_t i = 0; i < kTriesOfParts; ++i) attempts.push_back({fallbacks[i], true});
+    for (std::size_t i = 0; i < std::min(kTriesOfParts, fallbacks.size()); ++i) {
+      attempts.push_back({fallbacks[i], true});
+    }
   }
   for (const coarse::CoarseOptions& options : fallbacks) attempts.push_back({options, false});
   return attempts;
 }
 
-// The mesh is that of rank 0 only.
+// The mesh is that of rank 0 only; it has no tets if no try worked.
 CoarseResult first_that_works(const config::Case& run_case, const cut::CutTree& planes,
                               StageScope& stage, RunContext& context)
 {
@@ -118,10 +123,7 @@ CoarseResult first_that_works(const config::Case& run_case, const cut::CutTree& 
     was_endless = was_endless || is_endless(outcome);
     result.was_limited = result.was_limited || depends_on_machine(outcome);
   }
-  throw MeshError(
-      fmt::format("{}: no coarse mesh could be made; try another coarse.max_size, a longer "
-                  "coarse.timeout_s, or repair the model{}",
-                  file, all_failures(result)));
+  return result;
 }
 
 }  // namespace
@@ -153,7 +155,10 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
 {
   StageScope stage(context, "coarse");
   CoarseResult result = first_that_works(run_case, planes, stage, context);
-  result = on_root(context.comm, [&] { return std::move(result); });
+  result = on_root(context.comm, [&] {
+    if (result.mesh.num_tets() == 0) throw_no_mesh(result, run_case.geometry.file.string());
+    return std::move(result);
+  });
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),
                            result.mesh.num_patches(), result.mesh.num_materials()));

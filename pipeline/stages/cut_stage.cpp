@@ -42,6 +42,15 @@ cut::CutChoice choose(const config::Case& resolved, RunContext& context)
   }
 }
 
+void require_solids(const RunResult& run)
+{
+  const model::Format format = run.model.format;
+  if (format != model::Format::stl && format != model::Format::own) return;
+  throw ConfigError(fmt::format(
+      "{}: decompose.method = \"geometry\" needs a solid model: CSG, STEP, IGES or BREP",
+      run.resolved.geometry.file.string()));
+}
+
 }  // namespace
 
 std::optional<std::string> parts_not_meshed(const RunResult& run)
@@ -67,13 +76,9 @@ LocalIndex num_parts_for(const config::Case& resolved, const model::ModelDescrip
 cut::CutChoice choose_cuts(const RunResult& run, RunContext& context)
 {
   if (run.resolved.decompose.method == decompose::Method::mesh) return {};
-  if (run.model.format == model::Format::stl) {
-    throw ConfigError(fmt::format(
-        "{}: decompose.method = \"geometry\" needs a solid model: CSG, STEP, IGES or BREP",
-        run.resolved.geometry.file.string()));
-  }
   StageScope stage(context, "cut");
   cut::CutChoice choice = comm::on_root(context.comm, [&] {
+    require_solids(run);
     return with_file_context(run.resolved, [&] { return choose(run.resolved, context); });
   });
   stage.work_is_done();

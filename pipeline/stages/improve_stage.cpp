@@ -148,7 +148,9 @@ class SeamImprover {
   {
     const auto row = static_cast<std::size_t>(phase);
     make_bands(phase, work_.pieces[row]);
+    context_.log.debug("improve: phase {}: bands of {} pieces", phase, work_.pieces[row].size());
     const Counts counts = improve_regions(work_.wanted[row]);
+    context_.log.debug("improve: phase {}: regions, {}", phase, work_.wanted[row].size());
     Improvement& improvement = filled_.improvement;
     improvement.num_regions += counts[0];
     improvement.num_improved += counts[1];
@@ -165,6 +167,7 @@ class SeamImprover {
                      in_thread([&](LocalIndex s) { measure(s, own); }), stage_, context_,
                      num_done_);
     pieces_->records().share();
+    context_.log.debug("improve: lists of pieces");
     all_or_none(context_.comm, [&] {
       for (subdomain::PieceSummary& piece : own.pieces) add_owned(piece, own.histograms);
     });

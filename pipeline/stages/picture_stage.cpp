@@ -19,6 +19,9 @@ namespace {
 // What a core reads and draws in about a second.
 constexpr GlobalIndex kMostTriangles = 1'500'000;
 constexpr GlobalIndex kMostTets = 4'000'000;
+// Files are drawn in so many lots: no more ranks have canvases, of 20 MB. All of it is two seconds
+// of work of one core.
+constexpr std::size_t kMostDrawing = 16;
 // Of one file: a rank needs some 130 bytes a tet to read it.
 constexpr GlobalIndex kMostTetsOfAFile = 1'000'000;
 
@@ -133,11 +136,14 @@ void draw_file(const FileToDraw& file, const std::filesystem::path& folder, Mesh
 void draw_files(const DrawingPlan& plan, MeshScene& scene, StageScope& stage, RunContext& context)
 {
   GlobalIndex num_unread = 0;
-  for_each_dynamic(in_order(plan.files.size()), in_thread([&](LocalIndex row) {
-                     try {
-                       draw_file(plan.files[at(row)], context.folder, scene);
-                     } catch (const InputError&) {
-                       ++num_unread;
+  const std::size_t num_lots = std::min(plan.files.size(), kMostDrawing);
+  for_each_dynamic(in_order(num_lots), in_thread([&](LocalIndex lot) {
+                     for (std::size_t row = at(lot); row < plan.files.size(); row += num_lots) {
+                       try {
+                         draw_file(plan.files[row], context.folder, scene);
+                       } catch (const InputError&) {
+                         ++num_unread;
+                       }
                      }
                    }),
                    stage, context);
@@ -145,6 +151,21 @@ void draw_files(const DrawingPlan& plan, MeshScene& scene, StageScope& stage, Ru
   if (num_unread > 0) {
     context.log.warn("{} files could not be read back: the pictures lack what is in them",
                      num_unread);
+  }
+}
+
+// On rank 0. Strip by strip: who has drawn nothing needs no canvas.
+void put_together(Canvas& canvas, const comm::Communicator& comm)
+{
+  constexpr std::size_t kStrip = std::size_t{1} << 16;
+  std::vector<std::uint64_t>& pixels = canvas.pixels();
+  if (comm.rank() == 0) pixels.resize(canvas.num_pixels());
+  for (std::size_t first = 0; first < canvas.num_pixels(); first += kStrip) {
+    std::vector<std::uint64_t> strip(std::min(kStrip, canvas.num_pixels() - first));
+    const auto begin = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.empty() ? 0 : first);
+    if (!pixels.empty()) std::copy_n(begin, strip.size(), strip.begin());
+    comm.max_in_place(strip);
+    if (comm.rank() == 0) std::ranges::copy(strip, begin);
   }
 }
 
@@ -158,10 +179,11 @@ std::vector<MeshPicture> run_picture_stage(const RunResult& run,
   if (!run.resolved.output.report_html) return {};
   MeshScene scene(cut.coarse.vertex_xyz);
   const DrawingPlan plan = PlanMaker(run, cut, scene).plan(files);
-  StageScope stage(context, "pictures", std::ssize(plan.files), "files");
+  const auto num_lots = static_cast<std::int64_t>(std::min(plan.files.size(), kMostDrawing));
+  StageScope stage(context, "pictures", num_lots, "lots of files");
   if (context.comm.rank() == 0) draw_coarse(run, cut, plan, scene);
   draw_files(plan, scene, stage, context);
-  for (Canvas* const canvas : scene.canvases()) context.comm.max_in_place(canvas->pixels());
+  for (Canvas* const canvas : scene.canvases()) put_together(*canvas, context.comm);
   std::vector<MeshPicture> pictures;
   if (context.comm.rank() == 0) {
     pictures = scene.pictures();

@@ -85,8 +85,12 @@ void Call::wait_for_packets()
 
 void Call::send_request()
 {
-  const bool alive = log_request_.send_some(link_.data.get())
-                     && (!log_request_.is_sent() || request_.send_some(link_.data.get()));
+  bool alive = true;
+  if (!link_.log_is_told) {
+    alive = log_request_.send_some(link_.data.get());
+    link_.log_is_told = log_request_.is_sent();
+  }
+  if (alive && link_.log_is_told) alive = request_.send_some(link_.data.get());
   if (!alive) link_.zygote_is_gone = true;
 }
 

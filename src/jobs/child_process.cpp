@@ -60,15 +60,20 @@ void close_all_but(std::span<const int> keep)
   }
 }
 
-void redirect_output(const std::filesystem::path& log_file)
+FileDescriptor open_log(const std::filesystem::path& file)
 {
-  FileDescriptor output;
-  if (!log_file.empty())
-    output = FileDescriptor(
-        ::open(log_file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0644));
-  if (output.get() < 0) output = FileDescriptor(::open("/dev/null", O_WRONLY | O_CLOEXEC));
-  ::dup2(output.get(), STDOUT_FILENO);
-  ::dup2(output.get(), STDERR_FILENO);
+  if (file.empty()) return {};
+  return FileDescriptor(
+      ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0644));
+}
+
+void redirect_output(const FileDescriptor& log)
+{
+  FileDescriptor nothing;
+  if (log.get() < 0) nothing = FileDescriptor(::open("/dev/null", O_WRONLY | O_CLOEXEC));
+  const int output = log.get() < 0 ? nothing.get() : log.get();
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(output, STDERR_FILENO);
 }
 
 void flush_streams()

@@ -22,9 +22,11 @@ void ignore_group_signals();
 /// @brief Closes what was open at the fork, but for the standard streams and `keep`.
 void close_all_but(std::span<const int> keep);
 
-/// @brief Standard output and error go to the end of `log_file`, or to /dev/null if it is empty or
-/// cannot be opened.
-void redirect_output(const std::filesystem::path& log_file);
+/// @brief A log to whose end processes write. Nothing if its name is empty or it cannot be opened.
+[[nodiscard]] FileDescriptor open_log(const std::filesystem::path& file);
+
+/// @brief Standard output and error go to `log`, or to /dev/null if that is nothing.
+void redirect_output(const FileDescriptor& log);
 
 /// @brief Writes out what is buffered, so that a fork does not inherit it and _exit() not lose it.
 void flush_streams();

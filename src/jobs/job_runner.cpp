@@ -92,6 +92,7 @@ void JobRunner::set_log_file(const std::filesystem::path& file)
 {
   // The worker processes keep the working directory of the time when they were forked.
   state_->link.log_file = std::filesystem::absolute(file);
+  state_->link.log_is_told = false;
 }
 
 void JobRunner::cap_limits(const JobLimits& largest) { state_->largest = largest; }

@@ -49,7 +49,7 @@ class ModelZygote {
       if (!request_.add(*packet)) continue;
       const Bytes message = request_.take();
       if (header.kind == PacketKind::log_file)
-        log_file_ = std::string(reinterpret_cast<const char*>(message.data()), message.size());
+        log_ = open_log(std::string(reinterpret_cast<const char*>(message.data()), message.size()));
       else if (header.kind == PacketKind::load)
         load(header.call, message);
       else
@@ -68,7 +68,7 @@ class ModelZygote {
   void load(std::uint32_t call, const Bytes& message)
   {
     const double cpu_before_s = cpu_time_of_this_process();
-    redirect_output(log_file_);
+    redirect_output(log_);
     Failure failure;
     bool loaded = false;
     try {
@@ -118,7 +118,7 @@ class ModelZygote {
   {
     unblock_signals();
     children_ = {};
-    redirect_output(log_file_);
+    redirect_output(log_);
     try {
       const Bytes result = worker().run(request);
       report_usage_of_job(call);
@@ -174,7 +174,8 @@ class ModelZygote {
   std::optional<ChildWatch> children_{std::in_place};
   Incoming requests_{};
   Assembly request_{};
-  std::filesystem::path log_file_{};
+  FileDescriptor
+      log_{};  // One for all jobs: to open it for each is a load on a parallel file system.
   std::unique_ptr<Worker> worker_{};
   std::size_t zygotes_bytes_ = 0;
 };

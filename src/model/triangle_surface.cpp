@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
 
 #include "half_edges.hpp"
@@ -169,17 +170,7 @@ CheckedSurface check_surface(const TriangleSoup& soup, const std::string& name)
 
 double box_diagonal(const TriangleSurface& surface)
 {
-  if (surface.num_vertices() == 0) return 0.0;
-  Vec3 low = surface.position(0);
-  Vec3 high = low;
-  for (LocalIndex v = 1; v < surface.num_vertices(); ++v) {
-    const Vec3 p = surface.position(v);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  }
-  return norm(high - low);
+  return tessera::box_diagonal(surface.vertex_xyz);
 }
 
 void TriangleSurface::require_sound() const

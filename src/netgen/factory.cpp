@@ -105,7 +105,11 @@ class MesherOfModel final : public coarse::CoarseMesher {
                                                    const cut::CutTree& planes) const override
   {
     if (options.mesher == coarse::Mesher::netgen) return model_.mesh_surface(options, planes);
-    if (planes.num_parts > 0) throw ConfigError("Gmsh meshes whole models only, not their parts");
+    if (planes.num_parts > 0) {
+      throw ConfigError(
+          "coarse.mesher = \"gmsh\" meshes whole models only; with decompose.method = "
+          "\"geometry\" leave it out");
+    }
     return {.mesh = mesh_with_gmsh(model_, options)};
   }
 

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/own_mesh.hpp"
 #include "tessera/coarse/smooth_surface.hpp"
@@ -43,24 +44,11 @@ struct OwnMeshContent {
   }
 };
 
-double box_diagonal_of(const mesh::CoarseMesh& mesh)
-{
-  Vec3 low = mesh.position(0);
-  Vec3 high = low;
-  for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], mesh.position(v)[axis]);
-      high[axis] = std::max(high[axis], mesh.position(v)[axis]);
-    }
-  }
-  return norm(high - low);
-}
-
 // The model is the mesh's own surface.
 class OwnSurfaceModel : public LoadedModel {
  public:
   explicit OwnSurfaceModel(mesh::CoarseMesh mesh)
-      : mesh_(std::move(mesh)), box_diagonal_(box_diagonal_of(mesh_))
+      : mesh_(std::move(mesh)), box_diagonal_(tessera::box_diagonal(mesh_.vertex_xyz))
   {
   }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <meshing.hpp>
 
+#include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/optimize_domain.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
@@ -110,20 +111,6 @@ coarse::DomainTets good_tets(const coarse::DomainSkin& skin, NetgenSession& sess
     tets = std::move(*legal);
   }
   return coarse::smooth_domain(std::move(tets));
-}
-
-double box_diagonal(const std::vector<double>& vertex_xyz)
-{
-  Vec3 least = point_at(std::span(vertex_xyz), 0);
-  Vec3 most = least;
-  for (std::size_t v = 0; v < vertex_xyz.size() / 3; ++v) {
-    const Vec3 point = point_at(std::span(vertex_xyz), v);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      least[axis] = std::min(least[axis], point[axis]);
-      most[axis] = std::max(most[axis], point[axis]);
-    }
-  }
-  return norm(most - least);
 }
 
 std::string name_of(const coarse::PatchSurface& surface, const SurfaceNames& names,

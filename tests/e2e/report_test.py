@@ -3,6 +3,7 @@
 import base64
 import html.parser
 import json
+import os
 import re
 import unittest
 import zlib
@@ -157,7 +158,8 @@ class ReportTest(PageTest):
 
     def test_failed_run_says_why_and_what_to_do(self):
         case = self.write_case()
-        outcome = self.run_program("mesh", case, "--output", "out", "--set", "coarse.timeout_s=1e-5", ranks=2)
+        fault = os.environ | {"TESSERA_TEST_FAULT": "coarse=segv"}
+        outcome = self.run_program("mesh", case, "--output", "out", ranks=2, environment=fault)
         self.assertEqual(outcome.code, FAILED, outcome.err)
         page = self.page("out")
         self.assert_needs_nothing(page)

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/jobs/worker_messages.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "tessera/base/error.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
+
+namespace tessera::pipeline {
+
+Bytes load_model_message(const model::ModelSource& source, double scale)
+{
+  return to_bytes(Load(ModelLoad{scale, source}));
+}
+
+Bytes load_mesh_message(const subdomain::PartitionedMesh& cut, const std::filesystem::path& output)
+{
+  return to_bytes(Load(MeshLoad{cut.coarse, cut.decomposition, cut.levels, output.string()}));
+}
+
+Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,
+                           const std::string& length_unit, const io::OutputOptions& options)
+{
+  return to_bytes(
+      Load(NumbersLoad{counts, length_unit, options.compression, options.cell_quality}));
+}
+
+Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter)
+{
+  return to_bytes(Load(LimiterLoad{limiter}));
+}
+
+Bytes load_improvement_message(const improve::ImproveOptions& options,
+                               const std::vector<fill::KernelKind>& kernels)
+{
+  return to_bytes(Load(ImprovementLoad{options, kernels}));
+}
+
+Bytes import_request(const std::filesystem::path& file, const model::ImportOptions& options)
+{
+  return to_bytes(Request(ImportRequest{file.string(), options}));
+}
+
+Bytes box_request() { return to_bytes(Request(BoxRequest{})); }
+
+double box_diagonal_from_bytes(std::span<const std::byte> result)
+{
+  const auto diagonal = from_bytes<double>(result);
+  if (diagonal > 0.0 && std::isfinite(diagonal)) return diagonal;
+  throw InputError("the model's box has no size");
+}
+
+Bytes describe_request() { return to_bytes(Request(DescribeRequest{})); }
+
+model::ModelDescription description_from_bytes(std::span<const std::byte> result)
+{
+  auto description = from_bytes<model::ModelDescription>(result);
+  description.require_sound();
+  return description;
+}
+
+Bytes coarse_surface_request(const coarse::CoarseOptions& options, const cut::CutTree& planes)
+{
+  return to_bytes(Request(CoarseSurfaceRequest{options, planes}));
+}
+
+Bytes coarse_domain_request(coarse::DomainSkin skin, const coarse::CoarseOptions& options)
+{
+  return to_bytes(Request(CoarseDomainRequest{std::move(skin), options}));
+}
+
+Bytes coarse_mesh_request(coarse::CoarseSurface surface, std::vector<FilledDomain> filled,
+                          const coarse::CoarseOptions& options, const cut::CutTree& planes)
+{
+  return to_bytes(
+      Request(CoarseMeshRequest{std::move(surface), std::move(filled), options, planes}));
+}
+
+Bytes untangle_request(const std::vector<UntangleTest>& tests,
+                       const mesh::ProjectionLimiter& limiter)
+{
+  return to_bytes(Request(UntangleRequest{tests, limiter}));
+}
+
+Bytes fill_request(const FillTask& task) { return to_bytes(Request(task)); }
+
+Bytes improve_request(LocalIndex region, const std::vector<Bytes>& bands)
+{
+  return to_bytes(Request(ImproveRequest{region, bands}));
+}
+
+improve::RegionMesh region_mesh(const std::vector<Bytes>& bands,
+                                const improve::SeamRegions& regions, LocalIndex region)
+{
+  std::vector<improve::Band> read;
+  for (const Bytes& band : bands) read.push_back(from_bytes<improve::Band>(band));
+  return improve::extract_region(read, regions, region);
+}
+
+Bytes load_refinement_message(const RefineSettings& settings, const io::OutputOptions& options)
+{
+  return to_bytes(Load(RefinementLoad{settings, options.compression, options.cell_quality}));
+}
+
+Bytes refine_request(const RefineTask& task) { return to_bytes(Request(task)); }
+
+Bytes skin_request(LocalIndex subdomain) { return to_bytes(Request(SkinRequest{subdomain})); }
+
+}  // namespace tessera::pipeline
