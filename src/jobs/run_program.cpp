@@ -30,7 +30,7 @@ constexpr std::chrono::milliseconds kBetweenLooks{10};
 {
   die_with_parent(parent);
   unblock_signals();
-  redirect_output(log_file);
+  redirect_output(open_log(log_file));
   close_all_but({});
   if (::chdir(folder.c_str()) == 0) ::execvp(arguments.front(), arguments.data());
   ::_exit(kNotFound);
