@@ -88,7 +88,7 @@ coarse::DomainTets first_tets(const coarse::DomainSkin& skin, NetgenSession& ses
 }
 
 // A tet with two faces on one patch has children that become flat where the patch is smooth. Our
-// optimiser makes one in a thousand of them.
+// optimiser knows no patches and may make some.
 std::optional<coarse::DomainTets> without_illegal_tets(const coarse::DomainSkin& skin,
                                                        const coarse::DomainTets& tets)
 {
