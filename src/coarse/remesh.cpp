@@ -9,6 +9,7 @@
 #include "coarse/crossings.hpp"
 #include "coarse/editable_surface.hpp"
 #include "coarse/surface_sizes.hpp"
+#include "coarse/wall_sizes.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -66,6 +67,15 @@ class Remesher {
   Remesher(const SurfaceReference& reference, const PatchSurface& start, std::vector<double> sizes)
       : reference_(reference), surface_(start, std::move(sizes)), guard_(start)
   {
+  }
+
+  // Triangles of the reference may be as large as its faces: only when they are cut there are
+  // vertices where a wall is thin.
+  void see_walls(const CoarseOptions& options)
+  {
+    sweep([this] { return flip_edges(); }, kFlipSweeps);
+    sweep([this] { return split_long_edges(); }, kMostSweeps);
+    surface_.set_sizes(wall_sizes(surface_, reference_.surface().patch_materials, options));
   }
 
   PatchSurface run()
@@ -129,7 +139,7 @@ class Remesher {
     if (at(t) >= shapes_.size()) shapes_.resize(at(t) + 1, kUnknown);
     double& known = shapes_[at(t)];
     if (known == kUnknown) {
-      const Corners p = corners(surface_.triangle(t));
+      const Corners p = surface_.corners(t);
       known = is_upright(p, surface_.patch(t)) ? quality(p) : kTurnedOver;
     }
     return known;
@@ -205,7 +215,7 @@ class Remesher {
     const LocalIndex middle = surface_.split(edge, is_free ? wanted : chord);
     const std::vector<LocalIndex>& made = surface_.triangles_of(middle);
     for (const LocalIndex t : made) {
-      const PlacedTriangle placed{surface_.triangle(t), corners(surface_.triangle(t))};
+      const PlacedTriangle placed{surface_.triangle(t), surface_.corners(t)};
       if (t < guard_.num_triangles()) {
         guard_.change(t, placed);
       } else {
@@ -341,7 +351,9 @@ class Remesher {
 PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options)
 {
   const PatchSurface& start = reference.surface();
-  return Remesher(reference, start, surface_sizes(start, options)).run();
+  Remesher remesher(reference, start, surface_sizes(start, options));
+  remesher.see_walls(options);
+  return remesher.run();
 }
 
 PatchSurface remesh_finer(const SurfaceReference& reference, const PatchSurface& surface,
