@@ -63,16 +63,18 @@ struct DomainTets {
   static auto fields(auto& self) { return std::tie(self.vertex_xyz, self.tet_vertices); }
 };
 
-/// @brief The skin of domain `domain`, from 1. Local; empty if no face bounds it.
+/// @brief The faces that bound domain `domain`, from 1, ascending. Local.
+[[nodiscard]] std::vector<LocalIndex> faces_of(const CoarseSurface& surface, LocalIndex domain);
+
+/// @brief The skin of domain `domain`, from 1: triangles in the order of faces_of(). Local; empty
+/// if no face bounds it.
 [[nodiscard]] DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain);
 
 /// @brief The coarse mesh: the surface with the tets of all domains, without its cuts. Vertices
 /// that no tet has are dropped, and segments with them.
-/// @param[in] skins  skin_of() every domain, in their order.
-/// @param[in] tets   Those of every domain.
+/// @param[in] tets  Those of every domain, in their order.
 /// @return Also the parts of the tets, if domains are parts.
 /// @note Local. @throws MeshError if the result is not valid: mesh::validate().
-[[nodiscard]] cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainSkin>& skins,
-                                        const std::vector<DomainTets>& tets);
+[[nodiscard]] cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainTets>& tets);
 
 }  // namespace tessera::coarse
