@@ -147,11 +147,13 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] Bytes answer(const CoarseDivideRequest& request) const
   {
+    fail_if_asked("divide");
     return to_bytes(coarse_mesher()->divide(request.surface, for_mesher(request.options)));
   }
 
   [[nodiscard]] Bytes answer(const CoarsePieceRequest& request) const
   {
+    if (!request.is_whole) fail_if_asked("piece");
     const auto mesher = coarse_mesher();
     const coarse::CoarseOptions options = for_mesher(request.options);
     return to_bytes(request.is_whole ? mesher->mesh_domain(request.skin, options)

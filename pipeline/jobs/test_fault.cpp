@@ -21,9 +21,9 @@
 namespace tessera::pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 11> kStages{"import",  "load",   "box",  "describe",
-                                                   "coarse",  "remesh", "plan", "fill",
-                                                   "improve", "refine", "skin"};
+constexpr std::array<std::string_view, 13> kStages{
+    "import", "load", "box",  "describe", "coarse", "remesh", "divide",
+    "piece",  "plan", "fill", "improve",  "refine", "skin"};
 constexpr std::array<std::string_view, 11> kKinds{
     "throw", "segv", "exit", "loop", "sleep", "memory", "garbage", "drop", "flat", "nudge", "lose"};
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -128,7 +129,8 @@ std::vector<LocalIndex> faces_of(const CoarseSurface& surface, LocalIndex domain
 DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain)
 {
   const mesh::CoarseMesh& mesh = surface.mesh;
-  DomainSkin skin{.max_size = surface.domain_max_size[at(domain - 1)]};
+  DomainSkin skin{.max_size = surface.domain_max_size[at(domain - 1)],
+                  .model_box = bounding_box(mesh.vertex_xyz)};
   for (const LocalIndex f : faces_of(surface, domain)) {
     const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
     skin.triangle_vertices.insert(skin.triangle_vertices.end(), {v[0], v[1], v[2]});

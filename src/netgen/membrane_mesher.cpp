@@ -72,7 +72,7 @@ class PlaneMesh {
     coarse::DomainSkin turned = skin;
     turned.vertex_xyz = frame.to(std::move(turned.vertex_xyz));
     add_skin(mesh_, turned);
-    set_sizes(mesh_, session.parameters());
+    set_sizes(mesh_, bounding_box(turned.vertex_xyz), session.parameters());
     face_ = mesh_.GetNFD() + 1;
     mesh_.AddFaceDescriptor(::netgen::FaceDescriptor(face_, 1, 0, 0));
   }

@@ -88,8 +88,10 @@ void add_skin(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
   }
 }
 
-void set_sizes(::netgen::Mesh& mesh, const ::netgen::MeshingParameters& parameters)
+void set_sizes(::netgen::Mesh& mesh, const std::array<Vec3, 2>& box,
+               const ::netgen::MeshingParameters& parameters)
 {
+  mesh.SetLocalH(to_netgen(box[0]), to_netgen(box[1]), parameters.grading);
   mesh.CalcLocalH(parameters.grading);
   for (const auto& wanted : parameters.meshsize_points) mesh.RestrictLocalH(wanted.pnt, wanted.h);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <meshing.hpp>
@@ -28,8 +29,10 @@ void add_surface(::netgen::Mesh& mesh, const std::vector<double>& vertex_xyz,
 // curves: NETGEN wants no tet with two faces on one patch.
 void add_skin(::netgen::Mesh& mesh, const coarse::DomainSkin& skin);
 
-// The sizes that NETGEN would want inside of the skin.
-void set_sizes(::netgen::Mesh& mesh, const ::netgen::MeshingParameters& parameters);
+// The sizes that NETGEN would want inside of the skin. They are kept in a grid through `box`, and
+// so tets inside depend on where that lies.
+void set_sizes(::netgen::Mesh& mesh, const std::array<Vec3, 2>& box,
+               const ::netgen::MeshingParameters& parameters);
 
 // Vertices and tets of a NETGEN mesh, as ours: number i of NETGEN's is order[i] where there is one.
 struct OrderedTets {

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <meshing.hpp>
 
-#include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/optimize_domain.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
@@ -46,7 +45,7 @@ coarse::DomainTets first_tets(const coarse::DomainSkin& skin, NetgenSession& ses
 {
   ::netgen::Mesh mesh;
   add_skin(mesh, skin);
-  set_sizes(mesh, session.parameters());
+  set_sizes(mesh, skin.model_box, session.parameters());
   if (::netgen::MeshVolume(session.parameters(), mesh) != ::netgen::MESHING3_OK) {
     throw NetgenError("NETGEN gave up on the coarse volume mesh: " + session.words());
   }
@@ -145,12 +144,13 @@ coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface, dou
 coarse::DomainTets fill_domain(const coarse::DomainSkin& skin, const coarse::CoarseOptions& options)
 {
   if (skin.vertex.empty()) return {};
-  const double scale = scale_for_netgen(box_diagonal(skin.vertex_xyz));
+  const double scale = scale_for_netgen(norm(skin.model_box[1] - skin.model_box[0]));
   coarse::CoarseOptions scaled = options;
   scaled.max_size = scale * std::min(options.max_size, skin.max_size);
   scaled.points = options.points.scaled(scale);
   coarse::DomainSkin scaled_skin = skin;
   for (double& x : scaled_skin.vertex_xyz) x *= scale;
+  for (Vec3& corner : scaled_skin.model_box) corner = scale * corner;
   NetgenSession session(coarse_parameters(scaled));
   coarse::DomainTets tets =
       session.run("coarse volume mesh", [&] { return first_tets(scaled_skin, session); });

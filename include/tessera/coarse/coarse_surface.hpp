@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
 #include "tessera/cut/cut_mesh.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
@@ -47,11 +48,12 @@ struct DomainSkin {
   std::vector<LocalIndex> triangle_patch{};     ///< Shape (num_triangles); those of cuts come last.
   std::vector<LocalIndex> edge_vertices{};      ///< Shape (num_edges, 2): those on curves.
   double max_size = 0.0;                        ///< Largest edge, file length unit, > 0.
+  std::array<Vec3, 2> model_box{};              ///< Lowest and highest corner of all skins.
 
   static auto fields(auto& self)
   {
     return std::tie(self.vertex, self.vertex_xyz, self.triangle_vertices, self.triangle_patch,
-                    self.edge_vertices, self.max_size);
+                    self.edge_vertices, self.max_size, self.model_box);
   }
 };
 
