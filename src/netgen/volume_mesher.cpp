@@ -72,10 +72,10 @@ coarse::DomainTets better_tets(const coarse::DomainSkin& skin, coarse::DomainTet
   for (int round = 0; round < kMostRounds; ++round) {
     tets = coarse::optimize_domain(std::move(tets));
     auto legal = without_illegal_tets(skin, tets);
-    if (!legal) return tets;
+    if (!legal) return coarse::mend_domain(std::move(tets));
     tets = std::move(*legal);
   }
-  return coarse::smooth_domain(std::move(tets));
+  return coarse::mend_domain(coarse::smooth_domain(std::move(tets)));
 }
 
 std::string name_of(const coarse::PatchSurface& surface, const SurfaceNames& names,
