@@ -153,9 +153,8 @@ class WallSizes {
     if (wall == kNoIndex) return;
     const double gap = nearest * reach_;
     // Sheets that meet in a curve have an angle there that no size makes better.
-    const bool is_wall =
-        surface_.patch(t) == surface_.patch(wall)
-        || !joined_.contains(std::pair(surface_.patch(t), surface_.patch(wall)));
+    const bool is_wall = surface_.patch(t) == surface_.patch(wall)
+                         || !joined_.contains(std::pair(surface_.patch(t), surface_.patch(wall)));
     for (const LocalIndex v : surface_.triangle(t)) {
       double size = chord_limit(surface_.size(v), gap);
       if (is_material && is_wall) {

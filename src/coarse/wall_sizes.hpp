@@ -15,7 +15,8 @@ namespace tessera::coarse {
 /// From the middle of each triangle a ray goes up and one down its normal. What they hit first, at
 /// distance g, limits the edges there:
 /// - Across material to a few times g, or the tets between the sheets would be flat.
-/// - Where the surface bends, so that its chords stay within a quarter of g. Two sheets that both do
+/// - Where the surface bends, so that its chords stay within a quarter of g. Two sheets that both
+/// do
 ///   so do not cut each other.
 ///
 /// So a flat sheet beside a gap is not limited at all. Sizes grow with the grading from there.
