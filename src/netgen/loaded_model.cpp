@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/loaded_model.hpp"
 
+#include <utility>
 #include <vector>
 
 #include <meshing.hpp>
@@ -8,6 +9,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/mend_surface.hpp"
 
+#include "netgen/membrane_mesher.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/skin_mesh.hpp"
 #include "netgen/volume_mesher.hpp"
@@ -52,10 +54,23 @@ coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*opt
   throw ConfigError("decompose.method = \"geometry\" needs a solid model: CSG, STEP, IGES or BREP");
 }
 
-coarse::DomainTets LoadedModel::mesh_domain(const coarse::DomainSkin& skin,
+coarse::Membrane LoadedModel::mesh_membrane(const coarse::DomainSkin& skin,
+                                            const coarse::MembraneBorder& border,
                                             const coarse::CoarseOptions& options) const
 {
-  return netgen::mesh_domain(skin, options);
+  return netgen::mesh_membrane(skin, border, options);
+}
+
+coarse::DomainTets LoadedModel::fill_domain(const coarse::DomainSkin& skin,
+                                            const coarse::CoarseOptions& options) const
+{
+  return netgen::fill_domain(skin, options);
+}
+
+coarse::DomainTets LoadedModel::improve_domain(const coarse::DomainSkin& skin,
+                                               coarse::DomainTets tets) const
+{
+  return netgen::improve_domain(skin, std::move(tets));
 }
 
 mesh::CoarseMesh LoadedModel::generate(const coarse::CoarseOptions& options,
@@ -64,14 +79,11 @@ mesh::CoarseMesh LoadedModel::generate(const coarse::CoarseOptions& options,
   mesh::CoarseMesh coarse;
   const auto fill = [&](const ::netgen::NetgenGeometry& geometry, ::netgen::Mesh& mesh,
                         double scale, const coarse::CoarseSurface& surface) {
-    std::vector<coarse::DomainSkin> skins;
-    std::vector<coarse::DomainTets> tets;
+    const std::vector<coarse::DomainTets> tets = mesh_domains(surface, options);
     for (LocalIndex domain = 1; domain <= surface.num_domains(); ++domain) {
-      skins.push_back(coarse::skin_of(surface, domain));
-      tets.push_back(mesh_domain(skins.back(), options));
-      give_to_netgen(skins.back(), tets.back(), domain, scale, mesh);
+      give_to_netgen(coarse::skin_of(surface, domain), tets[at(domain - 1)], domain, scale, mesh);
     }
-    coarse = coarse::fill_surface(surface, skins, tets).mesh;
+    coarse = coarse::fill_surface(surface, tets).mesh;
     use(geometry, mesh);
   };
   static_cast<void>(mesh_surface(options, fill));
