@@ -56,10 +56,7 @@ class EditableSurface {
   [[nodiscard]] bool has_edge(LocalIndex a, LocalIndex b) const;
   /// @brief Curve of an edge, kNoIndex if it is on none.
   [[nodiscard]] LocalIndex curve(LocalIndex a, LocalIndex b) const;
-<<<<<<< HEAD
   /// @brief Edges on curves, and their curves.
-=======
->>>>>>> main
   [[nodiscard]] const std::map<Edge, LocalIndex>& curves() const { return curves_; }
   /// @brief The vertices before and after one that lies on a curve.
   [[nodiscard]] std::vector<LocalIndex> curve_neighbours(LocalIndex v) const;
