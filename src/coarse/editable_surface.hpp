@@ -26,10 +26,6 @@ class EditableSurface {
 
   [[nodiscard]] std::vector<Edge> edges() const;  ///< Ascending.
   [[nodiscard]] LocalIndex num_vertices() const { return static_cast<LocalIndex>(xyz_.size()); }
-  [[nodiscard]] LocalIndex num_triangles() const
-  {
-    return static_cast<LocalIndex>(triangles_.size());
-  }
   [[nodiscard]] bool is_vertex(LocalIndex v) const { return !around_[at(v)].empty(); }
   [[nodiscard]] const Vec3& xyz(LocalIndex v) const { return xyz_[at(v)]; }
   [[nodiscard]] double size(LocalIndex v) const { return sizes_[at(v)]; }
@@ -56,7 +52,6 @@ class EditableSurface {
   [[nodiscard]] bool has_edge(LocalIndex a, LocalIndex b) const;
   /// @brief Curve of an edge, kNoIndex if it is on none.
   [[nodiscard]] LocalIndex curve(LocalIndex a, LocalIndex b) const;
-  /// @brief Edges on curves, and their curves.
   [[nodiscard]] const std::map<Edge, LocalIndex>& curves() const { return curves_; }
   /// @brief The vertices before and after one that lies on a curve.
   [[nodiscard]] std::vector<LocalIndex> curve_neighbours(LocalIndex v) const;
