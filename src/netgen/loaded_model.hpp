@@ -53,6 +53,9 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
                                                   coarse::DomainTets tets) const final;
 
+  /// @brief Makes parameters of a coarse mesh exact that are good guesses, if the model has some.
+  virtual void locate_parameters(mesh::CoarseMesh& /*mesh*/) const {}
+
   /// @brief As generate(options), and lets `use` go on with the mesh in NETGEN. There NETGEN can do
   /// what Tessera does otherwise (refine it), so the two can be compared on one coarse mesh.
   /// @throws Also what `use` throws.

@@ -60,6 +60,13 @@ class OccModel final : public LoadedModel {
   void write_brep(const std::filesystem::path& file) const override;
   void add_parameters(const coarse::SurfaceReference& reference,
                       mesh::CoarseMesh& mesh) const override;
+  void locate_parameters(mesh::CoarseMesh& mesh) const override
+  {
+    with_occ_errors(file_name_, [&] {
+      locate_face_corners(mesh);
+      locate_segment_ends(mesh);
+    });
+  }
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
