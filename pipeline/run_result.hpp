@@ -30,7 +30,8 @@ struct RunOptions {
   PieceSink on_piece{};                       ///< If set, gets the pieces: no files are written.
 };
 
-/// @brief What a run has made; the same on every rank unless it says otherwise. The mesh itself is in the output folder.
+/// @brief What a run has made; the same on every rank unless it says otherwise. The mesh itself is
+/// in the output folder.
 struct RunResult {
   config::Case resolved{};  ///< With size and levels as chosen.
   model::ModelSource model{};

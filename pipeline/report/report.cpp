@@ -114,9 +114,9 @@ double balance_of_parts(const RunResult& run)
 Json warnings_json(const RunResult& run)
 {
   Json warnings = Json::array();
-  for (const auto& warning : {too_many_subdomains(run.resolved, run.coarse.mesh),
-                              unbalanced_parts(run), parts_not_meshed(run),
-                              sharp_warning(run.sharp)}) {
+  for (const auto& warning :
+       {too_many_subdomains(run.resolved, run.coarse.mesh), unbalanced_parts(run),
+        parts_not_meshed(run), sharp_warning(run.sharp)}) {
     if (warning) warnings.push_back(*warning);
   }
   return warnings;

@@ -110,7 +110,8 @@ std::string sharp_html(const Report& report)
 {
   const std::string table = sharp_tets_html(report);
   if (table.empty()) return {};
-  return "<p class=\"soft\">The worst coarse tets with angles below 5°. Short edges or narrow faces "
+  return "<p class=\"soft\">The worst coarse tets with angles below 5°. Short edges or narrow "
+         "faces "
          "of the model may be there. Tets at its own sharp angles are not in the table.</p>\n"
          + table;
 }

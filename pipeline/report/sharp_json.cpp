@@ -28,7 +28,8 @@ std::optional<std::string> sharp_warning(const coarse::SharpTets& sharp)
   if (sharp.num_others == 0) return std::nullopt;
   const coarse::SharpTet& worst = sharp.worst.front();
   return fmt::format(
-      "{} coarse tets have an angle below {:g} degrees that no sharp angle of the model forces, the "
+      "{} coarse tets have an angle below {:g} degrees that no sharp angle of the model forces, "
+      "the "
       "smallest {:.2g} at ({:g}); short edges or narrow faces of the model may be there",
       sharp.num_others, kSharpAngle_deg, worst.angle_deg, fmt::join(worst.centre, ", "));
 }
