@@ -17,6 +17,7 @@
 #include "pipeline/report/cuts_json.hpp"
 #include "pipeline/report/names_json.hpp"
 #include "pipeline/report/quality_json.hpp"
+#include "pipeline/report/sharp_json.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 
@@ -113,8 +114,9 @@ double balance_of_parts(const RunResult& run)
 Json warnings_json(const RunResult& run)
 {
   Json warnings = Json::array();
-  for (const auto& warning : {too_many_subdomains(run.resolved, run.coarse.mesh),
-                              unbalanced_parts(run), parts_not_meshed(run)}) {
+  for (const auto& warning :
+       {too_many_subdomains(run.resolved, run.coarse.mesh), unbalanced_parts(run),
+        parts_not_meshed(run), sharp_warning(run.sharp)}) {
     if (warning) warnings.push_back(*warning);
   }
   return warnings;
@@ -246,6 +248,7 @@ Json coarse_json(const RunResult& run)
           {"surface_mesher", word_of(run.coarse.options.surface_mesher)},
           {"tries", run.coarse.tries},
           {"failures", run.coarse.failures},
+          {"sharp", sharp_json(run.sharp, run.coarse.mesh)},
           {"levels", run.levels.largest()},
           {"edges_by_level", run.levels.histogram()}};
 }
