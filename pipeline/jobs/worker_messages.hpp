@@ -85,11 +85,16 @@ struct DescribeRequest {
   static auto fields(auto& /*self*/) { return std::tie(); }
 };
 
+struct FiguresRequest {
+  static auto fields(auto& /*self*/) { return std::tie(); }
+};
+
 struct CoarseSurfaceRequest {
   coarse::CoarseOptions options{};
   cut::CutTree planes{};
+  LocalIndex rung = 0;
 
-  static auto fields(auto& self) { return std::tie(self.options, self.planes); }
+  static auto fields(auto& self) { return std::tie(self.options, self.planes, self.rung); }
 };
 
 struct CoarseDomainRequest {
@@ -133,6 +138,6 @@ struct SkinRequest {
 
 using Request = std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDomainRequest,
                              CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
-                             RefineTask, SkinRequest, DescribeRequest>;
+                             RefineTask, SkinRequest, DescribeRequest, FiguresRequest>;
 
 }  // namespace tessera::pipeline

@@ -14,6 +14,7 @@
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/stages/coarse_budget.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -27,26 +28,10 @@ std::optional<Result> result_of(const JobRequest& job, const jobs::JobRunner::Wa
   auto result = read_result(outcome, from_bytes<Result>);
   keep_if_failed(job, outcome, context);
   throw_if_cancelled(outcome);
+  context.log.debug("{}: {:.2f} of {:.0f} s of CPU time", job.name, outcome.cpu_s,
+                    job.limits.cpu_s);
   outcome.result.clear();
   return result;
-}
-
-struct SurfaceTry {
-  jobs::JobOutcome outcome{};
-  std::optional<coarse::CoarseSurface> surface{};
-
-  static auto fields(auto& self) { return std::tie(self.outcome, self.surface); }
-};
-
-SurfaceTry try_surface(const CoarsePlan& plan, const jobs::JobLimits& limits, RunContext& context)
-{
-  return comm::on_root(context.comm, [&] {
-    SurfaceTry made;
-    const Bytes request = coarse_surface_request(plan.options, plan.planes);
-    made.surface = result_of<coarse::CoarseSurface>({"coarse", request, limits},
-                                                    wait_for_stop_signal(), made.outcome, context);
-    return made;
-  });
 }
 
 struct FailedDomain {
@@ -63,7 +48,7 @@ struct DomainShare {
 };
 
 DomainShare fill_domains(const coarse::CoarseSurface& surface, const coarse::CoarseOptions& options,
-                         const jobs::JobLimits& limits, StageScope& stage, RunContext& context)
+                         StageScope& stage, RunContext& context)
 {
   DomainShare share;
   std::vector<double> num_triangles(at(surface.num_domains()));
@@ -74,7 +59,9 @@ DomainShare fill_domains(const coarse::CoarseSurface& surface, const coarse::Coa
   }
   const auto fill = [&](LocalIndex item, const jobs::JobRunner::WaitCallback& on_wait) {
     const LocalIndex domain = item + 1;
-    const Bytes request = coarse_domain_request(coarse::skin_of(surface, domain), options);
+    coarse::DomainSkin skin = coarse::skin_of(surface, domain);
+    const jobs::JobLimits limits = domain_limits(options, skin);
+    const Bytes request = coarse_domain_request(std::move(skin), options);
     jobs::JobOutcome outcome;
     auto tets = result_of<coarse::DomainTets>(
         {fmt::format("coarse: domain {}", domain), request, limits}, on_wait, outcome, context);
@@ -102,12 +89,23 @@ std::vector<FilledDomain> gather(const std::vector<FilledDomain>& filled,
 
 }  // namespace
 
-CoarseAttempt try_coarse_mesh(const CoarsePlan& plan, const jobs::JobLimits& limits,
-                              StageScope& stage, RunContext& context)
+SurfaceTry try_coarse_surface(const CoarsePlan& plan, const jobs::JobRunner::WaitCallback& on_wait,
+                              RunContext& context)
 {
-  SurfaceTry first = try_surface(plan, limits, context);
-  if (!first.surface) return {std::move(first.outcome), {}};
-  const DomainShare share = fill_domains(*first.surface, plan.options, limits, stage, context);
+  SurfaceTry made;
+  // Gmsh is a child of the job and has the same limit.
+  coarse::CoarseOptions options = plan.options;
+  options.timeout_s = plan.limits.cpu_s;
+  const Bytes request = coarse_surface_request(options, plan.planes, plan.rung);
+  made.surface = result_of<coarse::CoarseSurface>({"coarse", request, plan.limits}, on_wait,
+                                                  made.outcome, context);
+  return made;
+}
+
+CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, coarse::CoarseSurface surface,
+                                  StageScope& stage, RunContext& context)
+{
+  const DomainShare share = fill_domains(surface, plan.options, stage, context);
   auto failed = context.comm.all_gather_rows(share.failed);
   if (!failed.empty()) {
     const auto lowest = std::ranges::min_element(failed, {}, &FailedDomain::domain);
@@ -116,8 +114,11 @@ CoarseAttempt try_coarse_mesh(const CoarsePlan& plan, const jobs::JobLimits& lim
   std::vector<FilledDomain> filled = gather(share.filled, context.comm);
   CoarseAttempt attempt;
   attempt.outcome = comm::on_root(context.comm, [&] {
-    const Bytes request = coarse_mesh_request(std::move(*first.surface), std::move(filled),
-                                              plan.options, plan.planes);
+    std::size_t num_tets = surface.mesh.tet_vertices.size() / 4;
+    for (const FilledDomain& one : filled) num_tets += one.tets.tet_vertices.size() / 4;
+    const jobs::JobLimits limits = whole_limits(plan.options, num_tets);
+    const Bytes request =
+        coarse_mesh_request(std::move(surface), std::move(filled), plan.options, plan.planes);
     jobs::JobOutcome outcome;
     attempt.made = result_of<CoarseTry>({"coarse: whole", request, limits}, wait_for_stop_signal(),
                                         outcome, context);
