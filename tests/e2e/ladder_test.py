@@ -5,10 +5,10 @@ import time
 import unittest
 
 import program
-from program import OK
+from program import DEGRADED, OK
 
 BUDGET_S = 8
-
+HARD = 1  # Number of the subdomain.
 
 
 class Ladder(program.ProgramTest):
@@ -50,6 +50,19 @@ class Ladder(program.ProgramTest):
             self.assertEqual(report["coarse"]["surface_mesher"], "netgen")
             first = self.folder / "on_1"
             self.assertEqual(program.mesh_files(self.folder / f"on_{ranks}"), program.mesh_files(first))
+
+    def test_tries_of_a_hard_subdomain_fail_together(self):
+        """All four of NETGEN hang; the subdomain is subdivided."""
+        self.case = self.write_case()
+        limit = ("--set", f"fill.timeout_s={BUDGET_S}")
+        runs = {}
+        for ranks in (1, 3):
+            runs[ranks] = self.mesh_with(f"fill=loop@{HARD}", f"on_{ranks}", *limit, ranks=ranks, code=DEGRADED)
+            hard = runs[ranks][0]["subdomains"][HARD]
+            self.assertEqual((hard["kernel"], hard["tries"], len(hard["failures"])), ("subdivide", 5, 4))
+        self.assertEqual(runs[3][0]["digest"], runs[1][0]["digest"])
+        self.assertEqual(runs[3][0]["subdomains"][HARD]["failures"], runs[1][0]["subdomains"][HARD]["failures"])
+        self.assertLess(runs[3][1], runs[1][1])
 
 
 if __name__ == "__main__":
