@@ -2,10 +2,13 @@
 #include "pipeline/stages/coarse_stage.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +16,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/jobs/run_program.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/stages/coarse_budget.hpp"
@@ -38,17 +42,36 @@ bool is_endless(const jobs::JobOutcome& outcome)
 std::string name_of(const coarse::CoarseOptions& options)
 {
   const bool is_remesh = options.surface_mesher == coarse::SurfaceMesher::remesh;
-  return fmt::format("{}max_size {:g}", is_remesh ? "remeshed triangles, " : "", options.max_size);
+  std::string_view who = is_remesh ? "remeshed triangles, " : "";
+  if (options.mesher == coarse::Mesher::gmsh) who = "Gmsh, ";
+  return fmt::format("{}max_size {:g}", who, options.max_size);
 }
 
-[[noreturn]] void throw_no_mesh(const CoarseResult& result, const std::string& file)
+// Gmsh gets what OpenCASCADE has read.
+bool is_for_gmsh(const config::Case& run_case)
 {
+  constexpr std::array<std::string_view, 5> kKinds{".step", ".stp", ".iges", ".igs", ".brep"};
+  std::string kind = run_case.geometry.file.extension().string();
+  std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return std::tolower(c); });
+  return run_case.coarse.mesher == coarse::Mesher::netgen
+         && std::ranges::find(kKinds, kind) != kKinds.end();
+}
+
+bool has_gmsh() { return jobs::is_on_path("gmsh"); }
+
+[[noreturn]] void throw_no_mesh(const CoarseResult& result, const config::Case& run_case)
+{
+  const bool may_gmsh_help = is_for_gmsh(run_case) && !has_gmsh();
   std::string failures;
   for (const std::string& failure : result.failures) failures += "\n  " + failure;
-  throw MeshError(
-      fmt::format("{}: no coarse mesh could be made; try another coarse.max_size, a longer "
-                  "coarse.timeout_s, or repair the model{}",
-                  file, failures));
+  throw MeshError(fmt::format(
+      "{}: no coarse mesh could be made; try another coarse.max_size, a longer "
+      "coarse.timeout_s, or repair the model{}{}",
+      run_case.geometry.file.string(),
+      may_gmsh_help ? "; if Gmsh is installed (Debian: apt install gmsh), it is tried as "
+                      "well"
+                    : "",
+      failures));
 }
 
 void throw_if_hopeless(const jobs::JobOutcome& outcome, const std::string& file)
@@ -74,7 +97,9 @@ struct Attempt {
 };
 
 // Parts that NETGEN cannot mesh once are tried finer once. What worked uncut must go on to work.
-std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTree& planes)
+// Gmsh comes last, so that no mesh that Tessera can make depends on what is installed.
+std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTree& planes,
+                                 bool with_gmsh)
 {
   constexpr std::size_t kTriesOfParts = 2;
   const std::vector<coarse::CoarseOptions> fallbacks = tries_for(run_case);
@@ -85,6 +110,10 @@ std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTre
     }
   }
   for (const coarse::CoarseOptions& options : fallbacks) attempts.push_back({options, false});
+  if (with_gmsh) {
+    attempts.push_back({run_case.coarse, false});
+    attempts.back().options.mesher = coarse::Mesher::gmsh;
+  }
   return attempts;
 }
 
@@ -108,8 +137,9 @@ std::vector<CoarsePlan> plans_for(const config::Case& run_case, const cut::CutTr
                                   RunContext& context)
 {
   const auto figures = on_root(context.comm, [&] { return figures_of(run_case, context); });
+  const bool with_gmsh = on_root(context.comm, [&] { return is_for_gmsh(run_case) && has_gmsh(); });
   std::vector<CoarsePlan> plans;
-  for (const auto& [options, is_cut] : attempts_at(run_case, planes)) {
+  for (const auto& [options, is_cut] : attempts_at(run_case, planes, with_gmsh)) {
     plans.push_back({.options = options,
                      .planes = is_cut ? planes : cut::CutTree{},
                      .rung = static_cast<LocalIndex>(plans.size()),
@@ -207,6 +237,12 @@ class CoarseTries {
     if (made.surface) end = RungEnd::surface;
     if (is_endless(made.outcome)) end = RungEnd::endless;
     if (is_final(made.outcome) || was_killed_from_outside(made.outcome)) end = RungEnd::final;
+    // Rank 0 has found Gmsh; this rank's machine may be without.
+    const bool was_gmsh_asked = plans_.front().options.mesher == coarse::Mesher::gmsh;
+    if (plan.options.mesher == coarse::Mesher::gmsh && !was_gmsh_asked
+        && made.outcome.error == ErrorKind::config) {
+      end = RungEnd::failed;
+    }
     if (made.surface) surfaces_[rung] = std::move(*made.surface);
     ended_here_.push_back({rung, std::move(made.outcome)});
     return to_bytes(end);
@@ -293,9 +329,14 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
   CoarseResult result =
       CoarseTries(run_case, plans_for(run_case, planes, context), stage, context).run();
   result = on_root(context.comm, [&] {
-    if (result.mesh.num_tets() == 0) throw_no_mesh(result, run_case.geometry.file.string());
+    if (result.mesh.num_tets() == 0) throw_no_mesh(result, run_case);
     return std::move(result);
   });
+  if (result.options.mesher != run_case.coarse.mesher) {
+    context.log.warn(
+        "coarse: Gmsh has made the mesh, after all other tries had failed; without it, or with "
+        "another version of it, this run ends otherwise");
+  }
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),
                            result.mesh.num_patches(), result.mesh.num_materials()));
