@@ -2,10 +2,8 @@
 #include "pipeline/stages/coarse_budget.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
 
-#include "tessera/base/vec3.hpp"
+#include "tessera/coarse/divide_domains.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -42,22 +40,6 @@ double expected_triangles(double area, double size)
   return 1.5 * kTrianglesPerSquare * area / (size * size);
 }
 
-// A few for every triangle of the skin, and what fills the rest.
-double expected_tets(const coarse::DomainSkin& skin)
-{
-  constexpr double kTetsPerTriangle = 4.0;
-  constexpr double kTetsPerCube = 8.5;
-  double volume = 0.0;
-  const auto corner = [&](std::size_t i) {
-    return point_at(std::span(skin.vertex_xyz), skin.triangle_vertices[i]);
-  };
-  for (std::size_t i = 0; i < skin.triangle_vertices.size(); i += 3) {
-    volume += dot(corner(i), cross(corner(i + 1), corner(i + 2))) / 6.0;
-  }
-  const double inner = kTetsPerCube * std::abs(volume) / std::pow(skin.max_size, 3.0);
-  return kTetsPerTriangle * static_cast<double>(skin.triangle_vertices.size() / 3) + inner;
-}
-
 }  // namespace
 
 jobs::JobLimits surface_limits(const coarse::CoarseOptions& options,
@@ -78,15 +60,15 @@ jobs::JobLimits surface_limits(const coarse::CoarseOptions& options,
 
 jobs::JobLimits domain_limits(const coarse::CoarseOptions& options, const coarse::DomainSkin& skin)
 {
-  const double expected_s = expected_tets(skin) / kTetsPerSecond;
+  const double expected_s = coarse::predicted_tets(skin) / kTetsPerSecond;
   return {.cpu_s = budget_s(options, kWholeOrDomain_s, expected_s),
           .stall_s = kStall_s,
           .memory_gib = kMemory_gib};
 }
 
-jobs::JobLimits whole_limits(const coarse::CoarseOptions& options, std::size_t num_tets)
+jobs::JobLimits whole_limits(const coarse::CoarseOptions& options, double num_tets)
 {
-  const double expected_s = static_cast<double>(num_tets) / kTetsPerSecond;
+  const double expected_s = num_tets / kTetsPerSecond;
   return {.cpu_s = budget_s(options, kWholeOrDomain_s, expected_s),
           .stall_s = kStall_s,
           .memory_gib = kMemory_gib};

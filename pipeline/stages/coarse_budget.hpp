@@ -15,12 +15,12 @@ namespace tessera::pipeline {
 [[nodiscard]] jobs::JobLimits surface_limits(const coarse::CoarseOptions& options,
                                              const coarse::ModelFigures& model, bool is_first);
 
-/// @brief Of one domain.
+/// @brief Of one domain, or a piece of it.
 [[nodiscard]] jobs::JobLimits domain_limits(const coarse::CoarseOptions& options,
                                             const coarse::DomainSkin& skin);
 
-/// @brief Of putting the whole together.
+/// @brief Of dividing a surface, and of putting the whole together.
 [[nodiscard]] jobs::JobLimits whole_limits(const coarse::CoarseOptions& options,
-                                           std::size_t num_tets);
+                                           double num_tets);
 
 }  // namespace tessera::pipeline
