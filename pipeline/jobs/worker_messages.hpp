@@ -145,9 +145,9 @@ struct SkinRequest {
   static auto fields(auto& self) { return std::tie(self.subdomain); }
 };
 
-using Request = std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDivideRequest,
-                             CoarsePieceRequest, CoarseMeshRequest, UntangleRequest, FillTask,
-                             ImproveRequest, RefineTask, SkinRequest, DescribeRequest,
-                             FiguresRequest>;
+using Request =
+    std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDivideRequest,
+                 CoarsePieceRequest, CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
+                 RefineTask, SkinRequest, DescribeRequest, FiguresRequest>;
 
 }  // namespace tessera::pipeline

@@ -20,7 +20,6 @@ namespace tessera::pipeline {
                                             const coarse::DomainSkin& skin);
 
 /// @brief Of dividing a surface, and of putting the whole together.
-[[nodiscard]] jobs::JobLimits whole_limits(const coarse::CoarseOptions& options,
-                                           double num_tets);
+[[nodiscard]] jobs::JobLimits whole_limits(const coarse::CoarseOptions& options, double num_tets);
 
 }  // namespace tessera::pipeline
