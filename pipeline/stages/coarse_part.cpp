@@ -10,6 +10,7 @@
 #include "tessera/fill/fallbacks.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
 
+#include "pipeline/report/sharp_json.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
@@ -85,6 +86,22 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   choose_levels(run, context);
 }
 
+void tell_what_is_within_tolerance(const RunResult& run, RunContext& context)
+{
+  const coarse::VertexDistance& distance = run.coarse.distance;
+  if (distance.num_within == 0) return;
+  context.log.info(
+      "coarse: {} vertices are off the geometry by at most {:.3g}: within the tolerance "
+      "of the CAD file, or less than {:g} of their edges",
+      distance.num_within, distance.largest_within, coarse::kMostOfEdgeOff);
+}
+
+void name_sharp_tets(RunResult& run, RunContext& context)
+{
+  run.sharp = coarse::find_sharp_tets(run.coarse.mesh, kSharpAngle_deg);
+  if (const auto warning = sharp_warning(run.sharp)) context.log.warn("coarse: {}", *warning);
+}
+
 }  // namespace
 
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
@@ -107,7 +124,9 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
     run.decomposition = run_decompose_stage(run, context);
     keep_coarse_mesh(run, options.state, context);
   }
+  tell_what_is_within_tolerance(run, context);
   all_or_none(context.comm, [&] {
+    if (context.comm.rank() == 0) name_sharp_tets(run, context);
     run.kernels = fill::kernels_of(run.resolved.fill, run.coarse.mesh.material_names,
                                    run.decomposition.decomposition.subdomain_material);
   });

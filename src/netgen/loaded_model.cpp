@@ -7,6 +7,7 @@
 #include <meshing.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/mend_surface.hpp"
 
 #include "netgen/membrane_mesher.hpp"
 #include "netgen/mesh_conversion.hpp"
@@ -38,8 +39,13 @@ void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& te
 coarse::CoarseSurface LoadedModel::mesh_surface(const coarse::CoarseOptions& options,
                                                 const cut::CutTree& planes) const
 {
-  if (planes.num_parts > 0) return mesh_parts(options, planes);
-  return mesh_surface(options, [](const auto&...) {});
+  coarse::CoarseSurface surface = planes.num_parts > 0
+                                      ? mesh_parts(options, planes)
+                                      : mesh_surface(options, [](const auto&...) {});
+  if (surface.num_domains() > 0 && coarse::mend_surface(surface, *this).total() > 0) {
+    locate_parameters(surface.mesh);
+  }
+  return surface;
 }
 
 coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*options*/,
