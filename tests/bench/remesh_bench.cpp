@@ -11,6 +11,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tessera/base/box_diagonal.hpp"
@@ -63,7 +64,12 @@ void fill(const netgen::LoadedModel& model, const coarse::CoarseOptions& options
 {
   const double begin = cpu_seconds();
   try {
-    const mesh::CoarseMesh mesh = model.generate(options);
+    coarse::CoarseSurface surface = model.mesh_surface(options, cut::CutTree{});
+    std::vector<coarse::DomainTets> tets;
+    for (LocalIndex d = 1; d <= surface.num_domains(); ++d) {
+      tets.push_back(model.mesh_domain(coarse::skin_of(surface, d), options));
+    }
+    const mesh::CoarseMesh mesh = coarse::fill_surface(std::move(surface), tets).mesh;
     std::printf("  ok, %d tets, smallest dihedral angle %.2f deg, in %.1f s\n", mesh.num_tets(),
                 smallest_dihedral_deg(mesh), cpu_seconds() - begin);
   } catch (const std::exception& error) {
