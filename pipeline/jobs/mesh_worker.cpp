@@ -174,6 +174,7 @@ class MeshWorker final : public jobs::Worker {
       if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
     }
     made.distance.largest *= scale_;
+    made.distance.largest_within *= scale_;
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     mesh::validate(made.mesh);
     return garbled_if_asked(stage_of(request.options), to_bytes(made));

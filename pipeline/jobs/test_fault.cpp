@@ -217,6 +217,10 @@ class NudgedModel final : public model::Model {
   {
     return sound_.curve_tolerance(curve);
   }
+  [[nodiscard]] double end_tolerance(LocalIndex curve, const Vec3& point) const override
+  {
+    return sound_.end_tolerance(curve, point);
+  }
   [[nodiscard]] double box_diagonal() const override { return sound_.box_diagonal(); }
 
   [[nodiscard]] model::SurfacePoint project_to_surface(

@@ -92,6 +92,16 @@ void name_sharp_tets(RunResult& run, RunContext& context)
   if (const auto warning = sharp_warning(run.sharp)) context.log.warn("coarse: {}", *warning);
 }
 
+void tell_what_is_within_tolerance(const RunResult& run, RunContext& context)
+{
+  const coarse::VertexDistance& distance = run.coarse.distance;
+  if (distance.num_within == 0) return;
+  context.log.info(
+      "coarse: {} vertices are off the geometry by at most {:.3g}: within the tolerance "
+      "of the CAD file, or less than {:g} of their edges",
+      distance.num_within, distance.largest_within, coarse::kMostOfEdgeOff);
+}
+
 }  // namespace
 
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
@@ -114,6 +124,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
     run.decomposition = run_decompose_stage(run, context);
     keep_coarse_mesh(run, options.state, context);
   }
+  tell_what_is_within_tolerance(run, context);
   all_or_none(context.comm, [&] {
     if (context.comm.rank() == 0) name_sharp_tets(run, context);
     run.kernels = fill::kernels_of(run.resolved.fill, run.coarse.mesh.material_names,

@@ -9,48 +9,7 @@ namespace {
 
 constexpr std::size_t kLeafSize = 4;
 
-bool is_empty(const Box& box) { return box.low[0] > box.high[0]; }
-
 }  // namespace
-
-void Box::include(const Vec3& point) noexcept
-{
-  for (std::size_t d = 0; d < 3; ++d) {
-    low[d] = std::min(low[d], point[d]);
-    high[d] = std::max(high[d], point[d]);
-  }
-}
-
-void Box::include(const Box& other) noexcept
-{
-  for (std::size_t d = 0; d < 3; ++d) {
-    low[d] = std::min(low[d], other.low[d]);
-    high[d] = std::max(high[d], other.high[d]);
-  }
-}
-
-bool Box::holds(const Box& other) const noexcept
-{
-  for (std::size_t d = 0; d < 3; ++d) {
-    if (other.low[d] < low[d] || high[d] < other.high[d]) return false;
-  }
-  return true;
-}
-
-bool Box::touches(const Box& other) const noexcept
-{
-  for (std::size_t d = 0; d < 3; ++d) {
-    if (high[d] < other.low[d] || other.high[d] < low[d]) return false;
-  }
-  return true;
-}
-
-Box box_of(const std::array<Vec3, 3>& corners) noexcept
-{
-  Box box;
-  for (const Vec3& corner : corners) box.include(corner);
-  return box;
-}
 
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) { rebuild(); }
 
@@ -61,7 +20,7 @@ void BoxTree::rebuild()
   leaf_.assign(boxes_.size(), kNoIndex);
   std::vector<LocalIndex> items;
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    if (!is_empty(boxes_[i])) items.push_back(static_cast<LocalIndex>(i));
+    if (!boxes_[i].is_empty()) items.push_back(static_cast<LocalIndex>(i));
   }
   if (!items.empty()) build(items, kNoIndex);
 }
@@ -106,7 +65,7 @@ void BoxTree::change(LocalIndex item, const Box& box)
 {
   boxes_[at(item)] = box;
   if (leaf_[at(item)] == kNoIndex) return rebuild();
-  if (!is_empty(box)) grow(leaf_[at(item)], box);
+  if (!box.is_empty()) grow(leaf_[at(item)], box);
   count_change();
 }
 

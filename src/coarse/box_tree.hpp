@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -15,14 +16,35 @@ struct Box {
   Vec3 low = kNoPoint;
   Vec3 high = -1.0 * kNoPoint;
 
-  void include(const Vec3& point) noexcept;
-  void include(const Box& other) noexcept;
-  [[nodiscard]] bool holds(const Box& other) const noexcept;
-  [[nodiscard]] bool touches(const Box& other) const noexcept;
+  constexpr void include(const Vec3& point) noexcept { include({point, point}); }
+  constexpr void include(const Box& other) noexcept
+  {
+    for (std::size_t d = 0; d < 3; ++d) {
+      low[d] = std::min(low[d], other.low[d]);
+      high[d] = std::max(high[d], other.high[d]);
+    }
+  }
+  [[nodiscard]] constexpr bool is_empty() const noexcept { return low[0] > high[0]; }
+  [[nodiscard]] constexpr bool holds(const Box& other) const noexcept
+  {
+    return low[0] <= other.low[0] && low[1] <= other.low[1] && low[2] <= other.low[2]
+           && other.high[0] <= high[0] && other.high[1] <= high[1] && other.high[2] <= high[2];
+  }
+  [[nodiscard]] constexpr bool touches(const Box& other) const noexcept
+  {
+    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1]
+           && other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
+  }
 };
 
 /// @brief The box of a triangle.
-[[nodiscard]] Box box_of(const std::array<Vec3, 3>& corners) noexcept;
+[[nodiscard]] constexpr Box box_of(const std::array<Vec3, 3>& corners) noexcept
+{
+  Box box{corners[0], corners[0]};
+  box.include(corners[1]);
+  box.include(corners[2]);
+  return box;
+}
 
 /// @brief Finds boxes that touch another one, while some of them change and new ones come. Local.
 ///

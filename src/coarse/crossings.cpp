@@ -28,16 +28,14 @@ std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, const std::array<
   return from + (above / (above - below)) * (to - from);
 }
 
-// An edge that begins at a corner of the triangle does not go through it.
-std::optional<Vec3> edge_through(const PlacedTriangle& edges_of, const PlacedTriangle& triangle)
+// Of an edge of a through b. One that begins at the corner that both share does not go through.
+std::optional<Vec3> edge_through(const PlacedTriangle& a, const PlacedTriangle& b,
+                                 std::size_t shared_of_a)
 {
   for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t next = (c + 1) % 3;
-    const auto is_end = [&](LocalIndex corner) {
-      return corner == edges_of.vertices[c] || corner == edges_of.vertices[next];
-    };
-    if (std::ranges::any_of(triangle.vertices, is_end)) continue;
-    const auto place = piercing(edges_of.corners[c], edges_of.corners[next], triangle.corners);
+    if (c == shared_of_a || next == shared_of_a) continue;
+    const auto place = piercing(a.corners[c], a.corners[next], b.corners);
     if (place) return place;
   }
   return std::nullopt;
@@ -65,12 +63,19 @@ std::vector<Box> boxes_of(std::span<const PlacedTriangle> triangles)
 
 std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b)
 {
-  const auto num_shared = std::ranges::count_if(a.vertices, [&](LocalIndex v) {
-    return std::ranges::find(b.vertices, v) != b.vertices.end();
-  });
-  if (num_shared > 1) return std::nullopt;
-  const auto place = edge_through(a, b);
-  return place ? place : edge_through(b, a);
+  constexpr std::size_t kNone = 3;
+  std::size_t shared_of_a = kNone;
+  std::size_t shared_of_b = kNone;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (a.vertices[i] != b.vertices[j]) continue;
+      if (shared_of_a != kNone) return std::nullopt;
+      shared_of_a = i;
+      shared_of_b = j;
+    }
+  }
+  const auto place = edge_through(a, b, shared_of_a);
+  return place ? place : edge_through(b, a, shared_of_b);
 }
 
 CrossingGuard::CrossingGuard(const PatchSurface& surface)
@@ -78,14 +83,22 @@ CrossingGuard::CrossingGuard(const PatchSurface& surface)
 {
 }
 
+void CrossingGuard::find_near(const Box& box, std::span<const LocalIndex> without)
+{
+  near_.clear();
+  tree_.visit([&](const Box& other) { return other.touches(box); },
+              [&](LocalIndex t) {
+                if (std::ranges::find(without, t) == without.end()) near_.push_back(t);
+              });
+}
+
 // Pairs in which some of `some` cut each other or those that are near.
-int CrossingGuard::count(std::span<const PlacedTriangle> some,
-                         std::span<const LocalIndex> near) const
+int CrossingGuard::count_near(std::span<const PlacedTriangle> some) const
 {
   int count = 0;
   for (std::size_t i = 0; i < some.size(); ++i) {
     const Box box = box_of(some[i].corners);
-    for (const LocalIndex t : near) {
+    for (const LocalIndex t : near_) {
       if (!tree_.box(t).touches(box)) continue;
       count += crossing(some[i], triangles_[at(t)]) ? 1 : 0;
     }
@@ -94,29 +107,21 @@ int CrossingGuard::count(std::span<const PlacedTriangle> some,
   return count;
 }
 
-bool CrossingGuard::allows(std::span<const LocalIndex> old,
-                           std::span<const PlacedTriangle> made) const
+bool CrossingGuard::allows(std::span<const LocalIndex> old, std::span<const PlacedTriangle> made)
 {
-  std::vector<PlacedTriangle> before;
   Box around;
   for (const PlacedTriangle& one : made) around.include(box_of(one.corners));
-  std::vector<LocalIndex> near;
-  const auto find_near = [&] {
-    near.clear();
-    tree_.visit([&](const Box& box) { return box.touches(around); },
-                [&](LocalIndex t) {
-                  if (std::ranges::find(old, t) == old.end()) near.push_back(t);
-                });
-  };
-  find_near();
-  const int after = count(made, near);
+  find_near(around, old);
+  const int after = count_near(made);
   if (after == 0) return true;
+  std::vector<PlacedTriangle> before;
+  around = Box{};
   for (const LocalIndex t : old) {
     before.push_back(triangles_[at(t)]);
     around.include(tree_.box(t));
   }
-  find_near();
-  return after <= count(before, near);
+  find_near(around, old);
+  return after <= count_near(before);
 }
 
 void CrossingGuard::change(LocalIndex t, const PlacedTriangle& triangle)

@@ -30,8 +30,7 @@ class CrossingGuard {
 
   /// @brief Whether `made` in the place of `old` cut other triangles and each other at no more
   /// pairs than those do. So a surface that cuts itself already may still change there.
-  [[nodiscard]] bool allows(std::span<const LocalIndex> old,
-                            std::span<const PlacedTriangle> made) const;
+  [[nodiscard]] bool allows(std::span<const LocalIndex> old, std::span<const PlacedTriangle> made);
 
   /// @brief Triangle `t` is another one now.
   void change(LocalIndex t, const PlacedTriangle& triangle);
@@ -45,11 +44,12 @@ class CrossingGuard {
   }
 
  private:
-  [[nodiscard]] int count(std::span<const PlacedTriangle> some,
-                          std::span<const LocalIndex> near) const;
+  void find_near(const Box& box, std::span<const LocalIndex> without);
+  [[nodiscard]] int count_near(std::span<const PlacedTriangle> some) const;
 
   std::vector<PlacedTriangle> triangles_{};
   BoxTree tree_;
+  std::vector<LocalIndex> near_{};  // Of one question; kept for its memory.
 };
 
 }  // namespace tessera::coarse

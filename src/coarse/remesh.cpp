@@ -145,11 +145,20 @@ class Remesher {
     return known;
   }
 
+  // Triangles that changed.
   void forget(const std::vector<LocalIndex>& triangles)
   {
     for (const LocalIndex t : triangles) {
       if (at(t) < shapes_.size()) shapes_[at(t)] = kUnknown;
+      if (at(t) >= changed_.size()) changed_.resize(at(t) + 1, flip_sweep_);
+      changed_[at(t)] = flip_sweep_;
     }
+  }
+
+  // Since the sweep before this one began; else flipping their edge was refused then already.
+  [[nodiscard]] bool has_changed(LocalIndex t) const
+  {
+    return at(t) >= changed_.size() || changed_[at(t)] + 1 >= flip_sweep_;
   }
 
   [[nodiscard]] double worst_shape(const std::vector<LocalIndex>& triangles)
@@ -175,10 +184,12 @@ class Remesher {
   {
     constexpr double kGain = 1e-3;  // Against flips back and forth.
     int count = 0;
+    ++flip_sweep_;
     for (const Edge& edge : surface_.edges()) {
+      const std::vector<LocalIndex> two = surface_.triangles_at(edge);
+      if (std::ranges::none_of(two, [this](LocalIndex t) { return has_changed(t); })) continue;
       const auto triangles = surface_.flipped(edge);
       if (!triangles) continue;
-      const std::vector<LocalIndex> two = surface_.triangles_at(edge);
       const LocalIndex patch = surface_.patch(two[0]);
       const double before = std::max(worst_shape(two), 0.0);
       Candidates made;
@@ -343,6 +354,8 @@ class Remesher {
   const SurfaceReference& reference_;
   EditableSurface surface_;
   CrossingGuard guard_;
+  int flip_sweep_ = 0;
+  std::vector<int> changed_{};    // The flip sweep in which or after which each triangle did.
   std::vector<double> shapes_{};  // Of the triangles.
 };
 

@@ -17,9 +17,9 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 using Triangle = PatchSurface::Triangle;
 
-// Edges over the thickness of a wall. A tet with edges so long across it has angles of about 15
-// degrees.
-constexpr double kEdgesOfWall = 4.0;
+// Edges over the thickness of a wall. Tets across it then have angles of some 8 degrees. Half of it
+// gave a quarter more tets and smallest angles that were hardly larger.
+constexpr double kEdgesOfWall = 8.0;
 
 // Parts of the largest size. Thinner walls get flatter tets, or a sheet of nothing would make
 // millions of triangles; chords go on, as a surface that cuts itself is no use at all.
@@ -28,6 +28,10 @@ constexpr double kLeastOfChord = 0.02;
 
 // The chords of a triangle with edges h on a radius R are off by h^2 / (6 R).
 constexpr double kPartOfGap = 0.25;
+
+// How far to look, in parts of the largest size: beyond it no wall limits anything, unless fewer
+// than two edges a radius are asked for.
+constexpr double kReach = 0.35;
 
 // Sheets that face each other: their normals are less than 60 degrees apart.
 constexpr double kLeastCosine = 0.5;
@@ -84,7 +88,7 @@ class WallSizes {
       : surface_(surface),
         patch_materials_(patch_materials),
         options_(options),
-        reach_(options.max_size / kEdgesOfWall),
+        reach_(kReach * options.max_size),
         tree_(boxes_of(surface))
   {
     for (LocalIndex v = 0; v < surface.num_vertices(); ++v) sizes_.push_back(surface.size(v));

@@ -47,6 +47,10 @@ class OccModel final : public LoadedModel {
   {
     return curve_at(curve).tolerance();
   }
+  [[nodiscard]] double end_tolerance(LocalIndex curve, const Vec3& point) const override
+  {
+    return curve_at(curve).end_tolerance(point);
+  }
   [[nodiscard]] model::SurfacePoint project_to_surface(
       LocalIndex surface, const Vec3& point, const model::SurfaceParameters& guess) const override;
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,

@@ -17,6 +17,7 @@
 #include "tessera/coarse/on_geometry.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 #include "tessera/netgen/factory.hpp"
+#include "tessera/quality/tet_quality.hpp"
 
 #include "netgen/loaded_model.hpp"
 
@@ -40,6 +41,18 @@ double smallest_angle_deg(const coarse::PatchSurface& surface)
   return smallest * 180.0 / std::numbers::pi;
 }
 
+double smallest_dihedral_deg(const mesh::CoarseMesh& mesh)
+{
+  double largest_cosine = -1.0;
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    const auto v = mesh.tet(t);
+    const quality::TetShape shape = quality::shape_of(
+        {mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]), mesh.position(v[3])});
+    largest_cosine = std::max(largest_cosine, shape.largest_cosine);
+  }
+  return quality::angle_deg(largest_cosine);
+}
+
 double size_from(const std::string& word, const netgen::LoadedModel& model)
 {
   const double number = std::stod(word);
@@ -51,7 +64,8 @@ void fill(const netgen::LoadedModel& model, const coarse::CoarseOptions& options
   const double begin = cpu_seconds();
   try {
     const mesh::CoarseMesh mesh = model.generate(options);
-    std::printf("  ok, %d tets in %.1f s\n", mesh.num_tets(), cpu_seconds() - begin);
+    std::printf("  ok, %d tets, smallest dihedral angle %.2f deg, in %.1f s\n", mesh.num_tets(),
+                smallest_dihedral_deg(mesh), cpu_seconds() - begin);
   } catch (const std::exception& error) {
     std::printf("  FAILED after %.1f s: %.160s\n", cpu_seconds() - begin, error.what());
   }
