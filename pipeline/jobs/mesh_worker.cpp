@@ -127,6 +127,13 @@ class MeshWorker final : public jobs::Worker {
     return garbled_if_asked("describe", to_bytes(netgen::describe_model(*netgen_model_)));
   }
 
+  [[nodiscard]] Bytes answer(const FiguresRequest& /*request*/) const
+  {
+    coarse::ModelFigures figures = netgen::measure_model(*netgen_model_);
+    figures.area *= scale_ * scale_;
+    return to_bytes(figures);
+  }
+
   // The mesher works in file length units.
   [[nodiscard]] coarse::CoarseOptions for_mesher(coarse::CoarseOptions options) const
   {
@@ -135,30 +142,40 @@ class MeshWorker final : public jobs::Worker {
     return options;
   }
 
-  [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> coarse_mesher() const
+  [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> coarse_mesher(
+      LocalIndex rung = kNoIndex) const
   {
-    return make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
+    return make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_), rung);
   }
 
   [[nodiscard]] Bytes answer(const CoarseSurfaceRequest& request) const
   {
-    return to_bytes(coarse_mesher()->mesh_surface(for_mesher(request.options), request.planes));
+    return to_bytes(
+        coarse_mesher(request.rung)->mesh_surface(for_mesher(request.options), request.planes));
   }
 
-  [[nodiscard]] Bytes answer(const CoarseDomainRequest& request) const
+  [[nodiscard]] Bytes answer(const CoarseDivideRequest& request) const
   {
-    return to_bytes(coarse_mesher()->mesh_domain(request.skin, for_mesher(request.options)));
+    fail_if_asked("divide");
+    return to_bytes(coarse_mesher()->divide(request.surface, for_mesher(request.options)));
+  }
+
+  [[nodiscard]] Bytes answer(const CoarsePieceRequest& request) const
+  {
+    if (!request.is_whole) fail_if_asked("piece");
+    const auto mesher = coarse_mesher();
+    const coarse::CoarseOptions options = for_mesher(request.options);
+    return to_bytes(request.is_whole ? mesher->mesh_domain(request.skin, options)
+                                     : mesher->fill_domain(request.skin, options));
   }
 
   [[nodiscard]] Bytes answer(const CoarseMeshRequest& request) const
   {
-    std::vector<coarse::DomainSkin> skins;
-    std::vector<coarse::DomainTets> tets;
-    for (const FilledDomain& one : request.filled) {
-      skins.push_back(coarse::skin_of(request.surface, one.domain));
-      tets.push_back(one.tets);
-    }
-    cut::CutMesh filled = coarse::fill_surface(request.surface, skins, tets);
+    std::vector<coarse::DomainTets> pieces;
+    for (const FilledPiece& one : request.filled) pieces.push_back(one.tets);
+    const std::vector<coarse::DomainTets> tets =
+        coarse_mesher()->join_domains(request.surface, request.divided, std::move(pieces));
+    cut::CutMesh filled = coarse::fill_surface(request.surface, tets);
     CoarseTry made{.mesh = std::move(filled.mesh), .tet_part = std::move(filled.tet_part)};
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_);
     if (request.options.optimize) {

@@ -21,9 +21,9 @@
 namespace tessera::pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 11> kStages{"import",  "load",   "box",  "describe",
-                                                   "coarse",  "remesh", "plan", "fill",
-                                                   "improve", "refine", "skin"};
+constexpr std::array<std::string_view, 14> kStages{
+    "import", "load",  "box",  "describe", "coarse",  "remesh", "gmsh",
+    "divide", "piece", "plan", "fill",     "improve", "refine", "skin"};
 constexpr std::array<std::string_view, 11> kKinds{
     "throw", "segv", "exit", "loop", "sleep", "memory", "garbage", "drop", "flat", "nudge", "lose"};
 
@@ -127,25 +127,42 @@ void add_flat_tet(fill::FillOutput& tets)
 
 class FaultyMesher final : public coarse::CoarseMesher {
  public:
-  explicit FaultyMesher(std::unique_ptr<coarse::CoarseMesher> sound) : sound_(std::move(sound)) {}
+  FaultyMesher(std::unique_ptr<coarse::CoarseMesher> sound, LocalIndex rung)
+      : sound_(std::move(sound)), rung_(rung)
+  {
+  }
 
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const cut::CutTree& planes) const override
   {
-    fail(kind_at(stage_of(options), kNoIndex));
+    fail(kind_at(stage_of(options), rung_));
     return sound_->mesh_surface(options, planes);
   }
 
-  [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
+  [[nodiscard]] coarse::Membrane mesh_membrane(const coarse::DomainSkin& skin,
+                                               const coarse::MembraneBorder& border,
                                                const coarse::CoarseOptions& options) const override
   {
-    coarse::DomainTets tets = sound_->mesh_domain(skin, options);
+    return sound_->mesh_membrane(skin, border, options);
+  }
+
+  [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
+                                               const coarse::CoarseOptions& options) const override
+  {
+    coarse::DomainTets tets = sound_->fill_domain(skin, options);
     if (kind_at(stage_of(options), kNoIndex) == "drop") drop_a_tet(tets.tet_vertices);
     return tets;
   }
 
+  [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
+                                                  coarse::DomainTets tets) const override
+  {
+    return sound_->improve_domain(skin, std::move(tets));
+  }
+
  private:
   std::unique_ptr<coarse::CoarseMesher> sound_;
+  LocalIndex rung_;
 };
 
 class FaultyKernel final : public fill::Kernel {
@@ -259,14 +276,15 @@ Bytes garbled_if_asked(std::string_view stage, Bytes result, LocalIndex item)
 
 std::string_view stage_of(const coarse::CoarseOptions& options)
 {
+  if (options.mesher == coarse::Mesher::gmsh) return "gmsh";
   return options.surface_mesher == coarse::SurfaceMesher::remesh ? "remesh" : "coarse";
 }
 
 std::unique_ptr<coarse::CoarseMesher> make_faulty_if_asked(
-    std::unique_ptr<coarse::CoarseMesher> mesher)
+    std::unique_ptr<coarse::CoarseMesher> mesher, LocalIndex rung)
 {
   if (asked_faults().empty()) return mesher;
-  return std::make_unique<FaultyMesher>(std::move(mesher));
+  return std::make_unique<FaultyMesher>(std::move(mesher), rung);
 }
 
 std::unique_ptr<fill::Kernel> make_faulty_if_asked(std::unique_ptr<fill::Kernel> kernel,

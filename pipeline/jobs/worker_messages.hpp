@@ -86,29 +86,43 @@ struct DescribeRequest {
   static auto fields(auto& /*self*/) { return std::tie(); }
 };
 
+struct FiguresRequest {
+  static auto fields(auto& /*self*/) { return std::tie(); }
+};
+
 struct CoarseSurfaceRequest {
   coarse::CoarseOptions options{};
   cut::CutTree planes{};
+  LocalIndex rung = 0;
 
-  static auto fields(auto& self) { return std::tie(self.options, self.planes); }
+  static auto fields(auto& self) { return std::tie(self.options, self.planes, self.rung); }
 };
 
-struct CoarseDomainRequest {
-  coarse::DomainSkin skin{};
+struct CoarseDivideRequest {
+  coarse::CoarseSurface surface{};
   coarse::CoarseOptions options{};
 
-  static auto fields(auto& self) { return std::tie(self.skin, self.options); }
+  static auto fields(auto& self) { return std::tie(self.surface, self.options); }
+};
+
+struct CoarsePieceRequest {
+  coarse::DomainSkin skin{};
+  bool is_whole = false;
+  coarse::CoarseOptions options{};
+
+  static auto fields(auto& self) { return std::tie(self.skin, self.is_whole, self.options); }
 };
 
 struct CoarseMeshRequest {
   coarse::CoarseSurface surface{};
-  std::vector<FilledDomain> filled{};  ///< All domains, in their order.
+  coarse::DividedSurface divided{};
+  std::vector<FilledPiece> filled{};  ///< All pieces, in their order.
   coarse::CoarseOptions options{};
   cut::CutTree planes{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.surface, self.filled, self.options, self.planes);
+    return std::tie(self.surface, self.divided, self.filled, self.options, self.planes);
   }
 };
 
@@ -132,8 +146,9 @@ struct SkinRequest {
   static auto fields(auto& self) { return std::tie(self.subdomain); }
 };
 
-using Request = std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDomainRequest,
-                             CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
-                             RefineTask, SkinRequest, DescribeRequest>;
+using Request =
+    std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDivideRequest,
+                 CoarsePieceRequest, CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
+                 RefineTask, SkinRequest, DescribeRequest, FiguresRequest>;
 
 }  // namespace tessera::pipeline

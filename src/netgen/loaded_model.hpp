@@ -8,6 +8,7 @@
 
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/coarse/fit_to_cad.hpp"
+#include "tessera/coarse/model_figures.hpp"
 #include "tessera/coarse/surface_reference.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
@@ -33,6 +34,9 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   /// @brief What the model holds, for people. @throws NetgenError
   [[nodiscard]] virtual model::ModelDescription describe() const = 0;
 
+  /// @brief How much there is to mesh; zeros if nothing is. @throws NetgenError
+  [[nodiscard]] virtual coarse::ModelFigures figures() const { return {}; }
+
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const cut::CutTree& planes) const final;
 
@@ -46,8 +50,16 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   [[nodiscard]] virtual coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
                                                          const cut::CutTree& tree) const;
 
-  [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
+  [[nodiscard]] coarse::Membrane mesh_membrane(const coarse::DomainSkin& skin,
+                                               const coarse::MembraneBorder& border,
                                                const coarse::CoarseOptions& options) const final;
+  [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
+                                               const coarse::CoarseOptions& options) const final;
+  [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
+                                                  coarse::DomainTets tets) const final;
+
+  /// @brief Makes parameters of a coarse mesh exact that are good guesses, if the model has some.
+  virtual void locate_parameters(mesh::CoarseMesh& /*mesh*/) const {}
 
   /// @brief As generate(options), and lets `use` go on with the mesh in NETGEN. There NETGEN can do
   /// what Tessera does otherwise (refine it), so the two can be compared on one coarse mesh.

@@ -19,10 +19,12 @@ Step parse_step(char letter)
       return Step::swap;
     case 'c':
       return Step::collapse;
+    case 'i':
+      return Step::insert;
     case 't':
       return Step::tighten;
     default:
-      throw ConfigError("'" + std::string(1, letter) + "' is no step: m, w, s, c or t expected");
+      throw ConfigError("'" + std::string(1, letter) + "' is no step: m, w, s, c, i or t expected");
   }
 }
 

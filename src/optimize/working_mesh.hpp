@@ -24,7 +24,8 @@ struct WorkingMesh {
   double scale = 1.0;  // Working position = the caller's * scale; a power of two, so exact.
 
   std::vector<Point> points{};
-  std::vector<LocalIndex> vertex_origin{};  // Row of the caller's mesh.
+  // Row of the caller's mesh; vertices put in have the numbers behind its last one.
+  std::vector<LocalIndex> vertex_origin{};
   std::vector<std::uint8_t> vertex_fixed{};
   std::vector<std::uint8_t> vertex_removed{};
   std::vector<std::uint8_t> vertex_to_smooth{};    // Something changed since it was smoothed.
@@ -69,6 +70,9 @@ struct WorkingMesh {
 // The same in the caller's order and without neighbours, for passes that only move vertices. The
 // fixed vertices are the flagged ones alone.
 [[nodiscard]] WorkingMesh make_smoothing_mesh(const TetMesh& mesh);
+
+// A free vertex of no tet.
+[[nodiscard]] LocalIndex add_vertex(WorkingMesh& mesh, const Vec3& position);
 
 // Tets that are flat or inverted, by their energies.
 [[nodiscard]] LocalIndex count_not_positive(const WorkingMesh& mesh);
