@@ -110,9 +110,9 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] static Bytes answer(const ImportRequest& request)
   {
-    fail_if_asked("import");
-    return garbled_if_asked("import",
-                            to_bytes(netgen::import_model(request.file, request.options)));
+    fail_if_asked("import", static_cast<LocalIndex>(request.reader));
+    return garbled_if_asked(
+        "import", to_bytes(netgen::import_model(request.file, request.options, request.reader)));
   }
 
   [[nodiscard]] Bytes answer(const BoxRequest& /*request*/) const

@@ -37,9 +37,10 @@ Bytes load_improvement_message(const improve::ImproveOptions& options,
   return to_bytes(Load(ImprovementLoad{options, kernels}));
 }
 
-Bytes import_request(const std::filesystem::path& file, const model::ImportOptions& options)
+Bytes import_request(const std::filesystem::path& file, const model::ImportOptions& options,
+                     netgen::StepReader reader)
 {
-  return to_bytes(Request(ImportRequest{file.string(), options}));
+  return to_bytes(Request(ImportRequest{file.string(), options, reader}));
 }
 
 Bytes box_request() { return to_bytes(Request(BoxRequest{})); }

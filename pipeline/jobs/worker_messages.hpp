@@ -73,8 +73,9 @@ using Load =
 struct ImportRequest {
   std::string file{};
   model::ImportOptions options{};
+  netgen::StepReader reader = netgen::StepReader::with_names;
 
-  static auto fields(auto& self) { return std::tie(self.file, self.options); }
+  static auto fields(auto& self) { return std::tie(self.file, self.options, self.reader); }
 };
 
 struct BoxRequest {
