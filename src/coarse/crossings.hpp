@@ -30,8 +30,7 @@ class CrossingGuard {
 
   /// @brief Whether `made` in the place of `old` cut other triangles and each other at no more
   /// pairs than those do. So a surface that cuts itself already may still change there.
-  [[nodiscard]] bool allows(std::span<const LocalIndex> old,
-                            std::span<const PlacedTriangle> made);
+  [[nodiscard]] bool allows(std::span<const LocalIndex> old, std::span<const PlacedTriangle> made);
 
   /// @brief Triangle `t` is another one now.
   void change(LocalIndex t, const PlacedTriangle& triangle);

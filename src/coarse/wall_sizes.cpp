@@ -29,8 +29,8 @@ constexpr double kLeastOfChord = 0.02;
 // The chords of a triangle with edges h on a radius R are off by h^2 / (6 R).
 constexpr double kPartOfGap = 0.25;
 
-// How far to look, in parts of the largest size: beyond it no wall limits anything, unless fewer than
-// two edges a radius are asked for.
+// How far to look, in parts of the largest size: beyond it no wall limits anything, unless fewer
+// than two edges a radius are asked for.
 constexpr double kReach = 0.35;
 
 // Sheets that face each other: their normals are less than 60 degrees apart.

@@ -31,7 +31,8 @@ struct SharpTets {
 /// The model forces an angle in two places:
 /// - Between faces: at a boundary edge the tets of one material fill less than twice `angle_deg`,
 ///   and the tet is one of them.
-/// - In a face: two curves meet at less than twice `angle_deg`, so there is a triangle that sharp at
+/// - In a face: two curves meet at less than twice `angle_deg`, so there is a triangle that sharp
+/// at
 ///   the tip. Triangles as sharp that follow it by edges belong to it, since the face is as narrow
 ///   there. A tet with an edge of one of these triangles is forced.
 [[nodiscard]] SharpTets find_sharp_tets(const mesh::CoarseMesh& mesh, double angle_deg);
