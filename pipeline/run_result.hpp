@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tessera/base/hash.hpp"
+#include "tessera/coarse/sharp_tets.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/cut/choose_planes.hpp"
 #include "tessera/decompose/decompose.hpp"
@@ -29,13 +30,15 @@ struct RunOptions {
   PieceSink on_piece{};                       ///< If set, gets the pieces: no files are written.
 };
 
-/// @brief What a run has made; the same on every rank. The mesh itself is in the output folder.
+/// @brief What a run has made; the same on every rank unless it says otherwise. The mesh itself is
+/// in the output folder.
 struct RunResult {
   config::Case resolved{};  ///< With size and levels as chosen.
   model::ModelSource model{};
   Hash128 field_content{};  ///< Of size.field; zero without one.
   cut::CutChoice planes{};  ///< Without nodes unless the model is cut before it is meshed.
   CoarseResult coarse{};
+  coarse::SharpTets sharp{};  ///< Of the coarse mesh; on rank 0.
   mesh::EdgeLevels levels{};  ///< Of the coarse edges, in all.
   int splits = 0;             ///< How many of them follow after the fills.
   decompose::DecomposeResult decomposition{};

@@ -57,6 +57,34 @@ void for_each_dynamic(std::vector<LocalIndex> order, const ItemWork& work, Stage
   });
 }
 
+double seconds_now()
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void run_tasks(comm::TaskSource& source, const TaskWork& work, StageScope& stage,
+               RunContext& context)
+{
+  std::exception_ptr defect;
+  const auto careful = [&](const comm::Task& task, const std::function<bool()>& on_wait) -> Bytes {
+    try {
+      return work(task, on_wait);
+    } catch (const Interrupted&) {  // It was cancelled, and the board knows why.
+    } catch (...) {
+      defect = std::current_exception();
+    }
+    return {};
+  };
+  comm::TaskBoard(context.comm, source).run(careful, [&] {
+    return stop_requested() || defect != nullptr;
+  });
+  stage.work_is_done();
+  throw_if_stopped(context.comm);
+  all_or_none(context.comm, [&] {
+    if (defect) std::rethrow_exception(defect);
+  });
+}
+
 ItemWork in_thread(std::function<void(LocalIndex item)> work)
 {
   return [work = std::move(work)](LocalIndex item, const auto& on_wait) {

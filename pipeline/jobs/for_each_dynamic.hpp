@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
+#include "tessera/comm/task_board.hpp"
 #include "tessera/fill/options.hpp"
 #include "tessera/jobs/job_runner.hpp"
 
@@ -23,6 +24,19 @@ using ItemWork = std::function<void(LocalIndex item, const jobs::JobRunner::Wait
 /// @note Collective. @throws what `work` throws, on every rank; Interrupted on a signal.
 void for_each_dynamic(std::vector<LocalIndex> order, const ItemWork& work, StageScope& stage,
                       RunContext& context, std::int64_t num_before = 0);
+
+/// @brief A steady clock, seconds. Local.
+[[nodiscard]] double seconds_now();
+
+/// @brief Works on a task of a comm::TaskSource and returns its verdict; as ItemWork else.
+using TaskWork =
+    std::function<Bytes(const comm::Task& task, const jobs::JobRunner::WaitCallback& on_wait)>;
+
+/// @brief All ranks work on what the source of rank 0 wants, until it is settled. A task whose job
+/// was cancelled (Interrupted) counts as dropped.
+/// @note Collective. @throws what `work` throws, on every rank; Interrupted on a signal.
+void run_tasks(comm::TaskSource& source, const TaskWork& work, StageScope& stage,
+               RunContext& context);
 
 /// @brief What this process does itself with an item, as an ItemWork: in a thread, so that rank 0
 /// answers the others meanwhile.

@@ -127,6 +127,13 @@ class MeshWorker final : public jobs::Worker {
     return garbled_if_asked("describe", to_bytes(netgen::describe_model(*netgen_model_)));
   }
 
+  [[nodiscard]] Bytes answer(const FiguresRequest& /*request*/) const
+  {
+    coarse::ModelFigures figures = netgen::measure_model(*netgen_model_);
+    figures.area *= scale_ * scale_;
+    return to_bytes(figures);
+  }
+
   // The mesher works in file length units.
   [[nodiscard]] coarse::CoarseOptions for_mesher(coarse::CoarseOptions options) const
   {
@@ -135,14 +142,16 @@ class MeshWorker final : public jobs::Worker {
     return options;
   }
 
-  [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> coarse_mesher() const
+  [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> coarse_mesher(
+      LocalIndex rung = kNoIndex) const
   {
-    return make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_));
+    return make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_), rung);
   }
 
   [[nodiscard]] Bytes answer(const CoarseSurfaceRequest& request) const
   {
-    return to_bytes(coarse_mesher()->mesh_surface(for_mesher(request.options), request.planes));
+    return to_bytes(
+        coarse_mesher(request.rung)->mesh_surface(for_mesher(request.options), request.planes));
   }
 
   [[nodiscard]] Bytes answer(const CoarseDivideRequest& request) const

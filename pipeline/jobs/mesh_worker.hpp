@@ -76,6 +76,9 @@ namespace tessera::pipeline {
 /// @brief Reads the result of a describe_request(). @throws InputError if it is damaged.
 [[nodiscard]] model::ModelDescription description_from_bytes(std::span<const std::byte> result);
 
+/// @brief run: result: bytes of coarse::ModelFigures in output length units. Needs the model.
+[[nodiscard]] Bytes figures_request();
+
 /// @brief What one try at the coarse mesh has given.
 struct CoarseTry {
   mesh::CoarseMesh mesh{};
@@ -88,8 +91,9 @@ struct CoarseTry {
 /// @brief run: the coarse surface; result: bytes of a coarse::CoarseSurface in file length units.
 /// Needs the model.
 /// @param[in] planes Into which parts the model is cut before; without nodes: not at all.
+/// @param[in] rung   Number of the try, for the faults of tests.
 [[nodiscard]] Bytes coarse_surface_request(const coarse::CoarseOptions& options,
-                                           const cut::CutTree& planes);
+                                           const cut::CutTree& planes, LocalIndex rung);
 
 /// @brief run: divides large domains of such a surface; result: bytes of a coarse::DividedSurface.
 /// Needs the model.

@@ -21,9 +21,9 @@
 namespace tessera::pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 13> kStages{
-    "import", "load", "box",  "describe", "coarse", "remesh", "divide",
-    "piece",  "plan", "fill", "improve",  "refine", "skin"};
+constexpr std::array<std::string_view, 14> kStages{
+    "import", "load",  "box",  "describe", "coarse",  "remesh", "gmsh",
+    "divide", "piece", "plan", "fill",     "improve", "refine", "skin"};
 constexpr std::array<std::string_view, 11> kKinds{
     "throw", "segv", "exit", "loop", "sleep", "memory", "garbage", "drop", "flat", "nudge", "lose"};
 
@@ -127,12 +127,15 @@ void add_flat_tet(fill::FillOutput& tets)
 
 class FaultyMesher final : public coarse::CoarseMesher {
  public:
-  explicit FaultyMesher(std::unique_ptr<coarse::CoarseMesher> sound) : sound_(std::move(sound)) {}
+  FaultyMesher(std::unique_ptr<coarse::CoarseMesher> sound, LocalIndex rung)
+      : sound_(std::move(sound)), rung_(rung)
+  {
+  }
 
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const cut::CutTree& planes) const override
   {
-    fail(kind_at(stage_of(options), kNoIndex));
+    fail(kind_at(stage_of(options), rung_));
     return sound_->mesh_surface(options, planes);
   }
 
@@ -159,6 +162,7 @@ class FaultyMesher final : public coarse::CoarseMesher {
 
  private:
   std::unique_ptr<coarse::CoarseMesher> sound_;
+  LocalIndex rung_;
 };
 
 class FaultyKernel final : public fill::Kernel {
@@ -272,14 +276,15 @@ Bytes garbled_if_asked(std::string_view stage, Bytes result, LocalIndex item)
 
 std::string_view stage_of(const coarse::CoarseOptions& options)
 {
+  if (options.mesher == coarse::Mesher::gmsh) return "gmsh";
   return options.surface_mesher == coarse::SurfaceMesher::remesh ? "remesh" : "coarse";
 }
 
 std::unique_ptr<coarse::CoarseMesher> make_faulty_if_asked(
-    std::unique_ptr<coarse::CoarseMesher> mesher)
+    std::unique_ptr<coarse::CoarseMesher> mesher, LocalIndex rung)
 {
   if (asked_faults().empty()) return mesher;
-  return std::make_unique<FaultyMesher>(std::move(mesher));
+  return std::make_unique<FaultyMesher>(std::move(mesher), rung);
 }
 
 std::unique_ptr<fill::Kernel> make_faulty_if_asked(std::unique_ptr<fill::Kernel> kernel,

@@ -18,7 +18,8 @@
 ///
 /// Its value is words "STAGE=KIND", for every job of the stage, or "STAGE=KIND@ITEM".
 /// - STAGE: import, load, box, coarse, remesh (the coarse mesh from the CAD system's triangles),
-///   divide (membranes), piece (the tets between some), plan, fill, improve, refine, skin.
+///   gmsh (that of Gmsh), divide (membranes), piece (the tets between some), plan, fill, improve,
+///   refine, skin.
 /// - KIND, for any job: throw, segv, exit, loop, sleep, memory.
 /// - KIND, for results that a check must refuse: drop (a tet of the result is lost: coarse, remesh,
 ///   fill, improve), garbage (the bytes of the result are no longer what they were), flat (the
@@ -26,7 +27,8 @@
 /// - KIND, for results that pass all checks of a job: nudge (fill: points on the geometry are one
 ///   bit off, as from another mathematical library), lose (improve: a tet is lost after the region
 ///   was judged).
-/// - ITEM: the subdomain, of refine the first of the job; of improve the region.
+/// - ITEM: the subdomain, of refine the first of the job; of improve the region; of coarse, remesh
+///   and gmsh the try, from 0.
 namespace tessera::pipeline {
 
 /// @brief Checks TESSERA_TEST_FAULT, and lets no job have more than TESSERA_TEST_LIMITS allows, if
@@ -41,12 +43,12 @@ void fail_if_asked(std::string_view stage, LocalIndex item = kNoIndex);
 [[nodiscard]] Bytes garbled_if_asked(std::string_view stage, Bytes result,
                                      LocalIndex item = kNoIndex);
 
-/// @brief coarse or remesh.
+/// @brief coarse, remesh or gmsh.
 [[nodiscard]] std::string_view stage_of(const coarse::CoarseOptions& options);
 
 /// @brief The mesher itself, or one that fails.
 [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_faulty_if_asked(
-    std::unique_ptr<coarse::CoarseMesher> mesher);
+    std::unique_ptr<coarse::CoarseMesher> mesher, LocalIndex rung);
 
 /// @brief The kernel itself, or one that fails.
 [[nodiscard]] std::unique_ptr<fill::Kernel> make_faulty_if_asked(

@@ -60,9 +60,12 @@ model::ModelDescription description_from_bytes(std::span<const std::byte> result
   return description;
 }
 
-Bytes coarse_surface_request(const coarse::CoarseOptions& options, const cut::CutTree& planes)
+Bytes figures_request() { return to_bytes(Request(FiguresRequest{})); }
+
+Bytes coarse_surface_request(const coarse::CoarseOptions& options, const cut::CutTree& planes,
+                             LocalIndex rung)
 {
-  return to_bytes(Request(CoarseSurfaceRequest{options, planes}));
+  return to_bytes(Request(CoarseSurfaceRequest{options, planes, rung}));
 }
 
 Bytes coarse_divide_request(coarse::CoarseSurface surface, const coarse::CoarseOptions& options)

@@ -85,11 +85,16 @@ struct DescribeRequest {
   static auto fields(auto& /*self*/) { return std::tie(); }
 };
 
+struct FiguresRequest {
+  static auto fields(auto& /*self*/) { return std::tie(); }
+};
+
 struct CoarseSurfaceRequest {
   coarse::CoarseOptions options{};
   cut::CutTree planes{};
+  LocalIndex rung = 0;
 
-  static auto fields(auto& self) { return std::tie(self.options, self.planes); }
+  static auto fields(auto& self) { return std::tie(self.options, self.planes, self.rung); }
 };
 
 struct CoarseDivideRequest {
@@ -140,8 +145,9 @@ struct SkinRequest {
   static auto fields(auto& self) { return std::tie(self.subdomain); }
 };
 
-using Request = std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDivideRequest,
-                             CoarsePieceRequest, CoarseMeshRequest, UntangleRequest, FillTask,
-                             ImproveRequest, RefineTask, SkinRequest, DescribeRequest>;
+using Request =
+    std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDivideRequest,
+                 CoarsePieceRequest, CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
+                 RefineTask, SkinRequest, DescribeRequest, FiguresRequest>;
 
 }  // namespace tessera::pipeline

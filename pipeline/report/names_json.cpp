@@ -5,9 +5,7 @@
 #include <vector>
 
 namespace tessera::pipeline {
-namespace {
 
-// By row of the files; patches of one row have one name.
 std::vector<std::string> patch_names(const mesh::CoarseMesh& coarse)
 {
   if (coarse.patch_row.empty()) return coarse.patch_names;
@@ -19,6 +17,8 @@ std::vector<std::string> patch_names(const mesh::CoarseMesh& coarse)
   }
   return names;
 }
+
+namespace {
 
 // Sums of subdomains in their order, so the same for any number of ranks.
 Json materials_json(const RunResult& run)

@@ -17,6 +17,7 @@
 #include "pipeline/report/cuts_json.hpp"
 #include "pipeline/report/names_json.hpp"
 #include "pipeline/report/quality_json.hpp"
+#include "pipeline/report/sharp_json.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 
@@ -110,11 +111,19 @@ double balance_of_parts(const RunResult& run)
   return static_cast<double>(*std::ranges::max_element(tets)) / average;
 }
 
+std::optional<std::string> made_by_gmsh(const RunResult& run)
+{
+  if (run.coarse.options.mesher == run.resolved.coarse.mesher) return std::nullopt;
+  return "Gmsh has made the coarse mesh, after all other tries had failed. Without it, or with "
+         "another version of it, the same case ends otherwise.";
+}
+
 Json warnings_json(const RunResult& run)
 {
   Json warnings = Json::array();
-  for (const auto& warning : {too_many_subdomains(run.resolved, run.coarse.mesh),
-                              unbalanced_parts(run), parts_not_meshed(run)}) {
+  for (const auto& warning :
+       {too_many_subdomains(run.resolved, run.coarse.mesh), unbalanced_parts(run),
+        parts_not_meshed(run), made_by_gmsh(run), sharp_warning(run.sharp)}) {
     if (warning) warnings.push_back(*warning);
   }
   return warnings;
@@ -246,6 +255,7 @@ Json coarse_json(const RunResult& run)
           {"surface_mesher", word_of(run.coarse.options.surface_mesher)},
           {"tries", run.coarse.tries},
           {"failures", run.coarse.failures},
+          {"sharp", sharp_json(run.sharp, run.coarse.mesh)},
           {"levels", run.levels.largest()},
           {"edges_by_level", run.levels.histogram()}};
 }

@@ -106,6 +106,16 @@ std::string worst_html(const Report& report)
          + table;
 }
 
+std::string sharp_html(const Report& report)
+{
+  const std::string table = sharp_tets_html(report);
+  if (table.empty()) return {};
+  return "<p class=\"soft\">The worst coarse tets with angles below 5°. Short edges or narrow "
+         "faces "
+         "of the model may be there. Tets at its own sharp angles are not in the table.</p>\n"
+         + table;
+}
+
 std::string materials_html(const Report& report)
 {
   const Json* const materials = report.find("/materials");
@@ -225,6 +235,7 @@ std::string report_page(const ReportSource& source)
   body += section_html("Materials", materials_html(report));
   body += section_html("Patches", patches_html(report));
   body += section_html("The ten worst tets", worst_html(report));
+  body += section_html("Small angles that the model does not force", sharp_html(report));
   body += section_html("Warnings", advice_html(report));
   body += section_html("Run it again", again_html(report));
   return page_html("Tessera: " + report.text("/case"), body + footer_html(report));

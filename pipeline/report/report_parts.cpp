@@ -257,6 +257,17 @@ std::vector<std::string> failure_advice(const Report& report)
   return advice;
 }
 
+// The number of a row from 1, and where its tet is.
+std::vector<std::string> place_of(const Json& tet, std::size_t row)
+{
+  const Json centre = tet.value("centre", Json::array());
+  std::vector<std::string> cells{std::to_string(row + 1)};
+  for (std::size_t c = 0; c < 3; ++c) {
+    cells.push_back(c < centre.size() ? fmt::format("{:.6g}", centre[c].get<double>()) : kMissing);
+  }
+  return cells;
+}
+
 }  // namespace
 
 std::string verdict_html(const Report& report)
@@ -337,17 +348,28 @@ std::string stages_legend()
       swatch(kBusyColour), swatch(kUnevenColour), swatch(kIdleColour), swatch(kAloneColour));
 }
 
+std::string sharp_tets_html(const Report& report)
+{
+  const Json* const worst = report.find("/coarse/sharp/worst");
+  if (worst == nullptr || worst->empty()) return {};
+  std::vector<std::vector<std::string>> rows;
+  for (const Json& tet : *worst) {
+    std::vector<std::string> row = place_of(tet, rows.size());
+    row.push_back(fmt::format("{:.2f}°", tet.value("min_dihedral_deg", 0.0)));
+    const auto patches = tet.value("patches", std::vector<std::string>());
+    row.push_back(escaped(fmt::format("{}", fmt::join(patches, ", "))));
+    rows.push_back(std::move(row));
+  }
+  return table_html({"tet", "x", "y", "z", "smallest angle", "patches"}, rows);
+}
+
 std::string worst_tets_html(const Report& report)
 {
   const Json* const worst = report.find("/quality/worst");
   if (worst == nullptr || worst->empty()) return {};
   std::vector<std::vector<std::string>> rows;
   for (const Json& tet : *worst) {
-    const Json centre = tet.value("centre", Json::array());
-    std::vector<std::string> row{std::to_string(rows.size() + 1)};
-    for (std::size_t c = 0; c < 3; ++c) {
-      row.push_back(c < centre.size() ? fmt::format("{:.6g}", centre[c].get<double>()) : kMissing);
-    }
+    std::vector<std::string> row = place_of(tet, rows.size());
     row.push_back(std::to_string(tet.value("subdomain", 0)));
     row.push_back(fmt::format("{:.4f}", tet.value("mean_ratio", 0.0)));
     row.push_back(fmt::format("{:.2f}°", tet.value("min_dihedral_deg", 0.0)));

@@ -68,6 +68,9 @@ struct KeyFigure {
 
 [[nodiscard]] std::string worst_tets_html(const Report& report);
 
+/// @brief The coarse tets with small angles that the model does not force; empty if there are none.
+[[nodiscard]] std::string sharp_tets_html(const Report& report);
+
 /// @brief Warnings and what else is worth to know, each with what to do.
 [[nodiscard]] std::vector<std::string> advice_of(const Report& report);
 

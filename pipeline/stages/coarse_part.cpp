@@ -10,6 +10,7 @@
 #include "tessera/fill/fallbacks.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
 
+#include "pipeline/report/sharp_json.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
@@ -95,6 +96,12 @@ void tell_what_is_within_tolerance(const RunResult& run, RunContext& context)
       distance.num_within, distance.largest_within, coarse::kMostOfEdgeOff);
 }
 
+void name_sharp_tets(RunResult& run, RunContext& context)
+{
+  run.sharp = coarse::find_sharp_tets(run.coarse.mesh, kSharpAngle_deg);
+  if (const auto warning = sharp_warning(run.sharp)) context.log.warn("coarse: {}", *warning);
+}
+
 }  // namespace
 
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
@@ -119,6 +126,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   }
   tell_what_is_within_tolerance(run, context);
   all_or_none(context.comm, [&] {
+    if (context.comm.rank() == 0) name_sharp_tets(run, context);
     run.kernels = fill::kernels_of(run.resolved.fill, run.coarse.mesh.material_names,
                                    run.decomposition.decomposition.subdomain_material);
   });

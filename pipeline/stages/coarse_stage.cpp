@@ -2,22 +2,29 @@
 #include "pipeline/stages/coarse_stage.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/jobs/run_program.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/stages/coarse_budget.hpp"
+#include "pipeline/stages/coarse_ladder.hpp"
 #include "pipeline/stages/coarse_try.hpp"
 
 namespace tessera::pipeline {
 namespace {
-
-constexpr double kStall_s = 120.0;
-constexpr double kMemory_gib = 16.0;
 
 // The model will not get better in another try.
 bool is_final(const jobs::JobOutcome& outcome)
@@ -35,17 +42,36 @@ bool is_endless(const jobs::JobOutcome& outcome)
 std::string name_of(const coarse::CoarseOptions& options)
 {
   const bool is_remesh = options.surface_mesher == coarse::SurfaceMesher::remesh;
-  return fmt::format("{}max_size {:g}", is_remesh ? "remeshed triangles, " : "", options.max_size);
+  std::string_view who = is_remesh ? "remeshed triangles, " : "";
+  if (options.mesher == coarse::Mesher::gmsh) who = "Gmsh, ";
+  return fmt::format("{}max_size {:g}", who, options.max_size);
 }
 
-[[noreturn]] void throw_no_mesh(const CoarseResult& result, const std::string& file)
+// Gmsh gets what OpenCASCADE has read.
+bool is_for_gmsh(const config::Case& run_case)
 {
+  constexpr std::array<std::string_view, 5> kKinds{".step", ".stp", ".iges", ".igs", ".brep"};
+  std::string kind = run_case.geometry.file.extension().string();
+  std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return std::tolower(c); });
+  return run_case.coarse.mesher == coarse::Mesher::netgen
+         && std::ranges::find(kKinds, kind) != kKinds.end();
+}
+
+bool has_gmsh() { return jobs::is_on_path("gmsh"); }
+
+[[noreturn]] void throw_no_mesh(const CoarseResult& result, const config::Case& run_case)
+{
+  const bool may_gmsh_help = is_for_gmsh(run_case) && !has_gmsh();
   std::string failures;
   for (const std::string& failure : result.failures) failures += "\n  " + failure;
-  throw MeshError(
-      fmt::format("{}: no coarse mesh could be made; try another coarse.max_size, a longer "
-                  "coarse.timeout_s, or repair the model{}",
-                  file, failures));
+  throw MeshError(fmt::format(
+      "{}: no coarse mesh could be made; try another coarse.max_size, a longer "
+      "coarse.timeout_s, or repair the model{}{}",
+      run_case.geometry.file.string(),
+      may_gmsh_help ? "; if Gmsh is installed (Debian: apt install gmsh), it is tried as "
+                      "well"
+                    : "",
+      failures));
 }
 
 void throw_if_hopeless(const jobs::JobOutcome& outcome, const std::string& file)
@@ -71,7 +97,9 @@ struct Attempt {
 };
 
 // Parts that NETGEN cannot mesh once are tried finer once. What worked uncut must go on to work.
-std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTree& planes)
+// Gmsh comes last, so that no mesh that Tessera can make depends on what is installed.
+std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTree& planes,
+                                 bool with_gmsh)
 {
   constexpr std::size_t kTriesOfParts = 2;
   const std::vector<coarse::CoarseOptions> fallbacks = tries_for(run_case);
@@ -82,49 +110,193 @@ std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTre
     }
   }
   for (const coarse::CoarseOptions& options : fallbacks) attempts.push_back({options, false});
+  if (with_gmsh) {
+    attempts.push_back({run_case.coarse, false});
+    attempts.back().options.mesher = coarse::Mesher::gmsh;
+  }
   return attempts;
 }
 
-// The mesh is that of rank 0 only; it has no tets if no try worked.
-CoarseResult first_that_works(const config::Case& run_case, const cut::CutTree& planes,
-                              StageScope& stage, RunContext& context)
+constexpr jobs::JobLimits kFiguresLimits{.cpu_s = 20.0, .stall_s = 20.0, .memory_gib = 8.0};
+
+// If they cannot be had: those of a model with many faces, so that nothing ends too early.
+coarse::ModelFigures figures_of(const config::Case& run_case, RunContext& context)
 {
-  const jobs::JobLimits limits{run_case.coarse.timeout_s, kStall_s, kMemory_gib};
-  const std::string file = run_case.geometry.file.string();
-  CoarseResult result;
-  bool was_endless = false;
-  bool was_cut = false;
-  for (const auto& [options, is_cut] : attempts_at(run_case, planes)) {
-    if (was_cut && !is_cut) {
-      context.log.warn("coarse: the parts of the model cannot be meshed; it is meshed as a whole");
-      was_endless = false;
-    }
-    was_cut = is_cut;
-    // NETGEN's surface mesher that did not end once would not end at another size either.
-    const bool is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen;
-    if (was_endless && is_netgen) continue;
-    CoarseAttempt made =
-        try_coarse_mesh({options, is_cut ? planes : cut::CutTree{}}, limits, stage, context);
-    const jobs::JobOutcome& outcome = made.outcome;
-    ++result.tries;
-    result.options = options;
-    if (outcome.status == jobs::JobStatus::ok) {
-      if (made.made) {
-        result.mesh = std::move(made.made->mesh);
-        result.tet_part = std::move(made.made->tet_part);
-        result.distance = made.made->distance;
-      }
-      return result;
-    }
-    all_or_none(context.comm, [&] { throw_if_hopeless(outcome, file); });
-    result.failures.push_back(
-        fmt::format("{}{}: {}", is_cut ? "in parts, " : "", name_of(options), outcome.message));
-    context.log.warn("coarse: try {} failed: {}", result.tries, result.failures.back());
-    was_endless = was_endless || is_endless(outcome);
-    result.was_limited = result.was_limited || depends_on_machine(outcome);
-  }
-  return result;
+  constexpr coarse::ModelFigures kUnknown{.num_faces = 2500};
+  if (run_case.coarse.timeout_s > 0.0 || model::is_mesh_name(run_case.geometry.file))
+    return kUnknown;
+  const Bytes request = figures_request();
+  jobs::JobOutcome outcome =
+      run_job({"coarse: figures", request, kFiguresLimits}, wait_for_stop_signal(), context);
+  throw_unless_of_the_job(outcome);
+  const auto figures = read_result(outcome, from_bytes<coarse::ModelFigures>);
+  return figures && std::isfinite(figures->area) ? *figures : kUnknown;
 }
+
+std::vector<CoarsePlan> plans_for(const config::Case& run_case, const cut::CutTree& planes,
+                                  RunContext& context)
+{
+  const auto figures = on_root(context.comm, [&] { return figures_of(run_case, context); });
+  const bool with_gmsh = on_root(context.comm, [&] { return is_for_gmsh(run_case) && has_gmsh(); });
+  std::vector<CoarsePlan> plans;
+  for (const auto& [options, is_cut] : attempts_at(run_case, planes, with_gmsh)) {
+    plans.push_back({.options = options,
+                     .planes = is_cut ? planes : cut::CutTree{},
+                     .rung = static_cast<LocalIndex>(plans.size()),
+                     .limits = surface_limits(options, figures, plans.empty())});
+  }
+  return plans;
+}
+
+bool is_cut(const CoarsePlan& plan) { return plan.planes.num_parts > 0; }
+
+std::vector<RungKind> kinds_of(const std::vector<CoarsePlan>& plans)
+{
+  std::vector<RungKind> kinds;
+  for (const CoarsePlan& plan : plans) {
+    const coarse::CoarseOptions& options = plan.options;
+    kinds.push_back({.is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen
+                                  && options.mesher == plans.front().options.mesher,
+                     .is_cut = is_cut(plan)});
+  }
+  return kinds;
+}
+
+// How a rung has ended, the same on every rank. Nothing goes with it but words.
+struct RungOutcome {
+  LocalIndex rung = 0;
+  jobs::JobOutcome outcome{};
+
+  static auto fields(auto& self) { return std::tie(self.rung, self.outcome); }
+};
+
+// The tries at the coarse mesh. Their surfaces are made side by side: the rank that made one keeps
+// it until it is known whether it counts.
+class CoarseTries {
+ public:
+  CoarseTries(const config::Case& run_case, std::vector<CoarsePlan> plans, StageScope& stage,
+              RunContext& context)
+      : file_(run_case.geometry.file.string()),
+        plans_(std::move(plans)),
+        ladder_(kinds_of(plans_), seconds_now),
+        stage_(stage),
+        context_(context)
+  {
+  }
+
+  // The mesh is that of rank 0 only; it has no tets if no try worked.
+  CoarseResult run()
+  {
+    while (const auto rung = next_surface()) {
+      const CoarsePlan& plan = plans_[at(*rung)];
+      result_.options = plan.options;
+      CoarseAttempt made = fill_coarse_surface(plan, take_surface(*rung), stage_, context_);
+      if (made.outcome.status == jobs::JobStatus::ok) {
+        ++result_.tries;
+        if (made.made) take(std::move(*made.made));
+        break;
+      }
+      all_or_none(context_.comm, [&] { throw_if_hopeless(made.outcome, file_); });
+      ladder_.fill_has_failed(*rung, is_endless(made.outcome) ? RungEnd::endless : RungEnd::failed);
+      outcomes_[*rung] = std::move(made.outcome);
+      note_failures();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void take(CoarseTry made)
+  {
+    result_.mesh = std::move(made.mesh);
+    result_.tet_part = std::move(made.tet_part);
+    result_.distance = made.distance;
+  }
+
+  // The first rung with a surface, on every rank; nothing if all have failed.
+  std::optional<LocalIndex> next_surface()
+  {
+    run_tasks(
+        ladder_,
+        [this](const comm::Task& task, const auto& on_wait) { return attempt(task.item, on_wait); },
+        stage_, context_);
+    share_outcomes();
+    note_failures();
+    const auto front = ladder_.front();
+    if (!front) return front;
+    all_or_none(context_.comm, [&] { throw_if_hopeless(outcomes_[*front], file_); });
+    return front;
+  }
+
+  Bytes attempt(LocalIndex rung, const jobs::JobRunner::WaitCallback& on_wait)
+  {
+    const CoarsePlan& plan = plans_[at(rung)];
+    context_.log.debug("coarse: try {} begins: {}", rung + 1, name_of(plan.options));
+    SurfaceTry made = try_coarse_surface(plan, on_wait, context_);
+    if (made.outcome.loads_are_lost) throw_if_hopeless(made.outcome, file_);
+    RungEnd end = RungEnd::failed;
+    if (made.surface) end = RungEnd::surface;
+    if (is_endless(made.outcome)) end = RungEnd::endless;
+    if (is_final(made.outcome) || was_killed_from_outside(made.outcome)) end = RungEnd::final;
+    // Rank 0 has found Gmsh; this rank's machine may be without.
+    const bool was_gmsh_asked = plans_.front().options.mesher == coarse::Mesher::gmsh;
+    if (plan.options.mesher == coarse::Mesher::gmsh && !was_gmsh_asked
+        && made.outcome.error == ErrorKind::config) {
+      end = RungEnd::failed;
+    }
+    if (made.surface) surfaces_[rung] = std::move(*made.surface);
+    ended_here_.push_back({rung, std::move(made.outcome)});
+    return to_bytes(end);
+  }
+
+  // After it all ranks know what rank 0 knows.
+  void share_outcomes()
+  {
+    for (RungOutcome& one : context_.comm.all_gather_rows(ended_here_)) {
+      outcomes_[one.rung] = std::move(one.outcome);
+    }
+    ended_here_.clear();
+    ladder_.restore(on_root(context_.comm, [&] { return ladder_.snapshot(); }));
+  }
+
+  coarse::CoarseSurface take_surface(LocalIndex rung)
+  {
+    const auto own = surfaces_.find(rung);
+    Bytes bytes = own == surfaces_.end() ? Bytes{} : to_bytes(own->second);
+    return from_bytes<coarse::CoarseSurface>(
+        context_.comm.broadcast(std::move(bytes), ladder_.holder(rung)));
+  }
+
+  // As if they had been tried in turn.
+  void note_failures()
+  {
+    const std::vector<LocalIndex> failed = ladder_.failed();
+    for (std::size_t i = result_.failures.size(); i < failed.size(); ++i) {
+      const CoarsePlan& plan = plans_[at(failed[i])];
+      const jobs::JobOutcome& outcome = outcomes_[failed[i]];
+      ++result_.tries;
+      result_.options = plan.options;
+      result_.failures.push_back(fmt::format("{}{}: {}", is_cut(plan) ? "in parts, " : "",
+                                             name_of(plan.options), outcome.message));
+      context_.log.warn("coarse: try {} failed: {}", result_.tries, result_.failures.back());
+      result_.was_limited = result_.was_limited || depends_on_machine(outcome);
+    }
+    const auto front = ladder_.front();
+    if (!is_in_parts_ || !front || is_cut(plans_[at(*front)])) return;
+    is_in_parts_ = false;
+    context_.log.warn("coarse: the parts of the model cannot be meshed; it is meshed as a whole");
+  }
+
+  std::string file_;
+  std::vector<CoarsePlan> plans_;
+  CoarseLadder ladder_;
+  StageScope& stage_;
+  RunContext& context_;
+  bool is_in_parts_ = is_cut(plans_.front());
+  CoarseResult result_{};
+  std::map<LocalIndex, coarse::CoarseSurface> surfaces_{};  // Made by this rank.
+  std::vector<RungOutcome> ended_here_{};
+  std::map<LocalIndex, jobs::JobOutcome> outcomes_{};
+};
 
 }  // namespace
 
@@ -154,11 +326,17 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
                               RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseResult result = first_that_works(run_case, planes, stage, context);
+  CoarseResult result =
+      CoarseTries(run_case, plans_for(run_case, planes, context), stage, context).run();
   result = on_root(context.comm, [&] {
-    if (result.mesh.num_tets() == 0) throw_no_mesh(result, run_case.geometry.file.string());
+    if (result.mesh.num_tets() == 0) throw_no_mesh(result, run_case);
     return std::move(result);
   });
+  if (result.options.mesher != run_case.coarse.mesher) {
+    context.log.warn(
+        "coarse: Gmsh has made the mesh, after all other tries had failed; without it, or with "
+        "another version of it, this run ends otherwise");
+  }
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),
                            result.mesh.num_patches(), result.mesh.num_materials()));

@@ -36,7 +36,8 @@ struct CoarseResult {
 [[nodiscard]] std::vector<coarse::CoarseOptions> coarse_fallbacks(
     const coarse::CoarseOptions& asked);
 
-/// @brief Makes the coarse mesh in jobs of rank 0 and gives it to all ranks.
+/// @brief Makes the coarse mesh in jobs and gives it to all ranks. Surfaces of later tries are made
+/// beside the first on ranks that are free (CoarseLadder); after the fallbacks comes Gmsh.
 ///
 /// If parts that planes make of the model cannot be meshed, it is meshed as a whole.
 /// @param[in] planes Into which parts the model is cut; without nodes: not at all.

@@ -14,6 +14,7 @@
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/stages/coarse_budget.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -27,35 +28,24 @@ std::optional<Result> result_of(const JobRequest& job, const jobs::JobRunner::Wa
   auto result = read_result(outcome, from_bytes<Result>);
   keep_if_failed(job, outcome, context);
   throw_if_cancelled(outcome);
+  context.log.debug("{}: {:.2f} of {:.0f} s of CPU time", job.name, outcome.cpu_s,
+                    job.limits.cpu_s);
   outcome.result.clear();
   return result;
 }
 
-struct SurfaceTry {
-  jobs::JobOutcome outcome{};
-  std::optional<coarse::CoarseSurface> surface{};
-
-  static auto fields(auto& self) { return std::tie(self.outcome, self.surface); }
-};
-
-SurfaceTry try_surface(const CoarsePlan& plan, const jobs::JobLimits& limits, RunContext& context)
-{
-  return comm::on_root(context.comm, [&] {
-    SurfaceTry made;
-    const Bytes request = coarse_surface_request(plan.options, plan.planes);
-    made.surface = result_of<coarse::CoarseSurface>({"coarse", request, limits},
-                                                    wait_for_stop_signal(), made.outcome, context);
-    return made;
-  });
-}
-
 // The surface in pieces, if a domain is large. What cannot be divided is filled as it is.
 coarse::DividedSurface divide(const coarse::CoarseSurface& surface, const CoarsePlan& plan,
-                              const jobs::JobLimits& limits, RunContext& context)
+                              RunContext& context)
 {
   return comm::on_root(context.comm, [&] {
     if (!coarse::has_large_domain(surface)) return coarse::undivided(surface);
     jobs::JobOutcome outcome;
+    double num_tets = 0.0;
+    for (LocalIndex domain = 1; domain <= surface.num_domains(); ++domain) {
+      num_tets += coarse::predicted_tets(coarse::skin_of(surface, domain));
+    }
+    const jobs::JobLimits limits = whole_limits(plan.options, num_tets);
     const Bytes request = coarse_divide_request(surface, plan.options);
     auto divided = result_of<coarse::DividedSurface>({"coarse: divide", request, limits},
                                                      wait_for_stop_signal(), outcome, context);
@@ -102,14 +92,15 @@ std::vector<double> triangles_of_pieces(const coarse::CoarseSurface& surface)
 }
 
 PieceShare fill_share(const coarse::DividedSurface& divided, const coarse::CoarseOptions& options,
-                      const jobs::JobLimits& limits, StageScope& stage, RunContext& context)
+                      StageScope& stage, RunContext& context)
 {
   PieceShare share;
   const std::vector<bool> is_whole = whole_domains(divided);
   const auto fill = [&](LocalIndex item, const jobs::JobRunner::WaitCallback& on_wait) {
     const LocalIndex piece = item + 1;
-    const Bytes request =
-        coarse_piece_request(coarse::skin_of(divided.surface, piece), is_whole[at(piece)], options);
+    coarse::DomainSkin skin = coarse::skin_of(divided.surface, piece);
+    const jobs::JobLimits limits = domain_limits(options, skin);
+    const Bytes request = coarse_piece_request(std::move(skin), is_whole[at(piece)], options);
     jobs::JobOutcome outcome;
     auto tets = result_of<coarse::DomainTets>(
         {fmt::format("coarse: piece {}", piece), request, limits}, on_wait, outcome, context);
@@ -131,9 +122,9 @@ struct PieceTry {
 };
 
 PieceTry fill_pieces(const coarse::DividedSurface& divided, const coarse::CoarseOptions& options,
-                     const jobs::JobLimits& limits, StageScope& stage, RunContext& context)
+                     StageScope& stage, RunContext& context)
 {
-  const PieceShare share = fill_share(divided, options, limits, stage, context);
+  const PieceShare share = fill_share(divided, options, stage, context);
   auto failed = context.comm.all_gather_rows(share.failed);
   if (!failed.empty())
     return {std::move(*std::ranges::min_element(failed, {}, &FailedPiece::piece)), {}};
@@ -148,23 +139,37 @@ PieceTry fill_pieces(const coarse::DividedSurface& divided, const coarse::Coarse
 
 }  // namespace
 
-CoarseAttempt try_coarse_mesh(const CoarsePlan& plan, const jobs::JobLimits& limits,
-                              StageScope& stage, RunContext& context)
+SurfaceTry try_coarse_surface(const CoarsePlan& plan, const jobs::JobRunner::WaitCallback& on_wait,
+                              RunContext& context)
 {
-  SurfaceTry first = try_surface(plan, limits, context);
-  if (!first.surface) return {std::move(first.outcome), {}};
-  coarse::DividedSurface divided = divide(*first.surface, plan, limits, context);
-  PieceTry pieces = fill_pieces(divided, plan.options, limits, stage, context);
-  if (pieces.failed && divided.surface.num_domains() > first.surface->num_domains()) {
+  SurfaceTry made;
+  // Gmsh is a child of the job and has the same limit.
+  coarse::CoarseOptions options = plan.options;
+  options.timeout_s = plan.limits.cpu_s;
+  const Bytes request = coarse_surface_request(options, plan.planes, plan.rung);
+  made.surface = result_of<coarse::CoarseSurface>({"coarse", request, plan.limits}, on_wait,
+                                                  made.outcome, context);
+  return made;
+}
+
+CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, coarse::CoarseSurface surface,
+                                  StageScope& stage, RunContext& context)
+{
+  coarse::DividedSurface divided = divide(surface, plan, context);
+  PieceTry pieces = fill_pieces(divided, plan.options, stage, context);
+  if (pieces.failed && divided.surface.num_domains() > surface.num_domains()) {
     context.log.warn("coarse: piece {}: {}; domains are filled whole", pieces.failed->piece,
                      pieces.failed->outcome.message);
-    divided = coarse::undivided(*first.surface);
-    pieces = fill_pieces(divided, plan.options, limits, stage, context);
+    divided = coarse::undivided(surface);
+    pieces = fill_pieces(divided, plan.options, stage, context);
   }
   if (pieces.failed) return {std::move(pieces.failed->outcome), {}};
   CoarseAttempt attempt;
   attempt.outcome = comm::on_root(context.comm, [&] {
-    const Bytes request = coarse_mesh_request(std::move(*first.surface), std::move(divided),
+    std::size_t num_tets = surface.mesh.tet_vertices.size() / 4;
+    for (const FilledPiece& one : pieces.filled) num_tets += one.tets.tet_vertices.size() / 4;
+    const jobs::JobLimits limits = whole_limits(plan.options, static_cast<double>(num_tets));
+    const Bytes request = coarse_mesh_request(std::move(surface), std::move(divided),
                                               std::move(pieces.filled), plan.options, plan.planes);
     jobs::JobOutcome outcome;
     attempt.made = result_of<CoarseTry>({"coarse: whole", request, limits}, wait_for_stop_signal(),

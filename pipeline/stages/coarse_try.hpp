@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <tuple>
 
+#include "tessera/coarse/coarse_surface.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/cut/cut_tree.hpp"
 #include "tessera/jobs/job_runner.hpp"
@@ -15,8 +17,24 @@ namespace tessera::pipeline {
 /// @brief What is tried.
 struct CoarsePlan {
   coarse::CoarseOptions options{};
-  cut::CutTree planes{};  ///< Without nodes: the model is not cut.
+  cut::CutTree planes{};     ///< Without nodes: the model is not cut.
+  LocalIndex rung = 0;       ///< Number of the try, from 0.
+  jobs::JobLimits limits{};  ///< Of the surface.
 };
+
+/// @brief How the surface of a try has ended.
+struct SurfaceTry {
+  jobs::JobOutcome outcome{};
+  std::optional<coarse::CoarseSurface> surface{};
+
+  static auto fields(auto& self) { return std::tie(self.outcome, self.surface); }
+};
+
+/// @brief The first step of a try: the surface, in a job of this rank. A pure function of the model
+/// and the options. Local. @throws Interrupted if it was cancelled.
+[[nodiscard]] SurfaceTry try_coarse_surface(const CoarsePlan& plan,
+                                            const jobs::JobRunner::WaitCallback& on_wait,
+                                            RunContext& context);
 
 /// @brief How a try at the coarse mesh has ended.
 struct CoarseAttempt {
@@ -24,13 +42,15 @@ struct CoarseAttempt {
   std::optional<CoarseTry> made{};  ///< On rank 0, if all went well.
 };
 
-/// @brief One try at the coarse mesh: the surface as a job of rank 0, its domains as jobs of all
-/// ranks, and the whole as a job of rank 0.
+/// @brief The other steps: the domains of the surface as jobs of all ranks, and the whole as a job
+/// of rank 0.
 ///
 /// Every job is a pure function of the model, the options and what the jobs before gave. Of several
 /// domains that fail the first one counts. So the result does not depend on the number of ranks.
+/// @param surface The same on every rank.
 /// @note Collective. @throws Interrupted on a signal, on every rank.
-[[nodiscard]] CoarseAttempt try_coarse_mesh(const CoarsePlan& plan, const jobs::JobLimits& limits,
-                                            StageScope& stage, RunContext& context);
+[[nodiscard]] CoarseAttempt fill_coarse_surface(const CoarsePlan& plan,
+                                                coarse::CoarseSurface surface, StageScope& stage,
+                                                RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -2,20 +2,20 @@
 #include "pipeline/stages/fill_stage.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <numeric>
+#include <map>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/fill/fallbacks.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/stages/fill_queue.hpp"
 #include "pipeline/store/fill_record.hpp"
 
 namespace tessera::pipeline {
@@ -42,8 +42,32 @@ bool is_poor(const std::vector<subdomain::FillResult>& results)
   return first.kernel == fill::KernelKind::netgen && first.tets.min_dihedral_deg < kPoorAngle_deg;
 }
 
-// Fills one range of subdomains after another, each by its sequence of fallbacks; keeps what this
-// rank's pieces sum up to.
+std::vector<std::vector<fill::KernelKind>> kernels_of_tries(const fill::FillOptions& options,
+                                                            const FillWork& work)
+{
+  std::vector<std::vector<fill::KernelKind>> kernels;
+  for (const subdomain::SubdomainRange& range : work.ranges) {
+    kernels.emplace_back();
+    for (const fill::FillTry& how :
+         fill::fallback_sequence(options, work.kernels[at(range.first)])) {
+      kernels.back().push_back(how.kernel);
+    }
+  }
+  return kernels;
+}
+
+[[noreturn]] void throw_not_filled(LocalIndex subdomain, const FillTries& tries)
+{
+  std::string text = fmt::format(
+      "subdomain {} could not be filled; try another decompose.subdomains or a smaller "
+      "coarse.max_size",
+      subdomain);
+  if (tries.was_limited) text += ", or a larger fill.memory_gib or fill.timeout_s";
+  for (const std::string& failure : tries.failures) text += "\n  " + failure;
+  throw MeshError(text);
+}
+
+// Makes single tries; keeps what this rank's pieces sum up to.
 class Filler {
  public:
   Filler(const fill::FillOptions& options, const FillWork& work, RunContext& context)
@@ -52,85 +76,76 @@ class Filler {
         context_(context),
         cut_fingerprint_(cut_fingerprint(work.cut))
   {
-    own_.seam_sums.resize(at(work.cut.skeleton.num_triangles()));
   }
 
-  /// Fills one range. @throws MeshError if every try failed, Interrupted if cancelled.
-  void fill(const subdomain::SubdomainRange& range, const jobs::JobRunner::WaitCallback& on_wait)
+  /// One try. @throws Interrupted if cancelled, and for what another try cannot mend.
+  FillVerdict attempt(const FillOrder& order, const jobs::JobRunner::WaitCallback& on_wait)
   {
+    const subdomain::SubdomainRange& range = work_.ranges[at(order.range)];
     const Hash128 plan = plan_fingerprint(cut_fingerprint_, work_.cut.skeleton, work_.limiter,
                                           range.first, range.last);
-    const auto record = find_record(context_.folder, record_name(range.number), plan);
-    if (record && !is_poor(record->results)) return keep(record->results);
-    Tries tries{.range = range, .plan = plan};
-    for (const fill::FillTry& how :
-         fill::fallback_sequence(options_, work_.kernels[at(range.first)])) {
-      if (is_done_after(tries, how, on_wait)) break;
+    if (order.number == 0) {
+      auto record = find_record(context_.folder, record_name(range.number), plan);
+      if (record && !is_poor(record->results)) {
+        made_[order.range] = {std::move(record->results), true};
+        return {.is_made = true};
+      }
     }
-    if (tries.best.empty()) {
-      std::string text = fmt::format(
-          "subdomain {} could not be filled; try another decompose.subdomains or a smaller "
-          "coarse.max_size",
-          range.first);
-      if (tries.was_limited) text += ", or a larger fill.memory_gib or fill.timeout_s";
-      for (const std::string& failure : tries.failures) text += "\n  " + failure;
-      throw MeshError(text);
-    }
-    for (subdomain::FillResult& result : tries.best) {  // A try after it may have failed.
-      result.summary.was_limited = tries.was_limited;
-      result.summary.tries = tries.count;
-      result.failures = tries.failures;
-    }
-    keep(tries.best);
-  }
-
-  [[nodiscard]] FilledPieces take() && { return std::move(own_); }
-
- private:
-  // What the tries at one range have given so far.
-  struct Tries {
-    subdomain::SubdomainRange range{};
-    Hash128 plan{};
-    LocalIndex count = 0;
-    bool was_limited = false;
-    std::vector<subdomain::FillResult> best{};
-    std::vector<std::string> failures{};
-  };
-
-  // One try. A failure leads to the next one; a poor result of NETGEN, to one more try.
-  bool is_done_after(Tries& tries, const fill::FillTry& how,
-                     const jobs::JobRunner::WaitCallback& on_wait)
-  {
-    const bool had_one = !tries.best.empty();
-    const bool is_netgen = how.kernel == fill::KernelKind::netgen;
-    if (had_one && !is_netgen) return true;
-    const double angle_to_beat =
-        had_one ? tries.best.front().summary.tets.min_dihedral_deg : kAnyAngle;
-    ++tries.count;
-    jobs::JobOutcome outcome = run_try(tries.range, request_of(tries, how, angle_to_beat), on_wait);
+    jobs::JobOutcome outcome = run_try(range, request_of(order, plan, !order.is_probe), on_wait);
     auto made = read_result(outcome, from_bytes<std::vector<subdomain::FillResult>>);
     throw_unless_of_the_job(outcome);
-    tries.was_limited = tries.was_limited || depends_on_machine(outcome);
+    context_.log.debug("fill: subdomain {}: try {}{}, {:.2f} s of CPU time", range.first,
+                       order.number + 1, order.is_probe ? " before its turn" : "", outcome.cpu_s);
+    FillVerdict verdict{.is_limited = depends_on_machine(outcome)};
     if (!made) {
-      if (!had_one) keep_failure(tries, how, outcome, on_wait);
-      tries.failures.push_back(
-          fmt::format("try {} ({}): {}", tries.count, word_of(how.kernel), outcome.message));
-      return had_one;
+      if (!order.before.is_made) keep_failure(order, plan, outcome, on_wait);
+      verdict.message = outcome.message;
+      return verdict;
     }
-    tries.best = std::move(*made);
-    context_.log.debug("fill: subdomain {}: try {}, {:.2f} s of CPU time", tries.range.first,
-                       tries.count, outcome.cpu_s);
-    return had_one || !is_poor(tries.best);
+    verdict.is_made = true;
+    verdict.is_poor = is_poor(*made);
+    verdict.angle_deg = made->front().summary.tets.min_dihedral_deg;
+    if (!order.is_probe) made_[order.range] = {std::move(*made), false};
+    return verdict;
   }
 
+  /// What this rank has of the pieces that count. @param tries Of all ranges, as they ended.
+  [[nodiscard]] FilledPieces take(const std::vector<FillTries>& tries) &&
+  {
+    FilledPieces own;
+    own.seam_sums.resize(at(work_.cut.skeleton.num_triangles()));
+    for (auto& [range, made] : made_) {
+      const FillTries& ended = tries[at(range)];
+      if (ended.holder != context_.comm.rank()) continue;
+      for (subdomain::FillResult& result : made.results) {
+        if (!made.is_of_record) {  // A try after it may have failed.
+          result.summary.was_limited = ended.was_limited;
+          result.summary.tries = ended.count;
+          result.failures = ended.failures;
+        }
+        own.add(result);
+      }
+    }
+    return own;
+  }
+
+ private:
+  struct Made {
+    std::vector<subdomain::FillResult> results{};
+    bool is_of_record = false;  // An earlier run has made it, and its record says how.
+  };
+
   // As a job that measures only: its replay must not touch the run's folder.
-  void keep_failure(const Tries& tries, const fill::FillTry& how, const jobs::JobOutcome& outcome,
+  void keep_failure(const FillOrder& order, const Hash128& plan, const jobs::JobOutcome& outcome,
                     const jobs::JobRunner::WaitCallback& on_wait)
   {
-    const Bytes request = request_of(tries, how, kAnyAngle, false);
+    const subdomain::SubdomainRange& range = work_.ranges[at(order.range)];
+    FillOrder anew = order;
+    anew.before.angle_to_beat_deg = kAnyAngle;
+    const Bytes request = request_of(anew, plan, false);
     const jobs::JobLimits limits;
-    const JobRequest job{name_of(tries.range), request, limits};
-    keep_meshes_of_failed_fill(keep_failed_job(job, request, outcome, context_), tries.range.first,
+    const JobRequest job{name_of(range), request, limits};
+    keep_meshes_of_failed_fill(keep_failed_job(job, request, outcome, context_), range.first,
                                work_.cut.coarse, work_.cut.decomposition, on_wait, context_);
   }
 
@@ -140,19 +155,21 @@ class Filler {
   }
 
   // The job itself puts into the record how it came to be made: a resumed run has only that.
-  static Bytes request_of(const Tries& tries, const fill::FillTry& how, double angle_to_beat,
-                          bool keep = true)
+  [[nodiscard]] Bytes request_of(const FillOrder& order, const Hash128& plan, bool keep) const
   {
-    return fill_request({.batch = tries.range.number,
-                         .first = tries.range.first,
-                         .last = tries.range.last,
-                         .plan = tries.plan,
-                         .how = how,
-                         .angle_to_beat_deg = angle_to_beat,
-                         .tries = tries.count,
-                         .was_limited = tries.was_limited,
-                         .keep = keep,
-                         .failures = tries.failures});
+    const subdomain::SubdomainRange& range = work_.ranges[at(order.range)];
+    return fill_request(
+        {.batch = range.number,
+         .first = range.first,
+         .last = range.last,
+         .plan = plan,
+         .how =
+             fill::fallback_sequence(options_, work_.kernels[at(range.first)]).at(at(order.number)),
+         .angle_to_beat_deg = order.before.angle_to_beat_deg,
+         .tries = order.before.count + 1,
+         .was_limited = order.before.was_limited,
+         .keep = keep,
+         .failures = order.before.failures});
   }
 
   jobs::JobOutcome run_try(const subdomain::SubdomainRange& range, const Bytes& request,
@@ -163,16 +180,11 @@ class Filler {
     return run_job({name_of(range), request, limits}, on_wait, context_);
   }
 
-  void keep(const std::vector<subdomain::FillResult>& results)
-  {
-    for (const subdomain::FillResult& result : results) own_.add(result);
-  }
-
   const fill::FillOptions& options_;
   const FillWork& work_;
   RunContext& context_;
   Hash128 cut_fingerprint_;
-  FilledPieces own_{};
+  std::map<LocalIndex, Made> made_{};  // By range.
 };
 
 }  // namespace
@@ -187,12 +199,24 @@ FilledPieces run_fill_stage(const config::Case& run_case, const FillWork& work, 
   for (const subdomain::SubdomainRange& range : work.ranges) {
     weights.push_back(weight_of(range, work.cut.decomposition.subdomain_weight));
   }
-  for_each_dynamic(
-      heaviest_first(weights),
-      [&](LocalIndex range, const auto& on_wait) { filler.fill(work.ranges[at(range)], on_wait); },
+  FillQueue queue(heaviest_first(weights), kernels_of_tries(run_case.fill, work), seconds_now);
+  run_tasks(
+      queue,
+      [&](const comm::Task& task, const auto& on_wait) {
+        const auto look = [&] {
+          context.progress.update(queue.num_begun());
+          return on_wait();
+        };
+        return to_bytes(filler.attempt(from_bytes<FillOrder>(task.more), look));
+      },
       stage, context);
-
-  FilledPieces all = combine(std::move(filler).take(), context.comm);
+  const auto tries = on_root(context.comm, [&] {
+    if (const auto range = queue.hopeless()) {
+      throw_not_filled(work.ranges[at(*range)].first, queue.tries()[at(*range)]);
+    }
+    return queue.tries();
+  });
+  FilledPieces all = combine(std::move(filler).take(tries), context.comm);
   stage.finish(fmt::format("{} tets", all.num_tets()));
   return all;
 }

@@ -75,6 +75,7 @@ void BoxTree::add(const Box& box, LocalIndex beside)
   const auto item = static_cast<LocalIndex>(boxes_.size());
   boxes_.push_back(box);
   leaf_.push_back(leaf);
+  if (leaf == kNoIndex) return rebuild();
   nodes_[at(leaf)].items.push_back(item);
   grow(leaf, box);
   count_change();

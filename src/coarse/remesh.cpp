@@ -34,6 +34,9 @@ constexpr double kFairShape = 0.3;
 // Among triangles better than this, smoothing need not make the worst better.
 constexpr double kGoodShape = 0.6;
 
+// In parts of the wanted length: a vertex so near to its best place stays.
+constexpr double kSettled = 0.04;
+
 constexpr double kTurnedOver = -1.0;
 constexpr double kUnknown = -2.0;
 
@@ -327,6 +330,7 @@ class Remesher {
     Vec3 sum{};
     for (const LocalIndex other : around) sum = sum + surface_.xyz(other);
     const Vec3 middle = (1.0 / static_cast<double>(around.size())) * sum;
+    if (norm(middle - surface_.xyz(v)) < kSettled * surface_.size(v)) return;
     const LocalIndex curve = is_on_curve ? surface_.curve(v, around.front()) : kNoIndex;
     const std::vector<LocalIndex>& around_v = surface_.triangles_of(v);
     const LocalIndex patch = surface_.patch(around_v.front());

@@ -10,6 +10,9 @@ namespace {
 // A triangle with a smaller height, as a part of its longest edge, has a normal of rounding.
 constexpr double kFlat = 1e-6;
 
+// Unit normals that differ by less are one.
+constexpr double kSameNormal = 1e-9;
+
 double longest_edge(const std::array<Vec3, 3>& corners)
 {
   return std::max({norm(corners[1] - corners[0]), norm(corners[2] - corners[1]),
@@ -78,7 +81,10 @@ void SurfaceReference::add_patch(const std::vector<LocalIndex>& triangles)
   std::vector<std::array<Vec3, 3>> corners;
   corners.reserve(triangles.size());
   for (const LocalIndex t : triangles) corners.push_back(surface_.corners(at(t)));
-  patches_.push_back({triangles, model::TriangleSearch(corners)});
+  const bool is_flat = std::ranges::all_of(triangles, [&](LocalIndex t) {
+    return norm(normals_[at(t)] - normals_[at(triangles.front())]) < kSameNormal;
+  });
+  patches_.push_back({triangles, model::TriangleSearch(corners), is_flat});
 }
 
 std::size_t SurfaceReference::nearest_triangle(LocalIndex patch, const Vec3& point) const
@@ -99,7 +105,8 @@ Vec3 SurfaceReference::on_curve(LocalIndex curve, const Vec3& point) const
 
 Vec3 SurfaceReference::normal(LocalIndex patch, const Vec3& point) const
 {
-  return normals_[nearest_triangle(patch, point)];
+  const Patch& found = patches_[at(patch)];
+  return normals_[found.is_flat ? at(found.triangles.front()) : nearest_triangle(patch, point)];
 }
 
 model::SurfaceParameters SurfaceReference::parameters(LocalIndex patch, const Vec3& point) const

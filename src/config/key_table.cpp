@@ -139,13 +139,13 @@ constexpr Key kKeys[] = {
      .reason = "what is subdivided gains most; what NETGEN or our optimiser makes better "
                "afterwards gains little"},
     {.name = "coarse.timeout_s",
-     .rule = RealRule{[](Case& c) -> double& { return c.coarse.timeout_s; }, 0.0, Bound::exclusive,
+     .rule = RealRule{[](Case& c) -> double& { return c.coarse.timeout_s; }, 0.0, Bound::inclusive,
                       1e6, Bound::inclusive},
      .unit = "seconds of CPU time",
-     .meaning = "Limit of one try at the coarse mesh.",
-     .reason =
-         "NETGEN makes about 8 k coarse tets/s, so 300 s is two million of them; on some dirty "
-         "models it never ends"},
+     .meaning = "Limit of each job of a try at the coarse mesh (its surface, a domain, the whole); "
+                "0 derives it from the model's faces and area, the size and the triangles.",
+     .reason = "the derived limit is ten times what models of that size take, or more; on some "
+               "models NETGEN never ends, and then the next try comes soon"},
 
     {.name = "decompose.subdomains",
      .rule =

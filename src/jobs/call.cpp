@@ -134,6 +134,9 @@ void Call::accept_data(const Packet& packet)
     case PacketKind::failure:
       accept_answer(packet);
       break;
+    case PacketKind::progress:
+      if (watch_) watch_->note_progress();
+      break;
     case PacketKind::job_started:
       job_ = packet.value<pid_t>();
       break;
@@ -282,6 +285,8 @@ std::string Call::killed_message(JobStatus reason) const
     case JobStatus::out_of_time:
       return fmt::format("used more than {:g} s of CPU time", limits_.cpu_s);
     case JobStatus::stalled:
+      if (watch_ && watch_->is_idle())
+        return fmt::format("made no progress in {:.0f} s of CPU time", watch_->cpu_without_s());
       return fmt::format("used no CPU time for {:g} s", limits_.stall_s);
     case JobStatus::out_of_memory:
       return fmt::format("used more than {:g} GiB of memory", limits_.memory_gib);

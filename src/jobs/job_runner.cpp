@@ -42,7 +42,8 @@ JobLimits smaller_of(const JobLimits& a, const JobLimits& b)
 {
   return {.cpu_s = std::min(a.cpu_s, b.cpu_s),
           .stall_s = std::min(a.stall_s, b.stall_s),
-          .memory_gib = std::min(a.memory_gib, b.memory_gib)};
+          .memory_gib = std::min(a.memory_gib, b.memory_gib),
+          .idle_cpu_s = a.idle_cpu_s};
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "jobs/child_process.hpp"
 #include "jobs/failure.hpp"
+#include "jobs/job_progress.hpp"
 #include "jobs/packet.hpp"
 #include "jobs/process_usage.hpp"
 
@@ -119,6 +120,7 @@ class ModelZygote {
     unblock_signals();
     children_ = {};
     redirect_output(log_);
+    begin_progress_reports(data_.get(), call);
     try {
       const Bytes result = worker().run(request);
       report_usage_of_job(call);

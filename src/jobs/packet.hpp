@@ -26,6 +26,7 @@ enum class PacketKind : std::uint32_t {
   kill_job,       ///< rank → model zygote
   job_started,    ///< model zygote → rank: pid_t
   job_ended,      ///< model zygote → rank: ProcessEnd
+  progress,       ///< job → rank
   usage,          ///< model zygote after a load, or job → rank: UsageReport
   result,         ///< model zygote after a load, or job → rank: bytes
   failure,        ///< model zygote after a load, or job → rank: bytes of a Failure

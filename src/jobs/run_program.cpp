@@ -4,7 +4,9 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <optional>
+#include <sstream>
 #include <thread>
 
 #include <sys/wait.h>
@@ -79,6 +81,17 @@ ProgramOutcome run_program(const std::vector<std::string>& arguments,
   return {.status = code == 0 ? JobStatus::ok : JobStatus::exited,
           .code = code,
           .is_missing = code == kNotFound};
+}
+
+bool is_on_path(const std::string& name)
+{
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path file = std::filesystem::path(folder) / name;
+    if (::access(file.c_str(), X_OK) == 0) return true;
+  }
+  return false;
 }
 
 }  // namespace tessera::jobs

@@ -10,6 +10,9 @@ namespace {
 // been, too, so the rest of the gap proves nothing.
 constexpr double kLongestGap_s = 1.0;
 
+// Steps of one job differ in length: so many times the longest one so far is still none too long.
+constexpr double kPatience = 10.0;
+
 }  // namespace
 
 std::optional<JobStatus> Watch::look(const std::optional<ProcessSample>& sample,
@@ -25,8 +28,20 @@ std::optional<JobStatus> Watch::look(const std::optional<ProcessSample>& sample,
   if (static_cast<double>(peak_rss_bytes_) > limits_.memory_gib * kGiB)
     return JobStatus::out_of_memory;
   if (cpu_s_ > limits_.cpu_s) return JobStatus::out_of_time;
-  if (asleep_s_ > limits_.stall_s) return JobStatus::stalled;
+  if (asleep_s_ > limits_.stall_s || is_idle()) return JobStatus::stalled;
   return std::nullopt;
+}
+
+void Watch::note_progress()
+{
+  longest_without_s_ = std::max(longest_without_s_, cpu_without_s());
+  cpu_at_progress_s_ = cpu_s_;
+}
+
+bool Watch::is_idle() const noexcept
+{
+  const double most_s = std::max(limits_.idle_cpu_s, kPatience * longest_without_s_);
+  return limits_.idle_cpu_s > 0.0 && cpu_without_s() > most_s;
 }
 
 }  // namespace tessera::jobs

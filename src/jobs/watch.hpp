@@ -24,7 +24,16 @@ class Watch {
   [[nodiscard]] std::optional<JobStatus> look(const std::optional<ProcessSample>& sample,
                                               double since_last_look_s);
 
+  /// @brief The process says that it got on.
+  void note_progress();
+
+  /// @brief Whether it uses CPU time and does not get on, by JobLimits::idle_cpu_s.
+  [[nodiscard]] bool is_idle() const noexcept;
+
   [[nodiscard]] double cpu_s() const noexcept { return cpu_s_; }  ///< At the last look.
+
+  /// @brief CPU time since it last said that it got on, seconds.
+  [[nodiscard]] double cpu_without_s() const noexcept { return cpu_s_ - cpu_at_progress_s_; }
   [[nodiscard]] std::size_t peak_rss_bytes() const noexcept { return peak_rss_bytes_; }
 
  private:
@@ -32,6 +41,8 @@ class Watch {
   double cpu_before_s_;
   double cpu_s_ = 0.0;
   double asleep_s_ = 0.0;
+  double cpu_at_progress_s_ = 0.0;
+  double longest_without_s_ = 0.0;
   std::size_t peak_rss_bytes_ = 0;
 };
 

@@ -152,6 +152,7 @@ class CsgModel final : public LoadedModel {
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
                                                    double guess) const override;
   [[nodiscard]] model::ModelDescription describe() const override;
+  [[nodiscard]] coarse::ModelFigures figures() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
@@ -275,8 +276,10 @@ coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& option
   const std::string what = file_name_ + ": coarse mesh";
   NetgenSession session(surface_parameters(options));
   std::shared_ptr<::netgen::Mesh> mesh;
-  const int failed =
-      session.run(what, [&] { return geometry->GenerateMesh(mesh, session.parameters()); });
+  int failed = 0;
+  session.run(what, [&] {
+    session.run_surface([&] { failed = geometry->GenerateMesh(mesh, session.parameters()); });
+  });
   if (failed != 0) throw NetgenError(fmt::format("{}: NETGEN gave up; {}", what, session.words()));
   coarse::CoarseSurface surface =
       to_coarse_surface(*mesh, numbers_of(*geometry), options.max_size, what);
@@ -296,7 +299,9 @@ coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
     const CutObjects objects = cut_geometry(*geometry, tree);
     add_crossings(*geometry, objects, box_);
     std::shared_ptr<::netgen::Mesh> mesh;
-    if (geometry->GenerateMesh(mesh, session.parameters()) != 0) {
+    int failed = 0;
+    session.run_surface([&] { failed = geometry->GenerateMesh(mesh, session.parameters()); });
+    if (failed != 0) {
       throw NetgenError("NETGEN gave up; " + session.words());
     }
     coarse::CoarseSurface surface = to_coarse_surface(
@@ -304,6 +309,23 @@ coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
     separate_patches(surface.mesh);
     return surface;
   });
+}
+
+// By NETGEN's triangles for pictures, which the box came from.
+coarse::ModelFigures CsgModel::figures() const
+{
+  coarse::ModelFigures figures{.num_faces = geometry_->GetNSurf()};
+  for (int i = 0; i < geometry_->GetNTopLevelObjects(); ++i) {
+    const auto* triangles = geometry_->GetTriApprox(i);
+    for (int t = 0; t < triangles->GetNT(); ++t) {
+      const auto corner = [&](int c) {
+        return from_netgen(triangles->GetPoint(triangles->GetTriangle(t)[c]));
+      };
+      const Vec3 a = corner(0);
+      figures.area += 0.5 * norm(cross(corner(1) - a, corner(2) - a));
+    }
+  }
+  return figures;
 }
 
 // The triangles that NETGEN has for pictures leave out parts of cylinders and cones, so the surface

@@ -185,6 +185,8 @@ std::unique_ptr<model::Model> load_model(const ModelSource& source)
   return load_any_model(source);
 }
 
+coarse::ModelFigures measure_model(const model::Model& model) { return loaded(model).figures(); }
+
 model::ModelDescription describe_model(const model::Model& model)
 {
   return loaded(model).describe();

@@ -8,6 +8,7 @@
 
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/coarse/fit_to_cad.hpp"
+#include "tessera/coarse/model_figures.hpp"
 #include "tessera/coarse/surface_reference.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
@@ -31,6 +32,9 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
  public:
   /// @brief What the model holds, for people. @throws NetgenError
   [[nodiscard]] virtual model::ModelDescription describe() const = 0;
+
+  /// @brief How much there is to mesh; zeros if nothing is. @throws NetgenError
+  [[nodiscard]] virtual coarse::ModelFigures figures() const { return {}; }
 
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const cut::CutTree& planes) const final;

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <span>
 #include <sstream>
+#include <string_view>
 #include <typeinfo>
 
 #include <Standard_Failure.hxx>
@@ -12,6 +13,9 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/jobs/this_process.hpp"
+
+#include "netgen/surface_messages.hpp"
 
 // Defined in libinterface.so and declared in no header of NETGEN 6.2.1905.
 namespace netgen {
@@ -20,6 +24,10 @@ extern DLL_HEADER MeshingParameters mparam;
 
 namespace tessera::netgen {
 namespace {
+
+// Importance of NETGEN's messages.
+constexpr int kMainSteps = 1;
+constexpr int kEveryThousandTrials = 5;
 
 // Swallows everything. NETGEN dereferences testout without a check, so it must be a stream.
 class NullBuffer final : public std::streambuf {
@@ -54,6 +62,44 @@ class KeepingBuffer final : public std::streambuf {
   }
 
   std::string kept_;
+};
+
+// Passes everything on to standard output and reads the lines. It asks NETGEN to stop if nothing
+// will come of what it does: NETGEN looks at the flag in all loops of its surface meshers.
+class ListeningBuffer final : public std::streambuf {
+ public:
+  [[nodiscard]] const std::string& verdict() const { return messages_.verdict(); }
+  void forget() { messages_ = {}; }
+
+ private:
+  int_type overflow(int_type c) override
+  {
+    if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+    const char character = traits_type::to_char_type(c);
+    xsputn(&character, 1);
+    return c;
+  }
+
+  std::streamsize xsputn(const char* text, std::streamsize n) override
+  {
+    std::cout.write(text, n);
+    for (const char c : std::string_view(text, static_cast<std::size_t>(n))) take(c);
+    return n;
+  }
+
+  void take(char c)
+  {
+    if (c != '\n') {
+      line_ += c;
+      return;
+    }
+    if (messages_.read(line_)) jobs::report_progress();
+    if (!verdict().empty()) ::netgen::multithread.terminate = 1;
+    line_.clear();
+  }
+
+  SurfaceMessages messages_{};
+  std::string line_{};
 };
 
 // Runs of white space, line ends among them, become one blank.
@@ -118,13 +164,15 @@ struct NetgenSession::Saved {
   KeepingBuffer keeping_buffer{};
   std::ostream null_stream{&null_buffer};
   std::ostream keeping_stream{&keeping_buffer};
+  ListeningBuffer listening_buffer{};
+  std::ostream listening_stream{&listening_buffer};
 };
 
 NetgenSession::NetgenSession(const ::netgen::MeshingParameters& parameters)
     : saved_(std::make_unique<Saved>())
 {
   ::netgen::mparam = parameters;
-  ::netgen::printmessage_importance = 1;  // The main steps only.
+  ::netgen::printmessage_importance = kMainSteps;
   ::netgen::mycout = &std::cout;
   ::netgen::myerr = &saved_->keeping_stream;
   ngcore::testout = &saved_->null_stream;
@@ -145,6 +193,23 @@ NetgenSession::~NetgenSession()
 std::string NetgenSession::words() const { return on_one_line(saved_->keeping_buffer.kept()); }
 
 void NetgenSession::forget_words() { saved_->keeping_buffer.clear(); }
+
+void NetgenSession::begin_listening()
+{
+  saved_->listening_buffer.forget();
+  ::netgen::mycout = &saved_->listening_stream;
+  ::netgen::printmessage_importance = kEveryThousandTrials;
+}
+
+// What NETGEN itself threw after it was asked to stop says less than why it was asked.
+void NetgenSession::end_listening()
+{
+  ::netgen::mycout = &std::cout;
+  ::netgen::printmessage_importance = kMainSteps;
+  ::netgen::multithread.terminate = 0;
+  const std::string& verdict = saved_->listening_buffer.verdict();
+  if (!verdict.empty()) throw NetgenError(verdict);
+}
 
 void NetgenSession::throw_translated(const std::string& what) const
 {

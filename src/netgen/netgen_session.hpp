@@ -55,11 +55,29 @@ class NetgenSession {
     }
   }
 
+  /// @brief Runs a step of NETGEN's surface mesher, within run(). Tells the rank of its progress,
+  /// and ends it as soon as its own messages say that no surface will come.
+  /// @throws NetgenError with that message.
+  template <class Call>
+  void run_surface(Call&& call)
+  {
+    begin_listening();
+    try {
+      std::forward<Call>(call)();
+    } catch (...) {
+      end_listening();
+      throw;
+    }
+    end_listening();
+  }
+
   /// @brief What NETGEN wrote to its error stream since the last run() began, on one line.
   [[nodiscard]] std::string words() const;
 
  private:
   void forget_words();
+  void begin_listening();
+  void end_listening();
   [[noreturn]] void throw_translated(const std::string& what) const;
 
   struct Saved;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vector>
 
+#include <BRepGProp.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -60,6 +62,7 @@ class OccModel final : public LoadedModel {
   {
     return with_occ_errors(file_name_, [&] { return describe_shape(content_); });
   }
+  [[nodiscard]] coarse::ModelFigures figures() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
   void write_brep(const std::filesystem::path& file) const override;
   void add_parameters(const coarse::SurfaceReference& reference,
@@ -223,6 +226,15 @@ coarse::CoarseSurface OccModel::remesh(const coarse::CoarseOptions& options) con
   return coarse;
 }
 
+coarse::ModelFigures OccModel::figures() const
+{
+  return with_occ_errors(file_name_, [&] {
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(content_.shape, properties);
+    return coarse::ModelFigures{.num_faces = faces_.Extent(), .area = properties.Mass()};
+  });
+}
+
 coarse::CadSurface OccModel::triangles_for_fit(double size) const
 {
   return with_occ_errors(file_name_, [&] {
@@ -321,7 +333,8 @@ std::shared_ptr<::netgen::Mesh> OccModel::mesh_geometry(::netgen::OCCGeometry& g
   geometry.BuildFMap();
   geometry.CalcBoundingBox();
   auto mesh = std::make_shared<::netgen::Mesh>();
-  const bool is_made = generate_steps(geometry, session.parameters(), mesh);
+  bool is_made = false;
+  session.run_surface([&] { is_made = generate_steps(geometry, session.parameters(), mesh); });
   if (!is_made) throw NetgenError("NETGEN gave up: " + session.words());
   return mesh;
 }

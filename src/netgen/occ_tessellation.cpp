@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <utility>
@@ -23,6 +25,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/union_find.hpp"
+#include "tessera/coarse/surface_overlap.hpp"
 
 #include "netgen/occ_triangulation.hpp"
 
@@ -37,11 +40,16 @@ using coarse::PatchSurface;
 constexpr double kDeflection = 0.02;
 constexpr double kAngle = 0.25;
 
-void triangulate(const TopoDS_Shape& shape, double size)
+// Triangles of two sheets cut each other if they are farther off than the sheets are apart. Then
+// they are made finer by this factor, as long as that helps.
+constexpr double kFiner = 0.25;
+constexpr int kMostFiner = 2;
+
+void triangulate(const TopoDS_Shape& shape, double size, double part)
 {
   IMeshTools_Parameters parameters;
-  parameters.Deflection = kDeflection * size;
-  parameters.Angle = kAngle;
+  parameters.Deflection = part * kDeflection * size;
+  parameters.Angle = std::sqrt(part) * kAngle;
   const std::vector<int> bare = triangulate_faces(shape, parameters);
   if (bare.empty()) return;
   throw NetgenError(fmt::format(
@@ -218,11 +226,10 @@ class Tessellation {
   PatchSurface surface_{};
 };
 
-}  // namespace
-
-PatchSurface tessellation_of(const TopoDS_Shape& shape, double size)
+// With triangles that are off the shape by `part` of what they usually are.
+PatchSurface triangles_of(const TopoDS_Shape& shape, double size, double part)
 {
-  triangulate(shape, size);
+  triangulate(shape, size, part);
   PatchSurface surface = Tessellation(shape).run();
   coarse::separate_patches(surface);
   try {
@@ -231,6 +238,23 @@ PatchSurface tessellation_of(const TopoDS_Shape& shape, double size)
     throw NetgenError(std::string("OpenCASCADE's triangles: ") + error.what());
   }
   return surface;
+}
+
+}  // namespace
+
+PatchSurface tessellation_of(const TopoDS_Shape& shape, double size)
+{
+  PatchSurface best = triangles_of(shape, size, 1.0);
+  std::size_t num_cuts = coarse::find_overlaps(best).size();
+  double part = kFiner;
+  for (int round = 0; round < kMostFiner && num_cuts > 0; ++round, part *= kFiner) {
+    PatchSurface finer = triangles_of(shape, size, part);
+    const std::size_t num_left = coarse::find_overlaps(finer).size();
+    if (num_left >= num_cuts) break;
+    num_cuts = num_left;
+    best = std::move(finer);
+  }
+  return best;
 }
 
 }  // namespace tessera::netgen

@@ -142,7 +142,7 @@ class StlMeshing {
     auto& parameters = session_.parameters();
     parameters.perfstepsstart = first_step;
     parameters.perfstepsend = last_step;
-    ::netgen::STLMeshingDummy(&geometry_, mesh_, parameters);
+    session_.run_surface([&] { ::netgen::STLMeshingDummy(&geometry_, mesh_, parameters); });
   }
 
   // NETGEN has one descriptor a face, all of domain 1.

@@ -111,6 +111,17 @@ class StlModel final : public LoadedModel {
 
   [[nodiscard]] model::ModelDescription describe() const override;
 
+  [[nodiscard]] coarse::ModelFigures figures() const override
+  {
+    coarse::ModelFigures figures{.num_faces = features_.num_patches(),
+                                 .num_triangles = surface_.num_triangles()};
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+      const auto [a, b, c] = surface_.corners(t);
+      figures.area += 0.5 * norm(cross(b - a, c - a));
+    }
+    return figures;
+  }
+
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override
   {
     coarse::CadSurface cad{.triangles = patches_of(surface_, features_),

@@ -29,6 +29,8 @@ std::unique_ptr<model::Model> load_model(const model::ModelSource& /*source*/) {
 
 model::ModelDescription describe_model(const model::Model& /*model*/) { refuse(); }
 
+coarse::ModelFigures measure_model(const model::Model& /*model*/) { refuse(); }
+
 std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& /*model*/)
 {
   refuse();

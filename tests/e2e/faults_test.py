@@ -26,6 +26,7 @@ CAUSES = {
 }
 NO_RESULT = tuple(kind for kind in CAUSES if kind != "garbage")
 BOTH_RANKS = (0, 1)
+ALL = -1  # In place of a rank: where one rank takes over what failed on another.
 
 # Stages whose jobs go to the rank that asks first.
 SHARED_OUT = ("plan", "fill", "improve")
@@ -64,9 +65,9 @@ class FaultsTest(program.ProgramTest):
         self.case = self.write_case(max_size=0.6, subdomains=6)
 
     def run_with(self, fault, command, *arguments):
-        """On two ranks, one of which has the fault."""
+        """On two ranks, one of which has the fault, or both."""
         programs = [
-            ["-n", "1", "env", f"TESSERA_TEST_FAULT={fault.asked if rank == fault.rank else ''}",
+            ["-n", "1", "env", f"TESSERA_TEST_FAULT={fault.asked if fault.rank in (rank, ALL) else ''}",
              program.PROGRAM, command, *map(str, arguments)]
             for rank in BOTH_RANKS
         ]  # fmt: skip
@@ -161,7 +162,7 @@ class WithoutAMesh(FaultsTest):
             is_endless = fault.kind in ("loop", "sleep")
             self.assertEqual(len(self.kept_jobs(fault)), 3 if is_endless else 6)
 
-        self.for_all([Fault("coarse", kind, more=f"remesh={kind}") for kind in CAUSES], look)
+        self.for_all([Fault("coarse", kind, ALL, f"remesh={kind}") for kind in CAUSES], look)
 
     def test_plan(self):
         def look(fault, outcome):
@@ -173,7 +174,7 @@ class WithoutAMesh(FaultsTest):
     def test_goes_on_where_it_ended(self):
         """Without the fault, to the same mesh."""
         reference = self.mesh(self.case, "reference", ranks=2)
-        for stage, rank in (("load", 1), ("coarse", 0), ("plan", 1)):
+        for stage, rank in (("load", 1), ("coarse", ALL), ("plan", 1)):
             with self.subTest(stage=stage):
                 fault = Fault(stage, "segv", rank)
                 self.assertNotEqual(self.mesh_with(fault).code, OK)
@@ -194,10 +195,10 @@ class WithAMesh(FaultsTest):
             self.assertIn(CAUSES[fault.kind], outcome.out)
             self.assert_conforms(fault)
 
-        self.for_all([Fault("coarse", kind) for kind in ("segv", "sleep", "garbage")], look)
+        self.for_all([Fault("coarse", kind, ALL) for kind in ("segv", "sleep", "garbage")], look)
 
     def test_lost_tet_of_the_coarse_mesh(self):
-        fault = Fault("coarse", "drop", more="remesh=drop")
+        fault = Fault("coarse", "drop", ALL, "remesh=drop")
         self.assert_refused(self.mesh_with(fault), FAILED, "no coarse mesh")
 
     def test_fill(self):
@@ -215,7 +216,7 @@ class WithAMesh(FaultsTest):
             self.assertTrue(self.kept_jobs(fault))
             self.assert_conforms(fault)
 
-        self.for_all(on_both_ranks("fill", ("garbage", "segv", "exit", "sleep")), look)
+        self.for_all([Fault("fill", kind, ALL) for kind in ("garbage", "segv", "exit", "sleep")], look)
 
     def test_skin_of_a_failed_fill(self):
         """A diagnosis that fails leaves itself out, and changes nothing else."""
@@ -230,7 +231,7 @@ class WithAMesh(FaultsTest):
             self.assertEqual(list(folder.glob("*/skin.vtu")), [])
             self.assert_conforms(fault)
 
-        self.for_all([Fault("skin", kind, more="fill=throw") for kind in ("exit", "sleep", "garbage")], look)
+        self.for_all([Fault("skin", kind, ALL, "fill=throw") for kind in ("exit", "sleep", "garbage")], look)
 
     def test_improve(self):
         def look(fault, outcome):
@@ -259,7 +260,7 @@ class OtherCommands(FaultsTest):
             self.assertFalse((folder / "failure").exists())
 
         stages = ("import", "coarse", "plan")
-        self.for_all([Fault(stage, "segv", more="remesh=segv") for stage in stages], look, "--dry-run")
+        self.for_all([Fault(stage, "segv", ALL, "remesh=segv") for stage in stages], look, "--dry-run")
 
     def test_dry_run_with_fills_that_fail(self):
         def look(fault, outcome):

@@ -59,7 +59,7 @@ struct CoarseOptions {
 
   SurfaceMesher surface_mesher = SurfaceMesher::netgen;
 
-  double timeout_s = 300.0;  ///< CPU seconds of one try, > 0.
+  double timeout_s = 0.0;  ///< CPU seconds of each job of a try; 0: from what the model has.
 
   /// Largest edges at some places, made from the sizes of the case; remesh() takes no notice.
   mesh::SizePoints points{};

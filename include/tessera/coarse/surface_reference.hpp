@@ -33,6 +33,7 @@ class SurfaceReference {
   struct Patch {
     std::vector<LocalIndex> triangles{};
     model::TriangleSearch search;
+    bool is_flat = false;  // Then all have one normal, to rounding.
   };
 
   struct Curve {

@@ -33,6 +33,9 @@ struct JobLimits {
   double cpu_s = 600.0;     ///< CPU time of the job process, seconds.
   double stall_s = 120.0;   ///< Wall time without any CPU time used, seconds: finds sleepers.
   double memory_gib = 4.0;  ///< Resident memory of the job process, GiB.
+  /// CPU time without report_progress(), seconds, or ten times the longest such time so far if that
+  /// is more; 0: not watched.
+  double idle_cpu_s = 0.0;
 };
 
 /// @brief How a job ended.
@@ -42,7 +45,7 @@ enum class JobStatus : int {
   crashed,      ///< Ended by a signal; `code` is the signal.
   exited,       ///< Called exit(); `code` is the exit status.
   out_of_time,  ///< CPU limit.
-  stalled,      ///< Stall limit.
+  stalled,      ///< Stall limit, or no progress.
   out_of_memory,
   cancelled,  ///< The caller asked to stop.
 };

@@ -27,4 +27,7 @@ struct ProgramOutcome {
                                          const std::filesystem::path& log_file,
                                          const JobLimits& limits);
 
+/// @brief Whether run_program() would find a program of this name. Local.
+[[nodiscard]] bool is_on_path(const std::string& name);
+
 }  // namespace tessera::jobs

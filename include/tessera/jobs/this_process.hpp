@@ -13,4 +13,8 @@ namespace tessera::jobs {
 /// @brief CPU time of all threads of the calling process since it started, seconds. Local.
 [[nodiscard]] double cpu_time_of_this_process();
 
+/// @brief In a job: tells its rank that it got on, for JobLimits::idle_cpu_s. Cheap, so call it at
+/// every sign of progress. Does nothing in another process. Local.
+void report_progress();
+
 }  // namespace tessera::jobs

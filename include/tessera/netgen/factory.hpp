@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tessera/coarse/coarse_mesher.hpp"
+#include "tessera/coarse/model_figures.hpp"
 #include "tessera/fill/kernel.hpp"
 #include "tessera/improve/optimizer.hpp"
 #include "tessera/model/description.hpp"
@@ -37,6 +38,10 @@ void require_model_file(const std::filesystem::path& file);
 /// @brief What a model of load_model() holds.
 /// @note Local. @throws NetgenError if its faces cannot be triangulated.
 [[nodiscard]] model::ModelDescription describe_model(const model::Model& model);
+
+/// @brief How much there is to mesh, within a second or so. Length unit of the file.
+/// @note Local. @throws NetgenError
+[[nodiscard]] coarse::ModelFigures measure_model(const model::Model& model);
 
 /// @brief A coarse mesher for a model of load_model(). The model must outlive it.
 [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model);

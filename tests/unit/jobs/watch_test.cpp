@@ -75,5 +75,40 @@ TEST(Watch, TimeInWhichNobodyLookedProvesLittle)
   EXPECT_EQ(watch.look(sample(1.0), 3600.0), std::nullopt);
 }
 
+constexpr JobLimits kWithProgress{
+    .cpu_s = 1000.0, .stall_s = 3.0, .memory_gib = 1.0, .idle_cpu_s = 5.0};
+
+TEST(Watch, CpuTimeWithoutProgressIsAStall)
+{
+  Watch watch(kWithProgress, 0.0);
+  EXPECT_EQ(watch.look(sample(4.0), 4.0), std::nullopt);
+  watch.note_progress();
+  EXPECT_EQ(watch.look(sample(8.9), 4.9), std::nullopt);
+  EXPECT_FALSE(watch.is_idle());
+}
+
+TEST(Watch, AJobThatSaysNothingIsGivenUp)
+{
+  Watch watch(kWithProgress, 0.0);
+  EXPECT_EQ(watch.look(sample(5.1), 5.1), JobStatus::stalled);
+  EXPECT_TRUE(watch.is_idle());
+  EXPECT_DOUBLE_EQ(watch.cpu_without_s(), 5.1);
+}
+
+TEST(Watch, WhoTakesLongStepsMayTakeLongerOnes)
+{
+  Watch watch(kWithProgress, 0.0);
+  static_cast<void>(watch.look(sample(4.0), 4.0));
+  watch.note_progress();
+  EXPECT_EQ(watch.look(sample(43.0), 39.0), std::nullopt);
+  EXPECT_EQ(watch.look(sample(44.1), 1.1), JobStatus::stalled);
+}
+
+TEST(Watch, ProgressCountsOnlyWhereItIsWatched)
+{
+  Watch watch({.cpu_s = 1000.0}, 0.0);
+  EXPECT_EQ(watch.look(sample(900.0), 900.0), std::nullopt);
+}
+
 }  // namespace
 }  // namespace tessera::jobs

@@ -79,6 +79,21 @@ TEST(ReportPage, HasTheFigures)
   }
 }
 
+TEST(ReportPage, NamesCoarseTetsWithSmallAngles)
+{
+  constexpr const char* kHeading = "Small angles that the model does not force";
+  Json json = ok_report();
+  EXPECT_FALSE(has(report_page(source_of(json)), kHeading));
+  json["coarse"]["sharp"] = {
+      {"num_tets", 1},
+      {"worst",
+       {{{"min_dihedral_deg", 1.25}, {"centre", {7.5, 2.5, -4.5}}, {"patches", {"<b>", "c"}}}}}};
+  const std::string page = report_page(source_of(json));
+  for (const char* const text : {kHeading, "1.25°", "-4.5", "&lt;b&gt;, c"}) {
+    EXPECT_TRUE(has(page, text)) << text;
+  }
+}
+
 TEST(ReportPage, EscapesNamesAndQuotesFolders)
 {
   Json json = ok_report();

@@ -66,6 +66,22 @@ TEST(Report, NamesTheSubdomainsOfAPartOfAMesh)
   EXPECT_EQ(report["whole_mesh"]["num_tets"], 20);
 }
 
+TEST(Report, NamesCoarseTetsWithSmallAngles)
+{
+  RunResult run = run_of_two_pieces();
+  EXPECT_EQ(report_of(run)["coarse"]["sharp"]["num_tets"], 0);
+  EXPECT_TRUE(report_of(run)["warnings"].empty());
+  run.coarse.mesh.patch_names = {"in", "out"};
+  run.sharp = {.num_forced = 3, .num_others = 1, .worst = {{1.5, {1.0, 2.0, 3.0}, {1}}}};
+  const Json sharp = report_of(run)["coarse"]["sharp"];
+  EXPECT_EQ(sharp["num_forced"], 3);
+  EXPECT_EQ(sharp["worst"][0]["patches"], Json({"out"}));
+  EXPECT_EQ(sharp["worst"][0]["centre"], Json({1.0, 2.0, 3.0}));
+  ASSERT_EQ(report_of(run)["warnings"].size(), 1);
+  EXPECT_NE(report_of(run)["warnings"][0].get<std::string>().find("1.5 at (1, 2, 3)"),
+            std::string::npos);
+}
+
 TEST(Report, IsNotReproducibleIfALimitEndedATry)
 {
   EXPECT_EQ(report_of(run_of_two_pieces())["reproducible"], true);

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <tuple>
+
+#include "tessera/base/types.hpp"
+
+namespace tessera::coarse {
+
+/// @brief What a model has, as far as it says how long its coarse mesh may take.
+struct ModelFigures {
+  LocalIndex num_faces = 0;
+  double area = 0.0;             ///< Of all faces, length unit squared.
+  LocalIndex num_triangles = 0;  ///< Of the file, if it has any.
+
+  static auto fields(auto& self) { return std::tie(self.num_faces, self.area, self.num_triangles); }
+};
+
+}  // namespace tessera::coarse

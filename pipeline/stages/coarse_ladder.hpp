@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/comm/task_board.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief What the order of tries at the coarse mesh depends on.
+struct RungKind {
+  bool is_netgen =
+      true;             ///< NETGEN's surface mesher: where it never ended, it would not end again.
+  bool is_cut = false;  ///< The model is cut before; it is meshed anew without.
+};
+
+/// @brief How a rung has ended: the verdict of its surface.
+enum class RungEnd : int {
+  failed,   ///< The next rung follows.
+  endless,  ///< No further rung of NETGEN follows, until the model is no longer cut.
+  final,    ///< No other rung could be better: it is the run's end.
+  surface,  ///< There is a surface; it can be filled.
+};
+[[nodiscard]] constexpr RungEnd last_value(RungEnd /*type*/) { return RungEnd::surface; }
+
+/// @brief The tries at the coarse surface, best first: which of them counts, and which of them idle
+/// ranks begin before their turn has come.
+///
+/// The *front* is the first rung that is still needed, as if all were tried in turn. What it is
+/// depends on how rungs have ended only, not on when. So the same rung wins for any number of
+/// ranks.
+class CoarseLadder final : public comm::TaskSource {
+ public:
+  /// @param seconds A clock.
+  CoarseLadder(const std::vector<RungKind>& kinds, std::function<double()> seconds);
+
+  /// @brief The front. Once it has run for some seconds, or a rung has failed, also what would
+  /// follow: what comes after an endless front first, unless a rung has failed.
+  [[nodiscard]] std::optional<comm::Task> next() override;
+  /// @param verdict Bytes of a RungEnd.
+  void ended(LocalIndex rung, const Bytes& verdict, Rank rank) override;
+  void dropped(LocalIndex rung) override;
+  [[nodiscard]] bool is_needed(LocalIndex rung) const override;
+  [[nodiscard]] bool is_settled() const override;
+
+  /// @brief The surface of a rung could not be filled. @param end failed or endless.
+  void fill_has_failed(LocalIndex rung, RungEnd end);
+
+  /// @brief The front: once it is settled, the rung that counts. Nothing if all have failed.
+  [[nodiscard]] std::optional<LocalIndex> front() const;
+
+  /// @brief The rungs before the front that were tried and failed, in order.
+  [[nodiscard]] std::vector<LocalIndex> failed() const;
+
+  /// @brief What ended() and the others have told, for restore() on another rank.
+  [[nodiscard]] std::vector<LocalIndex> snapshot() const;
+  void restore(const std::vector<LocalIndex>& snapshot);
+
+  /// @brief Which rank has the surface of a rung.
+  [[nodiscard]] Rank holder(LocalIndex rung) const { return rungs_[at(rung)].holder; }
+
+ private:
+  enum class State { waiting, running, failed, endless, final, surface };
+  struct Rung {
+    RungKind kind{};
+    State state = State::waiting;
+    double start_s = 0.0;
+    Rank holder = 0;
+  };
+
+  static std::size_t front_of(const std::vector<Rung>& rungs, std::vector<LocalIndex>* passed);
+  [[nodiscard]] comm::Task start(std::size_t rung);
+  [[nodiscard]] std::vector<LocalIndex> followers_if(State state) const;
+
+  std::vector<Rung> rungs_;
+  std::function<double()> seconds_;
+};
+
+}  // namespace tessera::pipeline

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stages/coarse_budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/stages/coarse_stage.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+coarse::CoarseOptions sized(double size, double timeout_s = 0.0)
+{
+  coarse::CoarseOptions options;
+  options.max_size = size;
+  options.timeout_s = timeout_s;
+  return options;
+}
+
+TEST(CoarseBudget, GrowsWithFacesAreaAndTriangles)
+{
+  const auto seconds = [](const coarse::ModelFigures& model, double size) {
+    return surface_limits(sized(size), model, true).cpu_s;
+  };
+  const double least_s = seconds({.num_faces = 10, .area = 6.0}, 1.0);
+  EXPECT_GT(seconds({.num_faces = 5000, .area = 6.0}, 1.0), least_s);
+  EXPECT_GT(seconds({.num_faces = 10, .area = 6.0}, 0.01), least_s);
+  EXPECT_GT(seconds({.num_faces = 10, .area = 6.0, .num_triangles = 1'000'000}, 1.0), least_s);
+}
+
+TEST(CoarseBudget, WhatTheUserSaysCounts)
+{
+  const coarse::ModelFigures huge{.num_faces = 100'000, .area = 1e9};
+  EXPECT_EQ(surface_limits(sized(1.0, 7.0), huge, true).cpu_s, 7.0);
+  EXPECT_EQ(whole_limits(sized(1.0, 7.0), 1'000'000).cpu_s, 7.0);
+  EXPECT_EQ(domain_limits(sized(1.0, 7.0), {}).cpu_s, 7.0);
+}
+
+// While NETGEN hangs on one of two ranks, the other one tries what follows.
+TEST(CoarseBudget, AThousandFacesHaveTheirVerdictWithinThreeMinutesOnTwoRanks)
+{
+  const coarse::ModelFigures model{.num_faces = 1000, .area = 2.0 / 3.0};  // Of a box's diagonal.
+  const coarse::CoarseOptions asked = sized(1.0 / 6.0);
+  EXPECT_LE(surface_limits(asked, model, true).cpu_s, 130.0);
+  double others_s = 0.0;
+  for (const coarse::CoarseOptions& options : coarse_fallbacks(asked)) {
+    if (options.surface_mesher == coarse::SurfaceMesher::netgen) continue;
+    others_s += surface_limits(options, model, false).cpu_s;
+  }
+  EXPECT_LE(others_s, 130.0);
+}
+
+TEST(CoarseBudget, OnlyNetgensSurfacesAreWatchedForProgress)
+{
+  coarse::CoarseOptions options = sized(1.0);
+  EXPECT_GT(surface_limits(options, {}, true).idle_cpu_s, 0.0);
+  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  EXPECT_EQ(surface_limits(options, {}, true).idle_cpu_s, 0.0);
+}
+
+}  // namespace
+}  // namespace tessera::pipeline
