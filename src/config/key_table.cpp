@@ -201,6 +201,12 @@ constexpr Key kKeys[] = {
          "\"auto\" leaves two for the split, but fills on two at least. Where edges have levels "
          "of their own, fewer are left for the split if it would make a tenth more tets.",
      .reason = "all levels: what was filled is what comes out"},
+    {.name = "fill.split_corners",
+     .rule = FlagRule{[](Case& c) -> bool& { return c.fill.split_corners; }},
+     .meaning = "Whether no tet may have more than one face on the geometry. Solvers want that: "
+                "all four corners of such a tet can be on the boundary. OpenFOAM's checkMesh "
+                "-allGeometry calls it an error.",
+     .reason = "it changes the mesh, and not all solvers need it"},
     {.name = "fill.timeout_s",
      .rule = RealRule{[](Case& c) -> double& { return c.fill.timeout_s; }, 0.0, Bound::inclusive,
                       kHuge, Bound::inclusive},

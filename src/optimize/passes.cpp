@@ -16,6 +16,8 @@ void run_step(WorkingMesh& mesh, Step step, const Schedule& schedule)
       return collapse_pass(mesh, schedule);
     case Step::tighten:
       return tighten_bound(mesh);
+    case Step::divide:
+      return divide_pass(mesh);
   }
 }
 

@@ -21,8 +21,10 @@ Step parse_step(char letter)
       return Step::collapse;
     case 't':
       return Step::tighten;
+    case 'd':
+      return Step::divide;
     default:
-      throw ConfigError("'" + std::string(1, letter) + "' is no step: m, w, s, c or t expected");
+      throw ConfigError("'" + std::string(1, letter) + "' is no step: m, w, s, c, t or d expected");
   }
 }
 

@@ -24,14 +24,15 @@ struct WorkingMesh {
   double scale = 1.0;  // Working position = the caller's * scale; a power of two, so exact.
 
   std::vector<Point> points{};
-  std::vector<LocalIndex> vertex_origin{};  // Row of the caller's mesh.
+  std::vector<LocalIndex> vertex_origin{};  // Row of the caller's mesh; new ones follow.
   std::vector<std::uint8_t> vertex_fixed{};
   std::vector<std::uint8_t> vertex_removed{};
   std::vector<std::uint8_t> vertex_to_smooth{};    // Something changed since it was smoothed.
   std::vector<std::uint8_t> vertex_to_collapse{};  // Something changed since a collapse was tried.
 
   std::vector<LocalIndex> tet_vertices{};    // Shape (num_slots, 4).
-  std::vector<LocalIndex> tet_neighbours{};  // Shape (num_slots, 4): corner across the face.
+  std::vector<LocalIndex> tet_neighbours{};  // Shape (num_slots, 4): corner across the face, or
+                                             // what stands for the boundary: see corners.hpp.
   std::vector<double> tet_energy{};          // As of the last refresh_energies().
   std::vector<double> tet_cost{};
   std::vector<std::uint8_t> tet_to_swap{};  // Its shape changed since swaps were tried.
@@ -41,6 +42,7 @@ struct WorkingMesh {
   std::vector<LocalIndex> star_offsets{};  // Shape (num_vertices + 1).
   std::vector<Corner> star_corners{};
 
+  bool has_outer_faces = false;
   bool are_energies_stale = true;
   bool are_stars_stale = true;
   LocalIndex first_not_positive = kNoIndex;  // Of the caller's tets.
@@ -69,6 +71,12 @@ struct WorkingMesh {
 // The same in the caller's order and without neighbours, for passes that only move vertices. The
 // fixed vertices are the flagged ones alone.
 [[nodiscard]] WorkingMesh make_smoothing_mesh(const TetMesh& mesh);
+
+// Of a tet, from 0 to 4.
+[[nodiscard]] std::uint8_t num_outer_faces(const WorkingMesh& mesh, LocalIndex tet);
+
+// A new free vertex; no tet has it yet.
+LocalIndex add_vertex(WorkingMesh& mesh, const Point& point);
 
 // Tets that are flat or inverted, by their energies.
 [[nodiscard]] LocalIndex count_not_positive(const WorkingMesh& mesh);

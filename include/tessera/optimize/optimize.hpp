@@ -22,6 +22,7 @@ struct Statistics {
   GlobalIndex num_moves = 0;      ///< Steps of vertices by smoothing.
   GlobalIndex num_swaps = 0;      ///< Edges removed and faces exchanged.
   GlobalIndex num_collapses = 0;  ///< Vertices removed.
+  GlobalIndex num_divided = 0;    ///< Tets with several outer triangles that were divided.
 };
 
 /// @brief A better mesh with the same boundary.
@@ -29,6 +30,7 @@ struct OptimizeResult {
   std::vector<double> vertex_xyz{};         ///< Shape (num_vertices, 3).
   std::vector<LocalIndex> tet_vertices{};   ///< Shape (num_tets, 4); positive, VTK's order.
   std::vector<LocalIndex> vertex_origin{};  ///< Shape (num_vertices): row of the input; ascending.
+                                            ///< Not below its number: a vertex of Step::divide.
   Statistics statistics{};
 };
 
