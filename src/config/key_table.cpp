@@ -204,9 +204,11 @@ constexpr Key kKeys[] = {
     {.name = "fill.split_corners",
      .rule = FlagRule{[](Case& c) -> bool& { return c.fill.split_corners; }},
      .meaning = "Whether no tet may have more than one face on the geometry. Solvers want that: "
-                "all four corners of such a tet can be on the boundary. OpenFOAM's checkMesh "
-                "-allGeometry calls it an error.",
-     .reason = "it changes the mesh, and not all solvers need it"},
+                "all four corners of such a tet can be on the boundary, and OpenFOAM's checkMesh "
+                "-allGeometry calls it an error. Our own optimiser then goes over what NETGEN has "
+                "filled, and over the seams. Excludes --only-subdomains.",
+     .reason = "not every solver needs it, and what is subdivided can then be written only after "
+               "all of it was made"},
     {.name = "fill.timeout_s",
      .rule = RealRule{[](Case& c) -> double& { return c.fill.timeout_s; }, 0.0, Bound::inclusive,
                       kHuge, Bound::inclusive},
