@@ -146,20 +146,28 @@ class MeshWorker final : public jobs::Worker {
     return to_bytes(coarse_mesher()->mesh_surface(for_mesher(request.options), request.planes));
   }
 
-  [[nodiscard]] Bytes answer(const CoarseDomainRequest& request) const
+  [[nodiscard]] Bytes answer(const CoarseDivideRequest& request) const
   {
-    return to_bytes(coarse_mesher()->mesh_domain(request.skin, for_mesher(request.options)));
+    fail_if_asked("divide");
+    return to_bytes(coarse_mesher()->divide(request.surface, for_mesher(request.options)));
+  }
+
+  [[nodiscard]] Bytes answer(const CoarsePieceRequest& request) const
+  {
+    if (!request.is_whole) fail_if_asked("piece");
+    const auto mesher = coarse_mesher();
+    const coarse::CoarseOptions options = for_mesher(request.options);
+    return to_bytes(request.is_whole ? mesher->mesh_domain(request.skin, options)
+                                     : mesher->fill_domain(request.skin, options));
   }
 
   [[nodiscard]] Bytes answer(const CoarseMeshRequest& request) const
   {
-    std::vector<coarse::DomainSkin> skins;
-    std::vector<coarse::DomainTets> tets;
-    for (const FilledDomain& one : request.filled) {
-      skins.push_back(coarse::skin_of(request.surface, one.domain));
-      tets.push_back(one.tets);
-    }
-    cut::CutMesh filled = coarse::fill_surface(request.surface, skins, tets);
+    std::vector<coarse::DomainTets> pieces;
+    for (const FilledPiece& one : request.filled) pieces.push_back(one.tets);
+    const std::vector<coarse::DomainTets> tets =
+        coarse_mesher()->join_domains(request.surface, request.divided, std::move(pieces));
+    cut::CutMesh filled = coarse::fill_surface(request.surface, tets);
     CoarseTry made{.mesh = std::move(filled.mesh), .tet_part = std::move(filled.tet_part)};
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_);
     if (request.options.optimize) {
@@ -167,6 +175,7 @@ class MeshWorker final : public jobs::Worker {
       if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
     }
     made.distance.largest *= scale_;
+    made.distance.largest_within *= scale_;
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     mesh::validate(made.mesh);
     return garbled_if_asked(stage_of(request.options), to_bytes(made));

@@ -11,6 +11,7 @@
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/coarse/coarse_surface.hpp"
+#include "tessera/coarse/divide_domains.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/cut/cut_tree.hpp"
@@ -91,24 +92,31 @@ struct CoarseTry {
 [[nodiscard]] Bytes coarse_surface_request(const coarse::CoarseOptions& options,
                                            const cut::CutTree& planes);
 
-/// @brief run: fills one domain of such a surface; result: bytes of coarse::DomainTets. Needs the
-/// model.
-[[nodiscard]] Bytes coarse_domain_request(coarse::DomainSkin skin,
+/// @brief run: divides large domains of such a surface; result: bytes of a coarse::DividedSurface.
+/// Needs the model.
+[[nodiscard]] Bytes coarse_divide_request(coarse::CoarseSurface surface,
                                           const coarse::CoarseOptions& options);
 
-/// @brief The tets of one domain of a coarse surface.
-struct FilledDomain {
-  LocalIndex domain = 0;  ///< From 1.
+/// @brief run: fills one piece of such a surface; result: bytes of coarse::DomainTets. Needs the
+/// model.
+/// @param[in] is_whole  It is a whole domain: its tets are made better at once.
+[[nodiscard]] Bytes coarse_piece_request(coarse::DomainSkin skin, bool is_whole,
+                                         const coarse::CoarseOptions& options);
+
+/// @brief The tets of one piece of a divided surface.
+struct FilledPiece {
+  LocalIndex piece = 0;  ///< From 1.
   coarse::DomainTets tets{};
 
-  static auto fields(auto& self) { return std::tie(self.domain, self.tets); }
+  static auto fields(auto& self) { return std::tie(self.piece, self.tets); }
 };
 
 /// @brief run: puts the coarse mesh together and its vertices onto the geometry; result: bytes of a
 /// CoarseTry. Needs the model.
-/// @param[in] filled All domains, in their order.
+/// @param[in] filled All pieces, in their order.
 [[nodiscard]] Bytes coarse_mesh_request(coarse::CoarseSurface surface,
-                                        std::vector<FilledDomain> filled,
+                                        coarse::DividedSurface divided,
+                                        std::vector<FilledPiece> filled,
                                         const coarse::CoarseOptions& options,
                                         const cut::CutTree& planes);
 

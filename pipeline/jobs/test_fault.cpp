@@ -21,9 +21,9 @@
 namespace tessera::pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 11> kStages{"import",  "load",   "box",  "describe",
-                                                   "coarse",  "remesh", "plan", "fill",
-                                                   "improve", "refine", "skin"};
+constexpr std::array<std::string_view, 13> kStages{
+    "import", "load", "box",  "describe", "coarse", "remesh", "divide",
+    "piece",  "plan", "fill", "improve",  "refine", "skin"};
 constexpr std::array<std::string_view, 11> kKinds{
     "throw", "segv", "exit", "loop", "sleep", "memory", "garbage", "drop", "flat", "nudge", "lose"};
 
@@ -136,12 +136,25 @@ class FaultyMesher final : public coarse::CoarseMesher {
     return sound_->mesh_surface(options, planes);
   }
 
-  [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
+  [[nodiscard]] coarse::Membrane mesh_membrane(const coarse::DomainSkin& skin,
+                                               const coarse::MembraneBorder& border,
                                                const coarse::CoarseOptions& options) const override
   {
-    coarse::DomainTets tets = sound_->mesh_domain(skin, options);
+    return sound_->mesh_membrane(skin, border, options);
+  }
+
+  [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
+                                               const coarse::CoarseOptions& options) const override
+  {
+    coarse::DomainTets tets = sound_->fill_domain(skin, options);
     if (kind_at(stage_of(options), kNoIndex) == "drop") drop_a_tet(tets.tet_vertices);
     return tets;
+  }
+
+  [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
+                                                  coarse::DomainTets tets) const override
+  {
+    return sound_->improve_domain(skin, std::move(tets));
   }
 
  private:
@@ -203,6 +216,10 @@ class NudgedModel final : public model::Model {
   [[nodiscard]] double curve_tolerance(LocalIndex curve) const override
   {
     return sound_.curve_tolerance(curve);
+  }
+  [[nodiscard]] double end_tolerance(LocalIndex curve, const Vec3& point) const override
+  {
+    return sound_.end_tolerance(curve, point);
   }
   [[nodiscard]] double box_diagonal() const override { return sound_.box_diagonal(); }
 

@@ -18,7 +18,7 @@
 ///
 /// Its value is words "STAGE=KIND", for every job of the stage, or "STAGE=KIND@ITEM".
 /// - STAGE: import, load, box, coarse, remesh (the coarse mesh from the CAD system's triangles),
-///   plan, fill, improve, refine, skin.
+///   divide (membranes), piece (the tets between some), plan, fill, improve, refine, skin.
 /// - KIND, for any job: throw, segv, exit, loop, sleep, memory.
 /// - KIND, for results that a check must refuse: drop (a tet of the result is lost: coarse, remesh,
 ///   fill, improve), garbage (the bytes of the result are no longer what they were), flat (the

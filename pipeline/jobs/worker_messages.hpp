@@ -96,22 +96,31 @@ struct CoarseSurfaceRequest {
   static auto fields(auto& self) { return std::tie(self.options, self.planes); }
 };
 
-struct CoarseDomainRequest {
-  coarse::DomainSkin skin{};
+struct CoarseDivideRequest {
+  coarse::CoarseSurface surface{};
   coarse::CoarseOptions options{};
 
-  static auto fields(auto& self) { return std::tie(self.skin, self.options); }
+  static auto fields(auto& self) { return std::tie(self.surface, self.options); }
+};
+
+struct CoarsePieceRequest {
+  coarse::DomainSkin skin{};
+  bool is_whole = false;
+  coarse::CoarseOptions options{};
+
+  static auto fields(auto& self) { return std::tie(self.skin, self.is_whole, self.options); }
 };
 
 struct CoarseMeshRequest {
   coarse::CoarseSurface surface{};
-  std::vector<FilledDomain> filled{};  ///< All domains, in their order.
+  coarse::DividedSurface divided{};
+  std::vector<FilledPiece> filled{};  ///< All pieces, in their order.
   coarse::CoarseOptions options{};
   cut::CutTree planes{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.surface, self.filled, self.options, self.planes);
+    return std::tie(self.surface, self.divided, self.filled, self.options, self.planes);
   }
 };
 
@@ -135,8 +144,8 @@ struct SkinRequest {
   static auto fields(auto& self) { return std::tie(self.subdomain); }
 };
 
-using Request = std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDomainRequest,
-                             CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
-                             RefineTask, SkinRequest, DescribeRequest>;
+using Request = std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDivideRequest,
+                             CoarsePieceRequest, CoarseMeshRequest, UntangleRequest, FillTask,
+                             ImproveRequest, RefineTask, SkinRequest, DescribeRequest>;
 
 }  // namespace tessera::pipeline

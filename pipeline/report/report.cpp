@@ -355,6 +355,8 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
                                         run.coarse.distance.largest);
   json["num_points_off_geometry"] =
       run.limiter.entries().size() + static_cast<std::size_t>(run.coarse.distance.num_off);
+  json["points_within_tolerance"] = {{"num", run.coarse.distance.num_within},
+                                     {"distance_max", run.coarse.distance.largest_within}};
   json["reproducible"] = is_reproducible(run);
   json["digest"] = to_hex(digest_of(pieces));
   add_figures(json, figures);

@@ -365,6 +365,13 @@ std::vector<std::string> advice_of(const Report& report)
     advice.push_back("The model file was repaired: " + repair
                      + ". Look at the pictures: is it what you meant?");
   }
+  if (const auto num = report.number("/points_within_tolerance/num"); num && *num > 0.0) {
+    advice.push_back(fmt::format(
+        "{:.0f} vertices of the coarse mesh are off the geometry by at most {:.3g}, which is "
+        "within "
+        "the tolerance of the CAD file, or next to nothing of their edges. That is no defect.",
+        *num, report.number("/points_within_tolerance/distance_max").value_or(0.0)));
+  }
   for (std::string& one : failure_advice(report)) advice.push_back(std::move(one));
   if (const Json* const same = report.find("/reproducible"); same != nullptr && *same == false) {
     advice.emplace_back(

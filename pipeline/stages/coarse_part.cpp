@@ -85,6 +85,16 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   choose_levels(run, context);
 }
 
+void tell_what_is_within_tolerance(const RunResult& run, RunContext& context)
+{
+  const coarse::VertexDistance& distance = run.coarse.distance;
+  if (distance.num_within == 0) return;
+  context.log.info(
+      "coarse: {} vertices are off the geometry by at most {:.3g}: within the tolerance "
+      "of the CAD file, or less than {:g} of their edges",
+      distance.num_within, distance.largest_within, coarse::kMostOfEdgeOff);
+}
+
 }  // namespace
 
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
@@ -107,6 +117,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
     run.decomposition = run_decompose_stage(run, context);
     keep_coarse_mesh(run, options.state, context);
   }
+  tell_what_is_within_tolerance(run, context);
   all_or_none(context.comm, [&] {
     run.kernels = fill::kernels_of(run.resolved.fill, run.coarse.mesh.material_names,
                                    run.decomposition.decomposition.subdomain_material);

@@ -49,54 +49,100 @@ SurfaceTry try_surface(const CoarsePlan& plan, const jobs::JobLimits& limits, Ru
   });
 }
 
-struct FailedDomain {
-  LocalIndex domain = 0;
+// The surface in pieces, if a domain is large. What cannot be divided is filled as it is.
+coarse::DividedSurface divide(const coarse::CoarseSurface& surface, const CoarsePlan& plan,
+                              const jobs::JobLimits& limits, RunContext& context)
+{
+  return comm::on_root(context.comm, [&] {
+    if (!coarse::has_large_domain(surface)) return coarse::undivided(surface);
+    jobs::JobOutcome outcome;
+    const Bytes request = coarse_divide_request(surface, plan.options);
+    auto divided = result_of<coarse::DividedSurface>({"coarse: divide", request, limits},
+                                                     wait_for_stop_signal(), outcome, context);
+    if (!divided) context.log.warn("coarse: {}; domains are filled whole", outcome.message);
+    if (!divided) return coarse::undivided(surface);
+    context.log.info("coarse: {} domains in {} pieces", surface.num_domains(),
+                     divided->surface.num_domains());
+    return std::move(*divided);
+  });
+}
+
+struct FailedPiece {
+  LocalIndex piece = 0;
   jobs::JobOutcome outcome{};
 
-  static auto fields(auto& self) { return std::tie(self.domain, self.outcome); }
+  static auto fields(auto& self) { return std::tie(self.piece, self.outcome); }
 };
 
-// What this rank made of the domains of a surface.
-struct DomainShare {
-  std::vector<FilledDomain> filled{};
-  std::vector<FailedDomain> failed{};
+// What this rank made of the pieces of a surface.
+struct PieceShare {
+  std::vector<FilledPiece> filled{};
+  std::vector<FailedPiece> failed{};
 };
 
-DomainShare fill_domains(const coarse::CoarseSurface& surface, const coarse::CoarseOptions& options,
-                         const jobs::JobLimits& limits, StageScope& stage, RunContext& context)
+// By piece, from 1: whether it is a whole domain.
+std::vector<bool> whole_domains(const coarse::DividedSurface& divided)
 {
-  DomainShare share;
+  std::vector<bool> is_whole{false};
+  for (const LocalIndex num_pieces : divided.num_pieces) {
+    is_whole.insert(is_whole.end(), at(num_pieces), num_pieces == 1);
+  }
+  return is_whole;
+}
+
+std::vector<double> triangles_of_pieces(const coarse::CoarseSurface& surface)
+{
   std::vector<double> num_triangles(at(surface.num_domains()));
   for (const auto& domains : surface.face_domains) {
     for (const LocalIndex domain : domains) {
       if (domain > 0) num_triangles[at(domain - 1)] += 1.0;
     }
   }
+  return num_triangles;
+}
+
+PieceShare fill_share(const coarse::DividedSurface& divided, const coarse::CoarseOptions& options,
+                      const jobs::JobLimits& limits, StageScope& stage, RunContext& context)
+{
+  PieceShare share;
+  const std::vector<bool> is_whole = whole_domains(divided);
   const auto fill = [&](LocalIndex item, const jobs::JobRunner::WaitCallback& on_wait) {
-    const LocalIndex domain = item + 1;
-    const Bytes request = coarse_domain_request(coarse::skin_of(surface, domain), options);
+    const LocalIndex piece = item + 1;
+    const Bytes request =
+        coarse_piece_request(coarse::skin_of(divided.surface, piece), is_whole[at(piece)], options);
     jobs::JobOutcome outcome;
     auto tets = result_of<coarse::DomainTets>(
-        {fmt::format("coarse: domain {}", domain), request, limits}, on_wait, outcome, context);
+        {fmt::format("coarse: piece {}", piece), request, limits}, on_wait, outcome, context);
     if (tets) {
-      share.filled.push_back({domain, std::move(*tets)});
+      share.filled.push_back({piece, std::move(*tets)});
     } else {
-      share.failed.push_back({domain, std::move(outcome)});
+      share.failed.push_back({piece, std::move(outcome)});
     }
   };
-  for_each_dynamic(heaviest_first(num_triangles), fill, stage, context);
+  const std::vector<double> weights = triangles_of_pieces(divided.surface);
+  for_each_dynamic(heaviest_first(weights), fill, stage, context);
   return share;
 }
 
-std::vector<FilledDomain> gather(const std::vector<FilledDomain>& filled,
-                                 const comm::Communicator& comm)
+// All pieces, on rank 0; or the first that failed, on every rank.
+struct PieceTry {
+  std::optional<FailedPiece> failed{};
+  std::vector<FilledPiece> filled{};
+};
+
+PieceTry fill_pieces(const coarse::DividedSurface& divided, const coarse::CoarseOptions& options,
+                     const jobs::JobLimits& limits, StageScope& stage, RunContext& context)
 {
-  std::vector<FilledDomain> all;
-  for (const Bytes& bytes : comm.gather_to_root(to_bytes(filled))) {
-    auto some = from_bytes<std::vector<FilledDomain>>(bytes);
-    std::ranges::move(some, std::back_inserter(all));
+  const PieceShare share = fill_share(divided, options, limits, stage, context);
+  auto failed = context.comm.all_gather_rows(share.failed);
+  if (!failed.empty())
+    return {std::move(*std::ranges::min_element(failed, {}, &FailedPiece::piece)), {}};
+  PieceTry all;
+  for (const Bytes& bytes : context.comm.gather_to_root(to_bytes(share.filled))) {
+    auto some = from_bytes<std::vector<FilledPiece>>(bytes);
+    std::ranges::move(some, std::back_inserter(all.filled));
   }
-  std::ranges::sort(all, {}, &FilledDomain::domain);
+  std::ranges::sort(all.filled, {}, &FilledPiece::piece);
   return all;
 }
 
@@ -107,17 +153,19 @@ CoarseAttempt try_coarse_mesh(const CoarsePlan& plan, const jobs::JobLimits& lim
 {
   SurfaceTry first = try_surface(plan, limits, context);
   if (!first.surface) return {std::move(first.outcome), {}};
-  const DomainShare share = fill_domains(*first.surface, plan.options, limits, stage, context);
-  auto failed = context.comm.all_gather_rows(share.failed);
-  if (!failed.empty()) {
-    const auto lowest = std::ranges::min_element(failed, {}, &FailedDomain::domain);
-    return {std::move(lowest->outcome), {}};
+  coarse::DividedSurface divided = divide(*first.surface, plan, limits, context);
+  PieceTry pieces = fill_pieces(divided, plan.options, limits, stage, context);
+  if (pieces.failed && divided.surface.num_domains() > first.surface->num_domains()) {
+    context.log.warn("coarse: piece {}: {}; domains are filled whole", pieces.failed->piece,
+                     pieces.failed->outcome.message);
+    divided = coarse::undivided(*first.surface);
+    pieces = fill_pieces(divided, plan.options, limits, stage, context);
   }
-  std::vector<FilledDomain> filled = gather(share.filled, context.comm);
+  if (pieces.failed) return {std::move(pieces.failed->outcome), {}};
   CoarseAttempt attempt;
   attempt.outcome = comm::on_root(context.comm, [&] {
-    const Bytes request = coarse_mesh_request(std::move(*first.surface), std::move(filled),
-                                              plan.options, plan.planes);
+    const Bytes request = coarse_mesh_request(std::move(*first.surface), std::move(divided),
+                                              std::move(pieces.filled), plan.options, plan.planes);
     jobs::JobOutcome outcome;
     attempt.made = result_of<CoarseTry>({"coarse: whole", request, limits}, wait_for_stop_signal(),
                                         outcome, context);

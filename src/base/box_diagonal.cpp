@@ -7,9 +7,8 @@
 
 namespace tessera {
 
-double box_diagonal(std::span<const double> xyz)
+std::array<Vec3, 2> bounding_box(std::span<const double> xyz)
 {
-  if (xyz.empty()) return 0.0;
   Vec3 low = point_at(xyz, 0);
   Vec3 high = low;
   for (std::size_t i = 0; i < xyz.size() / 3; ++i) {
@@ -19,6 +18,13 @@ double box_diagonal(std::span<const double> xyz)
       high[axis] = std::max(high[axis], point[axis]);
     }
   }
+  return {low, high};
+}
+
+double box_diagonal(std::span<const double> xyz)
+{
+  if (xyz.empty()) return 0.0;
+  const auto [low, high] = bounding_box(xyz);
   return norm(high - low);
 }
 

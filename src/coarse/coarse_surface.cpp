@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -115,16 +116,25 @@ void add_tets(const DomainSkin& skin, const DomainTets& tets, LocalIndex materia
 
 }  // namespace
 
+std::vector<LocalIndex> faces_of(const CoarseSurface& surface, LocalIndex domain)
+{
+  std::vector<LocalIndex> faces;
+  for (LocalIndex f = 0; f < surface.mesh.num_faces(); ++f) {
+    const auto& [out_of, into] = surface.face_domains[at(f)];
+    if (out_of == domain || into == domain) faces.push_back(f);
+  }
+  return faces;
+}
+
 DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain)
 {
   const mesh::CoarseMesh& mesh = surface.mesh;
-  DomainSkin skin{.max_size = surface.domain_max_size[at(domain - 1)]};
-  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    const auto& [out_of, into] = surface.face_domains[at(f)];
-    if (out_of != domain && into != domain) continue;
+  DomainSkin skin{.max_size = surface.domain_max_size[at(domain - 1)],
+                  .model_box = bounding_box(mesh.vertex_xyz)};
+  for (const LocalIndex f : faces_of(surface, domain)) {
     const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
     skin.triangle_vertices.insert(skin.triangle_vertices.end(), {v[0], v[1], v[2]});
-    if (out_of != domain)
+    if (surface.face_domains[at(f)][0] != domain)
       std::swap(skin.triangle_vertices.end()[-1], skin.triangle_vertices.end()[-2]);
     const LocalIndex patch = mesh.face_patch[at(f)];
     skin.triangle_patch.push_back(patch == kNoIndex ? mesh.num_patches() : patch);
@@ -144,9 +154,10 @@ DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain)
   return skin;
 }
 
-cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainSkin>& skins,
-                          const std::vector<DomainTets>& tets)
+cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainTets>& tets)
 {
+  std::vector<DomainSkin> skins;
+  for (LocalIndex d = 1; d <= surface.num_domains(); ++d) skins.push_back(skin_of(surface, d));
   cut::CutMesh filled{std::move(surface.mesh), {}};
   for (std::size_t d = 0; d < tets.size(); ++d) {
     add_tets(skins[d], tets[d], surface.domain_material[d], filled.mesh);

@@ -68,11 +68,18 @@ EditableSurface::EditableSurface(const PatchSurface& surface, std::vector<double
 std::vector<Edge> EditableSurface::edges() const
 {
   std::vector<Edge> all;
-  for (const Triangle& v : triangles_) {
-    if (v[0] == kNoIndex) continue;
-    for (std::size_t c = 0; c < 3; ++c) all.push_back(edge_of(v[c], v[(c + 1) % 3]));
+  all.reserve(2 * triangles_.size());
+  std::vector<LocalIndex> higher;
+  for (LocalIndex a = 0; a < num_vertices(); ++a) {
+    higher.clear();
+    for (const LocalIndex t : around_[at(a)]) {
+      for (const LocalIndex b : triangles_[at(t)]) {
+        if (b > a) higher.push_back(b);
+      }
+    }
+    sort_unique(higher);
+    for (const LocalIndex b : higher) all.push_back({a, b});
   }
-  sort_unique(all);
   return all;
 }
 

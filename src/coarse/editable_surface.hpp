@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tessera/coarse/patch_surface.hpp"
@@ -30,6 +32,17 @@ class EditableSurface {
   [[nodiscard]] Freedom freedom(LocalIndex v) const { return freedom_[at(v)]; }
   [[nodiscard]] const Triangle& triangle(LocalIndex t) const { return triangles_[at(t)]; }
   [[nodiscard]] LocalIndex patch(LocalIndex t) const { return patch_[at(t)]; }
+  /// @brief With those that were removed.
+  [[nodiscard]] LocalIndex num_triangles() const
+  {
+    return static_cast<LocalIndex>(triangles_.size());
+  }
+  [[nodiscard]] bool is_triangle(LocalIndex t) const { return triangles_[at(t)][0] != kNoIndex; }
+  [[nodiscard]] std::array<Vec3, 3> corners(LocalIndex t) const
+  {
+    const Triangle& v = triangles_[at(t)];
+    return {xyz(v[0]), xyz(v[1]), xyz(v[2])};
+  }
   [[nodiscard]] const std::vector<LocalIndex>& triangles_of(LocalIndex v) const
   {
     return around_[at(v)];
@@ -39,9 +52,11 @@ class EditableSurface {
   [[nodiscard]] bool has_edge(LocalIndex a, LocalIndex b) const;
   /// @brief Curve of an edge, kNoIndex if it is on none.
   [[nodiscard]] LocalIndex curve(LocalIndex a, LocalIndex b) const;
+  [[nodiscard]] const std::map<Edge, LocalIndex>& curves() const { return curves_; }
   /// @brief The vertices before and after one that lies on a curve.
   [[nodiscard]] std::vector<LocalIndex> curve_neighbours(LocalIndex v) const;
 
+  void set_sizes(std::vector<double> sizes) { sizes_ = std::move(sizes); }
   void move(LocalIndex v, const Vec3& xyz) { xyz_[at(v)] = xyz; }
 
   /// @brief Puts a vertex at `xyz` into an edge; returns it.

@@ -8,6 +8,8 @@
 #include "tessera/coarse/remesh.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 
+#include "coarse/crossings.hpp"
+
 namespace tessera::coarse {
 namespace {
 
@@ -20,17 +22,22 @@ constexpr double kMostOfEdge = 0.5;
 constexpr std::size_t kMostGrowth = 3;
 constexpr int kFinerRounds = 5;
 
+// A vertex that another sheet holds back is tried again, as that sheet may have moved away since.
+constexpr int kMostPasses = 4;
+
 class Mover {
  public:
   Mover(PatchSurface& surface, const SurfaceReference& reference, const model::Model& model)
       : surface_(surface),
         reference_(reference),
         model_(model),
+        guard_(surface),
         around_(surface.vertex_xyz.size()),
         curve_(surface.vertex_xyz.size(), kNoIndex)
   {
     for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-      for (const LocalIndex v : surface_.triangles[t]) around_[at(v)].push_back(t);
+      for (const LocalIndex v : surface_.triangles[t])
+        around_[at(v)].push_back(static_cast<LocalIndex>(t));
     }
     for (std::size_t e = 0; e < surface_.edges.size(); ++e) {
       for (const LocalIndex v : surface_.edges[e]) curve_[at(v)] = surface_.edge_curve[e];
@@ -39,8 +46,16 @@ class Mover {
 
   void run()
   {
+    std::vector<std::size_t> left;
     for (std::size_t v = 0; v < around_.size(); ++v) {
-      if (surface_.vertex_is_fixed[v] == 0 && !around_[v].empty()) move(v, target(v));
+      if (surface_.vertex_is_fixed[v] == 0 && !around_[v].empty()) left.push_back(v);
+    }
+    for (int pass = 0; pass < kMostPasses && !left.empty(); ++pass) {
+      std::vector<std::size_t> held_back;
+      for (const std::size_t v : left) {
+        if (!move(v, target(v))) held_back.push_back(v);
+      }
+      left = std::move(held_back);
     }
   }
 
@@ -52,30 +67,47 @@ class Mover {
       return model_.project_to_curve(curve_[v], point, reference_.curve_parameter(curve_[v], point))
           .xyz;
     }
-    const LocalIndex patch = surface_.triangle_patch[around_[v].front()];
+    const LocalIndex patch = surface_.triangle_patch[at(around_[v].front())];
     return model_.project_to_surface(patch, point, reference_.parameters(patch, point)).xyz;
   }
 
-  void move(std::size_t v, const Vec3& target)
+  // Whether that is all: false if another sheet is in the way.
+  bool move(std::size_t v, const Vec3& target)
   {
     const Vec3 before = surface_.vertex_xyz[v];
+    if (target == before) return true;
     double shortest = std::numeric_limits<double>::infinity();
     std::vector<Vec3> normals;
-    for (const std::size_t t : around_[v]) {
-      normals.push_back(normal(t));
-      for (const Vec3& corner : surface_.corners(t)) {
+    for (const LocalIndex t : around_[v]) {
+      normals.push_back(normal(at(t)));
+      for (const Vec3& corner : surface_.corners(at(t))) {
         const double length = norm(corner - before);
         if (length > 0.0) shortest = std::min(shortest, length);
       }
     }
-    if (norm(target - before) > kMostOfEdge * shortest) return;
+    if (norm(target - before) > kMostOfEdge * shortest) return true;
     surface_.vertex_xyz[v] = target;
     for (std::size_t i = 0; i < normals.size(); ++i) {
-      const Vec3 after = normal(around_[v][i]);
+      const Vec3 after = normal(at(around_[v][i]));
       if (dot(after, normals[i]) >= kLeastCosine * norm(after) * norm(normals[i])) continue;
       surface_.vertex_xyz[v] = before;
-      return;
+      return true;
     }
+    if (keep(v)) return true;
+    surface_.vertex_xyz[v] = before;
+    return false;
+  }
+
+  // Unless the triangles around the vertex cut others where it is now.
+  bool keep(std::size_t v)
+  {
+    std::vector<PlacedTriangle> made;
+    for (const LocalIndex t : around_[v]) {
+      made.push_back({surface_.triangles[at(t)], surface_.corners(at(t))});
+    }
+    if (!guard_.allows(around_[v], made)) return false;
+    for (std::size_t i = 0; i < made.size(); ++i) guard_.change(around_[v][i], made[i]);
+    return true;
   }
 
   [[nodiscard]] Vec3 normal(std::size_t t) const
@@ -87,8 +119,9 @@ class Mover {
   PatchSurface& surface_;
   const SurfaceReference& reference_;
   const model::Model& model_;
-  std::vector<std::vector<std::size_t>> around_;  // Triangles of each vertex.
-  std::vector<LocalIndex> curve_;                 // Of each vertex that lies on one.
+  CrossingGuard guard_;
+  std::vector<std::vector<LocalIndex>> around_;  // Triangles of each vertex.
+  std::vector<LocalIndex> curve_;                // Of each vertex that lies on one.
 };
 
 std::vector<std::size_t> cut_triangles(const PatchSurface& surface)

@@ -32,4 +32,10 @@ DomainTets smooth_domain(DomainTets tets)
   return optimized(std::move(tets), {.steps = optimize::parse_steps("tmmww")});
 }
 
+DomainTets mend_domain(DomainTets tets)
+{
+  return optimized(std::move(tets),
+                   {.steps = optimize::parse_steps("iwwiwwiww"), .insert_below = 0.35});
+}
+
 }  // namespace tessera::coarse

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "coarse/crossings.hpp"
 #include "coarse/editable_surface.hpp"
 #include "coarse/surface_sizes.hpp"
+#include "coarse/wall_sizes.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -44,10 +46,10 @@ constexpr double kMostSagitta = 0.2;
 
 using Corners = std::array<Vec3, 3>;
 
-// A triangle that a step would make.
-struct Candidate {
-  Corners corners{};
-  LocalIndex patch = kNoIndex;
+// The triangles that a step would make, and their patches.
+struct Candidates {
+  std::vector<PlacedTriangle> triangles{};
+  std::vector<LocalIndex> patches{};
 };
 
 // 4 sqrt(3) area over the sum of the squared edges: 1 for an equilateral triangle, 0 for a flat
@@ -63,8 +65,17 @@ double quality(const Corners& p)
 class Remesher {
  public:
   Remesher(const SurfaceReference& reference, const PatchSurface& start, std::vector<double> sizes)
-      : reference_(reference), surface_(start, std::move(sizes))
+      : reference_(reference), surface_(start, std::move(sizes)), guard_(start)
   {
+  }
+
+  // Triangles of the reference may be as large as its faces: only when they are cut there are
+  // vertices where a wall is thin.
+  void see_walls(const CoarseOptions& options)
+  {
+    sweep([this] { return flip_edges(); }, kFlipSweeps);
+    sweep([this] { return split_long_edges(); }, kMostSweeps);
+    surface_.set_sizes(wall_sizes(surface_, reference_.surface().patch_materials, options));
   }
 
   PatchSurface run()
@@ -108,6 +119,12 @@ class Remesher {
     return {surface_.xyz(v[0]), surface_.xyz(v[1]), surface_.xyz(v[2])};
   }
 
+  void add_candidate(const Triangle& v, LocalIndex patch, Candidates& to) const
+  {
+    to.triangles.push_back({v, corners(v)});
+    to.patches.push_back(patch);
+  }
+
   [[nodiscard]] bool is_upright(const Corners& p, LocalIndex patch) const
   {
     const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
@@ -122,17 +139,26 @@ class Remesher {
     if (at(t) >= shapes_.size()) shapes_.resize(at(t) + 1, kUnknown);
     double& known = shapes_[at(t)];
     if (known == kUnknown) {
-      const Corners p = corners(surface_.triangle(t));
+      const Corners p = surface_.corners(t);
       known = is_upright(p, surface_.patch(t)) ? quality(p) : kTurnedOver;
     }
     return known;
   }
 
+  // Triangles that changed.
   void forget(const std::vector<LocalIndex>& triangles)
   {
     for (const LocalIndex t : triangles) {
       if (at(t) < shapes_.size()) shapes_[at(t)] = kUnknown;
+      if (at(t) >= changed_.size()) changed_.resize(at(t) + 1, flip_sweep_);
+      changed_[at(t)] = flip_sweep_;
     }
+  }
+
+  // Since the sweep before this one began; else flipping their edge was refused then already.
+  [[nodiscard]] bool has_changed(LocalIndex t) const
+  {
+    return at(t) >= changed_.size() || changed_[at(t)] + 1 >= flip_sweep_;
   }
 
   [[nodiscard]] double worst_shape(const std::vector<LocalIndex>& triangles)
@@ -143,30 +169,34 @@ class Remesher {
   }
 
   // Whether all have a better shape than `least`; looks at the reference only if that can be.
-  [[nodiscard]] bool all_better(const std::vector<Candidate>& candidates, double least) const
+  [[nodiscard]] bool all_better(const Candidates& candidates, double least) const
   {
-    for (const Candidate& one : candidates) {
+    for (const PlacedTriangle& one : candidates.triangles) {
       if (quality(one.corners) <= least) return false;
     }
-    return std::ranges::all_of(
-        candidates, [this](const Candidate& one) { return is_upright(one.corners, one.patch); });
+    for (std::size_t i = 0; i < candidates.triangles.size(); ++i) {
+      if (!is_upright(candidates.triangles[i].corners, candidates.patches[i])) return false;
+    }
+    return true;
   }
 
   int flip_edges()
   {
     constexpr double kGain = 1e-3;  // Against flips back and forth.
     int count = 0;
+    ++flip_sweep_;
     for (const Edge& edge : surface_.edges()) {
+      const std::vector<LocalIndex> two = surface_.triangles_at(edge);
+      if (std::ranges::none_of(two, [this](LocalIndex t) { return has_changed(t); })) continue;
       const auto triangles = surface_.flipped(edge);
       if (!triangles) continue;
-      const std::vector<LocalIndex> two = surface_.triangles_at(edge);
       const LocalIndex patch = surface_.patch(two[0]);
       const double before = std::max(worst_shape(two), 0.0);
-      if (!all_better({{corners((*triangles)[0]), patch}, {corners((*triangles)[1]), patch}},
-                      before + kGain)) {
-        continue;
-      }
+      Candidates made;
+      for (const Triangle& v : *triangles) add_candidate(v, patch, made);
+      if (!all_better(made, before + kGain) || !guard_.allows(two, made.triangles)) continue;
       surface_.flip(edge, *triangles);
+      for (std::size_t side = 0; side < 2; ++side) guard_.change(two[side], made.triangles[side]);
       forget(two);
       ++count;
     }
@@ -181,11 +211,47 @@ class Remesher {
       if (relative > kTooLong) longest.emplace_back(-relative, edge);
     }
     std::ranges::sort(longest);
-    for (const auto& [relative, edge] : longest) {
-      const Vec3 chord = midpoint(surface_.xyz(edge[0]), surface_.xyz(edge[1]));
-      forget(surface_.triangles_of(surface_.split(edge, on_reference(edge, chord))));
-    }
+    for (const auto& [relative, edge] : longest) split(edge);
     return static_cast<int>(longest.size());
+  }
+
+  // Where the middle of the edge on the reference would lie beyond another sheet, it stays on the
+  // chord, where it changes nothing.
+  void split(const Edge& edge)
+  {
+    const std::vector<LocalIndex> old = surface_.triangles_at(edge);
+    const Vec3 chord = midpoint(surface_.xyz(edge[0]), surface_.xyz(edge[1]));
+    const Vec3 wanted = on_reference(edge, chord);
+    const bool is_free = guard_.allows(old, halves(old, edge, wanted));
+    const LocalIndex middle = surface_.split(edge, is_free ? wanted : chord);
+    const std::vector<LocalIndex>& made = surface_.triangles_of(middle);
+    for (const LocalIndex t : made) {
+      const PlacedTriangle placed{surface_.triangle(t), surface_.corners(t)};
+      if (t < guard_.num_triangles()) {
+        guard_.change(t, placed);
+      } else {
+        guard_.add(placed, old.front());
+      }
+    }
+    forget(made);
+  }
+
+  // What a vertex in an edge makes of the triangles there.
+  [[nodiscard]] std::vector<PlacedTriangle> halves(const std::vector<LocalIndex>& triangles,
+                                                   const Edge& edge, const Vec3& middle) const
+  {
+    std::vector<PlacedTriangle> made;
+    for (const LocalIndex t : triangles) {
+      for (const LocalIndex end : edge) {
+        const Triangle& v = surface_.triangle(t);
+        PlacedTriangle half{v, corners(v)};
+        const auto corner = static_cast<std::size_t>(std::ranges::find(v, end) - v.begin());
+        half.vertices[corner] = surface_.num_vertices();
+        half.corners[corner] = middle;
+        made.push_back(half);
+      }
+    }
+    return made;
   }
 
   [[nodiscard]] Vec3 on_reference(const Edge& edge, const Vec3& point) const
@@ -215,19 +281,26 @@ class Remesher {
   bool collapse(LocalIndex gone, LocalIndex kept)
   {
     if (!surface_.can_collapse(gone, kept) || !keeps_curve(gone, kept)) return false;
-    std::vector<Candidate> candidates;
-    for (const LocalIndex t : surface_.triangles_of(gone)) {
-      Triangle v = surface_.triangle(t);
-      if (std::ranges::find(v, kept) != v.end()) continue;
-      std::ranges::replace(v, gone, kept);
-      candidates.push_back({corners(v), surface_.patch(t)});
-    }
     for (const LocalIndex other : surface_.neighbours(gone)) {
       if (other != kept && relative_length({other, kept}) > kTooLong) return false;
     }
-    const double before = worst_shape(surface_.triangles_of(gone));
-    if (!all_better(candidates, std::clamp(before, 0.0, kFairShape))) return false;
+    const std::vector<LocalIndex> old = surface_.triangles_of(gone);
+    std::vector<LocalIndex> left;
+    Candidates made;
+    for (const LocalIndex t : old) {
+      Triangle v = surface_.triangle(t);
+      if (std::ranges::find(v, kept) != v.end()) continue;
+      std::ranges::replace(v, gone, kept);
+      add_candidate(v, surface_.patch(t), made);
+      left.push_back(t);
+    }
+    if (!all_better(made, std::clamp(worst_shape(old), 0.0, kFairShape))) return false;
+    if (!guard_.allows(old, made.triangles)) return false;
     surface_.collapse(gone, kept);
+    for (const LocalIndex t : old) {
+      if (std::ranges::find(left, t) == left.end()) guard_.remove(t);
+    }
+    for (std::size_t i = 0; i < left.size(); ++i) guard_.change(left[i], made.triangles[i]);
     forget(surface_.triangles_of(kept));
     return true;
   }
@@ -255,19 +328,24 @@ class Remesher {
     for (const LocalIndex other : around) sum = sum + surface_.xyz(other);
     const Vec3 middle = (1.0 / static_cast<double>(around.size())) * sum;
     const LocalIndex curve = is_on_curve ? surface_.curve(v, around.front()) : kNoIndex;
-    const LocalIndex patch = surface_.patch(surface_.triangles_of(v).front());
+    const std::vector<LocalIndex>& around_v = surface_.triangles_of(v);
+    const LocalIndex patch = surface_.patch(around_v.front());
     const Vec3 before = surface_.xyz(v);
-    const double worst = worst_shape(surface_.triangles_of(v));
+    const double worst = worst_shape(around_v);
     for (const double step : {1.0, 0.5, 0.25}) {
       const Vec3 wanted = before + step * (middle - before);
       surface_.move(
           v, is_on_curve ? reference_.on_curve(curve, wanted) : reference_.on_patch(patch, wanted));
-      std::vector<Candidate> candidates;
-      for (const LocalIndex t : surface_.triangles_of(v)) {
-        candidates.push_back({corners(surface_.triangle(t)), surface_.patch(t)});
+      Candidates made;
+      for (const LocalIndex t : around_v) {
+        add_candidate(surface_.triangle(t), surface_.patch(t), made);
       }
-      if (!all_better(candidates, std::clamp(worst, 0.0, kGoodShape))) continue;
-      forget(surface_.triangles_of(v));
+      if (!all_better(made, std::clamp(worst, 0.0, kGoodShape))) continue;
+      if (!guard_.allows(around_v, made.triangles)) continue;
+      for (std::size_t i = 0; i < around_v.size(); ++i) {
+        guard_.change(around_v[i], made.triangles[i]);
+      }
+      forget(around_v);
       return;
     }
     surface_.move(v, before);
@@ -275,6 +353,9 @@ class Remesher {
 
   const SurfaceReference& reference_;
   EditableSurface surface_;
+  CrossingGuard guard_;
+  int flip_sweep_ = 0;
+  std::vector<int> changed_{};    // The flip sweep in which or after which each triangle did.
   std::vector<double> shapes_{};  // Of the triangles.
 };
 
@@ -283,7 +364,9 @@ class Remesher {
 PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options)
 {
   const PatchSurface& start = reference.surface();
-  return Remesher(reference, start, surface_sizes(start, options)).run();
+  Remesher remesher(reference, start, surface_sizes(start, options));
+  remesher.see_walls(options);
+  return remesher.run();
 }
 
 PatchSurface remesh_finer(const SurfaceReference& reference, const PatchSurface& surface,

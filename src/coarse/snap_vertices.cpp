@@ -2,6 +2,7 @@
 #include "tessera/coarse/snap_vertices.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace tessera::coarse {
@@ -37,7 +38,13 @@ class Snapper {
       Off off = measure(v);
       if (off.is_beyond_tolerance && move(v)) off = measure(v);
       distance.largest = std::max(distance.largest, off.distance);
-      distance.num_off += off.is_beyond_tolerance ? 1 : 0;
+      if (!off.is_beyond_tolerance) continue;
+      if (off.is_beyond_end && off.distance > kMostOfEdgeOff * shortest_edge(v)) {
+        ++distance.num_off;
+      } else {
+        ++distance.num_within;
+        distance.largest_within = std::max(distance.largest_within, off.distance);
+      }
     }
     return distance;
   }
@@ -45,7 +52,8 @@ class Snapper {
  private:
   struct Off {
     double distance = 0.0;
-    bool is_beyond_tolerance = false;
+    bool is_beyond_tolerance = false;  // That of the surface or curve.
+    bool is_beyond_end = false;        // That of the CAD vertex at the end of a curve as well.
   };
 
   [[nodiscard]] LocalIndex surface_of(std::size_t corner) const
@@ -70,19 +78,21 @@ class Snapper {
   {
     const Vec3 point = mesh_.position(v);
     Off off;
-    const auto add = [&off](double distance, double tolerance) {
+    const auto add = [&off](double distance, double tolerance, double end_tolerance) {
       off.distance = std::max(off.distance, distance);
       off.is_beyond_tolerance = off.is_beyond_tolerance || distance > tolerance;
+      off.is_beyond_end = off.is_beyond_end || distance > end_tolerance;
     };
     for (const std::size_t end : ends_[at(v)]) {
-      add(norm(on_curve(end, point).xyz - point),
-          model_.curve_tolerance(mesh_.segment_curve[end / 2]));
+      const LocalIndex curve = mesh_.segment_curve[end / 2];
+      add(norm(on_curve(end, point).xyz - point), model_.curve_tolerance(curve),
+          model_.end_tolerance(curve, point));
     }
     // On a curve that is all: surfaces meet there as well as the model's makers made them meet.
     if (!ends_[at(v)].empty()) return off;
     for (const std::size_t corner : corners_[at(v)]) {
-      add(norm(on_surface(corner, point).xyz - point),
-          model_.surface_tolerance(surface_of(corner)));
+      const double tolerance = model_.surface_tolerance(surface_of(corner));
+      add(norm(on_surface(corner, point).xyz - point), tolerance, tolerance);
     }
     return off;
   }
@@ -140,6 +150,18 @@ class Snapper {
     const auto v = mesh_.tet(t);
     return tet_volume(mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2]),
                       mesh_.position(v[3]));
+  }
+
+  [[nodiscard]] double shortest_edge(LocalIndex v) const
+  {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const LocalIndex t : tets_[at(v)]) {
+      for (const LocalIndex other : mesh_.tet(t)) {
+        if (other == v) continue;
+        shortest = std::min(shortest, norm(mesh_.position(other) - mesh_.position(v)));
+      }
+    }
+    return shortest;
   }
 
   void set_position(LocalIndex v, const Vec3& point)

@@ -32,7 +32,6 @@ double angle_between(const Vec3& a, const Vec3& b)
 }
 
 using EdgeTriangles = std::map<Edge, std::vector<std::size_t>>;
-using Neighbours = std::vector<std::vector<LocalIndex>>;
 
 EdgeTriangles triangles_by_edge(const PatchSurface& surface)
 {
@@ -57,29 +56,6 @@ Neighbours neighbours_of(const PatchSurface& surface, const EdgeTriangles& edges
   return neighbours;
 }
 
-// Smallest sizes first; what they allow their neighbours is final when these are taken.
-void grade(const PatchSurface& surface, const Neighbours& neighbours, double grading,
-           std::vector<double>& sizes)
-{
-  using Entry = std::pair<double, LocalIndex>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (std::size_t v = 0; v < sizes.size(); ++v) {
-    queue.emplace(sizes[v], static_cast<LocalIndex>(v));
-  }
-  while (!queue.empty()) {
-    const auto [size, v] = queue.top();
-    queue.pop();
-    if (size > sizes[at(v)]) continue;
-    for (const LocalIndex other : neighbours[at(v)]) {
-      const double apart = norm(surface.vertex_xyz[at(other)] - surface.vertex_xyz[at(v)]);
-      const double allowed = size + grading * apart;
-      if (allowed >= sizes[at(other)]) continue;
-      sizes[at(other)] = allowed;
-      queue.emplace(allowed, other);
-    }
-  }
-}
-
 class SizeField {
  public:
   SizeField(const PatchSurface& surface, const CoarseOptions& options)
@@ -94,7 +70,7 @@ class SizeField {
   {
     for (const auto& [edge, triangles] : edge_triangles_) bend_surface(edge, triangles);
     bend_and_shorten_curves();
-    grade(surface_, neighbours_of(surface_, edge_triangles_), options_.grading, sizes_);
+    grade(surface_.vertex_xyz, neighbours_of(surface_, edge_triangles_), options_.grading, sizes_);
     return std::move(sizes_);
   }
 
@@ -166,6 +142,29 @@ class SizeField {
 
 }  // namespace
 
+// Smallest sizes first; what they allow their neighbours is final when these are taken.
+void grade(std::span<const Vec3> vertex_xyz, const Neighbours& neighbours, double grading,
+           std::vector<double>& sizes)
+{
+  using Entry = std::pair<double, LocalIndex>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::size_t v = 0; v < sizes.size(); ++v) {
+    queue.emplace(sizes[v], static_cast<LocalIndex>(v));
+  }
+  while (!queue.empty()) {
+    const auto [size, v] = queue.top();
+    queue.pop();
+    if (size > sizes[at(v)]) continue;
+    for (const LocalIndex other : neighbours[at(v)]) {
+      const double apart = norm(vertex_xyz[at(other)] - vertex_xyz[at(v)]);
+      const double allowed = size + grading * apart;
+      if (allowed >= sizes[at(other)]) continue;
+      sizes[at(other)] = allowed;
+      queue.emplace(allowed, other);
+    }
+  }
+}
+
 std::vector<double> finer_sizes(const PatchSurface& surface,
                                 const std::vector<std::size_t>& triangles, double grading)
 {
@@ -181,7 +180,7 @@ std::vector<double> finer_sizes(const PatchSurface& surface,
   for (const std::size_t t : triangles) {
     for (const LocalIndex v : surface.triangles[t]) sizes[at(v)] = 0.5 * before[at(v)];
   }
-  grade(surface, neighbours, grading, sizes);
+  grade(surface.vertex_xyz, neighbours, grading, sizes);
   return sizes;
 }
 

@@ -2,12 +2,21 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/patch_surface.hpp"
 
 namespace tessera::coarse {
+
+/// @brief The vertices that each vertex has an edge to.
+using Neighbours = std::vector<std::vector<LocalIndex>>;
+
+/// @brief Makes sizes smaller, so that none is larger than a neighbour's plus `grading` times the
+/// way to it. Local.
+void grade(std::span<const Vec3> vertex_xyz, const Neighbours& neighbours, double grading,
+           std::vector<double>& sizes);
 
 /// @brief Wanted edge length at each vertex. It is the largest size, but less where the surface or
 /// a curve bends or a curve is short, and grows from there with the grading. Local.

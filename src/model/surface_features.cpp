@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "half_edges.hpp"
+#include "tessera/mesh/half_edges.hpp"
 
 namespace tessera::model {
 namespace {
@@ -198,7 +198,8 @@ std::vector<Vec3> triangle_normals(const TriangleSurface& surface)
   }
   if (without_normal.empty()) return normals;
 
-  const auto opposite = opposite_half_edges(half_edges_of_edges(surface.triangle_vertices));
+  const auto opposite =
+      mesh::opposite_half_edges(mesh::half_edges_of_edges(surface.triangle_vertices));
   for (const LocalIndex t : without_normal) {
     LocalIndex source = t;
     // Two slivers may lie longest edge to longest edge, or more in a ring: give up after a few.
@@ -214,8 +215,8 @@ std::vector<Vec3> triangle_normals(const TriangleSurface& surface)
 
 SurfaceFeatures find_features(const TriangleSurface& surface, double feature_angle_deg)
 {
-  const IndexLists edges = half_edges_of_edges(surface.triangle_vertices);
-  const std::vector<LocalIndex> opposite = opposite_half_edges(edges);
+  const IndexLists edges = mesh::half_edges_of_edges(surface.triangle_vertices);
+  const std::vector<LocalIndex> opposite = mesh::opposite_half_edges(edges);
   const std::vector<bool> is_feature = feature_half_edges(surface, opposite, feature_angle_deg);
 
   SurfaceFeatures features;
@@ -225,7 +226,7 @@ SurfaceFeatures find_features(const TriangleSurface& surface, double feature_ang
     const LocalIndex h = edges[e][0];
     if (!is_feature[at(h)]) continue;
     const LocalIndex a = surface.triangle_vertices[at(h)];
-    const LocalIndex b = surface.triangle_vertices[at(next_in_triangle(h))];
+    const LocalIndex b = surface.triangle_vertices[at(mesh::next_in_triangle(h))];
     features.edge_vertices.push_back(std::min(a, b));
     features.edge_vertices.push_back(std::max(a, b));
   }

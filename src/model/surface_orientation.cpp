@@ -10,8 +10,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
-
-#include "half_edges.hpp"
+#include "tessera/mesh/half_edges.hpp"
 
 namespace tessera::model {
 namespace {

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "tessera/base/union_find.hpp"
-
-#include "half_edges.hpp"
+#include "tessera/mesh/half_edges.hpp"
 
 namespace tessera::model {
 namespace {
@@ -17,13 +16,13 @@ namespace {
 // Vertices of edges with one triangle, ascending.
 std::vector<LocalIndex> open_vertices(const TriangleSurface& surface)
 {
-  const IndexLists edges = half_edges_of_edges(surface.triangle_vertices);
+  const IndexLists edges = mesh::half_edges_of_edges(surface.triangle_vertices);
   std::vector<LocalIndex> vertices;
   for (LocalIndex e = 0; e < edges.num_lists(); ++e) {
     if (edges[e].size() != 1) continue;
     const LocalIndex h = edges[e][0];
     vertices.push_back(surface.triangle_vertices[at(h)]);
-    vertices.push_back(surface.triangle_vertices[at(next_in_triangle(h))]);
+    vertices.push_back(surface.triangle_vertices[at(mesh::next_in_triangle(h))]);
   }
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());

@@ -9,8 +9,8 @@
 
 #include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/mesh/half_edges.hpp"
 
-#include "half_edges.hpp"
 #include "surface_orientation.hpp"
 #include "surface_weld.hpp"
 
@@ -36,7 +36,7 @@ std::string describe_edges(const TriangleSurface& surface, const IndexLists& edg
     if (count++ >= kNumShown) continue;
     const LocalIndex h = edges[e][0];
     const Vec3 from = surface.position(surface.triangle_vertices[at(h)]);
-    const Vec3 to = surface.position(surface.triangle_vertices[at(next_in_triangle(h))]);
+    const Vec3 to = surface.position(surface.triangle_vertices[at(mesh::next_in_triangle(h))]);
     shown += fmt::format("{}({:.9g}) - ({:.9g})", count == 1 ? ", first " : ", ",
                          fmt::join(from, ", "), fmt::join(to, ", "));
   }
@@ -47,14 +47,14 @@ std::string describe_edges(const TriangleSurface& surface, const IndexLists& edg
 
 std::string open_edges(const TriangleSurface& surface)
 {
-  return describe_edges(surface, half_edges_of_edges(surface.triangle_vertices),
+  return describe_edges(surface, mesh::half_edges_of_edges(surface.triangle_vertices),
                         [](std::size_t triangles) { return triangles == 1; });
 }
 
 void require_two_triangles_per_edge(const TriangleSurface& surface, const std::string& name)
 {
   const std::string crowded =
-      describe_edges(surface, half_edges_of_edges(surface.triangle_vertices),
+      describe_edges(surface, mesh::half_edges_of_edges(surface.triangle_vertices),
                      [](std::size_t triangles) { return triangles > 2; });
   if (!crowded.empty()) {
     throw GeometryError(
@@ -161,7 +161,8 @@ CheckedSurface check_surface(const TriangleSoup& soup, const std::string& name)
   }
   require_two_triangles_per_edge(checked.surface, name);
 
-  const auto opposite = opposite_half_edges(half_edges_of_edges(checked.surface.triangle_vertices));
+  const auto opposite =
+      mesh::opposite_half_edges(mesh::half_edges_of_edges(checked.surface.triangle_vertices));
   const Orientation orientation = orient(checked.surface, opposite, name);
   record_turns(checked, orientation);
   set_materials(checked.surface, orientation.shells);

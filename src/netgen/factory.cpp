@@ -113,10 +113,23 @@ class MesherOfModel final : public coarse::CoarseMesher {
     return {.mesh = mesh_with_gmsh(model_, options)};
   }
 
-  [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
+  [[nodiscard]] coarse::Membrane mesh_membrane(const coarse::DomainSkin& skin,
+                                               const coarse::MembraneBorder& border,
                                                const coarse::CoarseOptions& options) const override
   {
-    return model_.mesh_domain(skin, options);
+    return model_.mesh_membrane(skin, border, options);
+  }
+
+  [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
+                                               const coarse::CoarseOptions& options) const override
+  {
+    return model_.fill_domain(skin, options);
+  }
+
+  [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
+                                                  coarse::DomainTets tets) const override
+  {
+    return model_.improve_domain(skin, std::move(tets));
   }
 
  private:

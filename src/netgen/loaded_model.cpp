@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/loaded_model.hpp"
 
+#include <utility>
 #include <vector>
 
 #include <meshing.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/mend_surface.hpp"
 
+#include "netgen/membrane_mesher.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/skin_mesh.hpp"
 #include "netgen/volume_mesher.hpp"
@@ -36,8 +39,13 @@ void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& te
 coarse::CoarseSurface LoadedModel::mesh_surface(const coarse::CoarseOptions& options,
                                                 const cut::CutTree& planes) const
 {
-  if (planes.num_parts > 0) return mesh_parts(options, planes);
-  return mesh_surface(options, [](const auto&...) {});
+  coarse::CoarseSurface surface = planes.num_parts > 0
+                                      ? mesh_parts(options, planes)
+                                      : mesh_surface(options, [](const auto&...) {});
+  if (surface.num_domains() > 0 && coarse::mend_surface(surface, *this).total() > 0) {
+    locate_parameters(surface.mesh);
+  }
+  return surface;
 }
 
 coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*options*/,
@@ -46,10 +54,23 @@ coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*opt
   throw ConfigError("decompose.method = \"geometry\" needs a solid model: CSG, STEP, IGES or BREP");
 }
 
-coarse::DomainTets LoadedModel::mesh_domain(const coarse::DomainSkin& skin,
+coarse::Membrane LoadedModel::mesh_membrane(const coarse::DomainSkin& skin,
+                                            const coarse::MembraneBorder& border,
                                             const coarse::CoarseOptions& options) const
 {
-  return netgen::mesh_domain(skin, options);
+  return netgen::mesh_membrane(skin, border, options);
+}
+
+coarse::DomainTets LoadedModel::fill_domain(const coarse::DomainSkin& skin,
+                                            const coarse::CoarseOptions& options) const
+{
+  return netgen::fill_domain(skin, options);
+}
+
+coarse::DomainTets LoadedModel::improve_domain(const coarse::DomainSkin& skin,
+                                               coarse::DomainTets tets) const
+{
+  return netgen::improve_domain(skin, std::move(tets));
 }
 
 mesh::CoarseMesh LoadedModel::generate(const coarse::CoarseOptions& options,
@@ -58,14 +79,11 @@ mesh::CoarseMesh LoadedModel::generate(const coarse::CoarseOptions& options,
   mesh::CoarseMesh coarse;
   const auto fill = [&](const ::netgen::NetgenGeometry& geometry, ::netgen::Mesh& mesh,
                         double scale, const coarse::CoarseSurface& surface) {
-    std::vector<coarse::DomainSkin> skins;
-    std::vector<coarse::DomainTets> tets;
+    const std::vector<coarse::DomainTets> tets = mesh_domains(surface, options);
     for (LocalIndex domain = 1; domain <= surface.num_domains(); ++domain) {
-      skins.push_back(coarse::skin_of(surface, domain));
-      tets.push_back(mesh_domain(skins.back(), options));
-      give_to_netgen(skins.back(), tets.back(), domain, scale, mesh);
+      give_to_netgen(coarse::skin_of(surface, domain), tets[at(domain - 1)], domain, scale, mesh);
     }
-    coarse = coarse::fill_surface(surface, skins, tets).mesh;
+    coarse = coarse::fill_surface(surface, tets).mesh;
     use(geometry, mesh);
   };
   static_cast<void>(mesh_surface(options, fill));

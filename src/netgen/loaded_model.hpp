@@ -45,8 +45,16 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   [[nodiscard]] virtual coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
                                                          const cut::CutTree& tree) const;
 
-  [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
+  [[nodiscard]] coarse::Membrane mesh_membrane(const coarse::DomainSkin& skin,
+                                               const coarse::MembraneBorder& border,
                                                const coarse::CoarseOptions& options) const final;
+  [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
+                                               const coarse::CoarseOptions& options) const final;
+  [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
+                                                  coarse::DomainTets tets) const final;
+
+  /// @brief Makes parameters of a coarse mesh exact that are good guesses, if the model has some.
+  virtual void locate_parameters(mesh::CoarseMesh& /*mesh*/) const {}
 
   /// @brief As generate(options), and lets `use` go on with the mesh in NETGEN. There NETGEN can do
   /// what Tessera does otherwise (refine it), so the two can be compared on one coarse mesh.

@@ -7,12 +7,19 @@
 #include <BRep_Tool.hxx>
 #include <GeomAbs_CurveType.hxx>
 #include <GeomAdaptor_Curve.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <gp_Vec.hxx>
 
 #include "netgen/occ_descent.hpp"
 
 namespace tessera::netgen {
 namespace {
+
+// Healing states tolerances of the size of the model where it finds no way to close a gap. A vertex
+// that is farther off than this part of the box diagonal is a defect, whatever the file says.
+constexpr double kMostRelativeTolerance = 1e-3;
 
 // Enough starts that two extrema between neighbouring samples are unlikely: several a span.
 int sample_count(const Handle(Geom_Curve) & curve, double first, double last)
@@ -38,6 +45,21 @@ OccCurve::OccCurve(const TopoDS_Edge& edge, double box_diagonal)
 {
   if (curve_.IsNull()) throw GeometryError("an edge of the model has no curve in space");
   num_samples_ = sample_count(curve_, first_, last_);
+  for (TopExp_Explorer vertices(edge, TopAbs_VERTEX); vertices.More(); vertices.Next()) {
+    const TopoDS_Vertex& vertex = TopoDS::Vertex(vertices.Current());
+    const double tolerance =
+        std::min(BRep_Tool::Tolerance(vertex), kMostRelativeTolerance * box_diagonal);
+    ends_.push_back({from_occ(BRep_Tool::Pnt(vertex)), tolerance});
+  }
+}
+
+double OccCurve::end_tolerance(const Vec3& point) const
+{
+  double tolerance = tolerance_;
+  for (const End& end : ends_) {
+    if (norm(end.point - point) <= end.tolerance) tolerance = std::max(tolerance, end.tolerance);
+  }
+  return tolerance;
 }
 
 model::CurvePoint OccCurve::project(const Vec3& point, double guess) const

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include <Geom_Curve.hxx>
 #include <TopoDS_Edge.hxx>
 #include <gp_Pnt.hxx>
@@ -24,6 +26,11 @@ class OccCurve {
 
   /// @brief The edge's own tolerance, at least 1e-8 of the box diagonal.
   [[nodiscard]] double tolerance() const { return tolerance_; }
+
+  /// @brief The tolerance of the vertex at that end of the edge which `point` lies within; the
+  /// edge's own if it lies within none. At least the edge's own.
+  [[nodiscard]] double end_tolerance(const Vec3& point) const;
+
   [[nodiscard]] double first() const { return first_; }
   [[nodiscard]] double last() const { return last_; }
 
@@ -45,6 +52,11 @@ class OccCurve {
     bool converged = false;
   };
 
+  struct End {
+    Vec3 point{};
+    double tolerance = 0.0;
+  };
+
   [[nodiscard]] Descent descend(const Vec3& point, double guess) const;
   [[nodiscard]] double step_at(const gp_Pnt& target, double t) const;
 
@@ -52,6 +64,7 @@ class OccCurve {
   double last_ = 0.0;
   Handle(Geom_Curve) curve_;  ///< Sets the two above when it is read from the edge.
   double tolerance_ = 0.0;
+  std::vector<End> ends_{};
   double box_diagonal_ = 0.0;
   int num_samples_ = 0;  ///< Starts of the global search.
 };

@@ -5,8 +5,6 @@
 #include <utility>
 
 #include <BRepGProp.hxx>
-#include <BRepMesh_IncrementalMesh.hxx>
-#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
 #include <Poly_Triangulation.hxx>
@@ -17,6 +15,7 @@
 #include <TopoDS_Face.hxx>
 
 #include "netgen/occ_shape.hpp"
+#include "netgen/occ_triangulation.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -83,9 +82,10 @@ void add_solids(const OccContent& content, model::ModelDescription& to)
 model::ModelDescription describe_shape(const OccContent& content)
 {
   model::ModelDescription described;
-  BRepTools::Clean(content.shape);
-  const BRepMesh_IncrementalMesh triangulation(
-      content.shape, kDeflection * box_diagonal_of(content.shape), Standard_False, kAngle_rad);
+  IMeshTools_Parameters parameters;
+  parameters.Deflection = kDeflection * box_diagonal_of(content.shape);
+  parameters.Angle = kAngle_rad;
+  static_cast<void>(triangulate_faces(content.shape, parameters));
   for (const TopoDS_Shape& face : parts_of(content.shape, TopAbs_FACE)) {
     const auto row = described.faces.size();
     described.faces.push_back({.number = static_cast<LocalIndex>(row) + 1,

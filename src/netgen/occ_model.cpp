@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vector>
 
-#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <TopExp.hxx>
@@ -26,6 +25,7 @@
 #include "netgen/occ_shape.hpp"
 #include "netgen/occ_surface.hpp"
 #include "netgen/occ_tessellation.hpp"
+#include "netgen/occ_triangulation.hpp"
 #include "netgen/volume_mesher.hpp"
 
 namespace tessera::netgen {
@@ -47,6 +47,10 @@ class OccModel final : public LoadedModel {
   {
     return curve_at(curve).tolerance();
   }
+  [[nodiscard]] double end_tolerance(LocalIndex curve, const Vec3& point) const override
+  {
+    return curve_at(curve).end_tolerance(point);
+  }
   [[nodiscard]] model::SurfacePoint project_to_surface(
       LocalIndex surface, const Vec3& point, const model::SurfaceParameters& guess) const override;
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
@@ -60,6 +64,13 @@ class OccModel final : public LoadedModel {
   void write_brep(const std::filesystem::path& file) const override;
   void add_parameters(const coarse::SurfaceReference& reference,
                       mesh::CoarseMesh& mesh) const override;
+  void locate_parameters(mesh::CoarseMesh& mesh) const override
+  {
+    with_occ_errors(file_name_, [&] {
+      locate_face_corners(mesh);
+      locate_segment_ends(mesh);
+    });
+  }
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
@@ -78,7 +89,7 @@ class OccModel final : public LoadedModel {
                              ::netgen::MeshingParameters& parameters,
                              std::shared_ptr<::netgen::Mesh>& mesh);
   static void guess_parameters(const coarse::SurfaceReference& reference, mesh::CoarseMesh& mesh);
-  void triangulate(const TopoDS_Shape& shape) const;
+  static void triangulate_for_sizes(const TopoDS_Shape& shape);
   static std::shared_ptr<::netgen::Mesh> mesh_geometry(::netgen::OCCGeometry& geometry,
                                                        NetgenSession& session);
   void locate_face_corners(mesh::CoarseMesh& mesh) const;
@@ -136,22 +147,16 @@ model::CurvePoint OccModel::project_to_curve(LocalIndex curve, const Vec3& point
                          [&] { return curve_at(curve).project(point, guess); });
 }
 
-// NETGEN makes a triangulation where there is none, and then reads it unchecked. So it is made and
-// checked here. It is always made anew, so that every call starts from the same state.
-void OccModel::triangulate(const TopoDS_Shape& shape) const
+// NETGEN makes a triangulation where there is none, and then reads it unchecked. So it is made
+// here, anew for each call, so that every call starts from the same state. NETGEN takes sizes from
+// the curvature at its triangles, and does not mind if they leave something out.
+void OccModel::triangulate_for_sizes(const TopoDS_Shape& shape)
 {
-  constexpr double kDeflection = 0.01;  // Of an edge's length; what NETGEN takes.
-  BRepTools::Clean(shape);
-  const BRepMesh_IncrementalMesh triangulation(shape, kDeflection, Standard_True);
-  int number = 0;
-  for (const TopoDS_Shape& face : parts_of(shape, TopAbs_FACE)) {
-    TopLoc_Location place;
-    ++number;
-    if (!BRep_Tool::Triangulation(TopoDS::Face(face), place).IsNull()) continue;
-    throw NetgenError(
-        fmt::format("{}: OpenCASCADE cannot triangulate face {}; repair it in the CAD program",
-                    file_name_, number - 1));
-  }
+  IMeshTools_Parameters parameters;
+  parameters.Deflection = 0.01;  // Of an edge's length; what NETGEN takes.
+  parameters.Relative = Standard_True;
+  const std::vector<TopoDS_Shape> faces = parts_of(shape, TopAbs_FACE);
+  for (const int face : triangulate_faces(shape, parameters)) sample_face(faces[at(face)]);
 }
 
 std::string OccModel::solid_name(LocalIndex material) const
@@ -297,7 +302,7 @@ coarse::CoarseSurface OccModel::mesh_surface(const coarse::CoarseOptions& option
   return session.run("coarse mesh of " + file_name_, [&] {
     ::netgen::OCCGeometry geometry;
     geometry.shape = content_.shape;
-    triangulate(geometry.shape);
+    triangulate_for_sizes(geometry.shape);
     const auto mesh = mesh_geometry(geometry, session);
     coarse::CoarseSurface coarse =
         to_coarse_surface(*mesh, numbers_for(geometry), options.max_size, file_name_);
@@ -329,7 +334,7 @@ coarse::CoarseSurface OccModel::mesh_parts(const coarse::CoarseOptions& options,
     const CutShape cut = cut_shape(content_.shape, tree);
     ::netgen::OCCGeometry geometry;
     geometry.shape = cut.shape;
-    triangulate(geometry.shape);
+    triangulate_for_sizes(geometry.shape);
     const auto mesh = mesh_geometry(geometry, session);
     coarse::CoarseSurface coarse =
         to_coarse_surface(*mesh, numbers_of_parts(geometry, cut), options.max_size, file_name_);

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <BRepMesh_IncrementalMesh.hxx>
-#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
@@ -24,6 +22,9 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/union_find.hpp"
+
+#include "netgen/occ_triangulation.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -41,8 +42,12 @@ void triangulate(const TopoDS_Shape& shape, double size)
   IMeshTools_Parameters parameters;
   parameters.Deflection = kDeflection * size;
   parameters.Angle = kAngle;
-  BRepTools::Clean(shape);
-  BRepMesh_IncrementalMesh(shape, parameters);
+  const std::vector<int> bare = triangulate_faces(shape, parameters);
+  if (bare.empty()) return;
+  throw NetgenError(fmt::format(
+      "face {} can be triangulated neither by OpenCASCADE nor from its boundary; repair it in the "
+      "CAD program",
+      bare.front()));
 }
 
 class Tessellation {
@@ -65,6 +70,7 @@ class Tessellation {
       if (surface_.patch_materials[static_cast<std::size_t>(f) - 1] == kNoMaterials) continue;
       add_face(f);
     }
+    if (has_same_) merge_same();
     for (const auto& [edge, record] : curves_) {
       surface_.edges.push_back(edge);
       surface_.edge_curve.push_back(record.curve);
@@ -85,7 +91,7 @@ class Tessellation {
   {
     surface_.vertex_xyz.push_back({point.X(), point.Y(), point.Z()});
     surface_.vertex_is_fixed.push_back(0);
-    return static_cast<LocalIndex>(surface_.vertex_xyz.size()) - 1;
+    return same_.add();
   }
 
   // A face as it is, without the orientation that some solid gives it, is seen from above.
@@ -111,10 +117,6 @@ class Tessellation {
     const TopoDS_Face& face = TopoDS::Face(upright);
     TopLoc_Location place;
     const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
-    if (mesh.IsNull() || mesh->NbTriangles() == 0) {
-      throw NetgenError(fmt::format(
-          "OpenCASCADE cannot triangulate face {}; repair it in the CAD program", f - 1));
-    }
     std::vector<LocalIndex> numbers(static_cast<std::size_t>(mesh->NbNodes()) + 1, kNoIndex);
     for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
       number_edge(TopoDS::Edge(edges.Current()), mesh, place, numbers);
@@ -145,7 +147,9 @@ class Tessellation {
         if (is_new) found->second = add_vertex(mesh->Node(node).Transformed(place));
         number = found->second;
       }
-      numbers[static_cast<std::size_t>(node)] = number;
+      LocalIndex& known = numbers[static_cast<std::size_t>(node)];
+      if (known != kNoIndex && same_.join(known, number)) has_same_ = true;
+      known = number;
       if (before != kNoIndex && before != number && polygon->HasParameters()) {
         add_curve_edge(number_of_edge - 1, {before, number},
                        {polygon->Parameter(i - 1), polygon->Parameter(i)});
@@ -182,11 +186,35 @@ class Tessellation {
     }
   }
 
+  // Both ends of an edge that is shorter than OpenCASCADE's precision, or than what our own
+  // triangles tell apart, are one point in some faces. Then they are in all.
+  void merge_same()
+  {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      PatchSurface::Triangle v = surface_.triangles[t];
+      for (LocalIndex& corner : v) corner = same_.find(corner);
+      if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+      surface_.triangles[kept] = v;
+      surface_.triangle_patch[kept] = surface_.triangle_patch[t];
+      surface_.triangle_uv[kept++] = surface_.triangle_uv[t];
+    }
+    surface_.triangles.resize(kept);
+    surface_.triangle_patch.resize(kept);
+    surface_.triangle_uv.resize(kept);
+    for (const auto& [edge, record] : std::exchange(curves_, {})) {
+      const PatchSurface::Edge ends{same_.find(edge[0]), same_.find(edge[1])};
+      if (ends[0] != ends[1]) add_curve_edge(record.curve, ends, record.t);
+    }
+  }
+
   TopTools_IndexedMapOfShape faces_{};
   TopTools_IndexedMapOfShape edges_{};
   TopTools_IndexedMapOfShape vertices_{};
   std::map<std::pair<int, int>, LocalIndex> edge_vertices_{};  // Edge, place along it.
   std::map<PatchSurface::Edge, CurveEdge> curves_{};
+  UnionFind same_{};
+  bool has_same_ = false;
   PatchSurface surface_{};
 };
 

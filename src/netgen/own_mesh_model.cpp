@@ -181,6 +181,10 @@ class CadOwnModel final : public LoadedModel {
   {
     return cad_->curve_tolerance(curve);
   }
+  [[nodiscard]] double end_tolerance(LocalIndex curve, const Vec3& point) const override
+  {
+    return cad_->end_tolerance(curve, point);
+  }
   [[nodiscard]] double box_diagonal() const override { return cad_->box_diagonal(); }
   [[nodiscard]] model::SurfacePoint project_to_surface(
       LocalIndex surface, const Vec3& point, const model::SurfaceParameters& guess) const override

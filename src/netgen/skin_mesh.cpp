@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/skin_mesh.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -23,6 +24,8 @@ std::vector<LocalIndex> inverse(const std::vector<LocalIndex>& order)
   }
   return place;
 }
+
+PointIndex number_of(LocalIndex v) { return {v + PointIndex::BASE}; }
 
 }  // namespace
 
@@ -60,6 +63,37 @@ void add_surface(::netgen::Mesh& mesh, const std::vector<double>& vertex_xyz,
     triangle.SetIndex(1);
     mesh.AddSurfaceElement(triangle);
   }
+}
+
+void add_skin(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
+{
+  for (std::size_t v = 0; v < skin.vertex.size(); ++v) {
+    mesh.AddPoint(to_netgen(point_at(std::span(skin.vertex_xyz), v)));
+  }
+  const LocalIndex num_patches = 1 + *std::ranges::max_element(skin.triangle_patch);
+  for (LocalIndex p = 0; p < num_patches; ++p) {
+    mesh.AddFaceDescriptor(::netgen::FaceDescriptor(p + 1, 1, 0, 0));
+  }
+  for (std::size_t t = 0; t < skin.triangle_patch.size(); ++t) {
+    const LocalIndex* v = &skin.triangle_vertices[3 * t];
+    ::netgen::Element2d triangle(number_of(v[0]), number_of(v[1]), number_of(v[2]));
+    triangle.SetIndex(skin.triangle_patch[t] + 1);
+    mesh.AddSurfaceElement(triangle);
+  }
+  for (std::size_t e = 0; e < skin.edge_vertices.size(); e += 2) {
+    ::netgen::Segment segment;
+    segment[0] = number_of(skin.edge_vertices[e]);
+    segment[1] = number_of(skin.edge_vertices[e + 1]);
+    mesh.AddSegment(segment);
+  }
+}
+
+void set_sizes(::netgen::Mesh& mesh, const std::array<Vec3, 2>& box,
+               const ::netgen::MeshingParameters& parameters)
+{
+  mesh.SetLocalH(to_netgen(box[0]), to_netgen(box[1]), parameters.grading);
+  mesh.CalcLocalH(parameters.grading);
+  for (const auto& wanted : parameters.meshsize_points) mesh.RestrictLocalH(wanted.pnt, wanted.h);
 }
 
 OrderedTets tets_of(const ::netgen::Mesh& mesh, const std::vector<LocalIndex>& order)

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <meshing.hpp>
 
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/coarse/coarse_surface.hpp"
 
 namespace tessera::netgen {
 
@@ -22,6 +24,15 @@ namespace tessera::netgen {
 void add_surface(::netgen::Mesh& mesh, const std::vector<double>& vertex_xyz,
                  const std::vector<LocalIndex>& triangle_vertices,
                  const std::vector<LocalIndex>& order);
+
+// Makes the skin of a domain of a coarse mesh that of an empty NETGEN mesh, with patches and
+// curves: NETGEN wants no tet with two faces on one patch.
+void add_skin(::netgen::Mesh& mesh, const coarse::DomainSkin& skin);
+
+// The sizes that NETGEN would want inside of the skin. They are kept in a grid through `box`, and
+// so tets inside depend on where that lies.
+void set_sizes(::netgen::Mesh& mesh, const std::array<Vec3, 2>& box,
+               const ::netgen::MeshingParameters& parameters);
 
 // Vertices and tets of a NETGEN mesh, as ours: number i of NETGEN's is order[i] where there is one.
 struct OrderedTets {

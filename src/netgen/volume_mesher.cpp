@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <meshing.hpp>
 
-#include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/optimize_domain.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
@@ -21,36 +21,8 @@
 namespace tessera::netgen {
 namespace {
 
-using ::netgen::PointIndex;
-
 // Of optimising and making legal what came of it: then vertices are moved only.
 constexpr int kMostRounds = 3;
-
-PointIndex number_of(LocalIndex v) { return {v + PointIndex::BASE}; }
-
-// With patches and curves: NETGEN wants no tet with two faces on one patch.
-void add_skin(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
-{
-  for (std::size_t v = 0; v < skin.vertex.size(); ++v) {
-    mesh.AddPoint(to_netgen(point_at(std::span(skin.vertex_xyz), v)));
-  }
-  const LocalIndex num_patches = 1 + *std::ranges::max_element(skin.triangle_patch);
-  for (LocalIndex p = 0; p < num_patches; ++p) {
-    mesh.AddFaceDescriptor(::netgen::FaceDescriptor(p + 1, 1, 0, 0));
-  }
-  for (std::size_t t = 0; t < skin.triangle_patch.size(); ++t) {
-    const LocalIndex* v = &skin.triangle_vertices[3 * t];
-    ::netgen::Element2d triangle(number_of(v[0]), number_of(v[1]), number_of(v[2]));
-    triangle.SetIndex(skin.triangle_patch[t] + 1);
-    mesh.AddSurfaceElement(triangle);
-  }
-  for (std::size_t e = 0; e < skin.edge_vertices.size(); e += 2) {
-    ::netgen::Segment segment;
-    segment[0] = number_of(skin.edge_vertices[e]);
-    segment[1] = number_of(skin.edge_vertices[e + 1]);
-    mesh.AddSegment(segment);
-  }
-}
 
 void add_all(::netgen::Mesh& mesh, const coarse::DomainTets& tets)
 {
@@ -69,17 +41,11 @@ coarse::DomainTets tets_in(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
   return {std::move(tets.vertex_xyz), std::move(tets.tet_vertices)};
 }
 
-void set_sizes(::netgen::Mesh& mesh, const ::netgen::MeshingParameters& parameters)
-{
-  mesh.CalcLocalH(parameters.grading);
-  for (const auto& wanted : parameters.meshsize_points) mesh.RestrictLocalH(wanted.pnt, wanted.h);
-}
-
 coarse::DomainTets first_tets(const coarse::DomainSkin& skin, NetgenSession& session)
 {
   ::netgen::Mesh mesh;
   add_skin(mesh, skin);
-  set_sizes(mesh, session.parameters());
+  set_sizes(mesh, skin.model_box, session.parameters());
   if (::netgen::MeshVolume(session.parameters(), mesh) != ::netgen::MESHING3_OK) {
     throw NetgenError("NETGEN gave up on the coarse volume mesh: " + session.words());
   }
@@ -101,16 +67,15 @@ std::optional<coarse::DomainTets> without_illegal_tets(const coarse::DomainSkin&
   return tets_in(mesh, skin);
 }
 
-coarse::DomainTets good_tets(const coarse::DomainSkin& skin, NetgenSession& session)
+coarse::DomainTets better_tets(const coarse::DomainSkin& skin, coarse::DomainTets tets)
 {
-  coarse::DomainTets tets = first_tets(skin, session);
   for (int round = 0; round < kMostRounds; ++round) {
     tets = coarse::optimize_domain(std::move(tets));
     auto legal = without_illegal_tets(skin, tets);
-    if (!legal) return tets;
+    if (!legal) return coarse::mend_domain(std::move(tets));
     tets = std::move(*legal);
   }
-  return coarse::smooth_domain(std::move(tets));
+  return coarse::mend_domain(coarse::smooth_domain(std::move(tets)));
 }
 
 std::string name_of(const coarse::PatchSurface& surface, const SurfaceNames& names,
@@ -176,20 +141,28 @@ coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface, dou
   return result;
 }
 
-coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin, const coarse::CoarseOptions& options)
+coarse::DomainTets fill_domain(const coarse::DomainSkin& skin, const coarse::CoarseOptions& options)
 {
   if (skin.vertex.empty()) return {};
-  const double scale = scale_for_netgen(box_diagonal(skin.vertex_xyz));
+  const double scale = scale_for_netgen(norm(skin.model_box[1] - skin.model_box[0]));
   coarse::CoarseOptions scaled = options;
   scaled.max_size = scale * std::min(options.max_size, skin.max_size);
   scaled.points = options.points.scaled(scale);
   coarse::DomainSkin scaled_skin = skin;
   for (double& x : scaled_skin.vertex_xyz) x *= scale;
+  for (Vec3& corner : scaled_skin.model_box) corner = scale * corner;
   NetgenSession session(coarse_parameters(scaled));
   coarse::DomainTets tets =
-      session.run("coarse volume mesh", [&] { return good_tets(scaled_skin, session); });
+      session.run("coarse volume mesh", [&] { return first_tets(scaled_skin, session); });
   for (double& x : tets.vertex_xyz) x /= scale;
   return tets;
+}
+
+coarse::DomainTets improve_domain(const coarse::DomainSkin& skin, coarse::DomainTets tets)
+{
+  if (skin.vertex.empty()) return tets;
+  NetgenSession session;
+  return session.run("coarse volume mesh", [&] { return better_tets(skin, std::move(tets)); });
 }
 
 }  // namespace tessera::netgen

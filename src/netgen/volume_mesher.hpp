@@ -25,11 +25,16 @@ struct SurfaceNames {
                                                       double max_size, const SurfaceNames& names,
                                                       const std::string& what);
 
-/// @brief Fills a domain: NETGEN's volume mesher, then our optimiser, which is some twenty times
-/// faster than NETGEN's. Sizes inside follow from the skin, the options' grading and their points.
+/// @brief Fills a domain by NETGEN's volume mesher. Sizes inside follow from the skin, the options'
+/// grading and their points.
 /// @note Local; may crash or hang inside NETGEN.
 /// @throws NetgenError if NETGEN gives up.
-[[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
+[[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
                                              const coarse::CoarseOptions& options);
+
+/// @brief Better tets in the same skin: by our optimiser, which is some twenty times faster than
+/// NETGEN's, and by NETGEN where it left a tet with two faces on one patch. Local.
+[[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
+                                                coarse::DomainTets tets);
 
 }  // namespace tessera::netgen

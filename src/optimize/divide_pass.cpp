@@ -18,19 +18,14 @@ bool is_outer(const WorkingMesh& mesh, Corner corner)
   return mesh.tet_neighbours[at(corner)] == kOuterFace;
 }
 
-Point mean_of(const Vec3& sum, double count)
-{
-  return {sum[0] / count, sum[1] / count, sum[2] / count, 0.0};
-}
-
-// A way to share out the outer faces of a tet among several, not yet gone.
+// A way to share out the outer faces of a tet among several tets.
 class Division {
  public:
   explicit Division(const WorkingMesh& mesh) : mesh_(&mesh) {}
 
-  void add_vertex(const Point& point)
+  void add_vertex(const Vec3& position)
   {
-    new_point_ = point;
+    new_point_ = {position[0], position[1], position[2], 0.0};
     has_vertex_ = true;
   }
   void remove(LocalIndex tet) { old_tets_.push_back(tet); }
@@ -48,8 +43,11 @@ class Division {
 
   [[nodiscard]] bool apply(WorkingMesh& mesh) const
   {
-    if (has_vertex_) add_vertex_to(mesh);
-    return replace_tets(mesh, {old_tets_, new_tets_, new_energies_});
+    const LocalIndex vertex =
+        has_vertex_ ? optimize::add_vertex(mesh, to_vec3(new_point_)) : kNoIndex;
+    if (replace_tets(mesh, {old_tets_, new_tets_, new_energies_})) return true;
+    if (has_vertex_) mesh.vertex_removed[at(vertex)] = 1;
+    return false;
   }
 
  private:
@@ -57,7 +55,6 @@ class Division {
   {
     return v == new_vertex() ? new_point_ : mesh_->points[at(v)];
   }
-  void add_vertex_to(WorkingMesh& mesh) const { optimize::add_vertex(mesh, new_point_); }
 
   const WorkingMesh* mesh_;
   std::vector<LocalIndex> old_tets_{};
@@ -73,7 +70,7 @@ Division with_middle(const WorkingMesh& mesh, LocalIndex t)
   Division division(mesh);
   Vec3 sum{};
   for (Corner c = 4 * t; c < 4 * t + 4; ++c) sum = sum + to_vec3(mesh.corner_point(c));
-  division.add_vertex(mean_of(sum, 4.0));
+  division.add_vertex(0.25 * sum);
   division.remove(t);
   for (Corner c = 4 * t; c < 4 * t + 4; ++c) {
     const auto [i, j, k] = face_vertices(mesh.tet_vertices, c);
@@ -90,8 +87,7 @@ Division with_edge_cut(const WorkingMesh& mesh, LocalIndex t, const TetEdge& edg
   EdgeRing ring;
   const auto never = [](LocalIndex) { return false; };
   if (!walk_ring(mesh, t, edge, kMaxRing, never, ring)) return division;
-  division.add_vertex(
-      mean_of(to_vec3(mesh.points[at(ring.a)]) + to_vec3(mesh.points[at(ring.b)]), 2.0));
+  division.add_vertex(0.5 * (to_vec3(mesh.points[at(ring.a)]) + to_vec3(mesh.points[at(ring.b)])));
   for (std::size_t i = 0; i < ring.size; ++i) {
     division.remove(ring.tets[i]);
     const LocalIndex from = ring.vertices[i];

@@ -14,6 +14,8 @@ void run_step(WorkingMesh& mesh, Step step, const Schedule& schedule)
       return swap_pass(mesh, schedule);
     case Step::collapse:
       return collapse_pass(mesh, schedule);
+    case Step::insert:
+      return insert_pass(mesh, schedule);
     case Step::tighten:
       return tighten_bound(mesh);
     case Step::divide:

@@ -19,12 +19,15 @@ Step parse_step(char letter)
       return Step::swap;
     case 'c':
       return Step::collapse;
+    case 'i':
+      return Step::insert;
     case 't':
       return Step::tighten;
     case 'd':
       return Step::divide;
     default:
-      throw ConfigError("'" + std::string(1, letter) + "' is no step: m, w, s, c, t or d expected");
+      throw ConfigError("'" + std::string(1, letter)
+                        + "' is no step: m, w, s, c, i, t or d expected");
   }
 }
 

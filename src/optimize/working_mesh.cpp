@@ -181,7 +181,8 @@ std::vector<LocalIndex> place_vertices(const WorkingMesh& mesh, const TetMesh& i
     if (mesh.vertex_removed[at(v)] != 0) continue;
     const LocalIndex origin = mesh.vertex_origin[at(v)];
     rows[at(v)] = static_cast<LocalIndex>(result.vertex_origin.size());
-    result.vertex_origin.push_back(origin);
+    const bool is_new = 3 * at(origin) >= input.vertex_xyz.size();
+    result.vertex_origin.push_back(is_new ? kNoIndex : origin);
     // A fixed one far smaller than the mesh may have lost bits by the scale.
     const Vec3 position = mesh.vertex_fixed[at(v)] != 0
                               ? point_at(std::span(input.vertex_xyz), origin)
@@ -216,6 +217,19 @@ WorkingMesh make_working_mesh(const TetMesh& input, const Kernels& kernels, bool
   fix_vertices(input, mesh);
   if (!input.outer_triangles.empty()) mark_outer_faces(input, new_vertex, mesh);
   return mesh;
+}
+
+LocalIndex add_vertex(WorkingMesh& mesh, const Vec3& position)
+{
+  const LocalIndex v = mesh.num_vertices();
+  mesh.points.push_back({position[0], position[1], position[2], 0.0});
+  mesh.vertex_origin.push_back(v);
+  mesh.vertex_fixed.push_back(0);
+  mesh.vertex_removed.push_back(0);
+  mesh.vertex_to_smooth.push_back(1);
+  mesh.vertex_to_collapse.push_back(1);
+  mesh.are_stars_stale = true;
+  return v;
 }
 
 WorkingMesh make_smoothing_mesh(const TetMesh& input)
@@ -270,19 +284,6 @@ std::uint8_t num_outer_faces(const WorkingMesh& mesh, LocalIndex tet)
 {
   const LocalIndex* across = &mesh.tet_neighbours[4 * at(tet)];
   return static_cast<std::uint8_t>(std::count(across, across + 4, kOuterFace));
-}
-
-LocalIndex add_vertex(WorkingMesh& mesh, const Point& point)
-{
-  const LocalIndex v = mesh.num_vertices();
-  mesh.points.push_back(point);
-  mesh.vertex_origin.push_back(v);
-  mesh.vertex_fixed.push_back(0);
-  mesh.vertex_removed.push_back(0);
-  mesh.vertex_to_smooth.push_back(1);
-  mesh.vertex_to_collapse.push_back(1);
-  mesh.are_stars_stale = true;
-  return v;
 }
 
 LocalIndex count_not_positive(const WorkingMesh& mesh)

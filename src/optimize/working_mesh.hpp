@@ -24,7 +24,8 @@ struct WorkingMesh {
   double scale = 1.0;  // Working position = the caller's * scale; a power of two, so exact.
 
   std::vector<Point> points{};
-  std::vector<LocalIndex> vertex_origin{};  // Row of the caller's mesh; new ones follow.
+  // Row of the caller's mesh; vertices put in have the numbers behind its last one.
+  std::vector<LocalIndex> vertex_origin{};
   std::vector<std::uint8_t> vertex_fixed{};
   std::vector<std::uint8_t> vertex_removed{};
   std::vector<std::uint8_t> vertex_to_smooth{};    // Something changed since it was smoothed.
@@ -75,8 +76,8 @@ struct WorkingMesh {
 // Of a tet, from 0 to 4.
 [[nodiscard]] std::uint8_t num_outer_faces(const WorkingMesh& mesh, LocalIndex tet);
 
-// A new free vertex; no tet has it yet.
-LocalIndex add_vertex(WorkingMesh& mesh, const Point& point);
+// A free vertex of no tet.
+[[nodiscard]] LocalIndex add_vertex(WorkingMesh& mesh, const Vec3& position);
 
 // Tets that are flat or inverted, by their energies.
 [[nodiscard]] LocalIndex count_not_positive(const WorkingMesh& mesh);

@@ -7,10 +7,14 @@
 // STEP, IGES, BREP: as read, unhealed; a solid counts if BRepCheck_Analyzer has nothing against it
 // and all its shells are closed. STL: read by OpenCASCADE with equal corners joined; it counts as
 // one solid if every directed edge has exactly one triangle, and its reverse one too. Prints one
-// JSON object. What cannot be read holds nothing.
+// JSON object: with the counts also those of the faces (STL: triangles), the largest tolerance of
+// an edge or vertex, the diagonal of the box in OpenCASCADE's unit, and the smallest angles of the
+// valid solids between faces and between edges, in degrees, null where there is none. What cannot
+// be read holds nothing.
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -19,26 +23,37 @@
 #include <string>
 #include <utility>
 
+#include <BRepBndLib.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <BinTools.hxx>
+#include <Bnd_Box.hxx>
 #include <IGESControl_Reader.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Poly_Triangulation.hxx>
 #include <RWStl.hxx>
 #include <STEPControl_Reader.hxx>
+#include <ShapeAnalysis_ShapeTolerance.hxx>
 #include <Standard_Failure.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
+
+#include "sharp_angles.hpp"
 
 namespace {
 
 struct Findings {
   int num_solids = 0;
   int num_valid = 0;
+  int num_faces = 0;
+  double tolerance = 0.0;
+  double diagonal = 0.0;
+  SharpAngles sharp;
 };
 
 template <class Reader>
@@ -64,14 +79,37 @@ bool is_closed(const TopoDS_Shape& solid)
   return closed;
 }
 
+double diagonal_of(const TopoDS_Shape& shape)
+{
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box);
+  return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
+}
+
+double diagonal_of(const Poly_Triangulation& surface)
+{
+  Bnd_Box box;
+  for (int n = 1; n <= surface.NbNodes(); ++n) box.Add(surface.Node(n));
+  return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
+}
+
 Findings look_at(const TopoDS_Shape& shape)
 {
   if (shape.IsNull()) throw std::runtime_error("holds no shape");
   Findings findings;
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  findings.num_faces = faces.Extent();
+  findings.tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(shape, 1);
+  findings.diagonal = diagonal_of(shape);
   for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
     ++findings.num_solids;
     const bool valid = BRepCheck_Analyzer(solids.Current()).IsValid();
-    if (valid && is_closed(solids.Current())) ++findings.num_valid;
+    if (!valid || !is_closed(solids.Current())) continue;
+    ++findings.num_valid;
+    const SharpAngles sharp = sharp_angles(solids.Current());
+    findings.sharp.of_faces = std::min(findings.sharp.of_faces, sharp.of_faces);
+    findings.sharp.of_edges = std::min(findings.sharp.of_edges, sharp.of_edges);
   }
   return findings;
 }
@@ -90,7 +128,12 @@ Findings look_at_stl(const std::string& file)
     const auto& [edge, count] = entry;
     return count == 1 && directed_edges.contains({edge.second, edge.first});
   });
-  return {1, closed && mesh->NbTriangles() > 0 ? 1 : 0};
+  return {1,
+          closed && mesh->NbTriangles() > 0 ? 1 : 0,
+          mesh->NbTriangles(),
+          0.0,
+          diagonal_of(*mesh),
+          sharp_angles(*mesh)};
 }
 
 std::string extension_of(const std::string& file)
@@ -114,6 +157,11 @@ Findings look_at_file(const std::string& file)
   return look_at(read_brep(file));
 }
 
+std::string angle_or_null(double degrees)
+{
+  return degrees < 360.0 ? std::to_string(degrees) : "null";
+}
+
 }  // namespace
 
 int main(int argc, char** argv)
@@ -125,7 +173,12 @@ int main(int argc, char** argv)
   Message::DefaultMessenger()->ChangePrinters().Clear();  // Readers print statistics.
   try {
     const Findings found = look_at_file(argv[1]);
-    std::printf("{\"solids\": %d, \"valid\": %d}\n", found.num_solids, found.num_valid);
+    std::printf("{\"solids\": %d, \"valid\": %d, \"faces\": %d, \"tolerance\": %g, ",
+                found.num_solids, found.num_valid, found.num_faces, found.tolerance);
+    std::printf("\"diagonal_occ\": %.12g, ", found.diagonal);
+    std::printf("\"face_angle_deg\": %s, \"edge_angle_deg\": %s}\n",
+                angle_or_null(found.sharp.of_faces).c_str(),
+                angle_or_null(found.sharp.of_edges).c_str());
     return EXIT_SUCCESS;
   } catch (const Standard_Failure& failure) {
     std::fprintf(stderr, "valid_solids: %s\n", failure.GetMessageString());

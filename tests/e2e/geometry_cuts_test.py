@@ -79,6 +79,14 @@ class GeometryCuts(program.ProgramTest):
             self.mesh(self.case(model, 3, method="mesh", name="whole.toml"), "whole"))
         self.assertEqual(cut["patch_names"], whole["patch_names"])
 
+    def test_iges_is_cut_too(self):
+        keys = "decompose.subdomains = 4\nfill.kernel = 'subdivide'\n"
+        folder = self.mesh(self.case(GEOMETRY / "frustum.iges", 0.4, keys), "out", ranks=2)
+        report, _ = self.assert_checked(folder, 1e-9)
+        self.assertTrue(report["decompose"]["parts_are_meshed"])
+        self.assertEqual(report["decompose"]["num_parts"], 4)
+        self.assertEqual(report["patch_names"], ["patch_1", "patch_2", "patch_3"])
+
     def test_planes_of_the_user_alone_are_the_cuts(self):
         keys = PLANE.format("1.2, 0, 0", "2, 0, 0") + PLANE.format("0, 0.4, 0", "0, -1, 0")
         report = program.figures(self.mesh(self.case(self.plate(), 0.3, keys), "out"))

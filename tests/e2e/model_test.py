@@ -55,6 +55,23 @@ class Model(program.ProgramTest):
                 self.mesh_model(GEOMETRY / name, "--size", size, "--kernel", "subdivide")
                 self.assertTrue((self.folder / "outputs" / name.split(".")[0] / "mesh.pvtu").exists())
 
+    def test_what_is_within_the_tolerance_of_the_file_is_no_defect(self):
+        text = (GEOMETRY / "cone.brep").read_text()
+        sound = "1e-07\n8 -1.95943487863577e-15 0\n"
+        self.assertIn(sound, text)
+        # The rim's vertex is off the rim, and the file says that it is no more exact than that.
+        self.write("loose.brep", text.replace(sound, "0.01\n8.003 0 0.002\n"))
+        self.mesh_model("loose.brep", "--size", 1, "--kernel", "subdivide", "--output", "loose")
+        report = json.loads((self.folder / "loose/report.json").read_text())
+        self.assertEqual((report["status"], report["num_points_off_geometry"]), ("ok", 0))
+        within = report["points_within_tolerance"]
+        self.assertEqual(within["num"], 1)
+        self.assertGreater(within["distance_max"], 1e-3)
+        self.assertLess(within["distance_max"], 0.01)
+        self.assertEqual(report["model_distance_max"], within["distance_max"])
+        self.assertIn("within the tolerance", (self.folder / "loose/log/run.log").read_text())
+        self.assertIn("within the tolerance", (self.folder / "loose/report.html").read_text())
+
     def test_what_does_not_fit(self):
         case = self.write_case()
         self.write("part.obj", "v 0 0 0\n")

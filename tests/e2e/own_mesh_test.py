@@ -109,6 +109,22 @@ class WithItsCadModel(OwnMeshTest):
         self.assertLess(report["model_distance_max"], 1e-8)
         self.assertEqual(report["patch_names"], ["skin"])
 
+    def test_an_stl_file_is_a_cad_model_too(self):
+        plate = CONFIGS / "geometry" / "plate_with_hole.stl"
+        case = self.write("plate.toml", f"geometry.file = '{plate}'\ncoarse.max_size = 20\nrefine.levels = 0\n")
+        coarse = self.mesh(case, "coarse", *sets(SUBDIVIDE))
+        converted = self.run_program("convert", coarse / "mesh.pvtu", "--format", "msh", "--output", "msh")
+        self.assertEqual(converted.code, OK, converted.err)
+        out = self.mesh(self.case("msh/mesh.msh", plate, levels=2), "out", ranks=2)
+        report = self.assert_checked(out, 1e-9)[0]
+        self.assertLess(report["model_distance_max"], 1e-6)
+
+    def test_it_may_be_optimized_and_its_pieces_split(self):
+        more = "fill.kernel = 'optimize'\nfill.levels = 1\ncoarse.optimize = true\n"
+        out = self.mesh(self.of_model("ball", levels=3, more=more), "out", ranks=2)
+        report = self.assert_checked(out, 1e-9)[0]
+        self.assertAlmostEqual(report["volume"], MODELS["ball"][1], delta=2e-3 * MODELS["ball"][1])
+
     def test_a_mesh_of_another_model_is_refused_with_the_place(self):
         case = self.case(self.models / "ball.msh", self.models / "torus.brep")
         self.assert_refused(

@@ -15,6 +15,7 @@ REPORT_KEYS = {
     "case": str,
     "num_ranks": int, "num_subdomains": int, "num_tets": int, "num_vertices": int,
     "volume": float, "boundary_area": float, "model_distance_max": float,
+    "points_within_tolerance": {"num": int, "distance_max": float},
     "reproducible": bool, "digest": str,
     "wall_time_s": float, "tets_per_second": float, "peak_rss_bytes_max": int, "stages": list,
     "quality": {

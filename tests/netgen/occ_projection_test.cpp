@@ -3,8 +3,13 @@
 #include <numbers>
 #include <vector>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRep_Builder.hxx>
+#include <TopExp.hxx>
+#include <TopoDS_Edge.hxx>
 #include <gtest/gtest.h>
 
+#include "netgen/occ_curve.hpp"
 #include "netgen/occ_fixture.hpp"
 
 namespace tessera {
@@ -161,6 +166,19 @@ TEST(OccProjection, IsAPureFunction)
   const std::vector<Vec3> first = project_all(*model, false);
   EXPECT_EQ(project_all(*model, true), first);
   EXPECT_EQ(project_all(*load_own("bracket.step"), true), first);
+}
+
+TEST(OccTolerance, OfAnEndIsThatOfTheVertexWhereThePointIs)
+{
+  const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0));
+  BRep_Builder().UpdateVertex(TopExp::LastVertex(edge), 0.01);
+  const auto tolerance_at = [&](double box_diagonal, const Vec3& point) {
+    return netgen::OccCurve(edge, box_diagonal).end_tolerance(point);
+  };
+  EXPECT_DOUBLE_EQ(tolerance_at(100.0, {1.0, 0.005, 0.0}), 0.01);
+  EXPECT_LT(tolerance_at(100.0, {1.0, 0.05, 0.0}), 1e-5) << "not at the vertex";
+  EXPECT_LT(tolerance_at(100.0, {0.0, 0.0, 0.0}), 1e-5) << "the other vertex is exact";
+  EXPECT_DOUBLE_EQ(tolerance_at(1.0, {1.0, 0.0, 0.0}), 1e-3) << "no vertex is that loose";
 }
 
 }  // namespace

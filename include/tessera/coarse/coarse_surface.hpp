@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
 #include "tessera/cut/cut_mesh.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
@@ -47,11 +48,12 @@ struct DomainSkin {
   std::vector<LocalIndex> triangle_patch{};     ///< Shape (num_triangles); those of cuts come last.
   std::vector<LocalIndex> edge_vertices{};      ///< Shape (num_edges, 2): those on curves.
   double max_size = 0.0;                        ///< Largest edge, file length unit, > 0.
+  std::array<Vec3, 2> model_box{};              ///< Lowest and highest corner of all skins.
 
   static auto fields(auto& self)
   {
     return std::tie(self.vertex, self.vertex_xyz, self.triangle_vertices, self.triangle_patch,
-                    self.edge_vertices, self.max_size);
+                    self.edge_vertices, self.max_size, self.model_box);
   }
 };
 
@@ -63,16 +65,18 @@ struct DomainTets {
   static auto fields(auto& self) { return std::tie(self.vertex_xyz, self.tet_vertices); }
 };
 
-/// @brief The skin of domain `domain`, from 1. Local; empty if no face bounds it.
+/// @brief The faces that bound domain `domain`, from 1, ascending. Local.
+[[nodiscard]] std::vector<LocalIndex> faces_of(const CoarseSurface& surface, LocalIndex domain);
+
+/// @brief The skin of domain `domain`, from 1: triangles in the order of faces_of(). Local; empty
+/// if no face bounds it.
 [[nodiscard]] DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain);
 
 /// @brief The coarse mesh: the surface with the tets of all domains, without its cuts. Vertices
 /// that no tet has are dropped, and segments with them.
-/// @param[in] skins  skin_of() every domain, in their order.
-/// @param[in] tets   Those of every domain.
+/// @param[in] tets  Those of every domain, in their order.
 /// @return Also the parts of the tets, if domains are parts.
 /// @note Local. @throws MeshError if the result is not valid: mesh::validate().
-[[nodiscard]] cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainSkin>& skins,
-                                        const std::vector<DomainTets>& tets);
+[[nodiscard]] cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainTets>& tets);
 
 }  // namespace tessera::coarse

@@ -17,4 +17,10 @@ namespace tessera::coarse {
 /// @brief As optimize_domain(), but vertices are moved only. Local.
 [[nodiscard]] DomainTets smooth_domain(DomainTets tets);
 
+/// @brief Puts vertices into the worst tets of a domain. Local.
+///
+/// Such tets have their four corners on the skin, as across a thin wall; neither moves nor swaps
+/// help. No new tet has two faces on the skin.
+[[nodiscard]] DomainTets mend_domain(DomainTets tets);
+
 }  // namespace tessera::coarse

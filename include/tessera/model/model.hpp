@@ -81,6 +81,14 @@ class Model {
   [[nodiscard]] virtual double surface_tolerance(LocalIndex surface) const = 0;
   [[nodiscard]] virtual double curve_tolerance(LocalIndex curve) const = 0;
 
+  /// @brief The same for a point at an end of the curve, where the CAD system lets curves meet
+  /// less exactly than it makes them: the tolerance of the CAD vertex that `point` lies in; else
+  /// that of the curve.
+  [[nodiscard]] virtual double end_tolerance(LocalIndex curve, const Vec3& /*point*/) const
+  {
+    return curve_tolerance(curve);
+  }
+
   /// @brief The point of `surface` nearest to `point`, searched near `guess`.
   /// @throws GeometryError if no point is found.
   [[nodiscard]] virtual SurfacePoint project_to_surface(LocalIndex surface, const Vec3& point,

@@ -24,6 +24,11 @@ class ScaledModel final : public Model {
     return scale_ * file_model_.curve_tolerance(curve);
   }
 
+  [[nodiscard]] double end_tolerance(LocalIndex curve, const Vec3& point) const override
+  {
+    return scale_ * file_model_.end_tolerance(curve, (1.0 / scale_) * point);
+  }
+
   [[nodiscard]] SurfacePoint project_to_surface(LocalIndex surface, const Vec3& point,
                                                 const SurfaceParameters& guess) const override
   {

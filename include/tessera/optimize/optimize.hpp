@@ -18,19 +18,20 @@ inline constexpr double kLeastMeanRatio = 1e-8;
 /// @brief What an optimisation did.
 struct Statistics {
   int num_passes = 0;
-  GlobalIndex num_untangled = 0;  ///< Tets that began flat or inverted.
-  GlobalIndex num_moves = 0;      ///< Steps of vertices by smoothing.
-  GlobalIndex num_swaps = 0;      ///< Edges removed and faces exchanged.
-  GlobalIndex num_collapses = 0;  ///< Vertices removed.
-  GlobalIndex num_divided = 0;    ///< Tets with several outer triangles that were divided.
+  GlobalIndex num_untangled = 0;   ///< Tets that began flat or inverted.
+  GlobalIndex num_moves = 0;       ///< Steps of vertices by smoothing.
+  GlobalIndex num_swaps = 0;       ///< Edges removed and faces exchanged.
+  GlobalIndex num_collapses = 0;   ///< Vertices removed by collapses.
+  GlobalIndex num_insertions = 0;  ///< Vertices put in.
+  GlobalIndex num_divided = 0;     ///< Tets with several outer triangles that were divided.
 };
 
 /// @brief A better mesh with the same boundary.
 struct OptimizeResult {
   std::vector<double> vertex_xyz{};         ///< Shape (num_vertices, 3).
   std::vector<LocalIndex> tet_vertices{};   ///< Shape (num_tets, 4); positive, VTK's order.
-  std::vector<LocalIndex> vertex_origin{};  ///< Shape (num_vertices): row of the input; ascending.
-                                            ///< Not below its number: a vertex of Step::divide.
+  std::vector<LocalIndex> vertex_origin{};  ///< Shape (num_vertices): row of the input, ascending;
+                                            ///< then kNoIndex for those put in.
   Statistics statistics{};
 };
 
@@ -42,8 +43,8 @@ struct OptimizeOptions {
   std::optional<InstructionSet> instruction_set{};  ///< Default: the last of the available ones.
 };
 
-/// @brief Makes tets better inside a fixed boundary. Vertices are moved and merged, edges and faces
-/// are swapped, as the schedule says.
+/// @brief Makes tets better inside a fixed boundary. Vertices are moved, merged and put in, edges
+/// and faces are swapped, as the schedule says.
 ///
 /// Promises, each for every valid input:
 /// - Fixed vertices and boundary triangles are those of the input, bit by bit.
@@ -59,6 +60,7 @@ struct OptimizeOptions {
 /// six times its volume. f needs no root, and is convex in each vertex while the tet is positive.
 /// @cite freitag1997swapping  Swaps and smoothing together.
 /// @cite knupp2001  Energies of this kind and Newton's method for them.
+/// @cite klingner2008  Vertices put into cavities that grow.
 /// @param[in] mesh Vertices that no tet has are kept. No tets at all are valid.
 /// @throws MeshError naming the tet, if one has an index out of range or a corner that is not
 /// finite, or is flat or inverted. Also if a triangle belongs to more than two tets, two tets lie

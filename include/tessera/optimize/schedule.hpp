@@ -12,6 +12,7 @@ enum class Step : char {
   smooth_worst,  ///< [w] The vertices of bad tets only, and the sum of eta^-12.
   swap,          ///< [s] Edges are removed, faces exchanged for edges.
   collapse,      ///< [c] Free vertices are merged into neighbours.
+  insert,        ///< [i] New vertices take the place of bad tets and of those around them.
   tighten,       ///< [t] From here on no tet gets worse than the worst one of now.
   divide,        ///< [d] Tets with several outer triangles are divided; the worst one of now is
                  ///< the bound from here on.
@@ -22,7 +23,8 @@ enum class Step : char {
 /// The bounds were chosen on shaft.geo with 166 k tets (L = 2), looking at five other models. Two
 /// steps were tried without a gain. One puts a vertex on edges of tets whose four corners are
 /// fixed: with 64 subdomains no minimum rose, but two smallest angles by 0.6 degrees. The other
-/// swaps bad tets for the sum of eta^-6.
+/// swaps bad tets for the sum of eta^-6. Step::insert is for coarse meshes: their tets may have
+/// four corners on the boundary at a thin wall.
 struct Schedule {
   std::vector<Step> steps{};
 
@@ -38,6 +40,8 @@ struct Schedule {
   /// How much the mean of eta^-1.5 around a vertex may rise by its collapse, >= 0. Smoothing
   /// repairs it. With 0.2 boxcyl.geo (L = 2) kept 3 % more tets than with 0.3.
   double collapse_loss = 0.3;
+  /// Step::insert begins at tets below this.
+  double insert_below = 0.3;
   /// Step::smooth_worst moves the vertices of tets below this.
   double worst_below = 0.7;
 };

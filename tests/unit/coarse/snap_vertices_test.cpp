@@ -52,6 +52,63 @@ TEST_F(SnapVertices, CountsWhatCannotBePutThere)
   EXPECT_NEAR(norm(ball.position(v)), 1.005, 1e-12);
 }
 
+TEST_F(SnapVertices, ATinyPartOfAnEdgeIsWithinTolerance)
+{
+  static_cast<void>(pull_out(1.0 + 1e-5));
+  const VertexDistance found = snap_vertices(ball, testing::LazyModel(sphere, 0.5));
+  EXPECT_EQ(found.num_off, 0);
+  EXPECT_EQ(found.num_within, 1);
+  EXPECT_NEAR(found.largest_within, 0.25e-5, 1e-10);
+  EXPECT_EQ(found.largest, found.largest_within);
+}
+
+// The first vertex of a segment is a CAD vertex, which is less exact than its curves.
+class LooseModel final : public model::Model {
+ public:
+  LooseModel(const model::Model& exact, double tolerance) : exact_(exact), tolerance_(tolerance) {}
+
+  [[nodiscard]] bool has_parameters() const override { return exact_.has_parameters(); }
+  [[nodiscard]] double surface_tolerance(LocalIndex s) const override
+  {
+    return exact_.surface_tolerance(s);
+  }
+  [[nodiscard]] double curve_tolerance(LocalIndex c) const override
+  {
+    return exact_.curve_tolerance(c);
+  }
+  [[nodiscard]] double end_tolerance(LocalIndex, const Vec3&) const override { return tolerance_; }
+  [[nodiscard]] model::SurfacePoint project_to_surface(
+      LocalIndex s, const Vec3& p, const model::SurfaceParameters& guess) const override
+  {
+    return exact_.project_to_surface(s, p, guess);
+  }
+  // A curve that is a hundredth beside every point.
+  [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex, const Vec3& p, double) const override
+  {
+    return {p + Vec3{0.01, 0.0, 0.0}, 0.0};
+  }
+  [[nodiscard]] double box_diagonal() const override { return exact_.box_diagonal(); }
+
+ private:
+  const model::Model& exact_;
+  double tolerance_;
+};
+
+TEST_F(SnapVertices, AnEndOfACurveMayBeOffByTheToleranceOfItsCadVertex)
+{
+  const LocalIndex v = ball.face_vertices.front();
+  ball.segment_vertices = {v, ball.face_vertices[1]};
+  ball.segment_curve = {0};
+  ball.segment_t.clear();
+  const VertexDistance loose = snap_vertices(ball, LooseModel(sphere, 0.02));
+  EXPECT_EQ(loose.num_off, 0);
+  EXPECT_EQ(loose.num_within, 2);
+  EXPECT_NEAR(loose.largest_within, 0.01, 1e-12);
+  const VertexDistance exact = snap_vertices(ball, LooseModel(sphere, 0.005));
+  EXPECT_EQ(exact.num_off, 2);
+  EXPECT_EQ(exact.num_within, 0);
+}
+
 TEST_F(SnapVertices, DoesNotFoldATet)
 {
   // On a sphere of a hundredth the tets at the vertex would be turned over.

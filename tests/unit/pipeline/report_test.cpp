@@ -174,6 +174,7 @@ TEST(Report, HasEveryKeyOfTheSchema)
                           "volume",
                           "boundary_area",
                           "model_distance_max",
+                          "points_within_tolerance",
                           "reproducible",
                           "digest",
                           "wall_time_s",

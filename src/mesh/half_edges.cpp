@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "half_edges.hpp"
+#include "tessera/mesh/half_edges.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-namespace tessera::model {
+namespace tessera::mesh {
 
 IndexLists half_edges_of_edges(std::span<const LocalIndex> triangle_vertices)
 {
@@ -41,4 +41,4 @@ std::vector<LocalIndex> opposite_half_edges(const IndexLists& edge_half_edges)
   return opposite;
 }
 
-}  // namespace tessera::model
+}  // namespace tessera::mesh

@@ -7,7 +7,7 @@
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
 
-namespace tessera::model {
+namespace tessera::mesh {
 
 // Half-edge h = 3 t + c runs from corner c of triangle t to the next corner of t.
 
@@ -24,4 +24,4 @@ namespace tessera::model {
 /// @brief For each half-edge, the other one on its edge. @pre every edge has exactly two.
 [[nodiscard]] std::vector<LocalIndex> opposite_half_edges(const IndexLists& edge_half_edges);
 
-}  // namespace tessera::model
+}  // namespace tessera::mesh

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse/crossings.hpp"
+
+#include <algorithm>
+
+namespace tessera::coarse {
+namespace {
+
+// Six times the signed volume of a tet.
+double volume6(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+  return dot(cross(b - a, c - a), d - a);
+}
+
+// Where the edge goes through the inside of the triangle.
+std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& triangle)
+{
+  const double above = volume6(triangle[0], triangle[1], triangle[2], from);
+  const double below = volume6(triangle[0], triangle[1], triangle[2], to);
+  if (above * below >= 0.0) return std::nullopt;
+  std::array<double, 3> sides{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    sides[c] = volume6(from, to, triangle[c], triangle[(c + 1) % 3]);
+  }
+  const bool is_inside = (sides[0] > 0.0 && sides[1] > 0.0 && sides[2] > 0.0)
+                         || (sides[0] < 0.0 && sides[1] < 0.0 && sides[2] < 0.0);
+  if (!is_inside) return std::nullopt;
+  return from + (above / (above - below)) * (to - from);
+}
+
+// Of an edge of a through b. One that begins at the corner that both share does not go through.
+std::optional<Vec3> edge_through(const PlacedTriangle& a, const PlacedTriangle& b,
+                                 std::size_t shared_of_a)
+{
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t next = (c + 1) % 3;
+    if (c == shared_of_a || next == shared_of_a) continue;
+    const auto place = piercing(a.corners[c], a.corners[next], b.corners);
+    if (place) return place;
+  }
+  return std::nullopt;
+}
+
+std::vector<PlacedTriangle> placed(const PatchSurface& surface)
+{
+  std::vector<PlacedTriangle> triangles;
+  triangles.reserve(surface.triangles.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    triangles.push_back({surface.triangles[t], surface.corners(t)});
+  }
+  return triangles;
+}
+
+std::vector<Box> boxes_of(std::span<const PlacedTriangle> triangles)
+{
+  std::vector<Box> boxes;
+  boxes.reserve(triangles.size());
+  for (const PlacedTriangle& one : triangles) boxes.push_back(box_of(one.corners));
+  return boxes;
+}
+
+}  // namespace
+
+std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b)
+{
+  constexpr std::size_t kNone = 3;
+  std::size_t shared_of_a = kNone;
+  std::size_t shared_of_b = kNone;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (a.vertices[i] != b.vertices[j]) continue;
+      if (shared_of_a != kNone) return std::nullopt;
+      shared_of_a = i;
+      shared_of_b = j;
+    }
+  }
+  const auto place = edge_through(a, b, shared_of_a);
+  return place ? place : edge_through(b, a, shared_of_b);
+}
+
+CrossingGuard::CrossingGuard(const PatchSurface& surface)
+    : triangles_(placed(surface)), tree_(boxes_of(triangles_))
+{
+}
+
+void CrossingGuard::find_near(const Box& box, std::span<const LocalIndex> without)
+{
+  near_.clear();
+  tree_.visit([&](const Box& other) { return other.touches(box); },
+              [&](LocalIndex t) {
+                if (std::ranges::find(without, t) == without.end()) near_.push_back(t);
+              });
+}
+
+// Pairs in which some of `some` cut each other or those that are near.
+int CrossingGuard::count_near(std::span<const PlacedTriangle> some) const
+{
+  int count = 0;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const Box box = box_of(some[i].corners);
+    for (const LocalIndex t : near_) {
+      if (!tree_.box(t).touches(box)) continue;
+      count += crossing(some[i], triangles_[at(t)]) ? 1 : 0;
+    }
+    for (std::size_t j = 0; j < i; ++j) count += crossing(some[i], some[j]) ? 1 : 0;
+  }
+  return count;
+}
+
+bool CrossingGuard::allows(std::span<const LocalIndex> old, std::span<const PlacedTriangle> made)
+{
+  Box around;
+  for (const PlacedTriangle& one : made) around.include(box_of(one.corners));
+  find_near(around, old);
+  const int after = count_near(made);
+  if (after == 0) return true;
+  std::vector<PlacedTriangle> before;
+  around = Box{};
+  for (const LocalIndex t : old) {
+    before.push_back(triangles_[at(t)]);
+    around.include(tree_.box(t));
+  }
+  find_near(around, old);
+  return after <= count_near(before);
+}
+
+void CrossingGuard::change(LocalIndex t, const PlacedTriangle& triangle)
+{
+  triangles_[at(t)] = triangle;
+  tree_.change(t, box_of(triangle.corners));
+}
+
+void CrossingGuard::add(const PlacedTriangle& triangle, LocalIndex beside)
+{
+  triangles_.push_back(triangle);
+  tree_.add(box_of(triangle.corners), beside);
+}
+
+void CrossingGuard::remove(LocalIndex t) { tree_.change(t, Box{}); }
+
+}  // namespace tessera::coarse

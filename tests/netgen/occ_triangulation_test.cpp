@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/occ_triangulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <ostream>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepGProp.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Wire.hxx>
+#include <gp_Trsf.hxx>
+#include <gtest/gtest.h>
+
+#include "support/temporary_folder.hpp"
+
+#include "netgen/occ_fixture.hpp"
+#include "netgen/occ_shape.hpp"
+#include "netgen/polygon_triangles.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+using Point = PlaneMesh::Point;
+using Edge = std::pair<int, int>;
+
+double area_of(const PlaneMesh& mesh)
+{
+  double area = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Point& p = mesh.points[at(a)];
+    const Point& q = mesh.points[at(b)];
+    const Point& r = mesh.points[at(c)];
+    const double twice = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    EXPECT_GT(twice, 0.0);
+    area += 0.5 * twice;
+  }
+  return area;
+}
+
+// The unit square, its corners and middles of sides, with a triangular hole.
+const std::vector<Point> kSquareWithHole{{0, 0},     {0.5, 0},   {1, 0},    {1, 0.5},
+                                         {1, 1},     {0.5, 1},   {0, 1},    {0, 0.5},
+                                         {0.4, 0.4}, {0.4, 0.6}, {0.6, 0.5}};
+const std::vector<PlaneMesh::Loop> kItsLoops{{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10}};
+
+TEST(PolygonTriangles, CoverAPolygonWithAHoleOnce)
+{
+  const PlaneMesh mesh = triangulate_polygon(kSquareWithHole, kItsLoops);
+  EXPECT_EQ(mesh.points, kSquareWithHole);
+  EXPECT_NEAR(area_of(mesh), 1.0 - 0.02, 1e-12);
+}
+
+TEST(PolygonTriangles, RefinementLeavesTheSidesWhole)
+{
+  PlaneMesh mesh = triangulate_polygon(kSquareWithHole, kItsLoops);
+  const auto is_long = [](const Point& a, const Point& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1]) > 0.2;
+  };
+  refine_inside(mesh, is_long, 1000);
+  EXPECT_NEAR(area_of(mesh), 0.98, 1e-12);
+  EXPECT_GT(mesh.points.size(), kSquareWithHole.size());
+  std::map<Edge, int> count;
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t c = 0; c < 3; ++c) ++count[std::minmax(t[c], t[(c + 1) % 3])];
+  }
+  const auto num_sides =
+      std::ranges::count_if(count, [](const auto& edge) { return edge.second == 1; });
+  EXPECT_EQ(num_sides, 11);
+}
+
+TEST(PolygonTriangles, ThereAreNoneOfAPolygonThatCrossesItself)
+{
+  EXPECT_TRUE(
+      triangulate_polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {{0, 1, 2, 3}}).triangles.empty());
+}
+
+double area_of(const Poly_Triangulation& mesh)
+{
+  double area = 0.0;
+  for (int t = 1; t <= mesh.NbTriangles(); ++t) {
+    int a = 0;
+    int b = 0;
+    int c = 0;
+    mesh.Triangle(t).Get(a, b, c);
+    const gp_Vec side(mesh.Node(a), mesh.Node(b));
+    area += 0.5 * side.Crossed(gp_Vec(mesh.Node(a), mesh.Node(c))).Magnitude();
+  }
+  return area;
+}
+
+// Edges with one triangle.
+std::set<Edge> border_of(const Poly_Triangulation& mesh)
+{
+  std::map<Edge, int> count;
+  for (int t = 1; t <= mesh.NbTriangles(); ++t) {
+    std::array<int, 3> n{};
+    mesh.Triangle(t).Get(n[0], n[1], n[2]);
+    for (std::size_t c = 0; c < 3; ++c) ++count[std::minmax(n[c], n[(c + 1) % 3])];
+  }
+  std::set<Edge> border;
+  for (const auto& [edge, triangles] : count) {
+    if (triangles == 1) border.insert(edge);
+  }
+  return border;
+}
+
+std::set<Edge> sides_of(const TopoDS_Face& face, const Handle(Poly_Triangulation) & mesh)
+{
+  std::set<Edge> sides;
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+    const auto polygon =
+        BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(edges.Current()), mesh, face.Location());
+    if (polygon.IsNull()) continue;
+    for (int i = 1; i < polygon->NbNodes(); ++i) {
+      sides.insert(std::minmax(polygon->Node(i), polygon->Node(i + 1)));
+    }
+  }
+  return sides;
+}
+
+struct Solid {
+  const char* name;
+  TopoDS_Shape shape;
+};
+
+void PrintTo(const Solid& solid, std::ostream* out) { *out << solid.name; }
+
+class OwnTriangles : public ::testing::TestWithParam<Solid> {};
+
+// Each face in turn is one that OpenCASCADE cannot do. Apexes, poles and seams are among them.
+TEST_P(OwnTriangles, OfAFaceCoverItAndShareItsNeighboursPoints)
+{
+  gp_Trsf away;
+  away.SetTranslation(gp_Vec(1.0, 2.0, 3.0));
+  const TopoDS_Shape shape = GetParam().shape.Moved(TopLoc_Location(away));
+  const std::vector<TopoDS_Shape> faces = parts_of(shape, TopAbs_FACE);
+  ASSERT_FALSE(faces.empty());
+  for (const TopoDS_Shape& part : faces) {
+    BRepTools::Clean(shape);
+    BRepMesh_IncrementalMesh(shape, 0.05, Standard_False, 0.25);
+    const TopoDS_Shape upright = part.Oriented(TopAbs_FORWARD);
+    const TopoDS_Face& face = TopoDS::Face(upright);
+    TopLoc_Location place;
+    const int sides_before =
+        static_cast<int>(sides_of(face, BRep_Tool::Triangulation(face, place)).size());
+    BRepTools::Clean(face);
+    ASSERT_TRUE(triangulate_from_boundary(face, {0.05, 0.25}));
+    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, place);
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(face, properties);
+    EXPECT_NEAR(area_of(*mesh), properties.Mass(), 0.03 * properties.Mass());
+    EXPECT_EQ(border_of(*mesh), sides_of(face, mesh));
+    EXPECT_GE(2 * static_cast<int>(border_of(*mesh).size()), sides_before);
+    EXPECT_TRUE(mesh->HasUVNodes());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Solids, OwnTriangles,
+    ::testing::Values(Solid{"box", BRepPrimAPI_MakeBox(1, 2, 3).Shape()},
+                      Solid{"cylinder", BRepPrimAPI_MakeCylinder(5, 20).Shape()},
+                      Solid{"cone", BRepPrimAPI_MakeCone(8, 0, 12).Shape()},
+                      Solid{"sector", BRepPrimAPI_MakeCone(8, 0, 12, 1.0).Shape()},
+                      Solid{"sphere", BRepPrimAPI_MakeSphere(5).Shape()},
+                      Solid{"torus", BRepPrimAPI_MakeTorus(10, 3).Shape()}));
+
+// The unit cube with an edge inside its top face that sticks out of it by next to nothing.
+TopoDS_Shape cube_with_stray_edge()
+{
+  const TopoDS_Shape cube = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
+  BRep_Builder builder;
+  for (const TopoDS_Shape& face : parts_of(cube, TopAbs_FACE)) {
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(face, properties);
+    if (properties.CentreOfMass().Z() < 0.9) continue;
+    const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(gp_Pnt(0.5, -1e-5, 1), gp_Pnt(0.5, 0.5, 1));
+    TopoDS_Wire wire;
+    builder.MakeWire(wire);
+    builder.Add(wire, edge.Oriented(TopAbs_INTERNAL));
+    face.TShape()->Free(Standard_True);
+    TopoDS_Shape top = face;
+    builder.Add(top, wire);
+  }
+  return cube;
+}
+
+TEST(OccTriangulation, OneFaceThatOpenCascadeCannotDoRefusesNoModel)
+{
+  const TopoDS_Shape cube = cube_with_stray_edge();
+  BRepMesh_IncrementalMesh(cube, 0.01);
+  const auto is_bare = [](const TopoDS_Shape& face) {
+    TopLoc_Location place;
+    return BRep_Tool::Triangulation(TopoDS::Face(face), place).IsNull();
+  };
+  ASSERT_EQ(std::ranges::count_if(parts_of(cube, TopAbs_FACE), is_bare), 1);
+
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "stray_edge.brep";
+  BRepTools::Write(cube, file.c_str());
+  const auto model = load_model(import_model(file, {}));
+  EXPECT_EQ(describe_model(*model).triangle_vertices.size() % 3, 0U);
+  const std::set<LocalIndex> drawn = [&] {
+    const auto described = describe_model(*model);
+    return std::set<LocalIndex>(described.triangle_face.begin(), described.triangle_face.end());
+  }();
+  EXPECT_EQ(drawn.size(), 6U);
+  const mesh::CoarseMesh mesh = testing::coarse_mesh_of(*model, 0.3, coarse::SurfaceMesher::remesh);
+  double volume = 0.0;
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    const auto v = mesh.tet(t);
+    volume += tet_volume(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]),
+                         mesh.position(v[3]));
+  }
+  EXPECT_NEAR(volume, 1.0, 1e-9);
+}
+
+// NETGEN reads parameters of triangles for its sizes, unchecked.
+TEST(OccTriangulation, SamplesAreOnTheFaceAndHaveParameters)
+{
+  for (const TopoDS_Shape& face : parts_of(BRepPrimAPI_MakeCone(8, 0, 12).Shape(), TopAbs_FACE)) {
+    sample_face(face);
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(TopoDS::Face(face), place);
+    ASSERT_FALSE(mesh.IsNull());
+    ASSERT_TRUE(mesh->HasUVNodes());
+    EXPECT_GT(mesh->NbTriangles(), 0);
+    for (int n = 1; n <= mesh->NbNodes(); ++n) {
+      const gp_Pnt2d uv = mesh->UVNode(n);
+      const auto surface = BRep_Tool::Surface(TopoDS::Face(face));
+      EXPECT_LT(surface->Value(uv.X(), uv.Y()).Distance(mesh->Node(n)), 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tessera::netgen
