@@ -51,9 +51,13 @@ struct NumbersLoad {
 
 struct ImprovementLoad {
   improve::ImproveOptions options{};
+  bool split_corners = false;
   std::vector<fill::KernelKind> kernels{};  ///< Shape (num_subdomains), as the case wants them.
 
-  static auto fields(auto& self) { return std::tie(self.options, self.kernels); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.options, self.split_corners, self.kernels);
+  }
 };
 
 struct RefinementLoad {
