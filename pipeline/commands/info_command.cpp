@@ -53,11 +53,10 @@ std::string describe_mesh(const std::filesystem::path& file)
 model::ModelSource read_source(const std::filesystem::path& file, jobs::JobRunner& jobs)
 {
   netgen::require_model_file(file);
-  jobs::JobOutcome read =
-      jobs.run(import_request(file, model::ImportOptions{}), kInfoLimits, wait_for_stop_signal());
-  auto source = read_result(read, from_bytes<model::ModelSource>);
-  throw_unless_read(read, file);
-  return std::move(*source);
+  return import_in_jobs(file, model::ImportOptions{},
+                        [&](const std::string&, const Bytes& request) {
+                          return jobs.run(request, kInfoLimits, wait_for_stop_signal());
+                        });
 }
 
 model::ModelDescription describe(const model::ModelSource& source,

@@ -27,6 +27,9 @@ void require_only_subdomains_possible(const config::Case& given)
   if (given.output.files != 0 || given.output.parts != 0) {
     throw ConfigError("--only-subdomains excludes output.files and output.parts");
   }
+  if (given.fill.split_corners) {
+    throw ConfigError("--only-subdomains excludes fill.split_corners");
+  }
   // Only the model tells whether the regions are all there is.
   std::vector<fill::KernelKind> named{given.fill.kernel};
   for (const fill::FillRegion& region : given.fill.regions) named.push_back(region.kernel);

@@ -77,6 +77,12 @@ void RunOutline::curve_pieces()
   fill_into_store();
 }
 
+void RunOutline::divide_corners()
+{
+  are_counts_exact = false;
+  fill_into_store();
+}
+
 void RunOutline::fill_into_store()
 {
   if (!is_one_pass) return;
@@ -105,7 +111,8 @@ RunOutline outline_run(const subdomain::PartitionedMesh& cut,
                      .pieces = subdomain::count_subdivided_pieces(cut, all),
                      .files = files};
   if (splits > 0) count_split_tets(cut, splits, outline.pieces);
-  outline.is_one_pass = are_counts_known(kernels);
+  outline.are_counts_exact = are_counts_known(kernels);
+  outline.is_one_pass = outline.are_counts_exact;
   outline.num_skeleton_vertices =
       mesh::num_skeleton_points(cut.skeleton, mesh::lattice_levels(cut.skeleton, all));
   const mesh::LatticeLevels filled = mesh::lattice_levels(cut.skeleton, cut.levels);

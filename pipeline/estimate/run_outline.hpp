@@ -28,9 +28,10 @@ struct RunOutline {
                                               ///< expected; boundary triangles are exact.
   GlobalIndex num_skeleton_vertices = 0;      ///< Fine vertices on all skins; exact.
   std::vector<GlobalIndex>
-      seam_triangles{};      ///< Shape (num_subdomains). Fine triangles between the
-                             ///< subdomain and others, where seams are improved.
-  bool is_one_pass = false;  ///< Fill jobs write the files themselves.
+      seam_triangles{};           ///< Shape (num_subdomains). Fine triangles between the
+                                  ///< subdomain and others, where seams are improved.
+  bool are_counts_exact = false;  ///< What pieces hold is known before they are filled.
+  bool is_one_pass = false;       ///< Then fill jobs may write the files themselves, and do.
   std::vector<subdomain::SubdomainRange> jobs{};   ///< What each fill job makes.
   std::vector<subdomain::SubdomainRange> files{};  ///< What each file holds.
   bool has_files = true;   ///< False: finished pieces are handed over instead.
@@ -44,6 +45,10 @@ struct RunOutline {
 
   /// @brief From now on there are no files: every piece waits in the store until it is handed over.
   void hand_over_pieces();
+
+  /// @brief From now on pieces are known once they are filled: which of their tets have several
+  /// faces on the geometry, and are divided, is not known before.
+  void divide_corners();
 
   /// @brief From now on tets are of second order, for which every piece waits in the store.
   void curve_pieces();

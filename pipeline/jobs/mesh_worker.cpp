@@ -96,6 +96,7 @@ class MeshWorker final : public jobs::Worker {
   void take(ImprovementLoad load)
   {
     improve_options_ = load.options;
+    split_corners_ = load.split_corners;
     kernels_ = std::move(load.kernels);
     regions_.emplace(cut_->skeleton, decomposition_);
   }
@@ -110,9 +111,9 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] static Bytes answer(const ImportRequest& request)
   {
-    fail_if_asked("import");
-    return garbled_if_asked("import",
-                            to_bytes(netgen::import_model(request.file, request.options)));
+    fail_if_asked("import", static_cast<LocalIndex>(request.reader));
+    return garbled_if_asked(
+        "import", to_bytes(netgen::import_model(request.file, request.options, request.reader)));
   }
 
   [[nodiscard]] Bytes answer(const BoxRequest& /*request*/) const
@@ -259,8 +260,8 @@ class MeshWorker final : public jobs::Worker {
   [[nodiscard]] std::unique_ptr<improve::Optimizer> optimizer_of(LocalIndex region) const
   {
     const LocalIndex subdomain = regions_->subdomains_of(region).front();
-    const bool is_own = kernels_[at(subdomain)] == fill::KernelKind::optimize;
-    return is_own ? subdomain::make_seam_optimizer() : netgen::make_optimizer();
+    const bool is_own = split_corners_ || kernels_[at(subdomain)] == fill::KernelKind::optimize;
+    return is_own ? subdomain::make_seam_optimizer(split_corners_) : netgen::make_optimizer();
   }
 
   [[nodiscard]] Bytes answer(const ImproveRequest& request) const
@@ -339,6 +340,7 @@ class MeshWorker final : public jobs::Worker {
   std::string length_unit_{};
   io::OutputOptions output_options_{};
   improve::ImproveOptions improve_options_{};
+  bool split_corners_ = false;
   std::vector<fill::KernelKind> kernels_{};        ///< By subdomain, as the case wants them.
   std::optional<improve::SeamRegions> regions_{};  ///< If seams are to be improved.
   std::optional<Refinement> refinement_{};         ///< If pieces are to be split further.

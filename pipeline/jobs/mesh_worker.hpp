@@ -26,6 +26,7 @@
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/netgen/factory.hpp"
 #include "tessera/number/id_layout.hpp"
 #include "tessera/subdomain/piece_summary.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
@@ -57,11 +58,13 @@ namespace tessera::pipeline {
 
 /// @brief load: that seams are to be improved, and how. Needs the mesh.
 [[nodiscard]] Bytes load_improvement_message(const improve::ImproveOptions& options,
+                                             bool split_corners,
                                              const std::vector<fill::KernelKind>& kernels);
 
 /// @brief run: reads a CAD file; result: bytes of a ModelSource. Needs no load.
 [[nodiscard]] Bytes import_request(const std::filesystem::path& file,
-                                   const model::ImportOptions& options);
+                                   const model::ImportOptions& options,
+                                   netgen::StepReader reader = netgen::StepReader::with_names);
 
 /// @brief run: result: the diagonal of the model's box, output length unit, a double. Needs the
 /// model.

@@ -27,8 +27,8 @@
 /// - KIND, for results that pass all checks of a job: nudge (fill: points on the geometry are one
 ///   bit off, as from another mathematical library), lose (improve: a tet is lost after the region
 ///   was judged).
-/// - ITEM: the subdomain, of refine the first of the job; of improve the region; of coarse, remesh
-///   and gmsh the try, from 0.
+/// - ITEM: of import 0, or 1 for OpenCASCADE's plain reader; the subdomain, of refine the first of
+///   the job; of improve the region; of coarse, remesh and gmsh the try, from 0.
 namespace tessera::pipeline {
 
 /// @brief Checks TESSERA_TEST_FAULT, and lets no job have more than TESSERA_TEST_LIMITS allows, if

@@ -31,15 +31,16 @@ Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter)
   return to_bytes(Load(LimiterLoad{limiter}));
 }
 
-Bytes load_improvement_message(const improve::ImproveOptions& options,
+Bytes load_improvement_message(const improve::ImproveOptions& options, bool split_corners,
                                const std::vector<fill::KernelKind>& kernels)
 {
-  return to_bytes(Load(ImprovementLoad{options, kernels}));
+  return to_bytes(Load(ImprovementLoad{options, split_corners, kernels}));
 }
 
-Bytes import_request(const std::filesystem::path& file, const model::ImportOptions& options)
+Bytes import_request(const std::filesystem::path& file, const model::ImportOptions& options,
+                     netgen::StepReader reader)
 {
-  return to_bytes(Request(ImportRequest{file.string(), options}));
+  return to_bytes(Request(ImportRequest{file.string(), options, reader}));
 }
 
 Bytes box_request() { return to_bytes(Request(BoxRequest{})); }

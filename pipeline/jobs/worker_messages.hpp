@@ -51,9 +51,13 @@ struct NumbersLoad {
 
 struct ImprovementLoad {
   improve::ImproveOptions options{};
+  bool split_corners = false;
   std::vector<fill::KernelKind> kernels{};  ///< Shape (num_subdomains), as the case wants them.
 
-  static auto fields(auto& self) { return std::tie(self.options, self.kernels); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.options, self.split_corners, self.kernels);
+  }
 };
 
 struct RefinementLoad {
@@ -73,8 +77,9 @@ using Load =
 struct ImportRequest {
   std::string file{};
   model::ImportOptions options{};
+  netgen::StepReader reader = netgen::StepReader::with_names;
 
-  static auto fields(auto& self) { return std::tie(self.file, self.options); }
+  static auto fields(auto& self) { return std::tie(self.file, self.options, self.reader); }
 };
 
 struct BoxRequest {

@@ -104,8 +104,9 @@ class Sampler {
     if (set.jobs.empty()) return;
     const subdomain::PartitionedMesh cut(cut_.coarse, cut_.decomposition,
                                          cut_.levels.limited(set.levels));
-    const RunOutline outline =
+    RunOutline outline =
         outline_run(cut, run_.kernels, 0, outline_.files, run_.resolved.improve.seams);
+    if (run_.resolved.fill.split_corners) outline.divide_corners();
     own_.times.clear();
     fill(set, cut, outline);
     note_work(set, outline);

@@ -45,6 +45,7 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
   std::vector<subdomain::SubdomainRange> files;
   all_or_none(context.comm, [&] { files = output_ranges(run, options); });
   RunOutline outline = outline_run(cut, run.kernels, run.splits, files, run.resolved.improve.seams);
+  if (run.resolved.fill.split_corners) outline.divide_corners();
   load_mesh(cut, context);
   prepare.finish("");
 

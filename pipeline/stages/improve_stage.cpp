@@ -311,7 +311,7 @@ FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::Pa
   work.pieces = pieces_of_phases(*regions, work.wanted);
   const std::int64_t num_steps = num_regions + total_size(work.pieces) + std::ssize(filled.pieces);
   StageScope stage(context, "improve", num_steps, "regions and pieces");
-  load_improvement(run_case.improve, kernels, context);
+  load_improvement(run_case.improve, run_case.fill.split_corners, kernels, context);
   all_or_none(context.comm, [&] {
     if (context.comm.rank() != 0) return;
     const fs::path folder = store_folder(context.folder);

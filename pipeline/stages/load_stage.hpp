@@ -25,7 +25,7 @@ void load_numbers(const std::vector<number::PieceCounts>& counts, const std::str
                   const io::OutputOptions& options, RunContext& context);
 
 /// @param[in] kernels Shape (num_subdomains), as the case wants them.
-void load_improvement(const improve::ImproveOptions& options,
+void load_improvement(const improve::ImproveOptions& options, bool split_corners,
                       const std::vector<fill::KernelKind>& kernels, RunContext& context);
 
 /// @brief What the refine jobs start from.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/model_stage.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,7 +19,45 @@ namespace {
 // Reading and healing take seconds even for large models; minutes mean a hang.
 constexpr jobs::JobLimits kModelLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
 
+bool is_step(const std::filesystem::path& file)
+{
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".step" || extension == ".stp";
+}
+
+// What another reader may survive. An error that the reader tells is one of the file, and limits
+// are left out: whether they are met depends on the machine.
+bool has_died(const jobs::JobOutcome& outcome)
+{
+  const bool has_ended =
+      outcome.status == jobs::JobStatus::crashed || outcome.status == jobs::JobStatus::exited;
+  return has_ended && !was_killed_from_outside(outcome);
+}
+
 }  // namespace
+
+model::ModelSource import_in_jobs(
+    const std::filesystem::path& file, const model::ImportOptions& options,
+    const std::function<jobs::JobOutcome(const std::string&, const Bytes&)>& run_import)
+{
+  jobs::JobOutcome outcome = run_import("model", import_request(file, options));
+  std::string death;
+  if (has_died(outcome) && (is_step(file) || is_step(options.cad))) {
+    jobs::JobOutcome plain =
+        run_import("model_plain", import_request(file, options, netgen::StepReader::plain));
+    if (plain.status == jobs::JobStatus::ok) death = outcome.message;
+    if (!death.empty() || plain.status == jobs::JobStatus::cancelled) outcome = std::move(plain);
+  }
+  auto read = read_result(outcome, from_bytes<model::ModelSource>);
+  throw_unless_read(outcome, file);
+  if (!death.empty()) {
+    read->repairs.insert(read->repairs.begin(),
+                         fmt::format("OpenCASCADE's reader of names died: {}", death));
+  }
+  return std::move(*read);
+}
 
 void throw_unless_read(const jobs::JobOutcome& outcome, const std::filesystem::path& file)
 {
@@ -42,14 +82,16 @@ model::ModelSource run_model_stage(const config::Case& run_case, RunContext& con
   StageScope stage(context, "model");
   const std::filesystem::path& file = run_case.geometry.file;
   model::ModelSource source = on_root(context.comm, [&] {
-    const Bytes request = import_request(
-        file, {run_case.coarse.feature_angle_deg, run_case.geometry.cad, run_case.geometry.smooth});
-    const JobRequest job{"model", request, kModelLimits};
-    jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
-    auto read = read_result(outcome, from_bytes<model::ModelSource>);
-    keep_if_failed(job, outcome, context);
-    throw_unless_read(outcome, file);
-    return std::move(*read);
+    const auto run_import = [&](const std::string& name, const Bytes& request) {
+      const JobRequest job{name, request, kModelLimits};
+      jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
+      static_cast<void>(read_result(outcome, from_bytes<model::ModelSource>));
+      keep_if_failed(job, outcome, context);
+      return outcome;
+    };
+    return import_in_jobs(
+        file, {run_case.coarse.feature_angle_deg, run_case.geometry.cad, run_case.geometry.smooth},
+        run_import);
   });
   all_or_none(context.comm, [&] {
     throw_unless_read(run_load("model", load_model_message(source, run_case.geometry.scale),

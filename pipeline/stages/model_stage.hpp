@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "tessera/base/bytes.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/model/model.hpp"
 
@@ -13,6 +18,15 @@ namespace tessera::pipeline {
 /// @note Collective.
 /// @throws InputError, GeometryError on every rank if the file is no model that can be meshed.
 [[nodiscard]] model::ModelSource run_model_stage(const config::Case& run_case, RunContext& context);
+
+/// @brief Reads a CAD file in a job. Where OpenCASCADE's reader of STEP dies, its plain reader is
+/// tried in a second job, which loses names; the model's repairs say so. Local.
+/// @param[in] run_import Runs a job of that name with that request, and keeps it if it failed.
+/// @throws As throw_unless_read(), of the first job.
+[[nodiscard]] model::ModelSource import_in_jobs(
+    const std::filesystem::path& file, const model::ImportOptions& options,
+    const std::function<jobs::JobOutcome(const std::string& name, const Bytes& request)>&
+        run_import);
 
 /// @brief Throws the error of a run whose model could not be imported or loaded. Whatever makes the
 /// reader fail, the error says that the file is bad, not the program. Local.

@@ -17,7 +17,7 @@ number::IdLayout number_mesh(const RunResult& run, const subdomain::PartitionedM
   }
   return number::IdLayout::by_host(
       mesh::HostLayout(cut.skeleton), mesh::lattice_levels(cut.skeleton, cut.levels),
-      are_counts_known(outline.kernels) ? outline.pieces : subdomain::counts_of(run.filled.pieces));
+      outline.are_counts_exact ? outline.pieces : subdomain::counts_of(run.filled.pieces));
 }
 
 std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of_vertices(

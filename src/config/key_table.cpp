@@ -201,6 +201,14 @@ constexpr Key kKeys[] = {
          "\"auto\" leaves two for the split, but fills on two at least. Where edges have levels "
          "of their own, fewer are left for the split if it would make a tenth more tets.",
      .reason = "all levels: what was filled is what comes out"},
+    {.name = "fill.split_corners",
+     .rule = FlagRule{[](Case& c) -> bool& { return c.fill.split_corners; }},
+     .meaning = "Whether no tet may have more than one face on the geometry. Solvers want that: "
+                "all four corners of such a tet can be on the boundary, and OpenFOAM's checkMesh "
+                "-allGeometry calls it an error. Our own optimiser then goes over what NETGEN has "
+                "filled, and over the seams. Excludes --only-subdomains.",
+     .reason = "not every solver needs it, and what is subdivided can then be written only after "
+               "all of it was made"},
     {.name = "fill.timeout_s",
      .rule = RealRule{[](Case& c) -> double& { return c.fill.timeout_s; }, 0.0, Bound::inclusive,
                       kHuge, Bound::inclusive},

@@ -18,7 +18,9 @@ int fill_levels(const FillOptions& options, int levels)
   return std::min(wanted, levels);
 }
 
-std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind kernel)
+namespace {
+
+std::vector<FillTry> tries_of(const FillOptions& options, KernelKind kernel)
 {
   const FillTry subdivision{.kernel = KernelKind::subdivide};
   if (kernel == KernelKind::subdivide) return {subdivision};
@@ -34,6 +36,15 @@ std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind ke
                                      .optimize_steps = std::min(1, options.optimize_steps),
                                      .point_order_seed = 2}};
   return {asked, anew, reordered, relaxed, subdivision};
+}
+
+}  // namespace
+
+std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind kernel)
+{
+  std::vector<FillTry> tries = tries_of(options, kernel);
+  for (FillTry& how : tries) how.split_corners = options.split_corners;
+  return tries;
 }
 
 std::vector<KernelKind> kernels_of(const FillOptions& options,

@@ -21,19 +21,26 @@ namespace fs = std::filesystem;
 using model::ImportOptions;
 using model::ModelSource;
 
+ModelSource import_shape(const fs::path& file, const ImportOptions& /*options*/, StepReader reader)
+{
+  return import_occ(file, reader);
+}
+
 struct FileKind {
   std::string_view extension;  // Lower case.
-  ModelSource (*import)(const fs::path& file, const ImportOptions& options);
+  ModelSource (*import)(const fs::path& file, const ImportOptions& options, StepReader reader);
 };
 
 constexpr FileKind kFileKinds[] = {
-    {".geo", [](const fs::path& file, const ImportOptions&) { return import_csg(file); }},
-    {".stl", import_stl},
-    {".step", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
-    {".stp", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
-    {".iges", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
-    {".igs", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
-    {".brep", [](const fs::path& file, const ImportOptions&) { return import_occ(file); }},
+    {".geo",
+     [](const fs::path& file, const ImportOptions&, StepReader) { return import_csg(file); }},
+    {".stl", [](const fs::path& file, const ImportOptions& options,
+                StepReader) { return import_stl(file, options); }},
+    {".step", import_shape},
+    {".stp", import_shape},
+    {".iges", import_shape},
+    {".igs", import_shape},
+    {".brep", import_shape},
     {".msh", import_own_mesh},
     {".vol", import_own_mesh},
     {".vtu", import_own_mesh},
@@ -158,10 +165,11 @@ void require_model_file(const fs::path& file)
 
 bool is_model_name(const fs::path& file) { return find_kind(file) != nullptr; }
 
-model::ModelSource import_model(const fs::path& file, const ImportOptions& options)
+model::ModelSource import_model(const fs::path& file, const ImportOptions& options,
+                                StepReader reader)
 {
   require_model_file(file);
-  return kind_of(file).import(file, options);
+  return kind_of(file).import(file, options, reader);
 }
 
 std::unique_ptr<LoadedModel> load_any_model(const ModelSource& source)

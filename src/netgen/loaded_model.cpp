@@ -34,6 +34,20 @@ void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& te
   add_tets(mesh, vertices, domain);
 }
 
+// A surface that can be filled must not be lost because a projection fails.
+coarse::CoarseSurface mended(coarse::CoarseSurface surface, const LoadedModel& model)
+{
+  if (surface.num_domains() == 0) return surface;
+  try {
+    coarse::CoarseSurface better = surface;
+    if (coarse::mend_surface(better, model).total() == 0) return surface;
+    model.locate_parameters(better.mesh);
+    return better;
+  } catch (const GeometryError&) {
+    return surface;
+  }
+}
+
 }  // namespace
 
 coarse::CoarseSurface LoadedModel::mesh_surface(const coarse::CoarseOptions& options,
@@ -42,10 +56,7 @@ coarse::CoarseSurface LoadedModel::mesh_surface(const coarse::CoarseOptions& opt
   coarse::CoarseSurface surface = planes.num_parts > 0
                                       ? mesh_parts(options, planes)
                                       : mesh_surface(options, [](const auto&...) {});
-  if (surface.num_domains() > 0 && coarse::mend_surface(surface, *this).total() > 0) {
-    locate_parameters(surface.mesh);
-  }
-  return surface;
+  return mended(std::move(surface), *this);
 }
 
 coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*options*/,

@@ -12,6 +12,7 @@
 #include "tessera/coarse/surface_reference.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/netgen/factory.hpp"
 
 namespace netgen {
 class Mesh;
@@ -95,10 +96,11 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
 [[nodiscard]] std::unique_ptr<LoadedModel> load_stl(const model::ModelSource& source);
 
 [[nodiscard]] model::ModelSource import_own_mesh(const std::filesystem::path& file,
-                                                 const model::ImportOptions& options);
+                                                 const model::ImportOptions& options,
+                                                 StepReader reader);
 [[nodiscard]] std::unique_ptr<LoadedModel> load_own_mesh(const model::ModelSource& source);
 
-[[nodiscard]] model::ModelSource import_occ(const std::filesystem::path& file);
+[[nodiscard]] model::ModelSource import_occ(const std::filesystem::path& file, StepReader reader);
 [[nodiscard]] std::unique_ptr<LoadedModel> load_occ(const model::ModelSource& source);
 
 }  // namespace tessera::netgen

@@ -9,6 +9,8 @@
 #include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS_Shape.hxx>
 
+#include "tessera/netgen/factory.hpp"
+
 namespace tessera::netgen {
 
 /// @brief What a file says of a face or a solid.
@@ -30,7 +32,8 @@ struct CadFile {
 
 /// @brief Reads a file by its extension: .step .stp .iges .igs .brep .brp (text or binary).
 /// @throws InputError if it is unreadable, truncated or not what its name says.
-[[nodiscard]] CadFile read_cad_file(const std::filesystem::path& file);
+[[nodiscard]] CadFile read_cad_file(const std::filesystem::path& file,
+                                    StepReader reader = StepReader::with_names);
 
 /// @brief Makes `cad.shape` one closed, valid solid, or a compound of several that share the faces
 /// on which they touch. Names follow their faces and solids; every change adds to `cad.repairs`.

@@ -392,9 +392,9 @@ void OccModel::locate_segment_ends(mesh::CoarseMesh& mesh) const
 
 }  // namespace
 
-model::ModelSource import_occ(const std::filesystem::path& file)
+model::ModelSource import_occ(const std::filesystem::path& file, StepReader reader)
 {
-  CadFile cad = read_cad_file(file);
+  CadFile cad = read_cad_file(file, reader);
   try {
     with_occ_errors("healing", [&] { make_closed_solids(cad); });
   } catch (const GeometryError& error) {

@@ -23,6 +23,8 @@
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <STEPControl_Controller.hxx>
+#include <STEPControl_Reader.hxx>
+#include <StepRepr_RepresentationItem.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDF_LabelSequence.hxx>
@@ -108,12 +110,12 @@ std::string head_of(const fs::path& file, std::size_t size)
 }
 
 // The unit whose numbers the shape shall have: the file's, or millimetres if it names none known.
-LengthUnit step_unit(STEPCAFControl_Reader& reader, CadFile& cad)
+LengthUnit step_unit(STEPControl_Reader& reader, CadFile& cad)
 {
   TColStd_SequenceOfAsciiString lengths;
   TColStd_SequenceOfAsciiString angles;
   TColStd_SequenceOfAsciiString solid_angles;
-  reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
+  reader.FileUnits(lengths, angles, solid_angles);
   if (lengths.IsEmpty()) return {"", "", 1e-3};
   const std::string name = lower_case(lengths.First().ToCString());
   for (const TCollection_AsciiString& other : lengths) {
@@ -221,12 +223,16 @@ class PartCollector {
   TopoDS_Compound parts_{};
 };
 
+void require_whole_step(const fs::path& file)
+{
+  if (tail_of(file, 4096).find("END-ISO-10303-21") != std::string::npos) return;
+  throw InputError(file.string()
+                   + ": does not end with END-ISO-10303-21, so it is truncated or no STEP file");
+}
+
 CadFile read_step(const fs::path& file)
 {
-  if (tail_of(file, 4096).find("END-ISO-10303-21") == std::string::npos) {
-    throw InputError(file.string()
-                     + ": does not end with END-ISO-10303-21, so it is truncated or no STEP file");
-  }
+  require_whole_step(file);
   STEPControl_Controller::Init();
   STEPCAFControl_Reader reader;
   Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
@@ -238,7 +244,7 @@ CadFile read_step(const fs::path& file)
     throw InputError(file.string() + ": OpenCASCADE cannot read it as STEP; export it again");
   }
   CadFile cad;
-  const LengthUnit unit = step_unit(reader, cad);
+  const LengthUnit unit = step_unit(reader.ChangeReader(), cad);
   cad.length_unit = unit.short_name;
   Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
   XCAFDoc_DocumentTool::Set(document->Main(), Standard_False);
@@ -279,7 +285,7 @@ LengthUnit iges_unit(const IGESControl_Reader& reader, CadFile& cad)
   return {"millimetre", name.empty() ? "" : "mm", 1e-3};
 }
 
-// OpenCASCADE hands IGES out in millimetres; this takes it back to the file's own numbers.
+// OpenCASCADE hands shapes out in millimetres; this takes it back to the file's own numbers.
 void scale_to_unit(CadFile& cad, const LengthUnit& unit)
 {
   cad.length_unit = unit.short_name;
@@ -293,6 +299,47 @@ void scale_to_unit(CadFile& cad, const LengthUnit& unit)
   }
   cad.names = names;
   cad.shape = transform.Shape();
+}
+
+std::string name_of(const STEPControl_Reader& reader, const TopoDS_Shape& shape)
+{
+  const auto item = Handle(StepRepr_RepresentationItem)::DownCast(
+      reader.WS()->TransferReader()->EntityFromShapeResult(shape, 1));
+  if (item.IsNull() || item->Name().IsNull()) return {};
+  std::string name = item->Name()->ToCString();
+  return is_default_name(name) || name == "NONE" ? std::string() : name;
+}
+
+// Another way in, for what kills the reader above: no document, no colours, one root after the
+// other, and shapes are not fixed on the way. They are checked and healed afterwards all the same.
+CadFile read_plain_step(const fs::path& file)
+{
+  require_whole_step(file);
+  STEPControl_Controller::Init();
+  Interface_Static::SetCVal("read.step.sequence", "none");
+  STEPControl_Reader reader;
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
+    throw InputError(file.string() + ": OpenCASCADE cannot read it as STEP; export it again");
+  }
+  CadFile cad;
+  const LengthUnit unit = step_unit(reader, cad);
+  for (int root = 1; root <= reader.NbRootsForTransfer(); ++root) reader.TransferRoot(root);
+  cad.shape = reader.OneShape();
+  if (cad.shape.IsNull()) {
+    throw InputError(file.string() + ": holds no shape that OpenCASCADE can build");
+  }
+  for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_FACE}) {
+    for (TopExp_Explorer parts(cad.shape, kind); parts.More(); parts.Next()) {
+      const std::string name = name_of(reader, parts.Current());
+      if (!name.empty()) cad.names.Bind(parts.Current(), {.name = name});
+    }
+  }
+  scale_to_unit(cad, unit);
+  cad.repairs.emplace_back(
+      "read by OpenCASCADE's plain reader: colours and names of parts are lost, names of shapes "
+      "are "
+      "kept");
+  return cad;
 }
 
 CadFile read_iges(const fs::path& file)
@@ -348,12 +395,14 @@ CadFile read_brep(const fs::path& file)
 
 }  // namespace
 
-CadFile read_cad_file(const fs::path& file)
+CadFile read_cad_file(const fs::path& file, StepReader reader)
 {
   const QuietMessages quiet;
   const std::string extension = lower_case(file.extension().string());
   return with_occ_errors(file.string(), [&] {
-    if (extension == ".step" || extension == ".stp") return read_step(file);
+    if (extension == ".step" || extension == ".stp") {
+      return reader == StepReader::plain ? read_plain_step(file) : read_step(file);
+    }
     if (extension == ".iges" || extension == ".igs") return read_iges(file);
     return read_brep(file);
   });

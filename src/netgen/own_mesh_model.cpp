@@ -322,13 +322,14 @@ model::TetMeshFile read_mesh_file(const std::filesystem::path& file)
 }  // namespace
 
 model::ModelSource import_own_mesh(const std::filesystem::path& file,
-                                   const model::ImportOptions& options)
+                                   const model::ImportOptions& options, StepReader reader)
 {
   OwnMeshContent content{.is_smooth = options.smooth,
                          .feature_angle_deg = options.feature_angle_deg};
   content.own =
       coarse::make_own_mesh(read_mesh_file(file), file.string(), options.feature_angle_deg);
-  if (!options.cad.empty()) content.cad = import_model(options.cad, {options.feature_angle_deg});
+  if (!options.cad.empty())
+    content.cad = import_model(options.cad, {options.feature_angle_deg}, reader);
   model::ModelSource source{.format = model::Format::own, .file_name = file.string()};
   source.repairs = content.own.repairs;
   if (content.cad) {

@@ -20,7 +20,7 @@ void require_model_file(const std::filesystem::path& /*file*/) { refuse(); }
 bool is_model_name(const std::filesystem::path& /*file*/) { return false; }
 
 model::ModelSource import_model(const std::filesystem::path& /*file*/,
-                                const model::ImportOptions& /*options*/)
+                                const model::ImportOptions& /*options*/, StepReader /*reader*/)
 {
   refuse();
 }

@@ -15,6 +15,11 @@ using Corner = LocalIndex;
 
 using TetVertices = std::array<LocalIndex, 4>;
 
+// Across a face of the boundary that is an outer triangle; kNoIndex is across the others.
+inline constexpr Corner kOuterFace = -2;
+
+[[nodiscard]] constexpr bool is_boundary(Corner across) noexcept { return across < 0; }
+
 [[nodiscard]] constexpr LocalIndex tet_of(Corner corner) noexcept { return corner >> 2; }
 
 // The other corners of its tet: the face opposite to it, outward in a positive tet.

@@ -49,7 +49,7 @@ template <class Stop>  // (LocalIndex tet) -> bool
   for (LocalIndex u = t;;) {
     ring.tets[ring.size++] = u;
     const Corner across = mesh.tet_neighbours[at(exit)];
-    if (across == kNoIndex) return false;
+    if (is_boundary(across)) return false;
     u = tet_of(across);
     if (u == t) return ring.size >= 3;
     if (ring.size == max_size || stop(u)) return false;

@@ -34,6 +34,7 @@ void require_sizes(const TetMesh& mesh)
   require(fits(mesh.vertex_fixed.size(), num_vertices), "flags of fixed vertices are not one each");
   require(fits(mesh.tet_neighbours.size(), mesh.tet_vertices.size()),
           "neighbours of tets are not four each");
+  require(mesh.outer_triangles.size() % 3 == 0, "vertices of outer triangles are not three each");
 }
 
 void require_indices(const TetMesh& mesh)
@@ -44,6 +45,14 @@ void require_indices(const TetMesh& mesh)
     if (v >= 0 && v < num_vertices) continue;
     throw MeshError(fmt::format("tet {} has vertex {} of {}", i / 4, v, num_vertices));
   }
+}
+
+void require_outer_in_range(const TetMesh& mesh)
+{
+  const auto num_vertices = static_cast<LocalIndex>(mesh.vertex_xyz.size() / 3);
+  const auto is_known = [&](LocalIndex v) { return v >= 0 && v < num_vertices; };
+  require(std::ranges::all_of(mesh.outer_triangles, is_known),
+          "an outer triangle has a vertex that the mesh does not have");
 }
 
 void require_four_vertices(const TetMesh& mesh)
@@ -83,6 +92,7 @@ void require_valid_arrays(const TetMesh& mesh)
 {
   require_sizes(mesh);
   require_indices(mesh);
+  require_outer_in_range(mesh);
   require_four_vertices(mesh);
   require_finite(mesh);
 }

@@ -77,7 +77,7 @@ class InsertPass {
     std::vector<std::vector<LocalIndex>> seeds(1, {t});
     for (Corner corner = 4 * t; corner < 4 * t + 4; ++corner) {
       const Corner across = mesh_.tet_neighbours[at(corner)];
-      if (across != kNoIndex) seeds[0].push_back(tet_of(across));
+      if (!is_boundary(across)) seeds[0].push_back(tet_of(across));
     }
     EdgeRing ring;
     for (const TetEdge& edge : kTetEdges) {
@@ -99,7 +99,7 @@ class InsertPass {
       place_point(now);
       if (now.worst < best.worst && loses_no_fixed_vertex(now)) best = now;
       const Corner behind = mesh_.tet_neighbours[at(worst_face(now))];
-      if (now.worst < try_above_ || behind == kNoIndex || now.tets.size() == kMostTets) break;
+      if (now.worst < try_above_ || is_boundary(behind) || now.tets.size() == kMostTets) break;
       now.tets.push_back(tet_of(behind));
     }
     return best;
@@ -123,7 +123,7 @@ class InsertPass {
       for (Corner corner = 4 * t; corner < 4 * t + 4; ++corner) {
         const Corner across = mesh_.tet_neighbours[at(corner)];
         const bool is_inside =
-            across != kNoIndex && std::ranges::count(cavity.tets, tet_of(across)) != 0;
+            !is_boundary(across) && std::ranges::count(cavity.tets, tet_of(across)) != 0;
         if (!is_inside) cavity.faces.push_back(corner);
       }
     }

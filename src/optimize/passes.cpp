@@ -18,6 +18,8 @@ void run_step(WorkingMesh& mesh, Step step, const Schedule& schedule)
       return insert_pass(mesh, schedule);
     case Step::tighten:
       return tighten_bound(mesh);
+    case Step::divide:
+      return divide_pass(mesh);
   }
 }
 

@@ -16,5 +16,6 @@ void smooth_worst_pass(WorkingMesh& mesh, const Schedule& schedule);
 void swap_pass(WorkingMesh& mesh, const Schedule& schedule);
 void collapse_pass(WorkingMesh& mesh, const Schedule& schedule);
 void insert_pass(WorkingMesh& mesh, const Schedule& schedule);
+void divide_pass(WorkingMesh& mesh);
 
 }  // namespace tessera::optimize

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "tessera/mesh/tet_topology.hpp"
@@ -31,7 +32,7 @@ Face make_face(LocalIndex a, LocalIndex b, LocalIndex c)
 struct OpenFace {
   Face wanted;  // As the new tet will see it.
   bool is_outside;
-  Corner side;  // kNoIndex: the boundary of the mesh.
+  Corner side;  // Or is_boundary().
 };
 
 // Two sides of one face.
@@ -65,7 +66,7 @@ class Joiner {
   {
     for (Corner corner = 4 * t; corner < 4 * t + 4; ++corner) {
       const Corner across = mesh_.tet_neighbours[at(corner)];
-      if (across != kNoIndex && is_old(tet_of(across))) continue;
+      if (!is_boundary(across) && is_old(tet_of(across))) continue;
       const auto [a, b, c] = face_vertices(mesh_.tet_vertices, corner);
       open_.push_back({make_face(a, b, c), true, across});
     }
@@ -143,13 +144,36 @@ void write_tet(WorkingMesh& mesh, LocalIndex t, const TetVertices& vertices, dou
   }
 }
 
+// How many outer faces tets have beside one each. `counts`: of each tet.
+std::size_t num_in_excess(std::span<const std::uint8_t> counts)
+{
+  std::size_t num = 0;
+  for (const std::uint8_t count : counts) num += std::max<std::size_t>(count, 1) - 1;
+  return num;
+}
+
+// Whether more outer faces would share a tet with another one.
+bool gathers_outer_faces(const WorkingMesh& mesh, const Replacement& change,
+                         const std::vector<Link>& links)
+{
+  std::vector<std::uint8_t> counts(change.new_tets.size(), 0);
+  for (const Link& link : links) {
+    if (link.first.is_outside && link.first.side == kOuterFace) ++counts[at(tet_of(link.second))];
+  }
+  const std::size_t after = num_in_excess(counts);
+  if (after == 0) return false;
+  counts.clear();
+  for (const LocalIndex t : change.old_tets) counts.push_back(num_outer_faces(mesh, t));
+  return after > num_in_excess(counts);
+}
+
 void write_link(WorkingMesh& mesh, const std::vector<LocalIndex>& slots, const Link& link)
 {
   const auto placed = [&](Corner corner) { return 4 * slots[at(tet_of(corner))] + (corner & 3); };
   const Corner first = link.first.is_outside ? link.first.side : placed(link.first.side);
   const Corner second = placed(link.second);
   mesh.tet_neighbours[at(second)] = first;
-  if (first != kNoIndex) mesh.tet_neighbours[at(first)] = second;
+  if (!is_boundary(first)) mesh.tet_neighbours[at(first)] = second;
 }
 
 }  // namespace
@@ -158,6 +182,7 @@ bool replace_tets(WorkingMesh& mesh, const Replacement& change)
 {
   Joiner joiner(mesh, change);
   if (!joiner.run()) return false;
+  if (mesh.has_outer_faces && gathers_outer_faces(mesh, change, joiner.links())) return false;
   const std::vector<LocalIndex> slots = choose_slots(mesh, change);
   for (std::size_t i = 0; i < slots.size(); ++i) {
     write_tet(mesh, slots[i], change.new_tets[i], change.new_energies[i]);

@@ -18,7 +18,8 @@ struct Replacement {
 // then free ones, then new ones at the end.
 //
 // False, and nothing is done, if the boundaries differ. That is so where a mesh overlaps itself,
-// and an edge or a vertex has one neighbour twice.
+// and an edge or a vertex has one neighbour twice. So it is, too, if more outer faces than before
+// would share a tet with another one.
 [[nodiscard]] bool replace_tets(WorkingMesh& mesh, const Replacement& change);
 
 }  // namespace tessera::optimize

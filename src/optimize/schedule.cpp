@@ -23,8 +23,11 @@ Step parse_step(char letter)
       return Step::insert;
     case 't':
       return Step::tighten;
+    case 'd':
+      return Step::divide;
     default:
-      throw ConfigError("'" + std::string(1, letter) + "' is no step: m, w, s, c, i or t expected");
+      throw ConfigError("'" + std::string(1, letter)
+                        + "' is no step: m, w, s, c, i, t or d expected");
   }
 }
 

@@ -19,7 +19,8 @@ namespace {
 void require_moves_only(const Schedule& schedule)
 {
   const auto changes_tets = [](Step step) {
-    return step == Step::swap || step == Step::collapse || step == Step::insert;
+    return step == Step::swap || step == Step::collapse || step == Step::insert
+           || step == Step::divide;
   };
   if (std::ranges::none_of(schedule.steps, changes_tets)) return;
   throw ConfigError("smooth() moves vertices only: its steps are m, w and t");

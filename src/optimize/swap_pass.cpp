@@ -65,7 +65,7 @@ class SwapPass {
     }
     for (Corner c = 0; try_all && c < 4; ++c) {
       const Corner across = mesh_.tet_neighbours[at(4 * t + c)];
-      if (across == kNoIndex || was_tried_before(tet_of(across), t)) continue;
+      if (is_boundary(across) || was_tried_before(tet_of(across), t)) continue;
       if (find_face_swap(mesh_, 4 * t + c, kLeastGain, swap_)) return true;
     }
     return false;

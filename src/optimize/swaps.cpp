@@ -167,7 +167,7 @@ bool find_edge_removal(const WorkingMesh& mesh, const EdgeRing& ring, double lea
 bool find_face_swap(const WorkingMesh& mesh, Corner corner, double least_gain, Swap& swap)
 {
   const Corner across = mesh.tet_neighbours[at(corner)];
-  if (across == kNoIndex) return false;
+  if (is_boundary(across)) return false;
   const std::array<LocalIndex, 2> old_tets{tet_of(corner), tet_of(across)};
   const double most = cost_of_tets(mesh, old_tets) - least_gain;
   if (most <= 3.0 * kLeastTetCost) return false;

@@ -2,6 +2,7 @@
 #include "optimize/working_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/morton_order.hpp"
+#include "tessera/mesh/tet_topology.hpp"
 
 #include "optimize/input_check.hpp"
 #include "optimize/neighbours.hpp"
@@ -120,9 +122,30 @@ void fix_vertices(const TetMesh& input, WorkingMesh& mesh)
   }
   const auto num_corners = static_cast<Corner>(mesh.tet_vertices.size());
   for (Corner corner = 0; corner < num_corners; ++corner) {
-    if (mesh.tet_neighbours[at(corner)] != kNoIndex) continue;
+    if (!is_boundary(mesh.tet_neighbours[at(corner)])) continue;
     for (const LocalIndex v : face_vertices(mesh.tet_vertices, corner))
       mesh.vertex_fixed[at(v)] = 1;
+  }
+}
+
+// The caller's triangles that are on the boundary.
+void mark_outer_faces(const TetMesh& input, const std::vector<LocalIndex>& new_vertex,
+                      WorkingMesh& mesh)
+{
+  std::vector<std::array<LocalIndex, 3>> outer;
+  outer.reserve(input.outer_triangles.size() / 3);
+  for (std::size_t i = 0; i + 2 < input.outer_triangles.size(); i += 3) {
+    const LocalIndex* v = &input.outer_triangles[i];
+    outer.push_back(
+        mesh::sorted_triangle(new_vertex[at(v[0])], new_vertex[at(v[1])], new_vertex[at(v[2])]));
+  }
+  std::ranges::sort(outer);
+  for (Corner corner = 0; at(corner) < mesh.tet_vertices.size(); ++corner) {
+    if (!is_boundary(mesh.tet_neighbours[at(corner)])) continue;
+    const auto [a, b, c] = face_vertices(mesh.tet_vertices, corner);
+    if (!std::ranges::binary_search(outer, mesh::sorted_triangle(a, b, c))) continue;
+    mesh.tet_neighbours[at(corner)] = kOuterFace;
+    mesh.has_outer_faces = true;
   }
 }
 
@@ -192,6 +215,7 @@ WorkingMesh make_working_mesh(const TetMesh& input, const Kernels& kernels, bool
     mesh.tet_neighbours = reordered_neighbours(input.tet_neighbours, order);
   }
   fix_vertices(input, mesh);
+  if (!input.outer_triangles.empty()) mark_outer_faces(input, new_vertex, mesh);
   return mesh;
 }
 
@@ -254,6 +278,12 @@ void refresh_energies(WorkingMesh& mesh)
   mesh.kernels->energies(mesh.points.data(), mesh.tet_vertices.data(), mesh.num_slots(),
                          mesh.tet_energy.data(), mesh.tet_cost.data());
   mesh.are_energies_stale = false;
+}
+
+std::uint8_t num_outer_faces(const WorkingMesh& mesh, LocalIndex tet)
+{
+  const LocalIndex* across = &mesh.tet_neighbours[4 * at(tet)];
+  return static_cast<std::uint8_t>(std::count(across, across + 4, kOuterFace));
 }
 
 LocalIndex count_not_positive(const WorkingMesh& mesh)

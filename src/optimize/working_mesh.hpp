@@ -32,7 +32,8 @@ struct WorkingMesh {
   std::vector<std::uint8_t> vertex_to_collapse{};  // Something changed since a collapse was tried.
 
   std::vector<LocalIndex> tet_vertices{};    // Shape (num_slots, 4).
-  std::vector<LocalIndex> tet_neighbours{};  // Shape (num_slots, 4): corner across the face.
+  std::vector<LocalIndex> tet_neighbours{};  // Shape (num_slots, 4): corner across the face, or
+                                             // what stands for the boundary: see corners.hpp.
   std::vector<double> tet_energy{};          // As of the last refresh_energies().
   std::vector<double> tet_cost{};
   std::vector<std::uint8_t> tet_to_swap{};  // Its shape changed since swaps were tried.
@@ -42,6 +43,7 @@ struct WorkingMesh {
   std::vector<LocalIndex> star_offsets{};  // Shape (num_vertices + 1).
   std::vector<Corner> star_corners{};
 
+  bool has_outer_faces = false;
   bool are_energies_stale = true;
   bool are_stars_stale = true;
   LocalIndex first_not_positive = kNoIndex;  // Of the caller's tets.
@@ -70,6 +72,9 @@ struct WorkingMesh {
 // The same in the caller's order and without neighbours, for passes that only move vertices. The
 // fixed vertices are the flagged ones alone.
 [[nodiscard]] WorkingMesh make_smoothing_mesh(const TetMesh& mesh);
+
+// Of a tet, from 0 to 4.
+[[nodiscard]] std::uint8_t num_outer_faces(const WorkingMesh& mesh, LocalIndex tet);
 
 // A free vertex of no tet.
 [[nodiscard]] LocalIndex add_vertex(WorkingMesh& mesh, const Vec3& position);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/subdomain/fill_subdomain.hpp"
 
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "tessera/fill/check.hpp"
 #include "tessera/fill/size_samples.hpp"
@@ -51,17 +53,35 @@ RawFill improve_children(const PartitionedMesh& cut, const refine::RefineContext
   return raw;
 }
 
-// The children of the coarse tets, made better by our own optimiser; they may begin folded.
-RawFill optimize_children(const PartitionedMesh& cut, const refine::RefineContext& refine,
-                          LocalIndex subdomain)
+// The triangles of a skin that are on the geometry.
+std::vector<LocalIndex> outer_triangles(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
 {
-  RawFill raw = subdivide(cut, refine, subdomain);
-  optimize::OptimizeResult better =
-      optimize::optimize({.vertex_xyz = std::move(raw.tets.vertex_xyz),
-                          .tet_vertices = std::move(raw.tets.tet_vertices)},
-                         optimize::standard_schedule(), {.untangle = true});
+  std::vector<LocalIndex> outer;
+  for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
+    if (skeleton.triangle_patch[at(skin.triangle_parent[at(t)])] == kNoIndex) continue;
+    const auto first = skin.triangle_vertices.begin() + 3 * std::ptrdiff_t{t};
+    outer.insert(outer.end(), first, first + 3);
+  }
+  return outer;
+}
+
+// Makes tets better by our own optimiser. Children that are to stay are divided only.
+void optimize_tets(const PartitionedMesh& cut, const fill::FillTry& how, RawFill& raw)
+{
+  optimize::TetMesh tets{.vertex_xyz = std::move(raw.tets.vertex_xyz),
+                         .tet_vertices = std::move(raw.tets.tet_vertices)};
+  optimize::Schedule schedule = optimize::standard_schedule();
+  if (how.split_corners) {
+    tets.outer_triangles = outer_triangles(raw.skin, cut.skeleton);
+    schedule.steps.insert(schedule.steps.begin(), optimize::Step::divide);
+  }
+  if (how.kernel == fill::KernelKind::subdivide) {
+    tets.vertex_fixed.assign(tets.vertex_xyz.size() / 3, 1);
+    schedule.steps = optimize::parse_steps("dmmww");
+  }
+  const bool may_be_folded = how.kernel == fill::KernelKind::optimize;
+  optimize::OptimizeResult better = optimize::optimize(tets, schedule, {.untangle = may_be_folded});
   raw.tets = {std::move(better.vertex_xyz), std::move(better.tet_vertices)};
-  return raw;
 }
 
 // What NETGEN makes of the skin alone.
@@ -79,13 +99,23 @@ RawFill mesh_skin(const PartitionedMesh& cut, const refine::RefineContext& refin
   return raw;
 }
 
+RawFill filled_by_kernel(const PartitionedMesh& cut, const refine::RefineContext& refine,
+                         LocalIndex subdomain, const fill::FillTry& how, const fill::Kernel& netgen)
+{
+  if (how.kernel != fill::KernelKind::netgen) return subdivide(cut, refine, subdomain);
+  const auto start = how.start == fill::FillStart::children ? improve_children : mesh_skin;
+  return start(cut, refine, subdomain, how.settings, netgen);
+}
+
 RawFill raw_fill(const PartitionedMesh& cut, const refine::RefineContext& refine,
                  LocalIndex subdomain, const fill::FillTry& how, const fill::Kernel& netgen)
 {
-  if (how.kernel == fill::KernelKind::subdivide) return subdivide(cut, refine, subdomain);
-  if (how.kernel == fill::KernelKind::optimize) return optimize_children(cut, refine, subdomain);
-  const auto start = how.start == fill::FillStart::children ? improve_children : mesh_skin;
-  return start(cut, refine, subdomain, how.settings, netgen);
+  RawFill raw = filled_by_kernel(cut, refine, subdomain, how, netgen);
+  if (how.kernel == fill::KernelKind::optimize
+      || (how.split_corners && fill::all_positive(raw.tets))) {
+    optimize_tets(cut, how, raw);
+  }
+  return raw;
 }
 
 FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain, RawFill& raw)

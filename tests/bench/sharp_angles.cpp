@@ -2,6 +2,7 @@
 #include "sharp_angles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -188,9 +189,9 @@ SharpAngles sharp_angles(const Poly_Triangulation& closed_surface)
 {
   std::map<std::pair<int, int>, int> triangle_at;  // Of each directed edge.
   for (int t = 1; t <= closed_surface.NbTriangles(); ++t) {
-    int corner[3] = {};
+    std::array<int, 3> corner{};
     closed_surface.Triangle(t).Get(corner[0], corner[1], corner[2]);
-    for (int c = 0; c < 3; ++c) triangle_at[{corner[c], corner[(c + 1) % 3]}] = t;
+    for (std::size_t c = 0; c < 3; ++c) triangle_at[{corner[c], corner[(c + 1) % 3]}] = t;
   }
   SharpAngles found;
   for (const auto& [edge, triangle] : triangle_at) {

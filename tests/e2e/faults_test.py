@@ -277,6 +277,36 @@ class OtherCommands(FaultsTest):
                 self.assert_refused(outcome, WRONG_INPUT, "ball.geo", "cannot read this model", CAUSES[kind])
 
 
+class PlainReader(FaultsTest):
+    """A STEP that kills OpenCASCADE's reader with names has another way in."""
+
+    def setUp(self):
+        super().setUp()
+        shutil.copy(program.CONFIGS / "geometry/two_blocks.step", self.folder / "two.step")
+
+    def run_faulty(self, fault, *arguments):
+        return self.run_program(*arguments, env=os.environ | {"TESSERA_TEST_FAULT": fault})
+
+    def test_is_tried_and_named(self):
+        outcome = self.run_faulty("import=segv@0", "mesh", "two.step", "--size", 2, "--kernel", "subdivide",
+                                  "--output", "plain")
+        self.assertEqual(outcome.code, OK, outcome.err)
+        self.assertIn("plain reader", outcome.err + outcome.out)
+        report = json.loads((self.folder / "plain/report.json").read_text())
+        self.assertIn(CAUSES["segv"], report["model"]["repairs"][0])
+        self.assertIn("plain reader", report["model"]["repairs"][1])
+        self.assertAlmostEqual(report["volume"], 1288, places=6)
+
+    def test_serves_info_as_well(self):
+        outcome = self.run_faulty("import=segv@0", "info", "two.step")
+        self.assertEqual(outcome.code, OK, outcome.err)
+        self.assertIn("plain reader", outcome.out)
+
+    def test_that_dies_too_leaves_the_first_error(self):
+        outcome = self.run_faulty("import=segv", "info", "two.step")
+        self.assert_refused(outcome, WRONG_INPUT, "two.step", "cannot read this model", CAUSES["segv"])
+
+
 class WrongNames(FaultsTest):
     def test_unknown_fault_is_refused(self):
         """Else a misspelt name would make every test here pass."""

@@ -83,7 +83,7 @@ def linear(points):
 class Openfoam(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.meshes = {case: Mesh(case, PARTS) for case in ("core", "bracket")}
+        cls.meshes = {case: Mesh(case, PARTS, "fill.split_corners=true") for case in ("core", "bracket")}
         cls.folders = {}
         for case, mesh in cls.meshes.items():
             cls.addClassCleanup(mesh.remove)
@@ -106,26 +106,31 @@ class Openfoam(unittest.TestCase):
         )
 
     def test_check_mesh(self):
+        """All that checkMesh can check; fill.split_corners leaves no tet with fewer than three inner faces."""
         for case in self.meshes:
-            for out in self.run_both(case, "checkMesh"):
-                with self.subTest(case):
-                    self.assertIn("Mesh OK.", out)
+            for options in ((), ("-allGeometry", "-allTopology")):
+                for out in self.run_both(case, "checkMesh", *options):
+                    with self.subTest(case, options=options):
+                        self.assertIn("Upper triangular ordering OK.", out)
+                        self.assertEqual(re.findall(r"\*\*\*(.*)", out), [])
+                        self.assertIn("Mesh OK.", out)
+                        if options:
+                            self.assertIn("Coupled point location match (average 0) OK.", out)
 
-    def test_check_mesh_in_full(self):
-        """With -allGeometry a tet with fewer than three inner faces is an error in OpenFOAM. Every
-        mesh of tets has such ones at its edges."""
-        for case in self.meshes:
-            mesh = self.serial(case)
-            num_outer = numpy.bincount(mesh.owner[len(mesh.neighbour) :], minlength=mesh.num_cells())
-            expected = int((num_outer > 1).sum())
-            self.assertGreater(expected, 0)
-            for out in self.run_both(case, "checkMesh", "-allGeometry", "-allTopology"):
-                with self.subTest(case):
-                    self.assertIn("Upper triangular ordering OK.", out)
-                    self.assertIn("Coupled point location match (average 0) OK.", out)
-                    errors = re.findall(r"\*\*\*(.*)", out)
-                    self.assertEqual(len(errors), 1, errors)
-                    self.assertRegex(errors[0], rf"small determinant .* number of cells: {expected}$")
+    def test_check_mesh_finds_corners_that_are_not_split(self):
+        """So the test above looks at what it is meant to."""
+        mesh = Mesh("core", PARTS)
+        self.addCleanup(mesh.remove)
+        folder = mesh.convert("openfoam-serial")
+        made = Case(folder)
+        num_outer = numpy.bincount(made.owner[len(made.neighbour) :], minlength=made.num_cells())
+        expected = int((num_outer > 1).sum())
+        self.assertGreater(expected, 0)
+        errors = re.findall(
+            r"\*\*\*(.*)", run(["checkMesh", "-allGeometry", "-allTopology"], folder=folder, env=OPENFOAM)
+        )
+        self.assertEqual(len(errors), 1, errors)
+        self.assertRegex(errors[0], rf"small determinant .* number of cells: {expected}$")
 
     def test_volumes_by_zone(self):
         for case, mesh in self.meshes.items():

@@ -27,8 +27,12 @@ struct FillTry {
   KernelKind kernel = KernelKind::netgen;
   FillStart start = FillStart::children;  ///< Of NETGEN; the others have no other.
   KernelSettings settings{};              ///< Of NETGEN; the others have none.
+  bool split_corners = false;             ///< FillOptions::split_corners.
 
-  static auto fields(auto& self) { return std::tie(self.kernel, self.start, self.settings); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.kernel, self.start, self.settings, self.split_corners);
+  }
 };
 
 }  // namespace tessera::fill

@@ -49,6 +49,10 @@ struct FillOptions {
   int optimize_steps = 1;   ///< NETGEN's optimisation rounds, >= 0.
   double grading = 0.3;     ///< Growth of the size away from the skin, in (0, 1].
 
+  /// Whether tets with several faces on the geometry are divided once they are filled. Then the
+  /// improvement of seams makes none.
+  bool split_corners = false;
+
   friend bool operator==(const FillOptions&, const FillOptions&) = default;
 };
 

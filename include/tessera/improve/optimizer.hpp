@@ -19,6 +19,8 @@ struct OptimizeInput {
   const TetMesh& tets;
   LocalIndex num_fixed = 0;
   const std::vector<LocalIndex>& triangle_vertices;  ///< Shape (num_triangles, 3); outward.
+  /// Shape (num_triangles): RegionMesh::triangle_outside. Triangles on the geometry have kNoIndex.
+  const std::vector<LocalIndex>& triangle_outside;
 };
 
 /// @brief What an optimiser does.

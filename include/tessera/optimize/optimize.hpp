@@ -23,6 +23,7 @@ struct Statistics {
   GlobalIndex num_swaps = 0;       ///< Edges removed and faces exchanged.
   GlobalIndex num_collapses = 0;   ///< Vertices removed by collapses.
   GlobalIndex num_insertions = 0;  ///< Vertices put in.
+  GlobalIndex num_divided = 0;     ///< Tets with several outer triangles that were divided.
 };
 
 /// @brief A better mesh with the same boundary.

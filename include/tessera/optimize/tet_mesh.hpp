@@ -23,6 +23,11 @@ struct TetMesh {
   /// if that face is on the boundary, and 4 u + d if it is opposite to corner d of tet u.
   /// Optional: a caller that knows the neighbours saves the search for them. It is checked.
   std::vector<LocalIndex> tet_neighbours{};
+
+  /// Shape (num_outer, 3): triangles of the boundary of which a tet should have one at most, in any
+  /// order. No swap or collapse gives a tet a second one; Step::divide divides those that have
+  /// several. Others than those of the boundary are ignored. Optional.
+  std::vector<LocalIndex> outer_triangles{};
 };
 
 }  // namespace tessera::optimize

@@ -23,6 +23,18 @@ TEST(FallbackSequence, BeginsAsAsked)
   EXPECT_EQ(fallbacks[0].settings.point_order_seed, 0U);
 }
 
+TEST(FallbackSequence, SplitsCornersInAllTriesOrInNone)
+{
+  for (const KernelKind kernel :
+       {KernelKind::netgen, KernelKind::optimize, KernelKind::subdivide}) {
+    for (const bool split : {false, true}) {
+      const auto fallbacks = fallback_sequence({.split_corners = split}, kernel);
+      EXPECT_FALSE(fallbacks.empty());
+      for (const FillTry& fallback : fallbacks) EXPECT_EQ(fallback.split_corners, split);
+    }
+  }
+}
+
 TEST(FallbackSequence, ThenChangesOnlyTheStartThenOnlyTheOrderOfPoints)
 {
   const auto fallbacks = fallback_sequence({}, KernelKind::netgen);

@@ -107,7 +107,7 @@ Plan plan_of(const Body& body, const model::Model& model, const mesh::EdgeLevels
 LocalIndex improve_all(const Body& body, std::vector<FilledPiece>& filled)
 {
   const improve::SeamRegions regions(body.skeleton, body.decomposition);
-  const auto optimizer = subdomain::make_seam_optimizer();
+  const auto optimizer = subdomain::make_seam_optimizer(false);
   std::vector<mesh::Piece> pieces;
   for (const FilledPiece& one : filled) pieces.push_back(one.piece);
   LocalIndex num_accepted = 0;
