@@ -51,8 +51,10 @@ coarse::DividedSurface divide(const coarse::CoarseSurface& surface, const Coarse
                                                      wait_for_stop_signal(), outcome, context);
     if (!divided) context.log.warn("coarse: {}; domains are filled whole", outcome.message);
     if (!divided) return coarse::undivided(surface);
-    context.log.info("coarse: {} domains in {} pieces", surface.num_domains(),
-                     divided->surface.num_domains());
+    if (divided->surface.num_domains() > surface.num_domains()) {
+      context.log.info("coarse: {} domains in {} pieces", surface.num_domains(),
+                       divided->surface.num_domains());
+    }
     return std::move(*divided);
   });
 }

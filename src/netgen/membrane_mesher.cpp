@@ -24,6 +24,9 @@ using ::netgen::PointIndex;
 
 constexpr int kNumImprovements = 3;
 
+// NETGEN's own 200 tries at an edge take minutes where no triangles can be made.
+constexpr int kMostTriesAtEdge = 30;
+
 // Coordinates in which a plane is z = 0 and looks up, and lengths are NETGEN's.
 class PlaneFrame {
  public:
@@ -173,7 +176,9 @@ coarse::Membrane mesh_membrane(const coarse::DomainSkin& skin, const coarse::Mem
   scaled.max_size = scale * std::min(options.max_size, skin.max_size);
   scaled.points.xyz = frame.to(options.points.xyz);
   for (double& size : scaled.points.size) size *= scale;
-  NetgenSession session(coarse_parameters(scaled));
+  ::netgen::MeshingParameters parameters = coarse_parameters(scaled);
+  parameters.giveuptol2d = kMostTriesAtEdge;
+  NetgenSession session(parameters);
   try {
     return session.run("membrane", [&]() -> coarse::Membrane {
       PlaneMesh mesh(skin, frame, session);

@@ -54,8 +54,9 @@ class SwapPass {
   {
     const bool try_all = mesh_.tet_energy[at(t)] > try_all_above_;
     const std::array<bool, 6> is_long = long_edges(t);
-    // A ring with a tet that the pass has left as it is was looked at from there.
-    const auto was_seen = [&](LocalIndex u) { return was_tried_before(u, t); };
+    // A ring with a tet that the pass has left as it is was looked at from there, as closely.
+    const double seen_above = try_all ? try_all_above_ : try_above_;
+    const auto was_seen = [&](LocalIndex u) { return was_tried_before(u, t, seen_above); };
     for (std::size_t e = 0; e < 6; ++e) {
       if (!try_all && !is_long[e]) continue;
       if (walk_ring(mesh_, t, kTetEdges[e], try_all ? kMaxRing : 4, was_seen, ring_)
@@ -65,7 +66,7 @@ class SwapPass {
     }
     for (Corner c = 0; try_all && c < 4; ++c) {
       const Corner across = mesh_.tet_neighbours[at(4 * t + c)];
-      if (is_boundary(across) || was_tried_before(tet_of(across), t)) continue;
+      if (is_boundary(across) || was_seen(tet_of(across))) continue;
       if (find_face_swap(mesh_, 4 * t + c, kLeastGain, swap_)) return true;
     }
     return false;
@@ -88,10 +89,10 @@ class SwapPass {
     return result;
   }
 
-  // Whether the pass came by tet u before t, and left it as it is.
-  [[nodiscard]] bool was_tried_before(LocalIndex u, LocalIndex t) const
+  // Whether the pass came by tet u, of such an energy, before t and left it as it is.
+  [[nodiscard]] bool was_tried_before(LocalIndex u, LocalIndex t, double energy) const
   {
-    return u < t && to_try_[at(u)] != 0 && mesh_.tet_energy[at(u)] >= try_above_;
+    return u < t && to_try_[at(u)] != 0 && mesh_.tet_energy[at(u)] >= energy;
   }
 
   WorkingMesh& mesh_;

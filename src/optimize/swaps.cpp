@@ -177,7 +177,7 @@ bool find_face_swap(const WorkingMesh& mesh, Corner corner, double least_gain, S
   const std::array<LocalIndex, 3> face = face_vertices(mesh.tet_vertices, corner);
   double cost = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const TetVertices tet{near, far, face[(i + 1) % 3], face[i]};
+    const TetVertices tet{near, far, face[i], face[(i + 1) % 3]};
     const double energy = tet_energy(mesh.points[at(tet[0])], mesh.points[at(tet[1])],
                                      mesh.points[at(tet[2])], mesh.points[at(tet[3])]);
     if (!(energy <= mesh.worst_energy)) return false;

@@ -55,8 +55,9 @@ TEST(SharpTets, AreNamedWithTheirPlaces)
     EXPECT_GE(tet.angle_deg, found.worst.front().angle_deg);
     EXPECT_LT(tet.angle_deg, kSmall_deg);
   }
-  EXPECT_LT(found.worst.front().centre[2], 0.1);
-  EXPECT_EQ(std::ranges::count(found.worst.front().patches, 4), 1) << "z = 0";
+  EXPECT_TRUE(std::ranges::any_of(found.worst, [](const SharpTet& tet) {
+    return tet.centre[2] < 0.1 && std::ranges::count(tet.patches, 4) == 1;
+  })) << "one lies on z = 0";
 }
 
 TEST(SharpTets, AreForcedWhereFacesMeetAtASmallAngle)

@@ -125,6 +125,19 @@ TEST(Optimize, InsertionMendsTetsThatNothingElseMends)
   EXPECT_EQ(num_kept, mesh.vertex_fixed.size());
 }
 
+// All edges are on the boundary, so only the face between the two can give way to an edge.
+TEST(Optimize, ThreeTetsAroundAnEdgeTakeThePlaceOfTwo)
+{
+  const TetMesh mesh{
+      .vertex_xyz = {0.0, 0.0, 0.0, 2.0, 0.0, 0.0, -0.2, 1.2, 0.0, 0.6, 0.2, 0.8, 0.3, 0.5, -0.1},
+      .tet_vertices = {0, 1, 2, 3, 0, 2, 1, 4}};
+  const OptimizeResult result = optimize(mesh, {.steps = parse_steps("s")});
+  EXPECT_EQ(result.statistics.num_swaps, 1);
+  EXPECT_EQ(result.tet_vertices.size(), 12U);
+  EXPECT_EQ(std::ranges::count(result.tet_vertices, 3), 3);
+  EXPECT_EQ(std::ranges::count(result.tet_vertices, 4), 3);
+}
+
 TEST(Optimize, IsTheSameForEveryInstructionSet)
 {
   for (const TetMesh& mesh : {jittered_cube(6, 0.9, 11), subdivided_cube(2)}) {
