@@ -151,8 +151,9 @@ bool FillQueue::is_needed(LocalIndex item) const
   const Range& range = ranges_[at(item / most_tries_)];
   if (range.is_done) return false;
   const auto number = static_cast<std::size_t>(item % most_tries_);
+  // What a probe has made may fail when its turn comes, by a limit or on another machine.
   for (const auto& [known, verdict] : range.probed) {
-    if (verdict.is_made && at(known) < number) return false;
+    if (verdict.is_made && range.current <= at(known) && at(known) < number) return false;
   }
   // With a result there is one more try at most, the current one.
   return number == range.current || (number > range.current && !range.tries.is_made);

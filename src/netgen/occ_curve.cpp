@@ -106,7 +106,8 @@ OccCurve::Descent OccCurve::descend(const Vec3& point, double guess) const
   bool converged = false;
   for (int i = 0; i < kMaxDescentSteps && !converged; ++i) {
     const double limit = kMaxStepFraction * (last_ - first_);
-    double step = std::clamp(step_at(target, t), -limit, limit);
+    const auto [newton_step, is_valley] = step_at(target, t);
+    double step = std::clamp(newton_step, -limit, limit);
     double next = t;
     double next_distance = distance;
     for (int halvings = 0; halvings < kMaxHalvings; ++halvings, step *= 0.5) {
@@ -115,7 +116,9 @@ OccCurve::Descent OccCurve::descend(const Vec3& point, double guess) const
       if (next_distance <= distance + kRounding * box_diagonal_) break;
     }
     const double moved = curve_->Value(next).Distance(curve_->Value(t));
-    converged = moved <= kConvergedStep * box_diagonal_;
+    const bool has_stopped = moved <= kConvergedStep * box_diagonal_;
+    if (has_stopped && !is_valley) break;
+    converged = has_stopped;
     if (next_distance > distance + kRounding * box_diagonal_) break;
     t = next;
     distance = next_distance;
@@ -123,8 +126,9 @@ OccCurve::Descent OccCurve::descend(const Vec3& point, double guess) const
   return {{from_occ(curve_->Value(t)), t}, distance, converged};
 }
 
-// Newton's step for the squared distance; Gauss-Newton's where that is no descent direction.
-double OccCurve::step_at(const gp_Pnt& target, double t) const
+// Newton's step for the squared distance; Gauss-Newton's where that is no descent direction. There
+// the distance may be the largest instead of the smallest: opposite to the point on a closed curve.
+OccCurve::Step OccCurve::step_at(const gp_Pnt& target, double t) const
 {
   gp_Pnt value;
   gp_Vec first_derivative;
@@ -133,9 +137,10 @@ double OccCurve::step_at(const gp_Pnt& target, double t) const
   const gp_Vec offset(target, value);
   const double gradient = offset.Dot(first_derivative);
   const double squared_speed = first_derivative.SquareMagnitude();
-  if (squared_speed <= 0.0) return 0.0;
+  if (squared_speed <= 0.0) return {0.0, true};
   const double curvature = squared_speed + offset.Dot(second_derivative);
-  return -gradient / (curvature > kMinRelativePivot * squared_speed ? curvature : squared_speed);
+  const double pivot = kMinRelativePivot * squared_speed;
+  return {-gradient / (curvature > pivot ? curvature : squared_speed), curvature > -pivot};
 }
 
 }  // namespace tessera::netgen

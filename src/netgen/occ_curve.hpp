@@ -52,13 +52,18 @@ class OccCurve {
     bool converged = false;
   };
 
+  struct Step {
+    double t = 0.0;
+    bool is_valley = false;  ///< The distance curves upwards.
+  };
+
   struct End {
     Vec3 point{};
     double tolerance = 0.0;
   };
 
   [[nodiscard]] Descent descend(const Vec3& point, double guess) const;
-  [[nodiscard]] double step_at(const gp_Pnt& target, double t) const;
+  [[nodiscard]] Step step_at(const gp_Pnt& target, double t) const;
 
   double first_ = 0.0;
   double last_ = 0.0;

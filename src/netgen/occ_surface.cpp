@@ -57,6 +57,15 @@ struct Quadratic {
   }
 };
 
+// Whether it curves upwards. Where a guess is on the far side of a closed face, as across its seam,
+// the distance has no slope there either, but is the largest and not the smallest.
+bool is_convex(const Quadratic& newton, const Quadratic& gauss_newton)
+{
+  return newton.uu > -kMinRelativePivot * gauss_newton.uu
+         && newton.vv > -kMinRelativePivot * gauss_newton.vv
+         && newton.determinant() > -kMinRelativePivot * gauss_newton.uu * gauss_newton.vv;
+}
+
 // Newton's step; Gauss-Newton's where that is no descent; each direction by itself where both are
 // singular.
 std::array<double, 2> newton_step(const Quadratic& newton, const Quadratic& gauss_newton)
@@ -140,7 +149,7 @@ OccSurface::Descent OccSurface::descend(const Vec3& point, const Uv& guess) cons
   double distance = value.Distance(target);
   bool converged = false;
   for (int i = 0; i < kMaxDescentSteps && !converged; ++i) {
-    const Uv step = step_at(target, uv);
+    const auto [step, is_valley] = step_at(target, uv);
     Uv next = uv;
     gp_Pnt next_value = value;
     double next_distance = kFarAway;
@@ -151,7 +160,9 @@ OccSurface::Descent OccSurface::descend(const Vec3& point, const Uv& guess) cons
       next_distance = next_value.Distance(target);
       if (next_distance <= distance + kRounding * box_diagonal_) break;
     }
-    converged = next_value.Distance(value) <= kConvergedStep * box_diagonal_;
+    const bool has_stopped = next_value.Distance(value) <= kConvergedStep * box_diagonal_;
+    if (has_stopped && !is_valley) break;
+    converged = has_stopped;
     if (next_distance > distance + kRounding * box_diagonal_) break;
     uv = next;
     value = next_value;
@@ -160,7 +171,7 @@ OccSurface::Descent OccSurface::descend(const Vec3& point, const Uv& guess) cons
   return {{from_occ(value), uv}, distance, converged};
 }
 
-OccSurface::Uv OccSurface::step_at(const gp_Pnt& target, const Uv& uv) const
+OccSurface::Step OccSurface::step_at(const gp_Pnt& target, const Uv& uv) const
 {
   gp_Pnt value;
   std::array<gp_Vec, 2> first;
@@ -192,7 +203,7 @@ OccSurface::Uv OccSurface::step_at(const gp_Pnt& target, const Uv& uv) const
     const double factor = std::abs(step[k]) > limit ? limit / std::abs(step[k]) : 1.0;
     step = {factor * step[0], factor * step[1]};
   }
-  return step;
+  return {step, is_convex(newton, gauss_newton)};
 }
 
 std::array<bool, 2> OccSurface::degenerate_directions(const Uv& uv) const

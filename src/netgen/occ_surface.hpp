@@ -64,6 +64,11 @@ class OccSurface {
     bool converged = false;
   };
 
+  struct Step {
+    Uv uv{};
+    bool is_valley = false;  ///< The distance curves upwards in all directions.
+  };
+
   struct Boundary {
     OccCurve curve;
     Handle(Geom2d_Curve) on_surface;  ///< Along a seam, either of the two.
@@ -71,7 +76,7 @@ class OccSurface {
 
   void collect_boundaries(const TopoDS_Face& face, double box_diagonal);
   [[nodiscard]] Descent descend(const Vec3& point, const Uv& guess) const;
-  [[nodiscard]] Uv step_at(const gp_Pnt& target, const Uv& uv) const;
+  [[nodiscard]] Step step_at(const gp_Pnt& target, const Uv& uv) const;
   [[nodiscard]] std::array<bool, 2> degenerate_directions(const Uv& uv) const;
   [[nodiscard]] bool is_pole(const Uv& uv) const
   {

@@ -22,6 +22,12 @@ def data_begin(content, name):
     return size_at + 8, struct.unpack_from("<Q", content, size_at)[0]
 
 
+def point_ids(piece):
+    content = piece.read_bytes()
+    begin, size = data_begin(content, "GlobalPointIds")
+    return struct.unpack(f"<{size // 8}q", content[begin : begin + size])
+
+
 def flip_bit(file, name, byte, bit=0):
     """Flips a bit of one byte of an array, counted from the array's begin."""
     content = bytearray(file.read_bytes())
@@ -104,12 +110,14 @@ class CheckOfResults(program.ResultTest):
         self.assertIn(f"digest {self.report['digest']}", outcome.out)
 
     def test_lowest_bit_of_a_coordinate(self):
-        _, size = data_begin(self.piece.read_bytes(), "Points")
-        for point in (0, size // 24 - 1):  # On the surface of the piece; inside.
+        ids = point_ids(self.piece)
+        others = {i for other in self.piece.parent.iterdir() if other != self.piece for i in point_ids(other)}
+        shared = next(point for point, i in enumerate(ids) if i in others)
+        for point, kind in ((shared, "point_position"), (len(ids) - 1, None)):  # On a seam; inside.
             with self.subTest(point=point):
                 before = self.piece.read_bytes()
                 flip_bit(self.piece, "Points", 24 * point)
-                self.assert_noticed("point_position" if point == 0 else None)
+                self.assert_noticed(kind)
                 self.piece.write_bytes(before)
 
     def test_bit_of_a_point_id(self):

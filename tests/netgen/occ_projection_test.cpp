@@ -52,6 +52,30 @@ TEST(OccProjection, PointsOfTheSphereKeepItsFormula)
   }
 }
 
+// There the distance has no slope either. A guess comes to lie there between parameters on the two
+// sides of a seam.
+TEST(OccProjection, AGuessOnTheFarSideLeadsToTheNearSide)
+{
+  const auto model = load_own("cylinder.step");
+  const auto mesh = coarse_mesh_of(*model, 6.0);
+  const LocalIndex side = surface_named(mesh, "side");
+  for (const double u : {0.0, 0.3, 2.0, kPi, 5.0}) {
+    const Vec3 near{5.0 * std::cos(u), 5.0 * std::sin(u), 8.0};
+    const Vec3 point{0.8 * near[0], 0.8 * near[1], 8.0};
+    const auto found = model->project_to_surface(side, point, {u + kPi, 8.0});
+    EXPECT_LE(norm(found.xyz - near), 1e-9) << u;
+  }
+  for (std::size_t s = 0; s < mesh.segment_curve.size(); ++s) {
+    const Vec3 p = mesh.position(mesh.segment_vertices[2 * s]);
+    if (p[2] != mesh.position(mesh.segment_vertices[2 * s + 1])[2]) continue;  // The seam.
+    const double t = mesh.segment_t[2 * s];
+    const double opposite = t > kPi ? t - kPi : t + kPi;
+    const Vec3 point{0.8 * p[0], 0.8 * p[1], p[2]};
+    const auto found = model->project_to_curve(mesh.segment_curve[s], point, opposite);
+    EXPECT_LE(norm(found.xyz - p), 1e-7) << t;
+  }
+}
+
 TEST(OccProjection, PolesOfTheSphereAreReachedAndLeft)
 {
   const auto model = load_own("sphere.step");

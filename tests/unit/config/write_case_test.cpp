@@ -209,10 +209,10 @@ TEST(KnownKeys, AreThoseOfTheReferenceWithTheirWords)
       EXPECT_EQ(key.words.front(), "netgen");
     }
     EXPECT_EQ(key.words.size() == 2,
-              key.name == "coarse.optimize" || key.name == "improve.seams"
-                  || key.name == "decompose.method" || key.name == "geometry.smooth"
-                  || key.name == "coarse.mesher" || key.name == "output.cell_quality"
-                  || key.name == "output.report_html")
+              key.name == "coarse.optimize" || key.name == "fill.split_corners"
+                  || key.name == "improve.seams" || key.name == "decompose.method"
+                  || key.name == "geometry.smooth" || key.name == "coarse.mesher"
+                  || key.name == "output.cell_quality" || key.name == "output.report_html")
         << key.name;
   }
 }

@@ -102,6 +102,23 @@ TEST_F(FillQueueTest, AProbeThatDoesNotFailIsMadeOnceMoreToBeKept)
   EXPECT_FALSE(order.is_probe);
 }
 
+// As a limit may end it on a slower machine.
+TEST_F(FillQueueTest, AProbeThatWorkedMayFailWhenItsTurnHasCome)
+{
+  next();
+  const LocalIndex hard = last_;
+  next();
+  end(last_, made());
+  now_s_ = 100.0;
+  EXPECT_TRUE(next().is_probe);
+  end(last_, made());
+  end(hard, failed("no"));
+  EXPECT_EQ(next().number, 1);
+  end(last_, failed("out of time"));
+  EXPECT_EQ(next().number, 2);
+  EXPECT_TRUE(queue_.is_needed(last_));
+}
+
 TEST_F(FillQueueTest, ProbesOfAnEasyRangeAreNoLongerNeeded)
 {
   next();
