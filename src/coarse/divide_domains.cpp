@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMostPieces = 256.0;
 
-// Of the largest edge, by which a plane is moved if no membrane can be made along it.
+// Of the mean edge, by which a plane is moved if no membrane can be made along it.
 constexpr std::array kShifts{0.0, 0.4, -0.4};
 
 double volume_of(const DomainSkin& skin)

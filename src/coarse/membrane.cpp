@@ -2,7 +2,6 @@
 #include "tessera/coarse/membrane.hpp"
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <span>
 #include <utility>

@@ -35,16 +35,8 @@ class NullBuffer final : public std::streambuf {
   std::streamsize xsputn(const char*, std::streamsize n) override { return n; }
 };
 
-// Passes everything on to standard error and keeps the end of it.
-class KeepingBuffer final : public std::streambuf {
- public:
-  [[nodiscard]] const std::string& kept() const { return kept_; }
-  void clear() { kept_.clear(); }
-
- private:
-  static constexpr std::size_t kMostKept =
-      2000;  // Characters; a loop of warnings must not fill memory.
-
+// Gives single characters to xsputn() too.
+class UnbufferedStream : public std::streambuf {
   int_type overflow(int_type c) override
   {
     if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
@@ -52,6 +44,17 @@ class KeepingBuffer final : public std::streambuf {
     xsputn(&character, 1);
     return c;
   }
+};
+
+// Passes everything on to standard error and keeps the end of it.
+class KeepingBuffer final : public UnbufferedStream {
+ public:
+  [[nodiscard]] const std::string& kept() const { return kept_; }
+  void clear() { kept_.clear(); }
+
+ private:
+  static constexpr std::size_t kMostKept =
+      2000;  // Characters; a loop of warnings must not fill memory.
 
   std::streamsize xsputn(const char* text, std::streamsize n) override
   {
@@ -66,20 +69,12 @@ class KeepingBuffer final : public std::streambuf {
 
 // Passes everything on to standard output and reads the lines. It asks NETGEN to stop if nothing
 // will come of what it does: NETGEN looks at the flag in all loops of its surface meshers.
-class ListeningBuffer final : public std::streambuf {
+class ListeningBuffer final : public UnbufferedStream {
  public:
   [[nodiscard]] const std::string& verdict() const { return messages_.verdict(); }
   void forget() { messages_ = {}; }
 
  private:
-  int_type overflow(int_type c) override
-  {
-    if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
-    const char character = traits_type::to_char_type(c);
-    xsputn(&character, 1);
-    return c;
-  }
-
   std::streamsize xsputn(const char* text, std::streamsize n) override
   {
     std::cout.write(text, n);

@@ -194,21 +194,11 @@ class LoopMaker {
   // What a parameter is worth in lengths, so that gaps can be told from intervals.
   void set_scales()
   {
-    std::array<double, 2> sum{};
-    std::size_t count = 0;
-    for (const FaceSide& side : made_.sides) {
-      for (const Point& uv : side.uv) {
-        gp_Pnt point;
-        gp_Vec by_u;
-        gp_Vec by_v;
-        surface_->D1(uv[0], uv[1], point, by_u, by_v);
-        sum[0] += by_u.SquareMagnitude();
-        sum[1] += by_v.SquareMagnitude();
-        ++count;
-      }
-    }
+    std::vector<Point> uv;
+    for (const FaceSide& side : made_.sides) uv.insert(uv.end(), side.uv.begin(), side.uv.end());
+    const std::array<double, 2> speeds = parameter_speeds(surface_, uv);
     for (std::size_t k = 0; k < 2; ++k) {
-      if (count > 0 && sum[k] > 0.0) scale_[k] = std::sqrt(sum[k] / static_cast<double>(count));
+      if (speeds[k] > 0.0) scale_[k] = speeds[k];
     }
   }
 
@@ -297,6 +287,24 @@ class LoopMaker {
 FaceLoops loops_of(const TopoDS_Face& face, const Closeness& closeness)
 {
   return LoopMaker(face, closeness).run();
+}
+
+std::array<double, 2> parameter_speeds(const Handle(Geom_Surface) & surface,
+                                       const std::vector<Point>& uv)
+{
+  std::array<double, 2> sum{};
+  for (const Point& at_point : uv) {
+    gp_Pnt point;
+    gp_Vec by_u;
+    gp_Vec by_v;
+    surface->D1(at_point[0], at_point[1], point, by_u, by_v);
+    sum[0] += by_u.SquareMagnitude();
+    sum[1] += by_v.SquareMagnitude();
+  }
+  const auto speed = [&](double total) {
+    return total > 0.0 ? std::sqrt(total / static_cast<double>(uv.size())) : 0.0;
+  };
+  return {speed(sum[0]), speed(sum[1])};
 }
 
 }  // namespace tessera::netgen

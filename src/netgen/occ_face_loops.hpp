@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Geom_Surface.hxx>
@@ -38,5 +39,10 @@ struct FaceLoops {
 /// @param[in] face Upright: without the orientation that a solid gives it.
 /// @throws Standard_Failure
 [[nodiscard]] FaceLoops loops_of(const TopoDS_Face& face, const Closeness& closeness);
+
+/// @brief Lengths of the surface's derivatives by its parameters: root of the mean square over some
+/// points of it, 0 without any.
+[[nodiscard]] std::array<double, 2> parameter_speeds(const Handle(Geom_Surface) & surface,
+                                                     const std::vector<PlaneMesh::Point>& uv);
 
 }  // namespace tessera::netgen

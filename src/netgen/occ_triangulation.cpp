@@ -78,17 +78,9 @@ class FaceTriangulator {
  private:
   void set_scales()
   {
-    std::array<double, 2> sum{};
-    for (const Point& uv : boundary_.uv) {
-      gp_Pnt point;
-      gp_Vec by_u;
-      gp_Vec by_v;
-      surface_->D1(uv[0], uv[1], point, by_u, by_v);
-      sum[0] += by_u.SquareMagnitude();
-      sum[1] += by_v.SquareMagnitude();
-    }
+    const std::array<double, 2> speeds = parameter_speeds(surface_, boundary_.uv);
     for (std::size_t k = 0; k < 2; ++k) {
-      if (sum[k] > 0.0) scale_[k] = std::sqrt(sum[k] / static_cast<double>(boundary_.uv.size()));
+      if (speeds[k] > 0.0) scale_[k] = speeds[k];
     }
   }
 

@@ -37,6 +37,17 @@ class FillQueueTest : public ::testing::Test {
     return {.is_made = true, .is_poor = is_poor, .angle_deg = angle};
   }
 
+  // Range 1 is at its first try for long, range 0 is done.
+  LocalIndex begin_hard_range()
+  {
+    next();
+    const LocalIndex hard = last_;
+    next();
+    end(last_, made());
+    now_s_ = 100.0;
+    return hard;
+  }
+
   LocalIndex last_ = 0;
 };
 
@@ -60,11 +71,7 @@ TEST_F(FillQueueTest, AFailureLeadsToTheNextTryBeforeANewRange)
 
 TEST_F(FillQueueTest, IdleRanksProbeTheLaterTriesOfAHardRange)
 {
-  next();
-  const LocalIndex hard = last_;
-  next();
-  end(last_, made());
-  now_s_ = 100.0;
+  const LocalIndex hard = begin_hard_range();
   for (const LocalIndex number : {1, 2}) {
     const FillOrder order = next();
     EXPECT_EQ(std::pair(order.range, order.number), std::pair(1, number));
@@ -88,11 +95,7 @@ TEST_F(FillQueueTest, IdleRanksProbeTheLaterTriesOfAHardRange)
 
 TEST_F(FillQueueTest, AProbeThatDoesNotFailIsMadeOnceMoreToBeKept)
 {
-  next();
-  const LocalIndex hard = last_;
-  next();
-  end(last_, made());
-  now_s_ = 100.0;
+  const LocalIndex hard = begin_hard_range();
   EXPECT_TRUE(next().is_probe);
   end(last_, made());
   EXPECT_FALSE(queue_.next());  // Nothing behind it is needed.
@@ -105,11 +108,7 @@ TEST_F(FillQueueTest, AProbeThatDoesNotFailIsMadeOnceMoreToBeKept)
 // As a limit may end it on a slower machine.
 TEST_F(FillQueueTest, AProbeThatWorkedMayFailWhenItsTurnHasCome)
 {
-  next();
-  const LocalIndex hard = last_;
-  next();
-  end(last_, made());
-  now_s_ = 100.0;
+  const LocalIndex hard = begin_hard_range();
   EXPECT_TRUE(next().is_probe);
   end(last_, made());
   end(hard, failed("no"));
