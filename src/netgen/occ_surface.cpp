@@ -282,21 +282,10 @@ OccSurface::Descent OccSurface::nearest_boundary(const Vec3& point) const
 std::vector<OccSurface::Uv> OccSurface::descent_starts(const Vec3& point) const
 {
   const gp_Pnt target = to_occ(point);
-  const int rows = num_samples_[0];
-  const int columns = num_samples_[1];
-  const auto sample = [&](int i, int j) {
-    const auto& [u, v] = directions_;
-    return Uv{u.face_first + u.span() * (i + 0.5) / rows,
-              v.face_first + v.span() * (j + 0.5) / columns};
-  };
+  const auto [rows, columns] = num_samples_;
   std::vector<double> distances;
-  for (int i = 0; i < rows; ++i) {
-    for (int j = 0; j < columns; ++j) {
-      const Uv uv = sample(i, j);
-      distances.push_back(surface_->Value(uv[0], uv[1]).SquareDistance(target));
-    }
-  }
-  const auto distance_at = [&](int i, int j) {
+  for (const gp_Pnt& sample : samples()) distances.push_back(sample.SquareDistance(target));
+  const auto distance_at = [&, rows = rows, columns = columns](int i, int j) {
     const bool outside = i < 0 || j < 0 || i >= rows || j >= columns;
     return outside ? kFarAway : distances[at(i * columns + j)];
   };
@@ -306,11 +295,30 @@ std::vector<OccSurface::Uv> OccSurface::descent_starts(const Vec3& point) const
       const double here = distance_at(i, j);
       if (here <= distance_at(i - 1, j) && here <= distance_at(i + 1, j)
           && here <= distance_at(i, j - 1) && here <= distance_at(i, j + 1)) {
-        starts.push_back(sample(i, j));
+        starts.push_back(sample_parameters(i, j));
       }
     }
   }
   return starts;
+}
+
+OccSurface::Uv OccSurface::sample_parameters(int row, int column) const
+{
+  const auto& [u, v] = directions_;
+  return {u.face_first + u.span() * (row + 0.5) / num_samples_[0],
+          v.face_first + v.span() * (column + 0.5) / num_samples_[1]};
+}
+
+const std::vector<gp_Pnt>& OccSurface::samples() const
+{
+  if (!samples_.empty()) return samples_;
+  for (int row = 0; row < num_samples_[0]; ++row) {
+    for (int column = 0; column < num_samples_[1]; ++column) {
+      const Uv uv = sample_parameters(row, column);
+      samples_.push_back(surface_->Value(uv[0], uv[1]));
+    }
+  }
+  return samples_;
 }
 
 double OccSurface::on_branch_of(double value, double reference, const Direction& direction)

@@ -90,6 +90,8 @@ class OccSurface {
   [[nodiscard]] Descent nearest_inside(const Vec3& point) const;
   [[nodiscard]] Descent nearest_boundary(const Vec3& point) const;
   [[nodiscard]] std::vector<Uv> descent_starts(const Vec3& point) const;
+  [[nodiscard]] Uv sample_parameters(int row, int column) const;
+  [[nodiscard]] const std::vector<gp_Pnt>& samples() const;
   [[nodiscard]] static double on_branch_of(double value, double reference,
                                            const Direction& direction);
   static void unwrap(std::span<double* const> values, const Direction& direction);
@@ -100,7 +102,8 @@ class OccSurface {
   std::unique_ptr<OccTrim> trim_{};
   double tolerance_ = 0.0;
   double box_diagonal_ = 0.0;
-  std::array<int, 2> num_samples_{};  ///< Grid of the global search.
+  std::array<int, 2> num_samples_{};       ///< Grid of the global search.
+  mutable std::vector<gp_Pnt> samples_{};  ///< On that grid, row by row; made when first asked for.
 };
 
 }  // namespace tessera::netgen
