@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "own_patches.hpp"
 
 namespace tessera::coarse {
 namespace {
 
-Vec3 unit(const Vec3& v)
-{
-  const double length = norm(v);
-  return length > 0.0 ? (1.0 / length) * v : v;
-}
+// Sine of the angle between two sharp edges from which on they say what the normal between them is.
+constexpr double kLeastTurn = 0.3;
 
 // The point of a cubic next to its end `from`. Towards a circle's other end, with the circle's
 // tangent, it is that of the cubic nearest to the arc.
@@ -65,8 +63,8 @@ SmoothSurface::SmoothSurface(const mesh::CoarseMesh& mesh, double feature_angle_
     face_normals_.push_back(unit(cross(mesh.position(v[1]) - a, mesh.position(v[2]) - a)));
   }
   find_sharp_edges(feature_angle_deg);
-  find_normals(feature_angle_deg);
   make_segments(feature_angle_deg);
+  find_normals(feature_angle_deg);
   make_patches();
   mesh_ = nullptr;
 }
@@ -132,8 +130,38 @@ void SmoothSurface::spread_normal(LocalIndex vertex, std::size_t first, std::vec
       }
     }
   }
-  const Vec3 normal = unit(sum);
+  std::vector<std::size_t> around;
+  for (const auto& [corner, sign] : corners) around.push_back(corner);
+  const Vec3 normal = across_sharp_edges(unit(sum), vertex, around);
   for (const auto& [corner, sign] : corners) corner_normals_[corner] = sign * normal;
+}
+
+// The normal at right angles to the sharp edges at the borders of the corners around a vertex.
+// Where these edges are one smooth curve, or nearly so, they leave it a choice.
+Vec3 SmoothSurface::across_sharp_edges(const Vec3& normal, LocalIndex vertex,
+                                       const std::vector<std::size_t>& corners) const
+{
+  std::set<std::size_t> borders;
+  for (const std::size_t corner : corners) {
+    const LocalIndex* v = &mesh_->face_vertices[corner - corner % 3];
+    for (const std::size_t c : {(corner + 1) % 3, (corner + 2) % 3}) {
+      const auto sharp = sharp_.find({std::min(vertex, v[c]), std::max(vertex, v[c])});
+      if (sharp != sharp_.end()) borders.insert(sharp->second);
+    }
+  }
+  if (borders.empty() || borders.size() > 2) return normal;
+  const auto away = [&](std::size_t row) {
+    const Segment& segment = segments_[row];
+    const auto& p = segment.points;
+    return unit(segment.vertices[0] == vertex ? p[1] - p[0] : p[2] - p[3]);
+  };
+  const Vec3 first = away(*borders.begin());
+  const Vec3 second = away(*borders.rbegin());
+  const Vec3 both = cross(first, second);
+  const double along = dot(both, normal);
+  if (std::abs(along) > kLeastTurn) return (along > 0.0 ? 1.0 : -1.0) * unit(both);
+  const Vec3 curve = dot(first, second) < 0.0 ? unit(first - second) : first;
+  return in_plane(normal, curve);
 }
 
 // Of the curve that goes on through the vertex, away from it along the segment; zero at its end.
@@ -192,19 +220,15 @@ std::array<Vec3, 2> SmoothSurface::side_points(LocalIndex face, std::size_t side
 void SmoothSurface::make_patches()
 {
   for (LocalIndex f = 0; f < mesh_->num_faces(); ++f) {
-    Patch patch{};
-    Vec3 corners{};
-    Vec3 sides{};
+    GregoryPatch::Corners corners{};
+    GregoryPatch::Corners normals{};
+    GregoryPatch::Sides sides{};
     for (std::size_t c = 0; c < 3; ++c) {
-      patch[c] = mesh_->position(mesh_->face_vertices[3 * at(f) + c]);
-      corners = corners + patch[c];
-      const auto points = side_points(f, c);
-      patch[3 + 2 * c] = points[0];
-      patch[4 + 2 * c] = points[1];
-      sides = sides + points[0] + points[1];
+      corners[c] = mesh_->position(mesh_->face_vertices[3 * at(f) + c]);
+      normals[c] = corner_normals_[3 * at(f) + c];
+      sides[c] = side_points(f, c);
     }
-    patch[9] = 0.25 * sides - (1.0 / 6.0) * corners;
-    patches_.push_back(patch);
+    patches_.emplace_back(corners, sides, normals);
   }
 }
 
@@ -213,13 +237,7 @@ Vec3 SmoothSurface::on_face(const model::SurfaceParameters& uv) const
   const std::size_t face = row_of(uv[0], patches_.size());
   const double b = uv[0] - 2.0 * static_cast<double>(face);
   const double c = uv[1];
-  const double a = 1.0 - b - c;
-  const Patch& p = patches_[face];
-  const Vec3 corners = (a * a * a) * p[0] + (b * b * b) * p[1] + (c * c * c) * p[2];
-  const Vec3 ab = (3.0 * a * b) * (a * p[3] + b * p[4]);
-  const Vec3 bc = (3.0 * b * c) * (b * p[5] + c * p[6]);
-  const Vec3 ca = (3.0 * c * a) * (c * p[7] + a * p[8]);
-  return corners + ab + bc + ca + (6.0 * a * b * c) * p[9];
+  return patches_[face].at({1.0 - b - c, b, c});
 }
 
 Vec3 SmoothSurface::on_segment(double t) const

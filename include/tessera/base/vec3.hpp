@@ -44,6 +44,13 @@ inline constexpr Vec3 kNoPoint{std::numeric_limits<double>::infinity(),
 
 [[nodiscard]] inline double norm(const Vec3& a) noexcept { return std::sqrt(dot(a, a)); }
 
+/// @brief Of length 1 with this direction; zero stays zero.
+[[nodiscard]] inline Vec3 unit(const Vec3& a) noexcept
+{
+  const double length = norm(a);
+  return length > 0.0 ? (1.0 / length) * a : a;
+}
+
 [[nodiscard]] inline double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) noexcept
 {
   return 0.5 * norm(cross(b - a, c - a));

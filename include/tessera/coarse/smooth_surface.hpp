@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "tessera/coarse/gregory_patch.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/model/model.hpp"
 
@@ -12,11 +13,11 @@ namespace tessera::coarse {
 
 /// @brief A curved surface through the boundary vertices of a tet mesh, with its sharp edges.
 ///
-/// Every face has a cubic patch, a point-normal triangle @cite vlachos2001. Its normals at the
-/// corners are means over the faces around that no sharp edge separates; so faces meet with one
-/// normal at vertices, and nearly so along edges. A sharp edge is a cubic whose tangents are means
-/// over its neighbours along the same curve. An edge is sharp by the angle between its faces; one
-/// with more than two faces counts as sharp as well. On a circle and a sphere, handles have the
+/// Every face has a curved patch, and faces meet with one tangent plane along edges that are not
+/// sharp. Normals at corners are means over the faces around that no sharp edge separates, at right
+/// angles to the sharp edges between which these lie. A sharp edge is a cubic whose tangents are
+/// means over its neighbours along the same curve. An edge is sharp by the angle between its faces;
+/// one with more than two faces counts as sharp as well. On a circle and a sphere, handles have the
 /// length of the circle's arc.
 ///
 /// Parameters say which face or segment is meant: corners of face f are (2f, 0), (2f + 1, 0) and
@@ -43,13 +44,12 @@ class SmoothSurface {
     std::array<Vec3, 4> points{};  // Bezier's, from the first vertex on.
   };
 
-  /// Bezier's points: corners 0 to 2, then two on each side (01, 12, 20), then the middle one.
-  using Patch = std::array<Vec3, 10>;
-
   void find_sharp_edges(double feature_angle_deg);
   void find_normals(double feature_angle_deg);
   void spread_normal(LocalIndex vertex, std::size_t first, std::vector<char>& is_done,
                      double least_cosine);
+  [[nodiscard]] Vec3 across_sharp_edges(const Vec3& normal, LocalIndex vertex,
+                                        const std::vector<std::size_t>& corners) const;
   void make_segments(double feature_angle_deg);
   void make_patches();
   [[nodiscard]] std::array<Vec3, 2> side_points(LocalIndex face, std::size_t side) const;
@@ -63,7 +63,7 @@ class SmoothSurface {
   std::vector<Vec3> face_normals_{};
   std::vector<Vec3> corner_normals_{};  // Shape (num_faces, 3).
   std::vector<Segment> segments_{};
-  std::vector<Patch> patches_{};
+  std::vector<GregoryPatch> patches_{};
 };
 
 }  // namespace tessera::coarse

@@ -107,6 +107,47 @@ TEST(SmoothSurface, HasItsVerticesAndTheSamePointsOnBothSidesOfAnEdge)
   EXPECT_EQ(2 * num_compared, mesh.face_vertices.size());
 }
 
+// Normal of a face's patch beside its side, at `t` of the way along it, by differences.
+Vec3 normal_at(const SmoothSurface& surface, LocalIndex face, std::size_t side, double t)
+{
+  constexpr double kStep = 1e-6;
+  const auto point = [&](double along, double inward) {
+    std::array<double, 3> weights{};
+    weights[side] = 1.0 - along - 0.5 * inward;
+    weights[(side + 1) % 3] = along - 0.5 * inward;
+    weights[(side + 2) % 3] = inward;
+    return surface.on_face({2.0 * face + weights[1], weights[2]});
+  };
+  return unit(
+      cross(point(t + kStep, 0.0) - point(t - kStep, 0.0), point(t, kStep) - point(t, 0.0)));
+}
+
+TEST(SmoothSurface, HasOneTangentPlaneOnBothSidesOfAnEdge)
+{
+  mesh::CoarseMesh mesh = ball(3);
+  for (std::size_t i = 0; i < mesh.vertex_xyz.size(); i += 3) mesh.vertex_xyz[i] *= 1.7;
+  const SmoothSurface surface(mesh, 80.0);  // No edge is sharp.
+  std::map<std::pair<LocalIndex, LocalIndex>, std::array<Vec3, 3>> normals_of_edge;
+  std::size_t num_compared = 0;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    for (std::size_t side = 0; side < 3; ++side) {
+      const LocalIndex a = mesh.face_vertices[3 * at(f) + side];
+      const LocalIndex b = mesh.face_vertices[3 * at(f) + (side + 1) % 3];
+      std::array<Vec3, 3> normals{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double t = 0.25 * static_cast<double>(i + 1);
+        normals[i] = normal_at(surface, f, side, a < b ? t : 1.0 - t);
+      }
+      const auto [found, is_new] = normals_of_edge.try_emplace(std::minmax(a, b), normals);
+      for (std::size_t i = 0; !is_new && i < 3; ++i, ++num_compared) {
+        EXPECT_LT(norm(cross(found->second[i], normals[i])), 1e-4);  // Of differences.
+        EXPECT_GT(dot(found->second[i], normals[i]), 0.0);
+      }
+    }
+  }
+  EXPECT_EQ(2 * num_compared, 3 * mesh.face_vertices.size());
+}
+
 TEST(SmoothSurface, ACubeStaysACube)
 {
   mesh::CoarseMesh cube = testing::kuhn_cube(2);

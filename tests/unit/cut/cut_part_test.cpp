@@ -29,8 +29,6 @@ PartSurface surface_of(const model::ModelDescription& model)
   return solid_surfaces(model, 0.5).front().surface;
 }
 
-Vec3 unit(const Vec3& v) { return (1.0 / norm(v)) * v; }
-
 // Planes that meet all samples, in directions of no symmetry.
 std::vector<Plane> planes_through(const PartSurface& part)
 {
