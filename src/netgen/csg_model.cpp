@@ -66,6 +66,7 @@ std::unique_ptr<Geometry> parse(const std::string& text, const std::string& file
   if (geometry == nullptr) {
     throw InputError(file_name + ": is not a NETGEN geometry: its first word is not 'algebraic3d'");
   }
+  describe_cones_by_circles(*geometry);
   geometry->FindIdenticSurfaces(kIdenticSurfaces * geometry->MaxSize());
   return geometry;
 }

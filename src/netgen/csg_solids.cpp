@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/csg_solids.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <sstream>
@@ -266,6 +267,27 @@ void for_each_solid(Geometry& geometry, const Visit& visit)
   }
 }
 
+class ConesByCircles final : public ::netgen::SolidIterator {
+ public:
+  // NOLINTNEXTLINE(readability-identifier-naming): NETGEN's
+  void Do(Solid* solid) override
+  {
+    auto* const cone = dynamic_cast<::netgen::Cone*>(solid->GetPrimitive());
+    if (cone == nullptr) return;
+    const Numbers numbers(*cone);
+    const std::array<double, 2> radii{numbers.all.at(6), numbers.all.at(7)};
+    if (!is_cone(numbers) || std::min(radii[0], radii[1]) != 0.0) return;
+    const std::size_t apex = radii[0] == 0.0 ? 0 : 1;
+    const Vec3 middle = 0.5 * (numbers.point(0) + numbers.point(3));
+    std::vector<double> changed = numbers.all;
+    std::ranges::copy(middle, changed.begin() + 3 * static_cast<std::ptrdiff_t>(apex));
+    changed[6 + apex] = 0.5 * radii[1 - apex];
+    ::netgen::Array<double> values;
+    for (const double value : changed) values.Append(value);
+    cone->SetPrimitiveData(values);
+  }
+};
+
 class Primitives final : public ::netgen::SolidIterator {
  public:
   // NOLINTNEXTLINE(readability-identifier-naming): NETGEN's
@@ -280,6 +302,14 @@ class Primitives final : public ::netgen::SolidIterator {
 };
 
 }  // namespace
+
+void describe_cones_by_circles(Geometry& geometry)
+{
+  for_each_solid(geometry, [](int, Solid& solid) {
+    ConesByCircles cones;
+    solid.IterateSolid(cones);
+  });
+}
 
 bool has_apex(Geometry& geometry, double tolerance)
 {

@@ -9,6 +9,11 @@
 
 namespace tessera::netgen {
 
+/// @brief Describes each cone that the file gives by its apex by two circles of the same surface.
+/// From the smaller radius NETGEN takes how much a cone bends at most: with 0 it halves boxes
+/// around points of other surfaces until it gives up, however far the apex is. Local.
+void describe_cones_by_circles(::netgen::CSGeometry& geometry);
+
 /// @brief Whether the apex of a cone lies on the surface of a solid that is to be meshed. NETGEN's
 /// CSG does not know such points: it mostly follows an edge from there for ever. Local.
 /// @param[in] tolerance So near to a surface a point is on it, file length unit.

@@ -87,6 +87,22 @@ TEST(CsgApex, IsNoMatterWhereItIsCutOff)
   EXPECT_FALSE(model->has_parameters());  // NETGEN's CSG has it.
 }
 
+// NETGEN has found no end of points of other surfaces, as the cone is given by its apex.
+TEST(CsgApex, IsNoMatterOutsideTheSolid)
+{
+  const auto model = netgen::load_model(
+      source_of("solid ball = sphere (-0.25, 0, -0.25; 0.5);\n"
+                "solid tip = cone (0.25, 0.75, 0; 0.75; 0.25, 1.75, 0; 0)\n"
+                "  and plane (0.25, 0.75, 0; 0, -1, 0) and plane (0.25, 1.75, 0; 0, 1, 0);\n"
+                "solid stump = cone (0, -0.25, 0.25; 0.5; 0, 1.25, 0.25; 0.21)\n"
+                "  and plane (0, -0.25, 0.25; 0, -1, 0) and plane (0, 1.25, 0.25; 0, 1, 0);\n"
+                "solid all = (ball or tip) and stump;\ntlo all;\n"));
+  EXPECT_FALSE(model->has_parameters());
+  coarse::CoarseOptions options;
+  options.max_size = 0.3;
+  EXPECT_GT(netgen::make_coarse_mesher(*model)->generate(options).num_tets(), 0);
+}
+
 TEST(CsgApex, IsRefusedBesideWhatOpenCascadeDoesNotHave)
 {
   try {
