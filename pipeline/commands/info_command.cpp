@@ -26,7 +26,7 @@
 namespace tessera::pipeline {
 namespace {
 
-constexpr jobs::JobLimits kInfoLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
+constexpr jobs::JobLimits kInfoLimits{.cpu_s = 180.0, .stall_s = 60.0, .memory_gib = 8.0};
 
 std::string describe_mesh(const std::filesystem::path& file)
 {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tessera/base/hash.hpp"
+#include "tessera/coarse/thin_walls.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/fill/fallbacks.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
@@ -61,6 +62,15 @@ void require_same_run(const RunResult& run, const RunState* state, const RunCont
   });
 }
 
+// What was tried for it counts as well.
+void replace(CoarseResult& first, CoarseResult second)
+{
+  second.tries += first.tries;
+  second.failures.insert(second.failures.begin(), first.failures.begin(), first.failures.end());
+  second.was_limited = second.was_limited || first.was_limited;
+  first = std::move(second);
+}
+
 CoarseResult named_coarse_mesh(const RunResult& run, const model::NamedParts& parts,
                                RunContext& context)
 {
@@ -69,7 +79,45 @@ CoarseResult named_coarse_mesh(const RunResult& run, const model::NamedParts& pa
   return coarse;
 }
 
-// A coarse mesh, and once more where it is too coarse for the sizes.
+// The remesher sees walls by itself, Gmsh takes no sizes at points, and a mesh is as it is.
+bool may_have_finer_walls(const RunResult& run)
+{
+  const coarse::CoarseOptions& options = run.coarse.options;
+  return options.surface_mesher == coarse::SurfaceMesher::netgen
+         && options.mesher == coarse::Mesher::netgen && run.planes.tree.num_parts == 0
+         && !model::is_mesh_name(run.resolved.geometry.file);
+}
+
+double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
+{
+  const coarse::SharpTets sharp = coarse::find_sharp_tets(mesh, kSharpAngle_deg);
+  return sharp.worst.empty() ? kSharpAngle_deg : sharp.worst.front().angle_deg;
+}
+
+// Once more with smaller edges where walls are thin. The better one of the two counts.
+void refine_thin_walls(RunResult& run, const model::NamedParts& parts, RunContext& context)
+{
+  if (!on_root(context.comm, [&] { return may_have_finer_walls(run); })) return;
+  const mesh::SizePoints walls = on_root(context.comm, [&] {
+    return coarse::sizes_of_thin_walls(run.coarse.mesh, kSharpAngle_deg,
+                                       run.coarse.options.max_size);
+  });
+  if (walls.size.empty()) return;
+  coarse::CoarseOptions options = on_root(context.comm, [&] { return run.coarse.options; });
+  options.points.xyz.insert(options.points.xyz.end(), walls.xyz.begin(), walls.xyz.end());
+  options.points.size.insert(options.points.size.end(), walls.size.begin(), walls.size.end());
+  context.log.info("coarse: walls are thin for its edges; once more with smaller ones there");
+  CoarseResult finer = run_coarse_try(run.resolved, options, context);
+  const bool is_better = on_root(context.comm, [&] {
+    return finer.mesh.num_tets() > 0
+           && smallest_unforced_angle(finer.mesh) > smallest_unforced_angle(run.coarse.mesh);
+  });
+  if (!is_better) return;
+  model::apply_names(parts, finer.mesh);
+  replace(run.coarse, std::move(finer));
+}
+
+// A coarse mesh, and once more where it is too coarse for the sizes or for thin walls.
 void run_coarse_stages(RunResult& run, RunContext& context)
 {
   const model::NamedParts parts = find_named_parts(run.resolved, context);
@@ -77,12 +125,9 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   run.coarse = named_coarse_mesh(run, parts, context);
   if (mesh::SizePoints points = sizes_for_a_finer_mesh(run, context); !points.size.empty()) {
     run.resolved.coarse.points = std::move(points);
-    const CoarseResult first = std::exchange(run.coarse, named_coarse_mesh(run, parts, context));
-    run.coarse.tries += first.tries;
-    run.coarse.failures.insert(run.coarse.failures.begin(), first.failures.begin(),
-                               first.failures.end());
-    run.coarse.was_limited = run.coarse.was_limited || first.was_limited;
+    replace(run.coarse, named_coarse_mesh(run, parts, context));
   }
+  refine_thin_walls(run, parts, context);
   choose_levels(run, context);
 }
 

@@ -148,6 +148,13 @@ std::vector<CoarsePlan> plans_for(const config::Case& run_case, const cut::CutTr
   return plans;
 }
 
+CoarsePlan plan_for(const config::Case& run_case, const coarse::CoarseOptions& options,
+                    RunContext& context)
+{
+  const auto figures = on_root(context.comm, [&] { return figures_of(run_case, context); });
+  return {.options = options, .limits = surface_limits(options, figures, true)};
+}
+
 bool is_cut(const CoarsePlan& plan) { return plan.planes.num_parts > 0; }
 
 std::vector<RungKind> kinds_of(const std::vector<CoarsePlan>& plans)
@@ -340,6 +347,18 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),
                            result.mesh.num_patches(), result.mesh.num_materials()));
+  return result;
+}
+
+CoarseResult run_coarse_try(const config::Case& run_case, const coarse::CoarseOptions& options,
+                            RunContext& context)
+{
+  StageScope stage(context, "coarse");
+  CoarseResult result =
+      CoarseTries(run_case, {plan_for(run_case, options, context)}, stage, context).run();
+  stage.work_is_done();
+  stage.finish(result.mesh.num_tets() == 0 ? std::string("failed")
+                                           : fmt::format("{} tets", result.mesh.num_tets()));
   return result;
 }
 

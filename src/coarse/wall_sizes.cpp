@@ -17,13 +17,8 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 using Triangle = PatchSurface::Triangle;
 
-// Edges over the thickness of a wall. Tets across it then have angles of some 8 degrees. Half of it
-// gave a quarter more tets and smallest angles that were hardly larger.
-constexpr double kEdgesOfWall = 8.0;
-
-// Parts of the largest size. Thinner walls get flatter tets, or a sheet of nothing would make
-// millions of triangles; chords go on, as a surface that cuts itself is no use at all.
-constexpr double kLeastOfWall = 0.1;
+// Parts of the largest size: less than kLeastOfWall, as a surface that cuts itself is no use at
+// all.
 constexpr double kLeastOfChord = 0.02;
 
 // The chords of a triangle with edges h on a radius R are off by h^2 / (6 R).

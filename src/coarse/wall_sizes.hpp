@@ -10,6 +10,14 @@
 
 namespace tessera::coarse {
 
+/// Edges over the thickness of a wall. Tets across it then have angles of some 8 degrees. Half of
+/// it gave a quarter more tets and smallest angles that were hardly larger.
+inline constexpr double kEdgesOfWall = 8.0;
+
+/// Parts of the largest size. Thinner walls get flatter tets, or a sheet of nothing would make
+/// millions of triangles.
+inline constexpr double kLeastOfWall = 0.1;
+
 /// @brief The sizes of a surface's vertices, less where another sheet of it is near. Local.
 ///
 /// From the middle of each triangle a ray goes up and one down its normal. What they hit first, at

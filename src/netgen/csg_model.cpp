@@ -17,9 +17,12 @@
 #include "netgen/csg_crossings.hpp"
 #include "netgen/csg_cut.hpp"
 #include "netgen/csg_description.hpp"
+#include "netgen/csg_solids.hpp"
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
+#include "netgen/occ_content.hpp"
+#include "netgen/occ_error.hpp"
 
 // Defined in libcsg.so and declared in no header of NETGEN 6.2.1905.
 namespace netgen {
@@ -63,6 +66,7 @@ std::unique_ptr<Geometry> parse(const std::string& text, const std::string& file
   if (geometry == nullptr) {
     throw InputError(file_name + ": is not a NETGEN geometry: its first word is not 'algebraic3d'");
   }
+  describe_cones_by_circles(*geometry);
   geometry->FindIdenticSurfaces(kIdenticSurfaces * geometry->MaxSize());
   return geometry;
 }
@@ -154,6 +158,8 @@ class CsgModel final : public LoadedModel {
   [[nodiscard]] model::ModelDescription describe() const override;
   [[nodiscard]] coarse::ModelFigures figures() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
+  [[nodiscard]] bool has_apex() const { return netgen::has_apex(*geometry_, tolerance_); }
+  [[nodiscard]] CadFile solids() const { return solids_of_csg(*geometry_, box_); }
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
@@ -372,6 +378,20 @@ model::ModelDescription CsgModel::describe() const
   return described;
 }
 
+// What NETGEN's CSG cannot mesh is OpenCASCADE's model from here on.
+model::ModelSource with_apex(const CsgModel& model, const model::ModelSource& source)
+{
+  CadFile cad = with_occ_errors(source.file_name, [&] {
+    try {
+      return model.solids();
+    } catch (const GeometryError& error) {
+      throw GeometryError(fmt::format("{}: {}", source.file_name, error.what()));
+    }
+  });
+  cad.repairs.insert(cad.repairs.begin(), source.repairs.begin(), source.repairs.end());
+  return closed_source(std::move(cad), source.file_name);
+}
+
 }  // namespace
 
 model::ModelSource import_csg(const std::filesystem::path& file)
@@ -384,9 +404,9 @@ model::ModelSource import_csg(const std::filesystem::path& file)
   source.content.assign(first, first + text.size());
 
   const SkippedStatements skipped;
-  const CsgModel check(source);
+  const CsgModel model(source);
   source.repairs = skipped.lines();
-  return source;
+  return model.has_apex() ? with_apex(model, source) : source;
 }
 
 std::unique_ptr<LoadedModel> load_csg(const model::ModelSource& source)

@@ -9,7 +9,11 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <fmt/format.h>
 
+#include "tessera/base/error.hpp"
+
+#include "netgen/occ_error.hpp"
 #include "netgen/occ_shape.hpp"
 
 namespace tessera::netgen {
@@ -56,6 +60,22 @@ Bytes occ_content(const CadFile& cad)
     }
   }
   return to_bytes(content);
+}
+
+model::ModelSource closed_source(CadFile cad, const std::string& file_name)
+{
+  try {
+    with_occ_errors("healing", [&] { make_closed_solids(cad); });
+  } catch (const GeometryError& error) {
+    throw GeometryError(fmt::format("{}: {}", file_name, error.what()));
+  }
+  model::ModelSource source;
+  source.format = model::Format::occ;
+  source.file_name = file_name;
+  source.length_unit = cad.length_unit;
+  source.content = occ_content(cad);
+  source.repairs = cad.repairs;
+  return source;
 }
 
 OccContent read_occ_content(std::span<const std::byte> bytes)

@@ -8,6 +8,7 @@
 #include <TopoDS_Shape.hxx>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/model/model.hpp"
 
 #include "netgen/occ_cad_file.hpp"
 
@@ -23,6 +24,10 @@ struct OccContent {
 
 /// @brief ModelSource::content of a CAD file. Local.
 [[nodiscard]] Bytes occ_content(const CadFile& cad);
+
+/// @brief Closes the solids, and packs them for all ranks; `cad.repairs` are those of the source.
+/// Local. @throws GeometryError of make_closed_solids(), after the file's name.
+[[nodiscard]] model::ModelSource closed_source(CadFile cad, const std::string& file_name);
 
 /// @brief Reads it back. Local. @throws InputError if the bytes are damaged or hold no shape.
 [[nodiscard]] OccContent read_occ_content(std::span<const std::byte> bytes);

@@ -394,19 +394,7 @@ void OccModel::locate_segment_ends(mesh::CoarseMesh& mesh) const
 
 model::ModelSource import_occ(const std::filesystem::path& file, StepReader reader)
 {
-  CadFile cad = read_cad_file(file, reader);
-  try {
-    with_occ_errors("healing", [&] { make_closed_solids(cad); });
-  } catch (const GeometryError& error) {
-    throw GeometryError(fmt::format("{}: {}", file.string(), error.what()));
-  }
-  model::ModelSource source;
-  source.format = model::Format::occ;
-  source.file_name = file.string();
-  source.length_unit = cad.length_unit;
-  source.content = occ_content(cad);
-  source.repairs = cad.repairs;
-  return source;
+  return closed_source(read_cad_file(file, reader), file.string());
 }
 
 std::unique_ptr<LoadedModel> load_occ(const model::ModelSource& source)

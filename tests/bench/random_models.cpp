@@ -34,6 +34,7 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Poly_Triangulation.hxx>
+#include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -155,6 +156,17 @@ double diagonal_of(const TopoDS_Shape& shape)
   return std::sqrt(box.SquareExtent());
 }
 
+// Some shapes are no longer valid once OpenCASCADE has written and read them.
+void require_valid_step(const fs::path& file)
+{
+  STEPControl_Reader reader;
+  if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) throw Rejected("its STEP cannot be read");
+  reader.TransferRoots();
+  const TopoDS_Shape shape = reader.OneShape();
+  if (shape.IsNull() || !BRepCheck_Analyzer(shape).IsValid())
+    throw Rejected("its STEP is not valid");
+}
+
 void write_model(const TopoDS_Shape& shape, const fs::path& file)
 {
   BRepTools::Clean(shape);  // Of the triangles.
@@ -165,6 +177,7 @@ void write_model(const TopoDS_Shape& shape, const fs::path& file)
   STEPControl_Writer writer;
   if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone) throw Rejected("no STEP of it");
   if (writer.Write(file.c_str()) != IFSelect_RetDone) throw std::runtime_error("cannot write");
+  require_valid_step(file);
 }
 
 // What a process makes: a file, and its line of the list in a file of its own.

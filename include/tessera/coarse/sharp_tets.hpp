@@ -20,7 +20,8 @@ struct SharpTet {
 struct SharpTets {
   LocalIndex num_forced = 0;  ///< At sharp places of the model.
   LocalIndex num_others = 0;
-  std::vector<SharpTet> worst{};  ///< Of the others, the smallest angle first; kMost at most.
+  std::vector<LocalIndex> others{};  ///< Their rows, ascending.
+  std::vector<SharpTet> worst{};     ///< Of the others, the smallest angle first; kMost at most.
 
   static constexpr std::size_t kMost = 10;
 };

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/coarse/thin_walls.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "tessera/coarse/sharp_tets.hpp"
+
+#include "coarse/wall_sizes.hpp"
+
+namespace tessera::coarse {
+namespace {
+
+// A finer mesh may have so many tets, or so many times those of this one.
+constexpr double kFewTets = 3e4;
+constexpr double kMostGrowth = 4.0;
+
+// Seven tets of one layer share h^2 of a wall if their edges are h. So a tet becomes about so many
+// times the square of its edges over the new ones.
+constexpr double kTetsPerSquare = 1.0;
+
+// Points over an edge of a tet. Sizes grow from each, so that half as many as edges will do.
+constexpr int kMostPoints = 5;
+
+using Corners = std::array<Vec3, 4>;
+
+Corners corners_of(const mesh::CoarseMesh& mesh, LocalIndex t)
+{
+  const auto v = mesh.tet(t);
+  return {mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]), mesh.position(v[3])};
+}
+
+double longest_edge(const Corners& p)
+{
+  double longest = 0.0;
+  for (std::size_t a = 0; a < 4; ++a) {
+    for (std::size_t b = a + 1; b < 4; ++b) longest = std::max(longest, norm(p[b] - p[a]));
+  }
+  return longest;
+}
+
+// The least distance of two parallel planes with the tet between them.
+double thickness(const Corners& p)
+{
+  const double volume = std::abs(6.0 * tet_volume(p[0], p[1], p[2], p[3]));
+  double least = std::numeric_limits<double>::infinity();
+  const auto between = [&](const Vec3& along, const Vec3& other) {
+    const double area = norm(cross(along, other));
+    if (area > 0.0) least = std::min(least, volume / area);
+  };
+  for (std::size_t a = 0; a < 4; ++a) {  // A corner and the side across.
+    const Vec3& origin = p[(a + 1) % 4];
+    between(p[(a + 2) % 4] - origin, p[(a + 3) % 4] - origin);
+  }
+  between(p[1] - p[0], p[3] - p[2]);  // Edges across from each other.
+  between(p[2] - p[0], p[3] - p[1]);
+  between(p[3] - p[0], p[2] - p[1]);
+  return least;
+}
+
+class WallFinder {
+ public:
+  WallFinder(const mesh::CoarseMesh& mesh, double max_size) : mesh_(mesh), max_size_(max_size)
+  {
+    patches_.resize(at(mesh.num_vertices()));
+    for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        patches_[at(mesh.face_vertices[3 * at(f) + c])].insert(mesh.face_patch[at(f)]);
+      }
+    }
+  }
+
+  void add(LocalIndex t)
+  {
+    if (!is_in_wall(t)) return;
+    const Corners p = corners_of(mesh_, t);
+    const double size =
+        std::clamp(kEdgesOfWall * thickness(p), kLeastOfWall * max_size_, max_size_);
+    const double edges = longest_edge(p) / size;
+    if (edges <= 1.0) return;  // It is flat for another reason.
+    num_tets_ += kTetsPerSquare * edges * edges;
+    add_points(p, size, std::clamp(static_cast<int>(std::ceil(0.5 * edges)), 1, kMostPoints));
+  }
+
+  mesh::SizePoints take()
+  {
+    const double most = std::max(kFewTets, kMostGrowth * mesh_.num_tets());
+    return num_tets_ > most ? mesh::SizePoints{} : std::move(points_);
+  }
+
+ private:
+  // All corners are on the surface, and not all on one patch of it.
+  [[nodiscard]] bool is_in_wall(LocalIndex t) const
+  {
+    const auto v = mesh_.tet(t);
+    if (std::ranges::any_of(v, [&](LocalIndex i) { return patches_[at(i)].empty(); })) return false;
+    return std::ranges::none_of(patches_[at(v[0])], [&](LocalIndex patch) {
+      return std::ranges::all_of(v, [&](LocalIndex i) { return patches_[at(i)].contains(patch); });
+    });
+  }
+
+  void add_points(const Corners& p, double size, int n)
+  {
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; i + j <= n; ++j) {
+        for (int k = 0; i + j + k <= n; ++k) {
+          const std::array<int, 4> parts{i, j, k, n - i - j - k};
+          Vec3 point{};
+          for (std::size_t c = 0; c < 4; ++c) point = point + (1.0 * parts[c] / n) * p[c];
+          points_.xyz.insert(points_.xyz.end(), point.begin(), point.end());
+          points_.size.push_back(size);
+        }
+      }
+    }
+  }
+
+  const mesh::CoarseMesh& mesh_;
+  double max_size_;
+  std::vector<std::set<LocalIndex>> patches_{};  // Of each vertex.
+  mesh::SizePoints points_{};
+  double num_tets_ = 0.0;
+};
+
+}  // namespace
+
+mesh::SizePoints sizes_of_thin_walls(const mesh::CoarseMesh& mesh, double angle_deg,
+                                     double max_size)
+{
+  const SharpTets sharp = find_sharp_tets(mesh, angle_deg);
+  if (sharp.others.empty()) return {};
+  WallFinder walls(mesh, max_size);
+  for (const LocalIndex t : sharp.others) walls.add(t);
+  return walls.take();
+}
+
+}  // namespace tessera::coarse

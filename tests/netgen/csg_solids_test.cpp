@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/netgen/factory.hpp"
+
+#include "support/temporary_file.hpp"
+
+namespace tessera {
+namespace {
+
+// A cone up to its apex, radius 1 and height 1.5, along (1, 2, 2) from (0.3, -0.2, 0.1).
+constexpr const char* kTip =
+    "solid tip = cone (0.3, -0.2, 0.1; 1; 0.8, 0.8, 1.1; 0) -bcname=mantle;\n"
+    "solid ground = plane (0.3, -0.2, 0.1; -1, -2, -2) -bcname=foot;\n"
+    "solid cone1 = tip and ground and plane (0.8, 0.8, 1.1; 1, 2, 2);\n";
+constexpr double kTipVolume = std::numbers::pi * 1.5 / 3.0;
+
+model::ModelSource source_of(const std::string& solids)
+{
+  const testing::TemporaryFile file("model.geo", "algebraic3d\n" + solids);
+  return netgen::import_model(file.path(), {});
+}
+
+double volume_of(const std::string& solids)
+{
+  const auto model = netgen::load_model(source_of(solids));
+  double volume = 0.0;
+  for (const auto& solid : netgen::describe_model(*model).solids) volume += solid.volume;
+  return volume;
+}
+
+TEST(CsgApex, IsMeshed)
+{
+  const model::ModelSource source = source_of(std::string(kTip) + "tlo cone1 -material=steel;\n");
+  EXPECT_EQ(source.repairs.size(), 1U);
+  const auto model = netgen::load_model(source);
+  coarse::CoarseOptions options;
+  options.max_size = 0.3;
+  const mesh::CoarseMesh mesh = netgen::make_coarse_mesher(*model)->generate(options);
+  double volume = 0.0;
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    const auto tet = mesh.tet(t);
+    volume += tet_volume(mesh.position(tet[0]), mesh.position(tet[1]), mesh.position(tet[2]),
+                         mesh.position(tet[3]));
+  }
+  EXPECT_NEAR(volume, kTipVolume, 0.05 * kTipVolume);
+  EXPECT_EQ(mesh.material_names, std::vector<std::string>{"steel"});
+  EXPECT_EQ(std::set(mesh.patch_names.begin(), mesh.patch_names.end()),
+            (std::set<std::string>{"foot", "mantle"}));
+}
+
+TEST(CsgApex, KeepsTheOperationsOfTheFile)
+{
+  const std::string tip = kTip;
+  const double cube = 64.0;
+  const std::string box = "solid cube = orthobrick (-2, -2, -2; 2, 2, 2);\n";
+  EXPECT_NEAR(volume_of(tip + "tlo cone1;\n"), kTipVolume, 1e-6);
+  EXPECT_NEAR(volume_of(tip + box + "solid hole = cube and not cone1;\ntlo hole;\n"),
+              cube - kTipVolume, 1e-6 * cube);
+  // All but the cone, and all but the cube: what they have in common is outside of both.
+  EXPECT_NEAR(
+      volume_of(tip
+                + "solid far = sphere (5, 0, 0; 1);\nsolid outside = not cone1 and not far;\n"
+                  "solid both = not outside;\ntlo both;\n"),
+      kTipVolume + 4.0 / 3.0 * std::numbers::pi, 1e-5);
+  EXPECT_NEAR(volume_of(tip
+                        + "solid can = cylinder (5, 0, 0; 5, 0, 1; 0.5)\n"
+                          "  and plane (5, 0, 0; 0, 0, -1) and plane (5, 0, 2; 0, 0, 1);\n"
+                          "solid ring = torus (-5, 0, 0; 0, 0, 1; 2; 0.5);\n"
+                          "solid all = cone1 or can or ring;\ntlo all;\n"),
+              kTipVolume + 0.5 * std::numbers::pi + std::numbers::pi * std::numbers::pi, 1e-5);
+}
+
+TEST(CsgApex, IsNoMatterWhereItIsCutOff)
+{
+  const auto model = netgen::load_model(
+      source_of("solid tip = cone (0, 0, 0; 1; 0, 0, 2; 0)\n"
+                "  and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1; 0, 0, 1);\ntlo tip;\n"));
+  EXPECT_FALSE(model->has_parameters());  // NETGEN's CSG has it.
+}
+
+// NETGEN has found no end of points of other surfaces, as the cone is given by its apex.
+TEST(CsgApex, IsNoMatterOutsideTheSolid)
+{
+  const auto model = netgen::load_model(
+      source_of("solid ball = sphere (-0.25, 0, -0.25; 0.5);\n"
+                "solid tip = cone (0.25, 0.75, 0; 0.75; 0.25, 1.75, 0; 0)\n"
+                "  and plane (0.25, 0.75, 0; 0, -1, 0) and plane (0.25, 1.75, 0; 0, 1, 0);\n"
+                "solid stump = cone (0, -0.25, 0.25; 0.5; 0, 1.25, 0.25; 0.21)\n"
+                "  and plane (0, -0.25, 0.25; 0, -1, 0) and plane (0, 1.25, 0.25; 0, 1, 0);\n"
+                "solid all = (ball or tip) and stump;\ntlo all;\n"));
+  EXPECT_FALSE(model->has_parameters());
+  coarse::CoarseOptions options;
+  options.max_size = 0.3;
+  EXPECT_GT(netgen::make_coarse_mesher(*model)->generate(options).num_tets(), 0);
+}
+
+TEST(CsgApex, IsRefusedBesideWhatOpenCascadeDoesNotHave)
+{
+  try {
+    (void)source_of(std::string(kTip) + "solid egg = ellipsoid (5, 0, 0; 1, 0, 0; 0, 1, 0; 0, 0, 2);\n"
+                    "solid both = cone1 or egg;\ntlo both;\n");
+    ADD_FAILURE() << "not refused";
+  } catch (const GeometryError& error) {
+    EXPECT_NE(std::string(error.what()).find("spheres"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace tessera
