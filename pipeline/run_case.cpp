@@ -13,6 +13,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/formats/export_mesh.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/jobs/this_process.hpp"

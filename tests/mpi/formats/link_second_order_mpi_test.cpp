@@ -26,8 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const testing::BoxPieces kBox(1, 2);      // 8 pieces of 48 tets, 125 points, 192 triangles outside.
-constexpr GlobalIndex kSide = 9;          // Points with the nodes, along an axis.
+const testing::BoxPieces kBox(1, 2);  // 8 pieces of 48 tets, 125 points, 192 triangles outside.
+constexpr GlobalIndex kSide = 9;      // Points with the nodes, along an axis.
 constexpr GlobalIndex kNumVertices = 125;
 constexpr std::array<std::array<std::size_t, 2>, 3> kTriangleEdges{{{0, 1}, {1, 2}, {2, 0}}};
 
@@ -86,14 +86,17 @@ mesh::MeshArrays with_nodes_on(mesh::MeshArrays cells, const Edges& edges)
     for (std::size_t c = 0; c < width; ++c)
       cells.cell_points.push_back(points.row(position(xyz, corners[cell + c])));
     for (const auto& [a, b] : edges) {
-      cells.cell_points.push_back(points.row(
-          middle(position(xyz, corners[cell + a]), position(xyz, corners[cell + b]))));
+      cells.cell_points.push_back(
+          points.row(middle(position(xyz, corners[cell + a]), position(xyz, corners[cell + b]))));
     }
   }
   return cells;
 }
 
-mesh::MeshArrays tets_of(LocalIndex piece) { return with_nodes_on(kBox.tets(piece), kQuadraticTetEdges); }
+mesh::MeshArrays tets_of(LocalIndex piece)
+{
+  return with_nodes_on(kBox.tets(piece), kQuadraticTetEdges);
+}
 
 class LinkSecondOrder : public ::testing::Test {
  protected:
