@@ -13,6 +13,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/formats/export_mesh.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/jobs/this_process.hpp"
@@ -48,15 +49,12 @@ void require_order_possible(const config::Case& given, const MeshOptions& option
   throw ConfigError(fmt::format("{} knows tets of first order only; set output.order = 1", what));
 }
 
-// Other formats hold straight tets only, and need files to be made of.
+// Other formats need files to be made of, and not all hold tets of second order.
 void require_formats_possible(const config::Case& given, const MeshOptions& options)
 {
   if (given.output.formats == std::vector{io::Format::pvtu}) return;
-  if (given.output.order == 2) {
-    throw ConfigError(
-        "output.formats: only pvtu holds tets of second order; set output.order = 1 or "
-        "output.formats = [\"pvtu\"]");
-  }
+  for (const io::Format format : given.output.formats)
+    formats::require_order_possible(format, given.output.order == 2);
   if (options.on_piece) throw ConfigError("output.formats: MeshOptions::on_piece writes no files");
 }
 

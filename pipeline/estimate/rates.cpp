@@ -23,17 +23,17 @@ double vtu_bytes_per_tet(io::Compression compression)
 
 constexpr double kQualityBytes = 8.0;
 
-// Files of second order over those of first: 3.2 for a subdivided ball of 137 k tets, lz4.
+// Files of second order over those of first: 3.2 for a subdivided ball of 137 k tets, lz4. Other
+// formats have less.
 constexpr double kSecondOrderBytes = 3.2;
 
 // In all formats together.
 double file_bytes_per_tet(const io::OutputOptions& options)
 {
-  double bytes =
-      vtu_bytes_per_tet(options.compression) * (options.order == 2 ? kSecondOrderBytes : 1.0)
-      + (options.cell_quality ? kQualityBytes : 0.0);
+  double bytes = vtu_bytes_per_tet(options.compression);
   for (const io::Format format : options.formats) bytes += formats::bytes_per_tet(format);
-  return bytes;
+  return bytes * (options.order == 2 ? kSecondOrderBytes : 1.0)
+         + (options.cell_quality ? kQualityBytes : 0.0);
 }
 
 }  // namespace

@@ -18,8 +18,7 @@ std::vector<formats::PieceCounts> run_export_stage(const config::Case& run_case,
 {
   std::vector<io::Format> others = run_case.output.formats;
   std::erase(others, io::Format::pvtu);
-  const bool is_first_order = run_case.output.order == 1;
-  if (others.empty() && (run_case.output.parts == 0 || !is_first_order)) return {};
+  if (others.empty() && run_case.output.parts == 0) return {};
   StageScope stage(context, others.empty() ? "neighbours" : "export");
   const std::filesystem::path index = context.folder / "mesh.pvtu";
   formats::Outline mesh = others.empty()

@@ -196,6 +196,27 @@ double lower_bound_of(const JacobianCoefficients& cubic, double floor)
 
 const std::array<std::array<int, 4>, 20>& cubic_indices() noexcept { return kCubics; }
 
+std::size_t row_of_edge(std::size_t a, std::size_t b) noexcept
+{
+  const std::array sorted{std::min(a, b), std::max(a, b)};
+  return static_cast<std::size_t>(std::ranges::find(kQuadraticTetEdges, sorted)
+                                  - kQuadraticTetEdges.begin());
+}
+
+std::vector<LocalIndex> with_nodes(std::vector<LocalIndex> corners, std::size_t num_corners,
+                                   const std::vector<LocalIndex>& nodes, std::size_t num_nodes)
+{
+  if (nodes.empty()) return corners;
+  std::vector<LocalIndex> both;
+  both.reserve(corners.size() + nodes.size());
+  for (std::size_t cell = 0; num_nodes * cell < nodes.size(); ++cell) {
+    both.insert(both.end(), &corners[num_corners * cell],
+                &corners[num_corners * cell] + num_corners);
+    both.insert(both.end(), &nodes[num_nodes * cell], &nodes[num_nodes * cell] + num_nodes);
+  }
+  return both;
+}
+
 bool is_straight(const QuadraticTet& tet) noexcept
 {
   for (std::size_t e = 0; e < kQuadraticTetEdges.size(); ++e) {

@@ -42,7 +42,8 @@ class Sections {
  public:
   Sections(const Outline& outline, const TagGroups& materials, const TagGroups& surfaces,
            const TagGroups& node_sets)
-      : width_(num_digits(std::max(outline.num_points(), outline.num_tets())))
+      : width_(num_digits(std::max(outline.num_points(), outline.num_tets()))),
+        points_per_tet_(outline.points_per_tet())
   {
     next_head_ = "*HEADING\nTessera mesh\n*NODE, NSET=NALL\n";
     add({}, outline.num_points(), width_ + 3 * (1 + kFieldWidth) + 1);
@@ -65,9 +66,9 @@ class Sections {
   {
     const auto labels = labels_of(materials.names(), {kAllElements}, kLongestLabel);
     for (std::size_t m = 0; m < labels.size(); ++m) {
-      add(fmt::format("** material {}: {}\n*ELEMENT, TYPE=C3D4, ELSET={}\n", materials.tag(m),
-                      plain_name(materials.names()[m]), labels[m]),
-          materials.total(m), 5 * (width_ + 1));
+      add(fmt::format("** material {}: {}\n*ELEMENT, TYPE=C3D{}, ELSET={}\n", materials.tag(m),
+                      plain_name(materials.names()[m]), points_per_tet_, labels[m]),
+          materials.total(m), (1 + points_per_tet_) * (width_ + 1));
     }
     next_head_ = fmt::format("*ELSET, ELSET={}\n{}", kAllElements, lines_of(labels));
   }
@@ -88,6 +89,7 @@ class Sections {
   }
 
   std::size_t width_;  // Of numbers of points and elements.
+  std::size_t points_per_tet_;
   std::vector<RecordSection> sections_{};
   std::string next_head_{};
 };
@@ -127,15 +129,16 @@ class AbaqusWriter final : public Writer {
  private:
   void write_nodes(const Piece& piece)
   {
-    const GlobalIndex first = outline_.first_point[at(piece.number)];
-    TextRecords text;
-    for (LocalIndex p = 0; p < piece.num_own_points; ++p) {
-      text.integer(first + p + 1, layout_.width());
-      for (const double coordinate : std::span(piece.point_xyz).subspan(3 * at(p), 3))
-        text.text(",").real(coordinate, kFieldWidth);
-      text.text("\n");
+    for (const PointRun& run : outline_.own_points(piece.number)) {
+      TextRecords text;
+      for (LocalIndex p = run.first_row; p < run.first_row + run.count; ++p) {
+        text.integer(piece.point_numbers[at(p)] + 1, layout_.width());
+        for (const double coordinate : std::span(piece.point_xyz).subspan(3 * at(p), 3))
+          text.text(",").real(coordinate, kFieldWidth);
+        text.text("\n");
+      }
+      file_.write(0, run.first_number, text.take());
     }
-    file_.write(0, first, text.take());
   }
 
   template <class TextOf>
@@ -155,10 +158,11 @@ class AbaqusWriter final : public Writer {
 
   [[nodiscard]] std::string elements(const Piece& piece, std::span<const LocalIndex> tets) const
   {
+    const std::size_t width = outline_.points_per_tet();
     TextRecords text;
     for (const LocalIndex tet : tets) {
       text.integer(element(piece, tet), layout_.width());
-      for (const LocalIndex point : std::span(piece.tet_points).subspan(4 * at(tet), 4))
+      for (const LocalIndex point : std::span(piece.tet_points).subspan(width * at(tet), width))
         text.text(",").integer(piece.point_numbers[at(point)] + 1, layout_.width());
       text.text("\n");
     }

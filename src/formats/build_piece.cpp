@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "tessera/mesh/tet_topology.hpp"
+#include "tessera/base/quadratic_tet.hpp"
 
 #include "formats/link_pieces.hpp"
 
@@ -28,7 +28,7 @@ std::vector<LocalIndex> new_rows(const LoadedPiece& loaded, const PieceLinks& li
 }
 
 void add_points(const LoadedPiece& loaded, const PieceLinks& links,
-                const std::vector<LocalIndex>& rows, GlobalIndex first_point, Piece& piece)
+                const std::vector<LocalIndex>& rows, const Outline& outline, Piece& piece)
 {
   piece.point_xyz.resize(loaded.point_xyz.size());
   for (std::size_t p = 0; p < rows.size(); ++p) {
@@ -36,8 +36,9 @@ void add_points(const LoadedPiece& loaded, const PieceLinks& links,
       piece.point_xyz[3 * at(rows[p]) + d] = loaded.point_xyz[3 * p + d];
   }
   piece.point_numbers.resize(rows.size());
-  for (LocalIndex i = 0; i < piece.num_own_points; ++i)
-    piece.point_numbers[at(i)] = first_point + i;
+  for (const PointRun& run : outline.own_points(piece.number))
+    for (LocalIndex i = 0; i < run.count; ++i)
+      piece.point_numbers[at(run.first_row + i)] = run.first_number + i;
   // Own ones are the first rows, so both kinds of shared points stay ascending.
   for (const bool is_own : {true, false}) {
     for (std::size_t s = 0; s < links.shared_points.size(); ++s) {
@@ -50,16 +51,27 @@ void add_points(const LoadedPiece& loaded, const PieceLinks& links,
   }
 }
 
+// Takes the points of the tets, which are many.
+void move_tets(LoadedPiece& loaded, const Tags& tags, const std::vector<LocalIndex>& rows,
+               Piece& piece)
+{
+  piece.tet_points = with_nodes(std::move(loaded.tet_points), 4, loaded.tet_nodes, 6);
+  for (LocalIndex& point : piece.tet_points) point = rows[at(point)];
+  piece.tet_material.reserve(loaded.material.size());
+  for (const std::int32_t value : loaded.material)
+    piece.tet_material.push_back(tags.tag_of_material.at(value));
+}
+
 void add_triangles(const LoadedPiece& loaded, const PieceLinks& links, const Tags& tags,
-                   Piece& piece)
+                   const std::vector<LocalIndex>& rows, Piece& piece)
 {
   const bool has_triangles = !loaded.triangle_side.empty();
   piece.triangle_side =
       has_triangles || links.is_inner_triangle.empty() ? loaded.triangle_side : links.open_sides;
   for (std::size_t i = 0; i < piece.triangle_side.size(); ++i) {
     const LocalIndex side = piece.triangle_side[i];
-    for (const std::size_t c : mesh::kTetFaceCorners[at(side % 4)])
-      piece.triangle_points.push_back(piece.tet_points[4 * at(side / 4) + c]);
+    for (const LocalIndex point : loaded.points_of_side(side))
+      piece.triangle_points.push_back(rows[at(point)]);
     piece.triangle_patch.push_back(tags.tag_of_patch.at(has_triangles ? loaded.patch[i] : 0));
   }
   piece.is_inner_triangle = links.is_inner_triangle;
@@ -84,13 +96,9 @@ Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links
   piece.number = number;
   piece.num_own_points = static_cast<LocalIndex>(mesh.outline.pieces[at(number)].num_own_points);
   const std::vector<LocalIndex> rows = new_rows(loaded, links, piece.num_own_points);
-  add_points(loaded, links, rows, mesh.outline.first_point[at(number)], piece);
-  piece.tet_points = std::move(loaded.tet_points);
-  for (LocalIndex& point : piece.tet_points) point = rows[at(point)];
-  piece.tet_material.reserve(loaded.material.size());
-  for (const std::int32_t value : loaded.material)
-    piece.tet_material.push_back(mesh.tags.tag_of_material.at(value));
-  add_triangles(loaded, links, mesh.tags, piece);
+  add_points(loaded, links, rows, mesh.outline, piece);
+  add_triangles(loaded, links, mesh.tags, rows, piece);
+  move_tets(loaded, mesh.tags, rows, piece);
   add_patch_points(links.patch_points, rows, piece);
   piece.seams = links.seams;
   for (const auto& [a, b] : links.shared_edges)

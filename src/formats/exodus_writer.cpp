@@ -62,7 +62,7 @@ class Layout {
     for (const char* const name : {"coordx", "coordy", "coordz"})
       add(name, NetcdfType::float64, {"num_nodes"});
     for (std::size_t b = 0; b < blocks.size(); ++b)
-      add_block(fmt::format("{}", b + 1), blocks.total(b));
+      add_block(fmt::format("{}", b + 1), blocks.total(b), outline.points_per_tet());
     for (std::size_t s = 0; s < side_sets.size(); ++s)
       add_side_set(fmt::format("{}", s + 1), side_sets.total(s));
     for (std::size_t s = 0; s < node_sets.size(); ++s)
@@ -95,14 +95,15 @@ class Layout {
     add(prefix + "_names", NetcdfType::text, {dimension, "len_name"}, padded(groups.names()));
   }
 
-  void add_block(const std::string& number, GlobalIndex num_tets)
+  void add_block(const std::string& number, GlobalIndex num_tets, std::size_t points_per_tet)
   {
     const std::string tets = "num_el_in_blk" + number;
-    const std::string corners = "num_nod_per_el" + number;
+    const std::string points = "num_nod_per_el" + number;
     layout_.dimensions.push_back({tets, num_tets});
-    layout_.dimensions.push_back({corners, 4});
-    add("connect" + number, NetcdfType::int64, {tets, corners});
-    layout_.variables.back().attributes = {{"elem_type", "TETRA"}};
+    layout_.dimensions.push_back({points, static_cast<GlobalIndex>(points_per_tet)});
+    add("connect" + number, NetcdfType::int64, {tets, points});
+    layout_.variables.back().attributes = {
+        {"elem_type", points_per_tet == 4 ? "TETRA" : "TETRA10"}};
   }
 
   void add_side_set(const std::string& number, GlobalIndex num_sides)
@@ -169,29 +170,32 @@ class ExodusWriter final : public Writer {
   void write_points(const Piece& piece)
   {
     for (std::size_t d = 0; d < 3; ++d) {
-      std::vector<double> coordinates(at(piece.num_own_points));
-      for (std::size_t p = 0; p < coordinates.size(); ++p)
-        coordinates[p] = piece.point_xyz[3 * p + d];
-      put(d, outline_.first_point[at(piece.number)], coordinates);
+      for (const PointRun& run : outline_.own_points(piece.number)) {
+        std::vector<double> coordinates(at(run.count));
+        for (std::size_t p = 0; p < coordinates.size(); ++p)
+          coordinates[p] = piece.point_xyz[3 * (at(run.first_row) + p) + d];
+        put(d, run.first_number, coordinates);
+      }
     }
   }
 
   // Gives the number of each tet, from 1.
   std::vector<GlobalIndex> write_blocks(const Piece& piece)
   {
+    const std::size_t width = outline_.points_per_tet();
     std::vector<GlobalIndex> element_of_tet(at(piece.num_tets()));
-    blocks_.for_each_of(
-        piece, [&](std::size_t block, GlobalIndex first, std::span<const LocalIndex> tets) {
-          std::vector<GlobalIndex> nodes;
-          nodes.reserve(4 * tets.size());
-          GlobalIndex element = first_element_[block] + first;
-          for (const LocalIndex tet : tets) {
-            element_of_tet[at(tet)] = element++;
-            for (const LocalIndex point : std::span(piece.tet_points).subspan(4 * at(tet), 4))
-              nodes.push_back(piece.point_numbers[at(point)] + 1);
-          }
-          put(kSectionsOfPoints + block, 4 * first, nodes);
-        });
+    blocks_.for_each_of(piece, [&](std::size_t block, GlobalIndex first,
+                                   std::span<const LocalIndex> tets) {
+      std::vector<GlobalIndex> nodes;
+      nodes.reserve(width * tets.size());
+      GlobalIndex element = first_element_[block] + first;
+      for (const LocalIndex tet : tets) {
+        element_of_tet[at(tet)] = element++;
+        for (const LocalIndex point : std::span(piece.tet_points).subspan(width * at(tet), width))
+          nodes.push_back(piece.point_numbers[at(point)] + 1);
+      }
+      put(kSectionsOfPoints + block, static_cast<GlobalIndex>(width) * first, nodes);
+    });
     return element_of_tet;
   }
 

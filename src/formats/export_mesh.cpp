@@ -77,7 +77,7 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
   const auto has = [&](io::Format format) {
     return std::ranges::find(request.formats, format) != request.formats.end();
   };
-  const LinkOptions options{.shared_edges = has(io::Format::mfem),
+  const LinkOptions options{.shared_edges = has(io::Format::mfem) || has(io::Format::mfem_sets),
                             .face_numbers = has(io::Format::openfoam),
                             .patch_points = has(io::Format::abaqus) || has(io::Format::exodus)};
   LinkedPieces linked{.mesh = link_pieces(source, comm, before_each, options)};

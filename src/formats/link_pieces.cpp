@@ -58,23 +58,16 @@ struct Triangles {
 // What is found while a piece is there.
 struct Skin {
   std::vector<OpenFace> faces{};
-  std::vector<std::array<LocalIndex, 3>> face_points{};  // Rows of the faces' corners.
-  std::vector<LocalIndex> inner_faces_up_to{};           // Of each, see PieceLinks.
+  IndexLists face_points{};                     // Rows of the faces' points, corners first.
+  std::vector<LocalIndex> inner_faces_up_to{};  // Of each, see PieceLinks.
   std::vector<SkinPoint> points{};
 };
 
-std::array<LocalIndex, 3> points_of_side(const LoadedPiece& piece, LocalIndex side)
+// Of corners alone: pieces that have them have the same nodes between them.
+TriangleKey key_of_points(const LoadedPiece& piece, const std::vector<LocalIndex>& points)
 {
-  const LocalIndex* const corner = piece.tet_points.data() + 4 * at(side / 4);
-  const auto& [a, b, c] = mesh::kTetFaceCorners[at(side % 4)];
-  return {corner[a], corner[b], corner[c]};
-}
-
-TriangleKey key_of_points(const LoadedPiece& piece, const std::array<LocalIndex, 3>& points)
-{
-  const auto& [a, b, c] = points;
-  std::array<VertexKey, 3> keys{piece.point_keys[at(a)], piece.point_keys[at(b)],
-                                piece.point_keys[at(c)]};
+  std::array<VertexKey, 3> keys{piece.point_keys[at(points[0])], piece.point_keys[at(points[1])],
+                                piece.point_keys[at(points[2])]};
   std::ranges::sort(keys);
   return key_of_vertices(keys);
 }
@@ -92,15 +85,23 @@ void add_skin(const LoadedPiece& piece, LocalIndex number, const std::vector<Loc
     }
     if (behind[side] != kNoIndex) continue;
     const auto face = static_cast<LocalIndex>(side);
-    const std::array<LocalIndex, 3> points = points_of_side(piece, face);
+    const std::vector<LocalIndex> points = piece.points_of_side(face);
     skin.faces.push_back({key_of_points(piece, points), number, face});
-    skin.face_points.push_back(points);
+    skin.face_points.add(points);
     skin.inner_faces_up_to.push_back(num_inner);
     for (const LocalIndex point : points) is_on_skin[at(point)] = true;
   }
   for (LocalIndex row = 0; row < piece.num_points(); ++row) {
     if (is_on_skin[at(row)]) skin.points.push_back({piece.point_keys[at(row)], number, row});
   }
+}
+
+GlobalIndex number_of_own(const Outline& outline, const SkinPoint& point)
+{
+  GlobalIndex number = 0;
+  for (const PointRun& run : outline.own_points(point.piece))
+    if (point.row >= run.first_row) number = run.first_number + point.row - run.first_row;
+  return number;
 }
 
 std::vector<TagCount> counted(const std::vector<std::int32_t>& values)
@@ -143,8 +144,10 @@ class Linker {
       add_skin(piece, number, behind, skin_);
       if (options_.shared_edges) skin_edges_.push_back(skin_edges(piece, behind));
       add_triangles(piece, behind, links_[i]);
-      counts_[i] = {.num_points = piece.num_points(),
+      counts_[i] = {.num_own_nodes = piece.num_nodes,  // Of foreign ones it is not known yet.
+                    .num_points = piece.num_points(),
                     .num_tets = piece.num_tets(),
+                    .points_per_tet = piece.points_per_tet(),
                     .num_triangles = static_cast<GlobalIndex>(piece.triangle_side.size()),
                     .tets_of_material = counted(piece.material),
                     .triangles_of_patch = counted(piece.patch),
@@ -179,7 +182,7 @@ class Linker {
       if (answers[f].piece == kNoIndex) {
         links.open_sides.push_back(face.side);
         if (options_.patch_points && !source_.has_boundary())
-          add_patch_points(skin_.face_points[f], 0, links.patch_points);
+          add_patch_points(skin_.face_points[static_cast<LocalIndex>(f)], 0, links.patch_points);
       } else {
         links.seams.push_back({face.side, answers[f].piece, answers[f].tet});
         links.inner_faces_up_to.push_back(skin_.inner_faces_up_to[f]);
@@ -246,8 +249,7 @@ class Linker {
     std::vector<GlobalIndex> numbers(received.size(), kNoNumber);
     for_each_shared(received, [&](std::span<const std::size_t> rows) {
       const SkinPoint& owner = received[rows[0]];
-      for (const std::size_t row : rows.subspan(1))
-        numbers[row] = outline.first_point[at(owner.piece)] + owner.row;
+      for (const std::size_t row : rows.subspan(1)) numbers[row] = number_of_own(outline, owner);
     });
     const auto answers = exchange.answer<GlobalIndex>(numbers, comm_);
     for (std::size_t p = 0; p < skin_.points.size(); ++p)
@@ -286,7 +288,7 @@ class Linker {
       const LocalIndex side = piece.triangle_side[t];
       links.is_inner_triangle.push_back(behind[at(side)] == kNoIndex ? 0 : 1);
       if (options_.patch_points)
-        add_patch_points(points_of_side(piece, side), piece.patch[t], links.patch_points);
+        add_patch_points(piece.points_of_side(side), piece.patch[t], links.patch_points);
     }
   }
 
@@ -302,14 +304,20 @@ class Linker {
   {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const LocalIndex number = first_ + static_cast<LocalIndex>(i);
+      const GlobalIndex first_node = counts_[i].num_points - counts_[i].num_own_nodes;
       GlobalIndex num_foreign = 0;
+      GlobalIndex num_foreign_nodes = 0;
       std::map<LocalIndex, GlobalIndex> shared_with;
       for (LocalIndex p = 0; p < links_[i].sharers.num_lists(); ++p) {
         const auto others = links_[i].sharers[p];
-        if (others.front() < number) ++num_foreign;
+        if (others.front() < number) {
+          ++num_foreign;
+          if (links_[i].shared_points[at(p)] >= first_node) ++num_foreign_nodes;
+        }
         for (const LocalIndex other : others) ++shared_with[other];
       }
       counts_[i].num_own_points = counts_[i].num_points - num_foreign;
+      counts_[i].num_own_nodes -= num_foreign_nodes;
       std::map<LocalIndex, GlobalIndex> num_faces;
       for (const SeamFace& seam : links_[i].seams) ++num_faces[seam.other_piece];
       for (const auto& [other, num_points] : shared_with)
@@ -345,15 +353,33 @@ class Linker {
   LocalIndex num_left_out_ = 0;
 };
 
+// @throws InputError, on all ranks if all have the same pieces, if tets are of several orders.
+bool are_of_second_order(const std::vector<PieceCounts>& pieces)
+{
+  const auto has = [&](int points_per_tet) {
+    return std::ranges::find(pieces, points_per_tet, &PieceCounts::points_per_tet) != pieces.end();
+  };
+  if (has(4) && has(10)) {
+    throw comm::Collective<InputError>(
+        "some pieces have tets of first order, and others of second order");
+  }
+  return has(10);
+}
+
 Outline outline_of(std::vector<PieceCounts> pieces)
 {
   Outline outline;
   outline.pieces = std::move(pieces);
   for (const PieceCounts& piece : outline.pieces) {
-    outline.first_point.push_back(outline.first_point.back() + piece.num_own_points);
+    outline.first_point.push_back(outline.first_point.back() + piece.num_own_points
+                                  - piece.num_own_nodes);
     outline.first_tet.push_back(outline.first_tet.back() + piece.num_tets);
     outline.first_triangle.push_back(outline.first_triangle.back() + piece.num_triangles);
   }
+  if (!are_of_second_order(outline.pieces)) return outline;
+  outline.first_node = {outline.first_point.back()};
+  for (const PieceCounts& piece : outline.pieces)
+    outline.first_node.push_back(outline.first_node.back() + piece.num_own_nodes);
   return outline;
 }
 

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <string>
+
+#include <fmt/format.h>
+
 #include "tessera/base/error.hpp"
 #include "tessera/formats/export_mesh.hpp"
 
@@ -33,6 +37,7 @@ double bytes_per_tet(io::Format format)
     case io::Format::medit:
       return 52.0;
     case io::Format::mfem:
+    case io::Format::mfem_sets:
       return 45.0;
     case io::Format::msh2:
       return 63.0;
@@ -52,8 +57,31 @@ double bytes_per_tet(io::Format format)
   return 0.0;
 }
 
+namespace {
+
+// Of the formats that hold tets of second order.
+std::string words_of_second_order()
+{
+  std::string words;
+  for (const auto& [format, word] : enum_words(io::Format{}))
+    if (io::holds_second_order(format)) words.append(words.empty() ? "" : ", ").append(word);
+  return words;
+}
+
+}  // namespace
+
+void require_order_possible(io::Format format, bool is_second_order)
+{
+  if (!is_second_order || io::holds_second_order(format)) return;
+  throw ConfigError(fmt::format(
+      "{} is not written of tets of second order; take one of {}, or make the mesh with "
+      "output.order = 1",
+      word_of(format), words_of_second_order()));
+}
+
 std::unique_ptr<Writer> make_writer(io::Format format, const WriterTarget& target)
 {
+  require_order_possible(format, target.outline.is_of_second_order());
   switch (format) {
     case io::Format::pvtu:
       break;
@@ -66,7 +94,9 @@ std::unique_ptr<Writer> make_writer(io::Format format, const WriterTarget& targe
     case io::Format::medit:
       return make_medit_writer(target);
     case io::Format::mfem:
-      return make_mfem_writer(target);
+      return make_mfem_writer(target, MfemNames::comments);
+    case io::Format::mfem_sets:
+      return make_mfem_writer(target, MfemNames::sets);
     case io::Format::msh2:
       return make_msh2_writer(target);
     case io::Format::msh:

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -83,6 +85,24 @@ Groups groups_of(const Piece& piece)
   return groups;
 }
 
+// Names that ParMesh reads: all ranks have all of them.
+struct Sets {
+  std::string materials{};
+  std::string patches{};
+};
+
+// Readers take a name from quote to quote.
+std::string sets_of(const char* keyword, const std::vector<std::string>& names)
+{
+  std::set<std::string> taken;
+  std::string text = fmt::format("\n{}\n{}\n", keyword, names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string name = unique_name(plain_name(names[i], "\"\\"), std::identity{}, taken);
+    text += fmt::format("\"{}\" 1 {}\n", name, i + 1);
+  }
+  return text;
+}
+
 void add_names(const Outline& outline, TextBuffer& text)
 {
   for (std::size_t i = 0; i < outline.material_names.size(); ++i)
@@ -91,7 +111,7 @@ void add_names(const Outline& outline, TextBuffer& text)
     text.add("# boundary attribute {}: {}\n", i + 1, plain_name(outline.patch_names[i]));
 }
 
-void add_serial_mesh(const Piece& piece, TextBuffer& text)
+void add_serial_mesh(const Piece& piece, const Sets& sets, TextBuffer& text)
 {
   text.add("\ndimension\n3\n\nelements\n{}\n", piece.num_tets());
   for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
@@ -99,13 +119,13 @@ void add_serial_mesh(const Piece& piece, TextBuffer& text)
     text.add("{} {} {} {} {} {}\n", piece.tet_material[at(t)], kTet, point[0], point[1], point[2],
              point[3]);
   }
-  text.add("\nboundary\n{}\n", piece.num_triangles());
+  text.add("{}\nboundary\n{}\n", sets.materials, piece.num_triangles());
   for (LocalIndex t = 0; t < piece.num_triangles(); ++t) {
     const LocalIndex* const point = piece.triangle_points.data() + 3 * at(t);
     text.add("{} {} {} {} {}\n", piece.triangle_patch[at(t)], kTriangle, point[0], point[1],
              point[2]);
   }
-  text.add("\nvertices\n{}\n3\n", piece.num_points());
+  text.add("{}\nvertices\n{}\n3\n", sets.patches, piece.num_points());
   for (std::size_t i = 0; i < piece.point_xyz.size(); i += 3)
     text.add("{} {} {}\n", piece.point_xyz[i], piece.point_xyz[i + 1], piece.point_xyz[i + 2]);
   text.add("\nmfem_serial_mesh_end\n");
@@ -142,8 +162,12 @@ void add_groups(const Groups& groups, TextBuffer& text)
 
 class MfemWriter final : public Writer {
  public:
-  explicit MfemWriter(const WriterTarget& target) : outline_(target.outline), folder_(target.folder)
+  MfemWriter(const WriterTarget& target, MfemNames names)
+      : outline_(target.outline), folder_(target.folder), names_(names)
   {
+    if (names_ == MfemNames::comments) return;
+    sets_.materials = sets_of("attribute_sets", outline_.material_names);
+    sets_.patches = sets_of("bdr_attribute_sets", outline_.patch_names);
   }
 
   void begin() override {}
@@ -151,26 +175,30 @@ class MfemWriter final : public Writer {
   void write(const Piece& piece) override
   {
     TextBuffer text;
-    text.add("MFEM mesh v1.2\n\n");
-    add_names(outline_, text);
-    add_serial_mesh(piece, text);
+    const bool has_sets = names_ == MfemNames::sets;
+    text.add("MFEM mesh v1.{}\n\n", has_sets ? 3 : 2);
+    if (!has_sets) add_names(outline_, text);
+    add_serial_mesh(piece, sets_, text);
     const Groups groups = groups_of(piece);
     add_group_list(piece, groups, text);
     add_groups(groups, text);
     text.add("\nmfem_mesh_end\n");
-    write_whole_file(folder_ / fmt::format("mesh.{:06}", piece.number), text.view());
+    const char* const name = has_sets ? "mesh_sets" : "mesh";
+    write_whole_file(folder_ / fmt::format("{}.{:06}", name, piece.number), text.view());
   }
 
  private:
   const Outline& outline_;
   const std::filesystem::path& folder_;
+  MfemNames names_;
+  Sets sets_{};
 };
 
 }  // namespace
 
-std::unique_ptr<Writer> make_mfem_writer(const WriterTarget& target)
+std::unique_ptr<Writer> make_mfem_writer(const WriterTarget& target, MfemNames names)
 {
-  return std::make_unique<MfemWriter>(target);
+  return std::make_unique<MfemWriter>(target, names);
 }
 
 }  // namespace tessera::formats

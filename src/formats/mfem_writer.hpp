@@ -7,8 +7,14 @@
 
 namespace tessera::formats {
 
-/// @brief mesh.000000, mesh.000001, …: one file a piece, each read by one rank of MFEM's ParMesh.
+/// @brief Where names of materials and patches stand in files of MFEM.
+enum class MfemNames {
+  comments,  ///< Version 1.2, mesh.000000, ….
+  sets,      ///< Version 1.3, mesh_sets.000000, …: a set of attributes for each name.
+};
+
+/// @brief One file a piece, each read by one rank of MFEM's ParMesh.
 /// @pre pieces have their shared edges.
-[[nodiscard]] std::unique_ptr<Writer> make_mfem_writer(const WriterTarget& target);
+[[nodiscard]] std::unique_ptr<Writer> make_mfem_writer(const WriterTarget& target, MfemNames names);
 
 }  // namespace tessera::formats

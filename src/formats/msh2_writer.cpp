@@ -64,7 +64,8 @@ class Msh2Writer final : public Writer {
   void write(const Piece& piece) override
   {
     const LocalIndex number = piece.number;
-    file_.write(kNodes, outline_.first_point[at(number)], nodes_of(piece));
+    for (const PointRun& run : outline_.own_points(number))
+      file_.write(kNodes, run.first_number, nodes_of(piece, run));
     file_.write(kTriangles, outline_.first_triangle[at(number)],
                 elements_of(piece, msh_triangles(outline_, piece), msh_tag_of_patch(outline_, 0)));
     file_.write(kTets, outline_.first_tet[at(number)],
@@ -83,7 +84,7 @@ class Msh2Writer final : public Writer {
   [[nodiscard]] GlobalIndex element_size(const MshCellType& type) const
   {
     // Number, type, how many tags, two tags, nodes.
-    return 1 + element_width_ + 2 + 2 + 2 * (1 + tag_width_)
+    return 1 + element_width_ + 1 + width_of(type.number) + 2 + 2 * (1 + tag_width_)
            + static_cast<GlobalIndex>(type.num_points) * (1 + point_width_) + 1;
   }
 
@@ -95,15 +96,15 @@ class Msh2Writer final : public Writer {
     return {
         {head, outline_.num_points(), node_size()},
         {fmt::format("$EndNodes\n$Elements\n{}\n", outline_.num_triangles() + outline_.num_tets()),
-         outline_.num_triangles(), element_size(kMshTriangle)},
-        {"", outline_.num_tets(), element_size(kMshTet)}};
+         outline_.num_triangles(), element_size(msh_triangle_type(outline_))},
+        {"", outline_.num_tets(), element_size(msh_tet_type(outline_))}};
   }
 
-  [[nodiscard]] std::string nodes_of(const Piece& piece) const
+  [[nodiscard]] std::string nodes_of(const Piece& piece, const PointRun& run) const
   {
     std::string text;
-    text.reserve(static_cast<std::size_t>(node_size() * piece.num_own_points));
-    for (LocalIndex p = 0; p < piece.num_own_points; ++p) {
+    text.reserve(static_cast<std::size_t>(node_size() * run.count));
+    for (LocalIndex p = run.first_row; p < run.first_row + run.count; ++p) {
       add_number(text, piece.point_numbers[at(p)] + 1, point_width_);
       for (const double value : point_at(std::span(piece.point_xyz), p))
         fmt::format_to(std::back_inserter(text), " {:>{}}", value, kRealWidth);
@@ -118,14 +119,15 @@ class Msh2Writer final : public Writer {
   {
     std::string text;
     text.reserve(static_cast<std::size_t>(element_size(cells.type)) * cells.tags.size());
+    std::vector<GlobalIndex> nodes;
     for (std::size_t c = 0; c < cells.tags.size(); ++c) {
       add_number(text, cells.first_element + static_cast<GlobalIndex>(c), element_width_);
-      add_number(text, cells.type.number, 1);
+      add_number(text, cells.type.number, width_of(cells.type.number));
       add_number(text, 2, 1);
       for (int tag = 0; tag < 2; ++tag) add_number(text, cells.tags[c] + shift, tag_width_);
-      const std::size_t num_points = cells.type.num_points;
-      for (const LocalIndex row : cells.points.subspan(num_points * c, num_points))
-        add_number(text, piece.point_numbers[at(row)] + 1, point_width_);
+      nodes.clear();
+      msh_add_nodes(piece, cells, c, nodes);
+      for (const GlobalIndex node : nodes) add_number(text, node, point_width_);
       text += '\n';
     }
     return text;

@@ -3,7 +3,9 @@
 
 #include <bit>
 #include <functional>
+#include <iterator>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -49,16 +51,36 @@ std::int32_t msh_tag_of_patch(const Outline& outline, std::int32_t patch)
   return static_cast<std::int32_t>(outline.material_names.size()) + patch;
 }
 
+MshCellType msh_triangle_type(const Outline& outline)
+{
+  return outline.is_of_second_order() ? kMshTriangle6 : kMshTriangle;
+}
+
+MshCellType msh_tet_type(const Outline& outline)
+{
+  return outline.is_of_second_order() ? kMshTet10 : kMshTet;
+}
+
+void msh_add_nodes(const Piece& piece, const MshCells& cells, std::size_t cell,
+                   std::vector<GlobalIndex>& nodes)
+{
+  const std::size_t num_points = cells.type.num_points;
+  for (const LocalIndex row : cells.points.subspan(num_points * cell, num_points))
+    nodes.push_back(piece.point_numbers[at(row)] + 1);
+  if (num_points == kMshTet10.num_points)
+    std::swap(*std::prev(nodes.end()), *std::prev(nodes.end(), 2));
+}
+
 MshCells msh_triangles(const Outline& outline, const Piece& piece)
 {
-  return {kMshTriangle, piece.triangle_points, piece.triangle_patch,
+  return {msh_triangle_type(outline), piece.triangle_points, piece.triangle_patch,
           outline.pieces[at(piece.number)].triangles_of_patch,
           outline.num_tets() + outline.first_triangle[at(piece.number)] + 1};
 }
 
 MshCells msh_tets(const Outline& outline, const Piece& piece)
 {
-  return {kMshTet, piece.tet_points, piece.tet_material,
+  return {msh_tet_type(outline), piece.tet_points, piece.tet_material,
           outline.pieces[at(piece.number)].tets_of_material,
           outline.first_tet[at(piece.number)] + 1};
 }
@@ -72,8 +94,7 @@ std::vector<GlobalIndex> msh4_records(const Piece& piece, const MshCells& cells,
   for (std::size_t c = 0; c < cells.tags.size(); ++c) {
     if (cells.tags[c] != count.tag) continue;
     records.push_back(cells.first_element + static_cast<GlobalIndex>(c));
-    for (const LocalIndex row : cells.points.subspan(num_points * c, num_points))
-      records.push_back(piece.point_numbers[at(row)] + 1);
+    msh_add_nodes(piece, cells, c, records);
   }
   return records;
 }

@@ -24,6 +24,12 @@ struct MshCellType {
 };
 inline constexpr MshCellType kMshTriangle{2, 2, 3};
 inline constexpr MshCellType kMshTet{3, 4, 4};
+inline constexpr MshCellType kMshTriangle6{2, 9, 6};
+inline constexpr MshCellType kMshTet10{3, 11, 10};
+
+/// @brief The kinds of cells that a mesh has. Local.
+[[nodiscard]] MshCellType msh_triangle_type(const Outline& outline);
+[[nodiscard]] MshCellType msh_tet_type(const Outline& outline);
 
 /// @brief Bytes of numbers, one behind the other. MSH's size_t is a GlobalIndex here.
 class MshBytes {
@@ -68,6 +74,11 @@ struct MshCells {
   std::span<const TagCount> counts{};    ///< How many cells have which tag; ascending.
   GlobalIndex first_element = 0;         ///< Tag of the first cell in files.
 };
+
+/// @brief Tags of the nodes of a cell, in the order of MSH, which has the last two nodes of a tet
+/// of second order the other way round than VTK. Local.
+void msh_add_nodes(const Piece& piece, const MshCells& cells, std::size_t cell,
+                   std::vector<GlobalIndex>& nodes);
 
 /// @brief The triangles of a piece. Local. Borrows from both.
 [[nodiscard]] MshCells msh_triangles(const Outline& outline, const Piece& piece);

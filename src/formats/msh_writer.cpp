@@ -55,9 +55,9 @@ class MshWriter final : public Writer {
  public:
   explicit MshWriter(const WriterTarget& target)
       : outline_(target.outline),
-        triangles_(blocks_of(outline_, kMshTriangle, &PieceCounts::triangles_of_patch,
-                             outline_.patch_names.size())),
-        tets_(blocks_of(outline_, kMshTet, &PieceCounts::tets_of_material,
+        triangles_(blocks_of(outline_, msh_triangle_type(outline_),
+                             &PieceCounts::triangles_of_patch, outline_.patch_names.size())),
+        tets_(blocks_of(outline_, msh_tet_type(outline_), &PieceCounts::tets_of_material,
                         outline_.material_names.size())),
         file_(target.folder / "mesh.msh", sections(), kMshEndElements)
   {
@@ -67,12 +67,15 @@ class MshWriter final : public Writer {
 
   void write(const Piece& piece) override
   {
-    const GlobalIndex point = outline_.first_point[at(piece.number)];
-    std::vector<GlobalIndex> tags(at(piece.num_own_points));
-    std::iota(tags.begin(), tags.end(), point + 1);
-    file_.write(kNodeTags, point, bytes_of(tags));
-    const auto own_size = static_cast<std::size_t>(kPointSize * piece.num_own_points);
-    file_.write(kNodePoints, point, bytes_of(piece.point_xyz).substr(0, own_size));
+    for (const PointRun& run : outline_.own_points(piece.number)) {
+      std::vector<GlobalIndex> tags(at(run.count));
+      std::iota(tags.begin(), tags.end(), run.first_number + 1);
+      file_.write(kNodeTags, run.first_number, bytes_of(tags));
+      file_.write(kNodePoints, run.first_number,
+                  bytes_of(piece.point_xyz)
+                      .substr(static_cast<std::size_t>(kPointSize * run.first_row),
+                              static_cast<std::size_t>(kPointSize * run.count)));
+    }
     write(piece, triangles_, kFirstBlock, msh_triangles(outline_, piece));
     write(piece, tets_, kFirstBlock + triangles_.counts.size(), msh_tets(outline_, piece));
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <map>
 #include <span>
 #include <tuple>
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/quadratic_tet.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/vtu.hpp"
@@ -24,20 +26,82 @@ namespace {
 
 namespace fs = std::filesystem;
 
-mesh::MeshArrays read_cells(const fs::path& file, int vertices_per_cell)
+// Points of a cell of second order.
+constexpr int with_nodes(int num_corners) { return num_corners == 4 ? 10 : 6; }
+
+mesh::MeshArrays read_cells(const fs::path& file, int num_corners)
 {
   mesh::MeshArrays cells = io::read_vtu(file, io::CellOrder::up_to_second);
-  if (cells.vertices_per_cell > 4) {
+  if (cells.num_cells() > 0 && cells.vertices_per_cell != with_nodes(num_corners)
+      && cells.vertices_per_cell != num_corners) {
     throw InputError(
-        fmt::format("{}: its cells are of second order, which no other format is written of; make "
-                    "the mesh with output.order = 1",
-                    file.string()));
-  }
-  if (cells.num_cells() > 0 && cells.vertices_per_cell != vertices_per_cell) {
-    throw InputError(fmt::format("{}: it has no {}", file.string(),
-                                 vertices_per_cell == 4 ? "tets" : "triangles"));
+        fmt::format("{}: it has no {}", file.string(), num_corners == 4 ? "tets" : "triangles"));
   }
   return cells;
+}
+
+// Leaves cells with their corners alone. @return The nodes of their edges; none of first order.
+std::vector<LocalIndex> take_nodes(mesh::MeshArrays& cells, int num_corners)
+{
+  if (cells.vertices_per_cell == num_corners) return {};
+  const auto width = static_cast<std::size_t>(cells.vertices_per_cell);
+  std::vector<LocalIndex> corners;
+  std::vector<LocalIndex> nodes;
+  for (std::size_t first = 0; first < cells.cell_points.size(); first += width) {
+    const auto cell = cells.cell_points.begin() + static_cast<std::ptrdiff_t>(first);
+    corners.insert(corners.end(), cell, cell + num_corners);
+    nodes.insert(nodes.end(), cell + num_corners, cell + cells.vertices_per_cell);
+  }
+  cells.cell_points = std::move(corners);
+  cells.vertices_per_cell = num_corners;
+  return nodes;
+}
+
+// From rows in the file to rows with the nodes behind all vertices, each kind in its order.
+struct NodesLast {
+  std::vector<LocalIndex> rows{};
+  LocalIndex num_nodes = 0;
+};
+
+NodesLast nodes_last(const mesh::MeshArrays& cells, const std::vector<LocalIndex>& nodes,
+                     const fs::path& file)
+{
+  std::vector<bool> is_node(at(static_cast<LocalIndex>(cells.num_points())), false);
+  for (const LocalIndex node : nodes) is_node[at(node)] = true;
+  for (const LocalIndex corner : cells.cell_points) {
+    if (!is_node[at(corner)]) continue;
+    throw InputError(
+        fmt::format("{}: point {} is a corner of a tet and stands on an edge of another",
+                    file.string(), corner));
+  }
+  NodesLast found;
+  found.num_nodes = static_cast<LocalIndex>(std::ranges::count(is_node, true));
+  LocalIndex next_vertex = 0;
+  LocalIndex next_node = static_cast<LocalIndex>(is_node.size()) - found.num_nodes;
+  for (const bool is_last : is_node) found.rows.push_back(is_last ? next_node++ : next_vertex++);
+  return found;
+}
+
+void move_points(const std::vector<LocalIndex>& rows, mesh::MeshArrays& cells)
+{
+  const std::vector<double> xyz = cells.point_xyz;
+  const std::vector<GlobalIndex> ids = cells.point_ids;
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    for (std::size_t d = 0; d < 3; ++d) cells.point_xyz[3 * at(rows[p]) + d] = xyz[3 * p + d];
+    if (!ids.empty()) cells.point_ids[at(rows[p])] = ids[p];
+  }
+  for (LocalIndex& corner : cells.cell_points) corner = rows[at(corner)];
+}
+
+// Makes points of the nodes that tets of second order have.
+void take_nodes(mesh::MeshArrays& cells, const fs::path& file, LoadedPiece& piece)
+{
+  piece.tet_nodes = take_nodes(cells, 4);
+  if (piece.tet_nodes.empty()) return;
+  const NodesLast last = nodes_last(cells, piece.tet_nodes, file);
+  piece.num_nodes = last.num_nodes;
+  move_points(last.rows, cells);
+  for (LocalIndex& node : piece.tet_nodes) node = last.rows[at(node)];
 }
 
 std::vector<VertexKey> keys_of_points(const mesh::MeshArrays& cells, VertexIdentity identity,
@@ -210,6 +274,18 @@ FileNames names_in(const mesh::MeshArrays& cells)
 
 }  // namespace
 
+std::vector<LocalIndex> LoadedPiece::points_of_side(LocalIndex side) const
+{
+  const std::array<std::size_t, 3>& corners = mesh::kTetFaceCorners[at(side % 4)];
+  const std::size_t tet = at(side / 4);
+  std::vector<LocalIndex> points;
+  for (const std::size_t c : corners) points.push_back(tet_points[4 * tet + c]);
+  if (tet_nodes.empty()) return points;
+  for (std::size_t c = 0; c < 3; ++c)
+    points.push_back(tet_nodes[6 * tet + row_of_edge(corners[c], corners[(c + 1) % 3])]);
+  return points;
+}
+
 PieceSource::PieceSource(const fs::path& index, const comm::Communicator& comm)
     : num_ranks_(comm.size()), tets_(subdomain::pieces_of(index, comm))
 {
@@ -254,6 +330,7 @@ LoadedPiece PieceSource::load(LocalIndex number) const
   const fs::path& file = tets_[at(number)];
   mesh::MeshArrays cells = read_cells(file, 4);
   LoadedPiece piece;
+  take_nodes(cells, file, piece);
   piece.point_keys = keys_of_points(cells, identity_, file);
   piece.point_xyz = std::move(cells.point_xyz);
   piece.tet_points = std::move(cells.cell_points);
@@ -264,7 +341,8 @@ LoadedPiece PieceSource::load(LocalIndex number) const
   require_positive(piece, file);
   if (!boundary_ || (*boundary_)[at(number)].empty()) return piece;
   const fs::path& boundary_file = (*boundary_)[at(number)];
-  const mesh::MeshArrays boundary = read_cells(boundary_file, 3);
+  mesh::MeshArrays boundary = read_cells(boundary_file, 3);
+  take_nodes(boundary, 3);  // They are those of the tets.
   add_triangles(boundary, keys_of_points(boundary, identity_, boundary_file), cells.cell_ids,
                 boundary_file, piece);
   return piece;

@@ -13,17 +13,30 @@
 
 namespace tessera::formats {
 
-/// @brief A piece as it stands in its files, with what is easily told of it.
+/// @brief A piece as it stands in its files, with what is easily told of it. Of second order the
+/// nodes on edges are points as well: the last ones.
 struct LoadedPiece {
   std::vector<double> point_xyz{};          ///< Shape (num_points, 3).
   std::vector<VertexKey> point_keys{};      ///< Shape (num_points): the same in all pieces.
-  std::vector<LocalIndex> tet_points{};     ///< Shape (num_tets, 4); positive.
+  std::vector<LocalIndex> tet_points{};     ///< Shape (num_tets, 4): corners; positive.
+  std::vector<LocalIndex> tet_nodes{};      ///< Shape (num_tets, 6), kQuadraticTetEdges; or empty.
+  LocalIndex num_nodes = 0;                 ///< Points that are nodes.
   std::vector<std::int32_t> material{};     ///< Shape (num_tets), as in the file.
   std::vector<LocalIndex> triangle_side{};  ///< Shape (num_triangles): 4 * tet + opposite corner.
   std::vector<std::int32_t> patch{};        ///< Shape (num_triangles), as in the file.
 
   [[nodiscard]] LocalIndex num_points() const { return static_cast<LocalIndex>(point_keys.size()); }
   [[nodiscard]] LocalIndex num_tets() const { return static_cast<LocalIndex>(material.size()); }
+  [[nodiscard]] int points_per_tet() const
+  {
+    if (material.empty()) return 0;
+    return tet_nodes.empty() ? 4 : 10;
+  }
+
+  /// @brief Its three corners, seen from outside of its tet; then the nodes between the first and
+  /// the second, the second and the third, the third and the first. Local.
+  /// @param[in] side 4 * tet + opposite corner.
+  [[nodiscard]] std::vector<LocalIndex> points_of_side(LocalIndex side) const;
 };
 
 /// @brief Names that stand in the files of a mesh, row by row; empty where there are none.

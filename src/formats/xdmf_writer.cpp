@@ -29,6 +29,8 @@ constexpr const char* kPatch = "/boundary/patch";
 // (num_pieces + 1, 3), and rows of (piece, other piece, points that both have).
 constexpr const char* kFirsts = "/pieces/first_point_tet_triangle";
 constexpr const char* kNeighbours = "/pieces/neighbours";
+// Of second order, where the nodes on edges of each piece begin; points are vertices there.
+constexpr const char* kFirstNodes = "/pieces/first_node";
 
 GlobalIndex num_neighbours(const Outline& outline)
 {
@@ -42,16 +44,25 @@ Hdf5Layout layout_of(const Outline& outline)
 {
   const GlobalIndex num_tets = outline.num_tets();
   const GlobalIndex num_triangles = outline.num_triangles();
-  return {.arrays = {{kPoints, Hdf5Type::float64, outline.num_points(), 3, {}},
-                     {kTets, Hdf5Type::int64, num_tets, 4, {{"cell_dim", 3}, {"cell_corners", 4}}},
-                     {kMaterial, Hdf5Type::int32, num_tets, 1, {}},
-                     {kPiece, Hdf5Type::int32, num_tets, 1, {}},
-                     {kTriangles, Hdf5Type::int64, num_triangles, 3, {}},
-                     {kPatch, Hdf5Type::int32, num_triangles, 1, {}},
-                     {kFirsts, Hdf5Type::int64, outline.num_pieces() + 1, 3, {}},
-                     {kNeighbours, Hdf5Type::int64, num_neighbours(outline), 3, {}}},
-          .texts = {{"/names/materials", outline.material_names},
-                    {"/names/patches", outline.patch_names}}};
+  const auto per_tet = static_cast<int>(outline.points_per_tet());
+  const auto per_triangle = static_cast<int>(outline.points_per_triangle());
+  Hdf5Layout layout{.arrays = {{kPoints, Hdf5Type::float64, outline.num_points(), 3, {}},
+                               {kTets,
+                                Hdf5Type::int64,
+                                num_tets,
+                                per_tet,
+                                {{"cell_dim", 3}, {"cell_corners", per_tet}}},
+                               {kMaterial, Hdf5Type::int32, num_tets, 1, {}},
+                               {kPiece, Hdf5Type::int32, num_tets, 1, {}},
+                               {kTriangles, Hdf5Type::int64, num_triangles, per_triangle, {}},
+                               {kPatch, Hdf5Type::int32, num_triangles, 1, {}},
+                               {kFirsts, Hdf5Type::int64, outline.num_pieces() + 1, 3, {}},
+                               {kNeighbours, Hdf5Type::int64, num_neighbours(outline), 3, {}}},
+                    .texts = {{"/names/materials", outline.material_names},
+                              {"/names/patches", outline.patch_names}}};
+  if (outline.is_of_second_order())
+    layout.arrays.push_back({kFirstNodes, Hdf5Type::int64, outline.num_pieces() + 1, 1, {}});
+  return layout;
 }
 
 std::string data_item(const Hdf5Array& array)
@@ -118,15 +129,16 @@ std::string tets_grid(const Hdf5Layout& layout)
 {
   const auto& [points, tets, material, piece] =
       std::tie(layout.arrays[0], layout.arrays[1], layout.arrays[2], layout.arrays[3]);
-  return grid("mesh", "Tetrahedron", points, tets) + attribute("material", material)
-         + attribute("piece", piece);
+  return grid("mesh", tets.num_columns == 4 ? "Tetrahedron" : "Tetrahedron_10", points, tets)
+         + attribute("material", material) + attribute("piece", piece);
 }
 
 std::string boundary_grid(const Hdf5Layout& layout)
 {
   const auto& [points, triangles, patch] =
       std::tie(layout.arrays[0], layout.arrays[4], layout.arrays[5]);
-  return grid("boundary", "Triangle", points, triangles) + attribute("patch", patch);
+  return grid("boundary", triangles.num_columns == 3 ? "Triangle" : "Triangle_6", points, triangles)
+         + attribute("patch", patch);
 }
 
 class XdmfWriter final : public Writer {
@@ -150,12 +162,17 @@ class XdmfWriter final : public Writer {
   {
     const GlobalIndex tet = outline_.first_tet[at(piece.number)];
     const GlobalIndex triangle = outline_.first_triangle[at(piece.number)];
-    put<double>(kPoints, 3 * outline_.first_point[at(piece.number)],
-                std::span(piece.point_xyz).first(3 * at(piece.num_own_points)));
-    put<GlobalIndex>(kTets, 4 * tet, numbers(piece, piece.tet_points));
+    for (const PointRun& run : outline_.own_points(piece.number)) {
+      put<double>(kPoints, 3 * run.first_number,
+                  std::span(piece.point_xyz).subspan(3 * at(run.first_row), 3 * at(run.count)));
+    }
+    put<GlobalIndex>(kTets, static_cast<GlobalIndex>(outline_.points_per_tet()) * tet,
+                     numbers(piece, piece.tet_points));
     put<std::int32_t>(kMaterial, tet, piece.tet_material);
     put<std::int32_t>(kPiece, tet, std::vector(piece.tet_material.size(), piece.number));
-    put<GlobalIndex>(kTriangles, 3 * triangle, numbers(piece, piece.triangle_points));
+    put<GlobalIndex>(kTriangles,
+                     static_cast<GlobalIndex>(outline_.points_per_triangle()) * triangle,
+                     numbers(piece, piece.triangle_points));
     put<std::int32_t>(kPatch, triangle, piece.triangle_patch);
   }
 
@@ -196,6 +213,7 @@ class XdmfWriter final : public Writer {
         neighbours.insert(neighbours.end(), {p, other.piece, other.num_shared_points});
     }
     put<GlobalIndex>(kFirsts, 0, firsts);
+    put<GlobalIndex>(kFirstNodes, 0, outline_.first_node);
     put<GlobalIndex>(kNeighbours, 0, neighbours);
   }
 

@@ -53,7 +53,7 @@ template <class Names>
 [[nodiscard]] bool is_run_file(const std::string& name)
 {
   return has_name(kRunFiles, name) || is_numbered(name, "mesh_", ".msh")
-         || is_numbered(name, "mesh.", "");
+         || is_numbered(name, "mesh.", "") || is_numbered(name, "mesh_sets.", "");
 }
 
 [[noreturn]] void fail(const std::string& what, const fs::path& path, const std::error_code& error)

@@ -14,14 +14,6 @@ namespace {
 
 constexpr LocalIndex kIntervals = 2;  // Of an edge with a node in its middle.
 
-// Row of an edge of the tet among kQuadraticTetEdges.
-std::size_t row_of_edge(std::size_t a, std::size_t b)
-{
-  const std::array sorted{std::min(a, b), std::max(a, b)};
-  return static_cast<std::size_t>(std::ranges::find(kQuadraticTetEdges, sorted)
-                                  - kQuadraticTetEdges.begin());
-}
-
 void put(const Vec3& point, LocalIndex vertex, mesh::Piece& piece)
 {
   std::ranges::copy(point, &piece.vertex_xyz[3 * at(vertex)]);

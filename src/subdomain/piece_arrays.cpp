@@ -79,22 +79,6 @@ void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshAr
   number_by_owner(piece, mesh, arrays);
 }
 
-// Row by row the corners of cells and then their nodes on edges; the corners alone if there are no
-// nodes.
-std::vector<LocalIndex> with_nodes(std::vector<LocalIndex> corners, std::size_t num_corners,
-                                   const std::vector<LocalIndex>& nodes, std::size_t num_nodes)
-{
-  if (nodes.empty()) return corners;
-  std::vector<LocalIndex> both;
-  both.reserve(corners.size() + nodes.size());
-  for (std::size_t cell = 0; num_nodes * cell < nodes.size(); ++cell) {
-    both.insert(both.end(), &corners[num_corners * cell],
-                &corners[num_corners * cell] + num_corners);
-    both.insert(both.end(), &nodes[num_nodes * cell], &nodes[num_nodes * cell] + num_nodes);
-  }
-  return both;
-}
-
 // All but the positions and corners, which the piece itself gives away.
 mesh::MeshArrays tet_arrays(const mesh::Piece& piece, const WriteContext& mesh, bool with_quality)
 {

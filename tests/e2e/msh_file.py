@@ -2,7 +2,8 @@
 """Readers of Gmsh's MSH files that know nothing of the program that wrote them."""
 import numpy as np
 
-NUM_CORNERS = {2: 3, 4: 4}  # By type of element: triangle, tet.
+NUM_NODES = {2: 3, 4: 4, 9: 6, 11: 10}  # By type of element: triangle, tet, both of second order.
+DIMENSION = {2: 2, 4: 3, 9: 2, 11: 3}
 TRIANGLE, TET = 2, 4
 
 
@@ -38,7 +39,7 @@ class Msh:
 
     def elements(self, kind, with_ghosts=False):
         """Rows of element and nodes of all blocks of a type, and a name for each."""
-        rows, names = [np.empty((0, NUM_CORNERS[kind] + 1), int)], []
+        rows, names = [np.empty((0, NUM_NODES[kind] + 1), int)], []
         for dimension, entity, block_kind, block in self.blocks:
             is_ghost = dimension == 3 and entity in self.ghost_parts
             if block_kind == kind and (with_ghosts or not is_ghost):
@@ -153,7 +154,7 @@ class Msh:
         for _ in range(num_blocks):
             dimension, entity, kind = self._ints(3)
             assert (dimension, entity) in self.physicals or entity in self.ghost_parts
-            rows = self._array("<u8", self._sizes(1)[0], NUM_CORNERS[kind] + 1)
+            rows = self._array("<u8", self._sizes(1)[0], NUM_NODES[kind] + 1)
             self.blocks.append((dimension, entity, kind, rows.astype(int)))
         tags = np.concatenate([np.empty(0, int), *(block[:, 0] for *_, block in self.blocks)])
         assert_range(tags, num_elements, first, last)
@@ -162,11 +163,11 @@ class Msh:
         groups = {}
         for _ in range(int(self._line())):
             element, kind, num_tags, *values = map(int, self._line().split())
-            assert num_tags == 2 and len(values) == 2 + NUM_CORNERS[kind]
+            assert num_tags == 2 and len(values) == 2 + NUM_NODES[kind]
             physical, entity, *nodes = values
             assert physical > 0 and entity > 0
-            self.physicals[kind // 2 + 1, entity] = [physical]
-            groups.setdefault((kind // 2 + 1, entity, kind), []).append([element, *nodes])
+            self.physicals[DIMENSION[kind], entity] = [physical]
+            groups.setdefault((DIMENSION[kind], entity, kind), []).append([element, *nodes])
         self.blocks = [(*key, np.array(rows)) for key, rows in groups.items()]
 
     def _read_GhostElements(self):

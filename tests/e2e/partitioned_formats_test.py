@@ -24,7 +24,7 @@ from part_files import SIDES, ElmerPart, MfemPart, shared_by  # noqa: E402
 from poly_mesh import PolyMesh, body_of, read_list  # noqa: E402
 
 PARTS = 6
-FORMATS = ("elmer", "mfem", "openfoam", "openfoam-serial")
+FORMATS = ("elmer", "mfem", "mfem-sets", "openfoam", "openfoam-serial")
 
 
 def hashes(folder):
@@ -114,6 +114,13 @@ class PartitionedFormats(program.ProgramTest):
             self.assertEqual(listed, {entity: pieces for entity, pieces in shared.items() if number in pieces})
             counts = collections.Counter(map(len, listed))
             self.assertEqual(part.totals, [counts[1], counts[2], counts[3]])
+
+    def test_mfem_with_named_sets_is_the_same_mesh(self):
+        for number, file in enumerate(sorted(self.source.glob("mesh_sets.*"))):
+            named, plain = MfemPart(file), MfemPart(self.source / f"mesh.{number:06}")
+            self.assertGreater(len(named.names), 2)
+            self.assertEqual(vars(named), vars(plain))
+        self.assertEqual(number, PARTS - 1)
 
     def test_mfem_edges_are_those_of_both_parts(self):
         """Two parts may have both ends of an edge that only one has: it is not shared."""

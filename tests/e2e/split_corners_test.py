@@ -5,6 +5,7 @@ import pathlib
 import sys
 import unittest
 
+import kill
 import numpy as np
 import program
 from program import WRONG_INPUT
@@ -88,6 +89,41 @@ class SplitCorners(program.ProgramTest):
             "--only-subdomains", "1",
         )  # fmt: skip
         self.assert_refused(outcome, WRONG_INPUT, "--only-subdomains excludes fill.split_corners")
+
+
+class Killed(kill.RestartTest):
+    """One kernel's tets wait in the store, and are improved."""
+
+    KEYS = ("refine.levels=2", "fill.kernel=optimize")
+
+    @classmethod
+    def make_arguments(cls, maker):
+        maker.write("half.geo", HALF_BALL)
+        case = maker.write_case(geometry="half.geo", max_size=0.5, subdomains=8)
+        return [case, *program.sets(*cls.KEYS), *SPLIT]
+
+    def assert_resumed(self):
+        """With the bits of the reference, which is a mesh without such corners."""
+        self.resume(ranks=3)
+        self.assertEqual(num_corner_tets(self.out), 0)
+        self.assert_checked(self.out, volume_tolerance=1e-12)
+
+    def test_while_subdomains_are_filled(self):
+        self.kill_run(self.has_pieces(3), ranks=2)
+        self.assert_resumed()
+
+    def test_while_files_are_written(self):
+        self.kill_run(lambda watch: watch.wait_for_half_written_file("mesh"), ranks=2)
+        self.assert_resumed()
+
+
+class KilledOnGradedLevels(Killed):
+    """Nothing is improved: pieces are split where levels differ, and then their corners."""
+
+    KEYS = (
+        "refine.levels=4", "fill.kernel=subdivide", "size.target=0.15",
+        "size.region=[{ball={centre=[1,0,0],radius=0.2},size=0.04}]",
+    )  # fmt: skip
 
 
 if __name__ == "__main__":

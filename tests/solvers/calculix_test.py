@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""mesh.inp: CalculiX solves a bar under tension and the patch test exactly, and finds all sets."""
+"""mesh.inp: CalculiX solves a bar under tension and the patch test exactly, of first and second order, and finds all
+sets. Beams bend as they should with C3D10."""
 import pathlib
 import re
 import tempfile
@@ -12,7 +13,7 @@ from solver_meshes import Mesh, read_pvtu, run
 YOUNG, POISSON, TENSION, LENGTH = 1000.0, 0.3, 2.0, 2.0
 BAR = """algebraic3d
 solid left = plane (0, 0, 0; -1, 0, 0) -bcname=left;
-solid right = plane (2, 0, 0; 1, 0, 0) -bcname=right;
+solid right = plane ({length}, 0, 0; 1, 0, 0) -bcname=right;
 solid sides = plane (0, 0, 0; 0, -1, 0) and plane (0, 1, 0; 0, 1, 0)
   and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1; 0, 0, 1) -bcname=sides;
 solid bar = left and right and sides;
@@ -38,19 +39,20 @@ class Deck:
         numbered = numpy.array([row.split(",") for row in rows], dtype=float)
         assert (numbered[:, 0] == numpy.arange(1, len(rows) + 1)).all()
         self.xyz = numbered[:, 1:]  # Row i of node i + 1.
-        self.elements = re.findall(r"^\*ELEMENT, TYPE=C3D4, ELSET=(\S+)$", text, re.MULTILINE)
+        self.elements = re.findall(r"^\*ELEMENT, TYPE=C3D(?:4|10), ELSET=(\S+)$", text, re.MULTILINE)
         self.surfaces = re.findall(r"^\*SURFACE, NAME=(\S+), TYPE=ELEMENT$", text, re.MULTILINE)
         self.nodes = {
             name: numpy.array(numbers.split(), dtype=int)
             for name, numbers in re.findall(r"^\*NSET, NSET=(\S+)\n([\d\s]+)", text, re.MULTILINE)
         }
 
-    def solve(self, load):
+    def solve(self, load, density=1.0):
         """Tables that ccx prints, by title, with the same material everywhere."""
         sections = "".join(f"*SOLID SECTION, ELSET={name}, MATERIAL=STUFF\n" for name in self.elements)
         folder = self.file.parent
         (folder / "load.inp").write_text(
-            f"*INCLUDE, INPUT={self.file.name}\n*MATERIAL, NAME=STUFF\n*ELASTIC\n{YOUNG}, {POISSON}\n{sections}"
+            f"*INCLUDE, INPUT={self.file.name}\n*MATERIAL, NAME=STUFF\n*ELASTIC\n{YOUNG}, {POISSON}\n"
+            f"*DENSITY\n{density}\n{sections}"
             f"*STEP\n*STATIC, SOLVER=SPOOLES\n{load}*END STEP\n",
             encoding="utf-8",
         )
@@ -72,8 +74,8 @@ class Deck:
 
 
 class CalculiX(unittest.TestCase):
-    def deck(self, case):
-        mesh = Mesh(case, 3)
+    def deck(self, case, *settings):
+        mesh = Mesh(case, 3, *settings)
         self.addCleanup(mesh.remove)
         return mesh, Deck(mesh.convert("abaqus") / "mesh.inp")
 
@@ -112,14 +114,22 @@ class CalculiX(unittest.TestCase):
             found = tables[f"total volume for set {name}"][0, 0]
             self.assertAlmostEqual(found / volume, 1.0, delta=1e-5)
 
-    def test_bar_under_tension(self):
+    def bar(self, length, *settings):
+        """A mesh of a bar of a square of 1."""
         with tempfile.TemporaryDirectory() as folder:
             case = pathlib.Path(folder) / "bar.toml"
             case.write_text(CASE, encoding="utf-8")
-            case.with_name("bar.geo").write_text(BAR, encoding="utf-8")
-            mesh, deck = self.deck(case)
-        self.check_node_sets(mesh, deck)
+            case.with_name("bar.geo").write_text(BAR.format(length=length), encoding="utf-8")
+            return self.deck(case, *settings)
 
+    def test_bar_under_tension(self):
+        for order in (1, 2):
+            with self.subTest(order=order):
+                mesh, deck = self.bar(LENGTH, f"output.order={order}")
+                self.check_node_sets(mesh, deck)
+                self.check_tension(deck)
+
+    def check_tension(self, deck):
         def node_at(*xyz):
             return int(abs(deck.xyz - xyz).sum(axis=1).argmin()) + 1
 
@@ -136,6 +146,23 @@ class CalculiX(unittest.TestCase):
         self.assertLess(abs(ends / (TENSION * LENGTH / YOUNG) - 1.0).max(), 1e-6)
         force = tables["total force (fx,fy,fz) for set N_LEFT"][0]
         self.assertAlmostEqual(force[0], -TENSION, delta=1e-5)
+
+    def test_beam_bends_as_theory_says_with_tets_of_second_order(self):
+        """Under its own weight. One tet over the height is enough for C3D10, and far from it for C3D4."""
+        length, weight = 8.0, 1e-4
+        bending = weight * length**4 / (8 * YOUNG / 12)
+        shear = weight * length**2 / (2 * 5 / 6 * YOUNG / (2 * (1 + POISSON)))
+        errors = []
+        for order in (1, 2):
+            _, deck = self.bar(length, f"output.order={order}", "coarse.max_size=1", "refine.levels=0")
+            tables = deck.solve(
+                f"*BOUNDARY\nN_LEFT,1,3\n*DLOAD\nEALL,GRAV,1.,0.,0.,-1.\n*NODE PRINT, NSET=N_RIGHT\nU\n",
+                density=weight,
+            )
+            _, found = deck.displacements(tables, "N_RIGHT")
+            errors.append(abs(-found[:, 2].mean() / (bending + shear) - 1.0))
+        self.assertGreater(errors[0], 0.2)
+        self.assertLess(errors[1], 0.02)
 
     def test_three_materials(self):
         mesh, deck = self.deck("core")

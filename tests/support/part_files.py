@@ -59,13 +59,16 @@ class Words:
 
 
 class MfemPart(Part):
-    """mesh.000000 and so on: what ParMesh reads."""
+    """mesh.000000 and so on: what ParMesh reads. With named sets it is mesh_sets.000000."""
 
     def __init__(self, file):
-        text = file.read_text()
-        assert text.startswith("MFEM mesh v1.2\n")
+        version, _, text = file.read_text().partition("\n")
+        assert version == ("MFEM mesh v1.3" if file.name.startswith("mesh_sets.") else "MFEM mesh v1.2")
         self.names = dict(re.findall(r"^# ((?:boundary )?attribute \d+): (.*)$", text, re.MULTILINE))
-        words = Words(text.partition("\n")[2])
+        if version.endswith("v1.3"):
+            assert not self.names
+            self.names, text = self.take_sets(text)
+        words = Words(text)
         assert words.number("dimension") == 3
         tets = words.rows(words.number("elements"), 6)
         assert all(tet[1] == 4 for tet in tets)
@@ -80,6 +83,21 @@ class MfemPart(Part):
             [triangle[2:] for triangle in triangles], [triangle[0] for triangle in triangles],
         )  # fmt: skip
         self.read_groups(words)
+
+    @staticmethod
+    def take_sets(text):
+        """Names as comments of v1.2 have them, and the text without the sets, which stand behind elements and
+        boundary."""
+        names = {}
+        for keyword, kind, before in (("attribute_sets", "attribute", "boundary"),
+                                      ("bdr_attribute_sets", "boundary attribute", "vertices")):  # fmt: skip
+            found = re.search(rf'^{keyword}\n(\d+)\n((?:".*\n)*)\n(?={before}\n)', text, re.MULTILINE)
+            lines = re.findall(r'^"([^"]+)" 1 (\d+)$', found[2], re.MULTILINE)
+            assert len(lines) == int(found[1]) == found[2].count("\n")
+            assert len({name for name, _ in lines}) == len(lines)
+            names.update({f"{kind} {tag}": name for name, tag in lines})
+            text = text[: found.start()] + text[found.end() :]
+        return names, text
 
     def read_groups(self, words):
         words.next("communication_groups")

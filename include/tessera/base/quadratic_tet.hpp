@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
+#include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 
 /// Tets of second order: whether they are valid, by bounds that hold everywhere inside.
@@ -12,6 +14,19 @@ namespace tessera {
 /// @brief Edges of a tet in the order of VTK's nodes 4…9.
 inline constexpr std::array<std::array<std::size_t, 2>, 6> kQuadraticTetEdges{
     {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+
+/// @brief Row of the edge between two corners among kQuadraticTetEdges. Local.
+/// @pre a != b; both are in 0…3.
+[[nodiscard]] std::size_t row_of_edge(std::size_t a, std::size_t b) noexcept;
+
+/// @brief Row by row the corners of cells and then the nodes on their edges; the corners alone if
+/// there are no nodes. Local.
+/// @param[in] corners Shape (num_cells, num_corners).
+/// @param[in] nodes Shape (num_cells, num_nodes), or empty.
+[[nodiscard]] std::vector<LocalIndex> with_nodes(std::vector<LocalIndex> corners,
+                                                 std::size_t num_corners,
+                                                 const std::vector<LocalIndex>& nodes,
+                                                 std::size_t num_nodes);
 
 /// @brief Nodes of a tet of second order, in the order of VTK_QUADRATIC_TETRA.
 using QuadraticTet = std::array<Vec3, 10>;

@@ -14,7 +14,7 @@ namespace tessera::formats {
 
 /// @brief What is to be written of a mesh, and where.
 struct ExportRequest {
-  std::filesystem::path mesh{};       ///< A .pvtu or .vtu file of tets of first order.
+  std::filesystem::path mesh{};       ///< A .pvtu or .vtu file of tets.
   std::vector<io::Format> formats{};  ///< Of io::Format::pvtu there is nothing to do.
   std::filesystem::path folder{};     ///< Exists.
 };
@@ -25,8 +25,8 @@ struct ExportRequest {
 /// @note Collective.
 /// @param[in] before_each Called before each piece is read; what it throws, all ranks throw.
 /// @return What all ranks know of the mesh.
-/// @throws on all ranks InputError naming the file if a piece is damaged, of second order, or does
-/// not fit the others; ConfigError if a format cannot hold the mesh; OutputError naming the file.
+/// @throws on all ranks InputError naming the file if a piece is damaged or does not fit the
+/// others; ConfigError if a format cannot hold the mesh; OutputError naming the file.
 Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm,
                     const std::function<void()>& before_each);
 
@@ -37,6 +37,10 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
 
 /// @brief The pairs of pieces that share points, ascending. Local.
 [[nodiscard]] std::vector<io::SharedPoints> shared_points(const std::vector<PieceCounts>& pieces);
+
+/// @brief Refuses tets of second order in a format that does not hold them. Local.
+/// @throws ConfigError naming those that do.
+void require_order_possible(io::Format format, bool is_second_order);
 
 /// @brief Bytes on disk for each tet of a large mesh, beside the piece files. Local.
 [[nodiscard]] double bytes_per_tet(io::Format format);

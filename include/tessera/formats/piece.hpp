@@ -55,11 +55,13 @@ struct Box {
   static auto fields(auto& self) { return std::tie(self.lowest, self.highest); }
 };
 
-/// @brief What is in one piece.
+/// @brief What is in one piece. Points are vertices, and of second order nodes on edges too.
 struct PieceCounts {
   GlobalIndex num_own_points = 0;  ///< Those that no lower piece has.
+  GlobalIndex num_own_nodes = 0;   ///< Those of them that are nodes on edges.
   GlobalIndex num_points = 0;
   GlobalIndex num_tets = 0;
+  int points_per_tet = 0;  ///< 4, or 10 of second order; 0 if there are no tets.
   GlobalIndex num_triangles = 0;
   std::vector<TagCount> tets_of_material{};    ///< Ascending; none of zero.
   std::vector<TagCount> triangles_of_patch{};  ///< Ascending; none of zero.
@@ -72,16 +74,27 @@ struct PieceCounts {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.num_own_points, self.num_points, self.num_tets, self.num_triangles,
-                    self.tets_of_material, self.triangles_of_patch, self.outer_triangles_of_patch,
-                    self.points_of_patch, self.num_open_faces, self.neighbours, self.box);
+    return std::tie(self.num_own_points, self.num_own_nodes, self.num_points, self.num_tets,
+                    self.points_per_tet, self.num_triangles, self.tets_of_material,
+                    self.triangles_of_patch, self.outer_triangles_of_patch, self.points_of_patch,
+                    self.num_open_faces, self.neighbours, self.box);
   }
+};
+
+/// @brief Own points of a piece whose numbers follow one another.
+struct PointRun {
+  GlobalIndex first_number = 0;
+  LocalIndex first_row = 0;
+  LocalIndex count = 0;
 };
 
 /// @brief What all ranks know of a mesh; the same on each.
 struct Outline {
   std::vector<PieceCounts> pieces{};
-  std::vector<GlobalIndex> first_point{0};     ///< Shape (num_pieces + 1): of the own points.
+  std::vector<GlobalIndex> first_point{0};  ///< Shape (num_pieces + 1): of the own vertices.
+  /// Shape (num_pieces + 1): of the own nodes on edges, which follow all vertices. Empty unless
+  /// tets are of second order.
+  std::vector<GlobalIndex> first_node{};
   std::vector<GlobalIndex> first_tet{0};       ///< Shape (num_pieces + 1).
   std::vector<GlobalIndex> first_triangle{0};  ///< Shape (num_pieces + 1).
   /// Names of the tags 1, 2, …; none empty, none twice.
@@ -90,9 +103,26 @@ struct Outline {
   std::string length_unit{};               ///< Empty if nobody knows it.
 
   [[nodiscard]] LocalIndex num_pieces() const { return static_cast<LocalIndex>(pieces.size()); }
-  [[nodiscard]] GlobalIndex num_points() const { return first_point.back(); }
+  [[nodiscard]] bool is_of_second_order() const { return !first_node.empty(); }
+  [[nodiscard]] std::size_t points_per_tet() const { return is_of_second_order() ? 10 : 4; }
+  [[nodiscard]] std::size_t points_per_triangle() const { return is_of_second_order() ? 6 : 3; }
+  [[nodiscard]] GlobalIndex num_points() const
+  {
+    return is_of_second_order() ? first_node.back() : first_point.back();
+  }
   [[nodiscard]] GlobalIndex num_tets() const { return first_tet.back(); }
   [[nodiscard]] GlobalIndex num_triangles() const { return first_triangle.back(); }
+
+  /// @brief The own points of a piece, which are its first rows: vertices, then nodes on edges, of
+  /// which there are none but of second order.
+  [[nodiscard]] std::array<PointRun, 2> own_points(LocalIndex piece) const
+  {
+    const PieceCounts& counts = pieces[at(piece)];
+    const auto num_nodes = static_cast<LocalIndex>(counts.num_own_nodes);
+    const auto num_vertices = static_cast<LocalIndex>(counts.num_own_points) - num_nodes;
+    const GlobalIndex node = is_of_second_order() ? first_node[at(piece)] : num_points();
+    return {{{first_point[at(piece)], 0, num_vertices}, {node, num_vertices, num_nodes}}};
+  }
 };
 
 /// @brief A face between a tet of this piece and one of another piece.
@@ -125,16 +155,18 @@ struct Ghosts {
 struct Piece {
   LocalIndex number = 0;  ///< Of the piece, from 0.
 
-  /// Shape (num_points, 3). Own points come first: row i of them has the number first_point + i.
+  /// Shape (num_points, 3). Own points come first, see Outline::own_points().
   std::vector<double> point_xyz{};
   std::vector<GlobalIndex> point_numbers{};  ///< Shape (num_points).
   LocalIndex num_own_points = 0;
 
-  std::vector<LocalIndex> tet_points{};      ///< Shape (num_tets, 4): rows; positive.
+  /// Shape (num_tets, 4), or (num_tets, 10) of second order: rows, in the order of VTK; positive.
+  std::vector<LocalIndex> tet_points{};
   std::vector<std::int32_t> tet_material{};  ///< Shape (num_tets): tags from 1.
 
-  /// Shape (num_triangles, 3): rows; each on the geometry, once in the mesh, seen from outside of
-  /// its tet.
+  /// Shape (num_triangles, 3), or (num_triangles, 6) of second order, with the nodes between 0 and
+  /// 1, 1 and 2, 2 and 0: rows; each on the geometry, once in the mesh, seen from outside of its
+  /// tet.
   std::vector<LocalIndex> triangle_points{};
   std::vector<LocalIndex> triangle_side{};  ///< Shape (num_triangles): 4 * tet + opposite corner.
   std::vector<std::int32_t> triangle_patch{};  ///< Shape (num_triangles): tags from 1.

@@ -18,6 +18,7 @@ enum class Format : int {
   exodus,           ///< Binary, for ParaView and MOOSE.
   medit,            ///< Text, for FreeFEM.
   mfem,             ///< MFEM's parallel mesh, a file a piece.
+  mfem_sets,        ///< The same with named sets of attributes, for MFEM 4.7 and later.
   msh,              ///< Gmsh's MSH 4.1, binary, one file.
   msh2,             ///< Gmsh's MSH 2.2, text, one file.
   msh_parts,        ///< Gmsh's MSH 4.1, binary, a file for each piece, with ghost tets.
@@ -38,6 +39,7 @@ constexpr auto enum_words(Format /*tag*/)
       {Format::exodus, "exodus"},
       {Format::medit, "medit"},
       {Format::mfem, "mfem"},
+      {Format::mfem_sets, "mfem-sets"},
       {Format::msh, "msh"},
       {Format::msh2, "msh2"},
       {Format::msh_parts, "msh-parts"},
@@ -45,6 +47,14 @@ constexpr auto enum_words(Format /*tag*/)
       {Format::openfoam_serial, "openfoam-serial"},
       {Format::pvtu_cells, "pvtu-cells"},
   });
+}
+
+/// @brief Whether a format is written of tets of second order. Others do not know them, or nothing
+/// on Debian 12 reads them.
+[[nodiscard]] constexpr bool holds_second_order(Format format)
+{
+  return format == Format::pvtu || format == Format::xdmf || format == Format::abaqus
+         || format == Format::exodus || format == Format::msh || format == Format::msh2;
 }
 
 /// @brief How the arrays of mesh files are packed.

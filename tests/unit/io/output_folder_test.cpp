@@ -145,7 +145,7 @@ TEST(OutputFolder, OverwriteRemovesOtherFormatsAndKeepsWhatSolversAdd)
   fs::create_directory(folder / "elsewhere");
   testing::write_bytes(folder / "elsewhere/polyMesh", "mine");
   for (const char* const made :
-       {"mesh_12.msh", "mesh.000003", "mesh.exo", "partitioning.2/part.1.nodes",
+       {"mesh_12.msh", "mesh.000003", "mesh_sets.000003", "mesh.exo", "partitioning.2/part.1.nodes",
         "processor0/constant/polyMesh/points", "constant/polyMesh/faces",
         "processor1/constant/polyMesh/points"}) {
     fs::create_directories((run / made).parent_path());
