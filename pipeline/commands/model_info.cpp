@@ -158,6 +158,13 @@ std::string face_text(const model::FaceDescription& face, const Box& box,
   return text + "\n";
 }
 
+std::string edge_text(const model::EdgeDescription& edge, const std::string& unit)
+{
+  return fmt::format("  {:>5}  {:<20} length {:.6g}{}, box {} to {}\n", edge.number,
+                     edge.name.empty() ? "-" : edge.name, edge.length,
+                     unit.empty() ? "" : " " + unit, point_text(edge.low), point_text(edge.high));
+}
+
 std::string solids_text(const model::ModelDescription& description, const std::string& unit)
 {
   std::string text = fmt::format("solids: {}\n", description.solids.size());
@@ -205,6 +212,18 @@ Json faces_json(const model::ModelDescription& description, const Boxes& boxes)
   return faces;
 }
 
+Json edges_json(const model::ModelDescription& description)
+{
+  Json edges = Json::array();
+  for (const model::EdgeDescription& edge : description.edges) {
+    edges.push_back({{"number", edge.number},
+                     {"name", edge.name},
+                     {"length", edge.length},
+                     {"box", {{"low", edge.low}, {"high", edge.high}}}});
+  }
+  return edges;
+}
+
 Json solids_json(const model::ModelDescription& description)
 {
   Json solids = Json::array();
@@ -241,7 +260,9 @@ std::string model_text(const model::ModelSource& source, const model::ModelDescr
                   norm(boxes.model.high - boxes.model.low), unit, box_text(boxes.model),
                   unit.empty() ? "the file does not say" : unit);
   text += solids_text(description, unit);
-  text += fmt::format("edges: {}\nfaces: {}\n", description.num_edges, description.faces.size());
+  text += fmt::format("edges: {}\n", description.edges.size());
+  for (const model::EdgeDescription& edge : description.edges) text += edge_text(edge, unit);
+  text += fmt::format("faces: {}\n", description.faces.size());
   const auto normals = normals_of(description);
   for (std::size_t f = 0; f < description.faces.size(); ++f) {
     text += face_text(description.faces[f], boxes.faces[f], normals[f], unit);
@@ -258,7 +279,8 @@ std::string model_json(const model::ModelSource& source, const model::ModelDescr
             {"box", json_of(boxes.model)},
             {"solids", solids_json(description)},
             {"faces", faces_json(description, boxes)},
-            {"num_edges", description.num_edges},
+            {"edges", edges_json(description)},
+            {"num_edges", description.edges.size()},
             {"repairs", source.repairs}};
   json["sizes"] = Json::array();
   for (const SuggestedSize& suggested : suggested_sizes(extent_of(description))) {

@@ -132,6 +132,7 @@ class MeshWorker final : public jobs::Worker {
   {
     coarse::ModelFigures figures = netgen::measure_model(*netgen_model_);
     figures.area *= scale_ * scale_;
+    figures.volume *= scale_ * scale_ * scale_;
     return to_bytes(figures);
   }
 
@@ -186,6 +187,7 @@ class MeshWorker final : public jobs::Worker {
     made.distance.largest *= scale_;
     made.distance.largest_within *= scale_;
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
+    netgen::name_curves(*netgen_model_, made.mesh);
     mesh::validate(made.mesh);
     return garbled_if_asked(stage_of(request.options), to_bytes(made));
   }

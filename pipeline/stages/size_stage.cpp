@@ -2,7 +2,11 @@
 #include "pipeline/stages/size_stage.hpp"
 
 #include <cmath>
+#include <limits>
+#include <numbers>
 
+#include "tessera/base/bytes.hpp"
+#include "tessera/coarse/model_figures.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
@@ -17,13 +21,6 @@ constexpr jobs::JobLimits kQueryLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_
 // percentile of 1.94 times it, after refinement too.
 constexpr double kSizeForEdge = 0.83;
 
-// A part fills about a third of a cube with its box's diagonal; a regular tet has h^3 / (6 sqrt 2).
-double estimated_tets(double box_diagonal, double target)
-{
-  const double side = box_diagonal / std::sqrt(3.0);
-  return std::pow(side / target, 3.0) * 6.0 * std::sqrt(2.0) / 3.0;
-}
-
 double measure_box(const config::Case& given, RunContext& context)
 {
   const Bytes request = box_request();
@@ -37,7 +34,33 @@ double measure_box(const config::Case& given, RunContext& context)
   return *diagonal;
 }
 
+// Of all solids; NaN if it cannot be had.
+double measure_volume(RunContext& context)
+{
+  const Bytes request = figures_request();
+  jobs::JobOutcome outcome =
+      run_job({"figures", request, kQueryLimits}, wait_for_stop_signal(), context);
+  throw_if_cancelled(outcome);
+  const auto figures = read_result(outcome, from_bytes<coarse::ModelFigures>);
+  return figures ? figures->volume : std::numeric_limits<double>::quiet_NaN();
+}
+
+// A volume that the box cannot hold is none. Then a part fills about a third of a cube with the
+// box's diagonal.
+double volume_of(const config::Case& given, RunContext& context)
+{
+  const double cube = std::pow(measure_box(given, context) / std::sqrt(3.0), 3.0);
+  const double volume = measure_volume(context);
+  return volume > 0.0 && volume <= cube ? volume : cube / 3.0;
+}
+
 }  // namespace
+
+double estimated_tets(double volume, double target)
+{
+  constexpr double kRegularTets = 6.0 * std::numbers::sqrt2;  // In a cube of their edge.
+  return kRegularTets * volume / (target * target * target);
+}
 
 int levels_for(double num_fine_tets)
 {
@@ -50,9 +73,9 @@ config::Case resolve_size(const config::Case& given, RunContext& context)
 {
   if (given.size.target == 0.0 || given.coarse.max_size > 0.0) return given;
   if (model::is_mesh_name(given.geometry.file)) return given;
-  const double box_diagonal = on_root(context.comm, [&] { return measure_box(given, context); });
+  const double volume = on_root(context.comm, [&] { return volume_of(given, context); });
   config::Case resolved = given;
-  const int levels = levels_for(estimated_tets(box_diagonal, given.size.target));
+  const int levels = levels_for(estimated_tets(volume, given.size.target));
   resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, levels);
   context.log.info("size.target {}: coarse.max_size = {}", given.size.target,
                    resolved.coarse.max_size);

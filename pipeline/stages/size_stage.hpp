@@ -13,11 +13,14 @@ namespace tessera::pipeline {
 /// @brief The case with coarse.max_size chosen from size.target, if that is given, and as many
 /// levels as it takes.
 ///
-/// The number of fine tets is estimated from the model's box. The usual number of levels grows with
-/// it so that the serial coarse mesh stays small: each level makes it 8 times smaller. But it keeps
-/// enough tets to cut.
-/// @note Collective: asks the model, which is loaded in the workers, for its box.
+/// The number of fine tets is estimated from the model's volume, or from its box where the volume
+/// is not known (CSG). The usual number of levels grows with it so that the serial coarse mesh
+/// stays small: each level makes it 8 times smaller. But it keeps enough tets to cut.
+/// @note Collective: asks the model, which is loaded in the workers, for its box and volume.
 [[nodiscard]] config::Case resolve_size(const config::Case& given, RunContext& context);
+
+/// @brief Number of regular tets of that edge in that volume.
+[[nodiscard]] double estimated_tets(double volume, double target);
 
 /// @brief Levels for a wanted number of fine tets: 1 below 2·10^4, 2 below 2·10^6, 3 below 10^8, 4
 /// above.

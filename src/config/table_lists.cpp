@@ -120,6 +120,14 @@ constexpr Key kSizeRegionKeys[] = {
      .meaning = "The materials of that name, or whose names match it, as of patches.",
      .reason = kOneShape,
      .example = "\"steel\""},
+    {.name = "size.region.curve",
+     .rule = TextRule{[](Case& c) -> std::string& {
+       return shape_as<sizing::CurvePattern>(c).pattern;
+     }},
+     .meaning = "The curves of that number in the list of edges of tessera info MODEL, or of that "
+                "name in the file, or whose numbers or names match it, as of patches.",
+     .reason = kOneShape,
+     .example = "\"7\""},
 };
 
 // The last name's criteria, which become those of that kind if they are of the other.
@@ -250,8 +258,8 @@ constexpr Key kPlaneKeys[] = {
 
 constexpr std::string_view kNamed[] = {"patch", "material"};
 
-constexpr std::string_view kShapes[] = {"box",       "ball",  "cylinder",
-                                        "halfspace", "patch", "material"};
+constexpr std::string_view kShapes[] = {"box",   "ball",     "cylinder", "halfspace",
+                                        "patch", "material", "curve"};
 
 constexpr TableList kTableLists[] = {
     {.name = "geometry.name",

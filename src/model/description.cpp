@@ -21,6 +21,11 @@ bool are_finite(const std::vector<double>& values)
   return std::ranges::all_of(values, [](double x) { return std::isfinite(x); });
 }
 
+bool is_finite(const Vec3& point)
+{
+  return std::ranges::all_of(point, [](double x) { return std::isfinite(x); });
+}
+
 bool is_sound(const ModelDescription& model)
 {
   const bool fits = model.triangle_vertices.size() == 3 * model.triangle_face.size()
@@ -34,10 +39,26 @@ bool is_sound(const ModelDescription& model)
       return solid >= 1 && static_cast<std::size_t>(solid) <= model.solids.size();
     });
   };
-  return !model.triangle_face.empty() && std::ranges::all_of(model.faces, bounds_solids);
+  const auto has_length = [](const EdgeDescription& edge) {
+    return std::isfinite(edge.length) && is_finite(edge.low) && is_finite(edge.high);
+  };
+  return !model.triangle_face.empty() && std::ranges::all_of(model.edges, has_length)
+         && std::ranges::all_of(model.faces, bounds_solids);
 }
 
 }  // namespace
+
+void EdgeDescription::add_line(const Vec3& a, const Vec3& b)
+{
+  if (length == 0.0) low = high = a;
+  for (const Vec3& point : {a, b}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], point[axis]);
+      high[axis] = std::max(high[axis], point[axis]);
+    }
+  }
+  length += norm(b - a);
+}
 
 void ModelDescription::require_sound() const
 {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -155,6 +156,14 @@ class CsgModel final : public LoadedModel {
       LocalIndex surface, const Vec3& point, const model::SurfaceParameters& guess) const override;
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
                                                    double guess) const override;
+  // A curve is where two surfaces meet, and these are the faces.
+  [[nodiscard]] mesh::NamedCurve named_curve(LocalIndex curve) const override
+  {
+    const auto num_surfaces = static_cast<LocalIndex>(geometry_->GetNSurf());
+    const LocalIndex first = curve / num_surfaces;
+    const LocalIndex second = curve % num_surfaces;
+    return {.curve = curve, .number = fmt::format("{}-{}", first + 1, second + 1)};
+  }
   [[nodiscard]] model::ModelDescription describe() const override;
   [[nodiscard]] coarse::ModelFigures figures() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
@@ -171,6 +180,8 @@ class CsgModel final : public LoadedModel {
   [[nodiscard]] std::shared_ptr<::netgen::Mesh> netgen_surface(Geometry& geometry,
                                                                double size) const;
   void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
+  void add_edges(const Geometry& geometry, const ::netgen::Mesh& mesh,
+                 model::ModelDescription& to) const;
 
   std::string file_name_;
   std::string text_;
@@ -363,18 +374,34 @@ coarse::CadSurface CsgModel::triangles_for_fit(double size) const
   return cad;
 }
 
+// A segment stands once for each side.
+void CsgModel::add_edges(const Geometry& geometry, const ::netgen::Mesh& mesh,
+                         model::ModelDescription& to) const
+{
+  const GeometryNumbers numbers = numbers_of(geometry);
+  std::map<LocalIndex, std::set<std::pair<int, int>>> lines;
+  for (const ::netgen::Segment& segment : mesh.LineSegments()) {
+    const LocalIndex curve = numbers.curve(segment);
+    const int a = segment[0];
+    const int b = segment[1];
+    if (curve != kNoIndex) lines[curve].insert(std::minmax(a, b));
+  }
+  for (const auto& [curve, of_curve] : lines) {
+    model::EdgeDescription& edge = to.edges.emplace_back();
+    edge.number = named_curve(curve).number;
+    for (const auto& [a, b] : of_curve) {
+      edge.add_line(from_netgen(mesh.Point(a)), from_netgen(mesh.Point(b)));
+    }
+  }
+}
+
 model::ModelDescription CsgModel::describe() const
 {
   constexpr double kSize = 0.1;  // In parts of the box diagonal.
   const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
   const auto mesh = netgen_surface(*geometry, kSize * box_diagonal_);
   model::ModelDescription described = describe_csg(*geometry, *mesh);
-  const GeometryNumbers numbers = numbers_of(*geometry);
-  std::set<LocalIndex> curves;
-  for (const ::netgen::Segment& segment : mesh->LineSegments())
-    curves.insert(numbers.curve(segment));
-  curves.erase(kNoIndex);
-  described.num_edges = static_cast<LocalIndex>(curves.size());
+  add_edges(*geometry, *mesh, described);
   return described;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <fstream>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -198,6 +199,15 @@ coarse::ModelFigures measure_model(const model::Model& model) { return loaded(mo
 model::ModelDescription describe_model(const model::Model& model)
 {
   return loaded(model).describe();
+}
+
+void name_curves(const model::Model& model, mesh::CoarseMesh& mesh)
+{
+  const std::set<LocalIndex> curves(mesh.segment_curve.begin(), mesh.segment_curve.end());
+  mesh.curves.clear();
+  for (const LocalIndex curve : curves) {
+    if (curve != kNoIndex) mesh.curves.push_back(loaded(model).named_curve(curve));
+  }
 }
 
 std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model)

@@ -34,6 +34,12 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   /// @brief What the model holds, for people. @throws NetgenError
   [[nodiscard]] virtual model::ModelDescription describe() const = 0;
 
+  /// @brief Number and name of a curve.
+  [[nodiscard]] virtual mesh::NamedCurve named_curve(LocalIndex curve) const
+  {
+    return {.curve = curve, .number = std::to_string(curve + 1)};
+  }
+
   /// @brief How much there is to mesh; zeros if nothing is. @throws NetgenError
   [[nodiscard]] virtual coarse::ModelFigures figures() const { return {}; }
 

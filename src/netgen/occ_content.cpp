@@ -23,11 +23,13 @@ struct StoredContent {
   std::string image{};  // As BinTools writes the shape.
   std::vector<std::string> face_names{};
   std::vector<std::string> face_colours{};
+  std::vector<std::string> edge_names{};
   std::vector<std::string> solid_names{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.image, self.face_names, self.face_colours, self.solid_names);
+    return std::tie(self.image, self.face_names, self.face_colours, self.edge_names,
+                    self.solid_names);
   }
 };
 
@@ -50,6 +52,9 @@ Bytes occ_content(const CadFile& cad)
     const ShapeLabel label = label_in(cad.names, faces(f));
     content.face_names.push_back(label.name);
     content.face_colours.push_back(label.colour);
+  }
+  for (const TopoDS_Shape& edge : parts_of(cad.shape, TopAbs_EDGE)) {
+    content.edge_names.push_back(label_in(cad.names, edge).name);
   }
   for (TopExp_Explorer solids(cad.shape, TopAbs_SOLID); solids.More(); solids.Next()) {
     const ShapeLabel label = label_in(cad.names, solids.Current());
@@ -87,6 +92,7 @@ OccContent read_occ_content(std::span<const std::byte> bytes)
   if (content.shape.IsNull()) throw InputError("the stored CAD model holds no shape");
   content.face_names = std::move(stored.face_names);
   content.face_colours = std::move(stored.face_colours);
+  content.edge_names = std::move(stored.edge_names);
   content.solid_names = std::move(stored.solid_names);
   return content;
 }

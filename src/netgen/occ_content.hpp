@@ -19,6 +19,7 @@ struct OccContent {
   TopoDS_Shape shape{};
   std::vector<std::string> face_names{};    ///< In TopExp::MapShapes order; empty text: no name.
   std::vector<std::string> face_colours{};  ///< Beside face_names; its own, or that of a solid.
+  std::vector<std::string> edge_names{};    ///< As face_names.
   std::vector<std::string> solid_names{};   ///< In the order of TopExp_Explorer.
 };
 

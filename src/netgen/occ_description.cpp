@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/occ_description.hpp"
 
-#include <algorithm>
+#include <cstddef>
+#include <string>
 #include <utility>
 
+#include <BRepBndLib.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 
 #include "netgen/occ_shape.hpp"
@@ -28,6 +32,13 @@ double area_of(const TopoDS_Shape& face)
 {
   GProp_GProps properties;
   BRepGProp::SurfaceProperties(face, properties);
+  return properties.Mass();
+}
+
+double length_of(const TopoDS_Shape& edge)
+{
+  GProp_GProps properties;
+  BRepGProp::LinearProperties(edge, properties);
   return properties.Mass();
 }
 
@@ -77,6 +88,26 @@ void add_solids(const OccContent& content, model::ModelDescription& to)
   }
 }
 
+// Edges that are points keep their numbers, and are not in the list.
+void add_edges(const OccContent& content, model::ModelDescription& to)
+{
+  std::size_t row = 0;
+  for (const TopoDS_Shape& shape : parts_of(content.shape, TopAbs_EDGE)) {
+    const std::size_t here = row++;
+    const TopoDS_Edge& edge = TopoDS::Edge(shape);
+    if (BRep_Tool::Degenerated(edge)) continue;
+    Bnd_Box box;
+    BRepBndLib::AddOptimal(edge, box, Standard_False, Standard_False);
+    const gp_Pnt low = box.CornerMin();
+    const gp_Pnt high = box.CornerMax();
+    to.edges.push_back({.number = std::to_string(here + 1),
+                        .name = content.edge_names.at(here),
+                        .length = length_of(edge),
+                        .low = {low.X(), low.Y(), low.Z()},
+                        .high = {high.X(), high.Y(), high.Z()}});
+  }
+}
+
 }  // namespace
 
 model::ModelDescription describe_shape(const OccContent& content)
@@ -95,9 +126,7 @@ model::ModelDescription describe_shape(const OccContent& content)
     add_triangles(TopoDS::Face(face), static_cast<LocalIndex>(row), described);
   }
   add_solids(content, described);
-  described.num_edges = static_cast<LocalIndex>(std::ranges::count_if(
-      parts_of(content.shape, TopAbs_EDGE),
-      [](const TopoDS_Shape& edge) { return !BRep_Tool::Degenerated(TopoDS::Edge(edge)); }));
+  add_edges(content, described);
   return described;
 }
 

@@ -109,7 +109,7 @@ std::unique_ptr<Fuse> fuse_solids(const std::vector<TopoDS_Shape>& solids, doubl
 void follow_names(const TopoDS_Shape& shape, ShapeNames& names,
                   const std::function<TopTools_ListOfShape(const TopoDS_Shape&)>& images_of)
 {
-  for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_FACE}) {
+  for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE}) {
     for (const TopoDS_Shape& part : parts_of(shape, kind)) {
       if (!names.IsBound(part)) continue;
       const ShapeLabel label = names.Find(part);

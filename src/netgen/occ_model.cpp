@@ -62,6 +62,10 @@ class OccModel final : public LoadedModel {
   {
     return with_occ_errors(file_name_, [&] { return describe_shape(content_); });
   }
+  [[nodiscard]] mesh::NamedCurve named_curve(LocalIndex curve) const override
+  {
+    return {curve, std::to_string(curve + 1), content_.edge_names.at(at(curve))};
+  }
   [[nodiscard]] coarse::ModelFigures figures() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
   void write_brep(const std::filesystem::path& file) const override;
@@ -229,9 +233,12 @@ coarse::CoarseSurface OccModel::remesh(const coarse::CoarseOptions& options) con
 coarse::ModelFigures OccModel::figures() const
 {
   return with_occ_errors(file_name_, [&] {
-    GProp_GProps properties;
-    BRepGProp::SurfaceProperties(content_.shape, properties);
-    return coarse::ModelFigures{.num_faces = faces_.Extent(), .area = properties.Mass()};
+    GProp_GProps surface;
+    GProp_GProps solids;
+    BRepGProp::SurfaceProperties(content_.shape, surface);
+    BRepGProp::VolumeProperties(content_.shape, solids);
+    return coarse::ModelFigures{
+        .num_faces = faces_.Extent(), .area = surface.Mass(), .volume = solids.Mass()};
   });
 }
 

@@ -44,6 +44,7 @@
 
 #include "netgen/occ_cad_file.hpp"
 #include "netgen/occ_error.hpp"
+#include "netgen/occ_shape.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -328,7 +329,7 @@ CadFile read_plain_step(const fs::path& file)
   if (cad.shape.IsNull()) {
     throw InputError(file.string() + ": holds no shape that OpenCASCADE can build");
   }
-  for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_FACE}) {
+  for (const TopAbs_ShapeEnum kind : {TopAbs_SOLID, TopAbs_FACE, TopAbs_EDGE}) {
     for (TopExp_Explorer parts(cad.shape, kind); parts.More(); parts.Next()) {
       const std::string name = name_of(reader, parts.Current());
       if (!name.empty()) cad.names.Bind(parts.Current(), {.name = name});
@@ -359,9 +360,11 @@ CadFile read_iges(const fs::path& file)
   if (cad.shape.IsNull()) {
     throw InputError(file.string() + ": holds no shape that OpenCASCADE can build");
   }
-  for (TopExp_Explorer faces(cad.shape, TopAbs_FACE); faces.More(); faces.Next()) {
-    const std::string name = name_of(reader, faces.Current());
-    if (!name.empty()) cad.names.Bind(faces.Current(), {.name = name});
+  for (const TopAbs_ShapeEnum kind : {TopAbs_FACE, TopAbs_EDGE}) {
+    for (const TopoDS_Shape& part : parts_of(cad.shape, kind)) {
+      const std::string name = name_of(reader, part);
+      if (!name.empty()) cad.names.Bind(part, {.name = name});
+    }
   }
   scale_to_unit(cad, iges_unit(reader, cad));
   return cad;

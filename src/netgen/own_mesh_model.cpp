@@ -196,6 +196,10 @@ class CadOwnModel final : public LoadedModel {
   {
     return cad_->project_to_curve(curve, point, guess);
   }
+  [[nodiscard]] mesh::NamedCurve named_curve(LocalIndex curve) const override
+  {
+    return cad_->named_curve(curve);
+  }
   [[nodiscard]] model::ModelDescription describe() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override
   {

@@ -118,6 +118,7 @@ class StlModel final : public LoadedModel {
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
       const auto [a, b, c] = surface_.corners(t);
       figures.area += 0.5 * norm(cross(b - a, c - a));
+      figures.volume += tet_volume(surface_.position(0), a, b, c);
     }
     return figures;
   }
@@ -170,10 +171,17 @@ class StlModel final : public LoadedModel {
 
 model::ModelDescription StlModel::describe() const
 {
-  model::ModelDescription described{.num_edges = features_.num_curves(),
-                                    .vertex_xyz = surface_.vertex_xyz,
+  model::ModelDescription described{.vertex_xyz = surface_.vertex_xyz,
                                     .triangle_vertices = surface_.triangle_vertices,
                                     .triangle_face = features_.triangle_patch};
+  for (LocalIndex c = 0; c < features_.num_curves(); ++c) {
+    model::EdgeDescription& edge = described.edges.emplace_back();
+    edge.number = named_curve(c).number;
+    const auto vertices = features_.curve_vertices[c];
+    for (std::size_t v = 1; v < vertices.size(); ++v) {
+      edge.add_line(surface_.position(vertices[v - 1]), surface_.position(vertices[v]));
+    }
+  }
   for (const std::string& name : surface_.material_names)
     described.solids.push_back({.name = name});
   for (const std::string& name : features_.patch_names) {

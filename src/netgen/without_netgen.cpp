@@ -31,6 +31,8 @@ model::ModelDescription describe_model(const model::Model& /*model*/) { refuse()
 
 coarse::ModelFigures measure_model(const model::Model& /*model*/) { refuse(); }
 
+void name_curves(const model::Model& /*model*/, mesh::CoarseMesh& /*mesh*/) { refuse(); }
+
 std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& /*model*/)
 {
   refuse();

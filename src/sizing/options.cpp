@@ -36,7 +36,7 @@ std::string defect(const OtherShape& /*shape*/)
 std::string_view word_of(const Shape& shape)
 {
   constexpr auto kWords = std::to_array<std::string_view>(
-      {"box", "ball", "cylinder", "halfspace", "patch", "material"});
+      {"box", "ball", "cylinder", "halfspace", "patch", "material", "curve"});
   static_assert(kWords.size() == std::variant_size_v<Shape>);
   return kWords[shape.index()];
 }

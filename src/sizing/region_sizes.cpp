@@ -2,6 +2,8 @@
 #include "sizing/region_sizes.hpp"
 
 #include <array>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "tessera/base/error.hpp"
@@ -33,6 +35,29 @@ Bounds bounds_of(const mesh::CoarseMesh& coarse)
   Bounds bounds;
   for (LocalIndex v = 0; v < coarse.num_vertices(); ++v) bounds.include(coarse.position(v));
   return bounds;
+}
+
+// By number or name.
+std::set<LocalIndex> matching_curves(const std::string& pattern,
+                                     const std::vector<mesh::NamedCurve>& curves)
+{
+  std::set<LocalIndex> matches;
+  std::vector<std::string> known;
+  for (const mesh::NamedCurve& curve : curves) {
+    const bool is_meant = matches_pattern(pattern, curve.number)
+                          || (!curve.name.empty() && matches_pattern(pattern, curve.name));
+    if (is_meant) matches.insert(curve.curve);
+    known.push_back(curve.name.empty() ? curve.number : curve.name);
+  }
+  if (!matches.empty()) return matches;
+  if (known.empty()) {
+    throw ConfigError(
+        fmt::format("curve = \"{}\": the model has no curves; choose another shape", pattern));
+  }
+  throw ConfigError(
+      fmt::format("curve = \"{}\": the model has no such curve; it has {}; `tessera info MODEL` "
+                  "lists them",
+                  pattern, nearest_first(pattern, known)));
 }
 
 template <class Solid>
@@ -84,6 +109,21 @@ RegionSizes::Where RegionSizes::find(const MaterialPattern& material,
   return Tets{model::TetSearch(selected.parts), selected.bounds};
 }
 
+RegionSizes::Where RegionSizes::find(const CurvePattern& curve, const mesh::CoarseMesh& coarse)
+{
+  const std::set<LocalIndex> matches = matching_curves(curve.pattern, coarse.curves);
+  Selected<2> selected;
+  for (LocalIndex s = 0; s < coarse.num_segments(); ++s) {
+    if (!matches.contains(coarse.segment_curve[at(s)])) continue;
+    selected.add(coarse, std::span(coarse.segment_vertices).subspan(2 * at(s), 2));
+  }
+  if (selected.parts.empty()) {
+    throw ConfigError(fmt::format(
+        "curve = \"{}\": the coarse mesh has no segment on it; leave it out", curve.pattern));
+  }
+  return Segments{model::SegmentSearch(selected.parts), selected.bounds};
+}
+
 RegionSizes::RegionSizes(const SizeRegion& region, double grading, const mesh::CoarseMesh& coarse)
     : size_(region.size),
       growth_(region.growth > 0.0 ? region.growth : grading),
@@ -97,7 +137,7 @@ void RegionSizes::lower(std::span<const double> xyz, std::span<double> sizes) co
   const auto visit_where = [&]<class Place>(const Place& place) {
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       const Vec3 point = point_at(xyz, i);
-      if constexpr (std::is_same_v<Place, Triangles> || std::is_same_v<Place, Tets>) {
+      if constexpr (requires { place.search; }) {
         if (size_at(place.bounds.distance(point)) >= sizes[i]) continue;  // Spares the search.
         const double squared = place.search.nearest(point).squared_distance;
         sizes[i] = std::min(sizes[i], size_at(std::sqrt(squared)));

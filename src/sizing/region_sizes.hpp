@@ -34,12 +34,14 @@ class RegionSizes {
   };
   using Triangles = Found<model::TriangleSearch>;
   using Tets = Found<model::TetSearch>;
-  using Where = std::variant<Box, Ball, Cylinder, HalfSpace, Triangles, Tets>;
+  using Segments = Found<model::SegmentSearch>;
+  using Where = std::variant<Box, Ball, Cylinder, HalfSpace, Triangles, Tets, Segments>;
 
   template <class Solid>
   static Where find(const Solid& solid, const mesh::CoarseMesh& coarse);
   static Where find(const PatchPattern& patch, const mesh::CoarseMesh& coarse);
   static Where find(const MaterialPattern& material, const mesh::CoarseMesh& coarse);
+  static Where find(const CurvePattern& curve, const mesh::CoarseMesh& coarse);
 
   double size_;
   double growth_;

@@ -49,6 +49,7 @@ FRUSTUM = math.pi * 0.0508 / 3 * (0.0254**2 + 0.0254 * 0.0127 + 0.0127**2)
 CASES = {
     "blocks": Expected(1288, 1e-9, ("steel", "copper"), numbered(12), ("mm",)),
     "bracket": Expected(BRACKET, 0.02, ("bracket",), numbered(11), ("mm",)),
+    "bracket_edge": Expected(BRACKET, 0.02, ("bracket",), numbered(11), ("mm",)),
     "bracket_parts": Expected(BRACKET, 0.02, ("bracket",), numbered(11), ("mm",)),
     "brick": Expected(2, 1e-9, ("brick",), numbered(6), coarser=("size.target=0.2",)),
     "cone": Expected(math.pi * 8**2 * 12 / 3, 0.05, ("material_1",), numbered(2)),

@@ -58,6 +58,9 @@ class Info(program.ProgramTest):
                     self.assertEqual(len(found["faces"]), faces)
                 if edges is not None:
                     self.assertEqual(found["num_edges"], edges)
+                self.assertEqual(len(found["edges"]), found["num_edges"])
+                for edge in found["edges"]:
+                    self.assertGreater(edge["length"], 0)
                 total = sum(solid["volume"] for solid in found["solids"])
                 self.assertGreater(total, 0)
                 if volume is not None:
@@ -90,6 +93,13 @@ class Info(program.ProgramTest):
         marked = [f for f in coloured["faces"] if f["name"] or f["colour"]]
         self.assertEqual([(f["name"], f["colour"]) for f in marked], [("inlet", "#FF0000")])
         self.assertEqual([f["area"] for f in coloured["faces"]], [f["area"] for f in plain["faces"]])
+
+    def test_names_of_edges_of_a_step_file(self):
+        text = (GEOMETRY / "bracket.step").read_text()
+        edge = re.search(r"#\d+\s*=\s*EDGE_CURVE\(''", text).group(0)
+        self.write("named.step", text.replace(edge, edge[:-1] + "rim'"))
+        edges = self.figures(self.folder / "named.step")["edges"]
+        self.assertEqual([e["name"] for e in edges if e["name"]], ["rim"])
 
     def test_a_suggested_size_makes_about_so_many_tets(self):
         for name, kernel in (("cylinder.step", "subdivide"), ("core.geo", "netgen"), ("shaft.geo", "optimize")):

@@ -167,6 +167,22 @@ class Regions(BarTest):
 
         self.assert_follows(out, grown(depth, 0.12))
 
+    def curve_along(self, axis, *place):
+        """Number of the only edge of the bar along an axis that begins at a place."""
+        found = json.loads(self.run_program("info", self.write("bar.geo", BAR), "--json").out)["edges"]
+        there = [
+            edge["number"] for edge in found
+            if all(abs(edge["box"]["low"][i] - place[i]) < 1e-6 for i in range(3))
+            and all(edge["box"]["high"][i] - edge["box"]["low"][i] < 1e-6 for i in range(3) if i != axis)
+        ]  # fmt: skip
+        self.assertEqual(len(there), 1, found)
+        return there[0]
+
+    def test_curves(self):
+        upright = self.curve_along(2, 4, 1, 0)
+        out = self.made(f'[[size.region]]\ncurve = "{upright}"\nsize = 0.06\n')
+        self.assert_follows(out, grown(lambda p: math.dist(p[:2], (4, 1)), 0.06))
+
     def test_the_smallest_wins_within_bounds(self):
         out = self.made(
             "min = 0.1\nmax = 0.3\n"
@@ -252,6 +268,7 @@ class Refusals(BarTest):
             self.refused(away, "bar.geo", "[[size.region]] number 1 (ball)", "meets nothing", ranks=ranks)
         self.refused(CORNER_BALL + '[[size.region]]\npatch = "patch_0"\nsize = 0.1\n', "number 2", '"patch_1"')
         self.refused('[[size.region]]\nmaterial = "lift"\nsize = 0.1\n', '"lift"', '"left"', '"right"')
+        self.refused('[[size.region]]\ncurve = "1-1"\nsize = 0.1\n', "number 1 (curve)", "no such curve", '"1-2"')
 
     def test_fields(self):
         for ranks in (None, 3):

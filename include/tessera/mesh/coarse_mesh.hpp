@@ -11,6 +11,15 @@
 
 namespace tessera::mesh {
 
+/// @brief What users call a curve of the model.
+struct NamedCurve {
+  LocalIndex curve = kNoIndex;  ///< The Model's curve number.
+  std::string number{};         ///< As `tessera info` lists it: "7"; of CSG "3-7", its two faces.
+  std::string name{};           ///< The file's; empty: none.
+
+  static auto fields(auto& self) { return std::tie(self.curve, self.number, self.name); }
+};
+
 /// @brief The small sequential mesh that everything else is derived from; the same on every rank.
 ///
 /// A *face* is a triangle on the geometry, also one between two materials; it stands once. A
@@ -31,6 +40,8 @@ struct CoarseMesh {
   std::vector<LocalIndex> segment_curve{};     ///< Shape (num_segments); the Model's curve number.
   std::vector<double> segment_t{};  ///< Shape (num_segments, 2), end parameters; empty if none.
 
+  std::vector<NamedCurve> curves{};  ///< Those that segments lie on, ascending; empty: not known.
+
   std::vector<std::string> patch_names{};   ///< Shape (num_patches).
   std::vector<LocalIndex> patch_surface{};  ///< Shape (num_patches); the Model's surface number.
   std::vector<LocalIndex> patch_row{};  ///< Shape (num_patches); row of the patch in files, dense
@@ -42,8 +53,8 @@ struct CoarseMesh {
   {
     return std::tie(self.vertex_xyz, self.tet_vertices, self.tet_material, self.face_vertices,
                     self.face_patch, self.face_uv, self.segment_vertices, self.segment_curve,
-                    self.segment_t, self.patch_names, self.patch_surface, self.patch_row,
-                    self.material_names);
+                    self.segment_t, self.curves, self.patch_names, self.patch_surface,
+                    self.patch_row, self.material_names);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
 
 namespace tessera::model {
 
@@ -23,6 +24,23 @@ struct FaceDescription {
   }
 };
 
+/// @brief One curve of a model, where faces meet.
+struct EdgeDescription {
+  std::string number{};  ///< As of mesh::NamedCurve.
+  std::string name{};    ///< Empty: the file has none.
+  double length = 0.0;   ///< File length unit.
+  Vec3 low{};            ///< Corners of its box, file length unit.
+  Vec3 high{};
+
+  /// @brief Makes it longer by the straight line between two points.
+  void add_line(const Vec3& a, const Vec3& b);
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.number, self.name, self.length, self.low, self.high);
+  }
+};
+
 /// @brief One solid of a model: a material of the mesh.
 struct SolidDescription {
   std::string name{};   ///< Empty: the file has none.
@@ -35,7 +53,7 @@ struct SolidDescription {
 struct ModelDescription {
   std::vector<SolidDescription> solids{};
   std::vector<FaceDescription> faces{};  ///< By number.
-  LocalIndex num_edges = 0;              ///< Curves where faces meet.
+  std::vector<EdgeDescription> edges{};  ///< By number.
   std::vector<double> vertex_xyz{};      ///< Shape (num_vertices, 3), file length unit.
   /// Shape (num_triangles, 3). Normals point out of the solid; of two, out of the lower one.
   std::vector<LocalIndex> triangle_vertices{};
@@ -43,8 +61,8 @@ struct ModelDescription {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.solids, self.faces, self.num_edges, self.vertex_xyz,
-                    self.triangle_vertices, self.triangle_face);
+    return std::tie(self.solids, self.faces, self.edges, self.vertex_xyz, self.triangle_vertices,
+                    self.triangle_face);
   }
 
   /// @throws InputError if the sizes do not match, an index is out of range or a value is no

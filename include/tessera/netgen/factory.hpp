@@ -53,6 +53,9 @@ enum class StepReader : int {
 /// @note Local. @throws NetgenError
 [[nodiscard]] coarse::ModelFigures measure_model(const model::Model& model);
 
+/// @brief Fills in CoarseMesh::curves of a mesh of a model of load_model(). Local.
+void name_curves(const model::Model& model, mesh::CoarseMesh& mesh);
+
 /// @brief A coarse mesher for a model of load_model(). The model must outlive it.
 [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model);
 

@@ -62,7 +62,16 @@ struct MaterialPattern {
   friend bool operator==(const MaterialPattern&, const MaterialPattern&) = default;
 };
 
-using Shape = std::variant<Box, Ball, Cylinder, HalfSpace, PatchPattern, MaterialPattern>;
+/// @brief The segments of all curves whose number in `tessera info`, or whose name in the file
+/// matches; as of PatchPattern.
+struct CurvePattern {
+  std::string pattern{};
+
+  friend bool operator==(const CurvePattern&, const CurvePattern&) = default;
+};
+
+using Shape =
+    std::variant<Box, Ball, Cylinder, HalfSpace, PatchPattern, MaterialPattern, CurvePattern>;
 
 /// @brief A size in a part of space; table `[[size.region]]` of a case file.
 struct SizeRegion {
@@ -104,8 +113,8 @@ struct SizeOptions {
   return options.target > 0.0 || options.max > 0.0 || options.curvature > 0.0 || is_graded(options);
 }
 
-/// @brief The shape's word in a case file: "box", "ball", "cylinder", "halfspace", "patch" or
-/// "material". Local.
+/// @brief The shape's word in a case file: "box", "ball", "cylinder", "halfspace", "patch",
+/// "material" or "curve". Local.
 [[nodiscard]] std::string_view word_of(const Shape& shape);
 
 /// @brief What is wrong with a region whose keys have values that are right one by one; empty if

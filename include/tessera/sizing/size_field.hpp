@@ -17,7 +17,8 @@ namespace tessera::sizing {
 /// It is the smallest of these, clamped to [size.min, size.max]:
 /// - `size.target`, if given;
 /// - of every region its size, and outside of it that plus its growth times the distance. The
-///   distance to a patch is that to its triangles in the coarse mesh;
+///   distance to a patch is that to its triangles in the coarse mesh, to a curve that to its
+///   segments;
 /// - the field, interpolated between its points. First the value of each point is lowered so that
 ///   along no edge of the field's cells it grows faster than `size.grading`. Outside of the cells
 ///   it is the value of the nearest point of them, plus `size.grading` times the distance.
@@ -28,7 +29,7 @@ class SizeField {
   /// @param[in] options Their field_array has been read from their field.
   /// @param[in] field What stands in `options.field`; null if that is empty.
   /// @throws ConfigError if a region has no sense, meets nothing of the coarse mesh, or names a
-  /// patch or material that is not there (with the names that are, nearest first).
+  /// patch, material or curve that is not there (with the names that are, nearest first).
   /// @throws InputError if the field has a value that is not positive and finite, no cell with a
   /// volume, or a box that does not meet the model's. Local.
   SizeField(const SizeOptions& options, const mesh::CoarseMesh& coarse,

@@ -106,6 +106,9 @@ size = 0.5
 [[size.region]]
 size = 0.6
 material = "steel"
+[[size.region]]
+curve = "7"
+size = 0.7
 )")
                                               .size.regions;
   const std::vector<SizeRegion> wanted{
@@ -114,7 +117,8 @@ material = "steel"
       {sizing::Cylinder{{0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, 2.0}, 0.3, 0.0},
       {sizing::HalfSpace{{0.0, 0.0, 1.0}, {0.0, 0.0, -2.0}}, 0.4, 0.0},
       {sizing::PatchPattern{"in*"}, 0.5, 0.0},
-      {sizing::MaterialPattern{"steel"}, 0.6, 0.0}};
+      {sizing::MaterialPattern{"steel"}, 0.6, 0.0},
+      {sizing::CurvePattern{"7"}, 0.7, 0.0}};
   EXPECT_EQ(regions, wanted);
 }
 
@@ -145,15 +149,15 @@ TEST(SizeRegionErrors, MissingKeysNameTheLineOfTheirTable)
   EXPECT_EQ(
       region_error("size = 1"),
       "/cases/case.toml:3: [[size.region]] has none of box, ball, cylinder, halfspace, patch, "
-      "material; must have one of them");
+      "material, curve; must have one of them");
 }
 
 TEST(SizeRegionErrors, TwoShapesNameBoth)
 {
   EXPECT_EQ(region_error("size = 1\npatch = 'a'\nball.radius = 2"),
             "/cases/case.toml:6: size.region.ball.radius stands beside size.region.patch "
-            "(/cases/case.toml:5); must be one of box, ball, cylinder, halfspace, patch, material "
-            "in every [[size.region]]");
+            "(/cases/case.toml:5); must be one of box, ball, cylinder, halfspace, patch, material, "
+            "curve in every [[size.region]]");
 }
 
 TEST(SizeRegionErrors, WrongValuesNameTheirOwnLine)

@@ -29,7 +29,8 @@ Case complete_case()
                              {sizing::Cylinder{{0.0, 0.0, 0.0}, {0.0, 0.0, -2.0}, 4.0}, 0.3, 0.0},
                              {sizing::HalfSpace{{0.5, 0.0, 0.0}, {-1.0, 0.0, 0.0}}, 0.4, 1.0},
                              {sizing::PatchPattern{"in \"l\" [ab]*"}, 0.5, 0.0},
-                             {sizing::MaterialPattern{"st?el"}, 0.6, 0.0}}};
+                             {sizing::MaterialPattern{"st?el"}, 0.6, 0.0},
+                             {sizing::CurvePattern{"3-7"}, 0.7, 0.0}}};
   wanted.coarse = {.max_size = 1e-7,
                    .grading = 0.1,
                    .curvature = 99.5,

@@ -19,7 +19,8 @@ namespace {
 // A unit tet: three faces on the planes of the axes, and the slanted one.
 model::ModelDescription unit_tet()
 {
-  model::ModelDescription tet{.solids = {{"tet", 1.0 / 6.0}}, .num_edges = 6};
+  model::ModelDescription tet{.solids = {{"tet", 1.0 / 6.0}}};
+  tet.edges = {{"1", "rim", 1.0, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}, {.number = "3"}};
   for (LocalIndex f = 0; f < 4; ++f) {
     tet.faces.push_back({.number = 2 * f + 1, .area = f < 3 ? 0.5 : 0.866, .solids = {1}});
     tet.triangle_face.push_back(f);
@@ -66,12 +67,19 @@ TEST(ModelInfo, TextAndJsonNameFacesByTheirNumbers)
   const std::string text = model_text(source, unit_tet());
   EXPECT_NE(text.find("wall"), std::string::npos);
   EXPECT_NE(text.find("colour #FF0000"), std::string::npos);
-  EXPECT_NE(text.find("edges: 6"), std::string::npos);
+  EXPECT_NE(text.find("edges: 2"), std::string::npos);
+  EXPECT_NE(text.find("rim                  length 1 mm, box (0, 0, 0) to (1, 0, 0)"),
+            std::string::npos)
+      << text;
   const auto json = nlohmann::json::parse(model_json(source, unit_tet()));
   ASSERT_EQ(json["faces"].size(), 4U);
   EXPECT_EQ(json["faces"][1]["number"], 3);
   EXPECT_EQ(json["faces"][1]["name"], "wall");
   EXPECT_EQ(json["faces"][2]["box"]["high"], (std::vector<double>{1.0, 1.0, 0.0}));
+  ASSERT_EQ(json["edges"].size(), 2U);
+  EXPECT_EQ(json["edges"][0]["name"], "rim");
+  EXPECT_EQ(json["edges"][1]["number"], "3");
+  EXPECT_EQ(json["edges"][0]["box"]["high"], (std::vector<double>{1.0, 0.0, 0.0}));
   EXPECT_EQ(json["solids"][0]["num_faces"], 4);
   EXPECT_EQ(json["length_unit"], "mm");
 }

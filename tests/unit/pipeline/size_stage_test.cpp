@@ -2,6 +2,7 @@
 #include "pipeline/stages/size_stage.hpp"
 
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -18,6 +19,12 @@ TEST(LevelsFor, GrowWithTheNumberOfTets)
   EXPECT_EQ(levels_for(99'999'999.0), 3);
   EXPECT_EQ(levels_for(1e8), 4);
   EXPECT_EQ(levels_for(std::numeric_limits<double>::infinity()), 4);
+}
+
+TEST(EstimatedTets, AreThoseOfRegularOnesInTheVolume)
+{
+  EXPECT_NEAR(estimated_tets(2.0, 1.0), 2.0 / (std::numbers::sqrt2 / 12.0), 1e-12);
+  EXPECT_NEAR(estimated_tets(2.0, 0.5), 8.0 * estimated_tets(2.0, 1.0), 1e-12);
 }
 
 }  // namespace

@@ -115,6 +115,48 @@ TEST(SizeField, DistanceToAMaterialIsZeroInItAndElseToItsTets)
   EXPECT_EQ(both.at(Vec3{0.1, 0.31, 0.72}).front(), 0.1);
 }
 
+// With curves along the x and the y axis, and one that no segment lies on.
+mesh::CoarseMesh cube_with_curves()
+{
+  mesh::CoarseMesh cube = kuhn_cube(1);
+  const auto vertex_at = [&](const Vec3& place) {
+    LocalIndex v = 0;
+    while (cube.position(v) != place) ++v;
+    return v;
+  };
+  const LocalIndex origin = vertex_at({0.0, 0.0, 0.0});
+  cube.segment_vertices = {origin, vertex_at({1.0, 0.0, 0.0}), vertex_at({0.0, 1.0, 0.0}), origin};
+  cube.segment_curve = {4, 11};
+  cube.curves = {{4, "5", "rim"}, {11, "12", ""}, {12, "13", "gone"}};
+  return cube;
+}
+
+TEST(SizeField, DistanceToACurveIsThatToItsSegments)
+{
+  const mesh::CoarseMesh cube = cube_with_curves();
+  for (const char* pattern : {"5", "rim", "r?m"}) {
+    const SizeField field(one_region(CurvePattern{pattern}), cube);
+    EXPECT_DOUBLE_EQ(field.at(Vec3{0.3, 0.0, 0.0}).front(), 0.1);
+    EXPECT_DOUBLE_EQ(field.at(Vec3{0.3, 0.6, 0.8}).front(), 0.1 + 0.5 * 1.0);
+    EXPECT_DOUBLE_EQ(field.at(Vec3{1.3, 0.4, 0.0}).front(), 0.1 + 0.5 * 0.5);
+  }
+  const SizeField both(one_region(CurvePattern{"*"}), cube);
+  EXPECT_DOUBLE_EQ(both.at(Vec3{0.3, 0.6, 0.0}).front(), 0.1 + 0.5 * 0.3);
+}
+
+TEST(SizeFieldErrors, UnknownCurvesListTheKnownOnes)
+{
+  EXPECT_EQ(error_of(one_region(CurvePattern{"11"}), cube_with_curves()),
+            "[[size.region]] number 1 (curve): curve = \"11\": the model has no such curve; it has "
+            "\"12\", \"rim\", \"gone\"; `tessera info MODEL` lists them");
+  EXPECT_EQ(error_of(one_region(CurvePattern{"gone"}), cube_with_curves()),
+            "[[size.region]] number 1 (curve): curve = \"gone\": the coarse mesh has no segment on "
+            "it; leave it out");
+  EXPECT_EQ(error_of(one_region(CurvePattern{"1"})),
+            "[[size.region]] number 1 (curve): curve = \"1\": the model has no curves; choose "
+            "another shape");
+}
+
 TEST(SizeField, SmallestOfAllWins)
 {
   const SizeOptions options{
