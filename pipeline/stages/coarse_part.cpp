@@ -97,13 +97,13 @@ double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
 // Once more with smaller edges where walls are thin. The better one of the two counts.
 void refine_thin_walls(RunResult& run, const model::NamedParts& parts, RunContext& context)
 {
-  if (!on_root(context.comm, [&] { return may_have_finer_walls(run); })) return;
+  if (!may_have_finer_walls(run)) return;
   const mesh::SizePoints walls = on_root(context.comm, [&] {
     return coarse::sizes_of_thin_walls(run.coarse.mesh, kSharpAngle_deg,
                                        run.coarse.options.max_size);
   });
   if (walls.size.empty()) return;
-  coarse::CoarseOptions options = on_root(context.comm, [&] { return run.coarse.options; });
+  coarse::CoarseOptions options = run.coarse.options;
   options.points.xyz.insert(options.points.xyz.end(), walls.xyz.begin(), walls.xyz.end());
   options.points.size.insert(options.points.size.end(), walls.size.begin(), walls.size.end());
   context.log.info("coarse: walls are thin for its edges; once more with smaller ones there");

@@ -356,6 +356,7 @@ CoarseResult run_coarse_try(const config::Case& run_case, const coarse::CoarseOp
   StageScope stage(context, "coarse");
   CoarseResult result =
       CoarseTries(run_case, {plan_for(run_case, options, context)}, stage, context).run();
+  result = on_root(context.comm, [&] { return std::move(result); });
   stage.work_is_done();
   stage.finish(result.mesh.num_tets() == 0 ? std::string("failed")
                                            : fmt::format("{} tets", result.mesh.num_tets()));

@@ -46,8 +46,8 @@ struct CoarseResult {
 [[nodiscard]] CoarseResult run_coarse_stage(const config::Case& run_case,
                                             const cut::CutTree& planes, RunContext& context);
 
-/// @brief One try more, with options of which others have worked before. Its result has no tets on
-/// rank 0 if it fails.
+/// @brief One try more, with options of which others have worked before. Its result, on all ranks,
+/// has no tets if it fails.
 /// @note Collective.
 [[nodiscard]] CoarseResult run_coarse_try(const config::Case& run_case,
                                           const coarse::CoarseOptions& options,

@@ -54,6 +54,19 @@ class Ladder(program.ProgramTest):
             first = self.folder / "on_1"
             self.assertEqual(program.mesh_files(self.folder / f"on_{ranks}"), program.mesh_files(first))
 
+    def test_thin_walls_are_meshed_once_more(self):
+        plate = "algebraic3d\nsolid plate = orthobrick (0, 0, 0; 40, 40, 0.5);\ntlo plate;\n"
+        self.write("plate.geo", plate)
+        case = self.write_case(geometry="plate.geo", max_size=20.0, subdomains=2)
+        digests = set()
+        for ranks in (1, 3):
+            folder = self.mesh(case, f"on_{ranks}", ranks=ranks)
+            report = json.loads((folder / "report.json").read_text())
+            self.assertEqual(report["coarse"]["tries"], 2)
+            self.assertEqual(report["coarse"]["sharp"]["num_tets"], 0)
+            digests.add(report["digest"])
+        self.assertEqual(len(digests), 1)
+
     @unittest.skipUnless(shutil.which("gmsh"), "needs the program gmsh")
     def test_gmsh_is_the_last_rung(self):
         self.case = self.write_case(geometry=CONFIGS / "geometry" / "bracket.step", max_size=10.0, subdomains=2)
