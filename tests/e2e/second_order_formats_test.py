@@ -127,7 +127,8 @@ def read_pieces(folder):
         cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, width)
         texts = grid.GetFieldData().GetAbstractArray(names)
         values = vtk_to_numpy(grid.GetCellData().GetArray(tags))
-        found.append((vtk_to_numpy(grid.GetPoints().GetData()), cells, [texts.GetValue(int(v) - first) for v in values]))
+        points = vtk_to_numpy(grid.GetPoints().GetData())
+        found.append((points, cells, [texts.GetValue(int(v) - first) for v in values]))
     (xyz, tets, materials), (outer_xyz, triangles, patches) = found
     return Found(numpy.concatenate([xyz, outer_xyz]), (tets, materials), (triangles + len(xyz), patches))
 
