@@ -304,7 +304,7 @@ class PartitionedFormats(program.ProgramTest):
             folders.append(self.folder / f"ranks_{ranks}")
             self.assertEqual(self.convert(folders[-1].name, ranks=ranks).code, OK)
         first = hashes(folders[0])
-        self.assertEqual(len(first), 1 + PARTS + 1 + 5 * PARTS + 4 + 10 * PARTS + 6)
+        self.assertEqual(len(first), 1 + 2 * PARTS + 1 + 5 * PARTS + 4 + 10 * PARTS + 6)
         for folder in folders[1:]:
             self.assertEqual(hashes(folder), first)
         by_mesh = hashes(self.source)
