@@ -39,7 +39,7 @@ double measure_volume(RunContext& context)
 {
   const Bytes request = figures_request();
   jobs::JobOutcome outcome =
-      run_job({"figures", request, kQueryLimits}, wait_for_stop_signal(), context);
+      run_job({"volume", request, kQueryLimits}, wait_for_stop_signal(), context);
   throw_if_cancelled(outcome);
   const auto figures = read_result(outcome, from_bytes<coarse::ModelFigures>);
   return figures ? figures->volume : std::numeric_limits<double>::quiet_NaN();
