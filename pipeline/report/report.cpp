@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/report/defeature_json.hpp"
 #include "pipeline/report/report.hpp"
 
 #include <algorithm>
@@ -249,7 +250,7 @@ Json improvement_json(const Improvement& improvement)
 Json coarse_json(const RunResult& run)
 {
   const bool is_own = model::is_mesh_name(run.resolved.geometry.file);
-  return {{"num_tets", run.coarse.mesh.num_tets()},
+  Json json{{"num_tets", run.coarse.mesh.num_tets()},
           {"mesher", is_own ? std::string_view("own") : word_of(run.coarse.options.mesher)},
           {"max_size", run.coarse.options.max_size},
           {"surface_mesher", word_of(run.coarse.options.surface_mesher)},
@@ -258,6 +259,8 @@ Json coarse_json(const RunResult& run)
           {"sharp", sharp_json(run.sharp, run.coarse.mesh)},
           {"levels", run.levels.largest()},
           {"edges_by_level", run.levels.histogram()}};
+  if (run.resolved.coarse.defeature > 0.0) json["defeatured"] = defeatured_json(run.coarse);
+  return json;
 }
 
 Hash128 digest_of(const std::vector<subdomain::PieceSummary>& pieces)
