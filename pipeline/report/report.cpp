@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/report/defeature_json.hpp"
 #include "pipeline/report/report.hpp"
 
 #include <algorithm>
@@ -16,6 +15,7 @@
 #include "tessera/netgen/factory.hpp"
 
 #include "pipeline/report/cuts_json.hpp"
+#include "pipeline/report/defeature_json.hpp"
 #include "pipeline/report/names_json.hpp"
 #include "pipeline/report/quality_json.hpp"
 #include "pipeline/report/sharp_json.hpp"
@@ -251,14 +251,14 @@ Json coarse_json(const RunResult& run)
 {
   const bool is_own = model::is_mesh_name(run.resolved.geometry.file);
   Json json{{"num_tets", run.coarse.mesh.num_tets()},
-          {"mesher", is_own ? std::string_view("own") : word_of(run.coarse.options.mesher)},
-          {"max_size", run.coarse.options.max_size},
-          {"surface_mesher", word_of(run.coarse.options.surface_mesher)},
-          {"tries", run.coarse.tries},
-          {"failures", run.coarse.failures},
-          {"sharp", sharp_json(run.sharp, run.coarse.mesh)},
-          {"levels", run.levels.largest()},
-          {"edges_by_level", run.levels.histogram()}};
+            {"mesher", is_own ? std::string_view("own") : word_of(run.coarse.options.mesher)},
+            {"max_size", run.coarse.options.max_size},
+            {"surface_mesher", word_of(run.coarse.options.surface_mesher)},
+            {"tries", run.coarse.tries},
+            {"failures", run.coarse.failures},
+            {"sharp", sharp_json(run.sharp, run.coarse.mesh)},
+            {"levels", run.levels.largest()},
+            {"edges_by_level", run.levels.histogram()}};
   if (run.resolved.coarse.defeature > 0.0) json["defeatured"] = defeatured_json(run.coarse);
   return json;
 }

@@ -67,7 +67,8 @@ Parts patches_of(const mesh::CoarseMesh& mesh)
     const Vec3 a = mesh.position(v[0]);
     const Vec3 b = mesh.position(v[1]);
     const Vec3 c = mesh.position(v[2]);
-    add_part(mesh.patch_surface[at(patch)], triangle_area(a, b, c), (1.0 / 3.0) * (a + b + c), parts);
+    add_part(mesh.patch_surface[at(patch)], triangle_area(a, b, c), (1.0 / 3.0) * (a + b + c),
+             parts);
   }
   return parts;
 }
@@ -136,7 +137,8 @@ bool defeature(CoarseSurface& surface, const model::Model& model, double toleran
   const EditableSurface& edited = defeaturer.surface();
   for (const Merge& merge : defeaturer.merges()) {
     groups.merge(merge.gone, merge.kept, edited.xyz(merge.kept));
-    if (merge.curve_end != kNoIndex) groups.merge(merge.curve_end, merge.kept, edited.xyz(merge.kept));
+    if (merge.curve_end != kNoIndex)
+      groups.merge(merge.curve_end, merge.kept, edited.xyz(merge.kept));
   }
   CoarseSurface made = groups.take(edited);
   made.defeatured = {.tolerance = tolerance,

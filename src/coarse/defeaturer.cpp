@@ -196,9 +196,8 @@ void Defeaturer::split(const Edge& edge, LocalIndex v, const Vec3& point)
 bool Defeaturer::moves_onto(LocalIndex v, LocalIndex curve) const
 {
   if (surface_.freedom(v) == Freedom::none) return false;
-  return std::ranges::all_of(surface_.curve_neighbours(v), [&](LocalIndex other) {
-    return surface_.curve(v, other) > curve;
-  });
+  return std::ranges::all_of(surface_.curve_neighbours(v),
+                             [&](LocalIndex other) { return surface_.curve(v, other) > curve; });
 }
 
 bool Defeaturer::is_between(const Edge& edge, const Vec3& point) const
@@ -264,9 +263,8 @@ bool Defeaturer::shorten(const Edge& edge)
   const Vec3 sum = normal_of(surface_.corners(two[0])) + normal_of(surface_.corners(two[1]));
   Step step{.old = two};
   for (std::size_t side = 0; side < 2; ++side) add((*triangles)[side], two[side], step);
-  const bool is_upright = std::ranges::all_of(step.made, [&](const PlacedTriangle& one) {
-    return dot(normal_of(one.corners), sum) > 0.0;
-  });
+  const bool is_upright = std::ranges::all_of(
+      step.made, [&](const PlacedTriangle& one) { return dot(normal_of(one.corners), sum) > 0.0; });
   if (!is_upright || !guard_.allows(step.old, step.made) || folds(step)) return false;
   surface_.flip(edge, *triangles);
   update_guard(two);
@@ -349,8 +347,8 @@ bool Defeaturer::keeps_domains_closed(LocalIndex gone, LocalIndex kept) const
     const auto& sides = start_.patch_materials[at(surface_.patch(t))];
     domains.insert(sides.begin(), sides.end());
   }
-  return std::ranges::all_of(
-      domains, [&](LocalIndex domain) { return keeps_closed(domain, gone, kept); });
+  return std::ranges::all_of(domains,
+                             [&](LocalIndex domain) { return keeps_closed(domain, gone, kept); });
 }
 
 // The link condition, in the skin of a domain that has the first vertex.
@@ -432,8 +430,8 @@ void Defeaturer::add_wings_beside(const Triangles& old, Wings& wings) const
   for (auto& [edge, all] : wings) {
     for (const LocalIndex t : surface_.triangles_at(edge)) {
       if (std::ranges::find(old, t) != old.end()) continue;
-      all.push_back(wing(surface_.xyz(edge[0]), surface_.xyz(edge[1]),
-                         surface_.xyz(opposite(t, edge))));
+      all.push_back(
+          wing(surface_.xyz(edge[0]), surface_.xyz(edge[1]), surface_.xyz(opposite(t, edge))));
     }
   }
 }

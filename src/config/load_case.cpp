@@ -235,10 +235,11 @@ void check_defeature(const Case& loaded, bool is_mesh, const std::string& where)
 {
   if (loaded.coarse.defeature == 0.0) return;
   if (is_mesh || loaded.coarse.mesher == coarse::Mesher::gmsh) {
-    fail(where, fmt::format("coarse.defeature = {} is for surfaces that Tessera makes; leave it out{}",
-                            number_text(loaded.coarse.defeature),
-                            is_mesh ? ", the mesh in geometry.file is the coarse mesh"
-                                    : " or coarse.mesher = \"gmsh\""));
+    fail(where,
+         fmt::format("coarse.defeature = {} is for surfaces that Tessera makes; leave it out{}",
+                     number_text(loaded.coarse.defeature),
+                     is_mesh ? ", the mesh in geometry.file is the coarse mesh"
+                             : " or coarse.mesher = \"gmsh\""));
   }
   if (loaded.coarse.max_size > 0.0) require_small_defeature(loaded, where);
 }
@@ -322,9 +323,10 @@ void require_small_defeature(const Case& resolved, const std::string& where)
 {
   const double most = 0.5 * resolved.coarse.max_size;
   if (resolved.coarse.defeature <= most) return;
-  fail(where, fmt::format("coarse.defeature = {}: must be at most {}, half of coarse.max_size; what "
-                          "is larger is no detail of the mesh",
-                          number_text(resolved.coarse.defeature), number_text(most)));
+  fail(where,
+       fmt::format("coarse.defeature = {}: must be at most {}, half of coarse.max_size; what "
+                   "is larger is no detail of the mesh",
+                   number_text(resolved.coarse.defeature), number_text(most)));
 }
 
 Case parse_case(std::string_view text, const std::filesystem::path& file,
