@@ -38,7 +38,7 @@ Json defeatured_json(const CoarseResult& coarse)
   for (std::size_t i = 0; i < faces.size(); ++i) {
     faces[i]["name"] = name_of(merged.patches[i].number, coarse.mesh);
   }
-  return {{"tolerance", merged.tolerance},
+  return {{"tolerance", coarse.options.defeature},
           {"num_edges", merged.curves.size()},
           {"edges", parts_json(merged.curves, "length")},
           {"num_faces", merged.patches.size()},
