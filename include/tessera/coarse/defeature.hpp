@@ -59,7 +59,9 @@ using OnCurve = std::function<Vec3(LocalIndex curve, LocalIndex near, const Vec3
 [[nodiscard]] Defeatured defeature(PatchSurface& surface, const OnCurve& on_curve,
                                    double tolerance);
 
+/// @brief In coarse_surface.hpp.
 struct CoarseSurface;
+/// @brief In surface_reference.hpp.
 class SurfaceReference;
 
 /// @brief The same of triangles of a model, whose numbers are the surface's. Local.

@@ -24,8 +24,7 @@ void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
 /// @param[in] start      As remesh().
 /// @throws GeometryError if a projection fails.
 [[nodiscard]] PatchSurface remesh_on_geometry(const SurfaceReference& reference,
-                                              const PatchSurface& start,
-                                              const model::Model& model,
+                                              const PatchSurface& start, const model::Model& model,
                                               const CoarseOptions& options);
 
 }  // namespace tessera::coarse
