@@ -11,10 +11,6 @@ namespace {
 // A tet may lose this part of its volume to a move.
 constexpr double kLeastVolume = 0.5;
 
-// In tolerances: so near to a place where vertices were merged, others have had their curve
-// changed.
-constexpr double kMergedReach = 10.0;
-
 class Snapper {
  public:
   Snapper(mesh::CoarseMesh& mesh, const model::Model& model, const Defeatured& merged)
@@ -67,7 +63,7 @@ class Snapper {
   [[nodiscard]] bool is_merged(LocalIndex v) const
   {
     return std::ranges::any_of(merged_.places, [&](const Vec3& place) {
-      return norm(mesh_.position(v) - place) <= kMergedReach * merged_.tolerance;
+      return norm(mesh_.position(v) - place) <= merged_.tolerance;
     });
   }
 

@@ -18,7 +18,7 @@ struct VertexDistance {
   LocalIndex num_within = 0;
   double largest_within = 0.0;  ///< Over these.
   /// Vertices farther off than the tolerance of their surface or curve because others were merged
-  /// into them, or close by.
+  /// into them.
   LocalIndex num_merged = 0;
   double largest_merged = 0.0;  ///< Over these.
 
@@ -39,7 +39,7 @@ inline constexpr double kMostOfEdgeOff = 1e-4;
 ///
 /// A vertex moves only as far as the tets around it stay sound. A vertex between patches or at the
 /// end of curves is measured only: no single projection says where it belongs.
-/// @param[in] merged  What was merged: a vertex near such a place may be off by the tolerance.
+/// @param[in] merged  What was merged: a vertex at such a place may be off by the tolerance.
 /// @throws GeometryError if a projection fails.
 VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model,
                              const Defeatured& merged = {});
