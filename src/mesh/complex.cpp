@@ -56,15 +56,15 @@ std::array<Edge, 3> sides_of(const Triangle& v)
 // Edges of the triangles, numbered in ascending order.
 void add_edges(const std::vector<Triangle>& triangles, Complex& out)
 {
-  std::vector<Edge> edges;
+  std::vector<Edge> sides;
+  sides.reserve(3 * triangles.size());
   for (const Triangle& triangle : triangles) {
-    for (const Edge& side : sides_of(triangle)) edges.push_back(side);
+    for (const Edge& side : sides_of(triangle)) sides.push_back(side);
   }
-  sort_unique(edges);
-  for (const Triangle& triangle : triangles) {
-    for (const Edge& side : sides_of(triangle)) out.triangle_edges.push_back(index_in(edges, side));
-  }
-  out.edge_vertices = flat_of(edges);
+  const RowTable<2> edges(sides);
+  out.triangle_edges.reserve(sides.size());
+  for (const Edge& side : sides) out.triangle_edges.push_back(edges.index_of(side));
+  out.edge_vertices = flat_of(edges.rows());
 }
 
 }  // namespace
@@ -163,28 +163,25 @@ TetComplex tet_complex(const CoarseMesh& coarse, const Skeleton& skeleton,
   }
   sort_unique(faces.vertex_coarse);
 
-  std::vector<Triangle> triangles;
+  out.tet_vertices.reserve(4 * tets.size());
   for (const LocalIndex t : tets) {
     for (const LocalIndex v : coarse.tet(t)) {
       out.tet_vertices.push_back(index_in(faces.vertex_coarse, v));
     }
   }
-  const auto face_of = [&](std::size_t t, std::size_t corner) {
-    const auto& c = kTetFaceCorners[corner];
+  std::vector<Triangle> sides;
+  sides.reserve(4 * tets.size());
+  for (std::size_t t = 0; t < tets.size(); ++t) {
     const LocalIndex* v = &out.tet_vertices[4 * t];
-    return sorted_triangle(v[c[0]], v[c[1]], v[c[2]]);
-  };
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    for (std::size_t corner = 0; corner < 4; ++corner) triangles.push_back(face_of(t, corner));
-  }
-  sort_unique(triangles);
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      out.tet_triangles.push_back(index_in(triangles, face_of(t, corner)));
+    for (const auto& c : kTetFaceCorners) {
+      sides.push_back(sorted_triangle(v[c[0]], v[c[1]], v[c[2]]));
     }
   }
-  faces.triangle_vertices = flat_of(triangles);
-  add_edges(triangles, faces);
+  const RowTable<3> triangles(sides);
+  out.tet_triangles.reserve(sides.size());
+  for (const Triangle& side : sides) out.tet_triangles.push_back(triangles.index_of(side));
+  faces.triangle_vertices = flat_of(triangles.rows());
+  add_edges(triangles.rows(), faces);
   tie_to_skeleton(skeleton, faces);
   return out;
 }

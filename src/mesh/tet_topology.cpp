@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/mesh/tet_topology.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/mesh/sorted_rows.hpp"
 
 namespace tessera::mesh {
 
@@ -27,9 +27,11 @@ std::vector<TriangleTets> triangles_of_tets(std::span<const LocalIndex> tet_vert
                        static_cast<LocalIndex>(t), static_cast<LocalIndex>(corner)});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.vertices != b.vertices ? a.vertices < b.vertices : a.tet < b.tet;
-  });
+  sort_by_smallest(
+      sides, [](const Side& side) { return side.vertices[0]; },
+      [](const Side& a, const Side& b) {
+        return a.vertices != b.vertices ? a.vertices < b.vertices : a.tet < b.tet;
+      });
 
   std::vector<TriangleTets> triangles;
   triangles.reserve(sides.size() / 2 + 1);

@@ -2,9 +2,11 @@
 #include "netgen/occ_curve.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <BRep_Tool.hxx>
+#include <BndLib_Add3dCurve.hxx>
 #include <GeomAbs_CurveType.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <TopExp_Explorer.hxx>
@@ -20,6 +22,10 @@ namespace {
 // Healing states tolerances of the size of the model where it finds no way to close a gap. A vertex
 // that is farther off than this part of the box diagonal is a defect, whatever the file says.
 constexpr double kMostRelativeTolerance = 1e-3;
+
+// OpenCASCADE samples some kinds of curves for their boxes. By this part of its diagonal a box is
+// made larger, so that it holds what lies between samples.
+constexpr double kBoxMargin = 0.1;
 
 // Enough starts that two extrema between neighbouring samples are unlikely: several a span.
 int sample_count(const Handle(Geom_Curve) & curve, double first, double last)
@@ -44,7 +50,11 @@ OccCurve::OccCurve(const TopoDS_Edge& edge, double box_diagonal)
       box_diagonal_(box_diagonal)
 {
   if (curve_.IsNull()) throw GeometryError("an edge of the model has no curve in space");
-  num_samples_ = sample_count(curve_, first_, last_);
+  samples_.resize(static_cast<std::size_t>(sample_count(curve_, first_, last_)) + 1);
+  for (std::size_t i = 0; i < samples_.size(); ++i)
+    samples_[i] = curve_->Value(sample_parameter(i));
+  BndLib_Add3dCurve::Add(GeomAdaptor_Curve(curve_, first_, last_), 0.0, box_);
+  box_.Enlarge(kBoxMargin * std::sqrt(box_.SquareExtent()));
   for (TopExp_Explorer vertices(edge, TopAbs_VERTEX); vertices.More(); vertices.Next()) {
     const TopoDS_Vertex& vertex = TopoDS::Vertex(vertices.Current());
     const double tolerance =
@@ -80,22 +90,31 @@ model::CurvePoint OccCurve::nearest(const Vec3& point) const
 {
   // Samples that are nearer than their neighbours start a descent; the ends are candidates.
   const gp_Pnt target = to_occ(point);
-  const auto parameter = [this](int i) { return first_ + (last_ - first_) * i / num_samples_; };
   std::vector<double> distances;
-  for (int i = 0; i <= num_samples_; ++i) {
-    distances.push_back(curve_->Value(parameter(i)).Distance(target));
-  }
+  for (const gp_Pnt& sample : samples_) distances.push_back(sample.Distance(target));
   Descent best;
   best.distance = kFarAway;
-  for (int i = 0; i <= num_samples_; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const bool below_left = i == 0 || distances[at] <= distances[at - 1];
-    const bool below_right = i == num_samples_ || distances[at] <= distances[at + 1];
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const bool below_left = i == 0 || distances[i] <= distances[i - 1];
+    const bool below_right = i + 1 == samples_.size() || distances[i] <= distances[i + 1];
     if (!below_left || !below_right) continue;
-    const Descent candidate = descend(point, parameter(i));
+    const Descent candidate = descend(point, sample_parameter(i));
     if (candidate.distance < best.distance - kTieDistance * box_diagonal_) best = candidate;
   }
   return best.point;
+}
+
+double OccCurve::sample_parameter(std::size_t i) const
+{
+  return first_
+         + (last_ - first_) * static_cast<double>(i) / static_cast<double>(samples_.size() - 1);
+}
+
+bool OccCurve::is_within(double distance, const Vec3& point) const
+{
+  Bnd_Box near(box_);
+  near.Enlarge(distance);
+  return !near.IsOut(to_occ(point)) && norm(nearest(point).xyz - point) <= distance;
 }
 
 OccCurve::Descent OccCurve::descend(const Vec3& point, double guess) const

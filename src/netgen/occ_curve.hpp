@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <Bnd_Box.hxx>
 #include <Geom_Curve.hxx>
 #include <TopoDS_Edge.hxx>
 #include <gp_Pnt.hxx>
@@ -45,6 +46,9 @@ class OccCurve {
   /// @brief The nearest point of the whole curve.
   [[nodiscard]] model::CurvePoint nearest(const Vec3& point) const;
 
+  /// @brief Whether the curve comes within `distance` of the point.
+  [[nodiscard]] bool is_within(double distance, const Vec3& point) const;
+
  private:
   struct Descent {
     model::CurvePoint point{};
@@ -64,6 +68,7 @@ class OccCurve {
 
   [[nodiscard]] Descent descend(const Vec3& point, double guess) const;
   [[nodiscard]] Step step_at(const gp_Pnt& target, double t) const;
+  [[nodiscard]] double sample_parameter(std::size_t i) const;
 
   double first_ = 0.0;
   double last_ = 0.0;
@@ -71,7 +76,8 @@ class OccCurve {
   double tolerance_ = 0.0;
   std::vector<End> ends_{};
   double box_diagonal_ = 0.0;
-  int num_samples_ = 0;  ///< Starts of the global search.
+  std::vector<gp_Pnt> samples_{};  ///< Starts of the global search, from end to end.
+  Bnd_Box box_{};                  ///< Holds the curve, with room to spare.
 };
 
 }  // namespace tessera::netgen

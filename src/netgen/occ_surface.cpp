@@ -224,13 +224,17 @@ OccSurface::Uv OccSurface::clamped(const Uv& uv) const
           std::clamp(uv[1], directions_[1].domain_first, directions_[1].domain_last)};
 }
 
+// OpenCASCADE's classifier comes last, since it takes long for points near edges.
 bool OccSurface::within_trim(const model::SurfacePoint& point) const
 {
-  if (trim_->contains(point.uv)) return true;
-  // Trimming edges are only as exact as their tolerance.
+  return trim_->is_inside_cell(point.uv) || is_on_boundary(point.xyz) || trim_->contains(point.uv);
+}
+
+// Trimming edges are only as exact as their tolerance.
+bool OccSurface::is_on_boundary(const Vec3& point) const
+{
   return std::any_of(boundaries_.begin(), boundaries_.end(), [&](const Boundary& boundary) {
-    const Vec3 on_edge = boundary.curve.nearest(point.xyz).xyz;
-    return norm(on_edge - point.xyz) <= std::max(tolerance_, boundary.curve.tolerance());
+    return boundary.curve.is_within(std::max(tolerance_, boundary.curve.tolerance()), point);
   });
 }
 

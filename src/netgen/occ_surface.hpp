@@ -85,6 +85,7 @@ class OccSurface {
   }
   [[nodiscard]] Uv clamped(const Uv& uv) const;
   [[nodiscard]] bool within_trim(const model::SurfacePoint& point) const;
+  [[nodiscard]] bool is_on_boundary(const Vec3& point) const;
   [[nodiscard]] model::SurfacePoint nearest(const Vec3& point, const Uv& guess) const;
   [[nodiscard]] Descent nearest_inside(const Vec3& point) const;
   [[nodiscard]] Descent nearest_boundary(const Vec3& point) const;

@@ -13,8 +13,21 @@
 namespace tessera::netgen {
 namespace {
 
+// Cells a side. The classifier's time grows with the number of edges, and so does the part of the
+// cells that it has to answer for.
+constexpr int kFewestCells = 64;
+constexpr int kMostCells = 512;
+constexpr int kCellsPerEdge = 8;
+
 constexpr int kNumFirstSteps = 64;  // Along each edge, before steps are halved where they are long.
 constexpr int kMaxHalvings = 12;
+
+int cells_for(const TopoDS_Face& face)
+{
+  int num_edges = 0;
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) ++num_edges;
+  return std::clamp(kCellsPerEdge * num_edges, kFewestCells, kMostCells);
+}
 
 bool is_in(const BRepTopAdaptor_FClass2d& classifier, const model::SurfaceParameters& uv)
 {
@@ -26,11 +39,12 @@ bool is_in(const BRepTopAdaptor_FClass2d& classifier, const model::SurfaceParame
 OccTrim::OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods)
     : classifier_(std::make_unique<BRepTopAdaptor_FClass2d>(face, Precision::PConfusion())),
       periods_(periods),
-      cells_(static_cast<std::size_t>(kNumCells * kNumCells), Cell::unknown)
+      num_cells_(cells_for(face)),
+      cells_(at(num_cells_ * num_cells_), Cell::unknown)
 {
   Uv last{};
   BRepTools::UVBounds(face, first_[0], last[0], first_[1], last[1]);
-  for (std::size_t k = 0; k < 2; ++k) cell_size_[k] = (last[k] - first_[k]) / kNumCells;
+  for (std::size_t k = 0; k < 2; ++k) cell_size_[k] = (last[k] - first_[k]) / num_cells_;
   for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
     double from = 0.0;
     double to = 0.0;
@@ -42,8 +56,8 @@ OccTrim::OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods)
     }
   }
   // No edge passes between cells that are left, so one answer holds for all that hang together.
-  for (int i = 0; i < kNumCells; ++i) {
-    for (int j = 0; j < kNumCells; ++j) {
+  for (int i = 0; i < num_cells_; ++i) {
+    for (int j = 0; j < num_cells_; ++j) {
       if (cell({i, j}) != Cell::unknown) continue;
       fill_from({i, j}, is_in(*classifier_, centre_of({i, j})) ? Cell::inside : Cell::outside);
     }
@@ -52,12 +66,15 @@ OccTrim::OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods)
 
 bool OccTrim::contains(const Uv& uv) const
 {
+  const Cell state = state_at(uv);
+  return state == Cell::boundary ? is_in(*classifier_, uv) : state == Cell::inside;
+}
+
+// Off the grid there may be an edge as well.
+OccTrim::Cell OccTrim::state_at(const Uv& uv) const
+{
   const Place place = place_of(uv);
-  if (is_on_grid(place)) {
-    const Cell state = cells_[index_of(place)];
-    if (state == Cell::inside || state == Cell::outside) return state == Cell::inside;
-  }
-  return is_in(*classifier_, uv);
+  return is_on_grid(place) ? cells_[index_of(place)] : Cell::boundary;
 }
 
 OccTrim::Place OccTrim::place_of(const Uv& uv) const
@@ -67,7 +84,7 @@ OccTrim::Place OccTrim::place_of(const Uv& uv) const
     double offset = uv[k] - first_[k];
     if (periods_[k] > 0.0) offset -= periods_[k] * std::floor(offset / periods_[k]);
     place[k] =
-        static_cast<int>(std::clamp(std::floor(offset / cell_size_[k]), -2.0, kNumCells + 1.0));
+        static_cast<int>(std::clamp(std::floor(offset / cell_size_[k]), -2.0, num_cells_ + 1.0));
   }
   return place;
 }
@@ -78,9 +95,10 @@ OccTrim::Uv OccTrim::centre_of(const Place& place) const
           first_[1] + (place[1] + 0.5) * cell_size_[1]};
 }
 
-bool OccTrim::is_on_grid(const Place& place)
+bool OccTrim::is_on_grid(const Place& place) const
 {
-  return std::all_of(place.begin(), place.end(), [](int i) { return i >= 0 && i < kNumCells; });
+  return std::all_of(place.begin(), place.end(),
+                     [this](int i) { return i >= 0 && i < num_cells_; });
 }
 
 OccTrim::Cell& OccTrim::cell(const Place& place) { return cells_[index_of(place)]; }

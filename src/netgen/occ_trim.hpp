@@ -28,18 +28,21 @@ class OccTrim {
   /// @brief Whether `uv`, on any branch, is within or on the trimming edges.
   [[nodiscard]] bool contains(const Uv& uv) const;
 
+  /// @brief Whether `uv` is in a cell that is all within the trimming edges. A quick answer: false
+  /// says nothing.
+  [[nodiscard]] bool is_inside_cell(const Uv& uv) const { return state_at(uv) == Cell::inside; }
+
  private:
-  static constexpr int kNumCells =
-      64;  ///< A side: few points are in boundary cells, and load is fast.
   enum class Cell : char { unknown, boundary, inside, outside };
   using Place = std::array<int, 2>;
 
+  [[nodiscard]] Cell state_at(const Uv& uv) const;
   [[nodiscard]] Place place_of(const Uv& uv) const;
   [[nodiscard]] Uv centre_of(const Place& place) const;
-  [[nodiscard]] static bool is_on_grid(const Place& place);
-  [[nodiscard]] static std::size_t index_of(const Place& place)
+  [[nodiscard]] bool is_on_grid(const Place& place) const;
+  [[nodiscard]] std::size_t index_of(const Place& place) const
   {
-    return at(place[0] * kNumCells + place[1]);
+    return at(place[0] * num_cells_ + place[1]);
   }
   [[nodiscard]] Cell& cell(const Place& place);
   void mark_boundary(const Handle(Geom2d_Curve) & curve, double first, double last, int depth);
@@ -48,9 +51,10 @@ class OccTrim {
 
   std::unique_ptr<BRepTopAdaptor_FClass2d> classifier_;
   std::array<double, 2> periods_;
+  int num_cells_;  ///< A side.
   Uv first_{};
   Uv cell_size_{};
-  std::vector<Cell> cells_;  ///< Shape (kNumCells, kNumCells).
+  std::vector<Cell> cells_;  ///< Shape (num_cells_, num_cells_).
 };
 
 }  // namespace tessera::netgen

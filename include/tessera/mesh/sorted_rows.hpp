@@ -4,11 +4,74 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "tessera/base/types.hpp"
 
 namespace tessera::mesh {
+
+/// @brief Sorts rows of vertices in linear time but for short runs: first by their smallest vertex,
+/// which is dense, then within each run of the same.
+/// @param[in] smallest_of Gives the smallest vertex of a row. @param[in] less Total order that
+/// agrees with it.
+/// @return Where the run of each vertex begins, and the end of the last; shape (num_vertices + 1,).
+template <class Row, class SmallestOf, class Less>
+std::vector<std::size_t> sort_by_smallest(std::vector<Row>& rows, SmallestOf smallest_of, Less less)
+{
+  std::vector<std::size_t> begins(1, 0);
+  for (const Row& row : rows) {
+    const std::size_t end = at(smallest_of(row)) + 2;
+    if (begins.size() < end) begins.resize(end, 0);
+    ++begins[end - 1];
+  }
+  for (std::size_t v = 1; v < begins.size(); ++v) begins[v] += begins[v - 1];
+  std::vector<std::size_t> next(begins.begin(), begins.end() - 1);
+  std::vector<Row> sorted(rows.size());
+  for (const Row& row : rows) sorted[next[at(smallest_of(row))]++] = row;
+  const auto place = [&](std::size_t r) { return sorted.begin() + static_cast<std::ptrdiff_t>(r); };
+  for (std::size_t v = 0; v + 1 < begins.size(); ++v) {
+    std::sort(place(begins[v]), place(begins[v + 1]), less);
+  }
+  rows = std::move(sorted);
+  return begins;
+}
+
+/// @brief Different rows of N ascending vertices in ascending order, with a quick search.
+template <std::size_t N>
+class RowTable {
+ public:
+  using Row = std::array<LocalIndex, N>;
+
+  /// @param[in] rows In any order, repeated or not; vertices are dense.
+  explicit RowTable(std::vector<Row> rows) : rows_(std::move(rows))
+  {
+    sort_by_smallest(
+        rows_, [](const Row& row) { return row[0]; }, std::less<>{});
+    rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
+    for (std::size_t r = 0; r < rows_.size(); ++r) begins_.resize(at(rows_[r][0]) + 1, r);
+    begins_.push_back(rows_.size());
+  }
+
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+
+  /// @brief Which row it is. @pre It is among the rows.
+  [[nodiscard]] LocalIndex index_of(const Row& row) const
+  {
+    const auto place = [&](std::size_t r) {
+      return rows_.begin() + static_cast<std::ptrdiff_t>(r);
+    };
+    const auto found =
+        std::lower_bound(place(begins_[at(row[0])]), place(begins_[at(row[0]) + 1]), row);
+    return static_cast<LocalIndex>(found - rows_.begin());
+  }
+
+ private:
+  std::vector<Row> rows_;
+  std::vector<std::size_t> begins_;  ///< Where the rows of each smallest vertex begin; and the end.
+};
 
 /// @brief Row of a flat array that holds these values; kNoIndex: none does. O(log n).
 /// @param[in] flat Shape (num_rows, N); the rows ascend.
