@@ -4,19 +4,12 @@ import json
 import unittest
 
 import program
-from program import OK, WRONG_INPUT, sets
+from program import WRONG_INPUT, sets
 
 # A block whose upper half is narrower by 0.001.
 STEP = 0.001
 PROFILE = [(4, 0), (4, 3), (STEP, 3), (STEP, 1.5), (0, 1.5), (0, 0)]
 VOLUME = 48.0
-
-LEDGE_GEO = f"""algebraic3d
-solid low = orthobrick (0, 0, 0; 4, 4, 1.5);
-solid high = orthobrick ({STEP}, 0, 1; 4, 4, 3);
-solid both = low or high;
-tlo both;
-"""
 
 
 def ledge_stl():
@@ -37,7 +30,6 @@ class Defeature(program.ProgramTest):
     def setUp(self):
         super().setUp()
         self.write("ledge.stl", ledge_stl())
-        self.write("ledge.geo", LEDGE_GEO)
 
     def case(self, geometry, *lines, max_size=1.0, subdomains=4):
         case = self.write_case(geometry=geometry, max_size=max_size, subdomains=subdomains)
