@@ -140,6 +140,7 @@ class MeshWorker final : public jobs::Worker {
   [[nodiscard]] coarse::CoarseOptions for_mesher(coarse::CoarseOptions options) const
   {
     options.max_size /= scale_;
+    options.defeature /= scale_;
     options.points = options.points.scaled(1.0 / scale_);
     return options;
   }
@@ -179,13 +180,16 @@ class MeshWorker final : public jobs::Worker {
         coarse_mesher()->join_domains(request.surface, request.divided, std::move(pieces));
     cut::CutMesh filled = coarse::fill_surface(request.surface, tets);
     CoarseTry made{.mesh = std::move(filled.mesh), .tet_part = std::move(filled.tet_part)};
-    made.distance = coarse::snap_vertices(made.mesh, *netgen_model_);
+    const coarse::Defeatured& merged = request.surface.defeatured;
+    made.distance = coarse::snap_vertices(made.mesh, *netgen_model_, merged);
+    made.defeatured = merged.scaled(scale_);
     if (request.options.optimize) {
       coarse::optimize_interior(made.mesh);
       if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
     }
     made.distance.largest *= scale_;
     made.distance.largest_within *= scale_;
+    made.distance.largest_merged *= scale_;
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     netgen::name_curves(*netgen_model_, made.mesh);
     mesh::validate(made.mesh);

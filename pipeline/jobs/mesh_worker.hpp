@@ -87,8 +87,12 @@ struct CoarseTry {
   mesh::CoarseMesh mesh{};
   std::vector<LocalIndex> tet_part{};  ///< Shape (num_tets), if the model was cut.
   coarse::VertexDistance distance{};
+  coarse::Defeatured defeatured{};
 
-  static auto fields(auto& self) { return std::tie(self.mesh, self.tet_part, self.distance); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.mesh, self.tet_part, self.distance, self.defeatured);
+  }
 };
 
 /// @brief run: the coarse surface; result: bytes of a coarse::CoarseSurface in file length units.

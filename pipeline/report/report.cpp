@@ -15,6 +15,7 @@
 #include "tessera/netgen/factory.hpp"
 
 #include "pipeline/report/cuts_json.hpp"
+#include "pipeline/report/defeature_json.hpp"
 #include "pipeline/report/names_json.hpp"
 #include "pipeline/report/quality_json.hpp"
 #include "pipeline/report/sharp_json.hpp"
@@ -249,15 +250,17 @@ Json improvement_json(const Improvement& improvement)
 Json coarse_json(const RunResult& run)
 {
   const bool is_own = model::is_mesh_name(run.resolved.geometry.file);
-  return {{"num_tets", run.coarse.mesh.num_tets()},
-          {"mesher", is_own ? std::string_view("own") : word_of(run.coarse.options.mesher)},
-          {"max_size", run.coarse.options.max_size},
-          {"surface_mesher", word_of(run.coarse.options.surface_mesher)},
-          {"tries", run.coarse.tries},
-          {"failures", run.coarse.failures},
-          {"sharp", sharp_json(run.sharp, run.coarse.mesh)},
-          {"levels", run.levels.largest()},
-          {"edges_by_level", run.levels.histogram()}};
+  Json json{{"num_tets", run.coarse.mesh.num_tets()},
+            {"mesher", is_own ? std::string_view("own") : word_of(run.coarse.options.mesher)},
+            {"max_size", run.coarse.options.max_size},
+            {"surface_mesher", word_of(run.coarse.options.surface_mesher)},
+            {"tries", run.coarse.tries},
+            {"failures", run.coarse.failures},
+            {"sharp", sharp_json(run.sharp, run.coarse.mesh)},
+            {"levels", run.levels.largest()},
+            {"edges_by_level", run.levels.histogram()}};
+  if (run.resolved.coarse.defeature > 0.0) json["defeatured"] = defeatured_json(run.coarse);
+  return json;
 }
 
 Hash128 digest_of(const std::vector<subdomain::PieceSummary>& pieces)

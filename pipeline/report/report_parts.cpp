@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -228,6 +229,18 @@ std::vector<std::string> imbalance_advice(const Report& report)
   return advice;
 }
 
+std::optional<std::string> merge_advice(const Report& report)
+{
+  const auto num = report.number("/coarse/defeatured/num_vertices");
+  if (!num) return std::nullopt;
+  return fmt::format(
+      "coarse.defeature has merged {:.0f} edges and {:.0f} faces of the model; {:.0f} vertices of "
+      "the coarse mesh are off the geometry by at most {:.3g} for it. That is no defect.",
+      report.number("/coarse/defeatured/num_edges").value_or(0.0),
+      report.number("/coarse/defeatured/num_faces").value_or(0.0), *num,
+      report.number("/coarse/defeatured/distance_max").value_or(0.0));
+}
+
 std::vector<std::string> failure_advice(const Report& report)
 {
   std::vector<std::string> advice;
@@ -394,6 +407,7 @@ std::vector<std::string> advice_of(const Report& report)
         "the tolerance of the CAD file, or next to nothing of their edges. That is no defect.",
         *num, report.number("/points_within_tolerance/distance_max").value_or(0.0)));
   }
+  if (auto merged = merge_advice(report)) advice.push_back(std::move(*merged));
   for (std::string& one : failure_advice(report)) advice.push_back(std::move(one));
   if (const Json* const same = report.find("/reproducible"); same != nullptr && *same == false) {
     advice.emplace_back(

@@ -11,6 +11,7 @@
 #include "tessera/fill/fallbacks.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
 
+#include "pipeline/report/defeature_json.hpp"
 #include "pipeline/report/sharp_json.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/cut_stage.hpp"
@@ -170,6 +171,9 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
     keep_coarse_mesh(run, options.state, context);
   }
   tell_what_is_within_tolerance(run, context);
+  if (run.resolved.coarse.defeature > 0.0) {
+    context.log.info("coarse: {}", defeatured_words(run.coarse));
+  }
   all_or_none(context.comm, [&] {
     if (context.comm.rank() == 0) name_sharp_tets(run, context);
     run.kernels = fill::kernels_of(run.resolved.fill, run.coarse.mesh.material_names,

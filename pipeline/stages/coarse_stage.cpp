@@ -217,6 +217,7 @@ class CoarseTries {
     result_.mesh = std::move(made.mesh);
     result_.tet_part = std::move(made.tet_part);
     result_.distance = made.distance;
+    result_.defeatured = std::move(made.defeatured);
   }
 
   // The first rung with a surface, on every rank; nothing if all have failed.
@@ -326,6 +327,10 @@ std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions&
     remeshed.surface_mesher = coarse::SurfaceMesher::remesh;
     fallbacks.push_back(remeshed);
   }
+  if (asked.defeature > 0.0) {
+    fallbacks.push_back(asked);
+    fallbacks.back().defeature = 0.0;
+  }
   return fallbacks;
 }
 
@@ -343,6 +348,11 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
     context.log.warn(
         "coarse: Gmsh has made the mesh, after all other tries had failed; without it, or with "
         "another version of it, this run ends otherwise");
+  }
+  if (result.options.defeature != run_case.coarse.defeature) {
+    context.log.warn(
+        "coarse: all tries with coarse.defeature = {} had failed; the mesh is made without it",
+        run_case.coarse.defeature);
   }
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),

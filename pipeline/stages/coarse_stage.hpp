@@ -20,13 +20,14 @@ struct CoarseResult {
   coarse::CoarseOptions options{};      ///< Those of the try that succeeded.
   int tries = 0;                        ///< Tries that were needed, from 1.
   coarse::VertexDistance distance{};    ///< Output length unit.
+  coarse::Defeatured defeatured{};      ///< Output length unit.
   std::vector<std::string> failures{};  ///< What the tries before said, for the report.
   bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
 
   static auto fields(auto& self)
   {
     return std::tie(self.mesh, self.tet_part, self.options, self.tries, self.distance,
-                    self.failures, self.was_limited);
+                    self.defeatured, self.failures, self.was_limited);
   }
 };
 

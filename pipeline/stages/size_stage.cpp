@@ -79,6 +79,7 @@ config::Case resolve_size(const config::Case& given, RunContext& context)
   resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, levels);
   context.log.info("size.target {}: coarse.max_size = {}", given.size.target,
                    resolved.coarse.max_size);
+  config::require_small_defeature(resolved, given.geometry.file.string());
   return resolved;
 }
 

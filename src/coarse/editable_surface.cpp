@@ -183,13 +183,16 @@ bool EditableSurface::can_collapse(LocalIndex gone, LocalIndex kept) const
 
 void EditableSurface::collapse(LocalIndex gone, LocalIndex kept)
 {
-  if (freedom(gone) == Freedom::curve) {
+  if (freedom(gone) != Freedom::patch) {
     for (const LocalIndex other : curve_neighbours(gone)) {
       const LocalIndex on = curve(gone, other);
       curves_.erase(edge_of(gone, other));
-      if (other != kept) curves_[edge_of(other, kept)] = on;
+      if (other == kept) continue;
+      const auto [place, is_new] = curves_.try_emplace(edge_of(other, kept), on);
+      if (!is_new) place->second = std::min(place->second, on);
     }
   }
+  freedom_[at(kept)] = std::max(freedom(kept), freedom(gone));
   const std::vector<LocalIndex> around = around_[at(gone)];
   for (const LocalIndex t : around) {
     if (!holds(triangles_[at(t)], kept)) {

@@ -11,7 +11,7 @@
 
 namespace tessera::coarse {
 
-/// @brief Where a vertex may go.
+/// @brief Where a vertex may go, from most to least.
 enum class Freedom : char { patch, curve, none };
 
 /// @brief A PatchSurface that can be changed, one edge at a time: its topology, and no judgement of
@@ -64,7 +64,8 @@ class EditableSurface {
 
   /// @brief Whether `gone` may be joined with `kept` without tearing or pinching the surface.
   [[nodiscard]] bool can_collapse(LocalIndex gone, LocalIndex kept) const;
-  /// @pre can_collapse(gone, kept)
+  /// @brief Joins them. Of two edges that become one, each on a curve, the lower curve counts.
+  /// @pre can_collapse(gone, kept), or another proof that nothing is torn.
   void collapse(LocalIndex gone, LocalIndex kept);
 
   /// @brief The two triangles that would take the place of those at an edge on no curve; nothing if

@@ -142,10 +142,10 @@ void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
   Mover(surface, reference, model).run();
 }
 
-PatchSurface remesh_on_geometry(const SurfaceReference& reference, const model::Model& model,
-                                const CoarseOptions& options)
+PatchSurface remesh_on_geometry(const SurfaceReference& reference, const PatchSurface& start,
+                                const model::Model& model, const CoarseOptions& options)
 {
-  PatchSurface surface = remesh(reference, options);
+  PatchSurface surface = remesh(reference, start, options);
   put_on_geometry(surface, reference, model);
   const std::size_t most_triangles = kMostGrowth * surface.triangles.size();
   for (int round = 0; round < kFinerRounds; ++round) {

@@ -367,7 +367,12 @@ class Remesher {
 
 PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options)
 {
-  const PatchSurface& start = reference.surface();
+  return remesh(reference, reference.surface(), options);
+}
+
+PatchSurface remesh(const SurfaceReference& reference, const PatchSurface& start,
+                    const CoarseOptions& options)
+{
   Remesher remesher(reference, start, surface_sizes(start, options));
   remesher.see_walls(options);
   return remesher.run();

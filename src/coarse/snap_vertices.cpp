@@ -13,9 +13,10 @@ constexpr double kLeastVolume = 0.5;
 
 class Snapper {
  public:
-  Snapper(mesh::CoarseMesh& mesh, const model::Model& model)
+  Snapper(mesh::CoarseMesh& mesh, const model::Model& model, const Defeatured& merged)
       : mesh_(mesh),
         model_(model),
+        merged_(merged),
         corners_(at(mesh.num_vertices())),
         ends_(corners_.size()),
         tets_(corners_.size())
@@ -39,7 +40,10 @@ class Snapper {
       if (off.is_beyond_tolerance && move(v)) off = measure(v);
       distance.largest = std::max(distance.largest, off.distance);
       if (!off.is_beyond_tolerance) continue;
-      if (off.is_beyond_end && off.distance > kMostOfEdgeOff * shortest_edge(v)) {
+      if (off.distance <= merged_.tolerance && is_merged(v)) {
+        ++distance.num_merged;
+        distance.largest_merged = std::max(distance.largest_merged, off.distance);
+      } else if (off.is_beyond_end && off.distance > kMostOfEdgeOff * shortest_edge(v)) {
         ++distance.num_off;
       } else {
         ++distance.num_within;
@@ -55,6 +59,13 @@ class Snapper {
     bool is_beyond_tolerance = false;  // That of the surface or curve.
     bool is_beyond_end = false;        // That of the CAD vertex at the end of a curve as well.
   };
+
+  [[nodiscard]] bool is_merged(LocalIndex v) const
+  {
+    return std::ranges::any_of(merged_.places, [&](const Vec3& place) {
+      return norm(mesh_.position(v) - place) <= merged_.tolerance;
+    });
+  }
 
   [[nodiscard]] LocalIndex surface_of(std::size_t corner) const
   {
@@ -171,6 +182,7 @@ class Snapper {
 
   mesh::CoarseMesh& mesh_;
   const model::Model& model_;
+  const Defeatured& merged_;
   std::vector<std::vector<std::size_t>> corners_;  // Of faces, at each vertex.
   std::vector<std::vector<std::size_t>> ends_;     // Of segments, at each vertex.
   std::vector<std::vector<LocalIndex>> tets_;      // Around each vertex.
@@ -178,9 +190,10 @@ class Snapper {
 
 }  // namespace
 
-VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model)
+VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model,
+                             const Defeatured& merged)
 {
-  return Snapper(mesh, model).run();
+  return Snapper(mesh, model, merged).run();
 }
 
 }  // namespace tessera::coarse

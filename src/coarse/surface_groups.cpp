@@ -38,7 +38,10 @@ void SurfaceGroups::add_triangles()
     const auto& [out_of, into] = given_.face_domains[at(f)];
     const std::array<LocalIndex, 3> key{mesh.face_patch[at(f)], out_of, into};
     const LocalIndex group = row_of(rows, key);
-    if (at(group) == group_.size()) group_.push_back(key);
+    if (at(group) == group_.size()) {
+      group_.push_back(key);
+      groups_.patch_materials.push_back({out_of, into});
+    }
     const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
     groups_.triangles.push_back({v[0], v[1], v[2]});
     groups_.triangle_patch.push_back(group);
@@ -146,6 +149,21 @@ void SurfaceGroups::place_on_curve(LocalIndex curve, LocalIndex v, LocalIndex ne
   const LocalIndex number = model_curve(curve);
   if (number == kNoIndex || !has_t()) return;
   t_[{curve, v}] = {model_.project_to_curve(number, point, t_near(curve, near)).t};
+}
+
+void SurfaceGroups::merge(LocalIndex gone, LocalIndex kept, const Vec3& point)
+{
+  changed_.insert({gone, kept});
+  for (std::size_t c = 0; has_t() && c < curve_number_.size(); ++c) {
+    const auto curve = static_cast<LocalIndex>(c);
+    const auto known = t_.find({curve, gone});
+    if (known == t_.end() || model_curve(curve) == kNoIndex) continue;
+    std::vector<double> found;
+    for (const double t : known->second) {
+      found.push_back(model_.project_to_curve(model_curve(curve), point, t).t);
+    }
+    t_.try_emplace({curve, kept}, std::move(found));
+  }
 }
 
 CoarseSurface SurfaceGroups::take(const EditableSurface& edited) const

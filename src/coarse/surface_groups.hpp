@@ -37,6 +37,9 @@ class SurfaceGroups {
   void place_on_group(LocalIndex group, LocalIndex v, LocalIndex near, const Vec3& point);
   void place_on_curve(LocalIndex curve, LocalIndex v, LocalIndex near, const Vec3& point);
 
+  // Notes that a vertex is another one now, which has its curves as well.
+  void merge(LocalIndex gone, LocalIndex kept, const Vec3& point);
+
   // What became of it.
   [[nodiscard]] CoarseSurface take(const EditableSurface& edited) const;
 

@@ -132,6 +132,15 @@ constexpr Key kKeys[] = {
      .meaning = "STL and meshes: angle between two triangles from which their edge separates "
                 "two patches.",
      .reason = "NETGEN's own default"},
+    {.name = "coarse.defeature",
+     .rule = RealRule{[](Case& c) -> double& { return c.coarse.defeature; }, 0.0, Bound::inclusive,
+                      kHuge, Bound::inclusive},
+     .unit = "output length unit",
+     .meaning = "Edges of the model that are not longer than this are merged in the coarse mesh, "
+                "and faces that are as narrow; the report lists them. No point is moved by more, "
+                "and the mesh is that far off the geometry there. At most half of "
+                "coarse.max_size.",
+     .reason = "nothing of a model is left out unless that is asked for"},
     {.name = "coarse.optimize",
      .rule = FlagRule{[](Case& c) -> bool& { return c.coarse.optimize; }},
      .meaning = "Whether tets off the geometry are flipped and vertices moved so that the children "

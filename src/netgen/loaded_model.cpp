@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/loaded_model.hpp"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include <meshing.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/defeature.hpp"
 #include "tessera/coarse/mend_surface.hpp"
 
 #include "netgen/membrane_mesher.hpp"
@@ -48,15 +50,39 @@ coarse::CoarseSurface mended(coarse::CoarseSurface surface, const LoadedModel& m
   }
 }
 
+// A model whose triangles cannot be had may be meshed all the same.
+std::optional<coarse::CoarseSurface> merged(const LoadedModel& model,
+                                            const coarse::CoarseOptions& options)
+{
+  try {
+    return model.mesh_merged(options);
+  } catch (const NetgenError&) {
+    return std::nullopt;
+  } catch (const GeometryError&) {
+    return std::nullopt;
+  }
+}
+
+coarse::CoarseSurface defeatured(coarse::CoarseSurface surface, const LoadedModel& model,
+                                 double tolerance)
+{
+  if (tolerance == 0.0 || surface.num_domains() == 0) return surface;
+  if (coarse::defeature(surface, model, tolerance)) model.locate_parameters(surface.mesh);
+  return surface;
+}
+
 }  // namespace
 
 coarse::CoarseSurface LoadedModel::mesh_surface(const coarse::CoarseOptions& options,
                                                 const cut::CutTree& planes) const
 {
-  coarse::CoarseSurface surface = planes.num_parts > 0
-                                      ? mesh_parts(options, planes)
-                                      : mesh_surface(options, [](const auto&...) {});
-  return mended(std::move(surface), *this);
+  const bool is_cut = planes.num_parts > 0;
+  if (options.defeature > 0.0 && !is_cut) {
+    if (auto surface = merged(*this, options)) return mended(std::move(*surface), *this);
+  }
+  coarse::CoarseSurface surface =
+      is_cut ? mesh_parts(options, planes) : mesh_surface(options, [](const auto&...) {});
+  return mended(defeatured(std::move(surface), *this, options.defeature), *this);
 }
 
 coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*options*/,

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "tessera/coarse/coarse_mesher.hpp"
@@ -50,6 +51,14 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   /// @throws Also what `use` throws.
   [[nodiscard]] virtual coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                            const NetgenSurfaceUser& use) const = 0;
+
+  /// @brief The surface made of the model's triangles, after what is smaller than
+  /// `options.defeature` was merged in them; nothing if nothing was, or if there are no triangles.
+  [[nodiscard]] virtual std::optional<coarse::CoarseSurface> mesh_merged(
+      const coarse::CoarseOptions& /*options*/) const
+  {
+    return std::nullopt;
+  }
 
   /// @brief The surfaces of the parts that `tree` cuts the model into.
   /// @throws ConfigError if the model has no solids that could be cut.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <optional>
 #include <vector>
 
 #include <BRepGProp.hxx>
@@ -13,6 +14,7 @@
 #include <occgeom.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/defeature.hpp"
 #include "tessera/coarse/on_geometry.hpp"
 
 #include "netgen/loaded_model.hpp"
@@ -81,6 +83,8 @@ class OccModel final : public LoadedModel {
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
+  [[nodiscard]] std::optional<coarse::CoarseSurface> mesh_merged(
+      const coarse::CoarseOptions& options) const override;
   [[nodiscard]] coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
                                                  const cut::CutTree& tree) const override;
 
@@ -91,7 +95,9 @@ class OccModel final : public LoadedModel {
   [[nodiscard]] GeometryNumbers numbers_of_parts(const ::netgen::OCCGeometry& geometry,
                                                  const CutShape& cut) const;
   [[nodiscard]] std::string solid_name(LocalIndex material) const;
-  [[nodiscard]] coarse::CoarseSurface remesh(const coarse::CoarseOptions& options) const;
+  [[nodiscard]] coarse::CoarseSurface remesh(const coarse::SurfaceReference& reference,
+                                             const coarse::PatchSurface& start,
+                                             const coarse::CoarseOptions& options) const;
   static bool generate_steps(::netgen::OCCGeometry& geometry,
                              ::netgen::MeshingParameters& parameters,
                              std::shared_ptr<::netgen::Mesh>& mesh);
@@ -218,10 +224,25 @@ GeometryNumbers OccModel::numbers_of_parts(const ::netgen::OCCGeometry& geometry
 }
 
 // Where NETGEN cannot mesh a face: OpenCASCADE's triangles, made well-shaped and put on the faces.
-coarse::CoarseSurface OccModel::remesh(const coarse::CoarseOptions& options) const
+std::optional<coarse::CoarseSurface> OccModel::mesh_merged(
+    const coarse::CoarseOptions& options) const
 {
-  const coarse::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
-  const coarse::PatchSurface surface = coarse::remesh_on_geometry(reference, *this, options);
+  return with_occ_errors(file_name_, [&]() -> std::optional<coarse::CoarseSurface> {
+    const coarse::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
+    coarse::PatchSurface start = reference.surface();
+    coarse::Defeatured done = coarse::defeature(start, reference, *this, options.defeature);
+    if (!done.is_any()) return std::nullopt;
+    coarse::CoarseSurface surface = remesh(reference, start, options);
+    surface.defeatured = std::move(done);
+    return surface;
+  });
+}
+
+coarse::CoarseSurface OccModel::remesh(const coarse::SurfaceReference& reference,
+                                       const coarse::PatchSurface& start,
+                                       const coarse::CoarseOptions& options) const
+{
+  const coarse::PatchSurface surface = coarse::remesh_on_geometry(reference, start, *this, options);
   const SurfaceNames names{
       [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
       [this](LocalIndex material) { return solid_name(material); }};
@@ -315,7 +336,10 @@ coarse::CoarseSurface OccModel::mesh_surface(const coarse::CoarseOptions& option
                                              const NetgenSurfaceUser& use) const
 {
   if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
-    return with_occ_errors(file_name_, [&] { return remesh(options); });
+    return with_occ_errors(file_name_, [&] {
+      const coarse::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
+      return remesh(reference, reference.surface(), options);
+    });
   }
   NetgenSession session(coarse_parameters(options));
   return session.run("coarse mesh of " + file_name_, [&] {

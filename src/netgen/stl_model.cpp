@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <array>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/defeature.hpp"
 #include "tessera/coarse/on_geometry.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/stl_file.hpp"
@@ -138,19 +140,34 @@ class StlModel final : public LoadedModel {
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override
   {
-    if (options.surface_mesher == coarse::SurfaceMesher::remesh) return remesh(options);
-    return mesh_stl_surface(surface_, features_, options, name_, use);
+    if (options.surface_mesher == coarse::SurfaceMesher::netgen)
+      return mesh_stl_surface(surface_, features_, options, name_, use);
+    const coarse::SurfaceReference reference(patches_of(surface_, features_));
+    return remesh(reference, reference.surface(), options);
+  }
+
+  [[nodiscard]] std::optional<coarse::CoarseSurface> mesh_merged(
+      const coarse::CoarseOptions& options) const override
+  {
+    const coarse::SurfaceReference reference(patches_of(surface_, features_));
+    coarse::PatchSurface start = reference.surface();
+    coarse::Defeatured done = coarse::defeature(start, reference, *this, options.defeature);
+    if (!done.is_any()) return std::nullopt;
+    coarse::CoarseSurface surface = remesh(reference, start, options);
+    surface.defeatured = std::move(done);
+    return surface;
   }
 
  private:
   // Where NETGEN cannot mesh the surface or never ends: our own triangles, made well-shaped.
-  [[nodiscard]] coarse::CoarseSurface remesh(const coarse::CoarseOptions& options) const
+  [[nodiscard]] coarse::CoarseSurface remesh(const coarse::SurfaceReference& reference,
+                                             const coarse::PatchSurface& start,
+                                             const coarse::CoarseOptions& options) const
   {
-    const coarse::SurfaceReference reference(patches_of(surface_, features_));
     const SurfaceNames names{
         [this](LocalIndex patch) { return features_.patch_names[at(patch)]; },
         [this](LocalIndex material) { return surface_.material_names[at(material - 1)]; }};
-    return to_coarse_surface(coarse::remesh_on_geometry(reference, *this, options),
+    return to_coarse_surface(coarse::remesh_on_geometry(reference, start, *this, options),
                              options.max_size, names, name_);
   }
 

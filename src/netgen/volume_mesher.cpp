@@ -105,10 +105,11 @@ void require_apart(const coarse::PatchSurface& surface, const SurfaceNames& name
 void add_patches(const coarse::PatchSurface& from, const SurfaceNames& names,
                  coarse::CoarseSurface& to)
 {
+  // One of which all triangles were merged away keeps its row: names of others do not depend on it.
+  constexpr std::array<LocalIndex, 2> kNoMaterials{0, 0};
   std::vector<LocalIndex> row(at(from.num_patches()), kNoIndex);
-  for (const LocalIndex patch : from.triangle_patch) row[at(patch)] = 0;
   for (LocalIndex p = 0; p < from.num_patches(); ++p) {
-    if (row[at(p)] == kNoIndex) continue;
+    if (from.patch_materials[at(p)] == kNoMaterials) continue;
     row[at(p)] = to.mesh.num_patches();
     to.mesh.patch_surface.push_back(p);
     const std::string name = names.patch(p);

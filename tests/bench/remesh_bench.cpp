@@ -88,7 +88,8 @@ void run(const std::string& size, const std::string& file, bool with_fill)
   const std::size_t given_cuts = coarse::find_overlaps(reference.surface()).size();
 
   const double begin = cpu_seconds();
-  const coarse::PatchSurface surface = coarse::remesh_on_geometry(reference, *model, options);
+  const coarse::PatchSurface surface =
+      coarse::remesh_on_geometry(reference, reference.surface(), *model, options);
   const double seconds = cpu_seconds() - begin;
   const std::size_t num_made = surface.triangles.size();
   std::printf(

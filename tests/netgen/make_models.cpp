@@ -110,6 +110,22 @@ TopoDS_Shape bracket()
   return BRepAlgoAPI_Cut(BRepAlgoAPI_Cut(fillet.Shape(), foot_hole).Shape(), wall_hole).Shape();
 }
 
+// A block whose upper half is narrower by a thousandth: a face and two edges that mean nothing.
+TopoDS_Shape ledge()
+{
+  constexpr double kStep = 0.001;
+  BRepAlgoAPI_Fuse both(BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 4, 4, 1.5).Shape(),
+                        BRepPrimAPI_MakeBox(gp_Pnt(kStep, 0, 1.5), 4 - kStep, 4, 1.5).Shape());
+  both.SimplifyResult();
+  return both.Shape();
+}
+
+void write_brep(const fs::path& file, const TopoDS_Shape& shape)
+{
+  BRepTools::Write(shape, file.c_str(), Standard_False, Standard_False,
+                   TopTools_FormatVersion_VERSION_1);
+}
+
 // A cone without its tip, as loose faces and in inches: what most IGES files look like.
 void write_iges(const fs::path& file)
 {
@@ -136,8 +152,8 @@ void write_all(const fs::path& folder)
              {{BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 10, 10, 10).Shape(), "steel", {}},
               {BRepPrimAPI_MakeBox(gp_Pnt(10, 2, 2), 8, 6, 6).Shape(), "copper", {}}});
   write_iges(folder / "frustum.iges");
-  BRepTools::Write(BRepPrimAPI_MakeCone(8, 0, 12).Shape(), (folder / "cone.brep").c_str(),
-                   Standard_False, Standard_False, TopTools_FormatVersion_VERSION_1);
+  write_brep(folder / "cone.brep", BRepPrimAPI_MakeCone(8, 0, 12).Shape());
+  write_brep(folder / "ledge.brep", ledge());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/coarse/defeature.hpp"
 #include "tessera/cut/cut_mesh.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
@@ -27,11 +28,12 @@ struct CoarseSurface {
   std::vector<LocalIndex> domain_material{};  ///< Shape (num_domains); from 1.
   std::vector<LocalIndex> domain_part{};      ///< Shape (num_domains), of a CutTree; or empty.
   std::vector<double> domain_max_size{};  ///< Shape (num_domains): largest edge, file length unit.
+  Defeatured defeatured{};                ///< What of the model was merged, file length unit.
 
   static auto fields(auto& self)
   {
     return std::tie(self.mesh, self.face_domains, self.domain_material, self.domain_part,
-                    self.domain_max_size);
+                    self.domain_max_size, self.defeatured);
   }
 
   [[nodiscard]] LocalIndex num_domains() const

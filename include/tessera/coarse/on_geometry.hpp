@@ -21,9 +21,10 @@ void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
 /// same is done again with shorter edges there, a few times. It may still cut itself in the end:
 /// find_overlaps() says where.
 /// @param[in] reference  As put_on_geometry().
+/// @param[in] start      As remesh().
 /// @throws GeometryError if a projection fails.
 [[nodiscard]] PatchSurface remesh_on_geometry(const SurfaceReference& reference,
-                                              const model::Model& model,
+                                              const PatchSurface& start, const model::Model& model,
                                               const CoarseOptions& options);
 
 }  // namespace tessera::coarse

@@ -55,6 +55,9 @@ struct CoarseOptions {
   /// STL: dihedral angle from which an edge is a feature, degrees, in (0, 180).
   double feature_angle_deg = 30.0;
 
+  /// Edges not longer than this are merged, and faces as narrow; output length unit, >= 0; 0: none.
+  double defeature = 0.0;
+
   bool optimize = false;  ///< Whether optimize_interior() follows.
 
   SurfaceMesher surface_mesher = SurfaceMesher::netgen;
@@ -67,8 +70,8 @@ struct CoarseOptions {
   static auto fields(auto& self)
   {
     return std::tie(self.mesher, self.max_size, self.grading, self.curvature,
-                    self.feature_angle_deg, self.optimize, self.surface_mesher, self.timeout_s,
-                    self.points);
+                    self.feature_angle_deg, self.defeature, self.optimize, self.surface_mesher,
+                    self.timeout_s, self.points);
   }
 
   friend bool operator==(const CoarseOptions&, const CoarseOptions&) = default;

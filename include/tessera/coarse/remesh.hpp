@@ -25,6 +25,11 @@ namespace tessera::coarse {
 /// @pre validate() accepts the reference's surface.
 [[nodiscard]] PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options);
 
+/// @brief The same, beginning with another surface that has the reference's patches and curves, or
+/// some of them. Local.
+[[nodiscard]] PatchSurface remesh(const SurfaceReference& reference, const PatchSurface& start,
+                                  const CoarseOptions& options);
+
 /// @brief A remeshed surface once more, with edges of half their length around some triangles.
 /// Local. @pre `surface` is what remesh() made of the same reference.
 [[nodiscard]] PatchSurface remesh_finer(const SurfaceReference& reference,

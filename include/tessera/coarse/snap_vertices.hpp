@@ -3,6 +3,7 @@
 
 #include <tuple>
 
+#include "tessera/coarse/defeature.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/model/model.hpp"
 
@@ -16,10 +17,15 @@ struct VertexDistance {
   /// vertex there, or by less than kMostOfEdgeOff of an edge.
   LocalIndex num_within = 0;
   double largest_within = 0.0;  ///< Over these.
+  /// Vertices farther off than the tolerance of their surface or curve because others were merged
+  /// into them.
+  LocalIndex num_merged = 0;
+  double largest_merged = 0.0;  ///< Over these.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.largest, self.num_off, self.num_within, self.largest_within);
+    return std::tie(self.largest, self.num_off, self.num_within, self.largest_within,
+                    self.num_merged, self.largest_merged);
   }
 };
 
@@ -33,7 +39,9 @@ inline constexpr double kMostOfEdgeOff = 1e-4;
 ///
 /// A vertex moves only as far as the tets around it stay sound. A vertex between patches or at the
 /// end of curves is measured only: no single projection says where it belongs.
+/// @param[in] merged  What was merged: a vertex at such a place may be off by the tolerance.
 /// @throws GeometryError if a projection fails.
-VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model);
+VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model,
+                             const Defeatured& merged = {});
 
 }  // namespace tessera::coarse

@@ -67,6 +67,10 @@ struct Case {
 [[nodiscard]] Case parse_case(std::string_view text, const std::filesystem::path& file,
                               std::span<const std::string> overrides = {});
 
+/// @brief Throws ConfigError if coarse.defeature is above half of coarse.max_size, which is given.
+/// `where`: the case file. Local.
+void require_small_defeature(const Case& resolved, const std::string& where);
+
 /// @brief The case as a case file with every key written out; parse_case() of it gives the same
 /// case. Local.
 /// @throws ConfigError if a path is not valid UTF-8, which no TOML file can hold.

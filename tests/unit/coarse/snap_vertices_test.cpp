@@ -52,6 +52,22 @@ TEST_F(SnapVertices, CountsWhatCannotBePutThere)
   EXPECT_NEAR(norm(ball.position(v)), 1.005, 1e-12);
 }
 
+TEST_F(SnapVertices, CountsApartWhatWasMerged)
+{
+  const LocalIndex v = pull_out(1.01);
+  const testing::LazyModel lazy(sphere, 0.5);
+  Defeatured merged{.tolerance = 0.02, .places = {ball.position(v)}};
+  VertexDistance found = snap_vertices(ball, lazy, merged);
+  EXPECT_EQ(found.num_off, 0);
+  EXPECT_EQ(found.num_merged, 1);
+  EXPECT_NEAR(found.largest_merged, 0.5 * 0.005, 1e-12);
+  EXPECT_EQ(found.largest, found.largest_merged);
+  merged.tolerance = 1e-4;
+  found = snap_vertices(ball, lazy, merged);
+  EXPECT_EQ(found.num_off, 1) << "farther off than the tolerance";
+  EXPECT_EQ(found.num_merged, 0);
+}
+
 TEST_F(SnapVertices, ATinyPartOfAnEdgeIsWithinTolerance)
 {
   static_cast<void>(pull_out(1.0 + 1e-5));

@@ -94,7 +94,7 @@ TEST(ConfigErrors, NumbersOutsideTheirRangeAreRefused)
 {
   for (const char* line :
        {"grading = 0", "grading = 1.01", "grading = nan", "grading = inf", "grading = -inf",
-        "curvature = -1", "curvature = 1e999", "feature_angle_deg = 180",
+        "curvature = -1", "curvature = 1e999", "feature_angle_deg = 180", "defeature = -0.1",
         "[decompose]\nsubdomains = 0", "[decompose]\nsubdomains = -4",
         "[decompose]\nsubdomains = 99999999999999999999", "[refine]\nlevels = 11",
         "[refine]\nlevels = -1", "[fill]\nmemory_gib = 0", "[fill]\ntimeout_s = -1",

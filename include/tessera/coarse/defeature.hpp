@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <tuple>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
+#include "tessera/coarse/patch_surface.hpp"
+#include "tessera/model/model.hpp"
+
+namespace tessera::coarse {
+
+/// @brief A curve or patch of the model that is in the mesh no more.
+struct MergedPart {
+  LocalIndex number = kNoIndex;  ///< The Model's, of the curve or surface.
+  Vec3 centre{};
+  double measure = 0.0;  ///< Length of a curve, area of a patch.
+
+  static auto fields(auto& self) { return std::tie(self.number, self.centre, self.measure); }
+
+  friend bool operator==(const MergedPart&, const MergedPart&) = default;
+};
+
+/// @brief What was merged because it is smaller than `coarse.defeature`.
+struct Defeatured {
+  double tolerance = 0.0;
+  std::vector<MergedPart> curves{};   ///< Ascending by number.
+  std::vector<MergedPart> patches{};  ///< Ascending by number.
+  std::vector<Vec3> places{};         ///< Vertices into which others were merged.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.tolerance, self.curves, self.patches, self.places);
+  }
+
+  /// @brief With lengths times `factor`.
+  [[nodiscard]] Defeatured scaled(double factor) const;
+
+  [[nodiscard]] bool is_any() const { return !places.empty(); }
+};
+
+/// @brief The point of a curve nearest to a point. `near`: a vertex on the curve and not far away.
+/// kNoPoint if the curve is none of the model.
+using OnCurve = std::function<Vec3(LocalIndex curve, LocalIndex near, const Vec3& point)>;
+
+/// @brief Merges what is smaller than a tolerance in a surface that follows a model. Local.
+///
+/// Edges that are not longer are collapsed, shortest first, onto the end that is bound most: ends
+/// of curves, then points of curves, then others. A vertex that is not farther from a curve whose
+/// edge is opposite to it goes into this edge. So narrow patches vanish, and of two curves that
+/// become one the lower counts. No vertex is moved by more than the tolerance in all. A step is
+/// taken if every domain stays bounded by a closed surface, nothing crosses, and nothing folds.
+///
+/// If something was merged, parameters on curves and patches are dropped. The same arguments give
+/// the same bits.
+/// @param[in] tolerance > 0, the surface's unit.
+[[nodiscard]] Defeatured defeature(PatchSurface& surface, const OnCurve& on_curve,
+                                   double tolerance);
+
+/// @brief In coarse_surface.hpp.
+struct CoarseSurface;
+/// @brief In surface_reference.hpp.
+class SurfaceReference;
+
+/// @brief The same of triangles of a model, whose numbers are the surface's. Local.
+/// @param[in] reference  Of the same triangles.
+/// @throws GeometryError if a projection fails.
+[[nodiscard]] Defeatured defeature(PatchSurface& surface, const SurfaceReference& reference,
+                                   const model::Model& model, double tolerance);
+
+/// @brief The same of a coarse surface, into whose block `defeatured` goes what was merged. Local.
+///
+/// Parameters of what has changed are good guesses. Vertices keep their numbers, and some are of no
+/// face any more.
+/// @return Whether anything was merged. @throws GeometryError if a projection fails.
+bool defeature(CoarseSurface& surface, const model::Model& model, double tolerance);
+
+}  // namespace tessera::coarse
