@@ -93,7 +93,7 @@ class Cases(FillLevelsTest):
 # A thin can, so coarse that surfaces lie far from its tets.
 CAN = (
     "algebraic3d\n"
-    "solid hole = cylinder (0, 0, -5; 0, 0, 5; 9.7) and plane (0, 0, -3; 0, 0, -1) and plane (0, 0, 3; 0, 0, 1);\n"
+    "solid hole = cylinder (0, 0, -5; 0, 0, 5; 9.0) and plane (0, 0, -3; 0, 0, -1) and plane (0, 0, 3; 0, 0, 1);\n"
     "solid all = cylinder (0, 0, -5; 0, 0, 5; 10) and plane (0, 0, -2; 0, 0, -1) and plane (0, 0, 2; 0, 0, 1);\n"
     "solid can = all and not hole;\ntlo can;\n"
 )
@@ -105,7 +105,7 @@ class Folds(FillLevelsTest):
     def setUp(self):
         super().setUp()
         self.write("can.geo", CAN)
-        self.case = self.write_case("can.toml", geometry="can.geo", max_size=7, subdomains=6)
+        self.case = self.write_case("can.toml", geometry="can.geo", max_size=10, subdomains=6)
 
     def degraded(self, folder, *values, ranks=None):
         values = ("coarse.curvature=0.6", "coarse.grading=1", OPTIMIZE, "fill.levels=1", *values)
