@@ -50,6 +50,7 @@ Json defeatured_json(const CoarseResult& coarse)
 std::string defeatured_words(const CoarseResult& coarse)
 {
   const coarse::Defeatured& merged = coarse.defeatured;
+  if (coarse.options.defeature == 0.0) return "the mesh was made without coarse.defeature";
   if (!merged.is_any()) return "nothing of the model is as small as coarse.defeature";
   std::vector<std::string> faces;
   for (std::size_t i = 0; i < std::min(kMostListed, merged.patches.size()); ++i) {

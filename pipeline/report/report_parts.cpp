@@ -232,13 +232,13 @@ std::vector<std::string> imbalance_advice(const Report& report)
 std::optional<std::string> merge_advice(const Report& report)
 {
   const auto num = report.number("/coarse/defeatured/num_vertices");
-  if (!num) return std::nullopt;
+  const double num_edges = report.number("/coarse/defeatured/num_edges").value_or(0.0);
+  const double num_faces = report.number("/coarse/defeatured/num_faces").value_or(0.0);
+  if (!num || num_edges + num_faces + *num == 0.0) return std::nullopt;
   return fmt::format(
       "coarse.defeature has merged {:.0f} edges and {:.0f} faces of the model; {:.0f} vertices of "
       "the coarse mesh are off the geometry by at most {:.3g} for it. That is no defect.",
-      report.number("/coarse/defeatured/num_edges").value_or(0.0),
-      report.number("/coarse/defeatured/num_faces").value_or(0.0), *num,
-      report.number("/coarse/defeatured/distance_max").value_or(0.0));
+      num_edges, num_faces, *num, report.number("/coarse/defeatured/distance_max").value_or(0.0));
 }
 
 std::vector<std::string> failure_advice(const Report& report)

@@ -12,8 +12,8 @@ namespace tessera::pipeline {
 
 /// @brief What the order of tries at the coarse mesh depends on.
 struct RungKind {
-  bool is_netgen =
-      true;             ///< NETGEN's surface mesher: where it never ended, it would not end again.
+  /// NETGEN's surface mesher on what it had before: where it never ended, it would not end again.
+  bool is_netgen = true;
   bool is_cut = false;  ///< The model is cut before; it is meshed anew without.
 };
 

@@ -63,13 +63,19 @@ void require_same_run(const RunResult& run, const RunState* state, const RunCont
   });
 }
 
-// What was tried for it counts as well.
+// Takes the second mesh if it has tets. What was tried counts in any case.
 void replace(CoarseResult& first, CoarseResult second)
 {
   second.tries += first.tries;
   second.failures.insert(second.failures.begin(), first.failures.begin(), first.failures.end());
   second.was_limited = second.was_limited || first.was_limited;
-  first = std::move(second);
+  if (second.mesh.num_tets() > 0) {
+    first = std::move(second);
+    return;
+  }
+  first.tries = second.tries;
+  first.failures = std::move(second.failures);
+  first.was_limited = second.was_limited;
 }
 
 CoarseResult named_coarse_mesh(const RunResult& run, const model::NamedParts& parts,
@@ -80,13 +86,14 @@ CoarseResult named_coarse_mesh(const RunResult& run, const model::NamedParts& pa
   return coarse;
 }
 
-// The remesher sees walls by itself, Gmsh takes no sizes at points, and a mesh is as it is.
+// The remesher, which also makes what is left of merged parts, sees walls by itself; Gmsh takes no
+// sizes at points, and a mesh is as it is.
 bool may_have_finer_walls(const RunResult& run)
 {
   const coarse::CoarseOptions& options = run.coarse.options;
   return options.surface_mesher == coarse::SurfaceMesher::netgen
          && options.mesher == coarse::Mesher::netgen && run.planes.tree.num_parts == 0
-         && !model::is_mesh_name(run.resolved.geometry.file);
+         && !run.coarse.defeatured.is_any() && !model::is_mesh_name(run.resolved.geometry.file);
 }
 
 double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
@@ -113,7 +120,7 @@ void refine_thin_walls(RunResult& run, const model::NamedParts& parts, RunContex
     return finer.mesh.num_tets() > 0
            && smallest_unforced_angle(finer.mesh) > smallest_unforced_angle(run.coarse.mesh);
   });
-  if (!is_better) return;
+  if (!is_better) finer.mesh = {};
   model::apply_names(parts, finer.mesh);
   replace(run.coarse, std::move(finer));
 }

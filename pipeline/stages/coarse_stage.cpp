@@ -113,6 +113,7 @@ std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTre
   if (with_gmsh) {
     attempts.push_back({run_case.coarse, false});
     attempts.back().options.mesher = coarse::Mesher::gmsh;
+    attempts.back().options.defeature = 0.0;
   }
   return attempts;
 }
@@ -162,8 +163,10 @@ std::vector<RungKind> kinds_of(const std::vector<CoarsePlan>& plans)
   std::vector<RungKind> kinds;
   for (const CoarsePlan& plan : plans) {
     const coarse::CoarseOptions& options = plan.options;
+    const coarse::CoarseOptions& first = plans.front().options;
     kinds.push_back({.is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen
-                                  && options.mesher == plans.front().options.mesher,
+                                  && options.mesher == first.mesher
+                                  && options.defeature == first.defeature,
                      .is_cut = is_cut(plan)});
   }
   return kinds;
@@ -364,8 +367,13 @@ CoarseResult run_coarse_try(const config::Case& run_case, const coarse::CoarseOp
                             RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseResult result =
-      CoarseTries(run_case, {plan_for(run_case, options, context)}, stage, context).run();
+  CoarseResult result{.options = options};
+  try {
+    result = CoarseTries(run_case, {plan_for(run_case, options, context)}, stage, context).run();
+  } catch (const GeometryError& error) {  // On all ranks; of the model at these sizes only.
+    result.tries = 1;
+    result.failures.emplace_back(error.what());
+  }
   result = on_root(context.comm, [&] { return std::move(result); });
   stage.work_is_done();
   stage.finish(result.mesh.num_tets() == 0 ? std::string("failed")

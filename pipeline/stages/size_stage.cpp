@@ -10,6 +10,7 @@
 #include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
+#include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
 
 namespace tessera::pipeline {
@@ -40,7 +41,7 @@ double measure_volume(RunContext& context)
   const Bytes request = figures_request();
   jobs::JobOutcome outcome =
       run_job({"volume", request, kQueryLimits}, wait_for_stop_signal(), context);
-  throw_if_cancelled(outcome);
+  throw_unless_of_the_job(outcome);
   const auto figures = read_result(outcome, from_bytes<coarse::ModelFigures>);
   return figures ? figures->volume : std::numeric_limits<double>::quiet_NaN();
 }
@@ -79,7 +80,8 @@ config::Case resolve_size(const config::Case& given, RunContext& context)
   resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, levels);
   context.log.info("size.target {}: coarse.max_size = {}", given.size.target,
                    resolved.coarse.max_size);
-  config::require_small_defeature(resolved, given.geometry.file.string());
+  all_or_none(context.comm,
+              [&] { config::require_small_defeature(resolved, given.geometry.file.string()); });
   return resolved;
 }
 

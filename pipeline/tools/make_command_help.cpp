@@ -46,6 +46,8 @@ std::string troff(std::string_view text)
       escaped += "\\e";
     } else if (character == '-') {
       escaped += previous == ' ' ? "\\%\\-" : "\\-";
+    } else if (character == '|') {
+      escaped += "|\\:";  // A line may break here.
     } else if (character == '`') {
       escaped += "\\(aq";
     } else {

@@ -42,17 +42,6 @@ Vec3 wing(const Vec3& a, const Vec3& b, const Vec3& point)
   return (point - a) - (dot(point - a, along) / dot(along, along)) * along;
 }
 
-bool holds(const PatchSurface::Triangle& triangle, LocalIndex v)
-{
-  return std::ranges::find(triangle, v) != triangle.end();
-}
-
-PatchSurface::Triangle replaced(PatchSurface::Triangle triangle, LocalIndex old, LocalIndex by)
-{
-  std::ranges::replace(triangle, old, by);
-  return triangle;
-}
-
 PatchSurface::Triangle sorted(PatchSurface::Triangle triangle)
 {
   std::ranges::sort(triangle);
@@ -278,9 +267,7 @@ double Defeaturer::length(const Edge& edge) const
 
 LocalIndex Defeaturer::opposite(LocalIndex t, const Edge& edge) const
 {
-  const Triangle& v = surface_.triangle(t);
-  return *std::ranges::find_if(
-      v, [&](LocalIndex corner) { return corner != edge[0] && corner != edge[1]; });
+  return coarse::opposite(surface_.triangle(t), edge);
 }
 
 bool Defeaturer::is_thin(LocalIndex t) const

@@ -12,23 +12,6 @@ using Triangle = EditableSurface::Triangle;
 
 Edge edge_of(LocalIndex a, LocalIndex b) { return {std::min(a, b), std::max(a, b)}; }
 
-bool holds(const Triangle& triangle, LocalIndex v)
-{
-  return std::ranges::find(triangle, v) != triangle.end();
-}
-
-Triangle replaced(Triangle triangle, LocalIndex old, LocalIndex by)
-{
-  std::ranges::replace(triangle, old, by);
-  return triangle;
-}
-
-LocalIndex opposite(const Triangle& triangle, const Edge& edge)
-{
-  return *std::ranges::find_if(triangle,
-                               [&](LocalIndex v) { return v != edge[0] && v != edge[1]; });
-}
-
 template <class T>
 void sort_unique(std::vector<T>& values)
 {

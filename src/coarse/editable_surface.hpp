@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
@@ -13,6 +14,26 @@ namespace tessera::coarse {
 
 /// @brief Where a vertex may go, from most to least.
 enum class Freedom : char { patch, curve, none };
+
+[[nodiscard]] inline bool holds(const PatchSurface::Triangle& triangle, LocalIndex v)
+{
+  return std::ranges::find(triangle, v) != triangle.end();
+}
+
+[[nodiscard]] inline PatchSurface::Triangle replaced(PatchSurface::Triangle triangle,
+                                                     LocalIndex old, LocalIndex by)
+{
+  std::ranges::replace(triangle, old, by);
+  return triangle;
+}
+
+/// @brief The corner that is not on the edge.
+[[nodiscard]] inline LocalIndex opposite(const PatchSurface::Triangle& triangle,
+                                         const PatchSurface::Edge& edge)
+{
+  return *std::ranges::find_if(triangle,
+                               [&](LocalIndex v) { return v != edge[0] && v != edge[1]; });
+}
 
 /// @brief A PatchSurface that can be changed, one edge at a time: its topology, and no judgement of
 /// shapes. Numbers of vertices and triangles stay; what was removed leaves a gap.

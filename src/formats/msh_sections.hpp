@@ -57,10 +57,11 @@ class MshBytes {
 };
 
 /// @brief An array as the bytes that it has in a file. Borrowed.
-template <class Value>
-[[nodiscard]] std::string_view bytes_of(const std::vector<Value>& values)
+template <class Values>
+[[nodiscard]] std::string_view bytes_of(const Values& values)
 {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
+  const std::span all(values);
+  return {reinterpret_cast<const char*>(all.data()), all.size_bytes()};
 }
 
 /// @brief The tag of a patch in files. Local.

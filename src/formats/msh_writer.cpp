@@ -71,10 +71,8 @@ class MshWriter final : public Writer {
       std::vector<GlobalIndex> tags(at(run.count));
       std::iota(tags.begin(), tags.end(), run.first_number + 1);
       file_.write(kNodeTags, run.first_number, bytes_of(tags));
-      file_.write(kNodePoints, run.first_number,
-                  bytes_of(piece.point_xyz)
-                      .substr(static_cast<std::size_t>(kPointSize * run.first_row),
-                              static_cast<std::size_t>(kPointSize * run.count)));
+      const auto xyz = std::span(piece.point_xyz).subspan(3 * at(run.first_row), 3 * at(run.count));
+      file_.write(kNodePoints, run.first_number, bytes_of(xyz));
     }
     write(piece, triangles_, kFirstBlock, msh_triangles(outline_, piece));
     write(piece, tets_, kFirstBlock + triangles_.counts.size(), msh_tets(outline_, piece));

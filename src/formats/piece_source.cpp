@@ -27,12 +27,12 @@ namespace {
 namespace fs = std::filesystem;
 
 // Points of a cell of second order.
-constexpr int with_nodes(int num_corners) { return num_corners == 4 ? 10 : 6; }
+constexpr int num_points_with_nodes(int num_corners) { return num_corners == 4 ? 10 : 6; }
 
 mesh::MeshArrays read_cells(const fs::path& file, int num_corners)
 {
   mesh::MeshArrays cells = io::read_vtu(file, io::CellOrder::up_to_second);
-  if (cells.num_cells() > 0 && cells.vertices_per_cell != with_nodes(num_corners)
+  if (cells.num_cells() > 0 && cells.vertices_per_cell != num_points_with_nodes(num_corners)
       && cells.vertices_per_cell != num_corners) {
     throw InputError(
         fmt::format("{}: it has no {}", file.string(), num_corners == 4 ? "tets" : "triangles"));

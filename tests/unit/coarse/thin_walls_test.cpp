@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/coarse/sharp_tets.hpp"
+
 #include "support/meshes.hpp"
 
 namespace tessera::coarse {
@@ -59,6 +61,7 @@ TEST(ThinWalls, AreNoFlatTetsInside)
   for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
     if (mesh.position(v) == Vec3{0.5, 0.5, 0.5}) mesh.vertex_xyz[3 * at(v) + 2] = 0.02;
   }
+  ASSERT_GT(find_sharp_tets(mesh, kSmall_deg).num_others, 0);
   EXPECT_TRUE(sizes_of_thin_walls(mesh, kSmall_deg, 1.0).size.empty());
 }
 
