@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Bad input ends in the documented exit code with one message, on any number of ranks, without a hang."""
+import contextlib
 import os
 import resource
 import shutil
@@ -233,7 +234,8 @@ class CannotWrite(OutcomeTest):
 
     def limit_files(self, pids, num_bytes=20000):
         for pid in pids:
-            resource.prlimit(pid, resource.RLIMIT_FSIZE, (num_bytes, num_bytes))
+            with contextlib.suppress(ProcessLookupError):  # A job that has ended.
+                resource.prlimit(pid, resource.RLIMIT_FSIZE, (num_bytes, num_bytes))
 
     def assert_reports_full_disk(self, ranks, limited_from, file, *arguments):
         """`limited_from`: 0 the rank processes, 1 the processes that jobs come from."""
