@@ -85,6 +85,18 @@ coarse::CoarseSurface LoadedModel::mesh_surface(const coarse::CoarseOptions& opt
   return mended(defeatured(std::move(surface), *this, options.defeature), *this);
 }
 
+std::optional<coarse::CoarseSurface> LoadedModel::mesh_merged_triangles(
+    const coarse::SurfaceReference& reference, double tolerance,
+    const std::function<coarse::CoarseSurface(const coarse::PatchSurface&)>& remesh) const
+{
+  coarse::PatchSurface start = reference.surface();
+  coarse::Defeatured done = coarse::defeature(start, reference, *this, tolerance);
+  if (!done.is_any()) return std::nullopt;
+  coarse::CoarseSurface surface = remesh(start);
+  surface.defeatured = std::move(done);
+  return surface;
+}
+
 coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*options*/,
                                               const cut::CutTree& /*tree*/) const
 {

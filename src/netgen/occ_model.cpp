@@ -14,7 +14,6 @@
 #include <occgeom.hpp>
 
 #include "tessera/base/error.hpp"
-#include "tessera/coarse/defeature.hpp"
 #include "tessera/coarse/on_geometry.hpp"
 
 #include "netgen/loaded_model.hpp"
@@ -223,21 +222,18 @@ GeometryNumbers OccModel::numbers_of_parts(const ::netgen::OCCGeometry& geometry
   return numbers;
 }
 
-// Where NETGEN cannot mesh a face: OpenCASCADE's triangles, made well-shaped and put on the faces.
 std::optional<coarse::CoarseSurface> OccModel::mesh_merged(
     const coarse::CoarseOptions& options) const
 {
-  return with_occ_errors(file_name_, [&]() -> std::optional<coarse::CoarseSurface> {
+  return with_occ_errors(file_name_, [&] {
     const coarse::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
-    coarse::PatchSurface start = reference.surface();
-    coarse::Defeatured done = coarse::defeature(start, reference, *this, options.defeature);
-    if (!done.is_any()) return std::nullopt;
-    coarse::CoarseSurface surface = remesh(reference, start, options);
-    surface.defeatured = std::move(done);
-    return surface;
+    return mesh_merged_triangles(
+        reference, options.defeature,
+        [&](const coarse::PatchSurface& start) { return remesh(reference, start, options); });
   });
 }
 
+// Where NETGEN cannot mesh a face: OpenCASCADE's triangles, made well-shaped and put on the faces.
 coarse::CoarseSurface OccModel::remesh(const coarse::SurfaceReference& reference,
                                        const coarse::PatchSurface& start,
                                        const coarse::CoarseOptions& options) const

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
-#include "tessera/coarse/defeature.hpp"
 #include "tessera/coarse/on_geometry.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/stl_file.hpp"
@@ -150,12 +149,9 @@ class StlModel final : public LoadedModel {
       const coarse::CoarseOptions& options) const override
   {
     const coarse::SurfaceReference reference(patches_of(surface_, features_));
-    coarse::PatchSurface start = reference.surface();
-    coarse::Defeatured done = coarse::defeature(start, reference, *this, options.defeature);
-    if (!done.is_any()) return std::nullopt;
-    coarse::CoarseSurface surface = remesh(reference, start, options);
-    surface.defeatured = std::move(done);
-    return surface;
+    return mesh_merged_triangles(
+        reference, options.defeature,
+        [&](const coarse::PatchSurface& start) { return remesh(reference, start, options); });
   }
 
  private:

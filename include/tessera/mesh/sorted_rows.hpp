@@ -17,9 +17,8 @@ namespace tessera::mesh {
 /// which is dense, then within each run of the same.
 /// @param[in] smallest_of Gives the smallest vertex of a row. @param[in] less Total order that
 /// agrees with it.
-/// @return Where the run of each vertex begins, and the end of the last; shape (num_vertices + 1,).
 template <class Row, class SmallestOf, class Less>
-std::vector<std::size_t> sort_by_smallest(std::vector<Row>& rows, SmallestOf smallest_of, Less less)
+void sort_by_smallest(std::vector<Row>& rows, SmallestOf smallest_of, Less less)
 {
   std::vector<std::size_t> begins(1, 0);
   for (const Row& row : rows) {
@@ -36,7 +35,6 @@ std::vector<std::size_t> sort_by_smallest(std::vector<Row>& rows, SmallestOf sma
     std::sort(place(begins[v]), place(begins[v + 1]), less);
   }
   rows = std::move(sorted);
-  return begins;
 }
 
 /// @brief Different rows of N ascending vertices in ascending order, with a quick search.
