@@ -102,11 +102,10 @@ OccSurface::OccSurface(const TopoDS_Face& face, double box_diagonal, int num_fac
     direction->domain_first = -kFarAway;
     direction->domain_last = kFarAway;
   }
-  trim_ = std::make_unique<OccTrim>(
-      face,
-      std::array<double, 2>{surface_->IsUPeriodic() ? u.period : 0.0,
-                            surface_->IsVPeriodic() ? v.period : 0.0},
-      OccTrim::fewest_cells(num_faces));
+  trim_ = std::make_unique<OccTrim>(face,
+                                    std::array<double, 2>{surface_->IsUPeriodic() ? u.period : 0.0,
+                                                          surface_->IsVPeriodic() ? v.period : 0.0},
+                                    OccTrim::fewest_cells(num_faces));
   num_samples_ = sample_counts(surface_);
   collect_boundaries(face, box_diagonal);
 }
