@@ -19,15 +19,17 @@
 namespace tessera::pipeline {
 namespace {
 
-RankMemory memory_before_fills(const RunContext& context)
+RankMemory memory_before_fills(const SharedBytes& mesh, const RunContext& context)
 {
+  const std::size_t shared = mesh.segment() ? mesh.bytes().size() : 0;
   const jobs::JobUsage usage = context.jobs.usage();
   const auto largest = [&](std::size_t bytes) {
     return context.comm.max(static_cast<double>(bytes));
   };
   return {.process = largest(jobs::peak_rss_of_this_process()),
           .loaded = largest(usage.loaded_bytes),
-          .jobs_peak = largest(context.jobs.peak_rss_bytes())};
+          .jobs_peak = largest(context.jobs.peak_rss_bytes()),
+          .shared = largest(shared)};
 }
 
 }  // namespace
@@ -52,7 +54,7 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
   load_mesh(shared.message, context);
   prepare.finish("");
 
-  PredictionBasis basis{.memory = memory_before_fills(context),
+  PredictionBasis basis{.memory = memory_before_fills(shared.message, context),
                         .serial_stages = context.times,
                         .num_ranks = num_ranks};
   DryRun found;

@@ -5,6 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include <malloc.h>
+
 #include "tessera/comm/share_on_node.hpp"
 
 #include "pipeline/jobs/test_fault.hpp"
@@ -43,6 +45,7 @@ SharedMesh share_mesh(RunResult& run, RunContext& context)
   auto mesh = std::get<MeshLoad>(from_shared_bytes<Load>(message));
   coarse = std::move(mesh.coarse);
   decomposition = std::move(mesh.decomposition);
+  ::malloc_trim(0);  // The stages before had copies of all this; the fills need the memory.
   return {std::move(message), std::move(mesh.tables)};
 }
 

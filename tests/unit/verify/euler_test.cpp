@@ -35,7 +35,7 @@ std::vector<LocalIndex> cells_of_cube(int n, const Keep& keep)
   return kept;
 }
 
-std::vector<GlobalIndex> euler_of(std::span<const LocalIndex> tets)
+std::vector<GlobalIndex> euler_of(const FlatArray<LocalIndex>& tets)
 {
   return euler_characteristics(tets, std::vector<LocalIndex>(tets.size() / 4, 0));
 }
