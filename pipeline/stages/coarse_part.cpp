@@ -111,11 +111,8 @@ void refine_thin_walls(RunResult& run, const model::NamedParts& parts, RunContex
                                        run.coarse.options.max_size);
   });
   if (walls.size.empty()) return;
-  coarse::CoarseOptions options = run.coarse.options;
-  options.points.xyz.insert(options.points.xyz.end(), walls.xyz.begin(), walls.xyz.end());
-  options.points.size.insert(options.points.size.end(), walls.size.begin(), walls.size.end());
   context.log.info("coarse: walls are thin for its edges; once more with smaller ones there");
-  CoarseResult finer = run_coarse_try(run.resolved, options, context);
+  CoarseResult finer = run_finer_try(run.resolved, run.coarse, walls, context);
   const bool is_better = on_root(context.comm, [&] {
     return finer.mesh.num_tets() > 0
            && smallest_unforced_angle(finer.mesh) > smallest_unforced_angle(run.coarse.mesh);

@@ -159,7 +159,8 @@ CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, coarse::CoarseSurface 
 {
   coarse::DividedSurface divided = divide(surface, plan, context);
   PieceTry pieces = fill_pieces(divided, plan.options, stage, context);
-  if (pieces.failed && divided.surface.num_domains() > surface.num_domains()) {
+  const bool is_divided = divided.surface.num_domains() > surface.num_domains();
+  if (pieces.failed && is_divided && !plan.is_optional) {
     context.log.warn("coarse: piece {}: {}; domains are filled whole", pieces.failed->piece,
                      pieces.failed->outcome.message);
     divided = coarse::undivided(surface);

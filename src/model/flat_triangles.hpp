@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "tessera/model/triangle_surface.hpp"
+
+namespace tessera::model {
+
+/// @brief Takes triangles out of a closed surface that are flatter than `height`: their short edge
+/// is collapsed, or the vertex on their longest edge goes into that edge. Two triangles that end
+/// face to face go as well. No vertex moves farther than `height` at a time. Local.
+///
+/// A triangle stays where the surface would not have two triangles at each edge without it.
+/// @pre Triangles agree with their neighbours (orient()).
+/// @return In how many steps.
+LocalIndex take_out_flat_triangles(TriangleSurface& surface, double height);
+
+}  // namespace tessera::model
