@@ -210,8 +210,8 @@ class CoarseTries {
       CoarseAttempt made = fill_coarse_surface(plan, take_surface(*rung), stage_, context_);
       if (made.outcome.status == jobs::JobStatus::ok) {
         ++result_.tries;
-        result_.cpu_s = outcomes_[*rung].cpu_s
-                        + context_.comm.max(context_.jobs.usage().cpu_s - before_s);
+        result_.cpu_s =
+            outcomes_[*rung].cpu_s + context_.comm.max(context_.jobs.usage().cpu_s - before_s);
         if (made.made) take(std::move(*made.made));
         break;
       }

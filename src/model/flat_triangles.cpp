@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -32,12 +35,13 @@ class FlatTriangles {
   LocalIndex run()
   {
     LocalIndex num_steps = 0;
-    for (int pass = 0; pass < kMostPasses; ++pass) {
-      const LocalIndex before = num_steps;
-      for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
-        if (triangle(t) != kNone && is_flat(triangle(t)) && take_out(t)) ++num_steps;
+    std::vector<LocalIndex> some(at(surface_.num_triangles()));
+    std::iota(some.begin(), some.end(), 0);
+    for (int pass = 0; pass < kMostPasses && !some.empty(); ++pass) {
+      for (const LocalIndex t : some) {
+        if (triangle(t) != kNone && (is_flat(triangle(t)) ? take_out(t) : unfold(t))) ++num_steps;
       }
-      if (num_steps == before) break;
+      some = triangles_near_changes();
     }
     if (num_steps > 0) drop_gone();
     return num_steps;
@@ -83,7 +87,7 @@ class FlatTriangles {
     const LocalIndex apex = v[kNext[kNext[c]]];
     const LocalIndex end = length(a, apex) < length(b, apex) ? a : b;
     if (length(apex, end) <= height_) return collapse(apex, end) || collapse(end, apex);
-    return flip(t, a, b, apex);
+    return flip_longest_edge(t, c);
   }
 
   bool collapse(LocalIndex gone, LocalIndex kept)
@@ -99,23 +103,77 @@ class FlatTriangles {
     return replace(old, made);
   }
 
-  bool flip(LocalIndex t, LocalIndex a, LocalIndex b, LocalIndex apex)
+  // Two triangles at an edge, and what they would be if it were flipped.
+  struct Pair {
+    LocalIndex other = kNoIndex;  // Beside the one that was asked for.
+    LocalIndex apex = kNoIndex;
+    LocalIndex across = kNoIndex;
+    Triangle first{};
+    Triangle second{};
+  };
+
+  // At the edge from corner c of triangle t.
+  [[nodiscard]] Pair pair_at(LocalIndex t, std::size_t c) const
   {
+    const Triangle v = triangle(t);
+    const LocalIndex a = v[c];
+    const LocalIndex b = v[kNext[c]];
+    Pair pair{.apex = v[kNext[kNext[c]]]};
     for (const LocalIndex other : around_[at(a)]) {
       const Triangle w = triangle(other);
       if (other == t || std::ranges::find(w, b) == w.end()) continue;
-      const LocalIndex across = w[0] + w[1] + w[2] - a - b;  // The third corner.
-      if (across == apex) return replace({t, other}, {kNone, kNone});
-      const Triangle first{apex, a, across};
-      const Triangle second{apex, across, b};
-      const bool is_less_flat = !is_flat(first) && !is_flat(second);
-      if (!is_less_flat && length(apex, across) >= length(a, b)) return false;
-      if (!replace({t, other}, {first, second})) return false;
-      surface_.triangle_solid[at(t)] = surface_.triangle_solid[at(other)];
-      return true;
+      pair.other = other;
+      pair.across = w[0] + w[1] + w[2] - a - b;  // The third corner.
+      pair.first = {pair.apex, a, pair.across};
+      pair.second = {pair.apex, pair.across, b};
+    }
+    return pair;
+  }
+
+  bool flip(LocalIndex t, const Pair& pair)
+  {
+    if (pair.across == pair.apex) return replace({t, pair.other}, {kNone, kNone});
+    return replace({t, pair.other}, {pair.first, pair.second});
+  }
+
+  // Of a triangle whose apex lies on its longest edge.
+  bool flip_longest_edge(LocalIndex t, std::size_t c)
+  {
+    const Pair pair = pair_at(t, c);
+    if (pair.other == kNoIndex) return false;
+    const Triangle v = triangle(t);
+    const bool is_less_flat = !is_flat(pair.first) && !is_flat(pair.second);
+    if (!is_less_flat && length(pair.apex, pair.across) >= length(v[c], v[kNext[c]])) return false;
+    if (!flip(t, pair)) return false;
+    surface_.triangle_solid[at(t)] = surface_.triangle_solid[at(pair.other)];
+    return true;
+  }
+
+  // A fold that encloses nothing: its two triangles lie in each other.
+  bool unfold(LocalIndex t)
+  {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Pair pair = pair_at(t, c);
+      if (pair.other == kNoIndex) continue;
+      const Vec3 normal = area_normal(triangle(t));
+      const Vec3 up = surface_.position(pair.across) - surface_.position(pair.apex);
+      if (dot(normal, area_normal(triangle(pair.other))) >= 0.0) continue;
+      if (std::abs(dot(normal, up)) > height_ * norm(normal)) continue;
+      const double before = twice_area(triangle(t)) + twice_area(triangle(pair.other));
+      const double after = twice_area(pair.first) + twice_area(pair.second);
+      if (after < before && flip(t, pair)) return true;
     }
     return false;
   }
+
+  // As long as the triangle is large, twice.
+  [[nodiscard]] Vec3 area_normal(const Triangle& v) const
+  {
+    const Vec3 origin = surface_.position(v[0]);
+    return cross(surface_.position(v[1]) - origin, surface_.position(v[2]) - origin);
+  }
+
+  [[nodiscard]] double twice_area(const Triangle& v) const { return norm(area_normal(v)); }
 
   // Unless an edge would not have two triangles then.
   bool replace(const std::vector<LocalIndex>& old, const std::vector<Triangle>& made)
@@ -135,7 +193,12 @@ class FlatTriangles {
     const bool is_closed =
         std::ranges::all_of(undo, [&](const auto& one) { return has_closed_edges(one.second); })
         && std::ranges::all_of(made, [&](const Triangle& v) { return has_closed_edges(v); });
-    if (is_closed) return true;
+    if (is_closed) {
+      for (const auto& [t, v] : undo) {
+        if (v != kNone) changed_.insert(changed_.end(), v.begin(), v.end());
+      }
+      return true;
+    }
     for (; !undo.empty(); undo.pop_back()) put(undo.back().first, undo.back().second);
     return false;
   }
@@ -148,6 +211,15 @@ class FlatTriangles {
     std::ranges::copy(v, surface_.triangle_vertices.begin() + 3 * std::ptrdiff_t{t});
     if (v == kNone) return;
     for (const LocalIndex corner : v) around_[at(corner)].push_back(t);
+  }
+
+  std::vector<LocalIndex> triangles_near_changes()
+  {
+    std::set<LocalIndex> near;
+    for (const LocalIndex v : std::exchange(changed_, {})) {
+      near.insert(around_[at(v)].begin(), around_[at(v)].end());
+    }
+    return {near.begin(), near.end()};
   }
 
   // Another triangle with the same corners.
@@ -181,11 +253,12 @@ class FlatTriangles {
   TriangleSurface& surface_;
   double height_;
   std::vector<std::vector<LocalIndex>> around_;  // Triangles of each vertex.
+  std::vector<LocalIndex> changed_{};            // Vertices.
 };
 
 }  // namespace
 
-LocalIndex take_out_flat_triangles(TriangleSurface& surface, double height)
+LocalIndex mend_flat_triangles(TriangleSurface& surface, double height)
 {
   return FlatTriangles(surface, height).run();
 }

@@ -6,12 +6,13 @@
 namespace tessera::model {
 
 /// @brief Takes triangles out of a closed surface that are flatter than `height`: their short edge
-/// is collapsed, or the vertex on their longest edge goes into that edge. Two triangles that end
-/// face to face go as well. No vertex moves farther than `height` at a time. Local.
+/// is collapsed, or the vertex on their longest edge goes into that edge. Folds that enclose
+/// nothing are unfolded: two triangles at an edge that lie in each other. No vertex moves farther
+/// than `height` at a time. Local.
 ///
 /// A triangle stays where the surface would not have two triangles at each edge without it.
 /// @pre Triangles agree with their neighbours (orient()).
 /// @return In how many steps.
-LocalIndex take_out_flat_triangles(TriangleSurface& surface, double height);
+LocalIndex mend_flat_triangles(TriangleSurface& surface, double height);
 
 }  // namespace tessera::model

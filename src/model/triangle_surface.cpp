@@ -56,8 +56,7 @@ std::string open_edges(const TriangleSurface& surface)
 
 void require_triangles(const TriangleSurface& surface, const std::string& name)
 {
-  if (surface.num_triangles() == 0)
-    throw GeometryError(name + ": holds no triangle with an area");
+  if (surface.num_triangles() == 0) throw GeometryError(name + ": holds no triangle with an area");
 }
 
 void require_two_triangles_per_edge(const TriangleSurface& surface, const std::string& name)
@@ -122,12 +121,12 @@ Orientation oriented(TriangleSurface& surface, const std::string& name)
 }
 
 // Mesh generators choke on triangles without a height, and refined ones fold there.
-bool take_out_flat_and_record(CheckedSurface& checked, const std::string& name)
+bool mend_flat_and_record(CheckedSurface& checked, const std::string& name)
 {
   const double height = kFlatHeight * box_diagonal(checked.surface);
-  const LocalIndex num_flat = take_out_flat_triangles(checked.surface, height);
+  const LocalIndex num_flat = mend_flat_triangles(checked.surface, height);
   if (num_flat == 0) return false;
-  checked.repairs.push_back(fmt::format("{} flatter than {:g} taken out",
+  checked.repairs.push_back(fmt::format("{} flatter than {:g}, or folded onto another, mended",
                                         counted(num_flat, "triangle", "triangles"), height));
   require_triangles(checked.surface, name);
   return true;
@@ -189,7 +188,7 @@ CheckedSurface check_surface(const TriangleSoup& soup, const std::string& name)
 
   Orientation orientation = oriented(checked.surface, name);
   record_turns(checked, orientation);
-  if (take_out_flat_and_record(checked, name)) orientation = oriented(checked.surface, name);
+  if (mend_flat_and_record(checked, name)) orientation = oriented(checked.surface, name);
   set_materials(checked.surface, orientation.shells);
   return checked;
 }

@@ -155,7 +155,8 @@ void add_flat_triangle(TriangleSoup& soup, LocalIndex t, double part_of_edge)
   const Vec3 m = a + part_of_edge * (b - a) + 1e-8 * (c - a);
   testing::remove_triangle(soup, t);
   for (const auto& triangle : {std::array{a, m, c}, std::array{m, b, c}, std::array{a, b, m}}) {
-    for (const Vec3& p : triangle) soup.corner_xyz.insert(soup.corner_xyz.end(), p.begin(), p.end());
+    for (const Vec3& p : triangle)
+      soup.corner_xyz.insert(soup.corner_xyz.end(), p.begin(), p.end());
     soup.triangle_solid.push_back(0);
   }
 }
@@ -213,6 +214,33 @@ TEST(TriangleSurface, ATinyTetOnACubeGoes)
   const CheckedSurface checked = check_surface(soup, "cube");
   EXPECT_FALSE(has_flat_triangle(checked.surface));
   EXPECT_NEAR(enclosed_volume(checked.surface), 1.0, 1e-6);
+}
+
+// A vertex of a triangle on a flat side lies beyond the triangle's edge.
+TEST(TriangleSurface, AFoldThatEnclosesNothingIsUnfolded)
+{
+  TriangleSoup soup = cube_soup();
+  const std::span<const double> xyz(soup.corner_xyz);
+  const std::array<Vec3, 3> p{point_at(xyz, 0), point_at(xyz, 1), point_at(xyz, 2)};
+  std::size_t diagonal = 0;  // Across the side; beyond it lies the side's other triangle.
+  while (norm(p[(diagonal + 1) % 3] - p[diagonal]) < 1.1) ++diagonal;
+  const Vec3 middle = midpoint(p[diagonal], p[(diagonal + 1) % 3]);
+  const Vec3 beyond = middle + 0.2 * (middle - p[(diagonal + 2) % 3]);
+  testing::remove_triangle(soup, 0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const Vec3& corner : {p[c], p[(c + 1) % 3], beyond})
+      soup.corner_xyz.insert(soup.corner_xyz.end(), corner.begin(), corner.end());
+    soup.triangle_solid.push_back(0);
+  }
+  const CheckedSurface checked = check_surface(soup, "cube");
+  double area = 0.0;
+  for (LocalIndex t = 0; t < checked.surface.num_triangles(); ++t) {
+    const auto [a, b, c] = checked.surface.corners(t);
+    area += 0.5 * norm(cross(b - a, c - a));
+  }
+  EXPECT_NEAR(area, 6.0, 1e-12);
+  EXPECT_NEAR(enclosed_volume(checked.surface), 1.0, 1e-12);
+  EXPECT_EQ(checked.repairs.size(), 1U);
 }
 
 TEST(TriangleSurface, CornersThatDifferByRoundingAreJoinedAndSaidSo)
