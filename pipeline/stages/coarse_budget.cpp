@@ -18,7 +18,7 @@ constexpr double kMargin = 10.0;
 
 // Thin walls may make four times as many tets, in several jobs.
 constexpr double kLeastOptional_s = 15.0;
-constexpr double kMarginOfOptional = 3.0;
+constexpr double kMarginOfOptional = 2.0;
 
 // Seconds of CPU time. Measured: NETGEN takes 16 ms a face and 50 us a triangle of frame.step (375
 // faces), 18 ms a face of Bottom.brep.
