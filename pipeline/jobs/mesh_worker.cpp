@@ -14,7 +14,6 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
-#include "tessera/coarse/folded_children.hpp"
 #include "tessera/coarse/optimize_interior.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/mesh/lattice.hpp"
@@ -187,10 +186,6 @@ class MeshWorker final : public jobs::Worker {
     if (request.options.optimize) {
       coarse::optimize_interior(made.mesh);
       if (!made.tet_part.empty()) made.tet_part = parts_of_tets(made.mesh, request.planes);
-    }
-    if (request.options.surface_mesher == coarse::SurfaceMesher::netgen
-        && made.mesh.num_tets() <= coarse::kMostTetsToMeshAgain) {
-      made.folds = coarse::sizes_of_folds(made.mesh, *netgen_model_).scaled(scale_);
     }
     made.distance.largest *= scale_;
     made.distance.largest_within *= scale_;

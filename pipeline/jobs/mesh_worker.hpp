@@ -88,11 +88,10 @@ struct CoarseTry {
   std::vector<LocalIndex> tet_part{};  ///< Shape (num_tets), if the model was cut.
   coarse::VertexDistance distance{};
   coarse::Defeatured defeatured{};
-  mesh::SizePoints folds{};  ///< coarse::sizes_of_folds(); none of a mesh that is not made again.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.mesh, self.tet_part, self.distance, self.defeatured, self.folds);
+    return std::tie(self.mesh, self.tet_part, self.distance, self.defeatured);
   }
 };
 

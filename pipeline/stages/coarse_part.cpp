@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "tessera/base/hash.hpp"
-#include "tessera/coarse/folded_children.hpp"
 #include "tessera/coarse/thin_walls.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/fill/fallbacks.hpp"
@@ -24,6 +23,9 @@
 
 namespace tessera::pipeline {
 namespace {
+
+// A larger mesh is taken as it is: to mesh it again would take minutes, and it is fine already.
+constexpr LocalIndex kMostTetsToMeshAgain = 300'000;
 
 // What the store keeps of a run before it fills.
 struct CutCoarseMesh {
@@ -103,45 +105,25 @@ double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
   return sharp.worst.empty() ? kSharpAngle_deg : sharp.worst.front().angle_deg;
 }
 
-// Where walls are thin, and where the surface folds when it is refined.
-mesh::SizePoints sizes_where_too_coarse(const CoarseResult& coarse)
+// Once more with smaller edges where walls are thin. The better one of the two counts.
+void refine_thin_walls(RunResult& run, const model::NamedParts& parts, RunContext& context)
 {
-  if (coarse.mesh.num_tets() > coarse::kMostTetsToMeshAgain) return {};
-  mesh::SizePoints sizes =
-      coarse::sizes_of_thin_walls(coarse.mesh, kSharpAngle_deg, coarse.options.max_size);
-  sizes.append(coarse.folds);
-  return sizes;
-}
-
-// Fewer folds, or as many and a larger angle.
-bool is_better(const CoarseResult& second, const CoarseResult& first)
-{
-  if (second.mesh.num_tets() == 0) return false;
-  if (second.folds.size.size() != first.folds.size.size())
-    return second.folds.size.size() < first.folds.size.size();
-  return smallest_unforced_angle(second.mesh) > smallest_unforced_angle(first.mesh);
-}
-
-// Once more with smaller edges where these are too long, and again as long as fewer folds are left.
-void mesh_finer_where_too_coarse(RunResult& run, const model::NamedParts& parts,
-                                 RunContext& context)
-{
-  constexpr int kMostRounds = 3;
-  bool goes_on = may_have_finer_walls(run);
-  for (int round = 0; goes_on && round < kMostRounds; ++round) {
-    const mesh::SizePoints sizes =
-        on_root(context.comm, [&] { return sizes_where_too_coarse(run.coarse); });
-    if (sizes.size.empty()) return;
-    context.log.info("coarse: its edges are too long {}; once more with smaller ones there",
-                     run.coarse.folds.size.empty() ? "for thin walls"
-                                                   : "where the surface folds when it is refined");
-    CoarseResult finer = run_finer_try(run.resolved, run.coarse, sizes, context);
-    goes_on = on_root(context.comm, [&] { return is_better(finer, run.coarse); });
-    if (!goes_on) finer.mesh = {};
-    model::apply_names(parts, finer.mesh);
-    replace(run.coarse, std::move(finer));
-    goes_on = goes_on && !run.coarse.folds.size.empty();
-  }
+  if (!may_have_finer_walls(run)) return;
+  const mesh::SizePoints walls = on_root(context.comm, [&]() -> mesh::SizePoints {
+    if (run.coarse.mesh.num_tets() > kMostTetsToMeshAgain) return {};
+    return coarse::sizes_of_thin_walls(run.coarse.mesh, kSharpAngle_deg,
+                                       run.coarse.options.max_size);
+  });
+  if (walls.size.empty()) return;
+  context.log.info("coarse: walls are thin for its edges; once more with smaller ones there");
+  CoarseResult finer = run_finer_try(run.resolved, run.coarse, walls, context);
+  const bool is_better = on_root(context.comm, [&] {
+    return finer.mesh.num_tets() > 0
+           && smallest_unforced_angle(finer.mesh) > smallest_unforced_angle(run.coarse.mesh);
+  });
+  if (!is_better) finer.mesh = {};
+  model::apply_names(parts, finer.mesh);
+  replace(run.coarse, std::move(finer));
 }
 
 // A coarse mesh, and once more where it is too coarse for the sizes or for thin walls.
@@ -154,7 +136,7 @@ void run_coarse_stages(RunResult& run, RunContext& context)
     run.resolved.coarse.points = std::move(points);
     replace(run.coarse, named_coarse_mesh(run, parts, context));
   }
-  mesh_finer_where_too_coarse(run, parts, context);
+  refine_thin_walls(run, parts, context);
   choose_levels(run, context);
 }
 

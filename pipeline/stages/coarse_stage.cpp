@@ -155,7 +155,9 @@ CoarsePlan finer_plan(const config::Case& run_case, const CoarseResult& before,
   const auto figures = on_root(context.comm, [&] { return figures_of(run_case, context); });
   CoarsePlan plan{.options = before.options, .rung = before.tries, .is_optional = true};
   plan.options.timeout_s = optional_timeout_s(before.options, before.cpu_s);
-  plan.options.points.append(sizes);
+  mesh::SizePoints& points = plan.options.points;
+  points.xyz.insert(points.xyz.end(), sizes.xyz.begin(), sizes.xyz.end());
+  points.size.insert(points.size.end(), sizes.size.begin(), sizes.size.end());
   plan.limits = surface_limits(plan.options, figures, true);
   return plan;
 }
@@ -227,7 +229,6 @@ class CoarseTries {
     result_.mesh = std::move(made.mesh);
     result_.tet_part = std::move(made.tet_part);
     result_.distance = made.distance;
-    result_.folds = std::move(made.folds);
     result_.defeatured = std::move(made.defeatured);
   }
 

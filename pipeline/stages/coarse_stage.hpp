@@ -23,13 +23,12 @@ struct CoarseResult {
   coarse::Defeatured defeatured{};      ///< Output length unit.
   std::vector<std::string> failures{};  ///< What the tries before said, for the report.
   bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
-  mesh::SizePoints folds{};  ///< Where the surface folds when it is refined; output length unit.
-  double cpu_s = 0.0;        ///< CPU time of the try that succeeded, of the rank that used most of it.
+  double cpu_s = 0.0;  ///< CPU time of the try that succeeded, of the rank that used most of it.
 
   static auto fields(auto& self)
   {
     return std::tie(self.mesh, self.tet_part, self.options, self.tries, self.distance,
-                    self.defeatured, self.failures, self.was_limited, self.folds, self.cpu_s);
+                    self.defeatured, self.failures, self.was_limited, self.cpu_s);
   }
 };
 

@@ -6,13 +6,12 @@
 //
 // STEP, IGES, BREP: as read, unhealed; a solid counts if BRepCheck_Analyzer has nothing against it
 // and all its shells are closed, and if no two of its faces cross each other by BOPAlgo_CheckerSI
-// (asked of solids with up to 300 faces). STL: read by OpenCASCADE with equal corners joined; it counts as
-// one solid if every directed edge has exactly one triangle, and its reverse one too. Prints one
-// JSON object: with the counts also those of the faces (STL: triangles) and of the pairs of faces
-// that cross, the largest tolerance of
-// an edge or vertex, the diagonal of the box in OpenCASCADE's unit, and the smallest angles of the
-// valid solids between faces and between edges, in degrees, null where there is none. What cannot
-// be read holds nothing.
+// (asked of solids with up to 300 faces). STL: read by OpenCASCADE with equal corners joined; it
+// counts as one solid if every directed edge has exactly one triangle, and its reverse one too.
+// Prints one JSON object: with the counts also those of the faces (STL: triangles) and of the pairs
+// of faces that cross, the largest tolerance of an edge or vertex, the diagonal of the box in
+// OpenCASCADE's unit, and the smallest angles of the valid solids between faces and between edges,
+// in degrees, null where there is none. What cannot be read holds nothing.
 #include <algorithm>
 #include <array>
 #include <cctype>

@@ -13,12 +13,6 @@ struct SizePoints {
 
   static auto fields(auto& self) { return std::tie(self.xyz, self.size); }
 
-  void append(const SizePoints& others)
-  {
-    xyz.insert(xyz.end(), others.xyz.begin(), others.xyz.end());
-    size.insert(size.end(), others.size.begin(), others.size.end());
-  }
-
   /// @brief The same in another unit.
   [[nodiscard]] SizePoints scaled(double factor) const
   {
