@@ -153,7 +153,7 @@ CoarsePlan finer_plan(const config::Case& run_case, const CoarseResult& before,
                       const mesh::SizePoints& sizes, RunContext& context)
 {
   const auto figures = on_root(context.comm, [&] { return figures_of(run_case, context); });
-  CoarsePlan plan{.options = before.options, .rung = before.tries, .is_optional = true};
+  CoarsePlan plan{.options = before.options, .rung = before.tries};
   plan.options.timeout_s = optional_timeout_s(before.options, before.cpu_s);
   mesh::SizePoints& points = plan.options.points;
   points.xyz.insert(points.xyz.end(), sizes.xyz.begin(), sizes.xyz.end());

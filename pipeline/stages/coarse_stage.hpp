@@ -49,8 +49,8 @@ struct CoarseResult {
                                             const cut::CutTree& planes, RunContext& context);
 
 /// @brief One try more, like the one that succeeded, with more sizes at points. It is not needed:
-/// its time follows from that of the one before, and the first job that fails ends it. Its result,
-/// on all ranks, has no tets then.
+/// the time of its jobs follows from that of the one before. Its result, on all ranks, has no tets
+/// if it fails.
 /// @note Collective.
 [[nodiscard]] CoarseResult run_finer_try(const config::Case& run_case, const CoarseResult& before,
                                          const mesh::SizePoints& sizes, RunContext& context);

@@ -148,8 +148,7 @@ CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, coarse::CoarseSurface 
 {
   coarse::DividedSurface divided = divide(surface, plan, context);
   PieceTry pieces = fill_pieces(divided, plan.options, stage, context);
-  const bool is_divided = divided.surface.num_domains() > surface.num_domains();
-  if (pieces.failed && is_divided && !plan.is_optional) {
+  if (pieces.failed && divided.surface.num_domains() > surface.num_domains()) {
     context.log.warn("coarse: piece {}: {}; domains are filled whole", pieces.failed->piece,
                      pieces.failed->outcome.message);
     divided = coarse::undivided(surface);

@@ -20,7 +20,6 @@ struct CoarsePlan {
   cut::CutTree planes{};     ///< Without nodes: the model is not cut.
   LocalIndex rung = 0;       ///< Number of the try, from 0.
   jobs::JobLimits limits{};  ///< Of the surface.
-  bool is_optional = false;  ///< There is a mesh already: a job that fails gets no other chance.
 };
 
 /// @brief How the surface of a try has ended.

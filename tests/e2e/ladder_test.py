@@ -71,7 +71,7 @@ class Ladder(program.ProgramTest):
         self.assertEqual(len(digests), 1)
 
     def test_the_first_mesh_stays_if_thin_walls_cannot_be_meshed_better(self):
-        """Whatever fails of the second try, or never ends, it is not tried in another way."""
+        """Its second try fails, or never ends."""
         self.write_plate()
         for fault, is_reproducible in (("coarse=throw@1", True), ("coarse=loop@1", False)):
             with self.subTest(fault):

@@ -165,7 +165,7 @@ TEST(OccProjection, ATrimmedSurfaceHasTheSeamOfItsFace)
   const Handle(Geom_Surface) bend =
       new Geom_RectangularTrimmedSurface(BRep_Tool::Surface(face), 0.0, 1.0, 0.0, 2.0 * kPi);
   ASSERT_FALSE(bend->IsVClosed() || bend->IsVPeriodic());
-  const netgen::OccSurface surface(on_surface(face, bend), 26.0);
+  const netgen::OccSurface surface(on_surface(face, bend), 26.0, 1);
   const auto at = [&](double u, double v) {
     const gp_Pnt p = bend->Value(u, v);
     return Vec3{p.X(), p.Y(), p.Z()};
