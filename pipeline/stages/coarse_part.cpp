@@ -8,6 +8,7 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/coarse/thin_walls.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/comm/share_on_node.hpp"
 #include "tessera/fill/fallbacks.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
 
@@ -43,7 +44,7 @@ struct CutCoarseMesh {
 
 std::optional<CutCoarseMesh> kept_coarse_mesh(const RunState* state, const RunContext& context)
 {
-  return comm::on_root(context.comm, [&]() -> std::optional<CutCoarseMesh> {
+  return comm::on_root_of_nodes(context.comm, [&]() -> std::optional<CutCoarseMesh> {
     const auto record = state == nullptr ? std::nullopt : state->find_coarse();
     return record ? std::optional(from_bytes<CutCoarseMesh>(*record)) : std::nullopt;
   });

@@ -16,6 +16,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/comm/share_on_node.hpp"
 #include "tessera/jobs/run_program.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
@@ -352,7 +353,7 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
   StageScope stage(context, "coarse");
   CoarseResult result =
       CoarseTries(run_case, plans_for(run_case, planes, context), stage, context).run();
-  result = on_root(context.comm, [&] {
+  result = on_root_of_nodes(context.comm, [&] {
     if (result.mesh.num_tets() == 0) throw_no_mesh(result, run_case);
     return std::move(result);
   });
@@ -385,7 +386,7 @@ CoarseResult run_finer_try(const config::Case& run_case, const CoarseResult& bef
     result.failures.emplace_back(error.what());
   }
   result.options.timeout_s = before.options.timeout_s;
-  result = on_root(context.comm, [&] { return std::move(result); });
+  result = on_root_of_nodes(context.comm, [&] { return std::move(result); });
   stage.work_is_done();
   stage.finish(result.mesh.num_tets() == 0 ? std::string("failed")
                                            : fmt::format("{} tets", result.mesh.num_tets()));
