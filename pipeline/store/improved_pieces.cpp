@@ -9,17 +9,12 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/improve/phase_bands.hpp"
 
-#include "pipeline/store/fill_record.hpp"
+#include "pipeline/store/band_segments.hpp"
 
 namespace tessera::pipeline {
 namespace {
-
-// Segments of a bands record behind the bands themselves.
-LocalIndex tags_segment(const improve::SeamRegions& regions, LocalIndex subdomain, int phase)
-{
-  return static_cast<LocalIndex>(regions.regions_of(subdomain, phase).size());
-}
 
 LocalIndex row_in(std::span<const LocalIndex> ascending, LocalIndex value)
 {
@@ -28,15 +23,10 @@ LocalIndex row_in(std::span<const LocalIndex> ascending, LocalIndex value)
 
 }  // namespace
 
-mesh::Piece filled_piece(const io::RecordStore& store, LocalIndex subdomain)
-{
-  return from_bytes<mesh::Piece>(from_bytes<FillRecord>(store.get(record_name(subdomain))).piece);
-}
-
 ImprovedPieces::ImprovedPieces(const std::filesystem::path& output, const mesh::Skeleton& skeleton,
                                std::shared_ptr<const improve::SeamRegions> regions,
                                const comm::Communicator& comm)
-    : store_(store_folder(output)),
+    : filled_(store_folder(output)),
       regions_(std::move(regions)),
       neighbours_(mesh::neighbours_by_vertex(skeleton)),
       records_(store_folder(output), comm)
@@ -48,14 +38,53 @@ mesh::Piece ImprovedPieces::piece(LocalIndex subdomain) const
   return whole_part(subdomain, improve::kNumPhases - 1).piece;
 }
 
+ImprovedPieces::Outer ImprovedPieces::outer(LocalIndex subdomain) const
+{
+  Outer outer{.part = outer_part(subdomain, improve::kNumPhases - 1)};
+  if (has_core(subdomain)) {
+    outer.core = from_bytes<subdomain::CoreFigures>(filled_segment(subdomain, PieceSegment::core));
+  }
+  return outer;
+}
+
+Bytes ImprovedPieces::filled_segment(LocalIndex subdomain, PieceSegment segment) const
+{
+  return filled_.segment(record_name(subdomain), static_cast<LocalIndex>(segment));
+}
+
+bool ImprovedPieces::has_core(LocalIndex subdomain) const
+{
+  const auto core = static_cast<LocalIndex>(PieceSegment::core);
+  return filled_.num_segments(record_name(subdomain)) > core
+         && !filled_segment(subdomain, PieceSegment::core).empty();
+}
+
 improve::PiecePart ImprovedPieces::whole_part(LocalIndex subdomain, int last_phase) const
+{
+  improve::PiecePart part =
+      improve::whole_piece(from_bytes<mesh::Piece>(filled_segment(subdomain, PieceSegment::piece)));
+  const auto all = exchanges_until(subdomain, last_phase);
+  return all.empty() ? part : improve::apply_updates(part, all);
+}
+
+improve::PiecePart ImprovedPieces::outer_part(LocalIndex subdomain, int last_phase) const
+{
+  if (!has_core(subdomain)) return whole_part(subdomain, last_phase);
+  improve::PhaseBands kept{.tet_tags = tet_tags(subdomain, 0), .rim = find_rim(subdomain, 0)};
+  for (LocalIndex i = 0; i < num_bands(subdomain, 0); ++i) {
+    kept.bands.push_back(from_bytes<improve::Band>(band_segment(subdomain, 0, i)));
+  }
+  return improve::apply_updates(improve::outer_part(kept), exchanges_until(subdomain, last_phase));
+}
+
+std::vector<improve::RegionExchange> ImprovedPieces::exchanges_until(LocalIndex subdomain,
+                                                                     int last_phase) const
 {
   std::vector<improve::RegionExchange> all;
   for (int phase = 0; phase <= last_phase; ++phase) {
     std::ranges::move(exchanges(subdomain, phase), std::back_inserter(all));
   }
-  improve::PiecePart part = improve::whole_piece(filled_piece(store_, subdomain));
-  return all.empty() ? part : improve::apply_updates(part, all);
+  return all;
 }
 
 std::vector<improve::RegionExchange> ImprovedPieces::exchanges(LocalIndex subdomain,
@@ -66,10 +95,7 @@ std::vector<improve::RegionExchange> ImprovedPieces::exchanges(LocalIndex subdom
   IndexLists tags;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     if (records_.num_segments(SeamRecord::region, regions[i]) < 2) continue;  // Not improved.
-    if (tags.num_lists() == 0) {
-      tags = from_bytes<IndexLists>(records_.get(bands_of_phase(phase), subdomain,
-                                                 tags_segment(*regions_, subdomain, phase)));
-    }
+    if (tags.num_lists() == 0) tags = tet_tags(subdomain, phase);
     const LocalIndex owner = row_in(regions_->subdomains_of(regions[i]), subdomain);
     const auto old_tets = tags[static_cast<LocalIndex>(i)];
     exchanges.push_back({{old_tets.begin(), old_tets.end()},
@@ -79,31 +105,38 @@ std::vector<improve::RegionExchange> ImprovedPieces::exchanges(LocalIndex subdom
   return exchanges;
 }
 
+Bytes ImprovedPieces::band_segment(LocalIndex subdomain, int phase, LocalIndex number) const
+{
+  if (phase > 0) return records_.get(bands_of_phase(phase), subdomain, number);
+  return filled_.segment(record_name(subdomain),
+                         static_cast<LocalIndex>(PieceSegment::bands) + number);
+}
+
+IndexLists ImprovedPieces::tet_tags(LocalIndex subdomain, int phase) const
+{
+  return from_bytes<IndexLists>(band_segment(subdomain, phase, num_bands(subdomain, phase)));
+}
+
+std::optional<improve::PiecePart> ImprovedPieces::find_rim(LocalIndex subdomain, int phase) const
+{
+  const Bytes rim = band_segment(subdomain, phase, num_bands(subdomain, phase) + 1);
+  if (rim.empty()) return std::nullopt;
+  return from_bytes<improve::PiecePart>(rim);
+}
+
 improve::PiecePart ImprovedPieces::part_after(LocalIndex subdomain, int phase) const
 {
-  if (phase == kNoPhase) return whole_part(subdomain, phase);
-  const SeamRecord bands = bands_of_phase(phase);
-  const LocalIndex rim_segment = 1 + tags_segment(*regions_, subdomain, phase);
-  if (rim_segment >= records_.num_segments(bands, subdomain)) return whole_part(subdomain, phase);
-  const auto rim = from_bytes<improve::PiecePart>(records_.get(bands, subdomain, rim_segment));
-  return improve::apply_updates(rim, exchanges(subdomain, phase));
+  const auto rim = find_rim(subdomain, phase);
+  if (!rim) return outer_part(subdomain, phase);
+  return improve::apply_updates(*rim, exchanges(subdomain, phase));
 }
 
 void ImprovedPieces::keep_bands(LocalIndex subdomain, int phase_before, int phase,
                                 GlobalIndex most_of_rim)
 {
   const improve::PiecePart part = part_after(subdomain, phase_before);
-  const auto labels = improve::label_tets(part.piece, *regions_, phase, improve::kDefaultLayers);
-  std::vector<Bytes> segments;
-  for (const improve::Band& band : improve::make_bands(part, labels, *regions_, phase)) {
-    segments.push_back(to_bytes(band));
-  }
-  segments.push_back(to_bytes(improve::tets_of_bands(part, labels, *regions_, phase)));
-  if (most_of_rim > 0) {
-    const improve::PiecePart rim = improve::rim_of(part, *regions_, phase);
-    if (rim.piece.num_tets() <= most_of_rim) segments.push_back(to_bytes(rim));
-  }
-  records_.put(bands_of_phase(phase), subdomain, segments);
+  records_.put(bands_of_phase(phase), subdomain,
+               band_segments(improve::make_phase_bands(part, *regions_, phase, most_of_rim)));
 }
 
 std::vector<Bytes> ImprovedPieces::bands_of(LocalIndex region) const
@@ -111,8 +144,7 @@ std::vector<Bytes> ImprovedPieces::bands_of(LocalIndex region) const
   const int phase = regions_->phase_of(region);
   std::vector<Bytes> bands;
   for (const LocalIndex s : regions_->subdomains_of(region)) {
-    bands.push_back(
-        records_.get(bands_of_phase(phase), s, row_in(regions_->regions_of(s, phase), region)));
+    bands.push_back(band_segment(s, phase, row_in(regions_->regions_of(s, phase), region)));
   }
   return bands;
 }
@@ -131,25 +163,33 @@ subdomain::RegionRecord ImprovedPieces::find_region(LocalIndex region) const
   return from_bytes<subdomain::RegionRecord>(records_.get(SeamRecord::region, region, 0));
 }
 
-void ImprovedPieces::keep_list(const mesh::Piece& piece)
+void ImprovedPieces::keep_list(const Outer& outer)
 {
-  const number::VertexList list{piece.subdomain, piece.material, number::shared_vertices(piece)};
+  const mesh::Piece& piece = outer.part.piece;
+  number::VertexList list{.subdomain = piece.subdomain, .material = piece.material};
+  std::ranges::merge(number::shared_vertices(piece), outer.core.shared_vertices,
+                     std::back_inserter(list.vertices));
   records_.put(SeamRecord::list, piece.subdomain, {{to_bytes(list)}});
 }
 
-std::vector<char> ImprovedPieces::may_be_on_seam(const std::vector<mesh::HostPoint>& names) const
+std::vector<char> ImprovedPieces::expected_seams(const mesh::Piece& piece) const
 {
-  std::vector<char> may_be;
-  may_be.reserve(names.size());
-  for (const mesh::HostPoint& name : names) {
-    may_be.push_back(regions_->may_be_on_seam(name.host) ? 1 : 0);
+  std::vector<char> expected;
+  expected.reserve(piece.skin_host.size());
+  for (const mesh::HostEntity host : piece.skin_host) {
+    expected.push_back(regions_->may_be_on_seam(host) ? 1 : 0);
   }
-  return may_be;
+  return expected;
 }
 
-number::SharedBy ImprovedPieces::expected_seams(const mesh::Piece& piece) const
+std::vector<char> ImprovedPieces::Comparison::seams_of(const mesh::Piece& part) const
 {
-  return {.on_seam = may_be_on_seam(number::shared_vertices(piece))};
+  std::vector<char> on_seam;
+  for (LocalIndex v = 0; v < part.num_skin_vertices(); ++v) {
+    const auto found = std::ranges::lower_bound(vertices, part.skin_point(v));
+    on_seam.push_back(shared.on_seam[static_cast<std::size_t>(found - vertices.begin())]);
+  }
+  return on_seam;
 }
 
 number::VertexList ImprovedPieces::list_of(LocalIndex subdomain) const
@@ -161,9 +201,13 @@ ImprovedPieces::Comparison ImprovedPieces::own_vertices(LocalIndex subdomain)
 {
   std::vector<number::VertexList> lists;
   for (const LocalIndex other : neighbours_[at(subdomain)]) lists.push_back(list_of(other));
-  const number::VertexList own = list_of(subdomain);
-  Comparison found{.shared = number::compare_lists(own, lists)};
-  found.is_as_expected = found.shared.on_seam == may_be_on_seam(own.vertices);
+  number::VertexList own = list_of(subdomain);
+  Comparison found{.shared = number::compare_lists(own, lists),
+                   .vertices = std::move(own.vertices)};
+  const auto is_expected = [&](const mesh::HostPoint& name, char on_seam) {
+    return regions_->may_be_on_seam(name.host) == (on_seam != 0);
+  };
+  found.is_as_expected = std::ranges::equal(found.vertices, found.shared.on_seam, is_expected);
   records_.put(SeamRecord::owned, subdomain, {{to_bytes(found.shared.owned)}});
   return found;
 }

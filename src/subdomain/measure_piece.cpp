@@ -57,18 +57,6 @@ std::vector<char> vertices_on_seams(const mesh::Skin& skin, const std::vector<ch
   return on_seam;
 }
 
-// From the order of the list to that of the piece.
-std::vector<char> seam_vertices(const mesh::Piece& piece, const number::SharedBy& shared)
-{
-  const std::vector<mesh::HostPoint> names = number::shared_vertices(piece);
-  std::vector<char> on_seam;
-  for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-    const auto found = std::ranges::lower_bound(names, piece.skin_point(v));
-    on_seam.push_back(shared.on_seam[static_cast<std::size_t>(found - names.begin())]);
-  }
-  return on_seam;
-}
-
 quality::WorstTet worst_tet(const mesh::Piece& piece, LocalIndex tet,
                             const quality::TetShape& shape)
 {
@@ -166,22 +154,19 @@ FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& sk
   return result;
 }
 
-FillResult measure_improved_piece(const mesh::Piece& piece, const number::SharedBy& shared,
-                                  const PieceSummary& filled)
+FillResult measure_improved_part(const improve::PiecePart& part, const std::vector<char>& on_seam,
+                                 const PieceSummary& filled)
 {
+  const mesh::Piece& piece = part.piece;
   FillResult result;
   PieceSummary& summary = result.summary;
   summary = filled;
   summary.num_tets = piece.num_tets();
   summary.num_interior_vertices = piece.num_interior_vertices();
-  summary.num_owned_vertices =
-      summary.num_interior_vertices + static_cast<GlobalIndex>(shared.owned.size());
-  summary.num_boundary = piece.num_boundary();
-  summary.patches = patch_areas(piece);
   summary.volume = volume_of(piece);
-  summary.surface = verify::surface_hash(piece);
+  summary.surface = verify::surface_hash(piece, part.vertex_tag);
   measure_edges(piece, result.histograms);
-  measure_tets(piece, seam_vertices(piece, shared), result);
+  measure_tets(piece, on_seam, result);
   return result;
 }
 
