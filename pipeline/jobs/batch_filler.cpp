@@ -32,7 +32,8 @@ void BatchFiller::add(subdomain::FilledPiece filled)
   }
   std::vector<Bytes> seams;
   if (regions_ != nullptr && task_.keep && !summary.is_folded) {
-    seams = seam_segments(filled, *regions_, most_of_rim(summary.num_tets));
+    seams = band_segments(improve::whole_piece(filled.piece), *regions_, 0,
+                          most_of_rim(summary.num_tets));
   }
   batch_.add(std::move(filled), std::move(seams));
 }

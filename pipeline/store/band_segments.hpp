@@ -4,21 +4,27 @@
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
-#include "tessera/improve/phase_bands.hpp"
+#include "tessera/base/types.hpp"
+#include "tessera/improve/piece_part.hpp"
 #include "tessera/improve/seam_regions.hpp"
-#include "tessera/subdomain/fill_subdomain.hpp"
 
 namespace tessera::pipeline {
 
-/// @brief The bands of a piece for a phase as segments of a record: the band of each of its
-/// regions, the tags of their tets, the rim. That is empty if there is none. Local.
-[[nodiscard]] std::vector<Bytes> band_segments(const improve::PhaseBands& kept);
+/// @brief Which segments a record of bands has: these, then the band of each of the piece's regions
+/// in the phase.
+enum class BandSegment : LocalIndex {
+  core,  ///< subdomain::CoreFigures. Empty unless they were made of the whole piece and there is
+         ///< a rim.
+  tet_tags,  ///< Tags of the tets of each band.
+  rim,       ///< improve::PiecePart. Empty if it would be too large.
+  first_band,
+};
 
-/// @brief What a fill leaves for the improvement of a piece's seams: the segments of its record
-/// from PieceSegment::core on. Local.
-/// @param[in] most_of_rim A rim of more tets is left out, and then the core, too.
-[[nodiscard]] std::vector<Bytes> seam_segments(const subdomain::FilledPiece& filled,
-                                               const improve::SeamRegions& regions,
+/// @brief Takes the bands of a piece for a phase out of it, or out of a part of it that has all
+/// that the phase needs. Local.
+/// @param[in] most_of_rim A rim of more tets is left out.
+[[nodiscard]] std::vector<Bytes> band_segments(const improve::PiecePart& part,
+                                               const improve::SeamRegions& regions, int phase,
                                                GlobalIndex most_of_rim);
 
 /// @brief The most tets that a rim may have. It is written and read; if it is half of the piece,

@@ -41,9 +41,7 @@ struct FillRecord {
 enum class PieceSegment : LocalIndex {
   head,   ///< FillRecord
   piece,  ///< mesh::Piece
-  core,   ///< If its seams are to be improved: subdomain::CoreFigures. Empty if the improvement
-          ///< may touch most of it.
-  bands,  ///< Then its bands of phase 0, as BandSegments has them.
+  bands,  ///< If its seams are to be improved: band_segments() of phase 0.
 };
 
 /// @brief A piece from its record, as it was filled or refined. Local.

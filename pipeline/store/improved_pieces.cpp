@@ -11,7 +11,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/improve/phase_bands.hpp"
 
-#include "pipeline/store/band_segments.hpp"
+#include "pipeline/store/fill_record.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -40,69 +40,69 @@ mesh::Piece ImprovedPieces::piece(LocalIndex subdomain) const
 
 ImprovedPieces::Outer ImprovedPieces::outer(LocalIndex subdomain) const
 {
-  Outer outer{.part = outer_part(subdomain, improve::kNumPhases - 1)};
-  if (has_core(subdomain)) {
-    outer.core = from_bytes<subdomain::CoreFigures>(filled_segment(subdomain, PieceSegment::core));
-  }
-  return outer;
-}
-
-Bytes ImprovedPieces::filled_segment(LocalIndex subdomain, PieceSegment segment) const
-{
-  return filled_.segment(record_name(subdomain), static_cast<LocalIndex>(segment));
-}
-
-bool ImprovedPieces::has_core(LocalIndex subdomain) const
-{
-  const auto core = static_cast<LocalIndex>(PieceSegment::core);
-  return filled_.num_segments(record_name(subdomain)) > core
-         && !filled_segment(subdomain, PieceSegment::core).empty();
+  const int last_phase = improve::kNumPhases - 1;
+  const auto first_phase = phase_of_core(subdomain, last_phase);
+  if (!first_phase) return {.part = whole_part(subdomain, last_phase), .core = {}};
+  return {.part = outer_part(subdomain, *first_phase, last_phase),
+          .core = from_bytes<subdomain::CoreFigures>(
+              band_segment(subdomain, *first_phase, BandSegment::core))};
 }
 
 improve::PiecePart ImprovedPieces::whole_part(LocalIndex subdomain, int last_phase) const
 {
-  improve::PiecePart part =
-      improve::whole_piece(from_bytes<mesh::Piece>(filled_segment(subdomain, PieceSegment::piece)));
-  const auto all = exchanges_until(subdomain, last_phase);
+  improve::PiecePart part = improve::whole_piece(from_bytes<mesh::Piece>(
+      filled_.segment(record_name(subdomain), static_cast<LocalIndex>(PieceSegment::piece))));
+  const auto all = exchanges(subdomain, 0, last_phase);
   return all.empty() ? part : improve::apply_updates(part, all);
 }
 
-improve::PiecePart ImprovedPieces::outer_part(LocalIndex subdomain, int last_phase) const
+improve::PiecePart ImprovedPieces::outer_part(LocalIndex subdomain, int first_phase,
+                                              int last_phase) const
 {
-  if (!has_core(subdomain)) return whole_part(subdomain, last_phase);
-  improve::PhaseBands kept{.tet_tags = tet_tags(subdomain, 0), .rim = find_rim(subdomain, 0)};
-  for (LocalIndex i = 0; i < num_bands(subdomain, 0); ++i) {
-    kept.bands.push_back(from_bytes<improve::Band>(band_segment(subdomain, 0, i)));
+  improve::PhaseBands kept{.tet_tags = tet_tags(subdomain, first_phase),
+                           .rim = find_rim(subdomain, first_phase)};
+  for (LocalIndex row = 0; row < kept.tet_tags.num_lists(); ++row) {
+    kept.bands.push_back(from_bytes<improve::Band>(band(subdomain, first_phase, row)));
   }
-  return improve::apply_updates(improve::outer_part(kept), exchanges_until(subdomain, last_phase));
+  return improve::apply_updates(improve::outer_part(kept),
+                                exchanges(subdomain, first_phase, last_phase));
 }
 
-std::vector<improve::RegionExchange> ImprovedPieces::exchanges_until(LocalIndex subdomain,
-                                                                     int last_phase) const
+std::optional<int> ImprovedPieces::phase_of_core(LocalIndex subdomain, int last_phase) const
 {
-  std::vector<improve::RegionExchange> all;
   for (int phase = 0; phase <= last_phase; ++phase) {
-    std::ranges::move(exchanges(subdomain, phase), std::back_inserter(all));
+    if (!has_bands_of_phase(subdomain, phase)) continue;
+    if (!band_segment(subdomain, phase, BandSegment::core).empty()) return phase;
   }
-  return all;
+  return std::nullopt;
 }
 
 std::vector<improve::RegionExchange> ImprovedPieces::exchanges(LocalIndex subdomain,
-                                                               int phase) const
+                                                               int first_phase,
+                                                               int last_phase) const
 {
   std::vector<improve::RegionExchange> exchanges;
-  const auto regions = regions_->regions_of(subdomain, phase);
-  IndexLists tags;
-  for (std::size_t i = 0; i < regions.size(); ++i) {
-    if (records_.num_segments(SeamRecord::region, regions[i]) < 2) continue;  // Not improved.
-    if (tags.num_lists() == 0) tags = tet_tags(subdomain, phase);
-    const LocalIndex owner = row_in(regions_->subdomains_of(regions[i]), subdomain);
-    const auto old_tets = tags[static_cast<LocalIndex>(i)];
-    exchanges.push_back({{old_tets.begin(), old_tets.end()},
-                         from_bytes<improve::PieceUpdate>(
-                             records_.get(SeamRecord::region, regions[i], 1 + owner))});
+  for (int phase = first_phase; phase <= last_phase; ++phase) {
+    const auto regions = regions_->regions_of(subdomain, phase);
+    IndexLists tags;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      if (records_.num_segments(SeamRecord::region, regions[i]) < 2) continue;  // Not improved.
+      if (tags.num_lists() == 0) tags = tet_tags(subdomain, phase);
+      const LocalIndex owner = row_in(regions_->subdomains_of(regions[i]), subdomain);
+      const auto old_tets = tags[static_cast<LocalIndex>(i)];
+      exchanges.push_back({{old_tets.begin(), old_tets.end()},
+                           from_bytes<improve::PieceUpdate>(
+                               records_.get(SeamRecord::region, regions[i], 1 + owner))});
+    }
   }
   return exchanges;
+}
+
+bool ImprovedPieces::has_bands_of_phase(LocalIndex subdomain, int phase) const
+{
+  if (phase > 0) return has_bands(subdomain, phase);
+  return filled_.num_segments(record_name(subdomain))
+         > static_cast<LocalIndex>(PieceSegment::bands);
 }
 
 Bytes ImprovedPieces::band_segment(LocalIndex subdomain, int phase, LocalIndex number) const
@@ -114,29 +114,30 @@ Bytes ImprovedPieces::band_segment(LocalIndex subdomain, int phase, LocalIndex n
 
 IndexLists ImprovedPieces::tet_tags(LocalIndex subdomain, int phase) const
 {
-  return from_bytes<IndexLists>(band_segment(subdomain, phase, num_bands(subdomain, phase)));
+  return from_bytes<IndexLists>(band_segment(subdomain, phase, BandSegment::tet_tags));
 }
 
 std::optional<improve::PiecePart> ImprovedPieces::find_rim(LocalIndex subdomain, int phase) const
 {
-  const Bytes rim = band_segment(subdomain, phase, num_bands(subdomain, phase) + 1);
+  const Bytes rim = band_segment(subdomain, phase, BandSegment::rim);
   if (rim.empty()) return std::nullopt;
   return from_bytes<improve::PiecePart>(rim);
 }
 
 improve::PiecePart ImprovedPieces::part_after(LocalIndex subdomain, int phase) const
 {
-  const auto rim = find_rim(subdomain, phase);
-  if (!rim) return outer_part(subdomain, phase);
-  return improve::apply_updates(*rim, exchanges(subdomain, phase));
+  if (const auto rim = find_rim(subdomain, phase)) {
+    return improve::apply_updates(*rim, exchanges(subdomain, phase, phase));
+  }
+  const auto first_phase = phase_of_core(subdomain, phase);
+  return first_phase ? outer_part(subdomain, *first_phase, phase) : whole_part(subdomain, phase);
 }
 
 void ImprovedPieces::keep_bands(LocalIndex subdomain, int phase_before, int phase,
                                 GlobalIndex most_of_rim)
 {
-  const improve::PiecePart part = part_after(subdomain, phase_before);
   records_.put(bands_of_phase(phase), subdomain,
-               band_segments(improve::make_phase_bands(part, *regions_, phase, most_of_rim)));
+               band_segments(part_after(subdomain, phase_before), *regions_, phase, most_of_rim));
 }
 
 std::vector<Bytes> ImprovedPieces::bands_of(LocalIndex region) const
@@ -144,7 +145,7 @@ std::vector<Bytes> ImprovedPieces::bands_of(LocalIndex region) const
   const int phase = regions_->phase_of(region);
   std::vector<Bytes> bands;
   for (const LocalIndex s : regions_->subdomains_of(region)) {
-    bands.push_back(band_segment(s, phase, row_in(regions_->regions_of(s, phase), region)));
+    bands.push_back(band(s, phase, row_in(regions_->regions_of(s, phase), region)));
   }
   return bands;
 }
@@ -166,20 +167,28 @@ subdomain::RegionRecord ImprovedPieces::find_region(LocalIndex region) const
 void ImprovedPieces::keep_list(const Outer& outer)
 {
   const mesh::Piece& piece = outer.part.piece;
-  number::VertexList list{.subdomain = piece.subdomain, .material = piece.material};
-  std::ranges::merge(number::shared_vertices(piece), outer.core.shared_vertices,
-                     std::back_inserter(list.vertices));
-  records_.put(SeamRecord::list, piece.subdomain, {{to_bytes(list)}});
+  const number::VertexList all{piece.subdomain, piece.material,
+                               subdomain::shared_vertices(outer.core, piece)};
+  std::vector<Bytes> segments{to_bytes(all)};
+  for (const number::VertexList& list : lists_for_neighbours(all)) {
+    segments.push_back(to_bytes(list));
+  }
+  records_.put(SeamRecord::list, piece.subdomain, segments);
 }
 
-std::vector<char> ImprovedPieces::expected_seams(const mesh::Piece& piece) const
+std::vector<number::VertexList> ImprovedPieces::lists_for_neighbours(
+    const number::VertexList& all) const
 {
-  std::vector<char> expected;
-  expected.reserve(piece.skin_host.size());
-  for (const mesh::HostEntity host : piece.skin_host) {
-    expected.push_back(regions_->may_be_on_seam(host) ? 1 : 0);
+  const auto& neighbours = neighbours_[at(all.subdomain)];
+  std::vector<number::VertexList> lists(neighbours.size(),
+                                        {.subdomain = all.subdomain, .material = all.material});
+  for (const mesh::HostPoint& name : all.vertices) {
+    for (const LocalIndex holder : regions_->holders_of(name.host)) {
+      if (holder == all.subdomain) continue;
+      lists[at(row_in(neighbours, holder))].vertices.push_back(name);
+    }
   }
-  return expected;
+  return lists;
 }
 
 std::vector<char> ImprovedPieces::Comparison::seams_of(const mesh::Piece& part) const
@@ -192,16 +201,18 @@ std::vector<char> ImprovedPieces::Comparison::seams_of(const mesh::Piece& part) 
   return on_seam;
 }
 
-number::VertexList ImprovedPieces::list_of(LocalIndex subdomain) const
+number::VertexList ImprovedPieces::list_for(LocalIndex subdomain, LocalIndex other) const
 {
-  return from_bytes<number::VertexList>(records_.get(SeamRecord::list, subdomain, 0));
+  const LocalIndex segment = subdomain == other ? 0 : 1 + row_in(neighbours_[at(other)], subdomain);
+  return from_bytes<number::VertexList>(records_.get(SeamRecord::list, other, segment));
 }
 
 ImprovedPieces::Comparison ImprovedPieces::own_vertices(LocalIndex subdomain)
 {
   std::vector<number::VertexList> lists;
-  for (const LocalIndex other : neighbours_[at(subdomain)]) lists.push_back(list_of(other));
-  number::VertexList own = list_of(subdomain);
+  for (const LocalIndex other : neighbours_[at(subdomain)])
+    lists.push_back(list_for(subdomain, other));
+  number::VertexList own = list_for(subdomain, subdomain);
   Comparison found{.shared = number::compare_lists(own, lists),
                    .vertices = std::move(own.vertices)};
   const auto is_expected = [&](const mesh::HostPoint& name, char on_seam) {

@@ -18,7 +18,7 @@
 #include "tessera/subdomain/improve_seam_region.hpp"
 #include "tessera/subdomain/piece_arrays.hpp"
 
-#include "pipeline/store/fill_record.hpp"
+#include "pipeline/store/band_segments.hpp"
 #include "pipeline/store/seam_records.hpp"
 
 namespace tessera::pipeline {
@@ -45,7 +45,7 @@ class ImprovedPieces {
     subdomain::CoreFigures core{};  ///< None if the part is the whole piece.
   };
 
-  /// @brief Does not read the filled piece, unless the improvement may touch most of it.
+  /// @brief Reads the filled piece only if there are no bands that were made of the whole piece.
   /// @throws InputError if a record is missing or damaged.
   [[nodiscard]] Outer outer(LocalIndex subdomain) const;
 
@@ -80,10 +80,6 @@ class ImprovedPieces {
   /// @brief Notes which vertices the piece shares.
   void keep_list(const Outer& outer);
 
-  /// @brief Which shared vertices of a piece, or of a part of it, will be on seams by the lists,
-  /// but for a vertex in ten thousand that one of two pieces has lost. Shape (num_skin_vertices).
-  [[nodiscard]] std::vector<char> expected_seams(const mesh::Piece& piece) const;
-
   /// @brief What the neighbours' lists say of a piece.
   struct Comparison {
     number::SharedBy shared{};
@@ -103,25 +99,35 @@ class ImprovedPieces {
   [[nodiscard]] SeamRecords& records() { return records_; }
 
  private:
-  // Of a record of bands, as band_segments() has them.
+  [[nodiscard]] bool has_bands_of_phase(LocalIndex subdomain, int phase) const;
   [[nodiscard]] Bytes band_segment(LocalIndex subdomain, int phase, LocalIndex number) const;
-  [[nodiscard]] LocalIndex num_bands(LocalIndex subdomain, int phase) const
+  [[nodiscard]] Bytes band_segment(LocalIndex subdomain, int phase, BandSegment segment) const
   {
-    return static_cast<LocalIndex>(regions_->regions_of(subdomain, phase).size());
+    return band_segment(subdomain, phase, static_cast<LocalIndex>(segment));
+  }
+  // The band of a region's row in the phase.
+  [[nodiscard]] Bytes band(LocalIndex subdomain, int phase, LocalIndex row) const
+  {
+    return band_segment(subdomain, phase, static_cast<LocalIndex>(BandSegment::first_band) + row);
   }
   [[nodiscard]] IndexLists tet_tags(LocalIndex subdomain, int phase) const;
   [[nodiscard]] std::optional<improve::PiecePart> find_rim(LocalIndex subdomain, int phase) const;
-  [[nodiscard]] std::vector<improve::RegionExchange> exchanges(LocalIndex subdomain,
-                                                               int phase) const;
   // A stopped run may have left updates of later phases as well: they do not count.
-  [[nodiscard]] std::vector<improve::RegionExchange> exchanges_until(LocalIndex subdomain,
-                                                                     int last_phase) const;
-  [[nodiscard]] Bytes filled_segment(LocalIndex subdomain, PieceSegment segment) const;
-  [[nodiscard]] bool has_core(LocalIndex subdomain) const;
+  [[nodiscard]] std::vector<improve::RegionExchange> exchanges(LocalIndex subdomain,
+                                                               int first_phase,
+                                                               int last_phase) const;
   [[nodiscard]] improve::PiecePart whole_part(LocalIndex subdomain, int last_phase) const;
-  [[nodiscard]] improve::PiecePart outer_part(LocalIndex subdomain, int last_phase) const;
+  // As the phases from `first_phase` to `last_phase` have left it.
+  [[nodiscard]] improve::PiecePart outer_part(LocalIndex subdomain, int first_phase,
+                                              int last_phase) const;
+  // The phase up to that one in which the core was measured; none if it never was.
+  [[nodiscard]] std::optional<int> phase_of_core(LocalIndex subdomain, int last_phase) const;
   [[nodiscard]] improve::PiecePart part_after(LocalIndex subdomain, int phase) const;
-  [[nodiscard]] number::VertexList list_of(LocalIndex subdomain) const;
+  // What each of its neighbours may have of a piece's list, in their order.
+  [[nodiscard]] std::vector<number::VertexList> lists_for_neighbours(
+      const number::VertexList& all) const;
+  // What `other` has noted for a subdomain.
+  [[nodiscard]] number::VertexList list_for(LocalIndex subdomain, LocalIndex other) const;
   [[nodiscard]] std::vector<mesh::HostPoint> owned_by(LocalIndex subdomain) const;
 
   io::RecordReader filled_;

@@ -18,7 +18,7 @@ enum class SeamRecord : LocalIndex {
   bands_of_phase_1,  ///< Of a piece: band_segments(). Those of phase 0 are in its own record.
   bands_of_phase_2,
   region,  ///< How a region has ended; if it is improved, then the update of each piece.
-  list,    ///< What a piece shares in the end.
+  list,    ///< What a piece shares in the end; then what of it each of its neighbours may have.
   owned,   ///< What it owns of that.
 };
 

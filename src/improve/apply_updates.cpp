@@ -57,7 +57,8 @@ class Updater {
     new_.num_vertex_tags = part_.num_vertex_tags + static_cast<LocalIndex>(new_hosts_.size());
     new_.num_tet_tags = num_tet_tags_;
     new_.is_complete = part_.is_complete;
-    if (piece_.num_boundary() > 0) add_boundary();
+    new_.is_whole = part_.is_whole;
+    if (part_.is_whole) add_boundary();
     return std::move(new_);
   }
 

@@ -16,18 +16,19 @@ namespace tessera::improve {
 /// filled are its own numbers. Updates give new ones, in their order. So two parts of a piece, and
 /// the piece itself, name the same vertex the same way.
 struct PiecePart {
-  mesh::Piece piece{};  ///< In numbers of its own; triangles on the geometry only of a whole one.
+  mesh::Piece piece{};  ///< In numbers of its own; triangles on the geometry only if it is whole.
   std::vector<LocalIndex> vertex_tag{};  ///< Shape (num_vertices); ascending on the skin, and
                                          ///< ascending inside.
   std::vector<LocalIndex> tet_tag{};     ///< Shape (num_tets), ascending.
   LocalIndex num_vertex_tags = 0;        ///< Given so far.
   LocalIndex num_tet_tags = 0;
   bool is_complete = false;  ///< It has all that updates may name.
+  bool is_whole = false;     ///< It has all tets of the piece; then it is complete.
 
   static auto fields(auto& self)
   {
     return std::tie(self.piece, self.vertex_tag, self.tet_tag, self.num_vertex_tags,
-                    self.num_tet_tags, self.is_complete);
+                    self.num_tet_tags, self.is_complete, self.is_whole);
   }
 };
 

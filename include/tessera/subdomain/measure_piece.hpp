@@ -15,6 +15,10 @@ namespace tessera::subdomain {
 /// @return The number of edges.
 GlobalIndex measure_edges(const mesh::Piece& piece, quality::QualityHistograms& histograms);
 
+/// @brief Adds the length of one edge, as measure_edges() does. Local.
+void measure_edge(const mesh::Piece& piece, LocalIndex a, LocalIndex b,
+                  quality::QualityHistograms& histograms);
+
 /// @brief Puts the shapes of a piece's tets into its summary and histograms. Local.
 /// @param[in] on_seam Shape (num_skin_vertices): whether tets there are seam tets.
 void measure_tets(const mesh::Piece& piece, const std::vector<char>& on_seam, FillResult& result);

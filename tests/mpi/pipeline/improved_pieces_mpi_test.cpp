@@ -57,24 +57,19 @@ struct ImprovedPiecesTest : ::testing::Test {
   const std::shared_ptr<const improve::SeamRegions> regions =
       std::make_shared<const improve::SeamRegions>(body.skeleton, body.decomposition);
 
-  ImprovedPiecesTest()
-  {
-    if (comm.rank() == 0) std::filesystem::remove_all(output);
-    store_pieces(kAnyRim);
-  }
+  ImprovedPiecesTest() { start_anew(0); }
   ~ImprovedPiecesTest() override { comm.barrier(); }
 
-  // As fills leave them, but for a bound on rims of their own.
-  void store_pieces(GlobalIndex most_of_rim) const
+  // The store as fills leave it, but for the bound on rims.
+  void start_anew(int first_rim) const
   {
     comm.barrier();
     if (comm.rank() == 0) {
+      std::filesystem::remove_all(output);
+      const GlobalIndex most_of_rim = first_rim > 0 ? kNoRim : kAnyRim;
       const io::RecordStore store(store_folder(output));
       for (const mesh::Piece& piece : made) {
-        const auto filled = std::make_unique<subdomain::FilledPiece>();
-        filled->piece = piece;
-        subdomain::measure_edges(piece, filled->result.histograms);
-        const auto segments = seam_segments(*filled, *regions, most_of_rim);
+        const auto segments = band_segments(improve::whole_piece(piece), *regions, 0, most_of_rim);
         std::vector<Bytes> all{to_bytes(FillRecord()), to_bytes(piece)};
         all.insert(all.end(), segments.begin(), segments.end());
         store.put(record_name(piece.subdomain), all);
@@ -101,12 +96,13 @@ struct ImprovedPiecesTest : ::testing::Test {
     return {.is_improved = outcome.is_accepted, .updates = std::move(outcome.updates)};
   }
 
-  // @param[in] most_of_rim As keep_bands() has it.
-  void run_phases(ImprovedPieces& pieces, GlobalIndex most_of_rim) const
+  // Rims are kept from that phase on.
+  void run_phases(ImprovedPieces& pieces, int first_rim) const
   {
     for (int phase = 0; phase < improve::kNumPhases; ++phase) {
       for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
-        if (phase > 0 && is_mine(s)) pieces.keep_bands(s, phase - 1, phase, most_of_rim);
+        if (phase == 0 || !is_mine(s)) continue;
+        pieces.keep_bands(s, phase - 1, phase, phase < first_rim ? kNoRim : kAnyRim);
       }
       pieces.records().share();
       for (LocalIndex r = regions->first_of_phase(phase); r < regions->first_of_phase(phase + 1);
@@ -115,6 +111,35 @@ struct ImprovedPiecesTest : ::testing::Test {
       }
       pieces.records().share();
     }
+  }
+
+  [[nodiscard]] subdomain::FillResult figures(const improve::PiecePart& part) const
+  {
+    return subdomain::measure_improved_part(
+        part, improve::vertices_perhaps_on_seams(part.piece, *regions), {});
+  }
+
+  static void expect_same(const subdomain::FillResult& found, const subdomain::FillResult& wanted)
+  {
+    EXPECT_EQ(found.summary.num_tets, wanted.summary.num_tets);
+    EXPECT_EQ(found.summary.num_interior_vertices, wanted.summary.num_interior_vertices);
+    EXPECT_EQ(found.summary.surface, wanted.summary.surface);
+    EXPECT_EQ(found.summary.tets.min_mean_ratio, wanted.summary.tets.min_mean_ratio);
+    EXPECT_EQ(found.summary.seam_tets.num_tets, wanted.summary.seam_tets.num_tets);
+    EXPECT_NEAR(found.summary.volume, wanted.summary.volume, 1e-12 * wanted.summary.volume);
+    EXPECT_EQ(to_bytes(found.histograms), to_bytes(wanted.histograms));
+  }
+
+  // By whole lists of all other pieces.
+  [[nodiscard]] number::SharedBy compared(LocalIndex subdomain) const
+  {
+    number::VertexList own;
+    std::vector<number::VertexList> others;
+    for (const mesh::Piece& piece : made) {
+      number::VertexList list{piece.subdomain, piece.material, number::shared_vertices(piece)};
+      (piece.subdomain == subdomain ? own : others.emplace_back()) = std::move(list);
+    }
+    return number::compare_lists(own, others);
   }
 
   void find_owners(ImprovedPieces& pieces) const
@@ -142,7 +167,7 @@ TEST_F(ImprovedPiecesTest, ArePiecesAsTheyWereFilledWithoutUpdates)
 TEST_F(ImprovedPiecesTest, AreOneMeshAfterAllPhases)
 {
   ImprovedPieces pieces = open();
-  run_phases(pieces, kAnyRim);
+  run_phases(pieces, 0);
   std::vector<mesh::Piece> improved;
   for (const mesh::Piece& piece : made) improved.push_back(pieces.piece(piece.subdomain));
   EXPECT_EQ(testing::first_flaw(improved), "");
@@ -154,55 +179,50 @@ TEST_F(ImprovedPiecesTest, AreOneMeshAfterAllPhases)
 TEST_F(ImprovedPiecesTest, AreTheSameWithAndWithoutRims)
 {
   std::vector<std::vector<Bytes>> results;
-  for (const GlobalIndex most_of_rim : {kNoRim, kAnyRim}) {
-    io::remove_logs(store_folder(output));
-    store_pieces(most_of_rim);
+  for (int first_rim = 0; first_rim <= improve::kNumPhases; ++first_rim) {
+    start_anew(first_rim);
     ImprovedPieces pieces = open();
-    run_phases(pieces, most_of_rim);
+    run_phases(pieces, first_rim);
     std::vector<Bytes>& result = results.emplace_back();
     for (const mesh::Piece& piece : made) {
       result.push_back(to_bytes(pieces.piece(piece.subdomain)));
     }
     comm.barrier();
   }
-  EXPECT_EQ(results[0], results[1]);
+  for (const auto& result : results) EXPECT_EQ(result, results[0]);
 }
 
 TEST_F(ImprovedPiecesTest, AreMeasuredWithoutTheirCore)
 {
-  ImprovedPieces pieces = open();
-  run_phases(pieces, kAnyRim);
-  for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
-    const ImprovedPieces::Outer outer = pieces.outer(s);
-    const auto figures = [&](const improve::PiecePart& part) {
-      return subdomain::measure_improved_part(part, pieces.expected_seams(part.piece), {});
-    };
-    subdomain::FillResult found = figures(outer.part);
-    subdomain::add_core(outer.core, found);
-    const improve::PiecePart whole = improve::whole_piece(pieces.piece(s));
-    const subdomain::FillResult wanted = figures(whole);
-    EXPECT_LT(outer.part.piece.num_tets(), whole.piece.num_tets());
-    EXPECT_EQ(found.summary.num_tets, wanted.summary.num_tets);
-    EXPECT_EQ(found.summary.num_interior_vertices, wanted.summary.num_interior_vertices);
-    EXPECT_EQ(found.summary.surface, wanted.summary.surface);
-    EXPECT_EQ(found.summary.seam_tets.num_tets, wanted.summary.seam_tets.num_tets);
-    EXPECT_NEAR(found.summary.volume, wanted.summary.volume, 1e-12 * wanted.summary.volume);
-    EXPECT_EQ(to_bytes(found.histograms), to_bytes(wanted.histograms));
+  for (int first_rim = 0; first_rim < improve::kNumPhases; ++first_rim) {
+    start_anew(first_rim);
+    ImprovedPieces pieces = open();
+    run_phases(pieces, first_rim);
+    for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
+      const ImprovedPieces::Outer outer = pieces.outer(s);
+      subdomain::FillResult found = figures(outer.part);
+      subdomain::add_core(outer.core, outer.part, found);
+      const improve::PiecePart whole = improve::whole_piece(pieces.piece(s));
+      EXPECT_GT(outer.core.figures.summary.num_tets, 0);
+      EXPECT_EQ(outer.core.figures.summary.seam_tets.num_tets > 0, first_rim > 0);
+      expect_same(found, figures(whole));
+      EXPECT_EQ(subdomain::shared_vertices(outer.core, outer.part.piece),
+                number::shared_vertices(whole.piece));
+    }
   }
 }
 
-TEST_F(ImprovedPiecesTest, ListsHaveAllSharedVertices)
+TEST_F(ImprovedPiecesTest, NeighboursReadWhatTheyMayHave)
 {
   ImprovedPieces pieces = open();
-  run_phases(pieces, kAnyRim);
   find_owners(pieces);
-  std::size_t num_of_cores = 0;
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
-    num_of_cores += pieces.outer(s).core.shared_vertices.size();
     if (!is_mine(s)) continue;
-    EXPECT_EQ(pieces.own_vertices(s).vertices, number::shared_vertices(pieces.piece(s)));
+    const ImprovedPieces::Comparison found = pieces.own_vertices(s);
+    EXPECT_EQ(found.vertices, number::shared_vertices(made[at(s)]));
+    EXPECT_EQ(found.shared.on_seam, compared(s).on_seam);
+    EXPECT_EQ(found.shared.owned, compared(s).owned);
   }
-  EXPECT_GT(num_of_cores, 0U) << "nothing is tested";
 }
 
 TEST_F(ImprovedPiecesTest, TakeUpWhatAStoppedRunHasLeft)
@@ -210,7 +230,7 @@ TEST_F(ImprovedPiecesTest, TakeUpWhatAStoppedRunHasLeft)
   std::vector<Bytes> before;
   {
     ImprovedPieces pieces = open();
-    run_phases(pieces, kAnyRim);
+    run_phases(pieces, 0);
     for (const mesh::Piece& piece : made) {
       before.push_back(to_bytes(pieces.piece(piece.subdomain)));
     }
@@ -230,7 +250,7 @@ TEST_F(ImprovedPiecesTest, TakeUpWhatAStoppedRunHasLeft)
 TEST_F(ImprovedPiecesTest, MakeLostBandsAgainThoughLaterUpdatesAreThere)
 {
   ImprovedPieces pieces = open();
-  run_phases(pieces, kNoRim);
+  run_phases(pieces, improve::kNumPhases);
   const LocalIndex region = regions->first_of_phase(1);
   const std::vector<Bytes> before = pieces.bands_of(region);
   for (LocalIndex s = 0; s < body.num_subdomains(); ++s) {
@@ -277,7 +297,7 @@ TEST_F(ImprovedPiecesTest, SaysWhatOneMaterialShares)
   for (const char on_seam : found.shared.on_seam) num_on_seam += on_seam != 0 ? 1 : 0;
   EXPECT_EQ(num_on_seam, 217U) << "three sides of 9 x 9 vertices, of one corner";
   EXPECT_TRUE(found.is_as_expected);
-  EXPECT_EQ(found.seams_of(made[0]), pieces.expected_seams(made[0]));
+  EXPECT_EQ(found.seams_of(made[0]), improve::vertices_perhaps_on_seams(made[0], *regions));
   EXPECT_EQ(found.shared.owned.size(), at(made.front().num_skin_vertices()));
 }
 

@@ -17,20 +17,11 @@ namespace {
 
 // Pieces that NETGEN made of four slabs, measured as if they had exchanged tets.
 struct MeasureImprovedPiece : testing::FilledCube {
-  // Shape (num_skin_vertices).
-  [[nodiscard]] static std::vector<char> on_seam(const mesh::Piece& piece)
-  {
-    const improve::SeamRegions regions(body().skeleton, body().decomposition);
-    std::vector<char> on_seam;
-    for (const mesh::HostEntity host : piece.skin_host) {
-      on_seam.push_back(regions.may_be_on_seam(host) ? 1 : 0);
-    }
-    return on_seam;
-  }
-
   [[nodiscard]] static PieceSummary measured(const mesh::Piece& piece, const PieceSummary& filled)
   {
-    return measure_improved_part(improve::whole_piece(piece), on_seam(piece), filled).summary;
+    const improve::SeamRegions regions(body().skeleton, body().decomposition);
+    const auto on_seam = improve::vertices_perhaps_on_seams(piece, regions);
+    return measure_improved_part(improve::whole_piece(piece), on_seam, filled).summary;
   }
 };
 
