@@ -165,11 +165,11 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] Bytes answer(const CoarsePieceRequest& request) const
   {
-    if (!request.is_whole) fail_if_asked("piece");
+    if (request.skin.is_piece) fail_if_asked("piece");
     const auto mesher = coarse_mesher();
     const coarse::CoarseOptions options = for_mesher(request.options);
-    return to_bytes(request.is_whole ? mesher->mesh_domain(request.skin, options)
-                                     : mesher->fill_domain(request.skin, options));
+    return to_bytes(request.skin.is_piece ? mesher->fill_domain(request.skin, options)
+                                          : mesher->mesh_domain(request.skin, options));
   }
 
   [[nodiscard]] Bytes answer(const CoarseMeshRequest& request) const

@@ -107,10 +107,9 @@ struct CoarseTry {
 [[nodiscard]] Bytes coarse_divide_request(coarse::CoarseSurface surface,
                                           const coarse::CoarseOptions& options);
 
-/// @brief run: fills one piece of such a surface; result: bytes of coarse::DomainTets. Needs the
-/// model.
-/// @param[in] is_whole  It is a whole domain: its tets are made better at once.
-[[nodiscard]] Bytes coarse_piece_request(coarse::DomainSkin skin, bool is_whole,
+/// @brief run: fills one domain or piece of such a surface; result: bytes of coarse::DomainTets.
+/// Those of a whole domain are made better at once. Needs the model.
+[[nodiscard]] Bytes coarse_piece_request(coarse::DomainSkin skin,
                                          const coarse::CoarseOptions& options);
 
 /// @brief The tets of one piece of a divided surface.

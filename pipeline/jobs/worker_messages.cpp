@@ -74,10 +74,9 @@ Bytes coarse_divide_request(coarse::CoarseSurface surface, const coarse::CoarseO
   return to_bytes(Request(CoarseDivideRequest{std::move(surface), options}));
 }
 
-Bytes coarse_piece_request(coarse::DomainSkin skin, bool is_whole,
-                           const coarse::CoarseOptions& options)
+Bytes coarse_piece_request(coarse::DomainSkin skin, const coarse::CoarseOptions& options)
 {
-  return to_bytes(Request(CoarsePieceRequest{std::move(skin), is_whole, options}));
+  return to_bytes(Request(CoarsePieceRequest{std::move(skin), options}));
 }
 
 Bytes coarse_mesh_request(coarse::CoarseSurface surface, coarse::DividedSurface divided,

@@ -111,10 +111,9 @@ struct CoarseDivideRequest {
 
 struct CoarsePieceRequest {
   coarse::DomainSkin skin{};
-  bool is_whole = false;
   coarse::CoarseOptions options{};
 
-  static auto fields(auto& self) { return std::tie(self.skin, self.is_whole, self.options); }
+  static auto fields(auto& self) { return std::tie(self.skin, self.options); }
 };
 
 struct CoarseMeshRequest {

@@ -72,16 +72,6 @@ struct PieceShare {
   std::vector<FailedPiece> failed{};
 };
 
-// By piece, from 1: whether it is a whole domain.
-std::vector<bool> whole_domains(const coarse::DividedSurface& divided)
-{
-  std::vector<bool> is_whole{false};
-  for (const LocalIndex num_pieces : divided.num_pieces) {
-    is_whole.insert(is_whole.end(), at(num_pieces), num_pieces == 1);
-  }
-  return is_whole;
-}
-
 std::vector<double> triangles_of_pieces(const coarse::CoarseSurface& surface)
 {
   std::vector<double> num_triangles(at(surface.num_domains()));
@@ -97,12 +87,11 @@ PieceShare fill_share(const coarse::DividedSurface& divided, const coarse::Coars
                       StageScope& stage, RunContext& context)
 {
   PieceShare share;
-  const std::vector<bool> is_whole = whole_domains(divided);
   const auto fill = [&](LocalIndex item, const jobs::JobRunner::WaitCallback& on_wait) {
     const LocalIndex piece = item + 1;
-    coarse::DomainSkin skin = coarse::skin_of(divided.surface, piece);
+    coarse::DomainSkin skin = coarse::skin_of(divided, piece);
     const jobs::JobLimits limits = domain_limits(options, skin);
-    const Bytes request = coarse_piece_request(std::move(skin), is_whole[at(piece)], options);
+    const Bytes request = coarse_piece_request(std::move(skin), options);
     jobs::JobOutcome outcome;
     auto tets = result_of<coarse::DomainTets>(
         {fmt::format("coarse: piece {}", piece), request, limits}, on_wait, outcome, context);

@@ -41,12 +41,9 @@ std::vector<DomainTets> CoarseMesher::mesh_domains(const CoarseSurface& surface,
 {
   const DividedSurface divided = divide(surface, options);
   std::vector<DomainTets> pieces;
-  LocalIndex piece = 0;
-  for (const LocalIndex num_pieces : divided.num_pieces) {
-    for (LocalIndex p = 0; p < num_pieces; ++p) {
-      const DomainSkin skin = skin_of(divided.surface, ++piece);
-      pieces.push_back(num_pieces == 1 ? mesh_domain(skin, options) : fill_domain(skin, options));
-    }
+  for (LocalIndex piece = 1; piece <= divided.surface.num_domains(); ++piece) {
+    const DomainSkin skin = skin_of(divided, piece);
+    pieces.push_back(skin.is_piece ? fill_domain(skin, options) : mesh_domain(skin, options));
   }
   return join_domains(surface, divided, std::move(pieces));
 }

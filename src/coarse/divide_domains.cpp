@@ -209,6 +209,16 @@ bool has_large_domain(const CoarseSurface& surface, double tets_per_piece)
   return false;
 }
 
+DomainSkin skin_of(const DividedSurface& divided, LocalIndex piece)
+{
+  DomainSkin skin = skin_of(divided.surface, piece);
+  LocalIndex last = 0;  // Piece of a domain.
+  const auto domain = std::ranges::find_if(
+      divided.num_pieces, [&](LocalIndex num_pieces) { return piece <= (last += num_pieces); });
+  skin.is_piece = *domain > 1;
+  return skin;
+}
+
 DividedSurface undivided(CoarseSurface surface)
 {
   std::vector<LocalIndex> num_pieces(at(surface.num_domains()), 1);

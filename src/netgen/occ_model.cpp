@@ -124,7 +124,7 @@ OccModel::OccModel(OccContent content, std::string file_name)
   TopExp::MapShapes(content_.shape, TopAbs_FACE, faces_);
   TopExp::MapShapes(content_.shape, TopAbs_EDGE, edges_);
   for (const TopoDS_Shape& face : parts_of(content_.shape, TopAbs_FACE)) {
-    surfaces_.emplace_back(TopoDS::Face(face), box_diagonal_);
+    surfaces_.emplace_back(TopoDS::Face(face), box_diagonal_, faces_.Extent());
   }
   for (const TopoDS_Shape& shape : parts_of(content_.shape, TopAbs_EDGE)) {
     const TopoDS_Edge& edge = TopoDS::Edge(shape);

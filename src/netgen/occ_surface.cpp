@@ -85,7 +85,7 @@ double nearest_period(double value, double reference, double period)
 
 }  // namespace
 
-OccSurface::OccSurface(const TopoDS_Face& face, double box_diagonal)
+OccSurface::OccSurface(const TopoDS_Face& face, double box_diagonal, int num_faces)
     : surface_(BRep_Tool::Surface(face)),
       tolerance_(std::max(BRep_Tool::Tolerance(face), kMinRelativeTolerance * box_diagonal)),
       box_diagonal_(box_diagonal)
@@ -102,9 +102,10 @@ OccSurface::OccSurface(const TopoDS_Face& face, double box_diagonal)
     direction->domain_first = -kFarAway;
     direction->domain_last = kFarAway;
   }
-  trim_ = std::make_unique<OccTrim>(
-      face, std::array<double, 2>{surface_->IsUPeriodic() ? u.period : 0.0,
-                                  surface_->IsVPeriodic() ? v.period : 0.0});
+  trim_ = std::make_unique<OccTrim>(face,
+                                    std::array<double, 2>{surface_->IsUPeriodic() ? u.period : 0.0,
+                                                          surface_->IsVPeriodic() ? v.period : 0.0},
+                                    OccTrim::fewest_cells(num_faces));
   num_samples_ = sample_counts(surface_);
   collect_boundaries(face, box_diagonal);
 }

@@ -27,7 +27,8 @@ class OccSurface {
   using Uv = model::SurfaceParameters;
 
   /// @param box_diagonal Diagonal of the model's box; the unit of the tolerances.
-  OccSurface(const TopoDS_Face& face, double box_diagonal);
+  /// @param num_faces Of the model: with many, each keeps a coarser grid over its parameters.
+  OccSurface(const TopoDS_Face& face, double box_diagonal, int num_faces);
 
   /// @brief The face's own tolerance, at least 1e-8 of the box diagonal.
   [[nodiscard]] double tolerance() const { return tolerance_; }

@@ -15,18 +15,17 @@ namespace {
 
 // Cells a side. The classifier's time grows with the number of edges, and so does the part of the
 // cells that it has to answer for.
-constexpr int kFewestCells = 64;
 constexpr int kMostCells = 512;
 constexpr int kCellsPerEdge = 8;
 
 constexpr int kNumFirstSteps = 64;  // Along each edge, before steps are halved where they are long.
 constexpr int kMaxHalvings = 12;
 
-int cells_for(const TopoDS_Face& face)
+int cells_for(const TopoDS_Face& face, int fewest)
 {
   int num_edges = 0;
   for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) ++num_edges;
-  return std::clamp(kCellsPerEdge * num_edges, kFewestCells, kMostCells);
+  return std::clamp(kCellsPerEdge * num_edges, fewest, kMostCells);
 }
 
 bool is_in(const BRepTopAdaptor_FClass2d& classifier, const model::SurfaceParameters& uv)
@@ -36,10 +35,18 @@ bool is_in(const BRepTopAdaptor_FClass2d& classifier, const model::SurfaceParame
 
 }  // namespace
 
-OccTrim::OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods)
+int OccTrim::fewest_cells(int num_faces)
+{
+  constexpr double kCellsOfModel = 4e6;
+  constexpr double kFewest = 64.0;
+  constexpr double kEnough = 256.0;
+  return static_cast<int>(std::clamp(std::sqrt(kCellsOfModel / num_faces), kFewest, kEnough));
+}
+
+OccTrim::OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods, int fewest_cells)
     : classifier_(std::make_unique<BRepTopAdaptor_FClass2d>(face, Precision::PConfusion())),
       periods_(periods),
-      num_cells_(cells_for(face)),
+      num_cells_(cells_for(face, fewest_cells)),
       cells_(at(num_cells_ * num_cells_), Cell::unknown)
 {
   Uv last{};

@@ -22,8 +22,12 @@ class OccTrim {
  public:
   using Uv = model::SurfaceParameters;
 
+  /// @brief Cells a side that each face of a model of so many faces can afford.
+  [[nodiscard]] static int fewest_cells(int num_faces);
+
   /// @param periods Of the surface in u and v; 0 where it is not periodic.
-  OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods);
+  /// @param fewest_cells Of the grid, a side; a face with many edges gets more.
+  OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods, int fewest_cells);
 
   /// @brief Whether `uv`, on any branch, is within or on the trimming edges.
   [[nodiscard]] bool contains(const Uv& uv) const;

@@ -24,6 +24,10 @@ namespace {
 // Of optimising and making legal what came of it: then vertices are moved only.
 constexpr int kMostRounds = 3;
 
+// Attempts of NETGEN to fill what its front has left open. Pieces that can be filled needed one or
+// two; all ten of one that cannot took longer than the whole domain.
+constexpr int kMostStepsOfPiece = 2;
+
 void add_all(::netgen::Mesh& mesh, const coarse::DomainTets& tets)
 {
   for (std::size_t v = mesh.GetNP(); v < tets.vertex_xyz.size() / 3; ++v) {
@@ -152,7 +156,9 @@ coarse::DomainTets fill_domain(const coarse::DomainSkin& skin, const coarse::Coa
   coarse::DomainSkin scaled_skin = skin;
   for (double& x : scaled_skin.vertex_xyz) x *= scale;
   for (Vec3& corner : scaled_skin.model_box) corner = scale * corner;
-  NetgenSession session(coarse_parameters(scaled));
+  ::netgen::MeshingParameters parameters = coarse_parameters(scaled);
+  if (skin.is_piece) parameters.maxoutersteps = kMostStepsOfPiece;
+  NetgenSession session(parameters);
   coarse::DomainTets tets =
       session.run("coarse volume mesh", [&] { return first_tets(scaled_skin, session); });
   for (double& x : tets.vertex_xyz) x /= scale;

@@ -34,7 +34,8 @@ class CoarseMesher {
   [[nodiscard]] virtual Membrane mesh_membrane(const DomainSkin& skin, const MembraneBorder& border,
                                                const CoarseOptions& options) const = 0;
 
-  /// @brief Fills one domain or piece of such a surface. A pure function of the arguments.
+  /// @brief Fills one domain or piece of such a surface. A pure function of the arguments. Gives up
+  /// on a piece early.
   /// @throws NetgenError with NETGEN's own words if it gives up.
   [[nodiscard]] virtual DomainTets fill_domain(const DomainSkin& skin,
                                                const CoarseOptions& options) const = 0;

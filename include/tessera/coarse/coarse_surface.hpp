@@ -51,11 +51,12 @@ struct DomainSkin {
   std::vector<LocalIndex> edge_vertices{};      ///< Shape (num_edges, 2): those on curves.
   double max_size = 0.0;                        ///< Largest edge, file length unit, > 0.
   std::array<Vec3, 2> model_box{};              ///< Lowest and highest corner of all skins.
+  bool is_piece = false;                        ///< Of a domain that can also be filled whole.
 
   static auto fields(auto& self)
   {
     return std::tie(self.vertex, self.vertex_xyz, self.triangle_vertices, self.triangle_patch,
-                    self.edge_vertices, self.max_size, self.model_box);
+                    self.edge_vertices, self.max_size, self.model_box, self.is_piece);
   }
 };
 

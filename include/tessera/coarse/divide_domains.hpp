@@ -19,6 +19,9 @@ struct DividedSurface {
   static auto fields(auto& self) { return std::tie(self.surface, self.num_pieces); }
 };
 
+/// @brief The skin of piece `piece`, from 1. Local.
+[[nodiscard]] DomainSkin skin_of(const DividedSurface& divided, LocalIndex piece);
+
 /// @brief As many tets as a piece should have: what NETGEN fills in half a second.
 inline constexpr double kTetsPerPiece = 25e3;
 
