@@ -46,12 +46,18 @@ std::vector<char> used_vertices(const std::vector<LocalIndex>& tets, LocalIndex 
   return is_used;
 }
 
-// Edges between marked vertices, ascending.
+// Edges between marked vertices, ascending. Few tets have such edges, and only these are looked at.
 std::vector<Edge> edges_between(const std::vector<char>& marks, const std::vector<LocalIndex>& tets)
 {
+  const auto is_marked = [&](LocalIndex v) { return marks[at(v)] != 0; };
+  std::vector<LocalIndex> some;
+  for (std::size_t i = 0; i < tets.size(); i += 4) {
+    const LocalIndex* v = &tets[i];
+    if (std::count_if(v, v + 4, is_marked) > 1) some.insert(some.end(), v, v + 4);
+  }
   std::vector<Edge> edges;
-  mesh::for_each_edge(tets, static_cast<LocalIndex>(marks.size()), [&](LocalIndex a, LocalIndex b) {
-    if (marks[at(a)] != 0 && marks[at(b)] != 0) edges.push_back({a, b});
+  mesh::for_each_edge(some, static_cast<LocalIndex>(marks.size()), [&](LocalIndex a, LocalIndex b) {
+    if (is_marked(a) && is_marked(b)) edges.push_back({a, b});
   });
   std::ranges::sort(edges);
   return edges;
