@@ -27,6 +27,9 @@ constexpr int kRounds = 4;
 constexpr double kLeastGain = 1.1;
 constexpr double kMostLoss = 0.95;
 
+// The same of a vertex less on a curve. With less, narrow strips get long bad triangles for short.
+constexpr double kLeastGainOfThinning = 1.5;
+
 // New triangles turn by less than this from what was there, unless that differs by more itself.
 constexpr double kLeastCosine = 0.9;
 
@@ -119,6 +122,8 @@ class Mender {
     const auto [a, b] = edges[2];
     if (collapse(a, b, t) || collapse(b, a, t)) return;
     const Triangle v = surface_.triangle(t);
+    if (std::ranges::any_of(v, [&](LocalIndex corner) { return thin_out_curve(corner, t); }))
+      return;
     for (const LocalIndex corner : v) {
       if (is_bad(t)) smooth(corner, t);
     }
@@ -151,9 +156,10 @@ class Mender {
   // Whether the candidates may take the place of the triangles, among them the bad one. `near`: a
   // vertex of them. Beside a triangle that the model wants to be bad another one can be mended.
   [[nodiscard]] bool is_better(const std::vector<LocalIndex>& old, LocalIndex bad,
-                               const std::vector<Candidate>& candidates, LocalIndex near) const
+                               const std::vector<Candidate>& candidates, LocalIndex near,
+                               double gain = kLeastGain) const
   {
-    const double wanted = kLeastGain * angle_of(bad);
+    const double wanted = gain * angle_of(bad);
     for (const Candidate& one : candidates) {
       const double angle = smallest_angle(one.corners);
       const bool may_be_bad = one.from != kNoIndex && one.from != bad;
@@ -221,7 +227,7 @@ class Mender {
     return true;
   }
 
-  bool collapse(LocalIndex gone, LocalIndex kept, LocalIndex bad)
+  bool collapse(LocalIndex gone, LocalIndex kept, LocalIndex bad, double gain = kLeastGain)
   {
     if (!surface_.can_collapse(gone, kept) || !keeps_curve(gone, kept)) return false;
     std::vector<Candidate> candidates;
@@ -231,10 +237,19 @@ class Mender {
       std::ranges::replace(v, gone, kept);
       candidates.push_back({corners(v), surface_.patch(t), t});
     }
-    if (!is_better(surface_.triangles_of(gone), bad, candidates, gone)) return false;
+    if (!is_better(surface_.triangles_of(gone), bad, candidates, gone, gain)) return false;
     surface_.collapse(gone, kept);
     ++done_.num_collapses;
     return true;
+  }
+
+  // Between curves that touch, short edges make flat triangles.
+  bool thin_out_curve(LocalIndex v, LocalIndex bad)
+  {
+    if (surface_.freedom(v) != Freedom::curve) return false;
+    return std::ranges::any_of(surface_.curve_neighbours(v), [&](LocalIndex other) {
+      return collapse(v, other, bad, kLeastGainOfThinning);
+    });
   }
 
   // The curve's new edge must follow it.

@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <ostream>
 #include <set>
 #include <tuple>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepTools.hxx>
+#include <gp_Ax2.hxx>
+#include <gp_Circ.hxx>
 #include <gtest/gtest.h>
+
+#include "support/temporary_folder.hpp"
 
 #include "netgen/occ_fixture.hpp"
 
@@ -200,6 +211,45 @@ TEST(OccCoarseMesh, SolidsThatTouchShareTheVerticesBetweenThem)
   int num_shared = 0;
   for (const LocalIndex v : of_steel) num_shared += of_copper.contains(v) ? 1 : 0;
   EXPECT_GE(num_shared, 4) << "at least the corners of the common square";
+}
+
+// The space between a plane and a cylinder that lies on it.
+TopoDS_Shape cusp()
+{
+  const gp_Pnt tip(0.0, 0.0, 0.0);
+  const gp_Pnt end(std::sin(std::numbers::pi / 3.0), 0.5, 0.0);
+  const std::array<gp_Pnt, 4> corners{tip, gp_Pnt(1.2, 0.0, 0.0), gp_Pnt(1.2, 0.5, 0.0), end};
+  BRepBuilderAPI_MakeWire wire;
+  for (std::size_t i = 0; i < 3; ++i) wire.Add(BRepBuilderAPI_MakeEdge(corners[i], corners[i + 1]));
+  const gp_Circ circle(gp_Ax2(gp_Pnt(0.0, 1.0, 0.0), gp_Dir(0.0, 0.0, 1.0)), 1.0);
+  wire.Add(BRepBuilderAPI_MakeEdge(circle, tip, end));
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0.0, 0.0, 0.5)).Shape();
+}
+
+double smallest_face_angle_deg(const CoarseMesh& mesh)
+{
+  double least = std::numbers::pi;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    for (int c = 0; c < 3; ++c) {
+      const Vec3 tip = mesh.position(corner_vertex(mesh, f, c));
+      const Vec3 u = mesh.position(corner_vertex(mesh, f, (c + 1) % 3)) - tip;
+      const Vec3 v = mesh.position(corner_vertex(mesh, f, (c + 2) % 3)) - tip;
+      least = std::min(least, std::atan2(norm(cross(u, v)), dot(u, v)));
+    }
+  }
+  return least * 180.0 / std::numbers::pi;
+}
+
+// The shorter the edges from the tip, the sharper the triangle there.
+TEST(OccCoarseMesh, HasNoShortEdgesWhereCurvesTouch)
+{
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "cusp.brep";
+  ASSERT_TRUE(BRepTools::Write(cusp(), file.c_str()));
+  const auto model = netgen::load_model(netgen::import_model(file, {}));
+  const CoarseMesh mesh = coarse_mesh_of(*model, 0.2);
+  mesh::validate(mesh);
+  EXPECT_GT(smallest_face_angle_deg(mesh), 4.0);
 }
 
 }  // namespace
