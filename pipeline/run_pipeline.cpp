@@ -22,18 +22,21 @@
 namespace tessera::pipeline {
 namespace {
 
+bool wants_better_seams(const RunResult& run)
+{
+  return run.resolved.improve.seams && !are_counts_known(run.kernels);
+}
+
 // What the jobs start from. Ids that are known before the fills let these write the files.
 void load_workers(const RunResult& run, const SharedBytes& mesh, const OutputPlan& output,
                   RunContext& context)
 {
   load_mesh(mesh, context);
+  if (wants_better_seams(run)) {
+    load_improvement(run.resolved.improve, run.resolved.fill.split_corners, run.kernels, context);
+  }
   if (!output.outline.is_one_pass) return;
   load_numbers(output.outline.pieces, output.length_unit, run.resolved.output, context);
-}
-
-bool wants_better_seams(const RunResult& run)
-{
-  return run.resolved.improve.seams && !are_counts_known(run.kernels);
 }
 
 // From the levels that pieces were filled on to all, or to tets of second order.

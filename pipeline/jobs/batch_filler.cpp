@@ -5,6 +5,8 @@
 
 #include "tessera/base/error.hpp"
 
+#include "pipeline/store/band_segments.hpp"
+
 namespace tessera::pipeline {
 
 BatchFiller::BatchFiller(const FillTask& task, const std::filesystem::path& output,
@@ -28,7 +30,12 @@ void BatchFiller::add(subdomain::FilledPiece filled)
   if (!summary.is_folded && summary.tets.min_dihedral_deg <= task_.angle_to_beat_deg) {
     throw MeshError("the fill is not better than the one before");
   }
-  batch_.add(std::move(filled));
+  std::vector<Bytes> seams;
+  if (regions_ != nullptr && task_.keep && !summary.is_folded) {
+    seams = band_segments(improve::whole_piece(filled.piece), *regions_, 0,
+                          most_of_rim(summary.num_tets));
+  }
+  batch_.add(std::move(filled), std::move(seams));
 }
 
 }  // namespace tessera::pipeline

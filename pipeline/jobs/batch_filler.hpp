@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "tessera/improve/seam_regions.hpp"
+
 #include "pipeline/jobs/mesh_worker.hpp"
 #include "pipeline/jobs/piece_batch.hpp"
 
@@ -15,6 +17,9 @@ class BatchFiller {
   BatchFiller(const FillTask& task, const std::filesystem::path& output,
               const subdomain::WriteContext* numbers, const io::OutputOptions& options);
 
+  /// @brief From now on pieces leave what the improvement of their seams needs. Borrowed.
+  void keep_seams(const improve::SeamRegions& regions) { regions_ = &regions; }
+
   /// @throws MeshError if the piece is not better than the one that is to beat.
   void add(subdomain::FilledPiece filled);
 
@@ -24,6 +29,7 @@ class BatchFiller {
  private:
   const FillTask& task_;
   PieceBatch batch_;
+  const improve::SeamRegions* regions_ = nullptr;
 };
 
 }  // namespace tessera::pipeline

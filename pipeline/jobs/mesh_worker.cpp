@@ -260,6 +260,9 @@ class MeshWorker final : public jobs::Worker {
     if (ids_)
       numbers.emplace(subdomain::WriteContext{coarse_, cut_->skeleton, *ids_, length_unit_});
     BatchFiller batch(task, output_, numbers ? &*numbers : nullptr, output_options_);
+    if (regions_ && kernels_[at(task.first)] != fill::KernelKind::subdivide) {
+      batch.keep_seams(*regions_);
+    }
     for (LocalIndex s = task.first; s < task.last; ++s) {
       batch.add(subdomain::fill_subdomain(*cut_, context, s, task.how, *kernel));
     }

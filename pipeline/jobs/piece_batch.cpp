@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/jobs/piece_batch.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "tessera/jobs/this_process.hpp"
@@ -15,7 +17,7 @@ PieceBatch::PieceBatch(BatchTarget target, const subdomain::WriteContext* number
   if (numbers != nullptr) file_.emplace(*numbers, options);
 }
 
-void PieceBatch::add(subdomain::FilledPiece filled)
+void PieceBatch::add(subdomain::FilledPiece filled, std::vector<Bytes> more)
 {
   subdomain::PieceSummary& summary = filled.result.summary;
   is_folded_ = is_folded_ || summary.is_folded;
@@ -25,8 +27,9 @@ void PieceBatch::add(subdomain::FilledPiece filled)
     if (file_) {
       summary.digest = file_->add(std::move(filled.piece));
     } else {
-      record_.piece = to_bytes(filled.piece);
-      summary.content = hash_bytes(record_.piece);
+      segments_.push_back(to_bytes(filled.piece));
+      summary.content = hash_bytes(segments_.back());
+      std::ranges::move(more, std::back_inserter(segments_));
     }
   }
   record_.results.push_back(std::move(filled.result));
@@ -45,7 +48,8 @@ void PieceBatch::keep()
       record_.files.push_back(measure_file(target_.output, file));
     }
   }
-  io::RecordStore(store_folder(target_.output)).put(target_.record, to_bytes(record_));
+  segments_.front() = to_bytes(record_);
+  io::RecordStore(store_folder(target_.output)).put(target_.record, segments_);
 }
 
 }  // namespace tessera::pipeline

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
@@ -30,7 +31,8 @@ class PieceBatch {
   PieceBatch(BatchTarget target, const subdomain::WriteContext* numbers,
              const io::OutputOptions& options);
 
-  void add(subdomain::FilledPiece filled);
+  /// @param[in] more Segments of the record behind the piece.
+  void add(subdomain::FilledPiece filled, std::vector<Bytes> more = {});
 
   /// @brief Writes file and record, unless a subdomain was folded or nothing is to be kept.
   /// @return The fill results. @throws OutputError
@@ -42,6 +44,7 @@ class PieceBatch {
   BatchTarget target_;
   std::optional<subdomain::PieceFile> file_{};
   FillRecord record_{};
+  std::vector<Bytes> segments_{Bytes{}};  ///< Of the record; the head comes last.
   bool is_folded_ = false;
   double cpu_before_s_;
 };

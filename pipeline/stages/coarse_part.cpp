@@ -25,6 +25,9 @@
 namespace tessera::pipeline {
 namespace {
 
+// A larger mesh is taken as it is: to mesh it again would take minutes, and it is fine already.
+constexpr LocalIndex kMostTetsToMeshAgain = 300'000;
+
 // What the store keeps of a run before it fills.
 struct CutCoarseMesh {
   cut::CutChoice planes{};
@@ -107,16 +110,14 @@ double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
 void refine_thin_walls(RunResult& run, const model::NamedParts& parts, RunContext& context)
 {
   if (!may_have_finer_walls(run)) return;
-  const mesh::SizePoints walls = on_root(context.comm, [&] {
+  const mesh::SizePoints walls = on_root(context.comm, [&]() -> mesh::SizePoints {
+    if (run.coarse.mesh.num_tets() > kMostTetsToMeshAgain) return {};
     return coarse::sizes_of_thin_walls(run.coarse.mesh, kSharpAngle_deg,
                                        run.coarse.options.max_size);
   });
   if (walls.size.empty()) return;
-  coarse::CoarseOptions options = run.coarse.options;
-  options.points.xyz.insert(options.points.xyz.end(), walls.xyz.begin(), walls.xyz.end());
-  options.points.size.insert(options.points.size.end(), walls.size.begin(), walls.size.end());
   context.log.info("coarse: walls are thin for its edges; once more with smaller ones there");
-  CoarseResult finer = run_coarse_try(run.resolved, options, context);
+  CoarseResult finer = run_finer_try(run.resolved, run.coarse, walls, context);
   const bool is_better = on_root(context.comm, [&] {
     return finer.mesh.num_tets() > 0
            && smallest_unforced_angle(finer.mesh) > smallest_unforced_angle(run.coarse.mesh);

@@ -14,12 +14,13 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/subdomain/core_figures.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
-#include "pipeline/stages/load_stage.hpp"
+#include "pipeline/store/band_segments.hpp"
 #include "pipeline/store/fill_record.hpp"
 #include "pipeline/store/improved_pieces.hpp"
 
@@ -63,11 +64,12 @@ RegionsByPhase wanted_regions(const improve::SeamRegions& regions,
   return wanted;
 }
 
-// By phase, the pieces that its regions lie in, ascending.
+// By phase, the pieces that its regions lie in, ascending. None in phase 0, whose bands come from
+// the fills.
 RegionsByPhase pieces_of_phases(const improve::SeamRegions& regions, const RegionsByPhase& wanted)
 {
   RegionsByPhase pieces;
-  for (std::size_t phase = 0; phase < wanted.size(); ++phase) {
+  for (std::size_t phase = 1; phase < wanted.size(); ++phase) {
     std::vector<LocalIndex>& some = pieces[phase];
     for (const LocalIndex region : wanted[phase]) {
       std::ranges::copy(regions.subdomains_of(region), std::back_inserter(some));
@@ -110,21 +112,13 @@ struct SeamWork {
     return std::ranges::binary_search(pieces[static_cast<std::size_t>(phase)], piece);
   }
 
-  // The piece's last phase before that one; kNoPhase if there is none.
+  // The piece's last phase before that one, or phase 0: the fill has left bands and a rim for it.
   [[nodiscard]] int phase_before(LocalIndex piece, int phase) const
   {
-    while (--phase >= 0) {
-      if (takes_part(piece, phase)) return phase;
-    }
-    return ImprovedPieces::kNoPhase;
-  }
-
-  [[nodiscard]] bool is_last(LocalIndex piece, int phase) const
-  {
-    while (++phase < improve::kNumPhases) {
-      if (takes_part(piece, phase)) return false;
-    }
-    return true;
+    do {
+      --phase;
+    } while (phase > 0 && !takes_part(piece, phase));
+    return phase;
   }
 };
 
@@ -147,8 +141,7 @@ class SeamImprover {
   void run_phase(int phase)
   {
     const auto row = static_cast<std::size_t>(phase);
-    make_bands(phase, work_.pieces[row]);
-    context_.log.debug("improve: phase {}: bands of {} pieces", phase, work_.pieces[row].size());
+    if (phase > 0) make_bands(phase, work_.pieces[row]);
     const Counts counts = improve_regions(work_.wanted[row]);
     context_.log.debug("improve: phase {}: regions, {}", phase, work_.wanted[row].size());
     Improvement& improvement = filled_.improvement;
@@ -186,43 +179,61 @@ class SeamImprover {
   {
     for_each_dynamic(pieces, in_thread([&](LocalIndex s) {
                        if (pieces_->has_bands(s, phase)) return;
-                       // A rim is written and read. If it is half of the piece, the piece is as
-                       // good.
-                       const GlobalIndex most =
-                           work_.is_last(s, phase) ? 0 : filled_.pieces[at(s)].num_tets / 2;
-                       pieces_->keep_bands(s, work_.phase_before(s, phase), phase, most);
+                       pieces_->keep_bands(s, work_.phase_before(s, phase), phase,
+                                           most_of_rim(filled_.pieces[at(s)].num_tets));
                      }),
                      stage_, context_, num_done_);
     num_done_ += std::ssize(pieces);
     pieces_->records().share();
+    context_.log.debug("improve: phase {}: bands of {} pieces", phase, pieces.size());
   }
 
   void measure(LocalIndex s, FilledPieces& own)
   {
-    const mesh::Piece piece = pieces_->piece(s);
-    own.add(subdomain::measure_improved_piece(piece, pieces_->expected_seams(piece),
-                                              filled_.pieces[at(s)]));
-    pieces_->keep_list(piece);
+    const ImprovedPieces::Outer outer = pieces_->outer(s);
+    subdomain::FillResult result = measure_part(outer.part, expected_seams(outer.part));
+    subdomain::add_core(outer.core, outer.part, result);
+    own.add(result);
+    pieces_->keep_list(outer);
   }
 
-  // Where the lists say something else of the seams than was expected, the piece is read once more.
+  // What the lists will say of a part's seams, but for a vertex in ten thousand that one of two
+  // pieces has lost.
+  [[nodiscard]] std::vector<char> expected_seams(const improve::PiecePart& part) const
+  {
+    return improve::vertices_perhaps_on_seams(part.piece, work_.regions);
+  }
+
+  [[nodiscard]] subdomain::FillResult measure_part(const improve::PiecePart& part,
+                                                   const std::vector<char>& on_seam) const
+  {
+    return subdomain::measure_improved_part(part, on_seam,
+                                            filled_.pieces[at(part.piece.subdomain)]);
+  }
+
+  // The tets of a piece that may be on seams, and others.
+  [[nodiscard]] improve::PiecePart part_with_seams(LocalIndex s) const
+  {
+    ImprovedPieces::Outer outer = pieces_->outer(s);
+    if (outer.core.figures.summary.seam_tets.num_tets == 0) return std::move(outer.part);
+    return improve::whole_piece(pieces_->piece(s));
+  }
+
+  // Where the lists say something else of the seams than was expected, tets are measured once more.
   void add_owned(subdomain::PieceSummary& summary, quality::QualityHistograms& histograms)
   {
     const LocalIndex s = summary.subdomain;
-    const auto [shared, is_as_expected] = pieces_->own_vertices(s);
-    if (!is_as_expected) {
-      const mesh::Piece piece = pieces_->piece(s);
-      const auto figures = [&](const number::SharedBy& seams) {
-        return subdomain::measure_improved_piece(piece, seams, filled_.pieces[at(s)]);
-      };
-      const subdomain::FillResult expected = figures(pieces_->expected_seams(piece));
-      const subdomain::FillResult found = figures(shared);
+    const ImprovedPieces::Comparison lists = pieces_->own_vertices(s);
+    if (!lists.is_as_expected) {
+      const improve::PiecePart part = part_with_seams(s);
+      const auto expected = measure_part(part, expected_seams(part));
+      const auto found = measure_part(part, lists.seams_of(part.piece));
       summary.seam_tets = found.summary.seam_tets;
       histograms.seam_mean_ratio.subtract(expected.histograms.seam_mean_ratio);
       histograms.seam_mean_ratio.add(found.histograms.seam_mean_ratio);
     }
     summary.num_owned_vertices =
-        summary.num_interior_vertices + static_cast<GlobalIndex>(shared.owned.size());
+        summary.num_interior_vertices + static_cast<GlobalIndex>(lists.shared.owned.size());
   }
 
   [[nodiscard]] double num_tets_around(LocalIndex region) const
@@ -311,7 +322,6 @@ FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::Pa
   work.pieces = pieces_of_phases(*regions, work.wanted);
   const std::int64_t num_steps = num_regions + total_size(work.pieces) + std::ssize(filled.pieces);
   StageScope stage(context, "improve", num_steps, "regions and pieces");
-  load_improvement(run_case.improve, run_case.fill.split_corners, kernels, context);
   all_or_none(context.comm, [&] {
     if (context.comm.rank() != 0) return;
     const fs::path folder = store_folder(context.folder);

@@ -44,6 +44,12 @@ std::string record_name(LocalIndex batch) { return fmt::format("piece_{:06}", ba
 
 std::string refined_name(LocalIndex batch) { return fmt::format("refined_{:06}", batch); }
 
+mesh::Piece piece_of_record(const fs::path& output, const std::string& name)
+{
+  const io::RecordStore store(store_folder(output));
+  return from_bytes<mesh::Piece>(store.get(name, static_cast<LocalIndex>(PieceSegment::piece)));
+}
+
 WrittenFile measure_file(const fs::path& folder, const fs::path& path)
 {
   std::ifstream in(folder / path, std::ios::binary);

@@ -27,19 +27,27 @@ struct WrittenFile {
   static auto fields(auto& self) { return std::tie(self.path, self.size, self.hash); }
 };
 
-/// @brief What the store keeps of the subdomains that one job filled. That is the piece of one
-/// subdomain, to be written later, or the names of the files they are in already.
+/// @brief What the store keeps of the subdomains that one job filled. Their tets are in the files
+/// that it names, or in further segments of the record.
 struct FillRecord {
   Hash128 plan{};  ///< plan_fingerprint() that they were made under.
   std::vector<subdomain::FillResult> results{};
   std::vector<WrittenFile> files{};
-  Bytes piece{};  ///< Of a mesh::Piece; empty if the files are written.
 
-  static auto fields(auto& self)
-  {
-    return std::tie(self.plan, self.results, self.files, self.piece);
-  }
+  static auto fields(auto& self) { return std::tie(self.plan, self.results, self.files); }
 };
+
+/// @brief Segments of the record of a piece that waits in the store.
+enum class PieceSegment : LocalIndex {
+  head,   ///< FillRecord
+  piece,  ///< mesh::Piece
+  bands,  ///< If its seams are to be improved: band_segments() of phase 0.
+};
+
+/// @brief A piece from its record, as it was filled or refined. Local.
+/// @throws InputError if the record is missing or damaged.
+[[nodiscard]] mesh::Piece piece_of_record(const std::filesystem::path& output,
+                                          const std::string& name);
 
 /// @brief Where finished pieces and the state of an unfinished run are; in the output folder.
 [[nodiscard]] std::filesystem::path store_folder(const std::filesystem::path& output);

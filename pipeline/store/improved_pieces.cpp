@@ -9,17 +9,12 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/improve/phase_bands.hpp"
 
 #include "pipeline/store/fill_record.hpp"
 
 namespace tessera::pipeline {
 namespace {
-
-// Segments of a bands record behind the bands themselves.
-LocalIndex tags_segment(const improve::SeamRegions& regions, LocalIndex subdomain, int phase)
-{
-  return static_cast<LocalIndex>(regions.regions_of(subdomain, phase).size());
-}
 
 LocalIndex row_in(std::span<const LocalIndex> ascending, LocalIndex value)
 {
@@ -28,15 +23,10 @@ LocalIndex row_in(std::span<const LocalIndex> ascending, LocalIndex value)
 
 }  // namespace
 
-mesh::Piece filled_piece(const io::RecordStore& store, LocalIndex subdomain)
-{
-  return from_bytes<mesh::Piece>(from_bytes<FillRecord>(store.get(record_name(subdomain))).piece);
-}
-
 ImprovedPieces::ImprovedPieces(const std::filesystem::path& output, const mesh::Skeleton& skeleton,
                                std::shared_ptr<const improve::SeamRegions> regions,
                                const comm::Communicator& comm)
-    : store_(store_folder(output)),
+    : filled_(store_folder(output)),
       regions_(std::move(regions)),
       neighbours_(mesh::neighbours_by_vertex(skeleton)),
       records_(store_folder(output), comm)
@@ -48,62 +38,106 @@ mesh::Piece ImprovedPieces::piece(LocalIndex subdomain) const
   return whole_part(subdomain, improve::kNumPhases - 1).piece;
 }
 
+ImprovedPieces::Outer ImprovedPieces::outer(LocalIndex subdomain) const
+{
+  const int last_phase = improve::kNumPhases - 1;
+  const auto first_phase = phase_of_core(subdomain, last_phase);
+  if (!first_phase) return {.part = whole_part(subdomain, last_phase), .core = {}};
+  return {.part = outer_part(subdomain, *first_phase, last_phase),
+          .core = from_bytes<subdomain::CoreFigures>(
+              band_segment(subdomain, *first_phase, BandSegment::core))};
+}
+
 improve::PiecePart ImprovedPieces::whole_part(LocalIndex subdomain, int last_phase) const
 {
-  std::vector<improve::RegionExchange> all;
-  for (int phase = 0; phase <= last_phase; ++phase) {
-    std::ranges::move(exchanges(subdomain, phase), std::back_inserter(all));
-  }
-  improve::PiecePart part = improve::whole_piece(filled_piece(store_, subdomain));
+  improve::PiecePart part = improve::whole_piece(from_bytes<mesh::Piece>(
+      filled_.segment(record_name(subdomain), static_cast<LocalIndex>(PieceSegment::piece))));
+  const auto all = exchanges(subdomain, 0, last_phase);
   return all.empty() ? part : improve::apply_updates(part, all);
 }
 
+improve::PiecePart ImprovedPieces::outer_part(LocalIndex subdomain, int first_phase,
+                                              int last_phase) const
+{
+  improve::PhaseBands kept{.tet_tags = tet_tags(subdomain, first_phase),
+                           .rim = find_rim(subdomain, first_phase)};
+  for (LocalIndex row = 0; row < kept.tet_tags.num_lists(); ++row) {
+    kept.bands.push_back(from_bytes<improve::Band>(band(subdomain, first_phase, row)));
+  }
+  return improve::apply_updates(improve::outer_part(kept),
+                                exchanges(subdomain, first_phase, last_phase));
+}
+
+std::optional<int> ImprovedPieces::phase_of_core(LocalIndex subdomain, int last_phase) const
+{
+  for (int phase = 0; phase <= last_phase; ++phase) {
+    if (!has_bands_of_phase(subdomain, phase)) continue;
+    if (!band_segment(subdomain, phase, BandSegment::core).empty()) return phase;
+  }
+  return std::nullopt;
+}
+
 std::vector<improve::RegionExchange> ImprovedPieces::exchanges(LocalIndex subdomain,
-                                                               int phase) const
+                                                               int first_phase,
+                                                               int last_phase) const
 {
   std::vector<improve::RegionExchange> exchanges;
-  const auto regions = regions_->regions_of(subdomain, phase);
-  IndexLists tags;
-  for (std::size_t i = 0; i < regions.size(); ++i) {
-    if (records_.num_segments(SeamRecord::region, regions[i]) < 2) continue;  // Not improved.
-    if (tags.num_lists() == 0) {
-      tags = from_bytes<IndexLists>(records_.get(bands_of_phase(phase), subdomain,
-                                                 tags_segment(*regions_, subdomain, phase)));
+  for (int phase = first_phase; phase <= last_phase; ++phase) {
+    const auto regions = regions_->regions_of(subdomain, phase);
+    IndexLists tags;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      if (records_.num_segments(SeamRecord::region, regions[i]) < 2) continue;  // Not improved.
+      if (tags.num_lists() == 0) tags = tet_tags(subdomain, phase);
+      const LocalIndex owner = row_in(regions_->subdomains_of(regions[i]), subdomain);
+      const auto old_tets = tags[static_cast<LocalIndex>(i)];
+      exchanges.push_back({{old_tets.begin(), old_tets.end()},
+                           from_bytes<improve::PieceUpdate>(
+                               records_.get(SeamRecord::region, regions[i], 1 + owner))});
     }
-    const LocalIndex owner = row_in(regions_->subdomains_of(regions[i]), subdomain);
-    const auto old_tets = tags[static_cast<LocalIndex>(i)];
-    exchanges.push_back({{old_tets.begin(), old_tets.end()},
-                         from_bytes<improve::PieceUpdate>(
-                             records_.get(SeamRecord::region, regions[i], 1 + owner))});
   }
   return exchanges;
 }
 
+bool ImprovedPieces::has_bands_of_phase(LocalIndex subdomain, int phase) const
+{
+  if (phase > 0) return has_bands(subdomain, phase);
+  return filled_.num_segments(record_name(subdomain))
+         > static_cast<LocalIndex>(PieceSegment::bands);
+}
+
+Bytes ImprovedPieces::band_segment(LocalIndex subdomain, int phase, LocalIndex number) const
+{
+  if (phase > 0) return records_.get(bands_of_phase(phase), subdomain, number);
+  return filled_.segment(record_name(subdomain),
+                         static_cast<LocalIndex>(PieceSegment::bands) + number);
+}
+
+IndexLists ImprovedPieces::tet_tags(LocalIndex subdomain, int phase) const
+{
+  return from_bytes<IndexLists>(band_segment(subdomain, phase, BandSegment::tet_tags));
+}
+
+std::optional<improve::PiecePart> ImprovedPieces::find_rim(LocalIndex subdomain, int phase) const
+{
+  const Bytes rim = band_segment(subdomain, phase, BandSegment::rim);
+  if (rim.empty()) return std::nullopt;
+  return from_bytes<improve::PiecePart>(rim);
+}
+
 improve::PiecePart ImprovedPieces::part_after(LocalIndex subdomain, int phase) const
 {
-  if (phase == kNoPhase) return whole_part(subdomain, phase);
-  const SeamRecord bands = bands_of_phase(phase);
-  const LocalIndex rim_segment = 1 + tags_segment(*regions_, subdomain, phase);
-  if (rim_segment >= records_.num_segments(bands, subdomain)) return whole_part(subdomain, phase);
-  const auto rim = from_bytes<improve::PiecePart>(records_.get(bands, subdomain, rim_segment));
-  return improve::apply_updates(rim, exchanges(subdomain, phase));
+  if (const auto rim = find_rim(subdomain, phase)) {
+    return improve::apply_updates(*rim, exchanges(subdomain, phase, phase));
+  }
+  const auto first_phase = phase_of_core(subdomain, phase);
+  return first_phase ? outer_part(subdomain, *first_phase, phase) : whole_part(subdomain, phase);
 }
 
 void ImprovedPieces::keep_bands(LocalIndex subdomain, int phase_before, int phase,
                                 GlobalIndex most_of_rim)
 {
-  const improve::PiecePart part = part_after(subdomain, phase_before);
-  const auto labels = improve::label_tets(part.piece, *regions_, phase, improve::kDefaultLayers);
-  std::vector<Bytes> segments;
-  for (const improve::Band& band : improve::make_bands(part, labels, *regions_, phase)) {
-    segments.push_back(to_bytes(band));
-  }
-  segments.push_back(to_bytes(improve::tets_of_bands(part, labels, *regions_, phase)));
-  if (most_of_rim > 0) {
-    const improve::PiecePart rim = improve::rim_of(part, *regions_, phase);
-    if (rim.piece.num_tets() <= most_of_rim) segments.push_back(to_bytes(rim));
-  }
-  records_.put(bands_of_phase(phase), subdomain, segments);
+  records_.put(bands_of_phase(phase), subdomain,
+               band_segments(part_after(subdomain, phase_before), *regions_, phase, most_of_rim));
 }
 
 std::vector<Bytes> ImprovedPieces::bands_of(LocalIndex region) const
@@ -111,8 +145,7 @@ std::vector<Bytes> ImprovedPieces::bands_of(LocalIndex region) const
   const int phase = regions_->phase_of(region);
   std::vector<Bytes> bands;
   for (const LocalIndex s : regions_->subdomains_of(region)) {
-    bands.push_back(
-        records_.get(bands_of_phase(phase), s, row_in(regions_->regions_of(s, phase), region)));
+    bands.push_back(band(s, phase, row_in(regions_->regions_of(s, phase), region)));
   }
   return bands;
 }
@@ -131,39 +164,61 @@ subdomain::RegionRecord ImprovedPieces::find_region(LocalIndex region) const
   return from_bytes<subdomain::RegionRecord>(records_.get(SeamRecord::region, region, 0));
 }
 
-void ImprovedPieces::keep_list(const mesh::Piece& piece)
+void ImprovedPieces::keep_list(const Outer& outer)
 {
-  const number::VertexList list{piece.subdomain, piece.material, number::shared_vertices(piece)};
-  records_.put(SeamRecord::list, piece.subdomain, {{to_bytes(list)}});
-}
-
-std::vector<char> ImprovedPieces::may_be_on_seam(const std::vector<mesh::HostPoint>& names) const
-{
-  std::vector<char> may_be;
-  may_be.reserve(names.size());
-  for (const mesh::HostPoint& name : names) {
-    may_be.push_back(regions_->may_be_on_seam(name.host) ? 1 : 0);
+  const mesh::Piece& piece = outer.part.piece;
+  const number::VertexList all{piece.subdomain, piece.material,
+                               subdomain::shared_vertices(outer.core, piece)};
+  std::vector<Bytes> segments{to_bytes(all)};
+  for (const number::VertexList& list : lists_for_neighbours(all)) {
+    segments.push_back(to_bytes(list));
   }
-  return may_be;
+  records_.put(SeamRecord::list, piece.subdomain, segments);
 }
 
-number::SharedBy ImprovedPieces::expected_seams(const mesh::Piece& piece) const
+std::vector<number::VertexList> ImprovedPieces::lists_for_neighbours(
+    const number::VertexList& all) const
 {
-  return {.on_seam = may_be_on_seam(number::shared_vertices(piece))};
+  const auto& neighbours = neighbours_[at(all.subdomain)];
+  std::vector<number::VertexList> lists(neighbours.size(),
+                                        {.subdomain = all.subdomain, .material = all.material});
+  for (const mesh::HostPoint& name : all.vertices) {
+    for (const LocalIndex holder : regions_->holders_of(name.host)) {
+      if (holder == all.subdomain) continue;
+      lists[at(row_in(neighbours, holder))].vertices.push_back(name);
+    }
+  }
+  return lists;
 }
 
-number::VertexList ImprovedPieces::list_of(LocalIndex subdomain) const
+std::vector<char> ImprovedPieces::Comparison::seams_of(const mesh::Piece& part) const
 {
-  return from_bytes<number::VertexList>(records_.get(SeamRecord::list, subdomain, 0));
+  std::vector<char> on_seam;
+  for (LocalIndex v = 0; v < part.num_skin_vertices(); ++v) {
+    const auto found = std::ranges::lower_bound(vertices, part.skin_point(v));
+    on_seam.push_back(shared.on_seam[static_cast<std::size_t>(found - vertices.begin())]);
+  }
+  return on_seam;
+}
+
+number::VertexList ImprovedPieces::list_for(LocalIndex subdomain, LocalIndex other) const
+{
+  const LocalIndex segment = subdomain == other ? 0 : 1 + row_in(neighbours_[at(other)], subdomain);
+  return from_bytes<number::VertexList>(records_.get(SeamRecord::list, other, segment));
 }
 
 ImprovedPieces::Comparison ImprovedPieces::own_vertices(LocalIndex subdomain)
 {
   std::vector<number::VertexList> lists;
-  for (const LocalIndex other : neighbours_[at(subdomain)]) lists.push_back(list_of(other));
-  const number::VertexList own = list_of(subdomain);
-  Comparison found{.shared = number::compare_lists(own, lists)};
-  found.is_as_expected = found.shared.on_seam == may_be_on_seam(own.vertices);
+  for (const LocalIndex other : neighbours_[at(subdomain)])
+    lists.push_back(list_for(subdomain, other));
+  number::VertexList own = list_for(subdomain, subdomain);
+  Comparison found{.shared = number::compare_lists(own, lists),
+                   .vertices = std::move(own.vertices)};
+  const auto is_expected = [&](const mesh::HostPoint& name, char on_seam) {
+    return regions_->may_be_on_seam(name.host) == (on_seam != 0);
+  };
+  found.is_as_expected = std::ranges::equal(found.vertices, found.shared.on_seam, is_expected);
   records_.put(SeamRecord::owned, subdomain, {{to_bytes(found.shared.owned)}});
   return found;
 }

@@ -3,25 +3,25 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "tessera/improve/region_band.hpp"
+#include "tessera/base/index_lists.hpp"
+#include "tessera/improve/piece_part.hpp"
 #include "tessera/improve/region_update.hpp"
 #include "tessera/improve/seam_regions.hpp"
 #include "tessera/io/record_store.hpp"
 #include "tessera/mesh/piece.hpp"
 #include "tessera/mesh/skeleton.hpp"
 #include "tessera/number/shared_vertices.hpp"
+#include "tessera/subdomain/core_figures.hpp"
 #include "tessera/subdomain/improve_seam_region.hpp"
 #include "tessera/subdomain/piece_arrays.hpp"
 
+#include "pipeline/store/band_segments.hpp"
 #include "pipeline/store/seam_records.hpp"
 
 namespace tessera::pipeline {
-
-/// @brief Reads a piece from the store, as it was filled. Local.
-/// @throws InputError if the record is missing or damaged.
-[[nodiscard]] mesh::Piece filled_piece(const io::RecordStore& store, LocalIndex subdomain);
 
 /// @brief The pieces in the course of the improvement and after it, and who owns their shared
 /// vertices. Numbers and files are made from these.
@@ -39,15 +39,23 @@ class ImprovedPieces {
   /// @throws InputError if a record is missing or damaged.
   [[nodiscard]] mesh::Piece piece(LocalIndex subdomain) const;
 
-  /// @brief Keeps the bands of a piece for a phase. They are made from the filled piece, or from
-  /// its rim after the phase before.
-  /// @param[in] phase_before kNoPhase: none; else a phase that is over, and the piece's last one
-  /// before `phase`.
-  /// @param[in] most_of_rim A rim of more tets is not kept: later phases then make do with the
-  /// filled piece. 0 if there are none.
-  void keep_bands(LocalIndex subdomain, int phase_before, int phase, GlobalIndex most_of_rim);
-  static constexpr int kNoPhase = -1;
+  /// @brief What the improvement may have changed of a piece, and the figures of the rest.
+  struct Outer {
+    improve::PiecePart part{};      ///< As all updates have left it.
+    subdomain::CoreFigures core{};  ///< None if the part is the whole piece.
+  };
 
+  /// @brief Reads the filled piece only if there are no bands that were made of the whole piece.
+  /// @throws InputError if a record is missing or damaged.
+  [[nodiscard]] Outer outer(LocalIndex subdomain) const;
+
+  /// @brief Keeps the bands of a piece for a later phase than 0; those of phase 0 come from its
+  /// fill. They are made from its rim after the phase before, if there is one.
+  /// @param[in] phase_before 0, or the piece's last one before `phase`; it is over.
+  /// @param[in] most_of_rim A rim of more tets is not kept: later phases then make do without.
+  void keep_bands(LocalIndex subdomain, int phase_before, int phase, GlobalIndex most_of_rim);
+
+  /// @pre phase > 0
   [[nodiscard]] bool has_bands(LocalIndex subdomain, int phase) const
   {
     return records_.contains(bands_of_phase(phase), subdomain);
@@ -70,16 +78,16 @@ class ImprovedPieces {
   // compared with those of its neighbours; places are known.
 
   /// @brief Notes which vertices the piece shares.
-  void keep_list(const mesh::Piece& piece);
-
-  /// @brief What the lists will say of a piece's seams, but for a vertex in ten thousand that one
-  /// of two pieces has lost; nothing of owners.
-  [[nodiscard]] number::SharedBy expected_seams(const mesh::Piece& piece) const;
+  void keep_list(const Outer& outer);
 
   /// @brief What the neighbours' lists say of a piece.
   struct Comparison {
     number::SharedBy shared{};
-    bool is_as_expected = false;  ///< Of the seams.
+    std::vector<mesh::HostPoint> vertices{};  ///< Of the piece's own list: what `shared` is about.
+    bool is_as_expected = false;              ///< Of the seams.
+
+    /// @brief Which shared vertices of a part of the piece are on seams. Shape (num_skin_vertices).
+    [[nodiscard]] std::vector<char> seams_of(const mesh::Piece& part) const;
   };
 
   /// @brief Compares a piece's list with its neighbours', and notes what it owns.
@@ -91,16 +99,38 @@ class ImprovedPieces {
   [[nodiscard]] SeamRecords& records() { return records_; }
 
  private:
-  [[nodiscard]] std::vector<improve::RegionExchange> exchanges(LocalIndex subdomain,
-                                                               int phase) const;
-  [[nodiscard]] std::vector<char> may_be_on_seam(const std::vector<mesh::HostPoint>& names) const;
+  [[nodiscard]] bool has_bands_of_phase(LocalIndex subdomain, int phase) const;
+  [[nodiscard]] Bytes band_segment(LocalIndex subdomain, int phase, LocalIndex number) const;
+  [[nodiscard]] Bytes band_segment(LocalIndex subdomain, int phase, BandSegment segment) const
+  {
+    return band_segment(subdomain, phase, static_cast<LocalIndex>(segment));
+  }
+  // The band of a region's row in the phase.
+  [[nodiscard]] Bytes band(LocalIndex subdomain, int phase, LocalIndex row) const
+  {
+    return band_segment(subdomain, phase, static_cast<LocalIndex>(BandSegment::first_band) + row);
+  }
+  [[nodiscard]] IndexLists tet_tags(LocalIndex subdomain, int phase) const;
+  [[nodiscard]] std::optional<improve::PiecePart> find_rim(LocalIndex subdomain, int phase) const;
   // A stopped run may have left updates of later phases as well: they do not count.
+  [[nodiscard]] std::vector<improve::RegionExchange> exchanges(LocalIndex subdomain,
+                                                               int first_phase,
+                                                               int last_phase) const;
   [[nodiscard]] improve::PiecePart whole_part(LocalIndex subdomain, int last_phase) const;
+  // As the phases from `first_phase` to `last_phase` have left it.
+  [[nodiscard]] improve::PiecePart outer_part(LocalIndex subdomain, int first_phase,
+                                              int last_phase) const;
+  // The phase up to that one in which the core was measured; none if it never was.
+  [[nodiscard]] std::optional<int> phase_of_core(LocalIndex subdomain, int last_phase) const;
   [[nodiscard]] improve::PiecePart part_after(LocalIndex subdomain, int phase) const;
-  [[nodiscard]] number::VertexList list_of(LocalIndex subdomain) const;
+  // What each of its neighbours may have of a piece's list, in their order.
+  [[nodiscard]] std::vector<number::VertexList> lists_for_neighbours(
+      const number::VertexList& all) const;
+  // What `other` has noted for a subdomain.
+  [[nodiscard]] number::VertexList list_for(LocalIndex subdomain, LocalIndex other) const;
   [[nodiscard]] std::vector<mesh::HostPoint> owned_by(LocalIndex subdomain) const;
 
-  io::RecordStore store_;
+  io::RecordReader filled_;
   std::shared_ptr<const improve::SeamRegions> regions_;
   std::vector<std::vector<LocalIndex>> neighbours_;  ///< By subdomain, ascending.
   SeamRecords records_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/store/piece_store.hpp"
 
-#include "tessera/base/bytes.hpp"
-
 #include "pipeline/store/fill_record.hpp"
 #include "pipeline/store/improved_pieces.hpp"
 
@@ -15,12 +13,9 @@ PieceStore store_of(const FilledPieces& filled, const std::filesystem::path& fol
 
 mesh::Piece stored_piece(const PieceStore& store, LocalIndex subdomain)
 {
-  const io::RecordStore records(store_folder(store.folder));
-  if (store.are_refined) {
-    const auto record = from_bytes<FillRecord>(records.get(refined_name(subdomain)));
-    return from_bytes<mesh::Piece>(record.piece);
-  }
-  return store.improved ? store.improved->piece(subdomain) : filled_piece(records, subdomain);
+  if (store.are_refined) return piece_of_record(store.folder, refined_name(subdomain));
+  return store.improved ? store.improved->piece(subdomain)
+                        : piece_of_record(store.folder, record_name(subdomain));
 }
 
 }  // namespace tessera::pipeline

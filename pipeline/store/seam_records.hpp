@@ -15,18 +15,17 @@ namespace tessera::pipeline {
 /// @brief What a record of the improvement holds. The number in its name is that of a subdomain, or
 /// of a region.
 enum class SeamRecord : LocalIndex {
-  bands_of_phase_0,  ///< Of a piece: the band of each of its regions in the phase, then the tags of
-                     ///< their tets, then perhaps its rim.
-  bands_of_phase_1,
+  bands_of_phase_1,  ///< Of a piece: band_segments(). Those of phase 0 are in its own record.
   bands_of_phase_2,
   region,  ///< How a region has ended; if it is improved, then the update of each piece.
-  list,    ///< What a piece shares in the end.
+  list,    ///< What a piece shares in the end; then what of it each of its neighbours may have.
   owned,   ///< What it owns of that.
 };
 
+/// @pre phase is 1 or 2.
 [[nodiscard]] inline SeamRecord bands_of_phase(int phase)
 {
-  return static_cast<SeamRecord>(static_cast<LocalIndex>(SeamRecord::bands_of_phase_0) + phase);
+  return static_cast<SeamRecord>(static_cast<LocalIndex>(SeamRecord::bands_of_phase_1) + phase - 1);
 }
 
 /// @brief The records of the improvement. Every rank puts its own into one file of the store, and

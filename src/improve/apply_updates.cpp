@@ -56,6 +56,7 @@ class Updater {
     new_.piece.material = piece_.material;
     new_.num_vertex_tags = part_.num_vertex_tags + static_cast<LocalIndex>(new_hosts_.size());
     new_.num_tet_tags = num_tet_tags_;
+    new_.is_complete = part_.is_complete;
     new_.is_whole = part_.is_whole;
     if (part_.is_whole) add_boundary();
     return std::move(new_);
@@ -72,7 +73,7 @@ class Updater {
       rows[c] = v < 0 ? first_row - 1 - v : row_of_tag(v, first_row);
     }
     if (std::ranges::find(rows, kNoIndex) != rows.end()) {
-      if (part_.is_whole) refuse(update);
+      if (part_.is_complete) refuse(update);
       return;
     }
     tet_vertices_.insert(tet_vertices_.end(), rows.begin(), rows.end());

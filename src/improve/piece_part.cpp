@@ -57,6 +57,7 @@ PiecePart whole_piece(mesh::Piece piece)
   part.tet_tag = first_tags(piece.num_tets());
   part.num_vertex_tags = piece.num_vertices();
   part.num_tet_tags = piece.num_tets();
+  part.is_complete = true;
   part.is_whole = true;
   part.piece = std::move(piece);
   return part;

@@ -2,6 +2,7 @@
 #include "tessera/improve/seam_regions.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -57,6 +58,23 @@ struct SeamHost {
   std::map<Subdomains, SeamSet>::iterator set{};
 };
 
+// By host of the skeleton, ascending.
+IndexLists subdomains_of_hosts(const std::vector<HostSubdomain>& holders,
+                               const mesh::HostLayout& hosts)
+{
+  IndexLists lists;
+  auto next = holders.begin();
+  for (mesh::HostEntity host = 0; host < hosts.num_on_skeleton(); ++host) {
+    const auto first = lists.values.size();
+    for (; next != holders.end() && next->host == host; ++next) {
+      lists.values.push_back(next->subdomain);
+    }
+    std::sort(lists.values.begin() + static_cast<std::ptrdiff_t>(first), lists.values.end());
+    lists.end_list();
+  }
+  return lists;
+}
+
 int phase_of_host(const mesh::HostLayout& hosts, mesh::HostEntity host)
 {
   const mesh::HostKind kind = hosts.kind_of(host);
@@ -91,8 +109,9 @@ SeamRegions::SeamRegions(const mesh::Skeleton& skeleton, const mesh::Decompositi
     : hosts_(skeleton)
 {
   std::map<Subdomains, SeamSet> sets;
-  const std::vector<SeamHost> found =
-      seam_hosts(holders_of_hosts(skeleton, hosts_, decomposition), hosts_, sets);
+  const std::vector<HostSubdomain> holders = holders_of_hosts(skeleton, hosts_, decomposition);
+  const std::vector<SeamHost> found = seam_hosts(holders, hosts_, sets);
+  host_subdomains_ = subdomains_of_hosts(holders, hosts_);
 
   for (int phase = 0; phase < kNumPhases; ++phase) {
     for (auto& [subdomains, set] : sets) {
@@ -133,12 +152,28 @@ bool SeamRegions::may_be_on_seam(mesh::HostEntity host) const
   return host >= hosts_.num_on_skeleton() || !host_regions_[host].empty();
 }
 
+std::span<const LocalIndex> SeamRegions::holders_of(mesh::HostEntity host) const
+{
+  const LocalIndex region = region_made(host);
+  return region == kNoIndex ? host_subdomains_[host] : subdomains_of(region);
+}
+
 std::span<const LocalIndex> SeamRegions::regions_of(LocalIndex subdomain, int phase) const
 {
   const auto regions = subdomain_regions_[subdomain];
   const auto low = std::ranges::lower_bound(regions, first_of_phase(phase));
   const auto high = std::lower_bound(low, regions.end(), first_of_phase(phase + 1));
   return {low, high};
+}
+
+std::vector<char> vertices_perhaps_on_seams(const mesh::Piece& piece, const SeamRegions& regions)
+{
+  std::vector<char> may_be;
+  may_be.reserve(piece.skin_host.size());
+  for (const mesh::HostEntity host : piece.skin_host) {
+    may_be.push_back(regions.may_be_on_seam(host) ? 1 : 0);
+  }
+  return may_be;
 }
 
 }  // namespace tessera::improve

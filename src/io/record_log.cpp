@@ -18,6 +18,7 @@
 #include "tessera/io/files.hpp"
 
 #include "atomic_file.hpp"
+#include "segments.hpp"
 
 namespace tessera::io {
 namespace {
@@ -26,7 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = "log_";
 constexpr std::string_view kSuffix = ".record";  // So RecordStore::remove_all() removes it, too.
-constexpr std::size_t kMostOpen = 64;
 
 // What stands before the segments: this, then their sizes and hashes.
 struct RecordHead {
@@ -34,28 +34,18 @@ struct RecordHead {
   LocalIndex kind = 0;
   LocalIndex number = 0;
   std::uint64_t num_segments = 0;
-  Hash128 hash{};  // hash_of() name and segments.
+  Hash128 hash{};  // hash_of() the record.
 };
 static_assert(sizeof(RecordHead) == 40, "padding would leave bytes that are not set");
-
-struct SegmentHead {
-  std::uint64_t size = 0;
-  Hash128 hash{};
-};
-static_assert(sizeof(SegmentHead) == 24, "padding would leave bytes that are not set");
-
-using SegmentHeads = std::vector<SegmentHead>;
 
 std::uint64_t size_of_heads(std::uint64_t num_segments)
 {
   return sizeof(RecordHead) + num_segments * sizeof(SegmentHead);
 }
 
-Hash128 hash_of(const LogName& name, std::span<const SegmentHead> segments)
+std::span<const std::byte> bytes_of(const LogName& name)
 {
-  Hash128 hash = hash_bytes(std::as_bytes(std::span(&name, 1)));
-  hash += hash_bytes(std::as_bytes(segments));
-  return hash;
+  return std::as_bytes(std::span(&name, 1));
 }
 
 fs::path file_path(const fs::path& folder, LocalIndex file)
@@ -63,46 +53,23 @@ fs::path file_path(const fs::path& folder, LocalIndex file)
   return folder / fmt::format("{}{:06}{}", kPrefix, file, kSuffix);
 }
 
-// Whether all of it was there.
-bool read_at(int descriptor, std::uint64_t offset, std::span<std::byte> bytes)
-{
-  while (!bytes.empty()) {
-    const ssize_t got = ::pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    offset += static_cast<std::uint64_t>(got);
-    bytes = bytes.subspan(static_cast<std::size_t>(got));
-  }
-  return true;
-}
-
-std::uint64_t size_of_file(int descriptor)
-{
-  const off_t end = ::lseek(descriptor, 0, SEEK_END);
-  return end < 0 ? 0 : static_cast<std::uint64_t>(end);
-}
-
 // The record there if it is whole; then `offset` becomes that of the next one.
-std::optional<LogPlace> place_at(int descriptor, std::uint64_t& offset, std::uint64_t end)
+std::optional<LogPlace> place_at(int descriptor, std::uint64_t& offset)
 {
   RecordHead head;
   if (!read_at(descriptor, offset, std::as_writable_bytes(std::span(&head, 1)))) return {};
-  std::uint64_t next = offset + sizeof(head);
   if (head.magic != RecordHead().magic) return {};
-  if (head.num_segments > (end - next) / sizeof(SegmentHead)) return {};
-  SegmentHeads heads(head.num_segments);
-  if (!read_at(descriptor, next, std::as_writable_bytes(std::span(heads)))) return {};
+  const auto heads = read_heads(descriptor, offset + sizeof(head), head.num_segments);
   const LogName name{head.kind, head.number};
-  if (head.hash != hash_of(name, heads)) return {};
-  next += heads.size() * sizeof(SegmentHead);
-  for (const SegmentHead& segment : heads) {
-    if (segment.size > end - next) return {};
-    Bytes bytes(segment.size);
-    if (!read_at(descriptor, next, bytes) || hash_bytes(bytes) != segment.hash) return {};
-    next += segment.size;
+  if (!heads || head.hash != hash_of(bytes_of(name), *heads)) return {};
+  const std::uint64_t first = offset + size_of_heads(heads->size());
+  std::uint64_t next = first;
+  for (std::size_t i = 0; i < heads->size(); ++i) {
+    if (!read_segment(descriptor, first, *heads, i)) return {};
+    next += (*heads)[i].size;
   }
   return LogPlace{.name = name,
-                  .num_segments = static_cast<LocalIndex>(heads.size()),
+                  .num_segments = static_cast<LocalIndex>(heads->size()),
                   .offset = std::exchange(offset, next),
                   .head_hash = head.hash};
 }
@@ -131,10 +98,9 @@ void LogWriter::open()
 LogPlace LogWriter::append(const LogName& name, std::span<const Bytes> segments)
 {
   if (descriptor_ < 0) open();
-  SegmentHeads heads;
-  for (const Bytes& segment : segments) heads.push_back({segment.size(), hash_bytes(segment)});
+  const SegmentHeads heads = heads_of(views_of(segments));
   const LogPlace place{name, file_, static_cast<LocalIndex>(segments.size()), end_,
-                       hash_of(name, heads)};
+                       hash_of(bytes_of(name), heads)};
   const RecordHead head{.kind = name.kind,
                         .number = name.number,
                         .num_segments = heads.size(),
@@ -167,47 +133,20 @@ void LogWriter::write(std::span<const std::byte> bytes)
 
 LogReader::LogReader(fs::path folder) : folder_(std::move(folder)) {}
 
-LogReader::~LogReader() { close_all(); }
-
-void LogReader::close_all() const
-{
-  for (const auto& [file, descriptor] : descriptors_) ::close(descriptor);
-  descriptors_.clear();
-}
-
-int LogReader::open(LocalIndex file) const
-{
-  const auto known = descriptors_.find(file);
-  if (known != descriptors_.end()) return known->second;
-  if (descriptors_.size() >= kMostOpen) close_all();
-  const fs::path path = file_path(folder_, file);
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor < 0) {
-    throw InputError(fmt::format("cannot read {}: {}", path.string(), system_error_text(errno)));
-  }
-  descriptors_.emplace(file, descriptor);
-  return descriptor;
-}
+int LogReader::open(LocalIndex file) const { return files_.open(file_path(folder_, file)); }
 
 Bytes LogReader::segment(const LogPlace& place, LocalIndex number) const
 {
   const int descriptor = open(place.file);
-  const auto require = [&](bool condition) {
-    if (!condition) {
-      throw InputError(file_path(folder_, place.file).string() + " is cut off or altered");
-    }
-  };
-  require(number < place.num_segments);
-  SegmentHeads heads(at(place.num_segments));
-  require(read_at(descriptor, place.offset + sizeof(RecordHead),
-                  std::as_writable_bytes(std::span(heads))));
-  require(hash_of(place.name, heads) == place.head_hash);
-  std::uint64_t offset = place.offset + size_of_heads(heads.size());
-  for (std::size_t i = 0; i < at(number); ++i) offset += heads[i].size;
-  Bytes segment(heads[at(number)].size);
-  require(read_at(descriptor, offset, segment));
-  require(hash_bytes(segment) == heads[at(number)].hash);
-  return segment;
+  const auto heads =
+      read_heads(descriptor, place.offset + sizeof(RecordHead), at(place.num_segments));
+  std::optional<Bytes> segment;
+  if (heads && hash_of(bytes_of(place.name), *heads) == place.head_hash) {
+    segment =
+        read_segment(descriptor, place.offset + size_of_heads(heads->size()), *heads, at(number));
+  }
+  if (segment) return *std::move(segment);
+  throw InputError(file_path(folder_, place.file).string() + " is cut off or altered");
 }
 
 std::vector<LocalIndex> LogReader::files() const
@@ -233,8 +172,7 @@ std::vector<LogPlace> LogReader::find_places(LocalIndex file) const
   const int descriptor = open(file);
   std::vector<LogPlace> places;
   std::uint64_t offset = 0;
-  const std::uint64_t end = size_of_file(descriptor);
-  while (const auto place = place_at(descriptor, offset, end)) {
+  while (const auto place = place_at(descriptor, offset)) {
     places.push_back(*place);
     places.back().file = file;
   }

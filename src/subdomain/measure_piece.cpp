@@ -57,18 +57,6 @@ std::vector<char> vertices_on_seams(const mesh::Skin& skin, std::span<const char
   return on_seam;
 }
 
-// From the order of the list to that of the piece.
-std::vector<char> seam_vertices(const mesh::Piece& piece, const number::SharedBy& shared)
-{
-  const std::vector<mesh::HostPoint> names = number::shared_vertices(piece);
-  std::vector<char> on_seam;
-  for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
-    const auto found = std::ranges::lower_bound(names, piece.skin_point(v));
-    on_seam.push_back(shared.on_seam[static_cast<std::size_t>(found - names.begin())]);
-  }
-  return on_seam;
-}
-
 quality::WorstTet worst_tet(const mesh::Piece& piece, LocalIndex tet,
                             const quality::TetShape& shape)
 {
@@ -82,16 +70,22 @@ quality::WorstTet worst_tet(const mesh::Piece& piece, LocalIndex tet,
 
 }  // namespace
 
-GlobalIndex measure_edges(const mesh::Piece& piece, quality::QualityHistograms& histograms)
+void measure_edge(const mesh::Piece& piece, LocalIndex a, LocalIndex b,
+                  quality::QualityHistograms& histograms)
 {
   const std::span<const double> xyz(piece.vertex_xyz);
+  const Vec3 edge = point_at(xyz, b) - point_at(xyz, a);
+  // Single precision is a thousand times finer than a bin, and 1.1 to 1.5 times as fast.
+  const auto squared_length = static_cast<float>(dot(edge, edge));
+  histograms.log2_edge_length.add(0.5 * static_cast<double>(std::log2(squared_length)));
+}
+
+GlobalIndex measure_edges(const mesh::Piece& piece, quality::QualityHistograms& histograms)
+{
   GlobalIndex num_edges = 0;
   mesh::for_each_edge(piece.tet_vertices, piece.num_vertices(), [&](LocalIndex a, LocalIndex b) {
     ++num_edges;
-    const Vec3 edge = point_at(xyz, b) - point_at(xyz, a);
-    // Single precision is a thousand times finer than a bin, and 1.1 to 1.5 times as fast.
-    const auto squared_length = static_cast<float>(dot(edge, edge));
-    histograms.log2_edge_length.add(0.5 * static_cast<double>(std::log2(squared_length)));
+    measure_edge(piece, a, b, histograms);
   });
   return num_edges;
 }
@@ -166,22 +160,19 @@ FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& sk
   return result;
 }
 
-FillResult measure_improved_piece(const mesh::Piece& piece, const number::SharedBy& shared,
-                                  const PieceSummary& filled)
+FillResult measure_improved_part(const improve::PiecePart& part, const std::vector<char>& on_seam,
+                                 const PieceSummary& filled)
 {
+  const mesh::Piece& piece = part.piece;
   FillResult result;
   PieceSummary& summary = result.summary;
   summary = filled;
   summary.num_tets = piece.num_tets();
   summary.num_interior_vertices = piece.num_interior_vertices();
-  summary.num_owned_vertices =
-      summary.num_interior_vertices + static_cast<GlobalIndex>(shared.owned.size());
-  summary.num_boundary = piece.num_boundary();
-  summary.patches = patch_areas(piece);
   summary.volume = volume_of(piece);
-  summary.surface = verify::surface_hash(piece);
+  summary.surface = verify::surface_hash(piece, part.vertex_tag);
   measure_edges(piece, result.histograms);
-  measure_tets(piece, seam_vertices(piece, shared), result);
+  measure_tets(piece, on_seam, result);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <span>
 
 #include <fmt/format.h>
@@ -78,16 +79,24 @@ std::vector<SeamHash> seam_hashes(const mesh::Skin& skin, const mesh::Skeleton& 
 
 Hash128 surface_hash(const mesh::Piece& piece)
 {
+  std::vector<LocalIndex> numbers(at(piece.num_vertices()));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return surface_hash(piece, numbers);
+}
+
+Hash128 surface_hash(const mesh::Piece& part, std::span<const LocalIndex> inner_names)
+{
   std::vector<VertexImage> vertices;
-  for (LocalIndex v = 0; v < piece.num_vertices(); ++v) {
-    const bool is_shared = v < piece.num_skin_vertices();
+  for (LocalIndex v = 0; v < part.num_vertices(); ++v) {
+    const bool is_shared = v < part.num_skin_vertices();
     const mesh::HostPoint name =
-        is_shared ? piece.skin_point(v) : mesh::HostPoint{.host = kNoIndex, .index = v};
-    vertices.push_back(image(name, &piece.vertex_xyz[3 * at(v)]));
+        is_shared ? part.skin_point(v)
+                  : mesh::HostPoint{.host = kNoIndex, .index = inner_names[at(v)]};
+    vertices.push_back(image(name, &part.vertex_xyz[3 * at(v)]));
   }
   SignedSum sum;
-  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-    const LocalIndex* v = &piece.tet_vertices[4 * at(t)];
+  for (LocalIndex t = 0; t < part.num_tets(); ++t) {
+    const LocalIndex* v = &part.tet_vertices[4 * at(t)];
     for (const auto& [a, b, c] : mesh::kTetFaceCorners) {
       sum.add({vertices[at(v[a])], vertices[at(v[b])], vertices[at(v[c])]});
     }

@@ -80,6 +80,17 @@ class Netgen(kill.RestartTest):
                 log.write_bytes(content)
                 self.resume(ranks=2)
 
+    def test_damaged_bands_of_a_fill(self):
+        """They stand behind the piece, in its record: the piece is filled again, and what was improved counts."""
+        for share in (0.5, 1.0):
+            with self.subTest(share=share):
+                self.kill_run(self.has_log_of(200_000), ranks=2)
+                record = self.record("piece_000003")
+                content = bytearray(record.read_bytes())
+                content[int(share * (len(content) - 1))] ^= 1
+                record.write_bytes(content)
+                self.resume(ranks=2)
+
     def logs(self):
         """None if the store is gone, as it is when a run has ended."""
         store = self.record("improve").parent

@@ -22,12 +22,13 @@ struct PiecePart {
   std::vector<LocalIndex> tet_tag{};     ///< Shape (num_tets), ascending.
   LocalIndex num_vertex_tags = 0;        ///< Given so far.
   LocalIndex num_tet_tags = 0;
-  bool is_whole = false;
+  bool is_complete = false;  ///< It has all that updates may name.
+  bool is_whole = false;     ///< It has all tets of the piece; then it is complete.
 
   static auto fields(auto& self)
   {
     return std::tie(self.piece, self.vertex_tag, self.tet_tag, self.num_vertex_tags,
-                    self.num_tet_tags, self.is_whole);
+                    self.num_tet_tags, self.is_complete, self.is_whole);
   }
 };
 

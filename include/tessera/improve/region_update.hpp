@@ -55,8 +55,7 @@ struct RegionExchange {
 /// order, shared ones first. New vertices and tets get the next tags. The triangles on the geometry
 /// stay, with their new tets behind them.
 ///
-/// A part that is not the whole piece may lack vertices that a new tet has. It then does without
-/// that tet.
+/// A part that is not complete may lack vertices that a new tet has. It then does without that tet.
 /// @param[in] exchanges Of accepted updates, ascending by phase and region; an exchange may name
 /// tags that those before it have given. All updates of these phases: else tags would differ.
 /// @note Local; O(n log n) in the tets of the updates and in the triangles on the geometry, linear

@@ -54,6 +54,9 @@ class SeamRegions {
   /// @brief Whether two subdomains of one material may hold the vertices of `host`. Local.
   [[nodiscard]] bool may_be_on_seam(mesh::HostEntity host) const;
 
+  /// @brief The subdomains, of any material, that may hold vertices of `host`, ascending. Local.
+  [[nodiscard]] std::span<const LocalIndex> holders_of(mesh::HostEntity host) const;
+
   /// @brief The subdomains that meet in a region, ascending; at least two, of one material.
   [[nodiscard]] std::span<const LocalIndex> subdomains_of(LocalIndex region) const
   {
@@ -79,9 +82,15 @@ class SeamRegions {
   mesh::HostLayout hosts_;
   std::array<LocalIndex, kNumPhases + 1> phase_offsets_{};
   Lists<HostRegion> host_regions_{};  ///< By host of the skeleton, ascending by material.
+  IndexLists host_subdomains_{};      ///< By host of the skeleton, ascending.
   IndexLists region_subdomains_{};    ///< By region, ascending.
   IndexLists subdomain_regions_{};    ///< By subdomain, ascending.
 };
+
+/// @brief Which shared vertices of a piece, or of a part of it, two subdomains of one material may
+/// hold. Shape (num_skin_vertices). Local.
+[[nodiscard]] std::vector<char> vertices_perhaps_on_seams(const mesh::Piece& piece,
+                                                          const SeamRegions& regions);
 
 /// @brief How many layers of tets around a seam are optimised, >= 1; improve::OptimizeSettings says
 /// what 2, 3 and 4 gave.

@@ -4,7 +4,6 @@
 #include <compare>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/base/types.hpp"
+#include "tessera/io/open_files.hpp"
 
 /// Many small records of several writers: each writer puts its own into one file, one behind the
 /// other, and readers take out what they need. Nothing is ever changed or removed but the whole
@@ -66,14 +66,10 @@ class LogWriter {
   std::uint64_t end_ = 0;
 };
 
-/// @brief Reads records of the files of a folder. Files stay open, the most recent ones. All
-/// functions are local.
+/// @brief Reads records of the files of a folder. Files stay open. All functions are local.
 class LogReader {
  public:
   explicit LogReader(std::filesystem::path folder);
-  ~LogReader();
-  LogReader(const LogReader&) = delete;
-  LogReader& operator=(const LogReader&) = delete;
 
   /// @brief One segment of a record, proven to be what was appended by its size and 128-bit hash.
   /// Nothing else of the record is read but its head.
@@ -89,10 +85,9 @@ class LogReader {
 
  private:
   [[nodiscard]] int open(LocalIndex file) const;
-  void close_all() const;
 
   std::filesystem::path folder_;
-  mutable std::map<LocalIndex, int> descriptors_{};
+  mutable OpenFiles files_{};
 };
 
 /// @brief Removes all such files of a folder. Local. @throws OutputError

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/base/types.hpp"
+#include "tessera/io/open_files.hpp"
 
 namespace tessera::io {
 
@@ -15,7 +17,8 @@ namespace tessera::io {
 ///
 /// A piece goes here as soon as it is filled. So memory holds only the pieces in flight, and a run
 /// that died can be resumed. There is no state but the folder: ranks and their job processes each
-/// make their own RecordStore on it. Names are file names without suffix. All functions are local.
+/// make their own RecordStore on it. Names are file names without suffix. A record may have several
+/// segments, to be read one by one. All functions are local.
 class RecordStore {
  public:
   /// @brief Opens the store, making its folder where needed. @throws OutputError
@@ -24,12 +27,14 @@ class RecordStore {
   /// @brief Stores a record; replaces an older one. It is there whole or not at all, whenever the
   /// process dies. @throws OutputError (disk full, permission).
   void put(const std::string& name, std::span<const std::byte> record) const;
+  void put(const std::string& name, std::span<const Bytes> segments) const;
 
-  /// @brief The record of that name, proven to be what was stored by its size and 128-bit hash.
+  /// @brief A segment of the record of that name, proven to be what was stored by its size and
+  /// 128-bit hash. Other segments are not read.
   /// @throws InputError naming the file if it is missing, cut off or altered.
-  [[nodiscard]] Bytes get(const std::string& name) const;
+  [[nodiscard]] Bytes get(const std::string& name, LocalIndex segment = 0) const;
 
-  /// @brief The record if it is there and sound.
+  /// @brief The first segment of the record, if all of it is there and sound. Reads all of it.
   [[nodiscard]] std::optional<Bytes> find(const std::string& name) const;
 
   /// @brief Whether there is a record of that name; whether it is sound, `get` tells.
@@ -46,6 +51,23 @@ class RecordStore {
   [[nodiscard]] std::filesystem::path file_of(const std::string& name) const;
 
   std::filesystem::path folder_;
+};
+
+/// @brief Reads many segments of records that do not change meanwhile; their files stay open. All
+/// functions are local.
+class RecordReader {
+ public:
+  explicit RecordReader(std::filesystem::path folder);
+
+  /// @throws InputError naming the file if it is missing or damaged.
+  [[nodiscard]] LocalIndex num_segments(const std::string& name) const;
+
+  /// @brief As RecordStore::get(). @throws InputError
+  [[nodiscard]] Bytes segment(const std::string& name, LocalIndex number) const;
+
+ private:
+  std::filesystem::path folder_;
+  mutable OpenFiles files_{};
 };
 
 }  // namespace tessera::io

@@ -43,7 +43,7 @@ class WorstTets {
   }
 
   void add(const WorstTet& tet);
-  void add(const WorstTets& other);  ///< @pre of other subdomains.
+  void add(const WorstTets& other);
 
   /// @brief At most kMost.
   [[nodiscard]] const std::vector<WorstTet>& tets() const { return tets_; }

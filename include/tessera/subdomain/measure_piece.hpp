@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "tessera/improve/piece_part.hpp"
 #include "tessera/mesh/piece.hpp"
 #include "tessera/mesh/skin.hpp"
-#include "tessera/number/shared_vertices.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/piece_summary.hpp"
 
@@ -14,6 +14,10 @@ namespace tessera::subdomain {
 /// @brief Adds the lengths of a piece's edges to a histogram. Local.
 /// @return The number of edges.
 GlobalIndex measure_edges(const mesh::Piece& piece, quality::QualityHistograms& histograms);
+
+/// @brief Adds the length of one edge, as measure_edges() does. Local.
+void measure_edge(const mesh::Piece& piece, LocalIndex a, LocalIndex b,
+                  quality::QualityHistograms& histograms);
 
 /// @brief Puts the shapes of a piece's tets into its summary and histograms. Local.
 /// @param[in] on_seam Shape (num_skin_vertices): whether tets there are seam tets.
@@ -30,13 +34,13 @@ void measure_tets(const mesh::Piece& piece, const std::vector<char>& on_seam, Fi
 [[nodiscard]] FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& skin,
                                               const mesh::Piece& piece);
 
-/// @brief The figures of a piece after it has exchanged tets with others; what an exchange does not
-/// change is taken from `filled`. Local.
-/// @param[in] shared What the lists of its neighbours say of its shared vertices.
+/// @brief The figures of a piece, or of a part of it, after it has exchanged tets with others; what
+/// an exchange does not change is taken from `filled`. Without owned vertices. Local.
+/// @param[in] on_seam Shape (num_skin_vertices): whether tets there are seam tets.
 /// @param[in] filled The summary of the piece as it was filled.
-[[nodiscard]] FillResult measure_improved_piece(const mesh::Piece& piece,
-                                                const number::SharedBy& shared,
-                                                const PieceSummary& filled);
+[[nodiscard]] FillResult measure_improved_part(const improve::PiecePart& part,
+                                               const std::vector<char>& on_seam,
+                                               const PieceSummary& filled);
 
 /// @brief The figures of a piece that was split further. Without volume, owned vertices and the
 /// distances to the model. The Euler characteristic stays that of the fill: a piece that has

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -31,6 +32,12 @@ struct SeamHash {
 /// @brief The signed hashes of all faces of a piece's tets, summed: inner faces cancel by
 /// themselves, so it is that of the piece's surface. Local; linear.
 [[nodiscard]] Hash128 surface_hash(const mesh::Piece& piece);
+
+/// @brief The same of a part of a piece. So the hashes of parts sum up to that of the piece.
+/// @param[in] inner_names Shape (num_vertices): what the parts call vertices that no other piece
+/// has. Local.
+[[nodiscard]] Hash128 surface_hash(const mesh::Piece& part,
+                                   std::span<const LocalIndex> inner_names);
 
 /// @brief The same from a skin that is known to be the surface of a piece. Local.
 [[nodiscard]] Hash128 surface_hash(const mesh::Skin& skin);

@@ -2,11 +2,14 @@
 #include "tessera/improve/piece_part.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "tessera/improve/phase_bands.hpp"
 #include "tessera/improve/region_band.hpp"
 #include "tessera/improve/region_update.hpp"
 
@@ -24,7 +27,7 @@ namespace {
 // away and got back flipped.
 struct PartsOfOctants : ::testing::Test {
   static constexpr int kLayers = 1;
-  const testing::Body body{testing::kuhn_cube(12), testing::octants(testing::kuhn_cube(12))};
+  const testing::Body body{testing::kuhn_cube(18), testing::octants(testing::kuhn_cube(18))};
   const SeamRegions regions{body.skeleton, body.decomposition};
   std::vector<PiecePart> parts = parts_of(testing::coarse_pieces(body));
 
@@ -79,6 +82,27 @@ CornersOfTag labelled(const PiecePart& part, const std::vector<LocalIndex>& labe
   return corners;
 }
 
+CornersOfTag all_corners(const PiecePart& part)
+{
+  return labelled(part, std::vector<LocalIndex>(part.tet_tag.size(), 0));
+}
+
+// Every tet of the part is one of the other, with its name and place.
+void expect_same_tets(const PiecePart& part, const PiecePart& whole)
+{
+  const CornersOfTag all = all_corners(whole);
+  const CornersOfTag some = all_corners(part);
+  EXPECT_FALSE(some.empty());
+  for (const auto& [tag, corners] : some) EXPECT_EQ(all.at(tag), corners) << tag;
+  for (LocalIndex v = 0; v < part.piece.num_skin_vertices(); ++v) {
+    const auto tags = std::span(whole.vertex_tag).first(at(whole.piece.num_skin_vertices()));
+    const auto found = std::ranges::lower_bound(tags, part.vertex_tag[at(v)]);
+    ASSERT_NE(found, tags.end());
+    EXPECT_EQ(whole.piece.skin_point(static_cast<LocalIndex>(found - tags.begin())),
+              part.piece.skin_point(v));
+  }
+}
+
 TEST_F(PartsOfOctants, AllPhasesAtOnceGiveWhatOneAfterTheOtherGives)
 {
   const std::vector<PiecePart> filled = parts;
@@ -113,6 +137,36 @@ TEST_F(PartsOfOctants, TheRimHasWhatLaterPhasesNeed)
     EXPECT_FALSE(wanted.empty());
     EXPECT_EQ(labelled(rim_after, labels_of(rim_after, 1)), wanted);
   }
+}
+
+TEST_F(PartsOfOctants, TheOuterPartHasWhatAnyPhaseExchanges)
+{
+  const std::vector<PiecePart> filled = parts;
+  std::vector<std::vector<RegionExchange>> all(parts.size());
+  for (int phase = 0; phase < kNumPhases; ++phase) {
+    const auto exchanges = exchanges_of(phase);
+    for (std::size_t s = 0; s < parts.size(); ++s) {
+      parts[s] = apply_updates(parts[s], exchanges[s]);
+      all[s].insert(all[s].end(), exchanges[s].begin(), exchanges[s].end());
+    }
+  }
+  for (std::size_t s = 0; s < parts.size(); ++s) {
+    const PhaseBands kept = make_phase_bands(filled[s], regions, 0, filled[s].piece.num_tets());
+    ASSERT_TRUE(kept.rim.has_value());
+    const PiecePart outer = outer_part(kept);
+    EXPECT_LT(outer.piece.num_tets(), filled[s].piece.num_tets());
+    EXPECT_TRUE(std::ranges::is_sorted(outer.tet_tag, std::less_equal<>()));
+    expect_same_tets(outer, filled[s]);
+    const PiecePart outer_after = apply_updates(outer, all[s]);
+    EXPECT_EQ(outer_after.piece.num_tets() - outer.piece.num_tets(),
+              parts[s].piece.num_tets() - filled[s].piece.num_tets());
+    expect_same_tets(outer_after, parts[s]);
+  }
+}
+
+TEST_F(PartsOfOctants, ARimThatIsTooLargeIsLeftOut)
+{
+  EXPECT_FALSE(make_phase_bands(parts[0], regions, 0, 1).rim.has_value());
 }
 
 TEST_F(PartsOfOctants, TheRimOfTheLastPhaseIsEmpty)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -146,6 +147,31 @@ TEST(SeamRegions, HaveHostsOfTheirOwn)
   EXPECT_EQ(regions.region_of(regions.host_of(3), 1), kNoIndex);
   EXPECT_EQ(regions.region_made(regions.host_of(3)), 3);
   EXPECT_EQ(regions.region_made(hosts.triangle(0)), kNoIndex);
+}
+
+TEST(SeamRegions, SayWhoMayHoldAVertex)
+{
+  const Body body = octants_of(testing::kuhn_cube(2));
+  const SeamRegions regions(body.skeleton, body.decomposition);
+  const mesh::HostLayout hosts(body.skeleton);
+  std::vector<std::set<LocalIndex>> holders_of_vertex(at(body.skeleton.num_vertices()));
+  for (LocalIndex t = 0; t < body.skeleton.num_triangles(); ++t) {
+    std::set<LocalIndex> sides;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const LocalIndex s = body.skeleton.triangle_subdomains[2 * at(t) + side];
+      if (s != kNoIndex) sides.insert(s);
+    }
+    EXPECT_TRUE(std::ranges::equal(regions.holders_of(hosts.triangle(t)), sides));
+    for (std::size_t c = 0; c < 3; ++c) {
+      holders_of_vertex[at(body.skeleton.triangle_vertices[3 * at(t) + c])].merge(std::set(sides));
+    }
+  }
+  for (LocalIndex v = 0; v < body.skeleton.num_vertices(); ++v) {
+    EXPECT_TRUE(std::ranges::equal(regions.holders_of(hosts.vertex(v)), holders_of_vertex[at(v)]));
+  }
+  EXPECT_TRUE(
+      std::ranges::any_of(holders_of_vertex, [](const auto& set) { return set.size() == 8; }));
+  EXPECT_TRUE(std::ranges::equal(regions.holders_of(regions.host_of(3)), regions.subdomains_of(3)));
 }
 
 TEST(SeamRegions, SayWhereTwoSubdomainsMayMeet)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/io/record_store.hpp"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
@@ -37,6 +39,36 @@ TEST(RecordStore, GivesBackWhatWasPutAlsoThroughAnotherObject)
   EXPECT_EQ(same.get("piece_17"), record_of(100'000));
   EXPECT_TRUE(same.contains("piece_17"));
   EXPECT_FALSE(same.contains("piece_1"));
+}
+
+TEST(RecordStore, GivesBackEverySegment)
+{
+  const TemporaryFolder folder;
+  const RecordStore store(folder / "pieces");
+  const std::array<Bytes, 3> segments{record_of(20), Bytes{}, record_of(70'000)};
+  store.put("piece_4", segments);
+  const RecordReader reader(folder / "pieces");
+  EXPECT_EQ(reader.num_segments("piece_4"), 3);
+  for (LocalIndex i = 0; i < 3; ++i) {
+    EXPECT_EQ(store.get("piece_4", i), segments[at(i)]);
+    EXPECT_EQ(reader.segment("piece_4", i), segments[at(i)]);
+  }
+  EXPECT_EQ(store.find("piece_4"), segments[0]);
+  EXPECT_THROW(static_cast<void>(store.get("piece_4", 3)), InputError);
+  EXPECT_THROW(static_cast<void>(reader.num_segments("piece_5")), InputError);
+}
+
+TEST(RecordStore, FindsNoRecordWithADamagedSegment)
+{
+  const TemporaryFolder folder;
+  const RecordStore store(folder / "pieces");
+  store.put("piece_4", std::array<Bytes, 2>{record_of(20), record_of(30)});
+  std::string bytes = testing::file_bytes(only_file(folder / "pieces"));
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  testing::write_bytes(only_file(folder / "pieces"), bytes);
+  EXPECT_EQ(store.get("piece_4", 0), record_of(20)) << "This one is sound.";
+  EXPECT_THROW(static_cast<void>(store.get("piece_4", 1)), InputError);
+  EXPECT_EQ(store.find("piece_4"), std::nullopt);
 }
 
 TEST(RecordStore, ASecondPutReplacesTheFirst)
@@ -111,7 +143,7 @@ TEST(RecordStore, AFullDiskIsAnOutputErrorAndLeavesNothingNew)
   }
   EXPECT_EQ(store.get("piece_1"), record_of(100));
   EXPECT_FALSE(store.contains("piece_2"));
-  EXPECT_EQ(testing::file_bytes(only_file(folder / "pieces")).size(), 140U);
+  EXPECT_EQ(testing::file_bytes(only_file(folder / "pieces")).size(), 164U);
 }
 
 TEST(RecordStore, FollowsNoSymbolicLink)

@@ -13,6 +13,7 @@
 #include "tessera/migrate/assemble.hpp"
 #include "tessera/model/triangle_surface.hpp"
 #include "tessera/number/shared_vertices.hpp"
+#include "tessera/subdomain/core_figures.hpp"
 #include "tessera/subdomain/improve_seam_region.hpp"
 
 #include "pipeline/jobs/worker_messages.hpp"
@@ -94,11 +95,11 @@ using Types = ::testing::Types<
     mesh::CoarseMesh, mesh::Decomposition, mesh::EdgeLevels, mesh::LatticePointKey,
     mesh::PointLimit, mesh::ProjectionLimiter, improve::Band, improve::PiecePart,
     improve::PieceUpdate, improve::ImproveOptions, subdomain::RegionRecord, subdomain::PieceSummary,
-    subdomain::FillResult, subdomain::FailedTries, verify::SeamHash, quality::TetStatistics,
-    quality::QualityHistograms, fill::FillTry, coarse::CoarseOptions, coarse::VertexDistance,
-    decompose::DecomposeReport, decompose::DecomposeResult, number::PieceCounts, mesh::HostPoint,
-    number::VertexList, io::LogPlace, check::SubdomainFigures, migrate::MeshBlock,
-    migrate::TetColumn, IndexLists, cut::CutReport, cut::CutChoice,
+    subdomain::FillResult, subdomain::CoreFigures, subdomain::FailedTries, verify::SeamHash,
+    quality::TetStatistics, quality::QualityHistograms, fill::FillTry, coarse::CoarseOptions,
+    coarse::VertexDistance, decompose::DecomposeReport, decompose::DecomposeResult,
+    number::PieceCounts, mesh::HostPoint, number::VertexList, io::LogPlace, check::SubdomainFigures,
+    migrate::MeshBlock, migrate::TetColumn, IndexLists, cut::CutReport, cut::CutChoice,
     // The program's.
     CoarseTry, UntangleTest, FillTask, SkinMesh, CoarseResult, WrittenFile, FillRecord,
     FoldedSubdomain, Plan, ModelLoad, MeshLoad, SegmentLoad, LimiterLoad, NumbersLoad,

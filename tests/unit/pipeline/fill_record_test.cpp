@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/store/fill_record.hpp"
 
+#include <array>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -19,6 +20,7 @@ struct StoredFill : ::testing::Test {
   static constexpr LocalIndex kBatch = 4;
   const testing::TemporaryFolder output{};
   const Hash128 plan{1, 2};
+  const mesh::Piece piece{.subdomain = 9, .material = 3};
 
   StoredFill()
   {
@@ -27,8 +29,8 @@ struct StoredFill : ::testing::Test {
     record.results.resize(2);
     record.results[1].summary.subdomain = 9;
     record.files = {measure_file(output.path(), "a.vtu")};
-    record.piece = Bytes(3, std::byte{7});
-    io::RecordStore(store_folder(output.path())).put(record_name(kBatch), to_bytes(record));
+    io::RecordStore(store_folder(output.path()))
+        .put(record_name(kBatch), std::array{to_bytes(record), to_bytes(piece)});
   }
 
   [[nodiscard]] bool is_found() const
@@ -47,7 +49,7 @@ TEST_F(StoredFill, ComesBackWhole)
   ASSERT_EQ(record->files.size(), 1U);
   EXPECT_EQ(record->files[0].path, "a.vtu");
   EXPECT_EQ(record->files[0].size, 15U);
-  EXPECT_EQ(record->piece, Bytes(3, std::byte{7}));
+  EXPECT_EQ(to_bytes(piece_of_record(output.path(), record_name(kBatch))), to_bytes(piece));
 }
 
 TEST_F(StoredFill, OfAnotherPlanOrBatchIsNotFound)

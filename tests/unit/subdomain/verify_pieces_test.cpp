@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "tessera/netgen/factory.hpp"
-#include "tessera/number/shared_vertices.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
 #include "support/filled_cube.hpp"
@@ -216,21 +215,6 @@ struct VerifyImprovedPieces : VerifyFilledPieces {
     improved = kImproved;
   }
 
-  [[nodiscard]] number::SharedBy shared_by(LocalIndex subdomain) const
-  {
-    number::VertexList own;
-    std::vector<number::VertexList> others;
-    for (const mesh::Piece& piece : improved) {
-      number::VertexList list{piece.subdomain, piece.material, number::shared_vertices(piece)};
-      if (piece.subdomain == subdomain) {
-        own = std::move(list);
-      } else {
-        others.push_back(std::move(list));
-      }
-    }
-    return number::compare_lists(own, others);
-  }
-
   [[nodiscard]] std::optional<std::string> verdict_on_improved() const
   {
     std::vector<PieceSummary> summaries;
@@ -238,8 +222,9 @@ struct VerifyImprovedPieces : VerifyFilledPieces {
     for (const mesh::Piece& piece : improved) {
       const PieceSummary& before = pieces()[at(piece.subdomain)].result.summary;
       volume_before += before.volume;
+      const std::vector<char> on_seam(at(piece.num_skin_vertices()), 0);  // Nobody asks for it.
       summaries.push_back(
-          measure_improved_piece(piece, shared_by(piece.subdomain), before).summary);
+          measure_improved_part(improve::whole_piece(piece), on_seam, before).summary);
     }
     const std::vector<Hash128> closed(at(body().skeleton.num_triangles()));
     return verify_pieces(cut, ranges, {summaries, closed, volume_before, true});

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/io/open_files.hpp"
+
+#include <cerrno>
+#include <cstddef>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "tessera/base/error.hpp"
+
+#include "atomic_file.hpp"
+
+namespace tessera::io {
+namespace {
+
+constexpr std::size_t kMostOpen = 64;
+
+}  // namespace
+
+OpenFiles::~OpenFiles() { close_all(); }
+
+void OpenFiles::close_all()
+{
+  for (const auto& [file, descriptor] : descriptors_) ::close(descriptor);
+  descriptors_.clear();
+}
+
+int OpenFiles::open(const std::filesystem::path& file)
+{
+  const auto known = descriptors_.find(file);
+  if (known != descriptors_.end()) return known->second;
+  if (descriptors_.size() >= kMostOpen) close_all();
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor < 0) {
+    throw InputError(fmt::format("cannot read {}: {}", file.string(), system_error_text(errno)));
+  }
+  descriptors_.emplace(file, descriptor);
+  return descriptor;
+}
+
+}  // namespace tessera::io

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "segments.hpp"
+
+#include <cerrno>
+
+#include <unistd.h>
+
+namespace tessera::io {
+
+SegmentHeads heads_of(const SegmentViews& segments)
+{
+  SegmentHeads heads;
+  heads.reserve(segments.size());
+  for (const auto& segment : segments) heads.push_back({segment.size(), hash_bytes(segment)});
+  return heads;
+}
+
+Hash128 hash_of(std::span<const std::byte> name, std::span<const SegmentHead> segments)
+{
+  Hash128 hash = hash_bytes(name);
+  hash += hash_bytes(std::as_bytes(segments));
+  return hash;
+}
+
+std::uint64_t size_of_file(int descriptor)
+{
+  const off_t end = ::lseek(descriptor, 0, SEEK_END);
+  return end < 0 ? 0 : static_cast<std::uint64_t>(end);
+}
+
+bool read_at(int descriptor, std::uint64_t offset, std::span<std::byte> bytes)
+{
+  while (!bytes.empty()) {
+    const ssize_t got = ::pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    offset += static_cast<std::uint64_t>(got);
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
+  }
+  return true;
+}
+
+std::optional<SegmentHeads> read_heads(int descriptor, std::uint64_t offset,
+                                       std::uint64_t num_segments)
+{
+  const std::uint64_t end = size_of_file(descriptor);
+  if (offset > end || num_segments > (end - offset) / sizeof(SegmentHead)) return std::nullopt;
+  SegmentHeads heads(num_segments);
+  if (!read_at(descriptor, offset, std::as_writable_bytes(std::span(heads)))) return std::nullopt;
+  return heads;
+}
+
+std::optional<Bytes> read_segment(int descriptor, std::uint64_t offset,
+                                  std::span<const SegmentHead> heads, std::size_t number)
+{
+  if (number >= heads.size()) return std::nullopt;
+  for (const SegmentHead& before : heads.first(number)) offset += before.size;
+  const std::uint64_t end = size_of_file(descriptor);
+  if (offset > end || heads[number].size > end - offset) return std::nullopt;
+  Bytes segment(heads[number].size);
+  if (!read_at(descriptor, offset, segment) || hash_bytes(segment) != heads[number].hash) {
+    return std::nullopt;
+  }
+  return segment;
+}
+
+}  // namespace tessera::io
