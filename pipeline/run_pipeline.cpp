@@ -14,6 +14,7 @@
 #include "pipeline/stages/number_stage.hpp"
 #include "pipeline/stages/picture_stage.hpp"
 #include "pipeline/stages/refine_stage.hpp"
+#include "pipeline/stages/share_stage.hpp"
 #include "pipeline/stages/untangle_and_fill.hpp"
 #include "pipeline/stages/verify_stage.hpp"
 #include "pipeline/stages/write_stage.hpp"
@@ -27,10 +28,10 @@ bool wants_better_seams(const RunResult& run)
 }
 
 // What the jobs start from. Ids that are known before the fills let these write the files.
-void load_workers(const RunResult& run, const subdomain::PartitionedMesh& cut,
-                  const OutputPlan& output, RunContext& context)
+void load_workers(const RunResult& run, const SharedBytes& mesh, const OutputPlan& output,
+                  RunContext& context)
 {
-  load_mesh(cut, context);
+  load_mesh(mesh, context);
   if (wants_better_seams(run)) {
     load_improvement(run.resolved.improve, run.resolved.fill.split_corners, run.kernels, context);
   }
@@ -58,10 +59,12 @@ void split_pieces(RunResult& run, const subdomain::PartitionedMesh& cut, const O
 RunResult run_pipeline(const config::Case& given, const RunOptions& options, RunContext& context)
 {
   RunResult run = run_coarse_part(given, options, context);  // Model, size, coarse, decompose.
-  const subdomain::PartitionedMesh cut = partitioned_mesh(run);
+  SharedMesh shared = share_mesh(run, context);
+  const subdomain::PartitionedMesh cut(run.coarse.mesh, run.decomposition.decomposition,
+                                       std::move(shared.tables));
   const OutputPlan output = plan_output(run, cut, options, context);
   const RunOutline& outline = output.outline;
-  load_workers(run, cut, output, context);
+  load_workers(run, shared.message, output, context);
   require_disk_space(outline, run.resolved.output, context);
 
   UntangledFill fill =

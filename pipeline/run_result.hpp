@@ -53,10 +53,4 @@ struct RunResult {
   std::vector<MeshPicture> pictures{};        ///< On rank 0, if the case wants a report for people.
 };
 
-/// @brief The coarse mesh of a run, cut, with the levels on which pieces are filled. Local.
-[[nodiscard]] inline subdomain::PartitionedMesh partitioned_mesh(const RunResult& run)
-{
-  return {run.coarse.mesh, run.decomposition.decomposition, run.levels.shifted(-run.splits)};
-}
-
 }  // namespace tessera::pipeline

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -47,7 +48,7 @@ struct JobFile {
   static auto fields(auto& self) { return std::tie(self.mark, self.version, self.job); }
 };
 
-std::string_view text_of(const Bytes& bytes)
+std::string_view text_of(std::span<const std::byte> bytes)
 {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -84,9 +85,10 @@ std::vector<std::string> write_loads(const fs::path& failure, const RunContext& 
   std::vector<std::string> names;
   io::make_own_folder(failure / "inputs");
   for (const auto& [kind, message] : context.loads) {
-    names.push_back(fmt::format("{}_{}.bin", kind, to_hex(hash_bytes(message))));
+    names.push_back(fmt::format("{}_{}.bin", kind, to_hex(hash_bytes(message.bytes()))));
     const fs::path file = failure / "inputs" / names.back();
-    if (!fs::exists(fs::symlink_status(file))) io::write_text_atomically(file, text_of(message));
+    if (!fs::exists(fs::symlink_status(file)))
+      io::write_text_atomically(file, text_of(message.bytes()));
   }
   return names;
 }
@@ -128,10 +130,10 @@ void write_coarse(const fs::path& file, const mesh::CoarseMesh& coarse,
 {
   if (fs::exists(fs::symlink_status(file))) return;
   mesh::MeshArrays arrays;
-  arrays.point_xyz = coarse.vertex_xyz;
-  arrays.cell_points = coarse.tet_vertices;
-  arrays.cell_ints["attribute"] = coarse.tet_material;
-  arrays.cell_ints["subdomain"] = decomposition.tet_subdomain;
+  arrays.point_xyz = coarse.vertex_xyz.to_vector();
+  arrays.cell_points = coarse.tet_vertices.to_vector();
+  arrays.cell_ints["attribute"] = coarse.tet_material.to_vector();
+  arrays.cell_ints["subdomain"] = decomposition.tet_subdomain.to_vector();
   io::write_vtu(arrays, file, io::Compression::none);
 }
 

@@ -78,7 +78,13 @@ class MeshWorker final : public jobs::Worker {
     coarse_ = std::move(load.coarse);
     decomposition_ = std::move(load.decomposition);
     output_ = std::move(load.output);
-    cut_.emplace(coarse_, decomposition_, std::move(load.levels));
+    cut_.emplace(coarse_, decomposition_, std::move(load.tables));
+  }
+
+  void take(const SegmentLoad& load)
+  {
+    fail_if_asked("map");
+    take(std::get<MeshLoad>(from_shared_bytes<Load>(SharedBytes::map_segment(load.segment))));
   }
 
   void take(LimiterLoad load) { limiter_ = std::move(load.limiter); }

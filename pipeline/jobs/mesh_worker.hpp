@@ -10,6 +10,7 @@
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/hash.hpp"
+#include "tessera/base/shared_bytes.hpp"
 #include "tessera/coarse/coarse_surface.hpp"
 #include "tessera/coarse/divide_domains.hpp"
 #include "tessera/coarse/options.hpp"
@@ -41,10 +42,9 @@ namespace tessera::pipeline {
 /// @brief load: the model. `scale`: output length units per file length unit.
 [[nodiscard]] Bytes load_model_message(const model::ModelSource& source, double scale);
 
-/// @brief load: coarse mesh and decomposition, the levels on which pieces are filled, and the
-/// output folder.
-[[nodiscard]] Bytes load_mesh_message(const subdomain::PartitionedMesh& cut,
-                                      const std::filesystem::path& output);
+/// @brief load: coarse mesh, subdomains and their tables, and the output folder: the message of
+/// share_mesh(), from memory that this rank shares.
+[[nodiscard]] Bytes load_segment_message(const SegmentName& segment);
 
 /// @brief load: the finished plan.
 [[nodiscard]] Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter);

@@ -14,9 +14,9 @@ Bytes load_model_message(const model::ModelSource& source, double scale)
   return to_bytes(Load(ModelLoad{scale, source}));
 }
 
-Bytes load_mesh_message(const subdomain::PartitionedMesh& cut, const std::filesystem::path& output)
+Bytes load_segment_message(const SegmentName& segment)
 {
-  return to_bytes(Load(MeshLoad{cut.coarse, cut.decomposition, cut.levels, output.string()}));
+  return to_bytes(Load(SegmentLoad{segment}));
 }
 
 Bytes load_numbers_message(const std::vector<number::PieceCounts>& counts,

@@ -6,6 +6,9 @@
 #include <variant>
 #include <vector>
 
+#include "tessera/base/shared_bytes.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
+
 #include "pipeline/jobs/mesh_worker.hpp"
 
 /// What mesh_worker.hpp sends to the worker, one type for each message. The kind of a message is
@@ -22,13 +25,20 @@ struct ModelLoad {
 struct MeshLoad {
   mesh::CoarseMesh coarse{};
   mesh::Decomposition decomposition{};
-  mesh::EdgeLevels levels{};
+  subdomain::SubdomainTables tables{};
   std::string output{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.coarse, self.decomposition, self.levels, self.output);
+    return std::tie(self.coarse, self.decomposition, self.tables, self.output);
   }
+};
+
+/// @brief A MeshLoad whose message is in memory that the rank shares.
+struct SegmentLoad {
+  SegmentName segment{};
+
+  static auto fields(auto& self) { return std::tie(self.segment); }
 };
 
 struct LimiterLoad {
@@ -71,8 +81,8 @@ struct RefinementLoad {
   }
 };
 
-using Load =
-    std::variant<ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad, RefinementLoad>;
+using Load = std::variant<ModelLoad, MeshLoad, SegmentLoad, LimiterLoad, NumbersLoad,
+                          ImprovementLoad, RefinementLoad>;
 
 struct ImportRequest {
   std::string file{};

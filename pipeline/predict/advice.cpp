@@ -34,13 +34,19 @@ std::string disk_advice(const Prediction& prediction, const Resources& resources
       word_of(io::Compression::zlib));
 }
 
+// Of so many ranks on one machine. What they share is there once.
+double memory_of_ranks(const Prediction& prediction, int num_ranks)
+{
+  const double own = prediction.memory_per_rank_bytes - prediction.memory_of_node_bytes;
+  return num_ranks * own + prediction.memory_of_node_bytes;
+}
+
 std::string memory_advice(const Prediction& prediction, const Resources& resources, int num_here)
 {
   return fmt::format(
       "{} ranks need {:.3g} GB of memory, this machine has {:.3g} GB: start fewer ranks on it, or "
       "make jobs smaller by more decompose.subdomains (and output.files)",
-      num_here, kGB * num_here * prediction.memory_per_rank_bytes,
-      kGB * resources.machine_memory_bytes);
+      num_here, kGB * memory_of_ranks(prediction, num_here), kGB * resources.machine_memory_bytes);
 }
 
 std::string job_memory_advice(const Prediction& prediction, const Resources& resources)
@@ -103,7 +109,7 @@ Advice advise(const Prediction& prediction, const Resources& resources)
     advice.must.push_back(disk_advice(prediction, resources));
   }
   const int num_here = std::min(prediction.num_ranks, resources.num_cores);
-  if (num_here * prediction.memory_per_rank_bytes > resources.machine_memory_bytes) {
+  if (memory_of_ranks(prediction, num_here) > resources.machine_memory_bytes) {
     advice.must.push_back(memory_advice(prediction, resources, num_here));
   }
   if (prediction.largest_job_bytes > resources.job_memory_gib * kGiB) {

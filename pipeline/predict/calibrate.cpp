@@ -20,6 +20,7 @@
 #include "pipeline/predict/choose_samples.hpp"
 #include "pipeline/runtime/log.hpp"
 #include "pipeline/stages/load_stage.hpp"
+#include "pipeline/stages/share_stage.hpp"
 #include "pipeline/stages/untangle_stage.hpp"
 #include "pipeline/stages/write_stage.hpp"
 #include "pipeline/store/fill_record.hpp"
@@ -136,7 +137,7 @@ class Sampler {
   // As run_pipeline() does it, with the sampled jobs in place of all.
   void fill(SampleSet& set, const subdomain::PartitionedMesh& cut, const RunOutline& outline)
   {
-    load_mesh(cut, own_);
+    load_mesh(share_message(cut, own_), own_);
     if (outline.is_one_pass) {
       load_numbers(outline.pieces, length_unit_, run_.resolved.output, own_);
     }

@@ -14,19 +14,22 @@
 #include "pipeline/predict/prediction_file.hpp"
 #include "pipeline/stages/coarse_part.hpp"
 #include "pipeline/stages/load_stage.hpp"
+#include "pipeline/stages/share_stage.hpp"
 
 namespace tessera::pipeline {
 namespace {
 
-RankMemory memory_before_fills(const RunContext& context)
+RankMemory memory_before_fills(const SharedBytes& mesh, const RunContext& context)
 {
+  const std::size_t shared = mesh.segment() ? mesh.bytes().size() : 0;
   const jobs::JobUsage usage = context.jobs.usage();
   const auto largest = [&](std::size_t bytes) {
     return context.comm.max(static_cast<double>(bytes));
   };
   return {.process = largest(jobs::peak_rss_of_this_process()),
           .loaded = largest(usage.loaded_bytes),
-          .jobs_peak = largest(context.jobs.peak_rss_bytes())};
+          .jobs_peak = largest(context.jobs.peak_rss_bytes()),
+          .shared = largest(shared)};
 }
 
 }  // namespace
@@ -39,17 +42,19 @@ std::filesystem::path sample_folder(const std::filesystem::path& output)
 std::string dry_run(const config::Case& given, const RunOptions& options, int num_ranks,
                     RunContext& context)
 {
-  const RunResult run = run_coarse_part(given, {}, context);
+  RunResult run = run_coarse_part(given, {}, context);
   StageScope prepare(context, "prepare");
-  const subdomain::PartitionedMesh cut = partitioned_mesh(run);
+  SharedMesh shared = share_mesh(run, context);
+  const subdomain::PartitionedMesh cut(run.coarse.mesh, run.decomposition.decomposition,
+                                       std::move(shared.tables));
   std::vector<subdomain::SubdomainRange> files;
   all_or_none(context.comm, [&] { files = output_ranges(run, options); });
   RunOutline outline = outline_run(cut, run.kernels, run.splits, files, run.resolved.improve.seams);
   if (run.resolved.fill.split_corners) outline.divide_corners();
-  load_mesh(cut, context);
+  load_mesh(shared.message, context);
   prepare.finish("");
 
-  PredictionBasis basis{.memory = memory_before_fills(context),
+  PredictionBasis basis{.memory = memory_before_fills(shared.message, context),
                         .serial_stages = context.times,
                         .num_ranks = num_ranks};
   DryRun found;

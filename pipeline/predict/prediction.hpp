@@ -31,6 +31,7 @@ struct Prediction {
   double disk_bytes = 0.0;                 ///< Of those files.
   double disk_peak_bytes = 0.0;            ///< With the pieces that wait in the store.
   double memory_per_rank_bytes = 0.0;      ///< Largest of a rank with its worker processes.
+  double memory_of_node_bytes = 0.0;       ///< Of that, what all ranks of a node share.
   double largest_job_bytes = 0.0;  ///< Resident memory of one fill job, with what it shares with
                                    ///< its zygotes; fill.memory_gib bounds it.
   std::vector<StagePrediction> stages{};
@@ -44,6 +45,7 @@ struct RankMemory {
   double process = 0.0;    ///< The rank itself, so far.
   double loaded = 0.0;     ///< Its zygotes with model and coarse mesh.
   double jobs_peak = 0.0;  ///< Its zygotes and jobs together, so far.
+  double shared = 0.0;     ///< Of the rank itself, what stands once a node.
 };
 
 /// @brief What a prediction starts from.

@@ -42,6 +42,7 @@ Json quantities_json(const Prediction& prediction)
           {"disk_bytes", prediction.disk_bytes},
           {"disk_peak_bytes", prediction.disk_peak_bytes},
           {"memory_per_rank_bytes", prediction.memory_per_rank_bytes},
+          {"memory_of_node_bytes", prediction.memory_of_node_bytes},
           {"largest_job_bytes", prediction.largest_job_bytes},
           {"cpu_s", shared_cpu_s(prediction)},
           {"wall_time_s", prediction.wall_s},

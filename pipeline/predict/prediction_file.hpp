@@ -19,7 +19,8 @@
 ///   predicted; "ranks", "levels", "coarse_tets", "subdomains";
 /// - counts: "tets", "vertices", "boundary_triangles", "files" (in mesh/ and boundary/);
 /// - bytes: "disk_bytes" (of those files), "disk_peak_bytes" (with the pieces that wait for their
-///   ids), "memory_per_rank_bytes" (with its worker processes), "largest_job_bytes";
+///   ids), "memory_per_rank_bytes" (with its worker processes), "memory_of_node_bytes" (of that,
+///   what all ranks of a node share), "largest_job_bytes";
 /// - times: "cpu_s" (plan, fill and write, all ranks), "wall_time_s", "serial_share", "busy_share";
 /// - "stages": "name", "wall_time_s", "cpu_s", "serial";
 /// - "resources": "disk_free_bytes", "memory_bytes", "cores";

@@ -41,7 +41,7 @@ Json materials_json(const RunResult& run)
 // By row of the files; summed as materials are.
 Json patches_json(const RunResult& run, const std::vector<std::string>& names)
 {
-  const std::vector<LocalIndex>& row_of = run.coarse.mesh.patch_row;
+  const FlatArray<LocalIndex>& row_of = run.coarse.mesh.patch_row;
   std::vector<subdomain::PatchArea> rows(names.size());
   for (const subdomain::PieceSummary& piece : run.filled.pieces) {
     for (const subdomain::PatchArea& part : piece.patches) {

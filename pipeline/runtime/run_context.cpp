@@ -83,10 +83,11 @@ jobs::JobOutcome run_job(const JobRequest& job, const jobs::JobRunner::WaitCallb
   return context.jobs.run(job.request, job.limits, on_wait);
 }
 
-jobs::JobOutcome run_load(const std::string& kind, Bytes message, const jobs::JobLimits& limits,
-                          RunContext& context)
+jobs::JobOutcome run_load(const std::string& kind, SharedBytes message,
+                          const jobs::JobLimits& limits, RunContext& context, const Bytes& told)
 {
-  jobs::JobOutcome outcome = context.jobs.load(message, limits, wait_for_stop_signal());
+  const std::span<const std::byte> sent = told.empty() ? message.bytes() : told;
+  jobs::JobOutcome outcome = context.jobs.load(sent, limits, wait_for_stop_signal());
   if (outcome.status != jobs::JobStatus::ok) return outcome;
   for (auto& [known, loaded] : context.loads) {
     if (known != kind) continue;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/shared_bytes.hpp"
 #include "tessera/comm/communicator.hpp"
 #include "tessera/jobs/job_runner.hpp"
 
@@ -40,7 +41,7 @@ struct RunContext {
   std::vector<StageTime> times{};
   /// What this rank's jobs start from, by kind, in the order of the loads: a failed job is kept
   /// with it.
-  std::vector<std::pair<std::string, Bytes>> loads{};
+  std::vector<std::pair<std::string, SharedBytes>> loads{};
   std::uintmax_t job_log_begin = 0;  ///< Where in jobs_log the last job's words begin.
   std::size_t num_failed_jobs_kept = 0;
 };
@@ -107,8 +108,10 @@ auto read_result(jobs::JobOutcome& outcome, const Read& read)
 }
 
 /// @brief Loads a message of some kind, in place of an earlier one of that kind. Local.
-[[nodiscard]] jobs::JobOutcome run_load(const std::string& kind, Bytes message,
-                                        const jobs::JobLimits& limits, RunContext& context);
+/// @param[in] told  What the worker is told in its place, if that is not the message itself.
+[[nodiscard]] jobs::JobOutcome run_load(const std::string& kind, SharedBytes message,
+                                        const jobs::JobLimits& limits, RunContext& context,
+                                        const Bytes& told = {});
 
 /// @brief What to add to a job's message where the same run could go well next time. That is so if
 /// nothing was wrong with the job, or what had been loaded for it is lost. Local.

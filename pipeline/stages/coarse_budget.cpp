@@ -16,6 +16,10 @@ constexpr double kWholeOrDomain_s = 60.0;
 
 constexpr double kMargin = 10.0;
 
+// Thin walls may make four times as many tets, in several jobs.
+constexpr double kLeastOptional_s = 15.0;
+constexpr double kMarginOfOptional = 2.0;
+
 // Seconds of CPU time. Measured: NETGEN takes 16 ms a face and 50 us a triangle of frame.step (375
 // faces), 18 ms a face of Bottom.brep.
 constexpr double kSecondsPerFace = 0.012;
@@ -73,6 +77,12 @@ jobs::JobLimits whole_limits(const coarse::CoarseOptions& options, double num_te
   return {.cpu_s = budget_s(options, kWholeOrDomain_s, expected_s),
           .stall_s = kStall_s,
           .memory_gib = kMemory_gib};
+}
+
+double optional_timeout_s(const coarse::CoarseOptions& options, double before_s)
+{
+  const double budget = std::max(kLeastOptional_s, kMarginOfOptional * before_s);
+  return options.timeout_s > 0.0 ? std::min(options.timeout_s, budget) : budget;
 }
 
 }  // namespace tessera::pipeline

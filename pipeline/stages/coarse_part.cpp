@@ -8,6 +8,7 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/coarse/thin_walls.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/comm/share_on_node.hpp"
 #include "tessera/fill/fallbacks.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
 
@@ -23,6 +24,9 @@
 
 namespace tessera::pipeline {
 namespace {
+
+// A larger mesh is taken as it is: to mesh it again would take minutes, and it is fine already.
+constexpr LocalIndex kMostTetsToMeshAgain = 300'000;
 
 // What the store keeps of a run before it fills.
 struct CutCoarseMesh {
@@ -40,7 +44,7 @@ struct CutCoarseMesh {
 
 std::optional<CutCoarseMesh> kept_coarse_mesh(const RunState* state, const RunContext& context)
 {
-  return comm::on_root(context.comm, [&]() -> std::optional<CutCoarseMesh> {
+  return comm::on_root_of_nodes(context.comm, [&]() -> std::optional<CutCoarseMesh> {
     const auto record = state == nullptr ? std::nullopt : state->find_coarse();
     return record ? std::optional(from_bytes<CutCoarseMesh>(*record)) : std::nullopt;
   });
@@ -106,16 +110,14 @@ double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
 void refine_thin_walls(RunResult& run, const model::NamedParts& parts, RunContext& context)
 {
   if (!may_have_finer_walls(run)) return;
-  const mesh::SizePoints walls = on_root(context.comm, [&] {
+  const mesh::SizePoints walls = on_root(context.comm, [&]() -> mesh::SizePoints {
+    if (run.coarse.mesh.num_tets() > kMostTetsToMeshAgain) return {};
     return coarse::sizes_of_thin_walls(run.coarse.mesh, kSharpAngle_deg,
                                        run.coarse.options.max_size);
   });
   if (walls.size.empty()) return;
-  coarse::CoarseOptions options = run.coarse.options;
-  options.points.xyz.insert(options.points.xyz.end(), walls.xyz.begin(), walls.xyz.end());
-  options.points.size.insert(options.points.size.end(), walls.size.begin(), walls.size.end());
   context.log.info("coarse: walls are thin for its edges; once more with smaller ones there");
-  CoarseResult finer = run_coarse_try(run.resolved, options, context);
+  CoarseResult finer = run_finer_try(run.resolved, run.coarse, walls, context);
   const bool is_better = on_root(context.comm, [&] {
     return finer.mesh.num_tets() > 0
            && smallest_unforced_angle(finer.mesh) > smallest_unforced_angle(run.coarse.mesh);

@@ -16,6 +16,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/comm/share_on_node.hpp"
 #include "tessera/jobs/run_program.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
@@ -149,11 +150,17 @@ std::vector<CoarsePlan> plans_for(const config::Case& run_case, const cut::CutTr
   return plans;
 }
 
-CoarsePlan plan_for(const config::Case& run_case, const coarse::CoarseOptions& options,
-                    RunContext& context)
+CoarsePlan finer_plan(const config::Case& run_case, const CoarseResult& before,
+                      const mesh::SizePoints& sizes, RunContext& context)
 {
   const auto figures = on_root(context.comm, [&] { return figures_of(run_case, context); });
-  return {.options = options, .limits = surface_limits(options, figures, true)};
+  CoarsePlan plan{.options = before.options, .rung = before.tries};
+  plan.options.timeout_s = optional_timeout_s(before.options, before.cpu_s);
+  mesh::SizePoints& points = plan.options.points;
+  points.xyz.insert(points.xyz.end(), sizes.xyz.begin(), sizes.xyz.end());
+  points.size.insert(points.size.end(), sizes.size.begin(), sizes.size.end());
+  plan.limits = surface_limits(plan.options, figures, true);
+  return plan;
 }
 
 bool is_cut(const CoarsePlan& plan) { return plan.planes.num_parts > 0; }
@@ -200,9 +207,12 @@ class CoarseTries {
     while (const auto rung = next_surface()) {
       const CoarsePlan& plan = plans_[at(*rung)];
       result_.options = plan.options;
+      const double before_s = context_.jobs.usage().cpu_s;
       CoarseAttempt made = fill_coarse_surface(plan, take_surface(*rung), stage_, context_);
       if (made.outcome.status == jobs::JobStatus::ok) {
         ++result_.tries;
+        result_.cpu_s =
+            outcomes_[*rung].cpu_s + context_.comm.max(context_.jobs.usage().cpu_s - before_s);
         if (made.made) take(std::move(*made.made));
         break;
       }
@@ -343,7 +353,7 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
   StageScope stage(context, "coarse");
   CoarseResult result =
       CoarseTries(run_case, plans_for(run_case, planes, context), stage, context).run();
-  result = on_root(context.comm, [&] {
+  result = on_root_of_nodes(context.comm, [&] {
     if (result.mesh.num_tets() == 0) throw_no_mesh(result, run_case);
     return std::move(result);
   });
@@ -363,18 +373,20 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
   return result;
 }
 
-CoarseResult run_coarse_try(const config::Case& run_case, const coarse::CoarseOptions& options,
-                            RunContext& context)
+CoarseResult run_finer_try(const config::Case& run_case, const CoarseResult& before,
+                           const mesh::SizePoints& sizes, RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseResult result{.options = options};
+  CoarseResult result;
   try {
-    result = CoarseTries(run_case, {plan_for(run_case, options, context)}, stage, context).run();
+    const CoarsePlan plan = finer_plan(run_case, before, sizes, context);
+    result = CoarseTries(run_case, {plan}, stage, context).run();
   } catch (const GeometryError& error) {  // On all ranks; of the model at these sizes only.
     result.tries = 1;
     result.failures.emplace_back(error.what());
   }
-  result = on_root(context.comm, [&] { return std::move(result); });
+  result.options.timeout_s = before.options.timeout_s;
+  result = on_root_of_nodes(context.comm, [&] { return std::move(result); });
   stage.work_is_done();
   stage.finish(result.mesh.num_tets() == 0 ? std::string("failed")
                                            : fmt::format("{} tets", result.mesh.num_tets()));

@@ -23,11 +23,12 @@ struct CoarseResult {
   coarse::Defeatured defeatured{};      ///< Output length unit.
   std::vector<std::string> failures{};  ///< What the tries before said, for the report.
   bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
+  double cpu_s = 0.0;  ///< CPU time of the try that succeeded, of the rank that used most of it.
 
   static auto fields(auto& self)
   {
     return std::tie(self.mesh, self.tet_part, self.options, self.tries, self.distance,
-                    self.defeatured, self.failures, self.was_limited);
+                    self.defeatured, self.failures, self.was_limited, self.cpu_s);
   }
 };
 
@@ -47,11 +48,11 @@ struct CoarseResult {
 [[nodiscard]] CoarseResult run_coarse_stage(const config::Case& run_case,
                                             const cut::CutTree& planes, RunContext& context);
 
-/// @brief One try more, with options of which others have worked before. Its result, on all ranks,
-/// has no tets if it fails.
+/// @brief One try more, like the one that succeeded, with more sizes at points. It is not needed:
+/// the time of its jobs follows from that of the one before. Its result, on all ranks, has no tets
+/// if it fails.
 /// @note Collective.
-[[nodiscard]] CoarseResult run_coarse_try(const config::Case& run_case,
-                                          const coarse::CoarseOptions& options,
-                                          RunContext& context);
+[[nodiscard]] CoarseResult run_finer_try(const config::Case& run_case, const CoarseResult& before,
+                                         const mesh::SizePoints& sizes, RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
-#include "tessera/comm/all_or_none.hpp"
+#include "tessera/comm/share_on_node.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
 #include "tessera/decompose/predicted_fine_tets.hpp"
 #include "tessera/fill/fallbacks.hpp"
@@ -102,7 +102,7 @@ decompose::DecomposeResult run_decompose_stage(const RunResult& run, RunContext&
   if (const auto warning = too_many_subdomains(run.resolved, run.coarse.mesh)) {
     context.log.warn(*warning);
   }
-  decompose::DecomposeResult result = on_root(
+  decompose::DecomposeResult result = on_root_of_nodes(
       context.comm, [&] { return with_file_context(run.resolved, [&] { return cut(run); }); });
   stage.work_is_done();
   stage.finish(fmt::format("{} subdomains", result.report.num_subdomains));

@@ -11,23 +11,40 @@
 namespace tessera::pipeline {
 namespace {
 
+constexpr const char* kMesh = "mesh";
 constexpr jobs::JobLimits kLoadLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory_gib = 16.0};
+
+void require_loaded(jobs::JobOutcome outcome, const std::string& kind)
+{
+  throw_if_cancelled(outcome);
+  outcome.message += way_on(outcome);
+  jobs::throw_unless_ok(outcome, "loading the " + kind);
+}
 
 void load_everywhere(const std::string& kind, Bytes message, RunContext& context)
 {
   all_or_none(context.comm, [&] {
-    jobs::JobOutcome outcome = run_load(kind, std::move(message), kLoadLimits, context);
-    throw_if_cancelled(outcome);
-    outcome.message += way_on(outcome);
-    jobs::throw_unless_ok(outcome, "loading the " + kind);
+    require_loaded(run_load(kind, std::move(message), kLoadLimits, context), kind);
   });
+}
+
+// A worker that does not get at the memory of its rank gets a copy of what is there.
+jobs::JobOutcome load_mesh_here(const SharedBytes& message, RunContext& context)
+{
+  if (message.segment()) {
+    jobs::JobOutcome outcome =
+        run_load(kMesh, message, kLoadLimits, context, load_segment_message(*message.segment()));
+    if (outcome.status != jobs::JobStatus::failed) return outcome;
+    context.log.info("coarse mesh: workers have copies of it: {}", outcome.message);
+  }
+  return run_load(kMesh, message, kLoadLimits, context);
 }
 
 }  // namespace
 
-void load_mesh(const subdomain::PartitionedMesh& cut, RunContext& context)
+void load_mesh(const SharedBytes& message, RunContext& context)
 {
-  load_everywhere("mesh", load_mesh_message(cut, context.folder), context);
+  all_or_none(context.comm, [&] { require_loaded(load_mesh_here(message, context), kMesh); });
 }
 
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "tessera/base/shared_bytes.hpp"
 #include "tessera/fill/options.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/number/id_layout.hpp"
-#include "tessera/subdomain/partitioned_mesh.hpp"
 
 #include "pipeline/jobs/mesh_worker.hpp"
 #include "pipeline/runtime/run_context.hpp"
@@ -18,7 +18,8 @@
 /// throw on every rank if a worker dies, or Interrupted on a signal.
 namespace tessera::pipeline {
 
-void load_mesh(const subdomain::PartitionedMesh& cut, RunContext& context);
+/// @param[in] message Of share_mesh().
+void load_mesh(const SharedBytes& message, RunContext& context);
 
 /// @brief From now on fill jobs write the output files themselves. @param[in] counts Of all pieces.
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,

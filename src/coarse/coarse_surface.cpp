@@ -40,13 +40,13 @@ class KeptVertices {
   std::vector<LocalIndex> number_;  // kNoIndex: not kept.
 };
 
-std::vector<double> positions_of(const std::vector<LocalIndex>& rows,
-                                 const std::vector<double>& vertex_xyz)
+std::vector<double> positions_of(std::span<const LocalIndex> rows,
+                                 std::span<const double> vertex_xyz)
 {
   std::vector<double> xyz;
   xyz.reserve(3 * rows.size());
   for (const LocalIndex v : rows) {
-    const Vec3 point = point_at(std::span(vertex_xyz), v);
+    const Vec3 point = point_at(vertex_xyz, v);
     xyz.insert(xyz.end(), point.begin(), point.end());
   }
   return xyz;

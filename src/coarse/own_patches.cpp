@@ -125,7 +125,7 @@ void add_patches(const std::vector<BoundaryFace>& faces,
 }
 
 std::map<std::array<LocalIndex, 2>, std::vector<LocalIndex>> faces_of_edges(
-    const std::vector<LocalIndex>& face_vertices)
+    std::span<const LocalIndex> face_vertices)
 {
   std::map<std::array<LocalIndex, 2>, std::vector<LocalIndex>> faces;
   for (std::size_t c = 0; c < face_vertices.size(); ++c) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,6 @@ void add_patches(const std::vector<BoundaryFace>& faces,
 
 /// @brief The edges of triangles, each with the triangles around it, in ascending order. Local.
 [[nodiscard]] std::map<std::array<LocalIndex, 2>, std::vector<LocalIndex>> faces_of_edges(
-    const std::vector<LocalIndex>& face_vertices);
+    std::span<const LocalIndex> face_vertices);
 
 }  // namespace tessera::coarse

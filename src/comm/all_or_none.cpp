@@ -2,7 +2,8 @@
 #include "tessera/comm/all_or_none.hpp"
 
 #include <exception>
-#include <utility>
+
+#include "comm/run_on_root.hpp"
 
 namespace tessera::comm {
 
@@ -18,7 +19,7 @@ void all_or_none(const Communicator& comm, const std::function<void()>& work)
   comm.throw_first(nullptr);
 }
 
-Bytes bytes_on_root(const Communicator& comm, const std::function<Bytes()>& work)
+Bytes run_on_root(const Communicator& comm, const std::function<Bytes()>& work)
 {
   Bytes bytes;
   std::exception_ptr error;
@@ -33,7 +34,12 @@ Bytes bytes_on_root(const Communicator& comm, const std::function<Bytes()>& work
   all_or_none(comm, [&] {
     if (error) std::rethrow_exception(error);
   });
-  return comm.broadcast(std::move(bytes), 0);
+  return bytes;
+}
+
+Bytes bytes_on_root(const Communicator& comm, const std::function<Bytes()>& work)
+{
+  return comm.broadcast(run_on_root(comm, work), 0);
 }
 
 }  // namespace tessera::comm

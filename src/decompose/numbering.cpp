@@ -27,8 +27,7 @@ struct Contact {
 
 // Sorted by (from, to); equal ones in the order of the triangles, so that both directions add up
 // the same areas in the same order.
-std::vector<Contact> find_contacts(const TetGraph& graph,
-                                   const std::vector<LocalIndex>& tet_subdomain)
+std::vector<Contact> find_contacts(const TetGraph& graph, std::span<const LocalIndex> tet_subdomain)
 {
   std::vector<Contact> contacts;
   for (const mesh::TriangleTets& triangle : graph.triangles) {
@@ -194,7 +193,7 @@ class HierarchicalOrder {
 
 }  // namespace
 
-mesh::Decomposition make_decomposition(const TetGraph& graph, std::vector<LocalIndex> tet_subdomain)
+mesh::Decomposition make_decomposition(const TetGraph& graph, FlatArray<LocalIndex> tet_subdomain)
 {
   mesh::Decomposition result;
   for (LocalIndex t = 0; t < graph.num_tets(); ++t) {

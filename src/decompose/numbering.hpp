@@ -13,7 +13,7 @@ namespace tessera::decompose {
 /// @brief The decomposition with these subdomains, and its graph from the shared triangles.
 /// @param[in] tet_subdomain Shape (num_tets), compact from 0.
 [[nodiscard]] mesh::Decomposition make_decomposition(const TetGraph& graph,
-                                                     std::vector<LocalIndex> tet_subdomain);
+                                                     FlatArray<LocalIndex> tet_subdomain);
 
 /// @brief New number of each subdomain, by recursive bisection of the weighted graph. Of two halves
 /// the one nearer to what is already numbered comes first. So every aligned range is a connected,

@@ -49,7 +49,7 @@ std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind ke
 
 std::vector<KernelKind> kernels_of(const FillOptions& options,
                                    const std::vector<std::string>& material_names,
-                                   const std::vector<LocalIndex>& materials)
+                                   std::span<const LocalIndex> materials)
 {
   std::vector<KernelKind> by_material(material_names.size(), options.kernel);
   for (const FillRegion& region : options.regions) {

@@ -53,7 +53,7 @@ std::vector<double> vertex_sizes(const mesh::CoarseMesh& coarse, const mesh::Edg
 }
 
 void add_size_samples(const mesh::CoarseMesh& coarse, std::span<const LocalIndex> tets,
-                      const std::vector<double>& vertex_size, const mesh::EdgeLevels& levels,
+                      std::span<const double> vertex_size, const mesh::EdgeLevels& levels,
                       FillInput& input)
 {
   for (const LocalIndex t : tets) {

@@ -7,7 +7,8 @@
 
 #include <sys/types.h>
 
-#include "jobs/file_descriptor.hpp"
+#include "tessera/base/file_descriptor.hpp"
+
 #include "jobs/packet.hpp"
 
 /// What the worker processes do with themselves and with their children.

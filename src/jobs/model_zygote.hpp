@@ -5,7 +5,8 @@
 
 #include <sys/types.h>
 
-#include "jobs/file_descriptor.hpp"
+#include "tessera/base/file_descriptor.hpp"
+
 #include "jobs/zygote.hpp"
 
 namespace tessera::jobs {

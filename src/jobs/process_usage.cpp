@@ -10,9 +10,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "tessera/base/file_descriptor.hpp"
 #include "tessera/jobs/this_process.hpp"
-
-#include "jobs/file_descriptor.hpp"
 
 namespace tessera::jobs {
 namespace {

@@ -6,9 +6,8 @@
 
 #include <sys/types.h>
 
+#include "tessera/base/file_descriptor.hpp"
 #include "tessera/jobs/job_runner.hpp"
-
-#include "jobs/file_descriptor.hpp"
 
 namespace tessera::jobs {
 

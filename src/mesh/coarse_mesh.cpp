@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@ void require(bool condition, const std::string& what)
   if (!condition) throw MeshError("coarse mesh: " + what);
 }
 
-void require_indices_below(const std::vector<LocalIndex>& indices, LocalIndex limit,
+void require_indices_below(std::span<const LocalIndex> indices, LocalIndex limit,
                            const std::string& name)
 {
   for (const LocalIndex i : indices) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "tessera/mesh/sorted_rows.hpp"
@@ -21,8 +22,7 @@ void sort_unique(std::vector<T>& values)
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-template <class T>
-LocalIndex index_in(const std::vector<T>& sorted, const T& value)
+LocalIndex index_in(std::span<const LocalIndex> sorted, LocalIndex value)
 {
   const auto place = std::lower_bound(sorted.begin(), sorted.end(), value);
   return place != sorted.end() && *place == value ? static_cast<LocalIndex>(place - sorted.begin())
@@ -30,7 +30,7 @@ LocalIndex index_in(const std::vector<T>& sorted, const T& value)
 }
 
 template <std::size_t N>
-std::vector<std::array<LocalIndex, N>> rows_of(const std::vector<LocalIndex>& flat)
+std::vector<std::array<LocalIndex, N>> rows_of(std::span<const LocalIndex> flat)
 {
   std::vector<std::array<LocalIndex, N>> rows(flat.size() / N);
   for (std::size_t r = 0; r < rows.size(); ++r) {

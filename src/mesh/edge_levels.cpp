@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include "tessera/base/error.hpp"
@@ -14,14 +15,14 @@ namespace {
 
 using Edge = std::array<LocalIndex, 2>;
 
-Edge row_of(const std::vector<LocalIndex>& edge_vertices, std::size_t row)
+Edge row_of(std::span<const LocalIndex> edge_vertices, std::size_t row)
 {
   return {edge_vertices[2 * row], edge_vertices[2 * row + 1]};
 }
 
 }  // namespace
 
-EdgeLevels::EdgeLevels(std::vector<LocalIndex> edge_vertices, std::vector<std::int8_t> levels)
+EdgeLevels::EdgeLevels(FlatArray<LocalIndex> edge_vertices, FlatArray<std::int8_t> levels)
     : edge_vertices_(std::move(edge_vertices)), levels_(std::move(levels))
 {
   if (levels_.empty()) return;
@@ -42,7 +43,7 @@ template <class Change>
 EdgeLevels EdgeLevels::changed(Change&& change) const
 {
   if (is_uniform()) return change(largest_);
-  std::vector<std::int8_t> levels;
+  FlatArray<std::int8_t> levels;
   levels.reserve(levels_.size());
   for (const std::int8_t level : levels_) levels.push_back(static_cast<std::int8_t>(change(level)));
   return {edge_vertices_, std::move(levels)};

@@ -15,7 +15,7 @@ IndexLists half_edges_of_edges(std::span<const LocalIndex> triangle_vertices)
     return std::pair(std::min(from, to), std::max(from, to));
   };
   IndexLists edges;
-  std::vector<LocalIndex>& half_edges = edges.values;
+  FlatArray<LocalIndex>& half_edges = edges.values;
   half_edges.resize(triangle_vertices.size());
   std::iota(half_edges.begin(), half_edges.end(), 0);
   std::sort(half_edges.begin(), half_edges.end(), [&](LocalIndex a, LocalIndex b) {

@@ -44,7 +44,7 @@ struct FaceTable {
 
 // Corner parameters of a face, put into the order of the sorted vertices.
 void append_face_uv(const CoarseMesh& coarse, LocalIndex face, const Triangle& sorted,
-                    std::vector<double>& uv)
+                    FlatArray<double>& uv)
 {
   for (const LocalIndex v : sorted) {
     std::size_t corner = 0;

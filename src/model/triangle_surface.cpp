@@ -11,13 +11,16 @@
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/half_edges.hpp"
 
+#include "flat_triangles.hpp"
 #include "surface_orientation.hpp"
 #include "surface_weld.hpp"
 
 namespace tessera::model {
 namespace {
 
-constexpr double kWeldTolerance = 1e-6;  // of the box diagonal
+// Of the box diagonal. Corners have the noise of single precision.
+constexpr double kWeldTolerance = 1e-6;
+constexpr double kFlatHeight = 1e-6;
 
 std::string counted(LocalIndex count, const std::string& one, const std::string& many)
 {
@@ -49,6 +52,11 @@ std::string open_edges(const TriangleSurface& surface)
 {
   return describe_edges(surface, mesh::half_edges_of_edges(surface.triangle_vertices),
                         [](std::size_t triangles) { return triangles == 1; });
+}
+
+void require_triangles(const TriangleSurface& surface, const std::string& name)
+{
+  if (surface.num_triangles() == 0) throw GeometryError(name + ": holds no triangle with an area");
 }
 
 void require_two_triangles_per_edge(const TriangleSurface& surface, const std::string& name)
@@ -105,6 +113,25 @@ void record_turns(CheckedSurface& checked, const Orientation& orientation)
   }
 }
 
+Orientation oriented(TriangleSurface& surface, const std::string& name)
+{
+  const auto opposite =
+      mesh::opposite_half_edges(mesh::half_edges_of_edges(surface.triangle_vertices));
+  return orient(surface, opposite, name);
+}
+
+// Mesh generators choke on triangles without a height, and refined ones fold there.
+bool mend_flat_and_record(CheckedSurface& checked, const std::string& name)
+{
+  const double height = kFlatHeight * box_diagonal(checked.surface);
+  const LocalIndex num_flat = mend_flat_triangles(checked.surface, height);
+  if (num_flat == 0) return false;
+  checked.repairs.push_back(fmt::format("{} flatter than {:g}, or folded onto another, mended",
+                                        counted(num_flat, "triangle", "triangles"), height));
+  require_triangles(checked.surface, name);
+  return true;
+}
+
 // One material a solid, taken from the first triangle of the outer shell. What lies in a shell's
 // cavity is another shell. A cavity's own triangles bound the material around it.
 void set_materials(TriangleSurface& surface, const std::vector<Shell>& shells)
@@ -156,15 +183,12 @@ CheckedSurface check_surface(const TriangleSoup& soup, const std::string& name)
   checked.surface = weld_equal_corners(soup);
   drop_and_record(checked);
   weld_and_record(checked);
-  if (checked.surface.num_triangles() == 0) {
-    throw GeometryError(name + ": holds no triangle with an area");
-  }
+  require_triangles(checked.surface, name);
   require_two_triangles_per_edge(checked.surface, name);
 
-  const auto opposite =
-      mesh::opposite_half_edges(mesh::half_edges_of_edges(checked.surface.triangle_vertices));
-  const Orientation orientation = orient(checked.surface, opposite, name);
+  Orientation orientation = oriented(checked.surface, name);
   record_turns(checked, orientation);
+  if (mend_flat_and_record(checked, name)) orientation = oriented(checked.surface, name);
   set_materials(checked.surface, orientation.shells);
   return checked;
 }

@@ -77,6 +77,19 @@ std::array<double, 2> newton_step(const Quadratic& newton, const Quadratic& gaus
           -0.5 * gauss_newton.gradient[1] / gauss_newton.vv};
 }
 
+// How far apart in parameters the two sides of an edge are along which the face meets itself.
+std::array<double, 2> seam_width(const TopoDS_Edge& edge, const TopoDS_Face& face)
+{
+  if (!BRep_Tool::IsClosed(edge, face)) return {};
+  double first = 0.0;
+  double last = 0.0;
+  const auto here = BRep_Tool::CurveOnSurface(edge, face, first, last);
+  const auto there = BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Reversed()), face, first, last);
+  if (here.IsNull() || there.IsNull()) return {};
+  const gp_Vec2d apart(here->Value(first), there->Value(first));
+  return {std::abs(apart.X()), std::abs(apart.Y())};
+}
+
 // `value` plus the number of periods that brings it nearest to `reference`.
 double nearest_period(double value, double reference, double period)
 {
@@ -117,10 +130,24 @@ void OccSurface::collect_boundaries(const TopoDS_Face& face, double box_diagonal
     const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
     if (BRep_Tool::Degenerated(edge) || seen.Contains(edge)) continue;
     seen.Add(edge);
+    close_at_seam(seam_width(edge, face));
     double first = 0.0;
     double last = 0.0;
     const auto on_surface = BRep_Tool::CurveOnSurface(edge, face, first, last);
     if (!on_surface.IsNull()) boundaries_.push_back({OccCurve(edge, box_diagonal), on_surface});
+  }
+}
+
+// OpenCASCADE calls a surface open that is cut out of a periodic one, and a spline whose ends meet
+// less exactly than it asks for. The face's seam knows better.
+void OccSurface::close_at_seam(const std::array<double, 2>& width)
+{
+  constexpr double kRelativeTolerance = 1e-6;
+  for (std::size_t k = 0; k < 2; ++k) {
+    Direction& direction = directions_[k];
+    const double span = direction.domain_last - direction.domain_first;
+    if (direction.period > 0.0 || width[k] == 0.0) continue;
+    if (std::abs(width[k] - span) <= kRelativeTolerance * span) direction.period = span;
   }
 }
 

@@ -75,6 +75,7 @@ class OccSurface {
     Handle(Geom2d_Curve) on_surface;  ///< Along a seam, either of the two.
   };
 
+  void close_at_seam(const std::array<double, 2>& width);
   void collect_boundaries(const TopoDS_Face& face, double box_diagonal);
   [[nodiscard]] Descent descend(const Vec3& point, const Uv& guess) const;
   [[nodiscard]] Step step_at(const gp_Pnt& target, const Uv& uv) const;

@@ -127,9 +127,9 @@ class SmoothOwnModel final : public OwnSurfaceModel {
 
 model::ModelDescription describe_mesh(const mesh::CoarseMesh& mesh)
 {
-  model::ModelDescription described{.vertex_xyz = mesh.vertex_xyz,
-                                    .triangle_vertices = mesh.face_vertices,
-                                    .triangle_face = mesh.face_patch};
+  model::ModelDescription described{.vertex_xyz = mesh.vertex_xyz.to_vector(),
+                                    .triangle_vertices = mesh.face_vertices.to_vector(),
+                                    .triangle_face = mesh.face_patch.to_vector()};
   for (const std::string& name : mesh.material_names) described.solids.push_back({.name = name});
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
     const auto v = mesh.tet(t);

@@ -87,7 +87,7 @@ class MidpointLattice {
   {
   }
 
-  mesh::RefinedLattice run(const std::vector<double>& vertex_xyz)
+  mesh::RefinedLattice run(std::span<const double> vertex_xyz)
   {
     for (LocalIndex e = 0; e < complex_.num_edges(); ++e) fill_edge(e, vertex_xyz);
     for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) fill_triangle(t);
@@ -109,12 +109,11 @@ class MidpointLattice {
     return known_.lattice.triangle_point(place.triangle, place.point(n_, i, j));
   }
 
-  void fill_edge(LocalIndex e, const std::vector<double>& vertex_xyz)
+  void fill_edge(LocalIndex e, std::span<const double> vertex_xyz)
   {
     for (const LocalIndex end : {0, 1}) {
-      result_.place_edge_point(
-          e, end * n_,
-          point_at(std::span(vertex_xyz), complex_.edge_vertices[2 * at(e) + at(end)]));
+      result_.place_edge_point(e, end * n_,
+                               point_at(vertex_xyz, complex_.edge_vertices[2 * at(e) + at(end)]));
     }
     const GeometryPlace& place = known_.places.edges[at(e)];
     for (LocalIndex step = n_ / 2; step >= 1; step /= 2) {
@@ -274,8 +273,8 @@ GeometryPlaces GeometryFinder::find(const mesh::Complex& complex,
 }
 
 mesh::RefinedLattice midpoint_lattice(const mesh::Complex& complex,
-                                      const std::vector<double>& vertex_xyz,
-                                      const KnownPoints& known, int levels)
+                                      std::span<const double> vertex_xyz, const KnownPoints& known,
+                                      int levels)
 {
   return MidpointLattice(complex, known, levels).run(vertex_xyz);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "tessera/base/index_lists.hpp"
@@ -83,7 +84,7 @@ struct KnownPoints {
 // has it, and a tet is only sure to have positive children if its own midpoints are taken.
 // @param[in] vertex_xyz Of the vertices of the complex, shape (num_vertices, 3).
 [[nodiscard]] mesh::RefinedLattice midpoint_lattice(const mesh::Complex& complex,
-                                                    const std::vector<double>& vertex_xyz,
+                                                    std::span<const double> vertex_xyz,
                                                     const KnownPoints& known, int levels);
 
 // Name of a lattice point of a skeleton triangle that is no corner. @param[in] n Its intervals.

@@ -49,7 +49,7 @@ GlobalIndex euler_characteristic(const mesh::Piece& piece, GlobalIndex num_edges
   return piece.num_vertices() - num_edges + num_triangles - num_tets;
 }
 
-std::vector<char> vertices_on_seams(const mesh::Skin& skin, const std::vector<char>& seam_hosts)
+std::vector<char> vertices_on_seams(const mesh::Skin& skin, std::span<const char> seam_hosts)
 {
   std::vector<char> on_seam;
   on_seam.reserve(skin.vertex_host.size());

@@ -9,16 +9,27 @@
 
 namespace tessera::subdomain {
 
+SubdomainTables make_tables(const mesh::CoarseMesh& coarse,
+                            const mesh::Decomposition& decomposition, mesh::EdgeLevels levels)
+{
+  SubdomainTables tables{.levels = std::move(levels),
+                         .skeleton = mesh::build_skeleton(coarse, decomposition),
+                         .tets = mesh::subdomain_tets(decomposition)};
+  tables.seam_hosts = mesh::hosts_on_seams(tables.skeleton, decomposition);
+  tables.on_geometry = untangle::vertices_on_geometry(coarse, tables.skeleton);
+  tables.vertex_size = fill::vertex_sizes(coarse, tables.levels);
+  return tables;
+}
+
 PartitionedMesh::PartitionedMesh(const mesh::CoarseMesh& coarse_mesh,
                                  const mesh::Decomposition& cut, mesh::EdgeLevels edge_levels)
-    : coarse(coarse_mesh),
-      decomposition(cut),
-      levels(std::move(edge_levels)),
-      skeleton(mesh::build_skeleton(coarse, decomposition)),
-      tets(mesh::subdomain_tets(decomposition)),
-      seam_hosts(mesh::hosts_on_seams(skeleton, decomposition)),
-      on_geometry(untangle::vertices_on_geometry(coarse, skeleton)),
-      vertex_size(fill::vertex_sizes(coarse, levels))
+    : PartitionedMesh(coarse_mesh, cut, make_tables(coarse_mesh, cut, std::move(edge_levels)))
+{
+}
+
+PartitionedMesh::PartitionedMesh(const mesh::CoarseMesh& coarse_mesh,
+                                 const mesh::Decomposition& cut, SubdomainTables tables)
+    : SubdomainTables(std::move(tables)), coarse(coarse_mesh), decomposition(cut)
 {
 }
 

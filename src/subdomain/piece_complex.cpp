@@ -53,7 +53,7 @@ mesh::Skeleton skeleton_of(const number::SurfaceSimplices& surface,
                            const std::vector<mesh::HostPoint>& names)
 {
   mesh::Skeleton skeleton;
-  const auto append_rows = [&](const auto& simplices, std::vector<LocalIndex>& rows) {
+  const auto append_rows = [&](const auto& simplices, FlatArray<LocalIndex>& rows) {
     for (const auto& simplex : simplices) {
       for (const mesh::HostPoint& name : simplex) rows.push_back(row_in(surface.vertices, name));
     }

@@ -123,7 +123,7 @@ std::vector<char> vertices_on_geometry(const mesh::CoarseMesh& coarse,
 
 std::vector<LocalIndex> tets_on_geometry(const mesh::CoarseMesh& coarse,
                                          std::span<const LocalIndex> tets,
-                                         const std::vector<char>& on_geometry)
+                                         std::span<const char> on_geometry)
 {
   std::vector<LocalIndex> touching;
   for (const LocalIndex t : tets) {

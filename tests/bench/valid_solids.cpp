@@ -5,12 +5,13 @@
 //   valid_solids FILE
 //
 // STEP, IGES, BREP: as read, unhealed; a solid counts if BRepCheck_Analyzer has nothing against it
-// and all its shells are closed. STL: read by OpenCASCADE with equal corners joined; it counts as
-// one solid if every directed edge has exactly one triangle, and its reverse one too. Prints one
-// JSON object: with the counts also those of the faces (STL: triangles), the largest tolerance of
-// an edge or vertex, the diagonal of the box in OpenCASCADE's unit, and the smallest angles of the
-// valid solids between faces and between edges, in degrees, null where there is none. What cannot
-// be read holds nothing.
+// and all its shells are closed, and if no two of its faces cross each other by BOPAlgo_CheckerSI
+// (asked of solids with up to 300 faces). STL: read by OpenCASCADE with equal corners joined; it
+// counts as one solid if every directed edge has exactly one triangle, and its reverse one too.
+// Prints one JSON object: with the counts also those of the faces (STL: triangles) and of the pairs
+// of faces that cross, the largest tolerance of an edge or vertex, the diagonal of the box in
+// OpenCASCADE's unit, and the smallest angles of the valid solids between faces and between edges,
+// in degrees, null where there is none. What cannot be read holds nothing.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -23,6 +24,10 @@
 #include <string>
 #include <utility>
 
+#include <BOPAlgo_CheckerSI.hxx>
+#include <BOPDS_DS.hxx>
+#include <BOPDS_MapOfPair.hxx>
+#include <BOPDS_Pair.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepTools.hxx>
@@ -41,6 +46,7 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Shape.hxx>
 
 #include "sharp_angles.hpp"
@@ -51,6 +57,7 @@ struct Findings {
   int num_solids = 0;
   int num_valid = 0;
   int num_faces = 0;
+  int num_crossings = 0;
   double tolerance = 0.0;
   double diagonal = 0.0;
   SharpAngles sharp;
@@ -77,6 +84,35 @@ bool is_closed(const TopoDS_Shape& solid)
   bool closed = shells.More();
   for (; shells.More(); shells.Next()) closed = closed && BRep_Tool::IsClosed(shells.Current());
   return closed;
+}
+
+// Pairs of its faces that go through each other. BRepCheck looks at each face for itself.
+int crossings_in(const TopoDS_Shape& solid)
+{
+  constexpr int kMostFaces = 300;
+  constexpr int kUpToFaceAndFace = 5;
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(solid, TopAbs_FACE, faces);
+  if (faces.Extent() > kMostFaces) return 0;
+  TopTools_ListOfShape arguments;
+  arguments.Append(solid);
+  BOPAlgo_CheckerSI checker;
+  checker.SetArguments(arguments);
+  checker.SetLevelOfCheck(kUpToFaceAndFace);
+  checker.SetNonDestructive(Standard_True);
+  checker.Perform();
+  int count = 0;
+  const BOPDS_DS& found = checker.DS();
+  for (BOPDS_MapOfPair::Iterator pair(found.Interferences()); pair.More(); pair.Next()) {
+    int first = 0;
+    int second = 0;
+    pair.Value().Indices(first, second);
+    const bool are_faces = found.Shape(first).ShapeType() == TopAbs_FACE
+                           && found.Shape(second).ShapeType() == TopAbs_FACE;
+    // A face with poles is said to cross itself there.
+    count += are_faces && first != second ? 1 : 0;
+  }
+  return count;
 }
 
 double diagonal_of(const TopoDS_Shape& shape)
@@ -106,6 +142,9 @@ Findings look_at(const TopoDS_Shape& shape)
     ++findings.num_solids;
     const bool valid = BRepCheck_Analyzer(solids.Current()).IsValid();
     if (!valid || !is_closed(solids.Current())) continue;
+    const int num_crossings = crossings_in(solids.Current());
+    findings.num_crossings += num_crossings;
+    if (num_crossings > 0) continue;
     ++findings.num_valid;
     const SharpAngles sharp = sharp_angles(solids.Current());
     findings.sharp.of_faces = std::min(findings.sharp.of_faces, sharp.of_faces);
@@ -131,6 +170,7 @@ Findings look_at_stl(const std::string& file)
   return {1,
           closed && mesh->NbTriangles() > 0 ? 1 : 0,
           mesh->NbTriangles(),
+          0,
           0.0,
           diagonal_of(*mesh),
           sharp_angles(*mesh)};
@@ -173,8 +213,9 @@ int main(int argc, char** argv)
   Message::DefaultMessenger()->ChangePrinters().Clear();  // Readers print statistics.
   try {
     const Findings found = look_at_file(argv[1]);
-    std::printf("{\"solids\": %d, \"valid\": %d, \"faces\": %d, \"tolerance\": %g, ",
-                found.num_solids, found.num_valid, found.num_faces, found.tolerance);
+    std::printf("{\"solids\": %d, \"valid\": %d, \"faces\": %d, \"crossings\": %d, ",
+                found.num_solids, found.num_valid, found.num_faces, found.num_crossings);
+    std::printf("\"tolerance\": %g, ", found.tolerance);
     std::printf("\"diagonal_occ\": %.12g, ", found.diagonal);
     std::printf("\"face_angle_deg\": %s, \"edge_angle_deg\": %s}\n",
                 angle_or_null(found.sharp.of_faces).c_str(),

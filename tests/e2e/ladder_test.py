@@ -54,18 +54,33 @@ class Ladder(program.ProgramTest):
             first = self.folder / "on_1"
             self.assertEqual(program.mesh_files(self.folder / f"on_{ranks}"), program.mesh_files(first))
 
-    def test_thin_walls_are_meshed_once_more(self):
+    def write_plate(self):
         plate = "algebraic3d\nsolid plate = orthobrick (0, 0, 0; 40, 40, 0.5);\ntlo plate;\n"
         self.write("plate.geo", plate)
-        case = self.write_case(geometry="plate.geo", max_size=20.0, subdomains=2)
+        self.case = self.write_case(geometry="plate.geo", max_size=20.0, subdomains=2)
+
+    def test_thin_walls_are_meshed_once_more(self):
+        self.write_plate()
         digests = set()
         for ranks in (1, 3):
-            folder = self.mesh(case, f"on_{ranks}", ranks=ranks)
+            folder = self.mesh(self.case, f"on_{ranks}", ranks=ranks)
             report = json.loads((folder / "report.json").read_text())
             self.assertEqual(report["coarse"]["tries"], 2)
             self.assertEqual(report["coarse"]["sharp"]["num_tets"], 0)
             digests.add(report["digest"])
         self.assertEqual(len(digests), 1)
+
+    def test_the_first_mesh_stays_if_thin_walls_cannot_be_meshed_better(self):
+        """Its second try fails, or never ends."""
+        self.write_plate()
+        for fault, is_reproducible in (("coarse=throw@1", True), ("coarse=loop@1", False)):
+            with self.subTest(fault):
+                limits = {"TESSERA_TEST_LIMITS": "2 8 8", "TESSERA_TEST_FAULT": fault}
+                folder = self.mesh(self.case, fault.replace("=", "_"), env=os.environ | limits)
+                report = json.loads((folder / "report.json").read_text())
+                self.assertEqual((report["coarse"]["tries"], len(report["coarse"]["failures"])), (2, 1))
+                self.assertGreater(report["coarse"]["sharp"]["num_tets"], 0)
+                self.assertIs(report["reproducible"], is_reproducible)
 
     @unittest.skipUnless(shutil.which("gmsh"), "needs the program gmsh")
     def test_gmsh_is_the_last_rung(self):

@@ -4,13 +4,20 @@
 #include <vector>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
 #include <gtest/gtest.h>
 
 #include "netgen/occ_curve.hpp"
 #include "netgen/occ_fixture.hpp"
+#include "netgen/occ_surface.hpp"
 
 namespace tessera {
 namespace {
@@ -37,6 +44,32 @@ LocalIndex surface_named(const mesh::CoarseMesh& mesh, const std::string& name)
   }
   ADD_FAILURE() << "no patch " << name;
   return 0;
+}
+
+// The same face on another surface that has the same parameters.
+TopoDS_Face on_surface(const TopoDS_Face& face, const Handle(Geom_Surface) & surface)
+{
+  const BRep_Builder builder;
+  const TopLoc_Location here;
+  TopoDS_Face moved;
+  builder.MakeFace(moved, surface, 1e-6);
+  for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
+    for (TopExp_Explorer edges(wires.Current(), TopAbs_EDGE); edges.More(); edges.Next()) {
+      const TopoDS_Edge edge = TopoDS::Edge(edges.Current().Oriented(TopAbs_FORWARD));
+      const TopoDS_Edge back = TopoDS::Edge(edge.Reversed());
+      double first = 0.0;
+      double last = 0.0;
+      const auto curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+      if (BRep_Tool::IsClosed(edge, face)) {
+        const auto other = BRep_Tool::CurveOnSurface(back, face, first, last);
+        builder.UpdateEdge(edge, curve, other, surface, here, 1e-6);
+      } else {
+        builder.UpdateEdge(edge, curve, surface, here, 1e-6);
+      }
+    }
+    builder.Add(moved, wires.Current());
+  }
+  return moved;
 }
 
 TEST(OccProjection, PointsOfTheSphereKeepItsFormula)
@@ -121,6 +154,27 @@ TEST(OccProjection, GuessesBeyondTheSeamStayOnTheirBranch)
       EXPECT_NEAR(found.xyz[2], 7.0, 1e-9);
     }
   }
+}
+
+// As other CAD systems write it: cut out of a torus, all round, and so neither closed nor periodic
+// by OpenCASCADE.
+TEST(OccProjection, ATrimmedSurfaceHasTheSeamOfItsFace)
+{
+  BRepPrimAPI_MakeTorus torus(10.0, 3.0, 1.0);  // Up to an angle of 1.
+  const TopoDS_Face face = torus.Face();
+  const Handle(Geom_Surface) bend =
+      new Geom_RectangularTrimmedSurface(BRep_Tool::Surface(face), 0.0, 1.0, 0.0, 2.0 * kPi);
+  ASSERT_FALSE(bend->IsVClosed() || bend->IsVPeriodic());
+  const netgen::OccSurface surface(on_surface(face, bend), 26.0, 1);
+  const auto at = [&](double u, double v) {
+    const gp_Pnt p = bend->Value(u, v);
+    return Vec3{p.X(), p.Y(), p.Z()};
+  };
+  const auto uv = surface.triangle_parameters({at(0.5, 0.0), at(0.6, 0.3), at(0.4, 0.0)},
+                                              {{{0.5, 2.0 * kPi}, {0.6, 0.3}, {0.4, 0.0}}});
+  EXPECT_NEAR(uv[0][1], 0.0, 1e-9);
+  EXPECT_NEAR(uv[1][1], 0.3, 1e-9);
+  EXPECT_NEAR(uv[2][1], 0.0, 1e-9);
 }
 
 TEST(OccProjection, PointsBeyondTheTrimGoToTheNearestPointOfTheFace)

@@ -54,6 +54,13 @@ class Sampler {
     for (T& value : values) fill(value);
   }
 
+  template <class T>
+  void fill(FlatArray<T>& values)
+  {
+    values.resize(2);
+    for (T& value : values) fill(value);
+  }
+
   template <class T, std::size_t N>
   void fill(std::array<T, N>& values)
   {

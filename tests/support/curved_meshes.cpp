@@ -109,7 +109,7 @@ void add_face_parameters(mesh::CoarseMesh& mesh)
 // Keeps the segments of the two rims; the cube's upright edges are inside the mantle.
 void add_rims(mesh::CoarseMesh& mesh)
 {
-  const std::vector<LocalIndex> all = std::move(mesh.segment_vertices);
+  const FlatArray<LocalIndex> all = std::move(mesh.segment_vertices);
   remove_segments(mesh);
   for (std::size_t s = 0; s < all.size(); s += 2) {
     const Vec3 a = mesh.position(all[s]);

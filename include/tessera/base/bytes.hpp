@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +20,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/fields.hpp"
+#include "tessera/base/flat_array.hpp"
 
 /// Bytes of values, in this machine's byte order: messages between processes and records of the
 /// store. What one build writes, the same build reads.
@@ -27,6 +29,7 @@
 /// - a number, a bool, or an enumeration with a last_value();
 /// - a std::string or a path;
 /// - a std::vector, std::map, std::array, std::optional or std::variant of values;
+/// - a FlatArray, which begins where memory of its type may begin, seen from the first byte;
 /// - a class with a list of fields (see fields.hpp).
 ///
 /// Anything else does not compile, so no padding ever goes to bytes.
@@ -116,6 +119,8 @@ class ByteBuffer {
     used_ += size;
   }
 
+  [[nodiscard]] std::size_t size() const noexcept { return used_; }
+
   [[nodiscard]] Bytes take() &&
   {
     bytes_.resize(used_);
@@ -129,6 +134,31 @@ class ByteBuffer {
   Bytes bytes_;
   std::size_t used_ = 0;
 };
+
+/// @brief Writes what is put into it to memory that is there. @pre There is enough of it.
+class ByteSpan {
+ public:
+  explicit ByteSpan(std::span<std::byte> bytes) : bytes_(bytes) {}
+
+  void append(const void* data, std::size_t size)
+  {
+    if (size > 0) std::memcpy(bytes_.data() + used_, data, size);
+    used_ += size;
+  }
+
+  [[nodiscard]] std::size_t size() const noexcept { return used_; }
+
+ private:
+  std::span<std::byte> bytes_;
+  std::size_t used_ = 0;
+};
+
+/// @brief Bytes from `position` to the next place where a T may begin.
+template <class T>
+[[nodiscard]] constexpr std::size_t padding_at(std::size_t position)
+{
+  return (alignof(T) - position % alignof(T)) % alignof(T);
+}
 
 /// @brief Puts values one behind the other into a sink, field by field.
 template <class Sink>
@@ -169,6 +199,15 @@ class ValueWriter {
   void put(const std::vector<T>& values)
   {
     put(static_cast<std::uint64_t>(values.size()));
+    put_all(std::span<const T>(values));
+  }
+
+  template <class T>
+  void put(const FlatArray<T>& values)
+  {
+    constexpr std::array<std::byte, alignof(T)> kZeros{};
+    put(static_cast<std::uint64_t>(values.size()));
+    sink_.append(kZeros.data(), padding_at<T>(sink_.size()));
     put_all(std::span<const T>(values));
   }
 
@@ -220,7 +259,15 @@ class ValueWriter {
 /// that does not fit the bytes that are left is an InputError, before anything is allocated.
 class ByteReader {
  public:
-  explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes), size_(bytes.size()) {}
+
+  /// @brief The same, but flat arrays of plain values borrow them from the bytes.
+  /// @param[in] keeper Of the bytes, which nobody changes.
+  ByteReader(std::span<const std::byte> bytes, std::shared_ptr<const void> keeper)
+      : ByteReader(bytes)
+  {
+    keeper_ = std::move(keeper);
+  }
 
   /// @throws InputError if the bytes are truncated or the value is not sound: a count is beyond
   /// what is left, or a bool or an enumeration has none of its values.
@@ -292,6 +339,32 @@ class ByteReader {
   void read(std::vector<T>& values)
   {
     const std::size_t count = read_count(kLeastSize<T>);
+    read_elements(values, count);
+  }
+
+  template <class T>
+  void read(FlatArray<T>& values)
+  {
+    const std::size_t count = read_count(kLeastSize<T>);
+    take(padding_at<T>(size_ - rest_.size()));
+    if (!borrow(values, count)) read_elements(values, count);
+  }
+
+  // Nothing is borrowed from bytes without a keeper, or where a T may not begin.
+  template <class T>
+  bool borrow(FlatArray<T>& values, std::size_t count)
+  {
+    if (!kIsPlain<T> || !keeper_) return false;
+    if (reinterpret_cast<std::uintptr_t>(rest_.data()) % alignof(T) != 0) return false;
+    const auto* const first = reinterpret_cast<const T*>(take(count * sizeof(T)).data());
+    values = FlatArray<T>::borrowed({first, count}, keeper_);
+    return true;
+  }
+
+  template <class Array>
+  void read_elements(Array& values, std::size_t count)
+  {
+    using T = typename Array::value_type;
     if constexpr (kIsPlain<T>) {
       values.resize(count);
       read_all(std::span<T>(values));
@@ -345,6 +418,8 @@ class ByteReader {
   static constexpr const char* kOutOfRange = "record has a value that is out of range";
 
   std::span<const std::byte> rest_;
+  std::size_t size_;
+  std::shared_ptr<const void> keeper_{};
 };
 
 /// @brief Bytes of a value. Local.

@@ -4,8 +4,10 @@
 #include <numeric>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
+#include "tessera/base/flat_array.hpp"
 #include "tessera/base/types.hpp"
 
 namespace tessera {
@@ -13,8 +15,10 @@ namespace tessera {
 /// @brief Lists of values, one behind the other (CSR).
 template <class T>
 struct Lists {
-  std::vector<LocalIndex> offsets{0};  ///< Shape (num_lists + 1).
-  std::vector<T> values{};             ///< Shape (offsets.back()).
+  using Values = std::conditional_t<std::is_trivially_copyable_v<T>, FlatArray<T>, std::vector<T>>;
+
+  FlatArray<LocalIndex> offsets{0};  ///< Shape (num_lists + 1).
+  Values values{};                   ///< Shape (offsets.back()).
 
   static auto fields(auto& self) { return std::tie(self.offsets, self.values); }
 

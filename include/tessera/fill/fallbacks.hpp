@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,6 @@ namespace tessera::fill {
 /// @throws ConfigError if a region names a material that the model does not have.
 [[nodiscard]] std::vector<KernelKind> kernels_of(const FillOptions& options,
                                                  const std::vector<std::string>& material_names,
-                                                 const std::vector<LocalIndex>& materials);
+                                                 std::span<const LocalIndex> materials);
 
 }  // namespace tessera::fill

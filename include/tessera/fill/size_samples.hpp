@@ -27,7 +27,7 @@ namespace tessera::fill {
 /// @param[in] tets The coarse tets of the subdomain.
 /// @note Local.
 void add_size_samples(const mesh::CoarseMesh& coarse, std::span<const LocalIndex> tets,
-                      const std::vector<double>& vertex_size, const mesh::EdgeLevels& levels,
+                      std::span<const double> vertex_size, const mesh::EdgeLevels& levels,
                       FillInput& input);
 
 }  // namespace tessera::fill

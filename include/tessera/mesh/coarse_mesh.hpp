@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/flat_array.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -27,26 +28,26 @@ struct NamedCurve {
 /// parameters of either side. `surface` and `curve` numbers are the Model's; a *patch* is what
 /// users see: one geometric face with its name. Several patches may lie on one surface.
 struct CoarseMesh {
-  std::vector<double> vertex_xyz{};        ///< Shape (num_vertices, 3), output length unit.
-  std::vector<LocalIndex> tet_vertices{};  ///< Shape (num_tets, 4); positive volume, VTK's order.
-  std::vector<LocalIndex> tet_material{};  ///< Shape (num_tets); from 1.
+  FlatArray<double> vertex_xyz{};        ///< Shape (num_vertices, 3), output length unit.
+  FlatArray<LocalIndex> tet_vertices{};  ///< Shape (num_tets, 4); positive volume, VTK's order.
+  FlatArray<LocalIndex> tet_material{};  ///< Shape (num_tets); from 1.
 
-  std::vector<LocalIndex> face_vertices{};  ///< Shape (num_faces, 3); orientation is arbitrary.
-  std::vector<LocalIndex> face_patch{};     ///< Shape (num_faces); row of patch_names.
-  std::vector<double> face_uv{};  ///< Shape (num_faces, 3, 2), corner parameters on the patch's
-                                  ///< surface; empty if the model has none.
+  FlatArray<LocalIndex> face_vertices{};  ///< Shape (num_faces, 3); orientation is arbitrary.
+  FlatArray<LocalIndex> face_patch{};     ///< Shape (num_faces); row of patch_names.
+  FlatArray<double> face_uv{};  ///< Shape (num_faces, 3, 2), corner parameters on the patch's
+                                ///< surface; empty if the model has none.
 
-  std::vector<LocalIndex> segment_vertices{};  ///< Shape (num_segments, 2).
-  std::vector<LocalIndex> segment_curve{};     ///< Shape (num_segments); the Model's curve number.
-  std::vector<double> segment_t{};  ///< Shape (num_segments, 2), end parameters; empty if none.
+  FlatArray<LocalIndex> segment_vertices{};  ///< Shape (num_segments, 2).
+  FlatArray<LocalIndex> segment_curve{};     ///< Shape (num_segments); the Model's curve number.
+  FlatArray<double> segment_t{};  ///< Shape (num_segments, 2), end parameters; empty if none.
 
   std::vector<NamedCurve> curves{};  ///< Those that segments lie on, ascending; empty: not known.
 
-  std::vector<std::string> patch_names{};   ///< Shape (num_patches).
-  std::vector<LocalIndex> patch_surface{};  ///< Shape (num_patches); the Model's surface number.
-  std::vector<LocalIndex> patch_row{};  ///< Shape (num_patches); row of the patch in files, dense
-                                        ///< from 0. Patches of one row have one name, that of its
-                                        ///< first patch. Empty: each patch is its own row.
+  std::vector<std::string> patch_names{};  ///< Shape (num_patches).
+  FlatArray<LocalIndex> patch_surface{};   ///< Shape (num_patches); the Model's surface number.
+  FlatArray<LocalIndex> patch_row{};  ///< Shape (num_patches); row of the patch in files, dense
+                                      ///< from 0. Patches of one row have one name, that of its
+                                      ///< first patch. Empty: each patch is its own row.
   std::vector<std::string> material_names{};  ///< Entry m-1 names material m.
 
   static auto fields(auto& self)

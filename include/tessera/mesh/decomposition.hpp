@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/flat_array.hpp"
 #include "tessera/base/types.hpp"
 
 namespace tessera::mesh {
@@ -14,7 +15,7 @@ namespace tessera::mesh {
 /// Subdomains are numbered hierarchically: neighbours in space have neighbouring numbers, so any
 /// contiguous range of them is a fair part of the mesh. Symmetric graph in CSR form.
 struct Decomposition {
-  std::vector<LocalIndex> tet_subdomain{};       ///< Shape (num_tets).
+  FlatArray<LocalIndex> tet_subdomain{};         ///< Shape (num_tets).
   std::vector<LocalIndex> subdomain_material{};  ///< Shape (num_subdomains); from 1.
   std::vector<double> subdomain_weight{};        ///< Shape (num_subdomains); predicted fine tets.
 

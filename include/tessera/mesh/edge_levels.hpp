@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tessera/base/fields.hpp"
+#include "tessera/base/flat_array.hpp"
 #include "tessera/base/types.hpp"
 
 namespace tessera::mesh {
@@ -25,7 +26,7 @@ class EdgeLevels {
   /// @param[in] edge_vertices Shape (num_edges, 2); coarse vertices, each row ascending, and the
   /// rows as well.
   /// @param[in] levels Shape (num_edges).
-  EdgeLevels(std::vector<LocalIndex> edge_vertices, std::vector<std::int8_t> levels);
+  EdgeLevels(FlatArray<LocalIndex> edge_vertices, FlatArray<std::int8_t> levels);
 
   [[nodiscard]] int largest() const { return largest_; }
   [[nodiscard]] bool is_uniform() const { return levels_.empty(); }
@@ -65,8 +66,8 @@ class EdgeLevels {
   [[nodiscard]] EdgeLevels changed(Change&& change) const;
 
   int largest_ = 0;
-  std::vector<LocalIndex> edge_vertices_{};  ///< Shape (num_edges, 2); ascending.
-  std::vector<std::int8_t> levels_{};        ///< Shape (num_edges); empty: all are the largest.
+  FlatArray<LocalIndex> edge_vertices_{};  ///< Shape (num_edges, 2); ascending.
+  FlatArray<std::int8_t> levels_{};        ///< Shape (num_edges); empty: all are the largest.
 };
 
 }  // namespace tessera::mesh

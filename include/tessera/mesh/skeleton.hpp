@@ -3,8 +3,10 @@
 
 #include <array>
 #include <span>
+#include <tuple>
 #include <vector>
 
+#include "tessera/base/flat_array.hpp"
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
@@ -21,27 +23,34 @@ namespace tessera::mesh {
 /// has one, else on the surface of its lowest triangle on the geometry. Without either they are
 /// plain midpoints.
 struct Skeleton {
-  std::vector<LocalIndex> vertex_coarse{};  ///< Shape (num_vertices); coarse vertex, ascending.
-  std::vector<LocalIndex> vertex_owner{};   ///< Lowest subdomain that holds the vertex.
+  FlatArray<LocalIndex> vertex_coarse{};  ///< Shape (num_vertices); coarse vertex, ascending.
+  FlatArray<LocalIndex> vertex_owner{};   ///< Lowest subdomain that holds the vertex.
 
-  std::vector<LocalIndex> edge_vertices{};  ///< Shape (num_edges, 2); rows of vertex_coarse.
-  std::vector<LocalIndex> edge_owner{};     ///< Lowest subdomain that holds the edge.
-  std::vector<LocalIndex> edge_curve{};     ///< The Model's curve, or kNoIndex.
-  std::vector<LocalIndex> edge_patch{};     ///< Patch of its lowest triangle on the geometry, or
-                                            ///< kNoIndex. Counts where there is no curve.
+  FlatArray<LocalIndex> edge_vertices{};  ///< Shape (num_edges, 2); rows of vertex_coarse.
+  FlatArray<LocalIndex> edge_owner{};     ///< Lowest subdomain that holds the edge.
+  FlatArray<LocalIndex> edge_curve{};     ///< The Model's curve, or kNoIndex.
+  FlatArray<LocalIndex> edge_patch{};     ///< Patch of its lowest triangle on the geometry, or
+                                          ///< kNoIndex. Counts where there is no curve.
   /// Shape (num_edges, 2, 2). Parameters of the ends on what counts: (t, 0) or (u, v).
-  std::vector<double> edge_parameters{};
+  FlatArray<double> edge_parameters{};
 
-  std::vector<LocalIndex>
-      triangle_vertices{};                   ///< Shape (num_triangles, 3); rows of vertex_coarse.
-  std::vector<LocalIndex> triangle_edges{};  ///< Shape (num_triangles, 3); sides 01, 02, 12.
-  std::vector<LocalIndex> triangle_patch{};  ///< Patch, or kNoIndex off the geometry.
-  std::vector<double> triangle_uv{};         ///< Shape (num_triangles, 3, 2), corner parameters.
+  FlatArray<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3); rows of vertex_coarse.
+  FlatArray<LocalIndex> triangle_edges{};     ///< Shape (num_triangles, 3); sides 01, 02, 12.
+  FlatArray<LocalIndex> triangle_patch{};     ///< Patch, or kNoIndex off the geometry.
+  FlatArray<double> triangle_uv{};            ///< Shape (num_triangles, 3, 2), corner parameters.
   /// Shape (num_triangles, 2). Entry 0: the subdomain that the ascending orientation points out of;
   /// entry 1: the one it points into. kNoIndex: outside.
-  std::vector<LocalIndex> triangle_subdomains{};
+  FlatArray<LocalIndex> triangle_subdomains{};
 
   IndexLists subdomain_triangles{};  ///< Triangles of each subdomain, ascending.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.vertex_coarse, self.vertex_owner, self.edge_vertices, self.edge_owner,
+                    self.edge_curve, self.edge_patch, self.edge_parameters, self.triangle_vertices,
+                    self.triangle_edges, self.triangle_patch, self.triangle_uv,
+                    self.triangle_subdomains, self.subdomain_triangles);
+  }
 
   [[nodiscard]] LocalIndex num_vertices() const { return size_of(vertex_coarse); }
   [[nodiscard]] LocalIndex num_edges() const { return size_of(edge_owner); }
@@ -62,7 +71,7 @@ struct Skeleton {
 
  private:
   template <class T>
-  static LocalIndex size_of(const std::vector<T>& array)
+  static LocalIndex size_of(const FlatArray<T>& array)
   {
     return static_cast<LocalIndex>(array.size());
   }

@@ -66,6 +66,9 @@ struct CheckedSurface {
 ///   diagonal. Single precision and six printed digits leave equal points that far apart.
 /// - Repeated triangles, and those without two different edges, are dropped.
 /// - Triangles are turned to agree with their neighbours.
+/// - Triangles flatter than 1e-6 of the box diagonal, and folds that enclose nothing, are taken
+/// out,
+///   where the surface stays closed.
 /// - A shell with its inside out is turned: outermost shells point outwards, shells inside them
 ///   bound cavities, and so on.
 ///

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
+#include <tuple>
 
+#include "tessera/base/flat_array.hpp"
 #include "tessera/base/index_lists.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/decomposition.hpp"
@@ -11,20 +12,40 @@
 
 namespace tessera::subdomain {
 
-/// @brief The coarse mesh, cut into subdomains (both borrowed), and the levels on which these are
-/// filled, with all that follows; every process that works on subdomains has one.
-struct PartitionedMesh {
+/// @brief The levels on which subdomains are filled, and what follows from them, the coarse mesh
+/// and the subdomains.
+struct SubdomainTables {
+  mesh::EdgeLevels levels{};
+  mesh::Skeleton skeleton{};
+  IndexLists tets{};                ///< mesh::subdomain_tets().
+  FlatArray<char> seam_hosts{};     ///< mesh::hosts_on_seams().
+  FlatArray<char> on_geometry{};    ///< untangle::vertices_on_geometry().
+  FlatArray<double> vertex_size{};  ///< fill::vertex_sizes().
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.levels, self.skeleton, self.tets, self.seam_hosts, self.on_geometry,
+                    self.vertex_size);
+  }
+};
+
+/// @brief Makes the tables. Local.
+[[nodiscard]] SubdomainTables make_tables(const mesh::CoarseMesh& coarse,
+                                          const mesh::Decomposition& decomposition,
+                                          mesh::EdgeLevels levels);
+
+/// @brief The coarse mesh, cut into subdomains (both borrowed), and their tables; every process
+/// that works on subdomains has one.
+struct PartitionedMesh : SubdomainTables {
   const mesh::CoarseMesh& coarse;
   const mesh::Decomposition& decomposition;
-  mesh::EdgeLevels levels;
-  mesh::Skeleton skeleton;
-  IndexLists tets;                  ///< mesh::subdomain_tets().
-  std::vector<char> seam_hosts;     ///< mesh::hosts_on_seams().
-  std::vector<char> on_geometry;    ///< untangle::vertices_on_geometry().
-  std::vector<double> vertex_size;  ///< fill::vertex_sizes().
 
   PartitionedMesh(const mesh::CoarseMesh& coarse_mesh, const mesh::Decomposition& cut,
                   mesh::EdgeLevels edge_levels);
+
+  /// @param[in] tables make_tables() of both.
+  PartitionedMesh(const mesh::CoarseMesh& coarse_mesh, const mesh::Decomposition& cut,
+                  SubdomainTables tables);
 
   [[nodiscard]] LocalIndex num_subdomains() const { return decomposition.num_subdomains(); }
 };

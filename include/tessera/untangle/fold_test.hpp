@@ -21,7 +21,7 @@ namespace tessera::untangle {
 /// @param[in] on_geometry vertices_on_geometry() of the mesh.
 [[nodiscard]] std::vector<LocalIndex> tets_on_geometry(const mesh::CoarseMesh& coarse,
                                                        std::span<const LocalIndex> tets,
-                                                       const std::vector<char>& on_geometry);
+                                                       std::span<const char> on_geometry);
 
 /// @brief New, smaller factors for the points that make a child of some tet flat or inverted.
 ///

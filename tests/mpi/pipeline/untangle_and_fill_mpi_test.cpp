@@ -19,6 +19,7 @@
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
+#include "pipeline/stages/share_stage.hpp"
 #include "pipeline/stages/untangle_and_fill.hpp"
 #include "support/mpi_tests.hpp"
 
@@ -77,19 +78,21 @@ struct UntangleAndFill : ::testing::Test {
     const subdomain::PartitionedMesh mesh(coarse.mesh, cut.decomposition, cube.refine.levels);
     const std::vector<KernelKind> kernels(at(mesh.num_subdomains()), kernel);
     const auto ranges = subdomain::file_ranges(mesh.num_subdomains(), 0);
-    load_mesh(mesh, context);
+    load_mesh(share_message(mesh, context), context);
     return untangle_and_fill(cube, {mesh, kernels, ranges, state}, context);
   }
 
   // A vertex inside of the cube leaves it: the tets around it are inverted, whatever is held back.
   void pull_out_a_vertex()
   {
-    const std::vector<LocalIndex>& outside = coarse.mesh.face_vertices;
+    const FlatArray<LocalIndex>& outside = coarse.mesh.face_vertices;
     const std::set<LocalIndex> on_faces(outside.begin(), outside.end());
     LocalIndex inside = 0;
     while (on_faces.contains(inside)) ++inside;
     ASSERT_LT(inside, coarse.mesh.num_vertices());
-    coarse.mesh.vertex_xyz[3 * at(inside)] = 5.0;
+    FlatArray<double> moved = coarse.mesh.vertex_xyz;  // That of the mesh is not to be written.
+    moved[3 * at(inside)] = 5.0;
+    coarse.mesh.vertex_xyz = std::move(moved);
   }
 };
 

@@ -14,7 +14,7 @@ namespace {
 mesh::MeshArrays arrays_of(const mesh::CoarseMesh& coarse)
 {
   mesh::MeshArrays arrays;
-  arrays.point_xyz = coarse.vertex_xyz;
+  arrays.point_xyz = coarse.vertex_xyz.to_vector();
   arrays.cell_points.assign(coarse.tet_vertices.begin(), coarse.tet_vertices.end());
   arrays.cell_ints["attribute"].assign(coarse.tet_material.begin(), coarse.tet_material.end());
   return arrays;

@@ -83,7 +83,7 @@ std::map<LocalIndex, double> areas_of(const CoarseSurface& surface)
 void expect_closed(const CoarseSurface& surface)
 {
   std::set<std::array<LocalIndex, 2>> sides;
-  const std::vector<LocalIndex>& v = surface.mesh.face_vertices;
+  const FlatArray<LocalIndex>& v = surface.mesh.face_vertices;
   for (std::size_t corner = 0; corner < v.size(); ++corner) {
     const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
     EXPECT_TRUE(sides.insert({v[corner], v[next]}).second);

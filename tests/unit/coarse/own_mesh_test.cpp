@@ -23,14 +23,14 @@ constexpr double kAngle = 30.0;
 TetMeshFile file_of(const mesh::CoarseMesh& mesh)
 {
   TetMeshFile file;
-  file.point_xyz = mesh.vertex_xyz;
+  file.point_xyz = mesh.vertex_xyz.to_vector();
   for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) file.point_number.push_back(v + 1);
-  file.tets.points = mesh.tet_vertices;
-  file.tets.group = mesh.tet_material;
+  file.tets.points = mesh.tet_vertices.to_vector();
+  file.tets.group = mesh.tet_material.to_vector();
   file.tets.entity.assign(mesh.tet_material.size(), 0);
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) file.tets.number.push_back(t + 1);
-  file.triangles.points = mesh.face_vertices;
-  file.triangles.entity = mesh.face_patch;
+  file.triangles.points = mesh.face_vertices.to_vector();
+  file.triangles.entity = mesh.face_patch.to_vector();
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
     file.triangles.number.push_back(f + 1);
     file.triangles.group.push_back(mesh.face_patch[at(f)] + 1);

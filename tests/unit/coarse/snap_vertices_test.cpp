@@ -26,7 +26,7 @@ struct SnapVertices : ::testing::Test {
 
 TEST_F(SnapVertices, LeavesASoundMeshAsItIs)
 {
-  const std::vector<double> before = ball.vertex_xyz;
+  const FlatArray<double> before = ball.vertex_xyz;
   const VertexDistance found = snap_vertices(ball, sphere);
   EXPECT_EQ(found.num_off, 0);
   EXPECT_LE(found.largest, 1e-15);

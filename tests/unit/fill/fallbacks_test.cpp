@@ -82,7 +82,7 @@ TEST(KernelsOf, FollowTheRegionOfTheMaterial)
 {
   FillOptions options;
   options.regions = {{"core", KernelKind::subdivide}};
-  const auto kernels = kernels_of(options, {"shell", "core"}, {1, 2, 2, 1});
+  const auto kernels = kernels_of(options, {"shell", "core"}, std::vector{1, 2, 2, 1});
   EXPECT_EQ(kernels, (std::vector{KernelKind::netgen, KernelKind::subdivide, KernelKind::subdivide,
                                   KernelKind::netgen}));
 }
@@ -91,7 +91,7 @@ TEST(KernelsOf, ARegionIsOfAllMaterialsWithItsName)
 {
   FillOptions options;
   options.regions = {{"core", KernelKind::subdivide}};
-  EXPECT_EQ(kernels_of(options, {"core", "shell", "core"}, {1, 2, 3}),
+  EXPECT_EQ(kernels_of(options, {"core", "shell", "core"}, std::vector{1, 2, 3}),
             (std::vector{KernelKind::subdivide, KernelKind::netgen, KernelKind::subdivide}));
 }
 
@@ -100,7 +100,7 @@ TEST(KernelsOf, AnUnknownMaterialIsRefusedWithTheKnownOnes)
   FillOptions options;
   options.regions = {{"cor", KernelKind::subdivide}};
   try {
-    static_cast<void>(kernels_of(options, {"shell", "core"}, {1}));
+    static_cast<void>(kernels_of(options, {"shell", "core"}, std::vector{1}));
     FAIL() << "a region of no material was taken";
   } catch (const ConfigError& error) {
     EXPECT_NE(std::string(error.what()).find("\"cor\""), std::string::npos);

@@ -40,7 +40,7 @@ struct UpdateOfTwoSlabs : ::testing::Test {
   [[nodiscard]] RegionExchange exchange_of(std::size_t s) const
   {
     const auto tets = tets_of_bands(whole_piece(pieces[s]), labels[s], regions, 0);
-    return {tets.values, updates[s]};
+    return {tets.values.to_vector(), updates[s]};
   }
 
   [[nodiscard]] PiecePart apply(std::size_t s, const RegionExchange& exchange) const

@@ -26,7 +26,7 @@ constexpr GlobalIndex kFirstId = 5'000'000'000;
 [[nodiscard]] MeshArrays with_points(const mesh::CoarseMesh& cube)
 {
   MeshArrays mesh;
-  mesh.point_xyz = cube.vertex_xyz;
+  mesh.point_xyz = cube.vertex_xyz.to_vector();
   for (double& x : mesh.point_xyz) x = x / 3.0 + 1e-17;
   mesh.point_ids = ids_from(kFirstId, mesh.num_points());
   auto& owner = mesh.point_ints["owner"];

@@ -7,10 +7,11 @@
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
+#include "tessera/base/file_descriptor.hpp"
+
 #include "support/byte_image.hpp"
 
 #include "jobs/failure.hpp"
-#include "jobs/file_descriptor.hpp"
 
 namespace tessera::jobs {
 namespace {

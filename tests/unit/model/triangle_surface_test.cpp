@@ -2,6 +2,8 @@
 #include "tessera/model/triangle_surface.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -141,6 +143,104 @@ TEST(TriangleSurface, RepeatedAndDegenerateTrianglesAreDroppedAndCounted)
             (std::vector<std::string>{"1 triangle with fewer than three different corners dropped",
                                       "12 repeated triangles dropped"}));
   EXPECT_EQ(checked.surface.num_triangles(), 12);
+}
+
+// Halves triangle t by a vertex beside its first edge; a flat triangle closes the gap.
+void add_flat_triangle(TriangleSoup& soup, LocalIndex t, double part_of_edge)
+{
+  const std::span<const double> xyz(soup.corner_xyz);
+  const Vec3 a = point_at(xyz, 3 * t);
+  const Vec3 b = point_at(xyz, 3 * t + 1);
+  const Vec3 c = point_at(xyz, 3 * t + 2);
+  const Vec3 m = a + part_of_edge * (b - a) + 1e-8 * (c - a);
+  testing::remove_triangle(soup, t);
+  for (const auto& triangle : {std::array{a, m, c}, std::array{m, b, c}, std::array{a, b, m}}) {
+    for (const Vec3& p : triangle)
+      soup.corner_xyz.insert(soup.corner_xyz.end(), p.begin(), p.end());
+    soup.triangle_solid.push_back(0);
+  }
+}
+
+bool has_flat_triangle(const TriangleSurface& surface)
+{
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+    const auto [a, b, c] = surface.corners(t);
+    if (norm(cross(b - a, c - a)) < 1e-5) return true;
+  }
+  return false;
+}
+
+TEST(TriangleSurface, FlatTrianglesAreTakenOut)
+{
+  for (const double part_of_edge : {0.5, 0.01, 1e-8, 1.0 - 1e-8}) {
+    TriangleSoup soup = cube_soup();
+    for (int i = 0; i < 12; ++i) add_flat_triangle(soup, 0, part_of_edge);
+    const CheckedSurface checked = check_surface(soup, "cube");
+    EXPECT_FALSE(has_flat_triangle(checked.surface)) << part_of_edge;
+    EXPECT_NEAR(enclosed_volume(checked.surface), 1.0, 1e-6) << part_of_edge;
+    ASSERT_EQ(checked.repairs.size(), 1U) << part_of_edge;
+    EXPECT_TRUE(has(checked.repairs.front(), "flatter than")) << checked.repairs.front();
+  }
+}
+
+// Several vertices on one edge, and triangles between them that have no area at all.
+TEST(TriangleSurface, TrianglesWithoutAreaInARowAreTakenOut)
+{
+  TriangleSoup soup = cube_soup();
+  add_flat_triangle(soup, 0, 0.5);
+  const auto num_flat = soup.num_triangles();
+  add_flat_triangle(soup, num_flat - 1, 0.25);
+  add_flat_triangle(soup, num_flat + 1, 0.7);
+  const CheckedSurface checked = check_surface(soup, "cube");
+  EXPECT_FALSE(has_flat_triangle(checked.surface));
+  EXPECT_NEAR(enclosed_volume(checked.surface), 1.0, 1e-6);
+}
+
+TEST(TriangleSurface, ATinyTetOnACubeGoes)
+{
+  TriangleSoup soup = cube_soup();
+  add_flat_triangle(soup, 3, 0.5);
+  const LocalIndex flat = soup.num_triangles() - 1;
+  const std::span<const double> xyz(soup.corner_xyz);
+  const std::array<Vec3, 3> p{point_at(xyz, 3 * flat), point_at(xyz, 3 * flat + 1),
+                              point_at(xyz, 3 * flat + 2)};
+  const Vec3 top = (1.0 / 3.0) * (p[0] + p[1] + p[2]) + Vec3{1e-8, 1e-8, 1e-8};
+  testing::remove_triangle(soup, flat);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const Vec3& corner : {p[c], p[(c + 1) % 3], top})
+      soup.corner_xyz.insert(soup.corner_xyz.end(), corner.begin(), corner.end());
+    soup.triangle_solid.push_back(0);
+  }
+  const CheckedSurface checked = check_surface(soup, "cube");
+  EXPECT_FALSE(has_flat_triangle(checked.surface));
+  EXPECT_NEAR(enclosed_volume(checked.surface), 1.0, 1e-6);
+}
+
+// A vertex of a triangle on a flat side lies beyond the triangle's edge.
+TEST(TriangleSurface, AFoldThatEnclosesNothingIsUnfolded)
+{
+  TriangleSoup soup = cube_soup();
+  const std::span<const double> xyz(soup.corner_xyz);
+  const std::array<Vec3, 3> p{point_at(xyz, 0), point_at(xyz, 1), point_at(xyz, 2)};
+  std::size_t diagonal = 0;  // Across the side; beyond it lies the side's other triangle.
+  while (norm(p[(diagonal + 1) % 3] - p[diagonal]) < 1.1) ++diagonal;
+  const Vec3 middle = midpoint(p[diagonal], p[(diagonal + 1) % 3]);
+  const Vec3 beyond = middle + 0.2 * (middle - p[(diagonal + 2) % 3]);
+  testing::remove_triangle(soup, 0);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const Vec3& corner : {p[c], p[(c + 1) % 3], beyond})
+      soup.corner_xyz.insert(soup.corner_xyz.end(), corner.begin(), corner.end());
+    soup.triangle_solid.push_back(0);
+  }
+  const CheckedSurface checked = check_surface(soup, "cube");
+  double area = 0.0;
+  for (LocalIndex t = 0; t < checked.surface.num_triangles(); ++t) {
+    const auto [a, b, c] = checked.surface.corners(t);
+    area += 0.5 * norm(cross(b - a, c - a));
+  }
+  EXPECT_NEAR(area, 6.0, 1e-12);
+  EXPECT_NEAR(enclosed_volume(checked.surface), 1.0, 1e-12);
+  EXPECT_EQ(checked.repairs.size(), 1U);
 }
 
 TEST(TriangleSurface, CornersThatDifferByRoundingAreJoinedAndSaidSo)

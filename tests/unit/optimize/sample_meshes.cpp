@@ -23,7 +23,7 @@ namespace {
 optimize::TetMesh kuhn_tets(int n)
 {
   const mesh::CoarseMesh cube = kuhn_cube(n);
-  return {.vertex_xyz = cube.vertex_xyz, .tet_vertices = cube.tet_vertices};
+  return {.vertex_xyz = cube.vertex_xyz.to_vector(), .tet_vertices = cube.tet_vertices.to_vector()};
 }
 
 bool is_on_cube(const Vec3& p)

@@ -102,9 +102,9 @@ using Types = ::testing::Types<
     migrate::MeshBlock, migrate::TetColumn, IndexLists, cut::CutReport, cut::CutChoice,
     // The program's.
     CoarseTry, UntangleTest, FillTask, SkinMesh, CoarseResult, WrittenFile, FillRecord,
-    FoldedSubdomain, Plan, ModelLoad, MeshLoad, LimiterLoad, NumbersLoad, ImprovementLoad,
-    ImportRequest, CoarseSurfaceRequest, CoarseDivideRequest, CoarsePieceRequest, CoarseMeshRequest,
-    UntangleRequest, ImproveRequest, SkinRequest>;
+    FoldedSubdomain, Plan, ModelLoad, MeshLoad, SegmentLoad, LimiterLoad, NumbersLoad,
+    ImprovementLoad, ImportRequest, CoarseSurfaceRequest, CoarseDivideRequest, CoarsePieceRequest,
+    CoarseMeshRequest, UntangleRequest, ImproveRequest, SkinRequest>;
 TYPED_TEST_SUITE(ByteImage, Types);
 
 TYPED_TEST(ByteImage, BringsBackTheValueAndNothingOfAPartOfIt)

@@ -49,6 +49,15 @@ TEST(CoarseBudget, AThousandFacesHaveTheirVerdictWithinThreeMinutesOnTwoRanks)
   EXPECT_LE(others_s, 130.0);
 }
 
+TEST(CoarseBudget, WhatIsNotNeededTakesLittleLongerThanWhatThereIs)
+{
+  const double least_s = optional_timeout_s(sized(1.0), 0.1);
+  EXPECT_LE(least_s, 20.0);
+  EXPECT_GE(optional_timeout_s(sized(1.0), 50.0), 100.0);
+  EXPECT_LE(optional_timeout_s(sized(1.0), 50.0), 200.0);
+  EXPECT_EQ(optional_timeout_s(sized(1.0, 7.0), 50.0), 7.0);
+}
+
 TEST(CoarseBudget, OnlyNetgensSurfacesAreWatchedForProgress)
 {
   coarse::CoarseOptions options = sized(1.0);

@@ -91,8 +91,8 @@ TEST_F(SceneOfACube, CutsEveryOctantNearTheMiddle)
 TEST_F(SceneOfACube, DrawsTheSameTetsFromAFile)
 {
   mesh::MeshArrays file;
-  file.point_xyz = cube_.vertex_xyz;
-  file.cell_points = cube_.tet_vertices;
+  file.point_xyz = cube_.vertex_xyz.to_vector();
+  file.cell_points = cube_.tet_vertices.to_vector();
   scene_.draw_cut_tets(file);
   MeshScene coarse(cube_.vertex_xyz);
   for (LocalIndex s = 0; s < 8; ++s) coarse.draw_coarse_cut(cut_, s, 0.95);
@@ -102,9 +102,9 @@ TEST_F(SceneOfACube, DrawsTheSameTetsFromAFile)
 TEST_F(SceneOfACube, DrawsTheBoundaryOfAFileBySubdomainAndPatch)
 {
   mesh::MeshArrays file{.vertices_per_cell = 3};
-  file.point_xyz = cube_.vertex_xyz;
-  file.cell_points = cube_.face_vertices;
-  file.cell_ints["patch"] = cube_.face_patch;
+  file.point_xyz = cube_.vertex_xyz.to_vector();
+  file.cell_points = cube_.face_vertices.to_vector();
+  file.cell_ints["patch"] = cube_.face_patch.to_vector();
   file.cell_ints["subdomain"].assign(cube_.face_patch.size(), 5);
   scene_.draw_boundary(file);
   MeshScene coarse(cube_.vertex_xyz);

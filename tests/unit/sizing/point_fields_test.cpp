@@ -38,7 +38,7 @@ template <class Value>
 TetField tet_field(int n, Value value)
 {
   const mesh::CoarseMesh cube = kuhn_cube(n);
-  TetField field{cube.vertex_xyz, cube.tet_vertices, {}};
+  TetField field{cube.vertex_xyz.to_vector(), cube.tet_vertices.to_vector(), {}};
   for (LocalIndex v = 0; v < cube.num_vertices(); ++v) {
     field.values.push_back(value(cube.position(v)));
   }

@@ -35,7 +35,7 @@ std::vector<LocalIndex> cells_of_cube(int n, const Keep& keep)
   return kept;
 }
 
-std::vector<GlobalIndex> euler_of(const std::vector<LocalIndex>& tets)
+std::vector<GlobalIndex> euler_of(const FlatArray<LocalIndex>& tets)
 {
   return euler_characteristics(tets, std::vector<LocalIndex>(tets.size() / 4, 0));
 }
@@ -80,7 +80,7 @@ TEST(EulerCharacteristic, CountsSharedEntitiesInEveryPart)
 
 TEST(EulerCharacteristic, SeesATetThatIsMissingInside)
 {
-  std::vector<LocalIndex> tets = testing::kuhn_cube(4).tet_vertices;
+  const FlatArray<LocalIndex> tets = testing::kuhn_cube(4).tet_vertices;
   const auto cavity = cells_of_cube(4, [](const auto& c) {
     return !(c == std::array<int, 3>{1, 1, 1});
   });

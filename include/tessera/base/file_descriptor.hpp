@@ -5,7 +5,7 @@
 
 #include <unistd.h>
 
-namespace tessera::jobs {
+namespace tessera {
 
 /// @brief Owns a file descriptor; moved, never copied.
 class FileDescriptor {
@@ -36,4 +36,4 @@ class FileDescriptor {
   int descriptor_ = -1;
 };
 
-}  // namespace tessera::jobs
+}  // namespace tessera

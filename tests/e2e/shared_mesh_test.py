@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Coarse mesh and tables stand once in the memory of a node, or in copies where that is not possible."""
+import contextlib
+import os
+import pathlib
+import re
+import unittest
+
+import program
+
+RANKS = 3
+
+
+def shared_inodes(pid):
+    """Of the segments that a process has mapped."""
+    with contextlib.suppress(OSError):
+        maps = pathlib.Path(f"/proc/{pid}/maps").read_text()
+        return set(re.findall(r"(\d+)\s+/memfd:tessera \(deleted\)$", maps, re.MULTILINE))
+    return set()  # It has ended.
+
+
+class SharedMeshTest(program.ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.case = self.write_case(max_size=0.6, subdomains=6)
+
+    def mesh_with(self, fault, output):
+        return self.mesh(
+            self.case, output, ranks=RANKS, env=os.environ | {"TESSERA_TEST_FAULT": fault}
+        )
+
+    def log_of(self, folder):
+        return (folder / "log" / "run.log").read_text()
+
+    def test_ranks_and_their_workers_map_the_same_memory(self):
+        """While jobs sleep there is time to look: three ranks and their three model zygotes."""
+        process = self.start(
+            "mesh", self.case, "--output", "out", ranks=RANKS,
+            env=os.environ | {"TESSERA_TEST_FAULT": "fill=sleep"},
+        )  # fmt: skip
+        users = []
+
+        def all_map():
+            pids = [pid for pid in program.descendants(process.pid) if program.is_program(pid)]
+            users[:] = [inodes for inodes in map(shared_inodes, pids) if inodes]
+            return len(users) >= 2 * RANKS or process.poll() is not None
+
+        program.wait_until(all_map, "ranks and workers that map the mesh")
+        self.assertIsNone(process.poll())
+        self.assertEqual(len(set.union(*users)), 1)
+
+    def test_copies_make_the_same_mesh(self):
+        reference = self.mesh_with("", "reference")
+        self.assertNotIn("coarse mesh: ", self.log_of(reference))
+        for fault, words in (
+            ("share=throw@0", f"{RANKS} ranks have a copy of their own; thrown for a test"),
+            ("share=throw@2", f"{RANKS} ranks have a copy of their own; thrown for a test"),
+            ("map=throw", "workers have copies of it: thrown for a test"),
+        ):
+            with self.subTest(fault=fault):
+                folder = self.mesh_with(fault, fault.replace("=", "_").replace("@", "_"))
+                self.assertIn(f"coarse mesh: {words}", self.log_of(folder))
+                self.assertEqual(program.figures(folder), program.figures(reference))
+                self.assertEqual(program.mesh_files(folder), program.mesh_files(reference))
+
+
+if __name__ == "__main__":
+    unittest.main()
