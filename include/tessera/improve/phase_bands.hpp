@@ -24,9 +24,9 @@ struct PhaseBands {
 [[nodiscard]] PhaseBands make_phase_bands(const PiecePart& part, const SeamRegions& regions,
                                           int phase, GlobalIndex most_of_rim);
 
-/// @brief The *outer part* of a piece: the tets of its bands and of its rim. Of the first phase
-/// that is all that any phase may exchange; the other tets are the piece's *core*. May have
-/// vertices that no tet has: those that bands know. Local; O(n log n).
+/// @brief The *outer part* of a piece: the tets of its bands and of its rim. That is all that the
+/// phase and later ones may exchange; the other tets are the piece's *core*. May have vertices that
+/// no tet has: those that bands know. Local; O(n log n).
 /// @pre There is a rim.
 [[nodiscard]] PiecePart outer_part(const PhaseBands& kept);
 
