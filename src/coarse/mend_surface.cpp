@@ -64,8 +64,9 @@ double longest_edge(const Corners& p)
 
 class Mender {
  public:
-  explicit Mender(SurfaceGroups& groups)
-      : groups_(groups), surface_(groups.surface(), sizes_of(groups))
+  /// @param[in] thins_curves  Also take vertices out of curves, away from the shortest edges.
+  Mender(SurfaceGroups& groups, bool thins_curves)
+      : groups_(groups), surface_(groups.surface(), sizes_of(groups)), thins_curves_(thins_curves)
   {
   }
 
@@ -246,7 +247,7 @@ class Mender {
   // Between curves that touch, short edges make flat triangles.
   bool thin_out_curve(LocalIndex v, LocalIndex bad)
   {
-    if (surface_.freedom(v) != Freedom::curve) return false;
+    if (!thins_curves_ || surface_.freedom(v) != Freedom::curve) return false;
     return std::ranges::any_of(surface_.curve_neighbours(v), [&](LocalIndex other) {
       return collapse(v, other, bad, kLeastGainOfThinning);
     });
@@ -347,6 +348,7 @@ class Mender {
 
   SurfaceGroups& groups_;
   EditableSurface surface_;
+  bool thins_curves_;
   MendStatistics done_{};
 };
 
@@ -354,13 +356,16 @@ class Mender {
 
 MendStatistics mend_surface(CoarseSurface& surface, const model::Model& model)
 {
-  SurfaceGroups groups(surface, model);
-  Mender mender(groups);
-  const MendStatistics done = mender.run();
-  if (done.total() == 0) return done;
-  if (!find_overlaps(mender.surface().take(groups.surface())).empty()) return {};
-  surface = groups.take(mender.surface());
-  return done;
+  for (const bool thins_curves : {true, false}) {
+    SurfaceGroups groups(surface, model);
+    Mender mender(groups, thins_curves);
+    const MendStatistics done = mender.run();
+    if (done.total() == 0) return done;
+    if (!find_overlaps(mender.surface().take(groups.surface())).empty()) continue;
+    surface = groups.take(mender.surface());
+    return done;
+  }
+  return {};
 }
 
 }  // namespace tessera::coarse
