@@ -32,8 +32,9 @@ void BatchFiller::add(subdomain::FilledPiece filled)
   }
   std::vector<Bytes> seams;
   if (regions_ != nullptr && task_.keep && !summary.is_folded) {
-    seams = band_segments(improve::whole_piece(filled.piece), *regions_, 0,
-                          most_of_rim(summary.num_tets));
+    improve::PiecePart part = improve::whole_piece(std::move(filled.piece));
+    seams = band_segments(part, *regions_, 0, most_of_rim(summary.num_tets));
+    filled.piece = std::move(part.piece);
   }
   batch_.add(std::move(filled), std::move(seams));
 }

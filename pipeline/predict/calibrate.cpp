@@ -134,7 +134,8 @@ class Sampler {
     return set;
   }
 
-  // As run_pipeline() does it, with the sampled jobs in place of all.
+  // As run_pipeline() does it, with the sampled jobs in place of all. They leave no bands for the
+  // improvement: its rate counts all of its work.
   void fill(SampleSet& set, const subdomain::PartitionedMesh& cut, const RunOutline& outline)
   {
     load_mesh(share_message(cut, own_), own_);

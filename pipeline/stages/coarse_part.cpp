@@ -171,7 +171,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   if (auto kept = kept_coarse_mesh(options.state, context)) {
     run.planes = std::move(kept->planes);
     run.coarse = std::move(kept->coarse);
-    run.levels = std::move(kept->levels);
+    run.levels = kept->levels;  // A copy does not hold the memory of all that was kept.
     run.splits = kept->splits;
     run.decomposition = std::move(kept->decomposition);
   } else {

@@ -6,11 +6,13 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -150,16 +152,14 @@ std::vector<CoarsePlan> plans_for(const config::Case& run_case, const cut::CutTr
   return plans;
 }
 
-CoarsePlan finer_plan(const config::Case& run_case, const CoarseResult& before,
-                      const mesh::SizePoints& sizes, RunContext& context)
+CoarsePlan finer_plan(const CoarseResult& before, const mesh::SizePoints& sizes)
 {
-  const auto figures = on_root(context.comm, [&] { return figures_of(run_case, context); });
   CoarsePlan plan{.options = before.options, .rung = before.tries};
   plan.options.timeout_s = optional_timeout_s(before.options, before.cpu_s);
   mesh::SizePoints& points = plan.options.points;
   points.xyz.insert(points.xyz.end(), sizes.xyz.begin(), sizes.xyz.end());
   points.size.insert(points.size.end(), sizes.size.begin(), sizes.size.end());
-  plan.limits = surface_limits(plan.options, figures, true);
+  plan.limits = surface_limits(plan.options, coarse::ModelFigures{}, true);
   return plan;
 }
 
@@ -212,7 +212,8 @@ class CoarseTries {
       if (made.outcome.status == jobs::JobStatus::ok) {
         ++result_.tries;
         result_.cpu_s =
-            outcomes_[*rung].cpu_s + context_.comm.max(context_.jobs.usage().cpu_s - before_s);
+            outcomes_[*rung].cpu_s + cpu_of_all_ranks(context_.jobs.usage().cpu_s - before_s);
+        result_.was_limited = result_.was_limited || made.was_limited;
         if (made.made) take(std::move(*made.made));
         break;
       }
@@ -225,6 +226,12 @@ class CoarseTries {
   }
 
  private:
+  [[nodiscard]] double cpu_of_all_ranks(double own_s) const
+  {
+    const std::vector<double> all = context_.comm.all_gather_values(own_s);
+    return std::accumulate(all.begin(), all.end(), 0.0);
+  }
+
   void take(CoarseTry made)
   {
     result_.mesh = std::move(made.mesh);
@@ -379,7 +386,7 @@ CoarseResult run_finer_try(const config::Case& run_case, const CoarseResult& bef
   StageScope stage(context, "coarse");
   CoarseResult result;
   try {
-    const CoarsePlan plan = finer_plan(run_case, before, sizes, context);
+    const CoarsePlan plan = finer_plan(before, sizes);
     result = CoarseTries(run_case, {plan}, stage, context).run();
   } catch (const GeometryError& error) {  // On all ranks; of the model at these sizes only.
     result.tries = 1;

@@ -23,7 +23,7 @@ struct CoarseResult {
   coarse::Defeatured defeatured{};      ///< Output length unit.
   std::vector<std::string> failures{};  ///< What the tries before said, for the report.
   bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
-  double cpu_s = 0.0;  ///< CPU time of the try that succeeded, of the rank that used most of it.
+  double cpu_s = 0.0;                   ///< CPU time of the try that succeeded, of all ranks.
 
   static auto fields(auto& self)
   {

@@ -34,12 +34,18 @@ std::optional<Result> result_of(const JobRequest& job, const jobs::JobRunner::Wa
   return result;
 }
 
+struct Division {
+  coarse::DividedSurface divided{};
+  bool was_limited = false;  // It failed for lack of time or memory.
+
+  static auto fields(auto& self) { return std::tie(self.divided, self.was_limited); }
+};
+
 // The surface in pieces, if a domain is large. What cannot be divided is filled as it is.
-coarse::DividedSurface divide(const coarse::CoarseSurface& surface, const CoarsePlan& plan,
-                              RunContext& context)
+Division divide(const coarse::CoarseSurface& surface, const CoarsePlan& plan, RunContext& context)
 {
   return comm::on_root(context.comm, [&] {
-    if (!coarse::has_large_domain(surface)) return coarse::undivided(surface);
+    if (!coarse::has_large_domain(surface)) return Division{coarse::undivided(surface)};
     jobs::JobOutcome outcome;
     double num_tets = 0.0;
     for (LocalIndex domain = 1; domain <= surface.num_domains(); ++domain) {
@@ -50,12 +56,12 @@ coarse::DividedSurface divide(const coarse::CoarseSurface& surface, const Coarse
     auto divided = result_of<coarse::DividedSurface>({"coarse: divide", request, limits},
                                                      wait_for_stop_signal(), outcome, context);
     if (!divided) context.log.warn("coarse: {}; domains are filled whole", outcome.message);
-    if (!divided) return coarse::undivided(surface);
+    if (!divided) return Division{coarse::undivided(surface), depends_on_machine(outcome)};
     if (divided->surface.num_domains() > surface.num_domains()) {
       context.log.info("coarse: {} domains in {} pieces", surface.num_domains(),
                        divided->surface.num_domains());
     }
-    return std::move(*divided);
+    return Division{std::move(*divided)};
   });
 }
 
@@ -89,7 +95,7 @@ PieceShare fill_share(const coarse::DividedSurface& divided, const coarse::Coars
   PieceShare share;
   const auto fill = [&](LocalIndex item, const jobs::JobRunner::WaitCallback& on_wait) {
     const LocalIndex piece = item + 1;
-    coarse::DomainSkin skin = coarse::skin_of(divided, piece);
+    coarse::DomainSkin skin = coarse::skin_of_piece(divided, piece);
     const jobs::JobLimits limits = domain_limits(options, skin);
     const Bytes request = coarse_piece_request(std::move(skin), options);
     jobs::JobOutcome outcome;
@@ -146,16 +152,17 @@ SurfaceTry try_coarse_surface(const CoarsePlan& plan, const jobs::JobRunner::Wai
 CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, coarse::CoarseSurface surface,
                                   StageScope& stage, RunContext& context)
 {
-  coarse::DividedSurface divided = divide(surface, plan, context);
+  auto [divided, was_limited] = divide(surface, plan, context);
   PieceTry pieces = fill_pieces(divided, plan.options, stage, context);
   if (pieces.failed && divided.surface.num_domains() > surface.num_domains()) {
     context.log.warn("coarse: piece {}: {}; domains are filled whole", pieces.failed->piece,
                      pieces.failed->outcome.message);
+    was_limited = was_limited || depends_on_machine(pieces.failed->outcome);
     divided = coarse::undivided(surface);
     pieces = fill_pieces(divided, plan.options, stage, context);
   }
   if (pieces.failed) return {std::move(pieces.failed->outcome), {}};
-  CoarseAttempt attempt;
+  CoarseAttempt attempt{.was_limited = was_limited};
   attempt.outcome = comm::on_root(context.comm, [&] {
     std::size_t num_tets = surface.mesh.tet_vertices.size() / 4;
     for (const FilledPiece& one : pieces.filled) num_tets += one.tets.tet_vertices.size() / 4;

@@ -74,7 +74,7 @@ class Filler {
       : options_(options),
         work_(work),
         context_(context),
-        cut_fingerprint_(cut_fingerprint(work.cut))
+        cut_fingerprint_(comm::on_root(context.comm, [&] { return cut_fingerprint(work.cut); }))
   {
   }
 

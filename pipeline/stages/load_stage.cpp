@@ -29,13 +29,14 @@ void load_everywhere(const std::string& kind, Bytes message, RunContext& context
 }
 
 // A worker that does not get at the memory of its rank gets a copy of what is there.
-jobs::JobOutcome load_mesh_here(const SharedBytes& message, RunContext& context)
+jobs::JobOutcome load_mesh_here(const SharedBytes& message, std::string& obstacle,
+                                RunContext& context)
 {
   if (message.segment()) {
     jobs::JobOutcome outcome =
         run_load(kMesh, message, kLoadLimits, context, load_segment_message(*message.segment()));
     if (outcome.status != jobs::JobStatus::failed) return outcome;
-    context.log.info("coarse mesh: workers have copies of it: {}", outcome.message);
+    obstacle = outcome.message;
   }
   return run_load(kMesh, message, kLoadLimits, context);
 }
@@ -44,7 +45,14 @@ jobs::JobOutcome load_mesh_here(const SharedBytes& message, RunContext& context)
 
 void load_mesh(const SharedBytes& message, RunContext& context)
 {
-  all_or_none(context.comm, [&] { require_loaded(load_mesh_here(message, context), kMesh); });
+  std::string obstacle;
+  all_or_none(context.comm,
+              [&] { require_loaded(load_mesh_here(message, obstacle, context), kMesh); });
+  const std::vector<std::string> obstacles = context.comm.all_gather_rows(
+      obstacle.empty() ? std::vector<std::string>{} : std::vector{obstacle});
+  if (obstacles.empty()) return;
+  context.log.info("coarse mesh: workers of {} ranks have copies of it: {}", obstacles.size(),
+                   obstacles.front());
 }
 
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,

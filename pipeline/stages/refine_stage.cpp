@@ -63,7 +63,7 @@ class StageWork {
         pieces_(store_of(filled, context.folder)),
         surfaces_(pieces_, work.cut.skeleton, work.cut.decomposition),
         neighbours_(mesh::neighbours_by_vertex(work.cut.skeleton)),
-        origin_(origin_of(work, filled))
+        origin_(comm::on_root(context.comm, [&] { return origin_of(work, filled); }))
   {
   }
 

@@ -22,12 +22,27 @@ namespace {
   throw Error(std::string("shared memory: ") + what + ": " + std::strerror(error));
 }
 
-void* map(int descriptor, std::size_t size, int protection)
-{
-  void* const place = ::mmap(nullptr, size, protection, MAP_SHARED, descriptor, 0);
-  if (place == MAP_FAILED) fail("mmap", errno);
-  return place;
-}
+// Unmapped when it goes.
+class MappedMemory {
+ public:
+  MappedMemory(int descriptor, std::size_t size, int protection, int flags)
+      : place_(::mmap(nullptr, size, protection, flags, descriptor, 0)), size_(size)
+  {
+    if (place_ == MAP_FAILED) fail("mmap", errno);
+  }
+  ~MappedMemory() { ::munmap(place_, size_); }
+  MappedMemory(const MappedMemory&) = delete;
+  MappedMemory& operator=(const MappedMemory&) = delete;
+
+  [[nodiscard]] std::span<std::byte> bytes() const
+  {
+    return {static_cast<std::byte*>(place_), size_};
+  }
+
+ private:
+  void* place_;
+  std::size_t size_;
+};
 
 // Without this a write beyond what there is would be a SIGBUS.
 void reserve(int descriptor, std::size_t size)
@@ -36,6 +51,9 @@ void reserve(int descriptor, std::size_t size)
   while (error == EINTR) error = ::posix_fallocate(descriptor, 0, static_cast<off_t>(size));
   if (error != 0) fail("not enough of it", error);
 }
+
+// In a container of its own, another process may have that number, and anything open.
+constexpr int kHarmless = O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY;
 
 SegmentName name_of(int descriptor)
 {
@@ -52,26 +70,22 @@ SegmentName name_of(int descriptor)
 
 class SharedBytes::Mapping {
  public:
+  // Kernels before 6.7 refuse MAP_SHARED of what is sealed against writes. Nobody writes, so the
+  // pages are the segment's all the same.
   explicit Mapping(FileDescriptor file)
       : file_(std::move(file)),
         name_(name_of(file_.get())),
-        place_(map(file_.get(), name_.size, PROT_READ))
+        memory_(file_.get(), name_.size, PROT_READ, MAP_PRIVATE)
   {
   }
-  ~Mapping() { ::munmap(place_, name_.size); }
-  Mapping(const Mapping&) = delete;
-  Mapping& operator=(const Mapping&) = delete;
 
   [[nodiscard]] const SegmentName& name() const { return name_; }
-  [[nodiscard]] std::span<const std::byte> bytes() const
-  {
-    return {static_cast<const std::byte*>(place_), name_.size};
-  }
+  [[nodiscard]] std::span<const std::byte> bytes() const { return memory_.bytes(); }
 
  private:
   FileDescriptor file_;  // Stays open: by it others find the segment.
   SegmentName name_;
-  void* place_;
+  MappedMemory memory_;
 };
 
 SharedBytes::SharedBytes(Bytes bytes)
@@ -92,9 +106,7 @@ SharedBytes SharedBytes::make_segment(std::size_t size,
   FileDescriptor file(::memfd_create("tessera", MFD_CLOEXEC | MFD_ALLOW_SEALING));
   if (file.get() < 0) fail("memfd_create", errno);
   reserve(file.get(), size);
-  void* const place = map(file.get(), size, PROT_READ | PROT_WRITE);
-  fill({static_cast<std::byte*>(place), size});
-  ::munmap(place, size);
+  fill(MappedMemory(file.get(), size, PROT_READ | PROT_WRITE, MAP_SHARED).bytes());
   if (::fcntl(file.get(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_WRITE | F_SEAL_SEAL)
       != 0) {
     fail("it cannot be sealed", errno);
@@ -106,10 +118,9 @@ SharedBytes SharedBytes::map_segment(const SegmentName& name)
 {
   const std::string path =
       "/proc/" + std::to_string(name.process) + "/fd/" + std::to_string(name.descriptor);
-  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  FileDescriptor file(::open(path.c_str(), kHarmless));
   if (file.get() < 0) fail(path.c_str(), errno);
   const SegmentName found = name_of(file.get());
-  // In a container of its own, another process may have that number.
   if (found.device != name.device || found.inode != name.inode || found.size != name.size) {
     throw Error("shared memory: " + path + " is another segment");
   }

@@ -40,12 +40,20 @@ std::vector<DomainTets> CoarseMesher::mesh_domains(const CoarseSurface& surface,
                                                    const CoarseOptions& options) const
 {
   const DividedSurface divided = divide(surface, options);
-  std::vector<DomainTets> pieces;
-  for (LocalIndex piece = 1; piece <= divided.surface.num_domains(); ++piece) {
-    const DomainSkin skin = skin_of(divided, piece);
-    pieces.push_back(skin.is_piece ? fill_domain(skin, options) : mesh_domain(skin, options));
+  const auto fill = [&](const DividedSurface& in_pieces) {
+    std::vector<DomainTets> pieces;
+    for (LocalIndex piece = 1; piece <= in_pieces.surface.num_domains(); ++piece) {
+      const DomainSkin skin = skin_of_piece(in_pieces, piece);
+      pieces.push_back(skin.is_piece ? fill_domain(skin, options) : mesh_domain(skin, options));
+    }
+    return join_domains(surface, in_pieces, std::move(pieces));
+  };
+  try {
+    return fill(divided);
+  } catch (const NetgenError&) {
+    if (divided.surface.num_domains() == surface.num_domains()) throw;
   }
-  return join_domains(surface, divided, std::move(pieces));
+  return fill(undivided(surface));
 }
 
 cut::CutMesh CoarseMesher::generate_parts(const CoarseOptions& options,

@@ -209,7 +209,7 @@ bool has_large_domain(const CoarseSurface& surface, double tets_per_piece)
   return false;
 }
 
-DomainSkin skin_of(const DividedSurface& divided, LocalIndex piece)
+DomainSkin skin_of_piece(const DividedSurface& divided, LocalIndex piece)
 {
   DomainSkin skin = skin_of(divided.surface, piece);
   LocalIndex last = 0;  // Piece of a domain.

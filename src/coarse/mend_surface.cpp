@@ -253,11 +253,12 @@ class Mender {
     });
   }
 
-  // The curve's new edge must follow it.
+  // The curve's new edge must follow it, and stay on one branch of its parameters.
   [[nodiscard]] bool keeps_curve(LocalIndex gone, LocalIndex kept) const
   {
     const LocalIndex curve = surface_.curve(gone, kept);
     if (curve == kNoIndex) return true;
+    if (groups_.is_seam(curve, gone)) return false;
     return std::ranges::all_of(surface_.curve_neighbours(gone), [&](LocalIndex other) {
       if (other == kept) return true;
       const Vec3 middle = midpoint(surface_.xyz(other), surface_.xyz(kept));

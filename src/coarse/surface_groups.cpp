@@ -151,6 +151,15 @@ void SurfaceGroups::place_on_curve(LocalIndex curve, LocalIndex v, LocalIndex ne
   t_[{curve, v}] = {model_.project_to_curve(number, point, t_near(curve, near)).t};
 }
 
+bool SurfaceGroups::is_seam(LocalIndex curve, LocalIndex v) const
+{
+  constexpr double kSame = 1e-6;  // Segments on either side of a vertex give it twice.
+  const auto known = t_.find({curve, v});
+  if (known == t_.end()) return false;
+  const auto [least, most] = std::ranges::minmax(known->second);
+  return most - least > kSame * (1.0 + std::abs(most));
+}
+
 void SurfaceGroups::merge(LocalIndex gone, LocalIndex kept, const Vec3& point)
 {
   changed_.insert({gone, kept});

@@ -33,6 +33,9 @@ class SurfaceGroups {
   [[nodiscard]] Vec3 on_group(LocalIndex group, LocalIndex near, const Vec3& point) const;
   [[nodiscard]] Vec3 on_curve(LocalIndex curve, LocalIndex near, const Vec3& point) const;
 
+  // Whether a closed curve begins and ends there.
+  [[nodiscard]] bool is_seam(LocalIndex curve, LocalIndex v) const;
+
   // Notes that a vertex was put or moved there, with `near` as the guess for its parameters.
   void place_on_group(LocalIndex group, LocalIndex v, LocalIndex near, const Vec3& point);
   void place_on_curve(LocalIndex curve, LocalIndex v, LocalIndex near, const Vec3& point);

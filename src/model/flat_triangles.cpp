@@ -112,6 +112,17 @@ class FlatTriangles {
     Triangle second{};
   };
 
+  // Those of the end of an edge that has fewer: a hub may have very many.
+  [[nodiscard]] const std::vector<LocalIndex>& fewer_around(LocalIndex a, LocalIndex b) const
+  {
+    return around_[at(a)].size() <= around_[at(b)].size() ? around_[at(a)] : around_[at(b)];
+  }
+
+  [[nodiscard]] static bool has_corners(const Triangle& v, LocalIndex a, LocalIndex b)
+  {
+    return std::ranges::find(v, a) != v.end() && std::ranges::find(v, b) != v.end();
+  }
+
   // At the edge from corner c of triangle t.
   [[nodiscard]] Pair pair_at(LocalIndex t, std::size_t c) const
   {
@@ -119,9 +130,9 @@ class FlatTriangles {
     const LocalIndex a = v[c];
     const LocalIndex b = v[kNext[c]];
     Pair pair{.apex = v[kNext[kNext[c]]]};
-    for (const LocalIndex other : around_[at(a)]) {
+    for (const LocalIndex other : fewer_around(a, b)) {
       const Triangle w = triangle(other);
-      if (other == t || std::ranges::find(w, b) == w.end()) continue;
+      if (other == t || !has_corners(w, a, b)) continue;
       pair.other = other;
       pair.across = w[0] + w[1] + w[2] - a - b;  // The third corner.
       pair.first = {pair.apex, a, pair.across};
@@ -149,12 +160,13 @@ class FlatTriangles {
     return true;
   }
 
-  // A fold that encloses nothing: its two triangles lie in each other.
+  // A fold that encloses nothing: its two triangles lie in each other. Solids stay apart.
   bool unfold(LocalIndex t)
   {
     for (std::size_t c = 0; c < 3; ++c) {
       const Pair pair = pair_at(t, c);
       if (pair.other == kNoIndex) continue;
+      if (surface_.triangle_solid[at(t)] != surface_.triangle_solid[at(pair.other)]) continue;
       const Vec3 normal = area_normal(triangle(t));
       const Vec3 up = surface_.position(pair.across) - surface_.position(pair.apex);
       if (dot(normal, area_normal(triangle(pair.other))) >= 0.0) continue;
@@ -237,9 +249,9 @@ class FlatTriangles {
   {
     if (v == kNone) return true;
     return std::ranges::all_of(std::array{0U, 1U, 2U}, [&](std::size_t c) {
-      const auto count = std::ranges::count_if(around_[at(v[c])], [&](LocalIndex t) {
-        return std::ranges::count(triangle(t), v[kNext[c]]) > 0;
-      });
+      const LocalIndex b = v[kNext[c]];
+      const auto count = std::ranges::count_if(
+          fewer_around(v[c], b), [&](LocalIndex t) { return has_corners(triangle(t), v[c], b); });
       return count == 0 || count == 2;
     });
   }

@@ -124,10 +124,11 @@ Orientation oriented(TriangleSurface& surface, const std::string& name)
 bool mend_flat_and_record(CheckedSurface& checked, const std::string& name)
 {
   const double height = kFlatHeight * box_diagonal(checked.surface);
-  const LocalIndex num_flat = mend_flat_triangles(checked.surface, height);
-  if (num_flat == 0) return false;
-  checked.repairs.push_back(fmt::format("{} flatter than {:g}, or folded onto another, mended",
-                                        counted(num_flat, "triangle", "triangles"), height));
+  const LocalIndex num_steps = mend_flat_triangles(checked.surface, height);
+  if (num_steps == 0) return false;
+  checked.repairs.push_back(
+      fmt::format("triangles flatter than {:g}, or folded onto others, mended in {}", height,
+                  counted(num_steps, "step", "steps")));
   require_triangles(checked.surface, name);
   return true;
 }

@@ -76,7 +76,7 @@ std::vector<Rank> to_neighbours(const comm::Communicator& comm,
 // The different ranks that this one shares vertices with.
 std::size_t num_neighbour_ranks(const migrate::DistributedMesh& mesh)
 {
-  std::vector<LocalIndex> ranks = mesh.vertex_sharers.values;
+  std::vector<LocalIndex> ranks = mesh.vertex_sharers.values.to_vector();
   std::ranges::sort(ranks);
   ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
   return ranks.empty() ? 0 : ranks.size() - 1;

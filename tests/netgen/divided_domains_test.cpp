@@ -108,7 +108,7 @@ TEST(DividedDomains, TetsAreAsGoodAsThoseOfADomainInOnePiece)
   ASSERT_EQ(divided.num_pieces.front(), 2);
   std::vector<coarse::DomainTets> pieces;
   for (LocalIndex p = 1; p <= divided.surface.num_domains(); ++p) {
-    pieces.push_back(bar.mesher->fill_domain(coarse::skin_of(divided.surface, p), bar.options));
+    pieces.push_back(bar.mesher->fill_domain(skin_of_piece(divided, p), bar.options));
   }
   const auto joined = bar.mesher->join_domains(bar.surface, divided, pieces);
   ASSERT_EQ(joined.size(), 2U);

@@ -20,7 +20,7 @@ struct DividedSurface {
 };
 
 /// @brief The skin of piece `piece`, from 1. Local.
-[[nodiscard]] DomainSkin skin_of(const DividedSurface& divided, LocalIndex piece);
+[[nodiscard]] DomainSkin skin_of_piece(const DividedSurface& divided, LocalIndex piece);
 
 /// @brief As many tets as a piece should have: what NETGEN fills in half a second.
 inline constexpr double kTetsPerPiece = 25e3;

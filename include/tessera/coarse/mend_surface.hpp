@@ -23,10 +23,10 @@ struct MendStatistics {
 ///
 /// A triangle is bad if it has an angle below 20 degrees. Worst ones first, an edge of it is
 /// flipped, a short one collapsed, a long one split where the third vertex nearly lies on it, a
-/// vertex taken out of a curve, or its vertices are moved. Curves stay curves and their ends stay. A
-/// step is taken if it makes the smallest angle around larger, turns no triangle much, and keeps new
-/// triangles near the geometry. If the surface cuts itself then, all is done again with no vertex
-/// taken out of a curve; if it still does, it stays as it was.
+/// vertex taken out of a curve, or its vertices are moved. Curves stay curves and their ends stay.
+/// A step is taken if it makes the smallest angle around larger, turns no triangle much, and keeps
+/// new triangles near the geometry. If the surface cuts itself then, all is done again with no
+/// vertex taken out of a curve; if it still does, it stays as it was.
 ///
 /// Parameters of what has changed are those of the model near the ones that were there; a model
 /// that needs them exact looks for them again. Vertices keep their numbers; new ones come last, and

@@ -142,7 +142,7 @@ TEST(DivideDomains, JoinedPiecesMakeAValidMeshWithoutTheMembranes)
     for (LocalIndex p = 0; p < divided.num_pieces[at(d - 1)]; ++p) {
       skins.push_back(skin_of(divided.surface, ++piece));
       EXPECT_EQ(divided.surface.domain_material[at(piece - 1)], d);
-      EXPECT_EQ(skin_of(divided, piece).is_piece, divided.num_pieces[at(d - 1)] > 1);
+      EXPECT_EQ(skin_of_piece(divided, piece).is_piece, divided.num_pieces[at(d - 1)] > 1);
       tets.push_back(cone(skins.back()));
     }
     domains.push_back(join_pieces(skin_of(surface, d), skins, tets));
