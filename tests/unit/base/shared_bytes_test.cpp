@@ -3,6 +3,7 @@
 
 #include <csignal>
 #include <cstdint>
+#include <fstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -130,11 +131,30 @@ TEST(SharedBytes, AnotherProcessMapsTheSameMemory)
   EXPECT_EQ(status, 0);
 }
 
-TEST(SharedBytes, CannotBeWritten)
+// A process that forces a write has a page of its own then.
+TEST(SharedBytes, NobodySeesWhatAnotherWrites)
 {
   const SharedBytes shared = to_segment(sample());
-  auto* const first = const_cast<std::byte*>(shared.bytes().data());
-  EXPECT_NE(::mprotect(first, 1, PROT_READ | PROT_WRITE), 0);
+  const SharedBytes mapped = SharedBytes::map_segment(*shared.segment());
+  auto* const first = const_cast<std::byte*>(mapped.bytes().data());
+  ASSERT_EQ(::mprotect(first, 1, PROT_READ | PROT_WRITE), 0);
+  const std::byte before = *first;
+  *first = ~before;
+  EXPECT_EQ(shared.bytes().front(), before);
+}
+
+// As kernels before 6.7 refuse what is shared and could be made writable.
+TEST(SharedBytes, TheMappingIsPrivateAndReadOnly)
+{
+  const SharedBytes shared = to_segment(sample());
+  std::ifstream maps("/proc/self/maps");
+  int num_mappings = 0;
+  for (std::string line; std::getline(maps, line);) {
+    if (line.find("memfd:tessera") == std::string::npos) continue;
+    EXPECT_NE(line.find(" r--p "), std::string::npos) << line;
+    ++num_mappings;
+  }
+  EXPECT_EQ(num_mappings, 1);
 }
 
 TEST(SharedBytes, AnotherSegmentUnderTheNameIsRefused)
