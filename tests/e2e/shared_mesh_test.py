@@ -55,7 +55,7 @@ class SharedMeshTest(program.ProgramTest):
         for fault, words in (
             ("share=throw@0", f"{RANKS} ranks have a copy of their own; thrown for a test"),
             ("share=throw@2", f"{RANKS} ranks have a copy of their own; thrown for a test"),
-            ("map=throw", "workers have copies of it: thrown for a test"),
+            ("map=throw", f"workers of {RANKS} ranks have copies of it: thrown for a test"),
         ):
             with self.subTest(fault=fault):
                 folder = self.mesh_with(fault, fault.replace("=", "_").replace("@", "_"))
