@@ -69,6 +69,21 @@ struct PartsOfOctants : ::testing::Test {
     }
     return exchanges;
   }
+
+  // Brings `parts` through all phases. Returns what each piece has exchanged.
+  [[nodiscard]] std::vector<std::vector<RegionExchange>> go_through_phases()
+  {
+    std::vector<std::vector<RegionExchange>> all(parts.size());
+    for (int phase = 0; phase < kNumPhases; ++phase) {
+      const auto exchanges = exchanges_of(phase);
+      for (std::size_t s = 0; s < parts.size(); ++s) {
+        EXPECT_FALSE(exchanges[s].empty()) << "phase " << phase;
+        parts[s] = apply_updates(parts[s], exchanges[s]);
+        all[s].insert(all[s].end(), exchanges[s].begin(), exchanges[s].end());
+      }
+    }
+    return all;
+  }
 };
 
 using CornersOfTag = std::map<LocalIndex, std::array<Vec3, 4>>;
@@ -106,15 +121,7 @@ void expect_same_tets(const PiecePart& part, const PiecePart& whole)
 TEST_F(PartsOfOctants, AllPhasesAtOnceGiveWhatOneAfterTheOtherGives)
 {
   const std::vector<PiecePart> filled = parts;
-  std::vector<std::vector<RegionExchange>> all(parts.size());
-  for (int phase = 0; phase < kNumPhases; ++phase) {
-    const auto exchanges = exchanges_of(phase);
-    for (std::size_t s = 0; s < parts.size(); ++s) {
-      EXPECT_FALSE(exchanges[s].empty()) << "phase " << phase;
-      parts[s] = apply_updates(parts[s], exchanges[s]);
-      all[s].insert(all[s].end(), exchanges[s].begin(), exchanges[s].end());
-    }
-  }
+  const auto all = go_through_phases();
   std::vector<mesh::Piece> pieces;
   for (std::size_t s = 0; s < parts.size(); ++s) {
     EXPECT_EQ(to_bytes(apply_updates(filled[s], all[s])), to_bytes(parts[s]));
@@ -142,14 +149,7 @@ TEST_F(PartsOfOctants, TheRimHasWhatLaterPhasesNeed)
 TEST_F(PartsOfOctants, TheOuterPartHasWhatAnyPhaseExchanges)
 {
   const std::vector<PiecePart> filled = parts;
-  std::vector<std::vector<RegionExchange>> all(parts.size());
-  for (int phase = 0; phase < kNumPhases; ++phase) {
-    const auto exchanges = exchanges_of(phase);
-    for (std::size_t s = 0; s < parts.size(); ++s) {
-      parts[s] = apply_updates(parts[s], exchanges[s]);
-      all[s].insert(all[s].end(), exchanges[s].begin(), exchanges[s].end());
-    }
-  }
+  const auto all = go_through_phases();
   for (std::size_t s = 0; s < parts.size(); ++s) {
     const PhaseBands kept = make_phase_bands(filled[s], regions, 0, filled[s].piece.num_tets());
     ASSERT_TRUE(kept.rim.has_value());
