@@ -22,6 +22,7 @@
 
 #include "pipeline/estimate/disk_space.hpp"
 #include "pipeline/estimate/only_subdomains.hpp"
+#include "pipeline/jobs/node_workers.hpp"
 #include "pipeline/predict/dry_run.hpp"
 #include "pipeline/predict/prediction_file.hpp"
 #include "pipeline/report/report.hpp"
@@ -98,6 +99,7 @@ class CaseRun {
   MeshResult mesh()
   {
     return in_context([&](RunContext& context) {
+      const NodeWorkers workers(comm_, jobs_, context.log);
       const auto ended = ended_run(context);
       return ended ? *ended : run(context);
     });

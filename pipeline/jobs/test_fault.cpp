@@ -21,9 +21,9 @@
 namespace tessera::pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 16> kStages{
-    "import", "load", "box",  "describe", "coarse", "remesh", "gmsh",  "divide",
-    "piece",  "plan", "fill", "improve",  "refine", "skin",   "share", "map"};
+constexpr std::array<std::string_view, 17> kStages{
+    "import", "load", "box",     "describe", "coarse", "remesh", "gmsh", "divide", "piece",
+    "plan",   "fill", "improve", "refine",   "skin",   "share",  "map",  "join"};
 constexpr std::array<std::string_view, 11> kKinds{
     "throw", "segv", "exit", "loop", "sleep", "memory", "garbage", "drop", "flat", "nudge", "lose"};
 

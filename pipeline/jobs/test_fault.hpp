@@ -19,7 +19,8 @@
 /// Its value is words "STAGE=KIND", for every job of the stage, or "STAGE=KIND@ITEM".
 /// - STAGE: import, load, box, coarse, remesh (the coarse mesh from the CAD system's triangles),
 ///   gmsh (that of Gmsh), divide (membranes), piece (the tets between some), plan, fill, improve,
-///   refine, skin; share (memory of the node: in the rank itself), map (the same: in its worker).
+///   refine, skin; share (memory of the node: in the rank itself), map (the same: in its worker);
+///   join (the workers of the node: in the rank itself).
 /// - KIND, for any job: throw, segv, exit, loop, sleep, memory.
 /// - KIND, for results that a check must refuse: drop (a tet of the result is lost: coarse, remesh,
 ///   fill, improve), garbage (the bytes of the result are no longer what they were), flat (the
@@ -28,7 +29,8 @@
 ///   bit off, as from another mathematical library), lose (improve: a tet is lost after the region
 ///   was judged).
 /// - ITEM: of import 0, or 1 for OpenCASCADE's plain reader; the subdomain, of refine the first of
-///   the job; of improve the region; of coarse, remesh and gmsh the try, from 0; of share the rank.
+///   the job; of improve the region; of coarse, remesh and gmsh the try, from 0; of share and join
+///   the rank.
 namespace tessera::pipeline {
 
 /// @brief Checks TESSERA_TEST_FAULT, and lets no job have more than TESSERA_TEST_LIMITS allows, if

@@ -159,7 +159,7 @@ void add_memory(const PredictionBasis& basis, Prediction& prediction)
   const double writer = is_written_by_ranks ? kWriterBytesPerTet * in_file : 0.0;
   prediction.largest_job_bytes = basis.memory.loaded + job;
   prediction.memory_per_rank_bytes = basis.memory.process + writer + jobs;
-  prediction.memory_of_node_bytes = basis.memory.shared;
+  prediction.memory_of_node_bytes = basis.memory.shared + basis.memory.loaded;
 }
 
 }  // namespace

@@ -72,9 +72,9 @@ class SharedBytes::Mapping {
  public:
   // Kernels before 6.7 refuse MAP_SHARED of what is sealed against writes. Nobody writes, so the
   // pages are the segment's all the same.
-  explicit Mapping(FileDescriptor file)
+  Mapping(FileDescriptor file, const SegmentName& name)
       : file_(std::move(file)),
-        name_(name_of(file_.get())),
+        name_(name),
         memory_(file_.get(), name_.size, PROT_READ, MAP_PRIVATE)
   {
   }
@@ -83,7 +83,7 @@ class SharedBytes::Mapping {
   [[nodiscard]] std::span<const std::byte> bytes() const { return memory_.bytes(); }
 
  private:
-  FileDescriptor file_;  // Stays open: by it others find the segment.
+  FileDescriptor file_;  // Stays open: by that of its maker others find the segment.
   SegmentName name_;
   MappedMemory memory_;
 };
@@ -111,7 +111,8 @@ SharedBytes SharedBytes::make_segment(std::size_t size,
       != 0) {
     fail("it cannot be sealed", errno);
   }
-  return SharedBytes(std::make_shared<const Mapping>(std::move(file)));
+  const SegmentName name = name_of(file.get());
+  return SharedBytes(std::make_shared<const Mapping>(std::move(file), name));
 }
 
 SharedBytes SharedBytes::map_segment(const SegmentName& name)
@@ -124,7 +125,7 @@ SharedBytes SharedBytes::map_segment(const SegmentName& name)
   if (found.device != name.device || found.inode != name.inode || found.size != name.size) {
     throw Error("shared memory: " + path + " is another segment");
   }
-  return SharedBytes(std::make_shared<const Mapping>(std::move(file)));
+  return SharedBytes(std::make_shared<const Mapping>(std::move(file), name));
 }
 
 }  // namespace tessera

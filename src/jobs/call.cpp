@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include "jobs/failure.hpp"
 
@@ -23,6 +25,8 @@ constexpr std::chrono::milliseconds kTick{4};
 // A process that is to be killed ends within milliseconds. If nothing is heard of it for this long,
 // its parent is stopped or broken, and the parent's parent is asked.
 constexpr std::chrono::seconds kPatience{5};
+// A model zygote that other ranks use is ended with more care.
+constexpr std::chrono::seconds kPatienceOfJoined{60};
 
 double seconds_between(std::chrono::steady_clock::time_point from,
                        std::chrono::steady_clock::time_point to)
@@ -91,7 +95,7 @@ void Call::send_request()
     link_.log_is_told = log_request_.is_sent();
   }
   if (alive && link_.log_is_told) alive = request_.send_some(link_.data.get());
-  if (!alive) link_.zygote_is_gone = true;
+  if (!alive && !link_.has_joined()) link_.zygote_is_gone = true;
 }
 
 // Behind a large request that the model zygote is still reading there may be no room at once.
@@ -106,10 +110,11 @@ void Call::receive_data()
   constexpr int kMaxPackets = 64;
   for (int i = 0; i < kMaxPackets && !outcome_; ++i) {
     const auto packet = link_.data_packets.receive(link_.data.get(), false);
-    if (!packet) return;
+    if (!packet) break;
     // Lower numbers: what a job still said when it was already given up.
     if (packet->header.call == number_) accept_data(*packet);
   }
+  if (link_.has_joined() && link_.data_packets.is_closed() && !outcome_) finish_lost();
 }
 
 void Call::receive_control()
@@ -153,7 +158,7 @@ void Call::accept_answer(const Packet& packet)
   answered_ = answer_.add(packet);
   // A job's answer counts only when the job has ended. A load's counts at once, unless the load is
   // to be killed: a load killed a moment too late is lost all the same.
-  if (answered_ && kind_ == PacketKind::load && !kill_reason_) finish_answered();
+  if (answered_ && kind_ != PacketKind::run && !kill_reason_) finish_answered();
 }
 
 void Call::accept_control(const Packet& packet)
@@ -169,7 +174,7 @@ void Call::tick(Clock::time_point now)
 {
   const double since_last_tick_s = seconds_between(std::exchange(last_tick_, now), now);
   if (kill_reason_) {
-    if (now - kill_time_ < kPatience) return;
+    if (now - kill_time_ < (link_.has_joined() ? kPatienceOfJoined : kPatience)) return;
     kill(killed_ == Target::job ? Target::model : Target::zygote, now);
     return;
   }
@@ -181,6 +186,10 @@ void Call::tick(Clock::time_point now)
     go_on = false;
   }
   kill_reason_ = go_on ? reason_to_kill(since_last_tick_s) : JobStatus::cancelled;
+  if (kill_reason_ == JobStatus::cancelled && kind_ != PacketKind::run && link_.has_joined()) {
+    finish_lost();  // The load goes on for others.
+    return;
+  }
   if (kill_reason_) kill(kind_ == PacketKind::run ? Target::job : Target::model, now);
 }
 
@@ -202,6 +211,12 @@ void Call::kill(Target target, Clock::time_point now)
   killed_ = target;
   kill_time_ = now;
   kill_sent_ = target != Target::job;  // else by send_kill()
+  if (link_.has_joined()) {
+    if (target == Target::model)
+      ::syscall(SYS_pidfd_send_signal, link_.joined_model.get(), SIGKILL, nullptr, 0);
+    if (target == Target::zygote) finish_lost();
+    return;
+  }
   if (target == Target::model) send_signal(link_.control.get(), PacketKind::kill_model, number_);
   // A child of this process, so the number is surely its own; the others follow it.
   if (target == Target::zygote) ::kill(link_.zygote, SIGKILL);
@@ -224,6 +239,20 @@ void Call::finish(JobStatus status, std::string message)
         usage_->peak_rss_bytes - std::min(usage_->peak_rss_bytes, usage_->rss_bytes);
     link_.peak_bytes = std::max(link_.peak_bytes, usage_->together_bytes + returned);
   }
+}
+
+// The model zygote that this rank has joined is gone, or nothing is to be heard of it any more.
+void Call::finish_lost()
+{
+  link_.data.close();
+  if (kill_reason_) {
+    finish(*kill_reason_, killed_message(*kill_reason_));
+  } else {
+    finish(JobStatus::crashed, "the process that holds the model for this node is gone");
+    outcome_->code = SIGKILL;
+  }
+  outcome_->message += "; what had been loaded is lost";
+  outcome_->loads_are_lost = true;
 }
 
 void Call::finish_ended(const ProcessEnd& end, bool is_model)

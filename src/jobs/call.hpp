@@ -23,7 +23,7 @@ namespace tessera::jobs {
 /// sure that the process number is still that of its child.
 class Call {
  public:
-  /// @pre kind is load or run; all arguments outlive the call.
+  /// @pre kind is open_door, load or run; all arguments outlive the call.
   Call(ZygoteLink& link, PacketKind kind, std::span<const std::byte> message,
        const JobLimits& limits, const JobRunner::WaitCallback& on_wait);
 
@@ -47,6 +47,7 @@ class Call {
   void kill(Target target, Clock::time_point now);
 
   void finish(JobStatus status, std::string message);
+  void finish_lost();
   void finish_ended(const ProcessEnd& end, bool is_model);
   void finish_answered();
   void note_usage(const ProcessEnd& end);

@@ -11,6 +11,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
@@ -76,6 +77,14 @@ void redirect_output(const FileDescriptor& log)
   ::dup2(output, STDERR_FILENO);
 }
 
+void run_where(pid_t process)
+{
+  constexpr std::size_t kMostCores = 8192;
+  std::array<cpu_set_t, kMostCores / CPU_SETSIZE> cores{};
+  if (::sched_getaffinity(process, sizeof(cores), cores.data()) == 0)
+    ::sched_setaffinity(0, sizeof(cores), cores.data());
+}
+
 void flush_streams()
 {
   std::cout.flush();
@@ -92,10 +101,10 @@ ChildWatch::ChildWatch()
   signals_ = FileDescriptor(::signalfd(-1, &child_ended, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
-void ChildWatch::wait(int socket) const
+void ChildWatch::wait(std::span<const int> sockets) const
 {
-  std::array<pollfd, 2> polled{pollfd{.fd = socket, .events = POLLIN, .revents = 0},
-                               pollfd{.fd = signals_.get(), .events = POLLIN, .revents = 0}};
+  std::vector<pollfd> polled{{.fd = signals_.get(), .events = POLLIN, .revents = 0}};
+  for (const int socket : sockets) polled.push_back({.fd = socket, .events = POLLIN, .revents = 0});
   ::poll(polled.data(), polled.size(), -1);
   signalfd_siginfo info{};
   while (::read(signals_.get(), &info, sizeof(info)) > 0) {

@@ -19,6 +19,7 @@
 
 #include "jobs/call.hpp"
 #include "jobs/child_process.hpp"
+#include "jobs/node_socket.hpp"
 #include "jobs/zygote.hpp"
 #include "jobs/zygote_link.hpp"
 
@@ -46,10 +47,22 @@ JobLimits smaller_of(const JobLimits& a, const JobLimits& b)
           .idle_cpu_s = a.idle_cpu_s};
 }
 
+// A load that breaks a limit is ended by the rank whose model zygote it is, which can say why. Only
+// if that does nothing do others.
+JobLimits with_patience(JobLimits limits)
+{
+  constexpr double kPatience_s = 5.0;
+  limits.cpu_s += kPatience_s;
+  limits.stall_s += kPatience_s;
+  limits.memory_gib *= 1.1;
+  return limits;
+}
+
 }  // namespace
 
 struct JobRunner::State {
   ZygoteLink link{};
+  bool is_joined = false;  // Other ranks may use the model zygote of this one.
   std::optional<JobLimits> largest{};
   double cpu_s = 0.0;                  // Since the last restart_usage(), as link.peak_bytes.
   std::size_t earlier_peak_bytes = 0;  // Before it.
@@ -58,6 +71,7 @@ struct JobRunner::State {
                   const WaitCallback& on_wait)
   {
     if (largest) limits = smaller_of(limits, *largest);
+    if (link.has_joined() && kind == PacketKind::load) limits = with_patience(limits);
     JobOutcome outcome = Call(link, kind, message, limits, on_wait).wait();
     cpu_s += outcome.cpu_s;
     return outcome;
@@ -97,6 +111,31 @@ void JobRunner::set_log_file(const std::filesystem::path& file)
 }
 
 void JobRunner::cap_limits(const JobLimits& largest) { state_->largest = largest; }
+
+std::string JobRunner::open_to_node()
+{
+  state_->link.end_model();  // With what it has loaded: all begin alike.
+  std::string name = make_node_name();
+  const JobOutcome outcome =
+      state_->call(PacketKind::open_door, std::as_bytes(std::span(name)), {}, {});
+  throw_unless_ok(outcome, "cannot listen for ranks of this node");
+  state_->is_joined = true;
+  return name;
+}
+
+void JobRunner::close_to_node()
+{
+  throw_unless_ok(state_->call(PacketKind::open_door, {}, {}, {}), "cannot stop listening");
+}
+
+void JobRunner::join(const std::string& name) { state_->link.join(name); }
+
+void JobRunner::leave_node()
+{
+  state_->link.leave();
+  // Its loads were numbered for all; a fresh one begins anew.
+  if (std::exchange(state_->is_joined, false)) state_->link.end_model();
+}
 
 JobOutcome JobRunner::load(std::span<const std::byte> message, const JobLimits& limits,
                            const WaitCallback& on_wait)

@@ -3,18 +3,23 @@
 
 #include <cerrno>
 #include <csignal>
-#include <filesystem>
+#include <iterator>
+#include <list>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include "tessera/base/hash.hpp"
 #include "tessera/jobs/this_process.hpp"
 
 #include "jobs/child_process.hpp"
 #include "jobs/failure.hpp"
 #include "jobs/job_progress.hpp"
+#include "jobs/node_socket.hpp"
 #include "jobs/packet.hpp"
 #include "jobs/process_usage.hpp"
 
@@ -30,35 +35,57 @@ UsageReport usage_of_this_process(double cpu_before_s, std::size_t together_byte
           .together_bytes = together_bytes};
 }
 
+std::string text_of(const Bytes& bytes)
+{
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// A rank that has its jobs done here: the one whose grandchild this process is, or one of its node
+// that has joined.
+struct Client {
+  FileDescriptor socket{};
+  pid_t joined_from = 0;         ///< The process of a rank that has joined.
+  std::uint32_t first_call = 0;  ///< Requests with lower numbers are out of date.
+  Incoming packets{};
+  Assembly request{};
+  FileDescriptor
+      log{};  ///< One for all jobs: to open it for each is a load on a parallel file system.
+  std::size_t num_loads = 0;
+  std::uint32_t call = 0;  ///< That `job` works on.
+  pid_t job = 0;           ///< 0 if none runs.
+};
+
+// What became of a load. Every rank that has joined asks for the same loads in the same order; each
+// is done once, when the first one asks.
+struct Load {
+  Hash128 message{};
+  std::optional<Failure> failure{};
+};
+
 class ModelZygote {
  public:
-  ModelZygote(pid_t zygote, FileDescriptor data, const MakeWorker& make_worker)
-      : zygote_(zygote), data_(std::move(data)), make_worker_(make_worker)
+  ModelZygote(pid_t zygote, FileDescriptor data, std::uint32_t first_call,
+              const MakeWorker& make_worker)
+      : zygote_(zygote), make_worker_(make_worker)
   {
+    clients_.push_back({.socket = std::move(data), .first_call = first_call});
   }
 
   // Until the rank has closed its socket.
-  void serve(std::uint32_t first_call)
+  void serve()
   {
-    while (const auto packet = requests_.receive(data_.get(), true)) {
-      const PacketHeader header = packet->header;
-      if (header.call < first_call) continue;
-      if (header.kind == PacketKind::kill_job) {  // before all of its request was here
-        send_value(data_.get(), PacketKind::job_ended, header.call, ProcessEnd{});
-        continue;
-      }
-      if (!request_.add(*packet)) continue;
-      const Bytes message = request_.take();
-      if (header.kind == PacketKind::log_file)
-        log_ = open_log(std::string(reinterpret_cast<const char*>(message.data()), message.size()));
-      else if (header.kind == PacketKind::load)
-        load(header.call, message);
-      else
-        run(header.call, message);
+    while (!owner().packets.is_closed()) {
+      wait();
+      report_ended_jobs();
+      admit();
+      for (Client& client : clients_) answer(client);
+      dismiss();
     }
   }
 
  private:
+  Client& owner() { return clients_.front(); }
+
   // Made with the first request, so that its failure is that request's outcome.
   Worker& worker()
   {
@@ -66,37 +93,144 @@ class ModelZygote {
     return *worker_;
   }
 
-  void load(std::uint32_t call, const Bytes& message)
+  void wait() const
+  {
+    std::vector<int> sockets;
+    for (const Client& client : clients_) sockets.push_back(client.socket.get());
+    if (door_.get() >= 0) sockets.push_back(door_.get());
+    children_->wait(sockets);
+  }
+
+  void report_ended_jobs()
+  {
+    for (Client& client : clients_) {
+      const auto end = children_->reap(client.job);
+      if (!end) continue;
+      client.job = 0;
+      send_value(client.socket.get(), PacketKind::job_ended, client.call, *end);
+    }
+  }
+
+  void admit()
+  {
+    while (door_.get() >= 0) {
+      auto line = accept_on_node(door_);
+      if (!line) return;
+      send_value(line->socket.get(), PacketKind::model_started, 0, ::getpid());
+      clients_.push_back({.socket = std::move(line->socket), .joined_from = line->peer});
+    }
+  }
+
+  void answer(Client& client)
+  {
+    while (const auto packet = client.packets.receive(client.socket.get(), false)) {
+      const PacketHeader header = packet->header;
+      if (header.call < client.first_call) continue;
+      if (header.kind == PacketKind::kill_job)
+        kill_job(client, header.call);
+      else if (client.request.add(*packet))
+        obey(client, header, client.request.take());
+    }
+  }
+
+  // Jobs of ranks that are gone end with them.
+  void dismiss()
+  {
+    for (auto client = std::next(clients_.begin()); client != clients_.end();) {
+      if (!client->packets.is_closed()) {
+        ++client;
+        continue;
+      }
+      if (client->job > 0) {
+        ::kill(client->job, SIGKILL);
+        ::waitpid(client->job, nullptr, 0);
+      }
+      client = clients_.erase(client);
+    }
+  }
+
+  void obey(Client& client, const PacketHeader& header, const Bytes& message)
+  {
+    switch (header.kind) {
+      case PacketKind::log_file:
+        client.log = open_log(text_of(message));
+        break;
+      case PacketKind::open_door:
+        open_door(header.call, message);
+        break;
+      case PacketKind::load:
+        load(client, header.call, message);
+        break;
+      default:
+        run(client, header.call, message);
+    }
+  }
+
+  static void kill_job(const Client& client, std::uint32_t call)
+  {
+    if (client.job > 0 && client.call == call)
+      ::kill(client.job, SIGKILL);
+    else  // before all of its request was here
+      send_value(client.socket.get(), PacketKind::job_ended, call, ProcessEnd{});
+  }
+
+  void open_door(std::uint32_t call, const Bytes& name)
+  {
+    door_.close();
+    if (!name.empty()) {
+      loads_.clear();
+      owner().num_loads = 0;
+      try {
+        door_ =
+            listen_on_node(std::string(reinterpret_cast<const char*>(name.data()), name.size()));
+      } catch (...) {
+        send_failure(owner(), call, current_failure());
+        return;
+      }
+    }
+    send_result(owner(), call, {});
+  }
+
+  void load(Client& client, std::uint32_t call, const Bytes& message)
   {
     const double cpu_before_s = cpu_time_of_this_process();
-    redirect_output(log_);
-    Failure failure;
-    bool loaded = false;
+    const std::size_t number = client.num_loads++;
+    const Hash128 hash = hash_bytes(message);
+    if (number == loads_.size()) loads_.push_back({hash, load_into_worker(client, message)});
+    const std::size_t together = &client == &owner() ? zygotes_bytes_ : 0;
+    send_value(client.socket.get(), PacketKind::usage, call,
+               usage_of_this_process(cpu_before_s, together));
+    const Load& done = loads_[number];
+    if (done.message != hash)
+      send_failure(client, call, {.message = "ranks of one node load different things"});
+    else if (done.failure)
+      send_failure(client, call, *done.failure);
+    else
+      send_result(client, call, {});
+  }
+
+  std::optional<Failure> load_into_worker(const Client& client, const Bytes& message)
+  {
+    std::optional<Failure> failure;
+    redirect_output(client.log);
     try {
       worker().load(message);
-      loaded = true;
     } catch (...) {
       failure = current_failure();
     }
     flush_streams();
     redirect_output({});
-
     measure_zygotes();
-    send_value(data_.get(), PacketKind::usage, call,
-               usage_of_this_process(cpu_before_s, zygotes_bytes_));
-    if (loaded)
-      send_result(call, {});
-    else
-      send_failure(call, failure);
+    return failure;
   }
 
-  void run(std::uint32_t call, const Bytes& request)
+  void run(Client& client, std::uint32_t call, const Bytes& request)
   {
     try {
       worker();
     } catch (...) {
-      send_failure(call, current_failure());
-      send_value(data_.get(), PacketKind::job_ended, call, ProcessEnd{});
+      send_failure(client, call, current_failure());
+      send_value(client.socket.get(), PacketKind::job_ended, call, ProcessEnd{});
       return;
     }
     if (zygotes_bytes_ == 0) measure_zygotes();
@@ -104,31 +238,33 @@ class ModelZygote {
     const pid_t job = ::fork();
     if (job == 0) {
       die_with_parent(model_zygote);
-      run_in_this_process(call, request);
+      run_in_this_process(client, call, request);
     }
     if (job < 0) {
-      send_value(data_.get(), PacketKind::job_ended, call, ProcessEnd{.fork_error = errno});
+      send_value(client.socket.get(), PacketKind::job_ended, call, ProcessEnd{.fork_error = errno});
       return;
     }
-    send_value(data_.get(), PacketKind::job_started, call, job);
-    const ProcessEnd end = wait_for(job, call);
-    send_value(data_.get(), PacketKind::job_ended, call, end);
+    client.call = call;
+    client.job = job;
+    send_value(client.socket.get(), PacketKind::job_started, call, job);
   }
 
-  [[noreturn]] void run_in_this_process(std::uint32_t call, const Bytes& request)
+  [[noreturn]] void run_in_this_process(const Client& client, std::uint32_t call,
+                                        const Bytes& request)
   {
     unblock_signals();
     children_ = {};
-    redirect_output(log_);
-    begin_progress_reports(data_.get(), call);
+    if (client.joined_from > 0) run_where(client.joined_from);
+    redirect_output(client.log);
+    begin_progress_reports(client.socket.get(), call);
     try {
       const Bytes result = worker().run(request);
-      report_usage_of_job(call);
-      send_result(call, result);
+      report_usage_of_job(client, call);
+      send_result(client, call, result);
     } catch (...) {
       const Failure failure = current_failure();
-      report_usage_of_job(call);
-      send_failure(call, failure);
+      report_usage_of_job(client, call);
+      send_failure(client, call, failure);
     }
     flush_streams();
     // Destructors and exit handlers belong to the processes that this one is a copy of.
@@ -140,44 +276,31 @@ class ModelZygote {
     zygotes_bytes_ = proportional_rss_bytes(zygote_) + proportional_rss_bytes(::getpid());
   }
 
-  // The zygotes sleep while a job runs. A page that a job writes to becomes its own, and the model
-  // zygote keeps the old one.
-  void report_usage_of_job(std::uint32_t call) const
+  // The zygotes write nothing while jobs run. A page that a job writes to becomes its own, and the
+  // model zygote keeps the old one.
+  void report_usage_of_job(const Client& client, std::uint32_t call)
   {
-    send_value(data_.get(), PacketKind::usage, call,
-               usage_of_this_process(0.0, zygotes_bytes_ + private_rss_bytes()));
+    const std::size_t zygotes = &client == &owner() ? zygotes_bytes_ : 0;
+    send_value(client.socket.get(), PacketKind::usage, call,
+               usage_of_this_process(0.0, zygotes + private_rss_bytes()));
   }
 
-  ProcessEnd wait_for(pid_t job, std::uint32_t call)
+  static void send_result(const Client& client, std::uint32_t call, const Bytes& bytes)
   {
-    while (true) {
-      if (const auto end = children_->reap(job)) return *end;
-      children_->wait(data_.get());
-      while (const auto packet = requests_.receive(data_.get(), false))
-        if (packet->header.kind == PacketKind::kill_job && packet->header.call == call)
-          ::kill(job, SIGKILL);
-      if (requests_.is_closed()) ::_exit(0);
-    }
+    Outgoing(PacketKind::result, call, bytes).send_all(client.socket.get());
   }
 
-  void send_result(std::uint32_t call, const Bytes& bytes) const
+  static void send_failure(const Client& client, std::uint32_t call, const Failure& failure)
   {
-    Outgoing(PacketKind::result, call, bytes).send_all(data_.get());
-  }
-
-  void send_failure(std::uint32_t call, const Failure& failure) const
-  {
-    Outgoing(PacketKind::failure, call, to_bytes(failure)).send_all(data_.get());
+    Outgoing(PacketKind::failure, call, to_bytes(failure)).send_all(client.socket.get());
   }
 
   pid_t zygote_;
-  FileDescriptor data_;
   const MakeWorker& make_worker_;
   std::optional<ChildWatch> children_{std::in_place};
-  Incoming requests_{};
-  Assembly request_{};
-  FileDescriptor
-      log_{};  // One for all jobs: to open it for each is a load on a parallel file system.
+  std::list<Client> clients_{};  ///< The first one is the rank whose grandchild this process is.
+  FileDescriptor door_{};        ///< Where ranks of the node may join.
+  std::vector<Load> loads_{};
   std::unique_ptr<Worker> worker_{};
   std::size_t zygotes_bytes_ = 0;
 };
@@ -187,7 +310,7 @@ class ModelZygote {
 void run_model_zygote(pid_t zygote, FileDescriptor data, std::uint32_t first_call,
                       const MakeWorker& make_worker)
 {
-  ModelZygote(zygote, std::move(data), make_worker).serve(first_call);
+  ModelZygote(zygote, std::move(data), first_call, make_worker).serve();
   ::_exit(0);
 }
 

@@ -18,9 +18,10 @@ namespace tessera::jobs {
 enum class PacketKind : std::uint32_t {
   start_model,    ///< rank → zygote
   kill_model,     ///< rank → zygote
-  model_started,  ///< zygote → rank: pid_t
+  model_started,  ///< zygote, or model zygote that a rank has joined → rank: pid_t
   model_ended,    ///< zygote → rank: ProcessEnd
   log_file,       ///< rank → model zygote: path, or empty
+  open_door,      ///< rank → its model zygote: where others may join, or empty: no more
   load,           ///< rank → model zygote: what Worker::load() gets
   run,            ///< rank → model zygote: what Worker::run() gets
   kill_job,       ///< rank → model zygote
@@ -28,8 +29,8 @@ enum class PacketKind : std::uint32_t {
   job_ended,      ///< model zygote → rank: ProcessEnd
   progress,       ///< job → rank
   usage,          ///< model zygote after a load, or job → rank: UsageReport
-  result,         ///< model zygote after a load, or job → rank: bytes
-  failure,        ///< model zygote after a load, or job → rank: bytes of a Failure
+  result,         ///< model zygote after a load or open_door, or job → rank: bytes
+  failure,        ///< model zygote after a load or open_door, or job → rank: bytes of a Failure
 };
 
 /// @brief How a process ended.
@@ -50,7 +51,9 @@ struct UsageReport {
   double cpu_s = 0.0;
   std::uint64_t rss_bytes = 0;
   std::uint64_t peak_rss_bytes = 0;
-  std::uint64_t together_bytes = 0;  ///< It and the zygotes, shared pages once; 0 if not measured.
+  /// It and the zygotes, shared pages once; 0 if not measured. Zygotes count for the rank alone
+  /// whose children they are.
+  std::uint64_t together_bytes = 0;
 
   static auto fields(auto& self)
   {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include <sys/types.h>
 
@@ -18,6 +19,8 @@ struct ZygoteLink {
   pid_t zygote = 0;
   FileDescriptor control{};
   FileDescriptor data{};
+  FileDescriptor own_data{};      ///< That of this rank, while `data` leads to a joined one.
+  FileDescriptor joined_model{};  ///< The model zygote of another rank that this one has joined.
   Incoming control_packets{};
   Incoming data_packets{};
   bool zygote_is_gone = false;
@@ -31,6 +34,8 @@ struct ZygoteLink {
   std::size_t loaded_bytes = 0;  ///< Of the zygotes together after the last load.
   std::size_t model_bytes = 0;   ///< Of the model zygote after the last load.
 
+  [[nodiscard]] bool has_joined() const noexcept { return joined_model.get() >= 0; }
+
   /// @brief Asks for a model zygote that answers this and later calls.
   void start_model()
   {
@@ -41,6 +46,17 @@ struct ZygoteLink {
     loaded_bytes = 0;
     model_bytes = 0;
   }
+
+  /// @brief Ends the model zygote of this rank; the next call starts another one.
+  /// @throws Error if its end is not reported.
+  void end_model();
+
+  /// @brief From now on jobs are forks of the model zygote that listens at `name`.
+  /// @throws Error that says why not; then nothing has changed.
+  void join(const std::string& name);
+
+  /// @brief Undoes join().
+  void leave();
 };
 
 }  // namespace tessera::jobs

@@ -55,8 +55,8 @@ class Fault:
 
 
 def on_both_ranks(stage, kinds):
-    """Every kind on one rank, and one kind on both."""
-    return [Fault(stage, "segv", 0), *(Fault(stage, kind, number % 2) for number, kind in enumerate(kinds))]
+    """Every kind on one rank, one kind on each, and one on both."""
+    return [Fault(stage, "segv", 0), Fault(stage, "segv", ALL), *(Fault(stage, kind, number % 2) for number, kind in enumerate(kinds))]
 
 
 class FaultsTest(program.ProgramTest):
@@ -65,9 +65,10 @@ class FaultsTest(program.ProgramTest):
         self.case = self.write_case(max_size=0.6, subdomains=6)
 
     def run_with(self, fault, command, *arguments):
-        """On two ranks, one of which has the fault, or both."""
+        """On two ranks, one of which has the fault and workers of its own, or both."""
+        alone = "" if fault.rank == ALL else "join=throw"
         programs = [
-            ["-n", "1", "env", f"TESSERA_TEST_FAULT={fault.asked if fault.rank in (rank, ALL) else ''}",
+            ["-n", "1", "env", f"TESSERA_TEST_FAULT={fault.asked if fault.rank in (rank, ALL) else ''} {alone}",
              program.PROGRAM, command, *map(str, arguments)]
             for rank in BOTH_RANKS
         ]  # fmt: skip

@@ -61,7 +61,10 @@ class Watch:
             own = self.process.pid
             ranks = [own] if program.is_program(own) else program.ranks_of(self.process) or [own]
             rank = ranks[which % len(ranks)]
-            found[:] = [rank, *program.chain_of(rank)][VICTIMS.index(kind):][:1]
+            if kind in ("rank", "zygote"):
+                found[:] = [rank, *program.chain_of(rank)[:1]][VICTIMS.index(kind):]
+            else:  # All ranks of a node have theirs in common.
+                found[:] = program.workers_of_node(ranks)[VICTIMS.index(kind) - 1:][:1]
             return bool(found)
 
         self.wait_for(look)

@@ -254,6 +254,11 @@ def chain_of(rank):
     return chain
 
 
+def workers_of_node(ranks):
+    """Zygote, model zygote and job as chain_of(), of the rank that has the model zygote for all ranks of a node."""
+    return max(map(chain_of, ranks), key=len)
+
+
 def end_tree(process):
     """Ends a program and everything it started."""
     for pid in descendants(process.pid):

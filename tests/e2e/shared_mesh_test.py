@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Coarse mesh and tables stand once in the memory of a node, or in copies where that is not possible."""
+"""Model, coarse mesh and tables stand once in the memory of a node, or in copies where that is not possible."""
 import contextlib
 import os
 import pathlib
@@ -33,7 +33,7 @@ class SharedMeshTest(program.ProgramTest):
         return (folder / "log" / "run.log").read_text()
 
     def test_ranks_and_their_workers_map_the_same_memory(self):
-        """While jobs sleep there is time to look: three ranks and their three model zygotes."""
+        """While jobs sleep there is time to look: three ranks, their model zygote and its three jobs."""
         process = self.start(
             "mesh", self.case, "--output", "out", ranks=RANKS,
             env=os.environ | {"TESSERA_TEST_FAULT": "fill=sleep"},
@@ -43,11 +43,23 @@ class SharedMeshTest(program.ProgramTest):
         def all_map():
             pids = [pid for pid in program.descendants(process.pid) if program.is_program(pid)]
             users[:] = [inodes for inodes in map(shared_inodes, pids) if inodes]
-            return len(users) >= 2 * RANKS or process.poll() is not None
+            return len(users) > 2 * RANKS or process.poll() is not None
 
         program.wait_until(all_map, "ranks and workers that map the mesh")
         self.assertIsNone(process.poll())
         self.assertEqual(len(set.union(*users)), 1)
+        models = [chain[1] for chain in map(program.chain_of, program.ranks_of(process)) if len(chain) > 1]
+        self.assertEqual(len(models), 1)
+        self.assertEqual(len(program.program_children(models[0])), RANKS)
+
+    def test_rank_that_cannot_join_the_workers_of_the_node(self):
+        reference = self.mesh_with("", "reference")
+        self.assertNotIn("process of their own", self.log_of(reference))
+        folder = self.mesh_with("join=throw@2", "alone")
+        self.assertIn(
+            "warning 1 ranks keep the model in a process of their own: thrown for a test", self.log_of(folder)
+        )
+        self.assertEqual(program.mesh_files(folder), program.mesh_files(reference))
 
     def test_copies_make_the_same_mesh(self):
         reference = self.mesh_with("", "reference")

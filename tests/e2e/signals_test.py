@@ -27,17 +27,22 @@ class SignalsTest(program.ProgramTest):
     def report(self):
         return json.loads((self.folder / "out" / "report.json").read_text())
 
-    def wait_for_job(self, rank):
-        """Zygote, model zygote and a fill job of a rank, as soon as there are all three."""
+    def wait_for_job(self, *ranks):
+        """Zygote, model zygote and a fill job of ranks of a node, as soon as there are all three."""
 
         log = self.folder / "out" / "log" / "run.log"
 
         def chain():
             is_planned = log.exists() and "no folds" in log.read_text()
-            found = program.chain_of(rank)
+            found = program.workers_of_node(ranks)
             return found if is_planned and len(found) == 3 else None
 
         return program.wait_until(chain, "a fill job")
+
+    @staticmethod
+    def all_ranks(process, num_ranks):
+        ranks = program.ranks_of(process)
+        return ranks if len(ranks) == num_ranks else None
 
     def assert_nothing_is_left(self, pids):
         program.wait_until(
@@ -141,29 +146,31 @@ class KilledProcesses(SignalsTest):
         other = json.loads((undisturbed / "report.json").read_text())
         self.assertEqual(self.report()["digest"], other["digest"])
 
-    def assert_ends_without_hang(self, link_of_chain, ranks):
-        process = self.start_run(self.write_case(levels=4), ranks=ranks)
-        rank = process.pid
-        if ranks is not None:
-            rank = program.wait_until(lambda: program.ranks_of(process)[1:], "ranks")[0]
-        chain = self.wait_for_job(rank)
+    def assert_ends_without_hang(self, victim, num_ranks=None):
+        """Victims: the zygote of the last rank, or the model zygote of all."""
+        process = self.start_run(self.write_case(levels=4), ranks=num_ranks)
+        ranks = [process.pid]
+        if num_ranks is not None:
+            ranks = program.wait_until(lambda: self.all_ranks(process, num_ranks), "ranks")
+        chain = self.wait_for_job(*ranks)
         family = program.descendants(process.pid)
-        os.kill(chain[link_of_chain], signal.SIGKILL)
+        victims = {"zygote": program.chain_of(ranks[-1])[0], "model zygote": chain[1]}
+        os.kill(victims[victim], signal.SIGKILL)
         outcome = self.finish(process, QUICK_S)
         self.assert_refused(outcome, FAILED, "go on with --resume")
         self.assert_nothing_is_left(family)
 
     def test_killed_zygote(self):
-        self.assert_ends_without_hang(0, None)
+        self.assert_ends_without_hang("zygote")
 
     def test_killed_zygote_of_one_rank(self):
-        self.assert_ends_without_hang(0, 3)
+        self.assert_ends_without_hang("zygote", 3)
 
     def test_killed_model_zygote(self):
-        self.assert_ends_without_hang(1, None)
+        self.assert_ends_without_hang("model zygote")
 
-    def test_killed_model_zygote_of_one_rank(self):
-        self.assert_ends_without_hang(1, 3)
+    def test_killed_model_zygote_of_a_node(self):
+        self.assert_ends_without_hang("model zygote", 3)
 
 
 if __name__ == "__main__":

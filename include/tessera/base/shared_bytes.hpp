@@ -15,7 +15,7 @@ namespace tessera {
 
 /// @brief Where other processes of this machine find a segment of shared memory.
 struct SegmentName {
-  std::int32_t process = 0;      ///< Has it open.
+  std::int32_t process = 0;      ///< Made it and has it open.
   std::int32_t descriptor = -1;  ///< There.
   std::uint64_t device = 0;
   std::uint64_t inode = 0;  ///< With the device: what must be found there.
@@ -45,7 +45,7 @@ class SharedBytes {
   [[nodiscard]] static SharedBytes make_segment(
       std::size_t size, const std::function<void(std::span<std::byte>)>& fill);
 
-  /// @brief Maps a segment of another process, which must still hold it.
+  /// @brief Maps a segment that another process has made and still holds.
   /// @note Local. @throws Error if it cannot be found or is another.
   [[nodiscard]] static SharedBytes map_segment(const SegmentName& name);
 
@@ -54,8 +54,8 @@ class SharedBytes {
   /// @brief Of the bytes.
   [[nodiscard]] const std::shared_ptr<const void>& keeper() const noexcept { return keeper_; }
 
-  /// @brief By which other processes find the bytes as long as this one holds them; nothing if they
-  /// are this process's own.
+  /// @brief By which other processes find the bytes as long as the process holds them that made the
+  /// segment: the same in all that map it. Nothing if they are this process's own.
   [[nodiscard]] const std::optional<SegmentName>& segment() const noexcept { return segment_; }
 
  private:

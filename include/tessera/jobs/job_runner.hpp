@@ -96,6 +96,8 @@ void throw_unless_ok(const JobOutcome& outcome, const std::string& what);
 /// All processes end with the thread that constructed this object, however it ends. They ignore the
 /// signals that a process group gets (Ctrl-C), so that the rank decides. One job at a time;
 /// move-only by unique_ptr.
+///
+/// Ranks of one node can share a model zygote: open_to_node() and join().
 class JobRunner {
  public:
   /// @brief Called every few milliseconds while waiting; returns false to cancel. Then, and when it
@@ -111,6 +113,28 @@ class JobRunner {
   /// @brief Sends standard output and error of later loads and jobs to this file (appended); a
   /// relative path starts at the working directory of this call. Without it they go to /dev/null.
   void set_log_file(const std::filesystem::path& file);
+
+  /// @brief Lets ranks of this node join: their jobs are forks of this rank's model zygote. Ends
+  /// what was loaded before. Local.
+  /// @return The name by which they join.
+  /// @throws Error, or as throw_unless_ok(), if they cannot.
+  [[nodiscard]] std::string open_to_node();
+
+  /// @brief Nobody else may join; who has joined stays. Local.
+  void close_to_node();
+
+  /// @brief From now on the model zygote of another rank of this node does the work: it is told
+  /// `name` by open_to_node(). The one of this rank ends, with what it has loaded. Local.
+  ///
+  /// All ranks that use it must load the same in the same order, and none may load before all have
+  /// ended the jobs that need the state before. A load is done once. A job ends with the rank that
+  /// asked for it, and runs on the cores of that rank. If the model zygote dies, all of them lose
+  /// what was loaded. Then every call is `crashed` until leave_node().
+  /// @throws Error that says why it cannot join; then nothing has changed.
+  void join(const std::string& name);
+
+  /// @brief Undoes join() and open_to_node(). Nothing is loaded then. Local.
+  void leave_node();
 
   /// @brief No later load or job gets more than this, whatever it is given. Local.
   void cap_limits(const JobLimits& largest);

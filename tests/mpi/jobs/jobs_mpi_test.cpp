@@ -51,6 +51,27 @@ TEST(JobsUnderMpi, EveryRankHasItsOwnModel)
   comm.barrier();
 }
 
+TEST(JobsUnderMpi, RanksOfANodeShareAModel)
+{
+  const comm::Communicator comm(MPI_COMM_WORLD);
+  std::string name;
+  if (comm.rank() == 0) name = runner_of_this_rank->open_to_node();
+  name = from_bytes<std::string>(comm.broadcast(to_bytes(name), 0));
+  if (comm.rank() != 0) runner_of_this_rank->join(name);
+  comm.barrier();
+  if (comm.rank() == 0) runner_of_this_rank->close_to_node();
+
+  EXPECT_EQ(runner_of_this_rank->load(bytes_of("append once"), {}, {}).status, JobStatus::ok);
+  comm.barrier();
+  for (int round = 0; round < 20; ++round) {
+    EXPECT_EQ(run("segfault").code, SIGSEGV);
+    EXPECT_EQ(text_of(run("get").result), "once");
+  }
+  comm.barrier();
+  runner_of_this_rank->leave_node();
+  EXPECT_EQ(text_of(run("get").result), "");
+}
+
 TEST(JobsUnderMpi, QueueIsServedWhileRanksWaitForJobs)
 {
   const comm::Communicator comm(MPI_COMM_WORLD);

@@ -158,7 +158,8 @@ TEST(Advise, CountsOnceWhatRanksOfANodeShare)
   PredictionBasis basis = basis_of(64, KernelKind::netgen, 4);
   basis.memory.shared = 0.5 * basis.memory.process;
   const Prediction prediction = predict(basis);
-  const double all = 4 * prediction.memory_per_rank_bytes - 3 * basis.memory.shared;
+  const double once = basis.memory.shared + basis.memory.loaded;
+  const double all = 4 * prediction.memory_per_rank_bytes - 3 * once;
   EXPECT_TRUE(advise(prediction, {1e12, all + 1.0, 4, 4.0}).must.empty());
   EXPECT_EQ(advise(prediction, {1e12, all - 1.0, 4, 4.0}).must.size(), 1U);
 }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/jobs/node_workers.hpp"
+
+#include <exception>
+#include <functional>
+#include <string>
+
+#include "tessera/base/bytes.hpp"
+
+#include "pipeline/jobs/test_fault.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+// Why it could not be done; empty if it was.
+std::string obstacle_to(const std::function<void()>& work)
+{
+  try {
+    work();
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+// What kept this rank from sharing. Collective over the ranks of a node.
+std::string share_workers(const comm::Communicator& node, int rank, jobs::JobRunner& jobs)
+{
+  const bool is_first = node.rank() == 0;
+  std::string name;
+  std::string obstacle;
+  if (is_first) obstacle = obstacle_to([&] { name = jobs.open_to_node(); });
+  name = from_bytes<std::string>(node.broadcast(is_first ? to_bytes(name) : Bytes{}, 0));
+  if (name.empty()) return obstacle;
+  if (!is_first) {
+    obstacle = obstacle_to([&] {
+      fail_if_asked("join", rank);
+      jobs.join(name);
+    });
+  }
+  node.barrier();
+  if (is_first) obstacle = obstacle_to([&] { jobs.close_to_node(); });
+  return obstacle;
+}
+
+}  // namespace
+
+NodeWorkers::NodeWorkers(const comm::Communicator& comm, jobs::JobRunner& jobs, spdlog::logger& log)
+    : jobs_(jobs), log_(log)
+{
+  const comm::Communicator node = comm.ranks_of_node();
+  const std::string obstacle =
+      node.size() > 1 ? share_workers(node, comm.rank(), jobs) : std::string();
+  const GlobalIndex num_alone = comm.sum(obstacle.empty() ? 0 : 1);
+  if (num_alone == 0) return;
+  for (const std::string& one : comm.all_gather_values(obstacle)) {
+    if (one.empty()) continue;
+    log.warn("{} ranks keep the model in a process of their own: {}", num_alone, one);
+    return;
+  }
+}
+
+NodeWorkers::~NodeWorkers()
+{
+  const std::string obstacle = obstacle_to([&] { jobs_.leave_node(); });
+  if (!obstacle.empty()) log_.debug("workers of this node: {}", obstacle);
+}
+
+}  // namespace tessera::pipeline
