@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <tuple>
 
 #include "tessera/base/bytes.hpp"
 
@@ -11,6 +12,14 @@
 
 namespace tessera::pipeline {
 namespace {
+
+// Where the ranks of a node join, or why they cannot.
+struct Door {
+  std::string name{};
+  std::string obstacle{};
+
+  static auto fields(auto& self) { return std::tie(self.name, self.obstacle); }
+};
 
 // Why it could not be done; empty if it was.
 std::string obstacle_to(const std::function<void()>& work)
@@ -27,19 +36,20 @@ std::string obstacle_to(const std::function<void()>& work)
 std::string share_workers(const comm::Communicator& node, int rank, jobs::JobRunner& jobs)
 {
   const bool is_first = node.rank() == 0;
-  std::string name;
+  Door door;
+  if (is_first) door.obstacle = obstacle_to([&] { door.name = jobs.open_to_node(); });
+  door = from_bytes<Door>(node.broadcast(is_first ? to_bytes(door) : Bytes{}, 0));
+  if (!door.obstacle.empty()) return door.obstacle;
   std::string obstacle;
-  if (is_first) obstacle = obstacle_to([&] { name = jobs.open_to_node(); });
-  name = from_bytes<std::string>(node.broadcast(is_first ? to_bytes(name) : Bytes{}, 0));
-  if (name.empty()) return obstacle;
   if (!is_first) {
     obstacle = obstacle_to([&] {
       fail_if_asked("join", rank);
-      jobs.join(name);
+      jobs.join(door.name);
     });
   }
   node.barrier();
-  if (is_first) obstacle = obstacle_to([&] { jobs.close_to_node(); });
+  // If this fails the first load says more.
+  if (is_first) static_cast<void>(obstacle_to([&] { jobs.close_to_node(); }));
   return obstacle;
 }
 
@@ -55,7 +65,8 @@ NodeWorkers::NodeWorkers(const comm::Communicator& comm, jobs::JobRunner& jobs, 
   if (num_alone == 0) return;
   for (const std::string& one : comm.all_gather_values(obstacle)) {
     if (one.empty()) continue;
-    log.warn("{} ranks keep the model in a process of their own: {}", num_alone, one);
+    log.warn("{} of {} ranks keep the model in a process of their own: {}", num_alone, comm.size(),
+             one);
     return;
   }
 }

@@ -10,7 +10,7 @@ namespace tessera::pipeline {
 
 /// @brief As long as it lives, the jobs of all ranks of a node are forks of one process: the model
 /// is in memory once a node. A rank that cannot join keeps a model zygote of its own, and the log
-/// says why. Then and at the end nothing is loaded.
+/// says why. What a shared process has loaded is gone at the end.
 class NodeWorkers {
  public:
   /// @note Collective.

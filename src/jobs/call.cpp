@@ -9,9 +9,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include "jobs/failure.hpp"
 
@@ -26,7 +24,7 @@ constexpr std::chrono::milliseconds kTick{4};
 // its parent is stopped or broken, and the parent's parent is asked.
 constexpr std::chrono::seconds kPatience{5};
 // A model zygote that other ranks use is ended with more care.
-constexpr std::chrono::seconds kPatienceOfJoined{60};
+constexpr std::chrono::seconds kPatienceIfShared{60};
 
 double seconds_between(std::chrono::steady_clock::time_point from,
                        std::chrono::steady_clock::time_point to)
@@ -123,6 +121,7 @@ void Call::receive_control()
     accept_control(*packet);
   link_.zygote_is_gone = link_.zygote_is_gone || link_.control_packets.is_closed();
   if (!link_.zygote_is_gone || outcome_) return;
+  if (link_.has_joined()) link_.data.close();  // A job there ends.
   finish(JobStatus::crashed,
          "the worker process of this rank is gone, killed from outside; no more jobs can be run");
   outcome_->code = SIGKILL;
@@ -174,7 +173,7 @@ void Call::tick(Clock::time_point now)
 {
   const double since_last_tick_s = seconds_between(std::exchange(last_tick_, now), now);
   if (kill_reason_) {
-    if (now - kill_time_ < (link_.has_joined() ? kPatienceOfJoined : kPatience)) return;
+    if (now - kill_time_ < (link_.is_shared() ? kPatienceIfShared : kPatience)) return;
     kill(killed_ == Target::job ? Target::model : Target::zygote, now);
     return;
   }
@@ -211,15 +210,13 @@ void Call::kill(Target target, Clock::time_point now)
   killed_ = target;
   kill_time_ = now;
   kill_sent_ = target != Target::job;  // else by send_kill()
-  if (link_.has_joined()) {
-    if (target == Target::model)
-      ::syscall(SYS_pidfd_send_signal, link_.joined_model.get(), SIGKILL, nullptr, 0);
-    if (target == Target::zygote) finish_lost();
-    return;
-  }
-  if (target == Target::model) send_signal(link_.control.get(), PacketKind::kill_model, number_);
+  if (target == Target::model) link_.kill_model();
+  if (target != Target::zygote) return;
   // A child of this process, so the number is surely its own; the others follow it.
-  if (target == Target::zygote) ::kill(link_.zygote, SIGKILL);
+  if (link_.has_joined())
+    finish_lost();
+  else
+    ::kill(link_.zygote, SIGKILL);
 }
 
 void Call::finish(JobStatus status, std::string message)
@@ -241,7 +238,8 @@ void Call::finish(JobStatus status, std::string message)
   }
 }
 
-// The model zygote that this rank has joined is gone, or nothing is to be heard of it any more.
+// The model zygote that this rank has joined is gone, or nothing is to be heard of it any more. Of
+// how it ended only its own rank is told.
 void Call::finish_lost()
 {
   link_.data.close();

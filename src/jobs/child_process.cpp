@@ -26,6 +26,21 @@ double seconds(const timeval& time)
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
+constexpr std::size_t kMostCores = 8192;
+using Cores = std::array<cpu_set_t, kMostCores / CPU_SETSIZE>;
+
+std::optional<Cores> cores_of(pid_t process)
+{
+  Cores cores{};
+  if (::sched_getaffinity(process, sizeof(cores), cores.data()) != 0) return std::nullopt;
+  return cores;
+}
+
+bool move_to(const Cores& cores)
+{
+  return ::sched_setaffinity(0, sizeof(cores), cores.data()) == 0;
+}
+
 }  // namespace
 
 void die_with_parent(pid_t parent)
@@ -77,12 +92,16 @@ void redirect_output(const FileDescriptor& log)
   ::dup2(output, STDERR_FILENO);
 }
 
-void run_where(pid_t process)
+bool run_where(pid_t process)
 {
-  constexpr std::size_t kMostCores = 8192;
-  std::array<cpu_set_t, kMostCores / CPU_SETSIZE> cores{};
-  if (::sched_getaffinity(process, sizeof(cores), cores.data()) == 0)
-    ::sched_setaffinity(0, sizeof(cores), cores.data());
+  const auto cores = cores_of(process);
+  return cores && move_to(*cores);
+}
+
+bool can_run_where(pid_t process)
+{
+  const auto own = cores_of(0);
+  return own && run_where(process) && move_to(*own);
 }
 
 void flush_streams()
@@ -101,10 +120,9 @@ ChildWatch::ChildWatch()
   signals_ = FileDescriptor(::signalfd(-1, &child_ended, SFD_CLOEXEC | SFD_NONBLOCK));
 }
 
-void ChildWatch::wait(std::span<const int> sockets) const
+void ChildWatch::wait(std::vector<pollfd> polled) const
 {
-  std::vector<pollfd> polled{{.fd = signals_.get(), .events = POLLIN, .revents = 0}};
-  for (const int socket : sockets) polled.push_back({.fd = socket, .events = POLLIN, .revents = 0});
+  polled.push_back({.fd = signals_.get(), .events = POLLIN, .revents = 0});
   ::poll(polled.data(), polled.size(), -1);
   signalfd_siginfo info{};
   while (::read(signals_.get(), &info, sizeof(info)) > 0) {

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include <poll.h>
 #include <sys/types.h>
 
 #include "tessera/base/file_descriptor.hpp"
@@ -29,8 +31,11 @@ void close_all_but(std::span<const int> keep);
 /// @brief Standard output and error go to `log`, or to /dev/null if that is nothing.
 void redirect_output(const FileDescriptor& log);
 
-/// @brief Moves this process to the cores on which `process` may run, if that can be.
-void run_where(pid_t process);
+/// @brief Moves this process to the cores on which `process` may run. @return Whether it could.
+bool run_where(pid_t process);
+
+/// @brief Whether run_where() can; this process stays where it is.
+[[nodiscard]] bool can_run_where(pid_t process);
 
 /// @brief Writes out what is buffered, so that a fork does not inherit it and _exit() not lose it.
 void flush_streams();
@@ -42,8 +47,8 @@ class ChildWatch {
 
   [[nodiscard]] int descriptor() const noexcept { return signals_.get(); }
 
-  /// @brief Waits until a child may have ended or one of `sockets` can be read.
-  void wait(std::span<const int> sockets) const;
+  /// @brief Waits until a child may have ended or what is polled has something to tell.
+  void wait(std::vector<pollfd> polled) const;
 
   /// @brief Reaps `child` if it has ended. @return How it did, or nothing if it still runs.
   [[nodiscard]] std::optional<ProcessEnd> reap(pid_t child) const;

@@ -62,7 +62,6 @@ JobLimits with_patience(JobLimits limits)
 
 struct JobRunner::State {
   ZygoteLink link{};
-  bool is_joined = false;  // Other ranks may use the model zygote of this one.
   std::optional<JobLimits> largest{};
   double cpu_s = 0.0;                  // Since the last restart_usage(), as link.peak_bytes.
   std::size_t earlier_peak_bytes = 0;  // Before it.
@@ -119,7 +118,7 @@ std::string JobRunner::open_to_node()
   const JobOutcome outcome =
       state_->call(PacketKind::open_door, std::as_bytes(std::span(name)), {}, {});
   throw_unless_ok(outcome, "cannot listen for ranks of this node");
-  state_->is_joined = true;
+  state_->link.is_open = true;
   return name;
 }
 
@@ -134,7 +133,7 @@ void JobRunner::leave_node()
 {
   state_->link.leave();
   // Its loads were numbered for all; a fresh one begins anew.
-  if (std::exchange(state_->is_joined, false)) state_->link.end_model();
+  if (std::exchange(state_->link.is_open, false)) state_->link.end_model();
 }
 
 JobOutcome JobRunner::load(std::span<const std::byte> message, const JobLimits& limits,

@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <deque>
 #include <iterator>
 #include <list>
 #include <optional>
@@ -10,9 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include <sys/wait.h>
+#include <poll.h>
 #include <unistd.h>
 
+#include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/jobs/this_process.hpp"
 
@@ -40,8 +42,16 @@ std::string text_of(const Bytes& bytes)
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// A rank that has its jobs done here: the one whose grandchild this process is, or one of its node
-// that has joined.
+// What waits for room in the socket of a rank that does not read at the moment. Nobody else may
+// have to wait for it.
+struct Message {
+  PacketKind kind = PacketKind::result;
+  std::uint32_t call = 0;
+  Bytes bytes{};
+};
+
+// A rank that has its jobs done here: the host, whose grandchild this process is, or a guest, which
+// has joined.
 struct Client {
   FileDescriptor socket{};
   pid_t joined_from = 0;         ///< The process of a rank that has joined.
@@ -50,6 +60,7 @@ struct Client {
   Assembly request{};
   FileDescriptor
       log{};  ///< One for all jobs: to open it for each is a load on a parallel file system.
+  std::deque<Message> unsent{};
   std::size_t num_loads = 0;
   std::uint32_t call = 0;  ///< That `job` works on.
   pid_t job = 0;           ///< 0 if none runs.
@@ -74,17 +85,20 @@ class ModelZygote {
   // Until the rank has closed its socket.
   void serve()
   {
-    while (!owner().packets.is_closed()) {
+    while (!host().packets.is_closed()) {
       wait();
       report_ended_jobs();
       admit();
-      for (Client& client : clients_) answer(client);
+      for (Client& client : clients_) {
+        send_unsent(client);
+        answer(client);
+      }
       dismiss();
     }
   }
 
  private:
-  Client& owner() { return clients_.front(); }
+  Client& host() { return clients_.front(); }
 
   // Made with the first request, so that its failure is that request's outcome.
   Worker& worker()
@@ -95,10 +109,30 @@ class ModelZygote {
 
   void wait() const
   {
-    std::vector<int> sockets;
-    for (const Client& client : clients_) sockets.push_back(client.socket.get());
-    if (door_.get() >= 0) sockets.push_back(door_.get());
-    children_->wait(sockets);
+    std::vector<pollfd> polled{{.fd = door_.get(), .events = POLLIN, .revents = 0}};
+    for (const Client& client : clients_) {
+      const int events = client.unsent.empty() ? POLLIN : POLLIN | POLLOUT;
+      polled.push_back(
+          {.fd = client.socket.get(), .events = static_cast<short>(events), .revents = 0});
+    }
+    children_->wait(std::move(polled));
+  }
+
+  static void post(Client& client, PacketKind kind, std::uint32_t call, Bytes bytes)
+  {
+    client.unsent.push_back({kind, call, std::move(bytes)});
+    send_unsent(client);
+  }
+
+  // Each message is one packet, so none is sent in part.
+  static void send_unsent(Client& client)
+  {
+    while (!client.unsent.empty()) {
+      const Message& next = client.unsent.front();
+      Outgoing message(next.kind, next.call, next.bytes);
+      if (message.send_some(client.socket.get()) && !message.is_sent()) return;
+      client.unsent.pop_front();
+    }
   }
 
   void report_ended_jobs()
@@ -107,17 +141,23 @@ class ModelZygote {
       const auto end = children_->reap(client.job);
       if (!end) continue;
       client.job = 0;
-      send_value(client.socket.get(), PacketKind::job_ended, client.call, *end);
+      post(client, PacketKind::job_ended, client.call, to_bytes(*end));
     }
   }
 
   void admit()
   {
-    while (door_.get() >= 0) {
-      auto line = accept_on_node(door_);
-      if (!line) return;
-      send_value(line->socket.get(), PacketKind::model_started, 0, ::getpid());
-      clients_.push_back({.socket = std::move(line->socket), .joined_from = line->peer});
+    if (door_.get() < 0) return;
+    try {
+      while (auto line = accept_on_node(door_)) {
+        if (!can_run_where(line->peer)) continue;
+        Client& guest = clients_.emplace_back();
+        guest.socket = std::move(line->socket);
+        guest.joined_from = line->peer;
+        post(guest, PacketKind::model_started, 0, to_bytes(::getpid()));
+      }
+    } catch (const Error&) {
+      door_.close();
     }
   }
 
@@ -133,19 +173,14 @@ class ModelZygote {
     }
   }
 
-  // Jobs of ranks that are gone end with them.
+  // Jobs of guests that are gone end with them. A guest is forgotten when its job has ended.
   void dismiss()
   {
-    for (auto client = std::next(clients_.begin()); client != clients_.end();) {
-      if (!client->packets.is_closed()) {
-        ++client;
-        continue;
-      }
-      if (client->job > 0) {
-        ::kill(client->job, SIGKILL);
-        ::waitpid(client->job, nullptr, 0);
-      }
-      client = clients_.erase(client);
+    for (auto guest = std::next(clients_.begin()); guest != clients_.end();) {
+      const bool is_gone = guest->packets.is_closed();
+      if (is_gone) guest->socket.close();
+      if (is_gone && guest->job > 0) ::kill(guest->job, SIGKILL);
+      guest = is_gone && guest->job == 0 ? clients_.erase(guest) : std::next(guest);
     }
   }
 
@@ -156,7 +191,7 @@ class ModelZygote {
         client.log = open_log(text_of(message));
         break;
       case PacketKind::open_door:
-        open_door(header.call, message);
+        open_door(client, header.call, message);
         break;
       case PacketKind::load:
         load(client, header.call, message);
@@ -166,29 +201,23 @@ class ModelZygote {
     }
   }
 
-  static void kill_job(const Client& client, std::uint32_t call)
+  static void kill_job(Client& client, std::uint32_t call)
   {
     if (client.job > 0 && client.call == call)
       ::kill(client.job, SIGKILL);
     else  // before all of its request was here
-      send_value(client.socket.get(), PacketKind::job_ended, call, ProcessEnd{});
+      post(client, PacketKind::job_ended, call, to_bytes(ProcessEnd{}));
   }
 
-  void open_door(std::uint32_t call, const Bytes& name)
+  void open_door(Client& client, std::uint32_t call, const Bytes& name)
   {
-    door_.close();
-    if (!name.empty()) {
-      loads_.clear();
-      owner().num_loads = 0;
-      try {
-        door_ =
-            listen_on_node(std::string(reinterpret_cast<const char*>(name.data()), name.size()));
-      } catch (...) {
-        send_failure(owner(), call, current_failure());
-        return;
-      }
+    try {
+      door_.close();
+      if (!name.empty()) door_ = listen_on_node(text_of(name));
+      post(client, PacketKind::result, call, {});
+    } catch (...) {
+      post(client, PacketKind::failure, call, to_bytes(current_failure()));
     }
-    send_result(owner(), call, {});
   }
 
   void load(Client& client, std::uint32_t call, const Bytes& message)
@@ -197,16 +226,25 @@ class ModelZygote {
     const std::size_t number = client.num_loads++;
     const Hash128 hash = hash_bytes(message);
     if (number == loads_.size()) loads_.push_back({hash, load_into_worker(client, message)});
-    const std::size_t together = &client == &owner() ? zygotes_bytes_ : 0;
-    send_value(client.socket.get(), PacketKind::usage, call,
-               usage_of_this_process(cpu_before_s, together));
+    report_usage_of_load(client, call, cpu_before_s);
     const Load& done = loads_[number];
-    if (done.message != hash)
-      send_failure(client, call, {.message = "ranks of one node load different things"});
-    else if (done.failure)
-      send_failure(client, call, *done.failure);
-    else
-      send_result(client, call, {});
+    if (done.message != hash) {
+      const Failure failure{.message = "ranks of one node load different things"};
+      post(client, PacketKind::failure, call, to_bytes(failure));
+    } else if (done.failure) {
+      post(client, PacketKind::failure, call, to_bytes(*done.failure));
+    } else {
+      post(client, PacketKind::result, call, {});
+    }
+  }
+
+  // The memory of the zygotes is the host's.
+  void report_usage_of_load(Client& client, std::uint32_t call, double cpu_before_s)
+  {
+    const bool is_host = &client == &host();
+    UsageReport usage = usage_of_this_process(cpu_before_s, is_host ? zygotes_bytes_ : 0);
+    if (!is_host) usage.peak_rss_bytes = usage.rss_bytes;
+    post(client, PacketKind::usage, call, to_bytes(usage));
   }
 
   std::optional<Failure> load_into_worker(const Client& client, const Bytes& message)
@@ -229,8 +267,8 @@ class ModelZygote {
     try {
       worker();
     } catch (...) {
-      send_failure(client, call, current_failure());
-      send_value(client.socket.get(), PacketKind::job_ended, call, ProcessEnd{});
+      post(client, PacketKind::failure, call, to_bytes(current_failure()));
+      post(client, PacketKind::job_ended, call, to_bytes(ProcessEnd{}));
       return;
     }
     if (zygotes_bytes_ == 0) measure_zygotes();
@@ -241,12 +279,12 @@ class ModelZygote {
       run_in_this_process(client, call, request);
     }
     if (job < 0) {
-      send_value(client.socket.get(), PacketKind::job_ended, call, ProcessEnd{.fork_error = errno});
+      post(client, PacketKind::job_ended, call, to_bytes(ProcessEnd{.fork_error = errno}));
       return;
     }
     client.call = call;
     client.job = job;
-    send_value(client.socket.get(), PacketKind::job_started, call, job);
+    post(client, PacketKind::job_started, call, to_bytes(job));
   }
 
   [[noreturn]] void run_in_this_process(const Client& client, std::uint32_t call,
@@ -254,17 +292,17 @@ class ModelZygote {
   {
     unblock_signals();
     children_ = {};
-    if (client.joined_from > 0) run_where(client.joined_from);
+    if (client.joined_from > 0) static_cast<void>(run_where(client.joined_from));
     redirect_output(client.log);
     begin_progress_reports(client.socket.get(), call);
     try {
       const Bytes result = worker().run(request);
       report_usage_of_job(client, call);
-      send_result(client, call, result);
+      Outgoing(PacketKind::result, call, result).send_all(client.socket.get());
     } catch (...) {
       const Failure failure = current_failure();
       report_usage_of_job(client, call);
-      send_failure(client, call, failure);
+      send_value(client.socket.get(), PacketKind::failure, call, failure);
     }
     flush_streams();
     // Destructors and exit handlers belong to the processes that this one is a copy of.
@@ -280,25 +318,15 @@ class ModelZygote {
   // model zygote keeps the old one.
   void report_usage_of_job(const Client& client, std::uint32_t call)
   {
-    const std::size_t zygotes = &client == &owner() ? zygotes_bytes_ : 0;
+    const std::size_t zygotes = &client == &host() ? zygotes_bytes_ : 0;
     send_value(client.socket.get(), PacketKind::usage, call,
                usage_of_this_process(0.0, zygotes + private_rss_bytes()));
-  }
-
-  static void send_result(const Client& client, std::uint32_t call, const Bytes& bytes)
-  {
-    Outgoing(PacketKind::result, call, bytes).send_all(client.socket.get());
-  }
-
-  static void send_failure(const Client& client, std::uint32_t call, const Failure& failure)
-  {
-    Outgoing(PacketKind::failure, call, to_bytes(failure)).send_all(client.socket.get());
   }
 
   pid_t zygote_;
   const MakeWorker& make_worker_;
   std::optional<ChildWatch> children_{std::in_place};
-  std::list<Client> clients_{};  ///< The first one is the rank whose grandchild this process is.
+  std::list<Client> clients_{};  ///< The host first.
   FileDescriptor door_{};        ///< Where ranks of the node may join.
   std::vector<Load> loads_{};
   std::unique_ptr<Worker> worker_{};

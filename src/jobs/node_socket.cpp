@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/node_socket.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
@@ -29,10 +28,10 @@ struct Address {
 Address address_of(const std::string& name)
 {
   Address address;
+  if (name.size() >= sizeof(address.name.sun_path)) throw Error("the name of a socket is too long");
   address.name.sun_family = AF_UNIX;
-  const std::size_t length = std::min(name.size(), sizeof(address.name.sun_path) - 1);
-  std::memcpy(address.name.sun_path + 1, name.data(), length);
-  address.size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + length);
+  std::memcpy(address.name.sun_path + 1, name.data(), name.size());
+  address.size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
   return address;
 }
 
@@ -41,9 +40,9 @@ Address address_of(const std::string& name)
   throw Error(fmt::format("{}: {}", what, std::strerror(errno)));
 }
 
-FileDescriptor make_socket(int flags)
+FileDescriptor make_socket()
 {
-  FileDescriptor made(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | flags, 0));
+  FileDescriptor made(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (made.get() < 0) throw_system_error("socket");
   return made;
 }
@@ -69,7 +68,7 @@ std::string make_node_name()
 FileDescriptor listen_on_node(const std::string& name)
 {
   constexpr int kMostRanksOfNode = 4096;  // The kernel takes its own bound if that is lower.
-  FileDescriptor listener = make_socket(SOCK_NONBLOCK);
+  FileDescriptor listener = make_socket();
   const Address address = address_of(name);
   if (::bind(listener.get(), address.get(), address.size) != 0) throw_system_error("bind");
   if (::listen(listener.get(), kMostRanksOfNode) != 0) throw_system_error("listen");
@@ -80,17 +79,23 @@ std::optional<NodeLine> accept_on_node(const FileDescriptor& listener)
 {
   while (true) {
     FileDescriptor socket(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC));
-    if (socket.get() < 0) return std::nullopt;
+    if (socket.get() < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return std::nullopt;
+    if (socket.get() < 0 && errno != EINTR && errno != ECONNABORTED) throw_system_error("accept");
+    if (socket.get() < 0) continue;
     if (const auto peer = own_peer(socket)) return NodeLine{std::move(socket), *peer};
   }
 }
 
 NodeLine connect_on_node(const std::string& name)
 {
-  FileDescriptor socket = make_socket(0);
+  FileDescriptor socket = make_socket();
   const Address address = address_of(name);
-  while (::connect(socket.get(), address.get(), address.size) != 0) {
-    if (errno != EINTR) throw_system_error("connect");
+  // More ranks may come at once than the kernel lets wait.
+  constexpr int kMaxTries = 1000;
+  for (int tries = 1; ::connect(socket.get(), address.get(), address.size) != 0; ++tries) {
+    const bool is_crowded = errno == EAGAIN || errno == EINTR;
+    if (!is_crowded || tries == kMaxTries) throw_system_error("connect");
+    ::usleep(10'000);
   }
   const auto peer = own_peer(socket);
   if (!peer) throw Error("connect: the process is of another user or container");

@@ -25,6 +25,7 @@ struct NodeLine {
 [[nodiscard]] FileDescriptor listen_on_node(const std::string& name);
 
 /// @brief The next line of who has connected; nothing if nobody waits. Never blocks.
+/// @throws Error if the system lets nobody in.
 [[nodiscard]] std::optional<NodeLine> accept_on_node(const FileDescriptor& listener);
 
 /// @brief A line to who listens at `name`. @throws Error that says why there is none.

@@ -30,7 +30,7 @@ class Zygote {
   void serve()
   {
     while (!requests_.is_closed()) {
-      children_.wait(std::array{sockets_.control.get()});
+      children_.wait({{.fd = sockets_.control.get(), .events = POLLIN, .revents = 0}});
       report_end_of_model();
       while (const auto packet = requests_.receive(sockets_.control.get(), false)) {
         if (packet->header.kind == PacketKind::start_model) start_model(packet->header.call);

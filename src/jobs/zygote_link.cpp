@@ -2,6 +2,7 @@
 #include "jobs/zygote_link.hpp"
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -44,10 +45,11 @@ FileDescriptor handle_of(pid_t process)
 
 void ZygoteLink::end_model()
 {
-  if (model_was_started) send_signal(control.get(), PacketKind::kill_model, num_calls);
+  if (model_was_started) kill_model();
   while (model_was_started) {
     const auto packet = next_packet(control_packets, control);
-    if (!packet) throw Error("the worker process of this rank does not answer");
+    zygote_is_gone = !packet;
+    if (zygote_is_gone) throw Error("the worker process of this rank does not answer");
     if (packet->header.kind == PacketKind::model_ended) model_was_started = false;
   }
   model = 0;
@@ -59,10 +61,13 @@ void ZygoteLink::join(const std::string& name)
   Incoming packets;
   const auto hello = next_packet(packets, line.socket);
   if (!hello || hello->header.kind != PacketKind::model_started)
-    throw Error("the worker process of the node does not answer");
+    throw Error("the worker process of the node does not answer, or cannot run on these cores");
   if (hello->value<pid_t>() != line.peer)
     throw Error("the worker process of the node has another number in this container");
   FileDescriptor handle = handle_of(line.peer);
+  // Still there, so the handle is its own.
+  if (packets.receive(line.socket.get(), false) || packets.is_closed())
+    throw Error("the worker process of the node is gone");
   end_model();
 
   joined_model = std::move(handle);
@@ -84,6 +89,14 @@ void ZygoteLink::leave()
   model_was_started = false;
   model = 0;
   log_is_told = false;
+}
+
+void ZygoteLink::kill_model()
+{
+  if (has_joined())
+    ::syscall(SYS_pidfd_send_signal, joined_model.get(), SIGKILL, nullptr, 0);
+  else
+    send_signal(control.get(), PacketKind::kill_model, num_calls);
 }
 
 }  // namespace tessera::jobs

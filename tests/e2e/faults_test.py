@@ -142,7 +142,8 @@ class WithoutAMesh(FaultsTest):
         def look(fault, outcome):
             self.assert_ended(fault, outcome, WRONG_INPUT, "ball.geo", "cannot read this model")
 
-        self.for_all(on_both_ranks("load", NO_RESULT), look)
+        together = [Fault("load", kind, ALL) for kind in ("exit", "loop", "memory", "sleep")]
+        self.for_all(on_both_ranks("load", NO_RESULT) + together, look)
 
     def test_size_of_the_model(self):
         self.case = self.write("case.toml", "geometry.file = 'ball.geo'\nsize.target = 0.5\n")

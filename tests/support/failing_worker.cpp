@@ -128,6 +128,10 @@ Bytes FailingWorker::obey(const std::string& text)
   }
   if (command == "append") state_ += argument;
   if (command == "get") return bytes_of(state_);
+  if (command == "late") {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    return Bytes(std::stoul(argument) * kMiB / 1024);
+  }
   if (command == "zeros") return Bytes(std::stoul(argument) * kMiB);
   if (command == "keep") kept_ = Bytes(std::stoul(argument) * kMiB, std::byte{1});
   if (command == "touch") std::fill(kept_.begin(), kept_.end(), std::byte{2});

@@ -21,6 +21,7 @@ namespace tessera::testing {
 /// | `append TEXT` | to the state |
 /// | `get` | returns the state |
 /// | `zeros MIB` | returns that many MiB |
+/// | `late KIB` | returns that many KiB after 0.3 seconds |
 /// | `keep MIB`, `touch` | keeps that many MiB as state; writes to all of them |
 /// | `pids` | returns the numbers of zygote, model zygote and this process |
 /// | `descriptors` | returns the number of open file descriptors above 2 |

@@ -115,7 +115,7 @@ class JobRunner {
   void set_log_file(const std::filesystem::path& file);
 
   /// @brief Lets ranks of this node join: their jobs are forks of this rank's model zygote. Ends
-  /// what was loaded before. Local.
+  /// what was loaded before. Local. @pre this runner has not joined another one.
   /// @return The name by which they join.
   /// @throws Error, or as throw_unless_ok(), if they cannot.
   [[nodiscard]] std::string open_to_node();
@@ -128,9 +128,13 @@ class JobRunner {
   ///
   /// All ranks that use it must load the same in the same order, and none may load before all have
   /// ended the jobs that need the state before. A load is done once. A job ends with the rank that
-  /// asked for it, and runs on the cores of that rank. If the model zygote dies, all of them lose
-  /// what was loaded. Then every call is `crashed` until leave_node().
-  /// @throws Error that says why it cannot join; then nothing has changed.
+  /// asked for it, and runs on the cores of that rank; its environment and limits are those of the
+  /// other rank. What a load prints goes to the log of who asked first. If the model zygote dies,
+  /// all of them lose what was loaded. Then, and when a load is cancelled, every call is `crashed`
+  /// until leave_node().
+  /// @pre this runner neither has joined nor is open.
+  /// @throws Error that says why it cannot join; then this runner works as before. (If its own
+  /// processes do not answer in ten seconds, this and all later calls are `crashed`.)
   void join(const std::string& name);
 
   /// @brief Undoes join() and open_to_node(). Nothing is loaded then. Local.

@@ -124,7 +124,7 @@ TEST(SharedBytes, AnotherProcessMapsTheSameMemory)
     const SharedBytes mapped = SharedBytes::map_segment(*shared.segment());
     return from_shared_bytes<Mixed>(mapped) == sample()
                    && mapped.segment()->inode == shared.segment()->inode
-                   && mapped.segment()->process == ::getpid()
+                   && mapped.segment()->process == shared.segment()->process
                ? 0
                : 1;
   });

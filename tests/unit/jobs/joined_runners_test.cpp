@@ -4,10 +4,10 @@
 #include <csignal>
 #include <fstream>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -56,13 +56,6 @@ class JoinedRunners : public ::testing::Test {
     pid_t model = 0;
     std::istringstream(get(runner, "pids")) >> zygote >> model;
     return model;
-  }
-
-  // While two runners work at once: the other one's turns are in `meanwhile`.
-  static JobOutcome run_beside(JobRunner& runner, const std::string& command,
-                               const JobRunner::WaitCallback& meanwhile)
-  {
-    return runner.run(bytes_of(command), {}, meanwhile);
   }
 
   JobRunner host_{make()};
@@ -133,7 +126,7 @@ TEST_F(JoinedRunners, JobsOfBothRunAtOnce)
 {
   join();
   int num_done = 0;
-  const JobOutcome outcome = run_beside(host_, "sleep", [&] {
+  const JobOutcome outcome = host_.run(bytes_of("sleep"), {}, [&] {
     EXPECT_EQ(guest_.run(bytes_of("zeros 1"), {}, {}).status, JobStatus::ok);
     EXPECT_EQ(guest_.run(bytes_of("segfault"), {}, {}).status, JobStatus::crashed);
     return ++num_done < 3;
@@ -200,9 +193,15 @@ TEST_F(JoinedRunners, GuestEndsALoadThatItsHostDoesNotWatch)
 TEST_F(JoinedRunners, CancelledLoadOfAGuestGoesOnForOthers)
 {
   join();
-  const JobOutcome outcome = guest_.load(bytes_of("sleep"), {}, [] { return false; });
+  const JobOutcome outcome = guest_.load(bytes_of("late 1"), {}, [] { return false; });
   EXPECT_EQ(outcome.status, JobStatus::cancelled);
   EXPECT_TRUE(outcome.loads_are_lost);
+  EXPECT_EQ(load(host_, "late 1").status, JobStatus::ok);
+  EXPECT_EQ(load(host_, "append a").status, JobStatus::ok);
+  EXPECT_EQ(get(host_), "a");
+  EXPECT_TRUE(load(guest_, "append a").loads_are_lost);
+  guest_.leave_node();
+  EXPECT_EQ(load(guest_, "append own").status, JobStatus::ok);
 }
 
 TEST_F(JoinedRunners, NobodyJoinsThroughAClosedDoor)
@@ -225,7 +224,8 @@ TEST_F(JoinedRunners, JobsCountTheirMemoryNotThatOfTheHost)
 }
 
 // A rank with a runner of its own, in another process; it joins and then works for ever.
-pid_t start_guest(const std::string& name, const std::string& command)
+pid_t start_guest(const std::string& name, const std::string& command,
+                  const JobRunner::WaitCallback& on_wait = {})
 {
   const pid_t guest = ::fork();
   if (guest != 0) return guest;
@@ -235,7 +235,7 @@ pid_t start_guest(const std::string& name, const std::string& command)
   ::sched_setaffinity(0, sizeof(one), &one);
   JobRunner runner([] { return std::make_unique<FailingWorker>(); });
   runner.join(name);
-  static_cast<void>(runner.run(bytes_of(command), {}, {}));
+  static_cast<void>(runner.run(bytes_of(command), {}, on_wait));
   ::_exit(0);
 }
 
@@ -275,6 +275,32 @@ TEST_F(JoinedRunners, JobEndsWithTheRankThatAskedForIt)
   ::waitpid(guest, nullptr, 0);
   EXPECT_TRUE(ends_soon(job));
   EXPECT_EQ(get(host_), "") << "the host goes on";
+}
+
+// The job's result just fits into the socket of its rank, and then nothing else does.
+TEST_F(JoinedRunners, NobodyWaitsForARankThatIsStopped)
+{
+  const std::string name = host_.open_to_node();
+  std::vector<pid_t> guests;
+  for (const int kib : {128, 192, 224, 256, 4096}) {
+    guests.push_back(start_guest(name, "late " + std::to_string(kib), [] {
+      ::raise(SIGSTOP);
+      return true;
+    }));
+  }
+  for (const pid_t guest : guests) {
+    int status = 0;
+    ::waitpid(guest, &status, WUNTRACED);
+    EXPECT_TRUE(WIFSTOPPED(status));
+  }
+  std::this_thread::sleep_for(milliseconds(500));
+  for (int i = 0; i < 10; ++i)
+    EXPECT_EQ(host_.run(bytes_of("get"), {.stall_s = 5.0}, {}).status, JobStatus::ok);
+  for (const pid_t guest : guests) {
+    ::kill(guest, SIGKILL);
+    ::waitpid(guest, nullptr, 0);
+  }
+  EXPECT_EQ(get(host_), "");
 }
 
 }  // namespace
