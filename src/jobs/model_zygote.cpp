@@ -58,8 +58,8 @@ struct Client {
   std::uint32_t first_call = 0;  ///< Requests with lower numbers are out of date.
   Incoming packets{};
   Assembly request{};
-  FileDescriptor
-      log{};  ///< One for all jobs: to open it for each is a load on a parallel file system.
+  /// One for all jobs: to open it for each is a load on a parallel file system.
+  FileDescriptor log{};
   std::deque<Message> unsent{};
   std::size_t num_loads = 0;
   std::uint32_t call = 0;  ///< That `job` works on.
