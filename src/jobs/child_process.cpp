@@ -26,20 +26,7 @@ double seconds(const timeval& time)
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-constexpr std::size_t kMostCores = 8192;
-using Cores = std::array<cpu_set_t, kMostCores / CPU_SETSIZE>;
-
-std::optional<Cores> cores_of(pid_t process)
-{
-  Cores cores{};
-  if (::sched_getaffinity(process, sizeof(cores), cores.data()) != 0) return std::nullopt;
-  return cores;
-}
-
-bool move_to(const Cores& cores)
-{
-  return ::sched_setaffinity(0, sizeof(cores), cores.data()) == 0;
-}
+using CoreSets = std::array<cpu_set_t, kMostCores / CPU_SETSIZE>;
 
 }  // namespace
 
@@ -92,16 +79,22 @@ void redirect_output(const FileDescriptor& log)
   ::dup2(output, STDERR_FILENO);
 }
 
-bool run_where(pid_t process)
+std::optional<Cores> cores_of(pid_t process)
 {
-  const auto cores = cores_of(process);
-  return cores && move_to(*cores);
+  CoreSets sets{};
+  if (::sched_getaffinity(process, sizeof(sets), sets.data()) != 0) return std::nullopt;
+  Cores cores;
+  for (std::size_t core = 0; core < cores.size(); ++core)
+    cores[core] = CPU_ISSET_S(core, sizeof(sets), sets.data());
+  return cores;
 }
 
-bool can_run_where(pid_t process)
+bool move_to(const Cores& cores)
 {
-  const auto own = cores_of(0);
-  return own && run_where(process) && move_to(*own);
+  CoreSets sets{};
+  for (std::size_t core = 0; core < cores.size(); ++core)
+    if (cores[core]) CPU_SET_S(core, sizeof(sets), sets.data());
+  return ::sched_setaffinity(0, sizeof(sets), sets.data()) == 0;
 }
 
 void flush_streams()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <bitset>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -31,11 +33,15 @@ void close_all_but(std::span<const int> keep);
 /// @brief Standard output and error go to `log`, or to /dev/null if that is nothing.
 void redirect_output(const FileDescriptor& log);
 
-/// @brief Moves this process to the cores on which `process` may run. @return Whether it could.
-bool run_where(pid_t process);
+/// @brief Cores on which a process may run.
+inline constexpr std::size_t kMostCores = 8192;
+using Cores = std::bitset<kMostCores>;
 
-/// @brief Whether run_where() can; this process stays where it is.
-[[nodiscard]] bool can_run_where(pid_t process);
+/// @brief Those of a process, 0 for this one; nothing if they cannot be told.
+[[nodiscard]] std::optional<Cores> cores_of(pid_t process);
+
+/// @brief Moves this process to some cores. @return Whether it may run on any of them.
+bool move_to(const Cores& cores);
 
 /// @brief Writes out what is buffered, so that a fork does not inherit it and _exit() not lose it.
 void flush_streams();

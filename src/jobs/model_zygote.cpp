@@ -54,7 +54,7 @@ struct Message {
 // has joined.
 struct Client {
   FileDescriptor socket{};
-  pid_t joined_from = 0;         ///< The process of a rank that has joined.
+  std::optional<Cores> cores{};  ///< Of its jobs; nothing: where this process may run.
   std::uint32_t first_call = 0;  ///< Requests with lower numbers are out of date.
   Incoming packets{};
   Assembly request{};
@@ -150,15 +150,28 @@ class ModelZygote {
     if (door_.get() < 0) return;
     try {
       while (auto line = accept_on_node(door_)) {
-        if (!can_run_where(line->peer)) continue;
+        const auto cores = cores_of(line->peer);
+        if (!cores || !make_room_on(*cores)) continue;
         Client& guest = clients_.emplace_back();
         guest.socket = std::move(line->socket);
-        guest.joined_from = line->peer;
+        guest.cores = cores;
         post(guest, PacketKind::model_started, 0, to_bytes(::getpid()));
       }
     } catch (const Error&) {
       door_.close();
     }
+  }
+
+  // Lets this process run on the cores of a guest too: on those of the host alone every fork would
+  // wait for the host's job. Whether a guest's job may run there is tried first.
+  bool make_room_on(const Cores& cores)
+  {
+    const auto own = cores_of(0);
+    if (!own) return false;
+    if (!host().cores) host().cores = own;
+    const bool is_allowed = move_to(cores);
+    move_to(is_allowed ? *own | cores : *own);
+    return is_allowed;
   }
 
   void answer(Client& client)
@@ -292,7 +305,7 @@ class ModelZygote {
   {
     unblock_signals();
     children_ = {};
-    if (client.joined_from > 0) static_cast<void>(run_where(client.joined_from));
+    if (client.cores) move_to(*client.cores);
     redirect_output(client.log);
     begin_progress_reports(client.socket.get(), call);
     try {
