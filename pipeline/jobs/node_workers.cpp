@@ -59,8 +59,8 @@ NodeWorkers::NodeWorkers(const comm::Communicator& comm, jobs::JobRunner& jobs, 
     : jobs_(jobs), log_(log)
 {
   const comm::Communicator node = comm.ranks_of_node();
-  const std::string obstacle =
-      node.size() > 1 ? share_workers(node, comm.rank(), jobs) : std::string();
+  const bool shares = node.size() >= kFewestRanksThatShare;
+  const std::string obstacle = shares ? share_workers(node, comm.rank(), jobs) : std::string();
   const GlobalIndex num_alone = comm.sum(obstacle.empty() ? 0 : 1);
   if (num_alone == 0) return;
   for (const std::string& one : comm.all_gather_values(obstacle)) {

@@ -8,6 +8,10 @@
 
 namespace tessera::pipeline {
 
+/// With fewer ranks on a node each has a process of its own: two fork faster than one, and the
+/// memory is no matter.
+inline constexpr int kFewestRanksThatShare = 3;
+
 /// @brief As long as it lives, the jobs of all ranks of a node are forks of one process: the model
 /// is in memory once a node. A rank that cannot join keeps a model zygote of its own, and the log
 /// says why. What a shared process has loaded is gone at the end.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipeline/estimate/disk_space.hpp"
+#include "pipeline/jobs/node_workers.hpp"
 #include "pipeline/predict/schedule.hpp"
 
 namespace tessera::pipeline {
@@ -159,7 +160,9 @@ void add_memory(const PredictionBasis& basis, Prediction& prediction)
   const double writer = is_written_by_ranks ? kWriterBytesPerTet * in_file : 0.0;
   prediction.largest_job_bytes = basis.memory.loaded + job;
   prediction.memory_per_rank_bytes = basis.memory.process + writer + jobs;
-  prediction.memory_of_node_bytes = basis.memory.shared + basis.memory.loaded;
+  const bool shares_workers = basis.num_ranks >= kFewestRanksThatShare;
+  prediction.memory_of_node_bytes =
+      basis.memory.shared + (shares_workers ? basis.memory.loaded : 0.0);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ CAUSES = {
 }
 NO_RESULT = tuple(kind for kind in CAUSES if kind != "garbage")
 BOTH_RANKS = (0, 1)
+THREE_RANKS = range(3)
 ALL = -1  # In place of a rank: where one rank takes over what failed on another.
 
 # Stages whose jobs go to the rank that asks first.
@@ -65,16 +66,14 @@ class FaultsTest(program.ProgramTest):
         self.case = self.write_case(max_size=0.6, subdomains=6)
 
     def run_with(self, fault, command, *arguments):
-        """On two ranks, one of which has the fault and workers of its own, or both."""
-        alone = "" if fault.rank == ALL else "join=throw"
+        """On two ranks, one of which has the fault, or on three that share their workers and have it all."""
         programs = [
-            ["-n", "1", "env", f"TESSERA_TEST_FAULT={fault.asked if fault.rank in (rank, ALL) else ''} {alone}",
+            ["-n", "1", "env", f"TESSERA_TEST_FAULT={fault.asked if fault.rank in (rank, ALL) else ''}",
              program.PROGRAM, command, *map(str, arguments)]
-            for rank in BOTH_RANKS
+            for rank in (THREE_RANKS if fault.rank == ALL else BOTH_RANKS)
         ]  # fmt: skip
-        return self.finish(
-            self.start_command([program.MPIEXEC, *programs[0], ":", *programs[1]], env=os.environ | LIMITS)
-        )
+        command = [word for number, one in enumerate(programs) for word in ([":"] if number else []) + one]
+        return self.finish(self.start_command([program.MPIEXEC, *command], env=os.environ | LIMITS))
 
     def mesh_with(self, fault, *arguments):
         """On a busy machine the other rank may have done all jobs of a stage: then once more."""
