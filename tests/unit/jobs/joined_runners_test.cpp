@@ -229,10 +229,13 @@ pid_t start_guest(const std::string& name, const std::string& command,
 {
   const pid_t guest = ::fork();
   if (guest != 0) return guest;
-  cpu_set_t one;
-  CPU_ZERO(&one);
-  CPU_SET(0, &one);
-  ::sched_setaffinity(0, sizeof(one), &one);
+  cpu_set_t cores;
+  ::sched_getaffinity(0, sizeof(cores), &cores);
+  std::size_t first = 0;
+  while (!CPU_ISSET(first, &cores)) ++first;
+  CPU_ZERO(&cores);
+  CPU_SET(first, &cores);
+  ::sched_setaffinity(0, sizeof(cores), &cores);
   JobRunner runner([] { return std::make_unique<FailingWorker>(); });
   runner.join(name);
   static_cast<void>(runner.run(bytes_of(command), {}, on_wait));
