@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "tessera/base/bytes.hpp"
 
@@ -61,14 +62,11 @@ NodeWorkers::NodeWorkers(const comm::Communicator& comm, jobs::JobRunner& jobs, 
   const comm::Communicator node = comm.ranks_of_node();
   const bool shares = node.size() >= kFewestRanksThatShare;
   const std::string obstacle = shares ? share_workers(node, comm.rank(), jobs) : std::string();
-  const GlobalIndex num_alone = comm.sum(obstacle.empty() ? 0 : 1);
-  if (num_alone == 0) return;
-  for (const std::string& one : comm.all_gather_values(obstacle)) {
-    if (one.empty()) continue;
-    log.warn("{} of {} ranks keep the model in a process of their own: {}", num_alone, comm.size(),
-             one);
-    return;
-  }
+  const std::vector<std::string> obstacles =
+      comm.all_gather_rows(obstacle.empty() ? std::vector<std::string>{} : std::vector{obstacle});
+  if (obstacles.empty()) return;
+  log.warn("{} of {} ranks keep the model in a process of their own: {}", obstacles.size(),
+           comm.size(), obstacles.front());
 }
 
 NodeWorkers::~NodeWorkers()

@@ -52,7 +52,6 @@ void ZygoteLink::end_model()
     if (zygote_is_gone) throw Error("the worker process of this rank does not answer");
     if (packet->header.kind == PacketKind::model_ended) model_was_started = false;
   }
-  model = 0;
 }
 
 void ZygoteLink::join(const std::string& name)
@@ -87,8 +86,6 @@ void ZygoteLink::leave()
   data = std::exchange(own_data, FileDescriptor());
   data_packets = {};
   model_was_started = false;
-  model = 0;
-  log_is_told = false;
 }
 
 void ZygoteLink::kill_model()
