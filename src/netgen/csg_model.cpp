@@ -19,6 +19,7 @@
 #include "netgen/csg_cut.hpp"
 #include "netgen/csg_description.hpp"
 #include "netgen/csg_solids.hpp"
+#include "netgen/csg_tori.hpp"
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
@@ -68,6 +69,7 @@ std::unique_ptr<Geometry> parse(const std::string& text, const std::string& file
     throw InputError(file_name + ": is not a NETGEN geometry: its first word is not 'algebraic3d'");
   }
   describe_cones_by_circles(*geometry);
+  mend_tori(*geometry);
   geometry->FindIdenticSurfaces(kIdenticSurfaces * geometry->MaxSize());
   return geometry;
 }

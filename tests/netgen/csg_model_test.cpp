@@ -132,6 +132,17 @@ TEST(CsgCoarseMesh, IsValidForEveryModel)
   }
 }
 
+// NETGEN's own bound would make edges a tenth as long in parts of the torus.
+TEST(CsgCoarseMesh, IsTheSameForATorusOfAnotherScale)
+{
+  const Loaded ring(kTorus, 1.0);
+  const Loaded small(
+      "algebraic3d\nsolid ring = torus (0, 0, 0; 0, 0, 1; 0.2; 0.1) -bcname=skin;\ntlo ring;\n",
+      0.1);
+  EXPECT_NEAR(small.mesh.num_tets(), ring.mesh.num_tets(), 0.1 * ring.mesh.num_tets());
+  EXPECT_EQ(small.mesh.patch_names, ring.mesh.patch_names);
+}
+
 TEST(CsgCoarseMesh, UsesEveryVertexInATet)
 {
   const Loaded ball(kSphere, 1.0);
