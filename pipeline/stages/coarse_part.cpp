@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "tessera/base/hash.hpp"
-#include "tessera/coarse/thin_walls.hpp"
+#include "tessera/coarse/narrow_places.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/share_on_node.hpp"
 #include "tessera/fill/fallbacks.hpp"
@@ -92,7 +92,7 @@ CoarseResult named_coarse_mesh(const RunResult& run, const model::NamedParts& pa
 
 // The remesher, which also makes what is left of merged parts, sees walls by itself; Gmsh takes no
 // sizes at points, and a mesh is as it is.
-bool may_have_finer_walls(const RunResult& run)
+bool may_be_finer_at_places(const RunResult& run)
 {
   const coarse::CoarseOptions& options = run.coarse.options;
   return options.surface_mesher == coarse::SurfaceMesher::netgen
@@ -107,16 +107,16 @@ double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
 }
 
 // Once more with smaller edges where walls are thin. The better one of the two counts.
-void refine_thin_walls(RunResult& run, const model::NamedParts& parts, RunContext& context)
+void refine_narrow_places(RunResult& run, const model::NamedParts& parts, RunContext& context)
 {
-  if (!may_have_finer_walls(run)) return;
+  if (!may_be_finer_at_places(run)) return;
   const mesh::SizePoints walls = on_root(context.comm, [&]() -> mesh::SizePoints {
     if (run.coarse.mesh.num_tets() > kMostTetsToMeshAgain) return {};
-    return coarse::sizes_of_thin_walls(run.coarse.mesh, kSharpAngle_deg,
-                                       run.coarse.options.max_size);
+    return coarse::sizes_of_narrow_places(run.coarse.mesh, kSharpAngle_deg,
+                                          run.coarse.options.max_size);
   });
   if (walls.size.empty()) return;
-  context.log.info("coarse: walls are thin for its edges; once more with smaller ones there");
+  context.log.info("coarse: narrow places have too long edges; once more with shorter ones there");
   CoarseResult finer = run_finer_try(run.resolved, run.coarse, walls, context);
   const bool is_better = on_root(context.comm, [&] {
     return finer.mesh.num_tets() > 0
@@ -137,7 +137,7 @@ void run_coarse_stages(RunResult& run, RunContext& context)
     run.resolved.coarse.points = std::move(points);
     replace(run.coarse, named_coarse_mesh(run, parts, context));
   }
-  refine_thin_walls(run, parts, context);
+  refine_narrow_places(run, parts, context);
   choose_levels(run, context);
 }
 

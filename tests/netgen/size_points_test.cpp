@@ -8,8 +8,8 @@
 
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/coarse/narrow_places.hpp"
 #include "tessera/coarse/sharp_tets.hpp"
-#include "tessera/coarse/thin_walls.hpp"
 #include "tessera/mesh/tet_edges.hpp"
 
 #include "support/temporary_file.hpp"
@@ -103,7 +103,7 @@ TEST(ThinWalls, GetFullerTets)
   const mesh::CoarseMesh flat = mesher->generate(options);
   ASSERT_GT(coarse::find_sharp_tets(flat, kSmall_deg).num_others, 0);
 
-  options.points = coarse::sizes_of_thin_walls(flat, kSmall_deg, options.max_size);
+  options.points = coarse::sizes_of_narrow_places(flat, kSmall_deg, options.max_size);
   EXPECT_EQ(coarse::find_sharp_tets(mesher->generate(options), kSmall_deg).num_others, 0);
 }
 

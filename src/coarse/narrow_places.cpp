@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tessera/coarse/thin_walls.hpp"
+#include "tessera/coarse/narrow_places.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +12,7 @@
 
 #include "tessera/coarse/sharp_tets.hpp"
 
+#include "coarse/narrow_strips.hpp"
 #include "coarse/wall_sizes.hpp"
 
 namespace tessera::coarse {
@@ -76,9 +77,19 @@ class WallFinder {
     }
   }
 
+  // All corners are on the surface, and not all on one patch of it.
+  [[nodiscard]] bool is_in_wall(LocalIndex t) const
+  {
+    const auto v = mesh_.tet(t);
+    if (std::ranges::any_of(v, [&](LocalIndex i) { return patches_[at(i)].empty(); })) return false;
+    return std::ranges::none_of(patches_[at(v[0])], [&](LocalIndex patch) {
+      return std::ranges::all_of(v, [&](LocalIndex i) { return patches_[at(i)].contains(patch); });
+    });
+  }
+
+  // Of a tet in a wall.
   void add(LocalIndex t)
   {
-    if (!is_in_wall(t)) return;
     const Corners p = corners_of(mesh_, t);
     const double size =
         std::clamp(kEdgesOfWall * thickness(p), kLeastOfWall * max_size_, max_size_);
@@ -95,16 +106,6 @@ class WallFinder {
   }
 
  private:
-  // All corners are on the surface, and not all on one patch of it.
-  [[nodiscard]] bool is_in_wall(LocalIndex t) const
-  {
-    const auto v = mesh_.tet(t);
-    if (std::ranges::any_of(v, [&](LocalIndex i) { return patches_[at(i)].empty(); })) return false;
-    return std::ranges::none_of(patches_[at(v[0])], [&](LocalIndex patch) {
-      return std::ranges::all_of(v, [&](LocalIndex i) { return patches_[at(i)].contains(patch); });
-    });
-  }
-
   void add_points(const Corners& p, double size, int n)
   {
     for (int i = 0; i <= n; ++i) {
@@ -129,14 +130,24 @@ class WallFinder {
 
 }  // namespace
 
-mesh::SizePoints sizes_of_thin_walls(const mesh::CoarseMesh& mesh, double angle_deg,
-                                     double max_size)
+mesh::SizePoints sizes_of_narrow_places(const mesh::CoarseMesh& mesh, double angle_deg,
+                                        double max_size)
 {
-  const SharpTets sharp = find_sharp_tets(mesh, angle_deg);
-  if (sharp.others.empty()) return {};
   WallFinder walls(mesh, max_size);
-  for (const LocalIndex t : sharp.others) walls.add(t);
-  return walls.take();
+  std::vector<LocalIndex> others;
+  for (const LocalIndex t : find_sharp_tets(mesh, angle_deg).others) {
+    if (walls.is_in_wall(t)) {
+      walls.add(t);
+    } else {
+      others.push_back(t);
+    }
+  }
+  mesh::SizePoints points = walls.take();
+  if (others.empty()) return points;
+  const mesh::SizePoints strips = sizes_of_narrow_strips(mesh, others, max_size);
+  points.xyz.insert(points.xyz.end(), strips.xyz.begin(), strips.xyz.end());
+  points.size.insert(points.size.end(), strips.size.begin(), strips.size.end());
+  return points;
 }
 
 }  // namespace tessera::coarse

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/size_points.hpp"
+
+namespace tessera::coarse {
+
+/// @brief Sizes along the narrow strips of a surface that `sharp` tets lie at: where two curves are
+/// much nearer to each other than the edges of this mesh are long. Local.
+///
+/// Edges across such a strip are short, those along it long, so triangles are needles; and chords
+/// of two curves that bend beside each other may cross once they are split. Edges along it shall be
+/// a few times its width.
+/// @param sharp Rows of tets.
+/// @param max_size The largest size of the mesh, > 0.
+/// @return None if there is no such strip, or if the finer mesh would be out of proportion.
+[[nodiscard]] mesh::SizePoints sizes_of_narrow_strips(const mesh::CoarseMesh& mesh,
+                                                      const std::vector<LocalIndex>& sharp,
+                                                      double max_size);
+
+}  // namespace tessera::coarse
