@@ -26,6 +26,7 @@
 #include "netgen/occ_description.hpp"
 #include "netgen/occ_error.hpp"
 #include "netgen/occ_shape.hpp"
+#include "netgen/occ_steps.hpp"
 #include "netgen/occ_surface.hpp"
 #include "netgen/occ_tessellation.hpp"
 #include "netgen/occ_triangulation.hpp"
@@ -97,9 +98,6 @@ class OccModel final : public LoadedModel {
   [[nodiscard]] coarse::CoarseSurface remesh(const coarse::SurfaceReference& reference,
                                              const coarse::PatchSurface& start,
                                              const coarse::CoarseOptions& options) const;
-  static bool generate_steps(::netgen::OCCGeometry& geometry,
-                             ::netgen::MeshingParameters& parameters,
-                             std::shared_ptr<::netgen::Mesh>& mesh);
   static void guess_parameters(const coarse::SurfaceReference& reference, mesh::CoarseMesh& mesh);
   static void triangulate_for_sizes(const TopoDS_Shape& shape);
   static std::shared_ptr<::netgen::Mesh> mesh_geometry(::netgen::OCCGeometry& geometry,
@@ -312,22 +310,6 @@ void OccModel::guess_parameters(const coarse::SurfaceReference& reference, mesh:
   }
 }
 
-// NETGEN takes no notice of size points here. They must be set after the first step, which makes
-// the sizes, and before the second, which follows them.
-bool OccModel::generate_steps(::netgen::OCCGeometry& geometry,
-                              ::netgen::MeshingParameters& parameters,
-                              std::shared_ptr<::netgen::Mesh>& mesh)
-{
-  const auto run = [&](int first_step, int last_step) {
-    parameters.perfstepsstart = first_step;
-    parameters.perfstepsend = last_step;
-    return geometry.GenerateMesh(mesh, parameters) == 0;
-  };
-  if (!run(::netgen::MESHCONST_ANALYSE, ::netgen::MESHCONST_ANALYSE)) return false;
-  for (const auto& wanted : parameters.meshsize_points) mesh->RestrictLocalH(wanted.pnt, wanted.h);
-  return run(::netgen::MESHCONST_MESHEDGES, ::netgen::MESHCONST_OPTSURFACE);
-}
-
 coarse::CoarseSurface OccModel::mesh_surface(const coarse::CoarseOptions& options,
                                              const NetgenSurfaceUser& use) const
 {
@@ -359,10 +341,9 @@ std::shared_ptr<::netgen::Mesh> OccModel::mesh_geometry(::netgen::OCCGeometry& g
   geometry.changed = 1;
   geometry.BuildFMap();
   geometry.CalcBoundingBox();
-  auto mesh = std::make_shared<::netgen::Mesh>();
-  bool is_made = false;
-  session.run_surface([&] { is_made = generate_steps(geometry, session.parameters(), mesh); });
-  if (!is_made) throw NetgenError("NETGEN gave up: " + session.words());
+  std::shared_ptr<::netgen::Mesh> mesh;
+  session.run_surface([&] { mesh = mesh_occ_surface(geometry, session.parameters()); });
+  if (mesh == nullptr) throw NetgenError("NETGEN gave up: " + session.words());
   return mesh;
 }
 

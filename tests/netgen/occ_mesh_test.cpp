@@ -252,5 +252,16 @@ TEST(OccCoarseMesh, HasNoShortEdgesWhereCurvesTouch)
   EXPECT_GT(smallest_face_angle_deg(mesh), 4.0);
 }
 
+// A ledge of 0.001 along a block of 4: NETGEN alone makes edges as short as that along it.
+TEST(OccSurface, HasNoMoreThanItsShareAtALongNarrowLedge)
+{
+  const auto model = load_own("ledge.brep");
+  coarse::CoarseOptions options;
+  options.max_size = 1.0;
+  const auto surface = netgen::make_coarse_mesher(*model)->mesh_surface(options, {});
+  EXPECT_GT(surface.mesh.num_faces(), 2'000);
+  EXPECT_LT(surface.mesh.num_faces(), 30'000);
+}
+
 }  // namespace
 }  // namespace tessera
