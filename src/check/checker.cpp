@@ -2,17 +2,17 @@
 #include "check/checker.hpp"
 
 #include <algorithm>
-#include <array>
 #include <exception>
+#include <iterator>
 #include <set>
 #include <utility>
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
-#include "check/match_edges.hpp"
 #include "check/piece_topology.hpp"
 #include "check/second_order.hpp"
 
@@ -21,23 +21,16 @@ namespace {
 
 // Enough for the ranks of a node; few enough that their surfaces fit into memory beside the rest.
 constexpr LocalIndex kPiecesInBatch = 32;
+// Open triangles of a rank at the end for each reading of the boundary file: 64 bytes each are
+// held, and of one round several times as much.
+constexpr std::uint64_t kTrianglesInReading = std::uint64_t{1} << 21;
+constexpr std::uint64_t kTrianglesInRound = std::uint64_t{1} << 18;
 
 GlobalIndex num_tets(const PieceRecords& records)
 {
   GlobalIndex num_tets = 0;
   for (const PieceRecord& record : records.all()) num_tets += record.figures.num_tets;
   return num_tets;
-}
-
-// Adds to the last figures if they are of the same subdomain.
-void add_to(std::vector<SubdomainFigures>& subdomains, const SubdomainFigures& figures)
-{
-  if (subdomains.empty() || subdomains.back().id != figures.id)
-    subdomains.push_back({.id = figures.id, .material = figures.material});
-  SubdomainFigures& sum = subdomains.back();
-  sum.num_tets += figures.num_tets;
-  sum.volume += figures.volume;
-  sum.digest += figures.digest;
 }
 
 // Runs what reads a piece. Whatever is wrong then is so with the piece's file.
@@ -108,21 +101,19 @@ bool Checker::match()
     if (!read_batch(batch)) return false;
     match_batch();
   }
-  match_rest();
+  if (!read_listed_vertices()) return false;
+  match_last_triangles();
+  take_triangles();
+  triangles_.close();
+  match_last_edges();
+  match_last_vertices();
+  ::malloc_trim(0);
   return true;
 }
 
 // Whether the pieces read so far have point ids, all or none.
-bool Checker::read_batch(LocalIndex batch)
+bool Checker::has_ids_of_all_or_none(GlobalIndex num_read)
 {
-  const Range tets = batch_of(tets_.num_pieces, batch);
-  GlobalIndex num_read = tets.end;
-  for_each_own_piece(tets, false, [&](PieceName name) { read_tets(name); });
-  if (boundary_ != nullptr) {
-    const Range listed = batch_of(boundary_->num_pieces, batch);
-    num_read += listed.end;
-    for_each_own_piece(listed, true, [&](PieceName name) { read_boundary(name); });
-  }
   const GlobalIndex num_with_ids = comm_.sum(counts_.num_pieces_with_point_ids);
   if (identity_ == VertexIdentity::ids && num_with_ids > 0 && num_with_ids < num_read) return false;
   // Pieces without ids were matched by position as they were read.
@@ -130,11 +121,33 @@ bool Checker::read_batch(LocalIndex batch)
   return true;
 }
 
+bool Checker::read_batch(LocalIndex batch)
+{
+  const Range tets = batch_of(tets_.num_pieces, batch);
+  for_each_own_piece(tets, false, [&](PieceName name) { read_tets(name); });
+  return has_ids_of_all_or_none(tets.end);
+}
+
+// All of them behind the tets, so that every side of a triangle is known when its like in the
+// boundary file is looked at.
+bool Checker::read_listed_vertices()
+{
+  if (boundary_ == nullptr) return true;
+  for (LocalIndex batch = 0; batch < num_batches(); ++batch) {
+    const Range listed = batch_of(boundary_->num_pieces, batch);
+    std::vector<VertexRecord> vertices;
+    for_each_own_piece(listed, true, [&](PieceName name) { read_boundary(name, vertices); });
+    if (!has_ids_of_all_or_none(tets_.num_pieces + listed.end)) return false;
+    vertices_.add(vertices, identity_);
+  }
+  return true;
+}
+
 void Checker::read_tets(PieceName name)
 {
   PieceMesh mesh = load(name, findings_);
   const PieceTopology topology = analyse_topology(mesh, edge_lengths_, findings_);
-  PieceSurface& surface = surfaces_.emplace_back(make_surface(mesh, topology, shown_, seam_keys_));
+  PieceSurface& surface = surfaces_.emplace_back(make_surface(mesh, topology, inner_, seam_keys_));
   records_.push_back(measure(mesh, mean_ratios_, findings_));
 
   if (mesh.has_point_ids) {
@@ -154,10 +167,10 @@ void Checker::read_tets(PieceName name)
   only_piece_ = std::move(mesh.arrays);
 }
 
-void Checker::read_boundary(PieceName name)
+void Checker::read_boundary(PieceName name, std::vector<VertexRecord>& vertices)
 {
   const PieceMesh mesh = load(name, findings_);
-  append_boundary(mesh, shown_);
+  std::ranges::move(listed_vertices(mesh), std::back_inserter(vertices));
   if (mesh.has_point_ids) ++counts_.num_pieces_with_point_ids;
   if (mesh.num_cells() == 0) return;
   if (!mesh.arrays.cell_longs.contains("tet")) ++counts_.num_boundary_pieces_without_tet;
@@ -168,7 +181,7 @@ void Checker::read_boundary(PieceName name)
 void Checker::take_ids(const PieceMesh& mesh, const PieceSurface& surface)
 {
   std::vector<bool> is_taken(static_cast<std::size_t>(mesh.num_points()), false);
-  for (const VertexRecord& vertex : surface.vertices)
+  for (const SurfaceVertex& vertex : surface.vertices)
     is_taken[static_cast<std::size_t>(vertex.point)] = true;
   std::vector<GlobalIndex> inner_ids;
   for_each_used_vertex(mesh, [&](LocalIndex v) {
@@ -189,11 +202,38 @@ GlobalIndex Checker::num_pieces() const
   return tets_.num_pieces + (boundary_ == nullptr ? 0 : boundary_->num_pieces);
 }
 
+// Surfaces of the pieces of the batch that was read last.
+std::span<const PieceSurface> Checker::new_surfaces() const
+{
+  return std::span(surfaces_).subspan(num_matched_);
+}
+
+std::vector<TriangleVerdict> Checker::match_new_triangles()
+{
+  std::vector<TriangleSide> sides;
+  std::size_t num_sides = 0;
+  for (const PieceSurface& surface : new_surfaces()) num_sides += surface.triangles.size();
+  sides.reserve(num_sides);
+  for (const PieceSurface& surface : new_surfaces())
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) sides.push_back(surface.side(t));
+  return triangles_.add(sides, std::exchange(inner_, {}));
+}
+
+void Checker::match_new_vertices()
+{
+  std::vector<VertexRecord> vertices;
+  for (const PieceSurface& surface : new_surfaces())
+    std::ranges::move(surface.vertex_records(), std::back_inserter(vertices));
+  vertices_.add(vertices, identity_);
+}
+
 void Checker::match_batch()
 {
-  const auto verdicts = triangles_.add(std::exchange(shown_.triangles, {}));
-  vertices_.add(std::exchange(shown_.vertices, {}), identity_);
+  const auto verdicts = match_new_triangles();
+  match_new_vertices();
+  num_matched_ = surfaces_.size();
   apply_all(verdicts);
+  ::malloc_trim(0);  // What surfaces leave when they shrink lies between those that stay.
 }
 
 void Checker::apply_all(std::span<const TriangleVerdict> verdicts)
@@ -215,15 +255,69 @@ PieceSurface& Checker::surface_of(LocalIndex piece)
   return surfaces_[static_cast<std::size_t>(piece / comm_.size())];
 }
 
-void Checker::match_rest()
+// In rounds, so that only a part of the triangles is sent at a time. The boundary file is read
+// again for every few of them, so that only a part of it is held.
+void Checker::match_last_triangles()
 {
-  const auto verdicts = triangles_.finish();
-  for (const TriangleVerdict& verdict : verdicts)
+  const auto most =
+      static_cast<std::uint64_t>(comm_.max(static_cast<double>(triangles_.num_open())));
+  triangles_.drop_open();
+  const std::uint64_t num_readings = 1 + most / kTrianglesInReading;
+  const std::uint64_t in_reading = 1 + most / num_readings / kTrianglesInRound;
+  const std::uint64_t num_rounds = num_readings * in_reading;
+  for (std::uint64_t first = 0; first < num_rounds; first += in_reading) {
+    const TriangleRounds rounds{first, in_reading, num_rounds};
+    std::vector<std::vector<TriangleRecord>> listed = read_listed_triangles(rounds);
+    std::vector<std::vector<SurfaceRow>> open = open_triangles(rounds);
+    for (std::uint64_t r = 0; r < in_reading; ++r)
+      decide({first + r, num_rounds}, std::exchange(open[r], {}), std::exchange(listed[r], {}));
+  }
+}
+
+// Triangles of the boundary file, by round.
+std::vector<std::vector<TriangleRecord>> Checker::read_listed_triangles(TriangleRounds rounds) const
+{
+  std::vector<std::vector<TriangleRecord>> by_round(rounds.count);
+  if (boundary_ == nullptr) return by_round;
+  Findings known;  // Found when it was read for its vertices.
+  const TriangleRound all{rounds.first, rounds.num_rounds};
+  for_each_own_piece({0, boundary_->num_pieces}, true, [&](PieceName name) {
+    for_each_listed(load(name, known), [&](const TriangleRecord& record) {
+      const std::uint64_t round = all.number_of(record.key) - rounds.first;
+      if (round < rounds.count) by_round[round].push_back(record);
+    });
+  });
+  return by_round;
+}
+
+// Triangles of this rank's surfaces without a verdict, by round.
+std::vector<std::vector<Checker::SurfaceRow>> Checker::open_triangles(TriangleRounds rounds) const
+{
+  std::vector<std::vector<SurfaceRow>> by_round(rounds.count);
+  const TriangleRound all{rounds.first, rounds.num_rounds};
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    const PieceSurface& surface = surfaces_[s];
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+      if (surface.roles[t] != TriangleRole::unknown) continue;
+      const std::uint64_t round = all.number_of(surface.triangle_key(t)) - rounds.first;
+      if (round >= rounds.count) continue;
+      by_round[round].push_back({static_cast<LocalIndex>(s), static_cast<LocalIndex>(t)});
+    }
+  }
+  return by_round;
+}
+
+void Checker::decide(TriangleRound round, std::vector<SurfaceRow> open,
+                     std::vector<TriangleRecord> records)
+{
+  records.reserve(records.size() + open.size());
+  for (const SurfaceRow& row : open) {
+    records.push_back(surfaces_[static_cast<std::size_t>(row.surface)].record(
+        static_cast<std::size_t>(row.triangle)));
+  }
+  for (const TriangleVerdict& verdict : triangles_.decide(std::move(records), round))
     apply(verdict, surface_of(verdict.piece), seam_keys_);
   vertices_.mark_seam(std::exchange(seam_keys_, {}));
-  take_triangles();
-  match_last_edges();
-  match_last_vertices();
 }
 
 void Checker::take_triangles()
@@ -238,29 +332,26 @@ void Checker::take_triangles()
   num_components_ = count_components(num_components_, triangles_.links(), comm_);
 }
 
-// Flags of the vertices of all surfaces, one surface after the other.
-std::vector<VertexFlags> Checker::flags_of_surfaces() const
+// Flags of the vertices of surfaces, one surface after the other.
+std::vector<VertexFlags> Checker::flags_of(std::span<const PieceSurface> surfaces) const
 {
   std::vector<VertexKey> keys;
-  for (const PieceSurface& surface : surfaces_)
-    for (const VertexRecord& vertex : surface.vertices)
-      keys.push_back(key_of(vertex, surface.identity));
+  for (const PieceSurface& surface : surfaces)
+    for (LocalIndex v = 0; v < static_cast<LocalIndex>(surface.vertices.size()); ++v)
+      keys.push_back(surface.key(v));
   return vertices_.flags(keys);
 }
 
 void Checker::match_last_edges()
 {
-  const std::vector<VertexFlags> all_flags = flags_of_surfaces();
-  std::span<const VertexFlags> left(all_flags);
   EdgeMatch own;
-  for (PieceSurface& surface : surfaces_) {
-    const auto flags = left.first(surface.vertices.size());
-    left = left.subspan(flags.size());
-    for (std::size_t v = 0; v < flags.size(); ++v) {
-      const VertexRecord& vertex = surface.vertices[v];
-      if (flags[v].is_on_seam && !vertex.is_on_seam) surface.seam_points.push_back(vertex.point);
-    }
-    match_own_edges(close_last_edges(surface, flags, edges_), own, findings_);
+  std::size_t end = 0;
+  for (LocalIndex batch = 0; batch < num_batches(); ++batch) {
+    const std::size_t begin = end;
+    while (end < surfaces_.size()
+           && surfaces_[end].name.piece < batch_of(tets_.num_pieces, batch).end)
+      ++end;
+    match_last_edges(std::span(surfaces_).subspan(begin, end - begin), own);
   }
   const EdgeMatch shared = match_edges(std::exchange(edges_.shared, {}), comm_, findings_);
   for (const EdgeMatch& match : {own, shared}) {
@@ -271,6 +362,26 @@ void Checker::match_last_edges()
   counts_.num_edges -= edges_.num_edges;  // They are counted again, once for all pieces.
   counts_.num_edge_halves += edges_.num_halves;
   num_boundary_components_ = count_components(edges_.num_boundary_components, shared.links, comm_);
+}
+
+// Keeps of the surfaces only the points on seams.
+void Checker::match_last_edges(std::span<PieceSurface> surfaces, EdgeMatch& own)
+{
+  const std::vector<VertexFlags> all_flags = flags_of(surfaces);
+  std::span<const VertexFlags> left(all_flags);
+  for (PieceSurface& surface : surfaces) {
+    const auto flags = left.first(surface.vertices.size());
+    left = left.subspan(flags.size());
+    for (std::size_t v = 0; v < flags.size(); ++v) {
+      const SurfaceVertex& vertex = surface.vertices[v];
+      if (flags[v].is_on_seam && !vertex.is_on_seam) surface.seam_points.push_back(vertex.point);
+    }
+    match_own_edges(close_last_edges(surface, flags, edges_), own, findings_);
+    PieceSurface rest;
+    rest.name = surface.name;
+    rest.seam_points = std::move(surface.seam_points);
+    surface = std::move(rest);
+  }
 }
 
 void Checker::match_last_vertices()
@@ -311,138 +422,6 @@ void Checker::measure_seams()
       is_on_seam.at(static_cast<std::size_t>(point)) = true;
     measure_seam_tets(mesh, is_on_seam, records, seam_mean_ratios_);
   });
-}
-
-CheckReport Checker::report(const Findings* id_findings)
-{
-  constexpr std::array kIdKinds{Kind::point_position, Kind::point_id_twice, Kind::point_id_hole};
-  if (id_findings != nullptr) findings_.merge(*id_findings, kIdKinds);
-  sum_over_ranks(counts_);
-  CheckReport report;
-  set_counts(report);
-  set_sums(report);
-  if (report.num_tets == 0 && comm_.rank() == 0)
-    findings_.add(Kind::no_tets, {}, [] { return "the mesh has no tets"; });
-
-  Findings all;
-  for (const Findings& found : comm_.all_gather_values(findings_)) all.merge(found);
-  report.defects = all.to_defects();
-  report.conforms = report.defects.empty();
-  report.notes = notes();
-  if (looks_partial(all))
-    report.notes.emplace_back(
-        "these are the defects of a mesh of which only some pieces were made; --partial accepts "
-        "such a mesh");
-  return report;
-}
-
-void Checker::sum_over_ranks(Counts& counts) const
-{
-  constexpr std::array kMembers{&Counts::num_pieces_with_point_ids,
-                                &Counts::num_tet_pieces_with_point_ids,
-                                &Counts::num_pieces_with_cell_ids,
-                                &Counts::num_pieces_with_subdomains,
-                                &Counts::num_pieces_of_second_order,
-                                &Counts::num_other_cells,
-                                &Counts::num_boundary_pieces_without_tet,
-                                &Counts::num_boundary_pieces_without_patch,
-                                &Counts::num_vertices,
-                                &Counts::num_edges,
-                                &Counts::num_edge_halves,
-                                &Counts::num_triangles,
-                                &Counts::num_outside,
-                                &Counts::num_seam,
-                                &Counts::num_interface,
-                                &Counts::num_unlisted,
-                                &Counts::num_nonmanifold_edges};
-  static_assert(sizeof(Counts) == kMembers.size() * sizeof(GlobalIndex), "a member is missing");
-  std::vector<GlobalIndex> values;
-  values.reserve(kMembers.size());
-  for (const auto member : kMembers) values.push_back(counts.*member);
-  comm_.sum_in_place(values);
-  for (std::size_t i = 0; i < kMembers.size(); ++i) counts.*kMembers[i] = values[i];
-}
-
-void Checker::set_counts(CheckReport& report) const
-{
-  report.has_global_ids = counts_.num_tet_pieces_with_point_ids == tets_.num_pieces
-                          && counts_.num_pieces_with_cell_ids == tets_.num_pieces;
-  report.has_digest = counts_.num_tet_pieces_with_point_ids == tets_.num_pieces;
-  report.is_partial = is_partial_;
-  report.matched_by_ids = identity_ == VertexIdentity::ids;
-  report.num_vertices = counts_.num_vertices;
-  report.num_edges = counts_.num_edges + counts_.num_edge_halves / 2;
-  report.num_triangles = counts_.num_triangles;
-  report.num_boundary_triangles = counts_.num_outside;
-  report.num_interface_triangles = counts_.num_interface;
-  report.num_seam_triangles = counts_.num_seam;
-  report.num_open_seam_triangles = boundary_ == nullptr ? 0 : counts_.num_unlisted;
-  report.num_nonmanifold_edges = counts_.num_nonmanifold_edges;
-  report.num_components = num_components_;
-  report.num_boundary_components = num_boundary_components_;
-}
-
-void Checker::set_sums(CheckReport& report)
-{
-  ShapeSums shapes;
-  ShapeSums seam_shapes;
-  for (const PieceRecord& record : all_records(records_, comm_)) {
-    add_to(report.subdomains, record.figures);
-    report.num_tets += record.figures.num_tets;
-    report.volume += record.figures.volume;
-    report.digest += record.figures.digest;
-    report.boundary_area += record.boundary_area;
-    report.scaled_jacobian_min = std::min(report.scaled_jacobian_min, record.min_scaled_jacobian);
-    shapes.add(record.shapes);
-    seam_shapes.add(record.seam_shapes);
-  }
-  report.order = counts_.num_pieces_of_second_order > 0 ? 2 : 1;
-  const GlobalIndex num_nodes = report.order == 2 ? report.num_edges : 0;
-  report.euler_characteristic =
-      report.num_vertices - num_nodes - report.num_edges + report.num_triangles - report.num_tets;
-
-  comm_.sum_in_place(mean_ratios_.counts());
-  comm_.sum_in_place(seam_mean_ratios_.counts());
-  comm_.sum_in_place(edge_lengths_.counts());
-  report.quality = quality_figures(shapes, mean_ratios_);
-  report.seam_quality = quality_figures(seam_shapes, seam_mean_ratios_);
-  report.seam_ks_distance = ks_distance(seam_mean_ratios_, mean_ratios_);
-  report.edge_length = edge_lengths_.figures();
-}
-
-std::vector<std::string> Checker::notes() const
-{
-  std::vector<std::string> notes;
-  const auto note = [&](GlobalIndex count, const std::string& text) {
-    if (count > 0) notes.push_back(fmt::format("{} {}", count, text));
-  };
-  note(num_pieces() - counts_.num_pieces_with_point_ids, "pieces have no point ids");
-  note(tets_.num_pieces - counts_.num_pieces_with_cell_ids, "pieces have no cell ids");
-  note(counts_.num_other_cells, "cells are no tets and were left out");
-  note(counts_.num_boundary_pieces_without_tet,
-       "boundary pieces have no array \"tet\", so only their triangles were compared");
-  note(counts_.num_boundary_pieces_without_patch, "boundary pieces have no array \"patch\"");
-  if (counts_.num_pieces_with_subdomains > 0)
-    note(tets_.num_pieces - counts_.num_pieces_with_subdomains,
-         "pieces have no array \"subdomain\", so the piece's number took its place");
-  if (identity_ == VertexIdentity::positions)
-    notes.emplace_back("points of different pieces were matched by the bits of their positions");
-  if (boundary_ == nullptr)
-    notes.emplace_back("no boundary file: triangles on one tet are taken for the boundary");
-  return notes;
-}
-
-// Whether holes in the ids and open seams are all there is.
-bool Checker::looks_partial(const Findings& findings) const
-{
-  constexpr std::array kKinds{Kind::point_id_hole, Kind::cell_id_hole, Kind::boundary_missing};
-  GlobalIndex num_others = 0;
-  for (std::size_t k = 0; k < kNumKinds; ++k) num_others += findings.count(static_cast<Kind>(k));
-  for (const Kind kind : kKinds) num_others -= findings.count(kind);
-  const bool has_holes =
-      findings.count(Kind::point_id_hole) > 0 || findings.count(Kind::cell_id_hole) > 0;
-  const bool has_open_seams = boundary_ == nullptr || counts_.num_unlisted > 0;
-  return !is_partial_ && num_others == 0 && has_holes && has_open_seams;
 }
 
 }  // namespace tessera::check

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +13,7 @@
 #include "check/components.hpp"
 #include "check/findings.hpp"
 #include "check/id_runs.hpp"
+#include "check/match_edges.hpp"
 #include "check/match_triangles.hpp"
 #include "check/match_vertices.hpp"
 #include "check/piece_figures.hpp"
@@ -82,22 +85,45 @@ class Checker {
     LocalIndex end = 0;
   };
 
+  // Rounds for which the boundary file is read at once, of num_rounds.
+  struct TriangleRounds {
+    std::uint64_t first = 0;
+    std::uint64_t count = 1;
+    std::uint64_t num_rounds = 1;
+  };
+  // A triangle of a surface of this rank.
+  struct SurfaceRow {
+    LocalIndex surface = 0;
+    LocalIndex triangle = 0;
+  };
+
   template <class Visit>
   void for_each_own_piece(Range range, bool is_boundary, const Visit& visit) const;
   [[nodiscard]] Range batch_of(LocalIndex num_pieces, LocalIndex batch) const;
   [[nodiscard]] LocalIndex num_batches() const;
   [[nodiscard]] PieceMesh load(PieceName name, Findings& findings) const;
   void read_tets(PieceName name);
-  void read_boundary(PieceName name);
+  void read_boundary(PieceName name, std::vector<VertexRecord>& vertices);
   void take_ids(const PieceMesh& mesh, const PieceSurface& surface);
+  [[nodiscard]] bool has_ids_of_all_or_none(GlobalIndex num_read);
   [[nodiscard]] bool read_batch(LocalIndex batch);
+  [[nodiscard]] bool read_listed_vertices();
+  [[nodiscard]] std::span<const PieceSurface> new_surfaces() const;
+  [[nodiscard]] std::vector<TriangleVerdict> match_new_triangles();
+  void match_new_vertices();
   void match_batch();
-  void match_rest();
+  void match_last_triangles();
+  [[nodiscard]] std::vector<std::vector<TriangleRecord>> read_listed_triangles(
+      TriangleRounds rounds) const;
+  [[nodiscard]] std::vector<std::vector<SurfaceRow>> open_triangles(TriangleRounds rounds) const;
+  void decide(TriangleRound round, std::vector<SurfaceRow> open,
+              std::vector<TriangleRecord> records);
   void apply_all(std::span<const TriangleVerdict> verdicts);
   [[nodiscard]] PieceSurface& surface_of(LocalIndex piece);
-  [[nodiscard]] std::vector<VertexFlags> flags_of_surfaces() const;
+  [[nodiscard]] std::vector<VertexFlags> flags_of(std::span<const PieceSurface> surfaces) const;
   void take_triangles();
   void match_last_edges();
+  void match_last_edges(std::span<PieceSurface> surfaces, EdgeMatch& own);
   void match_last_vertices();
   void match_ids(std::vector<PointId> shared);
   void sum_over_ranks(Counts& counts) const;
@@ -122,9 +148,10 @@ class Checker {
   TriangleMatcher triangles_;
   VertexMatcher vertices_;
   SurfaceEdges edges_{};
-  ShownRecords shown_{};                          // Of the batch at hand.
+  std::vector<TriangleRecord> inner_{};           // On two tets of a piece of the batch at hand.
   std::vector<VertexKey> seam_keys_{};            // Vertices that were found on a seam, to be told.
   std::vector<PieceSurface> surfaces_{};          // Of this rank's pieces of tets.
+  std::size_t num_matched_ = 0;                   // Of these, all but those of the batch at hand.
   std::vector<PieceRecords> records_{};           // Parallel to surfaces_.
   std::optional<mesh::MeshArrays> only_piece_{};  // If this rank has one piece of tets.
   std::vector<IdRun> point_ids_{};

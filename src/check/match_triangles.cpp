@@ -2,6 +2,7 @@
 #include "check/match_triangles.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -23,6 +24,15 @@ std::string describe(const TriangleRecord& record)
 }
 
 Place place_of(const TriangleRecord& record) { return {record.piece, record.cell}; }
+
+// What two sides make of a triangle.
+template <class Side>
+TriangleRole role_between(const Side& a, const Side& b)
+{
+  if (a.is_odd == b.is_odd) return TriangleRole::faulty;
+  if (a.attribute != b.attribute) return TriangleRole::interface;
+  return a.subdomain == b.subdomain ? TriangleRole::inner : TriangleRole::seam;
+}
 
 // All records of one triangle: first its sides, then its occurrences in the boundary file.
 class TriangleGroup {
@@ -47,9 +57,7 @@ class TriangleGroup {
       return boundary == BoundaryFile::partial && num_listed() == 0 ? TriangleRole::open_seam
                                                                     : TriangleRole::outside;
     }
-    if (num_sides_ != 2 || side(0).is_odd == side(1).is_odd) return TriangleRole::faulty;
-    if (side(0).attribute != side(1).attribute) return TriangleRole::interface;
-    return side(0).subdomain == side(1).subdomain ? TriangleRole::inner : TriangleRole::seam;
+    return num_sides_ == 2 ? role_between(side(0), side(1)) : TriangleRole::faulty;
   }
 
  private:
@@ -131,13 +139,12 @@ void count(const TriangleGroup& group, TriangleRole role, TriangleCounts& counts
   if (is_open(role) && group.num_listed() == 0) ++counts.num_unlisted;
 }
 
-void link_pieces(const TriangleGroup& group, std::vector<Link>& links)
+template <class Side>
+void link_pieces(const Side& first, const Side& other, std::vector<Link>& links)
 {
-  for (std::size_t i = 1; i < group.num_sides(); ++i) {
-    const auto a = component_name(group.side(0).piece, group.side(0).component);
-    const auto b = component_name(group.side(i).piece, group.side(i).component);
-    if (a != b) links.push_back({a, b});
-  }
+  const auto a = component_name(first.piece, first.component);
+  const auto b = component_name(other.piece, other.component);
+  if (a != b && (links.empty() || links.back() != Link{a, b})) links.push_back({a, b});
 }
 
 void append_verdicts(const TriangleGroup& group, TriangleRole role,
@@ -149,13 +156,6 @@ void append_verdicts(const TriangleGroup& group, TriangleRole role,
     const LocalIndex partner = group.num_sides() == 2 ? group.side(1 - i).piece : kNoPiece;
     verdicts.push_back({side.piece, side.row, partner, role});
   }
-}
-
-// Whether no side that is still to come can change what is said of the triangle. A third side can,
-// but it is noticed by the key.
-bool is_final(TriangleRole role)
-{
-  return role == TriangleRole::inner || role == TriangleRole::seam;
 }
 
 std::vector<TriangleVerdict> send_to_readers(std::vector<TriangleVerdict> verdicts,
@@ -171,28 +171,148 @@ std::vector<TriangleVerdict> send_to_readers(std::vector<TriangleVerdict> verdic
 
 }  // namespace
 
-std::vector<TriangleVerdict> TriangleMatcher::add(std::vector<TriangleRecord> records)
+std::vector<TriangleVerdict> TriangleMatcher::add(std::span<const TriangleSide> open,
+                                                  std::span<const TriangleRecord> inner)
 {
-  comm::RecordExchange<TriangleRecord> exchange(
-      records, [](const TriangleRecord& record) { return hash_of(record.key); }, comm_);
-  records = std::move(exchange).take_received();
-  records.insert(records.end(), open_.begin(), open_.end());
-  open_ = {};
-  std::vector<TriangleVerdict> verdicts = match(std::move(records), false);
+  const auto owner = [](const auto& side) { return hash_of(side.key); };
+  take_open(comm::RecordExchange<TriangleSide>(open, owner, comm_).received());
+  take_inner(comm::RecordExchange<TriangleRecord>(inner, owner, comm_).received());
+  std::vector<TriangleVerdict> verdicts;
+  for (Bucket& bucket : buckets_) match(bucket, verdicts);
   sort_unique(links_);
   return send_to_readers(std::move(verdicts), comm_);
 }
 
-std::vector<TriangleVerdict> TriangleMatcher::finish()
+TriangleMatcher::Bucket& TriangleMatcher::bucket_of(const TriangleKey& key)
 {
-  return send_to_readers(match(std::exchange(open_, {}), true), comm_);
+  return buckets_[hash_of(key) >> 58];
 }
 
-std::vector<TriangleVerdict> TriangleMatcher::match(std::vector<TriangleRecord> records,
-                                                    bool is_last)
+void TriangleMatcher::take_open(std::span<const TriangleSide> sides)
 {
-  std::vector<TriangleVerdict> verdicts;
+  std::vector<std::size_t> num_sides(buckets_.size(), 0);
+  for (const TriangleSide& side : sides)
+    ++num_sides[static_cast<std::size_t>(&bucket_of(side.key) - buckets_.data())];
+  for (std::size_t b = 0; b < buckets_.size(); ++b)
+    buckets_[b].open.reserve(buckets_[b].open.size() + num_sides[b]);
+  for (const TriangleSide& side : sides) bucket_of(side.key).open.push_back(packed(side));
+}
+
+void TriangleMatcher::take_inner(std::span<const TriangleRecord> records)
+{
+  for (const TriangleRecord& record : records) {
+    Bucket& bucket = bucket_of(record.key);
+    OpenSide& side =
+        bucket.open.emplace_back(packed({record.key, record.piece, kNoIndex, record.component,
+                                         record.attribute, record.subdomain, record.is_odd}));
+    side.row = -1 - static_cast<LocalIndex>(bucket.inner.size());
+    bucket.inner.push_back(record);
+  }
+}
+
+TriangleMatcher::OpenSide TriangleMatcher::packed(const TriangleSide& side)
+{
+  const Region region{side.piece, side.component, side.attribute, side.subdomain};
+  if (regions_.empty() || regions_[last_region_] != region) {
+    const auto next = static_cast<std::uint32_t>(regions_.size());
+    const auto [found, is_new] = region_row_.try_emplace(region, next);
+    if (is_new) regions_.push_back(region);
+    last_region_ = found->second;
+  }
+  return {side.key, 2 * last_region_ + (side.is_odd ? 1U : 0U), side.row};
+}
+
+TriangleSide TriangleMatcher::unpacked(const OpenSide& side) const
+{
+  const Region& region = regions_[side.region_and_parity / 2];
+  return {.key = side.key,
+          .piece = region.piece,
+          .row = std::max(side.row, kNoIndex),
+          .component = region.component,
+          .attribute = region.attribute,
+          .subdomain = region.subdomain,
+          .is_odd = side.region_and_parity % 2 == 1};
+}
+
+// Keeps the sides on whose triangles there is no verdict yet.
+void TriangleMatcher::match(Bucket& bucket, std::vector<TriangleVerdict>& verdicts)
+{
+  const std::vector<OpenSide> open = std::exchange(bucket.open, {});
+  const std::vector<TriangleRecord> inner = std::exchange(bucket.inner, {});
+  std::vector<OpenSide> kept;
   std::vector<TriangleKey> keys;
+  comm::for_each_group(
+      std::span<const OpenSide>(open), [](const OpenSide& side) { return side.key; },
+      [&](const OpenSide& side) {
+        return std::make_tuple(regions_[side.region_and_parity / 2].piece, side.row);
+      },
+      [&](std::span<const std::size_t> rows) {
+        if (rows.size() == 2
+            && match_two(unpacked(open[rows[0]]), unpacked(open[rows[1]]), verdicts)) {
+          keys.push_back(open[rows[0]].key);
+          return;
+        }
+        for (const std::size_t row : rows) {
+          OpenSide& side = kept.emplace_back(open[row]);
+          if (side.row >= 0) continue;
+          bucket.inner.push_back(inner[static_cast<std::size_t>(-1 - side.row)]);
+          side.row = -static_cast<LocalIndex>(bucket.inner.size());
+        }
+      });
+  bucket.open = {kept.begin(), kept.end()};  // Without room to spare.
+  std::sort(keys.begin(), keys.end());
+  std::vector<TriangleKey> complete(bucket.complete.size() + keys.size());
+  std::merge(bucket.complete.begin(), bucket.complete.end(), keys.begin(), keys.end(),
+             complete.begin());
+  bucket.complete = std::move(complete);
+}
+
+// Whether no side that is still to come can change what is said of the triangle. A third side can,
+// but it is noticed by the key.
+bool TriangleMatcher::match_two(const TriangleSide& a, const TriangleSide& b,
+                                std::vector<TriangleVerdict>& verdicts)
+{
+  const TriangleRole role = role_between(a, b);
+  if (role != TriangleRole::inner && role != TriangleRole::seam) return false;
+  if (is_complete(a.key)) return false;
+  ++counts_.num_triangles;
+  if (role == TriangleRole::seam) ++counts_.num_seam;
+  link_pieces(a, b, links_);
+  if (a.row != kNoIndex) verdicts.push_back({a.piece, a.row, b.piece, role});
+  if (b.row != kNoIndex) verdicts.push_back({b.piece, b.row, a.piece, role});
+  return true;
+}
+
+bool TriangleMatcher::is_complete(const TriangleKey& key)
+{
+  const std::vector<TriangleKey>& complete = bucket_of(key).complete;
+  return std::binary_search(complete.begin(), complete.end(), key);
+}
+
+std::size_t TriangleMatcher::num_open() const
+{
+  std::size_t num_open = 0;
+  for (const Bucket& bucket : buckets_) num_open += bucket.open.size();
+  return num_open;
+}
+
+void TriangleMatcher::drop_open()
+{
+  for (Bucket& bucket : buckets_) bucket.open = {};
+  regions_ = {};
+  region_row_ = {};
+}
+
+std::vector<TriangleVerdict> TriangleMatcher::decide(std::vector<TriangleRecord> records,
+                                                     TriangleRound round)
+{
+  records = comm::RecordExchange<TriangleRecord>(
+                records, [](const TriangleRecord& record) { return hash_of(record.key); }, comm_)
+                .take_received();
+  for (const Bucket& bucket : buckets_)
+    std::ranges::copy_if(bucket.inner, std::back_inserter(records),
+                         [&](const auto& record) { return round.contains(record.key); });
+  std::vector<TriangleVerdict> verdicts;
   comm::for_each_group(
       std::span<const TriangleRecord>(records),
       [](const TriangleRecord& record) { return record.key; },
@@ -203,33 +323,16 @@ std::vector<TriangleVerdict> TriangleMatcher::match(std::vector<TriangleRecord> 
         const TriangleGroup group(records, rows);
         const bool is_late = group.num_sides() > 0 && is_complete(group.side(0).key);
         const TriangleRole role = is_late ? TriangleRole::faulty : group.role(boundary_);
-        if (!is_last && (is_late || !is_final(role))) {
-          for (const std::size_t row : rows) open_.push_back(records[row]);
-          return;
-        }
         if (!is_late) count(group, role, counts_);
-        link_pieces(group, links_);
+        for (std::size_t i = 1; i < group.num_sides(); ++i)
+          link_pieces(group.side(0), group.side(i), links_);
         append_verdicts(group, role, verdicts);
         if (role == TriangleRole::faulty && group.num_sides() > 0)
           report_fault(group, is_late, findings_);
         if (boundary_ != BoundaryFile::none) check_boundary(group, role, findings_);
-        if (!is_last) keys.push_back(group.side(0).key);
       });
-  complete(std::move(keys));
-  return verdicts;
-}
-
-bool TriangleMatcher::is_complete(const TriangleKey& key) const
-{
-  return std::binary_search(complete_.begin(), complete_.end(), key);
-}
-
-void TriangleMatcher::complete(std::vector<TriangleKey> keys)
-{
-  std::sort(keys.begin(), keys.end());
-  const auto num_before = static_cast<std::ptrdiff_t>(complete_.size());
-  complete_.insert(complete_.end(), keys.begin(), keys.end());
-  std::inplace_merge(complete_.begin(), complete_.begin() + num_before, complete_.end());
+  sort_unique(links_);
+  return send_to_readers(std::move(verdicts), comm_);
 }
 
 }  // namespace tessera::check

@@ -72,6 +72,17 @@ void compare_ids(std::span<const VertexRecord> received, std::span<const std::si
   }
 }
 
+constexpr std::array kFlags{&VertexRecord::is_used,    &VertexRecord::is_inner,
+                            &VertexRecord::is_on_seam, &VertexRecord::is_listed,
+                            &VertexRecord::is_shared,  &VertexRecord::is_contradicted};
+
+std::uint8_t flags_of(const VertexRecord& record)
+{
+  unsigned flags = 0;
+  for (std::size_t i = 0; i < kFlags.size(); ++i) flags |= (record.*kFlags[i] ? 1U : 0U) << i;
+  return static_cast<std::uint8_t>(flags);
+}
+
 }  // namespace
 
 VertexMatcher::VertexMatcher(const comm::Communicator& comm, Findings& findings)
@@ -93,8 +104,10 @@ void VertexMatcher::mark_seam(std::span<const VertexKey> keys)
 {
   const comm::RecordExchange<VertexKey> exchange(
       keys, [&](const VertexKey& key) { return owner_of(key); }, comm_);
+  VertexRecord seam;
+  seam.is_on_seam = true;
   for (const VertexKey& key : exchange.received())
-    vertices_[static_cast<std::size_t>(slots_[slot_of(key)])].is_on_seam = true;
+    flags_[static_cast<std::size_t>(slots_[slot_of(key)])] |= flags_of(seam);
 }
 
 std::vector<VertexFlags> VertexMatcher::flags(std::span<const VertexKey> keys) const
@@ -104,7 +117,7 @@ std::vector<VertexFlags> VertexMatcher::flags(std::span<const VertexKey> keys) c
   std::vector<VertexFlags> answers;
   answers.reserve(exchange.received().size());
   for (const VertexKey& key : exchange.received()) {
-    const VertexRecord& vertex = vertices_[static_cast<std::size_t>(slots_[slot_of(key)])];
+    const VertexRecord vertex = record(static_cast<std::size_t>(slots_[slot_of(key)]));
     answers.push_back({vertex.is_on_seam, vertex.is_shared});
   }
   return exchange.answer(std::span<const VertexFlags>(answers), comm_);
@@ -113,7 +126,9 @@ std::vector<VertexFlags> VertexMatcher::flags(std::span<const VertexKey> keys) c
 VertexTotals VertexMatcher::finish()
 {
   VertexTotals totals;
-  for (const VertexRecord& vertex : vertices_) {
+  if (identity_ == VertexIdentity::ids) totals.ids.reserve(size());
+  for (std::size_t row = 0; row < size(); ++row) {
+    const VertexRecord vertex = record(row);
     if (vertex.is_used) ++totals.num_vertices;
     if (vertex.is_listed) {
       findings_.add(Kind::boundary_point, place_of(vertex), [&] {
@@ -126,7 +141,26 @@ VertexTotals VertexMatcher::finish()
     }
   }
   match_positions();
+  vertices_ = {};
+  flags_ = {};
+  slots_ = {};
   return totals;
+}
+
+VertexRecord VertexMatcher::record(std::size_t row) const
+{
+  const Vertex& vertex = vertices_[row];
+  VertexRecord record{
+      .position = vertex.position, .id = vertex.id, .piece = vertex.piece, .point = vertex.point};
+  for (std::size_t i = 0; i < kFlags.size(); ++i)
+    record.*kFlags[i] = (static_cast<unsigned>(flags_[row]) >> i & 1U) != 0;
+  return record;
+}
+
+void VertexMatcher::set(std::size_t row, const VertexRecord& record)
+{
+  vertices_[row] = {record.position, record.id, record.piece, record.point};
+  flags_[row] = flags_of(record);
 }
 
 std::uint64_t VertexMatcher::owner_of(const VertexKey& key) const
@@ -161,10 +195,13 @@ void VertexMatcher::take(std::span<const VertexRecord> records, std::span<const 
   const bool is_new = slots_[slot] == kNoIndex;
   if (is_new) {
     slots_[slot] = static_cast<LocalIndex>(vertices_.size());
-    vertices_.push_back(records[rows[0]]);
+    vertices_.emplace_back();
+    flags_.push_back(0);
   }
-  VertexRecord& first = vertices_[static_cast<std::size_t>(slots_[slot])];
+  const auto at = static_cast<std::size_t>(slots_[slot]);
+  VertexRecord first = is_new ? records[rows[0]] : record(at);
   for (const std::size_t row : rows.subspan(is_new ? 1 : 0)) take(first, records[row]);
+  set(at, first);
   if (4 * vertices_.size() > 3 * slots_.size()) grow();
 }
 
@@ -193,8 +230,10 @@ void VertexMatcher::match_positions()
   const auto key = [](const VertexRecord& record) { return key_of_position(record.position); };
   for (std::uint64_t round = 0; round < num_rounds; ++round) {
     std::vector<VertexRecord> sent;
-    for (const VertexRecord& vertex : vertices_)
-      if (!vertex.is_listed && key(vertex)[1] % num_rounds == round) sent.push_back(vertex);
+    for (std::size_t row = 0; row < size(); ++row)
+      if (key_of_position(vertices_[row].position)[1] % num_rounds == round
+          && !record(row).is_listed)
+        sent.push_back(record(row));
     const comm::RecordExchange<VertexRecord> exchange(
         sent, [&](const VertexRecord& record) { return key(record)[0]; }, comm_);
     comm::for_each_group(exchange.received(), key, order_of,

@@ -54,18 +54,31 @@ class VertexMatcher {
   [[nodiscard]] std::uint64_t owner_of(const VertexKey& key) const;
   [[nodiscard]] std::size_t slot_of(const VertexKey& key) const;
   void grow();
+  [[nodiscard]] std::size_t size() const { return vertices_.size(); }
+  [[nodiscard]] VertexRecord record(std::size_t row) const;
+  void set(std::size_t row, const VertexRecord& record);
   void take(std::span<const VertexRecord> records, std::span<const std::size_t> rows);
   void take(VertexRecord& first, VertexRecord other);
   void match_positions();
 
+  // A VertexRecord without its flags, which are in a byte of their own: padding would cost a sixth.
+  struct Vertex {
+    Vec3 position{};
+    GlobalIndex id = kNoId;
+    LocalIndex piece = 0;
+    LocalIndex point = 0;
+  };
+
   const comm::Communicator& comm_;
   Findings& findings_;
   VertexIdentity identity_ = VertexIdentity::ids;
-  std::deque<VertexRecord> vertices_{};  // Grows without a second copy.
-  std::vector<LocalIndex> slots_{};      // Hash table of rows of vertices_; kNoIndex where empty.
+  std::deque<Vertex> vertices_{};     // Grows without a second copy.
+  std::deque<std::uint8_t> flags_{};  // Of each vertex, as of flags_of().
+  std::vector<LocalIndex> slots_{};   // Hash table of rows of vertices_; kNoIndex where empty.
 };
 
-[[nodiscard]] inline VertexKey key_of(const VertexRecord& record, VertexIdentity identity)
+template <class Vertex>
+[[nodiscard]] VertexKey key_of(const Vertex& record, VertexIdentity identity)
 {
   return identity == VertexIdentity::ids ? key_of_id(record.id) : key_of_position(record.position);
 }

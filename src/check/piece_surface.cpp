@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "check/second_order.hpp"
@@ -13,7 +14,7 @@ namespace {
 // Chooses points of a piece and gives them consecutive rows.
 class VertexSelection {
  public:
-  VertexSelection(const PieceMesh& mesh, std::vector<VertexRecord>& vertices)
+  VertexSelection(const PieceMesh& mesh, std::vector<SurfaceVertex>& vertices)
       : mesh_(mesh),
         vertices_(vertices),
         row_(static_cast<std::size_t>(mesh.num_points()), kNoIndex)
@@ -25,22 +26,49 @@ class VertexSelection {
     LocalIndex& row = row_[static_cast<std::size_t>(point)];
     if (row != kNoIndex) return row;
     row = static_cast<LocalIndex>(vertices_.size());
-    VertexRecord record;
-    record.position = mesh_.position(point);
-    record.id = mesh_.point_id(point);
-    record.piece = mesh_.name.piece;
-    record.point = point;
-    record.is_used = is_used;
-    record.is_inner = is_inner;
-    record.is_listed = mesh_.name.is_boundary;
-    vertices_.push_back(record);
+    vertices_.push_back({.position = mesh_.position(point),
+                         .id = mesh_.point_id(point),
+                         .point = point,
+                         .is_used = is_used,
+                         .is_inner = is_inner});
     return row;
   }
 
  private:
   const PieceMesh& mesh_;
-  std::vector<VertexRecord>& vertices_;
+  std::vector<SurfaceVertex>& vertices_;
   std::vector<LocalIndex> row_;
+};
+
+// Finds the row of what a tet has in common with others; fast for that of the tet before.
+class RegionSelection {
+ public:
+  RegionSelection(const PieceMesh& mesh, std::vector<PieceRegion>& regions)
+      : mesh_(mesh), regions_(regions)
+  {
+  }
+
+  LocalIndex add(const SurfaceTriangle& triangle)
+  {
+    const LocalIndex c = triangle.cell;
+    PieceRegion region{.component = triangle.component,
+                       .attribute = mesh_.material(c),
+                       .subdomain = mesh_.subdomain_of(c),
+                       .has_cell_ids = mesh_.has_cell_ids};
+    if (mesh_.has_cell_ids)
+      region.id_offset =
+          static_cast<std::uint64_t>(mesh_.cell_id(c)) - static_cast<std::uint64_t>(c);
+    if (!regions_.empty() && regions_[static_cast<std::size_t>(last_)] == region) return last_;
+    const auto [found, is_new] = row_.try_emplace(region, static_cast<LocalIndex>(regions_.size()));
+    if (is_new) regions_.push_back(region);
+    return last_ = found->second;
+  }
+
+ private:
+  const PieceMesh& mesh_;
+  std::vector<PieceRegion>& regions_;
+  std::map<PieceRegion, LocalIndex> row_{};
+  LocalIndex last_ = 0;
 };
 
 // With the nodes of its edges, those of second order: so both sides must agree on them. @param[in]
@@ -58,6 +86,27 @@ TriangleKey key_of_triangle(const PieceMesh& mesh, std::span<const LocalIndex> v
   return key_of_vertices(all);
 }
 
+struct KeyOfTriangle {
+  TriangleKey key{};
+  bool is_odd = false;
+};
+
+// Of vertices with these keys in outward order.
+KeyOfTriangle key_and_parity(std::array<VertexKey, 3> keys)
+{
+  const bool odd = is_odd(keys[0], keys[1], keys[2]);
+  std::sort(keys.begin(), keys.end());
+  return {key_of_vertices(keys), odd};
+}
+
+std::array<float, 3> centroid_of(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const Vec3 sum = a + b + c;
+  std::array<float, 3> centroid{};
+  for (std::size_t i = 0; i < 3; ++i) centroid[i] = static_cast<float>(sum[i] / 3.0);
+  return centroid;
+}
+
 // Key, parity and centroid of a triangle.
 TriangleRecord record_of(const PieceMesh& mesh, std::span<const LocalIndex> vertices,
                          LocalIndex cell)
@@ -68,9 +117,8 @@ TriangleRecord record_of(const PieceMesh& mesh, std::span<const LocalIndex> vert
   record.is_odd = is_odd(keys[0], keys[1], keys[2]);
   std::sort(keys.begin(), keys.end());
   record.key = key_of_triangle(mesh, vertices, cell, keys);
-  const Vec3 sum =
-      mesh.position(vertices[0]) + mesh.position(vertices[1]) + mesh.position(vertices[2]);
-  for (std::size_t i = 0; i < 3; ++i) record.centroid[i] = static_cast<float>(sum[i] / 3.0);
+  record.centroid = centroid_of(mesh.position(vertices[0]), mesh.position(vertices[1]),
+                                mesh.position(vertices[2]));
   record.piece = mesh.name.piece;
   record.cell = cell;
   record.subdomain = mesh.subdomain_of(cell);
@@ -78,23 +126,37 @@ TriangleRecord record_of(const PieceMesh& mesh, std::span<const LocalIndex> vert
   return record;
 }
 
+TriangleRecord inner_record(const PieceMesh& mesh, const SurfaceTriangle& triangle)
+{
+  TriangleRecord record = record_of(mesh, triangle.vertices, triangle.cell);
+  record.component = triangle.component;
+  record.attribute = mesh.material(triangle.cell);
+  record.cell_id = mesh.cell_id(triangle.cell);
+  return record;
+}
+
+void reserve_triangles(PieceSurface& surface, std::size_t num_triangles)
+{
+  surface.triangles.reserve(num_triangles);
+  surface.rows.reserve(num_triangles);
+  surface.cells.reserve(num_triangles);
+  surface.region.reserve(num_triangles);
+}
+
 void add_triangle(PieceSurface& surface, const SurfaceTriangle& triangle,
-                  const std::array<LocalIndex, 3>& vertices, std::int32_t subdomain)
+                  const std::array<LocalIndex, 3>& vertices, LocalIndex region)
 {
   surface.rows.push_back(static_cast<LocalIndex>(surface.triangles.size()));
   surface.triangles.push_back(vertices);
   surface.cells.push_back(triangle.cell);
-  surface.subdomains.push_back(subdomain);
-  surface.roles.push_back(TriangleRole::unknown);
-  surface.partners.push_back(kNoPiece);
-  surface.closed_edges.push_back(0);
+  surface.region.push_back(region);
 }
 
 void mark_seam(PieceSurface& surface, const std::array<LocalIndex, 3>& triangle,
                std::vector<VertexKey>& seam_keys)
 {
   for (const LocalIndex v : triangle) {
-    VertexRecord& vertex = surface.vertices[static_cast<std::size_t>(v)];
+    SurfaceVertex& vertex = surface.vertices[static_cast<std::size_t>(v)];
     if (vertex.is_on_seam) continue;
     vertex.is_on_seam = true;
     surface.seam_points.push_back(vertex.point);
@@ -117,7 +179,7 @@ void keep(std::vector<T>& values, const std::vector<bool>& is_kept)
 void shrink_vertices(PieceSurface& surface)
 {
   std::vector<LocalIndex> new_row(surface.vertices.size(), kNoIndex);
-  std::vector<VertexRecord> kept;
+  std::vector<SurfaceVertex> kept;
   for (auto& triangle : surface.triangles) {
     for (LocalIndex& v : triangle) {
       LocalIndex& row = new_row[static_cast<std::size_t>(v)];
@@ -134,50 +196,103 @@ void shrink_vertices(PieceSurface& surface)
 
 }  // namespace
 
-VertexKey PieceSurface::key(LocalIndex v) const
+TriangleKey PieceSurface::triangle_key(std::size_t t) const
 {
-  return key_of(vertices[static_cast<std::size_t>(v)], identity);
+  if (!keys.empty()) return keys[t];
+  const auto& v = triangles[t];
+  return key_and_parity({key(v[0]), key(v[1]), key(v[2])}).key;
 }
 
-PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology, ShownRecords& shown,
-                          std::vector<VertexKey>& seam_keys)
+TriangleSide PieceSurface::side(std::size_t t) const
+{
+  const auto& v = triangles[t];
+  const KeyOfTriangle by_vertices = key_and_parity({key(v[0]), key(v[1]), key(v[2])});
+  const PieceRegion& of = region_of(t);
+  return {.key = keys.empty() ? by_vertices.key : keys[t],
+          .piece = name.piece,
+          .row = rows[t],
+          .component = of.component,
+          .attribute = of.attribute,
+          .subdomain = of.subdomain,
+          .is_odd = by_vertices.is_odd};
+}
+
+TriangleRecord PieceSurface::record(std::size_t t) const
+{
+  const TriangleSide side = this->side(t);
+  const auto& v = triangles[t];
+  const auto id = region_of(t).id_offset + static_cast<std::uint64_t>(cells[t]);
+  return {.key = side.key,
+          .cell_id = region_of(t).has_cell_ids ? static_cast<GlobalIndex>(id) : kNoId,
+          .centroid = centroid_of(position(v[0]), position(v[1]), position(v[2])),
+          .piece = side.piece,
+          .cell = cells[t],
+          .row = side.row,
+          .component = side.component,
+          .attribute = side.attribute,
+          .subdomain = side.subdomain,
+          .is_odd = side.is_odd};
+}
+
+std::vector<VertexRecord> PieceSurface::vertex_records() const
+{
+  std::vector<VertexRecord> records;
+  records.reserve(vertices.size());
+  for (const SurfaceVertex& vertex : vertices) {
+    records.push_back({.position = vertex.position,
+                       .id = vertex.id,
+                       .piece = name.piece,
+                       .point = vertex.point,
+                       .is_used = vertex.is_used,
+                       .is_inner = vertex.is_inner,
+                       .is_on_seam = vertex.is_on_seam,
+                       .is_listed = name.is_boundary});
+  }
+  return records;
+}
+
+PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology,
+                          std::vector<TriangleRecord>& inner, std::vector<VertexKey>& seam_keys)
 {
   PieceSurface surface;
   surface.name = mesh.name;
   surface.identity = mesh.identity;
+  reserve_triangles(surface, static_cast<std::size_t>(std::ranges::count_if(
+                                 topology.surface, &SurfaceTriangle::is_open)));
   VertexSelection selection(mesh, surface.vertices);
+  RegionSelection regions(mesh, surface.regions);
   for (const SurfaceTriangle& triangle : topology.surface) {
     const auto& v = triangle.vertices;
     const std::array rows{selection.add(v[0], true, false), selection.add(v[1], true, false),
                           selection.add(v[2], true, false)};
-    TriangleRecord record = record_of(mesh, v, triangle.cell);
-    record.component = triangle.component;
-    record.attribute = mesh.material(triangle.cell);
-    record.cell_id = mesh.cell_id(triangle.cell);
     if (triangle.is_open) {
-      record.row = static_cast<LocalIndex>(surface.triangles.size());
-      add_triangle(surface, triangle, rows, record.subdomain);
-    } else if (triangle.is_seam) {
-      mark_seam(surface, rows, seam_keys);
+      add_triangle(surface, triangle, rows, regions.add(triangle));
+      if (mesh.is_of_second_order()) surface.keys.push_back(record_of(mesh, v, triangle.cell).key);
+    } else {
+      if (triangle.is_seam) mark_seam(surface, rows, seam_keys);
+      inner.push_back(inner_record(mesh, triangle));
     }
-    shown.triangles.push_back(record);
     for (std::size_t i = 0; mesh.is_of_second_order() && i < 3; ++i) {
       selection.add(node_between(mesh, triangle.cell, v[i], v[(i + 1) % 3]), true, false);
     }
   }
+  surface.roles.assign(surface.triangles.size(), TriangleRole::unknown);
+  surface.partners.assign(surface.triangles.size(), kNoPiece);
+  surface.closed_edges.assign(surface.triangles.size(), 0);
   if (mesh.identity == VertexIdentity::ids) {
     for (const LocalIndex p : mesh.unused_points) selection.add(p, false, false);
   } else {
     for_each_used_vertex(mesh, [&](LocalIndex v) { selection.add(v, true, true); });
   }
-  shown.vertices.insert(shown.vertices.end(), surface.vertices.begin(), surface.vertices.end());
+  surface.vertices.shrink_to_fit();
   return surface;
 }
 
-void append_boundary(const PieceMesh& mesh, ShownRecords& shown)
+std::vector<VertexRecord> listed_vertices(const PieceMesh& mesh)
 {
-  VertexSelection selection(mesh, shown.vertices);
-  const auto tet = mesh.arrays.cell_longs.find("tet");
+  PieceSurface points;
+  points.name = mesh.name;
+  VertexSelection selection(mesh, points.vertices);
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     if (mesh.is_left_out(c)) continue;
     for (const LocalIndex v : mesh.cell(c)) selection.add(v, false, false);
@@ -185,10 +300,19 @@ void append_boundary(const PieceMesh& mesh, ShownRecords& shown)
       selection.add(node_between(mesh, c, mesh.cell(c)[i], mesh.cell(c)[(i + 1) % 3]), false,
                     false);
     }
+  }
+  return points.vertex_records();
+}
+
+void for_each_listed(const PieceMesh& mesh, const std::function<void(const TriangleRecord&)>& visit)
+{
+  const auto tet = mesh.arrays.cell_longs.find("tet");
+  for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
+    if (mesh.is_left_out(c)) continue;
     TriangleRecord record = record_of(mesh, mesh.cell(c), c);
     if (tet != mesh.arrays.cell_longs.end())
       record.cell_id = tet->second[static_cast<std::size_t>(c)];
-    shown.triangles.push_back(record);
+    visit(record);
   }
 }
 
@@ -210,7 +334,7 @@ void add_outside_areas(const PieceSurface& surface, PieceRecords& records)
     const Vec3& origin = surface.position(v[0]);
     const double area =
         0.5 * norm(cross(surface.position(v[1]) - origin, surface.position(v[2]) - origin));
-    if (std::isfinite(area)) records.of(surface.subdomains[t]).boundary_area += area;
+    if (std::isfinite(area)) records.of(surface.region_of(t).subdomain).boundary_area += area;
   }
 }
 
@@ -229,7 +353,8 @@ void shrink(PieceSurface& surface)
   keep(surface.triangles, is_kept);
   keep(surface.rows, is_kept);
   keep(surface.cells, is_kept);
-  keep(surface.subdomains, is_kept);
+  keep(surface.region, is_kept);
+  if (!surface.keys.empty()) keep(surface.keys, is_kept);
   keep(surface.roles, is_kept);
   keep(surface.partners, is_kept);
   keep(surface.closed_edges, is_kept);

@@ -15,7 +15,8 @@
 namespace tessera::check {
 namespace {
 
-// A side of a triangle, kept in the bucket of its lowest vertex.
+// A side of a triangle in the bucket of its lowest vertex. Only its code is kept, for there are
+// four sides a tet; the rest follows from the mesh.
 struct Side {
   std::uint64_t upper = 0;  // The two other vertices, the middle one in the high half.
   std::uint32_t code = 0;   // (4 cell + corner) * 2 + parity.
@@ -61,22 +62,26 @@ struct Buckets {
   }
 };
 
-Buckets<Side> sides_by_lowest_vertex(const PieceMesh& mesh)
+Side side_of(const PieceMesh& mesh, std::uint32_t code)
+{
+  auto [a, b, c] = outward_vertices(mesh, static_cast<LocalIndex>(code >> 3), (code >> 1) & 3U);
+  if (b < a) std::swap(a, b);
+  if (c < b) std::swap(b, c);
+  if (b < a) std::swap(a, b);
+  return {static_cast<std::uint64_t>(b) << 32 | static_cast<std::uint64_t>(c), code};
+}
+
+// Codes of sides.
+Buckets<std::uint32_t> sides_by_lowest_vertex(const PieceMesh& mesh)
 {
   return {mesh.num_points(), [&](const auto& put) {
-            for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
-              if (mesh.is_left_out(c)) continue;
+            for (LocalIndex cell = 0; cell < mesh.num_cells(); ++cell) {
+              if (mesh.is_left_out(cell)) continue;
               for (std::size_t corner = 0; corner < 4; ++corner) {
-                auto [a, b, d] = outward_vertices(mesh, c, corner);
-                const unsigned odd = is_odd(a, b, d) ? 1U : 0U;
-                if (b < a) std::swap(a, b);
-                if (d < b) std::swap(b, d);
-                if (b < a) std::swap(a, b);
-                const auto upper =
-                    static_cast<std::uint64_t>(b) << 32 | static_cast<std::uint64_t>(d);
+                const auto [a, b, c] = outward_vertices(mesh, cell, corner);
                 const auto side =
-                    4 * static_cast<std::uint32_t>(c) + static_cast<std::uint32_t>(corner);
-                put(a, Side{upper, 2 * side + odd});
+                    4 * static_cast<std::uint32_t>(cell) + static_cast<std::uint32_t>(corner);
+                put(std::min({a, b, c}), 2 * side + (is_odd(a, b, c) ? 1U : 0U));
               }
             }
           }};
@@ -89,29 +94,36 @@ class TriangleMatcher {
         findings_(findings),
         sides_(sides_by_lowest_vertex(mesh)),
         components_(mesh.num_cells()),
-        is_on_surface_(static_cast<std::size_t>(mesh.num_points()), false)
+        is_on_surface_(static_cast<std::size_t>(mesh.num_points()), false),
+        is_between_(is_on_surface_)
   {
-    for (LocalIndex v = 0; v < sides_.size(); ++v) std::sort(sides_[v].begin(), sides_[v].end());
   }
 
   PieceTopology match()
   {
-    for_each_triangle([&](std::span<const Side> sides) { match_sides(sides); });
-    for_each_triangle([&](std::span<const Side> sides) { sort_out(sides); });
+    for (LocalIndex v = 0; v < sides_.size(); ++v)
+      for_each_triangle(v, [&](std::span<const Side> sides) { match_sides(v, sides); });
+    for (LocalIndex v = 0; v < sides_.size(); ++v) {
+      const auto i = static_cast<std::size_t>(v);
+      if (is_on_surface_[i] || is_between_[i])
+        for_each_triangle(v, [&](std::span<const Side> sides) { sort_out(sides); });
+    }
     number_components();
     return std::move(topology_);
   }
 
  private:
+  // Those whose lowest vertex is v.
   template <class Visit>
-  void for_each_triangle(const Visit& visit)
+  void for_each_triangle(LocalIndex v, const Visit& visit)
   {
-    for (LocalIndex v = 0; v < sides_.size(); ++v) {
-      const std::span<const Side> bucket = sides_[v];
-      for (std::size_t begin = 0, end = 0; begin < bucket.size(); begin = end) {
-        while (end < bucket.size() && bucket[end].upper == bucket[begin].upper) ++end;
-        visit(bucket.subspan(begin, end - begin));
-      }
+    bucket_.clear();
+    for (const std::uint32_t code : sides_[v]) bucket_.push_back(side_of(mesh_, code));
+    std::sort(bucket_.begin(), bucket_.end());
+    const std::span<const Side> bucket = bucket_;
+    for (std::size_t begin = 0, end = 0; begin < bucket.size(); begin = end) {
+      while (end < bucket.size() && bucket[end].upper == bucket[begin].upper) ++end;
+      visit(bucket.subspan(begin, end - begin));
     }
   }
 
@@ -125,14 +137,17 @@ class TriangleMatcher {
     return outward_vertices(mesh_, side.cell(), side.corner());
   }
 
-  void match_sides(std::span<const Side> sides)
+  void match_sides(LocalIndex lowest, std::span<const Side> sides)
   {
+    ++topology_.num_inner_triangles;  // But for those that sort_out() finds to be shown.
     for (const Side& side : sides.subspan(1)) components_.join(sides[0].cell(), side.cell());
     if (sides.size() == 1) {
       for (const LocalIndex v : vertices(sides[0]))
         is_on_surface_[static_cast<std::size_t>(v)] = true;
     } else if (!is_matched(sides)) {
       report(sides);
+    } else if (is_between_regions(sides)) {
+      is_between_[static_cast<std::size_t>(lowest)] = true;
     }
   }
 
@@ -142,10 +157,8 @@ class TriangleMatcher {
     const bool is_shown =
         sides.size() == 1
         || (is_matched(sides) && (is_between_regions(sides) || is_chord(sides[0])));
-    if (!is_shown) {
-      ++topology_.num_inner_triangles;
-      return;
-    }
+    if (!is_shown) return;
+    --topology_.num_inner_triangles;
     const bool is_open = sides.size() == 1;
     const bool is_seam = !is_open && is_between_regions(sides) && !is_interface(sides);
     for (const Side& side : sides) {
@@ -214,9 +227,11 @@ class TriangleMatcher {
 
   const PieceMesh& mesh_;
   Findings& findings_;
-  Buckets<Side> sides_;
+  Buckets<std::uint32_t> sides_;
+  std::vector<Side> bucket_{};  // Of the vertex at hand.
   UnionFind components_;
   std::vector<bool> is_on_surface_;
+  std::vector<bool> is_between_;  // Lowest vertex of a triangle between two regions.
   PieceTopology topology_{};
 };
 

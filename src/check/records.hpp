@@ -16,25 +16,41 @@ inline constexpr GlobalIndex kNoId = std::numeric_limits<GlobalIndex>::min();
 inline constexpr LocalIndex kNoPiece = -1;
 inline constexpr std::int32_t kNoSubdomain = std::numeric_limits<std::int32_t>::min();
 
-/// @brief One side of a triangle that did not cancel inside its piece, or a triangle of the
-/// boundary file.
-struct TriangleRecord {
+/// @brief One side of a triangle that did not cancel inside its piece: what decides about it.
+struct TriangleSide {
   TriangleKey key{};
-  std::array<float, 3> centroid{};  ///< For messages only.
   LocalIndex piece = 0;
-  LocalIndex cell = 0;          ///< Row in its piece.
-  LocalIndex row = kNoIndex;    ///< Among the triangles of its PieceSurface, or none.
-  LocalIndex component = 0;     ///< Of its piece; tets only.
-  std::int32_t attribute = 0;   ///< Material of the tet; tets only.
-  std::int32_t subdomain = 0;   ///< Of the tet; in the boundary file: named there, or kNoSubdomain.
-  GlobalIndex cell_id = kNoId;  ///< Of the tet; in the boundary file: of the tet named there.
-  bool is_odd = false;          ///< Whether the outward order is an odd permutation of the key.
-  bool is_listed = false;       ///< From the boundary file.
+  LocalIndex row = kNoIndex;   ///< Among the triangles of its PieceSurface, or none.
+  LocalIndex component = 0;    ///< Of its piece.
+  std::int32_t attribute = 0;  ///< Material of the tet.
+  std::int32_t subdomain = 0;  ///< Of the tet.
+  bool is_odd = false;         ///< Whether the outward order is an odd permutation of the key.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.key, self.centroid, self.piece, self.cell, self.row, self.component,
-                    self.attribute, self.subdomain, self.cell_id, self.is_odd, self.is_listed);
+    return std::tie(self.key, self.piece, self.row, self.component, self.attribute, self.subdomain,
+                    self.is_odd);
+  }
+};
+
+/// @brief A side of a triangle, or a triangle of the boundary file, with all that is said of it.
+struct TriangleRecord {
+  TriangleKey key{};
+  GlobalIndex cell_id = kNoId;      ///< Of the tet; in the boundary file: of the tet named there.
+  std::array<float, 3> centroid{};  ///< For messages only.
+  LocalIndex piece = 0;
+  LocalIndex cell = 0;        ///< Row in its piece.
+  LocalIndex row = kNoIndex;  ///< As of TriangleSide; tets only, as the next two.
+  LocalIndex component = 0;
+  std::int32_t attribute = 0;
+  std::int32_t subdomain = 0;  ///< Of the tet; in the boundary file: named there, or kNoSubdomain.
+  bool is_odd = false;
+  bool is_listed = false;  ///< From the boundary file.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.key, self.cell_id, self.centroid, self.piece, self.cell, self.row,
+                    self.component, self.attribute, self.subdomain, self.is_odd, self.is_listed);
   }
 };
 

@@ -53,14 +53,15 @@ struct CheckOptions {
 /// A defect of the mesh is not an exception: it is in the report.
 ///
 /// Piece p is read by rank p mod size. It is read twice if it has seam tets and is not the rank's
-/// only piece.
+/// only piece. The boundary file is read behind all tets, its vertices first.
 ///
 /// Memory:
-/// - the largest piece about four times;
+/// - the largest piece about three times;
 /// - the surfaces of 32 pieces, spread over the ranks;
-/// - of the pieces read before: one record of each different vertex of their surfaces, 16 bytes of
-///   each seam triangle, and the triangles on the boundary, at interfaces and towards pieces not
-///   read yet;
+/// - of the pieces read before: 41 bytes of each different vertex of their surfaces and 16 of each
+///   seam triangle, and some 75 of each triangle on the boundary, at interfaces and towards pieces
+///   not read yet;
+/// - a part of the boundary file: where it is large, it is read several times;
 /// - all vertices if points are matched by position.
 ///
 /// So it is small where neighbours in space have neighbouring numbers. The result is right in any
