@@ -156,8 +156,9 @@ double diagonal_of(const TopoDS_Shape& shape)
   return std::sqrt(box.SquareExtent());
 }
 
-// Some shapes are no longer valid once OpenCASCADE has written and read them.
-void require_valid_step(const fs::path& file)
+// Some shapes are no longer valid once OpenCASCADE has written and read them, or are others: a face
+// may come back as the rest of its surface.
+void require_same_step(const fs::path& file, double volume)
 {
   STEPControl_Reader reader;
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) throw Rejected("its STEP cannot be read");
@@ -165,9 +166,11 @@ void require_valid_step(const fs::path& file)
   const TopoDS_Shape shape = reader.OneShape();
   if (shape.IsNull() || !BRepCheck_Analyzer(shape).IsValid())
     throw Rejected("its STEP is not valid");
+  if (std::abs(clean_volume(shape) - volume) > 1e-4 * volume)
+    throw Rejected("its STEP has another volume");
 }
 
-void write_model(const TopoDS_Shape& shape, const fs::path& file)
+void write_model(const TopoDS_Shape& shape, double volume, const fs::path& file)
 {
   BRepTools::Clean(shape);  // Of the triangles.
   if (file.extension() == ".brep") {
@@ -177,7 +180,7 @@ void write_model(const TopoDS_Shape& shape, const fs::path& file)
   STEPControl_Writer writer;
   if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone) throw Rejected("no STEP of it");
   if (writer.Write(file.c_str()) != IFSelect_RetDone) throw std::runtime_error("cannot write");
-  require_valid_step(file);
+  require_same_step(file, volume);
 }
 
 // What a process makes: a file, and its line of the list in a file of its own.
@@ -202,7 +205,7 @@ void make_model(const Order& order)
   const double volume = clean_volume(solids), diagonal = diagonal_of(solids);
   require_volume_of_triangles(solids, volume, diagonal);
   const std::string file = order.name + (is_assembly || dice.chance(0.3) ? ".brep" : ".step");
-  write_model(solids, order.folder / file);
+  write_model(solids, volume, order.folder / file);
   const std::string geo = model.geo.empty() ? "" : order.name + ".geo";
   if (!geo.empty()) std::ofstream(order.folder / geo) << model.geo;
   std::ofstream out(order.entry);
