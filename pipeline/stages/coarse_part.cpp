@@ -106,18 +106,18 @@ double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
   return sharp.worst.empty() ? kSharpAngle_deg : sharp.worst.front().angle_deg;
 }
 
-// Once more with smaller edges where walls are thin. The better one of the two counts.
+// Once more with smaller edges in thin walls and narrow strips. The better one of the two counts.
 void refine_narrow_places(RunResult& run, const model::NamedParts& parts, RunContext& context)
 {
   if (!may_be_finer_at_places(run)) return;
-  const mesh::SizePoints walls = on_root(context.comm, [&]() -> mesh::SizePoints {
+  const mesh::SizePoints sizes = on_root(context.comm, [&]() -> mesh::SizePoints {
     if (run.coarse.mesh.num_tets() > kMostTetsToMeshAgain) return {};
     return coarse::sizes_of_narrow_places(run.coarse.mesh, kSharpAngle_deg,
                                           run.coarse.options.max_size);
   });
-  if (walls.size.empty()) return;
+  if (sizes.size.empty()) return;
   context.log.info("coarse: narrow places have too long edges; once more with shorter ones there");
-  CoarseResult finer = run_finer_try(run.resolved, run.coarse, walls, context);
+  CoarseResult finer = run_finer_try(run.resolved, run.coarse, sizes, context);
   const bool is_better = on_root(context.comm, [&] {
     return finer.mesh.num_tets() > 0
            && smallest_unforced_angle(finer.mesh) > smallest_unforced_angle(run.coarse.mesh);
@@ -127,7 +127,7 @@ void refine_narrow_places(RunResult& run, const model::NamedParts& parts, RunCon
   replace(run.coarse, std::move(finer));
 }
 
-// A coarse mesh, and once more where it is too coarse for the sizes or for thin walls.
+// A coarse mesh, and once more where it is too coarse for the sizes or for narrow places.
 void run_coarse_stages(RunResult& run, RunContext& context)
 {
   const model::NamedParts parts = find_named_parts(run.resolved, context);

@@ -99,11 +99,12 @@ class WallFinder {
     add_points(p, size, std::clamp(static_cast<int>(std::ceil(0.5 * edges)), 1, kMostPoints));
   }
 
-  mesh::SizePoints take()
+  [[nodiscard]] bool is_out_of_proportion() const
   {
-    const double most = std::max(kFewTets, kMostGrowth * mesh_.num_tets());
-    return num_tets_ > most ? mesh::SizePoints{} : std::move(points_);
+    return num_tets_ > std::max(kFewTets, kMostGrowth * mesh_.num_tets());
   }
+
+  mesh::SizePoints take() { return std::move(points_); }
 
  private:
   void add_points(const Corners& p, double size, int n)
@@ -142,6 +143,7 @@ mesh::SizePoints sizes_of_narrow_places(const mesh::CoarseMesh& mesh, double ang
       others.push_back(t);
     }
   }
+  if (walls.is_out_of_proportion()) return {};  // They stay the worst, whatever strips gain.
   mesh::SizePoints points = walls.take();
   if (others.empty()) return points;
   const mesh::SizePoints strips = sizes_of_narrow_strips(mesh, others, max_size);

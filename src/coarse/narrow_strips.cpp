@@ -58,11 +58,12 @@ class StripFinder {
 
   mesh::SizePoints run(double max_size)
   {
+    const double most = std::max(kFewTets, kMostGrowth * mesh_.num_tets());
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
       if (is_between_curves(f)) add(needle_of(corners(f)), max_size);
+      if (kTetsPerEdge * num_edges_ > most) return {};
     }
-    const double most = std::max(kFewTets, kMostGrowth * mesh_.num_tets());
-    return kTetsPerEdge * num_edges_ > most ? mesh::SizePoints{} : std::move(points_);
+    return std::move(points_);
   }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/csg_tori.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -21,16 +22,27 @@ class MendedTorus final : public Torus {
     return new MendedTorus(Center(), NormalToPlane(), LargeRadius(), SmallRadius());
   }
 
-  // Of the squared distance from the middle circle: its second derivatives are 2, or a few more.
-  double HesseNorm() const override { return 4.0; }
-  double MaxCurvature() const override { return 2.0 / SmallRadius(); }
+  // Of the squared distance from the middle circle less r^2: its second derivatives near the
+  // surface are 2, and 2 r / (R - r) around the axis at the hole.
+  double HesseNorm() const override { return 4.0 * SmallRadius() / least_radius(); }
+  double MaxCurvature() const override { return 2.0 / least_radius(); }
   // NOLINTEND(readability-identifier-naming)
+
+ private:
+  // Of the tube or the hole. One that goes through its own axis has no hole.
+  double least_radius() const
+  {
+    const double hole = LargeRadius() - SmallRadius();
+    return hole > 0.0 ? std::min(hole, SmallRadius()) : SmallRadius();
+  }
 };
 
-// In its place, as the geometry and its solids hold pointers to it that nobody can change.
+// In its place, as the geometry and its solids hold pointers to it that nobody can change. They go
+// on to be used for another class of the same base, which the language does not promise to work; it
+// does with virtual functions that another library calls.
 void mend(Torus& torus)
 {
-  static_assert(sizeof(MendedTorus) == sizeof(Torus));
+  static_assert(sizeof(MendedTorus) == sizeof(Torus) && alignof(MendedTorus) == alignof(Torus));
   const int surface_id = torus.GetSurfaceId(0);
   const std::string name = torus.Name();
   const double max_size = torus.GetMaxH();

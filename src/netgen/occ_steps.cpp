@@ -4,6 +4,15 @@
 namespace tessera::netgen {
 namespace {
 
+// NETGEN's global of how fine it is where edges run beside each other. 1 is its own value.
+class CloseEdges {
+ public:
+  explicit CloseEdges(double factor) { ::netgen::occparam.resthcloseedgefac = factor; }
+  ~CloseEdges() { ::netgen::occparam.resthcloseedgefac = 1.0; }
+  CloseEdges(const CloseEdges&) = delete;
+  CloseEdges& operator=(const CloseEdges&) = delete;
+};
+
 // A mesh with its sizes, NETGEN's first step. Where edges run beside each other, those of the mesh
 // are at most `close_edges` times as long as these are apart.
 std::shared_ptr<::netgen::Mesh> with_sizes(::netgen::OCCGeometry& geometry,
@@ -13,10 +22,8 @@ std::shared_ptr<::netgen::Mesh> with_sizes(::netgen::OCCGeometry& geometry,
   parameters.perfstepsstart = ::netgen::MESHCONST_ANALYSE;
   parameters.perfstepsend = ::netgen::MESHCONST_ANALYSE;
   std::shared_ptr<::netgen::Mesh> mesh;
-  ::netgen::occparam.resthcloseedgefac = 1.0 / close_edges;
-  const int status = geometry.GenerateMesh(mesh, parameters);
-  ::netgen::occparam.resthcloseedgefac = 1.0;
-  return status == 0 ? mesh : nullptr;
+  const CloseEdges fineness(1.0 / close_edges);
+  return geometry.GenerateMesh(mesh, parameters) == 0 ? mesh : nullptr;
 }
 
 // Of a ledge or a narrow gap that is long NETGEN would make nearly all of the mesh. So where there

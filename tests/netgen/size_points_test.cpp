@@ -91,7 +91,7 @@ TEST_P(SizePoints, AreFollowedAtASurfaceAndElsewhereSizesStay)
   EXPECT_GT(edges_around(place, reach, with).longest, 10.0 * wanted);
 }
 
-TEST(ThinWalls, GetFullerTets)
+TEST(NarrowPlaces, OfAPlateGetFullerTets)
 {
   const testing::TemporaryFile file(
       "plate.geo", "algebraic3d\nsolid plate = orthobrick (0, 0, 0; 40, 40, 0.5);\ntlo plate;\n");
