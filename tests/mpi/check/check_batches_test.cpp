@@ -73,6 +73,23 @@ TEST(CheckBatches, BoundaryInOneFile)
   expect_figures_of_the_box(check_everywhere(files));
 }
 
+TEST(CheckBatches, BoundaryIsReadForEveryFewOpenTriangles)
+{
+  const MeshFiles files = box_files();
+  const check::PieceSource tets = source_of(files.tets);
+  check::PieceSource boundary = source_of(files.boundary);
+  LocalIndex num_reads = 0;
+  boundary.read = [&, read = boundary.read](LocalIndex piece) {
+    ++num_reads;
+    return read(piece);
+  };
+  const comm::Communicator self(MPI_COMM_SELF);
+  expect_figures_of_the_box(check::check_mesh(tets, &boundary, self, {}, kTightLimits));
+  const auto num_open = static_cast<LocalIndex>(12 * kCells * kCells);
+  const LocalIndex num_readings = 1 + num_open / 50;
+  EXPECT_EQ(num_reads, (1 + num_readings) * boundary.num_pieces);  // Once for its vertices.
+}
+
 TEST(CheckBatches, WithoutIdsAllIsFoundByPosition)
 {
   MeshFiles files = box_files();
