@@ -2,6 +2,7 @@
 // Meshes of so many pieces that they are read in batches, of which only the front is remembered.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -88,6 +89,25 @@ TEST(CheckBatches, BoundaryIsReadForEveryFewOpenTriangles)
   const auto num_open = static_cast<LocalIndex>(12 * kCells * kCells);
   const LocalIndex num_readings = 1 + num_open / 50;
   EXPECT_EQ(num_reads, (1 + num_readings) * boundary.num_pieces);  // Once for its vertices.
+}
+
+TEST(CheckBatches, IdsOfCellsThatDoNotAscend)
+{
+  MeshFiles files = box_files();
+  const auto shuffle = [](std::vector<GlobalIndex>& ids) {
+    // The factor has no factor with the number of tets, so that ids stay dense.
+    for (GlobalIndex& id : ids) id = (5 * id + 1) % (6 * kCells * kCells * kCells);
+  };
+  for (mesh::MeshArrays& piece : files.tets) shuffle(piece.cell_ids);
+  for (mesh::MeshArrays& piece : files.boundary) shuffle(piece.cell_longs["tet"]);
+  expect_figures_of_the_box(check_everywhere(files));
+
+  GlobalIndex& named = files.boundary.back().cell_longs.at("tet").back();
+  const std::string id = std::to_string(named);
+  named = (named + 1) % (6 * kCells * kCells * kCells);
+  const check::CheckReport report = check_everywhere(files);
+  EXPECT_EQ(count(report, "boundary_tet"), 1);
+  EXPECT_TRUE(names(report, "boundary_tet", {"(id " + id + ")"})) << to_json(report);
 }
 
 TEST(CheckBatches, WithoutIdsAllIsFoundByPosition)
