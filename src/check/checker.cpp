@@ -21,10 +21,6 @@ namespace {
 
 // Enough for the ranks of a node; few enough that their surfaces fit into memory beside the rest.
 constexpr LocalIndex kPiecesInBatch = 32;
-// Open triangles of a rank at the end for each reading of the boundary file: 64 bytes each are
-// held, and of one round several times as much.
-constexpr std::uint64_t kTrianglesInReading = std::uint64_t{1} << 21;
-constexpr std::uint64_t kTrianglesInRound = std::uint64_t{1} << 18;
 
 GlobalIndex num_tets(const PieceRecords& records)
 {
@@ -55,6 +51,7 @@ Checker::Checker(const PieceSource& tets, const PieceSource* boundary,
       comm_(comm),
       identity_(options.identity),
       is_partial_(options.is_partial),
+      limits_(options.limits),
       triangles_(boundary == nullptr  ? BoundaryFile::none
                  : options.is_partial ? BoundaryFile::partial
                                       : BoundaryFile::complete,
@@ -262,8 +259,8 @@ void Checker::match_last_triangles()
   const auto most =
       static_cast<std::uint64_t>(comm_.max(static_cast<double>(triangles_.num_open())));
   triangles_.drop_open();
-  const std::uint64_t num_readings = 1 + most / kTrianglesInReading;
-  const std::uint64_t in_reading = 1 + most / num_readings / kTrianglesInRound;
+  const std::uint64_t num_readings = 1 + most / limits_.num_triangles_in_reading;
+  const std::uint64_t in_reading = 1 + most / num_readings / limits_.num_triangles_in_round;
   const std::uint64_t num_rounds = num_readings * in_reading;
   for (std::uint64_t first = 0; first < num_rounds; first += in_reading) {
     const TriangleRounds rounds{first, in_reading, num_rounds};

@@ -10,6 +10,7 @@
 
 #include "tessera/check/check_mesh.hpp"
 
+#include "check/check_limits.hpp"
 #include "check/components.hpp"
 #include "check/findings.hpp"
 #include "check/id_runs.hpp"
@@ -25,10 +26,11 @@
 
 namespace tessera::check {
 
-/// @brief How a run matches points, and whether the mesh may lack pieces.
+/// @brief How a run matches points, whether the mesh may lack pieces, and what fits into memory.
 struct CheckerOptions {
   VertexIdentity identity = VertexIdentity::ids;
   bool is_partial = false;
+  CheckLimits limits{};
 };
 
 /// @brief One run of the checks, with points matched in one way. Every public function but
@@ -138,6 +140,7 @@ class Checker {
   const comm::Communicator& comm_;
   VertexIdentity identity_;
   bool is_partial_;
+  CheckLimits limits_;
 
   Findings findings_{};
   Counts counts_{};

@@ -62,7 +62,8 @@ struct TriangleRound {
 /// its key stays, by which a third side is noticed. Of all others 24 bytes a side stay until the
 /// end: of the boundary, the interfaces, and the front between the pieces that were read and those
 /// that were not. Who read their pieces sends them once more then, with all that messages say, a
-/// part at a time.
+/// part at a time. Only of interfaces inside a piece, which no reader keeps, the full records stay
+/// as well: 88 bytes a side.
 class TriangleMatcher {
  public:
   TriangleMatcher(BoundaryFile boundary, const comm::Communicator& comm, Findings& findings)

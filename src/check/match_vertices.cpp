@@ -205,13 +205,10 @@ void VertexMatcher::take(std::span<const VertexRecord> records, std::span<const 
   if (4 * vertices_.size() > 3 * slots_.size()) grow();
 }
 
-void VertexMatcher::take(VertexRecord& first, VertexRecord other)
+void VertexMatcher::take(VertexRecord& first, const VertexRecord& other)
 {
   const bool is_used = first.is_used || other.is_used;
   const bool is_on_seam = first.is_on_seam || other.is_on_seam;
-  if (first.is_listed && !other.is_listed) {
-    std::swap(first, other);  // What tets say of a vertex comes before what the boundary says.
-  }
   first.is_used = is_used;
   first.is_on_seam = is_on_seam;
   if (identity_ == VertexIdentity::ids)

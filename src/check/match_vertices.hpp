@@ -38,6 +38,7 @@ class VertexMatcher {
 
   /// @brief Takes the vertices of a batch.
   /// @note Collective; the batches in the order of pieces, all of them with the same identity.
+  /// @pre a batch of the boundary file comes behind all tets.
   void add(std::span<const VertexRecord> records, VertexIdentity identity);
 
   /// @brief Notes that vertices are on a seam. @note Collective. @pre they were added.
@@ -58,7 +59,7 @@ class VertexMatcher {
   [[nodiscard]] VertexRecord record(std::size_t row) const;
   void set(std::size_t row, const VertexRecord& record);
   void take(std::span<const VertexRecord> records, std::span<const std::size_t> rows);
-  void take(VertexRecord& first, VertexRecord other);
+  void take(VertexRecord& first, const VertexRecord& other);
   void match_positions();
 
   // A VertexRecord without its flags, which are in a byte of their own: padding would cost a sixth.

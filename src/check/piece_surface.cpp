@@ -194,6 +194,23 @@ void shrink_vertices(PieceSurface& surface)
   surface.vertices = std::move(kept);
 }
 
+// Drops the regions that no triangle has. Without ascending ids of cells there is one a triangle.
+void shrink_regions(PieceSurface& surface)
+{
+  std::vector<LocalIndex> new_row(surface.regions.size(), kNoIndex);
+  std::vector<PieceRegion> kept;
+  for (LocalIndex& region : surface.region) {
+    LocalIndex& row = new_row[static_cast<std::size_t>(region)];
+    if (row == kNoIndex) {
+      row = static_cast<LocalIndex>(kept.size());
+      kept.push_back(surface.regions[static_cast<std::size_t>(region)]);
+    }
+    region = row;
+  }
+  kept.shrink_to_fit();
+  surface.regions = std::move(kept);
+}
+
 }  // namespace
 
 TriangleKey PieceSurface::triangle_key(std::size_t t) const
@@ -285,6 +302,7 @@ PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology,
     for_each_used_vertex(mesh, [&](LocalIndex v) { selection.add(v, true, true); });
   }
   surface.vertices.shrink_to_fit();
+  surface.regions.shrink_to_fit();
   return surface;
 }
 
@@ -360,6 +378,7 @@ void shrink(PieceSurface& surface)
   keep(surface.closed_edges, is_kept);
   surface.seam_points.shrink_to_fit();
   shrink_vertices(surface);
+  shrink_regions(surface);
 }
 
 }  // namespace tessera::check

@@ -105,7 +105,7 @@ void apply(const TriangleVerdict& verdict, PieceSurface& surface,
 void add_outside_areas(const PieceSurface& surface, PieceRecords& records);
 
 /// @brief Drops triangles whose edges are closed and whose vertices are known to be on a seam, and
-/// vertices without a triangle. Local.
+/// vertices and regions without a triangle. Local.
 void shrink(PieceSurface& surface);
 
 }  // namespace tessera::check

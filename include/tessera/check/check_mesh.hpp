@@ -58,9 +58,12 @@ struct CheckOptions {
 /// Memory:
 /// - the largest piece about three times;
 /// - the surfaces of 32 pieces, spread over the ranks;
-/// - of the pieces read before: 41 bytes of each different vertex of their surfaces and 16 of each
-///   seam triangle, and some 75 of each triangle on the boundary, at interfaces and towards pieces
-///   not read yet;
+/// - of each different vertex of the surfaces of the pieces read before: 41 bytes, and 5 to 11 for
+///   its slots in a hash table;
+/// - 16 bytes of each seam triangle between them;
+/// - some 75 bytes a side of triangles on the boundary, at interfaces between pieces and towards
+///   pieces not read yet, and 24 more where the ids of cells do not ascend along their piece;
+/// - 176 bytes of each triangle of an interface inside a piece, for both its sides;
 /// - a part of the boundary file: where it is large, it is read several times;
 /// - all vertices if points are matched by position.
 ///

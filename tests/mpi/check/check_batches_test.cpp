@@ -2,6 +2,7 @@
 // Meshes of so many pieces that they are read in batches, of which only the front is remembered.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,42 @@ TEST(CheckBatches, BoundaryInOneFile)
   std::vector<std::int32_t>& subdomain = files.boundary[0].cell_ints["subdomain"];
   EXPECT_EQ(subdomain.back(), 511);
   expect_figures_of_the_box(check_everywhere(files));
+}
+
+TEST(CheckBatches, BoundaryIsReadForEveryFewOpenTriangles)
+{
+  const MeshFiles files = box_files();
+  const check::PieceSource tets = source_of(files.tets);
+  check::PieceSource boundary = source_of(files.boundary);
+  LocalIndex num_reads = 0;
+  boundary.read = [&, read = boundary.read](LocalIndex piece) {
+    ++num_reads;
+    return read(piece);
+  };
+  const comm::Communicator self(MPI_COMM_SELF);
+  expect_figures_of_the_box(check::check_mesh(tets, &boundary, self, {}, kTightLimits));
+  const auto num_open = static_cast<LocalIndex>(12 * kCells * kCells);
+  const LocalIndex num_readings = 1 + num_open / 50;
+  EXPECT_EQ(num_reads, (1 + num_readings) * boundary.num_pieces);  // Once for its vertices.
+}
+
+TEST(CheckBatches, IdsOfCellsThatDoNotAscend)
+{
+  MeshFiles files = box_files();
+  const auto shuffle = [](std::vector<GlobalIndex>& ids) {
+    // The factor has no factor with the number of tets, so that ids stay dense.
+    for (GlobalIndex& id : ids) id = (5 * id + 1) % (6 * kCells * kCells * kCells);
+  };
+  for (mesh::MeshArrays& piece : files.tets) shuffle(piece.cell_ids);
+  for (mesh::MeshArrays& piece : files.boundary) shuffle(piece.cell_longs["tet"]);
+  expect_figures_of_the_box(check_everywhere(files));
+
+  GlobalIndex& named = files.boundary.back().cell_longs.at("tet").back();
+  const std::string id = std::to_string(named);
+  named = (named + 1) % (6 * kCells * kCells * kCells);
+  const check::CheckReport report = check_everywhere(files);
+  EXPECT_EQ(count(report, "boundary_tet"), 1);
+  EXPECT_TRUE(names(report, "boundary_tet", {"(id " + id + ")"})) << to_json(report);
 }
 
 TEST(CheckBatches, WithoutIdsAllIsFoundByPosition)
