@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -67,14 +66,9 @@ double thickness(const Corners& p)
 
 class WallFinder {
  public:
-  WallFinder(const mesh::CoarseMesh& mesh, double max_size) : mesh_(mesh), max_size_(max_size)
+  WallFinder(const mesh::CoarseMesh& mesh, const VertexPatches& patches, double max_size)
+      : mesh_(mesh), patches_(patches), max_size_(max_size)
   {
-    patches_.resize(at(mesh.num_vertices()));
-    for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        patches_[at(mesh.face_vertices[3 * at(f) + c])].insert(mesh.face_patch[at(f)]);
-      }
-    }
   }
 
   // All corners are on the surface, and not all on one patch of it.
@@ -123,20 +117,32 @@ class WallFinder {
   }
 
   const mesh::CoarseMesh& mesh_;
+  const VertexPatches& patches_;
   double max_size_;
-  std::vector<std::set<LocalIndex>> patches_{};  // Of each vertex.
   mesh::SizePoints points_{};
   double num_tets_ = 0.0;
 };
+
+VertexPatches patches_of_vertices(const mesh::CoarseMesh& mesh)
+{
+  VertexPatches patches(at(mesh.num_vertices()));
+  for (std::size_t i = 0; i < mesh.face_vertices.size(); ++i) {
+    patches[at(mesh.face_vertices[i])].insert(mesh.face_patch[i / 3]);
+  }
+  return patches;
+}
 
 }  // namespace
 
 mesh::SizePoints sizes_of_narrow_places(const mesh::CoarseMesh& mesh, double angle_deg,
                                         double max_size)
 {
-  WallFinder walls(mesh, max_size);
+  const SharpTets sharp = find_sharp_tets(mesh, angle_deg);
+  if (sharp.others.empty()) return {};
+  const VertexPatches patches = patches_of_vertices(mesh);
+  WallFinder walls(mesh, patches, max_size);
   std::vector<LocalIndex> others;
-  for (const LocalIndex t : find_sharp_tets(mesh, angle_deg).others) {
+  for (const LocalIndex t : sharp.others) {
     if (walls.is_in_wall(t)) {
       walls.add(t);
     } else {
@@ -145,8 +151,7 @@ mesh::SizePoints sizes_of_narrow_places(const mesh::CoarseMesh& mesh, double ang
   }
   if (walls.is_out_of_proportion()) return {};  // They stay the worst, whatever strips gain.
   mesh::SizePoints points = walls.take();
-  if (others.empty()) return points;
-  const mesh::SizePoints strips = sizes_of_narrow_strips(mesh, others, max_size);
+  const mesh::SizePoints strips = sizes_of_narrow_strips(mesh, patches, others, max_size);
   points.xyz.insert(points.xyz.end(), strips.xyz.begin(), strips.xyz.end());
   points.size.insert(points.size.end(), strips.size.begin(), strips.size.end());
   return points;

@@ -45,14 +45,12 @@ Needle needle_of(const std::array<Vec3, 3>& p)
 
 class StripFinder {
  public:
-  StripFinder(const mesh::CoarseMesh& mesh, const std::vector<LocalIndex>& sharp)
-      : mesh_(mesh), patches_(at(mesh.num_vertices()))
+  StripFinder(const mesh::CoarseMesh& mesh, const VertexPatches& patches,
+              const std::vector<LocalIndex>& sharp)
+      : mesh_(mesh), patches_(patches)
   {
     for (const LocalIndex t : sharp) {
       for (const LocalIndex v : mesh.tet(t)) near_.insert(v);
-    }
-    for (std::size_t i = 0; i < mesh.face_vertices.size(); ++i) {
-      patches_[at(mesh.face_vertices[i])].insert(mesh.face_patch[i / 3]);
     }
   }
 
@@ -96,18 +94,19 @@ class StripFinder {
   }
 
   const mesh::CoarseMesh& mesh_;
-  std::vector<std::set<LocalIndex>> patches_;  // Of each vertex.
-  std::set<LocalIndex> near_{};                // Vertices of sharp tets.
+  const VertexPatches& patches_;
+  std::set<LocalIndex> near_{};  // Vertices of sharp tets.
   mesh::SizePoints points_{};
   double num_edges_ = 0.0;
 };
 
 }  // namespace
 
-mesh::SizePoints sizes_of_narrow_strips(const mesh::CoarseMesh& mesh,
+mesh::SizePoints sizes_of_narrow_strips(const mesh::CoarseMesh& mesh, const VertexPatches& patches,
                                         const std::vector<LocalIndex>& sharp, double max_size)
 {
-  return StripFinder(mesh, sharp).run(max_size);
+  if (sharp.empty()) return {};
+  return StripFinder(mesh, patches, sharp).run(max_size);
 }
 
 }  // namespace tessera::coarse

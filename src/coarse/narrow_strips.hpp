@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <set>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -8,6 +9,9 @@
 #include "tessera/mesh/size_points.hpp"
 
 namespace tessera::coarse {
+
+/// @brief Patches of the faces at each vertex; none inside the volume. Shape (num_vertices).
+using VertexPatches = std::vector<std::set<LocalIndex>>;
 
 /// @brief Sizes along the narrow strips of a surface that `sharp` tets lie at: where two curves are
 /// much nearer to each other than the edges of this mesh are long. Local.
@@ -19,6 +23,7 @@ namespace tessera::coarse {
 /// @param max_size The largest size of the mesh, > 0.
 /// @return None if there is no such strip, or if the finer mesh would be out of proportion.
 [[nodiscard]] mesh::SizePoints sizes_of_narrow_strips(const mesh::CoarseMesh& mesh,
+                                                      const VertexPatches& patches,
                                                       const std::vector<LocalIndex>& sharp,
                                                       double max_size);
 
