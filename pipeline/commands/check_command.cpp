@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include "tessera/base/error.hpp"
 #include "tessera/check/check_mesh.hpp"
@@ -24,6 +25,15 @@ check::PieceSource source_of(const std::vector<std::filesystem::path>& files)
             return io::read_vtu(files[static_cast<std::size_t>(piece)],
                                 io::CellOrder::up_to_second);
           }};
+}
+
+// Large blocks are mapped, so that what a piece needs while it is read goes back at once. By itself
+// malloc maps fewer and fewer of them: then little stays of every piece, with holes in between that
+// take as much. Costs a tenth of the time.
+void map_large_blocks()
+{
+  constexpr int kLeastBytes = 1 << 20;
+  ::mallopt(M_MMAP_THRESHOLD, kLeastBytes);
 }
 
 void print(const check::CheckReport& report)
@@ -59,6 +69,7 @@ void print(const check::CheckReport& report)
 
 ExitCode run_check_command(const CheckCommand& command, const comm::Communicator& comm)
 {
+  map_large_blocks();
   const auto mesh_files = subdomain::pieces_of(command.mesh_file, comm);
   const check::PieceSource mesh = source_of(mesh_files);
   const auto boundary_files = subdomain::boundary_pieces_of(command.mesh_file, comm);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -188,8 +189,7 @@ struct RawPiece {
   MixedCells cells{};
 };
 
-[[nodiscard]] MeshArrays reduce(const RawPiece& raw, const Encoding& encoding,
-                                int vertices_per_cell)
+[[nodiscard]] MeshArrays reduce(RawPiece raw, const Encoding& encoding, int vertices_per_cell)
 {
   MeshArrays mesh;
   mesh.vertices_per_cell = vertices_per_cell;
@@ -197,6 +197,7 @@ struct RawPiece {
   const Selection selection = select_cells(raw.cells, vtk_cell_type(vertices_per_cell));
   mesh.num_other_cells = static_cast<GlobalIndex>(selection.num_cells - selection.kept.size());
   keep_cells(raw.cells, selection, mesh);
+  raw.cells = {};  // Two thirds of what is held by now.
   if (const XmlElement* const data = raw.element->child("PointData")) {
     read_point_data(*data, encoding, mesh);
   }
@@ -284,8 +285,9 @@ void append(MeshArrays& to, const MeshArrays& from)
   require(!pieces.empty(), "it has no piece");
 
   const int kind = kind_to_read(pieces, kinds_of(order));
-  MeshArrays mesh = reduce(pieces.front(), encoding, kind);
-  for (std::size_t i = 1; i < pieces.size(); ++i) append(mesh, reduce(pieces[i], encoding, kind));
+  MeshArrays mesh = reduce(std::move(pieces.front()), encoding, kind);
+  for (RawPiece& raw : std::span(pieces).subspan(1))
+    append(mesh, reduce(std::move(raw), encoding, kind));
   read_field_data(grid, encoding, mesh);
   return mesh;
 }
