@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/stl_union.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/union_find.hpp"
+#include "tessera/coarse/flat_contacts.hpp"
+#include "tessera/coarse/surface_overlap.hpp"
+#include "tessera/model/nearest_point.hpp"
+#include "tessera/model/winding.hpp"
+
+#include "netgen/occ_cells.hpp"
+#include "netgen/occ_error.hpp"
+
+namespace tessera::netgen {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+using Contacts = std::vector<std::array<std::size_t, 2>>;
+
+// Of the box diagonal: what counts as touching. Single precision leaves sheets that were meant to
+// be one so far apart.
+constexpr double kTouching = 1e-6;
+
+// How far the new surface may be off the old one, in parts of that.
+constexpr double kMostOff = 10.0;
+
+// OpenCASCADE parts space by 1,500 triangles in half a second. Above these it may take minutes.
+constexpr LocalIndex kMostTriangles = 20000;
+
+coarse::PatchSurface triangles_of(const model::TriangleSurface& surface)
+{
+  coarse::PatchSurface triangles;
+  for (LocalIndex v = 0; v < surface.num_vertices(); ++v) {
+    triangles.vertex_xyz.push_back(surface.position(v));
+  }
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+    const LocalIndex* v = &surface.triangle_vertices[3 * at(t)];
+    triangles.triangles.push_back({v[0], v[1], v[2]});
+  }
+  return triangles;
+}
+
+double area_of(const Corners& p) { return 0.5 * norm(cross(p[1] - p[0], p[2] - p[0])); }
+
+// The given surface as bodies of their own and cavities.
+class Bodies {
+ public:
+  Bodies(const model::TriangleSurface& surface, const Contacts& contacts,
+         const model::TriangleSoup& file)
+      : surface_(surface), shells_(surface.num_vertices()), origin_(surface.position(0))
+  {
+    for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+      shells_.join(vertex(t, 0), vertex(t, 1));
+      shells_.join(vertex(t, 1), vertex(t, 2));
+    }
+    for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+      const auto [a, b, c] = surface.corners(t);
+      volume_[shell(t)] += tet_volume(origin_, a, b, c);
+      area_ += area_of({a, b, c});
+    }
+    // Which of two that touch lies in the other is noise, so that their sides may be wrong. The
+    // file says which they are.
+    for (const auto& [first, second] : contacts) {
+      const std::array shells{shell(static_cast<LocalIndex>(first)),
+                              shell(static_cast<LocalIndex>(second))};
+      if (shells[0] != shells[1]) touching_.insert(shells.begin(), shells.end());
+    }
+    if (!touching_.empty()) measure(file);
+  }
+
+  // How many bodies hold a point, less the cavities that do; nothing if it is too near to say.
+  [[nodiscard]] std::optional<int> winding(const Vec3& point)
+  {
+    constexpr double kClear = 0.1;
+    double angle = 0.0;
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+      angle += sign(shell(t)) * model::solid_angle(surface_.corners(t), point);
+    }
+    const double number = angle / (4.0 * std::numbers::pi);
+    if (std::abs(number - std::round(number)) > kClear) return std::nullopt;
+    return static_cast<int>(std::lround(number));
+  }
+
+  // What is in several bodies counts as often.
+  [[nodiscard]] double volume() const
+  {
+    double sum = 0.0;
+    for (const auto& [shell, volume] : volume_) sum += sign(shell) * volume;
+    return sum;
+  }
+
+  [[nodiscard]] const Vec3& origin() const { return origin_; }
+  [[nodiscard]] double area() const { return area_; }
+  [[nodiscard]] std::size_t num_shells() const { return volume_.size(); }
+
+ private:
+  [[nodiscard]] LocalIndex vertex(LocalIndex t, std::size_t corner) const
+  {
+    return surface_.triangle_vertices[3 * at(t) + corner];
+  }
+
+  [[nodiscard]] LocalIndex shell(LocalIndex t) { return shells_.find(vertex(t, 0)); }
+
+  // Volumes with the normals of the file.
+  void measure(const model::TriangleSoup& file)
+  {
+    std::map<Vec3, LocalIndex> vertices;
+    for (LocalIndex v = 0; v < surface_.num_vertices(); ++v) vertices[surface_.position(v)] = v;
+    for (std::size_t t = 0; t < file.triangle_solid.size(); ++t) {
+      Corners p{};
+      for (std::size_t c = 0; c < 3; ++c) p[c] = point_at(std::span(file.corner_xyz), 3 * t + c);
+      const auto found = vertices.find(p[0]);
+      if (found == vertices.end()) continue;  // It was joined to another one.
+      const double volume = tet_volume(origin_, p[0], p[1], p[2]);
+      file_volume_[shells_.find(found->second)] += volume;
+      whole_file_volume_ += volume;
+    }
+  }
+
+  // For most files all normals look out; for some, in.
+  [[nodiscard]] double sign(LocalIndex shell) const
+  {
+    const auto in_file = file_volume_.find(shell);
+    if (!touching_.contains(shell) || in_file == file_volume_.end()) return 1.0;
+    const bool is_cavity = in_file->second * whole_file_volume_ < 0.0;
+    return is_cavity == (volume_.at(shell) < 0.0) ? 1.0 : -1.0;
+  }
+
+  const model::TriangleSurface& surface_;
+  UnionFind shells_;
+  Vec3 origin_;
+  std::map<LocalIndex, double> volume_{};
+  std::set<LocalIndex> touching_{};
+  std::map<LocalIndex, double> file_volume_{};
+  double whole_file_volume_ = 0.0;
+  double area_ = 0.0;
+};
+
+// A point of a cell, below the middle of its largest triangle and off all others by more than they
+// are uncertain; nothing if the cell is a film.
+std::optional<Vec3> point_inside(const std::vector<Corners>& skin, double volume, double tolerance)
+{
+  double area = 0.0;
+  const Corners* largest = &skin.front();
+  for (const Corners& p : skin) {
+    area += area_of(p);
+    if (area_of(p) > area_of(*largest)) largest = &p;
+  }
+  const auto& [a, b, c] = *largest;
+  const double below = 0.5 * std::min(0.1 * std::sqrt(area_of(*largest)), volume / area);
+  if (!(below > 2.0 * tolerance)) return std::nullopt;
+  const Vec3 normal = cross(b - a, c - a);
+  return (1.0 / 3.0) * (a + b + c) - (below / norm(normal)) * normal;
+}
+
+void add_triangle(const Corners& corners, model::TriangleSoup& soup)
+{
+  for (const Vec3& p : corners) {
+    soup.corner_xyz.insert(soup.corner_xyz.end(), p.begin(), p.end());
+  }
+  soup.triangle_solid.push_back(0);
+}
+
+// The cells' triangles between material and none; no triangles if it is not sure what is what.
+model::TriangleSoup outside_of(const Cells& cells, Bodies& bodies, double tolerance)
+{
+  double volume = 0.0;
+  std::vector<char> is_material;
+  for (std::size_t cell = 0; cell < cells.sides.size(); ++cell) {
+    const std::vector<Corners> skin = skin_of(cells, cell);
+    double of_cell = 0.0;
+    for (const auto& [a, b, c] : skin) of_cell += tet_volume(bodies.origin(), a, b, c);
+    const auto point = point_inside(skin, of_cell, tolerance);
+    const auto winding = point ? bodies.winding(*point) : std::nullopt;
+    if (!winding) return {};
+    volume += *winding * of_cell;
+    is_material.push_back(*winding > 0 ? 1 : 0);
+  }
+  if (std::abs(volume - bodies.volume()) > tolerance * bodies.area()) return {};
+  model::TriangleSoup soup;
+  std::vector<int> num_materials(cells.face_triangles.size());
+  for (std::size_t cell = 0; cell < cells.sides.size(); ++cell) {
+    for (const auto& [face, is_turned] : cells.sides[cell])
+      num_materials[face] += is_material[cell];
+  }
+  for (std::size_t cell = 0; cell < cells.sides.size(); ++cell) {
+    if (is_material[cell] == 0) continue;
+    for (const CellSide& side : cells.sides[cell]) {
+      if (num_materials[side.face] != 1) continue;
+      for (const Corners& corners : triangles_of(cells, side)) add_triangle(corners, soup);
+    }
+  }
+  return soup;
+}
+
+bool is_near(const model::TriangleSurface& surface, const model::TriangleSurface& to, double most)
+{
+  std::vector<Corners> triangles;
+  for (LocalIndex t = 0; t < to.num_triangles(); ++t) triangles.push_back(to.corners(t));
+  const model::TriangleSearch search(triangles);
+  const auto is_on = [&](const Vec3& p) { return norm(search.nearest(p).xyz - p) <= most; };
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+    const auto [a, b, c] = surface.corners(t);
+    if (!is_on(a) || !is_on(b) || !is_on(c) || !is_on((1.0 / 3.0) * (a + b + c))) return false;
+  }
+  return true;
+}
+
+std::optional<model::CheckedSurface> united(const model::TriangleSurface& surface, Bodies& bodies,
+                                            const std::string& name)
+{
+  const double tolerance = kTouching * model::box_diagonal(surface);
+  model::TriangleSoup soup = with_occ_errors(
+      name, [&] { return outside_of(cells_of(surface, tolerance), bodies, tolerance); });
+  if (soup.num_triangles() == 0) return std::nullopt;
+  soup.solid_names = {surface.solid_names[at(surface.triangle_solid.front())]};
+  model::CheckedSurface made = model::check_surface(soup, name);
+  const coarse::PatchSurface triangles = triangles_of(made.surface);
+  if (!find_flat_contacts(triangles, tolerance).empty()) return std::nullopt;
+  if (!find_overlaps(triangles).empty()) return std::nullopt;
+  if (!is_near(made.surface, surface, kMostOff * tolerance)) return std::nullopt;
+  made.repairs = {fmt::format("surfaces that lie flat on each other joined: {} shells given",
+                              bodies.num_shells())};
+  return made;
+}
+
+}  // namespace
+
+void unite_flat_contacts(const model::TriangleSoup& soup, model::CheckedSurface& checked,
+                         const std::string& name)
+{
+  const model::TriangleSurface& surface = checked.surface;
+  if (surface.num_triangles() > kMostTriangles || surface.material_names.size() > 1) return;
+  const Contacts contacts =
+      find_flat_contacts(triangles_of(surface), kTouching * model::box_diagonal(surface));
+  if (contacts.empty()) return;
+  std::optional<model::CheckedSurface> made;
+  try {
+    Bodies bodies(surface, contacts, soup);
+    made = united(surface, bodies, name);
+  } catch (const GeometryError&) {  // The file's surface is the better one then.
+  }
+  if (made) {
+    checked.surface = std::move(made->surface);
+    checked.repairs.insert(checked.repairs.end(), made->repairs.begin(), made->repairs.end());
+  } else {
+    checked.repairs.emplace_back(fmt::format(
+        "surfaces lie flat on each other at {} pairs of triangles, and could not be joined",
+        contacts.size()));
+  }
+}
+
+}  // namespace tessera::netgen
