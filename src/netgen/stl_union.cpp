@@ -35,8 +35,13 @@ using Contacts = std::vector<std::array<std::size_t, 2>>;
 // be one so far apart.
 constexpr double kTouching = 1e-6;
 
-// How far the new surface may be off the old one, in parts of that.
+// How far the new surface may be off the old one, in parts of that. Both of two sheets may be
+// moved.
 constexpr double kMostOff = 10.0;
+constexpr double kMostOffOnAverage = 4.0;
+
+// A point so far below or above a sheet is on one side of all that touch it.
+constexpr double kBeside = 4.0;
 
 // OpenCASCADE parts space by 1,500 triangles in half a second. Above these it may take minutes.
 constexpr LocalIndex kMostTriangles = 20000;
@@ -82,7 +87,8 @@ class Bodies {
     if (!touching_.empty()) measure(file);
   }
 
-  // How many bodies hold a point, less the cavities that do; nothing if it is too near to say.
+  // How many bodies hold a point, less the cavities that do; nothing if it is too near to say. It
+  // is negative in what the file has inside out: all that is not 0 is material.
   [[nodiscard]] std::optional<int> winding(const Vec3& point)
   {
     constexpr double kClear = 0.1;
@@ -175,8 +181,8 @@ void add_triangle(const Corners& corners, model::TriangleSoup& soup)
   soup.triangle_solid.push_back(0);
 }
 
-// The cells' triangles between material and none; no triangles if it is not sure what is what.
-model::TriangleSoup outside_of(const Cells& cells, Bodies& bodies, double tolerance)
+// Which cells are material; none if it is not sure.
+std::vector<char> materials_of(const Cells& cells, Bodies& bodies, double tolerance)
 {
   double volume = 0.0;
   std::vector<char> is_material;
@@ -184,13 +190,23 @@ model::TriangleSoup outside_of(const Cells& cells, Bodies& bodies, double tolera
     const std::vector<Corners> skin = skin_of(cells, cell);
     double of_cell = 0.0;
     for (const auto& [a, b, c] : skin) of_cell += tet_volume(bodies.origin(), a, b, c);
+    is_material.push_back(0);
+    if (of_cell < 0.0) continue;  // All that is outside, which OpenCASCADE mostly leaves out.
     const auto point = point_inside(skin, of_cell, tolerance);
     const auto winding = point ? bodies.winding(*point) : std::nullopt;
     if (!winding) return {};
     volume += *winding * of_cell;
-    is_material.push_back(*winding > 0 ? 1 : 0);
+    is_material.back() = *winding != 0 ? 1 : 0;
   }
-  if (std::abs(volume - bodies.volume()) > tolerance * bodies.area()) return {};
+  const double most_off = kMostOffOnAverage * tolerance * bodies.area();
+  return std::abs(volume - bodies.volume()) <= most_off ? is_material : std::vector<char>{};
+}
+
+// The cells' triangles between material and none; no triangles if it is not sure what is what.
+model::TriangleSoup outside_of(const Cells& cells, Bodies& bodies, double tolerance)
+{
+  const std::vector<char> is_material = materials_of(cells, bodies, tolerance);
+  if (is_material.empty()) return {};
   model::TriangleSoup soup;
   std::vector<int> num_materials(cells.face_triangles.size());
   for (std::size_t cell = 0; cell < cells.sides.size(); ++cell) {
@@ -207,15 +223,39 @@ model::TriangleSoup outside_of(const Cells& cells, Bodies& bodies, double tolera
   return soup;
 }
 
-bool is_near(const model::TriangleSurface& surface, const model::TriangleSurface& to, double most)
+model::TriangleSearch search_in(const model::TriangleSurface& surface)
 {
   std::vector<Corners> triangles;
-  for (LocalIndex t = 0; t < to.num_triangles(); ++t) triangles.push_back(to.corners(t));
-  const model::TriangleSearch search(triangles);
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) triangles.push_back(surface.corners(t));
+  return model::TriangleSearch(triangles);
+}
+
+bool is_near(const model::TriangleSurface& surface, const model::TriangleSurface& to, double most)
+{
+  const model::TriangleSearch search = search_in(to);
   const auto is_on = [&](const Vec3& p) { return norm(search.nearest(p).xyz - p) <= most; };
   for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
     const auto [a, b, c] = surface.corners(t);
     if (!is_on(a) || !is_on(b) || !is_on(c) || !is_on((1.0 / 3.0) * (a + b + c))) return false;
+  }
+  return true;
+}
+
+// A given triangle that is not part of `made` has material on both sides or on none.
+bool is_all_there(const model::TriangleSurface& given, Bodies& bodies,
+                  const model::TriangleSurface& made, double tolerance)
+{
+  const model::TriangleSearch search = search_in(made);
+  for (LocalIndex t = 0; t < given.num_triangles(); ++t) {
+    const auto [a, b, c] = given.corners(t);
+    const Vec3 middle = (1.0 / 3.0) * (a + b + c);
+    if (norm(search.nearest(middle).xyz - middle) <= kMostOff * tolerance) continue;
+    const Vec3 normal = cross(b - a, c - a);
+    if (norm(normal) == 0.0) continue;
+    const Vec3 off = (kBeside * tolerance / norm(normal)) * normal;
+    const auto below = bodies.winding(middle - off);
+    const auto above = bodies.winding(middle + off);
+    if (below && above && (*below == 0) != (*above == 0)) return false;
   }
   return true;
 }
@@ -233,6 +273,7 @@ std::optional<model::CheckedSurface> united(const model::TriangleSurface& surfac
   if (!find_flat_contacts(triangles, tolerance).empty()) return std::nullopt;
   if (!find_overlaps(triangles).empty()) return std::nullopt;
   if (!is_near(made.surface, surface, kMostOff * tolerance)) return std::nullopt;
+  if (!is_all_there(surface, bodies, made.surface, tolerance)) return std::nullopt;
   made.repairs = {fmt::format("surfaces that lie flat on each other joined: {} shells given",
                               bodies.num_shells())};
   return made;

@@ -290,6 +290,13 @@ TEST(StlModel, BodiesThatLieOnEachOtherAreOne)
   }
 }
 
+TEST(StlModel, BodyOnAnotherThatIsInsideOutInTheFileIsMaterialAsWell)
+{
+  model::TriangleSoup small = cube_soup({0.2, 0.3, 1.0}, 0.5);
+  for (LocalIndex t = 0; t < small.num_triangles(); ++t) testing::turn_triangle(small, t);
+  expect_one_body(in_one_solid(cube_soup(), small), 1.125);
+}
+
 TEST(StlModel, BodiesWithCommonPlanesThatOverlapAreOne)
 {
   expect_one_body(in_one_solid(cube_soup(), cube_soup({0.5, 0.0, 0.0})), 1.5);
