@@ -19,6 +19,7 @@
 #include "tessera/base/union_find.hpp"
 #include "tessera/coarse/flat_contacts.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
+#include "tessera/mesh/half_edges.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/winding.hpp"
 
@@ -66,11 +67,13 @@ class Bodies {
  public:
   Bodies(const model::TriangleSurface& surface, const Contacts& contacts,
          const model::TriangleSoup& file)
-      : surface_(surface), shells_(surface.num_vertices()), origin_(surface.position(0))
+      : surface_(surface), shells_(surface.num_triangles()), origin_(surface.position(0))
   {
-    for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
-      shells_.join(vertex(t, 0), vertex(t, 1));
-      shells_.join(vertex(t, 1), vertex(t, 2));
+    // By edges: shells may share a vertex.
+    const auto opposite =
+        mesh::opposite_half_edges(mesh::half_edges_of_edges(surface.triangle_vertices));
+    for (std::size_t h = 0; h < opposite.size(); ++h) {
+      shells_.join(static_cast<LocalIndex>(h / 3), opposite[h] / 3);
     }
     for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
       const auto [a, b, c] = surface.corners(t);
@@ -87,8 +90,10 @@ class Bodies {
     if (!touching_.empty()) measure(file);
   }
 
-  // How many bodies hold a point, less the cavities that do; nothing if it is too near to say. It
-  // is negative in what the file has inside out: all that is not 0 is material.
+  // Whatever the file says.
+  void take_all_for_bodies() { has_cavities_ = false; }
+
+  // How many bodies hold a point, less the cavities that do; nothing if it is too near to say.
   [[nodiscard]] std::optional<int> winding(const Vec3& point)
   {
     constexpr double kClear = 0.1;
@@ -114,25 +119,25 @@ class Bodies {
   [[nodiscard]] std::size_t num_shells() const { return volume_.size(); }
 
  private:
-  [[nodiscard]] LocalIndex vertex(LocalIndex t, std::size_t corner) const
-  {
-    return surface_.triangle_vertices[3 * at(t) + corner];
-  }
-
-  [[nodiscard]] LocalIndex shell(LocalIndex t) { return shells_.find(vertex(t, 0)); }
+  [[nodiscard]] LocalIndex shell(LocalIndex t) { return shells_.find(t); }
 
   // Volumes with the normals of the file.
   void measure(const model::TriangleSoup& file)
   {
-    std::map<Vec3, LocalIndex> vertices;
-    for (LocalIndex v = 0; v < surface_.num_vertices(); ++v) vertices[surface_.position(v)] = v;
+    std::map<Corners, LocalIndex> triangles;  // Corners ascending.
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+      Corners p = surface_.corners(t);
+      std::ranges::sort(p);
+      triangles[p] = t;
+    }
     for (std::size_t t = 0; t < file.triangle_solid.size(); ++t) {
       Corners p{};
       for (std::size_t c = 0; c < 3; ++c) p[c] = point_at(std::span(file.corner_xyz), 3 * t + c);
-      const auto found = vertices.find(p[0]);
-      if (found == vertices.end()) continue;  // It was joined to another one.
       const double volume = tet_volume(origin_, p[0], p[1], p[2]);
-      file_volume_[shells_.find(found->second)] += volume;
+      std::ranges::sort(p);
+      const auto found = triangles.find(p);
+      if (found == triangles.end()) continue;  // It was mended.
+      file_volume_[shell(found->second)] += volume;
       whole_file_volume_ += volume;
     }
   }
@@ -142,7 +147,7 @@ class Bodies {
   {
     const auto in_file = file_volume_.find(shell);
     if (!touching_.contains(shell) || in_file == file_volume_.end()) return 1.0;
-    const bool is_cavity = in_file->second * whole_file_volume_ < 0.0;
+    const bool is_cavity = has_cavities_ && in_file->second * whole_file_volume_ < 0.0;
     return is_cavity == (volume_.at(shell) < 0.0) ? 1.0 : -1.0;
   }
 
@@ -153,6 +158,7 @@ class Bodies {
   std::set<LocalIndex> touching_{};
   std::map<LocalIndex, double> file_volume_{};
   double whole_file_volume_ = 0.0;
+  bool has_cavities_ = true;
   double area_ = 0.0;
 };
 
@@ -181,40 +187,45 @@ void add_triangle(const Corners& corners, model::TriangleSoup& soup)
   soup.triangle_solid.push_back(0);
 }
 
-// Which cells are material; none if it is not sure.
-std::vector<char> materials_of(const Cells& cells, Bodies& bodies, double tolerance)
+// How many bodies hold each cell; nothing if it is not sure.
+std::vector<int> windings_of(const Cells& cells, Bodies& bodies, double tolerance)
 {
   double volume = 0.0;
-  std::vector<char> is_material;
+  std::vector<int> windings;
   for (std::size_t cell = 0; cell < cells.sides.size(); ++cell) {
     const std::vector<Corners> skin = skin_of(cells, cell);
     double of_cell = 0.0;
     for (const auto& [a, b, c] : skin) of_cell += tet_volume(bodies.origin(), a, b, c);
-    is_material.push_back(0);
+    windings.push_back(0);
     if (of_cell < 0.0) continue;  // All that is outside, which OpenCASCADE mostly leaves out.
     const auto point = point_inside(skin, of_cell, tolerance);
     const auto winding = point ? bodies.winding(*point) : std::nullopt;
     if (!winding) return {};
     volume += *winding * of_cell;
-    is_material.back() = *winding != 0 ? 1 : 0;
+    windings.back() = *winding;
   }
   const double most_off = kMostOffOnAverage * tolerance * bodies.area();
-  return std::abs(volume - bodies.volume()) <= most_off ? is_material : std::vector<char>{};
+  return std::abs(volume - bodies.volume()) <= most_off ? windings : std::vector<int>{};
 }
 
 // The cells' triangles between material and none; no triangles if it is not sure what is what.
 model::TriangleSoup outside_of(const Cells& cells, Bodies& bodies, double tolerance)
 {
-  const std::vector<char> is_material = materials_of(cells, bodies, tolerance);
-  if (is_material.empty()) return {};
+  std::vector<int> windings = windings_of(cells, bodies, tolerance);
+  // A cavity in nothing is a body with its inside out.
+  if (std::ranges::any_of(windings, [](int number) { return number < 0; })) {
+    bodies.take_all_for_bodies();
+    windings = windings_of(cells, bodies, tolerance);
+  }
+  if (windings.empty()) return {};
   model::TriangleSoup soup;
   std::vector<int> num_materials(cells.face_triangles.size());
   for (std::size_t cell = 0; cell < cells.sides.size(); ++cell) {
     for (const auto& [face, is_turned] : cells.sides[cell])
-      num_materials[face] += is_material[cell];
+      num_materials[face] += windings[cell] > 0 ? 1 : 0;
   }
   for (std::size_t cell = 0; cell < cells.sides.size(); ++cell) {
-    if (is_material[cell] == 0) continue;
+    if (windings[cell] <= 0) continue;
     for (const CellSide& side : cells.sides[cell]) {
       if (num_materials[side.face] != 1) continue;
       for (const Corners& corners : triangles_of(cells, side)) add_triangle(corners, soup);
@@ -255,7 +266,7 @@ bool is_all_there(const model::TriangleSurface& given, Bodies& bodies,
     const Vec3 off = (kBeside * tolerance / norm(normal)) * normal;
     const auto below = bodies.winding(middle - off);
     const auto above = bodies.winding(middle + off);
-    if (below && above && (*below == 0) != (*above == 0)) return false;
+    if (below && above && (*below > 0) != (*above > 0)) return false;
   }
   return true;
 }

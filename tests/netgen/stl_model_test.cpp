@@ -295,6 +295,10 @@ TEST(StlModel, BodyOnAnotherThatIsInsideOutInTheFileIsMaterialAsWell)
   model::TriangleSoup small = cube_soup({0.2, 0.3, 1.0}, 0.5);
   for (LocalIndex t = 0; t < small.num_triangles(); ++t) testing::turn_triangle(small, t);
   expect_one_body(in_one_solid(cube_soup(), small), 1.125);
+
+  model::TriangleSoup right = cube_soup({0.5, 0.0, 0.0});
+  for (LocalIndex t = 0; t < right.num_triangles(); ++t) testing::turn_triangle(right, t);
+  expect_one_body(in_one_solid(cube_soup(), right), 1.5);
 }
 
 TEST(StlModel, BodiesWithCommonPlanesThatOverlapAreOne)
