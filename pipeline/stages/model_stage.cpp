@@ -19,12 +19,13 @@ namespace {
 // Reading and healing take seconds even for large models; minutes mean a hang.
 constexpr jobs::JobLimits kModelLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
 
-bool is_step(const std::filesystem::path& file)
+// What has a plain reader as well.
+bool has_two_readers(const std::filesystem::path& file)
 {
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".step" || extension == ".stp";
+  return extension == ".step" || extension == ".stp" || extension == ".stl";
 }
 
 // What another reader may survive. An error that the reader tells is one of the file, and limits
@@ -44,7 +45,7 @@ model::ModelSource import_in_jobs(
 {
   jobs::JobOutcome outcome = run_import("model", import_request(file, options));
   std::string death;
-  if (has_died(outcome) && (is_step(file) || is_step(options.cad))) {
+  if (has_died(outcome) && (has_two_readers(file) || has_two_readers(options.cad))) {
     jobs::JobOutcome plain =
         run_import("model_plain", import_request(file, options, netgen::StepReader::plain));
     if (plain.status == jobs::JobStatus::ok) death = outcome.message;
@@ -54,7 +55,7 @@ model::ModelSource import_in_jobs(
   throw_unless_read(outcome, file);
   if (!death.empty()) {
     read->repairs.insert(read->repairs.begin(),
-                         fmt::format("OpenCASCADE's reader of names died: {}", death));
+                         fmt::format("OpenCASCADE died of it, so that less was read: {}", death));
   }
   return std::move(*read);
 }

@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/half_edges.hpp"
+#include "tessera/model/winding.hpp"
 
 namespace tessera::model {
 namespace {
@@ -131,19 +132,6 @@ double enclosed_volume(const TriangleSurface& surface, const Shell& shell)
   return volume;
 }
 
-// Solid angle under which a triangle is seen from p. @cite vanoosterom1983
-double solid_angle(const std::array<Vec3, 3>& corners, const Vec3& p)
-{
-  const Vec3 a = corners[0] - p;
-  const Vec3 b = corners[1] - p;
-  const Vec3 c = corners[2] - p;
-  const double la = norm(a);
-  const double lb = norm(b);
-  const double lc = norm(c);
-  const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  return 2.0 * std::atan2(dot(a, cross(b, c)), denominator);
-}
-
 bool is_inside(const TriangleSurface& surface, const Shell& shell, const Vec3& p)
 {
   double angle = 0.0;
@@ -187,6 +175,18 @@ bool is_inside_out(const TriangleSurface& surface, const Shell& shell, const std
 }
 
 }  // namespace
+
+double solid_angle(const std::array<Vec3, 3>& corners, const Vec3& p)
+{
+  const Vec3 a = corners[0] - p;
+  const Vec3 b = corners[1] - p;
+  const Vec3 c = corners[2] - p;
+  const double la = norm(a);
+  const double lb = norm(b);
+  const double lc = norm(c);
+  const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  return 2.0 * std::atan2(dot(a, cross(b, c)), denominator);
+}
 
 Orientation orient(TriangleSurface& surface, std::span<const LocalIndex> opposite,
                    const std::string& name)

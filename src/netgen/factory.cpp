@@ -35,8 +35,7 @@ struct FileKind {
 constexpr FileKind kFileKinds[] = {
     {".geo",
      [](const fs::path& file, const ImportOptions&, StepReader) { return import_csg(file); }},
-    {".stl", [](const fs::path& file, const ImportOptions& options,
-                StepReader) { return import_stl(file, options); }},
+    {".stl", import_stl},
     {".step", import_shape},
     {".stp", import_shape},
     {".iges", import_shape},

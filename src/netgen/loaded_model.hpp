@@ -112,7 +112,8 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
 [[nodiscard]] std::unique_ptr<LoadedModel> load_csg(const model::ModelSource& source);
 
 [[nodiscard]] model::ModelSource import_stl(const std::filesystem::path& file,
-                                            const model::ImportOptions& options);
+                                            const model::ImportOptions& options,
+                                            StepReader reader = StepReader::with_names);
 [[nodiscard]] std::unique_ptr<LoadedModel> load_stl(const model::ModelSource& source);
 
 [[nodiscard]] model::ModelSource import_own_mesh(const std::filesystem::path& file,

@@ -15,6 +15,7 @@
 
 #include "netgen/loaded_model.hpp"
 #include "netgen/stl_mesher.hpp"
+#include "netgen/stl_union.hpp"
 #include "netgen/volume_mesher.hpp"
 
 namespace tessera::netgen {
@@ -224,9 +225,11 @@ struct StlContent {
 }  // namespace
 
 model::ModelSource import_stl(const std::filesystem::path& file,
-                              const model::ImportOptions& options)
+                              const model::ImportOptions& options, StepReader reader)
 {
-  model::CheckedSurface checked = model::check_surface(model::read_stl(file), file.string());
+  const model::TriangleSoup soup = model::read_stl(file);
+  model::CheckedSurface checked = model::check_surface(soup, file.string());
+  if (reader != StepReader::plain) unite_flat_contacts(soup, checked, file.string());
   return {.format = model::Format::stl,
           .file_name = file.string(),
           .length_unit = {},

@@ -261,6 +261,72 @@ TEST(StlModel, RemeshedBodiesThatOverlapAreRefusedWithTheirFacesAndThePlace)
   }
 }
 
+// Both in one solid.
+model::TriangleSoup in_one_solid(const model::TriangleSoup& a, const model::TriangleSoup& b)
+{
+  model::TriangleSoup both = joined(a, b);
+  both.triangle_solid.assign(both.triangle_solid.size(), 0);
+  both.solid_names = {""};
+  return both;
+}
+
+void expect_one_body(const model::TriangleSoup& soup, double volume)
+{
+  const model::ModelSource source = import(soup);
+  ASSERT_FALSE(source.repairs.empty());
+  EXPECT_NE(source.repairs.back().find("joined"), std::string::npos) << source.repairs.back();
+  const auto model = load_stl(source);
+  const mesh::CoarseMesh mesh = mesh_of(*model, 0.5);
+  expect_on_model(*model, mesh);
+  EXPECT_NEAR(volume_of(mesh), volume, 1e-5);
+}
+
+TEST(StlModel, BodiesThatLieOnEachOtherAreOne)
+{
+  for (const double gap : {-3e-7, 0.0, 3e-7}) {  // Noise.
+    const auto small = cube_soup({0.2, 0.3, 1.0 + gap}, 0.5);
+    expect_one_body(in_one_solid(cube_soup(), small), 1.125);
+    expect_one_body(in_one_solid(small, cube_soup()), 1.125);
+  }
+}
+
+TEST(StlModel, BodyOnAnotherThatIsInsideOutInTheFileIsMaterialAsWell)
+{
+  model::TriangleSoup small = cube_soup({0.2, 0.3, 1.0}, 0.5);
+  for (LocalIndex t = 0; t < small.num_triangles(); ++t) testing::turn_triangle(small, t);
+  expect_one_body(in_one_solid(cube_soup(), small), 1.125);
+
+  model::TriangleSoup right = cube_soup({0.5, 0.0, 0.0});
+  for (LocalIndex t = 0; t < right.num_triangles(); ++t) testing::turn_triangle(right, t);
+  expect_one_body(in_one_solid(cube_soup(), right), 1.5);
+}
+
+TEST(StlModel, BodiesWithCommonPlanesThatOverlapAreOne)
+{
+  expect_one_body(in_one_solid(cube_soup(), cube_soup({0.5, 0.0, 0.0})), 1.5);
+}
+
+TEST(StlModel, CavityThatReachesToASideIsOpenThere)
+{
+  model::TriangleSoup cavity = cube_soup({0.2, 0.3, 0.5}, 0.5);
+  for (LocalIndex t = 0; t < cavity.num_triangles(); ++t) testing::turn_triangle(cavity, t);
+  expect_one_body(in_one_solid(cube_soup(), cavity), 0.875);
+}
+
+TEST(StlModel, BodiesThatLieOnEachOtherStayTwoIfTheFileNamesThem)
+{
+  model::TriangleSoup both = joined(cube_soup(), cube_soup({0.2, 0.3, 1.0}, 0.5));
+  both.solid_names = {"lower", "upper"};
+  EXPECT_EQ(load(both)->describe().solids.size(), 2U);
+}
+
+TEST(StlModel, PlainReaderJoinsNothing)
+{
+  const testing::TemporaryFile file(
+      "model.stl", testing::ascii_stl(in_one_solid(cube_soup(), cube_soup({0.2, 0.3, 1.0}, 0.5))));
+  EXPECT_TRUE(import_stl(file.path(), {}, StepReader::plain).repairs.empty());
+}
+
 TEST(StlModel, OwnModelsGiveGoodCoarseMeshes)
 {
   for (const auto* name : {"plate_with_hole.stl", "bracket.stl"}) {

@@ -25,17 +25,17 @@ void require_model_file(const std::filesystem::path& file);
 /// Calls no library: for any process. In a build without NETGEN no name is. Local.
 [[nodiscard]] bool is_model_name(const std::filesystem::path& file);
 
-/// @brief OpenCASCADE's readers of STEP.
+/// @brief Readers of STEP and STL.
 enum class StepReader : int {
-  with_names,  ///< Names, colours, assemblies: goes through most of a file.
+  with_names,  ///< Names, colours, assemblies: goes through most of a file. Joins what touches.
   plain,       ///< Shapes only, and these as they are in the file: for what kills the other one.
 };
 [[nodiscard]] constexpr StepReader last_value(StepReader /*type*/) { return StepReader::plain; }
 
 /// @brief Reads a CAD file by its extension (.geo .stl .step .stp .iges .igs .brep) and checks it.
 /// @note Local.
-/// @param[in] reader  Of a STEP file; others have one reader. What the plain one loses is said in
-/// ModelSource::repairs.
+/// @param[in] reader  Of a STEP or STL file; others have one reader. What the plain one loses is
+/// said in ModelSource::repairs.
 /// @throws InputError as require_model_file().
 /// @throws GeometryError if it holds no closed solid (names the open edges, the missing solid, …).
 [[nodiscard]] model::ModelSource import_model(const std::filesystem::path& file,
