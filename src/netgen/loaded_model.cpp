@@ -9,6 +9,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/defeature.hpp"
+#include "tessera/coarse/mend_folds.hpp"
 #include "tessera/coarse/mend_surface.hpp"
 
 #include "netgen/membrane_mesher.hpp"
@@ -37,17 +38,31 @@ void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& te
 }
 
 // A surface that can be filled must not be lost because a projection fails.
-coarse::CoarseSurface mended(coarse::CoarseSurface surface, const LoadedModel& model)
+template <class Mend>
+coarse::CoarseSurface mended_by(const Mend& mend, coarse::CoarseSurface surface,
+                                const LoadedModel& model)
 {
-  if (surface.num_domains() == 0) return surface;
   try {
     coarse::CoarseSurface better = surface;
-    if (coarse::mend_surface(better, model).total() == 0) return surface;
+    if (!mend(better)) return surface;
     model.locate_parameters(better.mesh);
     return better;
   } catch (const GeometryError&) {
     return surface;
   }
+}
+
+coarse::CoarseSurface mended(coarse::CoarseSurface surface, const LoadedModel& model)
+{
+  if (surface.num_domains() == 0) return surface;
+  const auto mend_shapes = [&](coarse::CoarseSurface& better) {
+    return coarse::mend_surface(better, model).total() > 0;
+  };
+  const auto mend_folds = [&](coarse::CoarseSurface& better) {
+    const coarse::FoldStatistics done = coarse::mend_folds(better, model);
+    return done.num_left < done.num_before;
+  };
+  return mended_by(mend_folds, mended_by(mend_shapes, std::move(surface), model), model);
 }
 
 // A model whose triangles cannot be had may be meshed all the same.

@@ -28,9 +28,18 @@ int cells_for(const TopoDS_Face& face, int fewest)
   return std::clamp(kCellsPerEdge * num_edges, fewest, kMostCells);
 }
 
-bool is_in(const BRepTopAdaptor_FClass2d& classifier, const model::SurfaceParameters& uv)
+// How often a face may meet itself in a direction that closes. What is a little longer than a
+// period, as bounds of splines are, is one.
+int rounds_of(double span, double period)
 {
-  return classifier.Perform(gp_Pnt2d(uv[0], uv[1]), Standard_True) != TopAbs_OUT;
+  constexpr double kSlack = 1e-4;
+  return period > 0.0 ? std::max(1, static_cast<int>(std::ceil(span / period - kSlack))) : 1;
+}
+
+bool is_in(const BRepTopAdaptor_FClass2d& classifier, const model::SurfaceParameters& uv,
+           bool on_any_branch)
+{
+  return classifier.Perform(gp_Pnt2d(uv[0], uv[1]), on_any_branch) != TopAbs_OUT;
 }
 
 }  // namespace
@@ -51,7 +60,10 @@ OccTrim::OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods, 
 {
   Uv last{};
   BRepTools::UVBounds(face, first_[0], last[0], first_[1], last[1]);
-  for (std::size_t k = 0; k < 2; ++k) cell_size_[k] = (last[k] - first_[k]) / num_cells_;
+  for (std::size_t k = 0; k < 2; ++k) {
+    cell_size_[k] = (last[k] - first_[k]) / num_cells_;
+    num_rounds_[k] = rounds_of(last[k] - first_[k], periods_[k]);
+  }
   for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
     double from = 0.0;
     double to = 0.0;
@@ -66,7 +78,9 @@ OccTrim::OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods, 
   for (int i = 0; i < num_cells_; ++i) {
     for (int j = 0; j < num_cells_; ++j) {
       if (cell({i, j}) != Cell::unknown) continue;
-      fill_from({i, j}, is_in(*classifier_, centre_of({i, j})) ? Cell::inside : Cell::outside);
+      const bool on_any_branch = num_rounds_[0] == 1 && num_rounds_[1] == 1;
+      const bool inside = is_in(*classifier_, centre_of({i, j}), on_any_branch);
+      fill_from({i, j}, inside ? Cell::inside : Cell::outside);
     }
   }
 }
@@ -74,11 +88,30 @@ OccTrim::OccTrim(const TopoDS_Face& face, const std::array<double, 2>& periods, 
 bool OccTrim::contains(const Uv& uv) const
 {
   const Cell state = state_at(uv);
-  return state == Cell::boundary ? is_in(*classifier_, uv) : state == Cell::inside;
+  return state == Cell::boundary ? is_in(*classifier_, uv, true) : state == Cell::inside;
+}
+
+// The best answer of all branches: a face that goes round more than once passes the same point of
+// its surface on several.
+OccTrim::Cell OccTrim::state_at(const Uv& uv) const
+{
+  Uv first = uv;
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (periods_[k] <= 0.0) continue;
+    first[k] -= periods_[k] * std::floor((uv[k] - first_[k]) / periods_[k]);
+  }
+  Cell best = state_on_branch(first);
+  for (int i = 0; i < num_rounds_[0] && best != Cell::inside; ++i) {
+    for (int j = i == 0 ? 1 : 0; j < num_rounds_[1] && best != Cell::inside; ++j) {
+      const Cell state = state_on_branch({first[0] + i * periods_[0], first[1] + j * periods_[1]});
+      if (state != Cell::outside) best = state;
+    }
+  }
+  return best;
 }
 
 // Off the grid there may be an edge as well.
-OccTrim::Cell OccTrim::state_at(const Uv& uv) const
+OccTrim::Cell OccTrim::state_on_branch(const Uv& uv) const
 {
   const Place place = place_of(uv);
   return is_on_grid(place) ? cells_[index_of(place)] : Cell::boundary;
@@ -88,8 +121,7 @@ OccTrim::Place OccTrim::place_of(const Uv& uv) const
 {
   Place place{};
   for (std::size_t k = 0; k < 2; ++k) {
-    double offset = uv[k] - first_[k];
-    if (periods_[k] > 0.0) offset -= periods_[k] * std::floor(offset / periods_[k]);
+    const double offset = uv[k] - first_[k];
     place[k] =
         static_cast<int>(std::clamp(std::floor(offset / cell_size_[k]), -2.0, num_cells_ + 1.0));
   }

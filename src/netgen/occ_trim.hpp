@@ -41,6 +41,7 @@ class OccTrim {
   using Place = std::array<int, 2>;
 
   [[nodiscard]] Cell state_at(const Uv& uv) const;
+  [[nodiscard]] Cell state_on_branch(const Uv& uv) const;
   [[nodiscard]] Place place_of(const Uv& uv) const;
   [[nodiscard]] Uv centre_of(const Place& place) const;
   [[nodiscard]] bool is_on_grid(const Place& place) const;
@@ -55,7 +56,8 @@ class OccTrim {
 
   std::unique_ptr<BRepTopAdaptor_FClass2d> classifier_;
   std::array<double, 2> periods_;
-  int num_cells_;  ///< A side.
+  std::array<int, 2> num_rounds_{1, 1};  ///< Of the face; a thread goes round more than once.
+  int num_cells_;                        ///< A side.
   Uv first_{};
   Uv cell_size_{};
   std::vector<Cell> cells_;  ///< Shape (num_cells_, num_cells_).

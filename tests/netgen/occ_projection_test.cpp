@@ -1,23 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepLib.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <GCE2d_MakeSegment.hxx>
+#include <Geom2d_TrimmedCurve.hxx>
+#include <Geom_CylindricalSurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <gp_Ax3.hxx>
 #include <gtest/gtest.h>
 
 #include "netgen/occ_curve.hpp"
 #include "netgen/occ_fixture.hpp"
 #include "netgen/occ_surface.hpp"
+#include "netgen/occ_trim.hpp"
 
 namespace tessera {
 namespace {
@@ -244,6 +253,41 @@ TEST(OccProjection, IsAPureFunction)
   const std::vector<Vec3> first = project_all(*model, false);
   EXPECT_EQ(project_all(*model, true), first);
   EXPECT_EQ(project_all(*load_own("bracket.step"), true), first);
+}
+
+// A strip that winds round a cylinder more than once, as the faces of a thread do.
+TopoDS_Face thread_of(double radius, double rounds, double pitch, double width)
+{
+  const Handle(Geom_Surface) surface = new Geom_CylindricalSurface(gp_Ax3(gp::XOY()), radius);
+  const double u = 2.0 * kPi * rounds;
+  const double rise = rounds * pitch;
+  const std::array<gp_Pnt2d, 4> corners{{{0.0, 0.0}, {u, rise}, {u, rise + width}, {0.0, width}}};
+  BRepBuilderAPI_MakeWire wire;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const Handle(Geom2d_TrimmedCurve) side =
+        GCE2d_MakeSegment(corners[c], corners[(c + 1) % 4]).Value();
+    wire.Add(BRepBuilderAPI_MakeEdge(side, surface).Edge());
+  }
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(surface, wire.Wire()).Face();
+  BRepLib::BuildCurves3d(face);
+  return face;
+}
+
+TEST(OccTrim, AFaceGoesRoundMoreThanOnce)
+{
+  const TopoDS_Face face = thread_of(5.0, 1.9, 2.0, 1.0);
+  const netgen::OccTrim trim(face, {2.0 * kPi, 0.0}, 64);
+  const netgen::OccSurface surface(face, 20.0, 1);
+  for (double u = 0.2; u < 1.9 * 2.0 * kPi; u += 0.11) {
+    const double low = u / kPi;
+    for (const double branch : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
+      EXPECT_TRUE(trim.contains({u + branch, low + 0.5})) << u;
+      EXPECT_FALSE(trim.contains({u + branch, low - 0.5})) << u;
+    }
+    const Vec3 middle{5.0 * std::cos(u), 5.0 * std::sin(u), low + 0.3};
+    const Vec3 inside{0.99 * middle[0], 0.99 * middle[1], middle[2]};
+    EXPECT_LE(norm(surface.project(inside, {u, low + 0.3}).xyz - middle), 1e-9) << u;
+  }
 }
 
 TEST(OccTolerance, OfAnEndIsThatOfTheVertexWhereThePointIs)

@@ -11,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/coarse/mend_folds.hpp"
+
 #include "support/curved_meshes.hpp"
 #include "support/curved_models.hpp"
 #include "support/flat_model.hpp"
@@ -192,6 +194,72 @@ TEST(MendSurface, KeepsParametersOfWhatChanges)
     const model::SurfacePoint found = model.project_to_surface(number, point, uv);
     EXPECT_NEAR(found.uv[0], uv[0], 1e-9);
     EXPECT_NEAR(found.uv[1], uv[1], 1e-9);
+  }
+}
+
+// A cube with a dent all along z: its side y0 and the curves there are at y = height(x), where x is
+// below 0.5.
+class DentedCube final : public model::Model {
+ public:
+  explicit DentedCube(double depth) : depth_(depth) {}
+
+  [[nodiscard]] bool has_parameters() const override { return false; }
+  [[nodiscard]] double surface_tolerance(LocalIndex) const override { return 1e-8; }
+  [[nodiscard]] double curve_tolerance(LocalIndex) const override { return 1e-8; }
+  [[nodiscard]] model::SurfacePoint project_to_surface(
+      LocalIndex surface, const Vec3& point, const model::SurfaceParameters&) const override
+  {
+    return {surface == dented_surface_ ? dented(point) : point, {}};
+  }
+  [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex, const Vec3& point,
+                                                   double) const override
+  {
+    return {
+        point[1] < 0.5 * depth_ + 0.01 && point[0] > 0.0 && point[0] < 1.0 ? dented(point) : point,
+        0.0};
+  }
+  [[nodiscard]] double box_diagonal() const override { return std::sqrt(3.0); }
+
+  [[nodiscard]] Vec3 dented(const Vec3& p) const
+  {
+    const double wave = std::sin(2.0 * std::numbers::pi * p[0]);
+    return {p[0], p[0] < 0.5 ? depth_ * wave * wave : 0.0, p[2]};
+  }
+
+  LocalIndex dented_surface_ = 2;
+
+ private:
+  double depth_;
+};
+
+TEST(MendFolds, LeavesASoundSurfaceAsItIs)
+{
+  CoarseSurface surface = surface_of(testing::ball(4));
+  const CoarseSurface before = surface;
+  EXPECT_EQ(mend_folds(surface, testing::SphereModel({1.0})).num_before, 0);
+  EXPECT_EQ(surface.mesh.face_vertices, before.mesh.face_vertices);
+  CoarseSurface with_seam = surface_of(testing::cylinder(4));
+  EXPECT_EQ(mend_folds(with_seam, testing::CylinderModel()).num_before, 0);
+}
+
+// In the first case the arc ends beyond its triangle, in the second within it.
+TEST(MendFolds, CutsAnArcThatIsHigherThanItsTriangle)
+{
+  for (const bool is_within : {false, true}) {
+    CoarseSurface surface = cube(2);
+    const DentedCube model(is_within ? 0.25 : 0.3);
+    for (const double z : {0.0, 1.0}) {
+      if (is_within) move(surface, {0.5, 0.5, z}, {0.25, 0.32, z});
+    }
+    const FoldStatistics done = mend_folds(surface, model);
+    EXPECT_GT(done.num_before, 0);
+    EXPECT_EQ(done.num_left, 0);
+    EXPECT_GT(done.num_cuts, 0);
+    expect_closed(surface);
+    for (const double z : {0.0, 1.0}) {
+      EXPECT_TRUE(has_vertex_at(surface, model.dented({0.25, 0.0, z})));
+    }
+    EXPECT_EQ(mend_folds(surface, model).num_before, 0);
   }
 }
 
