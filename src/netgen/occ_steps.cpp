@@ -1,43 +1,75 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/occ_steps.hpp"
 
+#include <utility>
+
 namespace tessera::netgen {
 namespace {
 
-// NETGEN's global of how fine it is where edges run beside each other. 1 is its own value.
-class CloseEdges {
- public:
-  explicit CloseEdges(double factor) { ::netgen::occparam.resthcloseedgefac = factor; }
-  ~CloseEdges() { ::netgen::occparam.resthcloseedgefac = 1.0; }
-  CloseEdges(const CloseEdges&) = delete;
-  CloseEdges& operator=(const CloseEdges&) = delete;
+// How fine sizes are, as parts of what is asked for.
+struct Fineness {
+  double close_edges = 1.0;  // Edges run beside each other 1 / close_edges of their length apart.
+  double curvature = 1.0;
 };
 
-// A mesh with its sizes, NETGEN's first step. Where edges run beside each other, those of the mesh
-// are at most `close_edges` times as long as these are apart.
+// NETGEN's own values with some of them changed, while this lives. Both are read from globals.
+class ChangedFineness {
+ public:
+  ChangedFineness(::netgen::MeshingParameters& parameters, const Fineness& fineness)
+      : parameters_(parameters), curvature_(parameters.curvaturesafety)
+  {
+    ::netgen::occparam.resthcloseedgefac = fineness.close_edges;
+    parameters.curvaturesafety *= fineness.curvature;
+  }
+  ~ChangedFineness()
+  {
+    ::netgen::occparam.resthcloseedgefac = 1.0;
+    parameters_.curvaturesafety = curvature_;
+  }
+  ChangedFineness(const ChangedFineness&) = delete;
+  ChangedFineness& operator=(const ChangedFineness&) = delete;
+
+ private:
+  ::netgen::MeshingParameters& parameters_;
+  double curvature_;
+};
+
+// A mesh with its sizes, NETGEN's first step.
 std::shared_ptr<::netgen::Mesh> with_sizes(::netgen::OCCGeometry& geometry,
                                            ::netgen::MeshingParameters& parameters,
-                                           double close_edges)
+                                           const Fineness& fineness)
 {
   parameters.perfstepsstart = ::netgen::MESHCONST_ANALYSE;
   parameters.perfstepsend = ::netgen::MESHCONST_ANALYSE;
   std::shared_ptr<::netgen::Mesh> mesh;
-  const CloseEdges fineness(1.0 / close_edges);
+  const ChangedFineness changed(parameters, fineness);
   return geometry.GenerateMesh(mesh, parameters) == 0 ? mesh : nullptr;
 }
 
-// Of a ledge or a narrow gap that is long NETGEN would make nearly all of the mesh. So where there
-// are many cells of sizes, and most of them for close edges, these get longer ones.
+// Of a ledge or a narrow gap that is long, or of small rounded edges, NETGEN would make nearly all
+// of the mesh. So where there are many cells of sizes, and most of them for one of these, it is
+// meshed coarser. Rounded edges get worse tets by that: so only where there are very many.
 std::shared_ptr<::netgen::Mesh> with_fair_sizes(::netgen::OCCGeometry& geometry,
                                                 ::netgen::MeshingParameters& parameters)
 {
-  constexpr int kManyCells = 100'000;  // About as many as tets.
-  constexpr double kEdgesOfGap = 4.0;
+  // A cell is about a tet.
+  constexpr int kManyForCloseEdges = 100'000;
+  constexpr int kManyForCurvature = 500'000;
+  constexpr double kOfCloseEdges = 0.25;
+  constexpr double kOfCurvature = 0.4;
   const auto num_cells = [](::netgen::Mesh& mesh) { return mesh.LocalHFunction().GetNBoxes(); };
-  auto mesh = with_sizes(geometry, parameters, 1.0);
-  if (mesh == nullptr || num_cells(*mesh) < kManyCells) return mesh;
-  auto coarser = with_sizes(geometry, parameters, kEdgesOfGap);
-  return coarser != nullptr && 2 * num_cells(*coarser) < num_cells(*mesh) ? coarser : mesh;
+  Fineness fineness;
+  auto mesh = with_sizes(geometry, parameters, fineness);
+  const auto take_if_much_smaller = [&](int many, const Fineness& coarser) {
+    if (mesh == nullptr || num_cells(*mesh) < many) return;
+    auto other = with_sizes(geometry, parameters, coarser);
+    if (other == nullptr || 2 * num_cells(*other) >= num_cells(*mesh)) return;
+    mesh = std::move(other);
+    fineness = coarser;
+  };
+  take_if_much_smaller(kManyForCloseEdges, {kOfCloseEdges, fineness.curvature});
+  take_if_much_smaller(kManyForCurvature, {fineness.close_edges, kOfCurvature});
+  return mesh;
 }
 
 }  // namespace

@@ -11,8 +11,12 @@
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Circ.hxx>
 #include <gtest/gtest.h>
@@ -261,6 +265,29 @@ TEST(OccSurface, HasNoMoreThanItsShareAtALongNarrowLedge)
   const auto surface = netgen::make_coarse_mesher(*model)->mesh_surface(options, {});
   EXPECT_GT(surface.mesh.num_faces(), 2'000);
   EXPECT_LT(surface.mesh.num_faces(), 30'000);
+}
+
+// NETGEN alone makes edges half as long as these radii along all of the block.
+TopoDS_Shape slightly_rounded_block()
+{
+  const TopoDS_Shape block = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 4, 4, 3).Shape();
+  BRepFilletAPI_MakeFillet fillet(block);
+  for (TopExp_Explorer edges(block, TopAbs_EDGE); edges.More(); edges.Next())
+    fillet.Add(0.01, TopoDS::Edge(edges.Current()));
+  return fillet.Shape();
+}
+
+TEST(OccSurface, HasNoMoreThanItsShareAtSmallRoundedEdges)
+{
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "rounded.brep";
+  ASSERT_TRUE(BRepTools::Write(slightly_rounded_block(), file.c_str()));
+  const auto model = netgen::load_model(netgen::import_model(file, {}));
+  coarse::CoarseOptions options;
+  options.max_size = 1.0;
+  const auto surface = netgen::make_coarse_mesher(*model)->mesh_surface(options, {});
+  EXPECT_GT(surface.mesh.num_faces(), 2'000);
+  EXPECT_LT(surface.mesh.num_faces(), 100'000);
 }
 
 }  // namespace
