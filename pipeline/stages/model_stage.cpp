@@ -54,8 +54,9 @@ model::ModelSource import_in_jobs(
   auto read = read_result(outcome, from_bytes<model::ModelSource>);
   throw_unless_read(outcome, file);
   if (!death.empty()) {
-    read->repairs.insert(read->repairs.begin(),
-                         fmt::format("OpenCASCADE died of it, so that less was read: {}", death));
+    read->repairs.insert(
+        read->repairs.begin(),
+        fmt::format("OpenCASCADE died of it, so that the plain reader was taken: {}", death));
   }
   return std::move(*read);
 }

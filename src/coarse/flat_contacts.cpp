@@ -43,10 +43,9 @@ double depth(const Corners& p, const Vec3& normal, const Corners& other)
 }
 
 // Convex parts of a plane are apart if a side of one of them has the other one outside.
-bool lie_on_each_other(const Corners& a, const Corners& b, double tolerance)
+bool lie_on_each_other(const Corners& a, const Vec3& normal_a, const Corners& b,
+                       const Vec3& normal_b, double tolerance)
 {
-  const Vec3 normal_a = normal_of(a);
-  const Vec3 normal_b = normal_of(b);
   if (!is_in_plane(a, normal_a, b, tolerance) && !is_in_plane(b, normal_b, a, tolerance)) {
     return false;
   }
@@ -60,9 +59,12 @@ std::vector<std::array<std::size_t, 2>> find_flat_contacts(const PatchSurface& s
 {
   const Vec3 margin{tolerance, tolerance, tolerance};
   std::vector<Box> boxes;
+  std::vector<Vec3> normals;
   boxes.reserve(surface.triangles.size());
+  normals.reserve(surface.triangles.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     boxes.push_back(box_of(surface.corners(t)));
+    normals.push_back(normal_of(surface.corners(t)));
   }
   const BoxTree tree(boxes);
   std::vector<std::array<std::size_t, 2>> found;
@@ -72,8 +74,10 @@ std::vector<std::array<std::size_t, 2>> find_flat_contacts(const PatchSurface& s
     tree.visit([&](const Box& box) { return box.touches(around); },
                [&](LocalIndex item) {
                  if (at(item) <= t) return;
-                 if (lie_on_each_other(corners, surface.corners(at(item)), tolerance)) {
-                   found.push_back({t, at(item)});
+                 const std::size_t other = at(item);
+                 if (lie_on_each_other(corners, normals[t], surface.corners(other), normals[other],
+                                       tolerance)) {
+                   found.push_back({t, other});
                  }
                });
   }

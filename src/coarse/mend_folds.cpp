@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/base/error.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 
 #include "coarse/editable_surface.hpp"
@@ -106,12 +107,19 @@ class FoldMender {
   {
     const auto known = middles_.find(edge);
     if (known != middles_.end()) return known->second;
+    return middles_.emplace(edge, found_middle(edge, group)).first->second;
+  }
+
+  // What cannot be projected is no reason to leave the other folds: it counts as straight.
+  [[nodiscard]] Vec3 found_middle(const Edge& edge, LocalIndex group) const
+  {
     const LocalIndex curve = surface_.curve(edge[0], edge[1]);
-    const Vec3 middle = curve == kNoIndex
-                            ? on_group(edge, group)
-                            : groups_.on_curve(curve, end_on(curve, edge), chord(edge));
-    middles_.emplace(edge, middle);
-    return middle;
+    try {
+      return curve == kNoIndex ? on_group(edge, group)
+                               : groups_.on_curve(curve, end_on(curve, edge), chord(edge));
+    } catch (const GeometryError&) {
+      return chord(edge);
+    }
   }
 
   // At a seam, parameters of a vertex may be those of its other side. The search ends near them.
@@ -225,7 +233,9 @@ class FoldMender {
       return false;
     }
     const LocalIndex other = two[0] == t ? two[1] : two[0];
-    return std::ranges::find(edge, opposite(surface_.triangle(other), side)) == edge.end()
+    const LocalIndex far = opposite(surface_.triangle(other), side);  // To get an edge to `point`.
+    const auto has_far = [&](LocalIndex u) { return holds(surface_.triangle(u), far); };
+    return std::ranges::none_of(surface_.triangles_at(edge), has_far)
            && may_move(other, side[0], point) && may_move(other, side[1], point);
   }
 
@@ -234,7 +244,9 @@ class FoldMender {
   {
     const Vec3 point = middle_of(edge, group);
     const std::vector<LocalIndex> around = surface_.triangles_at(edge);
-    if (is_straight(edge, group) || !are_free(around)) return false;
+    if (is_straight(edge, group) || groups_.is_on_several_curves(edge) || !are_free(around)) {
+      return false;
+    }
     std::optional<Edge> beyond;
     for (const LocalIndex t : around) {
       for (const LocalIndex end : edge) {

@@ -79,6 +79,7 @@ void SurfaceGroups::add_segments()
   }
   for (const auto& [edge, on] : curves) {
     const LocalIndex curve = *on.begin();
+    if (on.size() > 1) on_several_curves_.insert(edge);
     add_edge(edge, curve, on.size() > 1 || model_curve(curve) == kNoIndex);
   }
 }

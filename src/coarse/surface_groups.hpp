@@ -33,6 +33,12 @@ class SurfaceGroups {
   [[nodiscard]] Vec3 on_group(LocalIndex group, LocalIndex near, const Vec3& point) const;
   [[nodiscard]] Vec3 on_curve(LocalIndex curve, LocalIndex near, const Vec3& point) const;
 
+  // Whether curves lie in each other there. Such an edge may not be cut.
+  [[nodiscard]] bool is_on_several_curves(const PatchSurface::Edge& edge) const
+  {
+    return on_several_curves_.contains(edge);
+  }
+
   // Whether a closed curve begins and ends there.
   [[nodiscard]] bool is_seam(LocalIndex curve, LocalIndex v) const;
 
@@ -68,6 +74,7 @@ class SurfaceGroups {
   std::vector<std::array<LocalIndex, 3>> group_{};  // Patch and domains.
   std::vector<LocalIndex> curve_number_{};
   std::set<Edge> edges_{};
+  std::set<Edge> on_several_curves_{};
   std::map<std::pair<LocalIndex, LocalIndex>, Uv> uv_{};                  // By group and vertex.
   std::map<std::pair<LocalIndex, LocalIndex>, std::vector<double>> t_{};  // By curve and vertex.
   std::set<LocalIndex> changed_{};                                        // Vertices.

@@ -12,6 +12,7 @@
 #include <BRep_Tool.hxx>
 #include <IMeshTools_Parameters.hxx>
 #include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -167,8 +168,10 @@ Cells cells_of(const model::TriangleSurface& surface, double tolerance)
   for (const TopoDS_Shape& solid : parts_of(parted, TopAbs_SOLID)) {
     std::vector<CellSide>& sides = cells.sides.emplace_back();
     for (TopExp_Explorer side(solid, TopAbs_FACE); side.More(); side.Next()) {
-      sides.push_back({static_cast<std::size_t>(faces.FindIndex(side.Current())) - 1,
-                       side.Current().Orientation() == TopAbs_REVERSED});
+      const TopAbs_Orientation turn = side.Current().Orientation();
+      if (turn != TopAbs_FORWARD && turn != TopAbs_REVERSED) continue;  // A sheet inside of it.
+      sides.push_back(
+          {static_cast<std::size_t>(faces.FindIndex(side.Current())) - 1, turn == TopAbs_REVERSED});
     }
   }
   return cells;

@@ -28,24 +28,10 @@ namespace {
 constexpr double kDeflection = 1e-3;
 constexpr double kAngle_rad = 0.3;
 
-double area_of(const TopoDS_Shape& face)
-{
-  GProp_GProps properties;
-  BRepGProp::SurfaceProperties(face, properties);
-  return properties.Mass();
-}
-
 double length_of(const TopoDS_Shape& edge)
 {
   GProp_GProps properties;
   BRepGProp::LinearProperties(edge, properties);
-  return properties.Mass();
-}
-
-double volume_of(const TopoDS_Shape& solid)
-{
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(solid, properties);
   return properties.Mass();
 }
 

@@ -8,10 +8,8 @@
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepBndLib.hxx>
-#include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
 #include <Bnd_Box.hxx>
-#include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS_Compound.hxx>
@@ -72,11 +70,7 @@ int count_shared_faces(const TopoDS_Shape& shape)
 bool is_film(const TopoDS_Shape& solid, double diagonal)
 {
   constexpr double kThinnest = 1e-6;  // Of the diagonal.
-  GProp_GProps volume;
-  GProp_GProps area;
-  BRepGProp::VolumeProperties(solid, volume);
-  BRepGProp::SurfaceProperties(solid, area);
-  return 2.0 * std::abs(volume.Mass()) < kThinnest * diagonal * area.Mass();
+  return 2.0 * std::abs(volume_of(solid)) < kThinnest * diagonal * area_of(solid);
 }
 
 // Whether solids were cut where they overlap by next to nothing.

@@ -5,11 +5,9 @@
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepCheck_Analyzer.hxx>
-#include <BRepGProp.hxx>
 #include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <GProp_GProps.hxx>
 #include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <ShapeFix_Wireframe.hxx>
@@ -23,6 +21,7 @@
 
 #include "netgen/occ_cad_file.hpp"
 #include "netgen/occ_glue.hpp"
+#include "netgen/occ_overlaps.hpp"
 #include "netgen/occ_shape.hpp"
 
 namespace tessera::netgen {
@@ -34,23 +33,6 @@ constexpr std::array<double, 4> kSewingGaps{1e-6, 1e-5, 1e-4, 1e-3};
 int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind)
 {
   return static_cast<int>(parts_of(shape, kind).size());
-}
-
-bool is_closed(const TopoDS_Shape& solid)
-{
-  TopExp_Explorer shells(solid, TopAbs_SHELL);
-  if (!shells.More()) return false;
-  for (; shells.More(); shells.Next()) {
-    if (!BRep_Tool::IsClosed(shells.Current())) return false;
-  }
-  return true;
-}
-
-double volume_of(const TopoDS_Shape& solid)
-{
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(solid, properties);
-  return properties.Mass();
 }
 
 std::string counted(int number, const std::string& thing)
@@ -258,7 +240,7 @@ std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
 void make_closed_solids(CadFile& cad)
 {
   std::vector<TopoDS_Shape> solids = closed_solids(cad);
-  for (TopoDS_Shape& solid : solids) solid = outward(solid, cad);
+  for (TopoDS_Shape& solid : solids) solid = without_overlaps(outward(solid, cad), cad);
   cad.shape = solids.size() == 1 ? solids.front() : glued(solids, cad);
   for (TopExp_Explorer parts(cad.shape, TopAbs_SOLID); parts.More(); parts.Next()) {
     if (!is_closed(parts.Current())) {

@@ -16,4 +16,13 @@ namespace tessera::netgen {
 /// on the shape does not change it.
 [[nodiscard]] double box_diagonal_of(const TopoDS_Shape& shape);
 
+/// @brief Of what its faces enclose; negative if they look inwards.
+[[nodiscard]] double volume_of(const TopoDS_Shape& shape);
+
+/// @brief Of all its faces.
+[[nodiscard]] double area_of(const TopoDS_Shape& shape);
+
+/// @brief Whether it has shells, and each is closed.
+[[nodiscard]] bool is_closed(const TopoDS_Shape& solid);
+
 }  // namespace tessera::netgen

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -90,6 +91,9 @@ class Bodies {
     if (!touching_.empty()) measure(file);
   }
 
+  // Whether it is known what the file says of each shell that touches another.
+  [[nodiscard]] bool are_known() const { return are_known_; }
+
   // Whatever the file says.
   void take_all_for_bodies() { has_cavities_ = false; }
 
@@ -121,9 +125,11 @@ class Bodies {
  private:
   [[nodiscard]] LocalIndex shell(LocalIndex t) { return shells_.find(t); }
 
-  // Volumes with the normals of the file.
+  // Volumes with the normals of the file. Without all of its triangles a shell has none.
   void measure(const model::TriangleSoup& file)
   {
+    std::map<LocalIndex, LocalIndex> num_missing;
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) ++num_missing[shell(t)];
     std::map<Corners, LocalIndex> triangles;  // Corners ascending.
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
       Corners p = surface_.corners(t);
@@ -139,7 +145,9 @@ class Bodies {
       if (found == triangles.end()) continue;  // It was mended.
       file_volume_[shell(found->second)] += volume;
       whole_file_volume_ += volume;
+      --num_missing[shell(found->second)];
     }
+    are_known_ = std::ranges::all_of(touching_, [&](LocalIndex s) { return num_missing[s] == 0; });
   }
 
   // For most files all normals look out; for some, in.
@@ -159,6 +167,7 @@ class Bodies {
   std::map<LocalIndex, double> file_volume_{};
   double whole_file_volume_ = 0.0;
   bool has_cavities_ = true;
+  bool are_known_ = true;
   double area_ = 0.0;
 };
 
@@ -252,17 +261,23 @@ bool is_near(const model::TriangleSurface& surface, const model::TriangleSurface
   return true;
 }
 
+// So many solid angles take some ten seconds.
+constexpr GlobalIndex kMostAngles = 200'000'000;
+
 // A given triangle that is not part of `made` has material on both sides or on none.
 bool is_all_there(const model::TriangleSurface& given, Bodies& bodies,
                   const model::TriangleSurface& made, double tolerance)
 {
   const model::TriangleSearch search = search_in(made);
+  GlobalIndex num_angles = 0;
   for (LocalIndex t = 0; t < given.num_triangles(); ++t) {
     const auto [a, b, c] = given.corners(t);
     const Vec3 middle = (1.0 / 3.0) * (a + b + c);
     if (norm(search.nearest(middle).xyz - middle) <= kMostOff * tolerance) continue;
     const Vec3 normal = cross(b - a, c - a);
     if (norm(normal) == 0.0) continue;
+    num_angles += 2 * GlobalIndex{given.num_triangles()};
+    if (num_angles > kMostAngles) return false;
     const Vec3 off = (kBeside * tolerance / norm(normal)) * normal;
     const auto below = bodies.winding(middle - off);
     const auto above = bodies.winding(middle + off);
@@ -271,22 +286,56 @@ bool is_all_there(const model::TriangleSurface& given, Bodies& bodies,
   return true;
 }
 
+double volume_of(const model::TriangleSoup& soup, const Vec3& origin)
+{
+  double volume = 0.0;
+  for (std::size_t t = 0; t < soup.triangle_solid.size(); ++t) {
+    const auto corner = [&](std::size_t c) {
+      return point_at(std::span(soup.corner_xyz), 3 * t + c);
+    };
+    volume += tet_volume(origin, corner(0), corner(1), corner(2));
+  }
+  return volume;
+}
+
+double volume_of(const model::TriangleSurface& surface, const Vec3& origin)
+{
+  double volume = 0.0;
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+    const auto [a, b, c] = surface.corners(t);
+    volume += tet_volume(origin, a, b, c);
+  }
+  return volume;
+}
+
+// Several solids of one body name its sides.
+bool has_several_solids(const model::TriangleSurface& surface)
+{
+  const auto& of = surface.triangle_solid;
+  return std::ranges::adjacent_find(of, std::not_equal_to<>()) != of.end();
+}
+
 std::optional<model::CheckedSurface> united(const model::TriangleSurface& surface, Bodies& bodies,
                                             const std::string& name)
 {
+  if (!bodies.are_known()) return std::nullopt;
   const double tolerance = kTouching * model::box_diagonal(surface);
   model::TriangleSoup soup = with_occ_errors(
       name, [&] { return outside_of(cells_of(surface, tolerance), bodies, tolerance); });
   if (soup.num_triangles() == 0) return std::nullopt;
+  const double volume = volume_of(soup, bodies.origin());
   soup.solid_names = {surface.solid_names[at(surface.triangle_solid.front())]};
   model::CheckedSurface made = model::check_surface(soup, name);
   const coarse::PatchSurface triangles = triangles_of(made.surface);
   if (!find_flat_contacts(triangles, tolerance).empty()) return std::nullopt;
   if (!find_overlaps(triangles).empty()) return std::nullopt;
+  const double most_off = kMostOffOnAverage * tolerance * bodies.area();
+  if (std::abs(volume_of(made.surface, bodies.origin()) - volume) > most_off) return std::nullopt;
   if (!is_near(made.surface, surface, kMostOff * tolerance)) return std::nullopt;
   if (!is_all_there(surface, bodies, made.surface, tolerance)) return std::nullopt;
-  made.repairs = {fmt::format("surfaces that lie flat on each other joined: {} shells given",
-                              bodies.num_shells())};
+  made.repairs.insert(made.repairs.begin(),
+                      fmt::format("surfaces that lie flat on each other joined: {} shells given",
+                                  bodies.num_shells()));
   return made;
 }
 
@@ -296,7 +345,7 @@ void unite_flat_contacts(const model::TriangleSoup& soup, model::CheckedSurface&
                          const std::string& name)
 {
   const model::TriangleSurface& surface = checked.surface;
-  if (surface.num_triangles() > kMostTriangles || surface.material_names.size() > 1) return;
+  if (surface.num_triangles() > kMostTriangles || has_several_solids(surface)) return;
   const Contacts contacts =
       find_flat_contacts(triangles_of(surface), kTouching * model::box_diagonal(surface));
   if (contacts.empty()) return;

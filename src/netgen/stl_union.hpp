@@ -13,7 +13,7 @@ namespace tessera::netgen {
 /// Such a surface bounds a solid, but has sheets of nothing, or of noise, inside it. No mesher can
 /// fill that. Shells that the file turns the other way are cavities.
 ///
-/// The surface stays as it is where it has no such place, has several materials, or is too large
+/// The surface stays as it is where it has no such place, has several solids, or is too large
 /// for OpenCASCADE; also where what comes out is not the same body, or touches itself still.
 /// @param[in] soup  What `checked` was made of.
 void unite_flat_contacts(const model::TriangleSoup& soup, model::CheckedSurface& checked,
