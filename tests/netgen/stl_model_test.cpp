@@ -320,6 +320,17 @@ TEST(StlModel, BodiesThatLieOnEachOtherStayTwoIfTheFileNamesThem)
   EXPECT_EQ(load(both)->describe().solids.size(), 2U);
 }
 
+TEST(StlModel, BodiesThatLieOnEachOtherStayAsTheyAreIfTheFileNamesTheirSides)
+{
+  model::TriangleSoup both = in_one_solid(cube_soup(), cube_soup({0.2, 0.3, 1.0}, 0.5));
+  both.triangle_solid[0] = both.triangle_solid[1] = 1;  // A side of the larger one.
+  both.solid_names = {"wall", "lid"};
+  const model::ModelSource source = import(both);
+  EXPECT_TRUE(std::ranges::none_of(source.repairs, [](const std::string& line) {
+    return line.find("joined") != std::string::npos;
+  }));
+}
+
 TEST(StlModel, PlainReaderJoinsNothing)
 {
   const testing::TemporaryFile file(
