@@ -27,8 +27,6 @@ constexpr double kMostBow = 0.15;
 // Triangles of which one side is as short as the tolerance have about this height.
 constexpr double kThin = 2.0;
 
-Vec3 normal_of(const Corners& p) { return cross(p[1] - p[0], p[2] - p[0]); }
-
 double height_of(const Corners& p)
 {
   const double longest = std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});

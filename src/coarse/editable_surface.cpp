@@ -10,8 +10,6 @@ namespace {
 using Edge = EditableSurface::Edge;
 using Triangle = EditableSurface::Triangle;
 
-Edge edge_of(LocalIndex a, LocalIndex b) { return {std::min(a, b), std::max(a, b)}; }
-
 template <class T>
 void sort_unique(std::vector<T>& values)
 {

@@ -27,6 +27,17 @@ enum class Freedom : char { patch, curve, none };
   return triangle;
 }
 
+[[nodiscard]] inline PatchSurface::Edge edge_of(LocalIndex a, LocalIndex b)
+{
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// @brief Twice as long as the triangle's area.
+[[nodiscard]] inline Vec3 normal_of(const std::array<Vec3, 3>& p)
+{
+  return cross(p[1] - p[0], p[2] - p[0]);
+}
+
 /// @brief The corner that is not on the edge.
 [[nodiscard]] inline LocalIndex opposite(const PatchSurface::Triangle& triangle,
                                          const PatchSurface::Edge& edge)

@@ -32,8 +32,6 @@ constexpr double kLeastCosine = 0.2;
 // In parts of its length: an edge whose middle is off the geometry by less is straight.
 constexpr double kStraight = 1e-6;
 
-Vec3 normal_of(const Corners& p) { return cross(p[1] - p[0], p[2] - p[0]); }
-
 bool looks_the_same_way(const Corners& p, const Vec3& normal)
 {
   const Vec3 own = normal_of(p);
@@ -85,8 +83,6 @@ class FoldMender {
   [[nodiscard]] const EditableSurface& surface() const { return surface_; }
 
  private:
-  static Edge edge_of(LocalIndex a, LocalIndex b) { return {std::min(a, b), std::max(a, b)}; }
-
   static std::array<Edge, 3> sides(const Triangle& v)
   {
     return {edge_of(v[0], v[1]), edge_of(v[1], v[2]), edge_of(v[2], v[0])};

@@ -55,8 +55,6 @@ double smallest_angle(const Corners& p)
       {angle_deg(p[0], p[1], p[2]), angle_deg(p[1], p[2], p[0]), angle_deg(p[2], p[0], p[1])});
 }
 
-Vec3 normal_of(const Corners& p) { return cross(p[1] - p[0], p[2] - p[0]); }
-
 double longest_edge(const Corners& p)
 {
   return std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});

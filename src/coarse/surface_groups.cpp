@@ -8,8 +8,6 @@
 namespace tessera::coarse {
 namespace {
 
-PatchSurface::Edge edge_of(LocalIndex a, LocalIndex b) { return {std::min(a, b), std::max(a, b)}; }
-
 template <class Key>
 LocalIndex row_of(std::map<Key, LocalIndex>& rows, const Key& key)
 {
