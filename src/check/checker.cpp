@@ -96,7 +96,7 @@ bool Checker::match()
 {
   for (LocalIndex batch = 0; batch < num_batches(); ++batch) {
     if (!read_batch(batch)) return false;
-    match_batch();
+    match_batch(batch);
   }
   if (!read_listed_vertices()) return false;
   match_last_triangles();
@@ -194,25 +194,46 @@ void Checker::take_ids(const PieceMesh& mesh, const PieceSurface& surface)
     append_runs(mesh.arrays.cell_ids, piece, cell_id_space(), cell_ids_, findings_);
 }
 
-GlobalIndex Checker::num_pieces() const
-{
-  return tets_.num_pieces + (boundary_ == nullptr ? 0 : boundary_->num_pieces);
-}
-
 // Surfaces of the pieces of the batch that was read last.
 std::span<const PieceSurface> Checker::new_surfaces() const
 {
   return std::span(surfaces_).subspan(num_matched_);
 }
 
-std::vector<TriangleVerdict> Checker::match_new_triangles()
+// Calls back with the triangles of this rank's pieces of the boundary file. What is wrong with a
+// piece is reported when it is read for its vertices.
+template <class Visit>
+void Checker::for_each_own_listed(Range range, const Visit& visit) const
 {
+  Findings elsewhere;
+  for_each_own_piece(range, true,
+                     [&](PieceName name) { for_each_listed(load(name, elsewhere), visit); });
+}
+
+// Of the boundary file's pieces with the numbers of the batch, ascending.
+std::vector<TriangleKey> Checker::read_listed_keys(LocalIndex batch) const
+{
+  std::vector<TriangleKey> keys;
+  if (boundary_ == nullptr) return keys;
+  const Range tets = batch_of(tets_.num_pieces, batch);
+  for_each_own_listed({tets.begin, std::min(tets.end, boundary_->num_pieces)},
+                      [&](const TriangleRecord& record) { keys.push_back(record.key); });
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+// Triangles that the boundary file lists beside their piece are held back until the end: to most of
+// them no second side will come.
+std::vector<TriangleVerdict> Checker::match_new_triangles(LocalIndex batch)
+{
+  const std::vector<TriangleKey> listed = read_listed_keys(batch);
   std::vector<TriangleSide> sides;
-  std::size_t num_sides = 0;
-  for (const PieceSurface& surface : new_surfaces()) num_sides += surface.triangles.size();
-  sides.reserve(num_sides);
-  for (const PieceSurface& surface : new_surfaces())
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) sides.push_back(surface.side(t));
+  for (const PieceSurface& surface : new_surfaces()) {
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+      const TriangleSide side = surface.side(t);
+      if (!std::binary_search(listed.begin(), listed.end(), side.key)) sides.push_back(side);
+    }
+  }
   return triangles_.add(sides, std::exchange(inner_, {}));
 }
 
@@ -224,9 +245,9 @@ void Checker::match_new_vertices()
   vertices_.add(vertices, identity_);
 }
 
-void Checker::match_batch()
+void Checker::match_batch(LocalIndex batch)
 {
-  const auto verdicts = match_new_triangles();
+  const auto verdicts = match_new_triangles(batch);
   match_new_vertices();
   num_matched_ = surfaces_.size();
   apply_all(verdicts);
@@ -252,12 +273,20 @@ PieceSurface& Checker::surface_of(LocalIndex piece)
   return surfaces_[static_cast<std::size_t>(piece / comm_.size())];
 }
 
+std::size_t Checker::num_open_triangles() const
+{
+  std::size_t num_open = 0;
+  for (const PieceSurface& surface : surfaces_)
+    num_open += static_cast<std::size_t>(std::ranges::count(surface.roles, TriangleRole::unknown));
+  return num_open;
+}
+
 // In rounds, so that only a part of the triangles is sent at a time. The boundary file is read
 // again for every few of them, so that only a part of it is held.
 void Checker::match_last_triangles()
 {
   const auto most =
-      static_cast<std::uint64_t>(comm_.max(static_cast<double>(triangles_.num_open())));
+      static_cast<std::uint64_t>(comm_.max(static_cast<double>(num_open_triangles())));
   triangles_.drop_open();
   const std::uint64_t num_readings = 1 + most / limits_.num_triangles_in_reading;
   const std::uint64_t in_reading = 1 + most / num_readings / limits_.num_triangles_in_round;
@@ -276,13 +305,10 @@ std::vector<std::vector<TriangleRecord>> Checker::read_listed_triangles(Triangle
 {
   std::vector<std::vector<TriangleRecord>> by_round(rounds.count);
   if (boundary_ == nullptr) return by_round;
-  Findings known;  // Found when it was read for its vertices.
   const TriangleRound all{rounds.first, rounds.num_rounds};
-  for_each_own_piece({0, boundary_->num_pieces}, true, [&](PieceName name) {
-    for_each_listed(load(name, known), [&](const TriangleRecord& record) {
-      const std::uint64_t round = all.number_of(record.key) - rounds.first;
-      if (round < rounds.count) by_round[round].push_back(record);
-    });
+  for_each_own_listed({0, boundary_->num_pieces}, [&](const TriangleRecord& record) {
+    const std::uint64_t round = all.number_of(record.key) - rounds.first;
+    if (round < rounds.count) by_round[round].push_back(record);
   });
   return by_round;
 }

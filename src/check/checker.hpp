@@ -101,6 +101,8 @@ class Checker {
 
   template <class Visit>
   void for_each_own_piece(Range range, bool is_boundary, const Visit& visit) const;
+  template <class Visit>
+  void for_each_own_listed(Range range, const Visit& visit) const;
   [[nodiscard]] Range batch_of(LocalIndex num_pieces, LocalIndex batch) const;
   [[nodiscard]] LocalIndex num_batches() const;
   [[nodiscard]] PieceMesh load(PieceName name, Findings& findings) const;
@@ -111,9 +113,11 @@ class Checker {
   [[nodiscard]] bool read_batch(LocalIndex batch);
   [[nodiscard]] bool read_listed_vertices();
   [[nodiscard]] std::span<const PieceSurface> new_surfaces() const;
-  [[nodiscard]] std::vector<TriangleVerdict> match_new_triangles();
+  [[nodiscard]] std::vector<TriangleKey> read_listed_keys(LocalIndex batch) const;
+  [[nodiscard]] std::vector<TriangleVerdict> match_new_triangles(LocalIndex batch);
   void match_new_vertices();
-  void match_batch();
+  void match_batch(LocalIndex batch);
+  [[nodiscard]] std::size_t num_open_triangles() const;
   void match_last_triangles();
   [[nodiscard]] std::vector<std::vector<TriangleRecord>> read_listed_triangles(
       TriangleRounds rounds) const;

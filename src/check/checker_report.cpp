@@ -23,6 +23,11 @@ void add_to(std::vector<SubdomainFigures>& subdomains, const SubdomainFigures& f
 
 }  // namespace
 
+GlobalIndex Checker::num_pieces() const
+{
+  return tets_.num_pieces + (boundary_ == nullptr ? 0 : boundary_->num_pieces);
+}
+
 CheckReport Checker::report(const Findings* id_findings)
 {
   constexpr std::array kIdKinds{Kind::point_position, Kind::point_id_twice, Kind::point_id_hole};

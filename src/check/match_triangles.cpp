@@ -183,6 +183,12 @@ std::vector<TriangleVerdict> TriangleMatcher::add(std::span<const TriangleSide> 
   return send_to_readers(std::move(verdicts), comm_);
 }
 
+TriangleMatcher::ShortKey TriangleMatcher::short_key(const TriangleKey& key)
+{
+  return {static_cast<std::uint32_t>(key[0]), static_cast<std::uint32_t>(key[0] >> 32),
+          static_cast<std::uint32_t>(key[1])};
+}
+
 TriangleMatcher::Bucket& TriangleMatcher::bucket_of(const TriangleKey& key)
 {
   return buckets_[hash_of(key) >> 58];
@@ -240,7 +246,7 @@ void TriangleMatcher::match(Bucket& bucket, std::vector<TriangleVerdict>& verdic
   const std::vector<OpenSide> open = std::exchange(bucket.open, {});
   const std::vector<TriangleRecord> inner = std::exchange(bucket.inner, {});
   std::vector<OpenSide> kept;
-  std::vector<TriangleKey> keys;
+  std::vector<ShortKey> keys;
   comm::for_each_group(
       std::span<const OpenSide>(open), [](const OpenSide& side) { return side.key; },
       [&](const OpenSide& side) {
@@ -249,7 +255,7 @@ void TriangleMatcher::match(Bucket& bucket, std::vector<TriangleVerdict>& verdic
       [&](std::span<const std::size_t> rows) {
         if (rows.size() == 2
             && match_two(unpacked(open[rows[0]]), unpacked(open[rows[1]]), verdicts)) {
-          keys.push_back(open[rows[0]].key);
+          keys.push_back(short_key(open[rows[0]].key));
           return;
         }
         for (const std::size_t row : rows) {
@@ -261,7 +267,7 @@ void TriangleMatcher::match(Bucket& bucket, std::vector<TriangleVerdict>& verdic
       });
   bucket.open = {kept.begin(), kept.end()};  // Without room to spare.
   std::sort(keys.begin(), keys.end());
-  std::vector<TriangleKey> complete(bucket.complete.size() + keys.size());
+  std::vector<ShortKey> complete(bucket.complete.size() + keys.size());
   std::merge(bucket.complete.begin(), bucket.complete.end(), keys.begin(), keys.end(),
              complete.begin());
   bucket.complete = std::move(complete);
@@ -285,15 +291,8 @@ bool TriangleMatcher::match_two(const TriangleSide& a, const TriangleSide& b,
 
 bool TriangleMatcher::is_complete(const TriangleKey& key)
 {
-  const std::vector<TriangleKey>& complete = bucket_of(key).complete;
-  return std::binary_search(complete.begin(), complete.end(), key);
-}
-
-std::size_t TriangleMatcher::num_open() const
-{
-  std::size_t num_open = 0;
-  for (const Bucket& bucket : buckets_) num_open += bucket.open.size();
-  return num_open;
+  const std::vector<ShortKey>& complete = bucket_of(key).complete;
+  return std::binary_search(complete.begin(), complete.end(), short_key(key));
 }
 
 void TriangleMatcher::drop_open()

@@ -59,11 +59,12 @@ struct TriangleRound {
 /// boundary file's triangles with them.
 ///
 /// A triangle is done with when its two sides have met between two tets of one material. Then only
-/// its key stays, by which a third side is noticed. Of all others 24 bytes a side stay until the
-/// end: of the boundary, the interfaces, and the front between the pieces that were read and those
+/// 12 bytes of its key stay, by which a third side is noticed. Of all others 24 bytes a side stay
+/// until the end: of the interfaces, and of the front between the pieces that were read and those
 /// that were not. Who read their pieces sends them once more then, with all that messages say, a
 /// part at a time. Only of interfaces inside a piece, which no reader keeps, the full records stay
-/// as well: 88 bytes a side.
+/// as well: 88 bytes a side. Sides that are likely to be on the boundary may be held back until
+/// then: what becomes of a triangle does not depend on it.
 class TriangleMatcher {
  public:
   TriangleMatcher(BoundaryFile boundary, const comm::Communicator& comm, Findings& findings)
@@ -73,14 +74,12 @@ class TriangleMatcher {
 
   /// @brief Takes the triangles of a batch.
   /// @note Collective.
-  /// @param[in] open Sides on one tet of their piece; the reader has them still at the end.
+  /// @param[in] open Sides on one tet of their piece; the reader has them still at the end. Some
+  /// may be missing, which decide() gets all the same.
   /// @param[in] inner Both sides of triangles on two tets of a piece, without rows.
   /// @return What is known now of triangles in the pieces of this rank (piece mod size).
   [[nodiscard]] std::vector<TriangleVerdict> add(std::span<const TriangleSide> open,
                                                  std::span<const TriangleRecord> inner);
-
-  /// @brief Sides without a verdict on this rank.
-  [[nodiscard]] std::size_t num_open() const;
 
   /// @brief Forgets the open sides, since they will be sent again. Local.
   void drop_open();
@@ -104,6 +103,9 @@ class TriangleMatcher {
   // Arrays of this many parts grow and are matched without a second copy of the whole.
   static constexpr std::size_t kNumBuckets = 64;
 
+  // 96 of a key's 128 bits. Of 10^10 triangles any two agree in them with a chance of 10^-9.
+  using ShortKey = std::array<std::uint32_t, 3>;
+
   // What sides of one piece have in common.
   struct Region {
     LocalIndex piece = 0;
@@ -121,9 +123,10 @@ class TriangleMatcher {
   struct Bucket {
     std::vector<OpenSide> open{};
     std::vector<TriangleRecord> inner{};  // Full, for their readers do not have them any more.
-    std::vector<TriangleKey> complete{};  // Ascending.
+    std::vector<ShortKey> complete{};     // Ascending.
   };
 
+  [[nodiscard]] static ShortKey short_key(const TriangleKey& key);
   [[nodiscard]] Bucket& bucket_of(const TriangleKey& key);
   void take_open(std::span<const TriangleSide> sides);
   void take_inner(std::span<const TriangleRecord> records);

@@ -116,10 +116,10 @@ std::vector<LocalIndex> split_into_tets(const MixedCells& cells, std::size_t num
     const auto points = cells.points_of(cell);
     require(points.size() >= shape->num_corners, "a cell has not the number of points of its type");
     corners.clear();
-    for (const GlobalIndex point : points.first(shape->num_corners)) {
+    for (const LocalIndex point : points.first(shape->num_corners)) {
       require(point >= 0 && std::cmp_less(point, num_points),
               "a cell has a point that does not exist");
-      corners.push_back(static_cast<LocalIndex>(point));
+      corners.push_back(point);
     }
     add_tets(*shape, corners, tets);
   }

@@ -35,7 +35,7 @@ MixedCells read_cells(const XmlElement& piece, const Encoding& encoding)
   const std::size_t num_cells = piece.count_attribute("NumberOfCells");
   if (num_cells == 0) return cells;
   const XmlElement& element = required_child(piece, "Cells");
-  cells.connectivity = read_values<GlobalIndex>(named_array(element, "connectivity"), encoding);
+  cells.connectivity = read_values<LocalIndex>(named_array(element, "connectivity"), encoding);
   cells.offsets = read_values<GlobalIndex>(named_array(element, "offsets"), encoding);
   cells.types = read_values<std::uint8_t>(named_array(element, "types"), encoding);
   require(cells.offsets.size() == num_cells && cells.types.size() == num_cells,

@@ -53,11 +53,11 @@ void require_complete(std::string_view file);
 
 /// @brief Cells as stored: any mix of kinds.
 struct MixedCells {
-  std::vector<GlobalIndex> connectivity{};
+  std::vector<LocalIndex> connectivity{};
   std::vector<GlobalIndex> offsets{};  ///< End of each cell in `connectivity`.
   std::vector<std::uint8_t> types{};
 
-  [[nodiscard]] std::span<const GlobalIndex> points_of(std::size_t cell) const
+  [[nodiscard]] std::span<const LocalIndex> points_of(std::size_t cell) const
   {
     const auto begin = cell == 0 ? 0 : static_cast<std::size_t>(offsets[cell - 1]);
     return std::span(connectivity).subspan(begin, static_cast<std::size_t>(offsets[cell]) - begin);

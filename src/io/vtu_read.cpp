@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -37,36 +38,55 @@ std::span<const int> kinds_of(CellOrder order)
 
 /// @brief Which cells are kept, and how many there were.
 struct Selection {
-  std::vector<std::size_t> kept{};
+  std::vector<std::size_t> kept{};  ///< Empty if all are.
+  std::size_t num_kept = 0;
   std::size_t num_cells = 0;
 
-  [[nodiscard]] bool is_all() const { return kept.size() == num_cells; }
+  [[nodiscard]] bool is_all() const { return num_kept == num_cells; }
 };
 
 [[nodiscard]] Selection select_cells(const MixedCells& cells, std::uint8_t kind)
 {
   Selection selection;
   selection.num_cells = cells.types.size();
+  selection.num_kept = static_cast<std::size_t>(std::ranges::count(cells.types, kind));
+  if (selection.is_all()) return selection;
   for (std::size_t cell = 0; cell < cells.types.size(); ++cell) {
     if (cells.types[cell] == kind) selection.kept.push_back(cell);
   }
   return selection;
 }
 
-void keep_cells(const MixedCells& cells, const Selection& selection, MeshArrays& mesh)
+/// @brief Points of the cells that are kept. All of them are not copied: they are most of a file.
+[[nodiscard]] std::vector<LocalIndex> points_of_cells(MixedCells cells, const Selection& selection,
+                                                      std::size_t vertices_per_cell)
 {
-  const auto num_corners = static_cast<std::size_t>(mesh.vertices_per_cell);
+  const auto points_of = [&](std::size_t cell) {
+    const auto points = cells.points_of(cell);
+    require(points.size() == vertices_per_cell, "a cell has not the number of points of its type");
+    return points;
+  };
+  if (selection.is_all()) {
+    for (std::size_t cell = 0; cell < selection.num_cells; ++cell)
+      static_cast<void>(points_of(cell));
+    cells.connectivity.resize(selection.num_cells * vertices_per_cell);
+    return std::move(cells.connectivity);
+  }
+  std::vector<LocalIndex> kept;
+  kept.reserve(selection.num_kept * vertices_per_cell);
+  for (const std::size_t cell : selection.kept)
+    std::ranges::copy(points_of(cell), std::back_inserter(kept));
+  return kept;
+}
+
+void keep_cells(MixedCells cells, const Selection& selection, MeshArrays& mesh)
+{
   const GlobalIndex num_points = mesh.num_points();
   require(num_points <= std::numeric_limits<LocalIndex>::max(), kTooManyPoints);
-  mesh.cell_points.reserve(selection.kept.size() * num_corners);
-  for (const std::size_t cell : selection.kept) {
-    const auto points = cells.points_of(cell);
-    require(points.size() == num_corners, "a cell has not the number of points of its type");
-    for (const GlobalIndex point : points) {
-      require(point >= 0 && point < num_points, "a cell has a point that does not exist");
-      mesh.cell_points.push_back(static_cast<LocalIndex>(point));
-    }
-  }
+  mesh.cell_points = points_of_cells(std::move(cells), selection,
+                                     static_cast<std::size_t>(mesh.vertices_per_cell));
+  for (const LocalIndex point : mesh.cell_points)
+    require(point >= 0 && point < num_points, "a cell has a point that does not exist");
 }
 
 template <class T>
@@ -74,7 +94,7 @@ template <class T>
 {
   if (selection.is_all()) return values;
   std::vector<T> kept;
-  kept.reserve(selection.kept.size());
+  kept.reserve(selection.num_kept);
   for (const std::size_t cell : selection.kept) kept.push_back(values[cell]);
   return kept;
 }
@@ -195,9 +215,8 @@ struct RawPiece {
   mesh.vertices_per_cell = vertices_per_cell;
   mesh.point_xyz = read_points(*raw.element, encoding);
   const Selection selection = select_cells(raw.cells, vtk_cell_type(vertices_per_cell));
-  mesh.num_other_cells = static_cast<GlobalIndex>(selection.num_cells - selection.kept.size());
-  keep_cells(raw.cells, selection, mesh);
-  raw.cells = {};  // Two thirds of what is held by now.
+  mesh.num_other_cells = static_cast<GlobalIndex>(selection.num_cells - selection.num_kept);
+  keep_cells(std::move(raw.cells), selection, mesh);
   if (const XmlElement* const data = raw.element->child("PointData")) {
     read_point_data(*data, encoding, mesh);
   }

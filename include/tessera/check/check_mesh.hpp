@@ -53,16 +53,19 @@ struct CheckOptions {
 /// A defect of the mesh is not an exception: it is in the report.
 ///
 /// Piece p is read by rank p mod size. It is read twice if it has seam tets and is not the rank's
-/// only piece. The boundary file is read behind all tets, its vertices first.
+/// only piece. The boundary file is read beside the tets for a first look at its triangles, and
+/// behind all of them, its vertices first.
 ///
 /// Memory:
 /// - the largest piece about three times;
 /// - the surfaces of 32 pieces, spread over the ranks;
 /// - of each different vertex of the surfaces of the pieces read before: 41 bytes, and 5 to 11 for
 ///   its slots in a hash table;
-/// - 16 bytes of each seam triangle between them;
-/// - some 75 bytes a side of triangles on the boundary, at interfaces between pieces and towards
-///   pieces not read yet, and 24 more where the ids of cells do not ascend along their piece;
+/// - 12 bytes of each seam triangle between them;
+/// - some 50 bytes a side of triangles on the boundary, at interfaces between pieces and towards
+///   pieces not read yet;
+/// - 24 more of those that the boundary file does not list in the piece of the same number;
+/// - 24 more where the ids of cells do not ascend along their piece;
 /// - 176 bytes of each triangle of an interface inside a piece, for both its sides;
 /// - a part of the boundary file: where it is large, it is read several times;
 /// - all vertices if points are matched by position.
