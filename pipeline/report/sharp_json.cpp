@@ -14,8 +14,10 @@ Json sharp_json(const coarse::SharpTets& sharp, const mesh::CoarseMesh& coarse)
   for (const coarse::SharpTet& tet : sharp.worst) {
     Json patches = Json::array();
     for (const LocalIndex patch : tet.patches) patches.push_back(names.at(at(patch)));
-    worst.push_back(
-        {{"min_dihedral_deg", tet.angle_deg}, {"centre", tet.centre}, {"patches", patches}});
+    worst.push_back({{"min_dihedral_deg", tet.angle_deg},
+                     {"shortest_edge", tet.shortest_edge},
+                     {"centre", tet.centre},
+                     {"patches", patches}});
   }
   return {{"below_deg", kSharpAngle_deg},
           {"num_tets", sharp.num_others},
@@ -28,10 +30,11 @@ std::optional<std::string> sharp_warning(const coarse::SharpTets& sharp)
   if (sharp.num_others == 0) return std::nullopt;
   const coarse::SharpTet& worst = sharp.worst.front();
   return fmt::format(
-      "{} coarse tets have an angle below {:g} degrees that no sharp angle of the model forces, "
-      "the "
-      "smallest {:.2g} at ({:g}); short edges or narrow faces of the model may be there",
-      sharp.num_others, kSharpAngle_deg, worst.angle_deg, fmt::join(worst.centre, ", "));
+      "{} coarse tets have an angle below {:g} degrees that no sharp angle of the model forces, the "
+      "smallest {:.2g} at ({:g}), with an edge of {:.2g}; coarse.defeature merges short edges and "
+      "narrow faces of the model up to the length it is given",
+      sharp.num_others, kSharpAngle_deg, worst.angle_deg, fmt::join(worst.centre, ", "),
+      worst.shortest_edge);
 }
 
 }  // namespace tessera::pipeline

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -62,6 +63,15 @@ class SharpFinder {
   {
     double least = 180.0;
     for (const EdgeCorners& edge : kEdges) least = std::min(least, dihedral(t, edge));
+    return least;
+  }
+
+  [[nodiscard]] double shortest_edge(LocalIndex t) const
+  {
+    const auto v = mesh_.tet(t);
+    double least = std::numeric_limits<double>::infinity();
+    for (const EdgeCorners& edge : kEdges)
+      least = std::min(least, norm(mesh_.position(v[edge.b]) - mesh_.position(v[edge.a])));
     return least;
   }
 
@@ -187,7 +197,7 @@ class SharpFinder {
 
   [[nodiscard]] SharpTet described(LocalIndex t, double angle) const
   {
-    SharpTet tet{.angle_deg = angle};
+    SharpTet tet{.angle_deg = angle, .shortest_edge = shortest_edge(t)};
     std::set<LocalIndex> rows;
     for (const LocalIndex v : mesh_.tet(t)) {
       tet.centre = tet.centre + 0.25 * mesh_.position(v);

@@ -12,6 +12,7 @@ namespace tessera::coarse {
 /// @brief A tet with a small dihedral angle, and where it is.
 struct SharpTet {
   double angle_deg = 0.0;             ///< Its smallest dihedral angle.
+  double shortest_edge = 0.0;         ///< Its length.
   Vec3 centre{};                      ///< Mean of the corners.
   std::vector<LocalIndex> patches{};  ///< Rows of patches that it touches, ascending.
 };

@@ -2,6 +2,7 @@
 #include "tessera/coarse/sharp_tets.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -54,10 +55,14 @@ TEST(SharpTets, AreNamedWithTheirPlaces)
   for (const SharpTet& tet : found.worst) {
     EXPECT_GE(tet.angle_deg, found.worst.front().angle_deg);
     EXPECT_LT(tet.angle_deg, kSmall_deg);
+    EXPECT_GT(tet.shortest_edge, 0.01);
   }
   EXPECT_TRUE(std::ranges::any_of(found.worst, [](const SharpTet& tet) {
     return tet.centre[2] < 0.1 && std::ranges::count(tet.patches, 4) == 1;
   })) << "one lies on z = 0";
+  EXPECT_TRUE(std::ranges::any_of(found.worst, [](const SharpTet& tet) {
+    return std::abs(tet.shortest_edge - 0.02) < 1e-12;
+  })) << "one has the vertex below";
 }
 
 TEST(SharpTets, AreForcedWhereFacesMeetAtASmallAngle)
