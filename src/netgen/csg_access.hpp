@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include <csg.hpp>
@@ -11,6 +12,16 @@ namespace tessera::netgen {
 
 [[nodiscard]] inline ::netgen::Point<3> to_netgen(const Vec3& p) { return {p[0], p[1], p[2]}; }
 [[nodiscard]] inline Vec3 from_netgen(const ::netgen::Point<3>& p) { return {p(0), p(1), p(2)}; }
+
+/// @brief First-order distance of a point to a surface; NaN where the surface has no normal. Local.
+[[nodiscard]] inline double distance(const ::netgen::Surface& surface,
+                                     const ::netgen::Point<3>& point)
+{
+  ::netgen::Vec<3> gradient;
+  surface.CalcGradient(point, gradient);
+  const double value = std::abs(surface.CalcFunctionValue(point));
+  return value == 0.0 ? 0.0 : value / gradient.Length();
+}
 
 /// NETGEN's own value: surfaces that differ by less, relative to the bounding box, are one surface.
 inline constexpr double kIdenticSurfaces = 1e-8;

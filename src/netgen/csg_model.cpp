@@ -2,11 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iostream>
 #include <iterator>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include <csg.hpp>
@@ -18,19 +16,14 @@
 #include "netgen/csg_crossings.hpp"
 #include "netgen/csg_cut.hpp"
 #include "netgen/csg_description.hpp"
+#include "netgen/csg_numbers.hpp"
+#include "netgen/csg_parse.hpp"
 #include "netgen/csg_solids.hpp"
-#include "netgen/csg_tori.hpp"
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
 #include "netgen/occ_content.hpp"
 #include "netgen/occ_error.hpp"
-
-// Defined in libcsg.so and declared in no header of NETGEN 6.2.1905.
-namespace netgen {
-// NOLINTNEXTLINE(readability-identifier-naming): NETGEN's
-CSGeometry* ParseCSG(std::istream& text, CSGeometry* instance);
-}  // namespace netgen
 
 namespace tessera::netgen {
 namespace {
@@ -54,84 +47,18 @@ std::string read_text(const std::filesystem::path& file)
   return text;
 }
 
-std::unique_ptr<Geometry> parse(const std::string& text, const std::string& file_name)
-{
-  NetgenSession session;
-  // At the end of the text NETGEN's scanner repeats the last letter of a name for ever.
-  std::istringstream in(text + '\n');
-  std::unique_ptr<Geometry> geometry;
-  try {
-    geometry.reset(session.run(file_name, [&] { return ::netgen::ParseCSG(in, nullptr); }));
-  } catch (const NetgenError& error) {
-    throw InputError(error.what());
-  }
-  if (geometry == nullptr) {
-    throw InputError(file_name + ": is not a NETGEN geometry: its first word is not 'algebraic3d'");
-  }
-  describe_cones_by_circles(*geometry);
-  mend_tori(*geometry);
-  geometry->FindIdenticSurfaces(kIdenticSurfaces * geometry->MaxSize());
-  return geometry;
-}
-
-// NETGEN skips a statement that it does not know, and says so on standard output only.
-class SkippedStatements {
- public:
-  SkippedStatements() : saved_(std::cout.rdbuf(said_.rdbuf())) {}
-  ~SkippedStatements() { std::cout.rdbuf(saved_); }
-  SkippedStatements(const SkippedStatements&) = delete;
-  SkippedStatements& operator=(const SkippedStatements&) = delete;
-
-  [[nodiscard]] std::vector<std::string> lines() const
-  {
-    std::vector<std::string> found;
-    std::istringstream in(said_.str());
-    for (std::string line; std::getline(in, line);) {
-      if (line.find("unidentified token") != std::string::npos) {
-        found.push_back("NETGEN skipped a word: " + line);
-      }
-    }
-    return found;
-  }
-
- private:
-  std::ostringstream said_{};
-  std::streambuf* saved_;
-};
-
-void require_solid(const Geometry& geometry, const std::string& file_name)
-{
-  for (int i = 0; i < geometry.GetNTopLevelObjects(); ++i) {
-    if (geometry.GetTopLevelObject(i)->GetSurface() == nullptr) return;
-  }
-  throw GeometryError(file_name + ": no solid is to be meshed; name one with 'tlo NAME;'");
-}
-
-// The bounding box that CSGeometry has is a bound for NETGEN's searches, by default 2000 wide.
-::netgen::Box<3> extent(Geometry& geometry, const std::string& file_name)
+// Empty if NETGEN finds no solid. The bounding box that CSGeometry has is a bound for NETGEN's
+// searches, by default 2000 wide.
+::netgen::Box<3> extent(Geometry& geometry)
 {
   // Detail and facets a radius: the box comes out within 2 % in some milliseconds.
   geometry.CalcTriangleApproximation(0.1, 20);
   ::netgen::Box<3> box(::netgen::Box<3>::EMPTY_BOX);
-  int num_points = 0;
   for (int i = 0; i < geometry.GetNTopLevelObjects(); ++i) {
     const auto* triangles = geometry.GetTriApprox(i);
-    for (int p = 0; p < triangles->GetNP(); ++p, ++num_points) box.Add(triangles->GetPoint(p));
-  }
-  if (num_points == 0) {
-    throw GeometryError(file_name + ": its solids are empty, or outside the bounding box; set one "
-                        "with 'boundingbox (x, y, z; x, y, z);'");
+    for (int p = 0; p < triangles->GetNP(); ++p) box.Add(triangles->GetPoint(p));
   }
   return box;
-}
-
-// First-order distance of a point to a surface; NaN counts as far.
-double distance(const ::netgen::Surface& surface, const Point& point)
-{
-  ::netgen::Vec<3> gradient;
-  surface.CalcGradient(point, gradient);
-  const double value = std::abs(surface.CalcFunctionValue(point));
-  return value == 0.0 ? 0.0 : value / gradient.Length();
 }
 
 // `step` is one of NETGEN's projections.
@@ -170,7 +97,15 @@ class CsgModel final : public LoadedModel {
   [[nodiscard]] coarse::ModelFigures figures() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
   [[nodiscard]] bool has_apex() const { return netgen::has_apex(*geometry_, tolerance_); }
-  [[nodiscard]] CadFile solids() const { return solids_of_csg(*geometry_, box_); }
+  // Whether NETGEN finds a solid. Its search may miss one that is much smaller than its bodies.
+  [[nodiscard]] bool is_seen() const { return is_seen_; }
+  [[nodiscard]] CadFile solids() const
+  {
+    CadFile cad = solids_of_csg(*geometry_, box_);
+    if (is_seen_) return cad;
+    // Once more: bodies that end far away have parameters that are as inexact as their lengths.
+    return solids_of_csg(*geometry_, box_of_solids(cad.shape, box_));
+  }
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
@@ -181,6 +116,7 @@ class CsgModel final : public LoadedModel {
   [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
   [[nodiscard]] std::shared_ptr<::netgen::Mesh> netgen_surface(Geometry& geometry,
                                                                double size) const;
+  [[nodiscard]] coarse::CoarseSurface remesh_solids(const coarse::CoarseOptions& options) const;
   void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
   void add_edges(const Geometry& geometry, const ::netgen::Mesh& mesh,
                  model::ModelDescription& to) const;
@@ -191,16 +127,19 @@ class CsgModel final : public LoadedModel {
   ::netgen::Box<3> box_{};
   double box_diagonal_ = 0.0;
   double tolerance_ = 0.0;
+  bool is_seen_ = true;
 };
 
 CsgModel::CsgModel(const model::ModelSource& source)
     : file_name_(source.file_name),
       text_(reinterpret_cast<const char*>(source.content.data()), source.content.size()),
-      geometry_(parse(text_, file_name_))
+      geometry_(parse_csg(text_, file_name_))
 {
   require_solid(*geometry_, file_name_);
   NetgenSession session;
-  box_ = session.run(file_name_, [&] { return extent(*geometry_, file_name_); });
+  box_ = session.run(file_name_, [&] { return extent(*geometry_); });
+  is_seen_ = box_.PMin()(0) <= box_.PMax()(0);
+  if (!is_seen_) box_ = geometry_->BoundingBox();
   box_diagonal_ = box_.Diam();
   tolerance_ = kTolerance * box_diagonal_;
 }
@@ -287,11 +226,11 @@ coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& option
                                              const NetgenSurfaceUser& use) const
 {
   if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
-    throw NetgenError("a .geo model has no triangles that could be remeshed");
+    return remesh_solids(options);
   }
   // NETGEN adds points to the geometry that it meshes and takes names out of it. So every try gets
   // a fresh one and is a pure function of the options.
-  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
+  const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
   const std::string what = file_name_ + ": coarse mesh";
   NetgenSession session(surface_parameters(options));
   std::shared_ptr<::netgen::Mesh> mesh;
@@ -306,12 +245,27 @@ coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& option
   return surface;
 }
 
+// For what NETGEN's CSG cannot mesh: OpenCASCADE makes the solids, and their triangles are
+// remeshed. The model stays NETGEN's.
+coarse::CoarseSurface CsgModel::remesh_solids(const coarse::CoarseOptions& options) const
+{
+  try {
+    const model::ModelSource source =
+        closed_source(with_occ_errors(file_name_, [&] { return solids(); }), file_name_);
+    const auto solids = load_occ(source);
+    return in_numbers_of_csg(solids->mesh_surface(options, [](const auto&...) {}), *geometry_,
+                             box_);
+  } catch (const GeometryError& error) {  // The model itself may be sound, other tries go on.
+    throw NetgenError(fmt::format("solids of OpenCASCADE: {}", error.what()));
+  }
+}
+
 coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
                                            const cut::CutTree& tree) const
 {
   const std::string what = file_name_ + ": coarse mesh of the parts";
-  const std::unique_ptr<Geometry> uncut = parse(text_, file_name_);
-  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
+  const std::unique_ptr<Geometry> uncut = parse_csg(text_, file_name_);
+  const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
   NetgenSession session(surface_parameters(options));
   return session.run(what, [&] {
     FaceOrder order(*uncut, session.parameters());
@@ -366,7 +320,7 @@ std::shared_ptr<::netgen::Mesh> CsgModel::netgen_surface(Geometry& geometry, dou
 
 coarse::CadSurface CsgModel::triangles_for_fit(double size) const
 {
-  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
+  const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
   const auto mesh = netgen_surface(*geometry, size);
   coarse::CadSurface cad = surface_of_mesh(*mesh, numbers_of(*geometry));
   cad.size = size;
@@ -400,7 +354,7 @@ void CsgModel::add_edges(const Geometry& geometry, const ::netgen::Mesh& mesh,
 model::ModelDescription CsgModel::describe() const
 {
   constexpr double kSize = 0.1;  // In parts of the box diagonal.
-  const std::unique_ptr<Geometry> geometry = parse(text_, file_name_);
+  const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
   const auto mesh = netgen_surface(*geometry, kSize * box_diagonal_);
   model::ModelDescription described = describe_csg(*geometry, *mesh);
   add_edges(*geometry, *mesh, described);
@@ -408,16 +362,21 @@ model::ModelDescription CsgModel::describe() const
 }
 
 // What NETGEN's CSG cannot mesh is OpenCASCADE's model from here on.
-model::ModelSource with_apex(const CsgModel& model, const model::ModelSource& source)
+model::ModelSource of_open_cascade(const CsgModel& model, const model::ModelSource& source,
+                                   const std::string& why)
 {
   CadFile cad = with_occ_errors(source.file_name, [&] {
     try {
       return model.solids();
     } catch (const GeometryError& error) {
-      throw GeometryError(fmt::format("{}: {}", source.file_name, error.what()));
+      throw GeometryError(fmt::format("{}: {}; {}", source.file_name, why, error.what()));
     }
   });
-  cad.repairs.insert(cad.repairs.begin(), source.repairs.begin(), source.repairs.end());
+  cad.repairs = source.repairs;
+  cad.repairs.push_back(
+      fmt::format("{}: OpenCASCADE made the solids once more; sizes that the file gives to solids "
+                  "are lost",
+                  why));
   return closed_source(std::move(cad), source.file_name);
 }
 
@@ -435,7 +394,13 @@ model::ModelSource import_csg(const std::filesystem::path& file)
   const SkippedStatements skipped;
   const CsgModel model(source);
   source.repairs = skipped.lines();
-  return model.has_apex() ? with_apex(model, source) : source;
+  if (!model.is_seen()) {
+    return of_open_cascade(model, source, "NETGEN's CSG finds no solid");
+  }
+  if (model.has_apex()) {
+    return of_open_cascade(model, source, "NETGEN's CSG cannot mesh the apex of a cone");
+  }
+  return source;
 }
 
 std::unique_ptr<LoadedModel> load_csg(const model::ModelSource& source)

@@ -12,6 +12,7 @@
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBndLib.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -19,6 +20,7 @@
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <Bnd_Box.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
@@ -171,9 +173,8 @@ class Builder {
     if (is_cone(numbers)) return cone(ConeShape(numbers));
     if (numbers.kind == "cylinder" || numbers.kind == "cone") return cylinder(numbers);
     throw GeometryError(
-        "has the apex of a cone on its surface, which NETGEN's CSG cannot mesh, and a body that "
-        "cannot be handed to OpenCASCADE: planes, spheres, cylinders, cones, tori and bricks can; "
-        "export the model as STEP");
+        "has a body that cannot be handed to OpenCASCADE: planes, spheres, cylinders, cones, tori "
+        "and bricks can; export the model as STEP");
   }
 
   static gp_Ax2 frame_at(const Vec3& origin, const Vec3& axis)
@@ -247,9 +248,7 @@ std::string name_of_face(const Geometry& geometry, const TopoDS_Face& face)
   std::string name;
   for (int s = 0; s < geometry.GetNSurf(); ++s) {
     const ::netgen::Surface& surface = *geometry.GetSurface(s);
-    ::netgen::Vec<3> gradient;
-    surface.CalcGradient(point, gradient);
-    const double off = std::abs(surface.CalcFunctionValue(point)) / gradient.Length();
+    const double off = distance(surface, point);
     if (s > 0 && !(off < nearest)) continue;
     nearest = off;
     name = name_unless_default(surface.GetBCName());
@@ -345,10 +344,21 @@ CadFile solids_of_csg(Geometry& geometry, const ::netgen::Box<3>& box)
     }
   });
   cad.shape = all;
-  cad.repairs.emplace_back(
-      "NETGEN's CSG cannot mesh the apex of a cone: OpenCASCADE made the solids once more; sizes "
-      "that the file gives to solids are lost");
   return cad;
+}
+
+::netgen::Box<3> box_of_solids(const TopoDS_Shape& shape, const ::netgen::Box<3>& bound)
+{
+  Bnd_Box found;
+  BRepBndLib::Add(shape, found);
+  if (TopExp_Explorer(shape, TopAbs_SOLID).More() && !found.IsVoid()) {
+    const auto corner = [](const gp_Pnt& p) { return to_netgen({p.X(), p.Y(), p.Z()}); };
+    const ::netgen::Box<3> box(corner(found.CornerMin()), corner(found.CornerMax()));
+    if (bound.IsIn(box.PMin()) && bound.IsIn(box.PMax())) return box;
+  }
+  throw GeometryError(
+      "its solids are empty, or outside the bounding box; set one with "
+      "'boundingbox (x, y, z; x, y, z);'");
 }
 
 }  // namespace tessera::netgen

@@ -25,4 +25,9 @@ void describe_cones_by_circles(::netgen::CSGeometry& geometry);
 /// @throws GeometryError that names what has no counterpart, and if OpenCASCADE fails.
 [[nodiscard]] CadFile solids_of_csg(::netgen::CSGeometry& geometry, const ::netgen::Box<3>& box);
 
+/// @brief Box of the solids of a shape. Local.
+/// @throws GeometryError unless there are solids, and all of them are within `bound`.
+[[nodiscard]] ::netgen::Box<3> box_of_solids(const TopoDS_Shape& shape,
+                                             const ::netgen::Box<3>& bound);
+
 }  // namespace tessera::netgen

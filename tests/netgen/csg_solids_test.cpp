@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <memory>
 #include <numbers>
 #include <set>
 #include <string>
@@ -37,6 +40,18 @@ double volume_of(const std::string& solids)
   return volume;
 }
 
+double volume_of(const mesh::CoarseMesh& mesh, LocalIndex material)
+{
+  double volume = 0.0;
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    if (mesh.tet_material[at(t)] != material) continue;
+    const auto tet = mesh.tet(t);
+    volume += tet_volume(mesh.position(tet[0]), mesh.position(tet[1]), mesh.position(tet[2]),
+                         mesh.position(tet[3]));
+  }
+  return volume;
+}
+
 TEST(CsgApex, IsMeshed)
 {
   const model::ModelSource source = source_of(std::string(kTip) + "tlo cone1 -material=steel;\n");
@@ -45,13 +60,7 @@ TEST(CsgApex, IsMeshed)
   coarse::CoarseOptions options;
   options.max_size = 0.3;
   const mesh::CoarseMesh mesh = netgen::make_coarse_mesher(*model)->generate(options);
-  double volume = 0.0;
-  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
-    const auto tet = mesh.tet(t);
-    volume += tet_volume(mesh.position(tet[0]), mesh.position(tet[1]), mesh.position(tet[2]),
-                         mesh.position(tet[3]));
-  }
-  EXPECT_NEAR(volume, kTipVolume, 0.05 * kTipVolume);
+  EXPECT_NEAR(volume_of(mesh, 1), kTipVolume, 0.05 * kTipVolume);
   EXPECT_EQ(mesh.material_names, std::vector<std::string>{"steel"});
   EXPECT_EQ(std::set(mesh.patch_names.begin(), mesh.patch_names.end()),
             (std::set<std::string>{"foot", "mantle"}));
@@ -101,6 +110,83 @@ TEST(CsgApex, IsNoMatterOutsideTheSolid)
   coarse::CoarseOptions options;
   options.max_size = 0.3;
   EXPECT_GT(netgen::make_coarse_mesher(*model)->generate(options).num_tets(), 0);
+}
+
+// A ball and a rod of size 1 that overlap by 1e-4: NETGEN's search does not find what they share.
+constexpr const char* kSpeck =
+    "solid ball = sphere (0, 0, 0; 1) -bcname=round;\n"
+    "solid rod = cylinder (0.99992, -1.49994, -0.8; 1.71992, -0.53994, 0.8; 0.7)\n"
+    "  and plane (0.99992, -1.49994, -0.8; -0.36, -0.48, -0.8)\n"
+    "  and plane (1.71992, -0.53994, 0.8; 0.36, 0.48, 0.8);\n"
+    "solid speck = ball and rod;\n";
+
+TEST(CsgSpeck, IsFoundByOpenCascade)
+{
+  const double overlap = 1e-4;
+  const double expected = std::numbers::pi * overlap * overlap / std::sqrt(1.0 + 1.0 / 0.7);
+  const model::ModelSource source = source_of(std::string(kSpeck) + "tlo speck -material=dust;\n");
+  EXPECT_EQ(source.repairs.size(), 1U);
+  const auto model = netgen::load_model(source);
+  const auto described = netgen::describe_model(*model);
+  ASSERT_EQ(described.solids.size(), 1U);
+  EXPECT_EQ(described.solids[0].name, "dust");
+  EXPECT_NEAR(described.solids[0].volume, expected, 1e-3 * expected);
+}
+
+TEST(CsgSpeck, IsNotWhatIsEmpty)
+{
+  const std::string far = "solid far = sphere (5, 0, 0; 1);\nsolid both = ball and far;\n";
+  EXPECT_THROW((void)source_of(kSpeck + far + "tlo both;\n"), GeometryError);
+}
+
+// What NETGEN's own mesher cannot do is left to it.
+struct Remeshed {
+  model::ModelSource source{};
+  std::unique_ptr<model::Model> model{};
+  mesh::CoarseMesh mesh{};
+};
+
+Remeshed remeshed(const std::string& solids, double max_size)
+{
+  Remeshed made{.source = source_of(solids)};
+  made.model = netgen::load_model(made.source);
+  coarse::CoarseOptions options;
+  options.max_size = max_size;
+  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  made.mesh = netgen::make_coarse_mesher(*made.model)->generate(options);
+  return made;
+}
+
+// Two solids that touch in a disc.
+constexpr const char* kPair =
+    "solid box = orthobrick (-1, -1, 0; 1, 1, 1) -bcname=case;\n"
+    "solid can = cylinder (0, 0, 0; 0, 0, 1; 0.5) -bcname=mantle;\n"
+    "solid base = plane (0, 0, 0; 0, 0, -1) -bcname=ground;\n"
+    "solid hole = box and not can and base;\nsolid core = can and box and base;\n"
+    "tlo hole -material=steel -maxh=0.3;\ntlo core -material=lead;\n";
+
+TEST(CsgRemesh, IsInTheNumbersOfTheFile)
+{
+  const auto [source, model, mesh] = remeshed(kPair, 0.5);
+  EXPECT_FALSE(model->has_parameters());  // It is NETGEN's.
+  EXPECT_TRUE(mesh.face_uv.empty());
+  EXPECT_EQ(mesh.material_names, (std::vector<std::string>{"steel", "lead"}));
+  const double core = 0.25 * std::numbers::pi;
+  EXPECT_NEAR(volume_of(mesh, 1), 4.0 - core, 0.03);
+  EXPECT_NEAR(volume_of(mesh, 2), core, 0.03);
+  EXPECT_EQ(std::ranges::count(mesh.patch_names, "mantle"), 1);
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const LocalIndex surface = mesh.patch_surface[at(mesh.face_patch[at(f)])];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 corner = mesh.position(mesh.face_vertices[3 * at(f) + c]);
+      EXPECT_LT(norm(model->project_to_surface(surface, corner, {}).xyz - corner), 1e-6);
+    }
+  }
+  EXPECT_GT(mesh.num_segments(), 0);
+  for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {  // Seams are none.
+    const Vec3 end = mesh.position(mesh.segment_vertices[2 * at(s)]);
+    EXPECT_LT(norm(model->project_to_curve(mesh.segment_curve[at(s)], end, 0.0).xyz - end), 1e-6);
+  }
 }
 
 TEST(CsgApex, IsRefusedBesideWhatOpenCascadeDoesNotHave)

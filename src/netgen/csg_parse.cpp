@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/csg_parse.hpp"
+
+#include "tessera/base/error.hpp"
+
+#include "netgen/csg_access.hpp"
+#include "netgen/csg_solids.hpp"
+#include "netgen/csg_tori.hpp"
+#include "netgen/netgen_session.hpp"
+
+// Defined in libcsg.so and declared in no header of NETGEN 6.2.1905.
+namespace netgen {
+// NOLINTNEXTLINE(readability-identifier-naming): NETGEN's
+CSGeometry* ParseCSG(std::istream& text, CSGeometry* instance);
+}  // namespace netgen
+
+namespace tessera::netgen {
+
+using Geometry = ::netgen::CSGeometry;
+
+std::unique_ptr<Geometry> parse_csg(const std::string& text, const std::string& file_name)
+{
+  NetgenSession session;
+  // At the end of the text NETGEN's scanner repeats the last letter of a name for ever.
+  std::istringstream in(text + '\n');
+  std::unique_ptr<Geometry> geometry;
+  try {
+    geometry.reset(session.run(file_name, [&] { return ::netgen::ParseCSG(in, nullptr); }));
+  } catch (const NetgenError& error) {
+    throw InputError(error.what());
+  }
+  if (geometry == nullptr) {
+    throw InputError(file_name + ": is not a NETGEN geometry: its first word is not 'algebraic3d'");
+  }
+  describe_cones_by_circles(*geometry);
+  mend_tori(*geometry);
+  geometry->FindIdenticSurfaces(kIdenticSurfaces * geometry->MaxSize());
+  return geometry;
+}
+
+void require_solid(const Geometry& geometry, const std::string& file_name)
+{
+  for (int i = 0; i < geometry.GetNTopLevelObjects(); ++i) {
+    if (geometry.GetTopLevelObject(i)->GetSurface() == nullptr) return;
+  }
+  throw GeometryError(file_name + ": no solid is to be meshed; name one with 'tlo NAME;'");
+}
+
+std::vector<std::string> SkippedStatements::lines() const
+{
+  std::vector<std::string> found;
+  std::istringstream in(said_.str());
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("unidentified token") != std::string::npos) {
+      found.push_back("NETGEN skipped a word: " + line);
+    }
+  }
+  return found;
+}
+
+}  // namespace tessera::netgen
