@@ -4,6 +4,7 @@
 #include "tessera/base/error.hpp"
 
 #include "netgen/csg_access.hpp"
+#include "netgen/csg_planes.hpp"
 #include "netgen/csg_solids.hpp"
 #include "netgen/csg_tori.hpp"
 #include "netgen/netgen_session.hpp"
@@ -34,7 +35,9 @@ std::unique_ptr<Geometry> parse_csg(const std::string& text, const std::string& 
   }
   describe_cones_by_circles(*geometry);
   mend_tori(*geometry);
-  geometry->FindIdenticSurfaces(kIdenticSurfaces * geometry->MaxSize());
+  const double tolerance = kIdenticSurfaces * geometry->MaxSize();
+  separate_planes(*geometry, tolerance);
+  geometry->FindIdenticSurfaces(tolerance);
   return geometry;
 }
 

@@ -189,6 +189,21 @@ TEST(CsgRemesh, IsInTheNumbersOfTheFile)
   }
 }
 
+// NETGEN takes the plane for a part of the ball's surface: the point that gives it lies on the
+// ball.
+TEST(CsgPlane, MayBeGivenByAPointOfAnotherSurface)
+{
+  const auto [source, model, mesh] = remeshed(
+      "solid ball = sphere (0, 0, 0; 0.75);\n"
+      "solid cut = ball and plane (0.5, -0.25, -0.5; 0, -1, 0);\ntlo cut;\n",
+      0.3);
+  const double height = 0.5;  // Of the cap that is cut off.
+  const double cap = std::numbers::pi * height * height * (0.75 - height / 3.0);
+  const double ball = 4.0 / 3.0 * std::numbers::pi * 0.75 * 0.75 * 0.75;
+  EXPECT_NEAR(volume_of(mesh, 1), ball - cap, 0.06);
+  EXPECT_EQ(std::set(mesh.patch_surface.begin(), mesh.patch_surface.end()).size(), 2U);
+}
+
 TEST(CsgApex, IsRefusedBesideWhatOpenCascadeDoesNotHave)
 {
   try {
