@@ -13,10 +13,10 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/touching_faces.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 #include "own_patches.hpp"
-#include "touching_faces.hpp"
 
 namespace tessera::coarse {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "touching_faces.hpp"
+#include "tessera/coarse/touching_faces.hpp"
 
 #include <algorithm>
 

@@ -2,6 +2,8 @@
 #include "netgen/volume_mesher.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +15,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/optimize_domain.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
+#include "tessera/coarse/touching_faces.hpp"
 
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
@@ -43,6 +46,24 @@ coarse::DomainTets tets_in(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
   OrderedTets tets = tets_of(mesh, point_order(num_fixed, 0));
   if (tets.tet_vertices.empty()) throw NetgenError("NETGEN made no tets");
   return {std::move(tets.vertex_xyz), std::move(tets.tet_vertices)};
+}
+
+// What NETGEN does not say of a skin that it cannot fill; empty if the skin touches itself nowhere.
+std::string touching_words(const coarse::DomainSkin& skin)
+{
+  constexpr double kTouching = 1e-7;  // Of the model's diagonal.
+  std::vector<std::array<LocalIndex, 3>> triangles;
+  for (std::size_t c = 0; c < skin.triangle_vertices.size(); c += 3) {
+    const LocalIndex* const v = &skin.triangle_vertices[c];
+    triangles.push_back({v[0], v[1], v[2]});
+  }
+  const double tolerance = kTouching * norm(skin.model_box[1] - skin.model_box[0]);
+  const auto touching = coarse::find_touching_faces(skin.vertex_xyz, triangles, tolerance);
+  if (!touching) return {};
+  return fmt::format(
+      "; the body touches itself at ({:g}): its wall has no thickness there; give it some, or make "
+      "the hole go through",
+      fmt::join(touching->place, ", "));
 }
 
 coarse::DomainTets first_tets(const coarse::DomainSkin& skin, NetgenSession& session)
@@ -159,10 +180,14 @@ coarse::DomainTets fill_domain(const coarse::DomainSkin& skin, const coarse::Coa
   ::netgen::MeshingParameters parameters = coarse_parameters(scaled);
   if (skin.is_piece) parameters.maxoutersteps = kMostStepsOfPiece;
   NetgenSession session(parameters);
-  coarse::DomainTets tets =
-      session.run("coarse volume mesh", [&] { return first_tets(scaled_skin, session); });
-  for (double& x : tets.vertex_xyz) x /= scale;
-  return tets;
+  try {
+    coarse::DomainTets tets =
+        session.run("coarse volume mesh", [&] { return first_tets(scaled_skin, session); });
+    for (double& x : tets.vertex_xyz) x /= scale;
+    return tets;
+  } catch (const NetgenError& error) {
+    throw NetgenError(error.what() + touching_words(skin));
+  }
 }
 
 coarse::DomainTets improve_domain(const coarse::DomainSkin& skin, coarse::DomainTets tets)

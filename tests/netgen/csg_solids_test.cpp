@@ -204,6 +204,26 @@ TEST(CsgPlane, MayBeGivenByAPointOfAnotherSurface)
   EXPECT_EQ(std::set(mesh.patch_surface.begin(), mesh.patch_surface.end()).size(), 2U);
 }
 
+// The rim of a hollow cone touches two sides of its block.
+TEST(CsgApex, BodyThatTouchesItselfIsToldWithThePlace)
+{
+  const auto model = netgen::load_model(
+      source_of("solid block = orthobrick (-1, -0.3, -0.6; 1, 1.3, 1.5);\n"
+                "solid tip = cone (0, 0, 0; 1; 0, 0, 1.2; 0)\n"
+                "  and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1.2; 0, 0, 1);\n"
+                "solid hollow = block and not tip;\ntlo hollow;\n"));
+  coarse::CoarseOptions options;
+  options.max_size = 0.4;
+  try {
+    (void)netgen::make_coarse_mesher(*model)->generate(options);
+    ADD_FAILURE() << "meshed";
+  } catch (const NetgenError& error) {
+    EXPECT_NE(std::string(error.what()).find("touches itself at ("), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("1, "), std::string::npos) << error.what();
+  }
+}
+
 TEST(CsgApex, IsRefusedBesideWhatOpenCascadeDoesNotHave)
 {
   try {
