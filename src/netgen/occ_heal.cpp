@@ -22,6 +22,7 @@
 #include "netgen/occ_cad_file.hpp"
 #include "netgen/occ_glue.hpp"
 #include "netgen/occ_overlaps.hpp"
+#include "netgen/occ_periods.hpp"
 #include "netgen/occ_shape.hpp"
 
 namespace tessera::netgen {
@@ -133,6 +134,15 @@ std::vector<TopoDS_Shape> solids_from_faces(const TopoDS_Shape& faces, CadFile& 
   return solids;
 }
 
+void follow_names(const TopoDS_Shape& shape, ShapeBuild_ReShape& changes, ShapeNames& names)
+{
+  follow_names(shape, names, [&](const TopoDS_Shape& part) {
+    TopTools_ListOfShape images;
+    images.Append(changes.Apply(part));
+    return images;
+  });
+}
+
 // ShapeFix on wires, faces, shells and the solid, then on small edges and gaps in wires.
 TopoDS_Shape fixed(const TopoDS_Shape& solid, ShapeNames& names)
 {
@@ -145,20 +155,34 @@ TopoDS_Shape fixed(const TopoDS_Shape& solid, ShapeNames& names)
   wires.ModeDropSmallEdges() = Standard_True;
   wires.FixSmallEdges();
   wires.FixWireGaps();
-  follow_names(solid, names, [&](const TopoDS_Shape& part) {
-    TopTools_ListOfShape images;
-    images.Append(changes->Apply(part));
-    return images;
-  });
+  follow_names(solid, *changes, names);
   return wires.Shape();
 }
 
+// The solid with wires that close in the parameters of their faces.
+TopoDS_Shape closed_in_parameters(const TopoDS_Shape& solid, ShapeNames& names)
+{
+  const Handle(ShapeBuild_ReShape) changes = new ShapeBuild_ReShape;
+  TopoDS_Shape better = with_closed_wires(solid, *changes);
+  follow_names(solid, *changes, names);
+  return better;
+}
+
+bool is_sound(const TopoDS_Shape& solid)
+{
+  return BRepCheck_Analyzer(solid).IsValid() && is_closed(solid) && !has_false_points(solid);
+}
+
 // One solid of the file as closed solids; usually itself.
-std::vector<TopoDS_Shape> healed(const TopoDS_Shape& solid, int number, CadFile& cad)
+std::vector<TopoDS_Shape> healed(const TopoDS_Shape& given, int number, CadFile& cad)
 {
   const std::string name = fmt::format("solid {}", number);
-  const bool valid = BRepCheck_Analyzer(solid).IsValid();
-  if (valid && is_closed(solid)) return {solid};
+  if (is_sound(given)) return {given};
+  const TopoDS_Shape solid = closed_in_parameters(given, cad.names);
+  if (is_sound(solid)) {
+    cad.repairs.push_back(name + " had wires that did not close on periodic faces; they do now");
+    return {solid};
+  }
   const TopoDS_Shape better = fixed(solid, cad.names);
   std::vector<TopoDS_Shape> closed;
   for (const TopoDS_Shape& part : parts_of(better, TopAbs_SOLID)) {
