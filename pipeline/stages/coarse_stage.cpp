@@ -339,14 +339,17 @@ std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions&
   }
   coarse::CoarseOptions rounder = asked;
   rounder.curvature *= 2.0;
-  fallbacks.push_back(rounder);
-  if (asked.mesher == coarse::Mesher::gmsh) return fallbacks;
-  for (const double factor : {1.0, 0.5}) {
-    coarse::CoarseOptions remeshed = asked;
-    remeshed.max_size *= factor;
-    remeshed.surface_mesher = coarse::SurfaceMesher::remesh;
-    fallbacks.push_back(remeshed);
+  if (asked.mesher == coarse::Mesher::gmsh) {
+    fallbacks.push_back(rounder);
+    return fallbacks;
   }
+  // Rounder meshes have been seen to take minutes and to have a million tets, and of some hundred
+  // models none needed one that could be remeshed.
+  coarse::CoarseOptions remeshed = asked;
+  remeshed.surface_mesher = coarse::SurfaceMesher::remesh;
+  coarse::CoarseOptions finer_remeshed = remeshed;
+  finer_remeshed.max_size *= 0.5;
+  fallbacks.insert(fallbacks.end(), {remeshed, rounder, finer_remeshed});
   if (asked.defeature > 0.0) {
     fallbacks.push_back(asked);
     fallbacks.back().defeature = 0.0;

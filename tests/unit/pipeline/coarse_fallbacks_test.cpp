@@ -79,14 +79,21 @@ TEST(CoarseFallbacks, OneHasMoreElementsOnCurvedSurfaces)
   EXPECT_EQ(std::ranges::count_if(fallbacks, is_rounder), 1);
 }
 
-TEST(CoarseFallbacks, TrianglesOfTheModelComeLast)
+TEST(CoarseFallbacks, TrianglesOfTheModelComeAfterOtherSizes)
 {
   const std::vector<CoarseOptions> fallbacks = coarse_fallbacks(asked());
-  EXPECT_TRUE(std::ranges::is_partitioned(fallbacks, is_netgen));
   EXPECT_EQ(std::ranges::count_if(fallbacks, is_netgen), 4);
   ASSERT_EQ(fallbacks.size(), 6U);
-  EXPECT_EQ(fallbacks[4].max_size, asked().max_size);
+  EXPECT_FALSE(is_netgen(fallbacks[3]));
+  EXPECT_EQ(fallbacks[3].max_size, asked().max_size);
+  EXPECT_FALSE(is_netgen(fallbacks[5]));
   EXPECT_LT(fallbacks[5].max_size, asked().max_size);
+}
+
+TEST(CoarseFallbacks, ManyMoreTetsComeAfterTrianglesOfTheModel)
+{
+  const std::vector<CoarseOptions> fallbacks = coarse_fallbacks(asked());
+  EXPECT_EQ(fallbacks.at(4).curvature, 2.0 * asked().curvature);
 }
 
 }  // namespace
