@@ -35,7 +35,7 @@ class Ladder(program.ProgramTest):
     def test_rungs_that_hang_do_so_together(self):
         """NETGEN's first and the first of the remeshed triangles; the second of these works."""
         self.write_cube()
-        hang = "coarse=sleep@0 remesh=sleep@4"
+        hang = "coarse=sleep@0 remesh=sleep@3"
         runs = {ranks: self.mesh_with(hang, f"on_{ranks}", ranks=ranks) for ranks in (1, 2, 3)}
         for report in runs.values():
             self.assertEqual(report["coarse"]["tries"], 3)
