@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "tessera/base/error.hpp"
 #include "tessera/coarse/remesh.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 
 #include "coarse/crossings.hpp"
+#include "coarse/patch_folds.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -134,6 +137,39 @@ std::vector<std::size_t> cut_triangles(const PatchSurface& surface)
   return triangles;
 }
 
+PatchSurface finer_at(const std::vector<std::size_t>& triangles, const PatchSurface& surface,
+                      const SurfaceReference& reference, const model::Model& model,
+                      const CoarseOptions& options)
+{
+  PatchSurface finer = remesh_finer(reference, surface, triangles, options);
+  put_on_geometry(finer, reference, model);
+  return finer;
+}
+
+// Shorter edges where the surface would fold, as long as there are fewer such places then. A
+// projection that fails on the way loses nothing.
+void mend_folds_of(PatchSurface& surface, std::size_t most_triangles,
+                   const SurfaceReference& reference, const model::Model& model,
+                   const CoarseOptions& options)
+{
+  std::vector<std::size_t> folding = folding_triangles(surface, reference, model);
+  std::size_t num_cut = cut_triangles(surface).size();
+  for (int round = 0; round < kFinerRounds && !folding.empty(); ++round) {
+    if (surface.triangles.size() > most_triangles) return;
+    try {
+      PatchSurface finer = finer_at(folding, surface, reference, model, options);
+      std::vector<std::size_t> left = folding_triangles(finer, reference, model);
+      const std::size_t left_cut = cut_triangles(finer).size();
+      if (left.size() >= folding.size() || left_cut > num_cut) return;
+      surface = std::move(finer);
+      folding = std::move(left);
+      num_cut = left_cut;
+    } catch (const GeometryError&) {
+      return;
+    }
+  }
+}
+
 }  // namespace
 
 void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
@@ -151,9 +187,9 @@ PatchSurface remesh_on_geometry(const SurfaceReference& reference, const PatchSu
   for (int round = 0; round < kFinerRounds; ++round) {
     const std::vector<std::size_t> cut = cut_triangles(surface);
     if (cut.empty() || surface.triangles.size() > most_triangles) break;
-    surface = remesh_finer(reference, surface, cut, options);
-    put_on_geometry(surface, reference, model);
+    surface = finer_at(cut, surface, reference, model, options);
   }
+  mend_folds_of(surface, most_triangles, reference, model, options);
   return surface;
 }
 

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <queue>
+#include <set>
 #include <utility>
+
+#include "coarse/editable_surface.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -16,6 +20,20 @@ using Edge = PatchSurface::Edge;
 // Of the largest size: smaller radii and curves are not resolved. This mesher is for models with
 // defects, where radii of nothing would make millions of triangles.
 constexpr double kLeastSize = 0.1;
+
+// The same where the surface goes round: on wires, pins and their holes. With edges longer than the
+// radius three or four would go round, and points of refinement would pass through the other side.
+constexpr double kLeastOfRound = 0.02;
+
+// The surface goes round a vertex's radius if it looks so far the other way (120 degrees) within so
+// many radii. A rounded edge of a right angle does not.
+constexpr double kOtherWay = -0.5;
+constexpr double kAround = 2.2;
+
+// Triangles that meet at a larger angle (60 degrees) are not of one round piece.
+constexpr double kLeastSmoothCosine = 0.5;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A triangle that is flatter has no normal that says anything.
 constexpr double kFlat = 1e-3;
@@ -62,6 +80,7 @@ class SizeField {
       : surface_(surface),
         options_(options),
         sizes_(surface.vertex_xyz.size(), options.max_size),
+        radii_(surface.vertex_xyz.size(), kInfinity),
         edge_triangles_(triangles_by_edge(surface))
   {
   }
@@ -70,6 +89,7 @@ class SizeField {
   {
     for (const auto& [edge, triangles] : edge_triangles_) bend_surface(edge, triangles);
     bend_and_shorten_curves();
+    resolve_round_places();
     grade(surface_.vertex_xyz, neighbours_of(surface_, edge_triangles_), options_.grading, sizes_);
     return std::move(sizes_);
   }
@@ -99,7 +119,10 @@ class SizeField {
     const double turn = angle_between(normals[0], normals[1]);
     if (turn < kLeastTurn || heights < kFlat * length(edge)) return;
     const double radius = 0.5 * heights / turn;
-    for (const LocalIndex v : edge) restrict(v, radius / options_.curvature);
+    for (const LocalIndex v : edge) {
+      restrict(v, radius / options_.curvature);
+      radii_[at(v)] = std::min(radii_[at(v)], radius);
+    }
   }
 
   void bend_and_shorten_curves()
@@ -134,9 +157,72 @@ class SizeField {
     restrict(v, 0.5 * (norm(to) + norm(from)) / turn / options_.curvature);
   }
 
+  void resolve_round_places()
+  {
+    const double least = kLeastSize * options_.max_size;
+    std::vector<std::vector<std::size_t>> triangles(sizes_.size());
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      for (const LocalIndex v : surface_.triangles[t]) {
+        if (radii_[at(v)] < least) triangles[at(v)].push_back(t);
+      }
+    }
+    for (std::size_t v = 0; v < sizes_.size(); ++v) {
+      const auto goes_round_from = [&](std::size_t t) { return goes_round(v, t); };
+      if (std::ranges::none_of(triangles[v], goes_round_from)) continue;
+      const double size = std::max(radii_[v], kLeastOfRound * options_.max_size);
+      sizes_[v] = std::min(sizes_[v], size);
+    }
+  }
+
+  // Of the angle of two triangles; one without a normal looks as the other does.
+  [[nodiscard]] double cosine(std::size_t t, std::size_t other) const
+  {
+    const Vec3 a = normal_of(surface_.corners(t));
+    const Vec3 b = normal_of(surface_.corners(other));
+    const double lengths = norm(a) * norm(b);
+    return lengths > 0.0 ? dot(a, b) / lengths : 1.0;
+  }
+
+  // Whether the surface that goes on smoothly from a triangle of a vertex looks the other way near.
+  [[nodiscard]] bool goes_round(std::size_t v, std::size_t first) const
+  {
+    std::vector<std::size_t> waiting{first};
+    std::set<std::size_t> seen{first};
+    while (!waiting.empty()) {
+      const std::size_t t = waiting.back();
+      waiting.pop_back();
+      if (cosine(t, first) < kOtherWay) return true;
+      for (const std::size_t other : smooth_neighbours(t)) {
+        if (is_near(other, v) && seen.insert(other).second) waiting.push_back(other);
+      }
+    }
+    return false;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> smooth_neighbours(std::size_t t) const
+  {
+    std::vector<std::size_t> found;
+    const PatchSurface::Triangle& v = surface_.triangles[t];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::vector<std::size_t>& two = edge_triangles_.at(edge_of(v[c], v[(c + 1) % 3]));
+      if (two.size() != 2) continue;
+      const std::size_t other = two[0] == t ? two[1] : two[0];
+      if (cosine(t, other) > kLeastSmoothCosine) found.push_back(other);
+    }
+    return found;
+  }
+
+  [[nodiscard]] bool is_near(std::size_t t, std::size_t v) const
+  {
+    return std::ranges::any_of(surface_.triangles[t], [&](LocalIndex corner) {
+      return norm(xyz(corner) - surface_.vertex_xyz[v]) < kAround * radii_[v];
+    });
+  }
+
   const PatchSurface& surface_;
   const CoarseOptions& options_;
   std::vector<double> sizes_;
+  std::vector<double> radii_;  // Of the surface at each vertex, however small.
   std::map<Edge, std::vector<std::size_t>> edge_triangles_;
 };
 
