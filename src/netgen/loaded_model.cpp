@@ -52,17 +52,35 @@ coarse::CoarseSurface mended_by(const Mend& mend, coarse::CoarseSurface surface,
   }
 }
 
+struct Unfolded {
+  coarse::CoarseSurface surface{};
+  LocalIndex num_left = 0;  // Folds that could not be mended.
+};
+
+Unfolded unfolded(coarse::CoarseSurface surface, const LoadedModel& model)
+{
+  LocalIndex num_left = 0;
+  const auto mend_folds = [&](coarse::CoarseSurface& better) {
+    const coarse::FoldStatistics done = coarse::mend_folds(better, model);
+    num_left = done.num_left;
+    return done.num_left < done.num_before;
+  };
+  coarse::CoarseSurface better = mended_by(mend_folds, std::move(surface), model);
+  return {std::move(better), num_left};
+}
+
+// A fold keeps points off the geometry, which is worse than a bad angle. Where better shapes have
+// folds that cannot be mended, those before may have none.
 coarse::CoarseSurface mended(coarse::CoarseSurface surface, const LoadedModel& model)
 {
   if (surface.num_domains() == 0) return surface;
   const auto mend_shapes = [&](coarse::CoarseSurface& better) {
     return coarse::mend_surface(better, model).total() > 0;
   };
-  const auto mend_folds = [&](coarse::CoarseSurface& better) {
-    const coarse::FoldStatistics done = coarse::mend_folds(better, model);
-    return done.num_left < done.num_before;
-  };
-  return mended_by(mend_folds, mended_by(mend_shapes, std::move(surface), model), model);
+  Unfolded shaped = unfolded(mended_by(mend_shapes, surface, model), model);
+  if (shaped.num_left == 0) return std::move(shaped.surface);
+  Unfolded plain = unfolded(std::move(surface), model);
+  return std::move(plain.num_left < shaped.num_left ? plain.surface : shaped.surface);
 }
 
 // A model whose triangles cannot be had may be meshed all the same.

@@ -8,11 +8,13 @@
 #include <set>
 #include <tuple>
 
+#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools.hxx>
 #include <TopExp_Explorer.hxx>
@@ -20,6 +22,8 @@
 #include <gp_Ax2.hxx>
 #include <gp_Circ.hxx>
 #include <gtest/gtest.h>
+
+#include "tessera/coarse/mend_folds.hpp"
 
 #include "support/temporary_folder.hpp"
 
@@ -288,6 +292,29 @@ TEST(OccSurface, HasNoMoreThanItsShareAtSmallRoundedEdges)
   const auto surface = netgen::make_coarse_mesher(*model)->mesh_surface(options, {});
   EXPECT_GT(surface.mesh.num_faces(), 2'000);
   EXPECT_LT(surface.mesh.num_faces(), 100'000);
+}
+
+// A shaft with a shoulder: between its circles is a ledge that is narrower than arcs are high.
+TopoDS_Shape shaft(double ledge)
+{
+  const TopoDS_Shape wide = BRepPrimAPI_MakeCylinder(20.0, 5.0).Shape();
+  const gp_Ax2 top(gp_Pnt(0, 0, 5), gp_Dir(0, 0, 1));
+  const TopoDS_Shape thin = BRepPrimAPI_MakeCylinder(top, 20.0 - ledge, 5.0).Shape();
+  return BRepAlgoAPI_Fuse(wide, thin).Shape();
+}
+
+// Better shapes alone would leave 11 folds along the ledge that cannot be mended.
+TEST(OccSurface, DoesNotFoldAtANarrowLedgeForBetterShapes)
+{
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "shaft.brep";
+  ASSERT_TRUE(BRepTools::Write(shaft(0.05), file.c_str()));
+  const auto model = netgen::load_model(netgen::import_model(file, {}));
+  coarse::CoarseOptions options;
+  options.max_size = 5.0;
+  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  auto surface = netgen::make_coarse_mesher(*model)->mesh_surface(options, {});
+  EXPECT_EQ(coarse::mend_folds(surface, *model).num_before, 0);
 }
 
 }  // namespace
