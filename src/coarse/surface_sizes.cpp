@@ -23,7 +23,7 @@ constexpr double kLeastSize = 0.1;
 
 // The same where the surface goes round: on wires, pins and their holes. With edges longer than the
 // radius three or four would go round, and points of refinement would pass through the other side.
-constexpr double kLeastOfRound = 0.02;
+constexpr double kLeastOfRound = 0.04;
 
 // The surface goes round a vertex's radius if it looks so far the other way (120 degrees) within so
 // many radii. A rounded edge of a right angle does not.

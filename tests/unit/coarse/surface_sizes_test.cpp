@@ -69,7 +69,7 @@ TEST(SurfaceSizes, DoNotResolveAWireOfNearlyNothing)
   Outline circle;
   add_arc({0.0, 0.0}, 1.0, 0.0, 337.5, 15, circle);
   const std::vector<double> sizes = surface_sizes(prism(circle), of_size(200.0));
-  for (const double size : sizes) EXPECT_NEAR(size, 4.0, 1e-9);
+  for (const double size : sizes) EXPECT_NEAR(size, 8.0, 1e-9);
 }
 
 TEST(SurfaceSizes, DoNotResolveARoundedEdgeThinnerThanTheLeastSize)
