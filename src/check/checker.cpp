@@ -194,10 +194,12 @@ void Checker::take_ids(const PieceMesh& mesh, const PieceSurface& surface)
     append_runs(mesh.arrays.cell_ids, piece, cell_id_space(), cell_ids_, findings_);
 }
 
-// Surfaces of the pieces of the batch that was read last.
-std::span<const PieceSurface> Checker::new_surfaces() const
+// Of this rank. They stand in the order of pieces.
+std::span<PieceSurface> Checker::surfaces_of(Range pieces)
 {
-  return std::span(surfaces_).subspan(num_matched_);
+  const auto piece_of = [](const PieceSurface& surface) { return surface.name.piece; };
+  const auto begin = std::ranges::lower_bound(surfaces_, pieces.begin, {}, piece_of);
+  return {begin, std::ranges::lower_bound(surfaces_, pieces.end, {}, piece_of)};
 }
 
 // Calls back with the triangles of this rank's pieces of the boundary file. What is wrong with a
@@ -210,13 +212,12 @@ void Checker::for_each_own_listed(Range range, const Visit& visit) const
                      [&](PieceName name) { for_each_listed(load(name, elsewhere), visit); });
 }
 
-// Of the boundary file's pieces with the numbers of the batch, ascending.
-std::vector<TriangleKey> Checker::read_listed_keys(LocalIndex batch) const
+// Of the boundary file's pieces with these numbers, ascending.
+std::vector<TriangleKey> Checker::read_listed_keys(Range pieces) const
 {
   std::vector<TriangleKey> keys;
   if (boundary_ == nullptr) return keys;
-  const Range tets = batch_of(tets_.num_pieces, batch);
-  for_each_own_listed({tets.begin, std::min(tets.end, boundary_->num_pieces)},
+  for_each_own_listed({pieces.begin, std::min(pieces.end, boundary_->num_pieces)},
                       [&](const TriangleRecord& record) { keys.push_back(record.key); });
   std::sort(keys.begin(), keys.end());
   return keys;
@@ -224,33 +225,37 @@ std::vector<TriangleKey> Checker::read_listed_keys(LocalIndex batch) const
 
 // Triangles that the boundary file lists beside their piece are held back until the end: to most of
 // them no second side will come.
-std::vector<TriangleVerdict> Checker::match_new_triangles(LocalIndex batch)
+std::vector<TriangleSide> Checker::new_sides(Range pieces)
 {
-  const std::vector<TriangleKey> listed = read_listed_keys(batch);
+  const std::vector<TriangleKey> listed = read_listed_keys(pieces);
   std::vector<TriangleSide> sides;
-  for (const PieceSurface& surface : new_surfaces()) {
+  for (const PieceSurface& surface : surfaces_of(pieces)) {
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
       const TriangleSide side = surface.side(t);
       if (!std::binary_search(listed.begin(), listed.end(), side.key)) sides.push_back(side);
     }
   }
-  return triangles_.add(sides, std::exchange(inner_, {}));
+  return sides;
 }
 
-void Checker::match_new_vertices()
+std::vector<VertexRecord> Checker::new_vertices(Range pieces)
 {
   std::vector<VertexRecord> vertices;
-  for (const PieceSurface& surface : new_surfaces())
+  for (const PieceSurface& surface : surfaces_of(pieces))
     std::ranges::move(surface.vertex_records(), std::back_inserter(vertices));
-  vertices_.add(vertices, identity_);
+  return vertices;
 }
 
+// What pieces share is sent for one piece of each rank at a time: several copies are made of it.
 void Checker::match_batch(LocalIndex batch)
 {
-  const auto verdicts = match_new_triangles(batch);
-  match_new_vertices();
-  num_matched_ = surfaces_.size();
-  apply_all(verdicts);
+  const Range pieces = batch_of(tets_.num_pieces, batch);
+  for (Range some = pieces; some.begin < pieces.end; some.begin = some.end) {
+    some.end = std::min<LocalIndex>(some.begin + comm_.size(), pieces.end);
+    triangles_.add(new_sides(some), std::exchange(inner_, {}));
+    vertices_.add(new_vertices(some), identity_);
+  }
+  apply_all(triangles_.match());
   ::malloc_trim(0);  // What surfaces leave when they shrink lies between those that stay.
 }
 
@@ -368,14 +373,8 @@ std::vector<VertexFlags> Checker::flags_of(std::span<const PieceSurface> surface
 void Checker::match_last_edges()
 {
   EdgeMatch own;
-  std::size_t end = 0;
-  for (LocalIndex batch = 0; batch < num_batches(); ++batch) {
-    const std::size_t begin = end;
-    while (end < surfaces_.size()
-           && surfaces_[end].name.piece < batch_of(tets_.num_pieces, batch).end)
-      ++end;
-    match_last_edges(std::span(surfaces_).subspan(begin, end - begin), own);
-  }
+  for (LocalIndex batch = 0; batch < num_batches(); ++batch)
+    match_last_edges(surfaces_of(batch_of(tets_.num_pieces, batch)), own);
   const EdgeMatch shared = match_edges(std::exchange(edges_.shared, {}), comm_, findings_);
   for (const EdgeMatch& match : {own, shared}) {
     counts_.num_edges += match.num_edges;

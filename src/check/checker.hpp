@@ -112,10 +112,10 @@ class Checker {
   [[nodiscard]] bool has_ids_of_all_or_none(GlobalIndex num_read);
   [[nodiscard]] bool read_batch(LocalIndex batch);
   [[nodiscard]] bool read_listed_vertices();
-  [[nodiscard]] std::span<const PieceSurface> new_surfaces() const;
-  [[nodiscard]] std::vector<TriangleKey> read_listed_keys(LocalIndex batch) const;
-  [[nodiscard]] std::vector<TriangleVerdict> match_new_triangles(LocalIndex batch);
-  void match_new_vertices();
+  [[nodiscard]] std::span<PieceSurface> surfaces_of(Range pieces);
+  [[nodiscard]] std::vector<TriangleKey> read_listed_keys(Range pieces) const;
+  [[nodiscard]] std::vector<TriangleSide> new_sides(Range pieces);
+  [[nodiscard]] std::vector<VertexRecord> new_vertices(Range pieces);
   void match_batch(LocalIndex batch);
   [[nodiscard]] std::size_t num_open_triangles() const;
   void match_last_triangles();
@@ -158,7 +158,6 @@ class Checker {
   std::vector<TriangleRecord> inner_{};           // On two tets of a piece of the batch at hand.
   std::vector<VertexKey> seam_keys_{};            // Vertices that were found on a seam, to be told.
   std::vector<PieceSurface> surfaces_{};          // Of this rank's pieces of tets.
-  std::size_t num_matched_ = 0;                   // Of these, all but those of the batch at hand.
   std::vector<PieceRecords> records_{};           // Parallel to surfaces_.
   std::optional<mesh::MeshArrays> only_piece_{};  // If this rank has one piece of tets.
   std::vector<IdRun> point_ids_{};

@@ -158,29 +158,30 @@ void append_verdicts(const TriangleGroup& group, TriangleRole role,
   }
 }
 
-std::vector<TriangleVerdict> send_to_readers(std::vector<TriangleVerdict> verdicts,
+std::vector<TriangleVerdict> send_to_readers(const std::vector<TriangleVerdict>& verdicts,
                                              const comm::Communicator& comm)
 {
-  const comm::RecordExchange<TriangleVerdict> exchange(
-      verdicts,
-      [](const TriangleVerdict& verdict) { return static_cast<std::uint64_t>(verdict.piece); },
-      comm);
-  const auto received = exchange.received();
-  return {received.begin(), received.end()};
+  const auto reader = [](const TriangleVerdict& verdict) {
+    return static_cast<std::uint64_t>(verdict.piece);
+  };
+  return comm::RecordExchange<TriangleVerdict>(verdicts, reader, comm).take_received();
 }
 
 }  // namespace
 
-std::vector<TriangleVerdict> TriangleMatcher::add(std::span<const TriangleSide> open,
-                                                  std::span<const TriangleRecord> inner)
+void TriangleMatcher::add(std::span<const TriangleSide> open, std::span<const TriangleRecord> inner)
 {
   const auto owner = [](const auto& side) { return hash_of(side.key); };
   take_open(comm::RecordExchange<TriangleSide>(open, owner, comm_).received());
   take_inner(comm::RecordExchange<TriangleRecord>(inner, owner, comm_).received());
+}
+
+std::vector<TriangleVerdict> TriangleMatcher::match()
+{
   std::vector<TriangleVerdict> verdicts;
   for (Bucket& bucket : buckets_) match(bucket, verdicts);
   sort_unique(links_);
-  return send_to_readers(std::move(verdicts), comm_);
+  return send_to_readers(verdicts, comm_);
 }
 
 TriangleMatcher::ShortKey TriangleMatcher::short_key(const TriangleKey& key)
@@ -331,7 +332,7 @@ std::vector<TriangleVerdict> TriangleMatcher::decide(std::vector<TriangleRecord>
         if (boundary_ != BoundaryFile::none) check_boundary(group, role, findings_);
       });
   sort_unique(links_);
-  return send_to_readers(std::move(verdicts), comm_);
+  return send_to_readers(verdicts, comm_);
 }
 
 }  // namespace tessera::check

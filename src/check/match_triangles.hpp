@@ -72,14 +72,16 @@ class TriangleMatcher {
   {
   }
 
-  /// @brief Takes the triangles of a batch.
+  /// @brief Takes triangles of a batch; any part of them at a time.
   /// @note Collective.
   /// @param[in] open Sides on one tet of their piece; the reader has them still at the end. Some
   /// may be missing, which decide() gets all the same.
   /// @param[in] inner Both sides of triangles on two tets of a piece, without rows.
-  /// @return What is known now of triangles in the pieces of this rank (piece mod size).
-  [[nodiscard]] std::vector<TriangleVerdict> add(std::span<const TriangleSide> open,
-                                                 std::span<const TriangleRecord> inner);
+  void add(std::span<const TriangleSide> open, std::span<const TriangleRecord> inner);
+
+  /// @brief What is known now of triangles in the pieces of this rank (piece mod size).
+  /// @note Collective; once all triangles of the batch were added.
+  [[nodiscard]] std::vector<TriangleVerdict> match();
 
   /// @brief Forgets the open sides, since they will be sent again. Local.
   void drop_open();

@@ -119,7 +119,8 @@ class NothingElseIsWritten(program.ProgramTest):
 
     def test_jobs_that_fail(self):
         ball = self.write("ball.geo", program.BALL)
-        for fault, code in (("fill=segv@1", DEGRADED), ("improve=exit", OK), ("coarse=segv", program.FAILED)):
+        no_mesh = "coarse=segv remesh=segv"
+        for fault, code in (("fill=segv@1", DEGRADED), ("improve=exit", OK), (no_mesh, program.FAILED)):
             with self.subTest(fault=fault):
                 self.assert_writes_only_there(ball, code=code, fault=fault)
 

@@ -175,9 +175,9 @@ class WithoutAMesh(FaultsTest):
     def test_goes_on_where_it_ended(self):
         """Without the fault, to the same mesh."""
         reference = self.mesh(self.case, "reference", ranks=2)
-        for stage, rank in (("load", 1), ("coarse", ALL), ("plan", 1)):
-            with self.subTest(stage=stage):
-                fault = Fault(stage, "segv", rank)
+        faults = (Fault("load", "segv", 1), Fault("coarse", "segv", ALL, "remesh=segv"), Fault("plan", "segv", 1))
+        for fault in faults:
+            with self.subTest(fault=fault):
                 self.assertNotEqual(self.mesh_with(fault).code, OK)
                 resumed = self.mesh(self.case, fault.output, "--resume", ranks=2)
                 self.assertEqual(program.mesh_files(resumed), program.mesh_files(reference))

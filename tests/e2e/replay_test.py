@@ -100,7 +100,7 @@ class Replay(program.ProgramTest):
         case, elsewhere = self.write_case(), self.folder / "elsewhere"
         elsewhere.mkdir()
         too_short = ("mesh", case, "--output", "out", "--set", "coarse.timeout_s=0.2")
-        endless = os.environ | {"TESSERA_TEST_FAULT": "coarse=loop"}
+        endless = os.environ | {"TESSERA_TEST_FAULT": "coarse=loop remesh=loop"}
         self.assertEqual(self.run_program(*too_short, env=endless).code, FAILED)
         failure = self.folder / "out" / "failure"
         self.assertIn("CPU time", (failure / "coarse" / "log.txt").read_text())

@@ -158,7 +158,7 @@ class ReportTest(PageTest):
 
     def test_failed_run_says_why_and_what_to_do(self):
         case = self.write_case()
-        fault = os.environ | {"TESSERA_TEST_FAULT": "coarse=segv"}
+        fault = os.environ | {"TESSERA_TEST_FAULT": "coarse=segv remesh=segv"}
         outcome = self.run_program("mesh", case, "--output", "out", ranks=2, env=fault)
         self.assertEqual(outcome.code, FAILED, outcome.err)
         page = self.page("out")
