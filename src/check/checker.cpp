@@ -290,8 +290,8 @@ std::size_t Checker::num_open_triangles() const
 // again for every few of them, so that only a part of it is held.
 void Checker::match_last_triangles()
 {
-  const auto most =
-      static_cast<std::uint64_t>(comm_.max(static_cast<double>(num_open_triangles())));
+  const auto most = static_cast<std::uint64_t>(
+      comm_.max(static_cast<double>(num_open_triangles() + triangles_.num_inner())));
   triangles_.drop_open();
   const std::uint64_t num_readings = 1 + most / limits_.num_triangles_in_reading;
   const std::uint64_t in_reading = 1 + most / num_readings / limits_.num_triangles_in_round;

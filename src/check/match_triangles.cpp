@@ -296,6 +296,13 @@ bool TriangleMatcher::is_complete(const TriangleKey& key)
   return std::binary_search(complete.begin(), complete.end(), short_key(key));
 }
 
+std::size_t TriangleMatcher::num_inner() const
+{
+  std::size_t num_inner = 0;
+  for (const Bucket& bucket : buckets_) num_inner += bucket.inner.size();
+  return num_inner;
+}
+
 void TriangleMatcher::drop_open()
 {
   for (Bucket& bucket : buckets_) bucket.open = {};

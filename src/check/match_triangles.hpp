@@ -64,7 +64,7 @@ struct TriangleRound {
 /// that were not. Who read their pieces sends them once more then, with all that messages say, a
 /// part at a time. Only of interfaces inside a piece, which no reader keeps, the full records stay
 /// as well: 88 bytes a side. Sides that are likely to be on the boundary may be held back until
-/// then: what becomes of a triangle does not depend on it.
+/// then: nothing is lost by it.
 class TriangleMatcher {
  public:
   TriangleMatcher(BoundaryFile boundary, const comm::Communicator& comm, Findings& findings)
@@ -82,6 +82,9 @@ class TriangleMatcher {
   /// @brief What is known now of triangles in the pieces of this rank (piece mod size).
   /// @note Collective; once all triangles of the batch were added.
   [[nodiscard]] std::vector<TriangleVerdict> match();
+
+  /// @brief Sides of triangles inside a piece that wait for the end on this rank.
+  [[nodiscard]] std::size_t num_inner() const;
 
   /// @brief Forgets the open sides, since they will be sent again. Local.
   void drop_open();

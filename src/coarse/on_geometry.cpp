@@ -153,6 +153,7 @@ void mend_folds_of(PatchSurface& surface, std::size_t most_triangles,
                    const CoarseOptions& options)
 {
   std::vector<std::size_t> folding = folding_triangles(surface, reference, model);
+  if (folding.empty()) return;
   std::size_t num_cut = cut_triangles(surface).size();
   for (int round = 0; round < kFinerRounds && !folding.empty(); ++round) {
     if (surface.triangles.size() > most_triangles) return;

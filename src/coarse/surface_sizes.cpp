@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <queue>
-#include <set>
 #include <utility>
 
 #include "coarse/editable_surface.hpp"
@@ -32,6 +31,9 @@ constexpr double kAround = 2.2;
 
 // Triangles that meet at a larger angle (60 degrees) are not of one round piece.
 constexpr double kLeastSmoothCosine = 0.5;
+
+// Where so many triangles are that near, they are fine enough as they are.
+constexpr std::size_t kMostTriangles = 1000;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -73,6 +75,75 @@ Neighbours neighbours_of(const PatchSurface& surface, const EdgeTriangles& edges
   }
   return neighbours;
 }
+
+// Finds where a surface goes round its own radius, as on a wire.
+class RoundFinder {
+ public:
+  RoundFinder(const PatchSurface& surface, const EdgeTriangles& edge_triangles)
+      : surface_(surface),
+        beside_(surface.triangles.size()),
+        seen_from_(surface.triangles.size(), 0)
+  {
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+      const Vec3 normal = normal_of(surface.corners(t));
+      normals_.push_back(norm(normal) > 0.0 ? unit(normal) : Vec3{});
+    }
+    for (const auto& [edge, two] : edge_triangles) {
+      if (two.size() != 2 || cosine(two[0], two[1]) <= kLeastSmoothCosine) continue;
+      beside_[two[0]].push_back(two[1]);
+      beside_[two[1]].push_back(two[0]);
+    }
+  }
+
+  // Whether the surface that goes on smoothly from one of the vertex's triangles looks the other
+  // way near.
+  [[nodiscard]] bool goes_round(std::size_t v, double radius,
+                                const std::vector<std::size_t>& triangles)
+  {
+    const std::size_t before = num_searches_;
+    return std::ranges::any_of(triangles, [&](std::size_t first) {
+      return seen_from_[first] <= before && looks_back(first, surface_.vertex_xyz[v], radius);
+    });
+  }
+
+ private:
+  // Of the angle of two triangles; one without a normal looks as the other does.
+  [[nodiscard]] double cosine(std::size_t t, std::size_t other) const
+  {
+    const bool has_both = normals_[t] != Vec3{} && normals_[other] != Vec3{};
+    return has_both ? dot(normals_[t], normals_[other]) : 1.0;
+  }
+
+  [[nodiscard]] bool looks_back(std::size_t first, const Vec3& place, double radius)
+  {
+    const std::size_t search = ++num_searches_;
+    std::vector<std::size_t> reached{first};
+    seen_from_[first] = search;
+    for (std::size_t i = 0; i < reached.size() && i < kMostTriangles; ++i) {
+      if (cosine(reached[i], first) < kOtherWay) return true;
+      for (const std::size_t other : beside_[reached[i]]) {
+        if (seen_from_[other] == search || !is_near(other, place, kAround * radius)) continue;
+        seen_from_[other] = search;
+        reached.push_back(other);
+      }
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool is_near(std::size_t t, const Vec3& place, double distance) const
+  {
+    return std::ranges::any_of(surface_.triangles[t], [&](LocalIndex corner) {
+      return norm(surface_.vertex_xyz[at(corner)] - place) < distance;
+    });
+  }
+
+  const PatchSurface& surface_;
+  std::vector<Vec3> normals_{};  // Of length 1, or zero.
+  std::vector<std::vector<std::size_t>>
+      beside_;                          // Neighbours of each triangle, where it is smooth.
+  std::vector<std::size_t> seen_from_;  // The search that reached each triangle last, from 1.
+  std::size_t num_searches_ = 0;
+};
 
 class SizeField {
  public:
@@ -166,57 +237,12 @@ class SizeField {
         if (radii_[at(v)] < least) triangles[at(v)].push_back(t);
       }
     }
+    RoundFinder round(surface_, edge_triangles_);
     for (std::size_t v = 0; v < sizes_.size(); ++v) {
-      const auto goes_round_from = [&](std::size_t t) { return goes_round(v, t); };
-      if (std::ranges::none_of(triangles[v], goes_round_from)) continue;
+      if (!round.goes_round(v, radii_[v], triangles[v])) continue;
       const double size = std::max(radii_[v], kLeastOfRound * options_.max_size);
       sizes_[v] = std::min(sizes_[v], size);
     }
-  }
-
-  // Of the angle of two triangles; one without a normal looks as the other does.
-  [[nodiscard]] double cosine(std::size_t t, std::size_t other) const
-  {
-    const Vec3 a = normal_of(surface_.corners(t));
-    const Vec3 b = normal_of(surface_.corners(other));
-    const double lengths = norm(a) * norm(b);
-    return lengths > 0.0 ? dot(a, b) / lengths : 1.0;
-  }
-
-  // Whether the surface that goes on smoothly from a triangle of a vertex looks the other way near.
-  [[nodiscard]] bool goes_round(std::size_t v, std::size_t first) const
-  {
-    std::vector<std::size_t> waiting{first};
-    std::set<std::size_t> seen{first};
-    while (!waiting.empty()) {
-      const std::size_t t = waiting.back();
-      waiting.pop_back();
-      if (cosine(t, first) < kOtherWay) return true;
-      for (const std::size_t other : smooth_neighbours(t)) {
-        if (is_near(other, v) && seen.insert(other).second) waiting.push_back(other);
-      }
-    }
-    return false;
-  }
-
-  [[nodiscard]] std::vector<std::size_t> smooth_neighbours(std::size_t t) const
-  {
-    std::vector<std::size_t> found;
-    const PatchSurface::Triangle& v = surface_.triangles[t];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::vector<std::size_t>& two = edge_triangles_.at(edge_of(v[c], v[(c + 1) % 3]));
-      if (two.size() != 2) continue;
-      const std::size_t other = two[0] == t ? two[1] : two[0];
-      if (cosine(t, other) > kLeastSmoothCosine) found.push_back(other);
-    }
-    return found;
-  }
-
-  [[nodiscard]] bool is_near(std::size_t t, std::size_t v) const
-  {
-    return std::ranges::any_of(surface_.triangles[t], [&](LocalIndex corner) {
-      return norm(xyz(corner) - surface_.vertex_xyz[v]) < kAround * radii_[v];
-    });
   }
 
   const PatchSurface& surface_;

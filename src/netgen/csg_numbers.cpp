@@ -79,7 +79,7 @@ class Numbering {
   }
 
   // Largest distance of corners, and sum of those of centres: three corners of a disc lie on the
-  // cylinder around it as well.
+  // cylinder around it as well. Of a surface that is too far it is the distance that says so.
   struct Fit {
     double corners = 0.0;
     double centres = 0.0;
@@ -93,6 +93,7 @@ class Numbering {
       for (const Vec3& p : {triangle.a, triangle.b, triangle.c}) {
         fit.corners = std::max(fit.corners, distance_to(surface, p));
       }
+      if (!(fit.corners <= kMostOff * box_.Diam())) return fit;
       fit.centres += distance_to(surface, triangle.centre());
     }
     return fit;
@@ -220,7 +221,7 @@ class Numbering {
       const int sum = std::accumulate(all[domain].begin(), all[domain].end(), 0);
       const auto solid = static_cast<LocalIndex>(most - all[domain].begin());
       const bool is_outside = solid == geometry_.GetNTopLevelObjects();
-      if (*most < kLeastShare * sum || (sum > 0 && is_outside != (domain == 0))) {
+      if (sum == 0 || *most < kLeastShare * sum || is_outside != (domain == 0)) {
         throw NetgenError(kNotTheSolids);
       }
       if (domain > 0) take(static_cast<LocalIndex>(domain), solid);
@@ -253,8 +254,8 @@ class Numbering {
     std::map<std::array<LocalIndex, 3>, LocalIndex> patches;
     std::vector<std::array<LocalIndex, 3>> keys;
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
-      const auto [low, high] = std::minmax(material_of(surface_.face_domains[at(f)][0]),
-                                           material_of(surface_.face_domains[at(f)][1]));
+      const auto [low, high] = std::minmax({material_of(surface_.face_domains[at(f)][0]),
+                                            material_of(surface_.face_domains[at(f)][1])});
       keys.push_back({face_surface_[at(f)], low, high});
       patches[keys.back()] = 0;
     }

@@ -11,8 +11,8 @@
 
 namespace tessera::netgen {
 
-/// @brief NETGEN's geometry of the text of a .geo file, with cones and tori described such that
-/// NETGEN can mesh them. Local. @throws InputError
+/// @brief NETGEN's geometry of the text of a .geo file, with cones, tori and planes described such
+/// that NETGEN can mesh them. Local. @throws InputError
 [[nodiscard]] std::unique_ptr<::netgen::CSGeometry> parse_csg(const std::string& text,
                                                               const std::string& file_name);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/loaded_model.hpp"
 
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,14 +38,12 @@ void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& te
   add_tets(mesh, vertices, domain);
 }
 
-// A surface that can be filled must not be lost because a projection fails.
-template <class Mend>
-coarse::CoarseSurface mended_by(const Mend& mend, coarse::CoarseSurface surface,
-                                const LoadedModel& model)
+// Neither of these two loses a surface that can be filled because a projection fails.
+coarse::CoarseSurface shaped(const coarse::CoarseSurface& surface, const LoadedModel& model)
 {
   try {
     coarse::CoarseSurface better = surface;
-    if (!mend(better)) return surface;
+    if (coarse::mend_surface(better, model).total() == 0) return surface;
     model.locate_parameters(better.mesh);
     return better;
   } catch (const GeometryError&) {
@@ -54,19 +53,22 @@ coarse::CoarseSurface mended_by(const Mend& mend, coarse::CoarseSurface surface,
 
 struct Unfolded {
   coarse::CoarseSurface surface{};
-  LocalIndex num_left = 0;  // Folds that could not be mended.
+  // Folds that could not be mended; the largest number if they are not known.
+  LocalIndex num_left = std::numeric_limits<LocalIndex>::max();
 };
 
 Unfolded unfolded(coarse::CoarseSurface surface, const LoadedModel& model)
 {
-  LocalIndex num_left = 0;
-  const auto mend_folds = [&](coarse::CoarseSurface& better) {
-    const coarse::FoldStatistics done = coarse::mend_folds(better, model);
-    num_left = done.num_left;
-    return done.num_left < done.num_before;
-  };
-  coarse::CoarseSurface better = mended_by(mend_folds, std::move(surface), model);
-  return {std::move(better), num_left};
+  Unfolded as_it_was{surface};
+  try {
+    const coarse::FoldStatistics done = coarse::mend_folds(surface, model);
+    as_it_was.num_left = done.num_before;
+    if (done.num_left >= done.num_before) return as_it_was;
+    model.locate_parameters(surface.mesh);
+    return {std::move(surface), done.num_left};
+  } catch (const GeometryError&) {
+    return as_it_was;
+  }
 }
 
 // A fold keeps points off the geometry, which is worse than a bad angle. Where better shapes have
@@ -74,13 +76,10 @@ Unfolded unfolded(coarse::CoarseSurface surface, const LoadedModel& model)
 coarse::CoarseSurface mended(coarse::CoarseSurface surface, const LoadedModel& model)
 {
   if (surface.num_domains() == 0) return surface;
-  const auto mend_shapes = [&](coarse::CoarseSurface& better) {
-    return coarse::mend_surface(better, model).total() > 0;
-  };
-  Unfolded shaped = unfolded(mended_by(mend_shapes, surface, model), model);
-  if (shaped.num_left == 0) return std::move(shaped.surface);
+  Unfolded better = unfolded(shaped(surface, model), model);
+  if (better.num_left == 0) return std::move(better.surface);
   Unfolded plain = unfolded(std::move(surface), model);
-  return std::move(plain.num_left < shaped.num_left ? plain.surface : shaped.surface);
+  return std::move(plain.num_left < better.num_left ? plain.surface : better.surface);
 }
 
 // A model whose triangles cannot be had may be meshed all the same.

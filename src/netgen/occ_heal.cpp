@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -168,9 +169,14 @@ TopoDS_Shape closed_in_parameters(const TopoDS_Shape& solid, ShapeNames& names)
   return better;
 }
 
+bool is_valid_and_closed(const TopoDS_Shape& solid)
+{
+  return BRepCheck_Analyzer(solid).IsValid() && is_closed(solid);
+}
+
 bool is_sound(const TopoDS_Shape& solid)
 {
-  return BRepCheck_Analyzer(solid).IsValid() && is_closed(solid) && !has_false_points(solid);
+  return is_valid_and_closed(solid) && !has_false_points(solid);
 }
 
 // One solid of the file as closed solids; usually itself.
@@ -188,6 +194,8 @@ std::vector<TopoDS_Shape> healed(const TopoDS_Shape& given, int number, CadFile&
   for (const TopoDS_Shape& part : parts_of(better, TopAbs_SOLID)) {
     if (is_closed(part)) closed.push_back(part);
   }
+  const bool clean = !closed.empty() && std::ranges::all_of(closed, is_valid_and_closed);
+  if (!clean && is_valid_and_closed(given)) return {given};
   const std::string was = is_closed(solid) ? "was invalid" : "was not closed";
   if (closed.empty() && is_closed(solid)) {
     cad.repairs.push_back(name + " is closed but invalid, and fixing it made it worse: left as is");
@@ -197,8 +205,6 @@ std::vector<TopoDS_Shape> healed(const TopoDS_Shape& given, int number, CadFile&
     cad.repairs.push_back(fmt::format("{} {}", name, was));
     return solids_from_faces(count(better, TopAbs_FACE) > 0 ? better : solid, cad);
   }
-  bool clean = true;
-  for (const TopoDS_Shape& part : closed) clean = clean && BRepCheck_Analyzer(part).IsValid();
   cad.repairs.push_back(fmt::format("{} {}; its wires, faces and shells were fixed{}", name, was,
                                     clean ? "" : ", defects remain"));
   return closed;

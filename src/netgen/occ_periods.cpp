@@ -13,10 +13,12 @@
 #include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <ShapeExtend_WireData.hxx>
+#include <Standard_Failure.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 #include <gp_Pnt2d.hxx>
 #include <gp_Vec2d.hxx>
@@ -27,26 +29,46 @@
 namespace tessera::netgen {
 namespace {
 
-bool is_false_point(const TopoDS_Edge& edge, const TopoDS_Face& face)
+// Of the edge and its ends: a pole is no more exact than its vertex.
+double tolerance_of(const TopoDS_Edge& edge)
+{
+  double tolerance = BRep_Tool::Tolerance(edge);
+  for (TopExp_Explorer ends(edge, TopAbs_VERTEX); ends.More(); ends.Next()) {
+    tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Vertex(ends.Current())));
+  }
+  return tolerance;
+}
+
+// Whether the surface is at more than one place along a curve in its parameters.
+bool leaves_a_point(const Geom2d_Curve& curve, const Geom_Surface& surface, double first,
+                    double last, double most)
 {
   // An odd number: places half a period apart would miss no circle, but those a period apart do.
   constexpr int kPlaces = 7;
+  const auto place = [&](int i) {
+    const gp_Pnt2d uv = curve.Value(first + (last - first) * i / kPlaces);
+    return surface.Value(uv.X(), uv.Y());
+  };
+  const gp_Pnt start = place(0);
+  for (int i = 1; i <= kPlaces; ++i) {
+    if (place(i).Distance(start) > most) return true;
+  }
+  return false;
+}
+
+bool is_false_point(const TopoDS_Edge& edge, const TopoDS_Face& face)
+{
   if (!BRep_Tool::Degenerated(edge)) return false;
   double first = 0.0;
   double last = 0.0;
   const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
   if (curve.IsNull()) return false;
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-  const auto place = [&](int i) {
-    const gp_Pnt2d uv = curve->Value(first + (last - first) * i / kPlaces);
-    return surface->Value(uv.X(), uv.Y());
-  };
-  const gp_Pnt start = place(0);
-  const double most = 10.0 * BRep_Tool::Tolerance(edge);
-  for (int i = 1; i <= kPlaces; ++i) {
-    if (place(i).Distance(start) > most) return true;
+  try {
+    return leaves_a_point(*curve, *BRep_Tool::Surface(face), first, last,
+                          10.0 * tolerance_of(edge));
+  } catch (const Standard_Failure&) {
+    return false;  // Some surfaces have no value at their poles.
   }
-  return false;
 }
 
 // Calls `use` with every edge of every face that is falsely marked as a point.

@@ -61,8 +61,8 @@ std::string touching_words(const coarse::DomainSkin& skin)
   const auto touching = coarse::find_touching_faces(skin.vertex_xyz, triangles, tolerance);
   if (!touching) return {};
   return fmt::format(
-      "; the body touches itself at ({:g}): its wall has no thickness there; give it some, or make "
-      "the hole go through",
+      "; the surface touches itself at ({:g}): if that is the model's, its wall has no thickness "
+      "there; give it some, or make the hole go through",
       fmt::join(touching->place, ", "));
 }
 

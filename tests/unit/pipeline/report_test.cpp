@@ -72,10 +72,11 @@ TEST(Report, NamesCoarseTetsWithSmallAngles)
   EXPECT_EQ(report_of(run)["coarse"]["sharp"]["num_tets"], 0);
   EXPECT_TRUE(report_of(run)["warnings"].empty());
   run.coarse.mesh.patch_names = {"in", "out"};
-  run.sharp = {.num_forced = 3, .num_others = 1, .worst = {{1.5, {1.0, 2.0, 3.0}, {1}}}};
+  run.sharp = {.num_forced = 3, .num_others = 1, .worst = {{1.5, 0.25, {1.0, 2.0, 3.0}, {1}}}};
   const Json sharp = report_of(run)["coarse"]["sharp"];
   EXPECT_EQ(sharp["num_forced"], 3);
   EXPECT_EQ(sharp["worst"][0]["patches"], Json({"out"}));
+  EXPECT_EQ(sharp["worst"][0]["shortest_edge"], 0.25);
   EXPECT_EQ(sharp["worst"][0]["centre"], Json({1.0, 2.0, 3.0}));
   ASSERT_EQ(report_of(run)["warnings"].size(), 1);
   EXPECT_NE(report_of(run)["warnings"][0].get<std::string>().find("1.5 at (1, 2, 3)"),
