@@ -9,10 +9,12 @@ namespace tessera::netgen {
 /// @brief Whether an edge is marked as a point of its surface, and is none. Local.
 [[nodiscard]] bool has_false_points(const TopoDS_Shape& shape);
 
-/// @brief Makes wires of periodic surfaces close in their parameters: curves in another period than
-/// those before and behind them are moved by periods, and edges that are falsely marked as a point
-/// of the surface are left out. OpenCASCADE's reader of STEP files makes such wires of circles on
-/// surfaces of revolution. ShapeFix does not know what to do with them: it drops the faces beside.
+/// @brief Makes wires of periodic surfaces close in their parameters. Curves in another period than
+/// those before and behind them are moved by periods. Edges that are falsely marked as a point of
+/// the surface are left out.
+///
+/// OpenCASCADE's reader of STEP files makes such wires of circles on surfaces of revolution.
+/// ShapeFix does not know what to do with them: it drops the faces beside.
 ///
 /// Curves that are moved are changed in place: the same edges in space, with other parameters.
 /// @param changes Gets what is left out.
