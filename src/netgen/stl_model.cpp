@@ -15,6 +15,7 @@
 
 #include "netgen/loaded_model.hpp"
 #include "netgen/stl_mesher.hpp"
+#include "netgen/stl_triangles.hpp"
 #include "netgen/stl_union.hpp"
 #include "netgen/volume_mesher.hpp"
 
@@ -52,16 +53,11 @@ std::vector<model::SegmentSearch> searches_of_curves(const model::TriangleSurfac
 coarse::PatchSurface patches_of(const model::TriangleSurface& surface,
                                 const model::SurfaceFeatures& features)
 {
-  coarse::PatchSurface patches;
-  for (LocalIndex v = 0; v < surface.num_vertices(); ++v) {
-    patches.vertex_xyz.push_back(surface.position(v));
-  }
+  coarse::PatchSurface patches = triangles_of(surface);
   patches.vertex_is_fixed.assign(patches.vertex_xyz.size(), 0);
   patches.patch_materials.resize(at(features.num_patches()));
   for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
-    const LocalIndex* v = &surface.triangle_vertices[3 * at(t)];
     const LocalIndex patch = features.triangle_patch[at(t)];
-    patches.triangles.push_back({v[0], v[1], v[2]});
     patches.triangle_patch.push_back(patch);
     patches.patch_materials[at(patch)] = {surface.triangle_material[at(t)], 0};
   }

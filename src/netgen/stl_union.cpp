@@ -26,6 +26,7 @@
 
 #include "netgen/occ_cells.hpp"
 #include "netgen/occ_error.hpp"
+#include "netgen/stl_triangles.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -48,17 +49,34 @@ constexpr double kBeside = 4.0;
 // OpenCASCADE parts space by 1,500 triangles in half a second. Above these it may take minutes.
 constexpr LocalIndex kMostTriangles = 20000;
 
-coarse::PatchSurface triangles_of(const model::TriangleSurface& surface)
+Corners corners_of(const model::TriangleSoup& soup, std::size_t t)
 {
-  coarse::PatchSurface triangles;
-  for (LocalIndex v = 0; v < surface.num_vertices(); ++v) {
-    triangles.vertex_xyz.push_back(surface.position(v));
-  }
-  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
-    const LocalIndex* v = &surface.triangle_vertices[3 * at(t)];
-    triangles.triangles.push_back({v[0], v[1], v[2]});
-  }
-  return triangles;
+  const auto corner = [&](std::size_t c) {
+    return point_at(std::span(soup.corner_xyz), 3 * t + c);
+  };
+  return {corner(0), corner(1), corner(2)};
+}
+
+std::vector<Corners> corners_of(const model::TriangleSoup& soup)
+{
+  std::vector<Corners> all;
+  for (std::size_t t = 0; t < soup.triangle_solid.size(); ++t) all.push_back(corners_of(soup, t));
+  return all;
+}
+
+std::vector<Corners> corners_of(const model::TriangleSurface& surface)
+{
+  std::vector<Corners> all;
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) all.push_back(surface.corners(t));
+  return all;
+}
+
+// Of what the triangles enclose; the origin is near, as sums of large volumes are inexact.
+double volume_of(const std::vector<Corners>& triangles, const Vec3& origin)
+{
+  double volume = 0.0;
+  for (const auto& [a, b, c] : triangles) volume += tet_volume(origin, a, b, c);
+  return volume;
 }
 
 double area_of(const Corners& p) { return 0.5 * norm(cross(p[1] - p[0], p[2] - p[0])); }
@@ -137,8 +155,7 @@ class Bodies {
       triangles[p] = t;
     }
     for (std::size_t t = 0; t < file.triangle_solid.size(); ++t) {
-      Corners p{};
-      for (std::size_t c = 0; c < 3; ++c) p[c] = point_at(std::span(file.corner_xyz), 3 * t + c);
+      Corners p = corners_of(file, t);
       const double volume = tet_volume(origin_, p[0], p[1], p[2]);
       std::ranges::sort(p);
       const auto found = triangles.find(p);
@@ -203,8 +220,7 @@ std::vector<int> windings_of(const Cells& cells, Bodies& bodies, double toleranc
   std::vector<int> windings;
   for (std::size_t cell = 0; cell < cells.sides.size(); ++cell) {
     const std::vector<Corners> skin = skin_of(cells, cell);
-    double of_cell = 0.0;
-    for (const auto& [a, b, c] : skin) of_cell += tet_volume(bodies.origin(), a, b, c);
+    const double of_cell = volume_of(skin, bodies.origin());
     windings.push_back(0);
     if (of_cell < 0.0) continue;  // All that is outside, which OpenCASCADE mostly leaves out.
     const auto point = point_inside(skin, of_cell, tolerance);
@@ -245,9 +261,7 @@ model::TriangleSoup outside_of(const Cells& cells, Bodies& bodies, double tolera
 
 model::TriangleSearch search_in(const model::TriangleSurface& surface)
 {
-  std::vector<Corners> triangles;
-  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) triangles.push_back(surface.corners(t));
-  return model::TriangleSearch(triangles);
+  return model::TriangleSearch(corners_of(surface));
 }
 
 bool is_near(const model::TriangleSurface& surface, const model::TriangleSurface& to, double most)
@@ -286,28 +300,6 @@ bool is_all_there(const model::TriangleSurface& given, Bodies& bodies,
   return true;
 }
 
-double volume_of(const model::TriangleSoup& soup, const Vec3& origin)
-{
-  double volume = 0.0;
-  for (std::size_t t = 0; t < soup.triangle_solid.size(); ++t) {
-    const auto corner = [&](std::size_t c) {
-      return point_at(std::span(soup.corner_xyz), 3 * t + c);
-    };
-    volume += tet_volume(origin, corner(0), corner(1), corner(2));
-  }
-  return volume;
-}
-
-double volume_of(const model::TriangleSurface& surface, const Vec3& origin)
-{
-  double volume = 0.0;
-  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
-    const auto [a, b, c] = surface.corners(t);
-    volume += tet_volume(origin, a, b, c);
-  }
-  return volume;
-}
-
 // Several solids of one body name its sides.
 bool has_several_solids(const model::TriangleSurface& surface)
 {
@@ -323,14 +315,15 @@ std::optional<model::CheckedSurface> united(const model::TriangleSurface& surfac
   model::TriangleSoup soup = with_occ_errors(
       name, [&] { return outside_of(cells_of(surface, tolerance), bodies, tolerance); });
   if (soup.num_triangles() == 0) return std::nullopt;
-  const double volume = volume_of(soup, bodies.origin());
+  const double volume = volume_of(corners_of(soup), bodies.origin());
   soup.solid_names = {surface.solid_names[at(surface.triangle_solid.front())]};
   model::CheckedSurface made = model::check_surface(soup, name);
   const coarse::PatchSurface triangles = triangles_of(made.surface);
   if (!find_flat_contacts(triangles, tolerance).empty()) return std::nullopt;
   if (!find_overlaps(triangles).empty()) return std::nullopt;
   const double most_off = kMostOffOnAverage * tolerance * bodies.area();
-  if (std::abs(volume_of(made.surface, bodies.origin()) - volume) > most_off) return std::nullopt;
+  if (std::abs(volume_of(corners_of(made.surface), bodies.origin()) - volume) > most_off)
+    return std::nullopt;
   if (!is_near(made.surface, surface, kMostOff * tolerance)) return std::nullopt;
   if (!is_all_there(surface, bodies, made.surface, tolerance)) return std::nullopt;
   made.repairs.insert(made.repairs.begin(),
