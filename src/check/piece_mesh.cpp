@@ -183,6 +183,7 @@ void set_cells(PieceMesh& mesh, Findings& findings)
     });
   }
   set_nodes(mesh, vertex_of, is_used, findings);
+  if (mesh.cell_vertices == mesh.arrays.cell_points) mesh.cell_vertices = {};  // As a rule.
   for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
     if (is_used[static_cast<std::size_t>(p)]) continue;
     mesh.unused_points.push_back(p);

@@ -31,6 +31,7 @@ struct PieceMesh {
   bool has_cell_ids = false;
   std::vector<LocalIndex> cell_vertices{};  ///< Shape (num_cells, vertices_per_cell); the lowest of
                                             ///< the points that are one; -1 in cells left out.
+                                            ///< Empty if all are as in the arrays.
   std::vector<LocalIndex> cell_nodes{};     ///< Of cells of second order, else empty; shape
                                             ///< (num_cells, 6 or 3), numbered as cell_vertices.
   std::vector<LocalIndex> unused_points{};
@@ -51,11 +52,13 @@ struct PieceMesh {
   [[nodiscard]] std::span<const LocalIndex> cell(LocalIndex c) const
   {
     const auto width = static_cast<std::size_t>(arrays.vertices_per_cell);
-    return std::span(cell_vertices).subspan(static_cast<std::size_t>(c) * width, width);
+    const auto& all = cell_vertices.empty() ? arrays.cell_points : cell_vertices;
+    return std::span(all).subspan(static_cast<std::size_t>(c) * width, width);
   }
   [[nodiscard]] bool is_of_second_order() const { return !cell_nodes.empty(); }
   void leave_out(LocalIndex c)
   {
+    if (cell_vertices.empty()) cell_vertices = arrays.cell_points;
     const std::size_t width = cell(c).size();
     std::fill_n(&cell_vertices[static_cast<std::size_t>(c) * width], width, kNoIndex);
   }
