@@ -38,6 +38,14 @@ enum class Freedom : char { patch, curve, none };
   return cross(p[1] - p[0], p[2] - p[0]);
 }
 
+/// @brief The four triangles that refinement makes of one, the one in the middle last.
+/// @param m New vertices; m[i] is that of the side from p[i] to the next corner.
+[[nodiscard]] inline std::array<std::array<Vec3, 3>, 4> children_of(const std::array<Vec3, 3>& p,
+                                                                    const std::array<Vec3, 3>& m)
+{
+  return {{{p[0], m[0], m[2]}, {m[0], p[1], m[1]}, {m[2], m[1], p[2]}, m}};
+}
+
 /// @brief The corner that is not on the edge.
 [[nodiscard]] inline LocalIndex opposite(const PatchSurface::Triangle& triangle,
                                          const PatchSurface::Edge& edge)

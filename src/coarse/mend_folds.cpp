@@ -143,12 +143,9 @@ class FoldMender {
 
   [[nodiscard]] std::array<Corners, 4> children(const Triangle& v, LocalIndex group)
   {
-    const Corners p = corners(v);
-    const auto edges = sides(v);
-    const Vec3 a = middle_of(edges[0], group);
-    const Vec3 b = middle_of(edges[1], group);
-    const Vec3 c = middle_of(edges[2], group);
-    return {{{p[0], a, c}, {a, p[1], b}, {c, b, p[2]}, {a, b, c}}};
+    const auto [ab, bc, ca] = sides(v);
+    return children_of(corners(v),
+                       {middle_of(ab, group), middle_of(bc, group), middle_of(ca, group)});
   }
 
   [[nodiscard]] bool turns(const Triangle& v, LocalIndex group)

@@ -11,6 +11,7 @@
 #include "tessera/coarse/surface_overlap.hpp"
 
 #include "coarse/crossings.hpp"
+#include "coarse/editable_surface.hpp"
 #include "coarse/patch_folds.hpp"
 
 namespace tessera::coarse {
@@ -113,11 +114,7 @@ class Mover {
     return true;
   }
 
-  [[nodiscard]] Vec3 normal(std::size_t t) const
-  {
-    const auto corners = surface_.corners(t);
-    return cross(corners[1] - corners[0], corners[2] - corners[0]);
-  }
+  [[nodiscard]] Vec3 normal(std::size_t t) const { return normal_of(surface_.corners(t)); }
 
   PatchSurface& surface_;
   const SurfaceReference& reference_;

@@ -30,14 +30,11 @@ class FoldFinder {
     }
   }
 
-  [[nodiscard]] bool folds(std::size_t t) const
+  [[nodiscard]] bool folds(std::size_t t)
   {
     const Corners p = surface_.corners(t);
-    const Vec3 a = middle_of(t, 0);
-    const Vec3 b = middle_of(t, 1);
-    const Vec3 c = middle_of(t, 2);
     const Vec3 whole = normal_of(p);
-    const std::array<Corners, 4> children{{{p[0], a, c}, {a, p[1], b}, {c, b, p[2]}, {a, b, c}}};
+    const auto children = children_of(p, {middle_of(t, 0), middle_of(t, 1), middle_of(t, 2)});
     return std::ranges::any_of(children, [&](const Corners& child) {
       const Vec3 normal = normal_of(child);
       return dot(normal, whole) <= kLeastCosine * norm(normal) * norm(whole);
@@ -45,14 +42,21 @@ class FoldFinder {
   }
 
  private:
-  // Where refinement puts the vertex of a side.
-  [[nodiscard]] Vec3 middle_of(std::size_t t, std::size_t side) const
+  // Where refinement puts the vertex of a side: found once for the two triangles there, as patches
+  // meet along curves only.
+  [[nodiscard]] Vec3 middle_of(std::size_t t, std::size_t side)
   {
     const PatchSurface::Triangle& v = surface_.triangles[t];
     const Edge edge = edge_of(v[side], v[(side + 1) % 3]);
+    const auto known = middles_.find(edge);
+    if (known != middles_.end()) return known->second;
+    return middles_.emplace(edge, found_middle(edge, surface_.triangle_patch[t])).first->second;
+  }
+
+  [[nodiscard]] Vec3 found_middle(const Edge& edge, LocalIndex patch) const
+  {
     const Vec3 chord = midpoint(surface_.vertex_xyz[at(edge[0])], surface_.vertex_xyz[at(edge[1])]);
     const auto curve = curves_.find(edge);
-    const LocalIndex patch = surface_.triangle_patch[t];
     try {
       return curve == curves_.end() ? on_surface(patch, chord) : on_curve(curve->second, chord);
     } catch (const GeometryError&) {
@@ -74,6 +78,7 @@ class FoldFinder {
   const SurfaceReference& reference_;
   const model::Model& model_;
   std::map<Edge, LocalIndex> curves_{};
+  std::map<Edge, Vec3> middles_{};
 };
 
 }  // namespace
@@ -82,7 +87,7 @@ std::vector<std::size_t> folding_triangles(const PatchSurface& surface,
                                            const SurfaceReference& reference,
                                            const model::Model& model)
 {
-  const FoldFinder finder(surface, reference, model);
+  FoldFinder finder(surface, reference, model);
   std::vector<std::size_t> folding;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     if (finder.folds(t)) folding.push_back(t);

@@ -49,18 +49,11 @@ PatchSurface prism(const Outline& outline)
   return surface;
 }
 
-CoarseOptions of_size(double max_size)
-{
-  CoarseOptions options;
-  options.max_size = max_size;
-  return options;
-}
-
 TEST(SurfaceSizes, GoRoundAWireThinnerThanTheLeastSize)
 {
   Outline circle;
   add_arc({0.0, 0.0}, 1.0, 0.0, 337.5, 15, circle);
-  const std::vector<double> sizes = surface_sizes(prism(circle), of_size(20.0));
+  const std::vector<double> sizes = surface_sizes(prism(circle), {.max_size = 20.0});
   for (const double size : sizes) EXPECT_NEAR(size, 1.0, 0.05) << "six edges, not three";
 }
 
@@ -68,7 +61,7 @@ TEST(SurfaceSizes, DoNotResolveAWireOfNearlyNothing)
 {
   Outline circle;
   add_arc({0.0, 0.0}, 1.0, 0.0, 337.5, 15, circle);
-  const std::vector<double> sizes = surface_sizes(prism(circle), of_size(200.0));
+  const std::vector<double> sizes = surface_sizes(prism(circle), {.max_size = 200.0});
   for (const double size : sizes) EXPECT_NEAR(size, 8.0, 1e-9);
 }
 
@@ -77,7 +70,7 @@ TEST(SurfaceSizes, DoNotResolveARoundedEdgeThinnerThanTheLeastSize)
   Outline square{{0.0, 0.0}, {9.0, 0.0}};
   add_arc({8.0, 8.0}, 1.0, 0.0, 90.0, 4, square);
   square.push_back({0.0, 9.0});
-  const std::vector<double> sizes = surface_sizes(prism(square), of_size(20.0));
+  const std::vector<double> sizes = surface_sizes(prism(square), {.max_size = 20.0});
   EXPECT_NEAR(std::ranges::min(sizes), 2.0, 1e-9) << "a tenth of the largest size";
 }
 
