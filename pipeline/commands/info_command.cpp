@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/commands/info_command.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <system_error>
@@ -22,6 +23,7 @@
 #include "pipeline/runtime/run_context.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
 #include "pipeline/stages/model_stage.hpp"
+#include "pipeline/stages/name_stage.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -64,7 +66,12 @@ model::ModelDescription describe(const model::ModelSource& source,
 {
   throw_unless_read(jobs.load(load_model_message(source, 1.0), kInfoLimits, wait_for_stop_signal()),
                     file);
-  jobs::JobOutcome described = jobs.run(describe_request(), kInfoLimits, wait_for_stop_signal());
+  jobs::JobOutcome described =
+      describe_in_jobs(source.format, [&](const std::string&, const Bytes& request, double cpu_s) {
+        jobs::JobLimits limits = kInfoLimits;
+        limits.cpu_s = std::min(limits.cpu_s, cpu_s);
+        return jobs.run(request, limits, wait_for_stop_signal());
+      });
   auto description = read_result(described, description_from_bytes);
   throw_unless_read(described, file);
   return std::move(*description);

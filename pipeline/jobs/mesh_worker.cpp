@@ -128,10 +128,11 @@ class MeshWorker final : public jobs::Worker {
     return garbled_if_asked("box", to_bytes(scaled_model_->box_diagonal()));
   }
 
-  [[nodiscard]] Bytes answer(const DescribeRequest& /*request*/) const
+  [[nodiscard]] Bytes answer(const DescribeRequest& request) const
   {
-    fail_if_asked("describe");
-    return garbled_if_asked("describe", to_bytes(netgen::describe_model(*netgen_model_)));
+    fail_if_asked("describe", static_cast<LocalIndex>(request.mesher));
+    return garbled_if_asked("describe",
+                            to_bytes(netgen::describe_model(*netgen_model_, request.mesher)));
   }
 
   [[nodiscard]] Bytes answer(const FiguresRequest& /*request*/) const

@@ -17,7 +17,8 @@
 /// environment variable TESSERA_TEST_FAULT asks. No option, for no user needs it.
 ///
 /// Its value is words "STAGE=KIND", for every job of the stage, or "STAGE=KIND@ITEM".
-/// - STAGE: import, load, box, coarse, remesh (the coarse mesh from the CAD system's triangles),
+/// - STAGE: import, load, box, describe, coarse, remesh (the coarse mesh from the CAD system's
+/// triangles),
 ///   gmsh (that of Gmsh), divide (membranes), piece (the tets between some), plan, fill, improve,
 ///   refine, skin; share (memory of the node: in the rank itself), map (the same: in its worker);
 ///   join (the workers of the node: in the rank itself).
@@ -28,7 +29,8 @@
 /// - KIND, for results that pass all checks of a job: nudge (fill: points on the geometry are one
 ///   bit off, as from another mathematical library), lose (improve: a tet is lost after the region
 ///   was judged).
-/// - ITEM: of import 0, or 1 for OpenCASCADE's plain reader; the subdomain, of refine the first of
+/// - ITEM: of import 0, or 1 for OpenCASCADE's plain reader; of describe 0 for NETGEN's triangles,
+///   1 for remeshed ones; the subdomain, of refine the first of
 ///   the job; of improve the region; of coarse, remesh and gmsh the try, from 0; of share and join
 ///   the rank.
 namespace tessera::pipeline {

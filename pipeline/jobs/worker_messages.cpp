@@ -52,7 +52,10 @@ double box_diagonal_from_bytes(std::span<const std::byte> result)
   throw InputError("the model's box has no size");
 }
 
-Bytes describe_request() { return to_bytes(Request(DescribeRequest{})); }
+Bytes describe_request(coarse::SurfaceMesher mesher)
+{
+  return to_bytes(Request(DescribeRequest{mesher}));
+}
 
 model::ModelDescription description_from_bytes(std::span<const std::byte> result)
 {

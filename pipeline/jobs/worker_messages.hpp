@@ -97,7 +97,8 @@ struct BoxRequest {
 };
 
 struct DescribeRequest {
-  static auto fields(auto& /*self*/) { return std::tie(); }
+  coarse::SurfaceMesher mesher{};
+  static auto fields(auto& self) { return std::tie(self.mesher); }
 };
 
 struct FiguresRequest {

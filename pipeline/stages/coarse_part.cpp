@@ -130,7 +130,7 @@ void refine_narrow_places(RunResult& run, const model::NamedParts& parts, RunCon
 // A coarse mesh, and once more where it is too coarse for the sizes or for narrow places.
 void run_coarse_stages(RunResult& run, RunContext& context)
 {
-  const model::NamedParts parts = find_named_parts(run.resolved, context);
+  const model::NamedParts parts = find_named_parts(run.resolved, run.model.format, context);
   run.planes = choose_cuts(run, context);
   run.coarse = named_coarse_mesh(run, parts, context);
   if (mesh::SizePoints points = sizes_for_a_finer_mesh(run, context); !points.size.empty()) {

@@ -12,31 +12,71 @@
 namespace tessera::pipeline {
 namespace {
 
-constexpr jobs::JobLimits kDescribeLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
+constexpr double kStallS = 60.0;
+constexpr double kMemoryGib = 8.0;
 
-}  // namespace
+// Of CPU time. NETGEN needs seconds for the surface of a CSG model, or does not end.
+constexpr double kMostS = 600.0;
+constexpr double kMostOfCsgS = 60.0;
 
-model::ModelDescription describe_model(const config::Case& given, RunContext& context)
+jobs::JobOutcome run_describe(const std::string& name, const Bytes& request, double cpu_s,
+                              RunContext& context)
 {
-  const Bytes request = describe_request();
-  const JobRequest job{"describe", request, kDescribeLimits};
+  const jobs::JobLimits limits{.cpu_s = cpu_s, .stall_s = kStallS, .memory_gib = kMemoryGib};
+  const JobRequest job{name, request, limits};
   jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
-  auto description = read_result(outcome, description_from_bytes);
+  static_cast<void>(read_result(outcome, description_from_bytes));
   keep_if_failed(job, outcome, context);
+  return outcome;
+}
+
+model::ModelDescription description_of(jobs::JobOutcome outcome, const config::Case& given)
+{
   throw_if_cancelled(outcome);
   outcome.message += way_on(outcome);
   jobs::throw_unless_ok(outcome, given.geometry.file.string() + ": its faces and solids");
-  return std::move(*description);
+  return description_from_bytes(outcome.result);
 }
 
-model::NamedParts find_named_parts(const config::Case& given, RunContext& context)
+bool has_failed(const jobs::JobOutcome& outcome)
+{
+  return outcome.status != jobs::JobStatus::ok && outcome.status != jobs::JobStatus::cancelled
+         && !was_killed_from_outside(outcome);
+}
+
+}  // namespace
+
+jobs::JobOutcome describe_in_jobs(
+    model::Format format,
+    const std::function<jobs::JobOutcome(const std::string&, const Bytes&, double)>& run_describe)
+{
+  const bool is_csg = format == model::Format::csg;
+  jobs::JobOutcome outcome = run_describe(
+      "describe", describe_request(coarse::SurfaceMesher::netgen), is_csg ? kMostOfCsgS : kMostS);
+  if (!is_csg || !has_failed(outcome)) return outcome;
+  jobs::JobOutcome second =
+      run_describe("describe_remeshed", describe_request(coarse::SurfaceMesher::remesh), kMostS);
+  return has_failed(second) ? outcome : second;
+}
+
+model::ModelDescription describe_model(const config::Case& given, RunContext& context)
+{
+  const Bytes request = describe_request(coarse::SurfaceMesher::netgen);
+  return description_of(run_describe("describe", request, kMostS, context), given);
+}
+
+model::NamedParts find_named_parts(const config::Case& given, model::Format format,
+                                   RunContext& context)
 {
   if (given.geometry.names.empty()) return {};
   StageScope stage(context, "names");
   model::NamedParts parts = comm::on_root(context.comm, [&] {
     return with_file_context(given, [&] {
-      return model::find_named_parts(describe_model(given, context), given.geometry.names,
-                                     given.geometry.scale);
+      const auto run = [&](const std::string& name, const Bytes& request, double cpu_s) {
+        return run_describe(name, request, cpu_s, context);
+      };
+      return model::find_named_parts(description_of(describe_in_jobs(format, run), given),
+                                     given.geometry.names, given.geometry.scale);
     });
   });
   stage.work_is_done();

@@ -1,15 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <string>
+
+#include "tessera/base/bytes.hpp"
 #include "tessera/config/case.hpp"
+#include "tessera/jobs/job_runner.hpp"
 #include "tessera/model/description.hpp"
+#include "tessera/model/model.hpp"
 #include "tessera/model/part_names.hpp"
 
 #include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
 
-/// @brief What the model holds, file length unit.
+/// @brief Runs a describe_request(), and a second one if NETGEN fails on a CSG model: triangles of
+/// OpenCASCADE's solids give the same numbers and names.
+/// @note Local.
+/// @param[in] run_describe Runs a job by its name, request and CPU time in s.
+/// @returns What has ended well, else what the first one has ended with.
+[[nodiscard]] jobs::JobOutcome describe_in_jobs(
+    model::Format format,
+    const std::function<jobs::JobOutcome(const std::string&, const Bytes&, double)>& run_describe);
+
+/// @brief What the model holds by NETGEN's triangles, file length unit.
 /// @note For rank 0: runs a job of it. @throws what the job fails for.
 [[nodiscard]] model::ModelDescription describe_model(const config::Case& given,
                                                      RunContext& context);
@@ -18,6 +33,7 @@ namespace tessera::pipeline {
 /// names none.
 /// @note Collective: the model is described in a job of rank 0.
 /// @throws ConfigError on every rank if a name fits nothing, or two fit the same.
-[[nodiscard]] model::NamedParts find_named_parts(const config::Case& given, RunContext& context);
+[[nodiscard]] model::NamedParts find_named_parts(const config::Case& given, model::Format format,
+                                                 RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -6,8 +6,6 @@
 #include <map>
 #include <utility>
 
-#include "tessera/base/error.hpp"
-
 #include "netgen/csg_access.hpp"
 
 namespace tessera::netgen {
@@ -15,8 +13,8 @@ namespace {
 
 class Describer {
  public:
-  Describer(const ::netgen::CSGeometry& geometry, const ::netgen::Mesh& mesh)
-      : geometry_(geometry), mesh_(mesh)
+  Describer(const ::netgen::CSGeometry& geometry, const coarse::CoarseSurface& surface)
+      : geometry_(geometry), surface_(surface)
   {
   }
 
@@ -25,75 +23,74 @@ class Describer {
     for (int solid = 0; solid < geometry_.GetNTopLevelObjects(); ++solid) {
       described_.solids.push_back({.name = name_of_solid(geometry_, solid)});
     }
-    for (int p = 1; p <= static_cast<int>(mesh_.GetNP()); ++p) {
-      const Vec3 point = from_netgen(mesh_.Point(p));
-      described_.vertex_xyz.insert(described_.vertex_xyz.end(), point.begin(), point.end());
-    }
-    for (const auto& element : mesh_.SurfaceElements()) {
-      if (!element.IsDeleted() && element.GetType() == ::netgen::TRIG) add(element);
-    }
+    described_.vertex_xyz = mesh_.vertex_xyz.to_vector();
+    for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) add(f);
     number_faces();
     return std::move(described_);
   }
 
  private:
-  void add(const ::netgen::Element2d& element)
+  void add(LocalIndex f)
   {
-    const ::netgen::FaceDescriptor& from = mesh_.GetFaceDescriptor(element.GetIndex());
-    std::array<Vec3, 3> p{};
-    std::array<LocalIndex, 3> vertices{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const int point = element[static_cast<int>(c)];
-      p[c] = from_netgen(mesh_.Point(point));
-      vertices[c] = point - 1;
-    }
-    // NETGEN's point out of DomainIn.
-    const bool is_in_lower =
-        from.DomainIn() > 0 && (from.DomainOut() <= 0 || from.DomainIn() < from.DomainOut());
-    if (!is_in_lower) std::swap(vertices[1], vertices[2]);
+    const LocalIndex* const v = &mesh_.face_vertices[3 * at(f)];
+    std::array<LocalIndex, 3> vertices{v[0], v[1], v[2]};
+    const auto [a, b, c] =
+        std::array{mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])};
+    const LocalIndex out_of = solid_of(surface_.face_domains[at(f)][0]);
+    const LocalIndex into = solid_of(surface_.face_domains[at(f)][1]);
+    const bool is_out_of_lower = out_of > 0 && (into == 0 || out_of < into);
+    if (!is_out_of_lower) std::swap(vertices[1], vertices[2]);
     described_.triangle_vertices.insert(described_.triangle_vertices.end(), vertices.begin(),
                                         vertices.end());
-    model::FaceDescription& face = faces_[from.SurfNr()];
-    face.name = name_unless_default(from.GetBCName());
-    face.area += 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]));
-    described_.triangle_face.push_back(from.SurfNr());
-    const double volume = tet_volume(from_netgen(mesh_.Point(1)), p[0], p[1], p[2]);
-    add_side(from.DomainIn(), volume, face);
-    add_side(from.DomainOut(), -volume, face);
+    const LocalIndex number = mesh_.patch_surface[at(mesh_.face_patch[at(f)])];
+    described_.triangle_face.push_back(number);
+    model::FaceDescription& face = faces_[number];
+    face.area += 0.5 * norm(cross(b - a, c - a));
+    const double volume = tet_volume(mesh_.position(0), a, b, c);
+    add_side(out_of, volume, face);
+    add_side(into, -volume, face);
   }
 
-  void add_side(int domain, double volume, model::FaceDescription& face)
+  // 0: none.
+  [[nodiscard]] LocalIndex solid_of(LocalIndex domain) const
   {
-    if (domain <= 0) return;
-    described_.solids.at(static_cast<std::size_t>(domain) - 1).volume += volume;
-    const auto place = std::ranges::lower_bound(face.solids, domain);
-    if (place == face.solids.end() || *place != domain) face.solids.insert(place, domain);
+    return domain == 0 ? 0 : surface_.domain_material[at(domain - 1)];
+  }
+
+  void add_side(LocalIndex solid, double volume, model::FaceDescription& face)
+  {
+    if (solid == 0) return;
+    described_.solids.at(at(solid - 1)).volume += volume;
+    const auto place = std::ranges::lower_bound(face.solids, solid);
+    if (place == face.solids.end() || *place != solid) face.solids.insert(place, solid);
   }
 
   // Surfaces that bound nothing are no faces.
   void number_faces()
   {
     std::map<LocalIndex, LocalIndex> rows;
-    for (auto& [surface, face] : faces_) {
-      rows[surface] = static_cast<LocalIndex>(described_.faces.size());
-      face.number = surface + 1;
+    for (auto& [number, face] : faces_) {
+      rows[number] = static_cast<LocalIndex>(described_.faces.size());
+      face.number = number + 1;
+      face.name = name_unless_default(geometry_.GetSurface(number)->GetBCName());
       described_.faces.push_back(std::move(face));
     }
     for (LocalIndex& face : described_.triangle_face) face = rows.at(face);
   }
 
   const ::netgen::CSGeometry& geometry_;
-  const ::netgen::Mesh& mesh_;
-  std::map<LocalIndex, model::FaceDescription> faces_{};  // By surface.
+  const coarse::CoarseSurface& surface_;
+  const mesh::CoarseMesh& mesh_ = surface_.mesh;
+  std::map<LocalIndex, model::FaceDescription> faces_{};  // By the model's surface number.
   model::ModelDescription described_{};
 };
 
 }  // namespace
 
 model::ModelDescription describe_csg(const ::netgen::CSGeometry& geometry,
-                                     const ::netgen::Mesh& surface_mesh)
+                                     const coarse::CoarseSurface& surface)
 {
-  return Describer(geometry, surface_mesh).run();
+  return Describer(geometry, surface).run();
 }
 
 }  // namespace tessera::netgen

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -93,19 +94,14 @@ class CsgModel final : public LoadedModel {
     const LocalIndex second = curve % num_surfaces;
     return {.curve = curve, .number = fmt::format("{}-{}", first + 1, second + 1)};
   }
-  [[nodiscard]] model::ModelDescription describe() const override;
+  [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher mesher) const override;
   [[nodiscard]] coarse::ModelFigures figures() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
   [[nodiscard]] bool has_apex() const { return netgen::has_apex(*geometry_, tolerance_); }
-  // Whether NETGEN finds a solid. Its search may miss one that is much smaller than its bodies.
-  [[nodiscard]] bool is_seen() const { return is_seen_; }
-  [[nodiscard]] CadFile solids() const
-  {
-    CadFile cad = solids_of_csg(*geometry_, box_);
-    if (is_seen_) return cad;
-    // Once more: bodies that end far away have parameters that are as inexact as their lengths.
-    return solids_of_csg(*geometry_, box_of_solids(cad.shape, box_));
-  }
+  // NETGEN's search may miss solids that are much smaller than their bodies.
+  [[nodiscard]] const std::vector<int>& unseen() const { return unseen_; }
+  [[nodiscard]] std::string names_of(const std::vector<int>& solids) const;
+  [[nodiscard]] CsgSolids solids() const;
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
@@ -118,8 +114,7 @@ class CsgModel final : public LoadedModel {
                                                                double size) const;
   [[nodiscard]] coarse::CoarseSurface remesh_solids(const coarse::CoarseOptions& options) const;
   void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
-  void add_edges(const Geometry& geometry, const ::netgen::Mesh& mesh,
-                 model::ModelDescription& to) const;
+  void add_edges(const mesh::CoarseMesh& mesh, model::ModelDescription& to) const;
 
   std::string file_name_;
   std::string text_;
@@ -127,7 +122,7 @@ class CsgModel final : public LoadedModel {
   ::netgen::Box<3> box_{};
   double box_diagonal_ = 0.0;
   double tolerance_ = 0.0;
-  bool is_seen_ = true;
+  std::vector<int> unseen_{};
 };
 
 CsgModel::CsgModel(const model::ModelSource& source)
@@ -138,10 +133,26 @@ CsgModel::CsgModel(const model::ModelSource& source)
   require_solid(*geometry_, file_name_);
   NetgenSession session;
   box_ = session.run(file_name_, [&] { return extent(*geometry_); });
-  is_seen_ = box_.PMin()(0) <= box_.PMax()(0);
-  if (!is_seen_) box_ = geometry_->BoundingBox();
+  if (box_.PMin()(0) > box_.PMax()(0)) box_ = geometry_->BoundingBox();
   box_diagonal_ = box_.Diam();
   tolerance_ = kTolerance * box_diagonal_;
+  unseen_ = unseen_solids(*geometry_);
+}
+
+std::string CsgModel::names_of(const std::vector<int>& solids) const
+{
+  std::vector<std::string> names;
+  for (const int solid : solids) names.push_back(name_of_solid(*geometry_, solid));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+CsgSolids CsgModel::solids() const
+{
+  if (unseen_.empty()) return solids_of_csg(*geometry_, box_);
+  const ::netgen::Box<3>& bound = geometry_->BoundingBox();
+  const CsgSolids first = solids_of_csg(*geometry_, bound);
+  // Once more: bodies that end far away have parameters that are as inexact as their lengths.
+  return solids_of_csg(*geometry_, box_of_solids(first.cad.shape, bound));
 }
 
 const ::netgen::Surface& CsgModel::surface(LocalIndex number) const
@@ -251,7 +262,7 @@ coarse::CoarseSurface CsgModel::remesh_solids(const coarse::CoarseOptions& optio
 {
   try {
     const model::ModelSource source =
-        closed_source(with_occ_errors(file_name_, [&] { return solids(); }), file_name_);
+        closed_source(with_occ_errors(file_name_, [&] { return solids().cad; }), file_name_);
     const auto solids = load_occ(source);
     return in_numbers_of_csg(solids->mesh_surface(options, [](const auto&...) {}), *geometry_,
                              box_);
@@ -331,53 +342,69 @@ coarse::CadSurface CsgModel::triangles_for_fit(double size) const
 }
 
 // A segment stands once for each side.
-void CsgModel::add_edges(const Geometry& geometry, const ::netgen::Mesh& mesh,
-                         model::ModelDescription& to) const
+void CsgModel::add_edges(const mesh::CoarseMesh& mesh, model::ModelDescription& to) const
 {
-  const GeometryNumbers numbers = numbers_of(geometry);
-  std::map<LocalIndex, std::set<std::pair<int, int>>> lines;
-  for (const ::netgen::Segment& segment : mesh.LineSegments()) {
-    const LocalIndex curve = numbers.curve(segment);
-    const int a = segment[0];
-    const int b = segment[1];
-    if (curve != kNoIndex) lines[curve].insert(std::minmax(a, b));
+  std::map<LocalIndex, std::set<std::pair<LocalIndex, LocalIndex>>> lines;
+  for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {
+    const LocalIndex curve = mesh.segment_curve[at(s)];
+    const LocalIndex* const ends = &mesh.segment_vertices[2 * at(s)];
+    if (curve != kNoIndex) lines[curve].insert(std::minmax(ends[0], ends[1]));
   }
   for (const auto& [curve, of_curve] : lines) {
     model::EdgeDescription& edge = to.edges.emplace_back();
     edge.number = named_curve(curve).number;
-    for (const auto& [a, b] : of_curve) {
-      edge.add_line(from_netgen(mesh.Point(a)), from_netgen(mesh.Point(b)));
-    }
+    for (const auto& [a, b] : of_curve) edge.add_line(mesh.position(a), mesh.position(b));
   }
 }
 
-model::ModelDescription CsgModel::describe() const
+model::ModelDescription CsgModel::describe(coarse::SurfaceMesher mesher) const
 {
   constexpr double kSize = 0.1;  // In parts of the box diagonal.
-  const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
-  const auto mesh = netgen_surface(*geometry, kSize * box_diagonal_);
-  model::ModelDescription described = describe_csg(*geometry, *mesh);
-  add_edges(*geometry, *mesh, described);
+  coarse::CoarseOptions options;
+  options.max_size = kSize * box_diagonal_;
+  options.surface_mesher = mesher;
+  const coarse::CoarseSurface surface = mesh_surface(options, [](const auto&...) {});
+  model::ModelDescription described = describe_csg(*geometry_, surface);
+  add_edges(surface.mesh, described);
   return described;
 }
 
-// What NETGEN's CSG cannot mesh is OpenCASCADE's model from here on.
-model::ModelSource of_open_cascade(const CsgModel& model, const model::ModelSource& source,
-                                   const std::string& why)
+CsgSolids made_solids(const CsgModel& model, const std::string& file, const std::string& why)
 {
-  CadFile cad = with_occ_errors(source.file_name, [&] {
+  return with_occ_errors(file, [&] {
     try {
       return model.solids();
     } catch (const GeometryError& error) {
-      throw GeometryError(fmt::format("{}: {}; {}", source.file_name, why, error.what()));
+      throw GeometryError(fmt::format("{}: {}; {}", file, why, error.what()));
     }
   });
+}
+
+// What NETGEN's CSG cannot mesh is OpenCASCADE's model from here on.
+model::ModelSource of_open_cascade(CadFile cad, const model::ModelSource& source,
+                                   const std::string& why)
+{
   cad.repairs = source.repairs;
   cad.repairs.push_back(
       fmt::format("{}: OpenCASCADE made the solids once more; sizes that the file gives to solids "
                   "are lost",
                   why));
   return closed_source(std::move(cad), source.file_name);
+}
+
+// OpenCASCADE tells whether what NETGEN does not see is there. Nothing: it is not, and `source`
+// says so.
+std::optional<model::ModelSource> with_specks(const CsgModel& model, model::ModelSource& source)
+{
+  if (model.unseen().empty()) return std::nullopt;
+  const std::string why = "NETGEN's CSG finds nothing of solid " + model.names_of(model.unseen());
+  CsgSolids made = made_solids(model, source.file_name, why);
+  if (!made.empty.empty()) {
+    source.repairs.push_back(
+        fmt::format("solid {} holds nothing: left out", model.names_of(made.empty)));
+  }
+  if (std::ranges::includes(made.empty, model.unseen())) return std::nullopt;
+  return of_open_cascade(std::move(made.cad), source, why);
 }
 
 }  // namespace
@@ -394,11 +421,10 @@ model::ModelSource import_csg(const std::filesystem::path& file)
   const SkippedStatements skipped;
   const CsgModel model(source);
   source.repairs = skipped.lines();
-  if (!model.is_seen()) {
-    return of_open_cascade(model, source, "NETGEN's CSG finds no solid");
-  }
+  if (auto specks = with_specks(model, source)) return std::move(*specks);
   if (model.has_apex()) {
-    return of_open_cascade(model, source, "NETGEN's CSG cannot mesh the apex of a cone");
+    const std::string why = "NETGEN's CSG cannot mesh the apex of a cone";
+    return of_open_cascade(made_solids(model, source.file_name, why).cad, source, why);
   }
   return source;
 }

@@ -325,16 +325,19 @@ bool has_apex(Geometry& geometry, double tolerance)
   return has;
 }
 
-CadFile solids_of_csg(Geometry& geometry, const ::netgen::Box<3>& box)
+CsgSolids solids_of_csg(Geometry& geometry, const ::netgen::Box<3>& box)
 {
-  CadFile cad;
+  CsgSolids made;
+  CadFile& cad = made.cad;
   TopoDS_Compound all;
   BRep_Builder().MakeCompound(all);
   for_each_solid(geometry, [&](int object, Solid& solid) {
     const Builder::Part part = Builder(box).build(solid);
     const std::string name = name_of_solid(geometry, object);
     if (part.is_outside) throw GeometryError(name + ": has no bound");
-    for (TopExp_Explorer solids(part.shape, TopAbs_SOLID); solids.More(); solids.Next()) {
+    TopExp_Explorer solids(part.shape, TopAbs_SOLID);
+    if (!solids.More()) made.empty.push_back(object);
+    for (; solids.More(); solids.Next()) {
       BRep_Builder().Add(all, solids.Current());
       cad.names.Bind(solids.Current(), {.name = name});
     }
@@ -344,7 +347,16 @@ CadFile solids_of_csg(Geometry& geometry, const ::netgen::Box<3>& box)
     }
   });
   cad.shape = all;
-  return cad;
+  return made;
+}
+
+std::vector<int> unseen_solids(Geometry& geometry)
+{
+  std::vector<int> unseen;
+  for_each_solid(geometry, [&](int object, const Solid&) {
+    if (geometry.GetTriApprox(object)->GetNP() == 0) unseen.push_back(object);
+  });
+  return unseen;
 }
 
 ::netgen::Box<3> box_of_solids(const TopoDS_Shape& shape, const ::netgen::Box<3>& bound)

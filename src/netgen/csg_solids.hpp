@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
+#include <vector>
 
 #include <csg.hpp>
 
@@ -19,11 +19,22 @@ void describe_cones_by_circles(::netgen::CSGeometry& geometry);
 /// @param[in] tolerance So near to a surface a point is on it, file length unit.
 [[nodiscard]] bool has_apex(::netgen::CSGeometry& geometry, double tolerance);
 
-/// @brief The solids to be meshed, made once more with OpenCASCADE, with the names of solids and
-/// faces. Of a cone only the side counts that its two circles lie on. Local.
+/// @brief Solids of a CSG model, made by OpenCASCADE.
+struct CsgSolids {
+  CadFile cad{};             ///< With the names of solids and faces.
+  std::vector<int> empty{};  ///< NETGEN's numbers of those that hold nothing, ascending.
+};
+
+/// @brief The solids to be meshed, made once more with OpenCASCADE. Of a cone only the side counts
+/// that its two circles lie on. Local.
 /// @param[in] box All solids lie in it.
 /// @throws GeometryError that names what has no counterpart, and if OpenCASCADE fails.
-[[nodiscard]] CadFile solids_of_csg(::netgen::CSGeometry& geometry, const ::netgen::Box<3>& box);
+[[nodiscard]] CsgSolids solids_of_csg(::netgen::CSGeometry& geometry, const ::netgen::Box<3>& box);
+
+/// @brief Those solids to be meshed that NETGEN's search finds no point of: they hold nothing, or
+/// are too small for it. Local.
+/// @pre CalcTriangleApproximation() was called. @returns NETGEN's numbers, ascending.
+[[nodiscard]] std::vector<int> unseen_solids(::netgen::CSGeometry& geometry);
 
 /// @brief Box of the solids of a shape. Local.
 /// @throws GeometryError unless there are solids, and all of them are within `bound`.

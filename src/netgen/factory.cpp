@@ -195,9 +195,9 @@ std::unique_ptr<model::Model> load_model(const ModelSource& source)
 
 coarse::ModelFigures measure_model(const model::Model& model) { return loaded(model).figures(); }
 
-model::ModelDescription describe_model(const model::Model& model)
+model::ModelDescription describe_model(const model::Model& model, coarse::SurfaceMesher mesher)
 {
-  return loaded(model).describe();
+  return loaded(model).describe(mesher);
 }
 
 void name_curves(const model::Model& model, mesh::CoarseMesh& mesh)

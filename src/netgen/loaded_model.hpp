@@ -33,7 +33,7 @@ using NetgenSurfaceUser = std::function<void(const ::netgen::NetgenGeometry&, ::
 class LoadedModel : public model::Model, public coarse::CoarseMesher {
  public:
   /// @brief What the model holds, for people. @throws NetgenError
-  [[nodiscard]] virtual model::ModelDescription describe() const = 0;
+  [[nodiscard]] virtual model::ModelDescription describe(coarse::SurfaceMesher mesher) const = 0;
 
   /// @brief Number and name of a curve.
   [[nodiscard]] virtual mesh::NamedCurve named_curve(LocalIndex curve) const

@@ -60,7 +60,7 @@ class OccModel final : public LoadedModel {
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
                                                    double guess) const override;
   [[nodiscard]] double box_diagonal() const override { return box_diagonal_; }
-  [[nodiscard]] model::ModelDescription describe() const override
+  [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher /*mesher*/) const override
   {
     return with_occ_errors(file_name_, [&] { return describe_shape(content_); });
   }

@@ -61,7 +61,7 @@ class OwnSurfaceModel : public LoadedModel {
     return kTolerance * box_diagonal_;
   }
   [[nodiscard]] double box_diagonal() const override { return box_diagonal_; }
-  [[nodiscard]] model::ModelDescription describe() const override;
+  [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher mesher) const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double) const override
   {
     throw ConfigError("a mesh is no CAD model that another mesh could be fitted to");
@@ -162,7 +162,10 @@ model::ModelDescription describe_mesh(const mesh::CoarseMesh& mesh)
   return described;
 }
 
-model::ModelDescription OwnSurfaceModel::describe() const { return describe_mesh(mesh_); }
+model::ModelDescription OwnSurfaceModel::describe(coarse::SurfaceMesher /*mesher*/) const
+{
+  return describe_mesh(mesh_);
+}
 
 // A mesh and the CAD model that it is of. Projection is the CAD's.
 class CadOwnModel final : public LoadedModel {
@@ -200,7 +203,7 @@ class CadOwnModel final : public LoadedModel {
   {
     return cad_->named_curve(curve);
   }
-  [[nodiscard]] model::ModelDescription describe() const override;
+  [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher mesher) const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override
   {
     return cad_->triangles_for_fit(size);
@@ -220,9 +223,9 @@ class CadOwnModel final : public LoadedModel {
 };
 
 // Faces are the CAD's, since they have its numbers; solids are the mesh's materials.
-model::ModelDescription CadOwnModel::describe() const
+model::ModelDescription CadOwnModel::describe(coarse::SurfaceMesher mesher) const
 {
-  model::ModelDescription described = cad_->describe();
+  model::ModelDescription described = cad_->describe(mesher);
   const mesh::CoarseMesh mesh = fitted_mesh(own_, *cad_, name_);
   const model::ModelDescription of_mesh = describe_mesh(mesh);
   described.solids = of_mesh.solids;

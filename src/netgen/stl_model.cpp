@@ -107,7 +107,7 @@ class StlModel final : public LoadedModel {
     return {found(search.nearest(point)), 0.0};
   }
 
-  [[nodiscard]] model::ModelDescription describe() const override;
+  [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher mesher) const override;
 
   [[nodiscard]] coarse::ModelFigures figures() const override
   {
@@ -179,7 +179,7 @@ class StlModel final : public LoadedModel {
   std::string name_;
 };
 
-model::ModelDescription StlModel::describe() const
+model::ModelDescription StlModel::describe(coarse::SurfaceMesher /*mesher*/) const
 {
   model::ModelDescription described{.vertex_xyz = surface_.vertex_xyz,
                                     .triangle_vertices = surface_.triangle_vertices,

@@ -278,6 +278,35 @@ class OtherCommands(FaultsTest):
                 self.assert_refused(outcome, WRONG_INPUT, "ball.geo", "cannot read this model", CAUSES[kind])
 
 
+class Described(FaultsTest):
+    """A CSG model whose surface NETGEN cannot mesh is described by OpenCASCADE's solids."""
+
+    def info(self, **options):
+        outcome = self.run_program("info", program.CONFIGS / "geometry/core.geo", "--json", **options)
+        self.assertEqual(outcome.code, OK, outcome.err)
+        return json.loads(outcome.out)
+
+    def test_numbers_and_names_are_the_same(self):
+        wanted = self.info()
+        found = self.info(env=os.environ | {"TESSERA_TEST_FAULT": "describe=segv@0"})
+        self.assertNotEqual(found, wanted)  # Other triangles.
+        for group, keys in (("solids", ["name"]), ("faces", ["number", "name", "solids"]), ("edges", ["number"])):
+            of = [[[row[key] for key in keys] for row in figures[group]] for figures in (wanted, found)]
+            self.assertEqual(*of, group)
+        for row, other in zip(wanted["faces"], found["faces"]):
+            self.assertAlmostEqual(other["area"] / row["area"], 1, delta=0.05)
+        for row, other in zip(wanted["solids"], found["solids"]):
+            self.assertAlmostEqual(other["volume"] / row["volume"], 1, delta=0.05)
+
+    def test_names_of_a_case_are_found(self):
+        case = self.folder / "named.toml"
+        case.write_text("geometry.file = 'ball.geo'\ncoarse.max_size = 1\nfill.kernel = 'subdivide'\n"
+                        "[[geometry.name]]\nname = 'skin'\npatch.faces = [1]\n")
+        outcome = self.run_program("mesh", case, "--output", "named",
+                                   env=os.environ | {"TESSERA_TEST_FAULT": "describe=segv@0"})
+        self.assertEqual(outcome.code, OK, outcome.err)
+
+
 class PlainReader(FaultsTest):
     """A STEP that kills OpenCASCADE's reader with names has another way in."""
 

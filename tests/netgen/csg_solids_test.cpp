@@ -139,6 +139,31 @@ TEST(CsgSpeck, IsNotWhatIsEmpty)
   EXPECT_THROW((void)source_of(kSpeck + far + "tlo both;\n"), GeometryError);
 }
 
+// NETGEN sees the block, but not the brick beside it, and would mesh the block alone.
+TEST(CsgSpeck, IsFoundBesideASolid)
+{
+  const model::ModelSource source = source_of(
+      "solid block = orthobrick (0, 0, 0; 1, 1, 1);\n"
+      "solid brick = orthobrick (1.5, 0.5, 0.5; 1.501, 0.501, 0.501);\n"
+      "tlo block;\ntlo brick;\n");
+  EXPECT_EQ(source.repairs.size(), 1U);
+  const auto described = netgen::describe_model(*netgen::load_model(source));
+  ASSERT_EQ(described.solids.size(), 2U);
+  EXPECT_NEAR(described.solids[0].volume, 1.0, 1e-9);
+  EXPECT_NEAR(described.solids[1].volume, 1e-9, 1e-12);
+}
+
+TEST(CsgSpeck, IsNotWhatIsEmptyBesideASolid)
+{
+  const model::ModelSource source = source_of(
+      "solid block = orthobrick (0, 0, 0; 1, 1, 1);\n"
+      "solid none = orthobrick (2, 0, 0; 3, 1, 1) and sphere (5, 0, 0; 1);\n"
+      "tlo block;\ntlo none;\n");
+  EXPECT_EQ(source.format, model::Format::csg);
+  ASSERT_EQ(source.repairs.size(), 1U);
+  EXPECT_EQ(source.repairs[0], "solid none holds nothing: left out");
+}
+
 // What NETGEN's own mesher cannot do is left to it.
 struct Remeshed {
   model::ModelSource source{};

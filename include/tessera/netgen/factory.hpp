@@ -47,7 +47,9 @@ enum class StepReader : int {
 
 /// @brief What a model of load_model() holds.
 /// @note Local. @throws NetgenError if its faces cannot be triangulated.
-[[nodiscard]] model::ModelDescription describe_model(const model::Model& model);
+/// @param[in] mesher Whose triangles a CSG model is described by, with the same numbers and names.
+[[nodiscard]] model::ModelDescription describe_model(
+    const model::Model& model, coarse::SurfaceMesher mesher = coarse::SurfaceMesher::netgen);
 
 /// @brief How much there is to mesh, within a second or so. Length unit of the file.
 /// @note Local. @throws NetgenError
