@@ -40,30 +40,34 @@ constexpr const char* kCutOff = "binary data are cut off or corrupt";
 /// @brief Bytes of one stored array, taken from the front in runs, raw or base64.
 class Source {
  public:
-  Source(std::string_view text, bool is_base64) : rest_(text), is_base64_(is_base64)
+  explicit Source(std::string_view base64) : base64_(base64)
   {
-    if (is_base64_) rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size()));
+    base64_.remove_prefix(std::min(base64_.find_first_not_of(" \t\r\n"), base64_.size()));
   }
+  Source(const StoredBytes& raw, std::size_t begin) : raw_(&raw), at_(begin) {}
 
   /// Takes a run of `size` bytes; in base64, the run has its own padding.
   [[nodiscard]] Bytes take(std::size_t size)
   {
     Bytes bytes = peek(0, size);
-    rest_.remove_prefix(is_base64_ ? num_digits(size) : size);
+    if (raw_ != nullptr)
+      at_ += size;
+    else
+      base64_.remove_prefix(num_digits(size));
     return bytes;
   }
 
   /// Bytes from `begin` to `end` of the next run, which may be longer.
   [[nodiscard]] Bytes peek(std::size_t begin, std::size_t end) const
   {
-    require(end <= rest_.size(), kCutOff);  // Holds for base64 as well, and rules out overflows.
-    if (is_base64_) {
-      Bytes bytes = decode_base64(end);
-      bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(begin));
-      return bytes;
+    if (raw_ != nullptr) {
+      require(end <= raw_->size() - at_, kCutOff);
+      return raw_->read(at_ + begin, at_ + end);
     }
-    const auto bytes = std::as_bytes(std::span(rest_.substr(begin, end - begin)));
-    return {bytes.begin(), bytes.end()};
+    require(end <= base64_.size(), kCutOff);  // Rules out overflows.
+    Bytes bytes = decode_base64(end);
+    bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(begin));
+    return bytes;
   }
 
  private:
@@ -71,13 +75,13 @@ class Source {
 
   [[nodiscard]] Bytes decode_base64(std::size_t size) const
   {
-    require(num_digits(size) <= rest_.size(), kCutOff);
+    require(num_digits(size) <= base64_.size(), kCutOff);
     Bytes bytes;
     bytes.reserve(size + 2);
     for (std::size_t at = 0; bytes.size() < size; at += 4) {
       std::uint32_t triple = 0;
       for (std::size_t i = 0; i < 4; ++i) {
-        const char character = rest_[at + i];
+        const char character = base64_[at + i];
         const int digit = character == '=' ? 0 : base64_digit(character);
         triple = triple << 6U | static_cast<std::uint32_t>(digit);
       }
@@ -89,8 +93,9 @@ class Source {
     return bytes;
   }
 
-  std::string_view rest_;
-  bool is_base64_;
+  std::string_view base64_{};
+  const StoredBytes* raw_ = nullptr;  // If it is not base64.
+  std::size_t at_ = 0;
 };
 
 void swap_words(std::span<std::byte> bytes, std::size_t word)
@@ -239,7 +244,7 @@ Encoding encoding_of(const XmlDocument& document)
   encoding.swap_bytes = is_big != (std::endian::native == std::endian::big);
   encoding.header_word = root.attribute_or("header_type", "UInt32") == "UInt64" ? 8 : 4;
   encoding.compressor = root.attribute_or("compressor", "");
-  encoding.appended = document.appended;
+  encoding.appended = StoredBytes(document.appended);
   encoding.appended_is_base64 = document.appended_is_base64;
   return encoding;
 }
@@ -270,13 +275,15 @@ DataArray decode_array(const XmlElement& element, const Encoding& encoding)
   if (format == "binary") {
     const std::string text = without_space(element.text);
     if (text.empty()) return array;
-    array.values = decode_binary(Source(text, true), encoding);
+    array.values = decode_binary(Source(text), encoding);
   } else {
     require(format == "appended", "the format of an array is not known");
     const std::size_t offset = element.count_attribute("offset");
     require(offset < encoding.appended.size(), "an array begins behind the end of the file");
-    array.values = decode_binary(
-        Source(encoding.appended.substr(offset), encoding.appended_is_base64), encoding);
+    const Source source = encoding.appended_is_base64
+                              ? Source(encoding.appended.in_memory().substr(offset))
+                              : Source(encoding.appended, offset);
+    array.values = decode_binary(source, encoding);
   }
   require(array.values.size() % size_of(array.type) == 0, kCutOff);
   if (encoding.swap_bytes) swap_words(array.values, size_of(array.type));

@@ -14,6 +14,7 @@
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/enum_words.hpp"
 
+#include "mesh_file.hpp"
 #include "xml.hpp"
 
 namespace tessera::io {
@@ -42,7 +43,7 @@ struct Encoding {
   bool swap_bytes = false;
   std::size_t header_word = 4;  ///< Bytes of a size in front of binary data: 4 or 8.
   std::string compressor{};     ///< VTK's name; empty without compression.
-  std::string_view appended{};
+  StoredBytes appended{};
   bool appended_is_base64 = false;
 };
 

@@ -291,11 +291,9 @@ void append(MeshArrays& to, const MeshArrays& from)
   return found == kinds.end() ? kinds.front() : *found;
 }
 
-[[nodiscard]] MeshArrays read_document(std::string_view file, CellOrder order)
+[[nodiscard]] MeshArrays read_document(const XmlDocument& document, const Encoding& encoding,
+                                       CellOrder order)
 {
-  require_complete(file);
-  const XmlDocument document = parse_vtk_xml(file);
-  const Encoding encoding = encoding_of(document);
   const XmlElement& grid = required_child(document.root, "UnstructuredGrid");
   std::vector<RawPiece> pieces;
   for (const XmlElement& element : grid.children) {
@@ -311,11 +309,44 @@ void append(MeshArrays& to, const MeshArrays& from)
   return mesh;
 }
 
+/// @brief Whether the head of a file reaches to appended data, and these are raw bytes.
+[[nodiscard]] bool reaches_raw_data(std::string_view head)
+{
+  const std::size_t tag = head.find("<AppendedData");
+  if (tag == std::string_view::npos) return false;
+  const std::size_t end = head.find('>', tag);
+  if (end == std::string_view::npos || head.find('_', end) == std::string_view::npos) return false;
+  const XmlDocument document = parse_vtk_xml(head);
+  return document.appended.data() != nullptr && !document.appended_is_base64;
+}
+
+/// @brief Raw data stay in the file until an array is asked for: they are most of it, and the
+/// arrays take their place in memory.
+[[nodiscard]] MeshArrays read_file(const std::filesystem::path& path, CellOrder order)
+{
+  constexpr std::size_t kHeadSize = std::size_t{1} << 16;
+  constexpr std::size_t kTailSize = 4096;
+  std::string text = load_file(path, kHeadSize);
+  const bool is_head = reaches_raw_data(text);
+  if (!is_head) text = load_file(path);
+  const StoredBytes all = is_head ? StoredBytes(path, 0) : StoredBytes(text);
+  const Bytes tail = all.read(all.size() - std::min(all.size(), kTailSize), all.size());
+  require_complete(std::string_view{reinterpret_cast<const char*>(tail.data()), tail.size()});
+
+  const XmlDocument document = parse_vtk_xml(text);
+  Encoding encoding = encoding_of(document);
+  if (is_head) {
+    const auto begin = static_cast<std::size_t>(document.appended.data() - text.data());
+    encoding.appended = StoredBytes(path, begin);
+  }
+  return read_document(document, encoding, order);
+}
+
 }  // namespace
 
 MeshArrays read_vtu(const std::filesystem::path& path, CellOrder order)
 {
-  return naming_the_file(path, [&] { return read_document(load_file(path), order); });
+  return naming_the_file(path, [&] { return read_file(path, order); });
 }
 
 }  // namespace tessera::io

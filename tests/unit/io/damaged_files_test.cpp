@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <random>
 #include <vector>
@@ -207,6 +208,23 @@ TEST(ReadVtu, BlocksThatAreNotThereTakeNoMemory)
     EXPECT_FALSE(read_damaged(folder / "a.vtu").has_value());
     EXPECT_LT(peak_memory_kib() - before, 200 * 1024) << block_size;
   }
+}
+
+TEST(ReadVtu, RawDataThatNobodyAsksForStayInTheFile)
+{
+  constexpr std::size_t kNumBytes = std::size_t{1} << 30;  // A hole, which takes no disk.
+  const TemporaryFolder folder;
+  std::ofstream file(folder / "a.vtu", std::ios::binary);
+  file << "<VTKFile type=\"UnstructuredGrid\" header_type=\"UInt64\"><UnstructuredGrid>"
+          "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><CellData><DataArray Name=\"velocity\" "
+          "type=\"Float64\" NumberOfComponents=\"3\" format=\"appended\" offset=\"0\"/></CellData>"
+          "</Piece></UnstructuredGrid><AppendedData encoding=\"raw\">_";
+  file.seekp(kNumBytes, std::ios::cur);
+  file << "</AppendedData></VTKFile>";
+  file.close();
+  const long before = peak_memory_kib();
+  EXPECT_TRUE(read_damaged(folder / "a.vtu").has_value());
+  EXPECT_LT(peak_memory_kib() - before, 100 * 1024);
 }
 
 TEST(ReadVtu, AFileThatIsNotThereOrAFolderSaysSo)
