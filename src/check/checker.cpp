@@ -160,7 +160,7 @@ void Checker::read_tets(PieceName name)
   num_components_ += topology.num_components;
   take_ids(mesh, surface);
   if (comm_.size() < tets_.num_pieces) return;
-  mesh.arrays.cell_ints["subdomain"] = std::move(mesh.subdomain);
+  mesh.arrays.cell_ints["subdomain"] = mesh.subdomain.to_vector();
   only_piece_ = std::move(mesh.arrays);
 }
 
@@ -191,7 +191,7 @@ void Checker::take_ids(const PieceMesh& mesh, const PieceSurface& surface)
   if (mesh.identity == VertexIdentity::ids)
     append_runs(std::move(inner_ids), piece, point_id_space(), point_ids_, findings_);
   if (mesh.has_cell_ids)
-    append_runs(mesh.arrays.cell_ids, piece, cell_id_space(), cell_ids_, findings_);
+    append_runs(mesh.cell_ids.to_vector(), piece, cell_id_space(), cell_ids_, findings_);
 }
 
 // Of this rank. They stand in the order of pieces.

@@ -2,6 +2,7 @@
 #include "check/piece_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -136,26 +137,24 @@ std::vector<LocalIndex> match_points(const PieceMesh& mesh, Findings& findings)
   return vertex;
 }
 
-// Whether the corners are different vertices in range; sets the cell's vertices if so.
-bool set_cell_vertices(PieceMesh& mesh, LocalIndex cell, std::span<const LocalIndex> vertex_of,
-                       std::vector<bool>& is_used)
+// Whether the corners are different vertices in range; finds out which.
+bool find_vertices(const PieceMesh& mesh, LocalIndex cell, std::span<const LocalIndex> vertex_of,
+                   std::vector<bool>& is_used, std::span<LocalIndex> vertices)
 {
-  const auto width = static_cast<std::size_t>(mesh.arrays.vertices_per_cell);
-  const auto at = static_cast<std::size_t>(cell) * width;
-  const auto corners = std::span(mesh.arrays.cell_points).subspan(at, width);
-  const auto vertices = std::span(mesh.cell_vertices).subspan(at, width);
+  const std::size_t at = static_cast<std::size_t>(cell) * vertices.size();
   bool is_good = true;
-  for (std::size_t i = 0; i < width; ++i) {
-    if (corners[i] < 0 || corners[i] >= mesh.num_points()) {
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const LocalIndex corner = mesh.arrays.cell_points[at + i];
+    vertices[i] = kNoIndex;
+    if (corner < 0 || corner >= mesh.num_points()) {
       is_good = false;
       continue;
     }
-    const auto p = static_cast<std::size_t>(corners[i]);
+    const auto p = static_cast<std::size_t>(corner);
     is_used[p] = true;
     vertices[i] = vertex_of[p];
     for (std::size_t j = 0; j < i; ++j) is_good = is_good && vertices[j] != vertices[i];
   }
-  if (!is_good) std::fill(vertices.begin(), vertices.end(), kNoIndex);
   return is_good;
 }
 
@@ -174,16 +173,21 @@ void set_cells(PieceMesh& mesh, Findings& findings)
 {
   const std::vector<LocalIndex> vertex_of = match_points(mesh, findings);
   std::vector<bool> is_used(vertex_of.size(), false);
-  mesh.cell_vertices.assign(mesh.arrays.cell_points.size(), kNoIndex);
+  std::array<LocalIndex, 4> corners{};
+  const auto vertices =
+      std::span(corners).first(static_cast<std::size_t>(mesh.arrays.vertices_per_cell));
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
-    if (set_cell_vertices(mesh, c, vertex_of, is_used)) continue;
+    if (find_vertices(mesh, c, vertex_of, is_used, vertices)) {
+      if (!std::ranges::equal(vertices, mesh.cell(c))) mesh.set_cell(c, vertices);
+      continue;
+    }
+    mesh.leave_out(c);
     findings.add(Kind::cell_points, {mesh.name.piece, c}, [&] {
       return fmt::format("{}: points {} of {} are out of range or not different",
                          describe_cell(mesh, c), describe_corners(mesh, c), mesh.num_points());
     });
   }
   set_nodes(mesh, vertex_of, is_used, findings);
-  if (mesh.cell_vertices == mesh.arrays.cell_points) mesh.cell_vertices = {};  // As a rule.
   for (LocalIndex p = 0; p < mesh.num_points(); ++p) {
     if (is_used[static_cast<std::size_t>(p)]) continue;
     mesh.unused_points.push_back(p);
@@ -194,12 +198,13 @@ void set_cells(PieceMesh& mesh, Findings& findings)
 }
 
 // Takes a cell array out of the piece. @return `otherwise` for every cell if the piece has none.
-std::vector<std::int32_t> take_ints(mesh::MeshArrays& arrays, const std::string& name,
+CellNumbers<std::int32_t> take_ints(mesh::MeshArrays& arrays, const std::string& name,
                                     std::int32_t otherwise)
 {
   const auto found = arrays.cell_ints.find(name);
-  if (found != arrays.cell_ints.end()) return std::move(found->second);
-  return std::vector<std::int32_t>(static_cast<std::size_t>(arrays.num_cells()), otherwise);
+  if (found != arrays.cell_ints.end()) return CellNumbers(std::exchange(found->second, {}));
+  return CellNumbers(
+      std::vector<std::int32_t>(static_cast<std::size_t>(arrays.num_cells()), otherwise));
 }
 
 }  // namespace
@@ -216,6 +221,7 @@ PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, VertexIdentit
   mesh.has_cell_ids = has_ids(name, "cells", static_cast<std::size_t>(arrays.num_cells()),
                               arrays.cell_ids, findings);
   mesh.identity = mesh.has_point_ids ? identity : VertexIdentity::positions;
+  if (mesh.has_cell_ids) mesh.cell_ids = CellNumbers(std::exchange(arrays.cell_ids, {}));
   mesh.arrays = std::move(arrays);
   mesh.attribute = take_ints(mesh.arrays, "attribute", 0);
   mesh.has_subdomains = mesh.arrays.cell_ints.contains("subdomain");

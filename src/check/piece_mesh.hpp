@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tessera/mesh/mesh_arrays.hpp"
@@ -22,6 +24,45 @@ struct PieceName {
   [[nodiscard]] LocalIndex vertices_per_cell() const { return is_boundary ? 3 : 4; }
 };
 
+/// @brief A number for each cell. Those that go up in equal steps, as ids do, or are all one are
+/// not kept: of a piece of many cells they would take as much as its points.
+template <class T>
+class CellNumbers {
+ public:
+  CellNumbers() = default;
+  explicit CellNumbers(std::vector<T> values) : size_(values.size()), values_(std::move(values))
+  {
+    if (size_ > 0) first_ = to_unsigned(values_[0]);
+    if (size_ > 1) step_ = to_unsigned(values_[1]) - first_;
+    for (std::size_t c = 0; c < size_; ++c)
+      if (values_[c] != stepped(c)) return;
+    values_ = std::vector<T>();  // An empty list would keep the memory.
+  }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] T operator[](std::size_t c) const
+  {
+    return values_.empty() ? stepped(c) : values_[c];
+  }
+  [[nodiscard]] bool is_constant() const { return values_.empty() && (step_ == 0 || size_ < 2); }
+  [[nodiscard]] std::vector<T> to_vector() const
+  {
+    std::vector<T> all(size_);
+    for (std::size_t c = 0; c < size_; ++c) all[c] = (*this)[c];
+    return all;
+  }
+
+ private:
+  // Unsigned, since what a file holds may overflow.
+  static std::uint64_t to_unsigned(T value) { return static_cast<std::uint64_t>(value); }
+  [[nodiscard]] T stepped(std::size_t c) const { return static_cast<T>(first_ + step_ * c); }
+
+  std::size_t size_ = 0;
+  std::uint64_t first_ = 0;
+  std::uint64_t step_ = 0;
+  std::vector<T> values_{};  // Empty if they go up in equal steps.
+};
+
 /// @brief Arrays of a piece in which every index is in range, and which of its points are the same.
 struct PieceMesh {
   PieceName name{};
@@ -35,8 +76,9 @@ struct PieceMesh {
   std::vector<LocalIndex> cell_nodes{};     ///< Of cells of second order, else empty; shape
                                             ///< (num_cells, 6 or 3), numbered as cell_vertices.
   std::vector<LocalIndex> unused_points{};
-  std::vector<std::int32_t> attribute{};  ///< Shape (num_cells); material, 0 if the file has none.
-  std::vector<std::int32_t> subdomain{};  ///< Shape (num_cells); if the file has none, the piece's
+  CellNumbers<GlobalIndex> cell_ids{};    ///< Taken from the arrays, as the next two.
+  CellNumbers<std::int32_t> attribute{};  ///< Shape (num_cells); material, 0 if the file has none.
+  CellNumbers<std::int32_t> subdomain{};  ///< Shape (num_cells); if the file has none, the piece's
                                           ///< number; in the boundary file kNoSubdomain.
   bool has_subdomains = false;            ///< The file has them.
 
@@ -56,11 +98,15 @@ struct PieceMesh {
     return std::span(all).subspan(static_cast<std::size_t>(c) * width, width);
   }
   [[nodiscard]] bool is_of_second_order() const { return !cell_nodes.empty(); }
-  void leave_out(LocalIndex c)
+  void set_cell(LocalIndex c, std::span<const LocalIndex> vertices)
   {
     if (cell_vertices.empty()) cell_vertices = arrays.cell_points;
-    const std::size_t width = cell(c).size();
-    std::fill_n(&cell_vertices[static_cast<std::size_t>(c) * width], width, kNoIndex);
+    std::ranges::copy(vertices, &cell_vertices[static_cast<std::size_t>(c) * vertices.size()]);
+  }
+  void leave_out(LocalIndex c)
+  {
+    constexpr std::array kNone{kNoIndex, kNoIndex, kNoIndex, kNoIndex};
+    set_cell(c, std::span(kNone).first(cell(c).size()));
   }
   [[nodiscard]] bool is_left_out(LocalIndex c) const { return cell(c)[0] == kNoIndex; }
   [[nodiscard]] GlobalIndex point_id(LocalIndex v) const
@@ -69,7 +115,7 @@ struct PieceMesh {
   }
   [[nodiscard]] GlobalIndex cell_id(LocalIndex c) const
   {
-    return has_cell_ids ? arrays.cell_ids[static_cast<std::size_t>(c)] : kNoId;
+    return has_cell_ids ? cell_ids[static_cast<std::size_t>(c)] : kNoId;
   }
   [[nodiscard]] std::int32_t material(LocalIndex c) const
   {

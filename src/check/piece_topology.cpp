@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <compare>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,8 +16,7 @@
 namespace tessera::check {
 namespace {
 
-// A side of a triangle in the bucket of its lowest vertex. Only its code is kept, for there are
-// four sides a tet; the rest follows from the mesh.
+// A side of a triangle whose lowest vertex is at hand.
 struct Side {
   std::uint64_t upper = 0;  // The two other vertices, the middle one in the high half.
   std::uint32_t code = 0;   // (4 cell + corner) * 2 + parity.
@@ -36,55 +36,75 @@ std::array<LocalIndex, 3> outward_vertices(const PieceMesh& mesh, LocalIndex cel
   return {tet[corners[0]], tet[corners[1]], tet[corners[2]]};
 }
 
-// Items sorted into buckets by counting: `visit` calls back with (bucket, item) and runs twice.
-template <class Item>
-struct Buckets {
-  std::vector<std::size_t> offsets{};
-  std::vector<Item> items{};
-
-  template <class Visit>
-  Buckets(LocalIndex num_buckets, const Visit& visit)
-      : offsets(static_cast<std::size_t>(num_buckets) + 2, 0)
-  {
-    visit([&](LocalIndex bucket, const Item&) { ++offsets[static_cast<std::size_t>(bucket) + 2]; });
-    for (std::size_t b = 2; b < offsets.size(); ++b) offsets[b] += offsets[b - 1];
-    items.resize(offsets.back());
-    visit([&](LocalIndex bucket, const Item& item) {
-      items[offsets[static_cast<std::size_t>(bucket) + 1]++] = item;
-    });
-  }
-
-  [[nodiscard]] LocalIndex size() const { return static_cast<LocalIndex>(offsets.size()) - 2; }
-  [[nodiscard]] std::span<Item> operator[](LocalIndex bucket)
-  {
-    const auto b = static_cast<std::size_t>(bucket);
-    return std::span(items).subspan(offsets[b], offsets[b + 1] - offsets[b]);
-  }
-};
-
-Side side_of(const PieceMesh& mesh, std::uint32_t code)
+// The vertices of a tet, without a branch that would be guessed wrong.
+std::array<LocalIndex, 4> ascending(std::span<const LocalIndex, 4> tet)
 {
-  auto [a, b, c] = outward_vertices(mesh, static_cast<LocalIndex>(code >> 3), (code >> 1) & 3U);
-  if (b < a) std::swap(a, b);
-  if (c < b) std::swap(b, c);
-  if (b < a) std::swap(a, b);
-  return {static_cast<std::uint64_t>(b) << 32 | static_cast<std::uint64_t>(c), code};
+  const auto [low, high] = std::pair(std::min(tet[0], tet[1]), std::max(tet[0], tet[1]));
+  const auto [other_low, other_high] =
+      std::pair(std::min(tet[2], tet[3]), std::max(tet[2], tet[3]));
+  const LocalIndex a = std::max(low, other_low);
+  const LocalIndex b = std::min(high, other_high);
+  return {std::min(low, other_low), std::min(a, b), std::max(a, b), std::max(high, other_high)};
 }
 
-// Codes of sides.
-Buckets<std::uint32_t> sides_by_lowest_vertex(const PieceMesh& mesh)
+// The cells of each vertex that is among the `num_lowest` lowest ones of the cell, sorted by
+// counting. A cell's sides are those of its two lowest vertices, its edges those of its three
+// lowest: so every triangle and every edge is met at its lowest vertex, though nothing is kept of
+// them.
+class CellsByLowestVertices {
+ public:
+  CellsByLowestVertices(const PieceMesh& mesh, std::size_t num_lowest)
+      : offsets_(static_cast<std::size_t>(mesh.num_points()) + 2, 0)
+  {
+    for_each(mesh, num_lowest, [&](std::size_t vertex, LocalIndex) { ++offsets_[vertex + 2]; });
+    for (std::size_t v = 2; v < offsets_.size(); ++v) offsets_[v] += offsets_[v - 1];
+    cells_.resize(offsets_.back());
+    for_each(mesh, num_lowest,
+             [&](std::size_t vertex, LocalIndex cell) { cells_[offsets_[vertex + 1]++] = cell; });
+  }
+
+  [[nodiscard]] LocalIndex num_vertices() const
+  {
+    return static_cast<LocalIndex>(offsets_.size()) - 2;
+  }
+  [[nodiscard]] std::span<const LocalIndex> operator[](LocalIndex vertex) const
+  {
+    const auto v = static_cast<std::size_t>(vertex);
+    return std::span(cells_).subspan(offsets_[v], offsets_[v + 1] - offsets_[v]);
+  }
+
+ private:
+  template <class Visit>
+  static void for_each(const PieceMesh& mesh, std::size_t num_lowest, const Visit& visit)
+  {
+    for (LocalIndex cell = 0; cell < mesh.num_cells(); ++cell) {
+      if (mesh.is_left_out(cell)) continue;
+      const auto vertices = ascending(mesh.cell(cell).first<4>());
+      for (std::size_t i = 0; i < num_lowest; ++i)
+        visit(static_cast<std::size_t>(vertices[i]), cell);
+    }
+  }
+
+  std::vector<std::size_t> offsets_;
+  std::vector<LocalIndex> cells_{};
+};
+
+// Appends the sides of a cell whose lowest vertex this is, one of the cell's two lowest: either it
+// has three of them, or the one that is opposite to the lowest of all.
+void append_sides(const PieceMesh& mesh, LocalIndex lowest, LocalIndex cell,
+                  std::vector<Side>& sides)
 {
-  return {mesh.num_points(), [&](const auto& put) {
-            for (LocalIndex cell = 0; cell < mesh.num_cells(); ++cell) {
-              if (mesh.is_left_out(cell)) continue;
-              for (std::size_t corner = 0; corner < 4; ++corner) {
-                const auto [a, b, c] = outward_vertices(mesh, cell, corner);
-                const auto side =
-                    4 * static_cast<std::uint32_t>(cell) + static_cast<std::uint32_t>(corner);
-                put(std::min({a, b, c}), 2 * side + (is_odd(a, b, c) ? 1U : 0U));
-              }
-            }
-          }};
+  const auto tet = mesh.cell(cell).first<4>();
+  const LocalIndex lowest_of_all = std::min({tet[0], tet[1], tet[2], tet[3]});
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const bool is_opposite_to_lowest = tet[corner] == lowest_of_all;
+    if (is_opposite_to_lowest == (lowest == lowest_of_all)) continue;
+    const auto [a, b, c] = outward_vertices(mesh, cell, corner);
+    const auto highest = static_cast<std::uint64_t>(std::max({a, b, c}));
+    const auto middle = static_cast<std::uint64_t>(GlobalIndex{a} + b + c - lowest) - highest;
+    const auto side = 4 * static_cast<std::uint32_t>(cell) + static_cast<std::uint32_t>(corner);
+    sides.push_back({middle << 32 | highest, 2 * side + (is_odd(a, b, c) ? 1U : 0U)});
+  }
 }
 
 class TriangleMatcher {
@@ -92,7 +112,7 @@ class TriangleMatcher {
   TriangleMatcher(const PieceMesh& mesh, Findings& findings)
       : mesh_(mesh),
         findings_(findings),
-        sides_(sides_by_lowest_vertex(mesh)),
+        cells_(mesh, 2),
         components_(mesh.num_cells()),
         is_on_surface_(static_cast<std::size_t>(mesh.num_points()), false),
         is_between_(is_on_surface_)
@@ -101,9 +121,9 @@ class TriangleMatcher {
 
   PieceTopology match()
   {
-    for (LocalIndex v = 0; v < sides_.size(); ++v)
+    for (LocalIndex v = 0; v < cells_.num_vertices(); ++v)
       for_each_triangle(v, [&](std::span<const Side> sides) { match_sides(v, sides); });
-    for (LocalIndex v = 0; v < sides_.size(); ++v) {
+    for (LocalIndex v = 0; v < cells_.num_vertices(); ++v) {
       const auto i = static_cast<std::size_t>(v);
       if (is_on_surface_[i] || is_between_[i])
         for_each_triangle(v, [&](std::span<const Side> sides) { sort_out(sides); });
@@ -118,7 +138,7 @@ class TriangleMatcher {
   void for_each_triangle(LocalIndex v, const Visit& visit)
   {
     bucket_.clear();
-    for (const std::uint32_t code : sides_[v]) bucket_.push_back(side_of(mesh_, code));
+    for (const LocalIndex cell : cells_[v]) append_sides(mesh_, v, cell, bucket_);
     std::sort(bucket_.begin(), bucket_.end());
     const std::span<const Side> bucket = bucket_;
     for (std::size_t begin = 0, end = 0; begin < bucket.size(); begin = end) {
@@ -216,18 +236,19 @@ class TriangleMatcher {
   // Components are named by their lowest cell so far; surface triangles get their numbers.
   void number_components()
   {
-    std::vector<LocalIndex> number(static_cast<std::size_t>(mesh_.num_cells()), kNoIndex);
-    for (LocalIndex c = 0; c < mesh_.num_cells(); ++c) {
-      if (!mesh_.is_left_out(c) && components_.find(c) == c)
-        number[static_cast<std::size_t>(c)] = topology_.num_components++;
+    std::vector<LocalIndex> lowest_cells;
+    for (LocalIndex c = 0; c < mesh_.num_cells(); ++c)
+      if (!mesh_.is_left_out(c) && components_.find(c) == c) lowest_cells.push_back(c);
+    topology_.num_components = static_cast<LocalIndex>(lowest_cells.size());
+    for (SurfaceTriangle& triangle : topology_.surface) {
+      const auto found = std::ranges::lower_bound(lowest_cells, triangle.component);
+      triangle.component = static_cast<LocalIndex>(found - lowest_cells.begin());
     }
-    for (SurfaceTriangle& triangle : topology_.surface)
-      triangle.component = number[static_cast<std::size_t>(triangle.component)];
   }
 
   const PieceMesh& mesh_;
   Findings& findings_;
-  Buckets<std::uint32_t> sides_;
+  CellsByLowestVertices cells_;
   std::vector<Side> bucket_{};  // Of the vertex at hand.
   UnionFind components_;
   std::vector<bool> is_on_surface_;
@@ -235,31 +256,20 @@ class TriangleMatcher {
   PieceTopology topology_{};
 };
 
-Buckets<LocalIndex> edges_by_lower_vertex(const PieceMesh& mesh)
-{
-  return {mesh.num_points(), [&](const auto& put) {
-            for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
-              if (mesh.is_left_out(c)) continue;
-              const auto tet = mesh.cell(c);
-              for (std::size_t i = 0; i < 4; ++i)
-                for (std::size_t j = i + 1; j < 4; ++j)
-                  put(std::min(tet[i], tet[j]), std::max(tet[i], tet[j]));
-            }
-          }};
-}
-
 GlobalIndex count_edges(const PieceMesh& mesh, EdgeLengths& lengths)
 {
-  Buckets<LocalIndex> edges = edges_by_lower_vertex(mesh);
+  const CellsByLowestVertices cells(mesh, 3);
   std::vector<LocalIndex> last_seen_from(static_cast<std::size_t>(mesh.num_points()), kNoIndex);
   GlobalIndex num_edges = 0;
-  for (LocalIndex v = 0; v < edges.size(); ++v) {
-    for (const LocalIndex upper : edges[v]) {
-      LocalIndex& seen = last_seen_from[static_cast<std::size_t>(upper)];
-      if (seen == v) continue;
-      seen = v;
-      ++num_edges;
-      lengths.add(norm(mesh.position(upper) - mesh.position(v)));
+  for (LocalIndex v = 0; v < cells.num_vertices(); ++v) {
+    for (const LocalIndex cell : cells[v]) {
+      for (const LocalIndex upper : mesh.cell(cell)) {
+        LocalIndex& seen = last_seen_from[static_cast<std::size_t>(upper)];
+        if (upper <= v || seen == v) continue;
+        seen = v;
+        ++num_edges;
+        lengths.add(norm(mesh.position(upper) - mesh.position(v)));
+      }
     }
   }
   return num_edges;
@@ -294,19 +304,13 @@ void add_lengths_of_further_subdomains(const PieceMesh& mesh, const PieceTopolog
   }
 }
 
-bool has_several_subdomains(const PieceMesh& mesh)
-{
-  return std::adjacent_find(mesh.subdomain.begin(), mesh.subdomain.end(), std::not_equal_to<>())
-         != mesh.subdomain.end();
-}
-
 }  // namespace
 
 PieceTopology analyse_topology(const PieceMesh& mesh, EdgeLengths& lengths, Findings& findings)
 {
   PieceTopology topology = TriangleMatcher(mesh, findings).match();
   topology.num_edges = count_edges(mesh, lengths);
-  if (has_several_subdomains(mesh)) add_lengths_of_further_subdomains(mesh, topology, lengths);
+  if (!mesh.subdomain.is_constant()) add_lengths_of_further_subdomains(mesh, topology, lengths);
   return topology;
 }
 

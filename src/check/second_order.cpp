@@ -82,8 +82,9 @@ std::vector<EdgeNode> edge_nodes(const PieceMesh& mesh)
 void match_nodes(const PieceMesh& mesh, Findings& findings)
 {
   std::vector<bool> is_corner(static_cast<std::size_t>(mesh.num_points()), false);
-  for (const LocalIndex v : mesh.cell_vertices) {
-    if (v != kNoIndex) is_corner[static_cast<std::size_t>(v)] = true;
+  for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
+    if (mesh.is_left_out(c)) continue;
+    for (const LocalIndex v : mesh.cell(c)) is_corner[static_cast<std::size_t>(v)] = true;
   }
   std::vector<EdgeNode> all = edge_nodes(mesh);
   std::ranges::sort(all);
