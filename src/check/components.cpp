@@ -37,6 +37,7 @@ void sort_unique(std::vector<Link>& links)
 {
   std::sort(links.begin(), links.end());
   links.erase(std::unique(links.begin(), links.end()), links.end());
+  links.shrink_to_fit();
 }
 
 GlobalIndex count_components(GlobalIndex num_local_components, std::vector<Link> links,

@@ -26,7 +26,7 @@ struct Link {
   return static_cast<GlobalIndex>(piece) << 32 | component;
 }
 
-/// @brief Brings links into order and drops repeated ones.
+/// @brief Brings links into order and drops repeated ones, with their memory.
 void sort_unique(std::vector<Link>& links);
 
 /// @brief Number of components after all links are drawn.

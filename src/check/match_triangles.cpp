@@ -305,8 +305,8 @@ std::size_t TriangleMatcher::num_inner() const
 
 void TriangleMatcher::drop_open()
 {
-  for (Bucket& bucket : buckets_) bucket.open = {};
-  regions_ = {};
+  for (Bucket& bucket : buckets_) bucket.open = std::vector<OpenSide>();  // {} would keep memory.
+  regions_ = std::vector<Region>();
   region_row_ = {};
 }
 

@@ -98,7 +98,7 @@ class TriangleMatcher {
                                                     TriangleRound round);
 
   /// @brief Frees what only further triangles need. Local.
-  void close() { buckets_ = {}; }
+  void close() { buckets_ = std::vector<Bucket>(); }
 
   [[nodiscard]] const TriangleCounts& counts() const { return counts_; }
   /// @brief Components of tets joined across pieces.

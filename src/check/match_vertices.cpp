@@ -141,9 +141,9 @@ VertexTotals VertexMatcher::finish()
     }
   }
   match_positions();
-  vertices_ = {};
-  flags_ = {};
-  slots_ = {};
+  vertices_ = std::deque<Vertex>();  // {} would keep memory.
+  flags_ = std::deque<std::uint8_t>();
+  slots_ = std::vector<LocalIndex>();
   return totals;
 }
 

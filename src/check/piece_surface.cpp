@@ -197,6 +197,7 @@ void shrink_vertices(PieceSurface& surface)
 // Drops the regions that no triangle has. Without ascending ids of cells there is one a triangle.
 void shrink_regions(PieceSurface& surface)
 {
+  if (surface.region.empty()) return;
   std::vector<LocalIndex> new_row(surface.regions.size(), kNoIndex);
   std::vector<PieceRegion> kept;
   for (LocalIndex& region : surface.region) {
@@ -303,6 +304,7 @@ PieceSurface make_surface(const PieceMesh& mesh, const PieceTopology& topology,
   }
   surface.vertices.shrink_to_fit();
   surface.regions.shrink_to_fit();
+  if (surface.regions.size() == 1) surface.region = std::vector<LocalIndex>();
   return surface;
 }
 
@@ -371,7 +373,7 @@ void shrink(PieceSurface& surface)
   keep(surface.triangles, is_kept);
   keep(surface.rows, is_kept);
   keep(surface.cells, is_kept);
-  keep(surface.region, is_kept);
+  if (!surface.region.empty()) keep(surface.region, is_kept);
   if (!surface.keys.empty()) keep(surface.keys, is_kept);
   keep(surface.roles, is_kept);
   keep(surface.partners, is_kept);

@@ -51,7 +51,8 @@ struct PieceSurface {
   std::vector<TriangleKey> keys{};     ///< Of each triangle; empty if its vertices say it.
   std::vector<LocalIndex> rows{};      ///< As in the TriangleSide of each triangle; ascending.
   std::vector<LocalIndex> cells{};     ///< Tet of each triangle.
-  std::vector<LocalIndex> region{};    ///< Row of regions, of each triangle's tet.
+  std::vector<LocalIndex> region{};    ///< Row of regions, of each triangle's tet; empty if there
+                                       ///< was only one from the start.
   std::vector<TriangleRole> roles{};   ///< unknown until there is a verdict.
   std::vector<LocalIndex> partners{};  ///< Piece on the other side of each triangle.
   std::vector<std::uint8_t> closed_edges{};  ///< Bit i: the edge opposite to corner i.
@@ -69,7 +70,7 @@ struct PieceSurface {
   }
   [[nodiscard]] const PieceRegion& region_of(std::size_t t) const
   {
-    return regions[static_cast<std::size_t>(region[t])];
+    return region.empty() ? regions[0] : regions[static_cast<std::size_t>(region[t])];
   }
 
   [[nodiscard]] TriangleKey triangle_key(std::size_t t) const;

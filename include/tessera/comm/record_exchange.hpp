@@ -39,7 +39,7 @@ class RecordExchange {
       const std::size_t begin = received_.size();
       for (ByteReader in(message.bytes); !in.at_end();) received_.push_back(in.get<Record>());
       senders_.push_back({message.rank, begin, received_.size()});
-      message.bytes = {};
+      message.bytes = Bytes();  // An empty list would keep the memory.
     }
   }
 
