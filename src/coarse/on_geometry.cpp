@@ -124,10 +124,10 @@ class Mover {
   std::vector<LocalIndex> curve_;                // Of each vertex that lies on one.
 };
 
-std::vector<std::size_t> cut_triangles(const PatchSurface& surface)
+std::vector<std::size_t> triangles_of(const std::vector<Overlap>& overlaps)
 {
   std::vector<std::size_t> triangles;
-  for (const Overlap& overlap : find_overlaps(surface)) {
+  for (const Overlap& overlap : overlaps) {
     triangles.push_back(overlap.first);
     triangles.push_back(overlap.second);
   }
@@ -151,13 +151,13 @@ void mend_folds_of(PatchSurface& surface, std::size_t most_triangles,
 {
   std::vector<std::size_t> folding = folding_triangles(surface, reference, model);
   if (folding.empty()) return;
-  std::size_t num_cut = cut_triangles(surface).size();
+  std::size_t num_cut = find_overlaps(surface).size();
   for (int round = 0; round < kFinerRounds && !folding.empty(); ++round) {
     if (surface.triangles.size() > most_triangles) return;
     try {
       PatchSurface finer = finer_at(folding, surface, reference, model, options);
       std::vector<std::size_t> left = folding_triangles(finer, reference, model);
-      const std::size_t left_cut = cut_triangles(finer).size();
+      const std::size_t left_cut = find_overlaps(finer).size();
       if (left.size() >= folding.size() || left_cut > num_cut) return;
       surface = std::move(finer);
       folding = std::move(left);
@@ -165,6 +165,23 @@ void mend_folds_of(PatchSurface& surface, std::size_t most_triangles,
     } catch (const GeometryError&) {
       return;
     }
+  }
+}
+
+// Shorter edges where the surface cuts itself. Bodies that touch, as a ball and its race, cut each
+// other however short edges are there: that ends when it does not help.
+void mend_cuts_of(PatchSurface& surface, std::size_t most_triangles,
+                  const SurfaceReference& reference, const model::Model& model,
+                  const CoarseOptions& options)
+{
+  std::vector<Overlap> cuts = find_overlaps(surface);
+  for (int round = 0; round < kFinerRounds && !cuts.empty(); ++round) {
+    if (surface.triangles.size() > most_triangles) return;
+    PatchSurface finer = finer_at(triangles_of(cuts), surface, reference, model, options);
+    std::vector<Overlap> left = find_overlaps(finer);
+    if (left.size() >= cuts.size() && within_bodies(cuts, surface).empty()) return;
+    surface = std::move(finer);
+    cuts = std::move(left);
   }
 }
 
@@ -182,11 +199,7 @@ PatchSurface remesh_on_geometry(const SurfaceReference& reference, const PatchSu
   PatchSurface surface = remesh(reference, start, options);
   put_on_geometry(surface, reference, model);
   const std::size_t most_triangles = kMostGrowth * surface.triangles.size();
-  for (int round = 0; round < kFinerRounds; ++round) {
-    const std::vector<std::size_t> cut = cut_triangles(surface);
-    if (cut.empty() || surface.triangles.size() > most_triangles) break;
-    surface = finer_at(cut, surface, reference, model, options);
-  }
+  mend_cuts_of(surface, most_triangles, reference, model, options);
   mend_folds_of(surface, most_triangles, reference, model, options);
   return surface;
 }

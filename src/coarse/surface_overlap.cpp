@@ -32,4 +32,18 @@ std::vector<Overlap> find_overlaps(const PatchSurface& surface)
   return found;
 }
 
+std::vector<Overlap> within_bodies(std::vector<Overlap> overlaps, const PatchSurface& surface)
+{
+  const auto materials_at = [&](std::size_t triangle) {
+    return surface.patch_materials[at(surface.triangle_patch[triangle])];
+  };
+  std::erase_if(overlaps, [&](const Overlap& overlap) {
+    const auto others = materials_at(overlap.second);
+    return std::ranges::none_of(materials_at(overlap.first), [&](LocalIndex material) {
+      return material != 0 && std::ranges::find(others, material) != others.end();
+    });
+  });
+  return overlaps;
+}
+
 }  // namespace tessera::coarse

@@ -240,7 +240,10 @@ coarse::CoarseSurface OccModel::remesh(const coarse::SurfaceReference& reference
   const SurfaceNames names{
       [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
       [this](LocalIndex material) { return solid_name(material); }};
-  coarse::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names, file_name_);
+  // Solids that overlap were cut. So where two cut each other now, they touch or nearly do, as a
+  // ball and its race, and chords of one lie in the other.
+  require_none(within_bodies(coarse::find_overlaps(surface), surface), surface, names, file_name_);
+  coarse::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names);
   add_parameters(reference, coarse.mesh);
   return coarse;
 }

@@ -160,8 +160,10 @@ class StlModel final : public LoadedModel {
     const SurfaceNames names{
         [this](LocalIndex patch) { return features_.patch_names[at(patch)]; },
         [this](LocalIndex material) { return surface_.material_names[at(material - 1)]; }};
-    return to_coarse_surface(coarse::remesh_on_geometry(reference, start, *this, options),
-                             options.max_size, names, name_);
+    const coarse::PatchSurface surface =
+        coarse::remesh_on_geometry(reference, start, *this, options);
+    require_none(coarse::find_overlaps(surface), surface, names, name_);
+    return to_coarse_surface(surface, options.max_size, names);
   }
 
   // Nothing is near a point that is not finite.

@@ -14,7 +14,6 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/optimize_domain.hpp"
-#include "tessera/coarse/surface_overlap.hpp"
 #include "tessera/coarse/touching_faces.hpp"
 
 #include "netgen/mesh_conversion.hpp"
@@ -111,21 +110,6 @@ std::string name_of(const coarse::PatchSurface& surface, const SurfaceNames& nam
   return name.empty() ? fmt::format("face {}", patch) : fmt::format("face {} '{}'", patch, name);
 }
 
-// NETGEN would say only that there is such a place.
-void require_apart(const coarse::PatchSurface& surface, const SurfaceNames& names,
-                   const std::string& what)
-{
-  const std::vector<coarse::Overlap> overlaps = coarse::find_overlaps(surface);
-  if (overlaps.empty()) return;
-  const auto& [first, second, place] = overlaps.front();
-  throw NetgenError(fmt::format(
-      "{}: the surface cuts itself at {} pairs of triangles, first {} and {} at ({:g}); part "
-      "bodies that overlap or touch without a common face in the CAD program; for a thin wall try "
-      "a smaller coarse.max_size",
-      what, overlaps.size(), name_of(surface, names, first), name_of(surface, names, second),
-      fmt::join(place, ", ")));
-}
-
 // Patches without triangles are left out.
 void add_patches(const coarse::PatchSurface& from, const SurfaceNames& names,
                  coarse::CoarseSurface& to)
@@ -148,10 +132,22 @@ void add_patches(const coarse::PatchSurface& from, const SurfaceNames& names,
 
 }  // namespace
 
-coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface, double max_size,
-                                        const SurfaceNames& names, const std::string& what)
+void require_none(const std::vector<coarse::Overlap>& overlaps, const coarse::PatchSurface& surface,
+                  const SurfaceNames& names, const std::string& what)
 {
-  require_apart(surface, names, what);
+  if (overlaps.empty()) return;
+  const auto& [first, second, place] = overlaps.front();
+  throw NetgenError(fmt::format(
+      "{}: the surface cuts itself at {} pairs of triangles, first {} and {} at ({:g}); part "
+      "bodies that overlap or touch without a common face in the CAD program; for a thin wall try "
+      "a smaller coarse.max_size",
+      what, overlaps.size(), name_of(surface, names, first), name_of(surface, names, second),
+      fmt::join(place, ", ")));
+}
+
+coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface, double max_size,
+                                        const SurfaceNames& names)
+{
   coarse::CoarseSurface result;
   mesh::CoarseMesh& mesh = result.mesh;
   for (const Vec3& p : surface.vertex_xyz)

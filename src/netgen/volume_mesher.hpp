@@ -3,10 +3,12 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "tessera/coarse/coarse_surface.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/patch_surface.hpp"
+#include "tessera/coarse/surface_overlap.hpp"
 
 namespace tessera::netgen {
 
@@ -16,14 +18,18 @@ struct SurfaceNames {
   std::function<std::string(LocalIndex material)> material{};
 };
 
+/// @brief Where a remeshed surface cuts itself, NETGEN would say only that there is such a place.
+/// @param[in] what Put before the error: which model.
+/// @note Local. @throws NetgenError with the faces and the place if there are any.
+void require_none(const std::vector<coarse::Overlap>& overlaps, const coarse::PatchSurface& surface,
+                  const SurfaceNames& names, const std::string& what);
+
 /// @brief A remeshed surface in the form in which its domains are filled; patch and curve numbers
 /// are the model's. Without parameters.
 /// @param[in] max_size Largest edge inside, file length unit.
-/// @param[in] what     Put before an error: which model.
-/// @note Local. @throws NetgenError if the surface cuts itself.
+/// @note Local.
 [[nodiscard]] coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface,
-                                                      double max_size, const SurfaceNames& names,
-                                                      const std::string& what);
+                                                      double max_size, const SurfaceNames& names);
 
 /// @brief Fills a domain by NETGEN's volume mesher. Sizes inside follow from the skin, the options'
 /// grading and their points.

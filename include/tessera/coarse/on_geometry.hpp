@@ -18,10 +18,10 @@ void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
 /// @brief Remeshes a tessellation and puts it on the geometry. Local.
 ///
 /// A surface may then cut itself, as at a gap that is narrower than its triangles are long. The
-/// same is done again with shorter edges there, a few times. It may still cut itself in the end:
-/// find_overlaps() says where. Triangles may fold on their first level of refinement, as in a strip
-/// that is narrower than arcs beside it are high. There edges get shorter as well, as long as that
-/// leaves fewer of them.
+/// same is done again with shorter edges there, a few times; where only bodies cut each other, as
+/// long as that helps. It may still cut itself in the end: find_overlaps() says where. Triangles
+/// may fold on their first level of refinement, as in a strip that is narrower than arcs beside it
+/// are high. There edges get shorter as well, as long as that leaves fewer of them.
 /// @param[in] reference  As put_on_geometry().
 /// @param[in] start      As remesh().
 /// @throws GeometryError if a projection fails.

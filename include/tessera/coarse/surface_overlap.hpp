@@ -22,4 +22,9 @@ struct Overlap {
 /// surface whose triangles are much smaller than it.
 [[nodiscard]] std::vector<Overlap> find_overlaps(const PatchSurface& surface);
 
+/// @brief Those of the overlaps of a surface where both triangles bound the same material, so that
+/// it cannot be filled. Local.
+[[nodiscard]] std::vector<Overlap> within_bodies(std::vector<Overlap> overlaps,
+                                                 const PatchSurface& surface);
+
 }  // namespace tessera::coarse

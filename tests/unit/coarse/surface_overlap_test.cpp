@@ -40,5 +40,15 @@ TEST(SurfaceOverlap, IsFoundWithItsPlaceWhereBodiesCutEachOther)
   }
 }
 
+TEST(SurfaceOverlap, OfTwoBodiesIsNoneWithinOne)
+{
+  PatchSurface surface = two_cubes({0.6, 0.7, 0.8});
+  surface.patch_materials = {{1, 0}, {2, 0}};
+  const auto overlaps = find_overlaps(surface);
+  EXPECT_TRUE(within_bodies(overlaps, surface).empty());
+  surface.patch_materials = {{1, 0}, {2, 1}};
+  EXPECT_EQ(within_bodies(overlaps, surface).size(), overlaps.size());
+}
+
 }  // namespace
 }  // namespace tessera::coarse
