@@ -16,7 +16,8 @@ void follow_names(const TopoDS_Shape& shape, ShapeNames& names,
                   const std::function<TopTools_ListOfShape(const TopoDS_Shape&)>& images_of);
 
 /// @brief A compound of the solids in which two that touch share the faces between them, so that
-/// their meshes conform. Solids that overlap are cut into parts. What was done is in `cad.repairs`.
+/// their meshes conform. Solids that overlap are cut into parts. Those that touch along curves or
+/// in points only keep their faces whole. What was done is in `cad.repairs`.
 [[nodiscard]] TopoDS_Shape glued(const std::vector<TopoDS_Shape>& solids, CadFile& cad);
 
 }  // namespace tessera::netgen
