@@ -12,15 +12,17 @@
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepLProp_SLProps.hxx>
-#include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
 
@@ -28,6 +30,10 @@ namespace {
 
 constexpr int num_places = 7;
 constexpr double normal_tolerance = 1e-9;
+
+// Triangles that meet at a larger angle, in degrees, have an edge of the model between them: what
+// Tessera takes for one in STL files.
+constexpr double curve_angle = 30.0;
 
 // An edge as one face has it; a seam is there twice.
 struct Use {
@@ -125,18 +131,31 @@ double angle_of_edges(const Use& arriving, const Use& leaving)
   return turned(start->normal, on, back) < 0.0 ? 360.0 + angle : std::abs(angle);
 }
 
-double angle_of_wire(const TopoDS_Wire& wire, const TopoDS_Face& face)
+std::vector<Use> uses_in(const TopoDS_Face& face)
 {
   std::vector<Use> uses;
-  for (BRepTools_WireExplorer edge(wire, face); edge.More(); edge.Next()) {
-    uses.push_back({edge.Current(), face});
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+    const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+    const bool is_border =
+        edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
+    if (is_border && !BRep_Tool::Degenerated(edge)) uses.push_back({edge, face});
   }
+  return uses;
+}
+
+// Of each edge that leaves a vertex with each that arrives there, also on another wire: a hole may
+// touch the border. What does not follow in the face is farther round.
+double angle_of_corners(const TopoDS_Face& face)
+{
+  const std::vector<Use> uses = uses_in(face);
   double smallest = 360.0;
-  for (std::size_t i = 0; i < uses.size(); ++i) {
-    const Use &one = uses[i], &next = uses[(i + 1) % uses.size()];
-    if (BRep_Tool::Degenerated(one.edge) || BRep_Tool::Degenerated(next.edge)) continue;
-    if (one.edge.IsSame(next.edge)) continue;  // A slit: back the way it came.
-    smallest = std::min(smallest, angle_of_edges(one, next));
+  for (const Use& leaving : uses) {
+    const TopoDS_Vertex vertex = TopExp::FirstVertex(leaving.edge, true);
+    for (const Use& arriving : uses) {
+      if (arriving.edge.IsSame(leaving.edge)) continue;  // A slit: back the way it came.
+      if (!vertex.IsSame(TopExp::LastVertex(arriving.edge, true))) continue;
+      smallest = std::min(smallest, angle_of_edges(arriving, leaving));
+    }
   }
   return smallest;
 }
@@ -158,13 +177,83 @@ std::vector<std::vector<Use>> uses_of_edges(const TopoDS_Shape& solid)
   return uses;
 }
 
-gp_Vec normal_of(const Poly_Triangulation& surface, int triangle)
-{
-  int a = 0, b = 0, c = 0;
-  surface.Triangle(triangle).Get(a, b, c);
-  const gp_Pnt corner = surface.Node(a);
-  return gp_Vec(corner, surface.Node(b)).Crossed(gp_Vec(corner, surface.Node(c)));
-}
+// Triangles with corners of the same number joined, and what is on the other side of their edges.
+class ClosedTriangles {
+ public:
+  explicit ClosedTriangles(const Poly_Triangulation& surface) : surface_(surface)
+  {
+    for (int t = 1; t <= surface.NbTriangles(); ++t) {
+      const std::array<int, 3> corner = corners(t);
+      for (std::size_t c = 0; c < 3; ++c) triangle_at_[{corner[c], corner[(c + 1) % 3]}] = t;
+    }
+  }
+
+  [[nodiscard]] SharpAngles angles() const
+  {
+    SharpAngles found;
+    for (const auto& [edge, triangle] : triangle_at_) {
+      found.of_edges = std::min(found.of_edges, angle_of_sector(edge.first, edge.second));
+      const std::optional<int> other = triangle_from(edge.second, edge.first);
+      if (edge.first > edge.second || !other) continue;
+      const auto along = unit(gp_Vec(surface_.Node(edge.first), surface_.Node(edge.second)));
+      const auto normal = unit(normal_of(triangle)), other_normal = unit(normal_of(*other));
+      if (!along || !normal || !other_normal) continue;
+      found.of_faces = std::min(found.of_faces, angle_between(*normal, normal->Crossed(*along),
+                                                              -other_normal->Crossed(*along)));
+    }
+    return found;
+  }
+
+ private:
+  [[nodiscard]] std::array<int, 3> corners(int triangle) const
+  {
+    std::array<int, 3> corner{};
+    surface_.Triangle(triangle).Get(corner[0], corner[1], corner[2]);
+    return corner;
+  }
+
+  [[nodiscard]] gp_Vec normal_of(int triangle) const
+  {
+    const auto [a, b, c] = corners(triangle);
+    const gp_Pnt corner = surface_.Node(a);
+    return gp_Vec(corner, surface_.Node(b)).Crossed(gp_Vec(corner, surface_.Node(c)));
+  }
+
+  [[nodiscard]] std::optional<int> triangle_from(int from, int to) const
+  {
+    const auto found = triangle_at_.find({from, to});
+    if (found == triangle_at_.end()) return std::nullopt;
+    return found->second;
+  }
+
+  [[nodiscard]] bool is_curve(int from, int to) const
+  {
+    const auto one = triangle_from(from, to), other = triangle_from(to, from);
+    return one && other && degrees(normal_of(*one).Angle(normal_of(*other))) > curve_angle;
+  }
+
+  // Through the face, from an edge of the model at a vertex to the next one; 360 if `from` and `to`
+  // are no such edge. Several triangles may share the angle.
+  [[nodiscard]] double angle_of_sector(int from, int to) const
+  {
+    double angle = 0.0;
+    if (!is_curve(from, to)) return 360.0;
+    for (auto triangle = triangle_from(from, to); triangle; triangle = triangle_from(from, to)) {
+      const auto [a, b, c] = corners(*triangle);
+      const int next = a + b + c - from - to;
+      const gp_Vec one(surface_.Node(from), surface_.Node(to));
+      const gp_Vec other(surface_.Node(from), surface_.Node(next));
+      if (!unit(one) || !unit(other)) return 360.0;
+      angle += degrees(one.Angle(other));
+      if (is_curve(from, next) || angle > 360.0) return angle;
+      to = next;
+    }
+    return 360.0;
+  }
+
+  const Poly_Triangulation& surface_;
+  std::map<std::pair<int, int>, int> triangle_at_;  // Of each directed edge.
+};
 
 }  // namespace
 
@@ -176,34 +265,29 @@ SharpAngles sharp_angles(const TopoDS_Shape& solid)
     found.of_faces = std::min(found.of_faces, angle_of_faces(uses[0], uses[1]));
   }
   for (TopExp_Explorer faces(solid, TopAbs_FACE); faces.More(); faces.Next()) {
-    // The explorer of a wire goes along its edges only in a face as it was made.
     const TopoDS_Face face = TopoDS::Face(faces.Current().Oriented(TopAbs_FORWARD));
-    for (TopExp_Explorer wire(face, TopAbs_WIRE); wire.More(); wire.Next()) {
-      found.of_edges = std::min(found.of_edges, angle_of_wire(TopoDS::Wire(wire.Current()), face));
-    }
+    found.of_edges = std::min(found.of_edges, angle_of_corners(face));
+  }
+  return found;
+}
+
+SharpAngles sharp_angles_of_glued(const TopTools_ListOfShape& solids)
+{
+  SharpAngles found;
+  BRepAlgoAPI_BuilderAlgo glue;
+  glue.SetArguments(solids);
+  glue.SetNonDestructive(Standard_True);
+  glue.Build();
+  if (glue.HasErrors()) return found;
+  for (TopExp_Explorer parts(glue.Shape(), TopAbs_SOLID); parts.More(); parts.Next()) {
+    const SharpAngles angles = sharp_angles(parts.Current());
+    found.of_faces = std::min(found.of_faces, angles.of_faces);
+    found.of_edges = std::min(found.of_edges, angles.of_edges);
   }
   return found;
 }
 
 SharpAngles sharp_angles(const Poly_Triangulation& closed_surface)
 {
-  std::map<std::pair<int, int>, int> triangle_at;  // Of each directed edge.
-  for (int t = 1; t <= closed_surface.NbTriangles(); ++t) {
-    std::array<int, 3> corner{};
-    closed_surface.Triangle(t).Get(corner[0], corner[1], corner[2]);
-    for (std::size_t c = 0; c < 3; ++c) triangle_at[{corner[c], corner[(c + 1) % 3]}] = t;
-  }
-  SharpAngles found;
-  for (const auto& [edge, triangle] : triangle_at) {
-    const auto other = triangle_at.find({edge.second, edge.first});
-    if (edge.first > edge.second || other == triangle_at.end()) continue;
-    const auto along =
-        unit(gp_Vec(closed_surface.Node(edge.first), closed_surface.Node(edge.second)));
-    const auto normal = unit(normal_of(closed_surface, triangle));
-    const auto other_normal = unit(normal_of(closed_surface, other->second));
-    if (!along || !normal || !other_normal) continue;
-    found.of_faces = std::min(found.of_faces, angle_between(*normal, normal->Crossed(*along),
-                                                            -other_normal->Crossed(*along)));
-  }
-  return found;
+  return ClosedTriangles(closed_surface).angles();
 }

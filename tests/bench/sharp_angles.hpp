@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Poly_Triangulation.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Shape.hxx>
 
 /// @brief In degrees; 360 where there is none.
@@ -15,5 +16,9 @@ struct SharpAngles {
 /// @brief Local. An estimate: faces are compared at seven places of each edge.
 SharpAngles sharp_angles(const TopoDS_Shape& solid);
 
-/// @brief Local. Between triangles alone; their corners may be joined or not.
+/// @brief Local. As they are meshed: solids that touch share faces. Where one's edges end on the
+/// other's faces, these get corners that neither has by itself. No angles if they cannot be glued.
+SharpAngles sharp_angles_of_glued(const TopTools_ListOfShape& solids);
+
+/// @brief Local. Of joined triangles; edges are where they meet at more than 30 degrees.
 SharpAngles sharp_angles(const Poly_Triangulation& closed_surface);

@@ -11,7 +11,8 @@
 // Prints one JSON object: with the counts also those of the faces (STL: triangles) and of the pairs
 // of faces that cross, the largest tolerance of an edge or vertex, the diagonal of the box in
 // OpenCASCADE's unit, and the smallest angles of the valid solids between faces and between edges,
-// in degrees, null where there is none. What cannot be read holds nothing.
+// in degrees, null where there is none. Several solids are also looked at as they are meshed, which
+// is with the faces that they share (up to 300 faces). What cannot be read holds nothing.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -53,6 +54,8 @@
 
 namespace {
 
+constexpr int kMostFaces = 300;  // Of a shape that is compared with itself.
+
 struct Findings {
   int num_solids = 0;
   int num_valid = 0;
@@ -89,7 +92,6 @@ bool is_closed(const TopoDS_Shape& solid)
 // Pairs of its faces that go through each other. BRepCheck looks at each face for itself.
 int crossings_in(const TopoDS_Shape& solid)
 {
-  constexpr int kMostFaces = 300;
   constexpr int kUpToFaceAndFace = 5;
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(solid, TopAbs_FACE, faces);
@@ -115,6 +117,12 @@ int crossings_in(const TopoDS_Shape& solid)
   return count;
 }
 
+void add(const SharpAngles& found, SharpAngles& to)
+{
+  to.of_faces = std::min(to.of_faces, found.of_faces);
+  to.of_edges = std::min(to.of_edges, found.of_edges);
+}
+
 double diagonal_of(const TopoDS_Shape& shape)
 {
   Bnd_Box box;
@@ -138,6 +146,7 @@ Findings look_at(const TopoDS_Shape& shape)
   findings.num_faces = faces.Extent();
   findings.tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(shape, 1);
   findings.diagonal = diagonal_of(shape);
+  TopTools_ListOfShape valid_solids;
   for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
     ++findings.num_solids;
     const bool valid = BRepCheck_Analyzer(solids.Current()).IsValid();
@@ -146,9 +155,11 @@ Findings look_at(const TopoDS_Shape& shape)
     findings.num_crossings += num_crossings;
     if (num_crossings > 0) continue;
     ++findings.num_valid;
-    const SharpAngles sharp = sharp_angles(solids.Current());
-    findings.sharp.of_faces = std::min(findings.sharp.of_faces, sharp.of_faces);
-    findings.sharp.of_edges = std::min(findings.sharp.of_edges, sharp.of_edges);
+    valid_solids.Append(solids.Current());
+    add(sharp_angles(solids.Current()), findings.sharp);
+  }
+  if (findings.num_valid > 1 && findings.num_faces <= kMostFaces) {
+    add(sharp_angles_of_glued(valid_solids), findings.sharp);
   }
   return findings;
 }
