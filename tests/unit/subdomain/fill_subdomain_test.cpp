@@ -9,6 +9,7 @@
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/fill/check.hpp"
 #include "tessera/netgen/factory.hpp"
 
 #include "support/curved_meshes.hpp"
@@ -149,6 +150,47 @@ TEST_F(FillSubdomain, NoDefectOfAKernelPasses)
   EXPECT_THROW(fill(BrokenKernel::Defect::gives_up), NetgenError);
   EXPECT_THROW(fill(BrokenKernel::Defect::returns_nothing), MeshError);
   EXPECT_THROW(fill(BrokenKernel::Defect::loses_a_tet), MeshError);
+}
+
+// Leaves a vertex near the opposite face of one of its tets.
+class FlatteningKernel final : public fill::Kernel {
+ public:
+  [[nodiscard]] fill::FillOutput fill(const fill::FillInput& input,
+                                      const fill::KernelSettings& settings) const override
+  {
+    const fill::FillOutput good = netgen::make_fill_kernel()->fill(input, settings);
+    for (std::size_t c = 0; c < good.tet_vertices.size(); ++c) {
+      if (3 * at(good.tet_vertices[c]) < input.vertex_xyz.size()) continue;  // Of the skin.
+      fill::FillOutput flat = good;
+      for (std::size_t d = 0; d < 3; ++d)
+        flat.vertex_xyz[3 * at(good.tet_vertices[c]) + d] = near_opposite_face(good, c, d);
+      if (fill::all_positive(flat)) return flat;
+    }
+    throw NetgenError("no vertex may move");
+  }
+
+ private:
+  static double near_opposite_face(const fill::FillOutput& tets, std::size_t corner, std::size_t d)
+  {
+    constexpr double kNear = 0.03;
+    double sum = 0.0;
+    for (std::size_t c = 4 * (corner / 4); c < 4 * (corner / 4) + 4; ++c) {
+      const double part = c == corner ? kNear : (1.0 - kNear) / 3.0;
+      sum += part * tets.vertex_xyz[3 * at(tets.tet_vertices[c]) + d];
+    }
+    return sum;
+  }
+};
+
+TEST_F(FillSubdomain, MendsTheWorstTetsOfAKernel)
+{
+  constexpr int kFine = 2;
+  const testing::FlatModel model;
+  const mesh::ProjectionLimiter limiter;
+  const refine::RefineContext refine{body().coarse, body().skeleton, model, limiter, kFine, true};
+  const PartitionedMesh cut(body().coarse, body().decomposition, kFine);
+  const FilledPiece filled = fill_subdomain(cut, refine, 0, {}, FlatteningKernel());
+  EXPECT_GT(filled.result.summary.tets.min_dihedral_deg, 10.0);
 }
 
 TEST(FillSubdomainOnACurvedModel, ReportsDistancesAndHeldBackPoints)
