@@ -28,6 +28,9 @@ namespace {
 // A larger mesh is taken as it is: to mesh it again would take minutes, and it is fine already.
 constexpr LocalIndex kMostTetsToMeshAgain = 300'000;
 
+// With smaller edges in narrow places: those that the third leaves have another cause.
+constexpr int kMostFinerMeshes = 3;
+
 // What the store keeps of a run before it fills.
 struct CutCoarseMesh {
   cut::CutChoice planes{};
@@ -106,16 +109,17 @@ double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
   return sharp.worst.empty() ? kSharpAngle_deg : sharp.worst.front().angle_deg;
 }
 
-// Once more with smaller edges in thin walls and narrow strips. The better one of the two counts.
-void refine_narrow_places(RunResult& run, const model::NamedParts& parts, RunContext& context)
+// Once more with smaller edges in thin walls and narrow strips. The better one of the two counts;
+// whether that is the finer one.
+bool is_better_if_finer(RunResult& run, const coarse::FinerBefore& before,
+                        const model::NamedParts& parts, RunContext& context)
 {
-  if (!may_be_finer_at_places(run)) return;
   const mesh::SizePoints sizes = on_root(context.comm, [&]() -> mesh::SizePoints {
     if (run.coarse.mesh.num_tets() > kMostTetsToMeshAgain) return {};
     return coarse::sizes_of_narrow_places(run.coarse.mesh, kSharpAngle_deg,
-                                          run.coarse.options.max_size);
+                                          run.coarse.options.max_size, before);
   });
-  if (sizes.size.empty()) return;
+  if (sizes.size.empty()) return false;
   context.log.info("coarse: narrow places have too long edges; once more with shorter ones there");
   CoarseResult finer = run_finer_try(run.resolved, run.coarse, sizes, context);
   const bool is_better = on_root(context.comm, [&] {
@@ -125,6 +129,18 @@ void refine_narrow_places(RunResult& run, const model::NamedParts& parts, RunCon
   if (!is_better) finer.mesh = {};
   model::apply_names(parts, finer.mesh);
   replace(run.coarse, std::move(finer));
+  return is_better;
+}
+
+// What is still narrow in the finer mesh may be made finer again.
+void refine_narrow_places(RunResult& run, const model::NamedParts& parts, RunContext& context)
+{
+  if (!may_be_finer_at_places(run)) return;
+  coarse::FinerBefore before{.num_first_tets =
+                                 on_root(context.comm, [&] { return run.coarse.mesh.num_tets(); })};
+  while (before.num_meshes < kMostFinerMeshes && is_better_if_finer(run, before, parts, context)) {
+    ++before.num_meshes;
+  }
 }
 
 // A coarse mesh, and once more where it is too coarse for the sizes or for narrow places.

@@ -28,6 +28,10 @@ constexpr double kTetsPerSquare = 1.0;
 // Points over an edge of a tet. Sizes grow from each, so that half as many as edges will do.
 constexpr int kMostPoints = 5;
 
+// Parts of the largest size: far less than in a wall, as a strip needs one row of tets, not a
+// sheet.
+double least_of_strip(int num_meshes_before) { return std::ldexp(0.002, -2 * num_meshes_before); }
+
 using Corners = std::array<Vec3, 4>;
 
 Corners corners_of(const mesh::CoarseMesh& mesh, LocalIndex t)
@@ -66,8 +70,9 @@ double thickness(const Corners& p)
 
 class WallFinder {
  public:
-  WallFinder(const mesh::CoarseMesh& mesh, const VertexPatches& patches, double max_size)
-      : mesh_(mesh), patches_(patches), max_size_(max_size)
+  WallFinder(const mesh::CoarseMesh& mesh, const VertexPatches& patches, double max_size,
+             double least_size)
+      : mesh_(mesh), patches_(patches), max_size_(max_size), least_size_(least_size)
   {
   }
 
@@ -85,17 +90,18 @@ class WallFinder {
   void add(LocalIndex t)
   {
     const Corners p = corners_of(mesh_, t);
-    const double size =
-        std::clamp(kEdgesOfWall * thickness(p), kLeastOfWall * max_size_, max_size_);
+    const double size = std::clamp(kEdgesOfWall * thickness(p), least_size_, max_size_);
     const double edges = longest_edge(p) / size;
     if (edges <= 1.0) return;  // It is flat for another reason.
     num_tets_ += kTetsPerSquare * edges * edges;
     add_points(p, size, std::clamp(static_cast<int>(std::ceil(0.5 * edges)), 1, kMostPoints));
   }
 
-  [[nodiscard]] bool is_out_of_proportion() const
+  // Beside a first mesh of so many tets.
+  [[nodiscard]] bool is_out_of_proportion(LocalIndex num_first) const
   {
-    return num_tets_ > std::max(kFewTets, kMostGrowth * mesh_.num_tets());
+    const double more = num_tets_ + (mesh_.num_tets() - num_first);
+    return more > std::max(kFewTets, kMostGrowth * num_first);
   }
 
   mesh::SizePoints take() { return std::move(points_); }
@@ -119,6 +125,7 @@ class WallFinder {
   const mesh::CoarseMesh& mesh_;
   const VertexPatches& patches_;
   double max_size_;
+  double least_size_;
   mesh::SizePoints points_{};
   double num_tets_ = 0.0;
 };
@@ -135,12 +142,13 @@ VertexPatches patches_of_vertices(const mesh::CoarseMesh& mesh)
 }  // namespace
 
 mesh::SizePoints sizes_of_narrow_places(const mesh::CoarseMesh& mesh, double angle_deg,
-                                        double max_size)
+                                        double max_size, const FinerBefore& before)
 {
   const SharpTets sharp = find_sharp_tets(mesh, angle_deg);
   if (sharp.others.empty()) return {};
   const VertexPatches patches = patches_of_vertices(mesh);
-  WallFinder walls(mesh, patches, max_size);
+  const double least_of_wall = std::ldexp(kLeastOfWall, -before.num_meshes);
+  WallFinder walls(mesh, patches, max_size, least_of_wall * max_size);
   std::vector<LocalIndex> others;
   for (const LocalIndex t : sharp.others) {
     if (walls.is_in_wall(t)) {
@@ -149,9 +157,14 @@ mesh::SizePoints sizes_of_narrow_places(const mesh::CoarseMesh& mesh, double ang
       others.push_back(t);
     }
   }
-  if (walls.is_out_of_proportion()) return {};  // They stay the worst, whatever strips gain.
+  const LocalIndex num_first = before.num_meshes == 0 ? mesh.num_tets() : before.num_first_tets;
+  if (walls.is_out_of_proportion(num_first)) {
+    return {};  // They stay the worst, whatever strips gain.
+  }
   mesh::SizePoints points = walls.take();
-  const mesh::SizePoints strips = sizes_of_narrow_strips(mesh, patches, others, max_size);
+  const StripLimits limits{.least_size = least_of_strip(before.num_meshes) * max_size,
+                           .num_first_tets = num_first};
+  const mesh::SizePoints strips = sizes_of_narrow_strips(mesh, patches, others, limits);
   points.xyz.insert(points.xyz.end(), strips.xyz.begin(), strips.xyz.end());
   points.size.insert(points.size.end(), strips.size.begin(), strips.size.end());
   return points;

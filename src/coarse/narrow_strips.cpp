@@ -15,12 +15,8 @@ namespace {
 // A triangle is a needle if its height is less than this part of its longest edge: 6 degrees.
 constexpr double kNeedle = 0.1;
 
-// Parts of the largest size: far less than in a wall, as a strip needs one row of tets, not a
-// sheet.
-constexpr double kLeastOfStrip = 0.002;
-
 // A new edge along a strip costs about so many tets, with those between it and larger edges. The
-// finer mesh may have so many times the tets of this one.
+// finer mesh may have so many times the tets of the first one.
 constexpr double kTetsPerEdge = 40.0;
 constexpr double kFewTets = 3e4;
 constexpr double kMostGrowth = 2.0;
@@ -54,12 +50,13 @@ class StripFinder {
     }
   }
 
-  mesh::SizePoints run(double max_size)
+  mesh::SizePoints run(const StripLimits& limits)
   {
-    const double most = std::max(kFewTets, kMostGrowth * mesh_.num_tets());
+    const double grown = mesh_.num_tets() - limits.num_first_tets;
+    const double most = std::max(kFewTets, kMostGrowth * limits.num_first_tets);
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
-      if (is_between_curves(f)) add(needle_of(corners(f)), max_size);
-      if (kTetsPerEdge * num_edges_ > most) return {};
+      if (is_between_curves(f)) add(needle_of(corners(f)), limits.least_size);
+      if (grown + kTetsPerEdge * num_edges_ > most) return {};
     }
     return std::move(points_);
   }
@@ -78,11 +75,11 @@ class StripFinder {
     return {mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])};
   }
 
-  void add(const Needle& needle, double max_size)
+  void add(const Needle& needle, double least_size)
   {
     const double length = norm(needle.along);
     if (needle.width > kNeedle * length) return;
-    const double size = std::max(kEdgesOfWall * needle.width, kLeastOfStrip * max_size);
+    const double size = std::max(kEdgesOfWall * needle.width, least_size);
     if (size >= length) return;
     const double num_edges = std::ceil(length / size);
     num_edges_ += num_edges;
@@ -103,10 +100,11 @@ class StripFinder {
 }  // namespace
 
 mesh::SizePoints sizes_of_narrow_strips(const mesh::CoarseMesh& mesh, const VertexPatches& patches,
-                                        const std::vector<LocalIndex>& sharp, double max_size)
+                                        const std::vector<LocalIndex>& sharp,
+                                        const StripLimits& limits)
 {
   if (sharp.empty()) return {};
-  return StripFinder(mesh, patches, sharp).run(max_size);
+  return StripFinder(mesh, patches, sharp).run(limits);
 }
 
 }  // namespace tessera::coarse

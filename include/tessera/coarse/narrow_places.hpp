@@ -6,6 +6,12 @@
 
 namespace tessera::coarse {
 
+/// @brief The meshes before, if this one has been made finer at narrow places already.
+struct FinerBefore {
+  int num_meshes = 0;
+  LocalIndex num_first_tets = 0;  ///< Of the first mesh, which was not.
+};
+
 /// @brief Sizes for another coarse mesh, where the model is too narrow for the edges of this one.
 /// Local.
 ///
@@ -17,9 +23,12 @@ namespace tessera::coarse {
 ///   shall be a few times its width.
 /// @param angle_deg As for find_sharp_tets().
 /// @param max_size The largest size of this mesh, > 0.
+/// @param before Edges may be half as long in walls each time, and a quarter as long in strips. The
+/// bound on what the finer mesh has goes by the first one.
 /// @return None of either kind if nothing is that narrow, or if the finer mesh would be out of
 /// proportion to this one.
 [[nodiscard]] mesh::SizePoints sizes_of_narrow_places(const mesh::CoarseMesh& mesh,
-                                                      double angle_deg, double max_size);
+                                                      double angle_deg, double max_size,
+                                                      const FinerBefore& before = {});
 
 }  // namespace tessera::coarse

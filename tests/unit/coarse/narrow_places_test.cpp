@@ -57,6 +57,27 @@ TEST(NarrowPlaces, AreLeftWhereTheMeshWouldBeOutOfProportion)
   EXPECT_TRUE(sizes_of_narrow_places(plate(1e-3), kSmall_deg, 0.05).size.empty());
 }
 
+TEST(NarrowPlaces, AskForHalfOfItInAWallThatIsStillTooThin)
+{
+  const mesh::CoarseMesh mesh = plate(1e-6);
+  const FinerBefore once{.num_meshes = 1, .num_first_tets = mesh.num_tets()};
+  const mesh::SizePoints sizes = sizes_of_narrow_places(mesh, kSmall_deg, 1.0, once);
+  ASSERT_FALSE(sizes.size.empty());
+  EXPECT_EQ(std::ranges::min(sizes.size), 0.05);
+}
+
+// The bound goes by the first mesh, or each mesh could have four times the tets of the last.
+TEST(NarrowPlaces, AreLeftWhereTheMeshHasGrownAlready)
+{
+  mesh::CoarseMesh mesh = testing::kuhn_cube(18);  // 34,992 tets.
+  for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) mesh.vertex_xyz[3 * at(v) + 2] *= 0.02;
+  const FinerBefore few{.num_meshes = 1, .num_first_tets = 6};
+  const FinerBefore many{.num_meshes = 1, .num_first_tets = mesh.num_tets()};
+  ASSERT_GT(find_sharp_tets(mesh, kSmall_deg).num_others, 0);
+  EXPECT_TRUE(sizes_of_narrow_places(mesh, kSmall_deg, 0.05, few).size.empty());
+  EXPECT_FALSE(sizes_of_narrow_places(mesh, kSmall_deg, 0.05, many).size.empty());
+}
+
 // A flat tet with a corner inside is none between two sheets.
 TEST(NarrowPlaces, AreNoFlatTetsInside)
 {
@@ -117,6 +138,14 @@ TEST(NarrowPlaces, AskForAPartOfTheLargestSizeInAStripOfHardlyAnyWidth)
 {
   const auto sizes = sizes_of_narrow_places(cube_with_strip(1e-6, true), kSmall_deg, 20.0);
   EXPECT_EQ(size_in_strip(sizes), 0.002 * 20.0);
+}
+
+TEST(NarrowPlaces, AskForAQuarterOfItInAStripThatIsStillTooNarrow)
+{
+  const mesh::CoarseMesh mesh = cube_with_strip(1e-6, true);
+  const FinerBefore once{.num_meshes = 1, .num_first_tets = mesh.num_tets()};
+  const auto sizes = sizes_of_narrow_places(mesh, kSmall_deg, 20.0, once);
+  EXPECT_EQ(size_in_strip(sizes), 0.0005 * 20.0);
 }
 
 TEST(NarrowPlaces, LeaveStripsWhereTheMeshWouldBeOutOfProportion)
