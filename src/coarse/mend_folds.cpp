@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -29,6 +30,10 @@ constexpr int kRounds = 8;
 // across a strong bend.
 constexpr double kLeastCosine = 0.2;
 
+// Of the quarter of its parent's area that a child should have. Less is a needle: an arc is nearly
+// as high as the triangle beside it.
+constexpr double kLeastShare = 0.25;
+
 // In parts of its length: an edge whose middle is off the geometry by less is straight.
 constexpr double kStraight = 1e-6;
 
@@ -46,25 +51,47 @@ class FoldMender {
   {
   }
 
-  // Triangles with a child that looks the other way.
+  // Between two curves that meet: what is narrow there is the model's.
+  [[nodiscard]] bool is_at_a_tip(LocalIndex t) const
+  {
+    const std::array<Edge, 3> all = sides(surface_.triangle(t));
+    return std::ranges::count_if(
+               all, [&](const Edge& edge) { return surface_.curve(edge[0], edge[1]) != kNoIndex; })
+           > 1;
+  }
+
+  // Triangles with a child that looks the other way; if there are none, from here on also those
+  // with one that is a needle.
+  void find_first()
+  {
+    find();
+    if (has_folds_) return;
+    least_share_ = kLeastShare;
+    find();
+  }
+
   void find()
   {
-    turned_.clear();
+    found_.clear();
+    has_folds_ = false;
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
-      if (surface_.is_triangle(t) && turns(surface_.triangle(t), surface_.patch(t))) {
-        turned_.push_back(t);
-      }
+      if (!surface_.is_triangle(t)) continue;
+      const double share = smallest_share(surface_.triangle(t), surface_.patch(t));
+      if (share <= least_share_ && !(share > 0.0 && is_at_a_tip(t))) found_.push_back(t);
+      has_folds_ = has_folds_ || share <= 0.0;
     }
   }
 
-  [[nodiscard]] LocalIndex num_folds() const { return static_cast<LocalIndex>(turned_.size()); }
+  [[nodiscard]] bool looks_for_needles() const { return least_share_ > 0.0; }
+  [[nodiscard]] LocalIndex num_found() const { return static_cast<LocalIndex>(found_.size()); }
+  [[nodiscard]] bool has_folds() const { return has_folds_; }
 
   // One step at each of the triangles found; whether anything was done.
   bool mend(FoldStatistics& done)
   {
     touched_.clear();
     const LocalIndex before = done.num_flips + done.num_cuts;
-    for (const LocalIndex t : turned_) {
+    for (const LocalIndex t : found_) {
       if (touched_.contains(t)) continue;
       if (flip_one_of(t)) {
         ++done.num_flips;
@@ -148,12 +175,20 @@ class FoldMender {
                        {middle_of(ab, group), middle_of(bc, group), middle_of(ca, group)});
   }
 
-  [[nodiscard]] bool turns(const Triangle& v, LocalIndex group)
+  // Of the area that a child should have, seen along the normal; below 0 one looks the other way.
+  [[nodiscard]] double smallest_share(const Triangle& v, LocalIndex group)
   {
     const Vec3 normal = normal_of(corners(v));
-    return std::ranges::any_of(children(v, group), [&](const Corners& child) {
-      return dot(normal_of(child), normal) <= 0.0;
-    });
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const Corners& child : children(v, group)) {
+      smallest = std::min(smallest, 4.0 * dot(normal_of(child), normal));
+    }
+    return smallest <= 0.0 ? smallest : smallest / dot(normal, normal);
+  }
+
+  [[nodiscard]] bool is_sound(const Triangle& v, LocalIndex group)
+  {
+    return smallest_share(v, group) > least_share_;
   }
 
   [[nodiscard]] bool is_straight(const Edge& edge, LocalIndex group)
@@ -197,10 +232,10 @@ class FoldMender {
     if (!made || !are_free(two)) return false;
     const LocalIndex group = surface_.patch(two[0]);
     const Vec3 normal = normal_of(surface_.corners(two[0])) + normal_of(surface_.corners(two[1]));
-    const bool is_sound = std::ranges::all_of(*made, [&](const Triangle& v) {
-      return looks_the_same_way(corners(v), normal) && !turns(v, group);
+    const bool are_sound = std::ranges::all_of(*made, [&](const Triangle& v) {
+      return looks_the_same_way(corners(v), normal) && is_sound(v, group);
     });
-    if (!is_sound) return false;
+    if (!are_sound) return false;
     surface_.flip(edge, *made);
     touched_.insert(two.begin(), two.end());
     return true;
@@ -265,29 +300,63 @@ class FoldMender {
   SurfaceGroups& groups_;
   EditableSurface surface_;
   std::map<Edge, Vec3> middles_{};  // Of all edges that were asked for; no vertex moves.
-  std::vector<LocalIndex> turned_{};
+  std::vector<LocalIndex> found_{};
+  bool has_folds_ = false;
+  double least_share_ = 0.0;        // What a child must have more of.
   std::set<LocalIndex> touched_{};  // Triangles that this round has changed.
 };
+
+// What was done, and whether it was done to folds.
+struct Mended {
+  FoldStatistics statistics{};
+  bool had_folds = false;
+};
+
+// Folds, or needles of a surface without folds, which gets none.
+Mended mend(CoarseSurface& surface, const model::Model& model)
+{
+  SurfaceGroups groups(surface, model);
+  FoldMender mender(groups);
+  mender.find_first();
+  FoldStatistics kept{.num_before = mender.num_found(), .num_left = mender.num_found()};
+  FoldStatistics done = kept;
+  CoarseSurface best;
+  for (int round = 0; round < kRounds && done.num_left > 0 && mender.mend(done); ++round) {
+    mender.find();
+    done.num_left = mender.num_found();
+    if (done.num_left >= kept.num_left || mender.cuts_itself()) continue;
+    if (mender.has_folds() && mender.looks_for_needles()) continue;
+    best = groups.take(mender.surface());
+    kept = done;
+  }
+  if (kept.num_left < kept.num_before) surface = std::move(best);
+  return {kept, !mender.looks_for_needles()};
+}
+
+// None of what is left of them counts.
+void add_needles(const FoldStatistics& needles, FoldStatistics& folds)
+{
+  folds.num_flips += needles.num_flips;
+  folds.num_cuts += needles.num_cuts;
+}
 
 }  // namespace
 
 FoldStatistics mend_folds(CoarseSurface& surface, const model::Model& model)
 {
-  SurfaceGroups groups(surface, model);
-  FoldMender mender(groups);
-  mender.find();
-  FoldStatistics kept{.num_before = mender.num_folds(), .num_left = mender.num_folds()};
-  FoldStatistics done = kept;
-  CoarseSurface best;
-  for (int round = 0; round < kRounds && done.num_left > 0 && mender.mend(done); ++round) {
-    mender.find();
-    done.num_left = mender.num_folds();
-    if (done.num_left >= kept.num_left || mender.cuts_itself()) continue;
-    best = groups.take(mender.surface());
-    kept = done;
+  const Mended first = mend(surface, model);
+  FoldStatistics done;
+  if (!first.had_folds) {
+    add_needles(first.statistics, done);
+    return done;
   }
-  if (kept.num_left < kept.num_before) surface = std::move(best);
-  return kept;
+  done = first.statistics;
+  if (done.num_left > 0) return done;
+  try {
+    add_needles(mend(surface, model).statistics, done);
+  } catch (const GeometryError&) {  // No reason to lose what was mended.
+  }
+  return done;
 }
 
 }  // namespace tessera::coarse

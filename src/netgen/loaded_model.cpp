@@ -63,7 +63,7 @@ Unfolded unfolded(coarse::CoarseSurface surface, const LoadedModel& model)
   try {
     const coarse::FoldStatistics done = coarse::mend_folds(surface, model);
     as_it_was.num_left = done.num_before;
-    if (done.num_left >= done.num_before) return as_it_was;
+    if (done.num_flips + done.num_cuts == 0) return as_it_was;
     model.locate_parameters(surface.mesh);
     return {std::move(surface), done.num_left};
   } catch (const GeometryError&) {

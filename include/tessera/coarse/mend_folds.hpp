@@ -10,8 +10,8 @@ namespace tessera::coarse {
 struct FoldStatistics {
   LocalIndex num_before = 0;  ///< Triangles with a child that looks the other way.
   LocalIndex num_left = 0;
-  LocalIndex num_flips = 0;
-  LocalIndex num_cuts = 0;  ///< Of edges that got a vertex on the geometry.
+  LocalIndex num_flips = 0;  ///< Also where children would have been needles.
+  LocalIndex num_cuts = 0;   ///< Of edges that got a vertex on the geometry; also there.
 };
 
 /// @brief Changes a coarse surface where it would fold on its first level of refinement. Local.
@@ -20,7 +20,8 @@ struct FoldStatistics {
 /// An edge of such a triangle is flipped if that is the end of it. Else the one with the highest
 /// arc is cut there; if the new vertex lies beyond the next side, that side is flipped to it. The
 /// height of half an arc is a quarter. All else stays as it is. If the surface cuts itself then, or
-/// has no fewer folds, it stays as it was.
+/// has no fewer folds, it stays as it was. A surface without folds, or without any now, is treated
+/// in the same way for children that would be needles.
 ///
 /// Parameters are those of mend_surface(). The same arguments give the same bits.
 /// @throws GeometryError if a projection fails.

@@ -263,5 +263,16 @@ TEST(MendFolds, CutsAnArcThatIsHigherThanItsTriangle)
   }
 }
 
+// The child in the middle keeps a tenth of its height: no fold, but a needle.
+TEST(MendFolds, CutsAnArcThatIsNearlyAsHighAsItsTriangle)
+{
+  CoarseSurface surface = cube(2);
+  const DentedCube model(0.225);
+  const FoldStatistics done = mend_folds(surface, model);
+  EXPECT_EQ(done.num_before, 0);
+  EXPECT_GT(done.num_flips + done.num_cuts, 0);
+  expect_closed(surface);
+}
+
 }  // namespace
 }  // namespace tessera::coarse
