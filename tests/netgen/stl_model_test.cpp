@@ -317,7 +317,7 @@ TEST(StlModel, BodiesThatLieOnEachOtherStayTwoIfTheFileNamesThem)
 {
   model::TriangleSoup both = joined(cube_soup(), cube_soup({0.2, 0.3, 1.0}, 0.5));
   both.solid_names = {"lower", "upper"};
-  EXPECT_EQ(load(both)->describe().solids.size(), 2U);
+  EXPECT_EQ(load(both)->describe(coarse::SurfaceMesher::netgen).solids.size(), 2U);
 }
 
 TEST(StlModel, BodiesThatLieOnEachOtherStayAsTheyAreIfTheFileNamesTheirSides)
