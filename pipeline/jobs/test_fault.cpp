@@ -103,11 +103,12 @@ void drop_a_tet(std::vector<LocalIndex>& tet_vertices)
   tet_vertices.resize(tet_vertices.size() - 4);
 }
 
-// Cuts the first tet into four by a point near one of its faces: sound, but one of them is flat.
-void add_flat_tet(fill::FillOutput& tets)
+// Cuts a tet into four by a point near one of its faces: sound, but one of them is flat.
+void flatten(fill::FillOutput& tets, std::size_t t)
 {
   std::array<LocalIndex, 4> tet;
-  std::copy_n(tets.tet_vertices.begin(), 4, tet.begin());
+  LocalIndex* const given = &tets.tet_vertices[4 * t];
+  std::copy_n(given, 4, tet.begin());
   const auto point = static_cast<LocalIndex>(tets.vertex_xyz.size() / 3);
   constexpr std::array<double, 4> kWeights{0.33, 0.33, 0.33, 0.01};
   for (std::size_t d = 0; d < 3; ++d) {
@@ -117,12 +118,19 @@ void add_flat_tet(fill::FillOutput& tets)
     }
     tets.vertex_xyz.push_back(place);
   }
-  tets.tet_vertices[3] = point;
+  given[3] = point;
   for (std::size_t c = 0; c < 3; ++c) {
     std::array<LocalIndex, 4> part = tet;
     part[c] = point;
     tets.tet_vertices.insert(tets.tet_vertices.end(), part.begin(), part.end());
   }
+}
+
+// So many that the optimiser leaves them to the next try.
+void flatten_all(fill::FillOutput& tets)
+{
+  const std::size_t num_tets = tets.tet_vertices.size() / 4;
+  for (std::size_t t = 0; t < num_tets; ++t) flatten(tets, t);
 }
 
 class FaultyMesher final : public coarse::CoarseMesher {
@@ -178,7 +186,7 @@ class FaultyKernel final : public fill::Kernel {
     fail(kind_);
     fill::FillOutput output = sound_->fill(input, settings);
     if (kind_ == "drop") drop_a_tet(output.tet_vertices);
-    if (kind_ == "flat" && input.has_start()) add_flat_tet(output);
+    if (kind_ == "flat" && input.has_start()) flatten_all(output);
     return output;
   }
 

@@ -18,21 +18,19 @@
 ///
 /// Its value is words "STAGE=KIND", for every job of the stage, or "STAGE=KIND@ITEM".
 /// - STAGE: import, load, box, describe, coarse, remesh (the coarse mesh from the CAD system's
-/// triangles),
-///   gmsh (that of Gmsh), divide (membranes), piece (the tets between some), plan, fill, improve,
-///   refine, skin; share (memory of the node: in the rank itself), map (the same: in its worker);
-///   join (the workers of the node: in the rank itself).
+///   triangles), gmsh (that of Gmsh), divide (membranes), piece (the tets between some), plan,
+///   fill, improve, refine, skin; share (memory of the node: in the rank itself), map (the same: in
+///   its worker); join (the workers of the node: in the rank itself).
 /// - KIND, for any job: throw, segv, exit, loop, sleep, memory.
 /// - KIND, for results that a check must refuse: drop (a tet of the result is lost: coarse, remesh,
 ///   fill, improve), garbage (the bytes of the result are no longer what they were), flat (the
-///   first try of a fill has a flat tet).
+///   first try of a fill has many flat tets).
 /// - KIND, for results that pass all checks of a job: nudge (fill: points on the geometry are one
 ///   bit off, as from another mathematical library), lose (improve: a tet is lost after the region
 ///   was judged).
 /// - ITEM: of import 0, or 1 for OpenCASCADE's plain reader; of describe 0 for NETGEN's triangles,
-///   1 for remeshed ones; the subdomain, of refine the first of
-///   the job; of improve the region; of coarse, remesh and gmsh the try, from 0; of share and join
-///   the rank.
+///   1 for remeshed ones; the subdomain, of refine the first of the job; of improve the region; of
+///   coarse, remesh and gmsh the try, from 0; of share and join the rank.
 namespace tessera::pipeline {
 
 /// @brief Checks TESSERA_TEST_FAULT, and lets no job have more than TESSERA_TEST_LIMITS allows, if
