@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/commands/info_command.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <system_error>
@@ -67,10 +66,8 @@ model::ModelDescription describe(const model::ModelSource& source,
   throw_unless_read(jobs.load(load_model_message(source, 1.0), kInfoLimits, wait_for_stop_signal()),
                     file);
   jobs::JobOutcome described =
-      describe_in_jobs(source.format, [&](const std::string&, const Bytes& request, double cpu_s) {
-        jobs::JobLimits limits = kInfoLimits;
-        limits.cpu_s = std::min(limits.cpu_s, cpu_s);
-        return jobs.run(request, limits, wait_for_stop_signal());
+      describe_in_jobs(source.format, [&](const std::string&, const Bytes& request) {
+        return jobs.run(request, kInfoLimits, wait_for_stop_signal());
       });
   auto description = read_result(described, description_from_bytes);
   throw_unless_read(described, file);

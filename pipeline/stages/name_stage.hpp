@@ -18,11 +18,11 @@ namespace tessera::pipeline {
 /// @brief Runs a describe_request(), and a second one if NETGEN fails on a CSG model: triangles of
 /// OpenCASCADE's solids give the same numbers and names.
 /// @note Local.
-/// @param[in] run_describe Runs a job by its name, request and CPU time in s.
+/// @param[in] run_describe Runs a job by its name and request.
 /// @returns What has ended well, else what the first one has ended with.
 [[nodiscard]] jobs::JobOutcome describe_in_jobs(
     model::Format format,
-    const std::function<jobs::JobOutcome(const std::string&, const Bytes&, double)>& run_describe);
+    const std::function<jobs::JobOutcome(const std::string&, const Bytes&)>& run_describe);
 
 /// @brief What the model holds by NETGEN's triangles, file length unit.
 /// @note For rank 0: runs a job of it. @throws what the job fails for.

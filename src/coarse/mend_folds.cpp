@@ -312,6 +312,13 @@ struct Mended {
   bool had_folds = false;
 };
 
+// Whether what was found has become less, without a cut of the surface or a fold for a needle.
+bool is_better(const FoldMender& mender, const FoldStatistics& done, const FoldStatistics& kept)
+{
+  return done.num_left < kept.num_left && !mender.cuts_itself()
+         && !(mender.has_folds() && mender.looks_for_needles());
+}
+
 // Folds, or needles of a surface without folds, which gets none.
 Mended mend(CoarseSurface& surface, const model::Model& model)
 {
@@ -321,13 +328,16 @@ Mended mend(CoarseSurface& surface, const model::Model& model)
   FoldStatistics kept{.num_before = mender.num_found(), .num_left = mender.num_found()};
   FoldStatistics done = kept;
   CoarseSurface best;
-  for (int round = 0; round < kRounds && done.num_left > 0 && mender.mend(done); ++round) {
-    mender.find();
-    done.num_left = mender.num_found();
-    if (done.num_left >= kept.num_left || mender.cuts_itself()) continue;
-    if (mender.has_folds() && mender.looks_for_needles()) continue;
-    best = groups.take(mender.surface());
-    kept = done;
+  try {
+    for (int round = 0; round < kRounds && done.num_left > 0 && mender.mend(done); ++round) {
+      mender.find();
+      done.num_left = mender.num_found();
+      if (!is_better(mender, done, kept)) continue;
+      best = groups.take(mender.surface());
+      kept = done;
+    }
+  } catch (const GeometryError&) {  // A needle is no reason to lose the surface.
+    if (!mender.looks_for_needles()) throw;
   }
   if (kept.num_left < kept.num_before) surface = std::move(best);
   return {kept, !mender.looks_for_needles()};
@@ -351,11 +361,7 @@ FoldStatistics mend_folds(CoarseSurface& surface, const model::Model& model)
     return done;
   }
   done = first.statistics;
-  if (done.num_left > 0) return done;
-  try {
-    add_needles(mend(surface, model).statistics, done);
-  } catch (const GeometryError&) {  // No reason to lose what was mended.
-  }
+  if (done.num_left == 0) add_needles(mend(surface, model).statistics, done);
   return done;
 }
 

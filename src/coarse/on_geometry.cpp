@@ -168,20 +168,37 @@ void mend_folds_of(PatchSurface& surface, std::size_t most_triangles,
   }
 }
 
-// Shorter edges where the surface cuts itself. Bodies that touch, as a ball and its race, cut each
-// other however short edges are there: that ends when it does not help.
-void mend_cuts_of(PatchSurface& surface, std::size_t most_triangles,
+// Shorter edges at forbidden cuts.
+void mend_cuts_of(PatchSurface& surface, std::size_t most_triangles, Forbidden forbidden,
                   const SurfaceReference& reference, const model::Model& model,
                   const CoarseOptions& options)
 {
+  for (int round = 0; round < kFinerRounds; ++round) {
+    const std::vector<Overlap> cuts = forbidden_overlaps(surface, forbidden);
+    if (cuts.empty() || surface.triangles.size() > most_triangles) return;
+    surface = finer_at(triangles_of(cuts), surface, reference, model, options);
+  }
+}
+
+// Shorter edges at cuts that are allowed. Bodies that touch, as a ball and its race, cut each other
+// however short edges are there: that ends when it does not help.
+void lessen_allowed_cuts_of(PatchSurface& surface, std::size_t most_triangles, Forbidden forbidden,
+                            const SurfaceReference& reference, const model::Model& model,
+                            const CoarseOptions& options)
+{
+  if (forbidden == Forbidden::all_cuts || !forbidden_overlaps(surface, forbidden).empty()) return;
   std::vector<Overlap> cuts = find_overlaps(surface);
   for (int round = 0; round < kFinerRounds && !cuts.empty(); ++round) {
     if (surface.triangles.size() > most_triangles) return;
-    PatchSurface finer = finer_at(triangles_of(cuts), surface, reference, model, options);
-    std::vector<Overlap> left = find_overlaps(finer);
-    if (left.size() >= cuts.size() && within_bodies(cuts, surface).empty()) return;
-    surface = std::move(finer);
-    cuts = std::move(left);
+    try {
+      PatchSurface finer = finer_at(triangles_of(cuts), surface, reference, model, options);
+      std::vector<Overlap> left = find_overlaps(finer);
+      if (left.size() >= cuts.size() || !forbidden_overlaps(finer, forbidden).empty()) return;
+      surface = std::move(finer);
+      cuts = std::move(left);
+    } catch (const GeometryError&) {
+      return;
+    }
   }
 }
 
@@ -194,12 +211,14 @@ void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
 }
 
 PatchSurface remesh_on_geometry(const SurfaceReference& reference, const PatchSurface& start,
-                                const model::Model& model, const CoarseOptions& options)
+                                const model::Model& model, const CoarseOptions& options,
+                                Forbidden forbidden)
 {
   PatchSurface surface = remesh(reference, start, options);
   put_on_geometry(surface, reference, model);
   const std::size_t most_triangles = kMostGrowth * surface.triangles.size();
-  mend_cuts_of(surface, most_triangles, reference, model, options);
+  mend_cuts_of(surface, most_triangles, forbidden, reference, model, options);
+  lessen_allowed_cuts_of(surface, most_triangles, forbidden, reference, model, options);
   mend_folds_of(surface, most_triangles, reference, model, options);
   return surface;
 }

@@ -32,8 +32,10 @@ std::vector<Overlap> find_overlaps(const PatchSurface& surface)
   return found;
 }
 
-std::vector<Overlap> within_bodies(std::vector<Overlap> overlaps, const PatchSurface& surface)
+std::vector<Overlap> forbidden_overlaps(const PatchSurface& surface, Forbidden forbidden)
 {
+  std::vector<Overlap> overlaps = find_overlaps(surface);
+  if (forbidden == Forbidden::all_cuts) return overlaps;
   const auto materials_at = [&](std::size_t triangle) {
     return surface.patch_materials[at(surface.triangle_patch[triangle])];
   };

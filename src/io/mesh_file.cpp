@@ -45,12 +45,23 @@ std::string load_file(const fs::path& path, std::size_t max_size)
   return bytes;
 }
 
-StoredBytes::StoredBytes(const fs::path& path, std::size_t begin) : begin_(begin)
+StoredBytes::StoredBytes(const fs::path& path)
 {
   OpenedFile file = open_file(path);
-  if (file.size < begin) throw InputError(kCutShort);
-  size_ = static_cast<std::size_t>(file.size) - begin;
+  size_ = static_cast<std::size_t>(file.size);
   file_ = std::make_shared<std::ifstream>(std::move(file.stream));
+}
+
+StoredBytes StoredBytes::from(std::size_t begin) const
+{
+  StoredBytes rest = *this;
+  rest.size_ -= begin;
+  if (file_ == nullptr) {
+    rest.memory_.remove_prefix(begin);
+  } else {
+    rest.begin_ += begin;
+  }
+  return rest;
 }
 
 Bytes StoredBytes::read(std::size_t begin, std::size_t end) const

@@ -21,15 +21,17 @@ namespace tessera::io {
 [[nodiscard]] std::string load_file(const std::filesystem::path& path,
                                     std::size_t max_size = std::string::npos);
 
-/// @brief Bytes of a file from a place to its end, read as they are asked for, or bytes in memory.
+/// @brief Bytes of a file, read as they are asked for, or bytes in memory.
 class StoredBytes {
  public:
   StoredBytes() = default;
   explicit StoredBytes(std::string_view bytes) : memory_(bytes), size_(bytes.size()) {}
   /// @throws InputError if the file cannot be read
-  StoredBytes(const std::filesystem::path& path, std::size_t begin);
+  explicit StoredBytes(const std::filesystem::path& path);
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// @brief Those from `begin` on, of the same file or memory. @pre begin <= size()
+  [[nodiscard]] StoredBytes from(std::size_t begin) const;
   /// @brief What is in memory; empty of a file.
   [[nodiscard]] std::string_view in_memory() const { return memory_; }
   /// @brief Bytes from `begin` to `end`. @pre begin <= end <= size()
@@ -39,7 +41,7 @@ class StoredBytes {
  private:
   std::string_view memory_{};
   std::shared_ptr<std::ifstream> file_{};
-  std::size_t begin_ = 0;  // In the file.
+  std::size_t begin_ = 0;  // In the file, which is the one that was opened first.
   std::size_t size_ = 0;
 };
 

@@ -326,18 +326,22 @@ void append(MeshArrays& to, const MeshArrays& from)
 {
   constexpr std::size_t kHeadSize = std::size_t{1} << 16;
   constexpr std::size_t kTailSize = 4096;
-  std::string text = load_file(path, kHeadSize);
+  const StoredBytes all(path);
+  const auto text_of = [&](std::size_t begin, std::size_t end) {
+    const Bytes bytes = all.read(begin, end);
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  std::string text = text_of(0, std::min(all.size(), kHeadSize));
   const bool is_head = reaches_raw_data(text);
   if (!is_head) text = load_file(path);
-  const StoredBytes all = is_head ? StoredBytes(path, 0) : StoredBytes(text);
-  const Bytes tail = all.read(all.size() - std::min(all.size(), kTailSize), all.size());
-  require_complete(std::string_view{reinterpret_cast<const char*>(tail.data()), tail.size()});
+  require_complete(is_head ? text_of(all.size() - std::min(all.size(), kTailSize), all.size())
+                           : text);
 
   const XmlDocument document = parse_vtk_xml(text);
   Encoding encoding = encoding_of(document);
   if (is_head) {
     const auto begin = static_cast<std::size_t>(document.appended.data() - text.data());
-    encoding.appended = StoredBytes(path, begin);
+    encoding.appended = all.from(begin);
   }
   return read_document(document, encoding, order);
 }

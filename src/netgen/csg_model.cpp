@@ -100,6 +100,7 @@ class CsgModel final : public LoadedModel {
   [[nodiscard]] bool has_apex() const { return netgen::has_apex(*geometry_, tolerance_); }
   // NETGEN's search may miss solids that are much smaller than their bodies.
   [[nodiscard]] const std::vector<int>& unseen() const { return unseen_; }
+  [[nodiscard]] bool sees_any() const { return sees_any_; }
   [[nodiscard]] std::string names_of(const std::vector<int>& solids) const;
   [[nodiscard]] CsgSolids solids() const;
   using LoadedModel::mesh_surface;
@@ -122,6 +123,7 @@ class CsgModel final : public LoadedModel {
   ::netgen::Box<3> box_{};
   double box_diagonal_ = 0.0;
   double tolerance_ = 0.0;
+  bool sees_any_ = false;
   std::vector<int> unseen_{};
 };
 
@@ -133,7 +135,8 @@ CsgModel::CsgModel(const model::ModelSource& source)
   require_solid(*geometry_, file_name_);
   NetgenSession session;
   box_ = session.run(file_name_, [&] { return extent(*geometry_); });
-  if (box_.PMin()(0) > box_.PMax()(0)) box_ = geometry_->BoundingBox();
+  sees_any_ = box_.PMin()(0) <= box_.PMax()(0);
+  if (!sees_any_) box_ = geometry_->BoundingBox();
   box_diagonal_ = box_.Diam();
   tolerance_ = kTolerance * box_diagonal_;
   unseen_ = unseen_solids(*geometry_);
@@ -398,12 +401,22 @@ std::optional<model::ModelSource> with_specks(const CsgModel& model, model::Mode
 {
   if (model.unseen().empty()) return std::nullopt;
   const std::string why = "NETGEN's CSG finds nothing of solid " + model.names_of(model.unseen());
-  CsgSolids made = made_solids(model, source.file_name, why);
-  if (!made.empty.empty()) {
+  CsgSolids made;
+  try {
+    made = made_solids(model, source.file_name, why);
+  } catch (const GeometryError& error) {
+    if (!model.sees_any()) throw;
     source.repairs.push_back(
-        fmt::format("solid {} holds nothing: left out", model.names_of(made.empty)));
+        fmt::format("{}: left out, and whether it holds something is not known", error.what()));
+    return std::nullopt;
   }
-  if (std::ranges::includes(made.empty, model.unseen())) return std::nullopt;
+  std::vector<int> empty;
+  std::ranges::set_intersection(made.empty, model.unseen(), std::back_inserter(empty));
+  if (!empty.empty()) {
+    source.repairs.push_back(
+        fmt::format("solid {} holds nothing: left out", model.names_of(empty)));
+  }
+  if (empty == model.unseen()) return std::nullopt;
   return of_open_cascade(std::move(made.cad), source, why);
 }
 

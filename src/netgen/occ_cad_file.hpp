@@ -28,6 +28,7 @@ struct CadFile {
   ShapeNames names{};                  ///< Only those that the file names or colours.
   std::string length_unit{};           ///< "mm", "m", "in", …; empty if the file does not say.
   std::vector<std::string> repairs{};  ///< What was changed since, one line each.
+  bool may_overlap = false;            ///< Solids may touch or overlap, and could not be glued.
 };
 
 /// @brief Reads a file by its extension: .step .stp .iges .igs .brep .brp (text or binary).

@@ -25,11 +25,12 @@ struct StoredContent {
   std::vector<std::string> face_colours{};
   std::vector<std::string> edge_names{};
   std::vector<std::string> solid_names{};
+  bool may_overlap = false;
 
   static auto fields(auto& self)
   {
     return std::tie(self.image, self.face_names, self.face_colours, self.edge_names,
-                    self.solid_names);
+                    self.solid_names, self.may_overlap);
   }
 };
 
@@ -45,7 +46,7 @@ Bytes occ_content(const CadFile& cad)
 {
   std::ostringstream image(std::ios::binary);
   BinTools::Write(cad.shape, image, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
-  StoredContent content{.image = image.str()};
+  StoredContent content{.image = image.str(), .may_overlap = cad.may_overlap};
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
   for (int f = 1; f <= faces.Extent(); ++f) {
@@ -94,6 +95,7 @@ OccContent read_occ_content(std::span<const std::byte> bytes)
   content.face_colours = std::move(stored.face_colours);
   content.edge_names = std::move(stored.edge_names);
   content.solid_names = std::move(stored.solid_names);
+  content.may_overlap = stored.may_overlap;
   return content;
 }
 

@@ -21,6 +21,7 @@ struct OccContent {
   std::vector<std::string> face_colours{};  ///< Beside face_names; its own, or that of a solid.
   std::vector<std::string> edge_names{};    ///< As face_names.
   std::vector<std::string> solid_names{};   ///< In the order of TopExp_Explorer.
+  bool may_overlap = false;                 ///< As in CadFile.
 };
 
 /// @brief ModelSource::content of a CAD file. Local.

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -22,6 +21,8 @@
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS_Compound.hxx>
 #include <fmt/format.h>
+
+#include "tessera/base/union_find.hpp"
 
 #include "netgen/occ_shape.hpp"
 
@@ -154,12 +155,11 @@ class PartOwners {
 std::vector<std::size_t> groups_of(const std::vector<TopoDS_Shape>& solids, Fuse& fuse,
                                    double diagonal)
 {
-  std::vector<std::size_t> group(solids.size());
-  std::iota(group.begin(), group.end(), std::size_t{0});
+  UnionFind groups(static_cast<LocalIndex>(solids.size()));
   PartOwners owners;
   const auto join = [&](const TopoDS_Shape& part, std::size_t solid) {
-    const auto [low, high] = std::minmax(group[owners.first_with(part, solid)], group[solid]);
-    std::ranges::replace(group, std::size_t{high}, std::size_t{low});
+    const std::size_t first = owners.first_with(part, solid);
+    groups.join(static_cast<LocalIndex>(first), static_cast<LocalIndex>(solid));
   };
   for (std::size_t i = 0; i < solids.size(); ++i) {
     for (const TopoDS_Shape& image : images_of(solids[i], fuse)) {
@@ -168,6 +168,10 @@ std::vector<std::size_t> groups_of(const std::vector<TopoDS_Shape>& solids, Fuse
         if (!is_strip(face, diagonal)) join(face, i);
       }
     }
+  }
+  std::vector<std::size_t> group;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    group.push_back(static_cast<std::size_t>(groups.find(static_cast<LocalIndex>(i))));
   }
   return group;
 }
@@ -199,11 +203,11 @@ struct Glued {
 
   [[nodiscard]] TopTools_ListOfShape images_of(const TopoDS_Shape& part) const
   {
+    TopTools_ListOfShape all;
     for (const auto& fuse : fuses) {
-      const TopTools_ListOfShape& images = fuse->Modified(part);
-      if (!images.IsEmpty()) return images;
+      for (const TopoDS_Shape& image : fuse->Modified(part)) all.Append(image);
     }
-    return {};
+    return all;
   }
 };
 
@@ -280,6 +284,7 @@ TopoDS_Shape glued(const std::vector<TopoDS_Shape>& solids, CadFile& cad)
   const std::optional<Glued> result = glue_at_faces(solids, box_diagonal_of(apart));
   if (!result) {
     cad.repairs.emplace_back("solids that may touch could not be glued");
+    cad.may_overlap = true;
     return apart;
   }
   const int num_solids = count_solids(result->shape);

@@ -236,13 +236,16 @@ coarse::CoarseSurface OccModel::remesh(const coarse::SurfaceReference& reference
                                        const coarse::PatchSurface& start,
                                        const coarse::CoarseOptions& options) const
 {
-  const coarse::PatchSurface surface = coarse::remesh_on_geometry(reference, start, *this, options);
+  // Solids that overlap were cut, if they could be. So where two cut each other now, they touch or
+  // nearly do, as a ball and its race, and chords of one lie in the other.
+  const auto forbidden =
+      content_.may_overlap ? coarse::Forbidden::all_cuts : coarse::Forbidden::cuts_within_bodies;
+  const coarse::PatchSurface surface =
+      coarse::remesh_on_geometry(reference, start, *this, options, forbidden);
   const SurfaceNames names{
       [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
       [this](LocalIndex material) { return solid_name(material); }};
-  // Solids that overlap were cut. So where two cut each other now, they touch or nearly do, as a
-  // ball and its race, and chords of one lie in the other.
-  require_none(within_bodies(coarse::find_overlaps(surface), surface), surface, names, file_name_);
+  require_no_overlaps(coarse::forbidden_overlaps(surface, forbidden), surface, names, file_name_);
   coarse::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names);
   add_parameters(reference, coarse.mesh);
   return coarse;

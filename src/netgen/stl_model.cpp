@@ -162,7 +162,7 @@ class StlModel final : public LoadedModel {
         [this](LocalIndex material) { return surface_.material_names[at(material - 1)]; }};
     const coarse::PatchSurface surface =
         coarse::remesh_on_geometry(reference, start, *this, options);
-    require_none(coarse::find_overlaps(surface), surface, names, name_);
+    require_no_overlaps(coarse::find_overlaps(surface), surface, names, name_);
     return to_coarse_surface(surface, options.max_size, names);
   }
 

@@ -132,15 +132,16 @@ void add_patches(const coarse::PatchSurface& from, const SurfaceNames& names,
 
 }  // namespace
 
-void require_none(const std::vector<coarse::Overlap>& overlaps, const coarse::PatchSurface& surface,
-                  const SurfaceNames& names, const std::string& what)
+void require_no_overlaps(const std::vector<coarse::Overlap>& overlaps,
+                         const coarse::PatchSurface& surface, const SurfaceNames& names,
+                         const std::string& what)
 {
   if (overlaps.empty()) return;
   const auto& [first, second, place] = overlaps.front();
   throw NetgenError(fmt::format(
       "{}: the surface cuts itself at {} pairs of triangles, first {} and {} at ({:g}); part "
-      "bodies that overlap or touch without a common face in the CAD program; for a thin wall try "
-      "a smaller coarse.max_size",
+      "bodies that overlap, and in an STL file those that touch without a common face, in the CAD "
+      "program; for a thin wall try a smaller coarse.max_size",
       what, overlaps.size(), name_of(surface, names, first), name_of(surface, names, second),
       fmt::join(place, ", ")));
 }

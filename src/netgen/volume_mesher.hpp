@@ -18,11 +18,13 @@ struct SurfaceNames {
   std::function<std::string(LocalIndex material)> material{};
 };
 
-/// @brief Where a remeshed surface cuts itself, NETGEN would say only that there is such a place.
+/// @brief Refuses a remeshed surface that cuts itself. NETGEN would say only that there is such a
+/// place.
 /// @param[in] what Put before the error: which model.
 /// @note Local. @throws NetgenError with the faces and the place if there are any.
-void require_none(const std::vector<coarse::Overlap>& overlaps, const coarse::PatchSurface& surface,
-                  const SurfaceNames& names, const std::string& what);
+void require_no_overlaps(const std::vector<coarse::Overlap>& overlaps,
+                         const coarse::PatchSurface& surface, const SurfaceNames& names,
+                         const std::string& what);
 
 /// @brief A remeshed surface in the form in which its domains are filled; patch and curve numbers
 /// are the model's. Without parameters.

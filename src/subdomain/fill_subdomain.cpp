@@ -106,7 +106,7 @@ std::vector<double> angles_deg(const fill::FillOutput& tets)
 // does where the skin has far too long edges for its walls.
 void mend_worst_tets(const PartitionedMesh& cut, RawFill& raw)
 {
-  constexpr double kPoor_deg = 8.0;
+  constexpr double kPoor_deg = 8.0;      // That a fill gets another try for.
   constexpr std::ptrdiff_t kFewOf = 10;  // Tets for each poor one.
   constexpr double kMendBelow = 0.35;    // Mean ratio.
   constexpr double kLeastGain = 1.1;     // Of the smallest angle.

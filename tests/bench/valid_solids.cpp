@@ -11,8 +11,8 @@
 // Prints one JSON object: with the counts also those of the faces (STL: triangles) and of the pairs
 // of faces that cross, the largest tolerance of an edge or vertex, the diagonal of the box in
 // OpenCASCADE's unit, and the smallest angles of the valid solids between faces and between edges,
-// in degrees, null where there is none. Several solids are also looked at as they are meshed, which
-// is with the faces that they share (up to 300 faces). What cannot be read holds nothing.
+// in degrees, null where there is none. Several solids are also looked at as a general fuse makes
+// them, with the faces that they share (up to 300 faces). What cannot be read holds nothing.
 #include <algorithm>
 #include <array>
 #include <cctype>

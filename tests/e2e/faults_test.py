@@ -287,8 +287,11 @@ class Described(FaultsTest):
         return json.loads(outcome.out)
 
     def test_numbers_and_names_are_the_same(self):
-        wanted = self.info()
-        found = self.info(env=os.environ | {"TESSERA_TEST_FAULT": "describe=segv@0"})
+        for kind in ("segv", "garbage"):
+            with self.subTest(kind=kind):
+                self.compare(self.info(), self.info(env=os.environ | {"TESSERA_TEST_FAULT": f"describe={kind}@0"}))
+
+    def compare(self, wanted, found):
         self.assertNotEqual(found, wanted)  # Other triangles.
         for group, keys in (("solids", ["name"]), ("faces", ["number", "name", "solids"]), ("edges", ["number"])):
             of = [[[row[key] for key in keys] for row in figures[group]] for figures in (wanted, found)]

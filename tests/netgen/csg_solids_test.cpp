@@ -164,6 +164,20 @@ TEST(CsgSpeck, IsNotWhatIsEmptyBesideASolid)
   EXPECT_EQ(source.repairs[0], "solid none holds nothing: left out");
 }
 
+// OpenCASCADE cannot tell: an ellipsoid has no counterpart. NETGEN's model is none the worse for
+// it.
+TEST(CsgSpeck, IsNamedWhereOpenCascadeCannotTell)
+{
+  const model::ModelSource source = source_of(
+      "solid egg = ellipsoid (0, 0, 0; 1, 0, 0; 0, 2, 0; 0, 0, 1);\n"
+      "solid brick = orthobrick (9, 9, 9; 9.001, 9.001, 9.001);\n"
+      "tlo egg;\ntlo brick;\n");
+  EXPECT_EQ(source.format, model::Format::csg);
+  ASSERT_EQ(source.repairs.size(), 1U);
+  EXPECT_NE(source.repairs[0].find("nothing of solid brick"), std::string::npos);
+  EXPECT_NE(source.repairs[0].find("left out"), std::string::npos);
+}
+
 // What NETGEN's own mesher cannot do is left to it.
 struct Remeshed {
   model::ModelSource source{};

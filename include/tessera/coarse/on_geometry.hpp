@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tessera/coarse/options.hpp"
+#include "tessera/coarse/surface_overlap.hpp"
 #include "tessera/coarse/surface_reference.hpp"
 #include "tessera/model/model.hpp"
 
@@ -18,15 +19,16 @@ void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
 /// @brief Remeshes a tessellation and puts it on the geometry. Local.
 ///
 /// A surface may then cut itself, as at a gap that is narrower than its triangles are long. The
-/// same is done again with shorter edges there, a few times; where only bodies cut each other, as
-/// long as that helps. It may still cut itself in the end: find_overlaps() says where. Triangles
-/// may fold on their first level of refinement, as in a strip that is narrower than arcs beside it
-/// are high. There edges get shorter as well, as long as that leaves fewer of them.
+/// same is done again with shorter edges at forbidden cuts, a few times; at others as long as that
+/// helps. It may still cut itself in the end: forbidden_overlaps() says where. Triangles may fold
+/// on their first level of refinement, as in a strip that is narrower than arcs beside it are high.
+/// There edges get shorter as well, as long as that leaves fewer of them.
 /// @param[in] reference  As put_on_geometry().
 /// @param[in] start      As remesh().
 /// @throws GeometryError if a projection fails.
 [[nodiscard]] PatchSurface remesh_on_geometry(const SurfaceReference& reference,
                                               const PatchSurface& start, const model::Model& model,
-                                              const CoarseOptions& options);
+                                              const CoarseOptions& options,
+                                              Forbidden forbidden = Forbidden::all_cuts);
 
 }  // namespace tessera::coarse

@@ -22,9 +22,13 @@ struct Overlap {
 /// surface whose triangles are much smaller than it.
 [[nodiscard]] std::vector<Overlap> find_overlaps(const PatchSurface& surface);
 
-/// @brief Those of the overlaps of a surface where both triangles bound the same material, so that
-/// it cannot be filled. Local.
-[[nodiscard]] std::vector<Overlap> within_bodies(std::vector<Overlap> overlaps,
-                                                 const PatchSurface& surface);
+/// @brief Where a surface must not cut itself. Each body is filled by itself, so that bodies may
+/// cut each other where they are known to touch only.
+enum class Forbidden { all_cuts, cuts_within_bodies };
+
+/// @brief Those of find_overlaps() that are forbidden: within bodies both triangles bound the same
+/// material. Local.
+[[nodiscard]] std::vector<Overlap> forbidden_overlaps(const PatchSurface& surface,
+                                                      Forbidden forbidden);
 
 }  // namespace tessera::coarse

@@ -23,8 +23,8 @@ enum class Step : char {
 /// The bounds were chosen on shaft.geo with 166 k tets (L = 2), looking at five other models. Two
 /// steps were tried without a gain. One puts a vertex on edges of tets whose four corners are
 /// fixed: with 64 subdomains no minimum rose, but two smallest angles by 0.6 degrees. The other
-/// swaps bad tets for the sum of eta^-6. Step::insert is for coarse meshes: their tets may have
-/// four corners on the boundary at a thin wall.
+/// swaps bad tets for the sum of eta^-6. Step::insert is for coarse meshes and for
+/// what NETGEN has filled: tets may have four corners on the boundary at a thin wall.
 struct Schedule {
   std::vector<Step> steps{};
 

@@ -45,9 +45,9 @@ TEST(SurfaceOverlap, OfTwoBodiesIsNoneWithinOne)
   PatchSurface surface = two_cubes({0.6, 0.7, 0.8});
   surface.patch_materials = {{1, 0}, {2, 0}};
   const auto overlaps = find_overlaps(surface);
-  EXPECT_TRUE(within_bodies(overlaps, surface).empty());
+  EXPECT_TRUE(forbidden_overlaps(surface, Forbidden::cuts_within_bodies).empty());
   surface.patch_materials = {{1, 0}, {2, 1}};
-  EXPECT_EQ(within_bodies(overlaps, surface).size(), overlaps.size());
+  EXPECT_EQ(forbidden_overlaps(surface, Forbidden::cuts_within_bodies).size(), overlaps.size());
 }
 
 }  // namespace
