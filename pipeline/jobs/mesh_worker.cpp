@@ -130,9 +130,10 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] Bytes answer(const DescribeRequest& request) const
   {
-    fail_if_asked("describe", static_cast<LocalIndex>(request.mesher));
+    const auto item = static_cast<LocalIndex>(request.mesher);
+    fail_if_asked("describe", item);
     return garbled_if_asked("describe",
-                            to_bytes(netgen::describe_model(*netgen_model_, request.mesher)));
+                            to_bytes(netgen::describe_model(*netgen_model_, request.mesher)), item);
   }
 
   [[nodiscard]] Bytes answer(const FiguresRequest& /*request*/) const
