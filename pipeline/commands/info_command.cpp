@@ -67,7 +67,9 @@ model::ModelDescription describe(const model::ModelSource& source,
                     file);
   jobs::JobOutcome described =
       describe_in_jobs(source.format, [&](const std::string&, const Bytes& request) {
-        return jobs.run(request, kInfoLimits, wait_for_stop_signal());
+        jobs::JobOutcome outcome = jobs.run(request, kInfoLimits, wait_for_stop_signal());
+        static_cast<void>(read_result(outcome, description_from_bytes));
+        return outcome;
       });
   auto description = read_result(described, description_from_bytes);
   throw_unless_read(described, file);

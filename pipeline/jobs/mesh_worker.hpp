@@ -74,6 +74,7 @@ namespace tessera::pipeline {
 [[nodiscard]] double box_diagonal_from_bytes(std::span<const std::byte> result);
 
 /// @brief run: result: bytes of a model::ModelDescription in file length units. Needs the model.
+/// @param[in] mesher As for netgen::describe_model().
 [[nodiscard]] Bytes describe_request(coarse::SurfaceMesher mesher);
 
 /// @brief Reads the result of a describe_request(). @throws InputError if it is damaged.

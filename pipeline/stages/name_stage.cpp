@@ -46,14 +46,11 @@ jobs::JobOutcome describe_in_jobs(
     model::Format format,
     const std::function<jobs::JobOutcome(const std::string&, const Bytes&)>& run_describe)
 {
-  const auto run = [&](const std::string& name, coarse::SurfaceMesher mesher) {
-    jobs::JobOutcome outcome = run_describe(name, describe_request(mesher));
-    static_cast<void>(read_result(outcome, description_from_bytes));
-    return outcome;
-  };
-  jobs::JobOutcome outcome = run("describe", coarse::SurfaceMesher::netgen);
+  jobs::JobOutcome outcome =
+      run_describe("describe", describe_request(coarse::SurfaceMesher::netgen));
   if (format != model::Format::csg || !has_failed(outcome)) return outcome;
-  jobs::JobOutcome second = run("describe_remeshed", coarse::SurfaceMesher::remesh);
+  jobs::JobOutcome second =
+      run_describe("describe_remeshed", describe_request(coarse::SurfaceMesher::remesh));
   return has_failed(second) ? outcome : second;
 }
 

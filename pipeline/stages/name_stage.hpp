@@ -18,7 +18,8 @@ namespace tessera::pipeline {
 /// @brief Runs a describe_request(), and a second one if NETGEN fails on a CSG model: triangles of
 /// OpenCASCADE's solids give the same numbers and names.
 /// @note Local.
-/// @param[in] run_describe Runs a job by its name and request.
+/// @param[in] run_describe Runs a job by its name and request; a result that cannot be read is a
+/// failure of it, as by read_result().
 /// @returns What has ended well, else what the first one has ended with.
 [[nodiscard]] jobs::JobOutcome describe_in_jobs(
     model::Format format,
