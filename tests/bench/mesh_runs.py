@@ -13,28 +13,30 @@ import time
 
 @dataclasses.dataclass(frozen=True)
 class Subject:
-    """What a bench meshes: a model with its coarse size, or a case file as it is."""
+    """What a bench meshes: a model with its size, or a case file as it is."""
     name: str
     file: pathlib.Path
-    max_size: str  # Empty: `file` is a case.
+    size: str  # Empty: `file` is a case.
+    is_target: bool = False  # The size is `size.target`, not `coarse.max_size`.
 
     def case_in(self, folder):
-        if not self.max_size:
+        if not self.size:
             return self.file
         case = folder / "case.toml"
-        case.write_text(f"[geometry]\nfile = '{self.file}'\n[coarse]\nmax_size = {self.max_size}\n")
+        key = "size.target" if self.is_target else "coarse.max_size"
+        case.write_text(f"geometry.file = '{self.file}'\n{key} = {self.size}\n")
         return case
 
 
 def subject(argument):
     """MODEL=MAX_SIZE or CASE.toml, for argparse."""
-    file, _, max_size = argument.rpartition("=") if "=" in argument else (argument, "", "")
+    file, _, size = argument.rpartition("=") if "=" in argument else (argument, "", "")
     path = pathlib.Path(file).resolve()
     if not path.is_file():
         raise argparse.ArgumentTypeError(f"{path} is no file")
-    if not max_size and path.suffix != ".toml":
+    if not size and path.suffix != ".toml":
         raise argparse.ArgumentTypeError(f"{argument}: MODEL=MAX_SIZE or CASE.toml expected")
-    return Subject(f"{path.name}, {max_size}" if max_size else path.stem, path, max_size)
+    return Subject(f"{path.name}, {size}" if size else path.stem, path, size)
 
 
 @dataclasses.dataclass(frozen=True)
