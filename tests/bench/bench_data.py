@@ -20,11 +20,11 @@ def add_option(parser):
     parser.add_argument("--data", type=pathlib.Path, metavar="FILE", help="also write the rows as data")
 
 
-def write(file, rows, libraries=None):
-    """Nothing without a file, so that a bench can pass on its option as it is."""
+def write(file, rows, libraries=None, made_by=None):
+    """Nothing without a file, so that a bench can pass on its option as it is. `made_by`: another command."""
     if file is None:
         return
-    save(file, {"command": command(), "commit": commit(), "date": datetime.date.today().isoformat(),
+    save(file, {"command": made_by or command(), "commit": commit(), "date": datetime.date.today().isoformat(),
                 "machine": machine(), "libraries": libraries or {}, "rows": rows})
 
 
