@@ -68,9 +68,13 @@ def command():
     words, skip = [], False
     for word in sys.argv[1:]:
         if not skip and not word.startswith("--data"):
-            words.append(re.sub(r"[^\s=,'\"]*/[^\s=,'\"]*", lambda path: portable(path[0]), word))
+            words.append(word)
         skip = word == "--data"
-    return " ".join([f"tests/bench/{pathlib.Path(sys.argv[0]).name}", *words])
+    return f"tests/bench/{pathlib.Path(sys.argv[0]).name} {portable_words(words)}".rstrip()
+
+
+def portable_words(words):
+    return " ".join(re.sub(r"[^\s=,'\"]*/[^\s=,'\"]*", lambda path: portable(path[0]), word) for word in words)
 
 
 def portable(path):

@@ -22,6 +22,7 @@ def load_script(name):
 
 
 make_pages = load_script("make_pages")
+with_data = load_script("with_data")
 GOOD = {"command": "tests/bench/sizes BIN/tessera", "commit": "0123456789abcdef", "date": "2026-11-24",
         "machine": {"cpu": "a cpu", "cores": 2, "memory_gb": 8, "system": "Debian 12"}, "libraries": {},
         "rows": [{"model": "a", "tets": 1234567, "ks": None}, {"model": "b", "tets": 10, "ks": 0.25}]}
@@ -55,6 +56,13 @@ class Data(unittest.TestCase):
         with mock.patch.object(sys, "argv", words):
             self.assertEqual(bench_data.command(), "tests/bench/own_cases BIN/tessera configs/cases/core.toml "
                                                    "part1.stl=0.5,0.3 --set=fill.kernel=netgen")
+
+    def test_figures_in_a_sentence_are_a_row(self):
+        said = ("4 ranks, 3072 tets each, 1229 moved in all: best of 5 0.003 s, 0.002 s of CPU, 0.14 M moved tets/s a "
+                "rank and second of CPU; at most 3 neighbours, 5 messages, 0.03 MB sent by a rank\n")
+        self.assertEqual(with_data.rows_of("migrate_bench", f"another line\n{said}"),
+                         [{"ranks": 4, "tets": 3072, "seconds": 0.003, "rate_m": 0.14, "neighbours": 3, "messages": 5,
+                           "mb": 0.03}])
 
     def test_what_a_file_lacks_is_named(self):
         for key, value in (("commit", ""), ("commit", "0123456789abcdef+"), ("command", ""), ("rows", []),
