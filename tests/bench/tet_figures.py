@@ -53,10 +53,10 @@ def quality(points, tets):
 
 def read_mesh(file):
     """Points by their global ids, and tets."""
-    import vtk
-    from vtk.util.numpy_support import vtk_to_numpy
+    from vtkmodules.util.numpy_support import vtk_to_numpy  # Not vtk itself: threads cannot import that at once.
+    from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
-    reader = vtk.vtkXMLPUnstructuredGridReader()
+    reader = vtkXMLPUnstructuredGridReader()
     reader.SetFileName(str(file))
     reader.Update()
     grid = reader.GetOutput()
@@ -90,22 +90,29 @@ def volume_ratios(points, tets):
     return numpy.maximum(one, other) / numpy.minimum(one, other)
 
 
-def sizes(points, tets):
-    """Median and 99th percentile of the edges, and G: the number of tets that the mesh would have if
-    its edges, as a root mean square weighted by volume, were 1, for each unit of volume. Regular tets
-    of one size have 8.5. So meshes compare at equal size."""
+def equal_size(points, tets):
+    """The root mean square of the edges, weighted by volume, and G: the number of tets that the mesh
+    would have if that were 1, for each unit of volume. Regular tets of one size have 8.5. So meshes
+    compare at equal size."""
     volume, squares = 0.0, 0.0
     for first in range(0, len(tets), BATCH):
         corners = points[tets[first:first + BATCH]]
         of_tets = volumes(corners)
         volume += of_tets.sum()
         squares += (of_tets * squared_edges(corners).mean(axis=1)).sum()
+    return {
+        "rms": float(numpy.sqrt(squares / volume)),
+        "G": float(len(tets) * (squares / volume)**1.5 / volume),
+    }
+
+
+def sizes(points, tets):
+    """Median and 99th percentile of the edges, and the figures of equal_size()."""
     lengths = edge_lengths(points, tets)
     return {
         "median": float(numpy.median(lengths)),
         "p99": float(numpy.quantile(lengths, 0.99)),
-        "rms": float(numpy.sqrt(squares / volume)),
-        "G": float(len(tets) * (squares / volume)**1.5 / volume),
+        **equal_size(points, tets),
     }
 
 

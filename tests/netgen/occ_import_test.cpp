@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <fstream>
-#include <initializer_list>
 #include <iterator>
 
-#include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeCylinder.hxx>
-#include <BRepPrimAPI_MakeSphere.hxx>
-#include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <Interface_Static.hxx>
@@ -21,6 +16,7 @@
 
 #include "tessera/base/error.hpp"
 
+#include "netgen/hard_shapes.hpp"
 #include "netgen/occ_fixture.hpp"
 
 namespace tessera {
@@ -224,44 +220,17 @@ TEST_F(OccImport, TouchingSolidsAreGluedAndReported)
 
 TEST_F(OccImport, OverlapOfNextToNothingBecomesAFaceAndNoSolid)
 {
-  constexpr double kOverlap = 1e-6;
-  TopoDS_Compound boxes;
-  BRep_Builder().MakeCompound(boxes);
-  BRep_Builder().Add(boxes, BRepPrimAPI_MakeBox(1.0, 1.0, 1.0).Shape());
-  BRep_Builder().Add(boxes,
-                     BRepPrimAPI_MakeBox(gp_Pnt(1.0 - kOverlap, 0.2, 0.2), 1, 0.6, 0.6).Shape());
-  const model::ModelSource source = netgen::import_model(write_brep(boxes), {});
+  const model::ModelSource source =
+      netgen::import_model(write_brep(testing::overlapping_boxes(1e-6)), {});
   EXPECT_EQ(source.repairs, std::vector<std::string>{"touching solids were glued: 1 shared faces"});
   const auto model = netgen::load_model(source);
   EXPECT_EQ(testing::coarse_mesh_of(*model, 0.5).num_materials(), 2);
 }
 
-// A shaft, a ring, and balls that run in grooves of both: each touches a groove along half a
-// circle, with one normal. A block stands on the shaft.
-TopoDS_Compound bearing(std::initializer_list<double> angles)
-{
-  constexpr double kMiddle = 9.5;  // Radius of the circle on which the balls' centres are.
-  constexpr double kBall = 2.0;
-  const auto cylinder = [](double radius) {
-    return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, -5), gp::DZ()), radius, 10.0).Shape();
-  };
-  const TopoDS_Shape groove = BRepPrimAPI_MakeTorus(kMiddle, kBall);
-  const TopoDS_Shape pipe = BRepAlgoAPI_Cut(cylinder(13.5), cylinder(10.5)).Shape();
-  TopoDS_Compound parts;
-  BRep_Builder().MakeCompound(parts);
-  BRep_Builder().Add(parts, BRepAlgoAPI_Cut(cylinder(8.5), groove).Shape());
-  BRep_Builder().Add(parts, BRepAlgoAPI_Cut(pipe, groove).Shape());
-  for (const double angle : angles) {
-    const gp_Pnt centre(kMiddle * std::cos(angle), kMiddle * std::sin(angle), 0);
-    BRep_Builder().Add(parts, BRepPrimAPI_MakeSphere(centre, kBall).Shape());
-  }
-  BRep_Builder().Add(parts, BRepPrimAPI_MakeBox(gp_Pnt(-3, -3, 5), 6.0, 6.0, 6.0).Shape());
-  return parts;
-}
-
 TEST_F(OccImport, SolidsThatAreTangentAreNotJoinedThere)
 {
-  const model::ModelSource source = netgen::import_model(write_brep(bearing({0.3, 3.7})), {});
+  const model::ModelSource source =
+      netgen::import_model(write_brep(testing::bearing({0.3, 3.7})), {});
   EXPECT_EQ(source.repairs,
             (std::vector<std::string>{
                 "solids touch without a common face, and were left as they are there: 4 pairs",
@@ -275,7 +244,8 @@ TEST_F(OccImport, SolidsThatAreTangentAreNotJoinedThere)
 
 TEST_F(OccImport, SolidsThatAreTangentAreMeshed)
 {
-  const auto model = netgen::load_model(netgen::import_model(write_brep(bearing({0.3, 3.7})), {}));
+  const auto model =
+      netgen::load_model(netgen::import_model(write_brep(testing::bearing({0.3, 3.7})), {}));
   for (const auto mesher : {coarse::SurfaceMesher::netgen, coarse::SurfaceMesher::remesh}) {
     const mesh::CoarseMesh mesh = testing::coarse_mesh_of(*model, 8.0, mesher);
     EXPECT_EQ(mesh.num_materials(), 5);

@@ -8,25 +8,14 @@
 #include <set>
 #include <tuple>
 
-#include <BRepAlgoAPI_Fuse.hxx>
-#include <BRepBuilderAPI_MakeEdge.hxx>
-#include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakeWire.hxx>
-#include <BRepFilletAPI_MakeFillet.hxx>
-#include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeCylinder.hxx>
-#include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepTools.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
-#include <gp_Ax2.hxx>
-#include <gp_Circ.hxx>
 #include <gtest/gtest.h>
 
 #include "tessera/coarse/mend_folds.hpp"
 
 #include "support/temporary_folder.hpp"
 
+#include "netgen/hard_shapes.hpp"
 #include "netgen/occ_fixture.hpp"
 
 namespace tessera {
@@ -221,19 +210,6 @@ TEST(OccCoarseMesh, SolidsThatTouchShareTheVerticesBetweenThem)
   EXPECT_GE(num_shared, 4) << "at least the corners of the common square";
 }
 
-// The space between a plane and a cylinder that lies on it.
-TopoDS_Shape cusp()
-{
-  const gp_Pnt tip(0.0, 0.0, 0.0);
-  const gp_Pnt end(std::sin(std::numbers::pi / 3.0), 0.5, 0.0);
-  const std::array<gp_Pnt, 4> corners{tip, gp_Pnt(1.2, 0.0, 0.0), gp_Pnt(1.2, 0.5, 0.0), end};
-  BRepBuilderAPI_MakeWire wire;
-  for (std::size_t i = 0; i < 3; ++i) wire.Add(BRepBuilderAPI_MakeEdge(corners[i], corners[i + 1]));
-  const gp_Circ circle(gp_Ax2(gp_Pnt(0.0, 1.0, 0.0), gp_Dir(0.0, 0.0, 1.0)), 1.0);
-  wire.Add(BRepBuilderAPI_MakeEdge(circle, tip, end));
-  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0.0, 0.0, 0.5)).Shape();
-}
-
 double smallest_face_angle_deg(const CoarseMesh& mesh)
 {
   double least = std::numbers::pi;
@@ -253,7 +229,7 @@ TEST(OccCoarseMesh, HasNoShortEdgesWhereCurvesTouch)
 {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "cusp.brep";
-  ASSERT_TRUE(BRepTools::Write(cusp(), file.c_str()));
+  ASSERT_TRUE(BRepTools::Write(testing::cusp(), file.c_str()));
   const auto model = netgen::load_model(netgen::import_model(file, {}));
   const CoarseMesh mesh = coarse_mesh_of(*model, 0.2);
   mesh::validate(mesh);
@@ -271,21 +247,11 @@ TEST(OccSurface, HasNoMoreThanItsShareAtALongNarrowLedge)
   EXPECT_LT(surface.mesh.num_faces(), 30'000);
 }
 
-// NETGEN alone makes edges half as long as these radii along all of the block.
-TopoDS_Shape slightly_rounded_block()
-{
-  const TopoDS_Shape block = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, 0), 4, 4, 3).Shape();
-  BRepFilletAPI_MakeFillet fillet(block);
-  for (TopExp_Explorer edges(block, TopAbs_EDGE); edges.More(); edges.Next())
-    fillet.Add(0.01, TopoDS::Edge(edges.Current()));
-  return fillet.Shape();
-}
-
 TEST(OccSurface, HasNoMoreThanItsShareAtSmallRoundedEdges)
 {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "rounded.brep";
-  ASSERT_TRUE(BRepTools::Write(slightly_rounded_block(), file.c_str()));
+  ASSERT_TRUE(BRepTools::Write(testing::rounded_block(0.01), file.c_str()));
   const auto model = netgen::load_model(netgen::import_model(file, {}));
   coarse::CoarseOptions options;
   options.max_size = 1.0;
@@ -294,21 +260,12 @@ TEST(OccSurface, HasNoMoreThanItsShareAtSmallRoundedEdges)
   EXPECT_LT(surface.mesh.num_faces(), 100'000);
 }
 
-// A shaft with a shoulder: between its circles is a ledge that is narrower than arcs are high.
-TopoDS_Shape shaft(double ledge)
-{
-  const TopoDS_Shape wide = BRepPrimAPI_MakeCylinder(20.0, 5.0).Shape();
-  const gp_Ax2 top(gp_Pnt(0, 0, 5), gp_Dir(0, 0, 1));
-  const TopoDS_Shape thin = BRepPrimAPI_MakeCylinder(top, 20.0 - ledge, 5.0).Shape();
-  return BRepAlgoAPI_Fuse(wide, thin).Shape();
-}
-
 // Better shapes alone would leave 11 folds along the ledge that cannot be mended.
 TEST(OccSurface, DoesNotFoldAtANarrowLedgeForBetterShapes)
 {
   const testing::TemporaryFolder folder;
   const auto file = folder.path() / "shaft.brep";
-  ASSERT_TRUE(BRepTools::Write(shaft(0.05), file.c_str()));
+  ASSERT_TRUE(BRepTools::Write(testing::shoulder(0.05), file.c_str()));
   const auto model = netgen::load_model(netgen::import_model(file, {}));
   coarse::CoarseOptions options;
   options.max_size = 5.0;
