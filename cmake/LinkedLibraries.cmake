@@ -1,7 +1,7 @@
 # Imported targets for the libraries that libtessera itself is linked with. Read by this project and,
 # if libtessera is static, by find_package(tessera): then who links it needs all of them.
 #
-# Set before: TESSERA_WITH_NETGEN, TESSERA_WITH_VTK.
+# Set before: TESSERA_WITH_NETGEN, TESSERA_WITH_PTSCOTCH, TESSERA_WITH_VTK.
 include(CMakeFindDependencyMacro)
 
 # In a user's find_package(tessera) a missing package must not end CMake, but leave tessera not found.
@@ -32,8 +32,16 @@ function(tessera_import_netgen)
     return()
   endif()
   find_path(NETGEN_INCLUDE_DIR netgen/meshing/meshing.hpp REQUIRED)
-  find_library(NETGEN_mesh_LIBRARY mesh PATH_SUFFIXES netgen REQUIRED)
-  get_filename_component(NETGEN_LIBRARY_DIR ${NETGEN_mesh_LIBRARY} DIRECTORY)
+  # 6.2.1905 has a library for each of its parts, later versions have one for all.
+  find_library(NETGEN_mesh_LIBRARY mesh PATH_SUFFIXES netgen)
+  if(NETGEN_mesh_LIBRARY)
+    set(libraries csg stl occ mesh interface ngcore)
+    get_filename_component(folder ${NETGEN_mesh_LIBRARY} DIRECTORY)
+    set(where PATHS ${folder} NO_DEFAULT_PATH)
+  else()
+    set(libraries nglib ngcore)
+    set(where "")
+  endif()
   add_library(netgen::netgen INTERFACE IMPORTED)
   target_include_directories(
     netgen::netgen SYSTEM INTERFACE ${NETGEN_INCLUDE_DIR}/netgen ${NETGEN_INCLUDE_DIR}/netgen/include ${OpenCASCADE_INCLUDE_DIR}
@@ -41,10 +49,16 @@ function(tessera_import_netgen)
   target_compile_definitions(
     netgen::netgen INTERFACE PARALLEL OCCGEOMETRY _OCC64 HAVE_DLFCN_H
   )
-  foreach(library IN ITEMS csg stl occ mesh interface ngcore)
-    find_library(NETGEN_${library}_LIBRARY ${library} PATHS ${NETGEN_LIBRARY_DIR} NO_DEFAULT_PATH REQUIRED)
+  foreach(library IN LISTS libraries)
+    find_library(NETGEN_${library}_LIBRARY ${library} ${where} REQUIRED)
     target_link_libraries(netgen::netgen INTERFACE ${NETGEN_${library}_LIBRARY})
   endforeach()
+  # OpenCASCADE 7.8 has renamed the toolkits that read files.
+  if(TARGET TKDESTEP)
+    set(readers TKDESTEP TKDEIGES TKDESTL)
+  else()
+    set(readers TKSTEP TKIGES TKSTL TKXDESTEP TKXDEIGES)
+  endif()
   target_link_libraries(
     netgen::netgen
     INTERFACE MPI::MPI_CXX
@@ -63,15 +77,11 @@ function(tessera_import_netgen)
               TKMesh
               TKShHealing
               TKXSBase
-              TKSTEP
-              TKIGES
-              TKSTL
               TKLCAF
               TKXCAF
               TKCAF
               TKCDF
-              TKXDESTEP
-              TKXDEIGES
+              ${readers}
   )
 endfunction()
 
@@ -83,9 +93,11 @@ tessera_import_library(xxhash::xxhash xxhash.h xxhash)
 tessera_import_library(metis::metis metis.h metis)
 # HDF5 without MPI: ranks write their parts of its files by themselves.
 tessera_import_library(hdf5::hdf5 hdf5.h hdf5_serial PATH_SUFFIXES hdf5/serial)
-# PT-Scotch with 64-bit numbers, as meshes have more than 2^31 faces.
-tessera_import_library(ptscotch::ptscotch ptscotch.h ptscotch PATH_SUFFIXES scotch-int64)
-target_link_libraries(ptscotch::ptscotch INTERFACE MPI::MPI_CXX)
+if(TESSERA_WITH_PTSCOTCH)
+  # With 64-bit numbers, as meshes have more than 2^31 faces.
+  tessera_import_library(ptscotch::ptscotch ptscotch.h ptscotch PATH_SUFFIXES scotch-int64)
+  target_link_libraries(ptscotch::ptscotch INTERFACE MPI::MPI_CXX)
+endif()
 if(TESSERA_WITH_VTK)
   tessera_find_package(VTK COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonMisc IOCore IOXML)
 endif()

@@ -75,6 +75,7 @@ class Repartition {
     figures_.mesh_file = command.mesh_file.string();
     figures_.num_ranks = comm.size();
     figures_.num_ghost_layers = command.num_ghost_layers;
+    migrate::require_partitioner(command.num_parts);
     all_or_none(comm, [&] {
       if (comm.rank() == 0) open_folder();
     });

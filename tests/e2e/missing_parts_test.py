@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Builds without NETGEN or without VTK: what is missing is refused clearly, all else works."""
+"""Builds without NETGEN, PT-Scotch or VTK: what is missing is refused clearly, all else works."""
 import os
 import unittest
 
 import program
 
 HAS_NETGEN = os.environ["TESSERA_WITH_NETGEN"] == "ON"
+HAS_PTSCOTCH = os.environ["TESSERA_WITH_PTSCOTCH"] == "ON"
 HAS_VTK = os.environ["TESSERA_WITH_VTK"] == "ON"
 KUHN_TETS = [(0, 1, 3, 7), (0, 5, 1, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 4, 5, 7), (0, 6, 4, 7)]
 
@@ -40,11 +41,20 @@ class MissingParts(program.ProgramTest):
         info = self.run_program("info", "cube.vtu")
         self.assertEqual(info.code, program.OK, info.err)
         self.assertIn("6 cells", info.out)
-        cut = self.run_program("repartition", "cube.vtu", "--parts", 2, "--output", "out", ranks=2)
+        parts = 2 if HAS_PTSCOTCH else 1
+        cut = self.run_program("repartition", "cube.vtu", "--parts", parts, "--output", "out", ranks=2)
         self.assertEqual(cut.code, program.OK, cut.err)
         for ranks in (None, 2):
             check = self.run_program("check", "out/mesh.pvtu", ranks=ranks)
             self.assertEqual(check.code, program.OK, check.out + check.err)
+
+    @unittest.skipIf(HAS_PTSCOTCH, "this build has PT-Scotch")
+    def test_without_ptscotch_parts_are_refused_before_anything_is_made(self):
+        self.write("cube.vtu", cube_vtu())
+        for ranks in (None, 2):
+            outcome = self.run_program("repartition", "cube.vtu", "--parts", 2, "--output", "out", ranks=ranks)
+            self.assert_refused(outcome, program.WRONG_INPUT, "TESSERA_WITH_PTSCOTCH=OFF")
+            self.assertFalse((self.folder / "out").exists())
 
     @unittest.skipIf(HAS_NETGEN, "this build has NETGEN")
     def test_without_netgen_a_model_is_refused_before_anything_is_made(self):

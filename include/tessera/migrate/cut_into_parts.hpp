@@ -48,7 +48,7 @@ struct RepartitionResult {
 /// @note Collective. For a given number of ranks the result is always the same.
 /// @param[in,out] traffic What this rank sends in migrations is added to it.
 /// @pre 1 <= num_parts <= number of tets on all ranks.
-/// @throws MeshError on all ranks if PT-Scotch gives up.
+/// @throws MeshError on all ranks if PT-Scotch gives up; ConfigError as require_partitioner().
 [[nodiscard]] RepartitionResult cut_into_parts(const comm::Communicator& comm, DistributedMesh mesh,
                                                const PartRequest& request, Traffic& traffic);
 

@@ -20,7 +20,7 @@ namespace tessera::migrate {
 /// @param[in] seed Other seeds give other parts.
 /// @return Shape (num_tets): part of each tet, in [0, num_parts).
 /// @pre 1 <= num_parts <= number of tets on all ranks.
-/// @throws MeshError on all ranks if PT-Scotch gives up.
+/// @throws MeshError on all ranks if PT-Scotch gives up; ConfigError as require_partitioner().
 [[nodiscard]] std::vector<LocalIndex> partition_tets(const comm::Communicator& comm,
                                                      const DistributedMesh& mesh,
                                                      const TetNeighbours& neighbours,
@@ -34,7 +34,12 @@ namespace tessera::migrate {
 [[nodiscard]] IndexLists parts_of_vertices(const comm::Communicator& comm,
                                            const DistributedMesh& mesh);
 
-/// @brief PT-Scotch's version, e.g. "7.0.3".
+/// @brief Whether this build can cut meshes into parts. Local.
+/// @throws ConfigError if there is more than one part to make and no PT-Scotch; the same on all
+/// ranks.
+void require_partitioner(LocalIndex num_parts);
+
+/// @brief PT-Scotch's version, e.g. "7.0.3"; "none" in a build without it.
 [[nodiscard]] std::string scotch_version();
 
 }  // namespace tessera::migrate

@@ -14,6 +14,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/comm/communicator.hpp"
 #include "tessera/io/vtu.hpp"
+#include "tessera/migrate/partition.hpp"
 #include "tessera/subdomain/read_mesh.hpp"
 
 #include "support/box_pieces.hpp"
@@ -328,6 +329,7 @@ TEST_F(ReadMesh, NumbersOfPointsFollowTheRanks)
 
 TEST_F(ReadMesh, BalancedGivesEveryRankAnEqualShare)
 {
+  if (comm_.size() > 1 && migrate::scotch_version() == "none") GTEST_SKIP() << "without PT-Scotch";
   const MeshShare share = read({.partition = ReadPartition::balanced, .num_ghost_layers = 1});
   expect_tets_and_points_of_whole(share);
   expect_triangles_of_whole(share);

@@ -12,6 +12,7 @@
 #include "tessera/migrate/assemble.hpp"
 #include "tessera/migrate/cut_into_parts.hpp"
 #include "tessera/migrate/part_figures.hpp"
+#include "tessera/migrate/partition.hpp"
 
 #include "support/box_pieces.hpp"
 
@@ -199,11 +200,25 @@ TEST(Assemble, BoundaryTriangleThatIsListedTwiceIsAnError)
   EXPECT_THROW(static_cast<void>(assemble(comm, pieces)), comm::Collective<InputError>);
 }
 
+// A build without PT-Scotch makes one part only.
+bool can_make(LocalIndex num_parts) { return num_parts == 1 || scotch_version() != "none"; }
+
+TEST(CutIntoParts, MorePartsThanTheBuildCanMakeAreAnErrorOnAllRanks)
+{
+  if (can_make(2)) GTEST_SKIP() << "this build has PT-Scotch";
+  const comm::Communicator comm(MPI_COMM_WORLD);
+  const DistributedMesh mesh = assemble(comm, box_pieces(comm)).mesh;
+  Traffic traffic;
+  EXPECT_THROW(static_cast<void>(cut_into_parts(comm, mesh, {2, 1.03}, traffic)),
+               comm::Collective<ConfigError>);
+}
+
 TEST(CutIntoParts, PartsAreConnectedBalancedAndComplete)
 {
   const comm::Communicator comm(MPI_COMM_WORLD);
   const DistributedMesh mesh = assemble(comm, box_pieces(comm)).mesh;
   for (const LocalIndex num_parts : {1, 2, 5, 12}) {
+    if (!can_make(num_parts)) continue;
     Traffic traffic;
     const RepartitionResult cut = cut_into_parts(comm, mesh, {num_parts, 1.03}, traffic);
     const auto neighbours = find_neighbours(comm, cut.mesh);
