@@ -3,21 +3,18 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
 #include <regex>
 #include <sstream>
 
 #include <fmt/format.h>
-#include <toml.hpp>
 
 #include "tessera/base/error.hpp"
 
 #include "config/text.hpp"
+#include "config/toml11.hpp"
 
 namespace tessera::config {
 namespace {
-
-using TomlValue = toml::basic_value<toml::discard_comments, std::map>;
 
 // toml11 follows nested lists, and the parts of a dotted key, by recursion: some ten thousand open
 // brackets or dots overflow the stack. No case file has this number of brackets in all (a hundred
@@ -52,7 +49,7 @@ void require_utf8(std::string_view text, const std::string& file_name)
 TomlValue parse(std::string_view text, const std::string& file_name)
 {
   std::istringstream stream{std::string(text)};
-  return toml::parse<toml::discard_comments, std::map>(stream, file_name);
+  return parse_stream(stream, file_name);
 }
 
 // Says where a value stands. All that an override gives stands in the override.
@@ -64,8 +61,7 @@ class OriginOf {
   std::string operator()(const TomlValue& value) const
   {
     if (!everywhere_.empty()) return everywhere_;
-    const toml::source_location location = value.location();
-    return fmt::format("{}:{}", location.file_name(), location.line());
+    return fmt::format("{}:{}", value.location().file_name(), line_of(value));
   }
 
  private:
@@ -85,7 +81,7 @@ Value to_value(const TomlValue& toml, const std::string& name, const OriginOf& o
     case toml::value_t::floating:
       return {toml.as_floating()};
     case toml::value_t::string:
-      return {toml.as_string().str};
+      return {text_of(toml)};
     case toml::value_t::table:
       return {Table{entries_of(toml, name, origin_of), origin_of(toml)}};
     case toml::value_t::array:
@@ -99,7 +95,7 @@ Value to_value(const TomlValue& toml, const std::string& name, const OriginOf& o
 }
 
 struct LinedEntry {
-  std::uint_least32_t line = 0;
+  std::size_t line = 0;
   Entry entry{};
 };
 
@@ -114,7 +110,7 @@ void flatten(const TomlValue& table, const std::string& prefix, const OriginOf& 
     }
     Value plain = value.is_table() ? Value{OtherValue{std::string(kEmptyTable)}}
                                    : to_value(value, name, origin_of);
-    entries.push_back({value.location().line(), {name, std::move(plain), origin_of(value)}});
+    entries.push_back({line_of(value), {name, std::move(plain), origin_of(value)}});
   }
 }
 
@@ -137,12 +133,19 @@ std::vector<Entry> entries_of(const TomlValue& table, const std::string& prefix,
 //        |
 //      2 | a = 3
 //        |     ^--- value defined twice
-// Of the exception's own location only some kinds of errors know the line; the drawing always does.
+// Of two places toml11 3 names the first line first, toml11 4 the second.
 struct Place {
-  std::string line_number{};
+  int line_number = 0;
   std::string line{};
   std::string comment{};
 };
+
+// A number that is too large for a line of a file is none.
+int number_in(const std::string& digits)
+{
+  constexpr std::size_t kMostDigits = 9;
+  return digits.size() > kMostDigits ? 0 : std::stoi(digits);
+}
 
 std::vector<Place> places_in(const std::vector<std::string>& lines)
 {
@@ -152,7 +155,7 @@ std::vector<Place> places_in(const std::vector<std::string>& lines)
   std::smatch match;
   for (const std::string& line : lines) {
     if (std::regex_match(line, match, numbered)) {
-      places.push_back({match[1], match[2], {}});
+      places.push_back({number_in(match[1]), match[2], {}});
     } else if (!places.empty() && std::regex_match(line, match, marked)) {
       places.back().comment = match[2];
     }
@@ -181,14 +184,11 @@ std::string one_line_message(const std::string& file_name, const toml::exception
   const std::vector<std::string> lines = first_of_lines(error.what());
   const std::string headline = lines.empty() ? "" : without_prefix(lines.front());
   const std::vector<Place> places = places_in(lines);
-  if (places.empty()) {
-    return fmt::format("{}:{}: not valid TOML: {}", file_name, error.location().line(),
-                       printable(headline));
-  }
-  const Place& last = places.back();
+  if (places.empty()) return fmt::format("{}: not valid TOML: {}", file_name, printable(headline));
+  const auto [first, last] = std::ranges::minmax(places, {}, &Place::line_number);
   std::string message = fmt::format("{}:{}: ", file_name, last.line_number);
-  if (places.size() == 2 && last.comment.ends_with("twice")) {
-    message += fmt::format("defined twice (first on line {})", places.front().line_number);
+  if (places.size() == 2 && headline.find("already") != std::string::npos) {
+    message += fmt::format("defined twice (first on line {})", first.line_number);
   } else {
     message += "not valid TOML: " + headline;
     if (!last.comment.empty()) message += (headline.empty() ? "" : ": ") + last.comment;

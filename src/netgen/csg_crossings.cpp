@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "netgen/csg_access.hpp"
+#include "netgen/netgen_versions.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -98,7 +99,7 @@ class Crossings {
  private:
   [[nodiscard]] Surfaces surfaces_of(int object) const
   {
-    ::netgen::Array<int> indices;
+    NetgenArray<int> indices;
     geometry_.GetTopLevelObject(object)->GetSolid()->GetSurfaceIndices(indices);
     Surfaces surfaces;
     for (const int surface : indices) {
@@ -155,10 +156,9 @@ class Crossings {
   {
     return std::ranges::any_of(parts_[side.solid], [&](int object) {
       const Solid* const solid = geometry_.GetTopLevelObject(object)->GetSolid();
-      Solid* local = nullptr;
-      ::netgen::Array<int> indices;
-      solid->TangentialSolid(point, local, indices, geometry_.GetIdEps() * geometry_.MaxSize());
-      const std::unique_ptr<Solid> owned(local);
+      NetgenArray<int> indices;
+      const auto local =
+          tangential_solid(*solid, point, indices, geometry_.GetIdEps() * geometry_.MaxSize());
       if (local == nullptr) return false;
       Surfaces here;
       for (const int i : indices) here.insert(geometry_.GetSurfaceClassRepresentant(i));

@@ -6,6 +6,7 @@
 #include "tessera/base/vec3.hpp"
 
 #include "netgen/csg_access.hpp"
+#include "netgen/netgen_versions.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -32,7 +33,7 @@ bool is_on_other(const ::netgen::CSGeometry& geometry, const ::netgen::Point<3>&
 
 void describe_by(const Vec3& point, Plane& plane)
 {
-  ::netgen::Array<double> numbers;
+  NetgenArray<double> numbers;
   for (const double x : point) numbers.Append(x);
   for (int axis = 0; axis < 3; ++axis) numbers.Append(plane.N()(axis));
   plane.SetPrimitiveData(numbers);

@@ -29,6 +29,7 @@
 #include "tessera/base/error.hpp"
 
 #include "netgen/csg_access.hpp"
+#include "netgen/netgen_versions.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -43,7 +44,7 @@ struct Numbers {
   explicit Numbers(const ::netgen::Primitive& primitive)
   {
     const char* name = "";
-    ::netgen::Array<double> values;
+    NetgenArray<double> values;
     primitive.GetPrimitiveData(name, values);
     kind = name;
     for (const double value : values) all.push_back(value);
@@ -281,7 +282,7 @@ class ConesByCircles final : public ::netgen::SolidIterator {
     std::vector<double> changed = numbers.all;
     std::ranges::copy(middle, changed.begin() + 3 * static_cast<std::ptrdiff_t>(apex));
     changed[6 + apex] = 0.5 * radii[1 - apex];
-    ::netgen::Array<double> values;
+    NetgenArray<double> values;
     for (const double value : changed) values.Append(value);
     cone->SetPrimitiveData(values);
   }

@@ -15,6 +15,7 @@
 #include "tessera/base/vec3.hpp"
 
 #include "netgen/netgen_session.hpp"
+#include "netgen/netgen_versions.hpp"
 #include "netgen/skin_mesh.hpp"
 
 namespace tessera::netgen {
@@ -85,7 +86,7 @@ class PlaneMesh {
   {
     ::netgen::Box<3> box(::netgen::Box<3>::EMPTY_BOX);
     for (const auto& edge : border.edges) box.Add(mesh_[border_point(edge[0])]);
-    ::netgen::Meshing2 mesher(session_.parameters(), box);
+    PlaneMesher mesher(session_.parameters(), box);
     for (const LocalIndex v : of_border_) mesher.AddPoint(mesh_[border_point(v)], border_point(v));
     ::netgen::PointGeomInfo anywhere;
     anywhere.trignum = 1;
@@ -103,13 +104,13 @@ class PlaneMesh {
       mesh_[PointIndex(p)].SetType(::netgen::SURFACEPOINT);
     mesh_.CalcSurfacesOfNode();
     for (int round = 0; round < kNumImprovements; ++round) {
-      ::netgen::MeshOptimize2d optimizer;
+      PlaneOptimizer optimizer(mesh_);
       optimizer.SetFaceIndex(face_);
       optimizer.SetImproveEdges(0);
       optimizer.SetMetricWeight(session_.parameters().elsizeweight);
       optimizer.SetWriteStatus(0);
-      optimizer.EdgeSwapping(mesh_, round > 0 ? 1 : 0);
-      optimizer.ImproveMesh(mesh_, session_.parameters());
+      optimizer.swap_edges(round > 0);
+      optimizer.smooth(session_.parameters());
     }
   }
 

@@ -15,9 +15,10 @@
 #include "tessera/base/vec3.hpp"
 #include "tessera/jobs/this_process.hpp"
 
+#include "netgen/netgen_versions.hpp"
 #include "netgen/surface_messages.hpp"
 
-// Defined in libinterface.so and declared in no header of NETGEN 6.2.1905.
+// Defined in a library of NETGEN and declared in no header of NETGEN.
 namespace netgen {
 extern DLL_HEADER MeshingParameters mparam;
 }
@@ -167,6 +168,7 @@ NetgenSession::NetgenSession(const ::netgen::MeshingParameters& parameters)
     : saved_(std::make_unique<Saved>())
 {
   ::netgen::mparam = parameters;
+  use_one_thread(::netgen::mparam);
   ::netgen::printmessage_importance = kMainSteps;
   ::netgen::mycout = &std::cout;
   ::netgen::myerr = &saved_->keeping_stream;

@@ -19,6 +19,7 @@
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
+#include "netgen/netgen_versions.hpp"
 #include "netgen/occ_cad_file.hpp"
 #include "netgen/occ_content.hpp"
 #include "netgen/occ_curve.hpp"
@@ -185,15 +186,15 @@ GeometryNumbers OccModel::numbers_for(const ::netgen::OCCGeometry& geometry) con
     return content_.face_names.at(static_cast<std::size_t>(surface(face)));
   };
   numbers.curve = [&](const ::netgen::Segment& segment) {
-    return edges_.FindIndex(geometry.emap(segment.epgeominfo[0].edgenr)) - 1;
+    return edges_.FindIndex(geometry.emap(edge_number(segment))) - 1;
   };
   numbers.material_name = [this](int domain) { return solid_name(domain); };
   numbers.uv = [](const ::netgen::Element2d& element, int corner) {
     const ::netgen::PointGeomInfo& info = element.GeomInfoPi(corner + 1);
     return model::SurfaceParameters{info.u, info.v};
   };
-  numbers.t = [](const ::netgen::Segment& segment, int end) {
-    return segment.epgeominfo[end].dist;
+  numbers.t = [&](const ::netgen::Segment& segment, int end) {
+    return edge_parameter(geometry, segment, end);
   };
   return numbers;
 }
@@ -215,7 +216,7 @@ GeometryNumbers OccModel::numbers_of_parts(const ::netgen::OCCGeometry& geometry
     return content_.face_names.at(static_cast<std::size_t>(surface(face)));
   };
   numbers.curve = [&](const ::netgen::Segment& segment) {
-    return CutShape::number_in(cut.edges, geometry.emap(segment.epgeominfo[0].edgenr));
+    return CutShape::number_in(cut.edges, geometry.emap(edge_number(segment)));
   };
   return numbers;
 }

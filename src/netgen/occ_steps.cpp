@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "netgen/netgen_versions.hpp"
+
 namespace tessera::netgen {
 namespace {
 
@@ -18,12 +20,12 @@ class ChangedFineness {
   ChangedFineness(::netgen::MeshingParameters& parameters, const Fineness& fineness)
       : parameters_(parameters), curvature_(parameters.curvaturesafety)
   {
-    ::netgen::occparam.resthcloseedgefac = fineness.close_edges;
+    set_close_edges(parameters, fineness.close_edges);
     parameters.curvaturesafety *= fineness.curvature;
   }
   ~ChangedFineness()
   {
-    ::netgen::occparam.resthcloseedgefac = 1.0;
+    set_close_edges(parameters_, 1.0);
     parameters_.curvaturesafety = curvature_;
   }
   ChangedFineness(const ChangedFineness&) = delete;

@@ -14,6 +14,7 @@
 
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
+#include "netgen/netgen_versions.hpp"
 #include "netgen/size_file.hpp"
 
 namespace tessera::netgen {
@@ -98,7 +99,7 @@ class StlMeshing {
   void give_triangles()
   {
     const std::vector<Vec3> normals = model::triangle_normals(surface_);
-    ::netgen::Array<::netgen::STLReadTriangle> triangles;
+    NetgenArray<::netgen::STLReadTriangle> triangles;
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
       ::netgen::Point<3> corners[3];
       for (int c = 0; c < 3; ++c) {
@@ -142,7 +143,7 @@ class StlMeshing {
     auto& parameters = session_.parameters();
     parameters.perfstepsstart = first_step;
     parameters.perfstepsend = last_step;
-    session_.run_surface([&] { ::netgen::STLMeshingDummy(&geometry_, mesh_, parameters); });
+    session_.run_surface([&] { mesh_stl(geometry_, mesh_, parameters); });
   }
 
   // NETGEN has one descriptor a face, all of domain 1.

@@ -97,8 +97,7 @@ class NothingElseIsWritten(program.ProgramTest):
         before = {path: path.stat().st_mtime_ns for path in (inputs, *inputs.iterdir())}
         environment = os.environ | {
             "HOME": str(user), "TMPDIR": str(temporary), "TESSERA_TEST_FAULT": fault,
-            # What mpirun itself writes there is not the program's.
-            "OMPI_MCA_orte_tmpdir_base": str(self.folder),
+            **program.mpi_files_in(self.folder),  # They are not the program's.
         }  # fmt: skip
         command = ["env", "-C", cwd, *program.command_line(
             ["mesh", inputs / "case.toml", "--output", home / "out", *arguments], ranks=2

@@ -352,7 +352,7 @@ class Errors(ConvertTest):
         whole = self.converted("whole", *FORMATS)
         environment = os.environ | {
             "OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_btl": "self", "PMIX_MCA_gds": "hash",
-            "OMPI_MCA_orte_tmpdir_base": tempfile.mkdtemp(prefix="mpi_", dir=self.folder),
+            **program.mpi_files_in(tempfile.mkdtemp(prefix="mpi_", dir=self.folder)),
         }  # fmt: skip
         for name, files in FILES.items():
             sizes = [file.stat().st_size for file in whole.glob("**/*") if file.relative_to(whole).parts[0] in files]

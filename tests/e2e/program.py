@@ -70,6 +70,11 @@ def command_line(arguments, ranks):
     return [*start, PROGRAM, *map(str, arguments)]
 
 
+def mpi_files_in(folder):
+    """Settings by which Open MPI 4 and 5 put their own files into a folder."""
+    return {"OMPI_MCA_orte_tmpdir_base": str(folder), "PRTE_MCA_prte_tmpdir_base": str(folder)}
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a folder of its own that runs the program in it."""
 

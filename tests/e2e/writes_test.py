@@ -42,7 +42,7 @@ def without_files_of_mpi(folder):
     """An environment in which MPI makes folders, but no files, so a limit on sizes meets the program alone."""
     return os.environ | {
         "OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_btl": "self", "PMIX_MCA_gds": "hash",
-        "OMPI_MCA_orte_tmpdir_base": tempfile.mkdtemp(prefix="mpi_", dir=folder),
+        **program.mpi_files_in(tempfile.mkdtemp(prefix="mpi_", dir=folder)),
     }  # fmt: skip
 
 

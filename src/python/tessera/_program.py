@@ -23,8 +23,9 @@ _MESSAGE = re.compile(r"^tessera: (.*(?:\n  .*)*)", re.MULTILINE)
 # What mpirun tells its ranks. A program that is started from one of these must not take it for itself.
 _KEPT = ("OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM")
 _OF_MPIRUN = re.compile(
-    r"PMIX_|OMPI_(?!MCA_)"
+    r"PMIX_|(OMPI|PRTE)_(?!MCA_)"
     r"|OMPI_MCA_(orte_|ess|pmix|shmem_RUNTIME|mpi_oversubscribe|initial_wdir)"
+    r"|OMPI_MCA_(PREFIXES|cpu_type|mca_base_component_path|num_procs)"  # Open MPI 5
 )
 
 

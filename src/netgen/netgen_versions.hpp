@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include <BRep_Tool.hxx>
+#include <TopoDS.hxx>
+#include <csg.hpp>
+#include <meshing.hpp>
+#include <occgeom.hpp>
+#include <stlgeom.hpp>
+
+/// What differs between NETGEN 6.2.1905 (Debian 12) and 6.2.2501 (Debian 13), and nothing else.
+#if __has_include(<netgen_version.hpp>)  // Not in 6.2.1905.
+
+namespace netgen {
+// In libnglib.so and in no header.
+extern DLL_HEADER STLParameters stlparam;
+}  // namespace netgen
+
+namespace tessera::netgen {
+
+template <class T>
+using NetgenArray = ::netgen::NgArray<T>;
+
+/// @brief Keeps NETGEN's optimiser from starting threads: its job process has one.
+inline void use_one_thread(::netgen::MeshingParameters& parameters)
+{
+  parameters.parallel_meshing = false;
+}
+
+[[nodiscard]] inline std::unique_ptr<::netgen::Solid> tangential_solid(
+    const ::netgen::Solid& solid, const ::netgen::Point<3>& point, NetgenArray<int>& surfaces,
+    double tolerance)
+{
+  return solid.TangentialSolid(point, surfaces, tolerance);
+}
+
+inline void mesh_stl(::netgen::STLGeometry& geometry, std::shared_ptr<::netgen::Mesh>& mesh,
+                     const ::netgen::MeshingParameters& parameters)
+{
+  ::netgen::STLMeshingDummy(&geometry, mesh, parameters, ::netgen::stlparam);
+}
+
+/// @brief Edges that run beside each other 1 / factor of their length apart get finer.
+inline void set_close_edges(::netgen::MeshingParameters& parameters, double factor)
+{
+  parameters.closeedgefac = factor;
+}
+
+/// @brief Of the edge that a segment is on, in the geometry's `emap`.
+[[nodiscard]] inline int edge_number(const ::netgen::Segment& segment)
+{
+  return segment.epgeominfo[0].edgenr + 1;
+}
+
+/// @brief Parameter of the edge's curve at an end; NETGEN has it from 0 to 1.
+[[nodiscard]] inline double edge_parameter(const ::netgen::OCCGeometry& geometry,
+                                           const ::netgen::Segment& segment, int end)
+{
+  double first = 0.0;
+  double last = 0.0;
+  BRep_Tool::Range(TopoDS::Edge(geometry.emap(edge_number(segment))), first, last);
+  return first + segment.epgeominfo[end].dist * (last - first);
+}
+
+/// The plane z = 0, which looks up.
+class PlaneGeometry final : public ::netgen::NetgenGeometry {
+ public:
+  // NOLINTBEGIN(readability-identifier-naming): NETGEN's
+  ::netgen::PointGeomInfo ProjectPoint(int /*surface*/, ::netgen::Point<3>& point) const override
+  {
+    point(2) = 0.0;
+    return {};
+  }
+  bool ProjectPointGI(int /*surface*/, ::netgen::Point<3>& point,
+                      ::netgen::PointGeomInfo& /*info*/) const override
+  {
+    point(2) = 0.0;
+    return true;
+  }
+  ::netgen::Vec<3> GetNormal(int /*surface*/, const ::netgen::Point<3>& /*point*/,
+                             const ::netgen::PointGeomInfo* /*info*/) const override
+  {
+    return {0.0, 0.0, 1.0};
+  }
+  // NOLINTEND(readability-identifier-naming)
+};
+
+class PlaneMesher final : public ::netgen::Meshing2 {
+ public:
+  PlaneMesher(const ::netgen::MeshingParameters& parameters, const ::netgen::Box<3>& box)
+      : Meshing2(plane(), parameters, box)
+  {
+  }
+
+ private:
+  static const PlaneGeometry& plane()
+  {
+    static const PlaneGeometry geometry;
+    return geometry;
+  }
+};
+
+class PlaneOptimizer final : public ::netgen::MeshOptimize2d {
+ public:
+  explicit PlaneOptimizer(::netgen::Mesh& of) : MeshOptimize2d(on_plane(of)) {}
+
+  void swap_edges(bool by_size) { EdgeSwapping(by_size ? 1 : 0); }
+  void smooth(const ::netgen::MeshingParameters& parameters) { ImproveMesh(parameters); }
+
+ private:
+  static ::netgen::Mesh& on_plane(::netgen::Mesh& of)
+  {
+    of.SetGeometry(std::make_shared<PlaneGeometry>());
+    return of;
+  }
+};
+
+}  // namespace tessera::netgen
+
+#else
+
+namespace tessera::netgen {
+
+template <class T>
+using NetgenArray = ::netgen::Array<T>;
+
+inline void use_one_thread(::netgen::MeshingParameters& /*parameters*/) {}
+
+[[nodiscard]] inline std::unique_ptr<::netgen::Solid> tangential_solid(
+    const ::netgen::Solid& solid, const ::netgen::Point<3>& point, NetgenArray<int>& surfaces,
+    double tolerance)
+{
+  ::netgen::Solid* local = nullptr;
+  solid.TangentialSolid(point, local, surfaces, tolerance);
+  return std::unique_ptr<::netgen::Solid>(local);
+}
+
+inline void mesh_stl(::netgen::STLGeometry& geometry, std::shared_ptr<::netgen::Mesh>& mesh,
+                     ::netgen::MeshingParameters& parameters)
+{
+  ::netgen::STLMeshingDummy(&geometry, mesh, parameters);
+}
+
+inline void set_close_edges(::netgen::MeshingParameters& /*parameters*/, double factor)
+{
+  ::netgen::occparam.resthcloseedgefac = factor;
+}
+
+[[nodiscard]] inline int edge_number(const ::netgen::Segment& segment)
+{
+  return segment.epgeominfo[0].edgenr;
+}
+
+[[nodiscard]] inline double edge_parameter(const ::netgen::OCCGeometry& /*geometry*/,
+                                           const ::netgen::Segment& segment, int end)
+{
+  return segment.epgeominfo[end].dist;
+}
+
+using PlaneMesher = ::netgen::Meshing2;
+
+class PlaneOptimizer final : public ::netgen::MeshOptimize2d {
+ public:
+  explicit PlaneOptimizer(::netgen::Mesh& of) : mesh_(of) {}
+
+  void swap_edges(bool by_size) { EdgeSwapping(mesh_, by_size ? 1 : 0); }
+  void smooth(const ::netgen::MeshingParameters& parameters) { ImproveMesh(mesh_, parameters); }
+
+ private:
+  ::netgen::Mesh& mesh_;
+};
+
+}  // namespace tessera::netgen
+
+#endif
