@@ -47,13 +47,13 @@ def cpu_of_session(session):
     return ticks / os.sysconf("SC_CLK_TCK")
 
 
-def is_over_limit(process, wall_s, limit_s, by_cpu):
-    if not by_cpu:
+def is_over_limit(process, wall_s, limit_s, wall_for_cpu):
+    if not wall_for_cpu:
         return wall_s > limit_s
-    return wall_s > WALL_FOR_CPU * limit_s or cpu_of_session(process.pid) > limit_s
+    return wall_s > wall_for_cpu * limit_s or cpu_of_session(process.pid) > limit_s
 
 
-def wait_within(process, limit_s, by_cpu):
+def wait_within(process, limit_s, wall_for_cpu):
     """The exit code, or None; and the CPU seconds until then."""
     start, pause_s, next_look_s = time.monotonic(), 0.005, 0.0
     while True:
@@ -63,22 +63,22 @@ def wait_within(process, limit_s, by_cpu):
             return process.returncode, used.ru_utime + used.ru_stime
         wall_s = time.monotonic() - start
         if wall_s >= next_look_s:
-            if is_over_limit(process, wall_s, limit_s, by_cpu):
+            if is_over_limit(process, wall_s, limit_s, wall_for_cpu):
                 return None, cpu_of_session(process.pid)
             next_look_s = wall_s + min(wall_s, 1.0)
         time.sleep(pause_s)
         pause_s = min(2.0 * pause_s, 0.05)
 
 
-def run(command, limit_s, by_cpu=False):
+def run(command, limit_s, by_cpu=False, wall_for_cpu=WALL_FOR_CPU):
     """Ends the program with all its children if it takes too long: by the clock, or with `by_cpu` in CPU
-    seconds of all together, for a machine that has other work (and then thrice as long by the clock)."""
+    seconds of all together, for a machine that has other work (and then so many times as long by the clock)."""
     start = time.monotonic()
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         process = subprocess.Popen(list(map(str, command)), stdin=subprocess.DEVNULL, stdout=out, stderr=err,
                                    start_new_session=True)
         try:
-            code, cpu_s = wait_within(process, limit_s, by_cpu)
+            code, cpu_s = wait_within(process, limit_s, wall_for_cpu if by_cpu else 0.0)
         finally:  # Whatever stops the bench, nothing is left behind.
             end_session(process)
         seconds = time.monotonic() - start

@@ -106,7 +106,7 @@ class Models:
     """Brings models into `folder`."""
 
     def __init__(self, folder, bin_folder):
-        self.folder = folder.resolve()
+        self.folder = folder
         self.bin_folder = bin_folder
         self.folders = {}  # Of each source that was asked for.
 
@@ -122,22 +122,29 @@ class Models:
         if not program.exists():
             return unpack_package(source, self.folder / "packages")
         folder = self.folder / source
-        shutil.rmtree(folder, ignore_errors=True)
+        if folder.exists() and folder.stat().st_mtime < program.stat().st_mtime:
+            shutil.rmtree(folder)  # Another version may write others.
+        folder.mkdir(parents=True, exist_ok=True)
         return folder
 
     def generate(self, source, file):
-        """`thin_walls` and its like write all they have; of `random_models`, SEED/random_NUMBER.step is one model."""
-        folder = self.of_source(source)
+        """Has a generator write a file that is not there yet. `thin_walls` and its like write all they have; of
+        `random_models`, SEED/random_NUMBER.step is one model."""
+        target = self.of_source(source) / file
+        if target.exists():
+            return
+        work = self.folder / f"{source}.part"
+        shutil.rmtree(work, ignore_errors=True)
+        command = [self.bin_folder / source, work]
         if source == "random_models":
             seed, number = re.fullmatch(r"(\d+)/random_(\d+)\.\w+", file).groups()
-            command = [self.bin_folder / source, folder / seed, 1, seed, int(number)]
-        elif folder.exists():
-            return
-        else:
-            command = [self.bin_folder / source, folder]
+            command += [1, seed, int(number)]
         done = said_by(command)
         if done.returncode != 0:
             raise MissingInput(f"{source} ends with {done.returncode}: {done.stderr.strip()}")
+        target.parent.mkdir(exist_ok=True)
+        for made in work.iterdir():
+            made.rename(target.parent / made.name)  # Only what is whole.
 
     def path_of(self, entry):
         """The file of an entry, under a name that the program takes."""

@@ -7,8 +7,10 @@
 #include <stdexcept>
 #include <string>
 
+#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <Standard_Failure.hxx>
+#include <StlAPI_Writer.hxx>
 
 #include "netgen/hard_shapes.hpp"
 
@@ -23,6 +25,16 @@ void write(const fs::path& folder, const std::string& name, const TopoDS_Shape& 
   if (!BRepTools::Write(shape, file.c_str())) throw std::runtime_error(file + " cannot be written");
 }
 
+// All solids in one `solid` of the file.
+void write_stl(const fs::path& folder, const std::string& name, const TopoDS_Shape& shape)
+{
+  const BRepMesh_IncrementalMesh triangles(shape, 0.01);
+  const std::string file = (folder / (name + ".stl")).string();
+  if (!StlAPI_Writer().Write(shape, file.c_str())) {
+    throw std::runtime_error(file + " cannot be written");
+  }
+}
+
 void write_all(const fs::path& folder)
 {
   fs::create_directories(folder);
@@ -32,6 +44,7 @@ void write_all(const fs::path& folder)
   write(folder, "rounded_block", shapes::rounded_block(0.05));
   write(folder, "narrow_shoulder", shapes::shoulder(0.05));
   write(folder, "touching_edges", shapes::shoulder(2e-6));
+  write_stl(folder, "flat_bodies", shapes::overlapping_boxes(0.0));
 }
 
 }  // namespace
