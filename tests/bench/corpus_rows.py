@@ -10,7 +10,7 @@ from bench_data import ROOT
 CORPUS = ROOT / "tests" / "corpus"
 NO_MESH = ("failed", "refused", "slow", "crashed", "invalid")
 NAMES = {"repository": "our own", "hard_models": "made by us, each with a difficulty",
-         "thin_walls": "thin walls, made by us", "random_models": "random, made by us"}
+         "random_models": "random, made by us"}
 GOOD_ANGLE = 10.0  # Degrees.
 
 

@@ -13,6 +13,7 @@ import subprocess
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 LIST = HERE / "files.txt"
+GENERATORS = ("hard_models", "random_models")
 ENDINGS = {".rle": ".brep"}  # OpenCASCADE's samples have names that no program goes by.
 
 
@@ -74,28 +75,30 @@ def unpack_package(package, folder):
     """The folder that holds the content of the package. It is not installed: some would bring hundreds."""
     if is_installed(package):
         return pathlib.Path("/")
-    if candidate_version(package) is None:
-        update_package_lists()
+    try:
+        return unpacked(package, folder)
+    except MissingInput:
+        update_package_lists()  # They may be absent or outdated.
+        return unpacked(package, folder)
+
+
+def unpacked(package, folder):
     version = candidate_version(package)
     if version is None:
-        raise MissingInput(f"the package lists have no package {package}, not after apt-get update either")
+        raise MissingInput(f"the package lists have no package {package}, after apt-get update either")
     content = folder / f"{package}_{version}"
     if not content.exists():
-        download(package, version, folder, content)
+        download(package, version, folder / f"{package}.part", content)
     return content
 
 
-def download(package, version, folder, content):
-    work = folder / f"{package}.part"
+def download(package, version, work, content):
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     user = pwd.getpwuid(os.geteuid()).pw_name
-    command = ["apt-get", "-qq", "-o", f"APT::Sandbox::User={user}", "download", f"{package}={version}"]
-    if said_by(command, cwd=work).returncode != 0:
-        update_package_lists()  # They may be outdated.
-        done = said_by(command, cwd=work)
-        if done.returncode != 0:
-            raise MissingInput(f"{package} {version} cannot be downloaded: {done.stderr.strip()}")
+    done = said_by(["apt-get", "-qq", "-o", f"APT::Sandbox::User={user}", "download", f"{package}={version}"], cwd=work)
+    if done.returncode != 0:
+        raise MissingInput(f"package {package} {version} cannot be downloaded: {done.stderr.strip()}")
     for archive in work.glob("*.deb"):
         subprocess.run(["dpkg-deb", "--extract", archive, work], check=True)
         archive.unlink()
@@ -118,18 +121,19 @@ class Models:
     def make(self, source):
         if source == "repository":
             return ROOT
-        program = self.bin_folder / source
-        if not program.exists():
+        if source not in GENERATORS:
             return unpack_package(source, self.folder / "packages")
-        folder = self.folder / source
+        program, folder = self.bin_folder / source, self.folder / source
+        if not program.exists():
+            raise MissingInput(f"{program} is not built")
         if folder.exists() and folder.stat().st_mtime < program.stat().st_mtime:
             shutil.rmtree(folder)  # Another version may write others.
         folder.mkdir(parents=True, exist_ok=True)
         return folder
 
     def generate(self, source, file):
-        """Has a generator write a file that is not there yet. `thin_walls` and its like write all they have; of
-        `random_models`, SEED/random_NUMBER.step is one model."""
+        """Has a generator write a file that is not there yet. `hard_models` writes all it has; of
+        `random_models`, SEED/random_NUMBER.step is one model. A generator must write the same model each time."""
         target = self.of_source(source) / file
         if target.exists():
             return
@@ -148,7 +152,7 @@ class Models:
 
     def path_of(self, entry):
         """The file of an entry, under a name that the program takes."""
-        if (self.bin_folder / entry.source).exists():
+        if entry.source in GENERATORS:
             self.generate(entry.source, entry.file)
         folder = self.of_source(entry.source)
         found = [*folder.glob(entry.file), *folder.glob(f"{entry.file}.gz")]

@@ -4,6 +4,7 @@ import dataclasses
 import pathlib
 import tempfile
 import unittest
+from unittest import mock
 
 import corpus_files
 from corpus_table import (COLUMNS, OUTCOMES, Row, better_outcomes, compare, nearest_table, read_table, table_file,
@@ -156,6 +157,21 @@ class Lists(unittest.TestCase):
             (entry,) = corpus_files.parse_list("rod repository there/is_no_such.step full")
             with self.assertRaisesRegex(corpus_files.MissingInput, "is_no_such.step"):
                 models.path_of(entry)
+
+    def test_a_generator_that_is_not_built_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            models = corpus_files.Models(pathlib.Path(folder), pathlib.Path(folder))
+            (entry,) = corpus_files.parse_list("rod hard_models rod.brep full")
+            with self.assertRaisesRegex(corpus_files.MissingInput, "hard_models is not built"):
+                models.path_of(entry)
+
+    def test_a_package_that_does_not_exist_is_named_after_an_update(self):
+        with tempfile.TemporaryDirectory() as folder, \
+                mock.patch.object(corpus_files, "candidate_version", return_value=None), \
+                mock.patch.object(corpus_files, "update_package_lists") as update:
+            with self.assertRaisesRegex(corpus_files.MissingInput, "no package no-such-cad"):
+                corpus_files.unpack_package("no-such-cad", pathlib.Path(folder))
+            update.assert_called_once()
 
     def test_list_and_tables_are_of_the_same_files(self):
         entries = corpus_files.read_list()
