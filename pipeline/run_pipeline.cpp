@@ -33,7 +33,7 @@ void load_workers(const RunResult& run, const SharedBytes& mesh, const OutputPla
 {
   load_mesh(mesh, context);
   if (wants_better_seams(run)) {
-    load_improvement(run.resolved.improve, run.resolved.fill.split_corners, run.kernels, context);
+    load_improvement(run.resolved, run.kernels, context);
   }
   if (!output.outline.is_one_pass) return;
   load_numbers(output.outline.pieces, output.length_unit, run.resolved.output, context);

@@ -27,7 +27,7 @@ void require_only_subdomains_possible(const config::Case& given)
   if (given.output.files != 0 || given.output.parts != 0) {
     throw ConfigError("--only-subdomains excludes output.files and output.parts");
   }
-  if (given.fill.split_corners) {
+  if (given.fill.split_corners == true) {
     throw ConfigError("--only-subdomains excludes fill.split_corners");
   }
   // Only the model tells whether the regions are all there is.

@@ -52,7 +52,7 @@ OutputPlan plan_output(const RunResult& run, const subdomain::PartitionedMesh& c
     with_file_context(run.resolved, [&] {
       plan.outline = outline_run(cut, run.kernels, run.splits, output_ranges(run, options),
                                  run.resolved.improve.seams);
-      if (run.resolved.fill.split_corners) plan.outline.divide_corners();
+      if (divides_corners(run.resolved.fill, run.kernels)) plan.outline.divide_corners();
       if (options.on_piece) plan.outline.hand_over_pieces();
       if (run.resolved.output.order == 2) curve(plan.outline);
       if (const auto defect = file_too_large(plan.outline, run.resolved)) {

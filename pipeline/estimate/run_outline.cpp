@@ -50,6 +50,12 @@ bool are_counts_known(const std::vector<fill::KernelKind>& kernels)
       kernels, [](fill::KernelKind kernel) { return kernel == fill::KernelKind::subdivide; });
 }
 
+bool divides_corners(const fill::FillOptions& options, const std::vector<fill::KernelKind>& kernels)
+{
+  return std::ranges::any_of(
+      kernels, [&](fill::KernelKind kernel) { return fill::splits_corners(options, kernel); });
+}
+
 GlobalIndex RunOutline::tets_of(const subdomain::SubdomainRange& range) const
 {
   return sum_over(range, [&](LocalIndex s) { return pieces[at(s)].tets; });

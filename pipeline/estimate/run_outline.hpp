@@ -17,6 +17,10 @@ namespace tessera::pipeline {
 /// @brief Whether every subdomain is to be subdivided: then all ids are known before any piece is.
 [[nodiscard]] bool are_counts_known(const std::vector<fill::KernelKind>& kernels);
 
+/// @brief Whether tets of some subdomain are divided that have several faces on the geometry.
+[[nodiscard]] bool divides_corners(const fill::FillOptions& options,
+                                   const std::vector<fill::KernelKind>& kernels);
+
 /// @brief What is known or expected of the fine mesh before any of it is made.
 struct RunOutline {
   int levels = 0;       ///< Of the finest coarse edge.

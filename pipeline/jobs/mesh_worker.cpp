@@ -277,8 +277,8 @@ class MeshWorker final : public jobs::Worker {
   [[nodiscard]] std::unique_ptr<improve::Optimizer> optimizer_of(LocalIndex region) const
   {
     const LocalIndex subdomain = regions_->subdomains_of(region).front();
-    const bool is_own = split_corners_ || kernels_[at(subdomain)] == fill::KernelKind::optimize;
-    return is_own ? subdomain::make_seam_optimizer(split_corners_) : netgen::make_optimizer();
+    return subdomain::make_seam_optimizer(
+        fill::splits_corners({.split_corners = split_corners_}, kernels_[at(subdomain)]));
   }
 
   [[nodiscard]] Bytes answer(const ImproveRequest& request) const
@@ -357,7 +357,7 @@ class MeshWorker final : public jobs::Worker {
   std::string length_unit_{};
   io::OutputOptions output_options_{};
   improve::ImproveOptions improve_options_{};
-  bool split_corners_ = false;
+  std::optional<bool> split_corners_{};
   std::vector<fill::KernelKind> kernels_{};        ///< By subdomain, as the case wants them.
   std::optional<improve::SeamRegions> regions_{};  ///< If seams are to be improved.
   std::optional<Refinement> refinement_{};         ///< If pieces are to be split further.

@@ -58,7 +58,7 @@ namespace tessera::pipeline {
 
 /// @brief load: that seams are to be improved, and how. Needs the mesh.
 [[nodiscard]] Bytes load_improvement_message(const improve::ImproveOptions& options,
-                                             bool split_corners,
+                                             std::optional<bool> split_corners,
                                              const std::vector<fill::KernelKind>& kernels);
 
 /// @brief run: reads a CAD file; result: bytes of a ModelSource. Needs no load.

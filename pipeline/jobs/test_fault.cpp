@@ -24,8 +24,8 @@ namespace {
 constexpr std::array<std::string_view, 17> kStages{
     "import", "load", "box",     "describe", "coarse", "remesh", "gmsh", "divide", "piece",
     "plan",   "fill", "improve", "refine",   "skin",   "share",  "map",  "join"};
-constexpr std::array<std::string_view, 11> kKinds{
-    "throw", "segv", "exit", "loop", "sleep", "memory", "garbage", "drop", "flat", "nudge", "lose"};
+constexpr std::array<std::string_view, 10> kKinds{
+    "throw", "segv", "exit", "loop", "sleep", "memory", "garbage", "drop", "nudge", "lose"};
 
 struct Fault {
   std::string stage{};
@@ -103,36 +103,6 @@ void drop_a_tet(std::vector<LocalIndex>& tet_vertices)
   tet_vertices.resize(tet_vertices.size() - 4);
 }
 
-// Cuts a tet into four by a point near one of its faces: sound, but one of them is flat.
-void flatten(fill::FillOutput& tets, std::size_t t)
-{
-  std::array<LocalIndex, 4> tet;
-  LocalIndex* const given = &tets.tet_vertices[4 * t];
-  std::copy_n(given, 4, tet.begin());
-  const auto point = static_cast<LocalIndex>(tets.vertex_xyz.size() / 3);
-  constexpr std::array<double, 4> kWeights{0.33, 0.33, 0.33, 0.01};
-  for (std::size_t d = 0; d < 3; ++d) {
-    double place = 0.0;
-    for (std::size_t c = 0; c < 4; ++c) {
-      place += kWeights[c] * tets.vertex_xyz[3 * at(tet[c]) + d];
-    }
-    tets.vertex_xyz.push_back(place);
-  }
-  given[3] = point;
-  for (std::size_t c = 0; c < 3; ++c) {
-    std::array<LocalIndex, 4> part = tet;
-    part[c] = point;
-    tets.tet_vertices.insert(tets.tet_vertices.end(), part.begin(), part.end());
-  }
-}
-
-// So many that the optimiser leaves them to the next try.
-void flatten_all(fill::FillOutput& tets)
-{
-  const std::size_t num_tets = tets.tet_vertices.size() / 4;
-  for (std::size_t t = 0; t < num_tets; ++t) flatten(tets, t);
-}
-
 class FaultyMesher final : public coarse::CoarseMesher {
  public:
   FaultyMesher(std::unique_ptr<coarse::CoarseMesher> sound, LocalIndex rung)
@@ -186,7 +156,6 @@ class FaultyKernel final : public fill::Kernel {
     fail(kind_);
     fill::FillOutput output = sound_->fill(input, settings);
     if (kind_ == "drop") drop_a_tet(output.tet_vertices);
-    if (kind_ == "flat" && input.has_start()) flatten_all(output);
     return output;
   }
 
@@ -203,10 +172,10 @@ class FaultyOptimizer final : public improve::Optimizer {
   }
 
   [[nodiscard]] improve::TetMesh optimize(const improve::OptimizeInput& input,
-                                          const improve::OptimizeSettings& settings) const override
+                                          int rounds) const override
   {
     fail(kind_);
-    improve::TetMesh output = sound_->optimize(input, settings);
+    improve::TetMesh output = sound_->optimize(input, rounds);
     if (kind_ == "drop") drop_a_tet(output.tet_vertices);
     return output;
   }

@@ -23,8 +23,7 @@
 ///   its worker); join (the workers of the node: in the rank itself).
 /// - KIND, for any job: throw, segv, exit, loop, sleep, memory.
 /// - KIND, for results that a check must refuse: drop (a tet of the result is lost: coarse, remesh,
-///   fill, improve), garbage (the bytes of the result are no longer what they were), flat (the
-///   first try of a fill has many flat tets).
+///   fill, improve), garbage (the bytes of the result are no longer what they were).
 /// - KIND, for results that pass all checks of a job: nudge (fill: points on the geometry are one
 ///   bit off, as from another mathematical library), lose (improve: a tet is lost after the region
 ///   was judged).

@@ -31,7 +31,8 @@ Bytes load_limiter_message(const mesh::ProjectionLimiter& limiter)
   return to_bytes(Load(LimiterLoad{limiter}));
 }
 
-Bytes load_improvement_message(const improve::ImproveOptions& options, bool split_corners,
+Bytes load_improvement_message(const improve::ImproveOptions& options,
+                               std::optional<bool> split_corners,
                                const std::vector<fill::KernelKind>& kernels)
 {
   return to_bytes(Load(ImprovementLoad{options, split_corners, kernels}));

@@ -61,7 +61,7 @@ struct NumbersLoad {
 
 struct ImprovementLoad {
   improve::ImproveOptions options{};
-  bool split_corners = false;
+  std::optional<bool> split_corners{};      ///< fill::FillOptions::split_corners.
   std::vector<fill::KernelKind> kernels{};  ///< Shape (num_subdomains), as the case wants them.
 
   static auto fields(auto& self)

@@ -107,7 +107,7 @@ class Sampler {
                                          cut_.levels.limited(set.levels));
     RunOutline outline =
         outline_run(cut, run_.kernels, 0, outline_.files, run_.resolved.improve.seams);
-    if (run_.resolved.fill.split_corners) outline.divide_corners();
+    if (divides_corners(run_.resolved.fill, run_.kernels)) outline.divide_corners();
     own_.times.clear();
     fill(set, cut, outline);
     note_work(set, outline);

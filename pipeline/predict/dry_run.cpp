@@ -50,7 +50,7 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
   std::vector<subdomain::SubdomainRange> files;
   all_or_none(context.comm, [&] { files = output_ranges(run, options); });
   RunOutline outline = outline_run(cut, run.kernels, run.splits, files, run.resolved.improve.seams);
-  if (run.resolved.fill.split_corners) outline.divide_corners();
+  if (divides_corners(run.resolved.fill, run.kernels)) outline.divide_corners();
   load_mesh(shared.message, context);
   prepare.finish("");
 

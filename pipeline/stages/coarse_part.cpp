@@ -184,6 +184,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
       comm::on_root(context.comm, [&] { return subdomain::size_field_content(given.size); });
   require_same_run(run, options.state, context);
   run.resolved = resolve_size(given, context);
+  run.resolved.fill = config::resolved_fill(given, !options.only_subdomains.empty());
   if (auto kept = kept_coarse_mesh(options.state, context)) {
     run.planes = std::move(kept->planes);
     run.coarse = std::move(kept->coarse);

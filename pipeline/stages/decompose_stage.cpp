@@ -23,42 +23,24 @@
 namespace tessera::pipeline {
 namespace {
 
-// A job of this size takes half a second and about 100 MB.
+// A job that subdivides so many takes half a second and about 100 MB.
 constexpr double kAutoSubdividedTets = 5e5;
 
 // A job that splits so many takes one to two seconds and about 450 MB.
 constexpr double kMostSplitTets = 2e6;
 
-// Our optimiser fills so many in 70 ms. More subdomains have more seams, which cost as much again;
-// fewer leave ranks without work.
-constexpr double kAutoOptimizedTets = 5e4;
-constexpr double kLeastOptimized = 8.0;
-
-// How many subdomains "auto" wants where NETGEN fills none: its own skins want few seams, and
-// decompose() knows about that. Subdivision wants jobs that fit in memory.
-std::optional<double> number_without_netgen(const std::vector<fill::KernelKind>& kernels,
-                                            double num_tets, double num_filled)
-{
-  const auto is_netgen = [](fill::KernelKind kernel) { return kernel == fill::KernelKind::netgen; };
-  if (are_counts_known(kernels)) return std::ceil(num_tets / kAutoSubdividedTets);
-  if (std::ranges::any_of(kernels, is_netgen)) return std::nullopt;
-  return std::max(std::ceil(num_filled / kAutoOptimizedTets), kLeastOptimized);
-}
-
+// What "auto" means for the kernels. Subdivision wants jobs that fit in memory, the others few
+// seams.
 decompose::DecomposeOptions options_of(const RunResult& run,
-                                       const std::vector<fill::KernelKind>& kernels,
-                                       const std::vector<double>& weights)
+                                       const std::vector<fill::KernelKind>& kernels)
 {
   decompose::DecomposeOptions options = run.resolved.decompose;
   options.parts = run.resolved.output.parts;
-  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-  if (run.splits > 0) options.least = static_cast<LocalIndex>(std::ceil(total / kMostSplitTets));
-  const auto number = number_without_netgen(kernels, total, std::ldexp(total, -3 * run.splits));
-  if (options.subdomains > 0 || !number) return options;
-  const double for_parts = 1.0 * decompose::kAutoSubdomainsAPart * options.parts;
-  const auto most = static_cast<double>(weights.size());
-  options.subdomains =
-      static_cast<int>(std::clamp(std::max({*number, for_parts, 1.0 * options.least}), 1.0, most));
+  if (are_counts_known(kernels)) options.tets_a_subdomain = kAutoSubdividedTets;
+  if (run.splits > 0) {
+    options.tets_a_subdomain =
+        std::min(std::ldexp(options.tets_a_subdomain, 3 * run.splits), kMostSplitTets);
+  }
   return options;
 }
 
@@ -79,7 +61,7 @@ decompose::DecomposeResult cut(const RunResult& run)
   const std::vector<double> weights = weights_of(run);
   const auto partitioner = decompose::make_metis_partitioner();
   decompose::DecomposeResult result = decompose::decompose(
-      coarse, options_of(run, kernels, weights), weights, *partitioner, run.coarse.tet_part);
+      coarse, options_of(run, kernels), weights, *partitioner, run.coarse.tet_part);
   decompose::validate(coarse, result.decomposition);
   return result;
 }

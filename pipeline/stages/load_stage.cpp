@@ -61,10 +61,11 @@ void load_numbers(const std::vector<number::PieceCounts>& counts, const std::str
   load_everywhere("numbers", load_numbers_message(counts, length_unit, options), context);
 }
 
-void load_improvement(const improve::ImproveOptions& options, bool split_corners,
-                      const std::vector<fill::KernelKind>& kernels, RunContext& context)
+void load_improvement(const config::Case& run_case, const std::vector<fill::KernelKind>& kernels,
+                      RunContext& context)
 {
-  load_everywhere("improvement", load_improvement_message(options, split_corners, kernels),
+  load_everywhere("improvement",
+                  load_improvement_message(run_case.improve, run_case.fill.split_corners, kernels),
                   context);
 }
 

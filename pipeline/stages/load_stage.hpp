@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "tessera/base/shared_bytes.hpp"
-#include "tessera/fill/options.hpp"
-#include "tessera/improve/options.hpp"
+#include "tessera/config/case.hpp"
 #include "tessera/io/options.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/number/id_layout.hpp"
@@ -26,8 +25,8 @@ void load_numbers(const std::vector<number::PieceCounts>& counts, const std::str
                   const io::OutputOptions& options, RunContext& context);
 
 /// @param[in] kernels Shape (num_subdomains), as the case wants them.
-void load_improvement(const improve::ImproveOptions& options, bool split_corners,
-                      const std::vector<fill::KernelKind>& kernels, RunContext& context);
+void load_improvement(const config::Case& run_case, const std::vector<fill::KernelKind>& kernels,
+                      RunContext& context);
 
 /// @brief What the refine jobs start from.
 void load_refinement(const RefineSettings& settings, const io::OutputOptions& options,

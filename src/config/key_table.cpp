@@ -164,8 +164,9 @@ constexpr Key kKeys[] = {
      .meaning = "Wanted number of subdomains K, never a function of the number of ranks. A "
                 "request: there is at least one for each material, at most one for each coarse "
                 "tet, and repair may split some.",
-     .reason = "\"auto\" keeps subdomains large enough for good tets at their seams, at least "
-               "about 100 coarse tets each"},
+     .reason = "\"auto\" is one for each 50,000 predicted tets, for each 500,000 where all are "
+               "subdivided, and at least eight: more of them have more seams, and fewer leave "
+               "ranks without work"},
 
     {.name = "decompose.method",
      .rule = word_rule([](Case& c) -> decompose::Method& { return c.decompose.method; }),
@@ -198,10 +199,11 @@ constexpr Key kKeys[] = {
      .rule = word_rule([](Case& c) -> fill::KernelKind& { return c.fill.kernel; }),
      .meaning =
          "What turns a subdomain into tets: \"subdivide\" splits each of its coarse tets into 8^L; "
-         "\"netgen\" begins with these and lets NETGEN optimise them; \"optimize\" makes them "
-         "better with our own optimiser, which is young.",
-     .reason = "subdivision keeps the shapes of the coarse tets: on shaft the mean ratio is 0.75 "
-               "with it and 0.87 with NETGEN"},
+         "\"optimize\" makes these better with our own optimiser; \"netgen\" lets NETGEN swap "
+         "their "
+         "edges and faces before, and mesh the subdomain anew where they are folded.",
+     .reason = "it fills what the others cannot, and its meshes are as good as any; \"optimize\" "
+               "takes two thirds of the time; subdivision keeps the shapes of the coarse tets"},
     {.name = "fill.levels",
      .rule =
          IntegerRule{[](Case& c) -> int& { return c.fill.levels; }, 1, fill::kAllLevels, "auto"},
@@ -209,17 +211,21 @@ constexpr Key kKeys[] = {
          "On how many of the refine.levels subdomains are filled, by \"netgen\" or "
          "\"optimize\", and seams improved. For the others tets are split into eight and "
          "smoothed, which is many times as fast. More than refine.levels is all of them. "
-         "\"auto\" leaves two for the split, but fills on two at least. Where edges have levels "
-         "of their own, fewer are left for the split if it would make a tenth more tets.",
-     .reason = "all levels: what was filled is what comes out"},
+         "\"auto\" leaves two for the split, but fills on two at least; with output.order = 2 it "
+         "is "
+         "all. Where edges have levels of their own, fewer are left for the split if it would "
+         "make a tenth more tets.",
+     .reason = "from three levels on, the split mesh is better in mean and 1st percentile, and "
+               "comes many times as fast"},
     {.name = "fill.split_corners",
-     .rule = FlagRule{[](Case& c) -> bool& { return c.fill.split_corners; }},
+     .rule = SwitchRule{[](Case& c) -> std::optional<bool>& { return c.fill.split_corners; }},
      .meaning = "Whether no tet may have more than one face on the geometry. Solvers want that: "
                 "all four corners of such a tet can be on the boundary, and OpenFOAM's checkMesh "
-                "-allGeometry calls it an error. Our own optimiser then goes over what NETGEN has "
-                "filled, and over the seams. Excludes --only-subdomains.",
-     .reason = "not every solver needs it, and what is subdivided can then be written only after "
-               "all of it was made"},
+                "calls it under-determined. \"auto\": yes for \"netgen\" and \"optimize\"; for "
+                "\"subdivide\" only if output.formats has OpenFOAM's. true excludes "
+                "--only-subdomains.",
+     .reason = "it costs 0.003 of the mean ratio at most; what is subdivided can then be written "
+               "only after all of it was made"},
     {.name = "fill.timeout_s",
      .rule = RealRule{[](Case& c) -> double& { return c.fill.timeout_s; }, 0.0, Bound::inclusive,
                       kHuge, Bound::inclusive},
@@ -238,9 +244,9 @@ constexpr Key kKeys[] = {
          "running away, or wants more subdomains"},
     {.name = "fill.optimize_steps",
      .rule = IntegerRule{[](Case& c) -> int& { return c.fill.optimize_steps; }, 0, 100},
-     .meaning = "NETGEN's rounds of optimisation of a fill.",
-     .reason = "on shaft (158 k tets) 1 round gave a mean ratio of 0.870 and 2 gave 0.883 in "
-               "double the time"},
+     .meaning = "NETGEN's rounds in a fill: of swaps where it begins with tets, of all its steps "
+                "where it meshes a subdomain anew.",
+     .reason = "our own optimiser goes over the tets afterwards, so a second round gains nothing"},
     {.name = "fill.grading",
      .rule = RealRule{[](Case& c) -> double& { return c.fill.grading; }, 0.0, Bound::exclusive, 1.0,
                       Bound::inclusive},
@@ -252,15 +258,13 @@ constexpr Key kKeys[] = {
 
     {.name = "improve.seams",
      .rule = FlagRule{[](Case& c) -> bool& { return c.improve.seams; }},
-     .meaning = "Whether NETGEN optimises the tets around the seams between subdomains once more, "
+     .meaning = "Whether the tets around the seams between subdomains are optimised once more, "
                 "across the seams. What is subdivided stays as it is.",
-     .reason = "on shaft the mean ratio is 0.870 with 1 subdomain; with 64 it is 0.844 without and "
-               "0.865 with improvement"},
+     .reason = "so the mesh is as good with 64 subdomains as with one"},
     {.name = "improve.rounds",
      .rule = IntegerRule{[](Case& c) -> int& { return c.improve.rounds; }, 1, 10},
-     .meaning = "NETGEN's rounds of optimisation around a seam.",
-     .reason = "one round takes 1.4 to 1.9 times as long as the fill itself on shaft with 64 "
-               "subdomains"},
+     .meaning = "Rounds of optimisation around a seam.",
+     .reason = "a fill has one round too"},
 
     {.name = "quality.min_dihedral_deg",
      .rule = RealRule{[](Case& c) -> double& { return c.quality.min_dihedral_deg; }, 0.0,

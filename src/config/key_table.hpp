@@ -48,6 +48,11 @@ struct FlagRule {
   bool& (*field)(Case&);
 };
 
+/// @brief A flag, or "auto" for none.
+struct SwitchRule {
+  std::optional<bool>& (*field)(Case&);
+};
+
 struct PathRule {
   std::filesystem::path& (*field)(Case&);
 };
@@ -84,8 +89,8 @@ struct WordListRule {
   bool (*set)(Case&, std::span<const std::string_view>);
 };
 
-using Rule = std::variant<RealRule, IntegerRule, FlagRule, PathRule, TripleRule, NumberListRule,
-                          WordRule, TextRule, WordListRule>;
+using Rule = std::variant<RealRule, IntegerRule, FlagRule, SwitchRule, PathRule, TripleRule,
+                          NumberListRule, WordRule, TextRule, WordListRule>;
 
 /// @brief The rule of a field of an enumeration with words.
 /// @param[in] field Captureless; from a Case& to a reference to the member.

@@ -273,7 +273,7 @@ void check_required(const Case& loaded, const std::string& where)
 void check_order(const Case& loaded, const std::string& where)
 {
   if (loaded.output.order == 1 || loaded.fill.levels >= loaded.refine.levels) return;
-  if (loaded.fill.levels == fill::kAllLevels) return;
+  if (loaded.fill.levels == 0 || loaded.fill.levels == fill::kAllLevels) return;
   fail(where,
        "output.order = 2 excludes fill.levels below refine.levels; leave out fill.levels, so that "
        "subdomains are filled on all levels");

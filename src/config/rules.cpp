@@ -14,6 +14,8 @@
 namespace tessera::config {
 namespace {
 
+constexpr std::string_view kAuto = "auto";  // Of SwitchRule.
+
 template <class... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
@@ -64,6 +66,15 @@ bool assign_to(const FlagRule& rule, const Value& value, Case& into)
   const auto* flag = std::get_if<bool>(&value.data);
   if (flag == nullptr) return false;
   rule.field(into) = *flag;
+  return true;
+}
+
+bool assign_to(const SwitchRule& rule, const Value& value, Case& into)
+{
+  const auto* flag = std::get_if<bool>(&value.data);
+  const auto* text = std::get_if<std::string>(&value.data);
+  if (flag == nullptr && (text == nullptr || *text != kAuto)) return false;
+  rule.field(into) = flag == nullptr ? std::nullopt : std::optional(*flag);
   return true;
 }
 
@@ -198,6 +209,7 @@ std::string allowed(const Rule& rule)
             return fmt::format("a whole number from {} to {}{}", integer.low, integer.high, word);
           },
           [](const FlagRule&) { return std::string("true or false"); },
+          [](const SwitchRule&) { return std::string("true, false or ") + toml_string(kAuto); },
           [](const PathRule&) { return std::string("a path in quotes, not empty"); },
           [](const TripleRule&) { return std::string("a list of three numbers"); },
           [](const NumberListRule&) {
@@ -252,6 +264,11 @@ std::optional<std::string> toml_value(const Rule& rule, const Case& from)
             return is_given ? Text(fmt::to_string(value)) : Text();
           },
           [&](const FlagRule& flag) { return Text(flag.field(copy) ? "true" : "false"); },
+          [&](const SwitchRule& choice) {
+            const std::optional<bool> value = choice.field(copy);
+            if (!value) return Text(toml_string(kAuto));
+            return Text(*value ? "true" : "false");
+          },
           [&](const PathRule& path) {
             return path.field(copy).empty() ? Text() : Text(path_value(path.field(copy)));
           },

@@ -134,6 +134,8 @@ std::vector<KnownKey> known_keys()
       entry.words.assign(word->words.begin(), word->words.end());
     } else if (std::holds_alternative<FlagRule>(key.rule)) {
       entry.words = {"true", "false"};
+    } else if (std::holds_alternative<SwitchRule>(key.rule)) {
+      entry.words = {"true", "false", "auto"};
     }
   }
   return known;

@@ -2,6 +2,7 @@
 #include "tessera/decompose/decompose.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <string>
@@ -41,12 +42,11 @@ LocalIndex automatic_number(const mesh::CoarseMesh& mesh, std::span<const double
                             const DecomposeOptions& options)
 {
   const double fine_tets = std::accumulate(tet_weight.begin(), tet_weight.end(), 0.0);
-  const double by_fine_tets =
-      std::min(fine_tets / kAutoFineTets, static_cast<double>(mesh.num_tets()));
-  const LocalIndex by_coarse_tets = mesh.num_tets() / kAutoCoarseTets;
-  const LocalIndex number = std::min(by_coarse_tets, static_cast<LocalIndex>(by_fine_tets));
-  const LocalIndex wanted = std::max({options.least, number, kAutoSubdomainsAPart * options.parts});
-  return std::clamp(wanted, 1, mesh.num_tets());
+  const double by_tets = std::ceil(fine_tets / options.tets_a_subdomain);
+  const auto most = static_cast<double>(mesh.num_tets());
+  const LocalIndex least = std::max(options.least, kAutoSubdomainsAPart * options.parts);
+  return std::clamp(std::max(static_cast<LocalIndex>(std::min(by_tets, most)), least), 1,
+                    mesh.num_tets());
 }
 
 void measure(const TetGraph& graph, const mesh::Decomposition& decomposition,

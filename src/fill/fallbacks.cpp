@@ -10,6 +10,11 @@
 
 namespace tessera::fill {
 
+bool splits_corners(const FillOptions& options, KernelKind kernel)
+{
+  return options.split_corners.value_or(kernel != KernelKind::subdivide);
+}
+
 int fill_levels(const FillOptions& options, int levels)
 {
   constexpr int kSplitByItself = 2;
@@ -43,7 +48,7 @@ std::vector<FillTry> tries_of(const FillOptions& options, KernelKind kernel)
 std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind kernel)
 {
   std::vector<FillTry> tries = tries_of(options, kernel);
-  for (FillTry& how : tries) how.split_corners = options.split_corners;
+  for (FillTry& how : tries) how.split_corners = splits_corners(options, kernel);
   return tries;
 }
 

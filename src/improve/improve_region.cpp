@@ -39,12 +39,12 @@ std::string refusal(const ShapeSummary& before, const ShapeSummary& after)
   return {};
 }
 
-RegionOutcome improve_region(const RegionMesh& mesh, const Optimizer& optimizer,
-                             const OptimizeSettings& settings, const MeasureShapes& measure)
+RegionOutcome improve_region(const RegionMesh& mesh, const Optimizer& optimizer, int rounds,
+                             const MeasureShapes& measure)
 {
   const TetMesh old{mesh.vertex_xyz, mesh.tet_vertices};
   TetMesh tets = optimizer.optimize(
-      {old, mesh.num_fixed(), mesh.triangle_vertices, mesh.triangle_outside}, settings);
+      {old, mesh.num_fixed(), mesh.triangle_vertices, mesh.triangle_outside}, rounds);
   static_cast<void>(check_tets(mesh, tets));
   RegionOutcome outcome;
   outcome.num_splits = split_disputed(mesh, tets);

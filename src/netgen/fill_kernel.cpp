@@ -11,8 +11,8 @@
 #include "tessera/base/vec3.hpp"
 #include "tessera/netgen/factory.hpp"
 
+#include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
-#include "netgen/optimize_tets.hpp"
 #include "netgen/skin_mesh.hpp"
 
 namespace tessera::netgen {
@@ -122,14 +122,10 @@ void set_sizes(::netgen::Mesh& mesh, const FillInput& input, double grading)
   }
 }
 
-// NETGEN's steps for tets that are there: s and t swap, m smooths, c combines.
-//
-// Mean and 1st percentile of the mean ratio, smallest angle and time on shaft (L = 2, 1 subdomain):
-//   as subdivided   0.751, 0.471, 7.0 deg
-//   stm             0.821, 0.599, 11.9 deg, 3.0 s
-//   these           0.870, 0.675, 19.4 deg, 7.7 s
-//   twice these     0.883, 0.695, 20.7 deg, 14.6 s
-constexpr const char* kStepsForStart = "stmcstmstm";
+// NETGEN's step for tets that are there: it swaps edges and faces. Our own optimiser goes over what
+// comes of it, in a tenth of the time that NETGEN's other steps take; docs/decisions.md has what
+// each of them gave.
+constexpr const char* kStepsForStart = "s";
 
 ::netgen::MeshingParameters parameters_of(const FillInput& input, const KernelSettings& settings)
 {
@@ -161,8 +157,14 @@ class FillKernel final : public fill::Kernel {
  private:
   static OrderedTets improve(const FillInput& input, NetgenSession& session)
   {
-    return optimize_tets(input.start.vertex_xyz, input.start.tet_vertices, input.triangle_vertices,
-                         num_skin_vertices(input), session);
+    const auto num_vertices = static_cast<LocalIndex>(input.start.vertex_xyz.size() / 3);
+    ::netgen::Mesh mesh;
+    add_surface(mesh, input.start.vertex_xyz, input.triangle_vertices,
+                point_order(num_vertices, 0));
+    add_tets(mesh, input.start.tet_vertices);
+    ::netgen::OptimizeVolume(session.parameters(), mesh);
+    mesh.Compress();
+    return tets_of(mesh, point_order(num_skin_vertices(input), 0));
   }
 
   static OrderedTets mesh_skin(const FillInput& input, const KernelSettings& settings,

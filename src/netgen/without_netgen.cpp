@@ -44,8 +44,6 @@ std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& /*m
 
 std::unique_ptr<fill::Kernel> make_fill_kernel() { refuse(); }
 
-std::unique_ptr<improve::Optimizer> make_optimizer() { refuse(); }
-
 bool skin_overlaps(const fill::FillInput& /*skin*/) { refuse(); }
 
 std::string netgen_version() { return "none"; }

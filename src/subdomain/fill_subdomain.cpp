@@ -10,11 +10,11 @@
 #include "tessera/fill/size_samples.hpp"
 #include "tessera/fill/subdivide.hpp"
 #include "tessera/optimize/optimize.hpp"
-#include "tessera/quality/tet_quality.hpp"
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
 #include "subdomain/boundary_triangles.hpp"
+#include "subdomain/piece_schedule.hpp"
 
 namespace tessera::subdomain {
 namespace {
@@ -72,11 +72,8 @@ void optimize_tets(const PartitionedMesh& cut, const fill::FillTry& how, RawFill
 {
   optimize::TetMesh tets{.vertex_xyz = std::move(raw.tets.vertex_xyz),
                          .tet_vertices = std::move(raw.tets.tet_vertices)};
-  optimize::Schedule schedule = optimize::standard_schedule();
-  if (how.split_corners) {
-    tets.outer_triangles = outer_triangles(raw.skin, cut.skeleton);
-    schedule.steps.insert(schedule.steps.begin(), optimize::Step::divide);
-  }
+  optimize::Schedule schedule = piece_schedule(how.split_corners);
+  if (how.split_corners) tets.outer_triangles = outer_triangles(raw.skin, cut.skeleton);
   if (how.kernel == fill::KernelKind::subdivide) {
     tets.vertex_fixed.assign(tets.vertex_xyz.size() / 3, 1);
     schedule.steps = optimize::parse_steps("dmmww");
@@ -84,45 +81,6 @@ void optimize_tets(const PartitionedMesh& cut, const fill::FillTry& how, RawFill
   const bool may_be_folded = how.kernel == fill::KernelKind::optimize;
   optimize::OptimizeResult better = optimize::optimize(tets, schedule, {.untangle = may_be_folded});
   raw.tets = {std::move(better.vertex_xyz), std::move(better.tet_vertices)};
-}
-
-// The smallest angle of each tet.
-std::vector<double> angles_deg(const fill::FillOutput& tets)
-{
-  std::vector<double> angles;
-  for (std::size_t t = 0; t < tets.tet_vertices.size(); t += 4) {
-    quality::TetCorners corners{};
-    for (std::size_t c = 0; c < 4; ++c) {
-      const double* const p = &tets.vertex_xyz[3 * at(tets.tet_vertices[t + c])];
-      corners[c] = {p[0], p[1], p[2]};
-    }
-    angles.push_back(quality::angle_deg(quality::shape_of(corners).largest_cosine));
-  }
-  return angles;
-}
-
-// Puts vertices into the worst tets that NETGEN leaves, as across a thin wall, where tets have four
-// corners on the skin. Beside a needle of the skin nothing gets much better: then all stays. So it
-// does where the skin has far too long edges for its walls.
-void mend_worst_tets(const PartitionedMesh& cut, RawFill& raw)
-{
-  constexpr double kPoor_deg = 8.0;      // That a fill gets another try for.
-  constexpr std::ptrdiff_t kFewOf = 10;  // Tets for each poor one.
-  constexpr double kMendBelow = 0.35;    // Mean ratio.
-  constexpr double kLeastGain = 1.1;     // Of the smallest angle.
-  if (raw.tets.tet_vertices.empty() || !fill::all_positive(raw.tets)) return;
-  const std::vector<double> before = angles_deg(raw.tets);
-  const auto num_poor = std::ranges::count_if(before, [](double a) { return a < kPoor_deg; });
-  if (num_poor == 0 || kFewOf * num_poor > std::ssize(before)) return;
-  optimize::OptimizeResult result = optimize::optimize(
-      {.vertex_xyz = raw.tets.vertex_xyz,
-       .tet_vertices = raw.tets.tet_vertices,
-       .outer_triangles = outer_triangles(raw.skin, cut.skeleton)},
-      {.steps = optimize::parse_steps("iwwsiwwsiww"), .insert_below = kMendBelow});
-  fill::FillOutput mended{std::move(result.vertex_xyz), std::move(result.tet_vertices)};
-  if (std::ranges::min(angles_deg(mended)) > kLeastGain * std::ranges::min(before)) {
-    raw.tets = std::move(mended);
-  }
 }
 
 // What NETGEN makes of the skin alone.
@@ -148,15 +106,26 @@ RawFill filled_by_kernel(const PartitionedMesh& cut, const refine::RefineContext
   return start(cut, refine, subdomain, how.settings, netgen);
 }
 
+// Our optimiser goes over all but children that stay as they are. What NETGEN leaves inverted is
+// for the check, and so for the next try.
+bool is_optimized(const fill::FillTry& how, const RawFill& raw)
+{
+  switch (how.kernel) {
+    case fill::KernelKind::optimize:
+      return true;
+    case fill::KernelKind::netgen:
+      return fill::all_positive(raw.tets);
+    case fill::KernelKind::subdivide:
+      return how.split_corners && fill::all_positive(raw.tets);
+  }
+  return false;
+}
+
 RawFill raw_fill(const PartitionedMesh& cut, const refine::RefineContext& refine,
                  LocalIndex subdomain, const fill::FillTry& how, const fill::Kernel& netgen)
 {
   RawFill raw = filled_by_kernel(cut, refine, subdomain, how, netgen);
-  if (how.kernel == fill::KernelKind::optimize
-      || (how.split_corners && fill::all_positive(raw.tets))) {
-    optimize_tets(cut, how, raw);
-  }
-  if (how.kernel == fill::KernelKind::netgen) mend_worst_tets(cut, raw);
+  if (is_optimized(how, raw)) optimize_tets(cut, how, raw);
   return raw;
 }
 

@@ -31,10 +31,8 @@ RegionRecord improve_tets(const improve::RegionMesh& mesh, int rounds,
   if (mesh.num_tets() == 0) {
     record.reason = "other regions have all its tets";
   } else {
-    improve::OptimizeSettings settings;
-    settings.rounds = rounds;
     improve::RegionOutcome outcome =
-        improve::improve_region(mesh, optimizer, settings, measure_shapes);
+        improve::improve_region(mesh, optimizer, rounds, measure_shapes);
     record.is_improved = outcome.is_accepted;
     record.reason = std::move(outcome.reason);
     record.updates = std::move(outcome.updates);

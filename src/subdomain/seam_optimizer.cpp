@@ -7,6 +7,8 @@
 
 #include "tessera/optimize/optimize.hpp"
 
+#include "subdomain/piece_schedule.hpp"
+
 namespace tessera::subdomain {
 namespace {
 
@@ -15,15 +17,14 @@ class SeamOptimizer final : public improve::Optimizer {
   explicit SeamOptimizer(bool split_corners) : split_corners_(split_corners) {}
 
   // The fixed vertices are those of the boundary and come first; the optimiser keeps their order.
-  [[nodiscard]] improve::TetMesh optimize(
-      const improve::OptimizeInput& input,
-      const improve::OptimizeSettings& /*settings*/) const override
+  [[nodiscard]] improve::TetMesh optimize(const improve::OptimizeInput& input,
+                                          int rounds) const override
   {
     optimize::OptimizeResult better = optimize::optimize(
         {.vertex_xyz = input.tets.vertex_xyz,
          .tet_vertices = input.tets.tet_vertices,
          .outer_triangles = split_corners_ ? outer_triangles(input) : std::vector<LocalIndex>{}},
-        optimize::standard_schedule());
+        piece_schedule(false, rounds));
     return {std::move(better.vertex_xyz), std::move(better.tet_vertices)};
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Quality of the tets at the seams before and after they are improved, phase by phase.
 //
-//   improve_bench [--layers=N] [--steps=STEPS]... [--rounds=N] [--fill-steps=N] [--check]
-//                 LEVELS SUBDOMAINS_A_MATERIAL MODEL=MAX_SIZE...
+//   improve_bench [--layers=N] [--rounds=N] [--fill-steps=N] [--check] LEVELS SUBDOMAINS_A_MATERIAL
+//   MODEL=MAX_SIZE...
 //
 // Each model is cut, filled and improved with the settings given; one line a state: number of tets,
 // then mean, 1st percentile and minimum of the mean ratio and the smallest dihedral angle, of all
@@ -28,6 +28,7 @@
 #include "tessera/quality/statistics.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
+#include "tessera/subdomain/seam_optimizer.hpp"
 
 #include "support/piece_sets.hpp"
 
@@ -44,8 +45,6 @@ struct Settings {
   int layers = improve::kDefaultLayers;
   bool with_check = false;
   int rounds = 1;
-  double error_power = improve::OptimizeSettings{}.error_power;
-  std::vector<std::string> steps{};  // One run each.
 };
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -117,15 +116,13 @@ void require_sound(const std::vector<mesh::Piece>& pieces, double volume)
 
 // Runs the three phases on copies of the filled pieces.
 void print_phases(const improve::SeamRegions& regions, const Settings& settings,
-                  const std::string& steps, std::vector<mesh::Piece> pieces)
+                  std::vector<mesh::Piece> pieces)
 {
   const double volume = testing::volume_of(pieces);
-  const auto optimizer = netgen::make_optimizer();
+  const auto optimizer = subdomain::make_seam_optimizer(false);
   testing::ImproveSetup setup{*optimizer};
   setup.layers = settings.layers;
-  setup.settings.steps = steps;
-  setup.settings.rounds = settings.rounds;
-  setup.settings.error_power = settings.error_power;
+  setup.rounds = settings.rounds;
   for (int phase = 0; phase < improve::kNumPhases; ++phase) {
     if (regions.first_of_phase(phase) == regions.first_of_phase(phase + 1)) continue;
     const double start = cpu_seconds();
@@ -152,11 +149,7 @@ void print_table(const testing::Subject& subject, const Settings& settings)
   print_state("filled", pieces, cpu_seconds() - start);
   std::printf("\n");
   const improve::SeamRegions regions(cut.skeleton, cut.decomposition);
-  for (const std::string& steps : settings.steps) {
-    std::printf("  steps %s, %d layers, power %g\n", steps.c_str(), settings.layers,
-                settings.error_power);
-    print_phases(regions, settings, steps, pieces);
-  }
+  print_phases(regions, settings, pieces);
 }
 
 // The value of an option "--name=value"; false if `argument` is another one.
@@ -175,12 +168,8 @@ Settings read_options(int argc, char** argv, int& next)
     const std::string_view argument = argv[next];
     if (is_option(argument, "--layers=", value))
       settings.layers = std::stoi(value);
-    else if (is_option(argument, "--steps=", value))
-      settings.steps.push_back(value);
     else if (is_option(argument, "--rounds=", value))
       settings.rounds = std::stoi(value);
-    else if (is_option(argument, "--power=", value))
-      settings.error_power = std::stod(value);
     else if (is_option(argument, "--fill-steps=", value))
       settings.fill_steps = std::stoi(value);
     else if (argument == "--check")
@@ -188,7 +177,6 @@ Settings read_options(int argc, char** argv, int& next)
     else
       throw ConfigError("unknown option " + std::string(argument));
   }
-  if (settings.steps.empty()) settings.steps.push_back(improve::OptimizeSettings{}.steps);
   return settings;
 }
 

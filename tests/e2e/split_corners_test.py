@@ -16,6 +16,7 @@ os.environ["TESSERA"] = program.PROGRAM
 import tessera  # noqa: E402  From the sources.
 
 SPLIT = program.sets("fill.split_corners=true")
+KEEP = program.sets("fill.split_corners=false")
 
 # Along its edge tets have a face on the plane and one on the sphere.
 HALF_BALL = "algebraic3d\nsolid half = sphere (0, 0, 0; 1) and plane (0, 0, 0; 0, 0, 1);\ntlo half;\n"
@@ -38,7 +39,7 @@ class SplitCorners(program.ProgramTest):
 
     def made(self, geometry, folder, *values, split=True, ranks=None):
         case = self.write_case(geometry=f"{geometry}.geo", max_size=0.6, subdomains=6)
-        return self.mesh(case, folder, *program.sets(*values), *(SPLIT if split else []), ranks=ranks)
+        return self.mesh(case, folder, *program.sets(*values), *(SPLIT if split else KEEP), ranks=ranks)
 
     def test_by_each_kernel(self):
         for kernel in ("subdivide", "netgen", "optimize"):
@@ -58,6 +59,19 @@ class SplitCorners(program.ProgramTest):
                 for key, loss in (("mean", 0.01), ("p01", 0.03)):
                     shapes = [figures["quality"]["mean_ratio"][key] for figures in (before, after)]
                     self.assertGreater(shapes[1], shapes[0] - loss, key)
+
+    def test_auto_leaves_alone_what_is_subdivided_but_for_openfoam(self):
+        case = self.write_case(geometry="half.geo", max_size=0.6, subdomains=6)
+        foam = 'output.formats=["pvtu", "openfoam-serial"]'
+        for name, keys, has_corners in (
+            ("netgen", (), False),
+            ("optimize", ("fill.kernel=optimize",), False),
+            ("subdivide", ("fill.kernel=subdivide",), True),
+            ("foam", ("fill.kernel=subdivide", foam), False),
+        ):
+            with self.subTest(name):
+                made = self.mesh(case, f"auto_{name}", *program.sets(*keys))
+                self.assertEqual(num_corner_tets(made) > 0, has_corners)
 
     def test_whatever_follows_the_fill(self):
         region = "size.region=[{ball={centre=[1,0,0],radius=0.2},size=0.05}]"

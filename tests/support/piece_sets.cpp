@@ -154,7 +154,7 @@ improve::RegionOutcome improve_one(const improve::SeamRegions& regions, LocalInd
         pieces[at(s)].bands[row_in(region, regions.regions_of(s, regions.phase_of(region)))]);
   }
   return improve::improve_region(improve::extract_region(bands, regions, region), setup.optimizer,
-                                 setup.settings, setup.measure);
+                                 setup.rounds, setup.measure);
 }
 
 // Gives the vertices of some coarse tets to a piece, those on the skeleton first; returns their

@@ -31,7 +31,7 @@ namespace tessera::testing {
 /// @brief How a set of pieces is improved, in this process.
 struct ImproveSetup {
   const improve::Optimizer& optimizer;
-  improve::OptimizeSettings settings{};
+  int rounds = 1;
   int layers = improve::kDefaultLayers;
   improve::MeasureShapes measure = measure_shapes;
 };

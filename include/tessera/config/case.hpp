@@ -67,6 +67,12 @@ struct Case {
 [[nodiscard]] Case parse_case(std::string_view text, const std::filesystem::path& file,
                               std::span<const std::string> overrides = {});
 
+/// @brief The options of the fill, with what other tables want in place of "auto": formats for
+/// OpenFOAM that no tet has several faces on the geometry, tets of second order that subdomains are
+/// filled on all levels. Local.
+/// @param[in] is_partial Only some subdomains are made: then no tets are divided.
+[[nodiscard]] fill::FillOptions resolved_fill(const Case& given, bool is_partial);
+
 /// @brief Throws ConfigError if coarse.defeature is above half of coarse.max_size, which is given.
 /// `where`: the case file. Local.
 void require_small_defeature(const Case& resolved, const std::string& where);

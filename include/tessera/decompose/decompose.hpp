@@ -12,14 +12,6 @@
 
 namespace tessera::decompose {
 
-/// @brief "auto" asks for at least this many coarse tets a subdomain. With fewer, most tets touch a
-/// seam, and then the quality of the seams is the quality of the mesh.
-inline constexpr LocalIndex kAutoCoarseTets = 100;
-
-/// @brief "auto" asks for at least this many predicted fine tets a subdomain: NETGEN is fastest on
-/// skins of 3 k to 15 k tets (12-14 k tets/s a core), below that the cost of a job shows.
-inline constexpr double kAutoFineTets = 3000.0;
-
 /// @brief "auto" asks for at least this many subdomains a part of the output. Parts are made of
 /// whole subdomains, and 16 of them can be shared out to within some per cent.
 inline constexpr LocalIndex kAutoSubdomainsAPart = 16;

@@ -27,7 +27,7 @@ struct FillTry {
   KernelKind kernel = KernelKind::netgen;
   FillStart start = FillStart::children;  ///< Of NETGEN; the others have no other.
   KernelSettings settings{};              ///< Of NETGEN; the others have none.
-  bool split_corners = false;             ///< FillOptions::split_corners.
+  bool split_corners = false;             ///< splits_corners().
 
   static auto fields(auto& self)
   {

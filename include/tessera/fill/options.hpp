@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@ namespace tessera::fill {
 
 /// @brief What puts tets into a skin.
 enum class KernelKind : int {
-  netgen,     ///< NETGEN, which begins with the children of the coarse tets.
+  netgen,     ///< NETGEN, which begins with the children of the coarse tets; then as `optimize`.
   subdivide,  ///< The children as they are.
   optimize,   ///< The children, made better by the module `optimize`.
 };
@@ -41,8 +42,8 @@ inline constexpr int kAllLevels = 10;
 struct FillOptions {
   KernelKind kernel = KernelKind::netgen;
   std::vector<FillRegion> regions{};  ///< In place of `kernel`; no material twice.
-  int levels = kAllLevels;  ///< Of the refinement's, >= 1: on these subdomains are filled, and
-                            ///< their tets are split for the others. 0 stands for "auto".
+  int levels = 0;  ///< Of the refinement's, >= 1: on these subdomains are filled, and their tets
+                   ///< are split for the others. 0 stands for "auto".
   double timeout_s = 0.0;   ///< CPU seconds a job, or of sleep (at most 120); 0: many times what
                             ///< its predicted tets take.
   double memory_gib = 4.0;  ///< Resident memory of a job, GiB, > 0.
@@ -50,11 +51,15 @@ struct FillOptions {
   double grading = 0.3;     ///< Growth of the size away from the skin, in (0, 1].
 
   /// Whether tets with several faces on the geometry are divided once they are filled. Then the
-  /// improvement of seams makes none.
-  bool split_corners = false;
+  /// improvement of seams makes none. None stands for "auto": see splits_corners().
+  std::optional<bool> split_corners{};
 
   friend bool operator==(const FillOptions&, const FillOptions&) = default;
 };
+
+/// @brief Whether tets of subdomains of that kernel that have several faces on the geometry are
+/// divided. "auto" leaves alone what is subdivided: its ids are known before it is made.
+[[nodiscard]] bool splits_corners(const FillOptions& options, KernelKind kernel);
 
 /// @brief How many of `levels` subdomains are filled on. "auto" leaves two for the split, but fills
 /// on two at least: measured on eleven models, the split mesh is then as good as one that was

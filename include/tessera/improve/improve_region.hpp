@@ -43,13 +43,12 @@ struct RegionOutcome {
 /// vertices. So no vertex outside the region changes its identity. Some triangles of the region's
 /// boundary face none of its pieces. A tet behind such a triangle stays where it was, so triangles
 /// on the geometry stay in their pieces. Where no subdomain may have a tet, it is split.
-/// @note Local; a pure function of its arguments. The optimiser may crash: call it in a job.
-/// @throws NetgenError, MeshError if the optimiser gives up or breaks a promise. It promises that
+/// @note Local; a pure function of its arguments. The optimiser takes a while: call it in a job.
+/// @throws MeshError if the optimiser gives up or breaks a promise. It promises that
 /// the boundary is the old one, fixed vertices have not moved, all tets are positive, the volume is
 /// the same (rel. 1e-9), and every subdomain keeps tets in the region. After an error the region
 /// keeps its old tets.
 [[nodiscard]] RegionOutcome improve_region(const RegionMesh& mesh, const Optimizer& optimizer,
-                                           const OptimizeSettings& settings,
-                                           const MeasureShapes& measure);
+                                           int rounds, const MeasureShapes& measure);
 
 }  // namespace tessera::improve

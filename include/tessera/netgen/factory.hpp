@@ -8,7 +8,6 @@
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/coarse/model_figures.hpp"
 #include "tessera/fill/kernel.hpp"
-#include "tessera/improve/optimizer.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 
@@ -63,9 +62,6 @@ void name_curves(const model::Model& model, mesh::CoarseMesh& mesh);
 
 /// @brief NETGEN's volume mesher as a fill kernel.
 [[nodiscard]] std::unique_ptr<fill::Kernel> make_fill_kernel();
-
-/// @brief NETGEN's mesh optimiser.
-[[nodiscard]] std::unique_ptr<improve::Optimizer> make_optimizer();
 
 /// @brief Whether triangles of a skin that share no edge cut each other: NETGEN cannot fill it
 /// then.

@@ -39,9 +39,8 @@ constexpr GlobalIndex kNoRim = -1;
 // Gives the tets back as they are.
 class SameTets final : public improve::Optimizer {
  public:
-  [[nodiscard]] improve::TetMesh optimize(
-      const improve::OptimizeInput& input,
-      const improve::OptimizeSettings& /*settings*/) const override
+  [[nodiscard]] improve::TetMesh optimize(const improve::OptimizeInput& input,
+                                          int /*rounds*/) const override
   {
     return input.tets;
   }

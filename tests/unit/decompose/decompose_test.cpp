@@ -192,10 +192,16 @@ TEST(Decompose, ChoosesTheNumberFromTheMeshAlone)
   const std::vector<double> heavy(static_cast<std::size_t>(mesh.num_tets()), 1000.0);
   const std::vector<double> light(heavy.size(), 8.0);
   const auto partitioner = make_metis_partitioner();
-  EXPECT_EQ(decompose(mesh, {}, heavy, *partitioner).report.num_wanted,
-            mesh.num_tets() / kAutoCoarseTets);
-  EXPECT_EQ(decompose(mesh, {}, light, *partitioner).report.num_wanted, 3);
-  EXPECT_EQ(decompose_by_metis(testing::kuhn_cube(1), 0).report.num_wanted, 1);
+  const auto wanted = [&](const DecomposeOptions& options, const std::vector<double>& weight) {
+    return decompose(mesh, options, weight, *partitioner).report.num_wanted;
+  };
+  EXPECT_EQ(wanted({.tets_a_subdomain = 1e5}, heavy), 13);  // 1296 tets of 1000.
+  EXPECT_EQ(wanted({}, heavy), 26);
+  EXPECT_EQ(wanted({}, light), kLeastAutoSubdomains);
+  EXPECT_EQ(wanted({.least = 20}, light), 20);
+  EXPECT_EQ(wanted({.parts = 2}, light), 2 * kAutoSubdomainsAPart);
+  EXPECT_EQ(wanted({.tets_a_subdomain = 1.0}, heavy), mesh.num_tets());
+  EXPECT_EQ(decompose_by_metis(testing::kuhn_cube(1), 0).report.num_wanted, 6);  // All its tets.
 }
 
 TEST(Decompose, GivesTheSameBitsEachTime)

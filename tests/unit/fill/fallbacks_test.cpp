@@ -35,6 +35,18 @@ TEST(FallbackSequence, SplitsCornersInAllTriesOrInNone)
   }
 }
 
+TEST(FallbackSequence, SplitsCornersByItselfWhereTheFillIsNotKnownBefore)
+{
+  for (const auto& [kernel, splits] : {std::pair{KernelKind::netgen, true},
+                                       {KernelKind::optimize, true},
+                                       {KernelKind::subdivide, false}}) {
+    EXPECT_EQ(splits_corners({}, kernel), splits);
+    const auto fallbacks = fallback_sequence({}, kernel);
+    EXPECT_FALSE(fallbacks.empty());
+    for (const FillTry& fallback : fallbacks) EXPECT_EQ(fallback.split_corners, splits);
+  }
+}
+
 TEST(FallbackSequence, ThenChangesOnlyTheStartThenOnlyTheOrderOfPoints)
 {
   const auto fallbacks = fallback_sequence({}, KernelKind::netgen);

@@ -70,7 +70,7 @@ void split(improve::TetMesh& mesh, const Tet& tet, std::vector<LocalIndex>& tets
 }  // namespace
 
 improve::TetMesh FlippingOptimizer::optimize(const improve::OptimizeInput& input,
-                                             const improve::OptimizeSettings&) const
+                                             int /*rounds*/) const
 {
   improve::TetMesh mesh = input.tets;
   std::vector<LocalIndex> tets;

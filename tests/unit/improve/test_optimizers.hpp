@@ -14,7 +14,7 @@ namespace tessera::testing {
 class FlippingOptimizer final : public improve::Optimizer {
  public:
   [[nodiscard]] improve::TetMesh optimize(const improve::OptimizeInput& input,
-                                          const improve::OptimizeSettings&) const override;
+                                          int /*rounds*/) const override;
 };
 
 /// @brief Gives the old tets back after some change.
@@ -25,7 +25,7 @@ class ChangingOptimizer final : public improve::Optimizer {
   explicit ChangingOptimizer(Change change) : change_(std::move(change)) {}
 
   [[nodiscard]] improve::TetMesh optimize(const improve::OptimizeInput& input,
-                                          const improve::OptimizeSettings&) const override
+                                          int /*rounds*/) const override
   {
     improve::TetMesh tets = input.tets;
     change_(tets);

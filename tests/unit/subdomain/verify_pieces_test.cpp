@@ -10,6 +10,7 @@
 
 #include "tessera/netgen/factory.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
+#include "tessera/subdomain/seam_optimizer.hpp"
 
 #include "support/filled_cube.hpp"
 #include "support/flat_model.hpp"
@@ -198,7 +199,7 @@ struct VerifyImprovedPieces : VerifyFilledPieces {
   static std::vector<mesh::Piece> improve()
   {
     const improve::SeamRegions regions(body().skeleton, body().decomposition);
-    const auto optimizer = netgen::make_optimizer();
+    const auto optimizer = make_seam_optimizer(false);
     std::vector<mesh::Piece> improved = filled_pieces();
     LocalIndex num_accepted = 0;
     for (int phase = 0; phase < improve::kNumPhases; ++phase) {

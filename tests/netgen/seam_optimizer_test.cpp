@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/subdomain/seam_optimizer.hpp"
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -79,7 +81,7 @@ improve::ShapeSummary shapes_at_seams(const std::vector<mesh::Piece>& pieces)
 std::vector<mesh::Piece> improve_all(const Body& body, std::vector<mesh::Piece> pieces)
 {
   const improve::SeamRegions regions(body.skeleton, body.decomposition);
-  const auto optimizer = netgen::make_optimizer();
+  const auto optimizer = subdomain::make_seam_optimizer(false);
   const testing::ImproveSetup setup{*optimizer};
   const double volume = testing::volume_of(pieces);
   for (int phase = 0; phase < improve::kNumPhases; ++phase) {
@@ -104,25 +106,25 @@ void expect_improved(const Body& body, int levels)
   EXPECT_GE(after.min_mean_ratio, std::min(before.min_mean_ratio, 0.35));
 }
 
-TEST(Optimizer, MakesSeamsOfOctantsBetter)
+TEST(SeamOptimizer, MakesSeamsOfOctantsBetter)
 {
   const mesh::CoarseMesh cube = testing::kuhn_cube(4);
   expect_improved({cube, testing::octants(cube)}, 1);
 }
 
-TEST(Optimizer, KeepsTheInterfaceOfTwoMaterials)
+TEST(SeamOptimizer, KeepsTheInterfaceOfTwoMaterials)
 {
   const mesh::CoarseMesh cube = testing::two_material_cube(4);
   expect_improved({cube, testing::octants(cube)}, 1);
 }
 
-TEST(Optimizer, WorksWherePiecesAreThinnerThanTheLayers)
+TEST(SeamOptimizer, WorksWherePiecesAreThinnerThanTheLayers)
 {
   const mesh::CoarseMesh cube = testing::kuhn_cube(6);
   expect_improved({cube, testing::slabs(cube, 6)}, 1);
 }
 
-TEST(Optimizer, GivesTheSameBitsAgain)
+TEST(SeamOptimizer, GivesTheSameBitsAgain)
 {
   const mesh::CoarseMesh cube = testing::kuhn_cube(2);
   const Body body(cube, testing::octants(cube));
