@@ -90,9 +90,8 @@ class CaseRun {
       require_order_possible(given, options, is_mesh());
       require_formats_possible(given, options);
       require_possible(given, options);
-      if (comm.rank() == 0) open_folder();
     });
-    comm.barrier();
+    is_there_ = on_root(comm, [&] { return open_folder(); });
     jobs.set_log_file(jobs_log());
   }
 
@@ -155,23 +154,27 @@ class CaseRun {
 
   [[nodiscard]] const char* log_name() const { return is_mesh() ? "run.log" : "dry_run.log"; }
 
-  void open_folder()
+  // Whether what is asked for seems to be there already, so that nothing may be changed.
+  bool open_folder()
   {
     if (is_resumed()) state().require_begun();
     netgen::require_model_file(given_.geometry.file);  // A mistyped name leaves no folder behind.
     io::require_compression(given_.output.compression);
+    const bool is_there = options_.existing == io::ExistingFolder::refuse && is_mesh()
+                          && has_files() && state().has_made(given_);
     // A dry run removes nothing that a run has left, and leaves nothing in the way of one.
     folder_.emplace(given_.output.directory,
-                    is_mesh() ? options_.existing : io::ExistingFolder::resume);
+                    is_mesh() && !is_there ? options_.existing : io::ExistingFolder::resume);
     std::filesystem::remove_all(sample_folder(given_.output.directory));
     io::make_own_folder(given_.output.directory / "log");
-    if (!is_mesh()) return;
+    if (!is_mesh() || is_there) return is_there;
     if (is_resumed()) state().require_same_case(given_);
     if (has_files()) {
       io::make_own_folder(given_.output.directory / "mesh");
       io::make_own_folder(given_.output.directory / "boundary");
     }
     io::write_text_atomically(given_.output.directory / "case.toml", config::to_toml(given_));
+    return false;
   }
 
   [[nodiscard]] RunState state() const
@@ -182,7 +185,7 @@ class CaseRun {
   // A run that has ended needs no more than a look at whether it is the same run.
   std::optional<MeshResult> ended_run(RunContext& context) const
   {
-    if (!is_resumed()) return std::nullopt;
+    if (!is_resumed() && !is_there_) return std::nullopt;
     const RunState state = this->state();
     const std::optional<MeshResult> ended = on_root(comm_,
                                                     [&] {
@@ -197,11 +200,16 @@ class CaseRun {
     const model::ModelSource model = run_model_stage(given_, context);
     all_or_none(comm_, [&] {
       if (comm_.rank() != 0) return;
-      state.require_same_run(
-          {hash_bytes(model.content), subdomain::size_field_content(given_.size)});
+      const InputContent input{hash_bytes(model.content),
+                               subdomain::size_field_content(given_.size)};
+      if (is_there_) return state.require_same_input(input);
+      state.require_same_run(input);
       state.clear();
     });
-    context.log.info("nothing to do: the run in {} has ended", given_.output.directory.string());
+    if (ended->status == MeshStatus::degraded) context.log.warn("degraded: {}", ended->reason);
+    context.log.info(
+        "nothing to do: the run in {} has ended, with {} tets; --overwrite makes them anew",
+        given_.output.directory.string(), ended->num_tets);
     return ended;
   }
 
@@ -326,6 +334,7 @@ class CaseRun {
   Purpose purpose_;
   const comm::Communicator& comm_;
   jobs::JobRunner& jobs_;
+  bool is_there_ = false;  // What is asked for, by a run that has ended.
   std::optional<io::OutputFolder> folder_{};
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -68,9 +68,11 @@ constexpr auto enum_words(ProgressMode /*tag*/)
 
 /// @brief What make_mesh() is told besides its case.
 struct MeshOptions {
-  std::string case_name = "case";                            ///< In messages and in report.json.
-  io::ExistingFolder existing = io::ExistingFolder::refuse;  ///< Of output.directory.
-  std::vector<LocalIndex> only_subdomains{};                 ///< Ascending; empty: all.
+  std::string case_name = "case";  ///< In messages and in report.json.
+  /// Of output.directory. A finished run of the same case, input and version is not refused: its
+  /// result counts, and nothing is made.
+  io::ExistingFolder existing = io::ExistingFolder::refuse;
+  std::vector<LocalIndex> only_subdomains{};  ///< Ascending; empty: all.
   Verbosity verbosity = Verbosity::quiet;
   ProgressMode progress = ProgressMode::automatic;  ///< Unless quiet.
   /// If set, no mesh files are written, and each finished piece is handed to this. That happens on

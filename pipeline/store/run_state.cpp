@@ -12,6 +12,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/version.hpp"
+#include "tessera/io/vtu.hpp"
 
 #include "pipeline/store/fill_record.hpp"
 
@@ -69,18 +70,43 @@ auto read_report(const std::filesystem::path& output, const Read& read)
   }
 }
 
-// The identity stands in the report when the run has ended, in a record before. Whether pieces are
-// in files does not matter for a run that has ended, since none are left: it counts as what is
-// asked for.
-std::optional<Identity> identity_of(const std::filesystem::path& output,
-                                    const std::optional<Bytes>& record, bool has_files)
+Identity identity(const InputContent& input, const std::vector<LocalIndex>& only_subdomains,
+                  bool has_files)
 {
-  if (record) return from_bytes<Identity>(*record);
+  return {record_version(), to_hex(input.model), to_hex(input.field), only_subdomains, has_files};
+}
+
+// What the report of a run that has ended says. Whether pieces are in files does not matter then,
+// since none are left: it counts as what is asked for.
+std::optional<Identity> reported_identity(const std::filesystem::path& output, bool has_files)
+{
   return read_report(output, [&](const nlohmann::json& report) {
     return Identity{record_version(report.at("version").get<std::string>()),
                     report.at("model").at("digest"),
                     report.value("size_field_digest", to_hex(Hash128{})),
                     report.at("only_subdomains").get<std::vector<LocalIndex>>(), has_files};
+  });
+}
+
+// In what the run of `now` is not that of `there`; empty if in nothing.
+std::string change(const Identity& there, const Identity& now)
+{
+  if (there.version != now.version)
+    return fmt::format("it was begun by version {}, this is {}", there.version, now.version);
+  if (there.model != now.model) return "the model file has changed";
+  if (there.field != now.field) return "the file of size.field has changed";
+  if (there.only_subdomains != now.only_subdomains)
+    return "it was begun with other --only-subdomains";
+  if (there.has_files == now.has_files) return {};
+  return now.has_files ? "its pieces were to be handed over, not to go into files"
+                       : "its mesh was to go into files";
+}
+
+// All pieces of the mesh are where it says.
+bool has_all_pieces(const std::filesystem::path& mesh_file)
+{
+  return std::ranges::all_of(io::piece_files(mesh_file), [](const std::filesystem::path& piece) {
+    return std::filesystem::is_regular_file(piece);
   });
 }
 
@@ -120,33 +146,48 @@ void RunState::require_same_case(const config::Case& given) const
   }
 }
 
+bool RunState::has_made(config::Case given) const
+{
+  std::error_code error;  // A refused --resume leaves the folder of the store, with nothing in it.
+  const std::filesystem::path records = store_folder(output_);
+  const bool is_ended =
+      (!std::filesystem::exists(records, error) || std::filesystem::is_empty(records, error))
+      && finished();
+  if (!is_ended || !is_own_file(output_ / "case.toml")) return false;
+  try {
+    const config::Case there = config::load_case(output_ / "case.toml");
+    given.output.directory = there.output.directory;  // Each may name the folder in its own way.
+    return config::to_toml(there) == config::to_toml(given)
+           && has_all_pieces(output_ / "mesh.pvtu");
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void RunState::require_same_input(const InputContent& input) const
+{
+  const auto noted = reported_identity(output_, has_files_);
+  const std::string what = noted ? change(*noted, identity(input, only_subdomains_, has_files_))
+                                 : "its report names no model that it was made of";
+  if (what.empty()) return;
+  throw OutputError(
+      fmt::format("folder {} exists and is not empty: it holds a run of the same case, but {}{}",
+                  output_.string(), what, kWayOut));
+}
+
 void RunState::require_same_run(const InputContent& input) const
 {
-  const Identity now{record_version(), to_hex(input.model), to_hex(input.field), only_subdomains_,
-                     has_files_};
-  const auto noted = identity_of(output_, store().find("run"), has_files_);
+  const Identity now = identity(input, only_subdomains_, has_files_);
+  const std::optional<Bytes> record = store().find("run");
+  const auto noted =
+      record ? from_bytes<Identity>(*record) : reported_identity(output_, has_files_);
   if (!noted) {
     clear();
     return store().put("run", to_bytes(now));
   }
-  const std::string what = fmt::format("cannot resume {}: ", output_.string());
-  if (noted->version != now.version) {
-    throw InputError(fmt::format("{}it was begun by version {}, this is {}{}", what, noted->version,
-                                 now.version, kWayOut));
-  }
-  if (noted->model != now.model)
-    throw InputError(fmt::format("{}the model file has changed{}", what, kWayOut));
-  if (noted->field != now.field)
-    throw InputError(fmt::format("{}the file of size.field has changed{}", what, kWayOut));
-  if (noted->only_subdomains != now.only_subdomains) {
-    throw InputError(fmt::format("{}it was begun with other --only-subdomains{}", what, kWayOut));
-  }
-  if (noted->has_files != now.has_files) {
-    throw InputError(what
-                     + (now.has_files ? "its pieces were to be handed over, not to go into files"
-                                      : "its mesh was to go into files")
-                     + kWayOut);
-  }
+  const std::string what = change(*noted, now);
+  if (what.empty()) return;
+  throw InputError(fmt::format("cannot resume {}: {}{}", output_.string(), what, kWayOut));
 }
 
 void RunState::keep_coarse(std::span<const std::byte> coarse) const

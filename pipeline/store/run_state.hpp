@@ -66,6 +66,14 @@ class RunState {
   /// @throws InputError naming the first line that differs.
   void require_same_case(const config::Case& given) const;
 
+  /// @brief Whether a run of this very case, limits included, has ended there with a mesh whose
+  /// pieces are all there. Its input may have changed since: see require_same_input().
+  [[nodiscard]] bool has_made(config::Case given) const;
+
+  /// @brief Refuses unless the run that has ended there had this version, input and subdomains.
+  /// @throws OutputError naming what has changed.
+  void require_same_input(const InputContent& input) const;
+
   /// @brief Notes version, input and subdomains of this run, or refuses if others are noted. If
   /// nothing sound is noted, nothing else there can be trusted, and it is removed.
   /// @throws InputError naming what has changed.

@@ -131,7 +131,7 @@ class Folder(DryRunTest):
             if file.name != ".tessera.lock":
                 self.assertEqual(file.read_bytes(), content, file)
         self.assertFalse((out / "dry_run").exists())
-        refused = self.run_program("mesh", case, "--output", "out")
+        refused = self.run_program("mesh", case, "--output", "out", "--set", "refine.levels=0")
         self.assert_refused(refused, CANNOT_WRITE, "--overwrite")
 
     def test_the_prediction_of_another_case_counts_for_nothing(self):

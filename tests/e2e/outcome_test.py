@@ -209,7 +209,8 @@ class CannotWrite(OutcomeTest):
     def test_output_folder_of_another_run(self):
         case = self.write_case()
         self.mesh(case, "out")
-        self.assert_refuses(["mesh", case, "--output", "out"], CANNOT_WRITE, "not empty", "--overwrite")
+        other = ["--set", "refine.levels=0"]
+        self.assert_refuses(["mesh", case, "--output", "out", *other], CANNOT_WRITE, "not empty", "--overwrite")
 
     def test_output_folder_cannot_be_made(self):
         case = self.write_case()

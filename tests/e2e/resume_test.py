@@ -93,6 +93,58 @@ class Refusals(program.ProgramTest):
         self.assertEqual({file: file.stat().st_mtime_ns for file in files}, files)
 
 
+class GivenTwice(program.ProgramTest):
+    """The same command once more, without --resume and --overwrite."""
+
+    def setUp(self):
+        super().setUp()
+        self.out = self.folder / "out"
+        self.case = self.write_case(levels=0)
+
+    def mesh_again(self, *arguments, ranks=None):
+        return self.run_program("mesh", self.case, "--output", "out", *arguments, ranks=ranks)
+
+    def files(self):
+        """All but the log, which goes on, and the lock."""
+        files = (file for file in self.out.glob("**/*") if file.is_file() and file.parent.name != "log")
+        return {file: file.stat().st_mtime_ns for file in files if file.name != ".tessera.lock"}
+
+    def test_the_mesh_stays_and_its_exit_code_too(self):
+        for target, code in (((), OK), (("--set", "quality.min_dihedral_deg=60"), program.DEGRADED)):
+            first = self.mesh_again(*target, "--overwrite")
+            self.assertEqual(first.code, code, first.err)
+            num_tets = json.loads((self.out / "report.json").read_text())["num_tets"]
+            files = self.files()
+            self.assertIn(self.out / "mesh.pvtu", files)
+            for ranks in (None, 3):
+                again = self.mesh_again(*target, ranks=ranks)
+                self.assertEqual(again.code, code, again.err)
+                self.assertRegex(again.out, rf"nothing to do: the run in out has ended.* {num_tets} tets.*--overwrite")
+                self.assertEqual("degraded" in again.out, code == program.DEGRADED)
+                self.assertEqual(self.files(), files)
+
+    def test_what_has_changed_is_refused(self):
+        """Case, limits, what is made of it, model, version, pieces: a run of something else is in the way."""
+        self.mesh(self.case, "out")
+        files = self.files()
+        for other in (("--set", "refine.levels=1"), ("--set", "fill.timeout_s=500"), ("--set", "output.report_html=false")):
+            self.assert_refused(self.mesh_again(*other), CANNOT_WRITE, "not empty", "--overwrite")
+        self.write("ball.geo", program.BALL.replace("; 1)", "; 1.5)"))
+        for ranks in (None, 3):
+            refused = self.mesh_again(ranks=ranks)
+            self.assert_refused(refused, CANNOT_WRITE, "model file has changed", "--overwrite")
+        self.write("ball.geo", program.BALL)
+        self.assertEqual(self.files(), files)
+        self.assertEqual(self.mesh_again().code, OK)
+        piece = next(self.out.glob("mesh/*.vtu"))
+        piece.rename(self.folder / "piece")
+        self.assert_refused(self.mesh_again(), CANNOT_WRITE, "not empty", "--overwrite")
+        (self.folder / "piece").rename(piece)
+        report = json.loads((self.out / "report.json").read_text())
+        (self.out / "report.json").write_text(json.dumps(report | {"version": "0.0.1"}))
+        self.assert_refused(self.mesh_again(), CANNOT_WRITE, "begun by version 0.0.1", "--overwrite")
+
+
 class Disk(program.ProgramTest):
     def test_too_little_space_is_seen_before_the_work(self):
         """10^11 tets, uncompressed, fit no disk that a test runs on."""

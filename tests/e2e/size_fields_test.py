@@ -339,6 +339,10 @@ class Killed(kill.RestartTest):
         outcome = self.run_program("mesh", *self.arguments, "--output", "out", "--resume", ranks=2)
         self.assert_refused(outcome, WRONG_INPUT, "size.field has changed", "--overwrite")
 
+    def repeat_refused(self):
+        outcome = self.run_program("mesh", *self.arguments, "--output", "out", ranks=2)
+        self.assert_refused(outcome, program.CANNOT_WRITE, "size.field has changed", "--overwrite")
+
     def with_another_field(self, work):
         self.field.write_text(vti(lambda p: 1.1 * along_the_bar(p)))
         self.addCleanup(self.field.write_text, vti(along_the_bar))
@@ -350,6 +354,7 @@ class Killed(kill.RestartTest):
         self.with_another_field(self.resume_refused)
         self.resume(ranks=3)
         self.with_another_field(self.resume_refused)
+        self.with_another_field(self.repeat_refused)
 
 
 if __name__ == "__main__":
