@@ -259,7 +259,8 @@ void add_info(CLI::App& app, Parsed& parsed)
 {
   CLI::App* info = app.add_subcommand("info", "Say what a file holds");
   info->add_option("FILE", parsed.info.file, "A CAD model, case or mesh")->required();
-  info->add_flag("--json", parsed.info.json, "Of a model: print JSON");
+  info->add_flag("--edges", parsed.info.edges, "Of a model: list its edges as well");
+  info->add_flag("--json", parsed.info.json, "Of a model: print JSON, with all edges");
   info->add_option("--picture", parsed.info.picture,
                    "Of a model: draw it from two sides, with the numbers of its faces")
       ->type_name("FILE.png")

@@ -65,6 +65,7 @@ struct ConvertCommand {
 /// @brief `tessera info`: say what a model, case or mesh file holds.
 struct InfoCommand {
   std::filesystem::path file{};
+  bool edges = false;                              ///< Of a model: list its edges as well.
   bool json = false;                               ///< Of a model: print JSON instead of text.
   std::optional<std::filesystem::path> picture{};  ///< Of a model: draw it into this PNG file.
 };

@@ -85,7 +85,8 @@ std::string describe_model(const InfoCommand& command, jobs::JobRunner& jobs)
     io::write_text_atomically(*command.picture,
                               {reinterpret_cast<const char*>(png.data()), png.size()});
   }
-  return command.json ? model_json(source, description) : model_text(source, description);
+  return command.json ? model_json(source, description)
+                      : model_text(source, description, command.edges);
 }
 
 std::string describe(const InfoCommand& command, jobs::JobRunner& jobs)
@@ -98,8 +99,8 @@ std::string describe(const InfoCommand& command, jobs::JobRunner& jobs)
   const std::string extension = file.extension().string();
   const bool is_mesh = extension == ".pvtu" || extension == ".vtu";
   if (!is_mesh && extension != ".toml") return describe_model(command, jobs);
-  if (command.json || command.picture) {
-    throw ConfigError(file.string() + ": --json and --picture are for CAD models");
+  if (command.edges || command.json || command.picture) {
+    throw ConfigError(file.string() + ": --edges, --json and --picture are for CAD models");
   }
   return is_mesh ? describe_mesh(file) : config::to_toml(config::load_case(file));
 }

@@ -178,6 +178,28 @@ std::string solids_text(const model::ModelDescription& description, const std::s
   return text;
 }
 
+std::string faces_text(const model::ModelDescription& description, const Boxes& boxes,
+                       const std::string& unit)
+{
+  std::string text = fmt::format("faces: {}\n", description.faces.size());
+  const auto normals = normals_of(description);
+  for (std::size_t f = 0; f < description.faces.size(); ++f) {
+    text += face_text(description.faces[f], boxes.faces[f], normals[f], unit);
+  }
+  return text;
+}
+
+std::string edges_text(const model::ModelDescription& description, bool lists_edges,
+                       const std::string& unit)
+{
+  const std::size_t num_edges = description.edges.size();
+  if (!lists_edges && num_edges > 0)
+    return fmt::format("edges: {} (--edges lists them)\n", num_edges);
+  std::string text = fmt::format("edges: {}\n", num_edges);
+  for (const model::EdgeDescription& edge : description.edges) text += edge_text(edge, unit);
+  return text;
+}
+
 std::string sizes_text(const Extent& extent)
 {
   std::string text =
@@ -251,7 +273,8 @@ std::vector<SuggestedSize> suggested_sizes(const Extent& extent)
   return sizes;
 }
 
-std::string model_text(const model::ModelSource& source, const model::ModelDescription& description)
+std::string model_text(const model::ModelSource& source, const model::ModelDescription& description,
+                       bool lists_edges)
 {
   const Boxes boxes = boxes_of(description);
   const std::string& unit = source.length_unit;
@@ -260,13 +283,8 @@ std::string model_text(const model::ModelSource& source, const model::ModelDescr
                   norm(boxes.model.high - boxes.model.low), unit, box_text(boxes.model),
                   unit.empty() ? "the file does not say" : unit);
   text += solids_text(description, unit);
-  text += fmt::format("edges: {}\n", description.edges.size());
-  for (const model::EdgeDescription& edge : description.edges) text += edge_text(edge, unit);
-  text += fmt::format("faces: {}\n", description.faces.size());
-  const auto normals = normals_of(description);
-  for (std::size_t f = 0; f < description.faces.size(); ++f) {
-    text += face_text(description.faces[f], boxes.faces[f], normals[f], unit);
-  }
+  text += faces_text(description, boxes, unit);
+  text += edges_text(description, lists_edges, unit);
   for (const std::string& repair : source.repairs) text += fmt::format("repair: {}\n", repair);
   return text + sizes_text(extent_of(description));
 }

@@ -26,10 +26,11 @@ struct Extent {
 [[nodiscard]] std::vector<SuggestedSize> suggested_sizes(const Extent& extent);
 
 /// @brief What `tessera info MODEL` prints. Local. @pre description.require_sound() does not throw.
+/// @param[in] lists_edges Whether each edge gets a line; else they are only counted.
 [[nodiscard]] std::string model_text(const model::ModelSource& source,
-                                     const model::ModelDescription& description);
+                                     const model::ModelDescription& description, bool lists_edges);
 
-/// @brief The same as JSON. Local. @pre As model_text().
+/// @brief The same as JSON, with all edges. Local. @pre As model_text().
 [[nodiscard]] std::string model_json(const model::ModelSource& source,
                                      const model::ModelDescription& description);
 

@@ -121,6 +121,11 @@ class Info(program.ProgramTest):
                       "between solids 1 and 2", "repair: touching solids were glued", "coarse", "fine"):
             self.assertIn(words, text)
         self.assertEqual(self.info(model, ranks=2), text)
+        self.assertNotIn(" length ", text)
+        with_edges = self.info(model, "--edges")
+        self.assertEqual(with_edges.count(" length "), 24)
+        self.assertEqual([line for line in with_edges.splitlines() if " length " not in line],
+                         text.replace(" (--edges lists them)", "").splitlines())
 
     def test_picture_shows_the_faces_without_a_display(self):
         self.info(GEOMETRY / "two_blocks.step", "--picture", "blocks.png", ranks=2)
@@ -140,6 +145,7 @@ class Info(program.ProgramTest):
         for arguments, code, words in (
             (["open.stl"], WRONG_INPUT, ["open.stl", "3 edges"]),
             ([case, "--json"], WRONG_INPUT, ["--json", "CAD models"]),
+            ([case, "--edges"], WRONG_INPUT, ["--edges", "CAD models"]),
             ([case, "--picture", "a.png"], WRONG_INPUT, ["--picture", "CAD models"]),
             (["ball.geo", "--picture", "none/a.png"], CANNOT_WRITE, ["none/a.png"]),
         ):

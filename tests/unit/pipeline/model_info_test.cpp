@@ -64,13 +64,15 @@ TEST(ModelInfo, FlatFacesHaveNormals)
 TEST(ModelInfo, TextAndJsonNameFacesByTheirNumbers)
 {
   const model::ModelSource source{.file_name = "tet.step", .length_unit = "mm"};
-  const std::string text = model_text(source, unit_tet());
+  const std::string text = model_text(source, unit_tet(), true);
   EXPECT_NE(text.find("wall"), std::string::npos);
   EXPECT_NE(text.find("colour #FF0000"), std::string::npos);
   EXPECT_NE(text.find("edges: 2"), std::string::npos);
   EXPECT_NE(text.find("rim                  length 1 mm, box (0, 0, 0) to (1, 0, 0)"),
             std::string::npos)
       << text;
+  EXPECT_LT(text.find("solids: "), text.find("faces: 4"));
+  EXPECT_LT(text.find("faces: 4"), text.find("edges: 2"));
   const auto json = nlohmann::json::parse(model_json(source, unit_tet()));
   ASSERT_EQ(json["faces"].size(), 4U);
   EXPECT_EQ(json["faces"][1]["number"], 3);
@@ -84,11 +86,19 @@ TEST(ModelInfo, TextAndJsonNameFacesByTheirNumbers)
   EXPECT_EQ(json["length_unit"], "mm");
 }
 
+TEST(ModelInfo, EdgesAreOnlyCountedUnlessTheirListIsAskedFor)
+{
+  const std::string text = model_text({}, unit_tet(), false);
+  EXPECT_NE(text.find("edges: 2 (--edges lists them)"), std::string::npos) << text;
+  EXPECT_EQ(text.find("rim"), std::string::npos) << text;
+  EXPECT_NE(text.find("wall"), std::string::npos) << text;
+}
+
 TEST(ModelInfo, AFaceWithoutTrianglesHasNoBox)
 {
   model::ModelDescription tet = unit_tet();
   tet.faces.push_back({.number = 9, .area = 1.0, .solids = {1}});
-  EXPECT_NE(model_text({}, tet).find("not drawn"), std::string::npos);
+  EXPECT_NE(model_text({}, tet, false).find("not drawn"), std::string::npos);
   EXPECT_TRUE(nlohmann::json::parse(model_json({}, tet))["faces"][4]["box"].is_null());
 }
 
