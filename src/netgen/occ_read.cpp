@@ -5,13 +5,10 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <string_view>
 
 #include <BRepBuilderAPI_Transform.hxx>
-#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
-#include <BinTools.hxx>
 #include <IFSelect_ReturnStatus.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Reader.hxx>
@@ -42,6 +39,7 @@
 
 #include "tessera/base/error.hpp"
 
+#include "netgen/occ_brep.hpp"
 #include "netgen/occ_cad_file.hpp"
 #include "netgen/occ_error.hpp"
 #include "netgen/occ_shape.hpp"
@@ -99,15 +97,6 @@ std::string tail_of(const fs::path& file, std::streamoff size)
   const std::streamoff length = in.tellg();
   in.seekg(std::max<std::streamoff>(0, length - size));
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-std::string head_of(const fs::path& file, std::size_t size)
-{
-  std::ifstream in(file, std::ios::binary);
-  std::string head(size, '\0');
-  in.read(head.data(), static_cast<std::streamsize>(size));
-  head.resize(static_cast<std::size_t>(in.gcount()));
-  return head;
 }
 
 // The unit whose numbers the shape shall have: the file's, or millimetres if it names none known.
@@ -367,32 +356,6 @@ CadFile read_iges(const fs::path& file)
     }
   }
   scale_to_unit(cad, iges_unit(reader, cad));
-  return cad;
-}
-
-// The table of a text file ends with '*' and an empty line; then comes the root: orientation and
-// number of a shape, number of a location. The reader loops for ever on some files that end early.
-bool ends_with_root(const fs::path& file)
-{
-  static const std::regex root(R"(\*\s*\n\s*\n[-+ie]\d+ \d+)");
-  return std::regex_search(tail_of(file, 256), root);
-}
-
-CadFile read_brep(const fs::path& file)
-{
-  CadFile cad;
-  const std::string head = head_of(file, 200);
-  if (head.find("Open CASCADE Topology") != std::string::npos) {
-    BinTools::Read(cad.shape, file.c_str());
-  } else if (head.find("CASCADE Topology") != std::string::npos) {
-    if (!ends_with_root(file)) {
-      throw InputError(file.string() + ": ends before its root shape, so it is truncated");
-    }
-    BRepTools::Read(cad.shape, file.c_str(), BRep_Builder());
-  }
-  if (cad.shape.IsNull()) {
-    throw InputError(file.string() + ": OpenCASCADE cannot read it as BREP; export it again");
-  }
   return cad;
 }
 

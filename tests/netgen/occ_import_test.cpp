@@ -118,6 +118,25 @@ TEST_F(OccImport, TruncatedFilesAreInputErrorsWhereverTheyEnd)
   }
 }
 
+// The root is the last line; the table before it ends with a solid, or not.
+TEST_F(OccImport, BrepWithoutRootIsReadIfASolidComesLast)
+{
+  const std::string whole = content_of(own_model("cone.brep"));
+  const std::size_t root = whole.rfind("+1 0");
+  for (const std::string& text : {whole.substr(0, root), whole.substr(0, whole.rfind('*') + 1)}) {
+    const model::ModelSource source = netgen::import_model(write("rootless.brep", text), {});
+    ASSERT_EQ(source.repairs.size(), 1U);
+    EXPECT_TRUE(contains(source.repairs[0], "no root shape")) << source.repairs[0];
+    EXPECT_EQ(source.content, netgen::import_model(own_model("cone.brep"), {}).content);
+  }
+  std::string one_missing = whole.substr(0, root);
+  one_missing.replace(one_missing.find("TShapes 11"), 10, "TShapes 12");
+  EXPECT_TRUE(contains(message_of<InputError>(write("short.brep", one_missing)), "truncated"));
+  const std::string shell_last = content_of(write_brep(faces_of_box(6)));
+  const fs::path file = write("shell.brep", shell_last.substr(0, shell_last.rfind("+1 0")));
+  EXPECT_TRUE(contains(message_of<InputError>(file), "truncated"));
+}
+
 TEST_F(OccImport, FileWithoutFacesSaysWhatItHolds)
 {
   const fs::path file =
