@@ -16,6 +16,7 @@
 #include "tessera/mesh/tet_topology.hpp"
 
 #include "formats/link_edges.hpp"
+#include "formats/match_nodes.hpp"
 #include "formats/name_tags.hpp"
 #include "formats/number_faces.hpp"
 #include "formats/patch_points.hpp"
@@ -63,7 +64,7 @@ struct Skin {
   std::vector<SkinPoint> points{};
 };
 
-// Of corners alone: pieces that have them have the same nodes between them.
+// Of corners alone: match_nodes() sees to it that pieces have the same nodes between them.
 TriangleKey key_of_points(const LoadedPiece& piece, const std::vector<LocalIndex>& points)
 {
   std::array<VertexKey, 3> keys{piece.point_keys[at(points[0])], piece.point_keys[at(points[1])],
@@ -142,6 +143,7 @@ class Linker {
       const LoadedPiece piece = source_.load(number);
       const std::vector<LocalIndex> behind = tets_behind(piece.num_points(), piece.tet_points);
       add_skin(piece, number, behind, skin_);
+      add_skin_nodes(piece, number, behind, skin_nodes_);
       if (options_.shared_edges) skin_edges_.push_back(skin_edges(piece, behind));
       add_triangles(piece, behind, links_[i]);
       counts_[i] = {.num_own_nodes = piece.num_nodes,  // Of foreign ones it is not known yet.
@@ -155,6 +157,8 @@ class Linker {
       triangles_.push_back({piece.triangle_side, piece.patch});
     }
   }
+
+  void match_nodes() { require_same_nodes(std::exchange(skin_nodes_, {}), source_, comm_); }
 
   void link_faces()
   {
@@ -348,6 +352,7 @@ class Linker {
   std::vector<Triangles> triangles_{};
   Skin skin_{};
   std::vector<SkinEdges> skin_edges_{};
+  std::vector<SkinNode> skin_nodes_{};
   LocalIndex counted_piece_ = kNoIndex;
   LocalIndex next_shared_ = 0;
   LocalIndex num_left_out_ = 0;
@@ -390,6 +395,7 @@ LinkedMesh link_pieces(const PieceSource& source, const comm::Communicator& comm
 {
   Linker linker(source, comm, options);
   all_or_none(comm, [&] { linker.look_at_pieces(before_each); });
+  linker.match_nodes();
   linker.link_faces();
   linker.mark_inner_triangles();
   linker.link_points();

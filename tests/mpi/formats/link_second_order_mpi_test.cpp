@@ -265,5 +265,35 @@ TEST_F(LinkSecondOrder, RefusesANodeThatIsACornerElsewhere)
   EXPECT_THROW(link(), InputError);
 }
 
+// A node of an edge that the pieces beside have as well, moved or under another id there.
+TEST_F(LinkSecondOrder, RefusesPiecesThatDisagreeOnANode)
+{
+  for (const bool is_moved : {true, false}) {
+    mesh::MeshArrays tets = tets_of(0);
+    // Pieces are cubes of half a side: this edge lies on their common one through the middle.
+    const Position node{0.5, 0.5, 0.125};
+    for (LocalIndex row = 0; row < static_cast<LocalIndex>(tets.point_ids.size()); ++row) {
+      if (position(tets.point_xyz, row) != node) continue;
+      if (is_moved) tets.point_xyz[3 * at(row)] += 1e-3;
+      if (!is_moved) tets.point_ids[at(row)] = 100'000;
+    }
+    if (comm_.rank() == 0)
+      io::write_vtu(tets, folder_ / "mesh" / "piece_0.vtu", io::Compression::none);
+    comm_.barrier();
+    try {
+      link();
+      ADD_FAILURE() << "is not refused";
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      const char* const how = is_moved ? "at (0.501, 0.5, 0.125)" : "id 100000";
+      for (const char* const words : {"piece_0.vtu and ", "disagree on the node", how,
+                                      "from (0.5, 0.5, 0", "to (0.5, 0.5, 0"}) {
+        EXPECT_NE(text.find(words), std::string::npos) << text;
+      }
+    }
+    comm_.barrier();
+  }
+}
+
 }  // namespace
 }  // namespace tessera::formats
