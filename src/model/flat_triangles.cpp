@@ -32,19 +32,23 @@ class FlatTriangles {
     }
   }
 
-  LocalIndex run()
+  MendedTriangles run()
   {
-    LocalIndex num_steps = 0;
+    MendedTriangles mended;
     std::vector<LocalIndex> some(at(surface_.num_triangles()));
     std::iota(some.begin(), some.end(), 0);
     for (int pass = 0; pass < kMostPasses && !some.empty(); ++pass) {
       for (const LocalIndex t : some) {
-        if (triangle(t) != kNone && (is_flat(triangle(t)) ? take_out(t) : unfold(t))) ++num_steps;
+        if (triangle(t) != kNone && (is_flat(triangle(t)) ? take_out(t) : unfold(t)))
+          ++mended.num_steps;
       }
       some = triangles_near_changes();
     }
-    if (num_steps > 0) drop_gone();
-    return num_steps;
+    for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
+      if (triangle(t) == kNone) mended.gone.push_back(t);
+    }
+    if (mended.num_steps > 0) drop_gone();
+    return mended;
   }
 
  private:
@@ -270,7 +274,7 @@ class FlatTriangles {
 
 }  // namespace
 
-LocalIndex mend_flat_triangles(TriangleSurface& surface, double height)
+MendedTriangles mend_flat_triangles(TriangleSurface& surface, double height)
 {
   return FlatTriangles(surface, height).run();
 }

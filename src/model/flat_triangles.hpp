@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "tessera/model/triangle_surface.hpp"
 
 namespace tessera::model {
+
+/// @brief What mend_flat_triangles() has done.
+struct MendedTriangles {
+  LocalIndex num_steps = 0;
+  std::vector<LocalIndex> gone{};  ///< Ascending; as they were numbered before.
+};
 
 /// @brief Takes triangles out of a closed surface that are flatter than `height`: their short edge
 /// is collapsed, or the vertex on their longest edge goes into that edge. Folds that enclose
@@ -12,7 +20,6 @@ namespace tessera::model {
 ///
 /// A triangle stays where the surface would not have two triangles at each edge without it.
 /// @pre Triangles agree with their neighbours (orient()).
-/// @return In how many steps.
-LocalIndex mend_flat_triangles(TriangleSurface& surface, double height);
+MendedTriangles mend_flat_triangles(TriangleSurface& surface, double height);
 
 }  // namespace tessera::model

@@ -45,6 +45,32 @@ void drop_unused_vertices(TriangleSurface& surface)
   surface.vertex_xyz = std::move(vertex_xyz);
 }
 
+bool is_degenerate(const LocalIndex* v) { return v[0] == v[1] || v[1] == v[2] || v[2] == v[0]; }
+
+// A place in each set of triangles that hang together, at least as many as bound a body, and are
+// all degenerate.
+std::vector<Vec3> bodies_without_size(const TriangleSurface& surface)
+{
+  constexpr LocalIndex kLeast = 4;
+  UnionFind joined(surface.num_vertices());
+  for (std::size_t c = 0; c < surface.triangle_vertices.size(); ++c) {
+    joined.join(surface.triangle_vertices[c - c % 3], surface.triangle_vertices[c]);
+  }
+  std::vector<LocalIndex> num_triangles(at(surface.num_vertices()), 0);
+  std::vector<bool> has_sound(at(surface.num_vertices()), false);
+  for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
+    const LocalIndex* const v = &surface.triangle_vertices[3 * at(t)];
+    const std::size_t body = at(joined.find(v[0]));
+    ++num_triangles[body];
+    if (!is_degenerate(v)) has_sound[body] = true;
+  }
+  std::vector<Vec3> places;
+  for (LocalIndex v = 0; v < surface.num_vertices(); ++v) {
+    if (num_triangles[at(v)] >= kLeast && !has_sound[at(v)]) places.push_back(surface.position(v));
+  }
+  return places;
+}
+
 }  // namespace
 
 TriangleSurface weld_equal_corners(const TriangleSoup& soup)
@@ -96,7 +122,7 @@ LocalIndex weld_open_vertices(TriangleSurface& surface, double tolerance)
 
 DroppedTriangles drop_bad_triangles(TriangleSurface& surface)
 {
-  DroppedTriangles dropped;
+  DroppedTriangles dropped{.bodies = bodies_without_size(surface)};
   std::set<std::array<LocalIndex, 3>> seen;
   LocalIndex kept = 0;
   for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {

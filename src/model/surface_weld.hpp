@@ -20,6 +20,8 @@ LocalIndex weld_open_vertices(TriangleSurface& surface, double tolerance);
 struct DroppedTriangles {
   LocalIndex degenerate = 0;  ///< Fewer than three different vertices.
   LocalIndex repeated = 0;    ///< The three vertices of an earlier triangle, in any order.
+  /// A place in each body that had no size: some triangles that hang together, all degenerate.
+  std::vector<Vec3> bodies{};
 };
 
 /// @brief Removes triangles that cannot be part of a surface, and vertices then unused.

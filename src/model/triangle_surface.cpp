@@ -75,9 +75,26 @@ void require_two_triangles_per_edge(const TriangleSurface& surface, const std::s
   }
 }
 
+// "1 body …, near (0, 0, 0)" with the places of the first ones.
+void record_lost_bodies(const std::vector<Vec3>& places, const std::string& what,
+                        CheckedSurface& checked)
+{
+  constexpr std::size_t kNumShown = 3;
+  if (places.empty()) return;
+  std::string shown;
+  for (std::size_t i = 0; i < std::min(kNumShown, places.size()); ++i) {
+    shown += fmt::format("{}({:.9g})", i == 0 ? "" : ", ", fmt::join(places[i], ", "));
+  }
+  checked.repairs.push_back(fmt::format(
+      "{} {} dropped, near {}{}",
+      counted(static_cast<LocalIndex>(places.size()), "body or cavity", "bodies or cavities"), what,
+      shown, places.size() > kNumShown ? ", …" : ""));
+}
+
 void drop_and_record(CheckedSurface& checked)
 {
   const DroppedTriangles dropped = drop_bad_triangles(checked.surface);
+  record_lost_bodies(dropped.bodies, "without a size", checked);
   if (dropped.degenerate > 0) {
     checked.repairs.push_back(counted(dropped.degenerate, "triangle", "triangles")
                               + " with fewer than three different corners dropped");
@@ -120,12 +137,28 @@ Orientation oriented(TriangleSurface& surface, const std::string& name)
   return orient(surface, opposite, name);
 }
 
+std::vector<Vec3> places_of(const std::vector<Shell>& shells, const TriangleSurface& surface)
+{
+  std::vector<Vec3> places;
+  for (const Shell& shell : shells) {
+    places.push_back(surface.position(surface.triangle_vertices[3 * at(shell.triangles.front())]));
+  }
+  return places;
+}
+
 // Mesh generators choke on triangles without a height, and refined ones fold there.
-bool mend_flat_and_record(CheckedSurface& checked, const std::string& name)
+bool mend_flat_and_record(CheckedSurface& checked, const std::vector<Shell>& shells,
+                          const std::string& name)
 {
   const double height = kFlatHeight * box_diagonal(checked.surface);
-  const LocalIndex num_steps = mend_flat_triangles(checked.surface, height);
+  const std::vector<Vec3> places = places_of(shells, checked.surface);
+  const auto [num_steps, gone] = mend_flat_triangles(checked.surface, height);
   if (num_steps == 0) return false;
+  std::vector<Vec3> lost;
+  for (std::size_t s = 0; s < shells.size(); ++s) {
+    if (std::ranges::includes(gone, shells[s].triangles)) lost.push_back(places[s]);
+  }
+  record_lost_bodies(lost, fmt::format("thinner than {:g}", height), checked);
   checked.repairs.push_back(
       fmt::format("triangles flatter than {:g}, or folded onto others, mended in {}", height,
                   counted(num_steps, "step", "steps")));
@@ -189,7 +222,8 @@ CheckedSurface check_surface(const TriangleSoup& soup, const std::string& name)
 
   Orientation orientation = oriented(checked.surface, name);
   record_turns(checked, orientation);
-  if (mend_flat_and_record(checked, name)) orientation = oriented(checked.surface, name);
+  if (mend_flat_and_record(checked, orientation.shells, name))
+    orientation = oriented(checked.surface, name);
   set_materials(checked.surface, orientation.shells);
   return checked;
 }

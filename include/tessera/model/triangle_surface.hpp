@@ -67,8 +67,8 @@ struct CheckedSurface {
 /// - Repeated triangles, and those without two different edges, are dropped.
 /// - Triangles are turned to agree with their neighbours.
 /// - Triangles flatter than 1e-6 of the box diagonal, and folds that enclose nothing, are taken
-/// out,
-///   where the surface stays closed.
+///   out, where the surface stays closed. A body that is thinner goes with its triangles; the
+///   record says where it was.
 /// - A shell with its inside out is turned: outermost shells point outwards, shells inside them
 ///   bound cavities, and so on.
 ///

@@ -196,6 +196,42 @@ TEST(TriangleSurface, TrianglesWithoutAreaInARowAreTakenOut)
   EXPECT_NEAR(enclosed_volume(checked.surface), 1.0, 1e-6);
 }
 
+// Bodies and cavities of which nothing is left are named with their places.
+TEST(TriangleSurface, BodiesThinnerThanTheToleranceGoAndAreNamed)
+{
+  const CheckedSurface tiny =
+      check_surface(joined(cube_soup(), cube_soup({2.0, 0.0, 0.0}, 1e-7)), "");
+  EXPECT_NEAR(enclosed_volume(tiny.surface), 1.0, 1e-12);
+  EXPECT_EQ(tiny.surface.num_triangles(), 12);
+  ASSERT_EQ(tiny.repairs.size(), 2U);
+  EXPECT_TRUE(has(tiny.repairs[0], "1 body or cavity thinner than")) << tiny.repairs[0];
+  EXPECT_TRUE(has(tiny.repairs[0], "near (2, ")) << tiny.repairs[0];
+  const auto two = joined(cube_soup({0.5, 0.5, 0.5}, 1e-7), cube_soup({0.0, 3.0, 0.0}, 1e-7));
+  const CheckedSurface both = check_surface(joined(cube_soup(), two), "");
+  ASSERT_EQ(both.repairs.size(), 3U);  // The cavity was turned before.
+  EXPECT_TRUE(has(both.repairs[1], "2 bodies or cavities thinner than")) << both.repairs[1];
+  const CheckedSurface larger =
+      check_surface(joined(cube_soup(), cube_soup({2.0, 0.0, 0.0}, 1e-5)), "");
+  EXPECT_TRUE(larger.repairs.empty());
+  EXPECT_EQ(larger.surface.num_triangles(), 24);
+}
+
+// As single precision leaves what is far from the origin.
+TEST(TriangleSurface, ABodyWithoutASizeIsNamed)
+{
+  TriangleSoup point = cube_soup();
+  for (std::size_t i = 0; i < point.corner_xyz.size(); ++i)
+    point.corner_xyz[i] = i % 3 == 0 ? 5.0 : 0.0;
+  const CheckedSurface checked = check_surface(joined(cube_soup(), point), "");
+  ASSERT_EQ(checked.repairs.size(), 2U);
+  EXPECT_TRUE(has(checked.repairs[0], "1 body or cavity without a size dropped, near (5, 0, 0)"))
+      << checked.repairs[0];
+  TriangleSoup stray = cube_soup();  // One triangle without an area bounds nothing.
+  stray.corner_xyz.insert(stray.corner_xyz.end(), {5, 0, 0, 5, 0, 0, 6, 0, 0});
+  stray.triangle_solid.push_back(0);
+  ASSERT_EQ(check_surface(stray, "").repairs.size(), 1U);
+}
+
 TEST(TriangleSurface, ATinyTetOnACubeGoes)
 {
   TriangleSoup soup = cube_soup();
