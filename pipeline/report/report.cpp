@@ -19,6 +19,7 @@
 #include "pipeline/report/names_json.hpp"
 #include "pipeline/report/quality_json.hpp"
 #include "pipeline/report/sharp_json.hpp"
+#include "pipeline/report/size_warning.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 
@@ -124,7 +125,8 @@ Json warnings_json(const RunResult& run)
   Json warnings = Json::array();
   for (const auto& warning :
        {too_many_subdomains(run.resolved, run.coarse.mesh), unbalanced_parts(run),
-        parts_not_meshed(run), made_by_gmsh(run), sharp_warning(run.sharp)}) {
+        parts_not_meshed(run), made_by_gmsh(run), sharp_warning(run.sharp),
+        misses_sizes(run.coarse) ? std::nullopt : size_warning(run.coarse)}) {
     if (warning) warnings.push_back(*warning);
   }
   return warnings;
@@ -285,6 +287,22 @@ std::vector<LocalIndex> substituted_subdomains(const RunResult& run)
   return substituted;
 }
 
+std::vector<std::string> missed_qualities(const RunResult& run)
+{
+  std::vector<std::string> missed;
+  const quality::TetStatistics tets = statistics_of_tets(run.filled.pieces);
+  const quality::QualityTargets& targets = run.resolved.quality;
+  if (tets.min_dihedral_deg < targets.min_dihedral_deg) {
+    missed.push_back(fmt::format("smallest dihedral angle {:.4g} deg < wanted {:.4g} deg",
+                                 tets.min_dihedral_deg, targets.min_dihedral_deg));
+  }
+  if (tets.min_mean_ratio < targets.min_mean_ratio) {
+    missed.push_back(fmt::format("smallest mean ratio {:.4g} < wanted {:.4g}", tets.min_mean_ratio,
+                                 targets.min_mean_ratio));
+  }
+  return missed;
+}
+
 }  // namespace
 
 std::optional<std::string> unbalanced_parts(const RunResult& run)
@@ -300,17 +318,7 @@ std::optional<std::string> unbalanced_parts(const RunResult& run)
 
 Verdict judge(const RunResult& run)
 {
-  Verdict verdict;
-  const quality::TetStatistics tets = statistics_of_tets(run.filled.pieces);
-  const quality::QualityTargets& targets = run.resolved.quality;
-  if (tets.min_dihedral_deg < targets.min_dihedral_deg) {
-    verdict.reasons.push_back(fmt::format("smallest dihedral angle {:.4g} deg < wanted {:.4g} deg",
-                                          tets.min_dihedral_deg, targets.min_dihedral_deg));
-  }
-  if (tets.min_mean_ratio < targets.min_mean_ratio) {
-    verdict.reasons.push_back(fmt::format("smallest mean ratio {:.4g} < wanted {:.4g}",
-                                          tets.min_mean_ratio, targets.min_mean_ratio));
-  }
+  Verdict verdict{.reasons = missed_qualities(run)};
   const double held_back = largest(run.filled.pieces, &subdomain::PieceSummary::held_back_distance);
   if (const std::size_t num = run.limiter.entries().size() - run.num_straightened; num > 0) {
     verdict.reasons.push_back(fmt::format(
@@ -326,6 +334,7 @@ Verdict judge(const RunResult& run)
         "help",
         run.num_straightened, held_back));
   }
+  if (misses_sizes(run.coarse)) verdict.reasons.push_back(*size_warning(run.coarse));
   if (const coarse::VertexDistance& off = run.coarse.distance; off.num_off > 0) {
     verdict.reasons.push_back(fmt::format(
         "{} vertices of the coarse mesh could not be put on the geometry and are off it by at most "

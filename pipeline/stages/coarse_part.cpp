@@ -14,6 +14,7 @@
 
 #include "pipeline/report/defeature_json.hpp"
 #include "pipeline/report/sharp_json.hpp"
+#include "pipeline/report/size_warning.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
@@ -85,14 +86,6 @@ void replace(CoarseResult& first, CoarseResult second)
   first.was_limited = second.was_limited;
 }
 
-CoarseResult named_coarse_mesh(const RunResult& run, const model::NamedParts& parts,
-                               RunContext& context)
-{
-  CoarseResult coarse = run_coarse_stage(run.resolved, run.planes.tree, context);
-  model::apply_names(parts, coarse.mesh);
-  return coarse;
-}
-
 // The remesher, which also makes what is left of merged parts, sees walls by itself; Gmsh takes no
 // sizes at points, and a mesh is as it is.
 bool may_be_finer_at_places(const RunResult& run)
@@ -143,18 +136,33 @@ void refine_narrow_places(RunResult& run, const model::NamedParts& parts, RunCon
   }
 }
 
+// Once more where it is too coarse for the sizes. If that cannot be made, the first mesh stays.
+// @return Whether it is fine enough now.
+bool refine_for_sizes(RunResult& run, const model::NamedParts& parts, RunContext& context)
+{
+  mesh::SizePoints points = sizes_for_a_finer_mesh(run, context);
+  if (points.size.empty()) return true;
+  config::Case finer = run.resolved;
+  finer.coarse.points = std::move(points);
+  CoarseResult second = run_second_coarse_stage(finer, run.coarse, run.planes.tree, context);
+  const bool is_made = on_root(context.comm, [&] { return second.mesh.num_tets() > 0; });
+  model::apply_names(parts, second.mesh);
+  replace(run.coarse, std::move(second));
+  if (is_made) run.resolved = std::move(finer);
+  return is_made;
+}
+
 // A coarse mesh, and once more where it is too coarse for the sizes or for narrow places.
 void run_coarse_stages(RunResult& run, RunContext& context)
 {
   const model::NamedParts parts = find_named_parts(run.resolved, run.model.format, context);
   run.planes = choose_cuts(run, context);
-  run.coarse = named_coarse_mesh(run, parts, context);
-  if (mesh::SizePoints points = sizes_for_a_finer_mesh(run, context); !points.size.empty()) {
-    run.resolved.coarse.points = std::move(points);
-    replace(run.coarse, named_coarse_mesh(run, parts, context));
-  }
+  run.coarse = run_coarse_stage(run.resolved, run.planes.tree, context);
+  model::apply_names(parts, run.coarse.mesh);
+  const bool is_fine_enough = refine_for_sizes(run, parts, context);
   refine_narrow_places(run, parts, context);
   choose_levels(run, context);
+  if (!is_fine_enough) run.coarse.missed_size = longest_edge_in_sizes(run, context);
 }
 
 void tell_what_is_within_tolerance(const RunResult& run, RunContext& context)
@@ -197,6 +205,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
     keep_coarse_mesh(run, options.state, context);
   }
   tell_what_is_within_tolerance(run, context);
+  if (const auto warning = size_warning(run.coarse)) context.log.warn("coarse: {}", *warning);
   if (run.resolved.coarse.defeature > 0.0) {
     context.log.info("coarse: {}", defeatured_words(run.coarse));
   }

@@ -137,8 +137,9 @@ coarse::ModelFigures figures_of(const config::Case& run_case, RunContext& contex
   return figures && std::isfinite(figures->area) ? *figures : kUnknown;
 }
 
+// @param first_rung Number of the first of these tries.
 std::vector<CoarsePlan> plans_for(const config::Case& run_case, const cut::CutTree& planes,
-                                  RunContext& context)
+                                  LocalIndex first_rung, RunContext& context)
 {
   const auto figures = on_root(context.comm, [&] { return figures_of(run_case, context); });
   const bool with_gmsh = on_root(context.comm, [&] { return is_for_gmsh(run_case) && has_gmsh(); });
@@ -146,7 +147,7 @@ std::vector<CoarsePlan> plans_for(const config::Case& run_case, const cut::CutTr
   for (const auto& [options, is_cut] : attempts_at(run_case, planes, with_gmsh)) {
     plans.push_back({.options = options,
                      .planes = is_cut ? planes : cut::CutTree{},
-                     .rung = static_cast<LocalIndex>(plans.size()),
+                     .rung = first_rung + static_cast<LocalIndex>(plans.size()),
                      .limits = surface_limits(options, figures, plans.empty())});
   }
   return plans;
@@ -326,6 +327,42 @@ class CoarseTries {
   std::map<LocalIndex, jobs::JobOutcome> outcomes_{};
 };
 
+// Of a run that has a mesh: no tets if none of these can be made.
+CoarseResult try_once_more(const config::Case& run_case, std::vector<CoarsePlan> plans,
+                           StageScope& stage, RunContext& context)
+{
+  CoarseResult result;
+  try {
+    result = CoarseTries(run_case, std::move(plans), stage, context).run();
+  } catch (const GeometryError& error) {  // On all ranks; of the model at these sizes only.
+    result.tries = 1;
+    result.failures.emplace_back(error.what());
+  }
+  return on_root_of_nodes(context.comm, [&] { return std::move(result); });
+}
+
+void finish_more_tries(const CoarseResult& result, StageScope& stage)
+{
+  stage.work_is_done();
+  stage.finish(result.mesh.num_tets() == 0 ? std::string("failed")
+                                           : fmt::format("{} tets", result.mesh.num_tets()));
+}
+
+void warn_of_other_ways(const CoarseResult& result, const config::Case& run_case,
+                        RunContext& context)
+{
+  if (result.options.mesher != run_case.coarse.mesher) {
+    context.log.warn(
+        "coarse: Gmsh has made the mesh, after all other tries had failed; without it, or with "
+        "another version of it, this run ends otherwise");
+  }
+  if (result.options.defeature != run_case.coarse.defeature) {
+    context.log.warn(
+        "coarse: all tries with coarse.defeature = {} had failed; the mesh is made without it",
+        run_case.coarse.defeature);
+  }
+}
+
 }  // namespace
 
 std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions& asked)
@@ -362,24 +399,26 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
 {
   StageScope stage(context, "coarse");
   CoarseResult result =
-      CoarseTries(run_case, plans_for(run_case, planes, context), stage, context).run();
+      CoarseTries(run_case, plans_for(run_case, planes, 0, context), stage, context).run();
   result = on_root_of_nodes(context.comm, [&] {
     if (result.mesh.num_tets() == 0) throw_no_mesh(result, run_case);
     return std::move(result);
   });
-  if (result.options.mesher != run_case.coarse.mesher) {
-    context.log.warn(
-        "coarse: Gmsh has made the mesh, after all other tries had failed; without it, or with "
-        "another version of it, this run ends otherwise");
-  }
-  if (result.options.defeature != run_case.coarse.defeature) {
-    context.log.warn(
-        "coarse: all tries with coarse.defeature = {} had failed; the mesh is made without it",
-        run_case.coarse.defeature);
-  }
+  warn_of_other_ways(result, run_case, context);
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),
                            result.mesh.num_patches(), result.mesh.num_materials()));
+  return result;
+}
+
+CoarseResult run_second_coarse_stage(const config::Case& run_case, const CoarseResult& before,
+                                     const cut::CutTree& planes, RunContext& context)
+{
+  StageScope stage(context, "coarse");
+  CoarseResult result =
+      try_once_more(run_case, plans_for(run_case, planes, before.tries, context), stage, context);
+  if (result.mesh.num_tets() > 0) warn_of_other_ways(result, run_case, context);
+  finish_more_tries(result, stage);
   return result;
 }
 
@@ -387,19 +426,9 @@ CoarseResult run_finer_try(const config::Case& run_case, const CoarseResult& bef
                            const mesh::SizePoints& sizes, RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseResult result;
-  try {
-    const CoarsePlan plan = finer_plan(before, sizes);
-    result = CoarseTries(run_case, {plan}, stage, context).run();
-  } catch (const GeometryError& error) {  // On all ranks; of the model at these sizes only.
-    result.tries = 1;
-    result.failures.emplace_back(error.what());
-  }
+  CoarseResult result = try_once_more(run_case, {finer_plan(before, sizes)}, stage, context);
   result.options.timeout_s = before.options.timeout_s;
-  result = on_root_of_nodes(context.comm, [&] { return std::move(result); });
-  stage.work_is_done();
-  stage.finish(result.mesh.num_tets() == 0 ? std::string("failed")
-                                           : fmt::format("{} tets", result.mesh.num_tets()));
+  finish_more_tries(result, stage);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "tessera/config/case.hpp"
 #include "tessera/cut/cut_tree.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/sizing/coarse_sizes.hpp"
 
 #include "pipeline/runtime/run_context.hpp"
 
@@ -24,11 +25,13 @@ struct CoarseResult {
   std::vector<std::string> failures{};  ///< What the tries before said, for the report.
   bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
   double cpu_s = 0.0;                   ///< CPU time of the try that succeeded, of all ranks.
+  /// Where edges are longest in wanted sizes, if no finer mesh could be made for these; else 0.
+  sizing::PartInSizes missed_size{};
 
   static auto fields(auto& self)
   {
     return std::tie(self.mesh, self.tet_part, self.options, self.tries, self.distance,
-                    self.defeatured, self.failures, self.was_limited, self.cpu_s);
+                    self.defeatured, self.failures, self.was_limited, self.cpu_s, self.missed_size);
   }
 };
 
@@ -47,6 +50,13 @@ struct CoarseResult {
 /// @throws GeometryError, MeshError on every rank, with the words of every try, if none succeeds.
 [[nodiscard]] CoarseResult run_coarse_stage(const config::Case& run_case,
                                             const cut::CutTree& planes, RunContext& context);
+
+/// @brief As run_coarse_stage(), of a run that has a mesh already and goes on with that one if no
+/// try succeeds. Then the result, on all ranks, has no tets.
+/// @note Collective.
+[[nodiscard]] CoarseResult run_second_coarse_stage(const config::Case& run_case,
+                                                   const CoarseResult& before,
+                                                   const cut::CutTree& planes, RunContext& context);
 
 /// @brief One try more, like the one that succeeded, with more sizes at points. It is not needed:
 /// the time of its jobs follows from that of the one before. Its result, on all ranks, has no tets

@@ -112,6 +112,18 @@ void choose_levels(RunResult& run, RunContext& context)
                                         : fmt::format("up to {}", run.levels.largest()));
 }
 
+sizing::PartInSizes longest_edge_in_sizes(const RunResult& run, RunContext& context)
+{
+  return comm::on_root(context.comm, [&] {
+    return with_file_context(run.resolved, [&] {
+      const mesh::CoarseMesh& coarse = run.coarse.mesh;
+      return sizing::longest_part_in_sizes(coarse, run.levels,
+                                           subdomain::read_size_field(run.resolved.size, coarse),
+                                           usual_length(run.resolved));
+    });
+  });
+}
+
 mesh::SizePoints sizes_for_a_finer_mesh(const RunResult& run, RunContext& context)
 {
   if (!sizing::is_graded(run.resolved.size)) return {};

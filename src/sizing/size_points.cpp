@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "tessera/mesh/tet_lattice.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -88,13 +89,20 @@ std::vector<double> sizes_in_the_middle(const std::vector<Cell>& cells, const Si
   return sizes.at(middles);
 }
 
-}  // namespace
+// A tet or a part of it, with the size in its middle.
+struct Visited {
+  const Cell& cell;
+  Vec3 middle{};
+  double size = 0.0;
+  int num_cuts = 0;  // That have made it of a tet.
+  bool is_cut = false;
+};
 
-mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels,
-                                    const SizeField& sizes, const EdgeLengths& in_sizes)
+// In bulk rounds, until no part is longer than `coarse_edge` sizes anywhere in it.
+template <class Visit>
+void for_each_cell(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels,
+                   const SizeField& sizes, double coarse_edge, const Visit& visit)
 {
-  mesh::SizePoints points;
-  bool is_needed = false;
   std::vector<Cell> cells = cells_of(coarse, levels);
   for (int num_cuts = 0; !cells.empty(); ++num_cuts) {
     const std::vector<double> in_the_middle = sizes_in_the_middle(cells, sizes);
@@ -103,18 +111,40 @@ mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const mesh::
       const Vec3 middle = cells[i].middle();
       const double reach = sizes.steepest() * radius_of(cells[i], middle);
       const double least = std::max(0.0, in_the_middle[i] - reach);
-      const bool may_be_too_long = longest_edge(cells[i].corners) > in_sizes.coarse_edge * least;
-      is_needed = is_needed || cells[i].longest_part > in_sizes.longest_part * in_the_middle[i];
-      if (may_be_too_long && num_cuts < kMostCuts && smaller.size() < kMostCells) {
-        append_children(cells[i], smaller);
-      } else if (num_cuts > 0) {
-        points.xyz.insert(points.xyz.end(), middle.begin(), middle.end());
-        points.size.push_back(in_sizes.coarse_edge * in_the_middle[i]);
-      }
+      const bool is_cut = longest_edge(cells[i].corners) > coarse_edge * least
+                          && num_cuts < kMostCuts && smaller.size() < kMostCells;
+      visit(Visited{cells[i], middle, in_the_middle[i], num_cuts, is_cut});
+      if (is_cut) append_children(cells[i], smaller);
     }
     cells = std::move(smaller);
   }
+}
+
+}  // namespace
+
+mesh::SizePoints coarse_size_points(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels,
+                                    const SizeField& sizes, const EdgeLengths& in_sizes)
+{
+  mesh::SizePoints points;
+  bool is_needed = false;
+  for_each_cell(coarse, levels, sizes, in_sizes.coarse_edge, [&](const Visited& at) {
+    is_needed = is_needed || at.cell.longest_part > in_sizes.longest_part * at.size;
+    if (at.is_cut || at.num_cuts == 0) return;
+    points.xyz.insert(points.xyz.end(), at.middle.begin(), at.middle.end());
+    points.size.push_back(in_sizes.coarse_edge * at.size);
+  });
   return is_needed ? points : mesh::SizePoints{};
+}
+
+PartInSizes longest_part_in_sizes(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& levels,
+                                  const SizeField& sizes, double coarse_edge)
+{
+  PartInSizes longest;
+  for_each_cell(coarse, levels, sizes, coarse_edge, [&](const Visited& at) {
+    if (at.cell.longest_part <= longest.in_sizes * at.size) return;
+    longest = {at.cell.longest_part / at.size, at.size, at.middle};
+  });
+  return longest;
 }
 
 }  // namespace tessera::sizing

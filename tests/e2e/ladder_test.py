@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tries at the coarse mesh and at fills, side by side: the same mesh for any number of ranks, sooner with more."""
 import json
+import math
 import os
+import re
 import shutil
 import unittest
 
@@ -81,6 +83,28 @@ class Ladder(program.ProgramTest):
                 self.assertEqual((report["coarse"]["tries"], len(report["coarse"]["failures"])), (2, 1))
                 self.assertGreater(report["coarse"]["sharp"]["num_tets"], 0)
                 self.assertIs(report["reproducible"], is_reproducible)
+
+    def test_the_first_mesh_stays_if_none_can_be_made_for_the_sizes(self):
+        """All tries but the first fail. So edges near the ball are too long, and that is said."""
+        self.write("bar.geo", "algebraic3d\nsolid bar = orthobrick (0, 0, 0; 4, 1, 1);\ntlo bar;\n")
+        self.case = self.write(
+            "case.toml",
+            "geometry.file = 'bar.geo'\ndecompose.subdomains = 4\nfill.kernel = 'subdivide'\n[size]\ntarget = 0.4\n"
+            "[[size.region]]\nball = { centre = [3.5, 0.5, 0.5], radius = 0.05 }\nsize = 0.02\n",
+        )
+        later = ("coarse=throw@1", "coarse=throw@2", "coarse=throw@3", "remesh=throw@4", "coarse=throw@5", "remesh=throw@6")
+        sound = self.mesh_with("gmsh=throw", "sound")
+        self.assertEqual((sound["coarse"]["tries"], sound["coarse"]["failures"]), (2, []))
+        digests = set()
+        for ranks in (1, 3):
+            report = self.mesh_with(" ".join(later), f"on_{ranks}", ranks=ranks, code=DEGRADED)
+            self.assertEqual((report["coarse"]["tries"], len(report["coarse"]["failures"])), (7, 6))
+            self.assertLess(report["coarse"]["num_tets"], sound["coarse"]["num_tets"])
+            self.assertEqual(len(report["reasons"]), 1)
+            place = re.search(r"near \(([^)]*)\) edges of .* are wanted", report["reason"])
+            self.assertLess(math.dist(map(float, place.group(1).split(",")), (3.5, 0.5, 0.5)), 0.2)
+            digests.add(report["digest"])
+        self.assertEqual(len(digests), 1)
 
     @unittest.skipUnless(shutil.which("gmsh"), "needs the program gmsh")
     def test_gmsh_is_the_last_rung(self):

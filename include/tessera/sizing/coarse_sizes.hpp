@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <tuple>
 #include <vector>
 
+#include "tessera/base/vec3.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/edge_levels.hpp"
 #include "tessera/mesh/size_points.hpp"
@@ -32,6 +34,22 @@ struct EdgeLengths {
                                                   const mesh::EdgeLevels& levels,
                                                   const SizeField& sizes,
                                                   const EdgeLengths& in_sizes);
+
+/// @brief How long the parts of an edge are where they are too long by most.
+struct PartInSizes {
+  double in_sizes = 0.0;  ///< Length over `size`.
+  double size = 0.0;      ///< Wanted there.
+  Vec3 place{};
+
+  static auto fields(auto& self) { return std::tie(self.in_sizes, self.size, self.place); }
+};
+
+/// @brief Of all places that coarse_size_points() looks at the one where the longest part of a
+/// tet's edges is longest in sizes. Local; a pure function of its arguments.
+/// @param[in] coarse_edge As of EdgeLengths.
+[[nodiscard]] PartInSizes longest_part_in_sizes(const mesh::CoarseMesh& coarse,
+                                                const mesh::EdgeLevels& levels,
+                                                const SizeField& sizes, double coarse_edge);
 
 /// @brief For each edge of a coarse mesh, its length in radii of curvature of the surface beside
 /// it; 0 off the surface, and where that is flat. Local; O(n log n).

@@ -54,6 +54,19 @@ Json report_of(const RunResult& run)
       {}));
 }
 
+TEST(Report, SizesThatWereMissedForWantOfAFinerMeshDegradeOnlyIfByFar)
+{
+  RunResult run = run_of_two_pieces();
+  run.coarse.missed_size = {1.9, 0.25, {1.0, 2.0, 3.0}};
+  EXPECT_EQ(judge(run).exit_code, ExitCode::ok);
+  const std::string words = "near (1, 2, 3) edges of 0.25 are wanted, and they are up to 1.9 times";
+  EXPECT_NE(report_of(run)["warnings"].dump().find(words), std::string::npos);
+  run.coarse.missed_size.in_sizes = 2.1;
+  EXPECT_EQ(judge(run).exit_code, ExitCode::degraded);
+  EXPECT_NE(judge(run).reasons.at(0).find("2.1 times"), std::string::npos);
+  EXPECT_EQ(report_of(run)["warnings"].dump().find("2.1 times"), std::string::npos);
+}
+
 TEST(Report, NamesTheSubdomainsOfAPartOfAMesh)
 {
   RunResult run = run_of_two_pieces();

@@ -54,5 +54,17 @@ TEST(CoarseSizePoints, FindASmallRegionInsideOfATet)
   EXPECT_LT(nearest, 4.0 * size);
 }
 
+TEST(LongestPartInSizes, IsWhereTheSizeIsSmallest)
+{
+  const mesh::CoarseMesh cube = kuhn_cube(1);
+  const double size = 0.01;
+  const SizeField sizes(small_ball(size), cube);
+  const PartInSizes longest = longest_part_in_sizes(cube, 1, sizes, 4.0);
+  EXPECT_LT(norm(longest.place - kPlace), 4.0 * size);
+  const double half_a_diagonal = 0.5 * std::sqrt(3.0);
+  EXPECT_NEAR(longest.in_sizes * longest.size, half_a_diagonal, 1e-12);
+  EXPECT_NEAR(longest_part_in_sizes(cube, 3, sizes, 4.0).in_sizes, longest.in_sizes / 4.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace tessera::sizing
