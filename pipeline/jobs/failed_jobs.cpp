@@ -121,7 +121,9 @@ KeptJob parse_job(const Bytes& bytes)
   ByteReader in(bytes);
   if (in.get<std::string>() != kMark) throw InputError("is no job that a run has kept");
   const auto version = in.get<std::string>();
-  if (version != record_version()) throw InputError("was kept by version " + version);
+  if (version != record_version()) {
+    throw InputError(fmt::format("was kept by version {}, this is {}", version, record_version()));
+  }
   return from_bytes<JobFile>(bytes).job;
 }
 

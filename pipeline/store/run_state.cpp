@@ -76,6 +76,13 @@ Identity identity(const InputContent& input, const std::vector<LocalIndex>& only
   return {record_version(), to_hex(input.model), to_hex(input.field), only_subdomains, has_files};
 }
 
+// What another version notes besides its name may be anything.
+std::optional<Identity> recorded_identity(const Bytes& record)
+{
+  Identity noted{.version = ByteReader(record).get<std::string>()};
+  return noted.version == record_version() ? from_bytes<Identity>(record) : noted;
+}
+
 // What the report of a run that has ended says. Whether pieces are in files does not matter then,
 // since none are left: it counts as what is asked for.
 std::optional<Identity> reported_identity(const std::filesystem::path& output, bool has_files)
@@ -179,8 +186,7 @@ void RunState::require_same_run(const InputContent& input) const
 {
   const Identity now = identity(input, only_subdomains_, has_files_);
   const std::optional<Bytes> record = store().find("run");
-  const auto noted =
-      record ? from_bytes<Identity>(*record) : reported_identity(output_, has_files_);
+  const auto noted = record ? recorded_identity(*record) : reported_identity(output_, has_files_);
   if (!noted) {
     clear();
     return store().put("run", to_bytes(now));

@@ -21,7 +21,7 @@ Json ok_report()
 {
   return {
       {"schema", 1},
-      {"version", "0.1.0"},
+      {"version", "1.2.3"},
       {"status", "ok"},
       {"exit_code", 0},
       {"reason", ""},
