@@ -12,6 +12,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/formats/export_mesh.hpp"
 #include "tessera/io/files.hpp"
@@ -62,6 +63,7 @@ void require_formats_possible(const config::Case& given, const MeshOptions& opti
 // Before anything is done: what the case alone decides. All ranks have the same one.
 void require_possible(const config::Case& given, const MeshOptions& options)
 {
+  static_cast<void>(left_out_repairs());  // Throws if one is none.
   const std::vector<LocalIndex>& only = options.only_subdomains;
   if (only.empty()) return;
   if (only.front() < 0 || std::ranges::adjacent_find(only, std::greater_equal{}) != only.end()) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tessera/base/hash.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/sharp_tets.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/cut/choose_planes.hpp"
@@ -35,8 +36,9 @@ struct RunOptions {
 struct RunResult {
   config::Case resolved{};  ///< With size and levels as chosen.
   model::ModelSource model{};
-  Hash128 field_content{};  ///< Of size.field; zero without one.
-  cut::CutChoice planes{};  ///< Without nodes unless the model is cut before it is meshed.
+  RepairCounts import_repairs{};  ///< Of the model; on rank 0.
+  Hash128 field_content{};        ///< Of size.field; zero without one.
+  cut::CutChoice planes{};        ///< Without nodes unless the model is cut before it is meshed.
   CoarseResult coarse{};
   coarse::SharpTets sharp{};  ///< Of the coarse mesh; on rank 0.
   mesh::EdgeLevels levels{};  ///< Of the coarse edges, in all.

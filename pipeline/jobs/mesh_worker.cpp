@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/coarse/optimize_interior.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
@@ -232,6 +233,7 @@ class MeshWorker final : public jobs::Worker {
                                                        const mesh::ProjectionLimiter& limiter) const
   {
     fail_if_asked("plan", test.subdomain);
+    if (is_left_out(Repair::held_back_points)) return {};
     const auto tets =
         untangle::tets_on_geometry(coarse_, cut_->tets[test.subdomain], cut_->on_geometry);
     const mesh::TetComplex complex = mesh::tet_complex(coarse_, cut_->skeleton, tets);

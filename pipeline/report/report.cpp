@@ -18,6 +18,7 @@
 #include "pipeline/report/defeature_json.hpp"
 #include "pipeline/report/names_json.hpp"
 #include "pipeline/report/quality_json.hpp"
+#include "pipeline/report/repairs_json.hpp"
 #include "pipeline/report/sharp_json.hpp"
 #include "pipeline/report/size_warning.hpp"
 #include "pipeline/stages/cut_stage.hpp"
@@ -392,6 +393,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);
   add_names(json, run);
   json["coarse"] = coarse_json(run);
+  json.update(repairs_json(run));
   json["decompose"] = decompose_json(run);
   if (is_cut(run)) json["decompose"].update(cuts_json(run));
   json["improve"] = improvement_json(run.filled.improvement);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/coarse_part.hpp"
 
+#include <array>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "tessera/base/hash.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/narrow_places.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/share_on_node.hpp"
@@ -102,24 +104,46 @@ double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
   return sharp.worst.empty() ? kSharpAngle_deg : sharp.worst.front().angle_deg;
 }
 
+// Sizes for another mesh, and which narrow places they are of.
+struct FinerPlaces {
+  mesh::SizePoints sizes{};
+  RepairCounts repairs{};
+
+  static auto fields(auto& self) { return std::tie(self.sizes, self.repairs); }
+};
+
+FinerPlaces finer_places(const CoarseResult& coarse, const coarse::FinerBefore& before)
+{
+  if (coarse.mesh.num_tets() > kMostTetsToMeshAgain) return {};
+  static_cast<void>(take_noted_repairs());
+  mesh::SizePoints sizes =
+      coarse::sizes_of_narrow_places(coarse.mesh, kSharpAngle_deg, coarse.options.max_size, before);
+  return {std::move(sizes), take_noted_repairs()};
+}
+
+// What the finer mesh has of the one before: it has the same options.
+constexpr std::array kOfFinerMesh{Repair::thin_walls, Repair::narrow_strips,
+                                  Repair::finer_coarse_size, Repair::more_curvature,
+                                  Repair::without_defeature};
+
 // Once more with smaller edges in thin walls and narrow strips. The better one of the two counts;
 // whether that is the finer one.
 bool is_better_if_finer(RunResult& run, const coarse::FinerBefore& before,
                         const model::NamedParts& parts, RunContext& context)
 {
-  const mesh::SizePoints sizes = on_root(context.comm, [&]() -> mesh::SizePoints {
-    if (run.coarse.mesh.num_tets() > kMostTetsToMeshAgain) return {};
-    return coarse::sizes_of_narrow_places(run.coarse.mesh, kSharpAngle_deg,
-                                          run.coarse.options.max_size, before);
-  });
-  if (sizes.size.empty()) return false;
+  const FinerPlaces places =
+      on_root(context.comm, [&] { return finer_places(run.coarse, before); });
+  if (places.sizes.size.empty()) return false;
   context.log.info("coarse: narrow places have too long edges; once more with shorter ones there");
-  CoarseResult finer = run_finer_try(run.resolved, run.coarse, sizes, context);
+  CoarseResult finer = run_finer_try(run.resolved, run.coarse, places.sizes, context);
   const bool is_better = on_root(context.comm, [&] {
     return finer.mesh.num_tets() > 0
            && smallest_unforced_angle(finer.mesh) > smallest_unforced_angle(run.coarse.mesh);
   });
   if (!is_better) finer.mesh = {};
+  for (const Repair repair : kOfFinerMesh) {
+    finer.repairs.add(repair, run.coarse.repairs[repair] + places.repairs[repair]);
+  }
   model::apply_names(parts, finer.mesh);
   replace(run.coarse, std::move(finer));
   return is_better;
@@ -187,7 +211,9 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
 {
   RunResult run;
   run.only_subdomains = options.only_subdomains;
+  static_cast<void>(take_noted_repairs());  // Of other runs.
   run.model = run_model_stage(given, context);
+  run.import_repairs = take_noted_repairs();
   run.field_content =
       comm::on_root(context.comm, [&] { return subdomain::size_field_content(given.size); });
   require_same_run(run, options.state, context);

@@ -121,6 +121,35 @@ std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTre
   return attempts;
 }
 
+// What a try does that is not as asked; nothing for the first one.
+std::optional<Repair> repair_of(const coarse::CoarseOptions& tried,
+                                const coarse::CoarseOptions& asked)
+{
+  if (tried.mesher != asked.mesher) return Repair::gmsh_mesh;
+  if (tried.defeature != asked.defeature) return Repair::without_defeature;
+  if (tried.surface_mesher != asked.surface_mesher) return Repair::remeshed_triangles;
+  if (tried.curvature != asked.curvature) return Repair::more_curvature;
+  if (tried.max_size != asked.max_size) return Repair::finer_coarse_size;
+  return std::nullopt;
+}
+
+RepairCounts repairs_of(const CoarsePlan& plan, const CoarsePlan& first)
+{
+  RepairCounts repairs;
+  if (const auto repair = repair_of(plan.options, first.options)) repairs.add(*repair);
+  if (plan.planes.num_parts != first.planes.num_parts) repairs.add(Repair::uncut_model);
+  return repairs;
+}
+
+void drop_left_out(std::vector<CoarsePlan>& plans)
+{
+  std::erase_if(plans, [first = plans.front()](const CoarsePlan& plan) {
+    const RepairCounts repairs = repairs_of(plan, first);
+    return std::ranges::any_of(left_out_repairs(),
+                               [&](Repair left_out) { return repairs[left_out] > 0; });
+  });
+}
+
 constexpr jobs::JobLimits kFiguresLimits{.cpu_s = 20.0, .stall_s = 20.0, .memory_gib = 8.0};
 
 // If they cannot be had: those of a model with many faces, so that nothing ends too early.
@@ -150,6 +179,7 @@ std::vector<CoarsePlan> plans_for(const config::Case& run_case, const cut::CutTr
                      .rung = first_rung + static_cast<LocalIndex>(plans.size()),
                      .limits = surface_limits(options, figures, plans.empty())});
   }
+  drop_left_out(plans);
   return plans;
 }
 
@@ -180,12 +210,13 @@ std::vector<RungKind> kinds_of(const std::vector<CoarsePlan>& plans)
   return kinds;
 }
 
-// How a rung has ended, the same on every rank. Nothing goes with it but words.
+// How a rung has ended, the same on every rank. Nothing goes with it but words and counts.
 struct RungOutcome {
   LocalIndex rung = 0;
   jobs::JobOutcome outcome{};
+  RepairCounts repairs{};  // In its surface.
 
-  static auto fields(auto& self) { return std::tie(self.rung, self.outcome); }
+  static auto fields(auto& self) { return std::tie(self.rung, self.outcome, self.repairs); }
 };
 
 // The tries at the coarse mesh. Their surfaces are made side by side: the rank that made one keeps
@@ -215,6 +246,9 @@ class CoarseTries {
         result_.cpu_s =
             outcomes_[*rung].cpu_s + cpu_of_all_ranks(context_.jobs.usage().cpu_s - before_s);
         result_.was_limited = result_.was_limited || made.was_limited;
+        result_.repairs = repairs_of(plan, plans_.front());
+        result_.repairs += repairs_[*rung];
+        result_.repairs += made.repairs;
         if (made.made) take(std::move(*made.made));
         break;
       }
@@ -273,7 +307,7 @@ class CoarseTries {
       end = RungEnd::failed;
     }
     if (made.surface) surfaces_[rung] = std::move(*made.surface);
-    ended_here_.push_back({rung, std::move(made.outcome)});
+    ended_here_.push_back({rung, std::move(made.outcome), made.repairs});
     return to_bytes(end);
   }
 
@@ -282,6 +316,7 @@ class CoarseTries {
   {
     for (RungOutcome& one : context_.comm.all_gather_rows(ended_here_)) {
       outcomes_[one.rung] = std::move(one.outcome);
+      repairs_[one.rung] = one.repairs;
     }
     ended_here_.clear();
     ladder_.restore(on_root(context_.comm, [&] { return ladder_.snapshot(); }));
@@ -325,6 +360,7 @@ class CoarseTries {
   std::map<LocalIndex, coarse::CoarseSurface> surfaces_{};  // Made by this rank.
   std::vector<RungOutcome> ended_here_{};
   std::map<LocalIndex, jobs::JobOutcome> outcomes_{};
+  std::map<LocalIndex, RepairCounts> repairs_{};
 };
 
 // Of a run that has a mesh: no tets if none of these can be made.

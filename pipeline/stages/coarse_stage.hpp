@@ -4,6 +4,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/cut/cut_tree.hpp"
@@ -25,13 +26,15 @@ struct CoarseResult {
   std::vector<std::string> failures{};  ///< What the tries before said, for the report.
   bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
   double cpu_s = 0.0;                   ///< CPU time of the try that succeeded, of all ranks.
+  RepairCounts repairs{};               ///< That are in this mesh, without those of the import.
   /// Where edges are longest in wanted sizes, if no finer mesh could be made for these; else 0.
   sizing::PartInSizes missed_size{};
 
   static auto fields(auto& self)
   {
     return std::tie(self.mesh, self.tet_part, self.options, self.tries, self.distance,
-                    self.defeatured, self.failures, self.was_limited, self.cpu_s, self.missed_size);
+                    self.defeatured, self.failures, self.was_limited, self.cpu_s, self.missed_size,
+                    self.repairs);
   }
 };
 

@@ -19,11 +19,13 @@
 namespace tessera::pipeline {
 namespace {
 
-// Runs a job and reads its result; nothing if it failed, and then `outcome` says why.
+// Runs a job and reads its result; nothing if it failed, and then `outcome` says why. What this
+// process has noted afterwards are the repairs of the job.
 template <class Result>
 std::optional<Result> result_of(const JobRequest& job, const jobs::JobRunner::WaitCallback& on_wait,
                                 jobs::JobOutcome& outcome, RunContext& context)
 {
+  static_cast<void>(take_noted_repairs());
   outcome = run_job(job, on_wait, context);
   auto result = read_result(outcome, from_bytes<Result>);
   keep_if_failed(job, outcome, context);
@@ -75,6 +77,7 @@ struct FailedPiece {
 // What this rank made of the pieces of a surface.
 struct PieceShare {
   std::vector<FilledPiece> filled{};
+  RepairCounts repairs{};
   std::vector<FailedPiece> failed{};
 };
 
@@ -102,6 +105,7 @@ PieceShare fill_share(const coarse::DividedSurface& divided, const coarse::Coars
     auto tets = result_of<coarse::DomainTets>(
         {fmt::format("coarse: piece {}", piece), request, limits}, on_wait, outcome, context);
     if (tets) {
+      share.repairs += take_noted_repairs();
       share.filled.push_back({piece, std::move(*tets)});
     } else {
       share.failed.push_back({piece, std::move(outcome)});
@@ -116,6 +120,7 @@ PieceShare fill_share(const coarse::DividedSurface& divided, const coarse::Coars
 struct PieceTry {
   std::optional<FailedPiece> failed{};
   std::vector<FilledPiece> filled{};
+  RepairCounts repairs{};
 };
 
 PieceTry fill_pieces(const coarse::DividedSurface& divided, const coarse::CoarseOptions& options,
@@ -124,8 +129,11 @@ PieceTry fill_pieces(const coarse::DividedSurface& divided, const coarse::Coarse
   const PieceShare share = fill_share(divided, options, stage, context);
   auto failed = context.comm.all_gather_rows(share.failed);
   if (!failed.empty())
-    return {std::move(*std::ranges::min_element(failed, {}, &FailedPiece::piece)), {}};
+    return {std::move(*std::ranges::min_element(failed, {}, &FailedPiece::piece)), {}, {}};
   PieceTry all;
+  for (const Bytes& bytes : context.comm.gather_to_root(to_bytes(share.repairs))) {
+    all.repairs += from_bytes<RepairCounts>(bytes);
+  }
   for (const Bytes& bytes : context.comm.gather_to_root(to_bytes(share.filled))) {
     auto some = from_bytes<std::vector<FilledPiece>>(bytes);
     std::ranges::move(some, std::back_inserter(all.filled));
@@ -146,6 +154,7 @@ SurfaceTry try_coarse_surface(const CoarsePlan& plan, const jobs::JobRunner::Wai
   const Bytes request = coarse_surface_request(options, plan.planes, plan.rung);
   made.surface = result_of<coarse::CoarseSurface>({"coarse", request, plan.limits}, on_wait,
                                                   made.outcome, context);
+  made.repairs = take_noted_repairs();
   return made;
 }
 
@@ -154,15 +163,19 @@ CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, coarse::CoarseSurface 
 {
   auto [divided, was_limited] = divide(surface, plan, context);
   PieceTry pieces = fill_pieces(divided, plan.options, stage, context);
-  if (pieces.failed && divided.surface.num_domains() > surface.num_domains()) {
+  RepairCounts repairs;
+  const bool is_divided = divided.surface.num_domains() > surface.num_domains();
+  if (pieces.failed && is_divided && !is_left_out(Repair::whole_domains)) {
+    repairs.add(Repair::whole_domains);
     context.log.warn("coarse: piece {}: {}; domains are filled whole", pieces.failed->piece,
                      pieces.failed->outcome.message);
     was_limited = was_limited || depends_on_machine(pieces.failed->outcome);
     divided = coarse::undivided(surface);
     pieces = fill_pieces(divided, plan.options, stage, context);
   }
-  if (pieces.failed) return {std::move(pieces.failed->outcome), {}};
-  CoarseAttempt attempt{.was_limited = was_limited};
+  if (pieces.failed) return {.outcome = std::move(pieces.failed->outcome)};
+  repairs += pieces.repairs;
+  CoarseAttempt attempt{.repairs = repairs, .was_limited = was_limited};
   attempt.outcome = comm::on_root(context.comm, [&] {
     std::size_t num_tets = surface.mesh.tet_vertices.size() / 4;
     for (const FilledPiece& one : pieces.filled) num_tets += one.tets.tet_vertices.size() / 4;
@@ -172,6 +185,7 @@ CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, coarse::CoarseSurface 
     jobs::JobOutcome outcome;
     attempt.made = result_of<CoarseTry>({"coarse: whole", request, limits}, wait_for_stop_signal(),
                                         outcome, context);
+    attempt.repairs += take_noted_repairs();
     return outcome;
   });
   return attempt;

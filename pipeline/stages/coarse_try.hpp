@@ -4,6 +4,7 @@
 #include <optional>
 #include <tuple>
 
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/coarse_surface.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/cut/cut_tree.hpp"
@@ -26,8 +27,7 @@ struct CoarsePlan {
 struct SurfaceTry {
   jobs::JobOutcome outcome{};
   std::optional<coarse::CoarseSurface> surface{};
-
-  static auto fields(auto& self) { return std::tie(self.outcome, self.surface); }
+  RepairCounts repairs{};  ///< In the surface.
 };
 
 /// @brief The first step of a try: the surface, in a job of this rank. A pure function of the model
@@ -40,6 +40,7 @@ struct SurfaceTry {
 struct CoarseAttempt {
   jobs::JobOutcome outcome{};       ///< Of its last job, or of the first one that failed.
   std::optional<CoarseTry> made{};  ///< On rank 0, if all went well.
+  RepairCounts repairs{};           ///< On rank 0, of all these jobs.
   bool was_limited = false;  ///< Domains are whole for lack of time or memory: not reproducible.
 };
 

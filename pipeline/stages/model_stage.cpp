@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
@@ -45,7 +46,9 @@ model::ModelSource import_in_jobs(
 {
   jobs::JobOutcome outcome = run_import("model", import_request(file, options));
   std::string death;
-  if (has_died(outcome) && (has_two_readers(file) || has_two_readers(options.cad))) {
+  const bool may_be_plain =
+      (has_two_readers(file) || has_two_readers(options.cad)) && !is_left_out(Repair::plain_reader);
+  if (has_died(outcome) && may_be_plain) {
     jobs::JobOutcome plain =
         run_import("model_plain", import_request(file, options, netgen::StepReader::plain));
     if (plain.status == jobs::JobStatus::ok) death = outcome.message;
@@ -54,6 +57,7 @@ model::ModelSource import_in_jobs(
   auto read = read_result(outcome, from_bytes<model::ModelSource>);
   throw_unless_read(outcome, file);
   if (!death.empty()) {
+    note_repair(Repair::plain_reader);
     read->repairs.insert(
         read->repairs.begin(),
         fmt::format("OpenCASCADE died of it, so that the plain reader was taken: {}", death));

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/base/version.hpp"
 #include "tessera/io/vtu.hpp"
 
@@ -42,10 +43,12 @@ struct Identity {
   std::string field{};    ///< The same of size.field.
   std::vector<LocalIndex> only_subdomains{};
   bool has_files = true;
+  std::string left_out{};  ///< TESSERA_LEAVE_OUT.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.version, self.model, self.field, self.only_subdomains, self.has_files);
+    return std::tie(self.version, self.model, self.field, self.only_subdomains, self.has_files,
+                    self.left_out);
   }
 };
 
@@ -73,7 +76,8 @@ auto read_report(const std::filesystem::path& output, const Read& read)
 Identity identity(const InputContent& input, const std::vector<LocalIndex>& only_subdomains,
                   bool has_files)
 {
-  return {record_version(), to_hex(input.model), to_hex(input.field), only_subdomains, has_files};
+  return {record_version(), to_hex(input.model), to_hex(input.field),
+          only_subdomains,  has_files,           names_of(left_out_repairs())};
 }
 
 // What another version notes besides its name may be anything.
@@ -91,7 +95,9 @@ std::optional<Identity> reported_identity(const std::filesystem::path& output, b
     return Identity{record_version(report.at("version").get<std::string>()),
                     report.at("model").at("digest"),
                     report.value("size_field_digest", to_hex(Hash128{})),
-                    report.at("only_subdomains").get<std::vector<LocalIndex>>(), has_files};
+                    report.at("only_subdomains").get<std::vector<LocalIndex>>(),
+                    has_files,
+                    report.value("left_out", "")};
   });
 }
 
@@ -104,6 +110,9 @@ std::string change(const Identity& there, const Identity& now)
   if (there.field != now.field) return "the file of size.field has changed";
   if (there.only_subdomains != now.only_subdomains)
     return "it was begun with other --only-subdomains";
+  if (there.left_out != now.left_out)
+    return fmt::format("TESSERA_LEAVE_OUT has changed, '{}' there, '{}' now", there.left_out,
+                       now.left_out);
   if (there.has_files == now.has_files) return {};
   return now.has_files ? "its pieces were to be handed over, not to go into files"
                        : "its mesh was to go into files";

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 
 #include "coarse/editable_surface.hpp"
@@ -325,6 +326,8 @@ Mended mend(CoarseSurface& surface, const model::Model& model)
   SurfaceGroups groups(surface, model);
   FoldMender mender(groups);
   mender.find_first();
+  const bool had_folds = !mender.looks_for_needles();
+  if (is_left_out(had_folds ? Repair::mend_folds : Repair::mend_needles)) return {{}, had_folds};
   FoldStatistics kept{.num_before = mender.num_found(), .num_left = mender.num_found()};
   FoldStatistics done = kept;
   CoarseSurface best;
@@ -337,10 +340,10 @@ Mended mend(CoarseSurface& surface, const model::Model& model)
       kept = done;
     }
   } catch (const GeometryError&) {  // A needle is no reason to lose the surface.
-    if (!mender.looks_for_needles()) throw;
+    if (had_folds) throw;
   }
   if (kept.num_left < kept.num_before) surface = std::move(best);
-  return {kept, !mender.looks_for_needles()};
+  return {kept, had_folds};
 }
 
 // None of what is left of them counts.
@@ -348,6 +351,7 @@ void add_needles(const FoldStatistics& needles, FoldStatistics& folds)
 {
   folds.num_flips += needles.num_flips;
   folds.num_cuts += needles.num_cuts;
+  folds.num_steps_of_needles += needles.num_flips + needles.num_cuts;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/sharp_tets.hpp"
 
 #include "coarse/narrow_strips.hpp"
@@ -92,7 +93,8 @@ class WallFinder {
     const Corners p = corners_of(mesh_, t);
     const double size = std::clamp(kEdgesOfWall * thickness(p), least_size_, max_size_);
     const double edges = longest_edge(p) / size;
-    if (edges <= 1.0) return;  // It is flat for another reason.
+    if (edges <= 1.0 || is_left_out(Repair::thin_walls)) return;  // It is flat for another reason.
+    ++num_walls_;
     num_tets_ += kTetsPerSquare * edges * edges;
     add_points(p, size, std::clamp(static_cast<int>(std::ceil(0.5 * edges)), 1, kMostPoints));
   }
@@ -104,7 +106,11 @@ class WallFinder {
     return more > std::max(kFewTets, kMostGrowth * num_first);
   }
 
-  mesh::SizePoints take() { return std::move(points_); }
+  mesh::SizePoints take()
+  {
+    note_repair(Repair::thin_walls, num_walls_);
+    return std::move(points_);
+  }
 
  private:
   void add_points(const Corners& p, double size, int n)
@@ -127,6 +133,7 @@ class WallFinder {
   double max_size_;
   double least_size_;
   mesh::SizePoints points_{};
+  GlobalIndex num_walls_ = 0;  // Tets.
   double num_tets_ = 0.0;
 };
 

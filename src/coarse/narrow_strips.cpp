@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "tessera/base/repair.hpp"
+
 #include "coarse/wall_sizes.hpp"
 
 namespace tessera::coarse {
@@ -103,8 +105,10 @@ mesh::SizePoints sizes_of_narrow_strips(const mesh::CoarseMesh& mesh, const Vert
                                         const std::vector<LocalIndex>& sharp,
                                         const StripLimits& limits)
 {
-  if (sharp.empty()) return {};
-  return StripFinder(mesh, patches, sharp).run(limits);
+  if (sharp.empty() || is_left_out(Repair::narrow_strips)) return {};
+  mesh::SizePoints points = StripFinder(mesh, patches, sharp).run(limits);
+  note_repair(Repair::narrow_strips, std::ssize(points.size));
+  return points;
 }
 
 }  // namespace tessera::coarse

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/remesh.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 
@@ -150,7 +151,7 @@ void mend_folds_of(PatchSurface& surface, std::size_t most_triangles,
                    const CoarseOptions& options)
 {
   std::vector<std::size_t> folding = folding_triangles(surface, reference, model);
-  if (folding.empty()) return;
+  if (folding.empty() || is_left_out(Repair::finer_at_folds)) return;
   std::size_t num_cut = find_overlaps(surface).size();
   for (int round = 0; round < kFinerRounds && !folding.empty(); ++round) {
     if (surface.triangles.size() > most_triangles) return;
@@ -161,6 +162,7 @@ void mend_folds_of(PatchSurface& surface, std::size_t most_triangles,
       if (left.size() >= folding.size() || left_cut > num_cut) return;
       surface = std::move(finer);
       folding = std::move(left);
+      note_repair(Repair::finer_at_folds);
       num_cut = left_cut;
     } catch (const GeometryError&) {
       return;
@@ -177,6 +179,7 @@ void mend_cuts_of(PatchSurface& surface, std::size_t most_triangles, Forbidden f
     const std::vector<Overlap> cuts = forbidden_overlaps(surface, forbidden);
     if (cuts.empty() || surface.triangles.size() > most_triangles) return;
     surface = finer_at(triangles_of(cuts), surface, reference, model, options);
+    note_repair(Repair::finer_at_cuts);
   }
 }
 
@@ -196,6 +199,7 @@ void lessen_allowed_cuts_of(PatchSurface& surface, std::size_t most_triangles, F
       if (left.size() >= cuts.size() || !forbidden_overlaps(finer, forbidden).empty()) return;
       surface = std::move(finer);
       cuts = std::move(left);
+      note_repair(Repair::finer_at_cuts);
     } catch (const GeometryError&) {
       return;
     }
@@ -217,8 +221,10 @@ PatchSurface remesh_on_geometry(const SurfaceReference& reference, const PatchSu
   PatchSurface surface = remesh(reference, start, options);
   put_on_geometry(surface, reference, model);
   const std::size_t most_triangles = kMostGrowth * surface.triangles.size();
-  mend_cuts_of(surface, most_triangles, forbidden, reference, model, options);
-  lessen_allowed_cuts_of(surface, most_triangles, forbidden, reference, model, options);
+  if (!is_left_out(Repair::finer_at_cuts)) {
+    mend_cuts_of(surface, most_triangles, forbidden, reference, model, options);
+    lessen_allowed_cuts_of(surface, most_triangles, forbidden, reference, model, options);
+  }
   mend_folds_of(surface, most_triangles, reference, model, options);
   return surface;
 }

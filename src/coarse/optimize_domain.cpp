@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "tessera/base/repair.hpp"
 #include "tessera/optimize/optimize.hpp"
 
 namespace tessera::coarse {
@@ -13,6 +14,7 @@ DomainTets optimized(DomainTets tets, const optimize::Schedule& schedule)
   optimize::OptimizeResult better = optimize::optimize(
       {.vertex_xyz = std::move(tets.vertex_xyz), .tet_vertices = std::move(tets.tet_vertices)},
       schedule);
+  note_repair(Repair::worst_tets, better.statistics.num_insertions);
   return {std::move(better.vertex_xyz), std::move(better.tet_vertices)};
 }
 
@@ -34,6 +36,7 @@ DomainTets smooth_domain(DomainTets tets)
 
 DomainTets mend_domain(DomainTets tets)
 {
+  if (is_left_out(Repair::worst_tets)) return tets;
   return optimized(std::move(tets),
                    {.steps = optimize::parse_steps("iwwiwwiww"), .insert_below = 0.35});
 }

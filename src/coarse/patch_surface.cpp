@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -102,13 +103,16 @@ void split_sheet(PatchSurface& surface, const Side& side)
 
 void separate_patches(PatchSurface& surface)
 {
+  if (is_left_out(Repair::separated_sheets)) return;
   const std::vector<Side> all = sides_of(surface);
   for_each_edge(all, [&surface](std::span<const Side> sides) {
     // Two triangles of one patch belong together, also at a pole, where their parameters differ.
     const bool is_one_sheet = sides.size() == 2 && sides[0].patch == sides[1].patch;
     if (is_one_sheet || std::ranges::binary_search(surface.edges, sides[0].edge)) return;
     for (std::size_t s = 1; s < sides.size(); ++s) {
-      if (sides[s] != sides[s - 1]) split_sheet(surface, sides[s]);
+      if (sides[s] == sides[s - 1]) continue;
+      split_sheet(surface, sides[s]);
+      note_repair(Repair::separated_sheets);
     }
   });
 }

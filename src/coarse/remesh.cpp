@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tessera/base/repair.hpp"
+
 #include "coarse/crossings.hpp"
 #include "coarse/editable_surface.hpp"
 #include "coarse/surface_sizes.hpp"
@@ -76,6 +78,7 @@ class Remesher {
   // vertices where a wall is thin.
   void see_walls(const CoarseOptions& options)
   {
+    if (is_left_out(Repair::wall_sizes)) return;
     sweep([this] { return flip_edges(); }, kFlipSweeps);
     sweep([this] { return split_long_edges(); }, kMostSweeps);
     surface_.set_sizes(wall_sizes(surface_, reference_.surface().patch_materials, options));

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "tessera/base/repair.hpp"
+
 namespace tessera::coarse {
 namespace {
 
@@ -35,9 +37,13 @@ class Snapper {
   VertexDistance run()
   {
     VertexDistance distance;
+    const bool may_move = !is_left_out(Repair::snapped_vertices);
     for (LocalIndex v = 0; v < mesh_.num_vertices(); ++v) {
       Off off = measure(v);
-      if (off.is_beyond_tolerance && move(v)) off = measure(v);
+      if (off.is_beyond_tolerance && may_move && move(v)) {
+        note_repair(Repair::snapped_vertices);
+        off = measure(v);
+      }
       distance.largest = std::max(distance.largest, off.distance);
       if (!off.is_beyond_tolerance) continue;
       if (off.distance <= merged_.tolerance && is_merged(v)) {

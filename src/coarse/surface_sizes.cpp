@@ -9,6 +9,8 @@
 #include <queue>
 #include <utility>
 
+#include "tessera/base/repair.hpp"
+
 #include "coarse/editable_surface.hpp"
 
 namespace tessera::coarse {
@@ -230,6 +232,7 @@ class SizeField {
 
   void resolve_round_places()
   {
+    if (is_left_out(Repair::round_places)) return;
     const double least = kLeastSize * options_.max_size;
     std::vector<std::vector<std::size_t>> triangles(sizes_.size());
     for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
@@ -241,7 +244,9 @@ class SizeField {
     for (std::size_t v = 0; v < sizes_.size(); ++v) {
       if (!round.goes_round(v, radii_[v], triangles[v])) continue;
       const double size = std::max(radii_[v], kLeastOfRound * options_.max_size);
-      sizes_[v] = std::min(sizes_[v], size);
+      if (size >= sizes_[v]) continue;
+      sizes_[v] = size;
+      note_repair(Repair::round_places);
     }
   }
 

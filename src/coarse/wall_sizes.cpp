@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "tessera/base/repair.hpp"
+
 #include "coarse/box_tree.hpp"
 #include "coarse/surface_sizes.hpp"
 
@@ -183,7 +185,13 @@ std::vector<double> wall_sizes(const EditableSurface& surface,
                                const std::vector<std::array<LocalIndex, 2>>& patch_materials,
                                const CoarseOptions& options)
 {
-  return WallSizes(surface, patch_materials, options).run();
+  std::vector<double> sizes = WallSizes(surface, patch_materials, options).run();
+  GlobalIndex num_smaller = 0;
+  for (LocalIndex v = 0; v < surface.num_vertices(); ++v) {
+    if (sizes[at(v)] < surface.size(v)) ++num_smaller;
+  }
+  note_repair(Repair::wall_sizes, num_smaller);
+  return sizes;
 }
 
 }  // namespace tessera::coarse

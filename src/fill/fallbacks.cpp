@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 
 namespace tessera::fill {
 
@@ -48,6 +49,11 @@ std::vector<FillTry> tries_of(const FillOptions& options, KernelKind kernel)
 std::vector<FillTry> fallback_sequence(const FillOptions& options, KernelKind kernel)
 {
   std::vector<FillTry> tries = tries_of(options, kernel);
+  const auto is_substitute = [&](const FillTry& how) {
+    const bool is_other = how.kernel != kernel;
+    return is_left_out(is_other ? Repair::subdivided_fills : Repair::fill_tries);
+  };
+  tries.erase(std::remove_if(tries.begin() + 1, tries.end(), is_substitute), tries.end());
   for (FillTry& how : tries) how.split_corners = splits_corners(options, kernel);
   return tries;
 }

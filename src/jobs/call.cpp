@@ -134,6 +134,9 @@ void Call::accept_data(const Packet& packet)
     case PacketKind::usage:
       usage_ = packet.value<UsageReport>();
       break;
+    case PacketKind::repairs:
+      repairs_ = packet.value<RepairCounts>();
+      break;
     case PacketKind::result:
     case PacketKind::failure:
       accept_answer(packet);
@@ -295,6 +298,7 @@ void Call::finish_answered()
   if (answer_.header().kind == PacketKind::result) {
     finish(JobStatus::ok, "");
     outcome_->result = answer_.take();
+    note_repairs(repairs_);
   } else {
     const Failure failure = from_bytes<Failure>(answer_.take());
     finish(failure.status, failure.message);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "tessera/base/repair.hpp"
 #include "tessera/jobs/job_runner.hpp"
 
 #include "jobs/packet.hpp"
@@ -77,6 +78,7 @@ class Call {
   Assembly answer_{};
   bool answered_ = false;
   std::optional<UsageReport> usage_{};
+  RepairCounts repairs_{};  // That the job noted.
   std::optional<JobOutcome> outcome_{};
 };
 

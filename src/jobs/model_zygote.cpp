@@ -16,6 +16,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/hash.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/jobs/this_process.hpp"
 
 #include "jobs/child_process.hpp"
@@ -309,8 +310,10 @@ class ModelZygote {
     redirect_output(client.log);
     begin_progress_reports(client.socket.get(), call);
     try {
+      static_cast<void>(take_noted_repairs());  // Of loads.
       const Bytes result = worker().run(request);
       report_usage_of_job(client, call);
+      send_value(client.socket.get(), PacketKind::repairs, call, take_noted_repairs());
       Outgoing(PacketKind::result, call, result).send_all(client.socket.get());
     } catch (...) {
       const Failure failure = current_failure();

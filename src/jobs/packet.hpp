@@ -29,6 +29,7 @@ enum class PacketKind : std::uint32_t {
   job_ended,      ///< model zygote → rank: ProcessEnd
   progress,       ///< job → rank
   usage,          ///< model zygote after a load, or job → rank: UsageReport
+  repairs,        ///< job → rank: RepairCounts
   result,         ///< model zygote after a load or open_door, or job → rank: bytes
   failure,        ///< model zygote after a load or open_door, or job → rank: bytes of a Failure
 };

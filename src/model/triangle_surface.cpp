@@ -9,6 +9,7 @@
 
 #include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/mesh/half_edges.hpp"
 
 #include "flat_triangles.hpp"
@@ -93,8 +94,10 @@ void record_lost_bodies(const std::vector<Vec3>& places, const std::string& what
 
 void drop_and_record(CheckedSurface& checked)
 {
+  if (is_left_out(Repair::dropped_triangles)) return;
   const DroppedTriangles dropped = drop_bad_triangles(checked.surface);
   record_lost_bodies(dropped.bodies, "without a size", checked);
+  checked.counted_repairs.add(Repair::dropped_triangles, dropped.degenerate + dropped.repeated);
   if (dropped.degenerate > 0) {
     checked.repairs.push_back(counted(dropped.degenerate, "triangle", "triangles")
                               + " with fewer than three different corners dropped");
@@ -107,10 +110,11 @@ void drop_and_record(CheckedSurface& checked)
 
 void weld_and_record(CheckedSurface& checked)
 {
-  if (open_edges(checked.surface).empty()) return;
+  if (open_edges(checked.surface).empty() || is_left_out(Repair::welded_vertices)) return;
   const double tolerance = kWeldTolerance * box_diagonal(checked.surface);
   const LocalIndex num_joined = weld_open_vertices(checked.surface, tolerance);
   if (num_joined == 0) return;
+  checked.counted_repairs.add(Repair::welded_vertices, num_joined);
   checked.repairs.push_back(fmt::format(
       "{} joined to a neighbour closer than {:g}",
       counted(num_joined, "vertex of an open edge", "vertices of open edges"), tolerance));
@@ -119,6 +123,8 @@ void weld_and_record(CheckedSurface& checked)
 
 void record_turns(CheckedSurface& checked, const Orientation& orientation)
 {
+  checked.counted_repairs.add(Repair::turned_triangles,
+                              orientation.num_turned + orientation.num_turned_shells);
   if (orientation.num_turned > 0) {
     checked.repairs.push_back(counted(orientation.num_turned, "triangle", "triangles")
                               + " turned to agree with the neighbours");
@@ -132,9 +138,12 @@ void record_turns(CheckedSurface& checked, const Orientation& orientation)
 
 Orientation oriented(TriangleSurface& surface, const std::string& name)
 {
+  const std::vector<LocalIndex> given = surface.triangle_vertices;
   const auto opposite =
       mesh::opposite_half_edges(mesh::half_edges_of_edges(surface.triangle_vertices));
-  return orient(surface, opposite, name);
+  Orientation orientation = orient(surface, opposite, name);
+  if (is_left_out(Repair::turned_triangles)) surface.triangle_vertices = given;
+  return orientation;
 }
 
 std::vector<Vec3> places_of(const std::vector<Shell>& shells, const TriangleSurface& surface)
@@ -150,6 +159,7 @@ std::vector<Vec3> places_of(const std::vector<Shell>& shells, const TriangleSurf
 bool mend_flat_and_record(CheckedSurface& checked, const std::vector<Shell>& shells,
                           const std::string& name)
 {
+  if (is_left_out(Repair::flat_triangles)) return false;
   const double height = kFlatHeight * box_diagonal(checked.surface);
   const std::vector<Vec3> places = places_of(shells, checked.surface);
   const auto [num_steps, gone] = mend_flat_triangles(checked.surface, height);
@@ -159,6 +169,7 @@ bool mend_flat_and_record(CheckedSurface& checked, const std::vector<Shell>& she
     if (std::ranges::includes(gone, shells[s].triangles)) lost.push_back(places[s]);
   }
   record_lost_bodies(lost, fmt::format("thinner than {:g}", height), checked);
+  checked.counted_repairs.add(Repair::flat_triangles, num_steps);
   checked.repairs.push_back(
       fmt::format("triangles flatter than {:g}, or folded onto others, mended in {}", height,
                   counted(num_steps, "step", "steps")));

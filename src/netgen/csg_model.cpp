@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 
 #include "netgen/csg_access.hpp"
 #include "netgen/csg_crossings.hpp"
@@ -387,6 +388,7 @@ CsgSolids made_solids(const CsgModel& model, const std::string& file, const std:
 model::ModelSource of_open_cascade(CadFile cad, const model::ModelSource& source,
                                    const std::string& why)
 {
+  note_repair(Repair::csg_by_occ);
   cad.repairs = source.repairs;
   cad.repairs.push_back(
       fmt::format("{}: OpenCASCADE made the solids once more; sizes that the file gives to solids "
@@ -424,16 +426,14 @@ std::optional<model::ModelSource> with_specks(const CsgModel& model, model::Mode
 
 model::ModelSource import_csg(const std::filesystem::path& file)
 {
-  model::ModelSource source;
-  source.format = model::Format::csg;
-  source.file_name = file.string();
+  model::ModelSource source{.format = model::Format::csg, .file_name = file.string()};
   const std::string text = read_text(file);
   const auto* first = reinterpret_cast<const std::byte*>(text.data());
   source.content.assign(first, first + text.size());
-
   const SkippedStatements skipped;
   const CsgModel model(source);
   source.repairs = skipped.lines();
+  if (is_left_out(Repair::csg_by_occ)) return source;
   if (auto specks = with_specks(model, source)) return std::move(*specks);
   if (model.has_apex()) {
     const std::string why = "NETGEN's CSG cannot mesh the apex of a cone";

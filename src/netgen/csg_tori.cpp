@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "tessera/base/repair.hpp"
+
 namespace tessera::netgen {
 namespace {
 
@@ -69,9 +71,12 @@ void mend(Torus& torus)
 
 void mend_tori(::netgen::CSGeometry& geometry)
 {
+  if (is_left_out(Repair::torus_sizes)) return;
   for (int i = 0; i < geometry.GetNSurf(); ++i) {
     const auto* torus = dynamic_cast<const Torus*>(geometry.GetSurface(i));
-    if (torus != nullptr) mend(const_cast<Torus&>(*torus));
+    if (torus == nullptr) continue;
+    mend(const_cast<Torus&>(*torus));
+    note_repair(Repair::torus_sizes);
   }
 }
 

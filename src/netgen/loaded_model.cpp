@@ -9,6 +9,7 @@
 #include <meshing.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/defeature.hpp"
 #include "tessera/coarse/mend_folds.hpp"
 #include "tessera/coarse/mend_surface.hpp"
@@ -38,34 +39,42 @@ void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& te
   add_tets(mesh, vertices, domain);
 }
 
-// Neither of these two loses a surface that can be filled because a projection fails.
-coarse::CoarseSurface shaped(const coarse::CoarseSurface& surface, const LoadedModel& model)
-{
-  try {
-    coarse::CoarseSurface better = surface;
-    if (coarse::mend_surface(better, model).total() == 0) return surface;
-    model.locate_parameters(better.mesh);
-    return better;
-  } catch (const GeometryError&) {
-    return surface;
-  }
-}
-
-struct Unfolded {
+struct Mended {
   coarse::CoarseSurface surface{};
+  RepairCounts repairs{};
   // Folds that could not be mended; the largest number if they are not known.
   LocalIndex num_left = std::numeric_limits<LocalIndex>::max();
 };
 
-Unfolded unfolded(coarse::CoarseSurface surface, const LoadedModel& model)
+// Neither of these two loses a surface that can be filled because a projection fails.
+Mended shaped(const coarse::CoarseSurface& surface, const LoadedModel& model)
 {
-  Unfolded as_it_was{surface};
+  if (is_left_out(Repair::mend_surface)) return {surface};
   try {
-    const coarse::FoldStatistics done = coarse::mend_folds(surface, model);
+    Mended better{surface};
+    const LocalIndex num_steps = coarse::mend_surface(better.surface, model).total();
+    if (num_steps == 0) return {surface};
+    model.locate_parameters(better.surface.mesh);
+    better.repairs.add(Repair::mend_surface, num_steps);
+    return better;
+  } catch (const GeometryError&) {
+    return {surface};
+  }
+}
+
+Mended unfolded(Mended as_it_was, const LoadedModel& model)
+{
+  try {
+    Mended better = as_it_was;
+    const coarse::FoldStatistics done = coarse::mend_folds(better.surface, model);
     as_it_was.num_left = done.num_before;
-    if (done.num_flips + done.num_cuts == 0) return as_it_was;
-    model.locate_parameters(surface.mesh);
-    return {std::move(surface), done.num_left};
+    const LocalIndex num_steps = done.num_flips + done.num_cuts;
+    if (num_steps == 0) return as_it_was;
+    model.locate_parameters(better.surface.mesh);
+    better.num_left = done.num_left;
+    better.repairs.add(Repair::mend_folds, num_steps - done.num_steps_of_needles);
+    better.repairs.add(Repair::mend_needles, done.num_steps_of_needles);
+    return better;
   } catch (const GeometryError&) {
     return as_it_was;
   }
@@ -76,10 +85,13 @@ Unfolded unfolded(coarse::CoarseSurface surface, const LoadedModel& model)
 coarse::CoarseSurface mended(coarse::CoarseSurface surface, const LoadedModel& model)
 {
   if (surface.num_domains() == 0) return surface;
-  Unfolded better = unfolded(shaped(surface, model), model);
-  if (better.num_left == 0) return std::move(better.surface);
-  Unfolded plain = unfolded(std::move(surface), model);
-  return std::move(plain.num_left < better.num_left ? plain.surface : better.surface);
+  Mended best = unfolded(shaped(surface, model), model);
+  if (best.num_left > 0) {
+    Mended plain = unfolded({std::move(surface)}, model);
+    if (plain.num_left < best.num_left) best = std::move(plain);
+  }
+  note_repairs(best.repairs);
+  return std::move(best.surface);
 }
 
 // A model whose triangles cannot be had may be meshed all the same.

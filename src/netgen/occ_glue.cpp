@@ -22,6 +22,7 @@
 #include <TopoDS_Compound.hxx>
 #include <fmt/format.h>
 
+#include "tessera/base/repair.hpp"
 #include "tessera/base/union_find.hpp"
 
 #include "netgen/occ_shape.hpp"
@@ -123,7 +124,11 @@ std::unique_ptr<Fuse> fuse_without_films(const std::vector<TopoDS_Shape>& solids
   std::unique_ptr<Fuse> fuse;
   for (const double gap : kGlueGaps) {
     fuse = fuse_solids(solids, gap * diagonal);
-    if (fuse->HasErrors() || !left_films(fuse->Shape(), num_given, diagonal)) break;
+    if (gap > 0.0) note_repair(Repair::wider_glue_gap);
+    if (fuse->HasErrors() || !left_films(fuse->Shape(), num_given, diagonal)
+        || is_left_out(Repair::wider_glue_gap)) {
+      break;
+    }
   }
   const bool is_whole = !fuse->HasErrors() && count_solids(fuse->Shape()) >= num_given;
   return is_whole ? std::move(fuse) : nullptr;
@@ -281,7 +286,8 @@ TopoDS_Shape glued(const std::vector<TopoDS_Shape>& solids, CadFile& cad)
   const TopoDS_Compound apart = compound_of(solids);
   if (!any_boxes_touch(solids)) return apart;
   const int num_given = count_solids(apart);
-  const std::optional<Glued> result = glue_at_faces(solids, box_diagonal_of(apart));
+  std::optional<Glued> result;
+  if (!is_left_out(Repair::glued_solids)) result = glue_at_faces(solids, box_diagonal_of(apart));
   if (!result) {
     cad.repairs.emplace_back("solids that may touch could not be glued");
     cad.may_overlap = true;
@@ -296,6 +302,7 @@ TopoDS_Shape glued(const std::vector<TopoDS_Shape>& solids, CadFile& cad)
   }
   if (num_solids == num_given && num_shared == count_shared_faces(apart)) return apart;
   follow_names(apart, cad.names, [&](const TopoDS_Shape& part) { return result->images_of(part); });
+  note_repair(Repair::glued_solids);
   cad.repairs.emplace_back(fmt::format("touching solids were glued: {} shared faces", num_shared));
   if (num_solids != num_given) {
     cad.repairs.emplace_back(

@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 
 #include "netgen/occ_cad_file.hpp"
 #include "netgen/occ_glue.hpp"
@@ -113,6 +114,7 @@ Sewn sew(const TopoDS_Shape& faces, ShapeNames& names)
 
 std::vector<TopoDS_Shape> solids_from_faces(const TopoDS_Shape& faces, CadFile& cad)
 {
+  if (is_left_out(Repair::sewn_faces)) throw GeometryError("faces are not to be sewn");
   const Sewn sewn = sew(faces, cad.names);
   if (sewn.closed_shells.empty()) {
     throw GeometryError(
@@ -125,6 +127,7 @@ std::vector<TopoDS_Shape> solids_from_faces(const TopoDS_Shape& faces, CadFile& 
   for (const TopoDS_Shape& shell : sewn.closed_shells) {
     solids.push_back(BRepBuilderAPI_MakeSolid(TopoDS::Shell(shell)).Solid());
   }
+  note_repair(Repair::sewn_faces, static_cast<GlobalIndex>(solids.size()));
   std::string line =
       fmt::format("sewed {} with gap {:g} into {}", counted(count(faces, TopAbs_FACE), "face"),
                   sewn.gap, counted(static_cast<int>(solids.size()), "solid"));
@@ -163,6 +166,7 @@ TopoDS_Shape fixed(const TopoDS_Shape& solid, ShapeNames& names)
 // The solid with wires that close in the parameters of their faces.
 TopoDS_Shape closed_in_parameters(const TopoDS_Shape& solid, ShapeNames& names)
 {
+  if (is_left_out(Repair::closed_wires)) return solid;
   const Handle(ShapeBuild_ReShape) changes = new ShapeBuild_ReShape;
   TopoDS_Shape better = with_closed_wires(solid, *changes);
   follow_names(solid, *changes, names);
@@ -186,9 +190,11 @@ std::vector<TopoDS_Shape> healed(const TopoDS_Shape& given, int number, CadFile&
   if (is_sound(given)) return {given};
   const TopoDS_Shape solid = closed_in_parameters(given, cad.names);
   if (is_sound(solid)) {
+    note_repair(Repair::closed_wires);
     cad.repairs.push_back(name + " had wires that did not close on periodic faces; they do now");
     return {solid};
   }
+  if (is_left_out(Repair::fixed_shapes)) return {solid};
   const TopoDS_Shape better = fixed(solid, cad.names);
   std::vector<TopoDS_Shape> closed;
   for (const TopoDS_Shape& part : parts_of(better, TopAbs_SOLID)) {
@@ -205,6 +211,7 @@ std::vector<TopoDS_Shape> healed(const TopoDS_Shape& given, int number, CadFile&
     cad.repairs.push_back(fmt::format("{} {}", name, was));
     return solids_from_faces(count(better, TopAbs_FACE) > 0 ? better : solid, cad);
   }
+  note_repair(Repair::fixed_shapes);
   cad.repairs.push_back(fmt::format("{} {}; its wires, faces and shells were fixed{}", name, was,
                                     clean ? "" : ", defects remain"));
   return closed;
@@ -214,9 +221,10 @@ std::vector<TopoDS_Shape> healed(const TopoDS_Shape& given, int number, CadFile&
 TopoDS_Shape outward(const TopoDS_Shape& shape, CadFile& cad)
 {
   TopoDS_Solid solid = TopoDS::Solid(shape);
-  if (volume_of(solid) > 0.0) return solid;
+  if (volume_of(solid) > 0.0 || is_left_out(Repair::turned_solids)) return solid;
   BRepLib::OrientClosedSolid(solid);
   if (volume_of(solid) < 0.0) solid = TopoDS::Solid(solid.Reversed());
+  note_repair(Repair::turned_solids);
   cad.repairs.emplace_back("a solid was inside out and was turned");
   return solid;
 }

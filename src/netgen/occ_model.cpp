@@ -14,6 +14,7 @@
 #include <occgeom.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/on_geometry.hpp"
 
 #include "netgen/loaded_model.hpp"
@@ -167,7 +168,11 @@ void OccModel::triangulate_for_sizes(const TopoDS_Shape& shape)
   parameters.Deflection = 0.01;  // Of an edge's length; what NETGEN takes.
   parameters.Relative = Standard_True;
   const std::vector<TopoDS_Shape> faces = parts_of(shape, TopAbs_FACE);
-  for (const int face : triangulate_faces(shape, parameters)) sample_face(faces[at(face)]);
+  for (const int face : triangulate_faces(shape, parameters)) {
+    if (is_left_out(Repair::sampled_face)) continue;
+    sample_face(faces[at(face)]);
+    note_repair(Repair::sampled_face);
+  }
 }
 
 std::string OccModel::solid_name(LocalIndex material) const

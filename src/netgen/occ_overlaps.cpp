@@ -29,6 +29,8 @@
 #include <fmt/format.h>
 #include <gp_Pnt.hxx>
 
+#include "tessera/base/repair.hpp"
+
 #include "netgen/occ_glue.hpp"
 #include "netgen/occ_shape.hpp"
 
@@ -246,6 +248,7 @@ TopoDS_Shape body_like(const TopoDS_Shape& solid, const Images& images, double g
 
 TopoDS_Shape without_overlaps(const TopoDS_Shape& solid, CadFile& cad)
 {
+  if (is_left_out(Repair::overlapping_edges)) return solid;
   const double gap = kNearest * box_diagonal_of(solid);
   try {
     const int num_overlaps = count_overlaps(solid, gap);
@@ -263,6 +266,7 @@ TopoDS_Shape without_overlaps(const TopoDS_Shape& solid, CadFile& cad)
       if (const TopTools_ListOfShape* const cut = images.Seek(part)) pieces = *cut;
       return pieces;
     });
+    note_repair(Repair::overlapping_edges, num_overlaps);
     cad.repairs.push_back(found + " and were made one");
     return body;
   } catch (const Standard_Failure&) {

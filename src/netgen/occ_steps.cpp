@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "tessera/base/repair.hpp"
+
 #include "netgen/netgen_versions.hpp"
 
 namespace tessera::netgen {
@@ -62,15 +64,18 @@ std::shared_ptr<::netgen::Mesh> with_fair_sizes(::netgen::OCCGeometry& geometry,
   const auto num_cells = [](::netgen::Mesh& mesh) { return mesh.LocalHFunction().GetNBoxes(); };
   Fineness fineness;
   auto mesh = with_sizes(geometry, parameters, fineness);
-  const auto take_if_much_smaller = [&](int many, const Fineness& coarser) {
-    if (mesh == nullptr || num_cells(*mesh) < many) return;
+  const auto take_if_much_smaller = [&](Repair repair, int many, const Fineness& coarser) {
+    if (mesh == nullptr || num_cells(*mesh) < many || is_left_out(repair)) return;
     auto other = with_sizes(geometry, parameters, coarser);
     if (other == nullptr || 2 * num_cells(*other) >= num_cells(*mesh)) return;
     mesh = std::move(other);
     fineness = coarser;
+    note_repair(repair);
   };
-  take_if_much_smaller(kManyForCloseEdges, {kOfCloseEdges, fineness.curvature});
-  take_if_much_smaller(kManyForCurvature, {fineness.close_edges, kOfCurvature});
+  take_if_much_smaller(Repair::longer_close_edges, kManyForCloseEdges,
+                       {kOfCloseEdges, fineness.curvature});
+  take_if_much_smaller(Repair::longer_curved_edges, kManyForCurvature,
+                       {fineness.close_edges, kOfCurvature});
   return mesh;
 }
 

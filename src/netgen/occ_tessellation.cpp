@@ -24,6 +24,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/base/union_find.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 
@@ -78,7 +79,7 @@ class Tessellation {
       if (surface_.patch_materials[static_cast<std::size_t>(f) - 1] == kNoMaterials) continue;
       add_face(f);
     }
-    if (has_same_) merge_same();
+    if (has_same_ && !is_left_out(Repair::merged_points)) merge_same();
     for (const auto& [edge, record] : curves_) {
       surface_.edges.push_back(edge);
       surface_.edge_curve.push_back(record.curve);
@@ -198,6 +199,7 @@ class Tessellation {
   // triangles tell apart, are one point in some faces. Then they are in all.
   void merge_same()
   {
+    note_repair(Repair::merged_points);
     std::size_t kept = 0;
     for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
       PatchSurface::Triangle v = surface_.triangles[t];
@@ -245,6 +247,7 @@ PatchSurface triangles_of(const TopoDS_Shape& shape, double size, double part)
 PatchSurface tessellation_of(const TopoDS_Shape& shape, double size)
 {
   PatchSurface best = triangles_of(shape, size, 1.0);
+  if (is_left_out(Repair::finer_tessellation)) return best;
   std::size_t num_cuts = coarse::find_overlaps(best).size();
   double part = kFiner;
   for (int round = 0; round < kMostFiner && num_cuts > 0; ++round, part *= kFiner) {
@@ -253,6 +256,7 @@ PatchSurface tessellation_of(const TopoDS_Shape& shape, double size)
     if (num_left >= num_cuts) break;
     num_cuts = num_left;
     best = std::move(finer);
+    note_repair(Repair::finer_tessellation);
   }
   return best;
 }

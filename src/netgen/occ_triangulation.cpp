@@ -20,6 +20,8 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 
+#include "tessera/base/repair.hpp"
+
 #include "netgen/occ_face_loops.hpp"
 #include "netgen/occ_shape.hpp"
 
@@ -237,19 +239,27 @@ std::vector<int> triangulate_faces(const TopoDS_Shape& shape,
   constexpr std::array<double, 3> kFiner{1.0, 0.3, 0.1};
   const std::vector<TopoDS_Shape> faces = parts_of(shape, TopAbs_FACE);
   std::vector<int> bare;
+  int num_from_boundary = 0;
   for (const double finer : kFiner) {
     IMeshTools_Parameters finer_parameters = parameters;
     finer_parameters.Deflection *= finer;
     BRepTools::Clean(shape);
     BRepMesh_IncrementalMesh(shape, finer_parameters);
     bare.clear();
+    num_from_boundary = 0;
     for (std::size_t f = 0; f < faces.size(); ++f) {
       if (has_triangles(TopoDS::Face(faces[f]))) continue;
       const Closeness closeness = closeness_for(faces[f], finer_parameters);
-      if (!triangulate_from_boundary(faces[f], closeness)) bare.push_back(static_cast<int>(f));
+      if (!is_left_out(Repair::face_from_boundary)
+          && triangulate_from_boundary(faces[f], closeness)) {
+        ++num_from_boundary;
+      } else {
+        bare.push_back(static_cast<int>(f));
+      }
     }
     if (bare.empty()) break;
   }
+  note_repair(Repair::face_from_boundary, num_from_boundary);
   return bare;
 }
 

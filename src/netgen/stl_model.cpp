@@ -228,6 +228,7 @@ model::ModelSource import_stl(const std::filesystem::path& file,
   const model::TriangleSoup soup = model::read_stl(file);
   model::CheckedSurface checked = model::check_surface(soup, file.string());
   if (reader != StepReader::plain) unite_flat_contacts(soup, checked, file.string());
+  note_repairs(checked.counted_repairs);
   return {.format = model::Format::stl,
           .file_name = file.string(),
           .length_unit = {},

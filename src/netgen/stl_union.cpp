@@ -338,7 +338,10 @@ void unite_flat_contacts(const model::TriangleSoup& soup, model::CheckedSurface&
                          const std::string& name)
 {
   const model::TriangleSurface& surface = checked.surface;
-  if (surface.num_triangles() > kMostTriangles || has_several_solids(surface)) return;
+  if (surface.num_triangles() > kMostTriangles || has_several_solids(surface)
+      || is_left_out(Repair::flat_contacts)) {
+    return;
+  }
   const Contacts contacts =
       find_flat_contacts(triangles_of(surface), kTouching * model::box_diagonal(surface));
   if (contacts.empty()) return;
@@ -351,6 +354,8 @@ void unite_flat_contacts(const model::TriangleSoup& soup, model::CheckedSurface&
   if (made) {
     checked.surface = std::move(made->surface);
     checked.repairs.insert(checked.repairs.end(), made->repairs.begin(), made->repairs.end());
+    checked.counted_repairs += made->counted_repairs;
+    checked.counted_repairs.add(Repair::flat_contacts, static_cast<GlobalIndex>(contacts.size()));
   } else {
     checked.repairs.emplace_back(fmt::format(
         "surfaces lie flat on each other at {} pairs of triangles, and could not be joined",

@@ -13,6 +13,7 @@
 #include <meshing.hpp>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
 #include "tessera/coarse/optimize_domain.hpp"
 #include "tessera/coarse/touching_faces.hpp"
 
@@ -86,7 +87,9 @@ std::optional<coarse::DomainTets> without_illegal_tets(const coarse::DomainSkin&
   add_skin(mesh, skin);
   add_all(mesh, tets);
   mesh.CalcSurfacesOfNode();
-  if (mesh.MarkIllegalElements() == 0) return std::nullopt;
+  const int num_illegal = mesh.MarkIllegalElements();
+  if (num_illegal == 0 || is_left_out(Repair::illegal_tets)) return std::nullopt;
+  note_repair(Repair::illegal_tets, num_illegal);
   ::netgen::RemoveIllegalElements(mesh);
   return tets_in(mesh, skin);
 }

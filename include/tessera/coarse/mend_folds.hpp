@@ -10,8 +10,9 @@ namespace tessera::coarse {
 struct FoldStatistics {
   LocalIndex num_before = 0;  ///< Triangles with a child that looks the other way.
   LocalIndex num_left = 0;
-  LocalIndex num_flips = 0;  ///< Also where children would have been needles.
-  LocalIndex num_cuts = 0;   ///< Of edges that got a vertex on the geometry; also there.
+  LocalIndex num_flips = 0;             ///< Also where children would have been needles.
+  LocalIndex num_cuts = 0;              ///< Of edges that got a vertex on the geometry; also there.
+  LocalIndex num_steps_of_needles = 0;  ///< Of both, those where children would have been needles.
 };
 
 /// @brief Changes a coarse surface where it would fold on its first level of refinement. Local.

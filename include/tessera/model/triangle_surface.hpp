@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/repair.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/model/stl_file.hpp"
@@ -57,6 +58,7 @@ struct TriangleSurface {
 struct CheckedSurface {
   TriangleSurface surface{};
   std::vector<std::string> repairs{};
+  RepairCounts counted_repairs{};  ///< The same by kind; nothing of it is noted.
 };
 
 /// @brief Makes a closed surface of loose triangles.
