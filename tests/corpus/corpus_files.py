@@ -149,6 +149,7 @@ class Models:
         target.parent.mkdir(exist_ok=True)
         for made in work.iterdir():
             made.rename(target.parent / made.name)  # Only what is whole.
+        work.rmdir()
 
     def path_of(self, entry):
         """The file of an entry, under a name that the program takes."""
