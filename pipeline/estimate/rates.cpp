@@ -41,8 +41,8 @@ double file_bytes_per_tet(const io::OutputOptions& options)
 
 }  // namespace
 
-// Measured on torus and core with pieces of 1e4 to 3e5 tets; NETGEN from skins alone, which is its
-// slowest start.
+// Measured on torus and core with pieces of 1e4 to 3e5 tets. NETGEN's fills from the children took
+// 4e-6 to 8e-6 s a tet on linkrods.step, screw.step and shaft; from the skin alone 80e-6.
 // Our optimiser: fills of the eleven cases took 1.3e-6 to 4e-6 s a tet. Its memory is that of the
 // children and the 250 bytes that optimize() states; neither was measured in a job.
 Rates built_in_rates(const io::OutputOptions& options)
@@ -50,7 +50,7 @@ Rates built_in_rates(const io::OutputOptions& options)
   const double file_bytes = file_bytes_per_tet(options);
   Rates rates;
   rates.netgen = {.interior_vertices_per_tet = 0.11,
-                  .fill_cpu_s_per_tet = 1.0 / 12'000.0,
+                  .fill_cpu_s_per_tet = 1e-5,
                   .plan_cpu_s_per_tet = 1e-6,
                   .write_cpu_s_per_tet = 1e-6,
                   .job_bytes_per_tet = 1000.0,

@@ -38,12 +38,6 @@ struct CoarseResult {
   }
 };
 
-/// @brief The tries at a coarse mesh, best first. A mesh that fails at one size often works at
-/// another, so after the try as asked come smaller sizes that grow more slowly, then more elements
-/// on curved surfaces. The last try is on the triangles of the model instead of its faces.
-[[nodiscard]] std::vector<coarse::CoarseOptions> coarse_fallbacks(
-    const coarse::CoarseOptions& asked);
-
 /// @brief Makes the coarse mesh in jobs and gives it to all ranks. Surfaces of later tries are made
 /// beside the first on ranks that are free (CoarseLadder); after the fallbacks comes Gmsh.
 ///

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/stages/coarse_stage.hpp"
+#include "pipeline/stages/coarse_plans.hpp"
 
 namespace tessera::pipeline {
 namespace {
