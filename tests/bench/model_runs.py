@@ -5,6 +5,7 @@ import dataclasses
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import tempfile
@@ -12,6 +13,7 @@ import time
 
 ENDINGS = {0: "ok", 2: "failed", 3: "degraded", 64: "refused"}  # 73 and 75 have no cause here.
 HAS_MESH = ("ok", "degraded")
+CAD_KINDS = (".geo", ".stl", ".step", ".stp", ".iges", ".igs", ".brep")
 WALL_FOR_CPU = 3.0
 
 
@@ -106,6 +108,12 @@ def mesh_command(program, ranks):
     os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     mpirun = ["mpirun", "-n", ranks, "--bind-to", "none", "--oversubscribe"] if ranks > 1 else []
     return [*mpirun, program, "mesh"]
+
+
+def diagonal_of(program, model, limit_s):
+    """Of the model's box, in the unit of the output; 1 if the program refuses the file anyway."""
+    found = re.search(r"box diagonal (\S+)", run([program, "info", model], limit_s).out)
+    return float(found[1]) if found else 1.0
 
 
 def defect_of(program, mesh, report, limit_s):
