@@ -157,8 +157,9 @@ class Crossings {
     return std::ranges::any_of(parts_[side.solid], [&](int object) {
       const Solid* const solid = geometry_.GetTopLevelObject(object)->GetSolid();
       NetgenArray<int> indices;
-      const auto local =
-          tangential_solid(*solid, point, indices, geometry_.GetIdEps() * geometry_.MaxSize());
+      Solid* found = nullptr;
+      solid->TangentialSolid(point, found, indices, geometry_.GetIdEps() * geometry_.MaxSize());
+      const std::unique_ptr<Solid> local(found);
       if (local == nullptr) return false;
       Surfaces here;
       for (const int i : indices) here.insert(geometry_.GetSurfaceClassRepresentant(i));

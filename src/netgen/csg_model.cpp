@@ -24,6 +24,7 @@
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
+#include "netgen/netgen_versions.hpp"
 #include "netgen/occ_content.hpp"
 #include "netgen/occ_error.hpp"
 
@@ -187,11 +188,12 @@ model::SurfacePoint CsgModel::project_to_surface(LocalIndex number, const Vec3& 
 
 model::CurvePoint CsgModel::project_to_curve(LocalIndex curve, const Vec3& point, double) const
 {
-  const int num_surfaces = geometry_->GetNSurf();
-  const ::netgen::Surface& first = surface(curve / num_surfaces);
-  const ::netgen::Surface& second = surface(curve % num_surfaces);
+  const int one = curve / geometry_->GetNSurf();
+  const int other = curve % geometry_->GetNSurf();
+  const ::netgen::Surface& first = surface(one);
+  const ::netgen::Surface& second = surface(other);
   const Point found = iterate(to_netgen(point), kConverged * box_diagonal_,
-                              [&](Point& p) { ::netgen::ProjectToEdge(&first, &second, p); });
+                              [&](Point& p) { project_to_edge(*geometry_, one, other, p); });
   require_on(first, found, point);
   require_on(second, found, point);
   return {from_netgen(found), 0.0};

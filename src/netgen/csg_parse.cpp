@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/csg_parse.hpp"
 
+#include <sstream>
+
 #include "tessera/base/error.hpp"
 
 #include "netgen/csg_access.hpp"
@@ -8,12 +10,7 @@
 #include "netgen/csg_solids.hpp"
 #include "netgen/csg_tori.hpp"
 #include "netgen/netgen_session.hpp"
-
-// Defined in libcsg.so and declared in no header of NETGEN 6.2.1905.
-namespace netgen {
-// NOLINTNEXTLINE(readability-identifier-naming): NETGEN's
-CSGeometry* ParseCSG(std::istream& text, CSGeometry* instance);
-}  // namespace netgen
+#include "netgen/netgen_versions.hpp"
 
 namespace tessera::netgen {
 
@@ -23,10 +20,10 @@ std::unique_ptr<Geometry> parse_csg(const std::string& text, const std::string& 
 {
   NetgenSession session;
   // At the end of the text NETGEN's scanner repeats the last letter of a name for ever.
-  std::istringstream in(text + '\n');
+  const std::string ended = text + '\n';
   std::unique_ptr<Geometry> geometry;
   try {
-    geometry.reset(session.run(file_name, [&] { return ::netgen::ParseCSG(in, nullptr); }));
+    geometry = session.run(file_name, [&] { return read_csg(ended); });
   } catch (const NetgenError& error) {
     throw InputError(error.what());
   }

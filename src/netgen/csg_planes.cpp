@@ -25,7 +25,7 @@ bool is_on_other(const ::netgen::CSGeometry& geometry, const ::netgen::Point<3>&
 {
   for (int s = 0; s < geometry.GetNSurf(); ++s) {
     const ::netgen::Surface& other = *geometry.GetSurface(s);
-    if (dynamic_cast<const Plane*>(&other) != nullptr) continue;
+    if (as_plane(&other) != nullptr) continue;
     if (std::abs(other.CalcFunctionValue(point)) <= tolerance) return true;
   }
   return false;
@@ -44,8 +44,7 @@ void describe_by(const Vec3& point, Plane& plane)
 void separate_planes(::netgen::CSGeometry& geometry, double tolerance)
 {
   for (int s = 0; s < geometry.GetNSurf(); ++s) {
-    auto* const plane =
-        dynamic_cast<Plane*>(const_cast<::netgen::Surface*>(geometry.GetSurface(s)));
+    auto* const plane = const_cast<Plane*>(as_plane(geometry.GetSurface(s)));
     if (plane == nullptr) continue;
     const Vec3 start = from_netgen(plane->P());
     const ::netgen::Vec<3> along = plane->N().GetNormal();

@@ -86,7 +86,7 @@ class PlaneMesh {
   {
     ::netgen::Box<3> box(::netgen::Box<3>::EMPTY_BOX);
     for (const auto& edge : border.edges) box.Add(mesh_[border_point(edge[0])]);
-    PlaneMesher mesher(session_.parameters(), box);
+    ::netgen::Meshing2 mesher = plane_mesher(session_.parameters(), box);
     for (const LocalIndex v : of_border_) mesher.AddPoint(mesh_[border_point(v)], border_point(v));
     ::netgen::PointGeomInfo anywhere;
     anywhere.trignum = 1;

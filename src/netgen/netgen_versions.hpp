@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <istream>
 #include <memory>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <typeinfo>
 
 #include <BRep_Tool.hxx>
 #include <TopoDS.hxx>
@@ -11,6 +16,10 @@
 #include <stlgeom.hpp>
 
 /// What differs between NETGEN 6.2.1905 (Debian 12) and 6.2.2501 (Debian 13), and nothing else.
+///
+/// The library of 6.2.2501 hides its classes of surfaces and solids of CSG, and many functions.
+/// What it does not hide is called in their place, also virtual functions. csg_hidden.cpp says what
+/// is not there then.
 #if __has_include(<netgen_version.hpp>)  // Not in 6.2.1905.
 
 namespace netgen {
@@ -29,17 +38,38 @@ inline void use_one_thread(::netgen::MeshingParameters& parameters)
   parameters.parallel_meshing = false;
 }
 
-[[nodiscard]] inline std::unique_ptr<::netgen::Solid> tangential_solid(
-    const ::netgen::Solid& solid, const ::netgen::Point<3>& point, NetgenArray<int>& surfaces,
-    double tolerance)
+/// @brief The surface as a plane; null if it is none. Its class is known by name only.
+[[nodiscard]] inline const ::netgen::Plane* as_plane(const ::netgen::Surface* surface)
 {
-  return solid.TangentialSolid(point, surfaces, tolerance);
+  constexpr std::string_view kPlane = "N6netgen5PlaneE";
+  return typeid(*surface).name() == kPlane ? static_cast<const ::netgen::Plane*>(surface) : nullptr;
+}
+
+/// @brief Moves a point to where two surfaces meet.
+inline void project_to_edge(const ::netgen::CSGeometry& geometry, int first, int second,
+                            ::netgen::Point<3>& point)
+{
+  geometry.ProjectPointEdge(first, second, point);
+}
+
+/// @brief Reads a CSG file; null if it is none. Only readers of files are not hidden, so the text
+/// is in a file meanwhile.
+/// @throws OutputError if there is no place for it.
+[[nodiscard]] std::unique_ptr<::netgen::CSGeometry> read_csg(const std::string& text);
+
+[[nodiscard]] inline ::netgen::STLReadTriangle stl_triangle(const ::netgen::Point<3>* corners,
+                                                            const ::netgen::Vec<3>& normal)
+{
+  ::netgen::STLReadTriangle triangle;
+  for (int c = 0; c < 3; ++c) const_cast<::netgen::Point<3>&>(triangle[c]) = corners[c];
+  const_cast<::netgen::Vec<3>&>(triangle.Normal()) = normal;
+  return triangle;
 }
 
 inline void mesh_stl(::netgen::STLGeometry& geometry, std::shared_ptr<::netgen::Mesh>& mesh,
-                     const ::netgen::MeshingParameters& parameters)
+                     ::netgen::MeshingParameters& parameters)
 {
-  ::netgen::STLMeshingDummy(&geometry, mesh, parameters, ::netgen::stlparam);
+  geometry.GenerateMesh(mesh, parameters);
 }
 
 /// @brief Edges that run beside each other 1 / factor of their length apart get finer.
@@ -87,20 +117,12 @@ class PlaneGeometry final : public ::netgen::NetgenGeometry {
   // NOLINTEND(readability-identifier-naming)
 };
 
-class PlaneMesher final : public ::netgen::Meshing2 {
- public:
-  PlaneMesher(const ::netgen::MeshingParameters& parameters, const ::netgen::Box<3>& box)
-      : Meshing2(plane(), parameters, box)
-  {
-  }
-
- private:
-  static const PlaneGeometry& plane()
-  {
-    static const PlaneGeometry geometry;
-    return geometry;
-  }
-};
+[[nodiscard]] inline ::netgen::Meshing2 plane_mesher(const ::netgen::MeshingParameters& parameters,
+                                                     const ::netgen::Box<3>& box)
+{
+  static const PlaneGeometry plane;
+  return ::netgen::Meshing2(plane, parameters, box);
+}
 
 class PlaneOptimizer final : public ::netgen::MeshOptimize2d {
  public:
@@ -121,6 +143,12 @@ class PlaneOptimizer final : public ::netgen::MeshOptimize2d {
 
 #else
 
+namespace netgen {
+// In libcsg.so and in no header.
+// NOLINTNEXTLINE(readability-identifier-naming): NETGEN's
+CSGeometry* ParseCSG(std::istream& text, CSGeometry* instance);
+}  // namespace netgen
+
 namespace tessera::netgen {
 
 template <class T>
@@ -128,13 +156,27 @@ using NetgenArray = ::netgen::Array<T>;
 
 inline void use_one_thread(::netgen::MeshingParameters& /*parameters*/) {}
 
-[[nodiscard]] inline std::unique_ptr<::netgen::Solid> tangential_solid(
-    const ::netgen::Solid& solid, const ::netgen::Point<3>& point, NetgenArray<int>& surfaces,
-    double tolerance)
+[[nodiscard]] inline const ::netgen::Plane* as_plane(const ::netgen::Surface* surface)
 {
-  ::netgen::Solid* local = nullptr;
-  solid.TangentialSolid(point, local, surfaces, tolerance);
-  return std::unique_ptr<::netgen::Solid>(local);
+  return dynamic_cast<const ::netgen::Plane*>(surface);
+}
+
+inline void project_to_edge(const ::netgen::CSGeometry& geometry, int first, int second,
+                            ::netgen::Point<3>& point)
+{
+  ::netgen::ProjectToEdge(geometry.GetSurface(first), geometry.GetSurface(second), point);
+}
+
+[[nodiscard]] inline std::unique_ptr<::netgen::CSGeometry> read_csg(const std::string& text)
+{
+  std::istringstream in(text);
+  return std::unique_ptr<::netgen::CSGeometry>(::netgen::ParseCSG(in, nullptr));
+}
+
+[[nodiscard]] inline ::netgen::STLReadTriangle stl_triangle(const ::netgen::Point<3>* corners,
+                                                            const ::netgen::Vec<3>& normal)
+{
+  return ::netgen::STLReadTriangle(corners, normal);
 }
 
 inline void mesh_stl(::netgen::STLGeometry& geometry, std::shared_ptr<::netgen::Mesh>& mesh,
@@ -159,7 +201,11 @@ inline void set_close_edges(::netgen::MeshingParameters& /*parameters*/, double 
   return segment.epgeominfo[end].dist;
 }
 
-using PlaneMesher = ::netgen::Meshing2;
+[[nodiscard]] inline ::netgen::Meshing2 plane_mesher(const ::netgen::MeshingParameters& parameters,
+                                                     const ::netgen::Box<3>& box)
+{
+  return ::netgen::Meshing2(parameters, box);
+}
 
 class PlaneOptimizer final : public ::netgen::MeshOptimize2d {
  public:

@@ -107,7 +107,7 @@ class StlMeshing {
         corners[c] = ::netgen::Point<3>(p[0], p[1], p[2]);
       }
       const Vec3& n = normals[at(t)];
-      triangles.Append(::netgen::STLReadTriangle(corners, ::netgen::Vec<3>(n[0], n[1], n[2])));
+      triangles.Append(stl_triangle(corners, ::netgen::Vec<3>(n[0], n[1], n[2])));
     }
     geometry_.InitSTLGeometry(triangles);
     if (geometry_.GetNT() != surface_.num_triangles()
