@@ -24,8 +24,8 @@ namespace {
 constexpr std::array<std::string_view, 17> kStages{
     "import", "load", "box",     "describe", "coarse", "remesh", "gmsh", "divide", "piece",
     "plan",   "fill", "improve", "refine",   "skin",   "share",  "map",  "join"};
-constexpr std::array<std::string_view, 10> kKinds{
-    "throw", "segv", "exit", "loop", "sleep", "memory", "garbage", "drop", "nudge", "lose"};
+constexpr std::array<std::string_view, 10> kKinds{"throw",  "segv",    "exit", "loop",  "sleep",
+                                                  "memory", "garbage", "drop", "nudge", "lose"};
 
 struct Fault {
   std::string stage{};

@@ -59,8 +59,8 @@ std::string name_of(const coarse::CoarseOptions& options)
       "coarse.timeout_s, or repair the model{}{}",
       run_case.geometry.file.string(),
       may_gmsh_help(run_case) ? "; if Gmsh is installed (Debian: apt install gmsh), it is tried as "
-                      "well"
-                    : "",
+                                "well"
+                              : "",
       failures));
 }
 

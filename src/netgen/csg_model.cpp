@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -92,9 +91,8 @@ class CsgModel final : public LoadedModel {
   [[nodiscard]] mesh::NamedCurve named_curve(LocalIndex curve) const override
   {
     const auto num_surfaces = static_cast<LocalIndex>(geometry_->GetNSurf());
-    const LocalIndex first = curve / num_surfaces;
-    const LocalIndex second = curve % num_surfaces;
-    return {.curve = curve, .number = fmt::format("{}-{}", first + 1, second + 1)};
+    return {.curve = curve,
+            .number = fmt::format("{}-{}", curve / num_surfaces + 1, curve % num_surfaces + 1)};
   }
   [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher mesher) const override;
   [[nodiscard]] coarse::ModelFigures figures() const override;

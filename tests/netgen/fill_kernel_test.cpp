@@ -152,10 +152,9 @@ double energy(const FillOutput& tets)
   double sum = 0.0;
   for (std::size_t t = 0; t < tets.tet_vertices.size(); t += 4) {
     const LocalIndex* v = &tets.tet_vertices[t];
-    sum += std::pow(
-        quality::mean_ratio(
-            {point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]), point_at(xyz, v[3])}),
-        -3.0);
+    sum += std::pow(quality::mean_ratio({point_at(xyz, v[0]), point_at(xyz, v[1]),
+                                         point_at(xyz, v[2]), point_at(xyz, v[3])}),
+                    -3.0);
   }
   return sum;
 }
