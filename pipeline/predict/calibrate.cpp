@@ -150,7 +150,7 @@ class Sampler {
     const mesh::ProjectionLimiter limiter = run_untangle_stage(plan, {}, own_);
     load_limiter(limiter, own_);
     FilledPieces filled =
-        run_fill_stage(run_.resolved, {cut, run_.kernels, limiter, set.jobs}, own_);
+        run_fill_stage(run_.resolved, {cut, run_.kernels, run_.kernels, limiter, set.jobs}, own_);
     set.pieces = std::move(filled.pieces);
   }
 

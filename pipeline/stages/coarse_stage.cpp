@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/coarse_stage.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -19,7 +15,6 @@
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/share_on_node.hpp"
-#include "tessera/jobs/run_program.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/stages/coarse_ladder.hpp"
@@ -139,6 +134,14 @@ class CoarseTries {
     return std::move(result_);
   }
 
+  // What was tried, if run() has thrown `error`.
+  CoarseResult ended_by(const Error& error)
+  {
+    ++result_.tries;
+    result_.failures.emplace_back(error.what());
+    return std::move(result_);
+  }
+
  private:
   [[nodiscard]] double cpu_of_all_ranks(double own_s) const
   {
@@ -246,12 +249,12 @@ class CoarseTries {
 CoarseResult try_once_more(const config::Case& run_case, std::vector<CoarsePlan> plans,
                            StageScope& stage, RunContext& context)
 {
+  CoarseTries tries(run_case, std::move(plans), stage, context);
   CoarseResult result;
   try {
-    result = CoarseTries(run_case, std::move(plans), stage, context).run();
+    result = tries.run();
   } catch (const GeometryError& error) {  // On all ranks; of the model at these sizes only.
-    result.tries = 1;
-    result.failures.emplace_back(error.what());
+    result = tries.ended_by(error);
   }
   return on_root_of_nodes(context.comm, [&] { return std::move(result); });
 }

@@ -42,14 +42,22 @@ bool is_poor(const std::vector<subdomain::FillResult>& results)
   return first.kernel == fill::KernelKind::netgen && first.tets.min_dihedral_deg < kPoorAngle_deg;
 }
 
+// Corners are split as the case's kernel wants it, also where folds have put another in its place.
+std::vector<fill::FillTry> tries_of(const fill::FillOptions& options, const FillWork& work,
+                                    const subdomain::SubdomainRange& range)
+{
+  fill::FillOptions of_range = options;
+  of_range.split_corners = fill::splits_corners(options, work.wanted[at(range.first)]);
+  return fill::fallback_sequence(of_range, work.kernels[at(range.first)]);
+}
+
 std::vector<std::vector<fill::KernelKind>> kernels_of_tries(const fill::FillOptions& options,
                                                             const FillWork& work)
 {
   std::vector<std::vector<fill::KernelKind>> kernels;
   for (const subdomain::SubdomainRange& range : work.ranges) {
     kernels.emplace_back();
-    for (const fill::FillTry& how :
-         fill::fallback_sequence(options, work.kernels[at(range.first)])) {
+    for (const fill::FillTry& how : tries_of(options, work, range)) {
       kernels.back().push_back(how.kernel);
     }
   }
@@ -158,18 +166,16 @@ class Filler {
   [[nodiscard]] Bytes request_of(const FillOrder& order, const Hash128& plan, bool keep) const
   {
     const subdomain::SubdomainRange& range = work_.ranges[at(order.range)];
-    return fill_request(
-        {.batch = range.number,
-         .first = range.first,
-         .last = range.last,
-         .plan = plan,
-         .how =
-             fill::fallback_sequence(options_, work_.kernels[at(range.first)]).at(at(order.number)),
-         .angle_to_beat_deg = order.before.angle_to_beat_deg,
-         .tries = order.before.count + 1,
-         .was_limited = order.before.was_limited,
-         .keep = keep,
-         .failures = order.before.failures});
+    return fill_request({.batch = range.number,
+                         .first = range.first,
+                         .last = range.last,
+                         .plan = plan,
+                         .how = tries_of(options_, work_, range).at(at(order.number)),
+                         .angle_to_beat_deg = order.before.angle_to_beat_deg,
+                         .tries = order.before.count + 1,
+                         .was_limited = order.before.was_limited,
+                         .keep = keep,
+                         .failures = order.before.failures});
   }
 
   jobs::JobOutcome run_try(const subdomain::SubdomainRange& range, const Bytes& request,

@@ -16,7 +16,8 @@ namespace tessera::pipeline {
 /// @brief What the fill stage is to do. Borrowed.
 struct FillWork {
   const subdomain::PartitionedMesh& cut;
-  const std::vector<fill::KernelKind>& kernels;          ///< Shape (num_subdomains).
+  const std::vector<fill::KernelKind>& wanted;           ///< Shape (num_subdomains), by the case.
+  const std::vector<fill::KernelKind>& kernels;          ///< The same, but where folds changed it.
   const mesh::ProjectionLimiter& limiter;                ///< As loaded into the workers.
   const std::vector<subdomain::SubdomainRange>& ranges;  ///< One job each.
 };

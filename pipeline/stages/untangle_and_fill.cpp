@@ -64,8 +64,8 @@ UntangledFill untangle_and_fill(const config::Case& run_case, const UntangleAndF
       if (work.state != nullptr && context.comm.rank() == 0) work.state->keep_plan(plan);
     });
     load_limiter(plan.limiter, context);
-    result.filled =
-        run_fill_stage(run_case, {work.cut, plan.kernels, plan.limiter, work.ranges}, context);
+    result.filled = run_fill_stage(
+        run_case, {work.cut, work.kernels, plan.kernels, plan.limiter, work.ranges}, context);
     if (result.filled.folded.empty()) break;
     plan = plan_for_folded(plan, result.filled, work.cut, context);
   }

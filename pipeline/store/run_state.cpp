@@ -173,8 +173,8 @@ bool RunState::has_made(config::Case given) const
   try {
     const config::Case there = config::load_case(output_ / "case.toml");
     given.output.directory = there.output.directory;  // Each may name the folder in its own way.
-    return config::to_toml(there) == config::to_toml(given)
-           && has_all_pieces(output_ / "mesh.pvtu");
+    return config::to_toml(there) == config::to_toml(given) && has_all_pieces(output_ / "mesh.pvtu")
+           && has_all_pieces(output_ / "boundary.pvtu");
   } catch (const Error&) {
     return false;
   }

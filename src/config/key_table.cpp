@@ -201,7 +201,7 @@ constexpr Key kKeys[] = {
          "What turns a subdomain into tets: \"subdivide\" splits each of its coarse tets into 8^L; "
          "\"optimize\" makes these better with our own optimiser; \"netgen\" lets NETGEN swap "
          "their "
-         "edges and faces before, and mesh the subdomain anew where they are folded.",
+         "edges and faces before, and mesh a subdomain anew where they are folded.",
      .reason = "it fills what the others cannot, and its meshes are as good as any; \"optimize\" "
                "takes two thirds of the time; subdivision keeps the shapes of the coarse tets"},
     {.name = "fill.levels",
@@ -211,10 +211,9 @@ constexpr Key kKeys[] = {
          "On how many of the refine.levels subdomains are filled, by \"netgen\" or "
          "\"optimize\", and seams improved. For the others tets are split into eight and "
          "smoothed, which is many times as fast. More than refine.levels is all of them. "
-         "\"auto\" leaves two for the split, but fills on two at least; with output.order = 2 it "
-         "is "
-         "all. Where edges have levels of their own, fewer are left for the split if it would "
-         "make a tenth more tets.",
+         "\"auto\" leaves two for the split, but fills on two at least; it is all with "
+         "output.order = 2. Where edges have levels of their own, fewer are left for the split if "
+         "it would make a tenth more tets.",
      .reason = "from three levels on, the split mesh is better in mean and 1st percentile, and "
                "comes many times as fast"},
     {.name = "fill.split_corners",
@@ -299,7 +298,8 @@ constexpr Key kKeys[] = {
      .rule = IntegerRule{[](Case& c) -> int& { return c.output.order; }, 1, 2},
      .meaning =
          "Order of the tets. 2: a node on every edge, which lies on the geometry where the edge "
-         "does, so tets are curved there; each is certainly valid. Excludes fill.levels.",
+         "does, so tets are curved there; each is certainly valid. Excludes fill.levels below "
+         "refine.levels.",
      .reason = "what every solver reads"},
     {.name = "output.compression",
      .rule = word_rule([](Case& c) -> io::Compression& { return c.output.compression; }),

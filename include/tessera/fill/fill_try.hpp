@@ -21,8 +21,8 @@ enum class FillStart : int { children, skin };
 [[nodiscard]] constexpr FillStart last_value(FillStart /*type*/) { return FillStart::skin; }
 
 /// @brief One try at a subdomain, as subdomain::fill_subdomain() makes it; a fallback_sequence() is
-/// made of these. By default it is the main way: NETGEN makes the children of the coarse tets
-/// better.
+/// made of these. By default it is the main way: NETGEN swaps edges and faces of
+/// the children of the coarse tets, then our own optimiser goes over them.
 struct FillTry {
   KernelKind kernel = KernelKind::netgen;
   FillStart start = FillStart::children;  ///< Of NETGEN; the others have no other.

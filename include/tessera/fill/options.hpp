@@ -47,7 +47,8 @@ struct FillOptions {
   double timeout_s = 0.0;   ///< CPU seconds a job, or of sleep (at most 120); 0: many times what
                             ///< its predicted tets take.
   double memory_gib = 4.0;  ///< Resident memory of a job, GiB, > 0.
-  int optimize_steps = 1;   ///< NETGEN's optimisation rounds, >= 0.
+  int optimize_steps = 1;   ///< NETGEN's rounds of swaps, or of all its steps where it
+                            ///< meshes a skin, >= 0.
   double grading = 0.3;     ///< Growth of the size away from the skin, in (0, 1].
 
   /// Whether tets with several faces on the geometry are divided once they are filled. Then the

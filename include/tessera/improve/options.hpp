@@ -8,7 +8,7 @@ namespace tessera::improve {
 /// @brief Options of the improvement; table `[improve]` of a case file.
 struct ImproveOptions {
   bool seams = true;  ///< Optimise the tets around the seams between subdomains.
-  int rounds = 1;     ///< NETGEN's optimisation rounds there, >= 1.
+  int rounds = 1;     ///< Rounds of optimisation there, >= 1.
 
   static auto fields(auto& self) { return std::tie(self.seams, self.rounds); }
 

@@ -27,8 +27,8 @@ struct RegionRecord {
 };
 
 /// @brief Optimises the tets of one region and judges the result.
-/// @note Local; a pure function. The optimiser may crash: call it in a job process.
-/// @throws NetgenError, MeshError if the try failed.
+/// @note Local; a pure function. It takes a while: call it in a job process.
+/// @throws MeshError if the try failed.
 [[nodiscard]] RegionRecord improve_tets(const improve::RegionMesh& mesh, int rounds,
                                         const improve::Optimizer& optimizer);
 
