@@ -248,7 +248,7 @@ coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& option
   const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
   const std::string what = file_name_ + ": coarse mesh";
   NetgenSession session(surface_parameters(options));
-  std::shared_ptr<::netgen::Mesh> mesh;
+  auto mesh = empty_mesh(*geometry);
   int failed = 0;
   session.run(what, [&] {
     session.run_surface([&] { failed = geometry->GenerateMesh(mesh, session.parameters()); });
@@ -286,7 +286,7 @@ coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
     FaceOrder order(*uncut, session.parameters());
     const CutObjects objects = cut_geometry(*geometry, tree);
     add_crossings(*geometry, objects, box_);
-    std::shared_ptr<::netgen::Mesh> mesh;
+    auto mesh = empty_mesh(*geometry);
     int failed = 0;
     session.run_surface([&] { failed = geometry->GenerateMesh(mesh, session.parameters()); });
     if (failed != 0) {
@@ -323,7 +323,7 @@ std::shared_ptr<::netgen::Mesh> CsgModel::netgen_surface(Geometry& geometry, dou
   coarse::CoarseOptions options;
   options.max_size = size;
   NetgenSession session(surface_parameters(options));
-  std::shared_ptr<::netgen::Mesh> mesh;
+  auto mesh = empty_mesh(geometry);
   const int failed = session.run(file_name_ + ": surface",
                                  [&] { return geometry.GenerateMesh(mesh, session.parameters()); });
   if (failed != 0) {

@@ -38,6 +38,15 @@ inline void use_one_thread(::netgen::MeshingParameters& parameters)
   parameters.parallel_meshing = false;
 }
 
+/// @brief What NETGEN is to make a mesh of a geometry in: it looks for the geometry there. The
+/// geometry must outlive its mesh.
+[[nodiscard]] inline std::shared_ptr<::netgen::Mesh> empty_mesh(::netgen::NetgenGeometry& geometry)
+{
+  auto mesh = std::make_shared<::netgen::Mesh>();
+  mesh->SetGeometry({std::shared_ptr<void>(), &geometry});
+  return mesh;
+}
+
 /// @brief The surface as a plane; null if it is none. Its class is known by name only.
 [[nodiscard]] inline const ::netgen::Plane* as_plane(const ::netgen::Surface* surface)
 {
@@ -155,6 +164,12 @@ template <class T>
 using NetgenArray = ::netgen::Array<T>;
 
 inline void use_one_thread(::netgen::MeshingParameters& /*parameters*/) {}
+
+[[nodiscard]] inline std::shared_ptr<::netgen::Mesh> empty_mesh(
+    ::netgen::NetgenGeometry& /*geometry*/)
+{
+  return nullptr;  // NETGEN makes one.
+}
 
 [[nodiscard]] inline const ::netgen::Plane* as_plane(const ::netgen::Surface* surface)
 {

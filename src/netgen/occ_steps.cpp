@@ -45,7 +45,7 @@ std::shared_ptr<::netgen::Mesh> with_sizes(::netgen::OCCGeometry& geometry,
 {
   parameters.perfstepsstart = ::netgen::MESHCONST_ANALYSE;
   parameters.perfstepsend = ::netgen::MESHCONST_ANALYSE;
-  std::shared_ptr<::netgen::Mesh> mesh;
+  auto mesh = empty_mesh(geometry);
   const ChangedFineness changed(parameters, fineness);
   return geometry.GenerateMesh(mesh, parameters) == 0 ? mesh : nullptr;
 }

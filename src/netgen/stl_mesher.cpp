@@ -204,7 +204,7 @@ class StlMeshing {
   SizeFile size_file_;
   NetgenSession session_;
   ::netgen::STLGeometry geometry_{};
-  std::shared_ptr<::netgen::Mesh> mesh_{};
+  std::shared_ptr<::netgen::Mesh> mesh_ = empty_mesh(geometry_);
   std::vector<LocalIndex> our_vertex_{};  // of NETGEN's vertices, which count from 1
 };
 
