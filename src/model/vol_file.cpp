@@ -20,7 +20,7 @@ class VolReader {
 
   TetMeshFile read()
   {
-    if (in_.at_end() || in_.word("mesh3d") != "mesh3d") {
+    if (first_word() != "mesh3d") {
       in_.fail("is not a mesh file of NETGEN: it does not begin with mesh3d");
     }
     while (!has_ended_ && !in_.at_end()) read_section();
@@ -31,6 +31,17 @@ class VolReader {
   }
 
  private:
+  // Newer versions of NETGEN put a comment before it.
+  std::string_view first_word()
+  {
+    while (!in_.at_end()) {
+      const std::string_view word = in_.word("mesh3d");
+      if (!word.starts_with('#')) return word;
+      in_.line();
+    }
+    return {};
+  }
+
   void read_section()
   {
     const std::string_view name = in_.word("a section");

@@ -36,8 +36,7 @@ using Point = ::netgen::Point<3>;
 // A point counts as on an entity within this part of the box diagonal.
 constexpr double kTolerance = 1e-8;
 
-// Repeated until a step is shorter than this part of the box diagonal. NETGEN's own loops end after
-// ten steps or at 1e-12 of the file's unit, whichever comes first.
+// Steps are repeated until one is shorter than this part of the box diagonal. NETGEN takes ten.
 constexpr double kConverged = 1e-14;
 constexpr int kMostSteps = 30;
 
@@ -243,8 +242,7 @@ coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& option
   if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
     return remesh_solids(options);
   }
-  // NETGEN adds points to the geometry that it meshes and takes names out of it. So every try gets
-  // a fresh one and is a pure function of the options.
+  // NETGEN changes the geometry that it meshes. With a fresh one each try depends on options alone.
   const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
   const std::string what = file_name_ + ": coarse mesh";
   NetgenSession session(surface_parameters(options));
