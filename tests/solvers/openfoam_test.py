@@ -83,7 +83,7 @@ def linear(points):
 class Openfoam(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.meshes = {case: Mesh(case, PARTS, "fill.split_corners=true") for case in ("core", "bracket")}
+        cls.meshes = {case: Mesh(case, PARTS) for case in ("core", "bracket")}
         cls.folders = {}
         for case, mesh in cls.meshes.items():
             cls.addClassCleanup(mesh.remove)
@@ -106,7 +106,7 @@ class Openfoam(unittest.TestCase):
         )
 
     def test_check_mesh(self):
-        """All that checkMesh can check; fill.split_corners leaves no tet with fewer than three inner faces."""
+        """All that checkMesh can check; by default no tet has fewer than three inner faces."""
         for case in self.meshes:
             for options in ((), ("-allGeometry", "-allTopology")):
                 for out in self.run_both(case, "checkMesh", *options):
@@ -119,7 +119,7 @@ class Openfoam(unittest.TestCase):
 
     def test_check_mesh_finds_corners_that_are_not_split(self):
         """So the test above looks at what it is meant to."""
-        mesh = Mesh("core", PARTS)
+        mesh = Mesh("core", PARTS, "fill.split_corners=false")
         self.addCleanup(mesh.remove)
         folder = mesh.convert("openfoam-serial")
         made = Case(folder)
