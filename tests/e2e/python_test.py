@@ -27,9 +27,11 @@ os.environ["TESSERA"] = program.PROGRAM
 import tessera  # noqa: E402  From the sources.
 
 EXAMPLE = pathlib.Path(__file__).resolve().parents[1] / "examples" / "python" / "part.py"
+# One fill sleeps, so that no run ends before it is interrupted.
 INTERRUPTED = (
-    "import sys, tessera\n"
-    "tessera.mesh(sys.argv[1], output='out', ranks=int(sys.argv[2]), keys={'refine.levels': 4})\n"
+    "import os, sys, tessera\n"
+    "os.environ['TESSERA_TEST_FAULT'] = 'fill=sleep@7'\n"
+    "tessera.mesh(sys.argv[1], output='out', ranks=int(sys.argv[2]))\n"
 )
 
 
@@ -237,11 +239,13 @@ class Package(program.ProgramTest):
                 program.shutil.rmtree(self.folder / "out")
 
     def test_a_stopped_run_goes_on(self):
-        case = self.write_case(subdomains=8, levels=3)
+        case = self.write_case(subdomains=8)
         code = (
-            "import sys, tessera\n"
+            "import os, sys, tessera\n"
+            "os.environ['TESSERA_TEST_FAULT'] = 'fill=sleep@7'\n"
             "try: tessera.mesh(sys.argv[1], output='out')\n"
             "except tessera.Interrupted as error: print('stopped with', error.exit_code)\n"
+            "del os.environ['TESSERA_TEST_FAULT']\n"
             "print(tessera.mesh(sys.argv[1], output='out', resume=True, quiet=True).report['resumed'])\n"
         )
         process = self.start_command(
