@@ -142,7 +142,7 @@ class KilledProcesses(SignalsTest):
                 pass  # It had just ended.
 
     def test_killed_job_is_repeated(self):
-        case = self.write_case(levels=2, subdomains=6)
+        case = self.write_case(levels=3, subdomains=6)  # Some seconds of jobs.
         process = self.start_run(case)
         self.kill_a_job_of(process.pid)
         outcome = self.finish(process)
