@@ -106,6 +106,24 @@ TEST_F(Door, TwoCommunicatorsAtOnceDoNotShareAFolder)
   EXPECT_GT(read_mesh(folder_ / "shared", comm_).num_global_tets, 0);
 }
 
+TEST_F(Door, AnErrorInOneCommunicatorLeavesTheOtherAlone)
+{
+  const std::string whole = outcome(brick("whole"), comm_);
+  const bool is_failing = comm_.rank() % 2 == 1;
+  MeshOptions options;
+  options.on_piece = [&](const MeshPiece&) {
+    if (is_failing) throw std::logic_error("of the program");
+  };
+  const std::string said =
+      outcome(brick(is_failing ? "failing" : "working"), group(is_failing ? 1 : 0, false), options);
+  if (is_failing) {
+    EXPECT_EQ(said.find(name_of<OutputError>()), 0U) << said;
+  } else {
+    EXPECT_EQ(said, whole);
+  }
+  EXPECT_EQ(outcome(brick("again"), comm_), whole);
+}
+
 TEST_F(Door, EveryErrorIsThrownOnAllRanksAndTheNextCallWorks)
 {
   if (comm_.rank() == 0) {
