@@ -26,7 +26,8 @@ def told(what):
 class Door(program.ProgramTest):
     def setUp(self):
         super().setUp()
-        self.write_case()
+        case = self.write_case()
+        case.write_text(case.read_text() + "output.report_html = false\n")
 
     def run_ranks(self, ranks, code):
         process = self.start_command(
