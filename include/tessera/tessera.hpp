@@ -12,6 +12,7 @@
 #include "tessera/base/enum_words.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/comm/communicator.hpp"
+#include "tessera/comm/roll_call.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/io/output_folder.hpp"
 #include "tessera/subdomain/mesh_part.hpp"
@@ -30,7 +31,8 @@ using subdomain::read_mesh, subdomain::ReadOptions, subdomain::ReadPartition;
 /// process has one thread. One in a program.
 class Session {
  public:
-  /// @brief Also starts MPI, and ends it with this object.
+  /// @brief Also starts MPI, and ends it with this object. If a rank has been missing, it ends the
+  /// processes of all ranks instead, with what the UsageError said: MPI cannot end without it.
   Session(int& argc, char**& argv);
   /// @brief For a program that starts and ends MPI itself, after this.
   Session();
@@ -39,7 +41,8 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   /// @brief All ranks. @note Collective. @pre MPI runs, as long as what is returned lives.
-  [[nodiscard]] comm::Communicator world() const { return comm::Communicator(MPI_COMM_WORLD); }
+  /// @throws UsageError as make_mesh(), if a rank has not called it in `rank_timeout_s`.
+  [[nodiscard]] comm::Communicator world(double rank_timeout_s = comm::kRankTimeout_s) const;
 
   /// @brief From now on SIGINT, SIGTERM and SIGUSR1 end a run in order: make_mesh() throws
   /// Interrupted, and can go on later. A second SIGINT ends the process at once.
@@ -77,9 +80,11 @@ struct MeshOptions {
   ProgressMode progress = ProgressMode::automatic;  ///< Unless quiet.
   /// If set, no mesh files are written, and each finished piece is handed to this. That happens on
   /// the rank that took the piece, in the main thread, one piece at a time, in any order. The
-  /// function must not communicate. If it throws on one rank, the run ends with an OutputError on
-  /// all. Set it on all ranks or on none.
+  /// function must not communicate, nor call make_mesh(). If it throws on one rank, the run ends
+  /// with an OutputError on all. Set it on all ranks or on none.
   std::function<void(MeshPiece)> on_piece{};
+  /// How long this rank waits for the others to call make_mesh() too, seconds; infinity: for ever.
+  double rank_timeout_s = comm::kRankTimeout_s;
 };
 
 /// @brief How a run ended. Degraded: the mesh is valid, but a target was missed.
@@ -108,9 +113,11 @@ struct MeshResult {
 ///
 /// The case is checked like a case file, and that of rank 0 counts. Relative paths start at the
 /// working directory.
-/// @note Collective.
+/// @note Collective; one call at a time in a process.
 /// @throws on all ranks: UsageError if a rank has no Session; ConfigError, InputError,
-/// GeometryError, MeshError, OutputError, Interrupted as `tessera mesh` ends with them.
+/// GeometryError, MeshError, OutputError, Interrupted as `tessera mesh` ends with them. UsageError
+/// on those ranks that have called it, if others do not in time: comm::roll_call(). UsageError on
+/// this rank, if it is within a make_mesh() already.
 [[nodiscard]] MeshResult make_mesh(const config::Case& given, const comm::Communicator& comm,
                                    const MeshOptions& options = {});
 

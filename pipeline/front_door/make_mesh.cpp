@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <atomic>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -14,6 +15,23 @@
 
 namespace tessera {
 namespace {
+
+// Job processes, folder lock and stop signals are there once: a call within a callback of another
+// one, or from a second thread, would take the model away from it.
+class OnlyCall {
+ public:
+  OnlyCall()
+  {
+    if (!is_running.exchange(true)) return;
+    throw UsageError("make_mesh() is running in this process already; on_piece must not call it");
+  }
+  ~OnlyCall() { is_running = false; }
+  OnlyCall(const OnlyCall&) = delete;
+  OnlyCall& operator=(const OnlyCall&) = delete;
+
+ private:
+  inline static std::atomic<bool> is_running = false;
+};
 
 // On all ranks if on one: without its job processes a rank could not do its share of the work.
 void require_session(const comm::Communicator& comm)
@@ -40,6 +58,7 @@ config::Case checked(config::Case given, const std::string& case_name)
 {
   if (!given.geometry.file.empty()) given.geometry.file = absolute(given.geometry.file);
   if (!given.geometry.cad.empty()) given.geometry.cad = absolute(given.geometry.cad);
+  config::require_in_range(given, case_name);
   config::Case result = config::parse_case(config::to_toml(given), case_name);
   result.output.directory = absolute(result.output.directory);
   return result;
@@ -72,6 +91,8 @@ Told told_by_root(const config::Case& given, const MeshOptions& options,
 MeshResult make_mesh(const config::Case& given, const comm::Communicator& comm,
                      const MeshOptions& options)
 {
+  const OnlyCall only;
+  comm::roll_call(comm.handle(), "make_mesh()", options.rank_timeout_s);
   require_session(comm);
   require_same_way(static_cast<bool>(options.on_piece), comm);
   Told told = told_by_root(given, options, comm);

@@ -50,6 +50,12 @@ Session::Session(int& argc, char**& argv) : Session() { state_->mpi.emplace(argc
 
 Session::~Session() = default;
 
+comm::Communicator Session::world(double rank_timeout_s) const
+{
+  comm::roll_call(MPI_COMM_WORLD, "Session::world()", rank_timeout_s);
+  return comm::Communicator(MPI_COMM_WORLD);
+}
+
 void Session::catch_stop_signals() const { pipeline::catch_stop_signals(); }
 
 namespace pipeline {

@@ -25,9 +25,9 @@ std::ptrdiff_t row_of(LocalIndex subdomain, const std::vector<subdomain::PieceSu
 
 // Whatever the caller throws is an error of this rank: it must not pass for a stop signal, nor for
 // an error that all ranks have thrown already.
-void call(const PieceSink& on_piece, LocalIndex number, subdomain::PieceArrays piece)
+void call(const PieceSink& on_piece, LocalIndex number, subdomain::PieceArrays piece, Rank rank)
 {
-  const std::string what = fmt::format("on_piece has failed for piece {}", number);
+  const std::string what = fmt::format("on_piece has failed on rank {} for piece {}", rank, number);
   try {
     on_piece(number, std::move(piece));
   } catch (const std::exception& error) {
@@ -56,7 +56,7 @@ void run_hand_over_stage(const std::vector<subdomain::SubdomainRange>& files,
   });
   const auto hand_over = [&](LocalIndex file, const jobs::JobRunner::WaitCallback& on_wait) {
     gather(file, on_wait);
-    call(on_piece, files[at(file)].number, std::move(piece));
+    call(on_piece, files[at(file)].number, std::move(piece), context.comm.rank());
   };
   for_each_dynamic(in_order(files.size()), hand_over, stage, context);
   context.comm.sum_in_place(digests);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/error.hpp"
 #include "tessera/config/case.hpp"
 
 #include "config/key_table.hpp"
@@ -94,7 +95,35 @@ void write_list(std::string& out, const TableList& list, const Case& resolved)
   }
 }
 
+// A number that the key cannot have, and that does not say either that none is given.
+template <class NumberRule>
+std::optional<std::string> wrong_value(const NumberRule& rule, const Case& given)
+{
+  Case copy = given;  // The rules hand out references.
+  Case standard;
+  const auto value = rule.field(copy);
+  if (toml_value(rule, given) || value == rule.field(standard)) return std::nullopt;
+  return fmt::to_string(value);
+}
+
+std::optional<std::string> wrong_number(const Rule& rule, const Case& given)
+{
+  if (const auto* real = std::get_if<RealRule>(&rule)) return wrong_value(*real, given);
+  if (const auto* integer = std::get_if<IntegerRule>(&rule)) return wrong_value(*integer, given);
+  return std::nullopt;
+}
+
 }  // namespace
+
+void require_in_range(const Case& given, const std::string& where)
+{
+  for (const Key& key : all_keys()) {
+    const std::optional<std::string> value = wrong_number(key.rule, given);
+    if (!value) continue;
+    throw ConfigError(
+        fmt::format("{}: {} = {}: must be {}", where, key.name, *value, allowed(key.rule)));
+  }
+}
 
 std::string to_toml(const Case& resolved)
 {

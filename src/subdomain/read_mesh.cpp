@@ -145,6 +145,7 @@ void add_names(Texts texts, MeshShare& share)
 MeshShare read_mesh(const std::filesystem::path& mesh, const comm::Communicator& comm,
                     const ReadOptions& options)
 {
+  comm::roll_call(comm.handle(), "read_mesh()", options.rank_timeout_s);
   const std::filesystem::path index = index_of(mesh, comm);
   migrate::MeshPieces pieces = read_pieces(index, comm, [] {});
   Texts texts = field_texts_of(pieces, comm);

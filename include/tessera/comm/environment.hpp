@@ -5,7 +5,9 @@
 
 namespace tessera::comm {
 
-/// @brief MPI from its construction to its end; one in a program, in main().
+/// @brief MPI from its construction to its end; one in a program, in main(). After a roll call that
+/// has failed, it ends the processes of all ranks and says why: MPI cannot end in order without the
+/// missing one.
 class Environment {
  public:
   Environment(int& argc, char**& argv);

@@ -77,8 +77,13 @@ struct Case {
 /// `where`: the case file. Local.
 void require_small_defeature(const Case& resolved, const std::string& where);
 
+/// @brief Throws ConfigError if a number is out of its range in a case that a program has made. The
+/// default of a key that has none in case files says that it is not given. `where`: names the case.
+/// Lists of tables are not looked at. Local.
+void require_in_range(const Case& given, const std::string& where);
+
 /// @brief The case as a case file with every key written out; parse_case() of it gives the same
-/// case. Local.
+/// case. Numbers out of range are left out: require_in_range(). Local.
 /// @throws ConfigError if a path is not valid UTF-8, which no TOML file can hold.
 [[nodiscard]] std::string to_toml(const Case& resolved);
 

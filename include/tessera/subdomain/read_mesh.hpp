@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "tessera/comm/communicator.hpp"
+#include "tessera/comm/roll_call.hpp"
 #include "tessera/subdomain/mesh_part.hpp"
 
 namespace tessera::subdomain {
@@ -20,6 +21,8 @@ struct ReadOptions {
   /// Also number the points by ranks, as PETSc and DOLFINx want them: `point_numbers`.
   bool consecutive_points = false;
   int num_ghost_layers = 0;  ///< Layers of other ranks' tets around the share; see find_ghosts().
+  /// How long this rank waits for the others to call read_mesh() too, seconds; infinity: for ever.
+  double rank_timeout_s = comm::kRankTimeout_s;
 };
 
 /// @brief Reads this rank's share of a mesh, ours or another tool's; no rank holds the whole.
@@ -30,6 +33,7 @@ struct ReadOptions {
 /// @param[in] mesh An output folder, or a .pvtu or .vtu file.
 /// @throws InputError on all ranks if a file is missing or damaged, if the pieces are no conforming
 /// mesh, or if it is to be balanced and has fewer tets than ranks; MeshError if it cannot be cut.
+/// UsageError on the ranks that have called it, if others do not in time: comm::roll_call().
 [[nodiscard]] MeshShare read_mesh(const std::filesystem::path& mesh, const comm::Communicator& comm,
                                   const ReadOptions& options = {});
 

@@ -16,6 +16,7 @@ from ._errors import (
     ProgramDied,
     ProgramNotFound,
     TesseraError,
+    UsageError,
 )
 from ._make import mesh
 from ._mesh import Mesh, Names, RankLists
@@ -36,6 +37,7 @@ __all__ = [
     "ProgramNotFound",
     "RankLists",
     "TesseraError",
+    "UsageError",
     "__version__",
     "find_program",
     "mesh",

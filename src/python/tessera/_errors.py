@@ -36,6 +36,10 @@ class InputError(TesseraError):
     default_code = 64
 
 
+class UsageError(TesseraError):
+    """A function was called where it cannot work: not by all ranks of its communicator, say."""
+
+
 class InternalError(TesseraError):
     """A defect of the program; please report it (exit code 70)."""
 

@@ -2,6 +2,7 @@
 """Rows of arrays between ranks. A communicator of None is one process without MPI."""
 from __future__ import annotations
 
+import pickle
 import time
 from typing import Any, Callable, Optional, TypeVar
 
@@ -74,19 +75,27 @@ def ask(
 
 def on_root(comm: Optional[Comm], work: Callable[[], T]) -> T:
     """What `work` gives on rank 0, or throws there, on all ranks. Collective."""
-    outcome: tuple[Optional[T], Optional[BaseException]] = (None, None)
+    value, error = None, None
     if rank_of(comm) == 0:
         try:
-            outcome = (work(), None)
-        except (TesseraError, ImportError, OSError, ValueError) as error:
-            outcome = (None, error)
+            value = work()
+        except Exception as caught:  # Whatever it is, the others wait; a warning may be an error too.
+            error = caught
     if comm is not None:
         _wait_quietly(comm)
-        outcome = comm.bcast(outcome)
-    value, error = outcome
+        value, told = comm.bcast((value, _as_sent(error)))
+        error = error or told
     if error is not None:
         raise error
     return value  # type: ignore[return-value]
+
+
+def _as_sent(error: Optional[Exception]) -> Optional[Exception]:
+    """The error as other ranks can get it: if it cannot be sent, its text."""
+    try:
+        return pickle.loads(pickle.dumps(error))
+    except Exception:
+        return TesseraError(f"{type(error).__name__}: {error}")
 
 
 def _wait_quietly(comm: Comm) -> None:
@@ -101,9 +110,9 @@ def all_or_none(comm: Optional[Comm], work: Callable[[], T]) -> T:
     value, error = None, None
     try:
         value = work()
-    except (TesseraError, ImportError, OSError, MemoryError) as caught:
+    except Exception as caught:  # As in on_root().
         error = caught
-    errors = [error] if comm is None else comm.allgather(error)
+    errors = [error] if comm is None else comm.allgather(_as_sent(error))
     for one in errors:
         if one is not None:
             raise one

@@ -17,6 +17,7 @@ from ._errors import BY_EXIT_CODE, DegradedWarning, ProgramDied
 from ._exchange import Comm, on_root, rank_of
 from ._mesh import Mesh
 from ._read import read, report_of
+from ._roll_call import RANK_TIMEOUT_S, roll_call
 
 _OK, _DEGRADED = 0, 3
 
@@ -34,6 +35,7 @@ def mesh(
     resume: bool = False,
     quiet: bool = False,
     comm: Optional[Comm] = None,
+    rank_timeout: float = RANK_TIMEOUT_S,
 ) -> Mesh:
     """Makes a mesh as `tessera mesh` does: the same files, the same bits. Collective if `comm` is given.
 
@@ -52,12 +54,14 @@ def mesh(
         resume: Go on with a stopped run in `output`.
         quiet: Show no progress.
         comm: A communicator of mpi4py: rank 0 runs the program, then each rank reads its share.
+        rank_timeout: How long this rank waits for the others of `comm` to call it too, seconds.
 
     Returns:
         The mesh. Without `comm` its arrays are read when they are first used.
 
     Raises:
         TesseraError: On all ranks; the class says what went wrong, see `exit_code` and `message`.
+        UsageError: Of these, the one that only some ranks raise: others have not called it in time.
         ImportError: With `comm`, VTK's modules are missing.
 
     Warns:
@@ -69,6 +73,7 @@ def mesh(
     arguments = ["mesh", os.fspath(model), *_words(options), *_settings(keys or {})]
     arguments += [word for word, on in (("--overwrite", overwrite), ("--resume", resume)) if on]
     arguments += ["-q"] if quiet else ["--progress", "always" if _on_terminal() else "never"]
+    roll_call(comm, "tessera.mesh()", rank_timeout)
     folder = on_root(comm, lambda: _run_into(arguments, output, ranks))
     if comm is None:
         about = {"folder": folder, "file": folder / "mesh.pvtu", "report": report_of(folder), "comm": None}

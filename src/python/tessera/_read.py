@@ -12,6 +12,7 @@ from ._errors import InputError
 from ._exchange import Comm, all_or_none, on_root, rank_of, size_of
 from ._mesh import Mesh, Names
 from ._pieces import TETS, TRIANGLES, piece_files, read_piece, share_of
+from ._roll_call import RANK_TIMEOUT_S, roll_call
 
 _INDEX = "mesh.pvtu"
 
@@ -22,6 +23,7 @@ def read(
     *,
     ghost_layers: int = 0,
     consecutive: bool = False,
+    rank_timeout: float = RANK_TIMEOUT_S,
 ) -> Mesh:
     """Reads a mesh of Tessera: all of it, or with `comm` each rank its share. Collective.
 
@@ -35,11 +37,14 @@ def read(
         consecutive: New point ids, so that those of the points that a rank owns are consecutive over the ranks,
             as DOLFINx and PETSc want them. Owned points come first: `points[:num_owned_points]` is the rank's
             block of coordinates.
+        rank_timeout: How long this rank waits for the others of `comm` to call it too, seconds.
 
     Raises:
         InputError: On all ranks: a file is missing or damaged, has no ids, or does not fit the others.
+        UsageError: On the ranks that have called it, if others have not in time.
         ImportError: VTK's modules, or mpi4py's, are missing.
     """
+    roll_call(comm, "tessera.read()", rank_timeout)
     index, files, boundary, report = on_root(comm, lambda: _look_at(pathlib.Path(mesh)))
     rank, size = rank_of(comm), size_of(comm)
 

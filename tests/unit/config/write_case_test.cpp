@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <regex>
 #include <string>
 #include <vector>
@@ -196,6 +197,34 @@ TEST(KeyTable, DefaultsAreAllowed)
     Case into;
     EXPECT_TRUE(assign(key.rule, entry->value, into)) << key.name << " = " << *text;
   }
+}
+
+TEST(RequireInRange, TakesWhatACaseFileCanHaveAndNumbersThatAreNotGiven)
+{
+  EXPECT_NO_THROW(require_in_range(Case{}, "made"));
+  EXPECT_NO_THROW(require_in_range(complete_case(), "made"));
+}
+
+TEST(RequireInRange, NamesTheKeyAndWhatItMayBe)
+{
+  const auto said = [](const auto& spoil) -> std::string {
+    Case given = complete_case();
+    spoil(given);
+    try {
+      require_in_range(given, "made");
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  EXPECT_EQ(
+      said([](Case& c) { c.decompose.subdomains = -3; }),
+      "made: decompose.subdomains = -3: must be a whole number from 1 to 1000000, or \"auto\"");
+  for (const double size : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_EQ(said([&](Case& c) { c.coarse.max_size = size; }).find("made: coarse.max_size = "),
+              0U);
+  }
+  EXPECT_EQ(said([](Case& c) { c.fill.timeout_s = -1.0; }).find("made: fill.timeout_s = -1: "), 0U);
 }
 
 TEST(KnownKeys, AreThoseOfTheReferenceWithTheirWords)
