@@ -20,6 +20,8 @@ import subprocess
 import sys
 import time
 
+from node_init import NETWORK
+
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 AGENT = HERE / "agent"
@@ -123,9 +125,22 @@ class Room:
         words = [word for key, value in settings.items() for word in ("--mca", key, str(value))]
         return ["mpiexec", "--allow-run-as-root", "--host", hosts, *words, "-n", str(sum(ranks_of_node.values()))]
 
+    def address(self, node):
+        return f"{NETWORK}.{node}"
+
     def set_link(self, node, state):
         """Plugs the network of a node in ("up") or out ("down")."""
         self._in_room(["ip", "link", "set", f"to_node{node}", state])
+
+    def lose_packets(self, node, which):
+        """From now on a node does not get these packets: a condition of nft."""
+        for words in ("table ip lost", "chain ip lost input { type filter hook input priority 0; }",
+                      f"rule ip lost input {which} drop"):  # fmt: skip
+            self.run(node, ["nft", "add", words])
+
+    def signal_node(self, node, name):
+        """Sends a signal ("STOP") to all processes of a node but its first."""
+        self.run(node, ["sh", "-c", f"kill -{name} -1"])
 
     def traffic(self):
         """Bytes and packets that each node has sent since it was started: {1: (bytes, packets)}."""
