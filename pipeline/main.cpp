@@ -21,6 +21,7 @@
 #include "pipeline/front_door/session.hpp"
 #include "pipeline/jobs/test_fault.hpp"
 #include "pipeline/runtime/exit_code.hpp"
+#include "pipeline/runtime/peer_watch.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -98,6 +99,7 @@ int main(int argc, char** argv)
   using namespace tessera;
   const Session session(argc, argv);
   session.catch_stop_signals();
+  const pipeline::PeerWatch watch(pipeline::end_without_peer);  // Ends before MPI does.
   const comm::Communicator comm = session.world();
   return static_cast<int>(pipeline::run_guarded(argc, argv, comm, *pipeline::session_jobs()));
 }

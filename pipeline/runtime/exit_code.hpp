@@ -14,7 +14,7 @@ enum class ExitCode : int {
   wrong_input = 64,   ///< Command line, case file or input file.
   internal = 70,      ///< A defect of the program.
   cannot_write = 73,  ///< Permission, disk full, folder in use.
-  stopped = 75,       ///< By a signal.
+  stopped = 75,       ///< By a signal, or a peer of this rank was lost.
 };
 [[nodiscard]] constexpr ExitCode last_value(ExitCode /*type*/) { return ExitCode::stopped; }
 

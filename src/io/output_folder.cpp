@@ -92,11 +92,12 @@ void make_folder(const fs::path& folder)
   });
 }
 
-/// @brief Whether a Tessera run has used the folder; one of the files alone could be anyone's.
+/// @brief Whether a Tessera run has used the folder, also one whose lock was removed as that of a
+/// dead node; one of the files alone could be anyone's.
 [[nodiscard]] bool is_of_a_run(const fs::path& folder)
 {
   const auto has = [&](const char* name) { return fs::is_regular_file(folder / name); };
-  return has(kLockName) || (has("case.toml") && has("report.json"));
+  return has(kLockName) || (has("case.toml") && (has("report.json") || has("log/run.log")));
 }
 
 void require_usable(const fs::path& folder, ExistingFolder existing)

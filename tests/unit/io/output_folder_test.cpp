@@ -181,6 +181,16 @@ TEST(OutputFolder, OverwriteAndResumeRefuseAFolderThatNoRunHasUsed)
   EXPECT_EQ(folder.num_entries(), 2U) << "refused, and no lock left in it";
 }
 
+TEST(OutputFolder, OfADeadNodeIsThatOfARunWithoutItsLockToo)
+{
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "log");
+  for (const char* const name : {"case.toml", "log/run.log"})
+    testing::write_bytes(folder / name, "of a run that was killed");
+  EXPECT_EQ(refusal(folder.path(), ExistingFolder::resume), "");
+  EXPECT_TRUE(fs::exists(folder / "case.toml"));
+}
+
 TEST(OutputFolder, ResumeKeepsEverything)
 {
   const TemporaryFolder folder;
