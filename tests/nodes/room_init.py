@@ -16,6 +16,10 @@ def ip(*words):
     subprocess.run(["ip", *words], check=True)
 
 
+def link_of(node):
+    return f"to_node{node}"
+
+
 def start_node(node, kept):
     """Starts a node, gives it a link to the bridge, and waits until it is ready; its process number."""
     process = subprocess.Popen(
@@ -24,7 +28,7 @@ def start_node(node, kept):
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
     )  # fmt: skip
     pid = int(process.stdout.readline())
-    link = f"to_node{node}"
+    link = link_of(node)
     ip("link", "add", link, "type", "veth", "peer", "name", "eth0", "netns", f"/proc/{pid}/ns/net")
     ip("link", "set", link, "master", "br0", "up")
     process.stdin.write("linked\n")
@@ -42,8 +46,9 @@ def main():
     nodes = {}
     for line in sys.stdin:
         node = int(line)
-        if node in nodes:  # It was killed.
+        if node in nodes:  # It was killed. The kernel takes its time to remove the link.
             nodes[node].wait()
+            subprocess.run(["ip", "link", "delete", link_of(node)], stderr=subprocess.DEVNULL, check=False)
         nodes[node], pid = start_node(node, kept)
         print(pid, flush=True)
 
