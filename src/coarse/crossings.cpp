@@ -12,12 +12,11 @@ double volume6(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
   return dot(cross(b - a, c - a), d - a);
 }
 
-// Where the edge goes through the inside of the triangle.
-std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, const std::array<Vec3, 3>& triangle)
+// Where the edge, whose ends are on different sides of the triangle's plane, goes through its
+// inside.
+std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, double above, double below,
+                             const std::array<Vec3, 3>& triangle)
 {
-  const double above = volume6(triangle[0], triangle[1], triangle[2], from);
-  const double below = volume6(triangle[0], triangle[1], triangle[2], to);
-  if (above * below >= 0.0) return std::nullopt;
   std::array<double, 3> sides{};
   for (std::size_t c = 0; c < 3; ++c) {
     sides[c] = volume6(from, to, triangle[c], triangle[(c + 1) % 3]);
@@ -29,13 +28,21 @@ std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, const std::array<
 }
 
 // Of an edge of a through b. One that begins at the corner that both share does not go through.
+// Most pairs end at the first test: all of `a` is on one side of b's plane.
 std::optional<Vec3> edge_through(const PlacedTriangle& a, const PlacedTriangle& b,
                                  std::size_t shared_of_a)
 {
+  const Vec3 normal = cross(b.corners[1] - b.corners[0], b.corners[2] - b.corners[0]);
+  std::array<double, 3> above{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    above[c] = c == shared_of_a ? 0.0 : dot(normal, a.corners[c] - b.corners[0]);
+  }
+  const auto [lowest, highest] = std::minmax({above[0], above[1], above[2]});
+  if (lowest >= 0.0 || highest <= 0.0) return std::nullopt;
   for (std::size_t c = 0; c < 3; ++c) {
     const std::size_t next = (c + 1) % 3;
-    if (c == shared_of_a || next == shared_of_a) continue;
-    const auto place = piercing(a.corners[c], a.corners[next], b.corners);
+    if (above[c] * above[next] >= 0.0) continue;
+    const auto place = piercing(a.corners[c], a.corners[next], above[c], above[next], b.corners);
     if (place) return place;
   }
   return std::nullopt;
@@ -74,6 +81,8 @@ std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b)
       shared_of_b = j;
     }
   }
+  const bool are_beside = shared_of_a != kNone && a.patch != kNoIndex && a.patch == b.patch;
+  if (are_beside) return std::nullopt;
   const auto place = edge_through(a, b, shared_of_a);
   return place ? place : edge_through(b, a, shared_of_b);
 }
@@ -88,7 +97,9 @@ void CrossingGuard::find_near(const Box& box, std::span<const LocalIndex> withou
   near_.clear();
   tree_.visit([&](const Box& other) { return other.touches(box); },
               [&](LocalIndex t) {
-                if (std::ranges::find(without, t) == without.end()) near_.push_back(t);
+                if (std::ranges::find(without, t) == without.end()) {
+                  near_.push_back({tree_.box(t), t});
+                }
               });
 }
 
@@ -98,9 +109,9 @@ int CrossingGuard::count_near(std::span<const PlacedTriangle> some) const
   int count = 0;
   for (std::size_t i = 0; i < some.size(); ++i) {
     const Box box = box_of(some[i].corners);
-    for (const LocalIndex t : near_) {
-      if (!tree_.box(t).touches(box)) continue;
-      count += crossing(some[i], triangles_[at(t)]) ? 1 : 0;
+    for (const Near& other : near_) {
+      if (!other.box.touches(box)) continue;
+      count += crossing(some[i], triangles_[at(other.triangle)]) ? 1 : 0;
     }
     for (std::size_t j = 0; j < i; ++j) count += crossing(some[i], some[j]) ? 1 : 0;
   }

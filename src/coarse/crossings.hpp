@@ -16,6 +16,9 @@ namespace tessera::coarse {
 struct PlacedTriangle {
   PatchSurface::Triangle vertices{};
   std::array<Vec3, 3> corners{};
+  /// The patch, if the triangle is known to look its way. Two such triangles of one patch lie
+  /// beside each other round a corner that they share, so they do not cross.
+  LocalIndex patch = kNoIndex;
 };
 
 /// @brief Where an edge of one triangle goes through the inside of the other; nothing if none does,
@@ -44,12 +47,17 @@ class CrossingGuard {
   }
 
  private:
+  struct Near {
+    Box box{};
+    LocalIndex triangle = kNoIndex;
+  };
+
   void find_near(const Box& box, std::span<const LocalIndex> without);
   [[nodiscard]] int count_near(std::span<const PlacedTriangle> some) const;
 
   std::vector<PlacedTriangle> triangles_{};
   BoxTree tree_;
-  std::vector<LocalIndex> near_{};  // Of one question; kept for its memory.
+  std::vector<Near> near_{};  // Of one question; kept for its memory.
 };
 
 }  // namespace tessera::coarse

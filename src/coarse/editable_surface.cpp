@@ -46,24 +46,6 @@ EditableSurface::EditableSurface(const PatchSurface& surface, std::vector<double
   }
 }
 
-std::vector<Edge> EditableSurface::edges() const
-{
-  std::vector<Edge> all;
-  all.reserve(2 * triangles_.size());
-  std::vector<LocalIndex> higher;
-  for (LocalIndex a = 0; a < num_vertices(); ++a) {
-    higher.clear();
-    for (const LocalIndex t : around_[at(a)]) {
-      for (const LocalIndex b : triangles_[at(t)]) {
-        if (b > a) higher.push_back(b);
-      }
-    }
-    sort_unique(higher);
-    for (const LocalIndex b : higher) all.push_back({a, b});
-  }
-  return all;
-}
-
 std::vector<LocalIndex> EditableSurface::triangles_at(const Edge& edge) const
 {
   std::vector<LocalIndex> found;
@@ -102,6 +84,23 @@ std::vector<LocalIndex> EditableSurface::curve_neighbours(LocalIndex v) const
   std::vector<LocalIndex> found = neighbours(v);
   std::erase_if(found, [&](LocalIndex other) { return curve(v, other) == kNoIndex; });
   return found;
+}
+
+std::array<Vec3, 3> EditableSurface::corners_from(LocalIndex t, LocalIndex first) const
+{
+  std::array<Vec3, 3> p = corners(t);
+  const auto at_first = std::ranges::find(triangles_[at(t)], first) - triangles_[at(t)].begin();
+  std::ranges::rotate(p, p.begin() + at_first);
+  return p;
+}
+
+Vec3 EditableSurface::middle_of_neighbours(LocalIndex v) const
+{
+  const std::vector<LocalIndex> around =
+      freedom(v) == Freedom::curve ? curve_neighbours(v) : neighbours(v);
+  Vec3 sum{};
+  for (const LocalIndex other : around) sum = sum + xyz(other);
+  return (1.0 / static_cast<double>(around.size())) * sum;
 }
 
 void EditableSurface::detach(LocalIndex t, LocalIndex v)

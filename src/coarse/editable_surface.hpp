@@ -64,7 +64,13 @@ class EditableSurface {
   /// @param[in] sizes  Wanted edge length at each vertex.
   EditableSurface(const PatchSurface& surface, std::vector<double> sizes);
 
-  [[nodiscard]] std::vector<Edge> edges() const;  ///< Ascending.
+  /// @brief Those between vertices that `counts` says yes to, ascending.
+  template <class Counts>
+  [[nodiscard]] std::vector<Edge> edges(const Counts& counts) const;
+  [[nodiscard]] std::vector<Edge> edges() const  ///< Ascending.
+  {
+    return edges([](LocalIndex /*v*/) { return true; });
+  }
   [[nodiscard]] LocalIndex num_vertices() const { return static_cast<LocalIndex>(xyz_.size()); }
   [[nodiscard]] bool is_vertex(LocalIndex v) const { return !around_[at(v)].empty(); }
   [[nodiscard]] const Vec3& xyz(LocalIndex v) const { return xyz_[at(v)]; }
@@ -83,6 +89,8 @@ class EditableSurface {
     const Triangle& v = triangles_[at(t)];
     return {xyz(v[0]), xyz(v[1]), xyz(v[2])};
   }
+  /// @brief Its corners, beginning with `first`.
+  [[nodiscard]] std::array<Vec3, 3> corners_from(LocalIndex t, LocalIndex first) const;
   [[nodiscard]] const std::vector<LocalIndex>& triangles_of(LocalIndex v) const
   {
     return around_[at(v)];
@@ -96,7 +104,10 @@ class EditableSurface {
   /// @brief The vertices before and after one that lies on a curve.
   [[nodiscard]] std::vector<LocalIndex> curve_neighbours(LocalIndex v) const;
 
-  void set_sizes(std::vector<double> sizes) { sizes_ = std::move(sizes); }
+  /// @brief The mean of the neighbours of a vertex, for one on a curve of those along it.
+  [[nodiscard]] Vec3 middle_of_neighbours(LocalIndex v) const;
+
+  void set_size(LocalIndex v, double size) { sizes_[at(v)] = size; }
   void move(LocalIndex v, const Vec3& xyz) { xyz_[at(v)] = xyz; }
 
   /// @brief Puts a vertex at `xyz` into an edge; returns it.
@@ -129,5 +140,25 @@ class EditableSurface {
   std::vector<std::vector<LocalIndex>> around_{};  // Triangles of each vertex.
   std::map<Edge, LocalIndex> curves_{};
 };
+
+template <class Counts>
+std::vector<EditableSurface::Edge> EditableSurface::edges(const Counts& counts) const
+{
+  std::vector<Edge> all;
+  std::vector<LocalIndex> higher;
+  for (LocalIndex a = 0; a < num_vertices(); ++a) {
+    if (around_[at(a)].empty() || !counts(a)) continue;
+    higher.clear();
+    for (const LocalIndex t : around_[at(a)]) {
+      for (const LocalIndex b : triangles_[at(t)]) {
+        if (b > a && counts(b)) higher.push_back(b);
+      }
+    }
+    std::ranges::sort(higher);
+    higher.erase(std::unique(higher.begin(), higher.end()), higher.end());
+    for (const LocalIndex b : higher) all.push_back({a, b});
+  }
+  return all;
+}
 
 }  // namespace tessera::coarse

@@ -8,12 +8,12 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
-#include "tessera/coarse/remesh.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 
 #include "coarse/crossings.hpp"
 #include "coarse/editable_surface.hpp"
 #include "coarse/patch_folds.hpp"
+#include "coarse/remesh.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -135,76 +135,104 @@ std::vector<std::size_t> triangles_of(const std::vector<Overlap>& overlaps)
   return triangles;
 }
 
-PatchSurface finer_at(const std::vector<std::size_t>& triangles, const PatchSurface& surface,
-                      const SurfaceReference& reference, const model::Model& model,
-                      const CoarseOptions& options)
-{
-  PatchSurface finer = remesh_finer(reference, surface, triangles, options);
-  put_on_geometry(finer, reference, model);
-  return finer;
-}
-
-// Shorter edges where the surface would fold, as long as there are fewer such places then. A
-// projection that fails on the way loses nothing.
-void mend_folds_of(PatchSurface& surface, std::size_t most_triangles,
-                   const SurfaceReference& reference, const model::Model& model,
-                   const CoarseOptions& options)
-{
-  std::vector<std::size_t> folding = folding_triangles(surface, reference, model);
-  if (folding.empty() || is_left_out(Repair::finer_at_folds)) return;
-  std::size_t num_cut = find_overlaps(surface).size();
-  for (int round = 0; round < kFinerRounds && !folding.empty(); ++round) {
-    if (surface.triangles.size() > most_triangles) return;
-    try {
-      PatchSurface finer = finer_at(folding, surface, reference, model, options);
-      std::vector<std::size_t> left = folding_triangles(finer, reference, model);
-      const std::size_t left_cut = find_overlaps(finer).size();
-      if (left.size() >= folding.size() || left_cut > num_cut) return;
-      surface = std::move(finer);
-      folding = std::move(left);
-      note_repair(Repair::finer_at_folds);
-      num_cut = left_cut;
-    } catch (const GeometryError&) {
-      return;
-    }
+// A surface on the geometry, with shorter edges where it would cut itself or fold.
+class Finer {
+ public:
+  Finer(const SurfaceReference& reference, const PatchSurface& start, const model::Model& model,
+        const CoarseOptions& options)
+      : reference_(reference),
+        model_(model),
+        sizes_(size_function_of(reference, start, options)),
+        surface_(on_geometry(start))
+  {
+    most_triangles_ = kMostGrowth * surface_.triangles.size();
   }
-}
 
-// Shorter edges at forbidden cuts.
-void mend_cuts_of(PatchSurface& surface, std::size_t most_triangles, Forbidden forbidden,
-                  const SurfaceReference& reference, const model::Model& model,
-                  const CoarseOptions& options)
-{
-  for (int round = 0; round < kFinerRounds; ++round) {
-    const std::vector<Overlap> cuts = forbidden_overlaps(surface, forbidden);
-    if (cuts.empty() || surface.triangles.size() > most_triangles) return;
-    surface = finer_at(triangles_of(cuts), surface, reference, model, options);
-    note_repair(Repair::finer_at_cuts);
-  }
-}
-
-// Shorter edges at cuts that are allowed. Bodies that touch, as a ball and its race, cut each other
-// however short edges are there: that ends when it does not help.
-void lessen_allowed_cuts_of(PatchSurface& surface, std::size_t most_triangles, Forbidden forbidden,
-                            const SurfaceReference& reference, const model::Model& model,
-                            const CoarseOptions& options)
-{
-  if (forbidden == Forbidden::all_cuts || !forbidden_overlaps(surface, forbidden).empty()) return;
-  std::vector<Overlap> cuts = find_overlaps(surface);
-  for (int round = 0; round < kFinerRounds && !cuts.empty(); ++round) {
-    if (surface.triangles.size() > most_triangles) return;
-    try {
-      PatchSurface finer = finer_at(triangles_of(cuts), surface, reference, model, options);
-      std::vector<Overlap> left = find_overlaps(finer);
-      if (left.size() >= cuts.size() || !forbidden_overlaps(finer, forbidden).empty()) return;
-      surface = std::move(finer);
-      cuts = std::move(left);
+  // Shorter edges at forbidden cuts.
+  void mend_cuts(Forbidden forbidden)
+  {
+    for (int round = 0; round < kFinerRounds && may_grow(); ++round) {
+      const std::vector<Overlap> cuts = forbidden_overlaps(surface_, forbidden);
+      if (cuts.empty()) return;
+      surface_ = finer_at(triangles_of(cuts));
       note_repair(Repair::finer_at_cuts);
-    } catch (const GeometryError&) {
-      return;
     }
   }
-}
+
+  // Shorter edges at cuts that are allowed. Bodies that touch, as a ball and its race, cut each
+  // other however short edges are there: that ends when it does not help.
+  void lessen_allowed_cuts(Forbidden forbidden)
+  {
+    if (forbidden == Forbidden::all_cuts || !forbidden_overlaps(surface_, forbidden).empty())
+      return;
+    std::vector<Overlap> cuts = find_overlaps(surface_);
+    for (int round = 0; round < kFinerRounds && !cuts.empty() && may_grow(); ++round) {
+      try {
+        PatchSurface finer = finer_at(triangles_of(cuts));
+        std::vector<Overlap> left = find_overlaps(finer);
+        if (left.size() >= cuts.size() || !forbidden_overlaps(finer, forbidden).empty()) return;
+        surface_ = std::move(finer);
+        cuts = std::move(left);
+        note_repair(Repair::finer_at_cuts);
+      } catch (const GeometryError&) {
+        return;
+      }
+    }
+  }
+
+  // Shorter edges where the surface would fold, as long as there are fewer such places then. A
+  // projection that fails on the way loses nothing.
+  void mend_folds()
+  {
+    std::vector<std::size_t> folding = folding_triangles(surface_, reference_, model_);
+    if (folding.empty() || is_left_out(Repair::finer_at_folds)) return;
+    std::size_t num_cut = find_overlaps(surface_).size();
+    for (int round = 0; round < kFinerRounds && !folding.empty() && may_grow(); ++round) {
+      try {
+        PatchSurface finer = finer_at(folding);
+        std::vector<std::size_t> left = folding_triangles(finer, reference_, model_);
+        const std::size_t left_cut = find_overlaps(finer).size();
+        if (left.size() >= folding.size() || left_cut > num_cut) return;
+        surface_ = std::move(finer);
+        folding = std::move(left);
+        note_repair(Repair::finer_at_folds);
+        num_cut = left_cut;
+      } catch (const GeometryError&) {
+        return;
+      }
+    }
+  }
+
+  [[nodiscard]] PatchSurface take() && { return std::move(surface_); }
+
+ private:
+  [[nodiscard]] bool may_grow() const { return surface_.triangles.size() <= most_triangles_; }
+
+  [[nodiscard]] PatchSurface on_geometry(const PatchSurface& start) const
+  {
+    PatchSurface surface = remesh(reference_, start, sizes_, &model_);
+    put_on_geometry(surface, reference_, model_);
+    return surface;
+  }
+
+  // Edges of half their length at some triangles, from now on.
+  [[nodiscard]] PatchSurface finer_at(const std::vector<std::size_t>& triangles)
+  {
+    std::vector<SizeSource> sources;
+    for (const std::size_t t : triangles) {
+      const std::array<Vec3, 3> p = surface_.corners(t);
+      sources.push_back({p, 0.5 * sizes_((1.0 / 3.0) * (p[0] + p[1] + p[2]))});
+    }
+    sizes_.limit(sources);
+    return on_geometry(surface_);
+  }
+
+  const SurfaceReference& reference_;
+  const model::Model& model_;
+  SizeFunction sizes_;
+  PatchSurface surface_;
+  std::size_t most_triangles_ = 0;
+};
 
 }  // namespace
 
@@ -218,15 +246,13 @@ PatchSurface remesh_on_geometry(const SurfaceReference& reference, const PatchSu
                                 const model::Model& model, const CoarseOptions& options,
                                 Forbidden forbidden)
 {
-  PatchSurface surface = remesh(reference, start, options);
-  put_on_geometry(surface, reference, model);
-  const std::size_t most_triangles = kMostGrowth * surface.triangles.size();
+  Finer surface(reference, start, model, options);
   if (!is_left_out(Repair::finer_at_cuts)) {
-    mend_cuts_of(surface, most_triangles, forbidden, reference, model, options);
-    lessen_allowed_cuts_of(surface, most_triangles, forbidden, reference, model, options);
+    surface.mend_cuts(forbidden);
+    surface.lessen_allowed_cuts(forbidden);
   }
-  mend_folds_of(surface, most_triangles, reference, model, options);
-  return surface;
+  surface.mend_folds();
+  return std::move(surface).take();
 }
 
 }  // namespace tessera::coarse

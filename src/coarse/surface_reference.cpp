@@ -98,6 +98,19 @@ Vec3 SurfaceReference::on_patch(LocalIndex patch, const Vec3& point) const
   return patches_[at(patch)].search.nearest(point).xyz;
 }
 
+SurfaceReference::Place SurfaceReference::place_on_patch(LocalIndex patch, const Vec3& point) const
+{
+  const Patch& found = patches_[at(patch)];
+  const model::NearestPoint nearest = found.search.nearest(point);
+  return {nearest.xyz, normals_[at(found.triangles[at(nearest.part)])]};
+}
+
+const Vec3* SurfaceReference::normal_of_plane(LocalIndex patch) const
+{
+  const Patch& found = patches_[at(patch)];
+  return found.is_flat ? &normals_[at(found.triangles.front())] : nullptr;
+}
+
 Vec3 SurfaceReference::on_curve(LocalIndex curve, const Vec3& point) const
 {
   return curves_[at(curve)].search.value().nearest(point).xyz;

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
-#include <queue>
 #include <utility>
 
 #include "tessera/base/repair.hpp"
@@ -66,16 +64,6 @@ EdgeTriangles triangles_by_edge(const PatchSurface& surface)
     }
   }
   return triangles;
-}
-
-Neighbours neighbours_of(const PatchSurface& surface, const EdgeTriangles& edges)
-{
-  Neighbours neighbours(surface.vertex_xyz.size());
-  for (const auto& [edge, triangles] : edges) {
-    neighbours[at(edge[0])].push_back(edge[1]);
-    neighbours[at(edge[1])].push_back(edge[0]);
-  }
-  return neighbours;
 }
 
 // Finds where a surface goes round its own radius, as on a wire.
@@ -147,34 +135,36 @@ class RoundFinder {
   std::size_t num_searches_ = 0;
 };
 
-class SizeField {
+class BentPlaces {
  public:
-  SizeField(const PatchSurface& surface, const CoarseOptions& options)
+  BentPlaces(const PatchSurface& surface, const CoarseOptions& options)
       : surface_(surface),
         options_(options),
-        sizes_(surface.vertex_xyz.size(), options.max_size),
         radii_(surface.vertex_xyz.size(), kInfinity),
         edge_triangles_(triangles_by_edge(surface))
   {
   }
 
-  std::vector<double> run() &&
+  std::vector<SizeSource> run() &&
   {
     for (const auto& [edge, triangles] : edge_triangles_) bend_surface(edge, triangles);
     bend_and_shorten_curves();
     resolve_round_places();
-    grade(surface_.vertex_xyz, neighbours_of(surface_, edge_triangles_), options_.grading, sizes_);
-    return std::move(sizes_);
+    return std::move(sources_);
   }
 
  private:
   [[nodiscard]] const Vec3& xyz(LocalIndex v) const { return surface_.vertex_xyz[at(v)]; }
   [[nodiscard]] double length(const Edge& edge) const { return norm(xyz(edge[1]) - xyz(edge[0])); }
 
-  void restrict(LocalIndex v, double size)
+  void add(const Edge& edge, double size)
   {
-    const double least = kLeastSize * options_.max_size;
-    sizes_[at(v)] = std::max(least, std::min(sizes_[at(v)], size));
+    sources_.push_back({{xyz(edge[0]), xyz(edge[1]), xyz(edge[1])}, size});
+  }
+
+  void restrict(const Edge& edge, double size)
+  {
+    add(edge, std::max(kLeastSize * options_.max_size, size));
   }
 
   // Two triangles that meet inside a patch: their angle over the distance of their middles is the
@@ -192,10 +182,8 @@ class SizeField {
     const double turn = angle_between(normals[0], normals[1]);
     if (turn < kLeastTurn || heights < kFlat * length(edge)) return;
     const double radius = 0.5 * heights / turn;
-    for (const LocalIndex v : edge) {
-      restrict(v, radius / options_.curvature);
-      radii_[at(v)] = std::min(radii_[at(v)], radius);
-    }
+    restrict(edge, radius / options_.curvature);
+    for (const LocalIndex v : edge) radii_[at(v)] = std::min(radii_[at(v)], radius);
   }
 
   void bend_and_shorten_curves()
@@ -215,9 +203,9 @@ class SizeField {
       is_loop.try_emplace(place.first, true).first->second &= goes_on;
       if (goes_on) bend_curve(place.second, others);
     }
-    for (const auto& [place, others] : next) {
-      const double least_edges = is_loop[place.first] ? kEdgesOfLoop : 1.0;
-      restrict(place.second, lengths[place.first] / least_edges);
+    for (std::size_t e = 0; e < surface_.edges.size(); ++e) {
+      const LocalIndex curve = surface_.edge_curve[e];
+      restrict(surface_.edges[e], lengths[curve] / (is_loop[curve] ? kEdgesOfLoop : 1.0));
     }
   }
 
@@ -227,83 +215,45 @@ class SizeField {
     const Vec3 from = xyz(others[1]) - xyz(v);
     const double turn = angle_between(to, from);
     if (turn < kLeastTurn || surface_.vertex_is_fixed[at(v)] != 0) return;
-    restrict(v, 0.5 * (norm(to) + norm(from)) / turn / options_.curvature);
+    const double size = 0.5 * (norm(to) + norm(from)) / turn / options_.curvature;
+    for (const LocalIndex other : others) restrict({v, other}, size);
   }
 
   void resolve_round_places()
   {
     if (is_left_out(Repair::round_places)) return;
     const double least = kLeastSize * options_.max_size;
-    std::vector<std::vector<std::size_t>> triangles(sizes_.size());
+    std::vector<std::vector<std::size_t>> triangles(radii_.size());
     for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
       for (const LocalIndex v : surface_.triangles[t]) {
         if (radii_[at(v)] < least) triangles[at(v)].push_back(t);
       }
     }
     RoundFinder round(surface_, edge_triangles_);
-    for (std::size_t v = 0; v < sizes_.size(); ++v) {
-      if (!round.goes_round(v, radii_[v], triangles[v])) continue;
-      const double size = std::max(radii_[v], kLeastOfRound * options_.max_size);
-      if (size >= sizes_[v]) continue;
-      sizes_[v] = size;
-      note_repair(Repair::round_places);
+    std::vector<char> is_round(radii_.size(), 0);
+    for (std::size_t v = 0; v < radii_.size(); ++v) {
+      is_round[v] = round.goes_round(v, radii_[v], triangles[v]) ? 1 : 0;
+      if (is_round[v] != 0) note_repair(Repair::round_places);
+    }
+    for (const auto& [edge, two] : edge_triangles_) {
+      if (is_round[at(edge[0])] == 0 || is_round[at(edge[1])] == 0) continue;
+      const double radius = std::max(radii_[at(edge[0])], radii_[at(edge[1])]);
+      add(edge, std::max(radius, kLeastOfRound * options_.max_size));
     }
   }
 
   const PatchSurface& surface_;
   const CoarseOptions& options_;
-  std::vector<double> sizes_;
+  std::vector<SizeSource> sources_{};
   std::vector<double> radii_;  // Of the surface at each vertex, however small.
   std::map<Edge, std::vector<std::size_t>> edge_triangles_;
 };
 
 }  // namespace
 
-// Smallest sizes first; what they allow their neighbours is final when these are taken.
-void grade(std::span<const Vec3> vertex_xyz, const Neighbours& neighbours, double grading,
-           std::vector<double>& sizes)
+std::vector<SizeSource> bent_places_of(const PatchSurface& surface, const CoarseOptions& options)
 {
-  using Entry = std::pair<double, LocalIndex>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (std::size_t v = 0; v < sizes.size(); ++v) {
-    queue.emplace(sizes[v], static_cast<LocalIndex>(v));
-  }
-  while (!queue.empty()) {
-    const auto [size, v] = queue.top();
-    queue.pop();
-    if (size > sizes[at(v)]) continue;
-    for (const LocalIndex other : neighbours[at(v)]) {
-      const double apart = norm(vertex_xyz[at(other)] - vertex_xyz[at(v)]);
-      const double allowed = size + grading * apart;
-      if (allowed >= sizes[at(other)]) continue;
-      sizes[at(other)] = allowed;
-      queue.emplace(allowed, other);
-    }
-  }
-}
-
-std::vector<double> finer_sizes(const PatchSurface& surface,
-                                const std::vector<std::size_t>& triangles, double grading)
-{
-  const Neighbours neighbours = neighbours_of(surface, triangles_by_edge(surface));
-  std::vector<double> sizes(surface.vertex_xyz.size(), 0.0);
-  for (std::size_t v = 0; v < sizes.size(); ++v) {
-    for (const LocalIndex other : neighbours[v]) {
-      const double length = norm(surface.vertex_xyz[at(other)] - surface.vertex_xyz[v]);
-      sizes[v] += length / static_cast<double>(neighbours[v].size());
-    }
-  }
-  const std::vector<double> before = sizes;
-  for (const std::size_t t : triangles) {
-    for (const LocalIndex v : surface.triangles[t]) sizes[at(v)] = 0.5 * before[at(v)];
-  }
-  grade(surface.vertex_xyz, neighbours, grading, sizes);
-  return sizes;
-}
-
-std::vector<double> surface_sizes(const PatchSurface& surface, const CoarseOptions& options)
-{
-  return SizeField(surface, options).run();
+  return BentPlaces(surface, options).run();
 }
 
 }  // namespace tessera::coarse

@@ -11,7 +11,6 @@
 #include "tessera/base/repair.hpp"
 
 #include "coarse/box_tree.hpp"
-#include "coarse/surface_sizes.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -19,16 +18,8 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 using Triangle = PatchSurface::Triangle;
 
-// Parts of the largest size: less than kLeastOfWall, as a surface that cuts itself is no use at
-// all.
-constexpr double kLeastOfChord = 0.02;
-
-// The chords of a triangle with edges h on a radius R are off by h^2 / (6 R).
-constexpr double kPartOfGap = 0.25;
-
-// How far to look, in parts of the largest size: beyond it no wall limits anything, unless fewer
-// than two edges a radius are asked for.
-constexpr double kReach = 0.35;
+// How far to look, in parts of the largest size: beyond it no wall limits anything.
+constexpr double kReach = 1.0 / kEdgesOfWall;
 
 // Sheets that face each other: their normals are less than 60 degrees apart.
 constexpr double kLeastCosine = 0.5;
@@ -80,15 +71,13 @@ bool share_a_corner(const Triangle& a, const Triangle& b)
 class WallSizes {
  public:
   WallSizes(const EditableSurface& surface,
-            const std::vector<std::array<LocalIndex, 2>>& patch_materials,
-            const CoarseOptions& options)
+            const std::vector<std::array<LocalIndex, 2>>& patch_materials, double largest)
       : surface_(surface),
         patch_materials_(patch_materials),
-        options_(options),
-        reach_(kReach * options.max_size),
+        largest_(largest),
+        reach_(kReach * largest),
         tree_(boxes_of(surface))
   {
-    for (LocalIndex v = 0; v < surface.num_vertices(); ++v) sizes_.push_back(surface.size(v));
     for (const auto& [edge, curve] : surface.curves()) {
       const std::vector<LocalIndex> sheets = surface.triangles_at(edge);
       for (const LocalIndex a : sheets) {
@@ -97,19 +86,12 @@ class WallSizes {
     }
   }
 
-  std::vector<double> run() &&
+  std::vector<SizeSource> run() &&
   {
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
       if (surface_.is_triangle(t)) look(t);
     }
-    Neighbours neighbours(sizes_.size());
-    std::vector<Vec3> xyz;
-    for (LocalIndex v = 0; v < surface_.num_vertices(); ++v) {
-      neighbours[at(v)] = surface_.neighbours(v);
-      xyz.push_back(surface_.xyz(v));
-    }
-    grade(xyz, neighbours, options_.grading, sizes_);
-    return std::move(sizes_);
+    return std::move(sources_);
   }
 
  private:
@@ -131,11 +113,11 @@ class WallSizes {
     const Vec3 middle = (1.0 / 3.0) * (p[0] + p[1] + p[2]);
     const Vec3 up = (reach_ / norm(normal)) * normal;
     const auto& materials = patch_materials_[at(surface_.patch(t))];
-    limit(t, {middle, -1.0 * up}, materials[0] != 0);
-    limit(t, {middle, up}, materials[1] != 0);
+    if (materials[0] != 0) limit(t, {middle, -1.0 * up});
+    if (materials[1] != 0) limit(t, {middle, up});
   }
 
-  void limit(LocalIndex t, const Ray& ray, bool is_material)
+  void limit(LocalIndex t, const Ray& ray)
   {
     double nearest = kInfinity;
     LocalIndex wall = kNoIndex;
@@ -148,50 +130,31 @@ class WallSizes {
                   wall = other;
                 });
     if (wall == kNoIndex) return;
-    const double gap = nearest * reach_;
-    // Sheets that meet in a curve have an angle there that no size makes better.
     const bool is_wall = surface_.patch(t) == surface_.patch(wall)
                          || !joined_.contains(std::pair(surface_.patch(t), surface_.patch(wall)));
-    for (const LocalIndex v : surface_.triangle(t)) {
-      double size = chord_limit(surface_.size(v), gap);
-      if (is_material && is_wall) {
-        size = std::min(size, std::max(kEdgesOfWall * gap, kLeastOfWall * options_.max_size));
-      }
-      sizes_[at(v)] = std::min(sizes_[at(v)], size);
-    }
-  }
-
-  // Sizes that are not the largest one come from a radius.
-  [[nodiscard]] double chord_limit(double size, double gap) const
-  {
-    constexpr double kFlat = 0.99;
-    if (size > kFlat * options_.max_size) return size;
-    const double radius = options_.curvature * size;
-    return std::max(std::sqrt(6.0 * radius * kPartOfGap * gap), kLeastOfChord * options_.max_size);
+    if (!is_wall) return;
+    const double size = kEdgesOfWall * nearest * reach_;
+    sources_.push_back({surface_.corners(t), std::max(size, kLeastOfWall * largest_)});
   }
 
   const EditableSurface& surface_;
   const std::vector<std::array<LocalIndex, 2>>& patch_materials_;
-  const CoarseOptions& options_;
+  double largest_;
   double reach_;
   BoxTree tree_;
-  std::vector<double> sizes_{};
+  std::vector<SizeSource> sources_{};
   std::set<std::pair<LocalIndex, LocalIndex>> joined_{};  // Patches that share a curve.
 };
 
 }  // namespace
 
-std::vector<double> wall_sizes(const EditableSurface& surface,
-                               const std::vector<std::array<LocalIndex, 2>>& patch_materials,
-                               const CoarseOptions& options)
+std::vector<SizeSource> thin_walls_of(const EditableSurface& surface,
+                                      const std::vector<std::array<LocalIndex, 2>>& patch_materials,
+                                      double largest)
 {
-  std::vector<double> sizes = WallSizes(surface, patch_materials, options).run();
-  GlobalIndex num_smaller = 0;
-  for (LocalIndex v = 0; v < surface.num_vertices(); ++v) {
-    if (sizes[at(v)] < surface.size(v)) ++num_smaller;
-  }
-  note_repair(Repair::wall_sizes, num_smaller);
-  return sizes;
+  std::vector<SizeSource> sources = WallSizes(surface, patch_materials, largest).run();
+  note_repair(Repair::wall_sizes, static_cast<GlobalIndex>(sources.size()));
+  return sources;
 }
 
 }  // namespace tessera::coarse

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "tessera/coarse/options.hpp"
 #include "tessera/coarse/patch_surface.hpp"
 
 #include "coarse/editable_surface.hpp"
+#include "coarse/size_function.hpp"
 
 namespace tessera::coarse {
 
@@ -18,19 +18,15 @@ inline constexpr double kEdgesOfWall = 8.0;
 /// millions of triangles.
 inline constexpr double kLeastOfWall = 0.1;
 
-/// @brief The sizes of a surface's vertices, less where another sheet of it is near. Local.
+/// @brief Triangles of a surface with another sheet behind material at a short distance: edges
+/// there are at most kEdgesOfWall times as long, or the tets between the sheets would be flat.
+/// Local.
 ///
-/// From the middle of each triangle a ray goes up and one down its normal. What they hit first, at
-/// distance g, limits the edges there:
-/// - Across material to a few times g, or the tets between the sheets would be flat.
-/// - Where the surface bends, so that its chords stay within a quarter of g. Two sheets that both
-/// do
-///   so do not cut each other.
-///
-/// So a flat sheet beside a gap is not limited at all. Sizes grow with the grading from there.
-/// @pre Edges are hardly longer than the largest size; a flat triangle has one middle only.
-[[nodiscard]] std::vector<double> wall_sizes(
+/// From the middle of each triangle a ray goes into the material on each side. Sheets that meet in
+/// a curve make no wall: no size makes the angle there better.
+/// @pre Edges are hardly longer than the wanted sizes; a flat triangle has one middle only.
+[[nodiscard]] std::vector<SizeSource> thin_walls_of(
     const EditableSurface& surface, const std::vector<std::array<LocalIndex, 2>>& patch_materials,
-    const CoarseOptions& options);
+    double largest);
 
 }  // namespace tessera::coarse

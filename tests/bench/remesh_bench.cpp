@@ -4,6 +4,7 @@
 //   remesh_bench [--no-fill] SIZE MODEL
 // SIZE is the largest edge; with a % behind it, of the box's diagonal.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -28,18 +29,48 @@ namespace {
 // CPU time, so that what else runs on the machine does not matter.
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-double smallest_angle_deg(const coarse::PatchSurface& surface)
+using Corners = std::array<Vec3, 3>;
+
+// Of triangles: percentiles of the smallest angle of each, and the middle of all edges.
+void print_shapes(const std::vector<Corners>& triangles, double max_size)
 {
-  double smallest = std::numbers::pi;
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const auto p = surface.corners(t);
+  std::vector<double> angles;
+  std::vector<double> lengths;
+  for (const Corners& p : triangles) {
+    double smallest = std::numbers::pi;
     for (std::size_t c = 0; c < 3; ++c) {
       const Vec3 a = p[(c + 1) % 3] - p[c];
       const Vec3 b = p[(c + 2) % 3] - p[c];
       smallest = std::min(smallest, std::atan2(norm(cross(a, b)), dot(a, b)));
+      lengths.push_back(norm(a));
     }
+    angles.push_back(smallest * 180.0 / std::numbers::pi);
   }
-  return smallest * 180.0 / std::numbers::pi;
+  std::ranges::sort(angles);
+  std::ranges::sort(lengths);
+  std::printf(
+      "%zu triangles, smallest angle %.2f deg, 1st percentile %.1f, 10th %.1f; median edge %.2f of "
+      "the largest",
+      angles.size(), angles.front(), angles[angles.size() / 100], angles[angles.size() / 10],
+      lengths[lengths.size() / 2] / max_size);
+}
+
+std::vector<Corners> triangles_of(const coarse::PatchSurface& surface)
+{
+  std::vector<Corners> triangles;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    triangles.push_back(surface.corners(t));
+  return triangles;
+}
+
+std::vector<Corners> triangles_of(const mesh::CoarseMesh& mesh)
+{
+  std::vector<Corners> triangles;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const LocalIndex* const v = &mesh.face_vertices[3 * at(f)];
+    triangles.push_back({mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2])});
+  }
+  return triangles;
 }
 
 double smallest_dihedral_deg(const mesh::CoarseMesh& mesh)
@@ -60,20 +91,26 @@ double size_from(const std::string& word, const netgen::LoadedModel& model)
   return word.back() == '%' ? 0.01 * number * model.box_diagonal() : number;
 }
 
-void fill(const netgen::LoadedModel& model, const coarse::CoarseOptions& options)
+// The surface as a run makes it, and its tets.
+void fill(const netgen::LoadedModel& model, coarse::CoarseOptions options,
+          coarse::SurfaceMesher mesher)
 {
+  options.surface_mesher = mesher;
   const double begin = cpu_seconds();
+  std::printf("  %s: ", mesher == coarse::SurfaceMesher::netgen ? "NETGEN" : "remeshed");
   try {
     coarse::CoarseSurface surface = model.mesh_surface(options, cut::CutTree{});
+    print_shapes(triangles_of(surface.mesh), options.max_size);
+    std::printf(", %.1f s", cpu_seconds() - begin);
     std::vector<coarse::DomainTets> tets;
     for (LocalIndex d = 1; d <= surface.num_domains(); ++d) {
       tets.push_back(model.mesh_domain(coarse::skin_of(surface, d), options));
     }
     const mesh::CoarseMesh mesh = coarse::fill_surface(std::move(surface), tets).mesh;
-    std::printf("  ok, %d tets, smallest dihedral angle %.2f deg, in %.1f s\n", mesh.num_tets(),
+    std::printf("; %d tets, smallest dihedral angle %.2f deg, %.1f s\n", mesh.num_tets(),
                 smallest_dihedral_deg(mesh), cpu_seconds() - begin);
   } catch (const std::exception& error) {
-    std::printf("  FAILED after %.1f s: %.160s\n", cpu_seconds() - begin, error.what());
+    std::printf("FAILED after %.1f s: %.160s\n", cpu_seconds() - begin, error.what());
   }
 }
 
@@ -91,15 +128,16 @@ void run(const std::string& size, const std::string& file, bool with_fill)
   const coarse::PatchSurface surface =
       coarse::remesh_on_geometry(reference, reference.surface(), *model, options);
   const double seconds = cpu_seconds() - begin;
-  const std::size_t num_made = surface.triangles.size();
-  std::printf(
-      "%s: %zu triangles that cut at %zu pairs -> %zu at %zu, smallest angle %.2f deg; %.2f s, "
-      "%.2f M triangles a minute\n",
-      file.substr(file.rfind('/') + 1).c_str(), num_given, given_cuts, num_made,
-      coarse::find_overlaps(surface).size(), smallest_angle_deg(surface), seconds,
-      60e-6 * static_cast<double>(num_given + num_made) / seconds);
+  std::printf("%s: %zu triangles that cut at %zu pairs -> ",
+              file.substr(file.rfind('/') + 1).c_str(), num_given, given_cuts);
+  print_shapes(triangles_of(surface), options.max_size);
+  std::printf(" that cut at %zu pairs; %.2f s, %.0f triangles a second\n",
+              coarse::find_overlaps(surface).size(), seconds,
+              static_cast<double>(surface.triangles.size()) / seconds);
   std::fflush(stdout);
-  if (with_fill) fill(*model, options);
+  if (!with_fill) return;
+  fill(*model, options, coarse::SurfaceMesher::remesh);
+  fill(*model, options, coarse::SurfaceMesher::netgen);
 }
 
 }  // namespace

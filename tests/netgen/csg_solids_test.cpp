@@ -211,8 +211,9 @@ TEST(CsgRemesh, IsInTheNumbersOfTheFile)
   EXPECT_TRUE(mesh.face_uv.empty());
   EXPECT_EQ(mesh.material_names, (std::vector<std::string>{"steel", "lead"}));
   const double core = 0.25 * std::numbers::pi;
-  EXPECT_NEAR(volume_of(mesh, 1), 4.0 - core, 0.03);
-  EXPECT_NEAR(volume_of(mesh, 2), core, 0.03);
+  // The cylinder has eleven sides.
+  EXPECT_NEAR(volume_of(mesh, 1), 4.0 - core, 0.05);
+  EXPECT_NEAR(volume_of(mesh, 2), core, 0.05);
   EXPECT_EQ(std::ranges::count(mesh.patch_names, "mantle"), 1);
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
     const LocalIndex surface = mesh.patch_surface[at(mesh.face_patch[at(f)])];

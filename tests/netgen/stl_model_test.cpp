@@ -233,7 +233,7 @@ coarse::CoarseOptions rough_remesh()
 {
   coarse::CoarseOptions options;
   options.surface_mesher = coarse::SurfaceMesher::remesh;
-  options.max_size = 0.8;
+  options.max_size = 0.5;
   options.curvature = 0.5;
   return options;
 }
@@ -245,7 +245,7 @@ TEST(StlModel, RemeshedWallThinnerThanItsTrianglesIsRefinedUntilItIsSound)
   expect_on_model(*model, mesh);
   const double exact = 4.0 / 3.0 * std::numbers::pi * (1.0 - std::pow(0.6, 3));
   EXPECT_LT(volume_of(mesh), exact);
-  EXPECT_GT(volume_of(mesh), 0.75 * exact) << "chords of 0.8 in a ball of radius 1";
+  EXPECT_GT(volume_of(mesh), 0.75 * exact) << "chords of 0.6 in a ball of radius 1";
 }
 
 TEST(StlModel, RemeshedBodiesThatOverlapAreRefusedWithTheirFacesAndThePlace)

@@ -45,7 +45,7 @@ enum class Repair : int {
   longer_close_edges,   ///< NETGEN's sizes between close edges are relaxed where cells are many.
   longer_curved_edges,  ///< NETGEN's sizes by curvature are relaxed where cells are very many.
   round_places,         ///< The remesher has shorter edges where a surface goes round, as on wires.
-  wall_sizes,           ///< The remesher has shorter edges where a wall or gap is thin.
+  wall_sizes,           ///< The remesher has shorter edges where a wall is thin.
   thin_walls,           ///< The model is meshed again with shorter edges in thin walls.
   narrow_strips,        ///< The model is meshed again with shorter edges in narrow strips.
   // The coarse surface.

@@ -64,7 +64,7 @@ struct CoarseOptions {
 
   double timeout_s = 0.0;  ///< CPU seconds of each job of a try; 0: from what the model has.
 
-  /// Largest edges at some places, made from the sizes of the case; remesh() takes no notice.
+  /// Largest edges at some places, made from the sizes of the case.
   mesh::SizePoints points{};
 
   static auto fields(auto& self)

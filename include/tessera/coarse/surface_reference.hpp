@@ -20,9 +20,17 @@ class SurfaceReference {
 
   [[nodiscard]] const PatchSurface& surface() const { return surface_; }
   [[nodiscard]] Vec3 on_patch(LocalIndex patch, const Vec3& point) const;
+  /// @brief The same with the unit normal there.
+  struct Place {
+    Vec3 xyz{};
+    Vec3 normal{};
+  };
+  [[nodiscard]] Place place_on_patch(LocalIndex patch, const Vec3& point) const;
   [[nodiscard]] Vec3 on_curve(LocalIndex curve, const Vec3& point) const;
   /// @brief Unit normal of the patch's triangle that is nearest to the point.
   [[nodiscard]] Vec3 normal(LocalIndex patch, const Vec3& point) const;
+  /// @brief The one normal of a patch that is flat; null if it is not.
+  [[nodiscard]] const Vec3* normal_of_plane(LocalIndex patch) const;
   /// @brief Parameters of the patch's surface near the point; 0 if there are none.
   [[nodiscard]] model::SurfaceParameters parameters(LocalIndex patch, const Vec3& point) const;
   /// @brief Parameter of the curve near the point; 0 if there is none.

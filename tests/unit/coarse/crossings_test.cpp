@@ -10,12 +10,13 @@
 #include <gtest/gtest.h>
 
 #include "tessera/coarse/on_geometry.hpp"
-#include "tessera/coarse/remesh.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 
 #include "support/curved_models.hpp"
 #include "support/patch_surfaces.hpp"
 #include "support/stl_models.hpp"
+
+#include "coarse/remesh.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -182,9 +183,9 @@ PatchSurface shells_on_spheres(double inner)
   add_patch(sphere_soup(2), inner, {}, shells);
   add_patch(sphere_soup(2), 1.0, {}, shells);
   const SurfaceReference reference(shells);
-  std::vector<std::size_t> all(shells.triangles.size());
-  std::iota(all.begin(), all.end(), 0);
-  PatchSurface surface = remesh_finer(reference, shells, all, rough());
+  CoarseOptions finer = rough();
+  finer.max_size *= 0.35;
+  PatchSurface surface = remesh(reference, shells, SizeFunction(finer));
   EXPECT_TRUE(find_overlaps(surface).empty());
   EXPECT_GT(surface.triangles.size(), shells.triangles.size());
   put_on_geometry(surface, reference, testing::SphereModel({inner, 1.0}));
@@ -207,17 +208,32 @@ TEST(PutOnGeometry, TriesThoseAgainThatAnotherSheetHeldBack)
   }
 }
 
-TEST(RemeshFiner, HasShorterEdgesAroundTheTrianglesGiven)
+TEST(SizeFunction, GrowsFromItsSources)
+{
+  SizeFunction sizes({.max_size = 2.0, .grading = 0.1});
+  EXPECT_EQ(sizes({5.0, 5.0, 5.0}), 2.0);
+  sizes.limit({{{Vec3{0.0, 0.0, 0.0}, Vec3{1.0, 0.0, 0.0}, Vec3{1.0, 0.0, 0.0}}, 0.5}});
+  EXPECT_EQ(sizes({0.3, 0.0, 0.0}), 0.5) << "on a segment";
+  const double near = sizes({0.3, 1.0, 0.0});
+  EXPECT_GT(near, 0.5);
+  EXPECT_NEAR(sizes({0.3, 0.0, 2.0}) - near, near - 0.5, 1e-12) << "as the distance does";
+  EXPECT_EQ(sizes({0.0, 50.0, 0.0}), 2.0);
+}
+
+TEST(SizeFunction, MakesEdgesShorterAroundASource)
 {
   PatchSurface ball;
   add_patch(sphere_soup(3), 1.0, {}, ball);
   const SurfaceReference reference(ball);
   CoarseOptions options = rough();
-  options.grading = 1.0;
-  const PatchSurface before = remesh(reference, options);
-  const PatchSurface after = remesh_finer(reference, before, {0}, options);
+  options.max_size = 0.3;
+  SizeFunction sizes = size_function_of(reference, ball, options);
+  const PatchSurface before = remesh(reference, ball, sizes);
+  const Vec3 place = before.vertex_xyz[0];
+  sizes.limit({{{place, place, place}, 0.1 * sizes(place)}});
+  const PatchSurface after = remesh(reference, before, sizes);
   EXPECT_NO_THROW(validate(after));
-  EXPECT_GT(after.triangles.size(), before.triangles.size());
+  EXPECT_GT(after.triangles.size(), before.triangles.size() + 10);
 }
 
 }  // namespace

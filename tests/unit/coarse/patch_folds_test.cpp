@@ -10,7 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "tessera/coarse/on_geometry.hpp"
-#include "tessera/coarse/remesh.hpp"
+
+#include "coarse/remesh.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -108,7 +109,7 @@ TEST(PatchFolds, AreNotLeftByTheRemesher)
 {
   const LedgeModel model;
   const SurfaceReference reference(ledge(64));
-  PatchSurface before = remesh(reference, large());
+  PatchSurface before = remesh(reference, reference.surface(), SizeFunction(large()));
   put_on_geometry(before, reference, model);
   ASSERT_FALSE(folding_triangles(before, reference, model).empty());
 

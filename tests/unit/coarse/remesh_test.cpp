@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tessera/coarse/remesh.hpp"
+#include "coarse/remesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/model/model.hpp"
 #include "tessera/model/triangle_surface.hpp"
 
 #include "support/stl_models.hpp"
+
+#include "coarse/strip_sizes.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -146,6 +149,64 @@ TEST(Remesh, FollowsCurvature)
   EXPECT_NO_THROW(validate(sphere));
   EXPECT_LT(longest_edge(sphere), 0.7) << "the radius asks for 0.25, the size for 2";
   EXPECT_NEAR(volume_of(sphere), 4.0 / 3.0 * std::acos(-1.0), 0.25);
+}
+
+TEST(Remesh, DividesCurvesIntoEqualEdges)
+{
+  const PatchSurface fine = remesh(SurfaceReference(cube()), of_size(0.3));
+  EXPECT_EQ(fine.edges.size(), 36U) << "three on each edge of the cube, 1.18 times the size";
+  for (const auto& [a, b] : fine.edges)
+    EXPECT_NEAR(norm(fine.vertex_xyz[at(b)] - fine.vertex_xyz[at(a)]), 1.0 / 3.0, 0.02);
+}
+
+TEST(Remesh, HasShortEdgesInANarrowStripAndNotElsewhere)
+{
+  PatchSurface plate = cube();
+  constexpr double kThickness = 0.04;
+  for (Vec3& p : plate.vertex_xyz) p[2] *= kThickness;
+  const std::vector<SizeSource> strips =
+      narrow_strips_of(EditableSurface(plate, std::vector<double>(8, 1.0)), 1.0);
+  EXPECT_EQ(strips.size(), 8U) << "the long edges of the four narrow faces";
+  for (const SizeSource& strip : strips) EXPECT_NEAR(strip.size, 4.0 * kThickness, 1e-12);
+  EXPECT_TRUE(narrow_strips_of(EditableSurface(cube(), std::vector<double>(8, 1.0)), 1.0).empty());
+}
+
+TEST(Remesh, PutsVerticesOfCurvesOnTheModel)
+{
+  // Each edge of the cube is bent outwards by a little.
+  constexpr double kOut = 0.01;
+  class Bent final : public model::Model {
+   public:
+    [[nodiscard]] bool has_parameters() const override { return false; }
+    [[nodiscard]] double surface_tolerance(LocalIndex) const override { return 1e-8; }
+    [[nodiscard]] double curve_tolerance(LocalIndex) const override { return 1e-8; }
+    [[nodiscard]] model::SurfacePoint project_to_surface(
+        LocalIndex, const Vec3& point, const model::SurfaceParameters&) const override
+    {
+      return {point, {}};
+    }
+    [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex, const Vec3& point,
+                                                     double) const override
+    {
+      const Vec3 middle{0.5, 0.5, 0.5};
+      return {point + kOut * unit(point - middle), 0.0};
+    }
+    [[nodiscard]] double box_diagonal() const override { return 2.0; }
+  } const model;
+  const SurfaceReference reference(cube());
+  const PatchSurface bent =
+      remesh(reference, reference.surface(), SizeFunction(of_size(0.3)), &model);
+  int count = 0;
+  for (const auto& edge : bent.edges) {
+    for (const LocalIndex v : edge) {
+      if (bent.vertex_is_fixed[at(v)] != 0) continue;
+      const Vec3& p = bent.vertex_xyz[at(v)];
+      const auto outside = [](double x) { return x < 0.0 || x > 1.0; };
+      EXPECT_TRUE(std::ranges::any_of(p, outside));
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 0);
 }
 
 TEST(Remesh, GivesTheSameBitsAgain)

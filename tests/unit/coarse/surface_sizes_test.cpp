@@ -49,28 +49,38 @@ PatchSurface prism(const Outline& outline)
   return surface;
 }
 
-TEST(SurfaceSizes, GoRoundAWireThinnerThanTheLeastSize)
+// The sizes at the vertices of a surface.
+std::vector<double> sizes_of(const PatchSurface& surface, const CoarseOptions& options)
+{
+  SizeFunction function(options);
+  function.limit(bent_places_of(surface, options));
+  std::vector<double> sizes;
+  for (const Vec3& place : surface.vertex_xyz) sizes.push_back(function(place));
+  return sizes;
+}
+
+TEST(BentPlaces, GoRoundAWireThinnerThanTheLeastSize)
 {
   Outline circle;
   add_arc({0.0, 0.0}, 1.0, 0.0, 337.5, 15, circle);
-  const std::vector<double> sizes = surface_sizes(prism(circle), {.max_size = 20.0});
-  for (const double size : sizes) EXPECT_NEAR(size, 1.0, 0.05) << "six edges, not three";
+  for (const double size : sizes_of(prism(circle), {.max_size = 20.0}))
+    EXPECT_NEAR(size, 1.0, 0.05) << "six edges, not three";
 }
 
-TEST(SurfaceSizes, DoNotResolveAWireOfNearlyNothing)
+TEST(BentPlaces, DoNotResolveAWireOfNearlyNothing)
 {
   Outline circle;
   add_arc({0.0, 0.0}, 1.0, 0.0, 337.5, 15, circle);
-  const std::vector<double> sizes = surface_sizes(prism(circle), {.max_size = 200.0});
-  for (const double size : sizes) EXPECT_NEAR(size, 8.0, 1e-9);
+  for (const double size : sizes_of(prism(circle), {.max_size = 200.0}))
+    EXPECT_NEAR(size, 8.0, 1e-9);
 }
 
-TEST(SurfaceSizes, DoNotResolveARoundedEdgeThinnerThanTheLeastSize)
+TEST(BentPlaces, DoNotResolveARoundedEdgeThinnerThanTheLeastSize)
 {
   Outline square{{0.0, 0.0}, {9.0, 0.0}};
   add_arc({8.0, 8.0}, 1.0, 0.0, 90.0, 4, square);
   square.push_back({0.0, 9.0});
-  const std::vector<double> sizes = surface_sizes(prism(square), {.max_size = 20.0});
+  const std::vector<double> sizes = sizes_of(prism(square), {.max_size = 20.0});
   EXPECT_NEAR(std::ranges::min(sizes), 2.0, 1e-9) << "a tenth of the largest size";
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/patch_surface.hpp"
 #include "tessera/coarse/surface_reference.hpp"
+
+#include "coarse/size_function.hpp"
 
 namespace tessera::coarse {
 
@@ -22,19 +21,21 @@ namespace tessera::coarse {
 /// the same bits.
 ///
 /// Own code, because Debian 12 has no Mmg and CGAL's remesher is GPL.
+/// @param[in] start  Where it begins: the reference's surface, or another one that has its patches
+/// and curves, or some of them.
+/// @param[in] model  If given, vertices on curves come to lie on its curves.
 /// @pre validate() accepts the reference's surface.
-[[nodiscard]] PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options);
-
-/// @brief The same, beginning with another surface that has the reference's patches and curves, or
-/// some of them. Local.
 [[nodiscard]] PatchSurface remesh(const SurfaceReference& reference, const PatchSurface& start,
-                                  const CoarseOptions& options);
+                                  const SizeFunction& sizes, const model::Model* model = nullptr);
 
-/// @brief A remeshed surface once more, with edges of half their length around some triangles.
-/// Local. @pre `surface` is what remesh() made of the same reference.
-[[nodiscard]] PatchSurface remesh_finer(const SurfaceReference& reference,
-                                        const PatchSurface& surface,
-                                        const std::vector<std::size_t>& triangles,
-                                        const CoarseOptions& options);
+/// @brief The sizes that the options and the surface ask for: shorter edges where it bends, in
+/// narrow strips and at thin walls. Local.
+/// @param[in] start  As remesh().
+[[nodiscard]] SizeFunction size_function_of(const SurfaceReference& reference,
+                                            const PatchSurface& start,
+                                            const CoarseOptions& options);
+
+/// @brief Both, from the reference's surface. Local.
+[[nodiscard]] PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options);
 
 }  // namespace tessera::coarse

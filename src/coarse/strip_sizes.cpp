@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse/strip_sizes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <queue>
+#include <utility>
+
+#include "tessera/model/nearest_point.hpp"
+
+#include "coarse/box_tree.hpp"
+
+namespace tessera::coarse {
+namespace {
+
+using Edge = EditableSurface::Edge;
+
+// Along the curves, in parts of the distance in space: one that is as near as this is at a corner.
+constexpr double kWayRoundCorner = 3.0;
+
+struct CurveEdge {
+  Edge edge{};
+  std::vector<LocalIndex> patches{};  // On which it is, ascending.
+};
+
+class StripSizes {
+ public:
+  StripSizes(const EditableSurface& surface, double largest)
+      : surface_(surface), largest_(largest), edges_(edges_of(surface)), tree_(boxes_of(edges_))
+  {
+    for (const CurveEdge& one : edges_) {
+      next_[one.edge[0]].push_back(one.edge[1]);
+      next_[one.edge[1]].push_back(one.edge[0]);
+    }
+  }
+
+  std::vector<SizeSource> run() &&
+  {
+    for (const CurveEdge& one : edges_) look(one);
+    return std::move(sources_);
+  }
+
+ private:
+  static std::vector<CurveEdge> edges_of(const EditableSurface& surface)
+  {
+    std::vector<CurveEdge> edges;
+    for (const auto& [edge, curve] : surface.curves()) {
+      CurveEdge& one = edges.emplace_back(CurveEdge{edge});
+      for (const LocalIndex t : surface.triangles_at(edge)) one.patches.push_back(surface.patch(t));
+      std::ranges::sort(one.patches);
+    }
+    return edges;
+  }
+
+  [[nodiscard]] std::array<Vec3, 2> ends(const Edge& edge) const
+  {
+    return {surface_.xyz(edge[0]), surface_.xyz(edge[1])};
+  }
+
+  [[nodiscard]] std::vector<Box> boxes_of(const std::vector<CurveEdge>& edges) const
+  {
+    std::vector<Box> boxes;
+    for (const CurveEdge& one : edges) {
+      const auto [a, b] = ends(one.edge);
+      Box box{a, a};
+      box.include(b);
+      boxes.push_back(box);
+    }
+    return boxes;
+  }
+
+  void look(const CurveEdge& one)
+  {
+    const auto [a, b] = ends(one.edge);
+    const Vec3 middle = midpoint(a, b);
+    const double size = std::max(surface_.size(one.edge[0]), surface_.size(one.edge[1]));
+    const double reach = size / kEdgesOfStrip;
+    const Vec3 around{reach, reach, reach};
+    const Box box{middle - around, middle + around};
+    std::vector<std::pair<double, LocalIndex>> near;
+    tree_.visit([&](const Box& other) { return other.touches(box); },
+                [&](LocalIndex other) {
+                  const CurveEdge& found = edges_[at(other)];
+                  if (found.edge == one.edge || !share_a_patch(one, found)) return;
+                  const double apart =
+                      norm(model::nearest_point_of(ends(found.edge), middle) - middle);
+                  if (apart < reach) near.emplace_back(apart, other);
+                });
+    std::ranges::sort(near);
+    for (const auto& [apart, other] : near) {
+      if (is_round_corner(one.edge, edges_[at(other)].edge, kWayRoundCorner * apart)) continue;
+      const double least = std::min(kLeastOfStrip * largest_, flat_enough(one.edge, apart));
+      sources_.push_back({{a, b, b}, std::max(kEdgesOfStrip * apart, least)});
+      return;
+    }
+  }
+
+  // The edge whose arc is a quarter as high as the strip is wide; triangles across it would fold
+  // where arcs are as high as that.
+  [[nodiscard]] double flat_enough(const Edge& edge, double width) const
+  {
+    return std::sqrt(2.0 * std::min(radius_at(edge[0]), radius_at(edge[1])) * width);
+  }
+
+  // Of the circle through a vertex and its two neighbours along a curve.
+  [[nodiscard]] double radius_at(LocalIndex v) const
+  {
+    const std::vector<LocalIndex>& two = next_.at(v);
+    constexpr double kStraight = std::numeric_limits<double>::infinity();
+    if (two.size() != 2) return kStraight;
+    const Vec3 a = surface_.xyz(two[0]) - surface_.xyz(v);
+    const Vec3 b = surface_.xyz(two[1]) - surface_.xyz(v);
+    const double area2 = norm(cross(a, b));
+    return area2 > 0.0 ? norm(a) * norm(b) * norm(b - a) / (2.0 * area2) : kStraight;
+  }
+
+  [[nodiscard]] static bool share_a_patch(const CurveEdge& a, const CurveEdge& b)
+  {
+    return std::ranges::any_of(
+        a.patches, [&](LocalIndex patch) { return std::ranges::binary_search(b.patches, patch); });
+  }
+
+  // Whether the way along curves from the middle of `from` to an end of `to` is at most this.
+  [[nodiscard]] bool is_round_corner(const Edge& from, const Edge& to, double most) const
+  {
+    using Place = std::pair<double, LocalIndex>;
+    std::priority_queue<Place, std::vector<Place>, std::greater<>> queue;
+    std::map<LocalIndex, double> ways;
+    const auto [a, b] = ends(from);
+    for (const LocalIndex v : from) queue.emplace(0.5 * norm(b - a), v);
+    while (!queue.empty() && queue.top().first <= most) {
+      const auto [way, v] = queue.top();
+      queue.pop();
+      if (!ways.emplace(v, way).second) continue;
+      if (v == to[0] || v == to[1]) return true;
+      for (const LocalIndex other : next_.at(v)) {
+        queue.emplace(way + norm(surface_.xyz(other) - surface_.xyz(v)), other);
+      }
+    }
+    return false;
+  }
+
+  const EditableSurface& surface_;
+  double largest_;
+  std::vector<CurveEdge> edges_;
+  BoxTree tree_;
+  std::map<LocalIndex, std::vector<LocalIndex>> next_{};  // Along curves.
+  std::vector<SizeSource> sources_{};
+};
+
+}  // namespace
+
+std::vector<SizeSource> narrow_strips_of(const EditableSurface& surface, double largest)
+{
+  return StripSizes(surface, largest).run();
+}
+
+}  // namespace tessera::coarse

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "coarse/editable_surface.hpp"
+#include "coarse/size_function.hpp"
+
+namespace tessera::coarse {
+
+/// Edges over the width of a strip. Right triangles across it then have angles of 14 degrees.
+inline constexpr double kEdgesOfStrip = 4.0;
+
+/// Parts of the largest size: narrower strips get longer edges than that, if these are flat enough.
+inline constexpr double kLeastOfStrip = 0.04;
+
+/// @brief Places where two curves of a patch are near each other: along a strip between them edges
+/// are kEdgesOfStrip times as long as it is wide. Local.
+///
+/// Each edge on a curve looks from its middle for the nearest other edge around the same patch.
+/// One that can be reached along the curves within three times the distance meets it at a corner:
+/// there no size makes the angle better.
+/// @pre Edges are hardly longer than the wanted sizes; an edge has one middle only.
+[[nodiscard]] std::vector<SizeSource> narrow_strips_of(const EditableSurface& surface,
+                                                       double largest);
+
+}  // namespace tessera::coarse

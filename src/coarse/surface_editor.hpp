@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "tessera/coarse/surface_reference.hpp"
+
+#include "coarse/crossings.hpp"
+#include "coarse/editable_surface.hpp"
+#include "coarse/size_function.hpp"
+
+namespace tessera::coarse {
+
+/// @brief Sine of the smallest angle of a triangle over that of 60 degrees: 1 for an equilateral
+/// triangle, 0 for a flat one.
+[[nodiscard]] double angle_shape(const std::array<Vec3, 3>& corners) noexcept;
+
+/// @brief A surface that follows a reference while it is edited: the steps that change it, each of
+/// which is taken only if no triangle turns over, cuts another one, or gets a worse shape than the
+/// caller allows. Local.
+class SurfaceEditor {
+ public:
+  using Edge = PatchSurface::Edge;
+  using Triangle = PatchSurface::Triangle;
+
+  /// @param[in] sizes  Wanted edge lengths; must live on.
+  /// @param[in] model  If given, vertices on curves lie on its curves, not on the reference's:
+  /// there the chords of the reference may be off by more than a strip beside them is wide.
+  SurfaceEditor(const SurfaceReference& reference, const PatchSurface& start,
+                const SizeFunction& sizes, const model::Model* model);
+
+  [[nodiscard]] const EditableSurface& surface() const { return surface_; }
+  [[nodiscard]] const SurfaceReference& reference() const { return reference_; }
+  /// @brief Asks for the wanted lengths at all vertices once more. All counts as changed.
+  void update_sizes();
+
+  /// @brief Begins a pass; returns its number. What changes from now on has changed in it.
+  int begin_pass() { return ++pass_; }
+  /// @brief Whether a triangle around the vertex changed in this pass or later.
+  [[nodiscard]] bool has_changed(LocalIndex v, int pass) const { return changed_[at(v)] >= pass; }
+  /// @brief Edges with triangles that changed in this pass or later, ascending.
+  [[nodiscard]] std::vector<Edge> changed_edges(int pass) const;
+
+  /// @brief Length over the wanted one.
+  [[nodiscard]] double relative_length(const Edge& edge) const;
+  /// @brief angle_shape() of a triangle; below 0 if it does not look the reference's way.
+  [[nodiscard]] double shape(LocalIndex t);
+  [[nodiscard]] double worst_shape(std::span<const LocalIndex> triangles);
+
+  /// @brief What a step around a vertex that is not meant to make shapes better may leave: a fair
+  /// shape, or the worst one there if that is not fair.
+  [[nodiscard]] double fair_shape(LocalIndex v);
+
+  /// @brief Flips an edge if the worse of its triangles gets better by `gain`.
+  bool flip_if_better(const Edge& edge, double gain);
+  /// @brief Flips an edge if both triangles are better than `least` then.
+  bool flip(const Edge& edge, double least);
+
+  /// @brief Puts a vertex into an edge, at this part of it; returns the vertex. Where that would
+  /// lie beyond another sheet, it stays on the chord, where it changes nothing.
+  LocalIndex split(const Edge& edge, double part = 0.5);
+
+  /// @brief Joins `gone` with `kept` if all triangles that change are better than `least` then, and
+  /// no edge becomes longer than `most`, in parts of the wanted length.
+  bool collapse(LocalIndex gone, LocalIndex kept, double least, double most);
+
+  /// @brief Moves a vertex that is not fixed to the place on its patch or curve that is nearest to
+  /// `wanted`, if all triangles around are better than `least` then.
+  bool move(LocalIndex v, const Vec3& wanted, double least);
+
+  /// @brief What there is now.
+  [[nodiscard]] PatchSurface take() const { return surface_.take(reference_.surface()); }
+
+ private:
+  using Candidates = std::vector<PlacedTriangle>;  // What a step would make.
+
+  struct PlacedNormal {
+    Vec3 place = kNoPoint;
+    Vec3 normal{};
+  };
+
+  [[nodiscard]] PlacedTriangle placed(const Triangle& v, LocalIndex patch) const;
+  [[nodiscard]] Candidates ring_of(LocalIndex v) const;
+  [[nodiscard]] bool all_better(const Candidates& candidates, double least);
+  [[nodiscard]] bool cuts_nothing(std::span<const LocalIndex> old,
+                                  std::span<const PlacedTriangle> made, bool is_inside);
+  [[nodiscard]] bool is_upright(const PlacedTriangle& one);
+  [[nodiscard]] const Vec3& normal_at(LocalIndex v, LocalIndex patch, const Vec3& place);
+  [[nodiscard]] PlacedNormal& known_normal(LocalIndex v, LocalIndex patch);
+  [[nodiscard]] Vec3 place_for(LocalIndex v, const Vec3& wanted);
+  [[nodiscard]] Vec3 on_reference(const Edge& edge, const Vec3& point) const;
+  [[nodiscard]] Vec3 on_curve(LocalIndex curve, const Vec3& point, double size) const;
+  [[nodiscard]] std::vector<PlacedTriangle> halves(std::span<const LocalIndex> triangles,
+                                                   const Edge& edge, const Vec3& middle) const;
+  [[nodiscard]] bool keeps_curve(LocalIndex gone, LocalIndex kept) const;
+  [[nodiscard]] bool keeps_lengths(LocalIndex gone, LocalIndex kept, double most) const;
+  void note_change(std::span<const LocalIndex> triangles);
+
+  const SurfaceReference& reference_;
+  EditableSurface surface_;
+  const SizeFunction& sizes_;
+  const model::Model* model_;
+  CrossingGuard guard_;
+  int pass_ = 0;
+  std::vector<int> changed_;             // Of each vertex: the last pass with a change there.
+  std::vector<double> shapes_{};         // Of the triangles.
+  std::vector<PlacedNormal> normals_{};  // Of vertices inside patches.
+  std::unordered_map<GlobalIndex, PlacedNormal> normals_of_curves_{};  // By vertex and patch.
+};
+
+}  // namespace tessera::coarse
