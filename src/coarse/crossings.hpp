@@ -17,7 +17,8 @@ struct PlacedTriangle {
   PatchSurface::Triangle vertices{};
   std::array<Vec3, 3> corners{};
   /// The patch, if the triangle is known to look its way. Two such triangles of one patch lie
-  /// beside each other round a corner that they share, so they do not cross.
+  /// beside each other round a corner that they share, so they are not tested. That is wrong only
+  /// where a patch comes to a vertex twice; find_overlaps() sees those.
   LocalIndex patch = kNoIndex;
 };
 

@@ -20,9 +20,6 @@ constexpr double kNear = 0.25;
 // A curve that closes without a vertex that stays.
 constexpr double kLeastOfLoop = 3.0;
 
-// An edge may be so much longer than wanted where a vertex goes.
-constexpr double kMostLength = 1.4;
-
 class ChainFinder {
  public:
   explicit ChainFinder(const EditableSurface& surface) : surface_(surface) {}
@@ -89,14 +86,34 @@ class Divider {
     next_at_ += lengths_[next_++];
   }
 
+  [[nodiscard]] bool is_second_nearer(double place) const
+  {
+    return std::abs(next_at_ + lengths_[next_] - place) < std::abs(next_at_ - place);
+  }
+
+  // The next vertex moves to the place, if that can be.
+  void take_next(double place)
+  {
+    const EditableSurface& surface = editor_.surface();
+    const LocalIndex v = chain_[next_];
+    const bool is_before = place < next_at_;
+    const double length = is_before ? next_at_ - last_at_ : lengths_[next_];
+    const Vec3& beside = surface.xyz(is_before ? last_ : chain_[next_ + 1]);
+    if (length > 0.0) {
+      const double part = std::abs(place - next_at_) / length;
+      editor_.move(v, surface.xyz(v) + part * (beside - surface.xyz(v)), editor_.fair_shape(v));
+    }
+    pass_next(false);
+  }
+
   // All as lengths along the chain.
   void put_vertex(double place, double near)
   {
-    while (next_at_ < place - near && next_ + 1 < chain_.size()) pass_next(true);
-    if (next_at_ <= place + near) {
-      if (next_ + 1 < chain_.size()) pass_next(false);
-      return;
+    while (next_ + 1 < chain_.size() && next_at_ < place && is_second_nearer(place)) {
+      pass_next(true);
     }
+    if (std::abs(next_at_ - place) <= near && next_ + 1 < chain_.size()) return take_next(place);
+    if (next_at_ < place && next_ + 1 < chain_.size()) pass_next(true);
     const Edge edge = edge_of(last_, chain_[next_]);
     const double part = (place - last_at_) / (next_at_ - last_at_);
     last_ = editor_.split(edge, edge[0] == last_ ? part : 1.0 - part);
@@ -112,7 +129,7 @@ class Divider {
       return std::pair(editor_.relative_length(edge_of(v, other)), other);
     });
     for (const LocalIndex kept : two) {
-      if (editor_.collapse(v, kept, editor_.fair_shape(v), kMostLength)) return;
+      if (editor_.collapse(v, kept, editor_.fair_shape(v), kTooLong)) return;
     }
   }
 
@@ -126,11 +143,36 @@ class Divider {
   double next_at_ = 0.0;
 };
 
+// Whether sizes along an edge are not about what they are at its ends.
+bool hides_sizes(const SurfaceEditor& editor, const Edge& edge)
+{
+  constexpr double kAlike = 0.25;
+  const EditableSurface& surface = editor.surface();
+  const double at_ends = 0.5 * (surface.size(edge[0]) + surface.size(edge[1]));
+  const double in_middle = editor.size_at(midpoint(surface.xyz(edge[0]), surface.xyz(edge[1])));
+  return editor.relative_length(edge) > 1.0 && std::abs(in_middle - at_ends) > kAlike * at_ends;
+}
+
+// A straight edge of the CAD is one edge, however sizes change along it: it gets vertices for them.
+void show_sizes(SurfaceEditor& editor)
+{
+  constexpr int kMostSweeps = 12;
+  for (int i = 0; i < kMostSweeps; ++i) {
+    std::vector<Edge> hiding;
+    for (const auto& [edge, curve] : editor.surface().curves()) {
+      if (hides_sizes(editor, edge)) hiding.push_back(edge);
+    }
+    if (hiding.empty()) return;
+    for (const Edge& edge : hiding) editor.split(edge);
+  }
+}
+
 }  // namespace
 
 void divide_curves(SurfaceEditor& editor)
 {
   editor.begin_pass();
+  show_sizes(editor);
   const std::vector<Chain> chains = ChainFinder(editor.surface()).run();
   for (const Chain& chain : chains) Divider(editor, chain).run();
 }

@@ -17,9 +17,6 @@ constexpr int kMostSweeps = 8;
 // Against steps back and forth.
 constexpr double kGain = 1e-3;
 
-// A collapse may make an edge so much longer than wanted.
-constexpr double kMostLength = 1.4;
-
 class Polisher {
  public:
   explicit Polisher(SurfaceEditor& editor) : editor_(editor), surface_(editor.surface()) {}
@@ -74,7 +71,7 @@ class Polisher {
 
   bool remove(LocalIndex gone, LocalIndex kept)
   {
-    return editor_.collapse(gone, kept, better_than_around(gone), kMostLength);
+    return editor_.collapse(gone, kept, better_than_around(gone), kTooLong);
   }
 
   bool pull(LocalIndex v)

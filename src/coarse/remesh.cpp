@@ -21,8 +21,8 @@ namespace {
 
 using Edge = PatchSurface::Edge;
 
-// In parts of the wanted length: longer edges are split, shorter ones collapsed.
-constexpr double kTooLong = 1.4;
+// In parts of the wanted length: edges longer than kTooLong are split, shorter ones than this
+// collapsed.
 constexpr double kTooShort = 0.7;
 
 // Curves are divided before, into whole numbers of edges. These are not undone.

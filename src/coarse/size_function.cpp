@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <tuple>
 
 #include "tessera/model/nearest_point.hpp"
 
@@ -28,9 +29,11 @@ double distance(const Box& box, const Vec3& point)
   return std::sqrt(sum);
 }
 
-double middle_along(const SizeSource& source, std::size_t axis)
+// Ties are broken by all that a source is, so that the order of the leaves is the same everywhere.
+auto place_along(const SizeSource& source, std::size_t axis)
 {
-  return source.corners[0][axis] + source.corners[1][axis] + source.corners[2][axis];
+  const auto& [a, b, c] = source.corners;
+  return std::tuple(a[axis] + b[axis] + c[axis], source.corners, source.size);
 }
 
 }  // namespace
@@ -70,7 +73,7 @@ LocalIndex SizeFunction::build(LocalIndex first, LocalIndex last)
   const LocalIndex middle = first + (last - first) / 2;
   std::ranges::nth_element(sources_.begin() + first, sources_.begin() + middle,
                            sources_.begin() + last, {},
-                           [axis](const SizeSource& one) { return middle_along(one, axis); });
+                           [axis](const SizeSource& one) { return place_along(one, axis); });
   build(first, middle);
   const LocalIndex other_child = build(middle, last);
   nodes_[at(number)].other_child = other_child;

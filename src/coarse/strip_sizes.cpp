@@ -90,13 +90,20 @@ class StripSizes {
                       norm(model::nearest_point_of(ends(found.edge), middle) - middle);
                   if (apart < reach) near.emplace_back(apart, other);
                 });
+    if (near.empty()) return;
     std::ranges::sort(near);
+    const std::map<LocalIndex, double> ways = ways_from(one.edge, kWayRoundCorner * reach);
     for (const auto& [apart, other] : near) {
-      if (is_round_corner(one.edge, edges_[at(other)].edge, kWayRoundCorner * apart)) continue;
-      const double least = std::min(kLeastOfStrip * largest_, flat_enough(one.edge, apart));
-      sources_.push_back({{a, b, b}, std::max(kEdgesOfStrip * apart, least)});
+      if (is_round_corner(ways, edges_[at(other)].edge, kWayRoundCorner * apart)) continue;
+      sources_.push_back({{a, b, b}, size_beside(one.edge, apart)});
       return;
     }
+  }
+
+  [[nodiscard]] double size_beside(const Edge& edge, double width) const
+  {
+    const double least = std::min(kLeastOfStrip * largest_, flat_enough(edge, width));
+    return std::max({kEdgesOfStrip * width, least, kLeastOfCurvedStrip * largest_});
   }
 
   // The edge whose arc is a quarter as high as the strip is wide; triangles across it would fold
@@ -111,7 +118,7 @@ class StripSizes {
   {
     const std::vector<LocalIndex>& two = next_.at(v);
     constexpr double kStraight = std::numeric_limits<double>::infinity();
-    if (two.size() != 2) return kStraight;
+    if (two.size() != 2 || surface_.freedom(v) != Freedom::curve) return kStraight;
     const Vec3 a = surface_.xyz(two[0]) - surface_.xyz(v);
     const Vec3 b = surface_.xyz(two[1]) - surface_.xyz(v);
     const double area2 = norm(cross(a, b));
@@ -124,24 +131,32 @@ class StripSizes {
         a.patches, [&](LocalIndex patch) { return std::ranges::binary_search(b.patches, patch); });
   }
 
-  // Whether the way along curves from the middle of `from` to an end of `to` is at most this.
-  [[nodiscard]] bool is_round_corner(const Edge& from, const Edge& to, double most) const
+  // How far it is along curves from the middle of an edge to the vertices within `most`.
+  [[nodiscard]] std::map<LocalIndex, double> ways_from(const Edge& edge, double most) const
   {
     using Place = std::pair<double, LocalIndex>;
     std::priority_queue<Place, std::vector<Place>, std::greater<>> queue;
     std::map<LocalIndex, double> ways;
-    const auto [a, b] = ends(from);
-    for (const LocalIndex v : from) queue.emplace(0.5 * norm(b - a), v);
+    const auto [a, b] = ends(edge);
+    for (const LocalIndex v : edge) queue.emplace(0.5 * norm(b - a), v);
     while (!queue.empty() && queue.top().first <= most) {
       const auto [way, v] = queue.top();
       queue.pop();
       if (!ways.emplace(v, way).second) continue;
-      if (v == to[0] || v == to[1]) return true;
       for (const LocalIndex other : next_.at(v)) {
         queue.emplace(way + norm(surface_.xyz(other) - surface_.xyz(v)), other);
       }
     }
-    return false;
+    return ways;
+  }
+
+  [[nodiscard]] static bool is_round_corner(const std::map<LocalIndex, double>& ways,
+                                            const Edge& to, double most)
+  {
+    return std::ranges::any_of(to, [&](LocalIndex v) {
+      const auto found = ways.find(v);
+      return found != ways.end() && found->second <= most;
+    });
   }
 
   const EditableSurface& surface_;

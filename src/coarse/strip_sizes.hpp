@@ -11,8 +11,11 @@ namespace tessera::coarse {
 /// Edges over the width of a strip. Right triangles across it then have angles of 14 degrees.
 inline constexpr double kEdgesOfStrip = 4.0;
 
-/// Parts of the largest size: narrower strips get longer edges than that, if these are flat enough.
+/// Parts of the largest size: narrower strips get longer edges than that.
 inline constexpr double kLeastOfStrip = 0.04;
+
+/// The same where arcs beside the strip would be higher than it is wide with such edges.
+inline constexpr double kLeastOfCurvedStrip = 0.004;
 
 /// @brief Places where two curves of a patch are near each other: along a strip between them edges
 /// are kEdgesOfStrip times as long as it is wide. Local.

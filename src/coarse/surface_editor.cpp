@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "tessera/base/error.hpp"
+
 namespace tessera::coarse {
 namespace {
 
@@ -55,15 +57,9 @@ SurfaceEditor::SurfaceEditor(const SurfaceReference& reference, const PatchSurfa
       shapes_(start.triangles.size(), kUnknown),
       normals_(start.vertex_xyz.size())
 {
-  update_sizes();
-}
-
-void SurfaceEditor::update_sizes()
-{
   for (LocalIndex v = 0; v < surface_.num_vertices(); ++v) {
-    if (surface_.is_vertex(v)) surface_.set_size(v, sizes_(surface_.xyz(v)));
+    surface_.set_size(v, sizes_(surface_.xyz(v)));
   }
-  std::ranges::fill(changed_, pass_);
 }
 
 std::vector<Edge> SurfaceEditor::changed_edges(int pass) const
@@ -199,9 +195,13 @@ Vec3 SurfaceEditor::on_curve(LocalIndex curve, const Vec3& point, double size) c
 {
   const Vec3 near = reference_.on_curve(curve, point);
   if (model_ == nullptr) return near;
-  const Vec3 place =
-      model_->project_to_curve(curve, near, reference_.curve_parameter(curve, near)).xyz;
-  return norm(place - near) < kMostOffReference * size ? place : near;
+  try {
+    const Vec3 place =
+        model_->project_to_curve(curve, near, reference_.curve_parameter(curve, near)).xyz;
+    return norm(place - near) < kMostOffReference * size ? place : near;
+  } catch (const GeometryError&) {
+    return near;  // As if there were no model; put_on_geometry() tries once more.
+  }
 }
 
 // What a vertex in an edge makes of the triangles there.
@@ -327,6 +327,8 @@ Vec3 SurfaceEditor::place_for(LocalIndex v, const Vec3& wanted)
 
 bool SurfaceEditor::move(LocalIndex v, const Vec3& wanted, double least)
 {
+  // Shapes of now must be known before the vertex is elsewhere.
+  static_cast<void>(worst_shape(surface_.triangles_of(v)));
   const Vec3 before = surface_.xyz(v);
   surface_.move(v, place_for(v, wanted));
   const Candidates made = ring_of(v);

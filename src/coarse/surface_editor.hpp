@@ -18,6 +18,9 @@ namespace tessera::coarse {
 /// triangle, 0 for a flat one.
 [[nodiscard]] double angle_shape(const std::array<Vec3, 3>& corners) noexcept;
 
+/// An edge may be so long in parts of the wanted length.
+inline constexpr double kTooLong = 1.4;
+
 /// @brief A surface that follows a reference while it is edited: the steps that change it, each of
 /// which is taken only if no triangle turns over, cuts another one, or gets a worse shape than the
 /// caller allows. Local.
@@ -34,14 +37,14 @@ class SurfaceEditor {
 
   [[nodiscard]] const EditableSurface& surface() const { return surface_; }
   [[nodiscard]] const SurfaceReference& reference() const { return reference_; }
-  /// @brief Asks for the wanted lengths at all vertices once more. All counts as changed.
-  void update_sizes();
+  /// @brief The wanted length at any place.
+  [[nodiscard]] double size_at(const Vec3& place) const { return sizes_(place); }
 
   /// @brief Begins a pass; returns its number. What changes from now on has changed in it.
   int begin_pass() { return ++pass_; }
   /// @brief Whether a triangle around the vertex changed in this pass or later.
   [[nodiscard]] bool has_changed(LocalIndex v, int pass) const { return changed_[at(v)] >= pass; }
-  /// @brief Edges with triangles that changed in this pass or later, ascending.
+  /// @brief Edges both of whose ends have changed in this pass or later, ascending.
   [[nodiscard]] std::vector<Edge> changed_edges(int pass) const;
 
   /// @brief Length over the wanted one.
@@ -68,7 +71,8 @@ class SurfaceEditor {
   bool collapse(LocalIndex gone, LocalIndex kept, double least, double most);
 
   /// @brief Moves a vertex that is not fixed to the place on its patch or curve that is nearest to
-  /// `wanted`, if all triangles around are better than `least` then.
+  /// `wanted`, in a flat patch to `wanted` itself, if all triangles around are better than `least`
+  /// then.
   bool move(LocalIndex v, const Vec3& wanted, double least);
 
   /// @brief What there is now.

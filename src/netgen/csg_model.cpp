@@ -361,9 +361,11 @@ void CsgModel::add_edges(const mesh::CoarseMesh& mesh, model::ModelDescription& 
 
 model::ModelDescription CsgModel::describe(coarse::SurfaceMesher mesher) const
 {
-  constexpr double kSize = 0.1;  // In parts of the box diagonal.
+  constexpr double kSize = 0.1;       // In parts of the box diagonal.
+  constexpr double kCurvature = 3.0;  // So volumes are good to some percent.
   coarse::CoarseOptions options;
   options.max_size = kSize * box_diagonal_;
+  options.curvature = kCurvature;
   options.surface_mesher = mesher;
   const coarse::CoarseSurface surface = mesh_surface(options, [](const auto&...) {});
   model::ModelDescription described = describe_csg(*geometry_, surface);
