@@ -115,11 +115,14 @@ std::optional<std::string> look_at(int descriptor, Connections& connections,
   struct stat entry {};
   const auto info = connection_at(descriptor);
   if (!info || ::fstat(descriptor, &entry) != 0) return std::nullopt;
-  Connection& connection = connections[entry.st_ino];
-  if (connection.num_looks == 0) ask_when_silent(descriptor, limits.silence);
+  const auto [place, is_new] = connections.try_emplace(entry.st_ino);
+  Connection& connection = place->second;
+  if (is_new) ask_when_silent(descriptor, limits.silence);
   if (info->tcpi_state == kEstablished) connection.peer = peer_of(descriptor);
   connection.is_there = true;
-  ++connection.num_looks;
+  // Before the peer has said something, only its kernel has taken the connection: where both sides
+  // have made one, MPI closes the other one.
+  if (info->tcpi_bytes_received > 0) ++connection.num_looks;
   connection.num_looks_in_vain = is_asked(*info) ? connection.num_looks_in_vain + 1 : 0;
   if (!is_lost(connection, *info, limits)) return std::nullopt;
   return fmt::format("no answer from {} for {} s; its node or the network to it is down",
@@ -151,7 +154,9 @@ std::optional<std::string> look_at_all(Connections& connections, const PeerLimit
   if (folder == nullptr) return std::nullopt;
   std::optional<std::string> lost;
   while (const dirent* const entry = ::readdir(folder)) {
-    const auto found = look_at(std::atoi(entry->d_name), connections, limits);
+    const int descriptor = std::atoi(entry->d_name);
+    if (descriptor <= STDERR_FILENO) continue;  // The caller's, or "." and "..".
+    const auto found = look_at(descriptor, connections, limits);
     if (!lost) lost = found;
   }
   ::closedir(folder);

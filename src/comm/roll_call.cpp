@@ -24,6 +24,7 @@ using Seconds = std::chrono::duration<double>;
 
 // As in Communicator::quiet_barrier().
 constexpr std::chrono::milliseconds kBetweenLooks{1};
+constexpr int kFirstLooks = 10;
 
 // What the others have to answer, once one has given up: each looks every millisecond.
 constexpr Seconds kAnswerTime{3.0};
@@ -75,7 +76,11 @@ class RollCall {
   // comes before he hears of it comes in time, and then the barrier ends on all of them.
   [[nodiscard]] bool all_come(double timeout_s)
   {
-    listen();
+    // One look may miss a message that lies in the socket since before this rank called MPI.
+    for (int look = 0; look < kFirstLooks; ++look) {
+      listen();
+      std::this_thread::sleep_for(kBetweenLooks);
+    }
     is_late_ = there_.size() > 1;
     if (is_late_) return false;  // The others leave, so this rank must not enter.
     MPI_Ibarrier(ranks_, &barrier_);

@@ -37,7 +37,7 @@ _READY_S = 60.0
 
 def why_not():
     """Why this machine cannot have a room, as one line; None if it can."""
-    probe = "mount -t tmpfs none /tmp"
+    probe = "mount -t tmpfs none /tmp && mount -t proc proc /proc"
     if shutil.which("ip"):
         probe += " && ip link add br0 type bridge && ip link add veth1 type veth peer name veth2"
     try:

@@ -18,6 +18,7 @@ RANK_TIMEOUT_S = 600.0
 _TAG = 31905
 _ANSWER_S = 3.0
 _BETWEEN_LOOKS_S = 0.001
+_FIRST_LOOKS = 10
 
 _sent: list[np.ndarray] = []  # Messages that nobody may receive; MPI reads them until then.
 
@@ -89,7 +90,9 @@ class _RollCall:
     def all_come(self, timeout_s: float) -> bool:
         """Giving up is not final until the others had time to answer: whoever comes before he hears of it comes in
         time, and then the barrier ends on all ranks."""
-        self._listen()
+        for _ in range(_FIRST_LOOKS):  # One may miss a message that lies in the socket already.
+            self._listen()
+            time.sleep(_BETWEEN_LOOKS_S)
         self._is_late = len(self._there) > 1
         if self._is_late:  # The others leave, so this rank must not enter.
             return False

@@ -37,6 +37,14 @@ class Listener {
     EXPECT_EQ(::getsockname(socket_.get(), as_plain(), &size), 0);
   }
 
+  // The last connection on this side, on which a byte has been sent.
+  [[nodiscard]] FileDescriptor accepted() const
+  {
+    FileDescriptor other(::accept(socket_.get(), nullptr, nullptr));
+    EXPECT_EQ(::send(other.get(), "x", 1, 0), 1);
+    return other;
+  }
+
   // Made, or on its way.
   [[nodiscard]] FileDescriptor connection()
   {
@@ -74,10 +82,22 @@ TEST(PeerWatch, SaysThatAPeerHasEnded)
   Listener listener(8);
   Watched watched;
   FileDescriptor connection = listener.connection();
+  const FileDescriptor other = listener.accepted();
   ASSERT_EQ(watched.sentence.wait_for(kManyLooks), std::future_status::timeout);
   connection.close();
   ASSERT_EQ(watched.sentence.wait_for(kHang), std::future_status::ready);
   EXPECT_NE(watched.sentence.get().find("127.0.0.1 has been closed"), std::string::npos);
+}
+
+// Two ranks that connect to each other at once have two connections, and MPI drops one.
+TEST(PeerWatch, IsContentWithAConnectionThatIsDroppedBeforeThePeerHasSaidAnything)
+{
+  Listener listener(8);
+  Watched watched;
+  FileDescriptor connection = listener.connection();
+  ASSERT_EQ(watched.sentence.wait_for(kManyLooks), std::future_status::timeout);
+  connection.close();
+  EXPECT_EQ(watched.sentence.wait_for(kManyLooks), std::future_status::timeout);
 }
 
 TEST(PeerWatch, IsContentWithAPeerThatHasNothingToSay)
