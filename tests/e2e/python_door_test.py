@@ -105,6 +105,7 @@ class Door(program.ProgramTest):
             "world.Barrier()\n"
             "if world.rank == 1: said = call()\n"
             "told(said)\n"
+            "world.Barrier()  # The first one to end ends all.\n"
         )
         outcome = self.run_ranks(3, code)
         self.assertNotEqual(outcome.code, program.OK)  # In the end the ranks are not at the same point.
