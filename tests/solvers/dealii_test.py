@@ -2,11 +2,13 @@
 """deal.II 9.4 solves Laplace's equation on the shares of read_mesh(), each rank on its own tets."""
 import json
 import pathlib
+import subprocess
 import unittest
 
 import solver_meshes
 from solver_meshes import Mesh, mpirun, read_pvtu, run
 
+TRIES = 12
 SOURCE = pathlib.Path(__file__).parent / "dealii"
 
 
@@ -27,7 +29,14 @@ class DealII(unittest.TestCase):
         cls.laplace = folder / "build/laplace"
 
     def solve(self, mesh, ranks):
-        return json.loads(mpirun(ranks, [self.laplace, mesh.mesh]).splitlines()[-1])
+        """With three ranks on two cores, deal.II 9.4 waits for ever in some runs, in its own collectives of
+        create_triangulation(), whatever the mesh; a run takes seconds."""
+        for _ in range(TRIES):
+            try:
+                return json.loads(mpirun(ranks, [self.laplace, mesh.mesh], timeout_s=30).splitlines()[-1])
+            except subprocess.TimeoutExpired:
+                print("deal.II hangs; once more", flush=True)
+        self.fail(f"deal.II has hung {TRIES} times")
 
     def check(self, mesh, ranks):
         found = self.solve(mesh, ranks)
