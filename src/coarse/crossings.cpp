@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "coarse/editable_surface.hpp"
+
 namespace tessera::coarse {
 namespace {
 
@@ -32,7 +34,7 @@ std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, double above, dou
 std::optional<Vec3> edge_through(const PlacedTriangle& a, const PlacedTriangle& b,
                                  std::size_t shared_of_a)
 {
-  const Vec3 normal = cross(b.corners[1] - b.corners[0], b.corners[2] - b.corners[0]);
+  const Vec3 normal = normal_of(b.corners);
   std::array<double, 3> above{};
   for (std::size_t c = 0; c < 3; ++c) {
     above[c] = c == shared_of_a ? 0.0 : dot(normal, a.corners[c] - b.corners[0]);

@@ -129,7 +129,7 @@ class Divider {
       return std::pair(editor_.relative_length(edge_of(v, other)), other);
     });
     for (const LocalIndex kept : two) {
-      if (editor_.collapse(v, kept, editor_.fair_shape(v), kTooLong)) return;
+      if (editor_.collapse(v, kept, editor_.fair_shape(v))) return;
     }
   }
 

@@ -5,12 +5,12 @@
 
 namespace tessera::coarse {
 
-/// @brief Divides every piece of a curve, between two vertices that stay in their places, into the
-/// whole number of edges that fits the wanted lengths best, all equally long in parts of these.
-/// Local.
+/// @brief Divides curves into edges of the wanted lengths. Local.
 ///
-/// Vertices come to the places of the division, and others go. One that cannot go without spoiling
-/// triangles stays.
+/// A piece of a curve is what lies between two vertices that stay in their places. It gets the
+/// whole number of edges that fits best. All of them are equally long in parts of the wanted
+/// length. Vertices come to the places of the division, and others go. One that cannot go without
+/// spoiling triangles stays.
 void divide_curves(SurfaceEditor& editor);
 
 }  // namespace tessera::coarse

@@ -10,13 +10,6 @@ namespace {
 using Edge = EditableSurface::Edge;
 using Triangle = EditableSurface::Triangle;
 
-template <class T>
-void sort_unique(std::vector<T>& values)
-{
-  std::ranges::sort(values);
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 }  // namespace
 
 EditableSurface::EditableSurface(const PatchSurface& surface, std::vector<double> sizes)

@@ -32,6 +32,13 @@ enum class Freedom : char { patch, curve, none };
   return {std::min(a, b), std::max(a, b)};
 }
 
+template <class T>
+void sort_unique(std::vector<T>& values)
+{
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 /// @brief Twice as long as the triangle's area.
 [[nodiscard]] inline Vec3 normal_of(const std::array<Vec3, 3>& p)
 {
@@ -154,8 +161,7 @@ std::vector<EditableSurface::Edge> EditableSurface::edges(const Counts& counts) 
         if (b > a && counts(b)) higher.push_back(b);
       }
     }
-    std::ranges::sort(higher);
-    higher.erase(std::unique(higher.begin(), higher.end()), higher.end());
+    sort_unique(higher);
     for (const LocalIndex b : higher) all.push_back({a, b});
   }
   return all;

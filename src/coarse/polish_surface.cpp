@@ -14,9 +14,6 @@ constexpr double kPolished = 0.71;
 
 constexpr int kMostSweeps = 8;
 
-// Against steps back and forth.
-constexpr double kGain = 1e-3;
-
 class Polisher {
  public:
   explicit Polisher(SurfaceEditor& editor) : editor_(editor), surface_(editor.surface()) {}
@@ -51,7 +48,7 @@ class Polisher {
   {
     const PatchSurface::Triangle v = surface_.triangle(t);
     for (std::size_t c = 0; c < 3; ++c) {
-      if (editor_.flip_if_better(edge_of(v[c], v[(c + 1) % 3]), kGain)) return true;
+      if (editor_.flip_if_better(edge_of(v[c], v[(c + 1) % 3]))) return true;
     }
     bool has_moved = false;
     for (const LocalIndex corner : v) has_moved = pull(corner) || has_moved;
@@ -71,7 +68,7 @@ class Polisher {
 
   bool remove(LocalIndex gone, LocalIndex kept)
   {
-    return editor_.collapse(gone, kept, better_than_around(gone), kTooLong);
+    return editor_.collapse(gone, kept, better_than_around(gone));
   }
 
   bool pull(LocalIndex v)

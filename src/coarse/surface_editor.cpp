@@ -27,9 +27,6 @@ constexpr double kMostSagitta = 0.2;
 // In parts of the wanted length.
 constexpr double kMostOffReference = 0.5;
 
-// Of angle_shape(): the smallest angle is 18 degrees.
-constexpr double kFairShape = 0.35;
-
 }  // namespace
 
 double angle_shape(const std::array<Vec3, 3>& p) noexcept
@@ -110,8 +107,7 @@ bool SurfaceEditor::is_upright(const PlacedTriangle& one)
 SurfaceEditor::PlacedNormal& SurfaceEditor::known_normal(LocalIndex v, LocalIndex patch)
 {
   if (at(v) >= normals_.size()) normals_.resize(at(v) + 1);
-  const bool is_inside = v < surface_.num_vertices() && surface_.freedom(v) == Freedom::patch;
-  if (is_inside) return normals_[at(v)];
+  if (surface_.freedom(v) == Freedom::patch) return normals_[at(v)];
   return normals_of_curves_[static_cast<GlobalIndex>(v) * reference_.surface().num_patches()
                             + patch];
 }
@@ -159,9 +155,9 @@ double SurfaceEditor::fair_shape(LocalIndex v)
   return std::clamp(worst_shape(surface_.triangles_of(v)), 0.0, kFairShape);
 }
 
-bool SurfaceEditor::flip_if_better(const Edge& edge, double gain)
+bool SurfaceEditor::flip_if_better(const Edge& edge)
 {
-  return flip(edge, std::max(worst_shape(surface_.triangles_at(edge)), 0.0) + gain);
+  return flip(edge, std::max(worst_shape(surface_.triangles_at(edge)), 0.0) + kGain);
 }
 
 bool SurfaceEditor::flip(const Edge& edge, double least)
@@ -247,11 +243,11 @@ LocalIndex SurfaceEditor::split(const Edge& edge, double part)
   return middle;
 }
 
-bool SurfaceEditor::keeps_lengths(LocalIndex gone, LocalIndex kept, double most) const
+bool SurfaceEditor::keeps_lengths(LocalIndex gone, LocalIndex kept) const
 {
   for (const LocalIndex t : surface_.triangles_of(gone)) {
     for (const LocalIndex other : surface_.triangle(t)) {
-      if (other != kept && other != gone && relative_length({other, kept}) > most) return false;
+      if (other != kept && other != gone && relative_length({other, kept}) > kTooLong) return false;
     }
   }
   return true;
@@ -270,9 +266,9 @@ bool SurfaceEditor::keeps_curve(LocalIndex gone, LocalIndex kept) const
   return true;
 }
 
-bool SurfaceEditor::collapse(LocalIndex gone, LocalIndex kept, double least, double most)
+bool SurfaceEditor::collapse(LocalIndex gone, LocalIndex kept, double least)
 {
-  if (!keeps_lengths(gone, kept, most) || !surface_.can_collapse(gone, kept)
+  if (!keeps_lengths(gone, kept) || !surface_.can_collapse(gone, kept)
       || !keeps_curve(gone, kept)) {
     return false;
   }

@@ -21,6 +21,12 @@ namespace tessera::coarse {
 /// An edge may be so long in parts of the wanted length.
 inline constexpr double kTooLong = 1.4;
 
+/// Of angle_shape(): the smallest angle is 18 degrees.
+inline constexpr double kFairShape = 0.35;
+
+/// A step that is to make a shape better does so by this at least, against steps back and forth.
+inline constexpr double kGain = 1e-3;
+
 /// @brief A surface that follows a reference while it is edited: the steps that change it, each of
 /// which is taken only if no triangle turns over, cuts another one, or gets a worse shape than the
 /// caller allows. Local.
@@ -57,8 +63,8 @@ class SurfaceEditor {
   /// shape, or the worst one there if that is not fair.
   [[nodiscard]] double fair_shape(LocalIndex v);
 
-  /// @brief Flips an edge if the worse of its triangles gets better by `gain`.
-  bool flip_if_better(const Edge& edge, double gain);
+  /// @brief Flips an edge if the worse of its triangles gets better.
+  bool flip_if_better(const Edge& edge);
   /// @brief Flips an edge if both triangles are better than `least` then.
   bool flip(const Edge& edge, double least);
 
@@ -67,12 +73,12 @@ class SurfaceEditor {
   LocalIndex split(const Edge& edge, double part = 0.5);
 
   /// @brief Joins `gone` with `kept` if all triangles that change are better than `least` then, and
-  /// no edge becomes longer than `most`, in parts of the wanted length.
-  bool collapse(LocalIndex gone, LocalIndex kept, double least, double most);
+  /// no edge becomes too long.
+  bool collapse(LocalIndex gone, LocalIndex kept, double least);
 
-  /// @brief Moves a vertex that is not fixed to the place on its patch or curve that is nearest to
-  /// `wanted`, in a flat patch to `wanted` itself, if all triangles around are better than `least`
-  /// then.
+  /// @brief Moves a vertex that is not fixed, if all triangles around are better than `least` then.
+  /// It goes to the place on its patch or curve that is nearest to `wanted`; in a flat patch, to
+  /// `wanted` itself.
   bool move(LocalIndex v, const Vec3& wanted, double least);
 
   /// @brief What there is now.
@@ -100,7 +106,7 @@ class SurfaceEditor {
   [[nodiscard]] std::vector<PlacedTriangle> halves(std::span<const LocalIndex> triangles,
                                                    const Edge& edge, const Vec3& middle) const;
   [[nodiscard]] bool keeps_curve(LocalIndex gone, LocalIndex kept) const;
-  [[nodiscard]] bool keeps_lengths(LocalIndex gone, LocalIndex kept, double most) const;
+  [[nodiscard]] bool keeps_lengths(LocalIndex gone, LocalIndex kept) const;
   void note_change(std::span<const LocalIndex> triangles);
 
   const SurfaceReference& reference_;

@@ -95,7 +95,7 @@ std::size_t SurfaceReference::nearest_triangle(LocalIndex patch, const Vec3& poi
 
 Vec3 SurfaceReference::on_patch(LocalIndex patch, const Vec3& point) const
 {
-  return patches_[at(patch)].search.nearest(point).xyz;
+  return place_on_patch(patch, point).xyz;
 }
 
 SurfaceReference::Place SurfaceReference::place_on_patch(LocalIndex patch, const Vec3& point) const

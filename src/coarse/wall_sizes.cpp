@@ -51,7 +51,7 @@ bool touches(const Ray& ray, const Box& box)
 // Where along the ray, in [0, 1], it goes through the triangle; infinity if it does not.
 double hit(const Ray& ray, const Corners& p)
 {
-  const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+  const Vec3 normal = normal_of(p);
   const double slope = dot(normal, ray.along);
   if (std::abs(slope) < kLeastCosine * norm(normal) * norm(ray.along)) return kInfinity;
   const double at_plane = dot(normal, p[0] - ray.from) / slope;
@@ -108,7 +108,7 @@ class WallSizes {
   void look(LocalIndex t)
   {
     const Corners p = surface_.corners(t);
-    const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+    const Vec3 normal = normal_of(p);
     if (norm(normal) == 0.0) return;
     const Vec3 middle = (1.0 / 3.0) * (p[0] + p[1] + p[2]);
     const Vec3 up = (reach_ / norm(normal)) * normal;

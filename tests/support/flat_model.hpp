@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+
 #include "tessera/model/model.hpp"
 
 namespace tessera::testing {
 
 /// @brief Every surface and curve is where the coarse mesh is: projection changes nothing.
-class FlatModel final : public model::Model {
+class FlatModel : public model::Model {
  public:
   [[nodiscard]] bool has_parameters() const override { return false; }
   [[nodiscard]] double surface_tolerance(LocalIndex) const override { return 1e-8; }

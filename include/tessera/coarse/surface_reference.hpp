@@ -15,16 +15,18 @@ namespace tessera::coarse {
 /// and parameters, patch by patch and curve by curve. Pure functions all.
 class SurfaceReference {
  public:
+  /// @brief A point of a patch.
+  struct Place {
+    Vec3 xyz{};
+    Vec3 normal{};  ///< Of length 1.
+  };
+
   /// @pre validate() accepts the surface.
   explicit SurfaceReference(PatchSurface surface);
 
   [[nodiscard]] const PatchSurface& surface() const { return surface_; }
   [[nodiscard]] Vec3 on_patch(LocalIndex patch, const Vec3& point) const;
-  /// @brief The same with the unit normal there.
-  struct Place {
-    Vec3 xyz{};
-    Vec3 normal{};
-  };
+  /// @brief The same with the normal there.
   [[nodiscard]] Place place_on_patch(LocalIndex patch, const Vec3& point) const;
   [[nodiscard]] Vec3 on_curve(LocalIndex curve, const Vec3& point) const;
   /// @brief Unit normal of the patch's triangle that is nearest to the point.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // make_mesh() several times, in groups of ranks, and with everything that can go wrong at the door.
-// Its own main(): the job processes are forked before MPI_Init.
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -18,12 +17,12 @@
 #include "support/mpi_tests.hpp"
 #include "support/shared_folder.hpp"
 
+#include "mpi/front_door/session_main.hpp"
+
 namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
-
-Session* session_of_this_process = nullptr;
 
 class Door : public ::testing::Test {
  protected:
@@ -72,7 +71,7 @@ class Door : public ::testing::Test {
     return typeid(comm::Collective<E>).name();
   }
 
-  comm::Communicator comm_ = session_of_this_process->world();
+  comm::Communicator comm_ = testing::session_of_this_process().world();
   testing::SharedFolder folder_{comm_};
 };
 
@@ -215,13 +214,3 @@ TEST_F(Door, ARankThatNeverCallsIsNamedAndNothingIsBegun)
 
 }  // namespace
 }  // namespace tessera
-
-int main(int argc, char** argv)
-{
-  tessera::Session session;
-  tessera::session_of_this_process = &session;
-  MPI_Init(&argc, &argv);
-  const int failed = tessera::testing::run_tests_on_all_ranks(argc, argv);
-  MPI_Finalize();
-  return failed;
-}

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Its own main(): the job processes are forked before MPI_Init.
 #include <algorithm>
 #include <array>
 #include <csignal>
@@ -17,12 +16,12 @@
 #include "support/mpi_tests.hpp"
 #include "support/shared_folder.hpp"
 
+#include "mpi/front_door/session_main.hpp"
+
 namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
-
-Session* session_of_this_process = nullptr;
 
 Hash128 digest_of(const subdomain::MeshPart& part)
 {
@@ -102,7 +101,7 @@ class MakeMesh : public ::testing::Test {
     return {.on_piece = [exception](const MeshPiece&) { throw exception; }};
   }
 
-  comm::Communicator comm_ = session_of_this_process->world();
+  comm::Communicator comm_ = testing::session_of_this_process().world();
   testing::SharedFolder folder_{comm_};
 };
 
@@ -291,7 +290,7 @@ TEST_F(MakeMesh, ThereIsOneSessionInAProgram) { EXPECT_THROW(const Session secon
 // The last one: a stop signal counts for all later runs too.
 TEST_F(MakeMesh, WhatAStopSignalEndsCanGoOn)
 {
-  session_of_this_process->catch_stop_signals();
+  testing::session_of_this_process().catch_stop_signals();
   MeshOptions options;
   options.on_piece = [](const MeshPiece&) { std::raise(SIGTERM); };
   EXPECT_THROW(static_cast<void>(make(brick(fill::KernelKind::netgen, "stopped"), options)),
@@ -303,13 +302,3 @@ TEST_F(MakeMesh, WhatAStopSignalEndsCanGoOn)
 
 }  // namespace
 }  // namespace tessera
-
-int main(int argc, char** argv)
-{
-  tessera::Session session;
-  tessera::session_of_this_process = &session;
-  MPI_Init(&argc, &argv);
-  const int failed = tessera::testing::run_tests_on_all_ranks(argc, argv);
-  MPI_Finalize();
-  return failed;
-}

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
-#include "tessera/model/model.hpp"
 #include "tessera/model/triangle_surface.hpp"
 
+#include "support/flat_model.hpp"
 #include "support/stl_models.hpp"
 
 #include "coarse/strip_sizes.hpp"
@@ -175,23 +175,14 @@ TEST(Remesh, PutsVerticesOfCurvesOnTheModel)
 {
   // Each edge of the cube is bent outwards by a little.
   constexpr double kOut = 0.01;
-  class Bent final : public model::Model {
+  class Bent final : public testing::FlatModel {
    public:
-    [[nodiscard]] bool has_parameters() const override { return false; }
-    [[nodiscard]] double surface_tolerance(LocalIndex) const override { return 1e-8; }
-    [[nodiscard]] double curve_tolerance(LocalIndex) const override { return 1e-8; }
-    [[nodiscard]] model::SurfacePoint project_to_surface(
-        LocalIndex, const Vec3& point, const model::SurfaceParameters&) const override
-    {
-      return {point, {}};
-    }
     [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex, const Vec3& point,
                                                      double) const override
     {
       const Vec3 middle{0.5, 0.5, 0.5};
       return {point + kOut * unit(point - middle), 0.0};
     }
-    [[nodiscard]] double box_diagonal() const override { return 2.0; }
   } const model;
   const SurfaceReference reference(cube());
   const PatchSurface bent =
