@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "tessera/model/nearest_point.hpp"
 
@@ -80,23 +81,37 @@ LocalIndex SizeFunction::build(LocalIndex first, LocalIndex last)
   return number;
 }
 
+double SizeFunction::least_in(const Node& node, const Vec3& place) const
+{
+  return node.least + growth_ * distance(node.box, place);
+}
+
+// The child that may have the lower size comes first: most of the others are ruled out by it.
 double SizeFunction::operator()(const Vec3& place) const
 {
+  struct Visit {
+    double least;
+    LocalIndex node;
+  };
   double size = largest_;
-  std::array<LocalIndex, kDeepest> to_visit;
+  std::array<Visit, kDeepest> to_visit;
   std::size_t num_to_visit = 0;
-  if (!nodes_.empty()) to_visit[num_to_visit++] = 0;
+  if (!nodes_.empty()) to_visit[num_to_visit++] = {least_in(nodes_[0], place), 0};
   while (num_to_visit > 0) {
-    const LocalIndex number = to_visit[--num_to_visit];
+    const auto [least, number] = to_visit[--num_to_visit];
+    if (least >= size) continue;
     const Node& node = nodes_[at(number)];
-    if (node.least + growth_ * distance(node.box, place) >= size) continue;
     if (node.other_child != kNoIndex) {
-      to_visit[num_to_visit++] = node.other_child;
-      to_visit[num_to_visit++] = number + 1;
+      Visit first{least_in(nodes_[at(number) + 1], place), number + 1};
+      Visit second{least_in(nodes_[at(node.other_child)], place), node.other_child};
+      if (second.least < first.least) std::swap(first, second);
+      if (second.least < size) to_visit[num_to_visit++] = second;
+      if (first.least < size) to_visit[num_to_visit++] = first;
       continue;
     }
     for (LocalIndex i = node.first; i < node.last; ++i) {
       const SizeSource& source = sources_[at(i)];
+      if (source.size >= size) continue;
       const double apart = norm(model::nearest_point_of(source.corners, place) - place);
       size = std::min(size, source.size + growth_ * apart);
     }

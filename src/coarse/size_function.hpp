@@ -44,6 +44,7 @@ class SizeFunction {
   };
 
   LocalIndex build(LocalIndex first, LocalIndex last);
+  [[nodiscard]] double least_in(const Node& node, const Vec3& place) const;
 
   double largest_;
   double growth_;
