@@ -242,18 +242,18 @@ int Defeaturer::shorten_diagonals()
 
 bool Defeaturer::shorten(const Edge& edge)
 {
-  const auto triangles = surface_.flipped(edge);
-  if (!triangles) return false;
-  const Triangles two = surface_.triangles_at(edge);
+  const auto flip = surface_.flipped(edge);
+  if (!flip) return false;
+  const Triangles two(flip->triangles.begin(), flip->triangles.end());
   if (!is_thin(two[0]) && !is_thin(two[1])) return false;
   if (length({opposite(two[0], edge), opposite(two[1], edge)}) >= length(edge)) return false;
   const Vec3 sum = normal_of(surface_.corners(two[0])) + normal_of(surface_.corners(two[1]));
   Step step{.old = two};
-  for (std::size_t side = 0; side < 2; ++side) add((*triangles)[side], two[side], step);
+  for (std::size_t side = 0; side < 2; ++side) add(flip->made[side], two[side], step);
   const bool is_upright = std::ranges::all_of(
       step.made, [&](const PlacedTriangle& one) { return dot(normal_of(one.corners), sum) > 0.0; });
   if (!is_upright || !guard_.allows(step.old, step.made) || folds(step)) return false;
-  surface_.flip(edge, *triangles);
+  surface_.flip(*flip);
   update_guard(two);
   return true;
 }

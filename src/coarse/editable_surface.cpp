@@ -42,6 +42,7 @@ EditableSurface::EditableSurface(const PatchSurface& surface, std::vector<double
 std::vector<LocalIndex> EditableSurface::triangles_at(const Edge& edge) const
 {
   std::vector<LocalIndex> found;
+  found.reserve(2);
   for (const LocalIndex t : around_[at(edge[0])]) {
     if (holds(triangles_[at(t)], edge[1])) found.push_back(t);
   }
@@ -51,6 +52,7 @@ std::vector<LocalIndex> EditableSurface::triangles_at(const Edge& edge) const
 std::vector<LocalIndex> EditableSurface::neighbours(LocalIndex v) const
 {
   std::vector<LocalIndex> found;
+  found.reserve(2 * around_[at(v)].size());
   for (const LocalIndex t : around_[at(v)]) {
     for (const LocalIndex other : triangles_[at(t)]) {
       if (other != v) found.push_back(other);
@@ -68,6 +70,7 @@ bool EditableSurface::has_edge(LocalIndex a, LocalIndex b) const
 
 LocalIndex EditableSurface::curve(LocalIndex a, LocalIndex b) const
 {
+  if (std::min(freedom(a), freedom(b)) == Freedom::patch) return kNoIndex;
   const auto found = curves_.find(edge_of(a, b));
   return found == curves_.end() ? kNoIndex : found->second;
 }
@@ -177,23 +180,31 @@ void EditableSurface::collapse(LocalIndex gone, LocalIndex kept)
   }
 }
 
-std::optional<std::array<Triangle, 2>> EditableSurface::flipped(const Edge& edge) const
+std::optional<EditableSurface::Flip> EditableSurface::flipped(const Edge& edge) const
 {
-  const std::vector<LocalIndex> two = triangles_at(edge);
-  if (two.size() != 2 || curve(edge[0], edge[1]) != kNoIndex) return std::nullopt;
-  const LocalIndex c = opposite(triangle(two[0]), edge);
-  const LocalIndex d = opposite(triangle(two[1]), edge);
+  Flip flip;
+  std::size_t count = 0;
+  for (const LocalIndex t : around_[at(edge[0])]) {
+    if (!holds(triangles_[at(t)], edge[1])) continue;
+    if (count == 2) return std::nullopt;
+    flip.triangles[count++] = t;
+  }
+  if (count != 2 || curve(edge[0], edge[1]) != kNoIndex) return std::nullopt;
+  const auto& [first, second] = flip.triangles;
+  const LocalIndex c = opposite(triangle(first), edge);
+  const LocalIndex d = opposite(triangle(second), edge);
   if (c == d || has_edge(c, d)) return std::nullopt;
-  return std::array{replaced(triangle(two[0]), edge[0], d), replaced(triangle(two[1]), edge[1], c)};
+  flip.made = {replaced(triangle(first), edge[0], d), replaced(triangle(second), edge[1], c)};
+  return flip;
 }
 
-void EditableSurface::flip(const Edge& edge, const std::array<Triangle, 2>& triangles)
+void EditableSurface::flip(const Flip& flip)
 {
-  const std::vector<LocalIndex> two = triangles_at(edge);
   for (std::size_t side = 0; side < 2; ++side) {
-    for (const LocalIndex v : triangle(two[side])) detach(two[side], v);
-    triangles_[at(two[side])] = triangles[side];
-    for (const LocalIndex v : triangles[side]) around_[at(v)].push_back(two[side]);
+    const LocalIndex t = flip.triangles[side];
+    for (const LocalIndex v : triangle(t)) detach(t, v);
+    triangles_[at(t)] = flip.made[side];
+    for (const LocalIndex v : triangle(t)) around_[at(v)].push_back(t);
   }
 }
 

@@ -126,11 +126,15 @@ class EditableSurface {
   /// @pre can_collapse(gone, kept), or another proof that nothing is torn.
   void collapse(LocalIndex gone, LocalIndex kept);
 
-  /// @brief The two triangles that would take the place of those at an edge on no curve; nothing if
-  /// the other diagonal exists already. In the order of triangles_at().
-  [[nodiscard]] std::optional<std::array<Triangle, 2>> flipped(const Edge& edge) const;
-  /// @pre `triangles` are flipped(edge).
-  void flip(const Edge& edge, const std::array<Triangle, 2>& triangles);
+  /// @brief What takes the place of two triangles when the edge between them is flipped.
+  struct Flip {
+    std::array<LocalIndex, 2> triangles{};  ///< In the order of triangles_at().
+    std::array<Triangle, 2> made{};
+  };
+  /// @brief The flip of an edge on no curve; nothing if the other diagonal exists already.
+  [[nodiscard]] std::optional<Flip> flipped(const Edge& edge) const;
+  /// @pre The surface has not changed since flipped().
+  void flip(const Flip& flip);
 
   /// @brief What there is now, without gaps; the materials are the given surface's.
   [[nodiscard]] PatchSurface take(const PatchSurface& given) const;

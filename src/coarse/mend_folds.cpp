@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -221,23 +222,23 @@ class FoldMender {
                                [&](const Edge& edge) { return cut(edge, surface_.patch(t)); });
   }
 
-  [[nodiscard]] bool are_free(const std::vector<LocalIndex>& triangles) const
+  [[nodiscard]] bool are_free(std::span<const LocalIndex> triangles) const
   {
     return std::ranges::none_of(triangles, [this](LocalIndex t) { return touched_.contains(t); });
   }
 
   bool flip(const Edge& edge)
   {
-    const std::vector<LocalIndex> two = surface_.triangles_at(edge);
-    const auto made = surface_.flipped(edge);
-    if (!made || !are_free(two)) return false;
+    const auto flip = surface_.flipped(edge);
+    if (!flip || !are_free(flip->triangles)) return false;
+    const auto& two = flip->triangles;
     const LocalIndex group = surface_.patch(two[0]);
     const Vec3 normal = normal_of(surface_.corners(two[0])) + normal_of(surface_.corners(two[1]));
-    const bool are_sound = std::ranges::all_of(*made, [&](const Triangle& v) {
+    const bool are_sound = std::ranges::all_of(flip->made, [&](const Triangle& v) {
       return looks_the_same_way(corners(v), normal) && is_sound(v, group);
     });
     if (!are_sound) return false;
-    surface_.flip(edge, *made);
+    surface_.flip(*flip);
     touched_.insert(two.begin(), two.end());
     return true;
   }
@@ -292,7 +293,7 @@ class FoldMender {
     for (const LocalIndex t : surface_.triangles_of(middle)) {
       groups_.place_on_group(surface_.patch(t), middle, edge[0], point);
     }
-    if (beyond) surface_.flip(*beyond, *surface_.flipped(*beyond));
+    if (beyond) surface_.flip(*surface_.flipped(*beyond));
     const std::vector<LocalIndex>& changed = surface_.triangles_of(middle);
     touched_.insert(changed.begin(), changed.end());
     return true;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -154,7 +155,7 @@ class Mender {
 
   // Whether the candidates may take the place of the triangles, among them the bad one. `near`: a
   // vertex of them. Beside a triangle that the model wants to be bad another one can be mended.
-  [[nodiscard]] bool is_better(const std::vector<LocalIndex>& old, LocalIndex bad,
+  [[nodiscard]] bool is_better(std::span<const LocalIndex> old, LocalIndex bad,
                                const std::vector<Candidate>& candidates, LocalIndex near,
                                double gain = kLeastGain) const
   {
@@ -169,7 +170,7 @@ class Mender {
     });
   }
 
-  [[nodiscard]] bool looks_the_same_way(const std::vector<LocalIndex>& old,
+  [[nodiscard]] bool looks_the_same_way(std::span<const LocalIndex> old,
                                         const Candidate& candidate) const
   {
     Vec3 sum{};
@@ -192,7 +193,7 @@ class Mender {
     return lengths > 0.0 ? dot(a, b) / lengths : -1.0;
   }
 
-  [[nodiscard]] bool is_near(const std::vector<LocalIndex>& old, const Candidate& candidate,
+  [[nodiscard]] bool is_near(std::span<const LocalIndex> old, const Candidate& candidate,
                              LocalIndex near) const
   {
     double most = kMostSagitta * longest_edge(candidate.corners);
@@ -213,15 +214,14 @@ class Mender {
 
   bool flip(const Edge& edge, LocalIndex bad)
   {
-    const auto triangles = surface_.flipped(edge);
-    if (!triangles) return false;
-    const std::vector<LocalIndex> two = surface_.triangles_at(edge);
+    const auto flip = surface_.flipped(edge);
+    if (!flip) return false;
+    const auto& [two, made] = *flip;
     const LocalIndex group = surface_.patch(two[0]);
-    if (!is_better(two, bad, {{corners((*triangles)[0]), group}, {corners((*triangles)[1]), group}},
-                   edge[0])) {
+    if (!is_better(two, bad, {{corners(made[0]), group}, {corners(made[1]), group}}, edge[0])) {
       return false;
     }
-    surface_.flip(edge, *triangles);
+    surface_.flip(*flip);
     ++done_.num_flips;
     return true;
   }

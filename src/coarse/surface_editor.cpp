@@ -106,17 +106,17 @@ bool SurfaceEditor::is_upright(const PlacedTriangle& one)
 
 SurfaceEditor::PlacedNormal& SurfaceEditor::known_normal(LocalIndex v, LocalIndex patch)
 {
-  if (at(v) >= normals_.size()) normals_.resize(at(v) + 1);
-  if (surface_.freedom(v) == Freedom::patch) return normals_[at(v)];
-  return normals_of_curves_[static_cast<GlobalIndex>(v) * reference_.surface().num_patches()
-                            + patch];
+  normals_.resize(std::max(normals_.size(), at(v) + 1));
+  std::vector<PlacedNormal>& known = normals_[at(v)];
+  const auto found = std::ranges::find(known, patch, &PlacedNormal::patch);
+  return found != known.end() ? *found : known.emplace_back(PlacedNormal{patch});
 }
 
 const Vec3& SurfaceEditor::normal_at(LocalIndex v, LocalIndex patch, const Vec3& place)
 {
   if (const Vec3* const all = reference_.normal_of_plane(patch)) return *all;
   PlacedNormal& known = known_normal(v, patch);
-  if (known.place != place) known = {place, reference_.normal(patch, place)};
+  if (known.place != place) known = {patch, place, reference_.normal(patch, place)};
   return known.normal;
 }
 
@@ -130,8 +130,15 @@ void SurfaceEditor::note_change(std::span<const LocalIndex> triangles)
   }
 }
 
+// Triangle `t` has become one that is upright.
+void SurfaceEditor::put(LocalIndex t, const PlacedTriangle& one)
+{
+  guard_.change(t, one);
+  shapes_[at(t)] = angle_shape(one.corners);
+}
+
 // Looks at the reference only if all shapes are good enough.
-bool SurfaceEditor::all_better(const Candidates& candidates, double least)
+bool SurfaceEditor::all_better(std::span<const PlacedTriangle> candidates, double least)
 {
   for (const PlacedTriangle& one : candidates) {
     if (angle_shape(one.corners) <= least) return false;
@@ -157,25 +164,24 @@ double SurfaceEditor::fair_shape(LocalIndex v)
 
 bool SurfaceEditor::flip_if_better(const Edge& edge)
 {
-  return flip(edge, std::max(worst_shape(surface_.triangles_at(edge)), 0.0) + kGain);
+  const auto found = surface_.flipped(edge);
+  return found && flip(*found, std::max(worst_shape(found->triangles), 0.0) + kGain);
 }
 
 bool SurfaceEditor::flip(const Edge& edge, double least)
 {
-  const auto made = surface_.flipped(edge);
-  if (!made) return false;
-  const std::vector<LocalIndex> two = surface_.triangles_at(edge);
-  Candidates candidates;
-  for (const Triangle& v : *made) {
-    candidates.push_back(placed(v, surface_.patch(two[0])));
-  }
-  if (!all_better(candidates, least)) return false;
-  if (!cuts_nothing(two, candidates, true)) return false;
-  surface_.flip(edge, *made);
-  for (std::size_t side = 0; side < 2; ++side) {
-    guard_.change(two[side], candidates[side]);
-  }
-  note_change(two);
+  const auto found = surface_.flipped(edge);
+  return found && flip(*found, least);
+}
+
+bool SurfaceEditor::flip(const EditableSurface::Flip& flip, double least)
+{
+  const LocalIndex patch = surface_.patch(flip.triangles[0]);
+  const std::array made{placed(flip.made[0], patch), placed(flip.made[1], patch)};
+  if (!all_better(made, least) || !cuts_nothing(flip.triangles, made, true)) return false;
+  surface_.flip(flip);
+  note_change(flip.triangles);
+  for (std::size_t side = 0; side < 2; ++side) put(flip.triangles[side], made[side]);
   return true;
 }
 
@@ -205,6 +211,7 @@ std::vector<PlacedTriangle> SurfaceEditor::halves(std::span<const LocalIndex> tr
                                                   const Edge& edge, const Vec3& middle) const
 {
   std::vector<PlacedTriangle> made;
+  made.reserve(2 * triangles.size());
   for (const LocalIndex t : triangles) {
     for (const LocalIndex end : edge) {
       PlacedTriangle half{surface_.triangle(t), surface_.corners(t)};
@@ -288,8 +295,8 @@ bool SurfaceEditor::collapse(LocalIndex gone, LocalIndex kept, double least)
   for (const LocalIndex t : old) {
     if (!surface_.is_triangle(t)) guard_.remove(t);
   }
-  for (std::size_t i = 0; i < left.size(); ++i) guard_.change(left[i], made[i]);
   note_change(surface_.triangles_of(kept));
+  for (std::size_t i = 0; i < left.size(); ++i) put(left[i], made[i]);
   return true;
 }
 
@@ -301,6 +308,7 @@ PlacedTriangle SurfaceEditor::placed(const Triangle& v, LocalIndex patch) const
 SurfaceEditor::Candidates SurfaceEditor::ring_of(LocalIndex v) const
 {
   Candidates ring;
+  ring.reserve(surface_.triangles_of(v).size());
   for (const LocalIndex t : surface_.triangles_of(v)) {
     ring.push_back(placed(surface_.triangle(t), surface_.patch(t)));
   }
@@ -317,7 +325,7 @@ Vec3 SurfaceEditor::place_for(LocalIndex v, const Vec3& wanted)
   const LocalIndex patch = surface_.patch(surface_.triangles_of(v).front());
   if (reference_.normal_of_plane(patch) != nullptr) return wanted;
   const auto [place, normal] = reference_.place_on_patch(patch, wanted);
-  known_normal(v, patch) = {place, normal};
+  known_normal(v, patch) = {patch, place, normal};
   return place;
 }
 
@@ -334,8 +342,8 @@ bool SurfaceEditor::move(LocalIndex v, const Vec3& wanted, double least)
     surface_.move(v, before);
     return false;
   }
-  for (std::size_t i = 0; i < around.size(); ++i) guard_.change(around[i], made[i]);
   note_change(around);
+  for (std::size_t i = 0; i < around.size(); ++i) put(around[i], made[i]);
   return true;
 }
 

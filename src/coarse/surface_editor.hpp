@@ -3,7 +3,6 @@
 
 #include <array>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "tessera/coarse/surface_reference.hpp"
@@ -88,13 +87,15 @@ class SurfaceEditor {
   using Candidates = std::vector<PlacedTriangle>;  // What a step would make.
 
   struct PlacedNormal {
+    LocalIndex patch = kNoIndex;
     Vec3 place = kNoPoint;
     Vec3 normal{};
   };
 
   [[nodiscard]] PlacedTriangle placed(const Triangle& v, LocalIndex patch) const;
   [[nodiscard]] Candidates ring_of(LocalIndex v) const;
-  [[nodiscard]] bool all_better(const Candidates& candidates, double least);
+  [[nodiscard]] bool all_better(std::span<const PlacedTriangle> candidates, double least);
+  bool flip(const EditableSurface::Flip& flip, double least);
   [[nodiscard]] bool cuts_nothing(std::span<const LocalIndex> old,
                                   std::span<const PlacedTriangle> made, bool is_inside);
   [[nodiscard]] bool is_upright(const PlacedTriangle& one);
@@ -108,6 +109,7 @@ class SurfaceEditor {
   [[nodiscard]] bool keeps_curve(LocalIndex gone, LocalIndex kept) const;
   [[nodiscard]] bool keeps_lengths(LocalIndex gone, LocalIndex kept) const;
   void note_change(std::span<const LocalIndex> triangles);
+  void put(LocalIndex t, const PlacedTriangle& one);
 
   const SurfaceReference& reference_;
   EditableSurface surface_;
@@ -117,8 +119,7 @@ class SurfaceEditor {
   int pass_ = 0;
   std::vector<int> changed_;             // Of each vertex: the last pass with a change there.
   std::vector<double> shapes_{};         // Of the triangles.
-  std::vector<PlacedNormal> normals_{};  // Of vertices inside patches.
-  std::unordered_map<GlobalIndex, PlacedNormal> normals_of_curves_{};  // By vertex and patch.
+  std::vector<std::vector<PlacedNormal>> normals_;  // Of each vertex, one a patch there.
 };
 
 }  // namespace tessera::coarse
