@@ -2,12 +2,16 @@
 #include "coarse/box_tree.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace tessera::coarse {
 namespace {
 
 constexpr std::size_t kLeafSize = 4;
+
+// After so many changes an item. Building takes as long as some 30 questions to each.
+constexpr std::size_t kBuiltAfter = 2;
 
 }  // namespace
 
@@ -16,26 +20,31 @@ BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) { rebuild();
 void BoxTree::rebuild()
 {
   num_changes_ = 0;
-  nodes_.clear();
-  leaf_.assign(boxes_.size(), kNoIndex);
+  nodes_.assign(1, {});
+  leaves_.clear();
+  node_.assign(boxes_.size(), kNoIndex);
   std::vector<LocalIndex> items;
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     if (!boxes_[i].is_empty()) items.push_back(static_cast<LocalIndex>(i));
   }
-  if (!items.empty()) build(items, kNoIndex);
+  build(0, items);
 }
 
-LocalIndex BoxTree::build(std::span<LocalIndex> items, LocalIndex parent)
+// Makes a node whose children, or leaf, are not there yet.
+void BoxTree::build(LocalIndex number, std::span<LocalIndex> items)
 {
-  const auto number = static_cast<LocalIndex>(nodes_.size());
   Box box;
   for (const LocalIndex item : items) box.include(boxes_[at(item)]);
-  nodes_.push_back({box, parent, kNoIndex, {}});
+  Node& node = nodes_[at(number)];
+  node.box = box;
   if (items.size() <= kLeafSize) {
-    nodes_.back().items.assign(items.begin(), items.end());
-    for (const LocalIndex item : items) leaf_[at(item)] = number;
-    return number;
+    if (node.leaf == kNoIndex) node.leaf = static_cast<LocalIndex>(leaves_.size());
+    leaves_.resize(std::max(leaves_.size(), at(node.leaf) + 1));
+    for (const LocalIndex item : items) put(item, number);
+    return;
   }
+  const auto children = static_cast<LocalIndex>(nodes_.size());
+  node.children = children;
   const Vec3 extent = box.high - box.low;
   const auto axis = static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
   const auto place = [&](LocalIndex item) {
@@ -43,10 +52,20 @@ LocalIndex BoxTree::build(std::span<LocalIndex> items, LocalIndex parent)
   };
   const std::size_t half = items.size() / 2;
   std::ranges::nth_element(items, items.begin() + static_cast<std::ptrdiff_t>(half), {}, place);
-  build(items.first(half), number);
-  const LocalIndex other_child = build(items.subspan(half), number);
-  nodes_[at(number)].other_child = other_child;
-  return number;
+  nodes_.resize(nodes_.size() + 2, {.parent = number, .depth = nodes_[at(number)].depth + 1});
+  nodes_[at(children)].leaf = std::exchange(nodes_[at(number)].leaf, kNoIndex);
+  build(children, items.first(half));
+  build(children + 1, items.subspan(half));
+}
+
+// Into a leaf that has room for it.
+void BoxTree::put(LocalIndex item, LocalIndex number)
+{
+  Node& node = nodes_[at(number)];
+  const std::size_t place = at(node.num_items++);
+  leaves_[at(node.leaf)].items[place] = item;
+  leaves_[at(node.leaf)].boxes[place] = boxes_[at(item)];
+  node_[at(item)] = number;
 }
 
 void BoxTree::grow(LocalIndex node, const Box& box)
@@ -58,26 +77,43 @@ void BoxTree::grow(LocalIndex node, const Box& box)
 
 void BoxTree::count_change()
 {
-  if (++num_changes_ > boxes_.size()) rebuild();
+  if (++num_changes_ > kBuiltAfter * boxes_.size()) rebuild();
 }
 
 void BoxTree::change(LocalIndex item, const Box& box)
 {
   boxes_[at(item)] = box;
-  if (leaf_[at(item)] == kNoIndex) return rebuild();
-  if (!box.is_empty()) grow(leaf_[at(item)], box);
+  const LocalIndex node = node_[at(item)];
+  if (node == kNoIndex) return rebuild();
+  Leaf& leaf = leaves_[at(nodes_[at(node)].leaf)];
+  leaf.boxes[static_cast<std::size_t>(std::ranges::find(leaf.items, item) - leaf.items.begin())] =
+      box;
+  if (!box.is_empty()) grow(node, box);
   count_change();
 }
 
 void BoxTree::add(const Box& box, LocalIndex beside)
 {
-  const LocalIndex leaf = leaf_[at(beside)];
+  const LocalIndex number = node_[at(beside)];
   const auto item = static_cast<LocalIndex>(boxes_.size());
   boxes_.push_back(box);
-  leaf_.push_back(leaf);
-  if (leaf == kNoIndex) return rebuild();
-  nodes_[at(leaf)].items.push_back(item);
-  grow(leaf, box);
+  node_.push_back(kNoIndex);
+  if (number == kNoIndex) return rebuild();
+  grow(number, box);
+  Node& node = nodes_[at(number)];
+  if (at(node.num_items) < kMostItems) {
+    put(item, number);
+  } else if (node.depth + kMostItems > kDeepest) {
+    return rebuild();
+  } else {
+    const auto& full = leaves_[at(node.leaf)].items;
+    for (const LocalIndex one : full) node_[at(one)] = kNoIndex;
+    std::vector<LocalIndex> items{item};
+    std::ranges::copy_if(full, std::back_inserter(items),
+                         [this](LocalIndex one) { return !boxes_[at(one)].is_empty(); });
+    node.num_items = 0;
+    build(number, items);
+  }
   count_change();
 }
 

@@ -49,8 +49,7 @@ struct Box {
 /// @brief Finds boxes that touch another one, while some of them change and new ones come. Local.
 ///
 /// Boxes may be of very different sizes, so this is a tree and no grid. A node's box grows with
-/// what it holds and never shrinks; after as many changes as there are items the tree is built
-/// anew.
+/// what it holds and never shrinks; after some changes an item the tree is built anew.
 class BoxTree {
  public:
   explicit BoxTree(std::vector<Box> boxes);
@@ -69,41 +68,52 @@ class BoxTree {
   {
     std::array<LocalIndex, kDeepest> to_visit;
     std::size_t num_to_visit = 0;
-    if (!nodes_.empty()) to_visit[num_to_visit++] = 0;
+    if (touches(nodes_[0].box)) to_visit[num_to_visit++] = 0;
     while (num_to_visit > 0) {
-      const LocalIndex number = to_visit[--num_to_visit];
-      const Node& node = nodes_[at(number)];
-      if (!touches(node.box)) continue;
-      if (node.other_child != kNoIndex) {
-        to_visit[num_to_visit++] = node.other_child;
-        to_visit[num_to_visit++] = number + 1;
+      const Node& node = nodes_[at(to_visit[--num_to_visit])];
+      if (node.children == kNoIndex) {
+        const Leaf& leaf = leaves_[at(node.leaf)];
+        for (std::size_t i = 0; i < at(node.num_items); ++i) {
+          if (touches(leaf.boxes[i])) visit(leaf.items[i]);
+        }
         continue;
       }
-      for (const LocalIndex item : node.items) {
-        if (touches(boxes_[at(item)])) visit(item);
-      }
+      if (touches(nodes_[at(node.children) + 1].box)) to_visit[num_to_visit++] = node.children + 1;
+      if (touches(nodes_[at(node.children)].box)) to_visit[num_to_visit++] = node.children;
     }
   }
 
  private:
-  static constexpr std::size_t kDeepest = 64;  // Halving 2^31 items gives 31 levels.
+  // Halving 2^31 items gives 31 levels. Full leaves are halved too; where too many levels come
+  // together of that, all is built anew.
+  static constexpr std::size_t kDeepest = 128;
+  static constexpr std::size_t kMostItems = 8;  // Of a leaf.
 
-  // Children are node + 1 and `other_child`; leaves have items.
   struct Node {
     Box box{};
     LocalIndex parent = kNoIndex;
-    LocalIndex other_child = kNoIndex;
-    std::vector<LocalIndex> items{};
+    LocalIndex children = kNoIndex;  // The first of two beside each other.
+    LocalIndex leaf = kNoIndex;      // If there are no children.
+    LocalIndex num_items = 0;
+    std::size_t depth = 0;
+  };
+
+  // Boxes of a leaf lie beside each other in memory: most of the time goes into reading them.
+  struct Leaf {
+    std::array<LocalIndex, kMostItems> items{};
+    std::array<Box, kMostItems> boxes{};
   };
 
   void rebuild();
-  LocalIndex build(std::span<LocalIndex> items, LocalIndex parent);
+  void build(LocalIndex number, std::span<LocalIndex> items);
+  void put(LocalIndex item, LocalIndex number);
   void grow(LocalIndex node, const Box& box);
   void count_change();
 
   std::vector<Box> boxes_;          // Of the items.
-  std::vector<LocalIndex> leaf_{};  // Of each item; kNoIndex: in none, as its box was empty.
-  std::vector<Node> nodes_{};
+  std::vector<LocalIndex> node_{};  // Of each item; kNoIndex: in none, as its box was empty.
+  std::vector<Node> nodes_{};       // Parents before their children.
+  std::vector<Leaf> leaves_{};
   std::size_t num_changes_ = 0;
 };
 

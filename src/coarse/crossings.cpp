@@ -29,12 +29,11 @@ std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, double above, dou
   return from + (above / (above - below)) * (to - from);
 }
 
-// Of an edge of a through b. One that begins at the corner that both share does not go through.
-// Most pairs end at the first test: all of `a` is on one side of b's plane.
+// Of an edge of a through b, whose normal is given. One that begins at the corner that both share
+// does not go through. Most pairs end at the first test: all of `a` is on one side of b's plane.
 std::optional<Vec3> edge_through(const PlacedTriangle& a, const PlacedTriangle& b,
-                                 std::size_t shared_of_a)
+                                 const Vec3& normal, std::size_t shared_of_a)
 {
-  const Vec3 normal = normal_of(b.corners);
   std::array<double, 3> above{};
   for (std::size_t c = 0; c < 3; ++c) {
     above[c] = c == shared_of_a ? 0.0 : dot(normal, a.corners[c] - b.corners[0]);
@@ -48,6 +47,25 @@ std::optional<Vec3> edge_through(const PlacedTriangle& a, const PlacedTriangle& 
     if (place) return place;
   }
   return std::nullopt;
+}
+
+std::optional<Vec3> crossing(const PlacedTriangle& a, const Vec3& normal_of_a,
+                             const PlacedTriangle& b, const Vec3& normal_of_b)
+{
+  constexpr std::size_t kNone = 3;
+  const bool is_one_patch = a.patch != kNoIndex && a.patch == b.patch;
+  std::size_t shared_of_a = kNone;
+  std::size_t shared_of_b = kNone;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (a.vertices[i] != b.vertices[j]) continue;
+      if (is_one_patch || shared_of_a != kNone) return std::nullopt;
+      shared_of_a = i;
+      shared_of_b = j;
+    }
+  }
+  const auto place = edge_through(a, b, normal_of_b, shared_of_a);
+  return place ? place : edge_through(b, a, normal_of_a, shared_of_b);
 }
 
 std::vector<PlacedTriangle> placed(const PatchSurface& surface)
@@ -72,21 +90,7 @@ std::vector<Box> boxes_of(std::span<const PlacedTriangle> triangles)
 
 std::optional<Vec3> crossing(const PlacedTriangle& a, const PlacedTriangle& b)
 {
-  constexpr std::size_t kNone = 3;
-  std::size_t shared_of_a = kNone;
-  std::size_t shared_of_b = kNone;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      if (a.vertices[i] != b.vertices[j]) continue;
-      if (shared_of_a != kNone) return std::nullopt;
-      shared_of_a = i;
-      shared_of_b = j;
-    }
-  }
-  const bool are_beside = shared_of_a != kNone && a.patch != kNoIndex && a.patch == b.patch;
-  if (are_beside) return std::nullopt;
-  const auto place = edge_through(a, b, shared_of_a);
-  return place ? place : edge_through(b, a, shared_of_b);
+  return crossing(a, normal_of(a.corners), b, normal_of(b.corners));
 }
 
 CrossingGuard::CrossingGuard(const PatchSurface& surface)
@@ -100,7 +104,8 @@ void CrossingGuard::find_near(const Box& box, std::span<const LocalIndex> withou
   tree_.visit([&](const Box& other) { return other.touches(box); },
               [&](LocalIndex t) {
                 if (std::ranges::find(without, t) == without.end()) {
-                  near_.push_back({tree_.box(t), t});
+                  const std::array<Vec3, 3>& p = triangles_[at(t)].corners;
+                  near_.push_back({box_of(p), normal_of(p), t});
                 }
               });
 }
@@ -111,9 +116,11 @@ int CrossingGuard::count_near(std::span<const PlacedTriangle> some) const
   int count = 0;
   for (std::size_t i = 0; i < some.size(); ++i) {
     const Box box = box_of(some[i].corners);
+    const Vec3 normal = normal_of(some[i].corners);
     for (const Near& other : near_) {
       if (!other.box.touches(box)) continue;
-      count += crossing(some[i], triangles_[at(other.triangle)]) ? 1 : 0;
+      const PlacedTriangle& found = triangles_[at(other.triangle)];
+      count += crossing(some[i], normal, found, other.normal) ? 1 : 0;
     }
     for (std::size_t j = 0; j < i; ++j) count += crossing(some[i], some[j]) ? 1 : 0;
   }

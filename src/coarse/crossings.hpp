@@ -50,6 +50,7 @@ class CrossingGuard {
  private:
   struct Near {
     Box box{};
+    Vec3 normal{};
     LocalIndex triangle = kNoIndex;
   };
 

@@ -52,13 +52,13 @@ std::vector<LocalIndex> EditableSurface::triangles_at(const Edge& edge) const
 std::vector<LocalIndex> EditableSurface::neighbours(LocalIndex v) const
 {
   std::vector<LocalIndex> found;
-  found.reserve(2 * around_[at(v)].size());
+  found.reserve(around_[at(v)].size() + 1);
   for (const LocalIndex t : around_[at(v)]) {
     for (const LocalIndex other : triangles_[at(t)]) {
-      if (other != v) found.push_back(other);
+      if (other != v) add_if_new(other, found);
     }
   }
-  sort_unique(found);
+  std::ranges::sort(found);
   return found;
 }
 

@@ -32,11 +32,10 @@ enum class Freedom : char { patch, curve, none };
   return {std::min(a, b), std::max(a, b)};
 }
 
-template <class T>
-void sort_unique(std::vector<T>& values)
+/// @brief For a few values, among which most come twice.
+inline void add_if_new(LocalIndex value, std::vector<LocalIndex>& values)
 {
-  std::ranges::sort(values);
-  values.erase(std::unique(values.begin(), values.end()), values.end());
+  if (std::ranges::find(values, value) == values.end()) values.push_back(value);
 }
 
 /// @brief Twice as long as the triangle's area.
@@ -162,10 +161,10 @@ std::vector<EditableSurface::Edge> EditableSurface::edges(const Counts& counts) 
     higher.clear();
     for (const LocalIndex t : around_[at(a)]) {
       for (const LocalIndex b : triangles_[at(t)]) {
-        if (b > a && counts(b)) higher.push_back(b);
+        if (b > a && counts(b)) add_if_new(b, higher);
       }
     }
-    sort_unique(higher);
+    std::ranges::sort(higher);
     for (const LocalIndex b : higher) all.push_back({a, b});
   }
   return all;

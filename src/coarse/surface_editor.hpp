@@ -117,8 +117,8 @@ class SurfaceEditor {
   const model::Model* model_;
   CrossingGuard guard_;
   int pass_ = 0;
-  std::vector<int> changed_;             // Of each vertex: the last pass with a change there.
-  std::vector<double> shapes_{};         // Of the triangles.
+  std::vector<int> changed_;      // Of each vertex: the last pass with a change there.
+  std::vector<double> shapes_{};  // Of the triangles.
   std::vector<std::vector<PlacedNormal>> normals_;  // Of each vertex, one a patch there.
 };
 

@@ -70,6 +70,19 @@ TEST(BoxTree, FindsAllThatTouchWhateverChanged)
   EXPECT_GT(num_found, 1000U);
 }
 
+TEST(BoxTree, FindsAllThatCameToOnePlace)
+{
+  std::vector<Box> boxes;
+  for (int i = 0; i < 2000; ++i) boxes.push_back(some_box(i));
+  BoxTree tree(boxes);
+  for (int i = 2000; i < 4000; ++i) {
+    const double side = std::pow(0.9, i - 2000);
+    boxes.push_back({{}, {side, side, side}});
+    tree.add(boxes.back(), i == 2000 ? 0 : i - 1);
+  }
+  EXPECT_GE(touching(tree, {{}, {}}).size(), 2000U);
+}
+
 // Two triangles beside each other; the second one is shifted upwards.
 PatchSurface two_triangles(double height)
 {
