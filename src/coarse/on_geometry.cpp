@@ -135,6 +135,23 @@ std::vector<std::size_t> triangles_of(const std::vector<Overlap>& overlaps)
   return triangles;
 }
 
+// Normals of the model tell its curvature better than those of triangles, which may be needles.
+SizeFunction sizes_on(const SurfaceReference& reference, const PatchSurface& start,
+                      const CoarseOptions& options)
+{
+  if (start.triangle_max_size.empty()) return size_function_of(reference, start, options);
+  constexpr double kNoCurvature = std::numeric_limits<double>::min();
+  CoarseOptions of_the_rest = options;
+  of_the_rest.curvature = kNoCurvature;
+  SizeFunction sizes = size_function_of(reference, start, of_the_rest);
+  std::vector<SizeSource> sources;
+  for (std::size_t t = 0; t < start.triangles.size(); ++t) {
+    sources.push_back({start.corners(t), start.triangle_max_size[t]});
+  }
+  sizes.limit(sources);
+  return sizes;
+}
+
 // A surface on the geometry, with shorter edges where it would cut itself or fold.
 class Finer {
  public:
@@ -142,7 +159,7 @@ class Finer {
         const CoarseOptions& options)
       : reference_(reference),
         model_(model),
-        sizes_(size_function_of(reference, start, options)),
+        sizes_(sizes_on(reference, start, options)),
         surface_(on_geometry(start))
   {
     most_triangles_ = kMostGrowth * surface_.triangles.size();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -23,6 +24,15 @@ namespace tessera::netgen {
   return value == 0.0 ? 0.0 : value / gradient.Length();
 }
 
+/// @brief Unit normal of a surface at a point on it; zero where it has none. Local.
+[[nodiscard]] inline Vec3 normal_of_surface(const ::netgen::CSGeometry& geometry, int surface,
+                                            const Vec3& point)
+{
+  ::netgen::Vec<3> gradient;
+  geometry.GetSurface(surface)->CalcGradient(to_netgen(point), gradient);
+  return unit({gradient(0), gradient(1), gradient(2)});
+}
+
 /// NETGEN's own value: surfaces that differ by less, relative to the bounding box, are one surface.
 inline constexpr double kIdenticSurfaces = 1e-8;
 
@@ -33,6 +43,21 @@ inline constexpr double kIdenticSurfaces = 1e-8;
   const auto* object = geometry.GetTopLevelObject(solid);
   return object->GetMaterial().empty() ? std::string(object->GetSolid()->Name())
                                        : object->GetMaterial();
+}
+
+/// @brief Whether the file tells faces, edges or points by numbers of its solids: identified or
+/// singular ones. Local.
+[[nodiscard]] inline bool is_numbered(const ::netgen::CSGeometry& geometry)
+{
+  return geometry.GetNIdentifications() > 0 || geometry.singfaces.Size() > 0
+         || geometry.singedges.Size() > 0 || geometry.singpoints.Size() > 0;
+}
+
+/// @brief Largest edge that the file wants in a solid, from 0. Local.
+[[nodiscard]] inline double max_size_of_solid(const ::netgen::CSGeometry& geometry, int solid)
+{
+  const ::netgen::TopLevelObject& object = *geometry.GetTopLevelObject(solid);
+  return std::min(object.GetMaxH(), object.GetSolid()->GetMaxH());
 }
 
 /// @brief A name that NETGEN gives to what has none becomes empty. Local.

@@ -129,9 +129,7 @@ class Cutter {
 
 void require_cuttable(const Geometry& geometry)
 {
-  const bool is_numbered = geometry.GetNIdentifications() > 0 || geometry.singfaces.Size() > 0
-                           || geometry.singedges.Size() > 0 || geometry.singpoints.Size() > 0;
-  if (is_numbered) {
+  if (is_numbered(geometry)) {
     throw NetgenError(
         "a geometry with identified faces, or with singular faces, edges or points, "
         "cannot be cut");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In place of csg_crossings, csg_cut, csg_numbers, csg_solids and csg_tori with NETGEN 6.2.2501,
-// whose library hides the solids of CSG: they cannot be cut, walked through, or made with
-// OpenCASCADE.
+// In place of csg_crossings, csg_cut, csg_numbers, csg_remesh, csg_solids, csg_tori and
+// csg_triangles with NETGEN 6.2.2501, whose library hides the solids of CSG: they cannot be cut,
+// walked through, or made with OpenCASCADE.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -10,7 +10,7 @@
 
 #include "netgen/csg_crossings.hpp"
 #include "netgen/csg_cut.hpp"
-#include "netgen/csg_numbers.hpp"
+#include "netgen/csg_remesh.hpp"
 #include "netgen/csg_solids.hpp"
 #include "netgen/csg_tori.hpp"
 #include "netgen/netgen_versions.hpp"
@@ -68,6 +68,8 @@ void describe_cones_by_circles(::netgen::CSGeometry& /*geometry*/) {}
 
 bool has_apex(::netgen::CSGeometry& /*geometry*/, double /*tolerance*/) { return false; }
 
+std::string why_only_netgen(::netgen::CSGeometry& /*geometry*/) { return kHidden; }
+
 std::vector<int> unseen_solids(::netgen::CSGeometry& /*geometry*/) { return {}; }
 
 CsgSolids solids_of_csg(::netgen::CSGeometry& /*geometry*/, const ::netgen::Box<3>& /*box*/)
@@ -80,9 +82,11 @@ CsgSolids solids_of_csg(::netgen::CSGeometry& /*geometry*/, const ::netgen::Box<
   throw GeometryError(kHidden);
 }
 
-coarse::CoarseSurface in_numbers_of_csg(coarse::CoarseSurface /*surface*/,
-                                        const ::netgen::CSGeometry& /*geometry*/,
-                                        const ::netgen::Box<3>& /*box*/)
+coarse::CoarseSurface remesh_csg(const model::Model& /*csg*/,
+                                 const ::netgen::CSGeometry& /*geometry*/, CadFile /*solids*/,
+                                 const ::netgen::Box<3>& /*box*/,
+                                 const coarse::CoarseOptions& /*options*/,
+                                 const std::string& /*file_name*/)
 {
   throw GeometryError(kHidden);
 }

@@ -17,8 +17,8 @@
 #include "netgen/csg_crossings.hpp"
 #include "netgen/csg_cut.hpp"
 #include "netgen/csg_description.hpp"
-#include "netgen/csg_numbers.hpp"
 #include "netgen/csg_parse.hpp"
+#include "netgen/csg_remesh.hpp"
 #include "netgen/csg_solids.hpp"
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
@@ -213,10 +213,7 @@ GeometryNumbers numbers_of(const Geometry& geometry)
     return curve_of(segment, n);
   };
   numbers.material_name = [&geometry](LocalIndex m) { return name_of_solid(geometry, m - 1); };
-  numbers.max_size = [&geometry](int domain) {
-    const ::netgen::TopLevelObject& object = *geometry.GetTopLevelObject(domain - 1);
-    return std::min(object.GetMaxH(), object.GetSolid()->GetMaxH());
-  };
+  numbers.max_size = [&geometry](int domain) { return max_size_of_solid(geometry, domain - 1); };
   return numbers;
 }
 
@@ -258,16 +255,15 @@ coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& option
   return surface;
 }
 
-// For what NETGEN's CSG cannot mesh: OpenCASCADE makes the solids, and their triangles are
-// remeshed. The model stays NETGEN's.
+// OpenCASCADE makes the solids, and their triangles are remeshed. The model stays NETGEN's.
 coarse::CoarseSurface CsgModel::remesh_solids(const coarse::CoarseOptions& options) const
 {
+  if (const std::string why = why_only_netgen(*geometry_); !why.empty()) {
+    throw NetgenError(fmt::format("{}: {}", file_name_, why));
+  }
   try {
-    const model::ModelSource source =
-        closed_source(with_occ_errors(file_name_, [&] { return solids().cad; }), file_name_);
-    const auto solids = load_occ(source);
-    return in_numbers_of_csg(solids->mesh_surface(options, [](const auto&...) {}), *geometry_,
-                             box_);
+    CadFile made = with_occ_errors(file_name_, [&] { return solids().cad; });
+    return remesh_csg(*this, *geometry_, std::move(made), box_, options, file_name_);
   } catch (const GeometryError& error) {  // The model itself may be sound, other tries go on.
     throw NetgenError(fmt::format("solids of OpenCASCADE: {}", error.what()));
   }

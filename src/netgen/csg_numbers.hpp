@@ -4,18 +4,19 @@
 #include <csg.hpp>
 
 #include "tessera/coarse/coarse_surface.hpp"
+#include "tessera/coarse/patch_surface.hpp"
+
+#include "netgen/csg_triangles.hpp"
 
 namespace tessera::netgen {
 
-/// @brief A surface mesh of the solids that solids_of_csg() made, in the numbers and names that a
-/// mesh of NETGEN's CSG has: patches, curves, materials. Parameters go. Local.
-///
-/// Which surface a patch lies on is told by its triangles, which solid a domain is by NETGEN's own
-/// test of points on both sides of them. So a mesh of anything else is noticed.
-/// @param[in] box All solids fill it.
-/// @throws NetgenError if the mesh is not one of these solids.
-[[nodiscard]] coarse::CoarseSurface in_numbers_of_csg(coarse::CoarseSurface surface,
+/// @brief A surface that was made of triangles of the solids, in the numbers and names that a mesh
+/// of NETGEN's CSG has: patches, curves, materials. Each body is a domain. Local.
+/// @param[in] surface  Its patches and curves are those of `triangles`.
+/// @param[in] max_size Largest edge in solids for which the file wants no smaller one.
+[[nodiscard]] coarse::CoarseSurface in_numbers_of_csg(const coarse::PatchSurface& surface,
+                                                      const CsgTriangles& triangles,
                                                       const ::netgen::CSGeometry& geometry,
-                                                      const ::netgen::Box<3>& box);
+                                                      double max_size);
 
 }  // namespace tessera::netgen

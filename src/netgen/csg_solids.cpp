@@ -76,6 +76,17 @@ struct ConeShape {
   double slope = 0.0;  // Radius over distance from the apex.
 };
 
+constexpr const char* kNoCounterpart =
+    "has a body that cannot be handed to OpenCASCADE: planes, spheres, cylinders, cones, tori and "
+    "bricks can; export the model as STEP";
+
+bool has_counterpart(const Numbers& numbers)
+{
+  constexpr std::array<std::string_view, 6> kKinds{"plane", "sphere",   "torus",
+                                                   "brick", "cylinder", "cone"};
+  return std::ranges::find(kKinds, numbers.kind) != kKinds.end();
+}
+
 bool is_cone(const Numbers& numbers)
 {
   return numbers.kind == "cone" && numbers.all.at(6) != numbers.all.at(7);
@@ -173,9 +184,7 @@ class Builder {
     if (numbers.kind == "brick") return brick(numbers);
     if (is_cone(numbers)) return cone(ConeShape(numbers));
     if (numbers.kind == "cylinder" || numbers.kind == "cone") return cylinder(numbers);
-    throw GeometryError(
-        "has a body that cannot be handed to OpenCASCADE: planes, spheres, cylinders, cones, tori "
-        "and bricks can; export the model as STEP");
+    throw GeometryError(kNoCounterpart);
   }
 
   static gp_Ax2 frame_at(const Vec3& origin, const Vec3& axis)
@@ -324,6 +333,23 @@ bool has_apex(Geometry& geometry, double tolerance)
     }
   });
   return has;
+}
+
+std::string why_only_netgen(Geometry& geometry)
+{
+  if (is_numbered(geometry) || geometry.GetNUserPoints() > 0) {
+    return "identifies faces, or has singular faces, edges or points, or points of its own";
+  }
+  std::string why;
+  for (int i = 0; i < geometry.GetNTopLevelObjects(); ++i) {
+    if (geometry.GetTopLevelObject(i)->GetSurface() != nullptr) why = "has a surface without solid";
+  }
+  for_each_solid(geometry, [&](int, Solid& solid) {
+    Primitives primitives;
+    solid.IterateSolid(primitives);
+    if (!std::ranges::all_of(primitives.all, has_counterpart)) why = kNoCounterpart;
+  });
+  return why;
 }
 
 CsgSolids solids_of_csg(Geometry& geometry, const ::netgen::Box<3>& box)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <csg.hpp>
@@ -30,6 +31,10 @@ struct CsgSolids {
 /// @param[in] box All solids lie in it.
 /// @throws GeometryError that names what has no counterpart, and if OpenCASCADE fails.
 [[nodiscard]] CsgSolids solids_of_csg(::netgen::CSGeometry& geometry, const ::netgen::Box<3>& box);
+
+/// @brief Why OpenCASCADE cannot make a mesh of the file: it has no counterpart of a body, or the
+/// file says of faces, edges and points what NETGEN's mesher alone goes by. Empty: it can. Local.
+[[nodiscard]] std::string why_only_netgen(::netgen::CSGeometry& geometry);
 
 /// @brief Those solids to be meshed that NETGEN's search finds no point of: they hold nothing, or
 /// are too small for it. Local.

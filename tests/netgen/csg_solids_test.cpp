@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <set>
@@ -229,6 +230,91 @@ TEST(CsgRemesh, IsInTheNumbersOfTheFile)
   }
 }
 
+double shortest_edge(const mesh::CoarseMesh& mesh)
+{
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t corner = 0; corner < mesh.face_vertices.size(); ++corner) {
+    const std::size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
+    shortest = std::min(shortest, norm(mesh.position(mesh.face_vertices[next])
+                                       - mesh.position(mesh.face_vertices[corner])));
+  }
+  return shortest;
+}
+
+// OpenCASCADE has seams and poles there, one of them near the circle where the balls meet, and
+// triangles that are needles. Edges are to be half a radius long, and six at least go round.
+TEST(CsgRemesh, KnowsNoSeamsAndNoPoles)
+{
+  const auto mesh =
+      remeshed(
+          "solid left = sphere (0, 0, 0; 1.3);\nsolid right = sphere (1, 0, 0; 1.5);\n"
+          "solid both = left or right;\ntlo both;\n",
+          1.8)
+          .mesh;
+  EXPECT_GT(shortest_edge(mesh), 0.3);
+  EXPECT_EQ(std::set(mesh.segment_curve.begin(), mesh.segment_curve.end()).size(), 1U);
+  const auto ball = remeshed("solid ball = sphere (0, 0, 0; 1);\ntlo ball;\n", 1.0).mesh;
+  EXPECT_EQ(ball.num_segments(), 0);
+}
+
+// What was two bodies in the file has no edge between them.
+TEST(CsgRemesh, HasNoEdgeWithinAPlane)
+{
+  const auto mesh = remeshed(
+                        "solid left = orthobrick (0, 0, 0; 1, 1, 1);\n"
+                        "solid right = orthobrick (0.9, 0, 0; 2, 1, 1);\n"
+                        "solid both = left or right;\ntlo both;\n",
+                        0.5)
+                        .mesh;
+  EXPECT_EQ(mesh.num_patches(), 6);
+  EXPECT_GT(shortest_edge(mesh), 0.25);
+  EXPECT_EQ(std::set(mesh.segment_curve.begin(), mesh.segment_curve.end()).size(), 12U);
+}
+
+TEST(CsgRemesh, TakesTheSizesOfTheFile)
+{
+  const auto mesh = remeshed(
+                        "solid ball = sphere (0, 0, 0; 1) -maxh=0.15;\nsolid box = orthobrick (-2, "
+                        "-2, -2; 2, 2, 2);\n"
+                        "solid rest = box and not ball;\ntlo rest;\ntlo ball;\n",
+                        1.0)
+                        .mesh;
+  double longest = 0.0;
+  for (std::size_t corner = 0; corner < mesh.face_vertices.size(); corner += 3) {
+    const Vec3 a = mesh.position(mesh.face_vertices[corner]);
+    const Vec3 b = mesh.position(mesh.face_vertices[corner + 1]);
+    if (norm(a) < 1.1 && norm(b) < 1.1) longest = std::max(longest, norm(b - a));
+  }
+  EXPECT_GT(longest, 0.0);
+  EXPECT_LT(longest, 0.3);
+}
+
+// Empty: it can.
+std::string why_not_remeshed(const std::string& solids)
+{
+  try {
+    (void)remeshed(solids, 0.5);
+    return {};
+  } catch (const NetgenError& error) {
+    return error.what();
+  }
+}
+
+TEST(CsgRemesh, IsNotForWhatOnlyNetgenKnows)
+{
+  const std::string cube =
+      "solid p1 = plane (0, 0, 0; -1, 0, 0);\nsolid p2 = plane (1, 1, 1; 1, 0, 0);\n"
+      "solid cube = p1 and p2 and plane (0, 0, 0; 0, -1, 0) and plane (1, 1, 1; 0, 1, 0)\n"
+      "  and plane (0, 0, 0; 0, 0, -1) and plane (1, 1, 1; 0, 0, 1);\ntlo cube;\n";
+  EXPECT_EQ(why_not_remeshed(cube), "");
+  EXPECT_NE(why_not_remeshed(cube + "identify periodic p1 p2;\n").find("identifies"),
+            std::string::npos);
+  EXPECT_NE(
+      why_not_remeshed("solid egg = ellipsoid (0, 0, 0; 1, 0, 0; 0, 2, 0; 0, 0, 1);\ntlo egg;\n")
+          .find("spheres"),
+      std::string::npos);
+}
+
 // NETGEN takes the plane for a part of the ball's surface: the point that gives it lies on the
 // ball.
 TEST(CsgPlane, MayBeGivenByAPointOfAnotherSurface)
@@ -240,7 +326,7 @@ TEST(CsgPlane, MayBeGivenByAPointOfAnotherSurface)
   const double height = 0.5;  // Of the cap that is cut off.
   const double cap = std::numbers::pi * height * height * (0.75 - height / 3.0);
   const double ball = 4.0 / 3.0 * std::numbers::pi * 0.75 * 0.75 * 0.75;
-  EXPECT_NEAR(volume_of(mesh, 1), ball - cap, 0.06);
+  EXPECT_NEAR(volume_of(mesh, 1), ball - cap, 0.3 * cap);
   EXPECT_EQ(std::set(mesh.patch_surface.begin(), mesh.patch_surface.end()).size(), 2U);
 }
 

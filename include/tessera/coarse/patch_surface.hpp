@@ -24,6 +24,9 @@ struct PatchSurface {
   std::vector<std::array<double, 2>> edge_t{};  ///< End parameters on the curves; empty if none.
   /// The material below and above each patch, from 1; 0: none.
   std::vector<std::array<LocalIndex, 2>> patch_materials{};
+  /// Largest edge that the model itself wants at each triangle, also for its curvature; empty: it
+  /// does not say, and the curvature is that of the triangles.
+  std::vector<double> triangle_max_size{};
   /// Corner parameters on the patches' surfaces, one row a triangle; empty if there are none.
   std::vector<std::array<std::array<double, 2>, 3>> triangle_uv{};
 
