@@ -50,15 +50,13 @@ Json defeatured_json(const CoarseResult& coarse)
 std::string defeatured_words(const CoarseResult& coarse)
 {
   const coarse::Defeatured& merged = coarse.defeatured;
-  if (coarse.options.defeature == 0.0) return "the mesh was made without coarse.defeature";
-  if (!merged.is_any()) return "nothing of the model is as small as coarse.defeature";
   std::vector<std::string> faces;
   for (std::size_t i = 0; i < std::min(kMostListed, merged.patches.size()); ++i) {
     faces.push_back(name_of(merged.patches[i].number, coarse.mesh));
   }
   return fmt::format(
-      "coarse.defeature = {:g} has merged {} edges and {} faces of the model{}{}; {} vertices are "
-      "off the geometry by at most {:.3g} for it",
+      "what is smaller than {:g} was merged (size.min), {} edges and {} faces of the model{}{}; {} "
+      "vertices are off the geometry by at most {:.3g} for it",
       merged.tolerance, merged.curves.size(), merged.patches.size(), faces.empty() ? "" : ": ",
       fmt::join(faces, ", "), coarse.distance.num_merged, coarse.distance.largest_merged);
 }

@@ -262,7 +262,7 @@ Json coarse_json(const RunResult& run)
             {"sharp", sharp_json(run.sharp, run.coarse.mesh)},
             {"levels", run.levels.largest()},
             {"edges_by_level", run.levels.histogram()}};
-  if (run.resolved.coarse.defeature > 0.0) json["defeatured"] = defeatured_json(run.coarse);
+  if (run.coarse.defeatured.is_any()) json["defeatured"] = defeatured_json(run.coarse);
   return json;
 }
 

@@ -32,8 +32,8 @@ std::optional<std::string> sharp_warning(const coarse::SharpTets& sharp)
   return fmt::format(
       "{} coarse tets have an angle below {:g} degrees that no sharp angle of the model forces, "
       "the "
-      "smallest {:.2g} at ({:g}), with an edge of {:.2g}; coarse.defeature merges short edges and "
-      "narrow faces of the model up to the length it is given",
+      "smallest {:.2g} at ({:g}), with an edge of {:.2g}; size.min merges short edges and narrow "
+      "faces of the model up to the length it is given",
       sharp.num_others, kSharpAngle_deg, worst.angle_deg, fmt::join(worst.centre, ", "),
       worst.shortest_edge);
 }

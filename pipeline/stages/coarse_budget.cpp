@@ -56,11 +56,10 @@ jobs::JobLimits surface_limits(const coarse::CoarseOptions& options,
       + kSecondsPerTriangle * expected_triangles(model.area, options.max_size)
       + kSecondsPerFileTriangle * model.num_triangles;
   const double cpu_s = budget_s(options, is_first ? kFirst_s : kLater_s, expected_s);
-  const bool tells_progress = is_netgen && options.defeature == 0.0;  // Else it may be remeshed.
   return {.cpu_s = cpu_s,
           .stall_s = kStall_s,
           .memory_gib = kMemory_gib,
-          .idle_cpu_s = tells_progress ? std::max(kLeastIdle_s, cpu_s / 3.0) : 0.0};
+          .idle_cpu_s = is_netgen ? std::max(kLeastIdle_s, cpu_s / 3.0) : 0.0};
 }
 
 jobs::JobLimits domain_limits(const coarse::CoarseOptions& options, const coarse::DomainSkin& skin)

@@ -27,7 +27,7 @@ std::size_t CoarseLadder::front_of(const std::vector<Rung>& rungs, std::vector<L
     if (i > 0 && rung.kind.is_cut != rungs[i - 1].kind.is_cut) was_endless = false;
     if (was_endless && rung.kind.is_netgen) continue;
     if (rung.state != State::failed && rung.state != State::endless) return i;
-    was_endless = was_endless || rung.state == State::endless;
+    was_endless = was_endless || (rung.kind.is_netgen && rung.state == State::endless);
     if (passed != nullptr) passed->push_back(static_cast<LocalIndex>(i));
   }
   return rungs.size();

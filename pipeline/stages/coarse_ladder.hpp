@@ -20,7 +20,7 @@ struct RungKind {
 /// @brief How a rung has ended: the verdict of its surface.
 enum class RungEnd : int {
   failed,   ///< The next rung follows.
-  endless,  ///< No further rung of NETGEN follows, until the model is no longer cut.
+  endless,  ///< After one of NETGEN no other of NETGEN follows, until the model is no longer cut.
   final,    ///< No other rung could be better: it is the run's end.
   surface,  ///< There is a surface; it can be filled.
 };

@@ -93,8 +93,7 @@ void replace(CoarseResult& first, CoarseResult second)
 bool may_be_finer_at_places(const RunResult& run)
 {
   const coarse::CoarseOptions& options = run.coarse.options;
-  return options.surface_mesher == coarse::SurfaceMesher::netgen
-         && options.mesher == coarse::Mesher::netgen && run.planes.tree.num_parts == 0
+  return options.mesher == coarse::Mesher::netgen && run.planes.tree.num_parts == 0
          && !run.coarse.defeatured.is_any() && !model::is_mesh_name(run.resolved.geometry.file);
 }
 
@@ -124,7 +123,7 @@ FinerPlaces finer_places(const CoarseResult& coarse, const coarse::FinerBefore& 
 // What the finer mesh has of the one before: it has the same options.
 constexpr std::array kOfFinerMesh{Repair::thin_walls, Repair::narrow_strips,
                                   Repair::finer_coarse_size, Repair::more_curvature,
-                                  Repair::without_defeature};
+                                  Repair::netgen_surface};
 
 // Once more with smaller edges in thin walls and narrow strips. The better one of the two counts;
 // whether that is the finer one.
@@ -179,7 +178,9 @@ bool refine_for_sizes(RunResult& run, const model::NamedParts& parts, RunContext
 // A coarse mesh, and once more where it is too coarse for the sizes or for narrow places.
 void run_coarse_stages(RunResult& run, RunContext& context)
 {
-  const model::NamedParts parts = find_named_parts(run.resolved, run.model.format, context);
+  const PartsOfCase of_case = find_parts_of_case(run.resolved, run.model.format, context);
+  const model::NamedParts& parts = of_case.named;
+  run.resolved.coarse.kept = of_case.kept;
   run.planes = choose_cuts(run, context);
   run.coarse = run_coarse_stage(run.resolved, run.planes.tree, context);
   model::apply_names(parts, run.coarse.mesh);
@@ -232,7 +233,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   }
   tell_what_is_within_tolerance(run, context);
   if (const auto warning = size_warning(run.coarse)) context.log.warn("coarse: {}", *warning);
-  if (run.resolved.coarse.defeature > 0.0) {
+  if (run.coarse.defeatured.is_any()) {
     context.log.info("coarse: {}", defeatured_words(run.coarse));
   }
   all_or_none(context.comm, [&] {

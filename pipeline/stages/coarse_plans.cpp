@@ -34,7 +34,17 @@ bool has_gmsh() { return jobs::is_on_path("gmsh"); }
 std::vector<coarse::CoarseOptions> tries_for(const config::Case& run_case)
 {
   if (model::is_mesh_name(run_case.geometry.file)) return {run_case.coarse};
-  return coarse_fallbacks(run_case.coarse);
+  const bool is_csg = run_case.geometry.file.extension() == ".geo";
+  if (is_csg || run_case.coarse.mesher == coarse::Mesher::gmsh)
+    return coarse_fallbacks(run_case.coarse);
+  coarse::CoarseOptions ours = run_case.coarse;
+  ours.surface_mesher = coarse::SurfaceMesher::remesh;
+  coarse::CoarseOptions finer = ours;
+  finer.max_size *= 0.5;
+  coarse::CoarseOptions netgen = run_case.coarse;
+  netgen.surface_mesher = coarse::SurfaceMesher::netgen;
+  netgen.defeature = 0.0;
+  return {ours, finer, netgen};
 }
 
 // Options, and whether the model is cut before.
@@ -70,8 +80,10 @@ std::optional<Repair> repair_of(const coarse::CoarseOptions& tried,
                                 const coarse::CoarseOptions& asked)
 {
   if (tried.mesher != asked.mesher) return Repair::gmsh_mesh;
-  if (tried.defeature != asked.defeature) return Repair::without_defeature;
-  if (tried.surface_mesher != asked.surface_mesher) return Repair::remeshed_triangles;
+  if (tried.surface_mesher != asked.surface_mesher) {
+    const bool is_netgen = tried.surface_mesher == coarse::SurfaceMesher::netgen;
+    return is_netgen ? Repair::netgen_surface : Repair::remeshed_triangles;
+  }
   if (tried.curvature != asked.curvature) return Repair::more_curvature;
   if (tried.max_size != asked.max_size) return Repair::finer_coarse_size;
   return std::nullopt;
@@ -126,10 +138,6 @@ std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions&
   coarse::CoarseOptions finer_remeshed = remeshed;
   finer_remeshed.max_size *= 0.5;
   fallbacks.insert(fallbacks.end(), {remeshed, rounder, finer_remeshed});
-  if (asked.defeature > 0.0) {
-    fallbacks.push_back(asked);
-    fallbacks.back().defeature = 0.0;
-  }
   return fallbacks;
 }
 

@@ -40,7 +40,7 @@ bool is_endless(const jobs::JobOutcome& outcome)
 std::string name_of(const coarse::CoarseOptions& options)
 {
   const bool is_remesh = options.surface_mesher == coarse::SurfaceMesher::remesh;
-  std::string_view who = is_remesh ? "remeshed triangles, " : "";
+  std::string_view who = is_remesh ? "remeshed triangles, " : "NETGEN's surface, ";
   if (options.mesher == coarse::Mesher::gmsh) who = "Gmsh, ";
   return fmt::format("{}max_size {:g}", who, options.max_size);
 }
@@ -77,8 +77,7 @@ std::vector<RungKind> kinds_of(const std::vector<CoarsePlan>& plans)
     const coarse::CoarseOptions& options = plan.options;
     const coarse::CoarseOptions& first = plans.front().options;
     kinds.push_back({.is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen
-                                  && options.mesher == first.mesher
-                                  && options.defeature == first.defeature,
+                                  && options.mesher == first.mesher,
                      .is_cut = is_cut(plan)});
   }
   return kinds;
@@ -273,11 +272,6 @@ void warn_of_other_ways(const CoarseResult& result, const config::Case& run_case
     context.log.warn(
         "coarse: Gmsh has made the mesh, after all other tries had failed; without it, or with "
         "another version of it, this run ends otherwise");
-  }
-  if (result.options.defeature != run_case.coarse.defeature) {
-    context.log.warn(
-        "coarse: all tries with coarse.defeature = {} had failed; the mesh is made without it",
-        run_case.coarse.defeature);
   }
 }
 

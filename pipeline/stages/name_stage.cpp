@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/name_stage.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <variant>
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "tessera/base/name_patterns.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
@@ -40,6 +49,52 @@ bool has_failed(const jobs::JobOutcome& outcome)
          && !was_killed_from_outside(outcome) && !depends_on_machine(outcome);
 }
 
+bool names_parts(const std::vector<sizing::SizeRegion>& regions)
+{
+  return std::ranges::any_of(regions, [](const sizing::SizeRegion& region) {
+    return std::holds_alternative<sizing::PatchPattern>(region.shape)
+           || std::holds_alternative<sizing::CurvePattern>(region.shape);
+  });
+}
+
+template <class Pattern>
+bool matches_any(const std::vector<sizing::SizeRegion>& regions, const std::string& name)
+{
+  return std::ranges::any_of(regions, [&](const sizing::SizeRegion& region) {
+    const auto* shape = std::get_if<Pattern>(&region.shape);
+    return shape != nullptr && matches_pattern(shape->pattern, name);
+  });
+}
+
+// Curves of a CSG file have numbers of other kinds; they are found by none.
+std::optional<LocalIndex> curve_of(const model::EdgeDescription& edge)
+{
+  LocalIndex number = 0;
+  const char* const end = edge.number.data() + edge.number.size();
+  const auto read = std::from_chars(edge.number.data(), end, number);
+  return read.ec == std::errc() && read.ptr == end ? std::optional(number - 1) : std::nullopt;
+}
+
+coarse::KeptParts kept_parts(const model::ModelDescription& described,
+                             const model::NamedParts& named,
+                             const std::vector<sizing::SizeRegion>& regions)
+{
+  std::set<LocalIndex> patches;
+  for (const model::NumberedName& face : named.faces) patches.insert(face.number - 1);
+  for (const model::FaceDescription& face : described.faces) {
+    const std::string name = face.name.empty() ? fmt::format("patch_{}", face.number) : face.name;
+    if (matches_any<sizing::PatchPattern>(regions, name)) patches.insert(face.number - 1);
+  }
+  std::set<LocalIndex> curves;
+  for (const model::EdgeDescription& edge : described.edges) {
+    const auto curve = curve_of(edge);
+    const bool is_named = matches_any<sizing::CurvePattern>(regions, edge.number)
+                          || matches_any<sizing::CurvePattern>(regions, edge.name);
+    if (curve && is_named) curves.insert(*curve);
+  }
+  return {{patches.begin(), patches.end()}, {curves.begin(), curves.end()}};
+}
+
 }  // namespace
 
 jobs::JobOutcome describe_in_jobs(
@@ -60,22 +115,26 @@ model::ModelDescription describe_model(const config::Case& given, RunContext& co
   return description_of(run_describe("describe", request, context), given);
 }
 
-model::NamedParts find_named_parts(const config::Case& given, model::Format format,
-                                   RunContext& context)
+PartsOfCase find_parts_of_case(const config::Case& given, model::Format format, RunContext& context)
 {
-  if (given.geometry.names.empty()) return {};
+  if (given.geometry.names.empty() && !names_parts(given.size.regions)) return {};
   StageScope stage(context, "names");
-  model::NamedParts parts = comm::on_root(context.comm, [&] {
+  PartsOfCase parts = comm::on_root(context.comm, [&] {
     return with_file_context(given, [&] {
       const auto run = [&](const std::string& name, const Bytes& request) {
         return run_describe(name, request, context);
       };
-      return model::find_named_parts(description_of(describe_in_jobs(format, run), given),
-                                     given.geometry.names, given.geometry.scale);
+      const model::ModelDescription described =
+          description_of(describe_in_jobs(format, run), given);
+      PartsOfCase found{
+          model::find_named_parts(described, given.geometry.names, given.geometry.scale)};
+      found.kept = kept_parts(described, found.named, given.size.regions);
+      return found;
     });
   });
   stage.work_is_done();
-  stage.finish(fmt::format("{} faces, {} solids", parts.faces.size(), parts.solids.size()));
+  stage.finish(
+      fmt::format("{} faces, {} solids", parts.named.faces.size(), parts.named.solids.size()));
   return parts;
 }
 

@@ -3,8 +3,10 @@
 
 #include <functional>
 #include <string>
+#include <tuple>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/coarse/options.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/jobs/job_runner.hpp"
 #include "tessera/model/description.hpp"
@@ -30,11 +32,20 @@ namespace tessera::pipeline {
 [[nodiscard]] model::ModelDescription describe_model(const config::Case& given,
                                                      RunContext& context);
 
-/// @brief Which faces and solids of the model the case names; asks nothing of the model if the case
-/// names none.
+/// @brief What the case says of parts of the model.
+struct PartsOfCase {
+  model::NamedParts named{};
+  coarse::KeptParts kept{};  ///< Named by [[geometry.name]], or as the shape of a [[size.region]].
+
+  static auto fields(auto& self) { return std::tie(self.named, self.kept); }
+};
+
+/// @brief Which faces, solids and curves of the model the case names; asks nothing of the model if
+/// the case names none.
 /// @note Collective: the model is described in a job of rank 0.
-/// @throws ConfigError on every rank if a name fits nothing, or two fit the same.
-[[nodiscard]] model::NamedParts find_named_parts(const config::Case& given, model::Format format,
-                                                 RunContext& context);
+/// @throws ConfigError on every rank if a name of [[geometry.name]] fits nothing, or two fit the
+/// same.
+[[nodiscard]] PartsOfCase find_parts_of_case(const config::Case& given, model::Format format,
+                                             RunContext& context);
 
 }  // namespace tessera::pipeline

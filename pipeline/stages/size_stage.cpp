@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/size_stage.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -55,6 +56,19 @@ double volume_of(const config::Case& given, RunContext& context)
   return volume > 0.0 && volume <= cube ? volume : cube / 3.0;
 }
 
+// Gmsh makes its surface by itself. A target that is larger than the model says only that as few
+// tets as possible are wanted.
+double least_feature(const config::Case& resolved, double volume)
+{
+  constexpr double kPartOfTarget = 0.05;
+  constexpr double kMostOfMaxSize = 0.5;  // What is larger is no detail of the mesh.
+  if (resolved.coarse.mesher == coarse::Mesher::gmsh) return 0.0;
+  const double wanted = resolved.size.min >= 0.0
+                            ? resolved.size.min
+                            : kPartOfTarget * std::min(resolved.size.target, std::cbrt(volume));
+  return std::min(wanted, kMostOfMaxSize * resolved.coarse.max_size);
+}
+
 }  // namespace
 
 double estimated_tets(double volume, double target)
@@ -72,16 +86,18 @@ int levels_for(double num_fine_tets)
 
 config::Case resolve_size(const config::Case& given, RunContext& context)
 {
-  if (given.size.target == 0.0 || given.coarse.max_size > 0.0) return given;
   if (model::is_mesh_name(given.geometry.file)) return given;
-  const double volume = on_root(context.comm, [&] { return volume_of(given, context); });
   config::Case resolved = given;
-  const int levels = levels_for(estimated_tets(volume, given.size.target));
-  resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, levels);
-  context.log.info("size.target {}: coarse.max_size = {}", given.size.target,
-                   resolved.coarse.max_size);
-  all_or_none(context.comm,
-              [&] { config::require_small_defeature(resolved, given.geometry.file.string()); });
+  const bool has_target = given.size.target > 0.0;
+  const double volume =
+      has_target ? on_root(context.comm, [&] { return volume_of(given, context); }) : 0.0;
+  if (has_target && given.coarse.max_size == 0.0) {
+    const int levels = levels_for(estimated_tets(volume, given.size.target));
+    resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, levels);
+    context.log.info("size.target {}: coarse.max_size = {}", given.size.target,
+                     resolved.coarse.max_size);
+  }
+  resolved.coarse.defeature = least_feature(resolved, volume);
   return resolved;
 }
 

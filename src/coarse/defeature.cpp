@@ -2,6 +2,7 @@
 #include "tessera/coarse/defeature.hpp"
 
 #include <map>
+#include <set>
 #include <utility>
 
 #include "tessera/coarse/coarse_surface.hpp"
@@ -73,6 +74,20 @@ Parts patches_of(const mesh::CoarseMesh& mesh)
   return parts;
 }
 
+// In the numbers of groups.
+KeptParts kept_groups(const KeptParts& kept, const SurfaceGroups& groups)
+{
+  std::set<LocalIndex> patches;
+  for (const LocalIndex group : groups.surface().triangle_patch) {
+    if (kept.has_patch(groups.model_surface(group))) patches.insert(group);
+  }
+  std::set<LocalIndex> curves;
+  for (const LocalIndex curve : groups.surface().edge_curve) {
+    if (kept.has_curve(groups.model_curve(curve))) curves.insert(curve);
+  }
+  return {{patches.begin(), patches.end()}, {curves.begin(), curves.end()}};
+}
+
 std::vector<MergedPart> missing(const Parts& before, const Parts& after)
 {
   std::vector<MergedPart> gone;
@@ -102,10 +117,10 @@ Defeatured Defeatured::scaled(double factor) const
   return result;
 }
 
-Defeatured defeature(PatchSurface& surface, const OnCurve& on_curve, double tolerance)
+Defeatured defeature(PatchSurface& surface, const OnCurve& on_curve, const MergeLimits& limits)
 {
-  Defeatured done{.tolerance = tolerance};
-  Defeaturer defeaturer(surface, on_curve, tolerance);
+  Defeatured done{.tolerance = limits.tolerance};
+  Defeaturer defeaturer(surface, on_curve, limits);
   defeaturer.run();
   if (defeaturer.merges().empty()) return done;
   PatchSurface made = defeaturer.surface().take(surface);
@@ -117,21 +132,22 @@ Defeatured defeature(PatchSurface& surface, const OnCurve& on_curve, double tole
 }
 
 Defeatured defeature(PatchSurface& surface, const SurfaceReference& reference,
-                     const model::Model& model, double tolerance)
+                     const model::Model& model, const MergeLimits& limits)
 {
   const OnCurve on_curve = [&](LocalIndex curve, LocalIndex /*near*/, const Vec3& point) {
     return model.project_to_curve(curve, point, reference.curve_parameter(curve, point)).xyz;
   };
-  return defeature(surface, on_curve, tolerance);
+  return defeature(surface, on_curve, limits);
 }
 
-bool defeature(CoarseSurface& surface, const model::Model& model, double tolerance)
+bool defeature(CoarseSurface& surface, const model::Model& model, const MergeLimits& limits)
 {
   SurfaceGroups groups(surface, model);
   const OnCurve on_curve = [&](LocalIndex curve, LocalIndex near, const Vec3& point) {
     return groups.model_curve(curve) == kNoIndex ? kNoPoint : groups.on_curve(curve, near, point);
   };
-  Defeaturer defeaturer(groups.surface(), on_curve, tolerance);
+  const MergeLimits of_groups{limits.tolerance, kept_groups(limits.kept, groups)};
+  Defeaturer defeaturer(groups.surface(), on_curve, of_groups);
   defeaturer.run();
   if (defeaturer.merges().empty()) return false;
   const EditableSurface& edited = defeaturer.surface();
@@ -141,7 +157,7 @@ bool defeature(CoarseSurface& surface, const model::Model& model, double toleran
       groups.merge(merge.curve_end, merge.kept, edited.xyz(merge.kept));
   }
   CoarseSurface made = groups.take(edited);
-  made.defeatured = {.tolerance = tolerance,
+  made.defeatured = {.tolerance = limits.tolerance,
                      .curves = missing(curves_of(surface.mesh), curves_of(made.mesh)),
                      .patches = missing(patches_of(surface.mesh), patches_of(made.mesh)),
                      .places = defeaturer.places()};

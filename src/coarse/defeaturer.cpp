@@ -3,22 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
 namespace tessera::coarse {
 namespace {
 
-using Corners = std::array<Vec3, 3>;
-
 constexpr int kRounds = 20;
-
-// A triangle may turn by 60 degrees, unless it is as narrow as what is merged.
-constexpr double kLeastCosine = 0.5;
-
-// Two triangles at an edge with a smaller angle between them are a fold: 5 degrees.
-constexpr double kFoldCosine = 0.996;
 
 // A vertex is held against a curve if it is no farther from the chord, in parts of the chord. A
 // curve that turns by 60 degrees between its points leaves the chord by less.
@@ -27,31 +18,14 @@ constexpr double kMostBow = 0.15;
 // Triangles of which one side is as short as the tolerance have about this height.
 constexpr double kThin = 2.0;
 
-double height_of(const Corners& p)
-{
-  const double longest = std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
-  return longest > 0.0 ? norm(normal_of(p)) / longest : 0.0;
-}
-
-// From the line of an edge to a point, across.
-Vec3 wing(const Vec3& a, const Vec3& b, const Vec3& point)
-{
-  const Vec3 along = b - a;
-  return (point - a) - (dot(point - a, along) / dot(along, along)) * along;
-}
-
-PatchSurface::Triangle sorted(PatchSurface::Triangle triangle)
-{
-  std::ranges::sort(triangle);
-  return triangle;
-}
-
 }  // namespace
 
-Defeaturer::Defeaturer(const PatchSurface& start, const OnCurve& on_curve, double tolerance)
+Defeaturer::Defeaturer(const PatchSurface& start, const OnCurve& on_curve,
+                       const MergeLimits& limits)
     : start_(start),
       on_curve_(on_curve),
-      tolerance_(tolerance),
+      tolerance_(limits.most()),
+      kept_(limits.kept),
       surface_(start, std::vector<double>(start.vertex_xyz.size(), 0.0)),
       guard_(start)
 {
@@ -106,10 +80,24 @@ Defeaturer::Edge Defeaturer::gone_and_kept(const Edge& edge) const
   return rank(edge[0]) < rank(edge[1]) ? edge : Edge{edge[1], edge[0]};
 }
 
+// When its edge vanishes, or its corner across goes into the edge: its sides become one, or one and
+// the halves of the other.
+bool Defeaturer::may_vanish(LocalIndex t, const Edge& edge) const
+{
+  if (kept_.has_patch(surface_.patch(t))) return false;
+  const LocalIndex across = opposite(t, edge);
+  const std::array curves{surface_.curve(edge[0], edge[1]), surface_.curve(edge[0], across),
+                          surface_.curve(edge[1], across)};
+  return std::ranges::none_of(curves, [&](LocalIndex curve) { return kept_.has_curve(curve); });
+}
+
 bool Defeaturer::collapse(LocalIndex gone, LocalIndex kept)
 {
+  const Triangles at_edge = surface_.triangles_at({gone, kept});
+  if (!std::ranges::all_of(at_edge, [&](LocalIndex t) { return may_vanish(t, {gone, kept}); }))
+    return false;
   if (!may_go(gone, surface_.xyz(kept)) || !keeps_domains_closed(gone, kept)) return false;
-  Step step{.old = surface_.triangles_of(gone)};
+  Step step{.at = kept, .old = surface_.triangles_of(gone)};
   for (const LocalIndex t : step.old) {
     const Triangle& v = surface_.triangle(t);
     if (!holds(v, kept)) add(replaced(v, gone, kept), t, step);
@@ -154,7 +142,7 @@ bool Defeaturer::put_into_edge(const Cap& cap)
   const Triangles at_edge = surface_.triangles_at(cap.edge);
   const auto t = std::ranges::find_if(
       at_edge, [&](LocalIndex one) { return opposite(one, cap.edge) == cap.v; });
-  if (t == at_edge.end() || is_tied(cap.edge, *t)) return false;
+  if (t == at_edge.end() || !may_vanish(*t, cap.edge) || is_tied(cap.edge, *t)) return false;
   const Vec3 point = moves_onto(cap.v, curve) ? cap.on_curve : surface_.xyz(cap.v);
   if (!is_between(cap.edge, point) || !may_go(cap.v, point)) return false;
   const Step step = step_into(cap.edge, *t, point);
@@ -215,7 +203,7 @@ bool Defeaturer::is_tied(const Edge& edge, LocalIndex cap) const
 Defeaturer::Step Defeaturer::step_into(const Edge& edge, LocalIndex cap, const Vec3& point) const
 {
   const LocalIndex v = opposite(cap, edge);
-  Step step{.old = surface_.triangles_of(v)};
+  Step step{.at = v, .old = surface_.triangles_of(v)};
   for (const LocalIndex t : step.old) {
     if (t != cap) add(surface_.triangle(t), t, step);
   }
@@ -299,125 +287,6 @@ void Defeaturer::note(const Merge& merge)
     all.push_back(surface_.xyz(merge.gone));
   } else {
     all.insert(all.end(), more->second.begin(), more->second.end());
-  }
-}
-
-Defeaturer::Triangles Defeaturer::in_domain(const Triangles& triangles, LocalIndex domain) const
-{
-  Triangles found;
-  for (const LocalIndex t : triangles) {
-    const auto& [below, above] = start_.patch_materials[at(surface_.patch(t))];
-    if (below == domain || above == domain) found.push_back(t);
-  }
-  return found;
-}
-
-// The other corners of triangles at a vertex, ascending.
-std::vector<LocalIndex> Defeaturer::link_of(LocalIndex v, const Triangles& triangles) const
-{
-  std::set<LocalIndex> others;
-  for (const LocalIndex t : triangles) {
-    for (const LocalIndex corner : surface_.triangle(t)) {
-      if (corner != v) others.insert(corner);
-    }
-  }
-  return {others.begin(), others.end()};
-}
-
-// What is outside of all materials is a domain as well.
-bool Defeaturer::keeps_domains_closed(LocalIndex gone, LocalIndex kept) const
-{
-  std::set<LocalIndex> domains;
-  for (const LocalIndex t : surface_.triangles_of(gone)) {
-    const auto& sides = start_.patch_materials[at(surface_.patch(t))];
-    domains.insert(sides.begin(), sides.end());
-  }
-  return std::ranges::all_of(domains,
-                             [&](LocalIndex domain) { return keeps_closed(domain, gone, kept); });
-}
-
-// The link condition, in the skin of a domain that has the first vertex.
-bool Defeaturer::keeps_closed(LocalIndex domain, LocalIndex gone, LocalIndex kept) const
-{
-  const Triangles of_gone = in_domain(surface_.triangles_of(gone), domain);
-  const Triangles of_kept = in_domain(surface_.triangles_of(kept), domain);
-  if (of_kept.empty()) return true;
-  std::vector<LocalIndex> opposites;
-  for (const LocalIndex t : in_domain(surface_.triangles_at({gone, kept}), domain)) {
-    opposites.push_back(opposite(t, {gone, kept}));
-  }
-  std::ranges::sort(opposites);
-  std::vector<LocalIndex> common;
-  std::ranges::set_intersection(link_of(gone, of_gone), link_of(kept, of_kept),
-                                std::back_inserter(common));
-  return opposites.size() == 2 && common == opposites && !makes_twins(gone, kept, of_gone);
-}
-
-// Whether two triangles would have the same corners.
-bool Defeaturer::makes_twins(LocalIndex gone, LocalIndex kept, const Triangles& of_gone) const
-{
-  std::set<Triangle> of_kept;
-  for (const LocalIndex t : surface_.triangles_of(kept)) {
-    of_kept.insert(sorted(surface_.triangle(t)));
-  }
-  return std::ranges::any_of(of_gone, [&](LocalIndex t) {
-    const Triangle& v = surface_.triangle(t);
-    return !holds(v, kept) && of_kept.contains(sorted(replaced(v, gone, kept)));
-  });
-}
-
-bool Defeaturer::is_sound(const Step& step)
-{
-  for (std::size_t i = 0; i < step.made.size(); ++i) {
-    if (is_thin(step.from[i])) continue;
-    const Vec3 before = normal_of(surface_.corners(step.from[i]));
-    const Vec3 after = normal_of(step.made[i].corners);
-    if (dot(before, after) <= kLeastCosine * norm(before) * norm(after)) return false;
-  }
-  return guard_.allows(step.old, step.made) && !folds(step);
-}
-
-// Whether triangles of a step would lie on each other or on a neighbour, and did not before.
-bool Defeaturer::folds(const Step& step) const
-{
-  if (!has_fold(step.made, step.old)) return false;
-  std::vector<PlacedTriangle> before;
-  for (const LocalIndex t : step.old) before.push_back({surface_.triangle(t), surface_.corners(t)});
-  return !has_fold(before, step.old);
-}
-
-bool Defeaturer::has_fold(std::span<const PlacedTriangle> some, const Triangles& old) const
-{
-  Wings wings;
-  for (const PlacedTriangle& one : some) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t a = (c + 1) % 3;
-      const std::size_t b = (c + 2) % 3;
-      const auto [low, high] = std::minmax(one.vertices[a], one.vertices[b]);
-      wings[{low, high}].push_back(wing(one.corners[a], one.corners[b], one.corners[c]));
-    }
-  }
-  add_wings_beside(old, wings);
-  for (const auto& [edge, all] : wings) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) {
-        const bool is_wide = std::min(norm(all[i]), norm(all[j])) > tolerance_;
-        if (is_wide && dot(all[i], all[j]) > kFoldCosine * norm(all[i]) * norm(all[j])) return true;
-      }
-    }
-  }
-  return false;
-}
-
-// At the same edges, of triangles that stay.
-void Defeaturer::add_wings_beside(const Triangles& old, Wings& wings) const
-{
-  for (auto& [edge, all] : wings) {
-    for (const LocalIndex t : surface_.triangles_at(edge)) {
-      if (std::ranges::find(old, t) != old.end()) continue;
-      all.push_back(
-          wing(surface_.xyz(edge[0]), surface_.xyz(edge[1]), surface_.xyz(opposite(t, edge))));
-    }
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <set>
@@ -14,6 +15,25 @@
 
 namespace tessera::coarse {
 
+[[nodiscard]] inline double longest_side(const std::array<Vec3, 3>& p)
+{
+  return std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
+}
+
+/// @brief Over its longest side; 0 if it has none.
+[[nodiscard]] inline double height_of(const std::array<Vec3, 3>& p)
+{
+  const double longest = longest_side(p);
+  return longest > 0.0 ? norm(normal_of(p)) / longest : 0.0;
+}
+
+/// @brief From the line of an edge to a point, across.
+[[nodiscard]] inline Vec3 wing(const Vec3& a, const Vec3& b, const Vec3& point)
+{
+  const Vec3 along = b - a;
+  return (point - a) - (dot(point - a, along) / dot(along, along)) * along;
+}
+
 /// @brief A vertex that went into another one, or into an edge: then both are the same.
 struct Merge {
   LocalIndex gone = kNoIndex;
@@ -24,8 +44,8 @@ struct Merge {
 /// @brief Merges what is small in a surface, step by step: see defeature(). Local.
 class Defeaturer {
  public:
-  /// @param[in] start  Both it and `on_curve` must outlive this.
-  Defeaturer(const PatchSurface& start, const OnCurve& on_curve, double tolerance);
+  /// @param[in] start  It, `on_curve` and `limits` must outlive this.
+  Defeaturer(const PatchSurface& start, const OnCurve& on_curve, const MergeLimits& limits);
 
   void run();
 
@@ -42,6 +62,7 @@ class Defeaturer {
 
   // The triangles of a step: those that it takes away, and those that it makes of them.
   struct Step {
+    LocalIndex at = kNoIndex;  // Where it brings some together: the vertex that stays.
     Triangles old{};
     std::vector<PlacedTriangle> made{};
     Triangles from{};  // The triangle that each of `made` was.
@@ -56,6 +77,7 @@ class Defeaturer {
   };
 
   int collapse_short_edges();
+  [[nodiscard]] bool may_vanish(LocalIndex t, const Edge& edge) const;
   [[nodiscard]] Edge gone_and_kept(const Edge& edge) const;
   bool collapse(LocalIndex gone, LocalIndex kept);
 
@@ -85,6 +107,7 @@ class Defeaturer {
   [[nodiscard]] bool makes_twins(LocalIndex gone, LocalIndex kept, const Triangles& of_gone) const;
 
   [[nodiscard]] bool is_sound(const Step& step);
+  [[nodiscard]] bool lays_sheets_together(const Step& step) const;
   [[nodiscard]] bool folds(const Step& step) const;
   [[nodiscard]] bool has_fold(std::span<const PlacedTriangle> some, const Triangles& old) const;
   void add_wings_beside(const Triangles& old, Wings& wings) const;
@@ -93,6 +116,7 @@ class Defeaturer {
   const PatchSurface& start_;
   const OnCurve& on_curve_;
   double tolerance_;
+  const KeptParts& kept_;
   EditableSurface surface_;
   CrossingGuard guard_;
   std::vector<Merge> merges_{};

@@ -136,14 +136,14 @@ std::vector<std::size_t> triangles_of(const std::vector<Overlap>& overlaps)
 }
 
 // Normals of the model tell its curvature better than those of triangles, which may be needles.
-SizeFunction sizes_on(const SurfaceReference& reference, const PatchSurface& start,
-                      const CoarseOptions& options)
+SizeFunction sizes_on(const SurfaceReference& reference, const CoarseOptions& options)
 {
-  if (start.triangle_max_size.empty()) return size_function_of(reference, start, options);
+  const PatchSurface& start = reference.surface();
+  if (start.triangle_max_size.empty()) return size_function_of(reference, options);
   constexpr double kNoCurvature = std::numeric_limits<double>::min();
   CoarseOptions of_the_rest = options;
   of_the_rest.curvature = kNoCurvature;
-  SizeFunction sizes = size_function_of(reference, start, of_the_rest);
+  SizeFunction sizes = size_function_of(reference, of_the_rest);
   std::vector<SizeSource> sources;
   for (std::size_t t = 0; t < start.triangles.size(); ++t) {
     sources.push_back({start.corners(t), start.triangle_max_size[t]});
@@ -155,13 +155,14 @@ SizeFunction sizes_on(const SurfaceReference& reference, const PatchSurface& sta
 // A surface on the geometry, with shorter edges where it would cut itself or fold.
 class Finer {
  public:
-  Finer(const SurfaceReference& reference, const PatchSurface& start, const model::Model& model,
-        const CoarseOptions& options)
+  Finer(const SurfaceReference& reference, const model::Model& model, const CoarseOptions& options)
       : reference_(reference),
         model_(model),
-        sizes_(sizes_on(reference, start, options)),
-        surface_(on_geometry(start))
+        sizes_(sizes_on(reference, options)),
+        surface_(remesh(reference, reference.surface(), sizes_, &model))
   {
+    if (options.defeature > 0.0) merge({options.defeature, options.kept});
+    put_on_geometry(surface_, reference_, model_);
     most_triangles_ = kMostGrowth * surface_.triangles.size();
   }
 
@@ -220,16 +221,16 @@ class Finer {
     }
   }
 
-  [[nodiscard]] PatchSurface take() && { return std::move(surface_); }
+  [[nodiscard]] RemeshedSurface take() && { return {std::move(surface_), std::move(defeatured_)}; }
 
  private:
   [[nodiscard]] bool may_grow() const { return surface_.triangles.size() <= most_triangles_; }
 
-  [[nodiscard]] PatchSurface on_geometry(const PatchSurface& start) const
+  // That leaves bad triangles beside what is merged.
+  void merge(const MergeLimits& limits)
   {
-    PatchSurface surface = remesh(reference_, start, sizes_, &model_);
-    put_on_geometry(surface, reference_, model_);
-    return surface;
+    defeatured_ = defeature(surface_, reference_, model_, limits);
+    if (defeatured_.is_any()) surface_ = remesh(reference_, surface_, sizes_, &model_);
   }
 
   // Edges of half their length at some triangles, from now on.
@@ -241,13 +242,16 @@ class Finer {
       sources.push_back({p, 0.5 * sizes_((1.0 / 3.0) * (p[0] + p[1] + p[2]))});
     }
     sizes_.limit(sources);
-    return on_geometry(surface_);
+    PatchSurface finer = remesh(reference_, surface_, sizes_, &model_);
+    put_on_geometry(finer, reference_, model_);
+    return finer;
   }
 
   const SurfaceReference& reference_;
   const model::Model& model_;
   SizeFunction sizes_;
   PatchSurface surface_;
+  Defeatured defeatured_{};
   std::size_t most_triangles_ = 0;
 };
 
@@ -259,11 +263,10 @@ void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
   Mover(surface, reference, model).run();
 }
 
-PatchSurface remesh_on_geometry(const SurfaceReference& reference, const PatchSurface& start,
-                                const model::Model& model, const CoarseOptions& options,
-                                Forbidden forbidden)
+RemeshedSurface remesh_on_geometry(const SurfaceReference& reference, const model::Model& model,
+                                   const CoarseOptions& options, Forbidden forbidden)
 {
-  Finer surface(reference, start, model, options);
+  Finer surface(reference, model, options);
   if (!is_left_out(Repair::finer_at_cuts)) {
     surface.mend_cuts(forbidden);
     surface.lessen_allowed_cuts(forbidden);

@@ -226,14 +226,14 @@ class Remesher {
 
 }  // namespace
 
-SizeFunction size_function_of(const SurfaceReference& reference, const PatchSurface& start,
-                              const CoarseOptions& options)
+SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOptions& options)
 {
+  const PatchSurface& start = reference.surface();
   SizeFunction sizes(options);
   sizes.limit(bent_places_of(start, options));
   Remesher remesher(reference, start, sizes, nullptr);
   const EditableSurface& surface = remesher.with_short_edges();
-  std::vector<SizeSource> sources = narrow_strips_of(surface, options.max_size);
+  std::vector<SizeSource> sources = narrow_strips_of(surface, options);
   if (!is_left_out(Repair::wall_sizes)) {
     const auto walls =
         thin_walls_of(surface, reference.surface().patch_materials, options.max_size);
@@ -252,7 +252,7 @@ PatchSurface remesh(const SurfaceReference& reference, const PatchSurface& start
 PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options)
 {
   const PatchSurface& start = reference.surface();
-  return remesh(reference, start, size_function_of(reference, start, options));
+  return remesh(reference, start, size_function_of(reference, options));
 }
 
 }  // namespace tessera::coarse

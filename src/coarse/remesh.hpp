@@ -30,9 +30,7 @@ namespace tessera::coarse {
 
 /// @brief The sizes that the options and the surface ask for: shorter edges where it bends, in
 /// narrow strips and at thin walls. Local.
-/// @param[in] start  As remesh().
 [[nodiscard]] SizeFunction size_function_of(const SurfaceReference& reference,
-                                            const PatchSurface& start,
                                             const CoarseOptions& options);
 
 /// @brief Both, from the reference's surface. Local.

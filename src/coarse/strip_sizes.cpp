@@ -10,6 +10,7 @@
 #include <queue>
 #include <utility>
 
+#include "tessera/coarse/defeature.hpp"
 #include "tessera/model/nearest_point.hpp"
 
 #include "coarse/box_tree.hpp"
@@ -29,8 +30,12 @@ struct CurveEdge {
 
 class StripSizes {
  public:
-  StripSizes(const EditableSurface& surface, double largest)
-      : surface_(surface), largest_(largest), edges_(edges_of(surface)), tree_(boxes_of(edges_))
+  StripSizes(const EditableSurface& surface, const CoarseOptions& options)
+      : surface_(surface),
+        largest_(options.max_size),
+        merged_(MergeLimits{options.defeature, {}}.most()),
+        edges_(edges_of(surface)),
+        tree_(boxes_of(edges_))
   {
     for (const CurveEdge& one : edges_) {
       next_[one.edge[0]].push_back(one.edge[1]);
@@ -94,6 +99,7 @@ class StripSizes {
     std::ranges::sort(near);
     const std::map<LocalIndex, double> ways = ways_from(one.edge, kWayRoundCorner * reach);
     for (const auto& [apart, other] : near) {
+      if (apart <= merged_) continue;
       if (is_round_corner(ways, edges_[at(other)].edge, kWayRoundCorner * apart)) continue;
       sources_.push_back({{a, b, b}, size_beside(one.edge, apart)});
       return;
@@ -161,6 +167,7 @@ class StripSizes {
 
   const EditableSurface& surface_;
   double largest_;
+  double merged_;  // Widths up to this are.
   std::vector<CurveEdge> edges_;
   BoxTree tree_;
   std::map<LocalIndex, std::vector<LocalIndex>> next_{};  // Along curves.
@@ -169,9 +176,10 @@ class StripSizes {
 
 }  // namespace
 
-std::vector<SizeSource> narrow_strips_of(const EditableSurface& surface, double largest)
+std::vector<SizeSource> narrow_strips_of(const EditableSurface& surface,
+                                         const CoarseOptions& options)
 {
-  return StripSizes(surface, largest).run();
+  return StripSizes(surface, options).run();
 }
 
 }  // namespace tessera::coarse

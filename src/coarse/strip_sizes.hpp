@@ -22,9 +22,10 @@ inline constexpr double kLeastOfCurvedStrip = 0.004;
 ///
 /// Each edge on a curve looks from its middle for the nearest other edge around the same patch.
 /// One that can be reached along the curves within three times the distance meets it at a corner:
-/// there no size makes the angle better.
+/// there no size makes the angle better. Strips that `options.defeature` merges have no such
+/// places.
 /// @pre Edges are hardly longer than the wanted sizes; an edge has one middle only.
 [[nodiscard]] std::vector<SizeSource> narrow_strips_of(const EditableSurface& surface,
-                                                       double largest);
+                                                       const CoarseOptions& options);
 
 }  // namespace tessera::coarse

@@ -260,15 +260,22 @@ bool SurfaceEditor::keeps_lengths(LocalIndex gone, LocalIndex kept) const
   return true;
 }
 
+double SurfaceEditor::off_curve(LocalIndex curve, const Vec3& point) const
+{
+  return norm(reference_.on_curve(curve, point) - point);
+}
+
 bool SurfaceEditor::keeps_curve(LocalIndex gone, LocalIndex kept) const
 {
   const LocalIndex curve = surface_.curve(gone, kept);
   if (curve == kNoIndex) return true;
   for (const LocalIndex other : surface_.curve_neighbours(gone)) {
     if (other == kept) continue;
-    const Vec3 middle = midpoint(surface_.xyz(other), surface_.xyz(kept));
-    const double off = norm(reference_.on_curve(curve, middle) - middle);
-    if (off > kMostSagitta * norm(surface_.xyz(other) - surface_.xyz(kept))) return false;
+    const Vec3& a = surface_.xyz(other);
+    const Vec3& b = surface_.xyz(kept);
+    const double sagitta =
+        off_curve(curve, midpoint(a, b)) - std::max(off_curve(curve, a), off_curve(curve, b));
+    if (sagitta > kMostSagitta * norm(b - a)) return false;
   }
   return true;
 }

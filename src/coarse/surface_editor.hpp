@@ -106,6 +106,7 @@ class SurfaceEditor {
   [[nodiscard]] Vec3 on_curve(LocalIndex curve, const Vec3& point, double size) const;
   [[nodiscard]] std::vector<PlacedTriangle> halves(std::span<const LocalIndex> triangles,
                                                    const Edge& edge, const Vec3& middle) const;
+  [[nodiscard]] double off_curve(LocalIndex curve, const Vec3& point) const;
   [[nodiscard]] bool keeps_curve(LocalIndex gone, LocalIndex kept) const;
   [[nodiscard]] bool keeps_lengths(LocalIndex gone, LocalIndex kept) const;
   void note_change(std::span<const LocalIndex> triangles);

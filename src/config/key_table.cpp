@@ -52,12 +52,19 @@ constexpr Key kKeys[] = {
      .example = "1.0",
      .is_optional = true},
     {.name = "size.min",
-     .rule = RealRule{[](Case& c) -> double& { return c.size.min; }, 0.0, Bound::exclusive, kHuge,
+     .rule = RealRule{[](Case& c) -> double& { return c.size.min; }, 0.0, Bound::inclusive, kHuge,
                       Bound::inclusive},
      .unit = "output length unit",
-     .meaning = "No size below this is wanted anywhere, whatever size.target, size.field and "
-                "[[size.region]] say.",
-     .reason = "they say what is wanted",
+     .meaning =
+         "No size below this is wanted anywhere, whatever size.target, size.field and "
+         "[[size.region]] say. And smaller features of a CAD model or STL file make no small "
+         "tets: edges that are shorter are merged in the coarse mesh, and faces that are "
+         "narrower; the report lists them. No point is moved by more, and the mesh is that "
+         "far off the geometry there. What the case names stays. At most half of "
+         "coarse.max_size counts for that. 0: nothing is merged.",
+     .reason = "smaller features have no say in a solution with such edges; of sizes, all that are "
+               "wanted are made",
+     .derived_default = "for features, a twentieth of size.target, 0 without it; for sizes, none",
      .example = "0.1",
      .is_optional = true},
     {.name = "size.max",
@@ -134,15 +141,6 @@ constexpr Key kKeys[] = {
      .meaning = "STL and meshes: angle between two triangles from which their edge separates "
                 "two patches.",
      .reason = "NETGEN's own default"},
-    {.name = "coarse.defeature",
-     .rule = RealRule{[](Case& c) -> double& { return c.coarse.defeature; }, 0.0, Bound::inclusive,
-                      kHuge, Bound::inclusive},
-     .unit = "output length unit",
-     .meaning = "Edges of the model that are not longer than this are merged in the coarse mesh, "
-                "and faces that are as narrow; the report lists them. No point is moved by more, "
-                "and the mesh is that far off the geometry there. At most half of "
-                "coarse.max_size.",
-     .reason = "nothing of a model is left out unless that is asked for"},
     {.name = "coarse.optimize",
      .rule = FlagRule{[](Case& c) -> bool& { return c.coarse.optimize; }},
      .meaning = "Whether tets off the geometry are flipped and vertices moved so that the children "

@@ -32,6 +32,9 @@ std::string file_name_for_messages(const fs::path& file) { return printable(file
 
 [[noreturn]] void fail_unknown(const std::string& name, const std::string& origin)
 {
+  if (name == "coarse.defeature") {
+    fail(origin, "coarse.defeature is size.min now: give size.min the value that it has here");
+  }
   std::string message = "unknown key " + toml_string(name);
   if (const auto near = nearest_key(name))
     message += fmt::format("; did you mean {}?", toml_string(*near));
@@ -231,19 +234,6 @@ void check_own_mesh(const Case& loaded, bool is_mesh, const std::string& where)
   }
 }
 
-void check_defeature(const Case& loaded, bool is_mesh, const std::string& where)
-{
-  if (loaded.coarse.defeature == 0.0) return;
-  if (is_mesh || loaded.coarse.mesher == coarse::Mesher::gmsh) {
-    fail(where,
-         fmt::format("coarse.defeature = {} is for surfaces that Tessera makes; leave it out{}",
-                     number_text(loaded.coarse.defeature),
-                     is_mesh ? ", the mesh in geometry.file is the coarse mesh"
-                             : " or coarse.mesher = \"gmsh\""));
-  }
-  if (loaded.coarse.max_size > 0.0) require_small_defeature(loaded, where);
-}
-
 void check_required(const Case& loaded, const std::string& where)
 {
   if (loaded.geometry.file.empty()) {
@@ -254,12 +244,6 @@ void check_required(const Case& loaded, const std::string& where)
     fail(where, "no size; give either size.target or coarse.max_size");
   }
   check_own_mesh(loaded, is_mesh, where);
-  check_defeature(loaded, is_mesh, where);
-  if (loaded.size.min > 0.0 && !sizing::are_wanted(loaded.size)) {
-    fail(where,
-         "size.min alone says nothing; give size.target, size.max, size.curvature, size.field "
-         "or a [[size.region]] as well");
-  }
   if (loaded.size.max > 0.0 && loaded.size.min > loaded.size.max) {
     fail(where, fmt::format("size.min = {} is above size.max = {}; it must not be",
                             number_text(loaded.size.min), number_text(loaded.size.max)));
@@ -318,16 +302,6 @@ std::string read_text(const fs::path& file)
 }
 
 }  // namespace
-
-void require_small_defeature(const Case& resolved, const std::string& where)
-{
-  const double most = 0.5 * resolved.coarse.max_size;
-  if (resolved.coarse.defeature <= most) return;
-  fail(where,
-       fmt::format("coarse.defeature = {}: must be at most {}, half of coarse.max_size; what "
-                   "is larger is no detail of the mesh",
-                   number_text(resolved.coarse.defeature), number_text(most)));
-}
 
 Case parse_case(std::string_view text, const std::filesystem::path& file,
                 std::span<const std::string> overrides)

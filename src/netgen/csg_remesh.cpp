@@ -136,6 +136,25 @@ class Sizes {
   const coarse::CoarseOptions& options_;
 };
 
+// What the case names, in the numbers of the triangles.
+coarse::CoarseOptions in_numbers_of(const coarse::CadSurface& cad, coarse::CoarseOptions options)
+{
+  coarse::KeptParts kept;
+  for (std::size_t p = 0; p < cad.patch_surface.size(); ++p) {
+    if (options.kept.has_patch(cad.patch_surface[p]))
+      kept.patches.push_back(static_cast<LocalIndex>(p));
+  }
+  options.kept = std::move(kept);
+  return options;
+}
+
+coarse::Defeatured in_numbers_of_csg(coarse::Defeatured merged, const coarse::CadSurface& cad)
+{
+  for (coarse::MergedPart& part : merged.patches) part.number = cad.patch_surface[at(part.number)];
+  for (coarse::MergedPart& part : merged.curves) part.number = cad.curve_number[at(part.number)];
+  return merged;
+}
+
 }  // namespace
 
 coarse::CoarseSurface remesh_csg(const model::Model& csg, const Geometry& geometry, CadFile solids,
@@ -151,15 +170,18 @@ coarse::CoarseSurface remesh_csg(const model::Model& csg, const Geometry& geomet
   const coarse::SurfaceReference reference(triangles.cad.triangles);
   const auto forbidden =
       solids.may_overlap ? coarse::Forbidden::all_cuts : coarse::Forbidden::cuts_within_bodies;
-  const coarse::PatchSurface surface = coarse::remesh_on_geometry(
-      reference, reference.surface(), ByTriangles(csg, triangles.cad), options, forbidden);
+  coarse::RemeshedSurface remeshed = coarse::remesh_on_geometry(
+      reference, ByTriangles(csg, triangles.cad), in_numbers_of(triangles.cad, options), forbidden);
+  const coarse::PatchSurface& surface = remeshed.surface;
   const SurfaceNames names{[&](LocalIndex patch) {
                              const LocalIndex on = triangles.cad.patch_surface[at(patch)];
                              return name_unless_default(geometry.GetSurface(on)->GetBCName());
                            },
                            [](LocalIndex) { return std::string(); }};
   require_no_overlaps(coarse::forbidden_overlaps(surface, forbidden), surface, names, file_name);
-  return in_numbers_of_csg(surface, triangles, geometry, options.max_size);
+  coarse::CoarseSurface coarse = in_numbers_of_csg(surface, triangles, geometry, options.max_size);
+  coarse.defeatured = in_numbers_of_csg(std::move(remeshed.defeatured), triangles.cad);
+  return coarse;
 }
 
 }  // namespace tessera::netgen

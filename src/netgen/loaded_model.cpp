@@ -94,24 +94,12 @@ coarse::CoarseSurface mended(coarse::CoarseSurface surface, const LoadedModel& m
   return std::move(best.surface);
 }
 
-// A model whose triangles cannot be had may be meshed all the same.
-std::optional<coarse::CoarseSurface> merged(const LoadedModel& model,
-                                            const coarse::CoarseOptions& options)
-{
-  try {
-    return model.mesh_merged(options);
-  } catch (const NetgenError&) {
-    return std::nullopt;
-  } catch (const GeometryError&) {
-    return std::nullopt;
-  }
-}
-
 coarse::CoarseSurface defeatured(coarse::CoarseSurface surface, const LoadedModel& model,
-                                 double tolerance)
+                                 const coarse::CoarseOptions& options)
 {
-  if (tolerance == 0.0 || surface.num_domains() == 0) return surface;
-  if (coarse::defeature(surface, model, tolerance)) model.locate_parameters(surface.mesh);
+  if (options.defeature == 0.0 || surface.num_domains() == 0) return surface;
+  if (coarse::defeature(surface, model, {options.defeature, options.kept}))
+    model.locate_parameters(surface.mesh);
   return surface;
 }
 
@@ -121,24 +109,11 @@ coarse::CoarseSurface LoadedModel::mesh_surface(const coarse::CoarseOptions& opt
                                                 const cut::CutTree& planes) const
 {
   const bool is_cut = planes.num_parts > 0;
-  if (options.defeature > 0.0 && !is_cut) {
-    if (auto surface = merged(*this, options)) return mended(std::move(*surface), *this);
-  }
+  const bool has_merged = !is_cut && options.surface_mesher == coarse::SurfaceMesher::remesh;
   coarse::CoarseSurface surface =
       is_cut ? mesh_parts(options, planes) : mesh_surface(options, [](const auto&...) {});
-  return mended(defeatured(std::move(surface), *this, options.defeature), *this);
-}
-
-std::optional<coarse::CoarseSurface> LoadedModel::mesh_merged_triangles(
-    const coarse::SurfaceReference& reference, double tolerance,
-    const std::function<coarse::CoarseSurface(const coarse::PatchSurface&)>& remesh) const
-{
-  coarse::PatchSurface start = reference.surface();
-  coarse::Defeatured done = coarse::defeature(start, reference, *this, tolerance);
-  if (!done.is_any()) return std::nullopt;
-  coarse::CoarseSurface surface = remesh(start);
-  surface.defeatured = std::move(done);
-  return surface;
+  if (!has_merged) surface = defeatured(std::move(surface), *this, options);
+  return mended(std::move(surface), *this);
 }
 
 coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*options*/,

@@ -52,19 +52,6 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   [[nodiscard]] virtual coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                            const NetgenSurfaceUser& use) const = 0;
 
-  /// @brief What a model does in mesh_merged(): merges in its triangles and hands them to `remesh`.
-  [[nodiscard]] std::optional<coarse::CoarseSurface> mesh_merged_triangles(
-      const coarse::SurfaceReference& reference, double tolerance,
-      const std::function<coarse::CoarseSurface(const coarse::PatchSurface&)>& remesh) const;
-
-  /// @brief The surface made of the model's triangles, after what is smaller than
-  /// `options.defeature` was merged in them; nothing if nothing was, or if there are no triangles.
-  [[nodiscard]] virtual std::optional<coarse::CoarseSurface> mesh_merged(
-      const coarse::CoarseOptions& /*options*/) const
-  {
-    return std::nullopt;
-  }
-
   /// @brief The surfaces of the parts that `tree` cuts the model into.
   /// @throws ConfigError if the model has no solids that could be cut.
   [[nodiscard]] virtual coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,

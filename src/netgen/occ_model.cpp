@@ -85,8 +85,6 @@ class OccModel final : public LoadedModel {
   using LoadedModel::mesh_surface;
   [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
                                                    const NetgenSurfaceUser& use) const override;
-  [[nodiscard]] std::optional<coarse::CoarseSurface> mesh_merged(
-      const coarse::CoarseOptions& options) const override;
   [[nodiscard]] coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
                                                  const cut::CutTree& tree) const override;
 
@@ -98,7 +96,6 @@ class OccModel final : public LoadedModel {
                                                  const CutShape& cut) const;
   [[nodiscard]] std::string solid_name(LocalIndex material) const;
   [[nodiscard]] coarse::CoarseSurface remesh(const coarse::SurfaceReference& reference,
-                                             const coarse::PatchSurface& start,
                                              const coarse::CoarseOptions& options) const;
   static void guess_parameters(const coarse::SurfaceReference& reference, mesh::CoarseMesh& mesh);
   static void triangulate_for_sizes(const TopoDS_Shape& shape);
@@ -226,33 +223,23 @@ GeometryNumbers OccModel::numbers_of_parts(const ::netgen::OCCGeometry& geometry
   return numbers;
 }
 
-std::optional<coarse::CoarseSurface> OccModel::mesh_merged(
-    const coarse::CoarseOptions& options) const
-{
-  return with_occ_errors(file_name_, [&] {
-    const coarse::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
-    return mesh_merged_triangles(
-        reference, options.defeature,
-        [&](const coarse::PatchSurface& start) { return remesh(reference, start, options); });
-  });
-}
-
 // Where NETGEN cannot mesh a face: OpenCASCADE's triangles, made well-shaped and put on the faces.
 coarse::CoarseSurface OccModel::remesh(const coarse::SurfaceReference& reference,
-                                       const coarse::PatchSurface& start,
                                        const coarse::CoarseOptions& options) const
 {
   // Solids that overlap were cut, if they could be. So where two cut each other now, they touch or
   // nearly do, as a ball and its race, and chords of one lie in the other.
   const auto forbidden =
       content_.may_overlap ? coarse::Forbidden::all_cuts : coarse::Forbidden::cuts_within_bodies;
-  const coarse::PatchSurface surface =
-      coarse::remesh_on_geometry(reference, start, *this, options, forbidden);
+  coarse::RemeshedSurface remeshed =
+      coarse::remesh_on_geometry(reference, *this, options, forbidden);
+  const coarse::PatchSurface& surface = remeshed.surface;
   const SurfaceNames names{
       [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
       [this](LocalIndex material) { return solid_name(material); }};
   require_no_overlaps(coarse::forbidden_overlaps(surface, forbidden), surface, names, file_name_);
   coarse::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names);
+  coarse.defeatured = std::move(remeshed.defeatured);
   add_parameters(reference, coarse.mesh);
   return coarse;
 }
@@ -328,7 +315,7 @@ coarse::CoarseSurface OccModel::mesh_surface(const coarse::CoarseOptions& option
   if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
     return with_occ_errors(file_name_, [&] {
       const coarse::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
-      return remesh(reference, reference.surface(), options);
+      return remesh(reference, options);
     });
   }
   NetgenSession session(coarse_parameters(options));

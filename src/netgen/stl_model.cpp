@@ -139,31 +139,23 @@ class StlModel final : public LoadedModel {
     if (options.surface_mesher == coarse::SurfaceMesher::netgen)
       return mesh_stl_surface(surface_, features_, options, name_, use);
     const coarse::SurfaceReference reference(patches_of(surface_, features_));
-    return remesh(reference, reference.surface(), options);
-  }
-
-  [[nodiscard]] std::optional<coarse::CoarseSurface> mesh_merged(
-      const coarse::CoarseOptions& options) const override
-  {
-    const coarse::SurfaceReference reference(patches_of(surface_, features_));
-    return mesh_merged_triangles(
-        reference, options.defeature,
-        [&](const coarse::PatchSurface& start) { return remesh(reference, start, options); });
+    return remesh(reference, options);
   }
 
  private:
   // Where NETGEN cannot mesh the surface or never ends: our own triangles, made well-shaped.
   [[nodiscard]] coarse::CoarseSurface remesh(const coarse::SurfaceReference& reference,
-                                             const coarse::PatchSurface& start,
                                              const coarse::CoarseOptions& options) const
   {
     const SurfaceNames names{
         [this](LocalIndex patch) { return features_.patch_names[at(patch)]; },
         [this](LocalIndex material) { return surface_.material_names[at(material - 1)]; }};
-    const coarse::PatchSurface surface =
-        coarse::remesh_on_geometry(reference, start, *this, options);
+    coarse::RemeshedSurface remeshed = coarse::remesh_on_geometry(reference, *this, options);
+    const coarse::PatchSurface& surface = remeshed.surface;
     require_no_overlaps(coarse::find_overlaps(surface), surface, names, name_);
-    return to_coarse_surface(surface, options.max_size, names);
+    coarse::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names);
+    coarse.defeatured = std::move(remeshed.defeatured);
+    return coarse;
   }
 
   // Nothing is near a point that is not finite.

@@ -126,7 +126,7 @@ void run(const std::string& size, const std::string& file, bool with_fill)
 
   const double begin = cpu_seconds();
   const coarse::PatchSurface surface =
-      coarse::remesh_on_geometry(reference, reference.surface(), *model, options);
+      coarse::remesh_on_geometry(reference, *model, options).surface;
   const double seconds = cpu_seconds() - begin;
   std::printf("%s: %zu triangles that cut at %zu pairs -> ",
               file.substr(file.rfind('/') + 1).c_str(), num_given, given_cuts);

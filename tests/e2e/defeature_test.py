@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""coarse.defeature: small edges and narrow faces of a model are merged, and the report says which."""
+"""size.min: small edges and narrow faces of a model are merged, and the report says which."""
 import json
 import unittest
 
@@ -46,7 +46,7 @@ class Defeature(program.ProgramTest):
         model = program.CONFIGS / "geometry" / "ledge.brep"
         for name in (model, "ledge.stl"):
             with self.subTest(model=name):
-                case = self.case(name, "coarse.defeature = 0.01")
+                case = self.case(name, "size.min = 0.01")
                 one = self.mesh(case, "one", "--overwrite")
                 three = self.mesh(case, "three", "--overwrite", ranks=3)
                 self.assertEqual(program.mesh_files(one), program.mesh_files(three))
@@ -63,45 +63,57 @@ class Defeature(program.ProgramTest):
                 self.assertLess(report["num_tets"], 20000)
                 self.assert_checked(one, 1e-9)
                 log = (one / "log/run.log").read_text()
-                self.assertIn("has merged 3 edges and 1 faces", log)
+                self.assertIn("was merged (size.min), 3 edges and 1 faces", log)
                 self.assertIn(face["name"], log)
                 self.assertIn("merged", (one / "report.html").read_text())
 
     def test_what_is_larger_stays_and_the_mesh_is_as_without(self):
         self.write("ledge.stl", ledge_stl().replace(str(STEP), "0.5"))
         case = self.case("ledge.stl", "fill.kernel = 'subdivide'")
-        plain = self.mesh(case, "plain")
-        asked = self.mesh(case, "asked", *sets("coarse.defeature=0.01"))
-        self.assertEqual(program.figures(plain)["digest"], program.figures(asked)["digest"])
-        self.assertNotIn("defeatured", program.figures(plain)["coarse"])
-        self.assertEqual(program.figures(asked)["coarse"]["defeatured"]["num_faces"], 0)
-        self.assertIn("as small as coarse.defeature", (asked / "log/run.log").read_text())
+        none = self.mesh(case, "none", *sets("size.min=0"))
+        asked = self.mesh(case, "asked", *sets("size.min=0.01"))
+        self.assertEqual(program.figures(none)["digest"], program.figures(asked)["digest"])
+        self.assertNotIn("defeatured", program.figures(asked)["coarse"])
+
+    def test_the_default_follows_the_target(self):
+        """A twentieth of 0.25, or nothing."""
+        case = self.write("target.toml", "geometry.file = 'ledge.stl'\nsize.target = 0.25\n")
+        report, merged = self.merged(self.mesh(case, "default"))
+        self.assertEqual((merged["tolerance"], merged["num_faces"]), (0.0125, 1))
+        none = self.mesh(case, "none", *sets("size.min=0"))
+        self.assertNotIn("defeatured", program.figures(none)["coarse"])
+        self.assertGreater(program.figures(none)["num_tets"], report["num_tets"])
+
+    def test_what_the_case_names_stays(self):
+        """The step is a face of its own, and has a name or a size; else it would be merged."""
+        names = "[[geometry.name]]\nname = 'step'\npatch = {{ faces = [{}] }}\n"
+        step = self.mesh(self.case("ledge.stl", "size.min = 0.01"), "plain")
+        number = program.figures(step)["coarse"]["defeatured"]["faces"][0]["number"]
+        for lines in (names.format(number), f"[[size.region]]\npatch = '*_{number}'\nsize = 0.9\n"):
+            with self.subTest(lines=lines):
+                case = self.case("ledge.stl", "size.min = 0.01", lines)
+                folder = self.mesh(case, "kept", "--overwrite")
+                merged = program.figures(folder)["coarse"].get("defeatured", {"faces": []})
+                self.assertNotIn(number, [face["number"] for face in merged["faces"]])
 
     def test_a_scaled_model_has_its_tolerance_in_output_units(self):
-        case = self.case("ledge.stl", "coarse.defeature = 10.0", "geometry.scale = 1000.0", max_size=1000.0)
+        case = self.case("ledge.stl", "size.min = 10.0", "geometry.scale = 1000.0", max_size=1000.0)
         report = json.loads((self.mesh(case, "mm") / "report.json").read_text())
         merged = report["coarse"]["defeatured"]
         self.assertEqual((report["status"], merged["num_faces"]), ("ok", 1))
         self.assertAlmostEqual(merged["faces"][0]["area"], 4e6 * STEP, places=3)
 
     def test_what_may_not_be_asked(self):
-        self.write("mesh.vtu", "")
-        for geometry, lines, words in (
-            ("ledge.stl", ["coarse.defeature = -1"], ["case.toml", "coarse.defeature = -1", "must be"]),
-            ("ledge.stl", ["coarse.defeature = 0.6"], ["case.toml", "coarse.defeature = 0.6", "at most 0.5"]),
-            ("ledge.stl", ["coarse.defeature = 'x'"], ["coarse.defeature", "must be"]),
+        for line, words in (
+            ("size.min = -1", ["case.toml", "size.min = -1", "must be"]),
+            ("size.min = 'x'", ["size.min", "must be"]),
+            ("coarse.defeature = 0.1", ["case.toml", "coarse.defeature is size.min now"]),
         ):
-            with self.subTest(lines=lines):
-                case = self.case(geometry, *lines)
+            with self.subTest(line=line):
+                case = self.case("ledge.stl", line)
                 for ranks in (None, 2):
                     outcome = self.run_program("mesh", case, "--output", "no", ranks=ranks)
                     self.assert_refused(outcome, WRONG_INPUT, *words)
-        target = self.write("target.toml", "geometry.file = 'ledge.stl'\nsize.target = 0.5\ncoarse.defeature = 2\n")
-        outcome = self.run_program("mesh", target, "--output", "no")
-        self.assert_refused(outcome, WRONG_INPUT, "coarse.defeature = 2", "half of coarse.max_size")
-        own = self.write("own.toml", "geometry.file = 'mesh.vtu'\ncoarse.defeature = 0.1\n")
-        outcome = self.run_program("mesh", own, "--output", "no")
-        self.assert_refused(outcome, WRONG_INPUT, "coarse.defeature", "leave it out")
 
 
 if __name__ == "__main__":

@@ -58,7 +58,7 @@ enum class Repair : int {
   finer_coarse_size,   ///< A smaller coarse.max_size.
   remeshed_triangles,  ///< The remesher takes the place of NETGEN's surface mesher.
   more_curvature,      ///< A larger coarse.curvature.
-  without_defeature,   ///< No coarse.defeature.
+  netgen_surface,      ///< NETGEN's surface mesher takes the place of the remesher.
   gmsh_mesh,           ///< Gmsh takes the place of all.
   uncut_model,         ///< The model is meshed as a whole, as its parts cannot be.
   // Coarse tets.
@@ -151,7 +151,7 @@ constexpr auto enum_words(Repair /*type*/)
       {finer_coarse_size, "finer_coarse_size"},
       {remeshed_triangles, "remeshed_triangles"},
       {more_curvature, "more_curvature"},
-      {without_defeature, "without_defeature"},
+      {netgen_surface, "netgen_surface"},
       {gmsh_mesh, "gmsh_mesh"},
       {uncut_model, "uncut_model"},
       {whole_domains, "whole_domains"},

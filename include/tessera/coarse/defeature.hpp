@@ -7,6 +7,7 @@
 
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/coarse/options.hpp"
 #include "tessera/coarse/patch_surface.hpp"
 #include "tessera/model/model.hpp"
 
@@ -41,23 +42,32 @@ struct Defeatured {
   [[nodiscard]] bool is_any() const { return !places.empty(); }
 };
 
+/// @brief What may be merged.
+struct MergeLimits {
+  double tolerance = 0.0;  ///< > 0, the surface's unit.
+  KeptParts kept{};        ///< No triangle of these patches goes, and no edge of these curves.
+
+  /// @brief What is longer is not small. Of a wall that is as thick as the tolerance, rounding
+  /// would merge some places only.
+  [[nodiscard]] double most() const { return (1.0 - 1e-6) * tolerance; }
+};
+
 /// @brief The point of a curve nearest to a point. `near`: a vertex on the curve and not far away.
 /// kNoPoint if the curve is none of the model.
 using OnCurve = std::function<Vec3(LocalIndex curve, LocalIndex near, const Vec3& point)>;
 
 /// @brief Merges what is smaller than a tolerance in a surface that follows a model. Local.
 ///
-/// Edges that are not longer are collapsed, shortest first, onto the end that is bound most: ends
-/// of curves, then points of curves, then others. A vertex that is not farther from a curve whose
+/// Shorter edges are collapsed, shortest first, onto the end that is bound most: ends
+/// of curves, then points of curves, then others. A vertex that is nearer to a curve whose
 /// edge is opposite to it goes into this edge. So narrow patches vanish, and of two curves that
 /// become one the lower counts. No vertex is moved by more than the tolerance in all. A step is
 /// taken if every domain stays bounded by a closed surface, nothing crosses, and nothing folds.
 ///
 /// If something was merged, parameters on curves and patches are dropped. The same arguments give
 /// the same bits.
-/// @param[in] tolerance > 0, the surface's unit.
 [[nodiscard]] Defeatured defeature(PatchSurface& surface, const OnCurve& on_curve,
-                                   double tolerance);
+                                   const MergeLimits& limits);
 
 /// @brief In coarse_surface.hpp.
 struct CoarseSurface;
@@ -68,13 +78,13 @@ class SurfaceReference;
 /// @param[in] reference  Of the same triangles.
 /// @throws GeometryError if a projection fails.
 [[nodiscard]] Defeatured defeature(PatchSurface& surface, const SurfaceReference& reference,
-                                   const model::Model& model, double tolerance);
+                                   const model::Model& model, const MergeLimits& limits);
 
 /// @brief The same of a coarse surface, into whose block `defeatured` goes what was merged. Local.
 ///
 /// Parameters of what has changed are good guesses. Vertices keep their numbers, and some are of no
 /// face any more.
 /// @return Whether anything was merged. @throws GeometryError if a projection fails.
-bool defeature(CoarseSurface& surface, const model::Model& model, double tolerance);
+bool defeature(CoarseSurface& surface, const model::Model& model, const MergeLimits& limits);
 
 }  // namespace tessera::coarse

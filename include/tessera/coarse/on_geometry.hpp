@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "tessera/coarse/defeature.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/surface_overlap.hpp"
 #include "tessera/coarse/surface_reference.hpp"
@@ -16,7 +17,15 @@ namespace tessera::coarse {
 void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
                      const model::Model& model);
 
+/// @brief A surface on the geometry.
+struct RemeshedSurface {
+  PatchSurface surface{};
+  Defeatured defeatured{};  ///< What `options.defeature` has merged in it.
+};
+
 /// @brief Remeshes a tessellation and puts it on the geometry. Local.
+///
+/// What is smaller than `options.defeature` is merged in what came out, which is remeshed then.
 ///
 /// A surface may then cut itself, as at a gap that is narrower than its triangles are long. The
 /// same is done again with shorter edges at forbidden cuts, a few times; at others as long as that
@@ -24,11 +33,10 @@ void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
 /// on their first level of refinement, as in a strip that is narrower than arcs beside it are high.
 /// There edges get shorter as well, as long as that leaves fewer of them.
 /// @param[in] reference  As put_on_geometry().
-/// @param[in] start      As remesh().
 /// @throws GeometryError if a projection fails.
-[[nodiscard]] PatchSurface remesh_on_geometry(const SurfaceReference& reference,
-                                              const PatchSurface& start, const model::Model& model,
-                                              const CoarseOptions& options,
-                                              Forbidden forbidden = Forbidden::all_cuts);
+[[nodiscard]] RemeshedSurface remesh_on_geometry(const SurfaceReference& reference,
+                                                 const model::Model& model,
+                                                 const CoarseOptions& options,
+                                                 Forbidden forbidden = Forbidden::all_cuts);
 
 }  // namespace tessera::coarse

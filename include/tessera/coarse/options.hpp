@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <tuple>
+#include <vector>
 
 #include "tessera/base/enum_words.hpp"
+#include "tessera/base/types.hpp"
 #include "tessera/mesh/size_points.hpp"
 
 namespace tessera::coarse {
@@ -45,6 +48,26 @@ constexpr auto enum_words(Mesher /*tag*/)
   });
 }
 
+/// @brief Patches and curves that a case names, so that it counts on them. The model's numbers,
+/// ascending.
+struct KeptParts {
+  std::vector<LocalIndex> patches{};
+  std::vector<LocalIndex> curves{};
+
+  [[nodiscard]] bool has_patch(LocalIndex patch) const
+  {
+    return std::ranges::binary_search(patches, patch);
+  }
+  [[nodiscard]] bool has_curve(LocalIndex curve) const
+  {
+    return std::ranges::binary_search(curves, curve);
+  }
+
+  static auto fields(auto& self) { return std::tie(self.patches, self.curves); }
+
+  friend bool operator==(const KeptParts&, const KeptParts&) = default;
+};
+
 /// @brief Options of the coarse mesh; table `[coarse]` of a case file.
 struct CoarseOptions {
   Mesher mesher = Mesher::netgen;
@@ -55,8 +78,9 @@ struct CoarseOptions {
   /// STL: dihedral angle from which an edge is a feature, degrees, in (0, 180).
   double feature_angle_deg = 30.0;
 
-  /// Edges not longer than this are merged, and faces as narrow; output length unit, >= 0; 0: none.
+  /// Shorter edges are merged, and narrower faces; output length unit, >= 0; 0: none.
   double defeature = 0.0;
+  KeptParts kept{};  ///< These are not merged, however small.
 
   bool optimize = false;  ///< Whether optimize_interior() follows.
 
@@ -70,8 +94,8 @@ struct CoarseOptions {
   static auto fields(auto& self)
   {
     return std::tie(self.mesher, self.max_size, self.grading, self.curvature,
-                    self.feature_angle_deg, self.defeature, self.optimize, self.surface_mesher,
-                    self.timeout_s, self.points);
+                    self.feature_angle_deg, self.defeature, self.kept, self.optimize,
+                    self.surface_mesher, self.timeout_s, self.points);
   }
 
   friend bool operator==(const CoarseOptions&, const CoarseOptions&) = default;

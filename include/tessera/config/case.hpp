@@ -73,10 +73,6 @@ struct Case {
 /// @param[in] is_partial Only some subdomains are made: then no tets are divided.
 [[nodiscard]] fill::FillOptions resolved_fill(const Case& given, bool is_partial);
 
-/// @brief Throws ConfigError if coarse.defeature is above half of coarse.max_size, which is given.
-/// `where`: the case file. Local.
-void require_small_defeature(const Case& resolved, const std::string& where);
-
 /// @brief Throws ConfigError if a number is out of its range in a case that a program has made. The
 /// default of a key that has none in case files says that it is not given. `where`: names the case.
 /// Lists of tables are not looked at. Local.

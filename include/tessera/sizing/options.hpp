@@ -87,7 +87,9 @@ struct SizeOptions {
   /// Wanted edge length, output length unit, > 0; 0: not given, then coarse.max_size and
   /// refine.levels say it.
   double target = 0.0;
-  double min = 0.0;        ///< No size below this is wanted, output length unit; 0: no bound.
+  /// No size below this is wanted, and smaller features of the model are merged; output length
+  /// unit, >= 0; 0: nothing is. Less than 0: not given, least_size() says it.
+  double min = -1.0;
   double max = 0.0;        ///< No size above this is wanted, output length unit; 0: no bound.
   double grading = 0.3;    ///< Largest growth of the size per length, in (0, 1].
   double curvature = 0.0;  ///< Edges per radius of curvature that the surface has at least; 0: as

@@ -240,7 +240,7 @@ TEST(SizeFunction, MakesEdgesShorterAroundASource)
   const SurfaceReference reference(ball);
   CoarseOptions options = rough();
   options.max_size = 0.3;
-  SizeFunction sizes = size_function_of(reference, ball, options);
+  SizeFunction sizes = size_function_of(reference, options);
   const PatchSurface before = remesh(reference, ball, sizes);
   const Vec3 place = before.vertex_xyz[0];
   sizes.limit({{{place, place, place}, 0.1 * sizes(place)}});

@@ -71,12 +71,12 @@ class Prism {
     return a + (dot(point - a, b - a) / dot(b - a, b - a)) * (b - a);
   }
 
-  Defeatured merge(double tolerance = kTolerance)
+  Defeatured merge(double tolerance = kTolerance, const KeptParts& kept = {})
   {
     return defeature(
         surface,
         [this](LocalIndex curve, LocalIndex, const Vec3& point) { return on_curve(curve, point); },
-        tolerance);
+        MergeLimits{tolerance, kept});
   }
 
   PatchSurface surface{};
@@ -257,6 +257,34 @@ TEST(Defeature, LeavesAPlateThatIsThinnerThanTheToleranceClosed)
   expect_sound(prism.surface);
 }
 
+TEST(Defeature, KeepsPatchesAndCurvesThatTheCaseNames)
+{
+  constexpr LocalIndex kOfStep = 3;
+  Prism with_patch(block_with_step());
+  EXPECT_FALSE(with_patch.merge(kTolerance, {.patches = {kOfStep}}).is_any());
+
+  constexpr LocalIndex kLong = 3 * kOfStep + 2;
+  Prism with_curve(block_with_step());
+  const Defeatured done = with_curve.merge(kTolerance, {.curves = {kLong}});
+  EXPECT_NE(std::ranges::find(with_curve.surface.edge_curve, kLong),
+            with_curve.surface.edge_curve.end());
+  EXPECT_TRUE(std::ranges::none_of(done.curves,
+                                   [](const MergedPart& curve) { return curve.number == kLong; }));
+  expect_sound(with_curve.surface);
+}
+
+TEST(Defeature, LeavesAPlateThatIsThinnerThanTheTolerance)
+{
+  Prism plate({{10.0, 0.0}, {10.0, 0.5 * kTolerance}, {0.0, 0.5 * kTolerance}, {0.0, 0.0}});
+  EXPECT_FALSE(plate.merge().is_any()) << "its sides would lie on each other, first at a corner";
+}
+
+TEST(Defeature, LeavesWhatIsJustAsLongAsTheTolerance)
+{
+  Prism prism(block_with_step(kTolerance));
+  EXPECT_FALSE(prism.merge().is_any());
+}
+
 TEST(Defeature, KeepsParametersOfACoarseSurface)
 {
   const testing::CylinderModel model;
@@ -274,7 +302,7 @@ TEST(Defeature, KeepsParametersOfACoarseSurface)
   const LocalIndex b = mesh.segment_vertices[1];
   const double length = norm(mesh.position(a) - mesh.position(b));
   const LocalIndex before = mesh.num_faces();
-  const bool is_any = defeature(surface, model, 1.0001 * length);
+  const bool is_any = defeature(surface, model, MergeLimits{1.0001 * length, {}});
   EXPECT_TRUE(is_any);
   EXPECT_EQ(is_any, surface.defeatured.is_any());
   EXPECT_LT(mesh.num_faces(), before);

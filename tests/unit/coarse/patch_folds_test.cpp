@@ -113,7 +113,7 @@ TEST(PatchFolds, AreNotLeftByTheRemesher)
   put_on_geometry(before, reference, model);
   ASSERT_FALSE(folding_triangles(before, reference, model).empty());
 
-  const PatchSurface after = remesh_on_geometry(reference, reference.surface(), model, large());
+  const PatchSurface after = remesh_on_geometry(reference, model, large()).surface;
   EXPECT_NO_THROW(validate(after));
   EXPECT_TRUE(folding_triangles(after, reference, model).empty());
   EXPECT_LT(after.triangles.size(), 10 * before.triangles.size());

@@ -165,10 +165,15 @@ TEST(Remesh, HasShortEdgesInANarrowStripAndNotElsewhere)
   constexpr double kThickness = 0.04;
   for (Vec3& p : plate.vertex_xyz) p[2] *= kThickness;
   const std::vector<SizeSource> strips =
-      narrow_strips_of(EditableSurface(plate, std::vector<double>(8, 1.0)), 1.0);
+      narrow_strips_of(EditableSurface(plate, std::vector<double>(8, 1.0)), of_size(1.0));
   EXPECT_EQ(strips.size(), 8U) << "the long edges of the four narrow faces";
   for (const SizeSource& strip : strips) EXPECT_NEAR(strip.size, 4.0 * kThickness, 1e-12);
-  EXPECT_TRUE(narrow_strips_of(EditableSurface(cube(), std::vector<double>(8, 1.0)), 1.0).empty());
+  EXPECT_TRUE(
+      narrow_strips_of(EditableSurface(cube(), std::vector<double>(8, 1.0)), of_size(1.0)).empty());
+  CoarseOptions merging = of_size(1.0);
+  merging.defeature = 1.1 * kThickness;
+  EXPECT_TRUE(
+      narrow_strips_of(EditableSurface(plate, std::vector<double>(8, 1.0)), merging).empty());
 }
 
 TEST(Remesh, PutsVerticesOfCurvesOnTheModel)

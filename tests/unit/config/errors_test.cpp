@@ -94,10 +94,10 @@ TEST(ConfigErrors, NumbersOutsideTheirRangeAreRefused)
 {
   for (const char* line :
        {"grading = 0", "grading = 1.01", "grading = nan", "grading = inf", "grading = -inf",
-        "curvature = -1", "feature_angle_deg = 180", "defeature = -0.1",
-        "[decompose]\nsubdomains = 0", "[decompose]\nsubdomains = -4", "[refine]\nlevels = 11",
-        "[refine]\nlevels = -1", "[fill]\nmemory_gib = 0", "[fill]\ntimeout_s = -1",
-        "[quality]\nmin_dihedral_deg = 71", "[quality]\nmin_mean_ratio = nan"}) {
+        "curvature = -1", "feature_angle_deg = 180", "[decompose]\nsubdomains = 0",
+        "[decompose]\nsubdomains = -4", "[refine]\nlevels = 11", "[refine]\nlevels = -1",
+        "[fill]\nmemory_gib = 0", "[fill]\ntimeout_s = -1", "[quality]\nmin_dihedral_deg = 71",
+        "[quality]\nmin_mean_ratio = nan"}) {
     EXPECT_NE(error_of_key(line).find("must be a"), std::string::npos) << line;
   }
   // toml11 4 refuses by itself what no number holds.
@@ -210,10 +210,12 @@ TEST(ConfigErrors, BytesThatAreNoUtf8AreRefused)
             "case.toml:2: not valid TOML: holds bytes that are not UTF-8");
 }
 
-TEST(ConfigErrors, SmallestSizeAloneIsRefused)
+TEST(ConfigErrors, AKeyThatHasAnotherNameNowSaysIt)
 {
-  const std::string text = "geometry.file = 'a.geo'\ncoarse.max_size = 2\nsize.min = 1\n";
-  EXPECT_NE(error_of(text).find("size.min alone says nothing"), std::string::npos);
+  const std::string text = "geometry.file = 'a.geo'\ncoarse.max_size = 2\ncoarse.defeature = 1\n";
+  EXPECT_EQ(
+      error_of(text),
+      "case.toml:3: coarse.defeature is size.min now: give size.min the value that it has here");
 }
 
 TEST(ConfigErrors, ModelAndSizeAreRequired)

@@ -60,7 +60,7 @@ TEST(SizeKeys, FieldIsRelativeToTheCaseFileAndAbsoluteOnesStay)
 
 TEST(SizeKeys, RefuseWhatIsOutOfRange)
 {
-  for (const char* line : {"size.min = 0", "size.max = -1", "size.grading = 0",
+  for (const char* line : {"size.max = 0", "size.max = -1", "size.grading = 0",
                            "size.grading = 1.5", "size.max = nan"}) {
     EXPECT_NE(error_of(line).find("case.toml:3: size."), std::string::npos) << line;
     EXPECT_NE(error_of(line).find("must be a number > 0"), std::string::npos) << line;
@@ -68,6 +68,8 @@ TEST(SizeKeys, RefuseWhatIsOutOfRange)
   EXPECT_NE(error_of("size.min = 2\nsize.max = 1").find("size.min = 2.0 is above size.max = 1.0"),
             std::string::npos);
   EXPECT_EQ(error_of("size.min = 2\nsize.max = 2"), "");
+  EXPECT_EQ(error_of("size.min = 0"), "") << "nothing is merged";
+  EXPECT_NE(error_of("size.min = -1").find("must be a number >= 0"), std::string::npos);
 }
 
 TEST(SizeKeys, ARegionOrAFieldIsNoSizeOfAllElse)

@@ -36,7 +36,6 @@ Case complete_case()
                    .grading = 0.1,
                    .curvature = 99.5,
                    .feature_angle_deg = 12.25,
-                   .defeature = 4e-8,
                    .optimize = true};
   wanted.decompose.subdomains = 77;
   wanted.refine.levels = 0;

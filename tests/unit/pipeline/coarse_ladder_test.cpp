@@ -45,6 +45,13 @@ TEST_F(CoarseLadderTest, WhatWouldFollowAnEndlessRungBeginsFirst)
   EXPECT_EQ(all_next(), (Rungs{3, 4, 1, 2}));
 }
 
+TEST(CoarseLadder, TriesNetgenAfterOthersThatNeverEnded)
+{
+  CoarseLadder ladder({{.is_netgen = false}, {.is_netgen = false}, {}}, [] { return 0.0; });
+  for (const LocalIndex rung : {0, 1}) ladder.ended(rung, to_bytes(RungEnd::endless), 0);
+  EXPECT_EQ(ladder.front(), 2);
+}
+
 TEST_F(CoarseLadderTest, AfterAFailureTheOrderOfRungsCounts)
 {
   EXPECT_EQ(all_next(), (Rungs{0}));
