@@ -88,8 +88,8 @@ void replace(CoarseResult& first, CoarseResult second)
   first.was_limited = second.was_limited;
 }
 
-// The remesher, which also makes what is left of merged parts, sees walls by itself; Gmsh takes no
-// sizes at points, and a mesh is as it is.
+// Where something was merged, short edges would bring back what was small; Gmsh takes no sizes at
+// points, and a mesh is as it is.
 bool may_be_finer_at_places(const RunResult& run)
 {
   const coarse::CoarseOptions& options = run.coarse.options;
@@ -121,9 +121,9 @@ FinerPlaces finer_places(const CoarseResult& coarse, const coarse::FinerBefore& 
 }
 
 // What the finer mesh has of the one before: it has the same options.
-constexpr std::array kOfFinerMesh{Repair::thin_walls, Repair::narrow_strips,
+constexpr std::array kOfFinerMesh{Repair::thin_walls,        Repair::narrow_strips,
                                   Repair::finer_coarse_size, Repair::more_curvature,
-                                  Repair::netgen_surface};
+                                  Repair::netgen_surface,    Repair::remeshed_triangles};
 
 // Once more with smaller edges in thin walls and narrow strips. The better one of the two counts;
 // whether that is the finer one.

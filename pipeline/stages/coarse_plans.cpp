@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/jobs/run_program.hpp"
+#include "tessera/model/options.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/stages/coarse_budget.hpp"
@@ -22,8 +22,7 @@ namespace {
 bool is_for_gmsh(const config::Case& run_case)
 {
   constexpr std::array<std::string_view, 5> kKinds{".step", ".stp", ".iges", ".igs", ".brep"};
-  std::string kind = run_case.geometry.file.extension().string();
-  std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string kind = model::lower_case_extension(run_case.geometry.file);
   return run_case.coarse.mesher == coarse::Mesher::netgen
          && std::ranges::find(kKinds, kind) != kKinds.end();
 }
@@ -34,15 +33,14 @@ bool has_gmsh() { return jobs::is_on_path("gmsh"); }
 std::vector<coarse::CoarseOptions> tries_for(const config::Case& run_case)
 {
   if (model::is_mesh_name(run_case.geometry.file)) return {run_case.coarse};
-  const bool is_csg = run_case.geometry.file.extension() == ".geo";
-  if (is_csg || run_case.coarse.mesher == coarse::Mesher::gmsh)
-    return coarse_fallbacks(run_case.coarse);
+  const bool is_csg = model::lower_case_extension(run_case.geometry.file) == ".geo";
+  const bool is_gmsh = run_case.coarse.mesher == coarse::Mesher::gmsh;
+  if (is_csg || is_gmsh) return coarse_fallbacks(run_case.coarse);
   coarse::CoarseOptions ours = run_case.coarse;
   ours.surface_mesher = coarse::SurfaceMesher::remesh;
   coarse::CoarseOptions finer = ours;
   finer.max_size *= 0.5;
   coarse::CoarseOptions netgen = run_case.coarse;
-  netgen.surface_mesher = coarse::SurfaceMesher::netgen;
   netgen.defeature = 0.0;
   return {ours, finer, netgen};
 }
@@ -53,20 +51,22 @@ struct Attempt {
   bool is_cut = false;
 };
 
-// Parts that NETGEN cannot mesh once are tried finer once. What worked uncut must go on to work.
-// Gmsh comes last, so that no mesh that Tessera can make depends on what is installed.
+// Surfaces of parts are NETGEN's; what it cannot mesh once is tried finer once. What worked uncut
+// must go on to work. Gmsh comes last, so that no mesh that Tessera can make depends on what is
+// installed.
 std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTree& planes,
                                  bool with_gmsh)
 {
   constexpr std::size_t kTriesOfParts = 2;
-  const std::vector<coarse::CoarseOptions> fallbacks = tries_for(run_case);
   std::vector<Attempt> attempts;
   if (planes.num_parts > 0) {
-    for (std::size_t i = 0; i < std::min(kTriesOfParts, fallbacks.size()); ++i) {
-      attempts.push_back({fallbacks[i], true});
+    for (const coarse::CoarseOptions& options : coarse_fallbacks(run_case.coarse)) {
+      if (attempts.size() < kTriesOfParts) attempts.push_back({options, true});
     }
   }
-  for (const coarse::CoarseOptions& options : fallbacks) attempts.push_back({options, false});
+  for (const coarse::CoarseOptions& options : tries_for(run_case)) {
+    attempts.push_back({options, false});
+  }
   if (with_gmsh) {
     attempts.push_back({run_case.coarse, false});
     attempts.back().options.mesher = coarse::Mesher::gmsh;

@@ -15,9 +15,10 @@
 /// Which tries at the coarse mesh there are, and what each is told.
 namespace tessera::pipeline {
 
-/// @brief The tries at a coarse mesh, best first. A mesh that fails at one size often works at
-/// another, so after the try as asked come smaller sizes that grow more slowly, then more elements
-/// on curved surfaces. The last try is on the triangles of the model instead of its faces.
+/// @brief The tries at a coarse mesh whose surface NETGEN or Gmsh makes, best first: of CSG, of
+/// parts, of `coarse.mesher = "gmsh"`. A mesh that fails at one size often works at another, so
+/// after the try as asked come smaller sizes that grow more slowly, then more elements on curved
+/// surfaces. The last try is on the triangles of the model instead of its faces.
 [[nodiscard]] std::vector<coarse::CoarseOptions> coarse_fallbacks(
     const coarse::CoarseOptions& asked);
 

@@ -2,7 +2,6 @@
 #include "pipeline/stages/model_stage.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/model/options.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
@@ -23,9 +23,7 @@ constexpr jobs::JobLimits kModelLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_
 // What has a plain reader as well.
 bool has_two_readers(const std::filesystem::path& file)
 {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = model::lower_case_extension(file);
   return extension == ".step" || extension == ".stp" || extension == ".stl";
 }
 

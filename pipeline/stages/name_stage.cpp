@@ -13,6 +13,7 @@
 
 #include "tessera/base/name_patterns.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
@@ -82,7 +83,8 @@ coarse::KeptParts kept_parts(const model::ModelDescription& described,
   std::set<LocalIndex> patches;
   for (const model::NumberedName& face : named.faces) patches.insert(face.number - 1);
   for (const model::FaceDescription& face : described.faces) {
-    const std::string name = face.name.empty() ? fmt::format("patch_{}", face.number) : face.name;
+    const std::string name =
+        face.name.empty() ? mesh::default_patch_name(face.number - 1) : face.name;
     if (matches_any<sizing::PatchPattern>(regions, name)) patches.insert(face.number - 1);
   }
   std::set<LocalIndex> curves;
@@ -117,7 +119,8 @@ model::ModelDescription describe_model(const config::Case& given, RunContext& co
 
 PartsOfCase find_parts_of_case(const config::Case& given, model::Format format, RunContext& context)
 {
-  if (given.geometry.names.empty() && !names_parts(given.size.regions)) return {};
+  const bool keeps_parts = given.coarse.defeature > 0.0 && names_parts(given.size.regions);
+  if (given.geometry.names.empty() && !keeps_parts) return {};
   StageScope stage(context, "names");
   PartsOfCase parts = comm::on_root(context.comm, [&] {
     return with_file_context(given, [&] {

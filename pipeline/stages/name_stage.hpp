@@ -41,7 +41,7 @@ struct PartsOfCase {
 };
 
 /// @brief Which faces, solids and curves of the model the case names; asks nothing of the model if
-/// the case names none.
+/// the case gives no names, and names nothing that could be merged.
 /// @note Collective: the model is described in a job of rank 0.
 /// @throws ConfigError on every rank if a name of [[geometry.name]] fits nothing, or two fit the
 /// same.

@@ -88,10 +88,12 @@ config::Case resolve_size(const config::Case& given, RunContext& context)
 {
   if (model::is_mesh_name(given.geometry.file)) return given;
   config::Case resolved = given;
-  const bool has_target = given.size.target > 0.0;
-  const double volume =
-      has_target ? on_root(context.comm, [&] { return volume_of(given, context); }) : 0.0;
-  if (has_target && given.coarse.max_size == 0.0) {
+  const bool wants_max_size = given.size.target > 0.0 && given.coarse.max_size == 0.0;
+  const bool wants_least = given.size.target > 0.0 && given.size.min < 0.0;
+  const double volume = wants_max_size || wants_least
+                            ? on_root(context.comm, [&] { return volume_of(given, context); })
+                            : 0.0;
+  if (wants_max_size) {
     const int levels = levels_for(estimated_tets(volume, given.size.target));
     resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, levels);
     context.log.info("size.target {}: coarse.max_size = {}", given.size.target,

@@ -336,7 +336,7 @@ class Fitter {
   [[nodiscard]] std::string name_of_cad(LocalIndex patch) const
   {
     const std::string& name = cad_.patch_names[at(patch)];
-    return name.empty() ? fmt::format("patch_{}", cad_.patch_surface[at(patch)] + 1) : name;
+    return name.empty() ? mesh::default_patch_name(cad_.patch_surface[at(patch)]) : name;
   }
 
   // A material without a name has that of the solid which the CAD has on the same side of a face.

@@ -135,30 +135,13 @@ std::vector<std::size_t> triangles_of(const std::vector<Overlap>& overlaps)
   return triangles;
 }
 
-// Normals of the model tell its curvature better than those of triangles, which may be needles.
-SizeFunction sizes_on(const SurfaceReference& reference, const CoarseOptions& options)
-{
-  const PatchSurface& start = reference.surface();
-  if (start.triangle_max_size.empty()) return size_function_of(reference, options);
-  constexpr double kNoCurvature = std::numeric_limits<double>::min();
-  CoarseOptions of_the_rest = options;
-  of_the_rest.curvature = kNoCurvature;
-  SizeFunction sizes = size_function_of(reference, of_the_rest);
-  std::vector<SizeSource> sources;
-  for (std::size_t t = 0; t < start.triangles.size(); ++t) {
-    sources.push_back({start.corners(t), start.triangle_max_size[t]});
-  }
-  sizes.limit(sources);
-  return sizes;
-}
-
 // A surface on the geometry, with shorter edges where it would cut itself or fold.
 class Finer {
  public:
   Finer(const SurfaceReference& reference, const model::Model& model, const CoarseOptions& options)
       : reference_(reference),
         model_(model),
-        sizes_(sizes_on(reference, options)),
+        sizes_(size_function_of(reference, options)),
         surface_(remesh(reference, reference.surface(), sizes_, &model))
   {
     if (options.defeature > 0.0) merge({options.defeature, options.kept});

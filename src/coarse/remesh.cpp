@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "tessera/base/repair.hpp"
 
@@ -224,13 +226,30 @@ class Remesher {
   const EditableSurface& surface_;
 };
 
+// Normals of the model tell its curvature better than those of triangles, which may be needles.
+CoarseOptions for_bends_of_triangles(const PatchSurface& surface, CoarseOptions options)
+{
+  constexpr double kNoCurvature = std::numeric_limits<double>::min();
+  if (!surface.triangle_max_size.empty()) options.curvature = kNoCurvature;
+  return options;
+}
+
+std::vector<SizeSource> sizes_of_model(const PatchSurface& surface)
+{
+  std::vector<SizeSource> sources;
+  for (std::size_t t = 0; t < surface.triangle_max_size.size(); ++t) {
+    sources.push_back({surface.corners(t), surface.triangle_max_size[t]});
+  }
+  return sources;
+}
+
 }  // namespace
 
 SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOptions& options)
 {
   const PatchSurface& start = reference.surface();
   SizeFunction sizes(options);
-  sizes.limit(bent_places_of(start, options));
+  sizes.limit(bent_places_of(start, for_bends_of_triangles(start, options)));
   Remesher remesher(reference, start, sizes, nullptr);
   const EditableSurface& surface = remesher.with_short_edges();
   std::vector<SizeSource> sources = narrow_strips_of(surface, options);
@@ -240,6 +259,7 @@ SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOpt
     sources.insert(sources.end(), walls.begin(), walls.end());
   }
   sizes.limit(sources);
+  sizes.limit(sizes_of_model(start));
   return sizes;
 }
 

@@ -29,7 +29,7 @@ namespace tessera::coarse {
                                   const SizeFunction& sizes, const model::Model* model = nullptr);
 
 /// @brief The sizes that the options and the surface ask for: shorter edges where it bends, in
-/// narrow strips and at thin walls. Local.
+/// narrow strips and at thin walls, and where the model itself wants them. Local.
 [[nodiscard]] SizeFunction size_function_of(const SurfaceReference& reference,
                                             const CoarseOptions& options);
 

@@ -16,8 +16,8 @@ namespace {
 
 using Edge = PatchSurface::Edge;
 
-// Of the largest size: smaller radii and curves are not resolved. This mesher is for models with
-// defects, where radii of nothing would make millions of triangles.
+// Of the largest size: smaller radii and curves are not resolved. In models with defects, radii of
+// nothing would make millions of triangles.
 constexpr double kLeastSize = 0.1;
 
 // The same where the surface goes round: on wires, pins and their holes. With edges longer than the

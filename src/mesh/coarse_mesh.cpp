@@ -89,6 +89,8 @@ void validate_faces(const CoarseMesh& mesh)
 
 }  // namespace
 
+std::string default_patch_name(LocalIndex patch) { return fmt::format("patch_{}", patch + 1); }
+
 void validate(const CoarseMesh& mesh)
 {
   validate_shapes(mesh);

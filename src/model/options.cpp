@@ -44,11 +44,17 @@ std::string defect(const SolidCriteria& of) { return defect_of_box(of.box_min, o
 
 }  // namespace
 
-bool is_mesh_name(const std::filesystem::path& file)
+std::string lower_case_extension(const std::filesystem::path& file)
 {
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+bool is_mesh_name(const std::filesystem::path& file)
+{
+  const std::string extension = lower_case_extension(file);
   return extension == ".msh" || extension == ".vol" || extension == ".vtu";
 }
 

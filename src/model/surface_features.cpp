@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/half_edges.hpp"
 
 namespace tessera::model {
@@ -104,7 +105,7 @@ std::vector<std::string> name_patches(const TriangleSurface& surface,
     const std::string& solid = surface.solid_names[s];
     const std::string number = fmt::to_string(++solid_num_named[s]);
     if (solid.empty()) {
-      names.push_back(fmt::format("patch_{}", p + 1));
+      names.push_back(mesh::default_patch_name(static_cast<LocalIndex>(p)));
     } else {
       names.push_back(solid_num_patches[s] == 1 ? solid : fmt::format("{}_{}", solid, number));
     }

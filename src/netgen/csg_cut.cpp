@@ -193,7 +193,7 @@ void separate_patches(mesh::CoarseMesh& mesh)
       found->second = mesh.num_patches();
       const std::string name = mesh.patch_names[at(patch)];
       mesh.patch_names.push_back(
-          name == default_patch_name(patch) ? default_patch_name(found->second) : name);
+          name == mesh::default_patch_name(patch) ? mesh::default_patch_name(found->second) : name);
       mesh.patch_surface.push_back(mesh.patch_surface[at(patch)]);
     }
     is_taken[at(patch)] = true;

@@ -89,7 +89,7 @@ class Numbering {
       patch = mesh_.num_patches();
       const std::string name = name_of_patch(key[0], key[1], key[2]);
       mesh_.patch_surface.push_back(key[0]);
-      mesh_.patch_names.push_back(name.empty() ? default_patch_name(patch) : name);
+      mesh_.patch_names.push_back(name.empty() ? mesh::default_patch_name(patch) : name);
     }
     for (std::size_t f = 0; f < keys.size(); ++f) mesh_.face_patch[f] = patches[keys[f]];
   }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <fstream>
 #include <set>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/model/options.hpp"
 
 #include "netgen/gmsh_mesher.hpp"
 #include "netgen/loaded_model.hpp"
@@ -46,14 +46,6 @@ constexpr FileKind kFileKinds[] = {
     {".vtu", import_own_mesh},
 };
 
-std::string lower_case_extension(const fs::path& file)
-{
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 [[noreturn]] void throw_unknown_kind(const fs::path& file)
 {
   std::string allowed;
@@ -68,7 +60,7 @@ std::string lower_case_extension(const fs::path& file)
 const FileKind* find_kind(const fs::path& file)
 {
   const auto* const kind =
-      std::ranges::find(kFileKinds, lower_case_extension(file), &FileKind::extension);
+      std::ranges::find(kFileKinds, model::lower_case_extension(file), &FileKind::extension);
   return kind == std::ranges::end(kFileKinds) ? nullptr : kind;
 }
 

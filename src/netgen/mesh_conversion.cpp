@@ -65,7 +65,8 @@ class Conversion {
       const auto& face = from_.GetFaceDescriptor(*of_patch.begin());
       const std::string name = numbers_.patch_name ? numbers_.patch_name(face) : "";
       mesh_.patch_surface.push_back(numbers_.surface(face));
-      mesh_.patch_names.push_back(name.empty() ? default_patch_name(mesh_.num_patches()) : name);
+      mesh_.patch_names.push_back(name.empty() ? mesh::default_patch_name(mesh_.num_patches())
+                                               : name);
     }
   }
 
@@ -230,8 +231,6 @@ coarse::CadSurface surface_of_mesh(const ::netgen::Mesh& from, const GeometryNum
 {
   return SurfaceConversion(from, numbers).run();
 }
-
-std::string default_patch_name(LocalIndex patch) { return fmt::format("patch_{}", patch + 1); }
 
 void add_domains(coarse::CoarseSurface& surface, double max_size,
                  const std::function<LocalIndex(LocalIndex)>& material,

@@ -56,9 +56,6 @@ struct GeometryNumbers {
                                                       const GeometryNumbers& numbers,
                                                       double max_size, const std::string& what);
 
-/// @brief Name of a patch (from 0) to which the file gives none.
-[[nodiscard]] std::string default_patch_name(LocalIndex patch);
-
 /// @brief Adds the domains that faces bound, and their materials. Local.
 /// @param[in] material      Of a domain, both from 1.
 /// @param[in] material_name May be empty, and give empty texts: "material_N".

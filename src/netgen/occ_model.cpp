@@ -223,7 +223,7 @@ GeometryNumbers OccModel::numbers_of_parts(const ::netgen::OCCGeometry& geometry
   return numbers;
 }
 
-// Where NETGEN cannot mesh a face: OpenCASCADE's triangles, made well-shaped and put on the faces.
+// OpenCASCADE's triangles, made well-shaped and put on the faces.
 coarse::CoarseSurface OccModel::remesh(const coarse::SurfaceReference& reference,
                                        const coarse::CoarseOptions& options) const
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -20,6 +19,7 @@
 #include "tessera/coarse/smooth_surface.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/mesh/tet_topology.hpp"
+#include "tessera/model/options.hpp"
 #include "tessera/model/tet_mesh_file.hpp"
 #include "tessera/netgen/factory.hpp"
 
@@ -319,9 +319,7 @@ model::TetMeshFile read_vtu_mesh(const std::filesystem::path& file)
 
 model::TetMeshFile read_mesh_file(const std::filesystem::path& file)
 {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = model::lower_case_extension(file);
   if (extension == ".vtu") return read_vtu_mesh(file);
   return extension == ".vol" ? model::read_vol(file) : model::read_msh(file);
 }

@@ -143,7 +143,7 @@ class StlModel final : public LoadedModel {
   }
 
  private:
-  // Where NETGEN cannot mesh the surface or never ends: our own triangles, made well-shaped.
+  // The triangles of the file, made well-shaped.
   [[nodiscard]] coarse::CoarseSurface remesh(const coarse::SurfaceReference& reference,
                                              const coarse::CoarseOptions& options) const
   {

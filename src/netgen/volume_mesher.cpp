@@ -125,7 +125,7 @@ void add_patches(const coarse::PatchSurface& from, const SurfaceNames& names,
     row[at(p)] = to.mesh.num_patches();
     to.mesh.patch_surface.push_back(p);
     const std::string name = names.patch(p);
-    to.mesh.patch_names.push_back(name.empty() ? default_patch_name(row[at(p)]) : name);
+    to.mesh.patch_names.push_back(name.empty() ? mesh::default_patch_name(row[at(p)]) : name);
   }
   for (const LocalIndex patch : from.triangle_patch) {
     to.mesh.face_patch.push_back(row[at(patch)]);

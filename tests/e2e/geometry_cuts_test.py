@@ -85,6 +85,7 @@ class GeometryCuts(program.ProgramTest):
         report, _ = self.assert_checked(folder, 1e-9)
         self.assertTrue(report["decompose"]["parts_are_meshed"])
         self.assertEqual(report["decompose"]["num_parts"], 4)
+        self.assertEqual(report["coarse"]["surface_mesher"], "netgen")
         self.assertEqual(report["patch_names"], ["patch_1", "patch_2", "patch_3"])
 
     def test_planes_of_the_user_alone_are_the_cuts(self):

@@ -12,6 +12,9 @@
 
 namespace tessera::mesh {
 
+/// @brief The name of a patch that the model has none for. `patch`: from 0. Local.
+[[nodiscard]] std::string default_patch_name(LocalIndex patch);
+
 /// @brief What users call a curve of the model.
 struct NamedCurve {
   LocalIndex curve = kNoIndex;  ///< The Model's curve number.

@@ -50,6 +50,9 @@ struct PartName {
   friend bool operator==(const PartName&, const PartName&) = default;
 };
 
+/// @brief With its dot, in lower case. Local.
+[[nodiscard]] std::string lower_case_extension(const std::filesystem::path& file);
+
 /// @brief Whether a file's name is that of a tet mesh, which then is the coarse mesh: .msh, .vol or
 /// .vtu, in lower or upper case. The file need not exist. Local.
 [[nodiscard]] bool is_mesh_name(const std::filesystem::path& file);

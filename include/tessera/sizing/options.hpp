@@ -88,7 +88,8 @@ struct SizeOptions {
   /// refine.levels say it.
   double target = 0.0;
   /// No size below this is wanted, and smaller features of the model are merged; output length
-  /// unit, >= 0; 0: nothing is. Less than 0: not given, least_size() says it.
+  /// unit, >= 0; 0: nothing is. Less than 0: not given; then a twentieth of the target counts for
+  /// features, and sizes have no bound.
   double min = -1.0;
   double max = 0.0;        ///< No size above this is wanted, output length unit; 0: no bound.
   double grading = 0.3;    ///< Largest growth of the size per length, in (0, 1].
