@@ -2,6 +2,7 @@
 """What the end-to-end tests share: starting the program, tiny models and cases, its processes."""
 import contextlib
 import dataclasses
+import glob
 import hashlib
 import json
 import os
@@ -214,6 +215,12 @@ def wait_until(condition, what, within_s=HANG_S):
             return value
         time.sleep(0.01)
     raise AssertionError(f"waited {within_s} s in vain: {what}")
+
+
+def num_filled(output):
+    """How many pieces a run has in its store. A run begins with a store of nothing: it may remove the folder meanwhile,
+    which pathlib's glob would raise for."""
+    return len(glob.glob("piece_*.record", root_dir=output / "pieces"))
 
 
 def is_running(pid):

@@ -38,7 +38,7 @@ class Fault(NodesTest):
         """Starts a run, and waits until it has but one fill to do, which does not end."""
         self.out = self.folder / "out"
         process = self.start_on(ranks_of_node, *CASE, "--output", self.out, variables=HELD)
-        program.wait_until(lambda: len(list(self.out.glob("pieces/piece_*.record"))) >= NUM_FILLED, "fills", HANG_S)
+        program.wait_until(lambda: program.num_filled(self.out) >= NUM_FILLED, "fills", HANG_S)
         return process
 
     def end_of(self, process, name, within_s=LONGEST_END_S):
@@ -143,7 +143,7 @@ class Slow(Fault):
         self.assertIn(hours[1] - hours[0], (60, 61))
         self.out = self.folder / "out"
         process = self.start_on(two_each(2, 1), *CASE, "--output", self.out, before=ahead, variables=HELD)
-        program.wait_until(lambda: len(list(self.out.glob("pieces/piece_*.record"))) >= NUM_FILLED, "fills", HANG_S)
+        program.wait_until(lambda: program.num_filled(self.out) >= NUM_FILLED, "fills", HANG_S)
         stop(process)
         outcome = self.end_of(process, "a clock is an hour ahead, and the run is stopped")
         self.assert_refused(outcome, STOPPED, "stopped by a signal")

@@ -61,7 +61,7 @@ class SameBits(NodesTest):
         whole = self.mesh_on(NODES[1], SHAFT, "whole", *COARSER)
         out = self.folder / "out"
         begun = self.start_on(two_each(1, 2), *arguments, out, variables={"TESSERA_TEST_FAULT": "fill=sleep@3"})
-        program.wait_until(lambda: len(list(out.glob("pieces/piece_*.record"))) > 8, "half of the pieces", 200)
+        program.wait_until(lambda: program.num_filled(out) > 8, "half of the pieces", 200)
         stop(begun)
         self.finish(begun)
         outcome = self.run_on(two_each(4, 3), *arguments, out, "--resume")

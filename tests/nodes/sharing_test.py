@@ -13,7 +13,7 @@ class Sharing(NodesTest):
         case, out = program.CONFIGS / "cases" / "shaft.toml", self.folder / "out"
         words = ["mesh", case, "--set", "refine.levels=1", "--progress", "never", "--output", out]
         self.start_on({1: 3, 2: 3}, *words, variables={"TESSERA_TEST_FAULT": "fill=sleep@3"})
-        program.wait_until(lambda: len(list(out.glob("pieces/piece_*.record"))) > 12, "fills", HANG_S)
+        program.wait_until(lambda: program.num_filled(out) > 12, "fills", HANG_S)
         looks = node_memory.look(self.room, program.PROGRAM)
         for node in (1, 2):
             with self.subTest(node=node):

@@ -57,8 +57,7 @@ class SlurmTest(program.ProgramTest):
         """A job on two of three nodes that is stuck in its first slot, and has finished some pieces."""
         stuck = self.make_program(f"program_{output}", slot1=STUCK_IN_FILL, **other_slots)
         number = self.submit(output, f"--partition={partition}", *TWO_NODES, stuck=stuck)
-        pieces = self.shared / output / "pieces"
-        self.slurm.wait_for(lambda: len(list(pieces.glob("piece_*.record"))) > 2, "finished pieces")
+        self.slurm.wait_for(lambda: program.num_filled(self.shared / output) > 2, "finished pieces")
         return number
 
     def said(self, output):
