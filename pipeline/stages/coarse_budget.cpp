@@ -9,16 +9,12 @@ namespace tessera::pipeline {
 namespace {
 
 // With these, a model of up to a thousand faces and no fine size has its verdict within three
-// minutes on two ranks, even if NETGEN hangs: the other rungs are tried beside it.
+// minutes on two ranks, even if every try hangs: they are made side by side.
 constexpr double kFirst_s = 60.0;
 constexpr double kLater_s = 40.0;
 constexpr double kWholeOrDomain_s = 60.0;
 
 constexpr double kMargin = 10.0;
-
-// Thin walls may make four times as many tets, in several jobs.
-constexpr double kLeastOptional_s = 15.0;
-constexpr double kMarginOfOptional = 2.0;
 
 // Seconds of CPU time. Measured: NETGEN takes 16 ms a face and 50 us a triangle of frame.step (375
 // faces), 18 ms a face of Bottom.brep.
@@ -76,12 +72,6 @@ jobs::JobLimits whole_limits(const coarse::CoarseOptions& options, double num_te
   return {.cpu_s = budget_s(options, kWholeOrDomain_s, expected_s),
           .stall_s = kStall_s,
           .memory_gib = kMemory_gib};
-}
-
-double optional_timeout_s(const coarse::CoarseOptions& options, double before_s)
-{
-  const double budget = std::max(kLeastOptional_s, kMarginOfOptional * before_s);
-  return options.timeout_s > 0.0 ? std::min(options.timeout_s, budget) : budget;
 }
 
 }  // namespace tessera::pipeline

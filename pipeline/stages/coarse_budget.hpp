@@ -22,8 +22,4 @@ namespace tessera::pipeline {
 /// @brief Of dividing a surface, and of putting the whole together.
 [[nodiscard]] jobs::JobLimits whole_limits(const coarse::CoarseOptions& options, double num_tets);
 
-/// @brief CPU time for each job of a try that is not needed, after one that took `before_s` in all:
-/// such a try must not take much longer than what it would make better.
-[[nodiscard]] double optional_timeout_s(const coarse::CoarseOptions& options, double before_s);
-
 }  // namespace tessera::pipeline

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 namespace tessera::pipeline {
@@ -13,58 +14,35 @@ constexpr double kHeadStart_s = 3.0;
 
 }  // namespace
 
-CoarseLadder::CoarseLadder(const std::vector<RungKind>& kinds, std::function<double()> seconds)
-    : seconds_(std::move(seconds))
+CoarseLadder::CoarseLadder(std::size_t num_rungs, std::function<double()> seconds)
+    : rungs_(num_rungs), seconds_(std::move(seconds))
 {
-  for (const RungKind& kind : kinds) rungs_.push_back({.kind = kind});
 }
 
-std::size_t CoarseLadder::front_of(const std::vector<Rung>& rungs, std::vector<LocalIndex>* passed)
+std::size_t CoarseLadder::first_not_failed() const
 {
-  bool was_endless = false;
-  for (std::size_t i = 0; i < rungs.size(); ++i) {
-    const Rung& rung = rungs[i];
-    if (i > 0 && rung.kind.is_cut != rungs[i - 1].kind.is_cut) was_endless = false;
-    if (was_endless && rung.kind.is_netgen) continue;
-    if (rung.state != State::failed && rung.state != State::endless) return i;
-    was_endless = was_endless || (rung.kind.is_netgen && rung.state == State::endless);
-    if (passed != nullptr) passed->push_back(static_cast<LocalIndex>(i));
-  }
-  return rungs.size();
+  const auto found =
+      std::ranges::find_if(rungs_, [](const Rung& rung) { return rung.state != State::failed; });
+  return static_cast<std::size_t>(found - rungs_.begin());
 }
 
-// What would be tried one after the other if all that is not decided ended like this.
-std::vector<LocalIndex> CoarseLadder::followers_if(State state) const
+// What is behind it is tried in vain.
+std::size_t CoarseLadder::first_decided() const
 {
-  std::vector<LocalIndex> followers;
-  std::vector<Rung> rungs = rungs_;
-  for (std::size_t i = front_of(rungs, nullptr); i < rungs.size(); i = front_of(rungs, nullptr)) {
-    if (rungs[i].state == State::surface || rungs[i].state == State::final) break;
-    followers.push_back(static_cast<LocalIndex>(i));
-    rungs[i].state = state;
-  }
-  return followers;
-}
-
-comm::Task CoarseLadder::start(std::size_t rung)
-{
-  rungs_[rung].state = State::running;
-  rungs_[rung].start_s = seconds_();
-  return {.item = static_cast<LocalIndex>(rung)};
+  return static_cast<std::size_t>(std::ranges::find_if(rungs_, is_decided) - rungs_.begin());
 }
 
 std::optional<comm::Task> CoarseLadder::next()
 {
-  const std::size_t front = front_of(rungs_, nullptr);
   if (is_settled()) return std::nullopt;
-  if (rungs_[front].state == State::waiting) return start(front);
-  const bool has_failed = !failed().empty();
-  if (!has_failed && seconds_() - rungs_[front].start_s < kHeadStart_s) return std::nullopt;
-  for (const State state :
-       {has_failed ? State::failed : State::endless, has_failed ? State::endless : State::failed}) {
-    for (const LocalIndex rung : followers_if(state)) {
-      if (rungs_[at(rung)].state == State::waiting) return start(at(rung));
-    }
+  const std::size_t front = first_not_failed();
+  const bool may_go_on = front > 0 || rungs_[0].state == State::waiting
+                         || seconds_() - rungs_[0].start_s >= kHeadStart_s;
+  for (std::size_t i = front; may_go_on && i < first_decided(); ++i) {
+    if (rungs_[i].state != State::waiting) continue;
+    rungs_[i].state = State::running;
+    rungs_[i].start_s = seconds_();
+    return comm::Task{.item = static_cast<LocalIndex>(i)};
   }
   return std::nullopt;
 }
@@ -73,7 +51,7 @@ void CoarseLadder::ended(LocalIndex rung, const Bytes& verdict, Rank rank)
 {
   // A rank whose work threw says nothing; it stops the run.
   const RungEnd end = verdict.empty() ? RungEnd::failed : from_bytes<RungEnd>(verdict);
-  constexpr std::array kStates{State::failed, State::endless, State::final, State::surface};
+  constexpr std::array kStates{State::failed, State::final, State::surface};
   rungs_[at(rung)].state = kStates.at(static_cast<std::size_t>(end));
   rungs_[at(rung)].holder = rank;
 }
@@ -82,22 +60,16 @@ void CoarseLadder::dropped(LocalIndex rung) { rungs_[at(rung)].state = State::wa
 
 bool CoarseLadder::is_needed(LocalIndex rung) const
 {
-  if (is_settled()) return false;
-  return std::ranges::count(followers_if(State::failed), rung) > 0
-         || std::ranges::count(followers_if(State::endless), rung) > 0;
+  return !is_settled() && at(rung) >= first_not_failed() && at(rung) < first_decided();
 }
 
 bool CoarseLadder::is_settled() const
 {
-  const std::size_t front = front_of(rungs_, nullptr);
-  return front == rungs_.size() || rungs_[front].state == State::surface
-         || rungs_[front].state == State::final;
+  const std::size_t front = first_not_failed();
+  return front == rungs_.size() || is_decided(rungs_[front]);
 }
 
-void CoarseLadder::fill_has_failed(LocalIndex rung, RungEnd end)
-{
-  rungs_[at(rung)].state = end == RungEnd::endless ? State::endless : State::failed;
-}
+void CoarseLadder::fill_has_failed(LocalIndex rung) { rungs_[at(rung)].state = State::failed; }
 
 std::vector<LocalIndex> CoarseLadder::snapshot() const
 {
@@ -118,16 +90,16 @@ void CoarseLadder::restore(const std::vector<LocalIndex>& snapshot)
 
 std::optional<LocalIndex> CoarseLadder::front() const
 {
-  const std::size_t front = front_of(rungs_, nullptr);
+  const std::size_t front = first_not_failed();
   if (front == rungs_.size()) return std::nullopt;
   return static_cast<LocalIndex>(front);
 }
 
 std::vector<LocalIndex> CoarseLadder::failed() const
 {
-  std::vector<LocalIndex> passed;
-  front_of(rungs_, &passed);
-  return passed;
+  std::vector<LocalIndex> failed(first_not_failed());
+  std::iota(failed.begin(), failed.end(), 0);
+  return failed;
 }
 
 }  // namespace tessera::pipeline

@@ -10,17 +10,9 @@
 
 namespace tessera::pipeline {
 
-/// @brief What the order of tries at the coarse mesh depends on.
-struct RungKind {
-  /// NETGEN's surface mesher on what it had before: where it never ended, it would not end again.
-  bool is_netgen = true;
-  bool is_cut = false;  ///< The model is cut before; it is meshed anew without.
-};
-
 /// @brief How a rung has ended: the verdict of its surface.
 enum class RungEnd : int {
   failed,   ///< The next rung follows.
-  endless,  ///< After one of NETGEN no other of NETGEN follows, until the model is no longer cut.
   final,    ///< No other rung could be better: it is the run's end.
   surface,  ///< There is a surface; it can be filled.
 };
@@ -35,10 +27,10 @@ enum class RungEnd : int {
 class CoarseLadder final : public comm::TaskSource {
  public:
   /// @param seconds A clock.
-  CoarseLadder(const std::vector<RungKind>& kinds, std::function<double()> seconds);
+  CoarseLadder(std::size_t num_rungs, std::function<double()> seconds);
 
-  /// @brief The front. Once it has run for some seconds, or a rung has failed, also what would
-  /// follow: what comes after an endless front first, unless a rung has failed.
+  /// @brief The front. Once it has run for some seconds, or a rung has failed, also those behind
+  /// it.
   [[nodiscard]] std::optional<comm::Task> next() override;
   /// @param verdict Bytes of a RungEnd.
   void ended(LocalIndex rung, const Bytes& verdict, Rank rank) override;
@@ -46,8 +38,8 @@ class CoarseLadder final : public comm::TaskSource {
   [[nodiscard]] bool is_needed(LocalIndex rung) const override;
   [[nodiscard]] bool is_settled() const override;
 
-  /// @brief The surface of a rung could not be filled. @param end failed or endless.
-  void fill_has_failed(LocalIndex rung, RungEnd end);
+  /// @brief The surface of a rung could not be filled.
+  void fill_has_failed(LocalIndex rung);
 
   /// @brief The front: once it is settled, the rung that counts. Nothing if all have failed.
   [[nodiscard]] std::optional<LocalIndex> front() const;
@@ -63,17 +55,19 @@ class CoarseLadder final : public comm::TaskSource {
   [[nodiscard]] Rank holder(LocalIndex rung) const { return rungs_[at(rung)].holder; }
 
  private:
-  enum class State { waiting, running, failed, endless, final, surface };
+  enum class State { waiting, running, failed, final, surface };
   struct Rung {
-    RungKind kind{};
     State state = State::waiting;
     double start_s = 0.0;
     Rank holder = 0;
   };
 
-  static std::size_t front_of(const std::vector<Rung>& rungs, std::vector<LocalIndex>* passed);
-  [[nodiscard]] comm::Task start(std::size_t rung);
-  [[nodiscard]] std::vector<LocalIndex> followers_if(State state) const;
+  [[nodiscard]] static bool is_decided(const Rung& rung)
+  {
+    return rung.state == State::surface || rung.state == State::final;
+  }
+  [[nodiscard]] std::size_t first_not_failed() const;
+  [[nodiscard]] std::size_t first_decided() const;
 
   std::vector<Rung> rungs_;
   std::function<double()> seconds_;

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/coarse_part.hpp"
 
-#include <array>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "tessera/base/hash.hpp"
 #include "tessera/base/repair.hpp"
-#include "tessera/coarse/narrow_places.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/share_on_node.hpp"
 #include "tessera/fill/fallbacks.hpp"
@@ -27,12 +25,6 @@
 
 namespace tessera::pipeline {
 namespace {
-
-// A larger mesh is taken as it is: to mesh it again would take minutes, and it is fine already.
-constexpr LocalIndex kMostTetsToMeshAgain = 300'000;
-
-// With smaller edges in narrow places: those that the third leaves have another cause.
-constexpr int kMostFinerMeshes = 3;
 
 // What the store keeps of a run before it fills.
 struct CutCoarseMesh {
@@ -88,77 +80,6 @@ void replace(CoarseResult& first, CoarseResult second)
   first.was_limited = second.was_limited;
 }
 
-// Where something was merged, short edges would bring back what was small; Gmsh takes no sizes at
-// points, and a mesh is as it is.
-bool may_be_finer_at_places(const RunResult& run)
-{
-  const coarse::CoarseOptions& options = run.coarse.options;
-  return options.mesher == coarse::Mesher::netgen && run.planes.tree.num_parts == 0
-         && !run.coarse.defeatured.is_any() && !model::is_mesh_name(run.resolved.geometry.file);
-}
-
-double smallest_unforced_angle(const mesh::CoarseMesh& mesh)
-{
-  const coarse::SharpTets sharp = coarse::find_sharp_tets(mesh, kSharpAngle_deg);
-  return sharp.worst.empty() ? kSharpAngle_deg : sharp.worst.front().angle_deg;
-}
-
-// Sizes for another mesh, and which narrow places they are of.
-struct FinerPlaces {
-  mesh::SizePoints sizes{};
-  RepairCounts repairs{};
-
-  static auto fields(auto& self) { return std::tie(self.sizes, self.repairs); }
-};
-
-FinerPlaces finer_places(const CoarseResult& coarse, const coarse::FinerBefore& before)
-{
-  if (coarse.mesh.num_tets() > kMostTetsToMeshAgain) return {};
-  static_cast<void>(take_noted_repairs());
-  mesh::SizePoints sizes =
-      coarse::sizes_of_narrow_places(coarse.mesh, kSharpAngle_deg, coarse.options.max_size, before);
-  return {std::move(sizes), take_noted_repairs()};
-}
-
-// What the finer mesh has of the one before: it has the same options.
-constexpr std::array kOfFinerMesh{Repair::thin_walls,        Repair::narrow_strips,
-                                  Repair::finer_coarse_size, Repair::more_curvature,
-                                  Repair::netgen_surface,    Repair::remeshed_triangles};
-
-// Once more with smaller edges in thin walls and narrow strips. The better one of the two counts;
-// whether that is the finer one.
-bool is_better_if_finer(RunResult& run, const coarse::FinerBefore& before,
-                        const model::NamedParts& parts, RunContext& context)
-{
-  const FinerPlaces places =
-      on_root(context.comm, [&] { return finer_places(run.coarse, before); });
-  if (places.sizes.size.empty()) return false;
-  context.log.info("coarse: narrow places have too long edges; once more with shorter ones there");
-  CoarseResult finer = run_finer_try(run.resolved, run.coarse, places.sizes, context);
-  const bool is_better = on_root(context.comm, [&] {
-    return finer.mesh.num_tets() > 0
-           && smallest_unforced_angle(finer.mesh) > smallest_unforced_angle(run.coarse.mesh);
-  });
-  if (!is_better) finer.mesh = {};
-  for (const Repair repair : kOfFinerMesh) {
-    finer.repairs.add(repair, run.coarse.repairs[repair] + places.repairs[repair]);
-  }
-  model::apply_names(parts, finer.mesh);
-  replace(run.coarse, std::move(finer));
-  return is_better;
-}
-
-// What is still narrow in the finer mesh may be made finer again.
-void refine_narrow_places(RunResult& run, const model::NamedParts& parts, RunContext& context)
-{
-  if (!may_be_finer_at_places(run)) return;
-  coarse::FinerBefore before{.num_first_tets =
-                                 on_root(context.comm, [&] { return run.coarse.mesh.num_tets(); })};
-  while (before.num_meshes < kMostFinerMeshes && is_better_if_finer(run, before, parts, context)) {
-    ++before.num_meshes;
-  }
-}
-
 // Once more where it is too coarse for the sizes. If that cannot be made, the first mesh stays.
 // @return Whether it is fine enough now.
 bool refine_for_sizes(RunResult& run, const model::NamedParts& parts, RunContext& context)
@@ -175,7 +96,7 @@ bool refine_for_sizes(RunResult& run, const model::NamedParts& parts, RunContext
   return is_made;
 }
 
-// A coarse mesh, and once more where it is too coarse for the sizes or for narrow places.
+// A coarse mesh, and once more where it is too coarse for the sizes.
 void run_coarse_stages(RunResult& run, RunContext& context)
 {
   const PartsOfCase of_case = find_parts_of_case(run.resolved, run.model.format, context);
@@ -185,7 +106,6 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   run.coarse = run_coarse_stage(run.resolved, run.planes.tree, context);
   model::apply_names(parts, run.coarse.mesh);
   const bool is_fine_enough = refine_for_sizes(run, parts, context);
-  refine_narrow_places(run, parts, context);
   choose_levels(run, context);
   if (!is_fine_enough) run.coarse.missed_size = longest_edge_in_sizes(run, context);
 }

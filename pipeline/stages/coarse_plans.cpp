@@ -29,20 +29,10 @@ bool is_for_gmsh(const config::Case& run_case)
 
 bool has_gmsh() { return jobs::is_on_path("gmsh"); }
 
-// A mesh that the user brings is the coarse mesh; no other one could be made.
-std::vector<coarse::CoarseOptions> tries_for(const config::Case& run_case)
+coarse::CoarseOptions finer(coarse::CoarseOptions options)
 {
-  if (model::is_mesh_name(run_case.geometry.file)) return {run_case.coarse};
-  const bool is_csg = model::lower_case_extension(run_case.geometry.file) == ".geo";
-  const bool is_gmsh = run_case.coarse.mesher == coarse::Mesher::gmsh;
-  if (is_csg || is_gmsh) return coarse_fallbacks(run_case.coarse);
-  coarse::CoarseOptions ours = run_case.coarse;
-  ours.surface_mesher = coarse::SurfaceMesher::remesh;
-  coarse::CoarseOptions finer = ours;
-  finer.max_size *= 0.5;
-  coarse::CoarseOptions netgen = run_case.coarse;
-  netgen.defeature = 0.0;
-  return {ours, finer, netgen};
+  options.max_size *= 0.5;
+  return options;
 }
 
 // Options, and whether the model is cut before.
@@ -51,20 +41,16 @@ struct Attempt {
   bool is_cut = false;
 };
 
-// Surfaces of parts are NETGEN's; what it cannot mesh once is tried finer once. What worked uncut
-// must go on to work. Gmsh comes last, so that no mesh that Tessera can make depends on what is
-// installed.
+// Surfaces of parts are NETGEN's. What worked uncut must go on to work. Gmsh comes last, so that no
+// mesh that Tessera can make depends on what is installed.
 std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTree& planes,
                                  bool with_gmsh)
 {
-  constexpr std::size_t kTriesOfParts = 2;
   std::vector<Attempt> attempts;
   if (planes.num_parts > 0) {
-    for (const coarse::CoarseOptions& options : coarse_fallbacks(run_case.coarse)) {
-      if (attempts.size() < kTriesOfParts) attempts.push_back({options, true});
-    }
+    attempts = {{run_case.coarse, true}, {finer(run_case.coarse), true}};
   }
-  for (const coarse::CoarseOptions& options : tries_for(run_case)) {
+  for (const coarse::CoarseOptions& options : coarse_tries(run_case)) {
     attempts.push_back({options, false});
   }
   if (with_gmsh) {
@@ -73,20 +59,6 @@ std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTre
     attempts.back().options.defeature = 0.0;
   }
   return attempts;
-}
-
-// What a try does that is not as asked; nothing for the first one.
-std::optional<Repair> repair_of(const coarse::CoarseOptions& tried,
-                                const coarse::CoarseOptions& asked)
-{
-  if (tried.mesher != asked.mesher) return Repair::gmsh_mesh;
-  if (tried.surface_mesher != asked.surface_mesher) {
-    const bool is_netgen = tried.surface_mesher == coarse::SurfaceMesher::netgen;
-    return is_netgen ? Repair::netgen_surface : Repair::remeshed_triangles;
-  }
-  if (tried.curvature != asked.curvature) return Repair::more_curvature;
-  if (tried.max_size != asked.max_size) return Repair::finer_coarse_size;
-  return std::nullopt;
 }
 
 void drop_left_out(std::vector<CoarsePlan>& plans)
@@ -116,36 +88,30 @@ coarse::ModelFigures figures_of(const config::Case& run_case, RunContext& contex
 
 }  // namespace
 
-std::vector<coarse::CoarseOptions> coarse_fallbacks(const coarse::CoarseOptions& asked)
+std::vector<coarse::CoarseOptions> coarse_tries(const config::Case& run_case)
 {
-  std::vector<coarse::CoarseOptions> fallbacks{asked};
-  for (const double factor : {0.7, 0.5}) {
-    coarse::CoarseOptions finer = asked;
-    finer.max_size *= factor;
-    finer.grading = std::min(finer.grading, 0.2);
-    fallbacks.push_back(finer);
-  }
-  coarse::CoarseOptions rounder = asked;
-  rounder.curvature *= 2.0;
-  if (asked.mesher == coarse::Mesher::gmsh) {
-    fallbacks.push_back(rounder);
-    return fallbacks;
-  }
-  // Rounder meshes have been seen to take minutes and to have a million tets, and of some hundred
-  // models none needed one that could be remeshed.
-  coarse::CoarseOptions remeshed = asked;
-  remeshed.surface_mesher = coarse::SurfaceMesher::remesh;
-  coarse::CoarseOptions finer_remeshed = remeshed;
-  finer_remeshed.max_size *= 0.5;
-  fallbacks.insert(fallbacks.end(), {remeshed, rounder, finer_remeshed});
-  return fallbacks;
+  const coarse::CoarseOptions& asked = run_case.coarse;
+  if (model::is_mesh_name(run_case.geometry.file)) return {asked};
+  if (asked.mesher == coarse::Mesher::gmsh) return {asked, finer(asked)};
+  coarse::CoarseOptions ours = asked;
+  ours.surface_mesher = coarse::SurfaceMesher::remesh;
+  coarse::CoarseOptions netgen = asked;
+  netgen.defeature = 0.0;
+  return {ours, finer(ours), netgen};
 }
 
 RepairCounts repairs_of(const CoarsePlan& plan, const CoarsePlan& first)
 {
+  const coarse::CoarseOptions& tried = plan.options;
   RepairCounts repairs;
-  if (const auto repair = repair_of(plan.options, first.options)) repairs.add(*repair);
   if (plan.planes.num_parts != first.planes.num_parts) repairs.add(Repair::uncut_model);
+  if (tried.mesher != first.options.mesher) {
+    repairs.add(Repair::gmsh_mesh);
+  } else if (tried.surface_mesher == coarse::SurfaceMesher::netgen
+             && first.options.surface_mesher != tried.surface_mesher) {
+    repairs.add(Repair::netgen_surface);
+  }
+  if (tried.max_size != first.options.max_size) repairs.add(Repair::finer_coarse_size);
   return repairs;
 }
 
@@ -165,17 +131,6 @@ std::vector<CoarsePlan> plans_for(const config::Case& run_case, const cut::CutTr
   }
   drop_left_out(plans);
   return plans;
-}
-
-CoarsePlan finer_plan(const CoarseResult& before, const mesh::SizePoints& sizes)
-{
-  CoarsePlan plan{.options = before.options, .rung = before.tries};
-  plan.options.timeout_s = optional_timeout_s(before.options, before.cpu_s);
-  mesh::SizePoints& points = plan.options.points;
-  points.xyz.insert(points.xyz.end(), sizes.xyz.begin(), sizes.xyz.end());
-  points.size.insert(points.size.end(), sizes.size.begin(), sizes.size.end());
-  plan.limits = surface_limits(plan.options, coarse::ModelFigures{}, true);
-  return plan;
 }
 
 }  // namespace tessera::pipeline

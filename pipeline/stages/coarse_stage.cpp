@@ -2,7 +2,6 @@
 #include "pipeline/stages/coarse_stage.hpp"
 
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,12 +28,6 @@ bool is_final(const jobs::JobOutcome& outcome)
 {
   return outcome.error == ErrorKind::geometry || outcome.error == ErrorKind::input
          || outcome.error == ErrorKind::config || outcome.loads_are_lost;
-}
-
-bool is_endless(const jobs::JobOutcome& outcome)
-{
-  return outcome.status == jobs::JobStatus::out_of_time
-         || outcome.status == jobs::JobStatus::stalled;
 }
 
 std::string name_of(const coarse::CoarseOptions& options)
@@ -70,19 +63,6 @@ void throw_if_hopeless(const jobs::JobOutcome& outcome, const std::string& file)
 
 bool is_cut(const CoarsePlan& plan) { return plan.planes.num_parts > 0; }
 
-std::vector<RungKind> kinds_of(const std::vector<CoarsePlan>& plans)
-{
-  std::vector<RungKind> kinds;
-  for (const CoarsePlan& plan : plans) {
-    const coarse::CoarseOptions& options = plan.options;
-    const coarse::CoarseOptions& first = plans.front().options;
-    kinds.push_back({.is_netgen = options.surface_mesher == coarse::SurfaceMesher::netgen
-                                  && options.mesher == first.mesher,
-                     .is_cut = is_cut(plan)});
-  }
-  return kinds;
-}
-
 // How a rung has ended, the same on every rank. Nothing goes with it but words and counts.
 struct RungOutcome {
   LocalIndex rung = 0;
@@ -100,7 +80,7 @@ class CoarseTries {
               RunContext& context)
       : file_(run_case.geometry.file.string()),
         plans_(std::move(plans)),
-        ladder_(kinds_of(plans_), seconds_now),
+        ladder_(plans_.size(), seconds_now),
         stage_(stage),
         context_(context)
   {
@@ -112,12 +92,9 @@ class CoarseTries {
     while (const auto rung = next_surface()) {
       const CoarsePlan& plan = plans_[at(*rung)];
       result_.options = plan.options;
-      const double before_s = context_.jobs.usage().cpu_s;
       CoarseAttempt made = fill_coarse_surface(plan, take_surface(*rung), stage_, context_);
       if (made.outcome.status == jobs::JobStatus::ok) {
         ++result_.tries;
-        result_.cpu_s =
-            outcomes_[*rung].cpu_s + cpu_of_all_ranks(context_.jobs.usage().cpu_s - before_s);
         result_.was_limited = result_.was_limited || made.was_limited;
         result_.repairs = repairs_of(plan, plans_.front());
         result_.repairs += repairs_[*rung];
@@ -126,7 +103,7 @@ class CoarseTries {
         break;
       }
       all_or_none(context_.comm, [&] { throw_if_hopeless(made.outcome, file_); });
-      ladder_.fill_has_failed(*rung, is_endless(made.outcome) ? RungEnd::endless : RungEnd::failed);
+      ladder_.fill_has_failed(*rung);
       outcomes_[*rung] = std::move(made.outcome);
       note_failures();
     }
@@ -142,12 +119,6 @@ class CoarseTries {
   }
 
  private:
-  [[nodiscard]] double cpu_of_all_ranks(double own_s) const
-  {
-    const std::vector<double> all = context_.comm.all_gather_values(own_s);
-    return std::accumulate(all.begin(), all.end(), 0.0);
-  }
-
   void take(CoarseTry made)
   {
     result_.mesh = std::move(made.mesh);
@@ -179,7 +150,6 @@ class CoarseTries {
     if (made.outcome.loads_are_lost) throw_if_hopeless(made.outcome, file_);
     RungEnd end = RungEnd::failed;
     if (made.surface) end = RungEnd::surface;
-    if (is_endless(made.outcome)) end = RungEnd::endless;
     if (is_final(made.outcome) || was_killed_from_outside(made.outcome)) end = RungEnd::final;
     // Rank 0 has found Gmsh; this rank's machine may be without.
     const bool was_gmsh_asked = plans_.front().options.mesher == coarse::Mesher::gmsh;
@@ -244,27 +214,6 @@ class CoarseTries {
   std::map<LocalIndex, RepairCounts> repairs_{};
 };
 
-// Of a run that has a mesh: no tets if none of these can be made.
-CoarseResult try_once_more(const config::Case& run_case, std::vector<CoarsePlan> plans,
-                           StageScope& stage, RunContext& context)
-{
-  CoarseTries tries(run_case, std::move(plans), stage, context);
-  CoarseResult result;
-  try {
-    result = tries.run();
-  } catch (const GeometryError& error) {  // On all ranks; of the model at these sizes only.
-    result = tries.ended_by(error);
-  }
-  return on_root_of_nodes(context.comm, [&] { return std::move(result); });
-}
-
-void finish_more_tries(const CoarseResult& result, StageScope& stage)
-{
-  stage.work_is_done();
-  stage.finish(result.mesh.num_tets() == 0 ? std::string("failed")
-                                           : fmt::format("{} tets", result.mesh.num_tets()));
-}
-
 void warn_of_other_ways(const CoarseResult& result, const config::Case& run_case,
                         RunContext& context)
 {
@@ -298,20 +247,18 @@ CoarseResult run_second_coarse_stage(const config::Case& run_case, const CoarseR
                                      const cut::CutTree& planes, RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseResult result =
-      try_once_more(run_case, plans_for(run_case, planes, before.tries, context), stage, context);
+  CoarseTries tries(run_case, plans_for(run_case, planes, before.tries, context), stage, context);
+  CoarseResult result;
+  try {
+    result = tries.run();
+  } catch (const GeometryError& error) {  // On all ranks; of the model at these sizes only.
+    result = tries.ended_by(error);
+  }
+  result = on_root_of_nodes(context.comm, [&] { return std::move(result); });
   if (result.mesh.num_tets() > 0) warn_of_other_ways(result, run_case, context);
-  finish_more_tries(result, stage);
-  return result;
-}
-
-CoarseResult run_finer_try(const config::Case& run_case, const CoarseResult& before,
-                           const mesh::SizePoints& sizes, RunContext& context)
-{
-  StageScope stage(context, "coarse");
-  CoarseResult result = try_once_more(run_case, {finer_plan(before, sizes)}, stage, context);
-  result.options.timeout_s = before.options.timeout_s;
-  finish_more_tries(result, stage);
+  stage.work_is_done();
+  stage.finish(result.mesh.num_tets() == 0 ? std::string("failed")
+                                           : fmt::format("{} tets", result.mesh.num_tets()));
   return result;
 }
 

@@ -25,7 +25,6 @@ struct CoarseResult {
   coarse::Defeatured defeatured{};      ///< Output length unit.
   std::vector<std::string> failures{};  ///< What the tries before said, for the report.
   bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
-  double cpu_s = 0.0;                   ///< CPU time of the try that succeeded, of all ranks.
   RepairCounts repairs{};               ///< That are in this mesh, without those of the import.
   /// Where edges are longest in wanted sizes, if no finer mesh could be made for these; else 0.
   sizing::PartInSizes missed_size{};
@@ -33,7 +32,7 @@ struct CoarseResult {
   static auto fields(auto& self)
   {
     return std::tie(self.mesh, self.tet_part, self.options, self.tries, self.distance,
-                    self.defeatured, self.failures, self.was_limited, self.cpu_s, self.missed_size,
+                    self.defeatured, self.failures, self.was_limited, self.missed_size,
                     self.repairs);
   }
 };
@@ -54,12 +53,5 @@ struct CoarseResult {
 [[nodiscard]] CoarseResult run_second_coarse_stage(const config::Case& run_case,
                                                    const CoarseResult& before,
                                                    const cut::CutTree& planes, RunContext& context);
-
-/// @brief One try more, like the one that succeeded, with more sizes at points. It is not needed:
-/// the time of its jobs follows from that of the one before. Its result, on all ranks, has no tets
-/// if it fails.
-/// @note Collective.
-[[nodiscard]] CoarseResult run_finer_try(const config::Case& run_case, const CoarseResult& before,
-                                         const mesh::SizePoints& sizes, RunContext& context);
 
 }  // namespace tessera::pipeline

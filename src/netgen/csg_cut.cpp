@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
-#include "tessera/base/union_find.hpp"
 
 #include "netgen/csg_access.hpp"
 #include "netgen/netgen_session.hpp"
@@ -142,63 +141,6 @@ CutObjects cut_geometry(Geometry& geometry, const cut::CutTree& tree)
 {
   require_cuttable(geometry);
   return Cutter(geometry, tree).run();
-}
-
-FaceOrder::FaceOrder(Geometry& uncut, ::netgen::MeshingParameters parameters)
-{
-  parameters.perfstepsend = ::netgen::MESHCONST_MESHEDGES;
-  parameters.uselocalh = 0;  // Sizes do not matter, and without them edges are meshed only once.
-  std::shared_ptr<::netgen::Mesh> mesh;
-  if (uncut.GenerateMesh(mesh, parameters) != 0) throw NetgenError("no edges of the uncut model");
-  for (int d = 1; d <= mesh->GetNFD(); ++d) {
-    const ::netgen::FaceDescriptor& face = mesh->GetFaceDescriptor(d);
-    rows_.emplace(Key{face.SurfNr(), face.DomainIn(), face.DomainOut(), face.TLOSurface()},
-                  static_cast<LocalIndex>(rows_.size()));
-  }
-}
-
-LocalIndex FaceOrder::row_of(const ::netgen::FaceDescriptor& face, const CutObjects& objects)
-{
-  const auto uncut = [&](int number) {
-    return number <= 0 ? number : objects.solid.at(at(number - 1)) + 1;
-  };
-  const Key key{face.SurfNr(), uncut(face.DomainIn()), uncut(face.DomainOut()),
-                uncut(face.TLOSurface())};
-  return rows_.emplace(key, static_cast<LocalIndex>(rows_.size())).first->second;
-}
-
-void separate_patches(mesh::CoarseMesh& mesh)
-{
-  std::map<std::array<LocalIndex, 2>, LocalIndex> corners;  // Patch and vertex to a number.
-  UnionFind pieces;
-  const auto number = [&](LocalIndex f, std::size_t corner) {
-    const std::array<LocalIndex, 2> key{mesh.face_patch[at(f)],
-                                        mesh.face_vertices[3 * at(f) + corner]};
-    const auto [found, is_new] = corners.emplace(key, static_cast<LocalIndex>(corners.size()));
-    if (is_new) pieces.add();
-    return found->second;
-  };
-  const auto is_cut = [&](LocalIndex f) { return mesh.face_patch[at(f)] == kNoIndex; };
-  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    if (is_cut(f)) continue;
-    for (std::size_t corner = 1; corner < 3; ++corner) pieces.join(number(f, 0), number(f, corner));
-  }
-  std::map<LocalIndex, LocalIndex> patch_of_piece;
-  std::vector<bool> is_taken(at(mesh.num_patches()), false);
-  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    if (is_cut(f)) continue;
-    LocalIndex& patch = mesh.face_patch[at(f)];
-    const auto [found, is_new] = patch_of_piece.emplace(pieces.find(number(f, 0)), patch);
-    if (is_new && is_taken[at(patch)]) {
-      found->second = mesh.num_patches();
-      const std::string name = mesh.patch_names[at(patch)];
-      mesh.patch_names.push_back(
-          name == mesh::default_patch_name(patch) ? mesh::default_patch_name(found->second) : name);
-      mesh.patch_surface.push_back(mesh.patch_surface[at(patch)]);
-    }
-    is_taken[at(patch)] = true;
-    patch = found->second;
-  }
 }
 
 }  // namespace tessera::netgen

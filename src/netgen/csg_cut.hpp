@@ -31,21 +31,4 @@ struct CutObjects {
 /// the numbers of its solids.
 [[nodiscard]] CutObjects cut_geometry(::netgen::CSGeometry& geometry, const cut::CutTree& tree);
 
-/// @brief The faces of an uncut geometry in NETGEN's order, which numbers patches.
-class FaceOrder {
- public:
-  /// @brief Meshes the edges of the geometry, which NETGEN finds its faces by.
-  FaceOrder(::netgen::CSGeometry& uncut, ::netgen::MeshingParameters parameters);
-
-  /// @brief Row of the uncut face that a face of the cut geometry is of. New rows come last.
-  [[nodiscard]] LocalIndex row_of(const ::netgen::FaceDescriptor& face, const CutObjects& objects);
-
- private:
-  using Key = std::array<int, 4>;  // Surface, the two domains, and the top-level surface.
-  std::map<Key, LocalIndex> rows_{};
-};
-
-/// @brief Gives every connected piece of a patch a patch of its own, as NETGEN does. Local.
-void separate_patches(mesh::CoarseMesh& mesh);
-
 }  // namespace tessera::netgen

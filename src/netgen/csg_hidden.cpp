@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In place of csg_crossings, csg_cut, csg_numbers, csg_remesh, csg_solids, csg_tori and
-// csg_triangles with NETGEN 6.2.2501, whose library hides the solids of CSG: they cannot be cut,
+// In place of csg_crossings, csg_cut, csg_numbers, csg_remesh, csg_solids and csg_triangles with
+// NETGEN 6.2.2501, whose library hides the solids of CSG: they cannot be cut,
 // walked through, or made with OpenCASCADE.
 #include <cstdlib>
 #include <filesystem>
@@ -12,7 +12,6 @@
 #include "netgen/csg_cut.hpp"
 #include "netgen/csg_remesh.hpp"
 #include "netgen/csg_solids.hpp"
-#include "netgen/csg_tori.hpp"
 #include "netgen/netgen_versions.hpp"
 
 namespace tessera::netgen {
@@ -62,8 +61,6 @@ std::unique_ptr<::netgen::CSGeometry> read_csg(const std::string& text)
   return nullptr;
 }
 
-void mend_tori(::netgen::CSGeometry& /*geometry*/) {}
-
 void describe_cones_by_circles(::netgen::CSGeometry& /*geometry*/) {}
 
 bool has_apex(::netgen::CSGeometry& /*geometry*/, double /*tolerance*/) { return false; }
@@ -96,16 +93,6 @@ CutObjects cut_geometry(::netgen::CSGeometry& /*geometry*/, const cut::CutTree& 
   throw ConfigError(std::string("decompose.method = \"geometry\": ") + kHidden
                     + "; leave the key out");
 }
-
-FaceOrder::FaceOrder(::netgen::CSGeometry& /*uncut*/, ::netgen::MeshingParameters /*parameters*/) {}
-
-LocalIndex FaceOrder::row_of(const ::netgen::FaceDescriptor& /*face*/,
-                             const CutObjects& /*objects*/)
-{
-  return kNoIndex;
-}
-
-void separate_patches(mesh::CoarseMesh& /*mesh*/) {}
 
 void add_crossings(::netgen::CSGeometry& /*geometry*/, const CutObjects& /*objects*/,
                    const ::netgen::Box<3>& /*box*/)

@@ -18,6 +18,7 @@
 #include "netgen/csg_cut.hpp"
 #include "netgen/csg_description.hpp"
 #include "netgen/csg_parse.hpp"
+#include "netgen/csg_patches.hpp"
 #include "netgen/csg_remesh.hpp"
 #include "netgen/csg_solids.hpp"
 #include "netgen/loaded_model.hpp"
@@ -110,8 +111,6 @@ class CsgModel final : public LoadedModel {
 
  private:
   [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
-  [[nodiscard]] std::shared_ptr<::netgen::Mesh> netgen_surface(Geometry& geometry,
-                                                               double size) const;
   [[nodiscard]] coarse::CoarseSurface remesh_solids(const coarse::CoarseOptions& options) const;
   void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
   void add_edges(const mesh::CoarseMesh& mesh, model::ModelDescription& to) const;
@@ -209,6 +208,9 @@ GeometryNumbers numbers_of(const Geometry& geometry)
   numbers.patch_name = [](const ::netgen::FaceDescriptor& face) {
     return name_unless_default(face.GetBCName());
   };
+  numbers.patch = [](const ::netgen::FaceDescriptor& face) {
+    return key_of_patch(face.SurfNr(), face.DomainIn(), face.DomainOut());
+  };
   numbers.curve = [n = geometry.GetNSurf()](const ::netgen::Segment& segment) {
     return curve_of(segment, n);
   };
@@ -218,19 +220,32 @@ GeometryNumbers numbers_of(const Geometry& geometry)
 }
 
 // Of a mesh of the parts, in the numbers of the uncut geometry.
-GeometryNumbers numbers_of_parts(const Geometry& uncut, const CutObjects& objects, FaceOrder& order)
+GeometryNumbers numbers_of_parts(const Geometry& uncut, const CutObjects& objects)
 {
   GeometryNumbers numbers = numbers_of(uncut);
-  numbers.material = [&](int domain) { return objects.solid.at(at(domain - 1)) + 1; };
-  numbers.part = [&](int domain) { return objects.part.at(at(domain - 1)); };
-  numbers.max_size = [&, of_solid = numbers.max_size](int domain) {
-    return of_solid(objects.solid.at(at(domain - 1)) + 1);
+  const auto solid_of = [&objects](int domain) {
+    return domain <= 0 ? 0 : objects.solid.at(at(domain - 1)) + 1;
   };
-  numbers.patch = [&](const ::netgen::FaceDescriptor& face) {
+  numbers.material = solid_of;
+  numbers.part = [&](int domain) { return objects.part.at(at(domain - 1)); };
+  numbers.max_size = [solid_of, of_solid = numbers.max_size](int domain) {
+    return of_solid(solid_of(domain));
+  };
+  numbers.patch = [&objects, solid_of](const ::netgen::FaceDescriptor& face) {
     if (face.SurfNr() >= objects.num_surfaces) throw NetgenError("a cut lies on the surface");
-    return order.row_of(face, objects);
+    return key_of_patch(face.SurfNr(), solid_of(face.DomainIn()), solid_of(face.DomainOut()));
   };
   return numbers;
+}
+
+// Within run() of the session.
+std::shared_ptr<::netgen::Mesh> netgen_surface(Geometry& geometry, NetgenSession& session)
+{
+  auto mesh = empty_mesh(geometry);
+  int failed = 0;
+  session.run_surface([&] { failed = geometry.GenerateMesh(mesh, session.parameters()); });
+  if (failed != 0) throw NetgenError("NETGEN gave up; " + session.words());
+  return mesh;
 }
 
 coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& options,
@@ -243,14 +258,10 @@ coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& option
   const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
   const std::string what = file_name_ + ": coarse mesh";
   NetgenSession session(surface_parameters(options));
-  auto mesh = empty_mesh(*geometry);
-  int failed = 0;
-  session.run(what, [&] {
-    session.run_surface([&] { failed = geometry->GenerateMesh(mesh, session.parameters()); });
-  });
-  if (failed != 0) throw NetgenError(fmt::format("{}: NETGEN gave up; {}", what, session.words()));
+  const auto mesh = session.run(what, [&] { return netgen_surface(*geometry, session); });
   coarse::CoarseSurface surface =
       to_coarse_surface(*mesh, numbers_of(*geometry), options.max_size, what);
+  separate_patches(surface.mesh);
   session.run(file_name_, [&] { use(*geometry, *mesh, 1.0, surface); });
   return surface;
 }
@@ -273,21 +284,14 @@ coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
                                            const cut::CutTree& tree) const
 {
   const std::string what = file_name_ + ": coarse mesh of the parts";
-  const std::unique_ptr<Geometry> uncut = parse_csg(text_, file_name_);
   const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
   NetgenSession session(surface_parameters(options));
   return session.run(what, [&] {
-    FaceOrder order(*uncut, session.parameters());
     const CutObjects objects = cut_geometry(*geometry, tree);
     add_crossings(*geometry, objects, box_);
-    auto mesh = empty_mesh(*geometry);
-    int failed = 0;
-    session.run_surface([&] { failed = geometry->GenerateMesh(mesh, session.parameters()); });
-    if (failed != 0) {
-      throw NetgenError("NETGEN gave up; " + session.words());
-    }
-    coarse::CoarseSurface surface = to_coarse_surface(
-        *mesh, numbers_of_parts(*geometry_, objects, order), options.max_size, what);
+    const auto mesh = netgen_surface(*geometry, session);
+    coarse::CoarseSurface surface =
+        to_coarse_surface(*mesh, numbers_of_parts(*geometry_, objects), options.max_size, what);
     separate_patches(surface.mesh);
     return surface;
   });
@@ -312,25 +316,14 @@ coarse::ModelFigures CsgModel::figures() const
 
 // The triangles that NETGEN has for pictures leave out parts of cylinders and cones, so the surface
 // is meshed.
-std::shared_ptr<::netgen::Mesh> CsgModel::netgen_surface(Geometry& geometry, double size) const
-{
-  coarse::CoarseOptions options;
-  options.max_size = size;
-  NetgenSession session(surface_parameters(options));
-  auto mesh = empty_mesh(geometry);
-  const int failed = session.run(file_name_ + ": surface",
-                                 [&] { return geometry.GenerateMesh(mesh, session.parameters()); });
-  if (failed != 0) {
-    throw NetgenError(
-        fmt::format("{}: NETGEN cannot mesh its surface; {}", file_name_, session.words()));
-  }
-  return mesh;
-}
-
 coarse::CadSurface CsgModel::triangles_for_fit(double size) const
 {
   const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
-  const auto mesh = netgen_surface(*geometry, size);
+  coarse::CoarseOptions options;
+  options.max_size = size;
+  NetgenSession session(surface_parameters(options));
+  const auto mesh =
+      session.run(file_name_ + ": surface", [&] { return netgen_surface(*geometry, session); });
   coarse::CadSurface cad = surface_of_mesh(*mesh, numbers_of(*geometry));
   cad.size = size;
   for (int solid = 0; solid < geometry->GetNTopLevelObjects(); ++solid) {

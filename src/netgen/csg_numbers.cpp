@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "netgen/csg_access.hpp"
-#include "netgen/csg_cut.hpp"
+#include "netgen/csg_patches.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/volume_mesher.hpp"
 
@@ -70,17 +70,15 @@ class Numbering {
     return domain == 0 ? 0 : surface_.domain_material[at(domain - 1)];
   }
 
-  // A patch is a surface between two solids, or outside of one.
   void number_patches()
   {
-    using Key = std::array<LocalIndex, 3>;
-    std::map<Key, LocalIndex> patches;
-    std::vector<Key> keys;
+    std::map<PatchKey, LocalIndex> patches;
+    std::vector<PatchKey> keys;
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
       const LocalIndex row = mesh_.patch_surface[at(mesh_.face_patch[at(f)])];
-      const auto [low, high] = std::minmax({material_of(surface_.face_domains[at(f)][0]),
-                                            material_of(surface_.face_domains[at(f)][1])});
-      keys.push_back({triangles_.cad.patch_surface[at(row)], low, high});
+      const auto [out_of, into] = surface_.face_domains[at(f)];
+      keys.push_back(key_of_patch(triangles_.cad.patch_surface[at(row)], material_of(out_of),
+                                  material_of(into)));
       patches[keys.back()] = 0;
     }
     mesh_.patch_names.clear();

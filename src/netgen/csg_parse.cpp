@@ -8,7 +8,6 @@
 #include "netgen/csg_access.hpp"
 #include "netgen/csg_planes.hpp"
 #include "netgen/csg_solids.hpp"
-#include "netgen/csg_tori.hpp"
 #include "netgen/netgen_session.hpp"
 #include "netgen/netgen_versions.hpp"
 
@@ -31,7 +30,6 @@ std::unique_ptr<Geometry> parse_csg(const std::string& text, const std::string& 
     throw InputError(file_name + ": is not a NETGEN geometry: its first word is not 'algebraic3d'");
   }
   describe_cones_by_circles(*geometry);
-  mend_tori(*geometry);
   const double tolerance = kIdenticSurfaces * geometry->MaxSize();
   separate_planes(*geometry, tolerance);
   geometry->FindIdenticSurfaces(tolerance);

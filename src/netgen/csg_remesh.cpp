@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -144,14 +146,45 @@ coarse::CoarseOptions in_numbers_of(const coarse::CadSurface& cad, coarse::Coars
     if (options.kept.has_patch(cad.patch_surface[p]))
       kept.patches.push_back(static_cast<LocalIndex>(p));
   }
+  for (std::size_t c = 0; c < cad.curve_number.size(); ++c) {
+    if (options.kept.has_curve(cad.curve_number[c]))
+      kept.curves.push_back(static_cast<LocalIndex>(c));
+  }
   options.kept = std::move(kept);
   return options;
 }
 
-coarse::Defeatured in_numbers_of_csg(coarse::Defeatured merged, const coarse::CadSurface& cad)
+// Numbers of the file for those of the triangles. Several of these may be one of the file's, which
+// is merged if none of them is left.
+std::vector<coarse::MergedPart> of_file(const std::vector<coarse::MergedPart>& merged,
+                                        const std::vector<LocalIndex>& number_in_file,
+                                        const std::vector<LocalIndex>& left)
 {
-  for (coarse::MergedPart& part : merged.patches) part.number = cad.patch_surface[at(part.number)];
-  for (coarse::MergedPart& part : merged.curves) part.number = cad.curve_number[at(part.number)];
+  std::set<LocalIndex> stays{kNoIndex};
+  for (const LocalIndex part : left) stays.insert(number_in_file[at(part)]);
+  std::map<LocalIndex, coarse::MergedPart> parts;
+  for (const coarse::MergedPart& one : merged) {
+    const LocalIndex number = number_in_file[at(one.number)];
+    if (stays.contains(number)) continue;
+    coarse::MergedPart& part = parts[number];
+    part.number = number;
+    part.centre = part.centre + one.measure * one.centre;
+    part.measure += one.measure;
+  }
+  std::vector<coarse::MergedPart> ascending;
+  for (auto& [number, part] : parts) {
+    if (part.measure > 0.0) part.centre = (1.0 / part.measure) * part.centre;
+    ascending.push_back(part);
+  }
+  return ascending;
+}
+
+coarse::Defeatured in_numbers_of_file(coarse::RemeshedSurface remeshed,
+                                      const coarse::CadSurface& cad)
+{
+  coarse::Defeatured merged = std::move(remeshed.defeatured);
+  merged.patches = of_file(merged.patches, cad.patch_surface, remeshed.surface.triangle_patch);
+  merged.curves = of_file(merged.curves, cad.curve_number, remeshed.surface.edge_curve);
   return merged;
 }
 
@@ -180,7 +213,7 @@ coarse::CoarseSurface remesh_csg(const model::Model& csg, const Geometry& geomet
                            [](LocalIndex) { return std::string(); }};
   require_no_overlaps(coarse::forbidden_overlaps(surface, forbidden), surface, names, file_name);
   coarse::CoarseSurface coarse = in_numbers_of_csg(surface, triangles, geometry, options.max_size);
-  coarse.defeatured = in_numbers_of_csg(std::move(remeshed.defeatured), triangles.cad);
+  coarse.defeatured = in_numbers_of_file(std::move(remeshed), triangles.cad);
   return coarse;
 }
 

@@ -50,15 +50,15 @@ class Conversion {
   void add_patches()
   {
     patch_of_descriptor_.assign(static_cast<std::size_t>(from_.GetNFD()) + 1, kNoIndex);
-    std::map<LocalIndex, std::set<int>> descriptors;  // By what they have in common.
+    std::map<PatchKey, std::set<int>> descriptors;  // By what they have in common.
     for (const auto& element : from_.SurfaceElements()) {
       if (element.IsDeleted()) continue;
       const auto& face = from_.GetFaceDescriptor(element.GetIndex());
       if (is_cut(face)) continue;
-      const LocalIndex order = numbers_.patch ? numbers_.patch(face) : element.GetIndex();
-      descriptors[order].insert(element.GetIndex());
+      const PatchKey key = numbers_.patch ? numbers_.patch(face) : PatchKey{element.GetIndex()};
+      descriptors[key].insert(element.GetIndex());
     }
-    for (const auto& [order, of_patch] : descriptors) {
+    for (const auto& [key, of_patch] : descriptors) {
       for (const int d : of_patch) {
         patch_of_descriptor_[static_cast<std::size_t>(d)] = mesh_.num_patches();
       }

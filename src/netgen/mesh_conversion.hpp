@@ -20,6 +20,10 @@ namespace tessera::netgen {
 /// NETGEN numbers a tet with negative determinant. This is the one place that says how to turn it.
 inline constexpr std::array<int, 4> kNetgenTetOrder{0, 1, 3, 2};
 
+/// @brief What tells one patch from another, and in which order patches come: a surface, and more
+/// where one surface has several.
+using PatchKey = std::array<LocalIndex, 3>;
+
 /// @brief What a format knows of the entities of a NETGEN mesh of it. Empty functions: no such
 /// data.
 struct GeometryNumbers {
@@ -36,9 +40,8 @@ struct GeometryNumbers {
   std::function<LocalIndex(int)> material{};
   /// Part of the CutTree that a domain (from 1) is, if it is one.
   std::function<LocalIndex(int)> part{};
-  /// Descriptors with one value make one patch; patches are in the order of these values. Without
-  /// it: each descriptor is a patch.
-  std::function<LocalIndex(const ::netgen::FaceDescriptor&)> patch{};
+  /// Descriptors with one key make one patch. Without it: each descriptor is a patch.
+  std::function<PatchKey(const ::netgen::FaceDescriptor&)> patch{};
   /// Largest edge that the file wants in a domain (from 1), file length unit.
   std::function<double(int)> max_size{};
   /// Parameters of corner 0…2 of a surface element; it has the surface number given.

@@ -213,7 +213,9 @@ GeometryNumbers OccModel::numbers_of_parts(const ::netgen::OCCGeometry& geometry
     if (number == kNoIndex) throw NetgenError("a cut lies on the surface");
     return number;
   };
-  numbers.patch = numbers.surface;
+  numbers.patch = [surface = numbers.surface](const ::netgen::FaceDescriptor& face) {
+    return PatchKey{surface(face)};
+  };
   numbers.patch_name = [this, surface = numbers.surface](const ::netgen::FaceDescriptor& face) {
     return content_.face_names.at(static_cast<std::size_t>(surface(face)));
   };

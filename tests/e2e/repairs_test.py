@@ -48,22 +48,22 @@ class Repairs(program.ProgramTest):
         self.write_plate()
         reports = [self.mesh_without("", f"on_{ranks}", ranks) for ranks in (1, 3)]
         self.assertEqual(reports[0], reports[1])
-        self.assertGreater(reports[0]["repairs"]["thin_walls"], 0)
-        without = self.mesh_without("thin_walls", "without")
-        self.assertEqual(without["left_out"], "thin_walls")
-        self.assertNotIn("thin_walls", without["repairs"])
+        self.assertGreater(reports[0]["repairs"]["wall_sizes"], 0)
+        without = self.mesh_without("wall_sizes", "without")
+        self.assertEqual(without["left_out"], "wall_sizes")
+        self.assertNotIn("wall_sizes", without["repairs"])
         self.assertEqual(reports[0]["coarse"]["sharp"]["num_tets"], 0)
         self.assertGreater(without["coarse"]["sharp"]["num_tets"], 0)
         self.assertLess(without["quality"]["min_dihedral_deg"], reports[0]["quality"]["min_dihedral_deg"])
 
     def test_a_try_is_one_and_the_next_takes_its_place(self):
         self.write_plate()
-        fault = {"TESSERA_TEST_FAULT": "coarse=throw@0"}
+        fault = {"TESSERA_TEST_FAULT": "remesh=throw@0"}
         for ranks in (1, 3):
             report = self.mesh_without("", f"first_{ranks}", ranks, **fault)
             self.assertEqual(report["repairs"]["finer_coarse_size"], 1)
             report = self.mesh_without("finer_coarse_size", f"second_{ranks}", ranks, **fault)
-            self.assertEqual(report["repairs"]["remeshed_triangles"], 1)
+            self.assertEqual(report["repairs"]["netgen_surface"], 1)
             self.assertNotIn("finer_coarse_size", report["repairs"])
 
     def test_those_of_fills_are_counted_by_subdomains(self):
@@ -85,9 +85,9 @@ class Repairs(program.ProgramTest):
 
     def test_a_run_goes_on_with_the_same_ones(self):
         self.write_plate()
-        self.mesh_without("thin_walls", "out")
+        self.mesh_without("wall_sizes", "out")
         outcome = self.run_program("mesh", self.case, "--output", "out", "--resume")
-        self.assert_refused(outcome, WRONG_INPUT, "TESSERA_LEAVE_OUT has changed", "'thin_walls' there")
+        self.assert_refused(outcome, WRONG_INPUT, "TESSERA_LEAVE_OUT has changed", "'wall_sizes' there")
 
 
 if __name__ == "__main__":

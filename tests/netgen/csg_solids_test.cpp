@@ -300,6 +300,36 @@ std::string why_not_remeshed(const std::string& solids)
   }
 }
 
+// A step of 0.005 on a cube of 1.
+TEST(CsgRemesh, NamesWhatIsMergedInTheNumbersOfTheFile)
+{
+  const auto source = source_of(
+      "solid cube = orthobrick (0, 0, 0; 1, 1, 1);\n"
+      "solid step = orthobrick (0.3, 0.3, 0.9; 0.6, 0.6, 1.005);\n"
+      "solid both = cube or step;\ntlo both;\n");
+  const auto model = netgen::load_model(source);
+  coarse::CoarseOptions options;
+  options.max_size = 0.4;
+  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  options.defeature = 0.02;
+  const auto mesher = netgen::make_coarse_mesher(*model);
+  const coarse::Defeatured merged = mesher->mesh_surface(options, {}).defeatured;
+  ASSERT_EQ(merged.patches.size(), 4U);
+  for (const coarse::MergedPart& side : merged.patches) {
+    EXPECT_NEAR(side.measure, 0.3 * 0.005, 1e-9);
+    const Vec3 on_it = model->project_to_surface(side.number, side.centre, {}).xyz;
+    EXPECT_LT(norm(on_it - side.centre), 1e-9);
+  }
+  ASSERT_FALSE(merged.curves.empty());
+  for (const coarse::MergedPart& edge : merged.curves) {
+    const Vec3 on_it = model->project_to_curve(edge.number, edge.centre, 0.0).xyz;
+    EXPECT_LT(norm(on_it - edge.centre), 1e-9);
+  }
+  options.kept.patches = {merged.patches.front().number};
+  for (const coarse::MergedPart& side : mesher->mesh_surface(options, {}).defeatured.patches)
+    EXPECT_NE(side.number, options.kept.patches.front());
+}
+
 TEST(CsgRemesh, IsNotForWhatOnlyNetgenKnows)
 {
   const std::string cube =

@@ -8,7 +8,6 @@
 
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
-#include "tessera/coarse/narrow_places.hpp"
 #include "tessera/coarse/sharp_tets.hpp"
 #include "tessera/mesh/tet_edges.hpp"
 
@@ -89,22 +88,6 @@ TEST_P(SizePoints, AreFollowedAtASurfaceAndElsewhereSizesStay)
   EXPECT_LT(edges_around(place, reach, with).longest_near, 4.0 * wanted);
   EXPECT_LT(edges_around(place, reach, with).shortest_near, 2.0 * wanted);
   EXPECT_GT(edges_around(place, reach, with).longest, 10.0 * wanted);
-}
-
-TEST(NarrowPlaces, OfAPlateGetFullerTets)
-{
-  const testing::TemporaryFile file(
-      "plate.geo", "algebraic3d\nsolid plate = orthobrick (0, 0, 0; 40, 40, 0.5);\ntlo plate;\n");
-  const auto model = netgen::load_model(netgen::import_model(file.path(), {}));
-  const auto mesher = netgen::make_coarse_mesher(*model);
-  constexpr double kSmall_deg = 5.0;
-  coarse::CoarseOptions options;
-  options.max_size = 20.0;
-  const mesh::CoarseMesh flat = mesher->generate(options);
-  ASSERT_GT(coarse::find_sharp_tets(flat, kSmall_deg).num_others, 0);
-
-  options.points = coarse::sizes_of_narrow_places(flat, kSmall_deg, options.max_size);
-  EXPECT_EQ(coarse::find_sharp_tets(mesher->generate(options), kSmall_deg).num_others, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEveryKernel, SizePoints,

@@ -39,15 +39,10 @@ enum class Repair : int {
   flat_triangles,     ///< Triangles without a height, and folds onto others, are taken out.
   flat_contacts,      ///< Surfaces that lie flat on each other become one.
   // Import of CSG.
-  torus_sizes,  ///< Tori get the curvature that NETGEN computes wrongly.
-  csg_by_occ,   ///< OpenCASCADE makes the solids that NETGEN's CSG cannot mesh.
+  csg_by_occ,  ///< OpenCASCADE makes the solids that NETGEN's CSG cannot mesh.
   // Sizes.
-  longer_close_edges,   ///< NETGEN's sizes between close edges are relaxed where cells are many.
-  longer_curved_edges,  ///< NETGEN's sizes by curvature are relaxed where cells are very many.
-  round_places,         ///< The remesher has shorter edges where a surface goes round, as on wires.
-  wall_sizes,           ///< The remesher has shorter edges where a wall is thin.
-  thin_walls,           ///< The model is meshed again with shorter edges in thin walls.
-  narrow_strips,        ///< The model is meshed again with shorter edges in narrow strips.
+  round_places,  ///< The remesher has shorter edges where a surface goes round, as on wires.
+  wall_sizes,    ///< The remesher has shorter edges where a wall is thin.
   // The coarse surface.
   mend_surface,    ///< Bad triangles are made better.
   mend_folds,      ///< Triangles are changed that would fold when they are refined.
@@ -55,12 +50,10 @@ enum class Repair : int {
   finer_at_cuts,   ///< The remesher has shorter edges where its surface cuts itself.
   finer_at_folds,  ///< The same where its surface would fold.
   // Tries at the coarse mesh.
-  finer_coarse_size,   ///< A smaller coarse.max_size.
-  remeshed_triangles,  ///< The remesher takes the place of NETGEN's surface mesher.
-  more_curvature,      ///< A larger coarse.curvature.
-  netgen_surface,      ///< NETGEN's surface mesher takes the place of the remesher.
-  gmsh_mesh,           ///< Gmsh takes the place of all.
-  uncut_model,         ///< The model is meshed as a whole, as its parts cannot be.
+  finer_coarse_size,  ///< A smaller coarse.max_size.
+  netgen_surface,     ///< NETGEN's surface mesher takes the place of the remesher.
+  gmsh_mesh,          ///< Gmsh takes the place of all.
+  uncut_model,        ///< The model is meshed as a whole, as its parts cannot be.
   // Coarse tets.
   whole_domains,     ///< Domains are filled whole, as they cannot be in pieces.
   illegal_tets,      ///< Tets with two faces on one patch are taken out.
@@ -135,22 +128,15 @@ constexpr auto enum_words(Repair /*type*/)
       {turned_triangles, "turned_triangles"},
       {flat_triangles, "flat_triangles"},
       {flat_contacts, "flat_contacts"},
-      {torus_sizes, "torus_sizes"},
       {csg_by_occ, "csg_by_occ"},
-      {longer_close_edges, "longer_close_edges"},
-      {longer_curved_edges, "longer_curved_edges"},
       {round_places, "round_places"},
       {wall_sizes, "wall_sizes"},
-      {thin_walls, "thin_walls"},
-      {narrow_strips, "narrow_strips"},
       {mend_surface, "mend_surface"},
       {mend_folds, "mend_folds"},
       {mend_needles, "mend_needles"},
       {finer_at_cuts, "finer_at_cuts"},
       {finer_at_folds, "finer_at_folds"},
       {finer_coarse_size, "finer_coarse_size"},
-      {remeshed_triangles, "remeshed_triangles"},
-      {more_curvature, "more_curvature"},
       {netgen_surface, "netgen_surface"},
       {gmsh_mesh, "gmsh_mesh"},
       {uncut_model, "uncut_model"},

@@ -37,7 +37,7 @@ TEST(Repair, IsRefusedByANameThatThereIsNot)
       static_cast<void>(parse_repairs(names));
       ADD_FAILURE() << names;
     } catch (const ConfigError& error) {
-      EXPECT_NE(std::string(error.what()).find("narrow_strips"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("worst_tets"), std::string::npos) << error.what();
     }
   }
 }

@@ -26,9 +26,7 @@ class CoarseLadderTest : public ::testing::Test {
   }
 
   double now_s_ = 0.0;
-  // Three of NETGEN, then two others.
-  CoarseLadder ladder_{{{}, {}, {}, {.is_netgen = false}, {.is_netgen = false}},
-                       [this] { return now_s_; }};
+  CoarseLadder ladder_{5, [this] { return now_s_; }};
 };
 
 TEST_F(CoarseLadderTest, TheFirstRungHasAHeadStart)
@@ -38,21 +36,14 @@ TEST_F(CoarseLadderTest, TheFirstRungHasAHeadStart)
   EXPECT_EQ(all_next(), (Rungs{}));
 }
 
-TEST_F(CoarseLadderTest, WhatWouldFollowAnEndlessRungBeginsFirst)
+TEST_F(CoarseLadderTest, WhatFollowsBeginsInItsOrder)
 {
   EXPECT_EQ(all_next(), (Rungs{0}));
   now_s_ = 100.0;
-  EXPECT_EQ(all_next(), (Rungs{3, 4, 1, 2}));
+  EXPECT_EQ(all_next(), (Rungs{1, 2, 3, 4}));
 }
 
-TEST(CoarseLadder, TriesNetgenAfterOthersThatNeverEnded)
-{
-  CoarseLadder ladder({{.is_netgen = false}, {.is_netgen = false}, {}}, [] { return 0.0; });
-  for (const LocalIndex rung : {0, 1}) ladder.ended(rung, to_bytes(RungEnd::endless), 0);
-  EXPECT_EQ(ladder.front(), 2);
-}
-
-TEST_F(CoarseLadderTest, AfterAFailureTheOrderOfRungsCounts)
+TEST_F(CoarseLadderTest, AfterAFailureNobodyWaits)
 {
   EXPECT_EQ(all_next(), (Rungs{0}));
   end(0, RungEnd::failed);
@@ -82,31 +73,16 @@ TEST_F(CoarseLadderTest, WhatIsBehindASurfaceIsNotNeeded)
   EXPECT_FALSE(ladder_.is_needed(4));
 }
 
-TEST_F(CoarseLadderTest, NoRungOfNetgenCountsAfterAnEndlessOne)
-{
-  static_cast<void>(ladder_.next());
-  now_s_ = 100.0;
-  static_cast<void>(all_next());
-  end(1, RungEnd::surface, 1);
-  end(0, RungEnd::endless);
-  EXPECT_FALSE(ladder_.is_needed(2));
-  end(3, RungEnd::surface, 2);
-  ASSERT_TRUE(ladder_.is_settled());
-  EXPECT_EQ(ladder_.front(), 3);
-  EXPECT_EQ(ladder_.holder(3), 2);
-  EXPECT_EQ(ladder_.failed(), (Rungs{0}));
-}
-
 TEST_F(CoarseLadderTest, ASurfaceThatCannotBeFilledLeadsToTheNextOne)
 {
   end(0, RungEnd::failed);
   end(1, RungEnd::surface, 1);
   end(2, RungEnd::surface, 2);
   EXPECT_EQ(ladder_.front(), 1);
-  ladder_.fill_has_failed(1, RungEnd::failed);
+  ladder_.fill_has_failed(1);
   EXPECT_EQ(ladder_.front(), 2);
   EXPECT_EQ(ladder_.failed(), (Rungs{0, 1}));
-  ladder_.fill_has_failed(2, RungEnd::endless);
+  ladder_.fill_has_failed(2);
   EXPECT_FALSE(ladder_.is_settled());
   EXPECT_EQ(ladder_.next()->item, 3);
 }
@@ -118,7 +94,7 @@ TEST_F(CoarseLadderTest, AFinalRungCountsOnlyWhenItsTurnHasCome)
   static_cast<void>(all_next());
   end(3, RungEnd::final);
   EXPECT_FALSE(ladder_.is_settled());
-  end(0, RungEnd::endless);
+  for (const LocalIndex before : {0, 1, 2}) end(before, RungEnd::failed);
   EXPECT_TRUE(ladder_.is_settled());
   EXPECT_EQ(ladder_.front(), 3);
 }
@@ -140,20 +116,12 @@ TEST_F(CoarseLadderTest, WhatWasDroppedIsBegunAgain)
 
 TEST_F(CoarseLadderTest, ASnapshotHasEverything)
 {
-  end(0, RungEnd::endless);
-  end(3, RungEnd::surface, 2);
-  CoarseLadder other({{}, {}, {}, {.is_netgen = false}, {.is_netgen = false}}, [] { return 0.0; });
+  end(0, RungEnd::failed);
+  end(1, RungEnd::surface, 2);
+  CoarseLadder other(5, [] { return 0.0; });
   other.restore(ladder_.snapshot());
-  EXPECT_EQ(other.front(), 3);
-  EXPECT_EQ(other.holder(3), 2);
-}
-
-TEST(CoarseLadderOfParts, BeginsAnewWithNetgenForTheWholeModel)
-{
-  CoarseLadder ladder({{.is_cut = true}, {.is_cut = true}, {}, {.is_netgen = false}},
-                      [] { return 0.0; });
-  ladder.ended(0, to_bytes(RungEnd::endless), 0);
-  EXPECT_EQ(ladder.next()->item, 2);
+  EXPECT_EQ(other.front(), 1);
+  EXPECT_EQ(other.holder(1), 2);
 }
 
 }  // namespace
