@@ -29,9 +29,11 @@ bool is_for_gmsh(const config::Case& run_case)
 
 bool has_gmsh() { return jobs::is_on_path("gmsh"); }
 
+// What is merged may be what made a surface touch itself.
 coarse::CoarseOptions finer(coarse::CoarseOptions options)
 {
   options.max_size *= 0.5;
+  options.defeature *= 0.5;
   return options;
 }
 

@@ -144,10 +144,13 @@ bool Defeaturer::put_into_edge(const Cap& cap)
       at_edge, [&](LocalIndex one) { return opposite(one, cap.edge) == cap.v; });
   if (t == at_edge.end() || !may_vanish(*t, cap.edge) || is_tied(cap.edge, *t)) return false;
   const Vec3 point = moves_onto(cap.v, curve) ? cap.on_curve : surface_.xyz(cap.v);
+  // The vertex may have gone to another curve since the cap was found.
+  if (norm(point - cap.on_curve) > tolerance_) return false;
   if (!is_between(cap.edge, point) || !may_go(cap.v, point)) return false;
   const Step step = step_into(cap.edge, *t, point);
   if (!is_sound(step)) return false;
   note({.gone = cap.v, .kept = cap.v, .curve_end = cap.edge[0]});
+  origins_[cap.v].push_back(cap.on_curve);  // That point of the curve goes where the vertex goes.
   split(cap.edge, cap.v, point);
   update_guard(step.old);
   return true;

@@ -65,6 +65,18 @@ class Prism {
     split(static_cast<std::size_t>(on - surface.edges.begin()), y);
   }
 
+  // The line that leaves corner k is no curve any more, and the walls beside it are one.
+  void forget_line(LocalIndex k)
+  {
+    const LocalIndex curve = 3 * (k - 1) + 2;
+    for (std::size_t e = surface.edges.size(); e-- > 0;) {
+      if (surface.edge_curve[e] != curve) continue;
+      surface.edges.erase(surface.edges.begin() + static_cast<std::ptrdiff_t>(e));
+      surface.edge_curve.erase(surface.edge_curve.begin() + static_cast<std::ptrdiff_t>(e));
+    }
+    std::ranges::replace(surface.triangle_patch, k, k - 1);
+  }
+
   [[nodiscard]] Vec3 on_curve(LocalIndex curve, const Vec3& point) const
   {
     const auto& [a, b] = lines_.at(curve);
@@ -246,6 +258,29 @@ TEST(Defeature, MovesNothingByMoreThanTheTolerance)
   for (const Vec3& was : before) {
     EXPECT_TRUE(std::ranges::any_of(prism.surface.vertex_xyz,
                                     [&](const Vec3& is) { return norm(is - was) <= kTolerance; }));
+  }
+}
+
+// A face that is wider than the tolerance, with vertices inside that are near both of its sides.
+TEST(Defeature, MovesNoCurveByMoreThanTheTolerance)
+{
+  constexpr double kWidth = 1.2 * kTolerance;
+  Prism prism({{10.0, 0.0},
+               {10.0, 6.0},
+               {kWidth, 6.0},
+               {kWidth, 3.0},
+               {0.6 * kWidth, 3.0},
+               {0.0, 3.0},
+               {0.0, 0.0}});
+  for (const double y : {2.0, 5.0, 8.0}) prism.cut_line(4, y);
+  prism.forget_line(4);
+  static_cast<void>(prism.merge());
+  expect_sound(prism.surface);
+  for (std::size_t e = 0; e < prism.surface.edges.size(); ++e) {
+    for (const LocalIndex v : prism.surface.edges[e]) {
+      const Vec3& is = prism.surface.vertex_xyz[at(v)];
+      EXPECT_LE(norm(prism.on_curve(prism.surface.edge_curve[e], is) - is), kTolerance);
+    }
   }
 }
 

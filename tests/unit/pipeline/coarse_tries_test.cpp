@@ -35,6 +35,7 @@ TEST_P(CoarseTriesOfCad, AreTwoOfTheRemesherAndOneOfNetgen)
   expected.surface_mesher = SurfaceMesher::remesh;
   EXPECT_EQ(tries[0], expected);
   expected.max_size = 5.0;
+  expected.defeature = 0.05;
   EXPECT_EQ(tries[1], expected);
   expected = run_case.coarse;
   expected.surface_mesher = SurfaceMesher::netgen;
