@@ -146,7 +146,7 @@ bool defeature(CoarseSurface& surface, const model::Model& model, const MergeLim
   const OnCurve on_curve = [&](LocalIndex curve, LocalIndex near, const Vec3& point) {
     return groups.model_curve(curve) == kNoIndex ? kNoPoint : groups.on_curve(curve, near, point);
   };
-  const MergeLimits of_groups{limits.tolerance, kept_groups(limits.kept, groups)};
+  const MergeLimits of_groups{limits.tolerance, kept_groups(limits.kept, groups), {}};
   Defeaturer defeaturer(groups.surface(), on_curve, of_groups);
   defeaturer.run();
   if (defeaturer.merges().empty()) return false;

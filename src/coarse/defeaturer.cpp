@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -18,6 +19,16 @@ constexpr double kMostBow = 0.15;
 // Triangles of which one side is as short as the tolerance have about this height.
 constexpr double kThin = 2.0;
 
+// In parts of the wanted edge length. The remesher leaves hardly any edge that is shorter.
+constexpr double kSmall = 0.5;
+
+std::vector<double> sizes_at(const std::vector<Vec3>& places, const MergeLimits& limits)
+{
+  std::vector<double> sizes(places.size(), std::numeric_limits<double>::infinity());
+  if (limits.size_at) std::ranges::transform(places, sizes.begin(), limits.size_at);
+  return sizes;
+}
+
 }  // namespace
 
 Defeaturer::Defeaturer(const PatchSurface& start, const OnCurve& on_curve,
@@ -26,7 +37,7 @@ Defeaturer::Defeaturer(const PatchSurface& start, const OnCurve& on_curve,
       on_curve_(on_curve),
       tolerance_(limits.most()),
       kept_(limits.kept),
-      surface_(start, std::vector<double>(start.vertex_xyz.size(), 0.0)),
+      surface_(start, sizes_at(start.vertex_xyz, limits)),
       guard_(start)
 {
 }
@@ -53,7 +64,8 @@ int Defeaturer::collapse_short_edges()
 {
   std::vector<std::pair<double, Edge>> shortest;
   for (const Edge& edge : surface_.edges()) {
-    if (length(edge) <= tolerance_) shortest.emplace_back(length(edge), edge);
+    const double small = std::max(small_at(edge[0]), small_at(edge[1]));
+    if (length(edge) <= small) shortest.emplace_back(length(edge), edge);
   }
   std::ranges::sort(shortest);
   int count = 0;
@@ -127,7 +139,7 @@ std::vector<Defeaturer::Cap> Defeaturer::find_caps() const
       if (off_chord > tolerance_ + kMostBow * length(edge)) continue;
       const Vec3 found = on_curve_(curve, edge[0], point);
       const double distance = norm(found - point);
-      if (distance <= tolerance_) caps.push_back({distance, edge, v, found});
+      if (distance <= small_at(v)) caps.push_back({distance, edge, v, found});
     }
   }
   std::ranges::sort(caps, {},
@@ -247,6 +259,11 @@ bool Defeaturer::shorten(const Edge& edge)
   surface_.flip(*flip);
   update_guard(two);
   return true;
+}
+
+double Defeaturer::small_at(LocalIndex v) const
+{
+  return std::min(tolerance_, kSmall * surface_.size(v));
 }
 
 double Defeaturer::length(const Edge& edge) const

@@ -93,6 +93,7 @@ class Defeaturer {
   int shorten_diagonals();
   bool shorten(const Edge& edge);
 
+  [[nodiscard]] double small_at(LocalIndex v) const;
   [[nodiscard]] double length(const Edge& edge) const;
   [[nodiscard]] LocalIndex opposite(LocalIndex t, const Edge& edge) const;
   [[nodiscard]] bool is_thin(LocalIndex t) const;

@@ -2,6 +2,7 @@
 #include "tessera/coarse/on_geometry.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -144,7 +145,7 @@ class Finer {
         sizes_(size_function_of(reference, options)),
         surface_(remesh(reference, reference.surface(), sizes_, &model))
   {
-    if (options.defeature > 0.0) merge({options.defeature, options.kept});
+    if (options.defeature > 0.0) merge({options.defeature, options.kept, std::cref(sizes_)});
     put_on_geometry(surface_, reference_, model_);
     most_triangles_ = kMostGrowth * surface_.triangles.size();
   }

@@ -33,7 +33,7 @@ class StripSizes {
   StripSizes(const EditableSurface& surface, const CoarseOptions& options)
       : surface_(surface),
         largest_(options.max_size),
-        merged_(MergeLimits{options.defeature, {}}.most()),
+        merged_(MergeLimits{.tolerance = options.defeature}.most()),
         edges_(edges_of(surface)),
         tree_(boxes_of(edges_))
   {

@@ -138,6 +138,18 @@ class Sizes {
   const coarse::CoarseOptions& options_;
 };
 
+// The smallest edge that is wanted all over a solid or surface of the file: triangles of
+// OpenCASCADE must be nearer to the surfaces than such edges are long.
+double least_size_of_file(const Geometry& geometry, double max_size)
+{
+  double least = max_size;
+  for (int s = 0; s < geometry.GetNSurf(); ++s)
+    least = std::min(least, geometry.GetSurface(s)->GetMaxH());
+  for (int solid = 0; solid < geometry.GetNTopLevelObjects(); ++solid)
+    least = std::min(least, max_size_of_solid(geometry, solid));
+  return least;
+}
+
 // What the case names, in the numbers of the triangles.
 coarse::CoarseOptions in_numbers_of(const coarse::CadSurface& cad, coarse::CoarseOptions options)
 {
@@ -196,7 +208,7 @@ coarse::CoarseSurface remesh_csg(const model::Model& csg, const Geometry& geomet
 {
   coarse::PatchSurface tessellation = with_occ_errors(file_name, [&] {
     make_closed_solids(solids);
-    return tessellation_of(solids.shape, options.max_size);
+    return tessellation_of(solids.shape, least_size_of_file(geometry, options.max_size));
   });
   CsgTriangles triangles = triangles_of_csg(std::move(tessellation), geometry, box);
   triangles.cad.triangles.triangle_max_size = Sizes(triangles, geometry, options).run();

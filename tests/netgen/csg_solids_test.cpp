@@ -197,6 +197,20 @@ Remeshed remeshed(const std::string& solids, double max_size)
   return made;
 }
 
+double largest_distance(const model::Model& model, const mesh::CoarseMesh& mesh)
+{
+  double largest = 0.0;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const LocalIndex surface = mesh.patch_surface[at(mesh.face_patch[at(f)])];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 corner = mesh.position(mesh.face_vertices[3 * at(f) + c]);
+      const Vec3 on_it = model.project_to_surface(surface, corner, {}).xyz;
+      largest = std::max(largest, norm(on_it - corner));
+    }
+  }
+  return largest;
+}
+
 // Two solids that touch in a disc.
 constexpr const char* kPair =
     "solid box = orthobrick (-1, -1, 0; 1, 1, 1) -bcname=case;\n"
@@ -216,13 +230,7 @@ TEST(CsgRemesh, IsInTheNumbersOfTheFile)
   EXPECT_NEAR(volume_of(mesh, 1), 4.0 - core, 0.05);
   EXPECT_NEAR(volume_of(mesh, 2), core, 0.05);
   EXPECT_EQ(std::ranges::count(mesh.patch_names, "mantle"), 1);
-  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    const LocalIndex surface = mesh.patch_surface[at(mesh.face_patch[at(f)])];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Vec3 corner = mesh.position(mesh.face_vertices[3 * at(f) + c]);
-      EXPECT_LT(norm(model->project_to_surface(surface, corner, {}).xyz - corner), 1e-6);
-    }
-  }
+  EXPECT_LT(largest_distance(*model, mesh), 1e-6);
   EXPECT_GT(mesh.num_segments(), 0);
   for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {  // Seams are none.
     const Vec3 end = mesh.position(mesh.segment_vertices[2 * at(s)]);
@@ -328,6 +336,16 @@ TEST(CsgRemesh, NamesWhatIsMergedInTheNumbersOfTheFile)
   options.kept.patches = {merged.patches.front().number};
   for (const coarse::MergedPart& side : mesher->mesh_surface(options, {}).defeatured.patches)
     EXPECT_NE(side.number, options.kept.patches.front());
+}
+
+// Chords that are as long as the case allows would be off by more than the wall is thick.
+TEST(CsgRemesh, IsOnTheSurfacesOfAThinShell)
+{
+  const auto [source, model, mesh] = remeshed(
+      "solid shell = sphere (0, 0, 0; 1) and not sphere (0, 0, 0; 0.98)\n"
+      "  and orthobrick (-0.3, -0.3, 0; 0.3, 0.3, 2);\ntlo shell -maxh=0.02;\n",
+      2.0);
+  EXPECT_LT(largest_distance(*model, mesh), 1e-6);
 }
 
 TEST(CsgRemesh, IsNotForWhatOnlyNetgenKnows)

@@ -46,6 +46,9 @@ struct Defeatured {
 struct MergeLimits {
   double tolerance = 0.0;  ///< > 0, the surface's unit.
   KeptParts kept{};        ///< No triangle of these patches goes, and no edge of these curves.
+  /// Wanted edge length at a place. What is longer than half of it is no small part of the model,
+  /// but an edge as it should be. Empty: only the tolerance counts.
+  std::function<double(const Vec3&)> size_at{};
 
   /// @brief What is longer is not small. Of a wall that is as thick as the tolerance, rounding
   /// would merge some places only.

@@ -88,7 +88,7 @@ class Prism {
     return defeature(
         surface,
         [this](LocalIndex curve, LocalIndex, const Vec3& point) { return on_curve(curve, point); },
-        MergeLimits{tolerance, kept});
+        MergeLimits{tolerance, kept, {}});
   }
 
   PatchSurface surface{};
@@ -337,7 +337,7 @@ TEST(Defeature, KeepsParametersOfACoarseSurface)
   const LocalIndex b = mesh.segment_vertices[1];
   const double length = norm(mesh.position(a) - mesh.position(b));
   const LocalIndex before = mesh.num_faces();
-  const bool is_any = defeature(surface, model, MergeLimits{1.0001 * length, {}});
+  const bool is_any = defeature(surface, model, MergeLimits{.tolerance = 1.0001 * length});
   EXPECT_TRUE(is_any);
   EXPECT_EQ(is_any, surface.defeatured.is_any());
   EXPECT_LT(mesh.num_faces(), before);
