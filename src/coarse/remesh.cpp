@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tessera/base/repair.hpp"
+#include "tessera/coarse/surface_overlap.hpp"
 
 #include "coarse/divide_curves.hpp"
 #include "coarse/polish_surface.hpp"
@@ -58,8 +59,8 @@ constexpr double kSettledOnCurve = 0.1;
 class Remesher {
  public:
   Remesher(const SurfaceReference& reference, const PatchSurface& start, const SizeFunction& sizes,
-           const model::Model* model)
-      : editor_(reference, start, sizes, model), surface_(editor_.surface())
+           const model::Model* model, bool may_cut)
+      : editor_(reference, start, sizes, model, may_cut), surface_(editor_.surface())
   {
   }
 
@@ -250,7 +251,7 @@ SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOpt
   const PatchSurface& start = reference.surface();
   SizeFunction sizes(options);
   sizes.limit(bent_places_of(start, for_bends_of_triangles(start, options)));
-  Remesher remesher(reference, start, sizes, nullptr);
+  Remesher remesher(reference, start, sizes, nullptr, true);
   const EditableSurface& surface = remesher.with_short_edges();
   std::vector<SizeSource> sources = narrow_strips_of(surface, options);
   if (!is_left_out(Repair::wall_sizes)) {
@@ -266,7 +267,10 @@ SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOpt
 PatchSurface remesh(const SurfaceReference& reference, const PatchSurface& start,
                     const SizeFunction& sizes, const model::Model* model)
 {
-  return Remesher(reference, start, sizes, model).run();
+  // Most surfaces do not come to cut themselves, and guarding steps takes as long as all else.
+  PatchSurface surface = Remesher(reference, start, sizes, model, true).run();
+  if (find_overlaps(surface).empty()) return surface;
+  return Remesher(reference, start, sizes, model, false).run();
 }
 
 PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options)

@@ -44,16 +44,16 @@ double angle_shape(const std::array<Vec3, 3>& p) noexcept
 }
 
 SurfaceEditor::SurfaceEditor(const SurfaceReference& reference, const PatchSurface& start,
-                             const SizeFunction& sizes, const model::Model* model)
+                             const SizeFunction& sizes, const model::Model* model, bool may_cut)
     : reference_(reference),
       surface_(start, std::vector<double>(start.vertex_xyz.size(), 0.0)),
       sizes_(sizes),
       model_(model),
-      guard_(start),
       changed_(start.vertex_xyz.size(), 0),
       shapes_(start.triangles.size(), kUnknown),
       normals_(start.vertex_xyz.size())
 {
+  if (!may_cut) guard_.emplace(start);
   for (LocalIndex v = 0; v < surface_.num_vertices(); ++v) {
     surface_.set_size(v, sizes_(surface_.xyz(v)));
   }
@@ -133,7 +133,7 @@ void SurfaceEditor::note_change(std::span<const LocalIndex> triangles)
 // Triangle `t` has become one that is upright.
 void SurfaceEditor::put(LocalIndex t, const PlacedTriangle& one)
 {
-  guard_.change(t, one);
+  if (guard_) guard_->change(t, one);
   shapes_[at(t)] = angle_shape(one.corners);
 }
 
@@ -151,10 +151,11 @@ bool SurfaceEditor::all_better(std::span<const PlacedTriangle> candidates, doubl
 bool SurfaceEditor::cuts_nothing(std::span<const LocalIndex> old,
                                  std::span<const PlacedTriangle> made, bool is_inside)
 {
+  if (!guard_) return true;
   const bool is_in_plane =
       is_inside && reference_.normal_of_plane(surface_.patch(old.front())) != nullptr
       && std::ranges::all_of(old, [this](LocalIndex t) { return shape(t) >= 0.0; });
-  return is_in_plane || guard_.allows(old, made);
+  return is_in_plane || guard_->allows(old, made);
 }
 
 double SurfaceEditor::fair_shape(LocalIndex v)
@@ -232,22 +233,27 @@ LocalIndex SurfaceEditor::split(const Edge& edge, double part)
   const Vec3 chord = a + part * (surface_.xyz(edge[1]) - a);
   const Vec3 wanted = on_reference(edge, chord);
   const bool is_inside = surface_.curve(edge[0], edge[1]) == kNoIndex;
-  const bool is_free = cuts_nothing(old, halves(old, edge, wanted), is_inside);
+  const bool is_free = !guard_ || cuts_nothing(old, halves(old, edge, wanted), is_inside);
   const LocalIndex middle = surface_.split(edge, is_free ? wanted : chord);
   surface_.set_size(middle, sizes_(surface_.xyz(middle)));
   const std::vector<LocalIndex>& made = surface_.triangles_of(middle);
   note_change(made);
+  if (guard_) guard_split(made, old.front());
+  return middle;
+}
+
+void SurfaceEditor::guard_split(std::span<const LocalIndex> made, LocalIndex beside)
+{
   for (const LocalIndex t : made) {
     const bool is_upright = shape(t) >= 0.0;
     const PlacedTriangle one =
         placed(surface_.triangle(t), is_upright ? surface_.patch(t) : kNoIndex);
-    if (t < guard_.num_triangles()) {
-      guard_.change(t, one);
+    if (t < guard_->num_triangles()) {
+      guard_->change(t, one);
     } else {
-      guard_.add(one, old.front());
+      guard_->add(one, beside);
     }
   }
-  return middle;
 }
 
 bool SurfaceEditor::keeps_lengths(LocalIndex gone, LocalIndex kept) const
@@ -300,7 +306,7 @@ bool SurfaceEditor::collapse(LocalIndex gone, LocalIndex kept, double least)
   if (!cuts_nothing(old, made, is_inside)) return false;
   surface_.collapse(gone, kept);
   for (const LocalIndex t : old) {
-    if (!surface_.is_triangle(t)) guard_.remove(t);
+    if (guard_ && !surface_.is_triangle(t)) guard_->remove(t);
   }
   note_change(surface_.triangles_of(kept));
   for (std::size_t i = 0; i < left.size(); ++i) put(left[i], made[i]);

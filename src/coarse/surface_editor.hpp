@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,8 +38,9 @@ class SurfaceEditor {
   /// @param[in] sizes  Wanted edge lengths; must live on.
   /// @param[in] model  If given, vertices on curves lie on its curves, not on the reference's:
   /// there the chords of the reference may be off by more than a strip beside them is wide.
+  /// @param[in] may_cut  Whether steps may make triangles cut others: then they are quicker.
   SurfaceEditor(const SurfaceReference& reference, const PatchSurface& start,
-                const SizeFunction& sizes, const model::Model* model);
+                const SizeFunction& sizes, const model::Model* model, bool may_cut);
 
   [[nodiscard]] const EditableSurface& surface() const { return surface_; }
   [[nodiscard]] const SurfaceReference& reference() const { return reference_; }
@@ -98,6 +100,7 @@ class SurfaceEditor {
   bool flip(const EditableSurface::Flip& flip, double least);
   [[nodiscard]] bool cuts_nothing(std::span<const LocalIndex> old,
                                   std::span<const PlacedTriangle> made, bool is_inside);
+  void guard_split(std::span<const LocalIndex> made, LocalIndex beside);
   [[nodiscard]] bool is_upright(const PlacedTriangle& one);
   [[nodiscard]] const Vec3& normal_at(LocalIndex v, LocalIndex patch, const Vec3& place);
   [[nodiscard]] PlacedNormal& known_normal(LocalIndex v, LocalIndex patch);
@@ -116,7 +119,7 @@ class SurfaceEditor {
   EditableSurface surface_;
   const SizeFunction& sizes_;
   const model::Model* model_;
-  CrossingGuard guard_;
+  std::optional<CrossingGuard> guard_{};
   int pass_ = 0;
   std::vector<int> changed_;      // Of each vertex: the last pass with a change there.
   std::vector<double> shapes_{};  // Of the triangles.
