@@ -167,7 +167,8 @@ class WithoutAMesh(FaultsTest):
     def test_plan(self):
         def look(fault, outcome):
             self.assert_ended(fault, outcome, FAILED, "plan from subdomain")
-            self.assertEqual(set(self.kept_jobs(fault)), {"plan"})
+            # On three ranks more than one job may have failed before the first failure is known.
+            self.assertEqual({job.partition(".")[0] for job in self.kept_jobs(fault)}, {"plan"})
 
         self.for_all(on_both_ranks("plan", CAUSES), look)
 

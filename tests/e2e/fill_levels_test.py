@@ -93,8 +93,8 @@ class Cases(FillLevelsTest):
 # A thin can, so coarse that surfaces lie far from its tets.
 CAN = (
     "algebraic3d\n"
-    "solid hole = cylinder (0, 0, -5; 0, 0, 5; 9.0) and plane (0, 0, -3; 0, 0, -1) and plane (0, 0, 3; 0, 0, 1);\n"
-    "solid all = cylinder (0, 0, -5; 0, 0, 5; 10) and plane (0, 0, -2; 0, 0, -1) and plane (0, 0, 2; 0, 0, 1);\n"
+    "solid hole = cylinder (0, 0, -5; 0, 0, 5; 5) and plane (0, 0, -3; 0, 0, -1) and plane (0, 0, 3; 0, 0, 1);\n"
+    "solid all = cylinder (0, 0, -5; 0, 0, 5; 6) and plane (0, 0, -2; 0, 0, -1) and plane (0, 0, 2; 0, 0, 1);\n"
     "solid can = all and not hole;\ntlo can;\n"
 )
 

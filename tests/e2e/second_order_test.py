@@ -207,7 +207,7 @@ class Damage(SecondOrderTest):
 
     def test_a_node_that_makes_a_tet_invalid(self):
         def replace(data, points, cells):
-            corner = int.from_bytes(data[cells:cells + 4], "little")
+            corner = int.from_bytes(data[cells + 8:cells + 12], "little")  # Not of this node's edge.
             node = int.from_bytes(data[cells + 16:cells + 20], "little")
             for i in range(8, 24):  # All but the first coordinate: no duplicate point.
                 data[points + 24 * node + i] = data[points + 24 * corner + i]

@@ -44,7 +44,7 @@ class SplitCorners(program.ProgramTest):
     def test_by_each_kernel(self):
         for kernel in ("subdivide", "netgen", "optimize"):
             with self.subTest(kernel):
-                keys = ("refine.levels=2", f"fill.kernel={kernel}")
+                keys = ("coarse.max_size=0.4", "refine.levels=2", f"fill.kernel={kernel}")
                 plain = self.made("half", f"plain_{kernel}", *keys, split=False)
                 num_before = num_corner_tets(plain)
                 self.assertGreater(num_before, 0, "the test has nothing to look for")
