@@ -21,6 +21,7 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "refine": CORE | {"model"},
     "fill": CORE | {"model"},
     "improve": CORE | {"model"},
+    "delaunay": BASE,
     "optimize": BASE | {"mesh"},  # knows no lattice and no process but its own
     "sizing": CORE | {"model"},
     "migrate": CORE,
