@@ -23,8 +23,8 @@ std::vector<LocalIndex> different_points(std::span<const double> xyz)
   std::iota(rows.begin(), rows.end(), 0);
   const auto position = [xyz](LocalIndex row) { return point_at(xyz, row); };
   std::ranges::stable_sort(rows, {}, position);
-  const auto equal = std::ranges::unique(rows, {}, position);
-  rows.erase(equal.begin(), equal.end());
+  const auto are_equal = [&](LocalIndex a, LocalIndex b) { return position(a) == position(b); };
+  rows.erase(std::unique(rows.begin(), rows.end(), are_equal), rows.end());
   return rows;
 }
 

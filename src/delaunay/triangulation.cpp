@@ -98,7 +98,7 @@ void Triangulation::link(Corner a, Corner b)
 
 bool Triangulation::is_ghost(LocalIndex tet) const
 {
-  return std::ranges::find(vertices(tet), kInfinity) != vertices(tet).end();
+  return place_of(kInfinity, tet) != kNoIndex;
 }
 
 bool Triangulation::has_tet(LocalIndex slot) const
@@ -141,8 +141,10 @@ bool Triangulation::is_destroyed_by(const Vec3& point, LocalIndex tet) const
 LocalIndex Triangulation::place_of(LocalIndex vertex, LocalIndex tet) const
 {
   const auto v = vertices(tet);
-  const auto found = std::ranges::find(v, vertex);
-  return found == v.end() ? kNoIndex : static_cast<LocalIndex>(found - v.begin());
+  for (LocalIndex place = 0; place < 4; ++place) {
+    if (v[at(place)] == vertex) return place;
+  }
+  return kNoIndex;
 }
 
 void Triangulation::insert_all()
