@@ -96,10 +96,7 @@ void Triangulation::link(Corner a, Corner b)
   tet_neighbours_[at(b)] = a;
 }
 
-bool Triangulation::is_ghost(LocalIndex tet) const
-{
-  return place_of(kInfinity, tet) != kNoIndex;
-}
+bool Triangulation::is_ghost(LocalIndex tet) const { return place_of(kInfinity, tet) != kNoIndex; }
 
 bool Triangulation::has_tet(LocalIndex slot) const
 {
