@@ -71,11 +71,11 @@ class SameBits(NodesTest):
 
     def test_a_hundred_million_tets(self):
         """Some 2 GB, which are compared by their digest, not kept."""
-        coarser = program.sets("coarse.curvature=1.2", "refine.levels=5", "fill.kernel=subdivide",
-                               "output.report_html=false")  # fmt: skip
+        finer = program.sets("coarse.curvature=1.6", "refine.levels=5", "fill.kernel=subdivide",
+                             "output.report_html=false")  # fmt: skip
         digests = []
         for num_nodes in (1, 4):
-            out = self.mesh_on(NODES[num_nodes], SHAFT, "large", *coarser)
+            out = self.mesh_on(NODES[num_nodes], SHAFT, "large", *finer)
             report = self.report("large")
             self.assertGreater(report["num_tets"], 100_000_000)
             digests.append(report["digest"])
