@@ -20,8 +20,8 @@
 namespace tessera {
 namespace {
 
-// More would take long, as each is tested with each face of the hull.
-constexpr std::size_t kMostPoints = 300;
+// More would take long, as each is tested with each tet.
+constexpr std::size_t kMostPoints = 80;
 
 std::vector<double> read_doubles(std::span<const std::uint8_t> bytes)
 {
@@ -49,23 +49,32 @@ std::vector<double> read_points(std::span<const std::uint8_t> bytes)
   return read_whole_numbers(bytes, kind == 1 ? 5 : 64, kind == 3);
 }
 
+// The point is not inside of the tet's sphere, and not beyond those of its faces that are of the
+// hull.
+void promise_outside(const Vec3& point, std::array<Vec3, 4> tet,
+                     std::span<const LocalIndex> neighbours)
+{
+  fuzz::promise(delaunay::insphere(tet[0], tet[1], tet[2], tet[3], point) <= 0);
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (neighbours[c] != kNoIndex) continue;
+    const Vec3 corner = tet[c];
+    tet[c] = point;
+    fuzz::promise(delaunay::orient3d(tet[0], tet[1], tet[2], tet[3]) >= 0);
+    tet[c] = corner;
+  }
+}
+
 void promise_delaunay(const std::vector<double>& xyz, const delaunay::Tetrahedralization& tets)
 {
-  const auto corner_at = [&](std::size_t i) {
-    return point_at(std::span(xyz), tets.tet_vertices[i]);
-  };
-  for (std::size_t i = 0; i < tets.tet_vertices.size(); ++i) {
-    const std::size_t first = i / 4 * 4;
-    std::array<Vec3, 4> p{corner_at(first), corner_at(first + 1), corner_at(first + 2),
-                          corner_at(first + 3)};
-    fuzz::promise(delaunay::orient3d(p[0], p[1], p[2], p[3]) == 1);
+  for (std::size_t i = 0; i < tets.tet_vertices.size(); i += 4) {
+    std::array<Vec3, 4> tet{};
+    for (std::size_t c = 0; c < 4; ++c) {
+      tet[c] = point_at(std::span(xyz), tets.tet_vertices[i + c]);
+    }
+    fuzz::promise(delaunay::orient3d(tet[0], tet[1], tet[2], tet[3]) == 1);
     for (std::size_t q = 0; q < xyz.size() / 3; ++q) {
-      const Vec3 point = point_at(std::span(xyz), q);
-      fuzz::promise(delaunay::insphere(p[0], p[1], p[2], p[3], point) <= 0);
-      if (tets.tet_neighbours[i] != kNoIndex) continue;
-      p[i % 4] = point;  // The hull is convex.
-      fuzz::promise(delaunay::orient3d(p[0], p[1], p[2], p[3]) >= 0);
-      p[i % 4] = corner_at(i);
+      promise_outside(point_at(std::span(xyz), q), tet,
+                      std::span(tets.tet_neighbours).subspan(i, 4));
     }
   }
 }
