@@ -36,12 +36,12 @@ std::optional<comm::Task> CoarseLadder::next()
 {
   if (is_settled()) return std::nullopt;
   const std::size_t front = first_not_failed();
-  const bool may_go_on = front > 0 || rungs_[0].state == State::waiting
-                         || seconds_() - rungs_[0].start_s >= kHeadStart_s;
+  const bool may_go_on =
+      front > 0 || rungs_[0].state == State::waiting || seconds_() - first_start_s_ >= kHeadStart_s;
   for (std::size_t i = front; may_go_on && i < first_decided(); ++i) {
     if (rungs_[i].state != State::waiting) continue;
     rungs_[i].state = State::running;
-    rungs_[i].start_s = seconds_();
+    if (i == 0) first_start_s_ = seconds_();
     return comm::Task{.item = static_cast<LocalIndex>(i)};
   }
   return std::nullopt;

@@ -58,7 +58,6 @@ class CoarseLadder final : public comm::TaskSource {
   enum class State { waiting, running, failed, final, surface };
   struct Rung {
     State state = State::waiting;
-    double start_s = 0.0;
     Rank holder = 0;
   };
 
@@ -71,6 +70,7 @@ class CoarseLadder final : public comm::TaskSource {
 
   std::vector<Rung> rungs_;
   std::function<double()> seconds_;
+  double first_start_s_ = 0.0;  // Of the first rung.
 };
 
 }  // namespace tessera::pipeline

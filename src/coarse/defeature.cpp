@@ -88,7 +88,9 @@ KeptParts kept_groups(const KeptParts& kept, const SurfaceGroups& groups)
   return {{patches.begin(), patches.end()}, {curves.begin(), curves.end()}};
 }
 
-std::vector<MergedPart> missing(const Parts& before, const Parts& after)
+// `after`: parts, or their numbers alone.
+template <class After>
+std::vector<MergedPart> missing(const Parts& before, const After& after)
 {
   std::vector<MergedPart> gone;
   for (const auto& [number, part] : before) {
@@ -115,6 +117,18 @@ Defeatured Defeatured::scaled(double factor) const
   }
   for (Vec3& place : result.places) place = factor * place;
   return result;
+}
+
+std::vector<MergedPart> renumbered(const std::vector<MergedPart>& merged,
+                                   const std::vector<LocalIndex>& new_number,
+                                   const std::vector<LocalIndex>& left)
+{
+  Parts before;
+  for (const MergedPart& part : merged)
+    add_part(new_number[at(part.number)], part.measure, part.centre, before);
+  std::set<LocalIndex> after{kNoIndex};
+  for (const LocalIndex part : left) after.insert(new_number[at(part)]);
+  return missing(before, after);
 }
 
 Defeatured defeature(PatchSurface& surface, const OnCurve& on_curve, const MergeLimits& limits)

@@ -19,7 +19,7 @@ constexpr double kMostBow = 0.15;
 // Triangles of which one side is as short as the tolerance have about this height.
 constexpr double kThin = 2.0;
 
-// In parts of the wanted edge length. The remesher leaves hardly any edge that is shorter.
+// In parts of the wanted edge length. The remesher collapses what is shorter than 0.83 of it.
 constexpr double kSmall = 0.5;
 
 std::vector<double> sizes_at(const std::vector<Vec3>& places, const MergeLimits& limits)

@@ -184,7 +184,6 @@ class SharpFinder {
       if (is_forced(t)) {
         ++result.num_forced;
       } else {
-        result.others.push_back(t);
         others.emplace_back(smallest_angle(t), t);
       }
     }

@@ -60,8 +60,8 @@ constexpr Key kKeys[] = {
          "[[size.region]] say. And smaller features of a CAD model or STL file make no small "
          "tets: edges that are shorter are merged in the coarse mesh, and faces that are "
          "narrower; the report lists them. No point is moved by more, and the mesh is that "
-         "far off the geometry there. What the case names stays. At most half of "
-         "coarse.max_size counts for that. 0: nothing is merged.",
+         "far off the geometry there. What the case names stays. At most half of the coarse "
+         "edge that is wanted at a place counts for that there. 0: nothing is merged.",
      .reason = "smaller features have no say in a solution with such edges; of sizes, all that are "
                "wanted are made",
      .derived_default = "for features, a twentieth of size.target, 0 without it; for sizes, none",

@@ -5,8 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -166,37 +164,13 @@ coarse::CoarseOptions in_numbers_of(const coarse::CadSurface& cad, coarse::Coars
   return options;
 }
 
-// Numbers of the file for those of the triangles. Several of these may be one of the file's, which
-// is merged if none of them is left.
-std::vector<coarse::MergedPart> of_file(const std::vector<coarse::MergedPart>& merged,
-                                        const std::vector<LocalIndex>& number_in_file,
-                                        const std::vector<LocalIndex>& left)
-{
-  std::set<LocalIndex> stays{kNoIndex};
-  for (const LocalIndex part : left) stays.insert(number_in_file[at(part)]);
-  std::map<LocalIndex, coarse::MergedPart> parts;
-  for (const coarse::MergedPart& one : merged) {
-    const LocalIndex number = number_in_file[at(one.number)];
-    if (stays.contains(number)) continue;
-    coarse::MergedPart& part = parts[number];
-    part.number = number;
-    part.centre = part.centre + one.measure * one.centre;
-    part.measure += one.measure;
-  }
-  std::vector<coarse::MergedPart> ascending;
-  for (auto& [number, part] : parts) {
-    if (part.measure > 0.0) part.centre = (1.0 / part.measure) * part.centre;
-    ascending.push_back(part);
-  }
-  return ascending;
-}
-
 coarse::Defeatured in_numbers_of_file(coarse::RemeshedSurface remeshed,
                                       const coarse::CadSurface& cad)
 {
   coarse::Defeatured merged = std::move(remeshed.defeatured);
-  merged.patches = of_file(merged.patches, cad.patch_surface, remeshed.surface.triangle_patch);
-  merged.curves = of_file(merged.curves, cad.curve_number, remeshed.surface.edge_curve);
+  merged.patches =
+      coarse::renumbered(merged.patches, cad.patch_surface, remeshed.surface.triangle_patch);
+  merged.curves = coarse::renumbered(merged.curves, cad.curve_number, remeshed.surface.edge_curve);
   return merged;
 }
 

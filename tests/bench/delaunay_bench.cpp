@@ -7,25 +7,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <numbers>
-#include <random>
 #include <vector>
 
 #include "tessera/delaunay/tetrahedralize.hpp"
+
+#include "support/random_points.hpp"
 
 namespace tessera {
 namespace {
 
 using Points = std::vector<double>;
-
-Points random_in_cube(int size)
-{
-  std::mt19937_64 engine(1);
-  std::uniform_real_distribution<double> number(0.0, 1.0);
-  Points xyz;
-  for (int i = 0; i < 3 * size; ++i) xyz.push_back(number(engine));
-  return xyz;
-}
 
 Points lattice(int size)
 {
@@ -37,20 +28,6 @@ Points lattice(int size)
     for (const int place : {cell % n, cell / n % n, cell / n / n}) {
       xyz.push_back(0.09375 * (place + shift));
     }
-  }
-  return xyz;
-}
-
-Points random_on_sphere(int size)
-{
-  std::mt19937_64 engine(1);
-  std::uniform_real_distribution<double> number(-1.0, 1.0);
-  Points xyz;
-  for (int i = 0; i < size; ++i) {
-    const double z = number(engine);
-    const double angle = std::numbers::pi * number(engine);
-    const double radius = std::sqrt(1.0 - z * z);
-    xyz.insert(xyz.end(), {radius * std::cos(angle), radius * std::sin(angle), z});
   }
   return xyz;
 }
@@ -70,7 +47,7 @@ void run(const char* name, const Points& xyz)
 int main(int argc, char** argv)
 {
   const int size = argc > 1 ? std::atoi(argv[1]) : 1'000'000;
-  tessera::run("random in a cube", tessera::random_in_cube(size));
+  tessera::run("random in a cube", tessera::testing::points_in_cube(size));
   tessera::run("lattice", tessera::lattice(size));
-  tessera::run("on a sphere", tessera::random_on_sphere(size / 100));
+  tessera::run("on a sphere", tessera::testing::points_on_sphere(size / 100));
 }

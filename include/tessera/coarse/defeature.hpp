@@ -42,6 +42,14 @@ struct Defeatured {
   [[nodiscard]] bool is_any() const { return !places.empty(); }
 };
 
+/// @brief The same parts under other numbers, ascending. Parts that get one number are one part,
+/// which is merged if nothing that is left has its number. Local.
+/// @param[in] new_number Of each number; kNoIndex: such parts are left out.
+/// @param[in] left       Old numbers of what is left, in any order.
+[[nodiscard]] std::vector<MergedPart> renumbered(const std::vector<MergedPart>& merged,
+                                                 const std::vector<LocalIndex>& new_number,
+                                                 const std::vector<LocalIndex>& left);
+
 /// @brief What may be merged.
 struct MergeLimits {
   double tolerance = 0.0;  ///< > 0, the surface's unit.

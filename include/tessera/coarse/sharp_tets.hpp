@@ -21,8 +21,7 @@ struct SharpTet {
 struct SharpTets {
   LocalIndex num_forced = 0;  ///< At sharp places of the model.
   LocalIndex num_others = 0;
-  std::vector<LocalIndex> others{};  ///< Their rows, ascending.
-  std::vector<SharpTet> worst{};     ///< Of the others, the smallest angle first; kMost at most.
+  std::vector<SharpTet> worst{};  ///< Of the others, the smallest angle first; kMost at most.
 
   static constexpr std::size_t kMost = 10;
 };

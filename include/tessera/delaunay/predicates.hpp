@@ -26,10 +26,10 @@ inline constexpr double kMostCoordinate = 0x1p150;
 
 /// @brief insphere() with ties broken: 1 or -1.
 ///
-/// As if each point were lifted off the paraboloid x^2 + y^2 + z^2 by an amount of its own, far
-/// smaller than any difference of coordinates, and the less the lower the point's position is in
-/// lexicographic order. So the answer depends on the positions alone, and Delaunay tets with it are
-/// a function of the set of points. @cite devillers2011
+/// As if each point were lifted off the paraboloid x^2 + y^2 + z^2 by an amount of its own. The
+/// amounts are far smaller than any difference of coordinates, and ordered as the positions are:
+/// the first one in lexicographic order is lifted least. So the answer depends on the positions
+/// alone, and Delaunay tets with it are a function of the set of points. @cite devillers2011
 /// @pre The tet is positive, and the points differ.
 [[nodiscard]] int insphere_untied(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
                                   const Vec3& e);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <random>
 #include <set>
@@ -19,6 +18,8 @@
 #include "tessera/base/vec3.hpp"
 #include "tessera/delaunay/predicates.hpp"
 
+#include "support/random_points.hpp"
+
 namespace tessera::delaunay {
 namespace {
 
@@ -27,15 +28,6 @@ using Points = std::vector<double>;
 Vec3 place(const Points& xyz, LocalIndex v) { return point_at(std::span(xyz), v); }
 
 void add(Points& xyz, const Vec3& p) { xyz.insert(xyz.end(), p.begin(), p.end()); }
-
-Points random_points(int size, unsigned seed = 1)
-{
-  std::mt19937 engine(seed);
-  std::uniform_real_distribution<double> number(-1.0, 1.0);
-  Points xyz;
-  for (int i = 0; i < 3 * size; ++i) xyz.push_back(number(engine));
-  return xyz;
-}
 
 // n^3 points; with the middles of cells a body-centred lattice.
 Points grid(int n, double spacing, bool with_middles)
@@ -50,20 +42,6 @@ Points grid(int n, double spacing, bool with_middles)
         }
       }
     }
-  }
-  return xyz;
-}
-
-Points on_sphere(int size)
-{
-  std::mt19937 engine(3);
-  std::uniform_real_distribution<double> number(-1.0, 1.0);
-  Points xyz;
-  for (int i = 0; i < size; ++i) {
-    const double z = number(engine);
-    const double angle = std::numbers::pi * number(engine);
-    const double radius = std::sqrt(1.0 - z * z);
-    add(xyz, {radius * std::cos(angle), radius * std::sin(angle), z});
   }
   return xyz;
 }
@@ -176,9 +154,9 @@ TEST(Tetrahedralize, MakesOneTetOfFourPoints)
 TEST(Tetrahedralize, IsDelaunayForRandomPoints)
 {
   for (int i = 1; i < 20; ++i) {
-    expect_delaunay(random_points(5 + 40 * i, static_cast<unsigned>(i)));
+    expect_delaunay(testing::points_in_cube(5 + 40 * i, static_cast<unsigned>(i)));
   }
-  expect_delaunay(random_points(20'000));
+  expect_delaunay(testing::points_in_cube(20'000));
 }
 
 TEST(Tetrahedralize, IsDelaunayWhereManyPointsLieOnOneSphere)
@@ -187,14 +165,14 @@ TEST(Tetrahedralize, IsDelaunayWhereManyPointsLieOnOneSphere)
   expect_delaunay(grid(6, 0.375, true));
   expect_delaunay(grid(6, 0.1, true));  // Nearly: coordinates are rounded.
   expect_delaunay(exactly_on_sphere());
-  expect_delaunay(on_sphere(700));
+  expect_delaunay(testing::points_on_sphere(700));
 }
 
 TEST(Tetrahedralize, FillsTheConvexHull)
 {
   const Points cubes = grid(9, 0.25, false);
   EXPECT_NEAR(volume_of(cubes, tetrahedralize(cubes)), 8.0, 1e-12);
-  Points box = random_points(300);
+  Points box = testing::points_in_cube(300);
   for (const double x : {-1.0, 1.0}) {
     for (const double y : {-1.0, 1.0}) {
       for (const double z : {-1.0, 1.0}) add(box, {x, y, z});
@@ -206,7 +184,7 @@ TEST(Tetrahedralize, FillsTheConvexHull)
 
 TEST(Tetrahedralize, TakesManyPointsOnOnePlaneOfTheHull)
 {
-  Points xyz = random_points(400);
+  Points xyz = testing::points_in_cube(400);
   for (std::size_t i = 2; i < xyz.size(); i += 3) xyz[i] = 0.25;
   add(xyz, {0.1, 0.2, 1.0});
   expect_delaunay(xyz);
@@ -214,7 +192,7 @@ TEST(Tetrahedralize, TakesManyPointsOnOnePlaneOfTheHull)
 
 TEST(Tetrahedralize, IsAFunctionOfTheSetOfPoints)
 {
-  const std::array<Points, 4> samples{random_points(2000), grid(6, 1.0, false),
+  const std::array<Points, 4> samples{testing::points_in_cube(2000), grid(6, 1.0, false),
                                       grid(5, 0.375, true), exactly_on_sphere()};
   for (const Points& xyz : samples) {
     const std::vector<double> places = places_of(xyz, tetrahedralize(xyz));
@@ -228,7 +206,7 @@ TEST(Tetrahedralize, IsAFunctionOfTheSetOfPoints)
 
 TEST(Tetrahedralize, TakesTheFirstOfEqualPoints)
 {
-  const Points once = random_points(200);
+  const Points once = testing::points_in_cube(200);
   Points twice = once;
   for (std::size_t i = 0; i < once.size(); ++i) twice.push_back(once[i]);
   add(twice, {0.0, -0.0, 0.0});
@@ -246,7 +224,7 @@ TEST(Tetrahedralize, RefusesPointsOnOnePlane)
   EXPECT_EQ(error_of({1, 2, 3}), "no tets: all 1 points lie on one plane");
   EXPECT_EQ(error_of({0, 0, 0, 1, 1, 1, 2, 2, 2, 5, 5, 5}),
             "no tets: all 4 points lie on one plane");
-  Points plane = random_points(100);
+  Points plane = testing::points_in_cube(100);
   for (std::size_t i = 0; i < plane.size(); i += 3) plane[i] = plane[i + 1];
   EXPECT_EQ(error_of(plane), "no tets: all 100 points lie on one plane");
   plane[0] = std::nextafter(plane[0], 2.0);
@@ -255,7 +233,7 @@ TEST(Tetrahedralize, RefusesPointsOnOnePlane)
 
 TEST(Tetrahedralize, RefusesCoordinatesThatNoTestIsExactFor)
 {
-  Points xyz = random_points(10);
+  Points xyz = testing::points_in_cube(10);
   for (const double x : {std::numeric_limits<double>::quiet_NaN(), 1e200, -1e-200,
                          std::numeric_limits<double>::infinity()}) {
     xyz[4] = x;
