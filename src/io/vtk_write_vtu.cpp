@@ -6,6 +6,7 @@
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkCellTypes.h>
+#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
 #include <vtkExecutive.h>
@@ -151,6 +152,32 @@ void set_compression(vtkXMLWriter& writer, Compression compression)
   return messages.empty() ? vtkErrorCode::GetStringFromErrorCode(error_code) : messages;
 }
 
+/// @brief The first error code of a writer. It deletes the file that it cannot finish, and what it
+/// finds wrong after that has the last code.
+class FirstErrorCode {
+ public:
+  explicit FirstErrorCode(vtkXMLWriter& writer)
+      : writer_(writer),
+        observer_(writer.AddObserver(vtkCommand::ModifiedEvent, this, &FirstErrorCode::look))
+  {
+  }
+  ~FirstErrorCode() { writer_.RemoveObserver(observer_); }
+  FirstErrorCode(const FirstErrorCode&) = delete;
+  FirstErrorCode& operator=(const FirstErrorCode&) = delete;
+
+  [[nodiscard]] unsigned long get() const noexcept { return code_; }
+
+ private:
+  void look()
+  {
+    if (code_ == vtkErrorCode::NoError) code_ = writer_.GetErrorCode();
+  }
+
+  vtkXMLWriter& writer_;
+  unsigned long observer_;
+  unsigned long code_ = vtkErrorCode::NoError;
+};
+
 }  // namespace
 
 bool can_compress() { return true; }
@@ -170,10 +197,11 @@ void write_compressed_vtu(const MeshArrays& piece, const std::filesystem::path& 
   writer->EncodeAppendedDataOff();
   writer->SetHeaderTypeToUInt64();
   set_compression(*writer, compression);
+  const FirstErrorCode error_code(*writer);
   const bool written = writer->Write() == 1;
-  if (!written || writer->GetErrorCode() != vtkErrorCode::NoError || !messages.text().empty()) {
+  if (!written || error_code.get() != vtkErrorCode::NoError || !messages.text().empty()) {
     throw OutputError(fmt::format("cannot write {}: {}", path.string(),
-                                  cause_of(writer->GetErrorCode(), messages.text())));
+                                  cause_of(error_code.get(), messages.text())));
   }
   file.commit();
 }

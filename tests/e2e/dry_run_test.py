@@ -154,7 +154,7 @@ class Folder(DryRunTest):
                 self.assertNotIn("prediction", report, damaged)
 
     def test_what_a_stopped_dry_run_leaves_is_in_no_runs_way(self):
-        case = self.write_case(max_size=0.2, subdomains=4, levels=2)
+        case = self.write_case(max_size=0.15, subdomains=4, levels=3)
         for how, code in ((signal.SIGTERM, STOPPED), (signal.SIGKILL, -signal.SIGKILL)):
             with self.subTest(signal=how):
                 process = self.start("mesh", case, "--dry-run", "--output", "out")

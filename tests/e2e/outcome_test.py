@@ -225,8 +225,8 @@ class CannotWrite(OutcomeTest):
         self.assert_refuses(["mesh", case, "--output", "locked"], CANNOT_WRITE, "locked", "ermission")
 
     def test_output_folder_is_in_use(self):
-        case = self.write_case(max_size=0.2, levels=3)
-        running = self.start("mesh", case, "--output", "out")
+        case = self.write_case()
+        running = self.start("mesh", case, "--output", "out", env=os.environ | {"TESSERA_TEST_FAULT": "fill=sleep"})
         program.wait_until((self.folder / "out" / "log" / "run.log").exists, "the first run's log")
         self.assert_refuses(
             ["mesh", case, "--output", "out", "--overwrite"], CANNOT_WRITE, "in use by", f"process {running.pid}"
@@ -240,7 +240,7 @@ class CannotWrite(OutcomeTest):
 
     def assert_reports_full_disk(self, ranks, limited_from, file, *arguments):
         """`limited_from`: 0 the rank processes, 1 the processes that jobs come from."""
-        case = self.write_case(max_size=0.3, levels=1)
+        case = self.write_case(max_size=0.15, levels=2)  # Some seconds, of which one is to be met.
         process = self.start("mesh", case, "--output", "out", *arguments, ranks=ranks)
         begun = ["pieces/plan.record", "log/run.log"][limited_from]
         program.wait_until((self.folder / "out" / begun).exists, begun)

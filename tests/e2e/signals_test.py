@@ -22,8 +22,12 @@ def catches(pid, number):
 
 
 class SignalsTest(program.ProgramTest):
-    def start_run(self, case, ranks=None):
-        return self.start("mesh", case, "--output", "out", "--progress", "never", ranks=ranks)
+    def start_run(self, case, ranks=None, fault="fill=sleep"):
+        """Fills that sleep: nobody waits for their end, and no machine is so fast that the run is over first."""
+        return self.start(
+            "mesh", case, "--output", "out", "--progress", "never",
+            ranks=ranks, env=os.environ | {"TESSERA_TEST_FAULT": fault},
+        )  # fmt: skip
 
     def report(self):
         return json.loads((self.folder / "out" / "report.json").read_text())
@@ -54,7 +58,7 @@ class SignalsTest(program.ProgramTest):
 class StopSignals(SignalsTest):
     def setUp(self):
         super().setUp()
-        self.case = self.write_case(levels=4)  # Half a million tets: nobody waits for its end.
+        self.case = self.write_case(levels=4)
 
     def assert_stops(self, number):
         process = self.start_run(self.case)
@@ -118,7 +122,7 @@ class StopSignals(SignalsTest):
 class KilledProcesses(SignalsTest):
     def test_killed_rank(self):
         """mpirun ends the others; their jobs go with them."""
-        process = self.start_run(self.write_case(levels=4), ranks=3)
+        process = self.start_run(self.write_case(), ranks=3)
         ranks = program.wait_until(lambda: program.ranks_of(process), "ranks")
         self.wait_for_job(ranks[0])
         family = program.descendants(process.pid)
@@ -127,7 +131,7 @@ class KilledProcesses(SignalsTest):
         self.assert_nothing_is_left(family)
 
     def test_killed_rank_alone(self):
-        process = self.start_run(self.write_case(levels=4))
+        process = self.start_run(self.write_case())
         self.wait_for_job(process.pid)
         family = program.descendants(process.pid)
         process.kill()
@@ -145,7 +149,7 @@ class KilledProcesses(SignalsTest):
     def with_a_killed_job(self, case):
         """A job that was hit at its very end has done its work; then once more."""
         for _ in range(5):
-            process = self.start_run(case)
+            process = self.start_run(case, fault="")
             self.kill_a_job_of(process.pid)
             outcome = self.finish(process)
             self.assertEqual(outcome.code, OK, outcome.err)
@@ -155,7 +159,7 @@ class KilledProcesses(SignalsTest):
         self.fail("no job could be killed at its work")
 
     def test_killed_job_is_repeated(self):
-        case = self.write_case(levels=3, subdomains=6)  # Some seconds of jobs.
+        case = self.write_case(max_size=0.15, levels=2, subdomains=6)  # Some seconds of jobs.
         outcome = self.with_a_killed_job(case)
         self.assertRegex(outcome.out, "warning: .*Killed.* from outside")
         self.assertTrue(self.report()["reproducible"])
@@ -165,7 +169,7 @@ class KilledProcesses(SignalsTest):
 
     def assert_ends_without_hang(self, victim, num_ranks=None):
         """Victims: the zygote of the last rank, or the model zygote of all."""
-        process = self.start_run(self.write_case(levels=4), ranks=num_ranks)
+        process = self.start_run(self.write_case(), ranks=num_ranks)
         ranks = [process.pid]
         if num_ranks is not None:
             ranks = program.wait_until(lambda: self.all_ranks(process, num_ranks), "ranks")
