@@ -28,12 +28,14 @@ std::vector<LocalIndex> different_points(std::span<const double> xyz)
   return rows;
 }
 
-// Bits that look random, from a position; zeros of either sign are one position.
+// Bits that look random, from the mantissas of a position: the same ones in another unit of length,
+// if that is a power of two away.
 std::uint64_t scattered_bits(const Vec3& p)
 {
+  constexpr int kBitsOfSignAndExponent = 12;
   std::uint64_t bits = 0;
   for (const double x : p) {
-    bits = (bits ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15U;
+    bits = (bits ^ std::bit_cast<std::uint64_t>(x) << kBitsOfSignAndExponent) * 0x9e3779b97f4a7c15U;
     bits ^= bits >> 32;
   }
   bits *= 0xd6e8feb86659fd93U;
