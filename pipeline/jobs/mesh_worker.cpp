@@ -166,28 +166,15 @@ class MeshWorker final : public jobs::Worker {
         coarse_mesher(request.rung)->mesh_surface(for_mesher(request.options), request.planes));
   }
 
-  [[nodiscard]] Bytes answer(const CoarseDivideRequest& request) const
+  [[nodiscard]] Bytes answer(const CoarseDomainRequest& request) const
   {
-    fail_if_asked("divide");
-    return to_bytes(coarse_mesher()->divide(request.surface, for_mesher(request.options)));
-  }
-
-  [[nodiscard]] Bytes answer(const CoarsePieceRequest& request) const
-  {
-    if (request.skin.is_piece) fail_if_asked("piece");
-    const auto mesher = coarse_mesher();
-    const coarse::CoarseOptions options = for_mesher(request.options);
-    return to_bytes(request.skin.is_piece ? mesher->fill_domain(request.skin, options)
-                                          : mesher->mesh_domain(request.skin, options));
+    fail_if_asked("domain");
+    return to_bytes(coarse_mesher()->mesh_domain(request.skin, for_mesher(request.options)));
   }
 
   [[nodiscard]] Bytes answer(const CoarseMeshRequest& request) const
   {
-    std::vector<coarse::DomainTets> pieces;
-    for (const FilledPiece& one : request.filled) pieces.push_back(one.tets);
-    const std::vector<coarse::DomainTets> tets =
-        coarse_mesher()->join_domains(request.surface, request.divided, std::move(pieces));
-    cut::CutMesh filled = coarse::fill_surface(request.surface, tets);
+    cut::CutMesh filled = coarse::fill_surface(request.surface, request.filled);
     CoarseTry made{.mesh = std::move(filled.mesh), .tet_part = std::move(filled.tet_part)};
     const coarse::Defeatured& merged = request.surface.defeatured;
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_, merged);

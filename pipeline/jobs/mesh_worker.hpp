@@ -12,7 +12,6 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/base/shared_bytes.hpp"
 #include "tessera/coarse/coarse_surface.hpp"
-#include "tessera/coarse/divide_domains.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/cut/cut_tree.hpp"
@@ -103,30 +102,16 @@ struct CoarseTry {
 [[nodiscard]] Bytes coarse_surface_request(const coarse::CoarseOptions& options,
                                            const cut::CutTree& planes, LocalIndex rung);
 
-/// @brief run: divides large domains of such a surface; result: bytes of a coarse::DividedSurface.
-/// Needs the model.
-[[nodiscard]] Bytes coarse_divide_request(coarse::CoarseSurface surface,
+/// @brief run: fills one domain of such a surface and makes its tets better; result: bytes of
+/// coarse::DomainTets. Needs the model.
+[[nodiscard]] Bytes coarse_domain_request(coarse::DomainSkin skin,
                                           const coarse::CoarseOptions& options);
-
-/// @brief run: fills one domain or piece of such a surface; result: bytes of coarse::DomainTets.
-/// Those of a whole domain are made better at once. Needs the model.
-[[nodiscard]] Bytes coarse_piece_request(coarse::DomainSkin skin,
-                                         const coarse::CoarseOptions& options);
-
-/// @brief The tets of one piece of a divided surface.
-struct FilledPiece {
-  LocalIndex piece = 0;  ///< From 1.
-  coarse::DomainTets tets{};
-
-  static auto fields(auto& self) { return std::tie(self.piece, self.tets); }
-};
 
 /// @brief run: puts the coarse mesh together and its vertices onto the geometry; result: bytes of a
 /// CoarseTry. Needs the model.
-/// @param[in] filled All pieces, in their order.
+/// @param[in] filled All domains, in their order.
 [[nodiscard]] Bytes coarse_mesh_request(coarse::CoarseSurface surface,
-                                        coarse::DividedSurface divided,
-                                        std::vector<FilledPiece> filled,
+                                        std::vector<coarse::DomainTets> filled,
                                         const coarse::CoarseOptions& options,
                                         const cut::CutTree& planes);
 

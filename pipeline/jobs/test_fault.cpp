@@ -21,8 +21,8 @@
 namespace tessera::pipeline {
 namespace {
 
-constexpr std::array<std::string_view, 17> kStages{
-    "import", "load", "box",     "describe", "coarse", "remesh", "gmsh", "divide", "piece",
+constexpr std::array<std::string_view, 16> kStages{
+    "import", "load", "box",     "describe", "coarse", "remesh", "gmsh", "domain",
     "plan",   "fill", "improve", "refine",   "skin",   "share",  "map",  "join"};
 constexpr std::array<std::string_view, 10> kKinds{"throw",  "segv",    "exit", "loop",  "sleep",
                                                   "memory", "garbage", "drop", "nudge", "lose"};
@@ -117,17 +117,16 @@ class FaultyMesher final : public coarse::CoarseMesher {
     return sound_->mesh_surface(options, planes);
   }
 
-  [[nodiscard]] coarse::Membrane mesh_membrane(const coarse::DomainSkin& skin,
-                                               const coarse::MembraneBorder& border,
-                                               const coarse::CoarseOptions& options) const override
-  {
-    return sound_->mesh_membrane(skin, border, options);
-  }
-
   [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
                                                const coarse::CoarseOptions& options) const override
   {
-    coarse::DomainTets tets = sound_->fill_domain(skin, options);
+    return sound_->fill_domain(skin, options);
+  }
+
+  [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
+                                               const coarse::CoarseOptions& options) const override
+  {
+    coarse::DomainTets tets = sound_->mesh_domain(skin, options);
     if (kind_at(stage_of(options), kNoIndex) == "drop") drop_a_tet(tets.tet_vertices);
     return tets;
   }

@@ -18,7 +18,7 @@
 ///
 /// Its value is words "STAGE=KIND", for every job of the stage, or "STAGE=KIND@ITEM".
 /// - STAGE: import, load, box, describe, coarse, remesh (the coarse mesh from the CAD system's
-///   triangles), gmsh (that of Gmsh), divide (membranes), piece (the tets between some), plan,
+///   triangles), gmsh (that of Gmsh), domain (the tets in one of its domains), plan,
 ///   fill, improve, refine, skin; share (memory of the node: in the rank itself), map (the same: in
 ///   its worker); join (the workers of the node: in the rank itself).
 /// - KIND, for any job: throw, segv, exit, loop, sleep, memory.

@@ -73,22 +73,16 @@ Bytes coarse_surface_request(const coarse::CoarseOptions& options, const cut::Cu
   return to_bytes(Request(CoarseSurfaceRequest{options, planes, rung}));
 }
 
-Bytes coarse_divide_request(coarse::CoarseSurface surface, const coarse::CoarseOptions& options)
+Bytes coarse_domain_request(coarse::DomainSkin skin, const coarse::CoarseOptions& options)
 {
-  return to_bytes(Request(CoarseDivideRequest{std::move(surface), options}));
+  return to_bytes(Request(CoarseDomainRequest{std::move(skin), options}));
 }
 
-Bytes coarse_piece_request(coarse::DomainSkin skin, const coarse::CoarseOptions& options)
+Bytes coarse_mesh_request(coarse::CoarseSurface surface, std::vector<coarse::DomainTets> filled,
+                          const coarse::CoarseOptions& options, const cut::CutTree& planes)
 {
-  return to_bytes(Request(CoarsePieceRequest{std::move(skin), options}));
-}
-
-Bytes coarse_mesh_request(coarse::CoarseSurface surface, coarse::DividedSurface divided,
-                          std::vector<FilledPiece> filled, const coarse::CoarseOptions& options,
-                          const cut::CutTree& planes)
-{
-  return to_bytes(Request(CoarseMeshRequest{std::move(surface), std::move(divided),
-                                            std::move(filled), options, planes}));
+  return to_bytes(
+      Request(CoarseMeshRequest{std::move(surface), std::move(filled), options, planes}));
 }
 
 Bytes untangle_request(const std::vector<UntangleTest>& tests,

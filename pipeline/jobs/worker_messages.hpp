@@ -113,14 +113,7 @@ struct CoarseSurfaceRequest {
   static auto fields(auto& self) { return std::tie(self.options, self.planes, self.rung); }
 };
 
-struct CoarseDivideRequest {
-  coarse::CoarseSurface surface{};
-  coarse::CoarseOptions options{};
-
-  static auto fields(auto& self) { return std::tie(self.surface, self.options); }
-};
-
-struct CoarsePieceRequest {
+struct CoarseDomainRequest {
   coarse::DomainSkin skin{};
   coarse::CoarseOptions options{};
 
@@ -129,14 +122,13 @@ struct CoarsePieceRequest {
 
 struct CoarseMeshRequest {
   coarse::CoarseSurface surface{};
-  coarse::DividedSurface divided{};
-  std::vector<FilledPiece> filled{};  ///< All pieces, in their order.
+  std::vector<coarse::DomainTets> filled{};  ///< All domains, in their order.
   coarse::CoarseOptions options{};
   cut::CutTree planes{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.surface, self.divided, self.filled, self.options, self.planes);
+    return std::tie(self.surface, self.filled, self.options, self.planes);
   }
 };
 
@@ -160,9 +152,8 @@ struct SkinRequest {
   static auto fields(auto& self) { return std::tie(self.subdomain); }
 };
 
-using Request =
-    std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDivideRequest,
-                 CoarsePieceRequest, CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
-                 RefineTask, SkinRequest, DescribeRequest, FiguresRequest>;
+using Request = std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDomainRequest,
+                             CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
+                             RefineTask, SkinRequest, DescribeRequest, FiguresRequest>;
 
 }  // namespace tessera::pipeline

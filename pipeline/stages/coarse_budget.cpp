@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tessera/coarse/divide_domains.hpp"
+#include "tessera/coarse/coarse_surface.hpp"
 
 namespace tessera::pipeline {
 namespace {

@@ -95,7 +95,6 @@ class CoarseTries {
       CoarseAttempt made = fill_coarse_surface(plan, take_surface(*rung), stage_, context_);
       if (made.outcome.status == jobs::JobStatus::ok) {
         ++result_.tries;
-        result_.was_limited = result_.was_limited || made.was_limited;
         result_.repairs = repairs_of(plan, plans_.front());
         result_.repairs += repairs_[*rung];
         result_.repairs += made.repairs;

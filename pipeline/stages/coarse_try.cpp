@@ -36,52 +36,28 @@ std::optional<Result> result_of(const JobRequest& job, const jobs::JobRunner::Wa
   return result;
 }
 
-struct Division {
-  coarse::DividedSurface divided{};
-  bool was_limited = false;  // It failed for lack of time or memory.
+struct FilledDomain {
+  LocalIndex domain = 0;  // From 1.
+  coarse::DomainTets tets{};
 
-  static auto fields(auto& self) { return std::tie(self.divided, self.was_limited); }
+  static auto fields(auto& self) { return std::tie(self.domain, self.tets); }
 };
 
-// The surface in pieces, if a domain is large. What cannot be divided is filled as it is.
-Division divide(const coarse::CoarseSurface& surface, const CoarsePlan& plan, RunContext& context)
-{
-  return comm::on_root(context.comm, [&] {
-    if (!coarse::has_large_domain(surface)) return Division{coarse::undivided(surface)};
-    jobs::JobOutcome outcome;
-    double num_tets = 0.0;
-    for (LocalIndex domain = 1; domain <= surface.num_domains(); ++domain) {
-      num_tets += coarse::predicted_tets(coarse::skin_of(surface, domain));
-    }
-    const jobs::JobLimits limits = whole_limits(plan.options, num_tets);
-    const Bytes request = coarse_divide_request(surface, plan.options);
-    auto divided = result_of<coarse::DividedSurface>({"coarse: divide", request, limits},
-                                                     wait_for_stop_signal(), outcome, context);
-    if (!divided) context.log.warn("coarse: {}; domains are filled whole", outcome.message);
-    if (!divided) return Division{coarse::undivided(surface), depends_on_machine(outcome)};
-    if (divided->surface.num_domains() > surface.num_domains()) {
-      context.log.info("coarse: {} domains in {} pieces", surface.num_domains(),
-                       divided->surface.num_domains());
-    }
-    return Division{std::move(*divided)};
-  });
-}
-
-struct FailedPiece {
-  LocalIndex piece = 0;
+struct FailedDomain {
+  LocalIndex domain = 0;
   jobs::JobOutcome outcome{};
 
-  static auto fields(auto& self) { return std::tie(self.piece, self.outcome); }
+  static auto fields(auto& self) { return std::tie(self.domain, self.outcome); }
 };
 
-// What this rank made of the pieces of a surface.
-struct PieceShare {
-  std::vector<FilledPiece> filled{};
+// What this rank made of the domains of a surface.
+struct DomainShare {
+  std::vector<FilledDomain> filled{};
   RepairCounts repairs{};
-  std::vector<FailedPiece> failed{};
+  std::vector<FailedDomain> failed{};
 };
 
-std::vector<double> triangles_of_pieces(const coarse::CoarseSurface& surface)
+std::vector<double> triangles_of_domains(const coarse::CoarseSurface& surface)
 {
   std::vector<double> num_triangles(at(surface.num_domains()));
   for (const auto& domains : surface.face_domains) {
@@ -92,53 +68,54 @@ std::vector<double> triangles_of_pieces(const coarse::CoarseSurface& surface)
   return num_triangles;
 }
 
-PieceShare fill_share(const coarse::DividedSurface& divided, const coarse::CoarseOptions& options,
-                      StageScope& stage, RunContext& context)
+DomainShare fill_share(const coarse::CoarseSurface& surface, const coarse::CoarseOptions& options,
+                       StageScope& stage, RunContext& context)
 {
-  PieceShare share;
+  DomainShare share;
   const auto fill = [&](LocalIndex item, const jobs::JobRunner::WaitCallback& on_wait) {
-    const LocalIndex piece = item + 1;
-    coarse::DomainSkin skin = coarse::skin_of_piece(divided, piece);
+    const LocalIndex domain = item + 1;
+    coarse::DomainSkin skin = coarse::skin_of(surface, domain);
     const jobs::JobLimits limits = domain_limits(options, skin);
-    const Bytes request = coarse_piece_request(std::move(skin), options);
+    const Bytes request = coarse_domain_request(std::move(skin), options);
     jobs::JobOutcome outcome;
     auto tets = result_of<coarse::DomainTets>(
-        {fmt::format("coarse: piece {}", piece), request, limits}, on_wait, outcome, context);
+        {fmt::format("coarse: domain {}", domain), request, limits}, on_wait, outcome, context);
     if (tets) {
       share.repairs += take_noted_repairs();
-      share.filled.push_back({piece, std::move(*tets)});
+      share.filled.push_back({domain, std::move(*tets)});
     } else {
-      share.failed.push_back({piece, std::move(outcome)});
+      share.failed.push_back({domain, std::move(outcome)});
     }
   };
-  const std::vector<double> weights = triangles_of_pieces(divided.surface);
+  const std::vector<double> weights = triangles_of_domains(surface);
   for_each_dynamic(heaviest_first(weights), fill, stage, context);
   return share;
 }
 
-// All pieces, on rank 0; or the first that failed, on every rank.
-struct PieceTry {
-  std::optional<FailedPiece> failed{};
-  std::vector<FilledPiece> filled{};
+// All domains, on rank 0; or the first that failed, on every rank.
+struct DomainTry {
+  std::optional<FailedDomain> failed{};
+  std::vector<coarse::DomainTets> filled{};
   RepairCounts repairs{};
 };
 
-PieceTry fill_pieces(const coarse::DividedSurface& divided, const coarse::CoarseOptions& options,
-                     StageScope& stage, RunContext& context)
+DomainTry fill_domains(const coarse::CoarseSurface& surface, const coarse::CoarseOptions& options,
+                       StageScope& stage, RunContext& context)
 {
-  const PieceShare share = fill_share(divided, options, stage, context);
+  const DomainShare share = fill_share(surface, options, stage, context);
   auto failed = context.comm.all_gather_rows(share.failed);
   if (!failed.empty())
-    return {std::move(*std::ranges::min_element(failed, {}, &FailedPiece::piece)), {}, {}};
-  PieceTry all;
+    return {std::move(*std::ranges::min_element(failed, {}, &FailedDomain::domain)), {}, {}};
+  DomainTry all;
   for (const Bytes& bytes : context.comm.gather_to_root(to_bytes(share.repairs))) {
     all.repairs += from_bytes<RepairCounts>(bytes);
   }
+  all.filled.resize(context.comm.rank() == 0 ? at(surface.num_domains()) : 0);
   for (const Bytes& bytes : context.comm.gather_to_root(to_bytes(share.filled))) {
-    auto some = from_bytes<std::vector<FilledPiece>>(bytes);
-    std::ranges::move(some, std::back_inserter(all.filled));
+    for (FilledDomain& one : from_bytes<std::vector<FilledDomain>>(bytes)) {
+      all.filled[at(one.domain - 1)] = std::move(one.tets);
+    }
   }
-  std::ranges::sort(all.filled, {}, &FilledPiece::piece);
   return all;
 }
 
@@ -161,27 +138,15 @@ SurfaceTry try_coarse_surface(const CoarsePlan& plan, const jobs::JobRunner::Wai
 CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, coarse::CoarseSurface surface,
                                   StageScope& stage, RunContext& context)
 {
-  auto [divided, was_limited] = divide(surface, plan, context);
-  PieceTry pieces = fill_pieces(divided, plan.options, stage, context);
-  RepairCounts repairs;
-  const bool is_divided = divided.surface.num_domains() > surface.num_domains();
-  if (pieces.failed && is_divided && !is_left_out(Repair::whole_domains)) {
-    repairs.add(Repair::whole_domains);
-    context.log.warn("coarse: piece {}: {}; domains are filled whole", pieces.failed->piece,
-                     pieces.failed->outcome.message);
-    was_limited = was_limited || depends_on_machine(pieces.failed->outcome);
-    divided = coarse::undivided(surface);
-    pieces = fill_pieces(divided, plan.options, stage, context);
-  }
-  if (pieces.failed) return {.outcome = std::move(pieces.failed->outcome)};
-  repairs += pieces.repairs;
-  CoarseAttempt attempt{.repairs = repairs, .was_limited = was_limited};
+  DomainTry domains = fill_domains(surface, plan.options, stage, context);
+  if (domains.failed) return {.outcome = std::move(domains.failed->outcome)};
+  CoarseAttempt attempt{.repairs = domains.repairs};
   attempt.outcome = comm::on_root(context.comm, [&] {
     std::size_t num_tets = surface.mesh.tet_vertices.size() / 4;
-    for (const FilledPiece& one : pieces.filled) num_tets += one.tets.tet_vertices.size() / 4;
+    for (const auto& tets : domains.filled) num_tets += tets.tet_vertices.size() / 4;
     const jobs::JobLimits limits = whole_limits(plan.options, static_cast<double>(num_tets));
-    const Bytes request = coarse_mesh_request(std::move(surface), std::move(divided),
-                                              std::move(pieces.filled), plan.options, plan.planes);
+    const Bytes request = coarse_mesh_request(std::move(surface), std::move(domains.filled),
+                                              plan.options, plan.planes);
     jobs::JobOutcome outcome;
     attempt.made = result_of<CoarseTry>({"coarse: whole", request, limits}, wait_for_stop_signal(),
                                         outcome, context);

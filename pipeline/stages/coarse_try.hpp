@@ -41,7 +41,6 @@ struct CoarseAttempt {
   jobs::JobOutcome outcome{};       ///< Of its last job, or of the first one that failed.
   std::optional<CoarseTry> made{};  ///< On rank 0, if all went well.
   RepairCounts repairs{};           ///< On rank 0, of all these jobs.
-  bool was_limited = false;  ///< Domains are whole for lack of time or memory: not reproducible.
 };
 
 /// @brief The other steps: the domains of the surface as jobs of all ranks, and the whole as a job

@@ -1,59 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/coarse/coarse_mesher.hpp"
 
-#include <span>
 #include <utility>
+#include <vector>
+
+#include "tessera/base/repair.hpp"
+
+#include "coarse/lattice_fill.hpp"
 
 namespace tessera::coarse {
-DividedSurface CoarseMesher::divide(const CoarseSurface& surface,
-                                    const CoarseOptions& options) const
-{
-  const MembraneMesher mesher = [&](const DomainSkin& skin, const MembraneBorder& border) {
-    return mesh_membrane(skin, border, options);
-  };
-  return divide_domains(surface, mesher);
-}
 
-std::vector<DomainTets> CoarseMesher::join_domains(const CoarseSurface& whole,
-                                                   const DividedSurface& divided,
-                                                   std::vector<DomainTets> pieces) const
+DomainTets CoarseMesher::mesh_domain(const DomainSkin& skin, const CoarseOptions& options) const
 {
-  std::vector<DomainTets> domains;
-  LocalIndex first = 0;
-  for (LocalIndex d = 1; d <= whole.num_domains(); ++d) {
-    const LocalIndex last = first + divided.num_pieces[at(d - 1)];
-    if (last == first + 1) {
-      domains.push_back(std::move(pieces[at(first)]));
-    } else {
-      const DomainSkin skin = skin_of(whole, d);
-      std::vector<DomainSkin> skins;
-      for (LocalIndex p = first; p < last; ++p) skins.push_back(skin_of(divided.surface, p + 1));
-      domains.push_back(
-          improve_domain(skin, join_pieces(skin, skins, std::span(pieces).subspan(at(first)))));
-    }
-    first = last;
-  }
-  return domains;
+  if (skin.vertex.empty()) return {};
+  const HoleFiller filler = [&](const DomainSkin& hole) { return fill_domain(hole, options); };
+  auto tets = fill_with_lattice(skin, options, filler);
+  if (tets) return improve_domain(skin, std::move(*tets));
+  if (is_left_out(Repair::netgen_tets)) throw MeshError("a domain cannot be filled with a lattice");
+  tets = fill_domain(skin, options);
+  note_repair(Repair::netgen_tets);
+  return improve_domain(skin, std::move(*tets));
 }
 
 std::vector<DomainTets> CoarseMesher::mesh_domains(const CoarseSurface& surface,
                                                    const CoarseOptions& options) const
 {
-  const DividedSurface divided = divide(surface, options);
-  const auto fill = [&](const DividedSurface& in_pieces) {
-    std::vector<DomainTets> pieces;
-    for (LocalIndex piece = 1; piece <= in_pieces.surface.num_domains(); ++piece) {
-      const DomainSkin skin = skin_of_piece(in_pieces, piece);
-      pieces.push_back(skin.is_piece ? fill_domain(skin, options) : mesh_domain(skin, options));
-    }
-    return join_domains(surface, in_pieces, std::move(pieces));
-  };
-  try {
-    return fill(divided);
-  } catch (const NetgenError&) {
-    if (divided.surface.num_domains() == surface.num_domains()) throw;
+  std::vector<DomainTets> tets;
+  for (LocalIndex domain = 1; domain <= surface.num_domains(); ++domain) {
+    tets.push_back(mesh_domain(skin_of(surface, domain), options));
   }
-  return fill(undivided(surface));
+  return tets;
 }
 
 cut::CutMesh CoarseMesher::generate_parts(const CoarseOptions& options,

@@ -112,13 +112,6 @@ class MesherOfModel final : public coarse::CoarseMesher {
     return {.mesh = mesh_with_gmsh(model_, options)};
   }
 
-  [[nodiscard]] coarse::Membrane mesh_membrane(const coarse::DomainSkin& skin,
-                                               const coarse::MembraneBorder& border,
-                                               const coarse::CoarseOptions& options) const override
-  {
-    return model_.mesh_membrane(skin, border, options);
-  }
-
   [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
                                                const coarse::CoarseOptions& options) const override
   {

@@ -14,7 +14,6 @@
 #include "tessera/coarse/mend_folds.hpp"
 #include "tessera/coarse/mend_surface.hpp"
 
-#include "netgen/membrane_mesher.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/skin_mesh.hpp"
 #include "netgen/volume_mesher.hpp"
@@ -120,13 +119,6 @@ coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*opt
                                               const cut::CutTree& /*tree*/) const
 {
   throw ConfigError("decompose.method = \"geometry\" needs a solid model: CSG, STEP, IGES or BREP");
-}
-
-coarse::Membrane LoadedModel::mesh_membrane(const coarse::DomainSkin& skin,
-                                            const coarse::MembraneBorder& border,
-                                            const coarse::CoarseOptions& options) const
-{
-  return netgen::mesh_membrane(skin, border, options);
 }
 
 coarse::DomainTets LoadedModel::fill_domain(const coarse::DomainSkin& skin,

@@ -57,9 +57,6 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   [[nodiscard]] virtual coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
                                                          const cut::CutTree& tree) const;
 
-  [[nodiscard]] coarse::Membrane mesh_membrane(const coarse::DomainSkin& skin,
-                                               const coarse::MembraneBorder& border,
-                                               const coarse::CoarseOptions& options) const final;
   [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
                                                const coarse::CoarseOptions& options) const final;
   [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,

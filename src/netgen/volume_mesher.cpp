@@ -27,9 +27,9 @@ namespace {
 // Of optimising and making legal what came of it: then vertices are moved only.
 constexpr int kMostRounds = 3;
 
-// Attempts of NETGEN to fill what its front has left open. Pieces that can be filled needed one or
-// two; all ten of one that cannot took longer than the whole domain.
-constexpr int kMostStepsOfPiece = 2;
+// Attempts of NETGEN to fill what its front has left open. Holes that can be filled need one or
+// two.
+constexpr int kMostStepsOfHole = 2;
 
 void add_all(::netgen::Mesh& mesh, const coarse::DomainTets& tets)
 {
@@ -178,7 +178,7 @@ coarse::DomainTets fill_domain(const coarse::DomainSkin& skin, const coarse::Coa
   for (double& x : scaled_skin.vertex_xyz) x *= scale;
   for (Vec3& corner : scaled_skin.model_box) corner = scale * corner;
   ::netgen::MeshingParameters parameters = coarse_parameters(scaled);
-  if (skin.is_piece) parameters.maxoutersteps = kMostStepsOfPiece;
+  if (skin.is_hole) parameters.maxoutersteps = kMostStepsOfHole;
   NetgenSession session(parameters);
   try {
     coarse::DomainTets tets =

@@ -60,7 +60,7 @@ class SecondOrderTest(program.ProgramTest):
 class AnyNumberOfRanks(SecondOrderTest):
     def test_has_the_same_bits(self):
         self.write("core.geo", program.TWO_MATERIALS)
-        case = self.write_case(geometry="core.geo", max_size=1.0, subdomains=6, levels=1)
+        case = self.write_case(geometry="core.geo", max_size=0.8, subdomains=6, levels=1)
         for kernel, others in (("subdivide", (2, 3, 5)), ("optimize", (2, 3, 5)), ("netgen", (3,))):
             with self.subTest(kernel=kernel):
                 alone = self.made(case, kernel, f"fill.kernel={kernel}", ranks=None)

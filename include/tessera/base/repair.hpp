@@ -55,7 +55,9 @@ enum class Repair : int {
   gmsh_mesh,          ///< Gmsh takes the place of all.
   uncut_model,        ///< The model is meshed as a whole, as its parts cannot be.
   // Coarse tets.
-  whole_domains,     ///< Domains are filled whole, as they cannot be in pieces.
+  lattice_holes,     ///< NETGEN fills holes where triangles of the surface are no faces of Delaunay
+                     ///< tets.
+  netgen_tets,       ///< NETGEN fills a domain, as that cannot be done with a lattice.
   illegal_tets,      ///< Tets with two faces on one patch are taken out.
   worst_tets,        ///< Vertices are put into the worst tets.
   snapped_vertices,  ///< Vertices that are off the geometry are put onto it.
@@ -140,7 +142,8 @@ constexpr auto enum_words(Repair /*type*/)
       {netgen_surface, "netgen_surface"},
       {gmsh_mesh, "gmsh_mesh"},
       {uncut_model, "uncut_model"},
-      {whole_domains, "whole_domains"},
+      {lattice_holes, "lattice_holes"},
+      {netgen_tets, "netgen_tets"},
       {illegal_tets, "illegal_tets"},
       {worst_tets, "worst_tets"},
       {snapped_vertices, "snapped_vertices"},

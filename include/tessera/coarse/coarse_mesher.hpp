@@ -4,8 +4,6 @@
 #include <vector>
 
 #include "tessera/coarse/coarse_surface.hpp"
-#include "tessera/coarse/divide_domains.hpp"
-#include "tessera/coarse/membrane.hpp"
 #include "tessera/coarse/options.hpp"
 #include "tessera/cut/cut_mesh.hpp"
 #include "tessera/cut/cut_tree.hpp"
@@ -13,8 +11,8 @@
 
 namespace tessera::coarse {
 
-/// @brief Makes the coarse mesh of one loaded model, in steps: the surface, the pieces that large
-/// domains in it are divided into, the tets of each, and better ones for each domain.
+/// @brief Makes the coarse mesh of one loaded model, in steps: the surface, then the tets of each
+/// domain in it.
 /// @note Local; any step may crash, exit or hang inside third-party code: run it in a job.
 class CoarseMesher {
  public:
@@ -29,13 +27,8 @@ class CoarseMesher {
   [[nodiscard]] virtual CoarseSurface mesh_surface(const CoarseOptions& options,
                                                    const cut::CutTree& planes) const = 0;
 
-  /// @brief Triangles that divide a domain along a border, as large as the tets there will be.
-  /// Without any if that fails.
-  [[nodiscard]] virtual Membrane mesh_membrane(const DomainSkin& skin, const MembraneBorder& border,
-                                               const CoarseOptions& options) const = 0;
-
-  /// @brief Fills one domain or piece of such a surface. A pure function of the arguments. Gives up
-  /// on a piece early.
+  /// @brief Fills one domain of such a surface, or a hole in one, without a lattice. A pure
+  /// function of the arguments. Gives up on a hole early.
   /// @throws NetgenError with NETGEN's own words if it gives up.
   [[nodiscard]] virtual DomainTets fill_domain(const DomainSkin& skin,
                                                const CoarseOptions& options) const = 0;
@@ -44,22 +37,9 @@ class CoarseMesher {
   [[nodiscard]] virtual DomainTets improve_domain(const DomainSkin& skin,
                                                   DomainTets tets) const = 0;
 
-  /// @brief divide_domains() by membranes of this mesher. It pays for domains of some hundred
-  /// thousand tets, and costs little for others.
-  [[nodiscard]] DividedSurface divide(const CoarseSurface& surface,
-                                      const CoarseOptions& options) const;
-
-  /// @brief Tets of a domain that stays whole.
-  [[nodiscard]] DomainTets mesh_domain(const DomainSkin& skin, const CoarseOptions& options) const
-  {
-    return improve_domain(skin, fill_domain(skin, options));
-  }
-
-  /// @brief Tets of all domains, from those of the pieces they were divided into.
-  /// @param[in] pieces  Of fill_domain() if there are several in a domain, of mesh_domain() if not.
-  [[nodiscard]] std::vector<DomainTets> join_domains(const CoarseSurface& whole,
-                                                     const DividedSurface& divided,
-                                                     std::vector<DomainTets> pieces) const;
+  /// @brief Tets of one domain of such a surface: with a lattice inside, where that can be done.
+  [[nodiscard]] virtual DomainTets mesh_domain(const DomainSkin& skin,
+                                               const CoarseOptions& options) const;
 
   /// @brief All steps in turn. @throws MeshError also if the result is not a valid mesh.
   [[nodiscard]] cut::CutMesh generate_parts(const CoarseOptions& options,
@@ -70,7 +50,7 @@ class CoarseMesher {
   }
 
  protected:
-  /// @brief All steps after the surface, in turn. Shape (num_domains).
+  /// @brief mesh_domain() of all domains. Shape (num_domains).
   [[nodiscard]] std::vector<DomainTets> mesh_domains(const CoarseSurface& surface,
                                                      const CoarseOptions& options) const;
 };

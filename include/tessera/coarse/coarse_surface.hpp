@@ -51,12 +51,12 @@ struct DomainSkin {
   std::vector<LocalIndex> edge_vertices{};      ///< Shape (num_edges, 2): those on curves.
   double max_size = 0.0;                        ///< Largest edge, file length unit, > 0.
   std::array<Vec3, 2> model_box{};              ///< Lowest and highest corner of all skins.
-  bool is_piece = false;                        ///< Of a domain that can also be filled whole.
+  bool is_hole = false;                         ///< In a domain that can also be filled otherwise.
 
   static auto fields(auto& self)
   {
     return std::tie(self.vertex, self.vertex_xyz, self.triangle_vertices, self.triangle_patch,
-                    self.edge_vertices, self.max_size, self.model_box, self.is_piece);
+                    self.edge_vertices, self.max_size, self.model_box, self.is_hole);
   }
 };
 
@@ -74,6 +74,12 @@ struct DomainTets {
 /// @brief The skin of domain `domain`, from 1: triangles in the order of faces_of(). Local; empty
 /// if no face bounds it.
 [[nodiscard]] DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain);
+
+/// @brief How many tets a domain will have at least, by its triangles and its largest edge. Local.
+[[nodiscard]] double predicted_tets(const DomainSkin& skin);
+
+/// @brief What a closed surface whose normals point out encloses. Local.
+[[nodiscard]] double enclosed_volume(const DomainSkin& skin);
 
 /// @brief The coarse mesh: the surface with the tets of all domains, without its cuts. Vertices
 /// that no tet has are dropped, and segments with them.

@@ -103,8 +103,8 @@ using Types = ::testing::Types<
     // The program's.
     CoarseTry, UntangleTest, FillTask, SkinMesh, CoarseResult, WrittenFile, FillRecord,
     FoldedSubdomain, Plan, ModelLoad, MeshLoad, SegmentLoad, LimiterLoad, NumbersLoad,
-    ImprovementLoad, ImportRequest, CoarseSurfaceRequest, CoarseDivideRequest, CoarsePieceRequest,
-    CoarseMeshRequest, UntangleRequest, ImproveRequest, SkinRequest>;
+    ImprovementLoad, ImportRequest, CoarseSurfaceRequest, CoarseDomainRequest, CoarseMeshRequest,
+    UntangleRequest, ImproveRequest, SkinRequest>;
 TYPED_TEST_SUITE(ByteImage, Types);
 
 TYPED_TEST(ByteImage, BringsBackTheValueAndNothingOfAPartOfIt)

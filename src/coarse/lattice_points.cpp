@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse/lattice_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <span>
+
+#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/vec3.hpp"
+
+#include "coarse/octree_lattice.hpp"
+#include "coarse/size_function.hpp"
+#include "coarse/skin_distance.hpp"
+
+namespace tessera::coarse {
+namespace {
+
+// Least distance to the skin, in spacings of the lattice. From 0.4 to 0.8 G and quality hardly
+// change: at 0.5 part1.stl, screw.step and linkrods.step have their best mean ratios but for 0.4.
+constexpr double kLeastDistance = 0.5;
+
+// Spacing of the lattice over the largest size. A mesher's edges have 1.18 of it, and lattices of 1
+// gave a fifth more tets than 1.2, at the same G. With 1.1 `size.target` is met: the root mean
+// square of the edges of screw.step and linkrods.step is 0.99 of it.
+constexpr double kSpacingOfSize = 1.1;
+
+// Growth of the wanted spacing with the distance over that on the surface. Good tets need no slow
+// growth. With 3.3 G is 0.955 of NETGEN's and the 1st percentile 1.025, with 4.3 0.950 and 1.020,
+// on 27 files of the corpus; with 0.3 of the distance G is 1.0.
+constexpr double kGrowthOfGrading = 4.0;
+
+// Each triangle wants edges as long as its own.
+std::vector<SizeSource> sizes_of(const DomainSkin& skin)
+{
+  std::vector<SizeSource> sources;
+  sources.reserve(skin.triangle_vertices.size() / 3);
+  for (std::size_t i = 0; i < skin.triangle_vertices.size(); i += 3) {
+    SizeSource source;
+    for (std::size_t c = 0; c < 3; ++c) {
+      source.corners[c] = point_at(std::span(skin.vertex_xyz), skin.triangle_vertices[i + c]);
+    }
+    const auto& [a, b, c] = source.corners;
+    source.size = std::sqrt((dot(b - a, b - a) + dot(c - b, c - b) + dot(a - c, a - c)) / 3.0);
+    sources.push_back(source);
+  }
+  return sources;
+}
+
+}  // namespace
+
+std::vector<double> lattice_points(const DomainSkin& skin, const CoarseOptions& options)
+{
+  CoarseOptions inside = options;
+  inside.max_size = kSpacingOfSize * std::min(options.max_size, skin.max_size);
+  inside.grading = kGrowthOfGrading * options.grading;
+  SizeFunction size(inside);
+  size.limit(sizes_of(skin));
+  const SkinDistance distance(skin);
+  std::vector<double> xyz;
+  const LatticeSpace space{.wanted_edge = std::cref(size),
+                           .is_needed = [&](const Vec3& place, double within) {
+                             return !distance.is_outside(place, within);
+                           }};
+  const std::array<Vec3, 2> box = bounding_box(skin.vertex_xyz);
+  for (const LatticePoint& point : octree_lattice(box, cell_side(inside.max_size), space)) {
+    if (!distance.is_inside(point.xyz, kLeastDistance * point.spacing)) continue;
+    xyz.insert(xyz.end(), point.xyz.begin(), point.xyz.end());
+  }
+  return xyz;
+}
+
+}  // namespace tessera::coarse

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tessera/coarse/coarse_surface.hpp"
+#include "tessera/model/nearest_point.hpp"
+
+namespace tessera::coarse {
+
+/// @brief How deep inside of a closed surface a point lies. Local.
+class SkinDistance {
+ public:
+  explicit SkinDistance(const DomainSkin& skin);
+
+  /// @brief Whether the point lies inside, and is at least as far from the surface. It may err
+  /// where the surface cuts itself. @pre least > 0.
+  [[nodiscard]] bool is_inside(const Vec3& point, double least) const
+  {
+    return side_of(point, least) < 0;
+  }
+  /// @brief The same of the outside.
+  [[nodiscard]] bool is_outside(const Vec3& point, double least) const
+  {
+    return side_of(point, least) > 0;
+  }
+
+ private:
+  // -1 inside, 1 outside, 0 nearer to the surface.
+  [[nodiscard]] int side_of(const Vec3& point, double least) const;
+  [[nodiscard]] Vec3 normal_at(const model::NearestPoint& nearest) const;
+  [[nodiscard]] bool is_wound_around(const Vec3& point) const;
+
+  const DomainSkin& skin_;
+  std::vector<std::array<Vec3, 3>> triangles_;
+  std::vector<Vec3> vertex_normals_;  // Of the triangles around, weighted by their angles there.
+  std::vector<Vec3> edge_normals_;    // 3 t + c: of side c of triangle t, which begins at corner c.
+  model::TriangleSearch search_;
+};
+
+}  // namespace tessera::coarse
