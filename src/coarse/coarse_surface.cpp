@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/enclosed_volume.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -155,23 +156,12 @@ DomainSkin skin_of(const CoarseSurface& surface, LocalIndex domain)
   return skin;
 }
 
-double enclosed_volume(const DomainSkin& skin)
-{
-  const std::span<const double> xyz = skin.vertex_xyz;
-  double volume = 0.0;
-  for (std::size_t i = 0; i < skin.triangle_vertices.size(); i += 3) {
-    const LocalIndex* v = &skin.triangle_vertices[i];
-    volume +=
-        tet_volume(point_at(xyz, 0), point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]));
-  }
-  return volume;
-}
-
 double predicted_tets(const DomainSkin& skin)
 {
   constexpr double kTetsPerTriangle = 4.0;  // Of bodies with many features, at least.
   constexpr double kTetsPerCube = 8.5;      // Regular tets in the cube of their edge.
-  const double by_size = kTetsPerCube * enclosed_volume(skin) / std::pow(skin.max_size, 3);
+  const double by_size = kTetsPerCube * enclosed_volume(skin.vertex_xyz, skin.triangle_vertices)
+                         / std::pow(skin.max_size, 3);
   return std::max(by_size, kTetsPerTriangle * static_cast<double>(skin.triangle_patch.size()));
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/base/union_find.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -75,9 +76,9 @@ const IndexLists& KeptTets::stars()
 
 std::vector<DomainSkin> KeptTets::holes()
 {
-  while (open_pinches()) {
-  }
-  const std::vector<HoleTriangle> triangles = triangles_by_hole();
+  std::vector<HoleTriangle> triangles = hole_triangles();
+  while (open_pinches(triangles)) triangles = hole_triangles();
+  sort_by_hole(triangles);
   std::vector<DomainSkin> holes;
   for (auto first = triangles.begin(); first != triangles.end();) {
     const auto last = std::ranges::find_if(first, triangles.end(), [&](const HoleTriangle& other) {
@@ -126,10 +127,10 @@ std::vector<KeptTets::HoleTriangle> KeptTets::hole_triangles() const
 
 // Takes out kept tets at edges where a hole touches itself or another one; whether there were some.
 // The skin may do so by itself.
-bool KeptTets::open_pinches()
+bool KeptTets::open_pinches(std::span<const HoleTriangle> triangles)
 {
   std::map<Edge, EdgeUse> uses;
-  for (const HoleTriangle& triangle : hole_triangles()) {
+  for (const HoleTriangle& triangle : triangles) {
     for (std::size_t c = 0; c < 3; ++c) {
       const auto [low, high] = std::minmax(triangle.vertices[c], triangle.vertices[(c + 1) % 3]);
       EdgeUse& use = uses[{low, high}];
@@ -151,20 +152,18 @@ bool KeptTets::open_pinches()
 
 // One hole after the other. Space whose tets meet in a vertex is one hole, so that a part of the
 // domain which lies in a hole bounds it too.
-std::vector<KeptTets::HoleTriangle> KeptTets::triangles_by_hole() const
+void KeptTets::sort_by_hole(std::vector<HoleTriangle>& triangles) const
 {
   UnionFind sets(static_cast<LocalIndex>(xyz_.size() / 3));
   for (LocalIndex tet = 0; tet < tets_.num_tets(); ++tet) {
     if (cut_.tet_side[at(tet)] != delaunay::Side::crossed) continue;
     for (const LocalIndex v : vertices_of(tet)) sets.join(vertices_of(tet)[0], v);
   }
-  std::vector<HoleTriangle> triangles = hole_triangles();
   for (const HoleTriangle& triangle : triangles) {
     for (const LocalIndex v : triangle.vertices) sets.join(triangle.vertices[0], v);
   }
   for (HoleTriangle& triangle : triangles) triangle.hole = sets.find(triangle.vertices[0]);
   std::ranges::stable_sort(triangles, {}, &HoleTriangle::hole);
-  return triangles;
 }
 
 DomainSkin KeptTets::hole_of(std::span<const HoleTriangle> triangles) const
@@ -173,8 +172,7 @@ DomainSkin KeptTets::hole_of(std::span<const HoleTriangle> triangles) const
   for (const HoleTriangle& triangle : triangles) {
     hole.vertex.insert(hole.vertex.end(), triangle.vertices.begin(), triangle.vertices.end());
   }
-  std::ranges::sort(hole.vertex);
-  hole.vertex.erase(std::unique(hole.vertex.begin(), hole.vertex.end()), hole.vertex.end());
+  sort_unique(hole.vertex);
   for (const LocalIndex v : hole.vertex) {
     const Vec3 point = point_at(xyz_, v);
     hole.vertex_xyz.insert(hole.vertex_xyz.end(), point.begin(), point.end());

@@ -60,8 +60,8 @@ class KeptTets {
   [[nodiscard]] bool is_flat(LocalIndex tet) const;
   [[nodiscard]] const IndexLists& stars();
   [[nodiscard]] std::vector<HoleTriangle> hole_triangles() const;
-  [[nodiscard]] std::vector<HoleTriangle> triangles_by_hole() const;
-  bool open_pinches();
+  bool open_pinches(std::span<const HoleTriangle> triangles);
+  void sort_by_hole(std::vector<HoleTriangle>& triangles) const;
   [[nodiscard]] DomainSkin hole_of(std::span<const HoleTriangle> triangles) const;
 
   const DomainSkin& skin_;

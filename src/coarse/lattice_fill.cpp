@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/base/enclosed_volume.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/base/vec3.hpp"
@@ -38,7 +39,7 @@ std::optional<DomainTets> fill_hole(const DomainSkin& hole, const HoleFiller& fi
   constexpr double kRounding = 1e-6;
   try {
     DomainTets tets = filler(hole);
-    const double volume = enclosed_volume(hole);
+    const double volume = enclosed_volume(hole.vertex_xyz, hole.triangle_vertices);
     if (std::abs(volume_of(tets) - volume) <= kRounding * volume) return tets;
   } catch (const NetgenError&) {  // There are other ways to fill it: fill_with_lattice().
   }

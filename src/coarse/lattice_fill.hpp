@@ -16,10 +16,9 @@ using HoleFiller = std::function<DomainTets(const DomainSkin& hole)>;
 /// function.
 ///
 /// Where a triangle of the skin is no face of such tets, those that cross it are taken out, and the
-/// filler fills the hole. That is so at 1.6 % of the triangles of the corpus. A hole that it cannot
-/// fill grows by the tets around it.
-/// @return Nothing if that does not help, or if the skin cuts itself. Of 114 domains of the corpus
-/// that were three.
+/// filler fills the hole. A hole that it cannot fill grows by the tets around it.
+/// @return Nothing if that does not help, or if the skin cuts itself. No domain of the corpus needs
+/// that.
 [[nodiscard]] std::optional<DomainTets> fill_with_lattice(const DomainSkin& skin,
                                                           const CoarseOptions& options,
                                                           const HoleFiller& filler);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <span>
 
 #include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/vec3.hpp"
@@ -32,18 +31,14 @@ constexpr double kSpacingOfSize = 1.1;
 constexpr double kGrowthOfGrading = 4.0;
 
 // Each triangle wants edges as long as its own.
-std::vector<SizeSource> sizes_of(const DomainSkin& skin)
+std::vector<SizeSource> sizes_of(const std::vector<std::array<Vec3, 3>>& triangles)
 {
   std::vector<SizeSource> sources;
-  sources.reserve(skin.triangle_vertices.size() / 3);
-  for (std::size_t i = 0; i < skin.triangle_vertices.size(); i += 3) {
-    SizeSource source;
-    for (std::size_t c = 0; c < 3; ++c) {
-      source.corners[c] = point_at(std::span(skin.vertex_xyz), skin.triangle_vertices[i + c]);
-    }
-    const auto& [a, b, c] = source.corners;
-    source.size = std::sqrt((dot(b - a, b - a) + dot(c - b, c - b) + dot(a - c, a - c)) / 3.0);
-    sources.push_back(source);
+  sources.reserve(triangles.size());
+  for (const auto& corners : triangles) {
+    const auto& [a, b, c] = corners;
+    const double squares = dot(b - a, b - a) + dot(c - b, c - b) + dot(a - c, a - c);
+    sources.push_back({.corners = corners, .size = std::sqrt(squares / 3.0)});
   }
   return sources;
 }
@@ -55,9 +50,9 @@ std::vector<double> lattice_points(const DomainSkin& skin, const CoarseOptions& 
   CoarseOptions inside = options;
   inside.max_size = kSpacingOfSize * std::min(options.max_size, skin.max_size);
   inside.grading = kGrowthOfGrading * options.grading;
-  SizeFunction size(inside);
-  size.limit(sizes_of(skin));
   const SkinDistance distance(skin);
+  SizeFunction size(inside);
+  size.limit(sizes_of(distance.triangles()));
   std::vector<double> xyz;
   const LatticeSpace space{.wanted_edge = std::cref(size),
                            .is_needed = [&](const Vec3& place, double within) {

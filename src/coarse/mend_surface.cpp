@@ -45,9 +45,7 @@ struct Candidate {
 
 double angle_deg(const Vec3& at, const Vec3& a, const Vec3& b)
 {
-  const Vec3 u = a - at;
-  const Vec3 v = b - at;
-  return std::atan2(norm(cross(u, v)), dot(u, v)) * 180.0 / std::numbers::pi;
+  return angle_between(a - at, b - at) * 180.0 / std::numbers::pi;
 }
 
 double smallest_angle(const Corners& p)

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/sort_unique.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -53,12 +54,6 @@ void for_each_cell(const Cell& low, const Cell& high, const Use& use)
       for (std::int64_t z = low[2]; z <= high[2]; ++z) use(Cell{x, y, z});
     }
   }
-}
-
-void sort_unique(std::vector<Cell>& cells)
-{
-  std::ranges::sort(cells);
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
 std::vector<Cell> children_of(const std::vector<Cell>& cells)

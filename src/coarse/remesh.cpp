@@ -148,7 +148,7 @@ class Remesher {
       ++count;
       if (is_inside) continue;
       const auto [p, a, b] = surface_.corners_from(t, v);
-      turn += std::atan2(norm(cross(a - p, b - p)), dot(a - p, b - p));
+      turn += angle_between(a - p, b - p);
     }
     return count - (is_inside ? 6.0 : std::max(1.0, turn * 3.0 / std::numbers::pi));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 
 #include "tessera/model/winding.hpp"
 
@@ -39,37 +40,35 @@ std::vector<Vec3> vertex_normals(const DomainSkin& skin,
       const Vec3 a = p[(c + 1) % 3] - p[c];
       const Vec3 b = p[(c + 2) % 3] - p[c];
       Vec3& normal = normals[at(skin.triangle_vertices[3 * t + c])];
-      normal = normal + std::atan2(norm(cross(a, b)), dot(a, b)) * normal_of(p);
+      normal = normal + angle_between(a, b) * normal_of(p);
     }
   }
   return normals;
 }
 
-struct Side {
-  std::array<LocalIndex, 2> vertices{};
-  std::size_t place = 0;  // Of edge_normals.
+std::array<LocalIndex, 2> side_at(const DomainSkin& skin, std::size_t t, std::size_t c)
+{
+  const LocalIndex* v = &skin.triangle_vertices[3 * t];
+  const auto [low, high] = std::minmax(v[c], v[(c + 1) % 3]);
+  return {low, high};
+}
 
-  friend auto operator<=>(const Side&, const Side&) = default;
-};
+mesh::RowTable<2> edges_of(const DomainSkin& skin)
+{
+  std::vector<std::array<LocalIndex, 2>> sides;
+  for (std::size_t i = 0; i < skin.triangle_vertices.size(); ++i) {
+    sides.push_back(side_at(skin, i / 3, i % 3));
+  }
+  return mesh::RowTable<2>(std::move(sides));
+}
 
-std::vector<Vec3> edge_normals(const DomainSkin& skin,
+std::vector<Vec3> edge_normals(const DomainSkin& skin, const mesh::RowTable<2>& edges,
                                const std::vector<std::array<Vec3, 3>>& triangles)
 {
-  std::vector<Side> sides;
-  for (std::size_t place = 0; place < skin.triangle_vertices.size(); ++place) {
-    const std::size_t next = place % 3 == 2 ? place - 2 : place + 1;
-    const auto [low, high] =
-        std::minmax(skin.triangle_vertices[place], skin.triangle_vertices[next]);
-    sides.push_back({{low, high}, place});
-  }
-  std::ranges::sort(sides);
-  std::vector<Vec3> normals(sides.size());
-  for (auto first = sides.begin(); first != sides.end();) {
-    const auto last = std::find_if(
-        first, sides.end(), [&](const Side& other) { return other.vertices != first->vertices; });
-    Vec3 sum{};
-    for (auto side = first; side != last; ++side) sum = sum + normal_of(triangles[side->place / 3]);
-    for (; first != last; ++first) normals[first->place] = sum;
+  std::vector<Vec3> normals(edges.rows().size());
+  for (std::size_t i = 0; i < skin.triangle_vertices.size(); ++i) {
+    Vec3& normal = normals[at(edges.index_of(side_at(skin, i / 3, i % 3)))];
+    normal = normal + normal_of(triangles[i / 3]);
   }
   return normals;
 }
@@ -86,7 +85,8 @@ SkinDistance::SkinDistance(const DomainSkin& skin)
     : skin_(skin),
       triangles_(triangles_of(skin)),
       vertex_normals_(vertex_normals(skin, triangles_)),
-      edge_normals_(edge_normals(skin, triangles_)),
+      edges_(edges_of(skin)),
+      edge_normals_(edge_normals(skin, edges_, triangles_)),
       search_(triangles_)
 {
 }
@@ -114,7 +114,7 @@ Vec3 SkinDistance::normal_at(const model::NearestPoint& nearest) const
     const Vec3& a = corners[c];
     const Vec3& b = corners[(c + 1) % 3];
     if (squared_distance_from_line(nearest.xyz, a, b) < kOnEdge * kOnEdge * dot(b - a, b - a)) {
-      return edge_normals_[3 * at(nearest.part) + c];
+      return edge_normals_[at(edges_.index_of(side_at(skin_, at(nearest.part), c)))];
     }
   }
   return normal_of(corners);

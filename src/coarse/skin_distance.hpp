@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tessera/coarse/coarse_surface.hpp"
+#include "tessera/mesh/sorted_rows.hpp"
 #include "tessera/model/nearest_point.hpp"
 
 namespace tessera::coarse {
@@ -26,6 +27,9 @@ class SkinDistance {
     return side_of(point, least) > 0;
   }
 
+  /// @brief Corners of the surface's triangles, in their order.
+  [[nodiscard]] const std::vector<std::array<Vec3, 3>>& triangles() const { return triangles_; }
+
  private:
   // -1 inside, 1 outside, 0 nearer to the surface.
   [[nodiscard]] int side_of(const Vec3& point, double least) const;
@@ -35,7 +39,8 @@ class SkinDistance {
   const DomainSkin& skin_;
   std::vector<std::array<Vec3, 3>> triangles_;
   std::vector<Vec3> vertex_normals_;  // Of the triangles around, weighted by their angles there.
-  std::vector<Vec3> edge_normals_;    // 3 t + c: of side c of triangle t, which begins at corner c.
+  mesh::RowTable<2> edges_;
+  std::vector<Vec3> edge_normals_;  // Of the triangles beside each.
   model::TriangleSearch search_;
 };
 

@@ -31,11 +31,6 @@ Vec3 in_plane(const Vec3& chord, const Vec3& normal)
 
 double cosine_of(double angle_deg) { return std::cos(angle_deg * std::numbers::pi / 180.0); }
 
-double angle_between(const Vec3& a, const Vec3& b)
-{
-  return std::atan2(norm(cross(a, b)), dot(a, b));
-}
-
 // Whether the face runs along the edge from its lower to its higher vertex.
 bool ascends(const LocalIndex* face, const std::array<LocalIndex, 2>& edge)
 {

@@ -46,11 +46,6 @@ constexpr double kEdgesOfLoop = 6.0;
 // Below it, in radians, the angle of two triangles or edges is the tessellation's noise.
 constexpr double kLeastTurn = 1e-3;
 
-double angle_between(const Vec3& a, const Vec3& b)
-{
-  return std::atan2(norm(cross(a, b)), dot(a, b));
-}
-
 using EdgeTriangles = std::map<Edge, std::vector<std::size_t>>;
 
 EdgeTriangles triangles_by_edge(const PatchSurface& surface)

@@ -219,7 +219,7 @@ void check_own_mesh(const Case& loaded, bool is_mesh, const std::string& where)
     fail(where, fmt::format("geometry.{} is for a mesh in geometry.file (.msh, .vol, .vtu)",
                             geometry.smooth ? "smooth" : "cad"));
   }
-  const std::string kind = geometry.file.extension().string();
+  const std::string kind = model::lower_case_extension(geometry.file);
   if (loaded.coarse.mesher == coarse::Mesher::gmsh
       && (is_mesh || kind == ".geo" || kind == ".stl")) {
     fail(where, fmt::format("coarse.mesher = \"gmsh\" is for .step, .iges and .brep; {}",

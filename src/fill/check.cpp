@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/enclosed_volume.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/surface_match.hpp"
@@ -96,15 +97,7 @@ std::vector<LocalIndex> match_boundary(const FillInput& skin, const FillOutput& 
 
 double enclosed_volume(const FillInput& skin)
 {
-  const std::span<const double> xyz(skin.vertex_xyz);
-  if (xyz.empty()) return 0.0;
-  const Vec3 origin = point_at(xyz, 0);  // Near the body: less cancellation.
-  double sum = 0.0;
-  for (std::size_t t = 0; 3 * t < skin.triangle_vertices.size(); ++t) {
-    const LocalIndex* v = &skin.triangle_vertices[3 * t];
-    sum += tet_volume(origin, point_at(xyz, v[0]), point_at(xyz, v[1]), point_at(xyz, v[2]));
-  }
-  return sum;
+  return tessera::enclosed_volume(skin.vertex_xyz, skin.triangle_vertices);
 }
 
 bool all_positive(const FillOutput& tets)

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/mesh/sorted_rows.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
@@ -14,13 +15,6 @@ namespace {
 
 using Edge = std::array<LocalIndex, 2>;
 using Triangle = std::array<LocalIndex, 3>;
-
-template <class T>
-void sort_unique(std::vector<T>& values)
-{
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
 
 LocalIndex index_in(std::span<const LocalIndex> sorted, LocalIndex value)
 {

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/migrate/partition.hpp"
 
 #include "migrate/block_merge.hpp"
@@ -78,13 +79,6 @@ void ask(std::vector<Surroundings>& parts, LocalIndex num_parts, int num_ranks,
       questions.put(rank_of_part(other, num_parts, num_ranks), vertices);
     }
   }
-}
-
-template <class T>
-void sort_unique(std::vector<T>& values)
-{
-  std::ranges::sort(values);
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 void add_vertices(const DistributedMesh& mesh, const IndexLists& vertex_parts,

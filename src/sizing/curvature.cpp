@@ -44,7 +44,7 @@ double curvature_across(const mesh::CoarseMesh& coarse, const Side& one, const S
   const Vec3 along = coarse.position(one.vertices[1]) - origin;
   const Vec3 normal = cross(along, coarse.position(one.opposite) - origin);
   const Vec3 beside = cross(coarse.position(other.opposite) - origin, along);
-  const double angle = std::atan2(norm(cross(normal, beside)), dot(normal, beside));
+  const double angle = angle_between(normal, beside);
   return angle * norm(along) / (kShareOfHeights * (norm(normal) + norm(beside)));
 }
 

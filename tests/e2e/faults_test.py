@@ -164,6 +164,12 @@ class WithoutAMesh(FaultsTest):
 
         self.for_all([Fault("remesh", kind, ALL, f"coarse={kind}") for kind in CAUSES], look)
 
+    def test_domain_of_the_coarse_mesh(self):
+        def look(fault, outcome):
+            self.assert_ended(fault, outcome, FAILED, "ball.geo", "no coarse mesh")
+
+        self.for_all([Fault("domain", kind, ALL) for kind in ("throw", "segv", "sleep")], look)
+
     def test_plan(self):
         def look(fault, outcome):
             self.assert_ended(fault, outcome, FAILED, "plan from subdomain")
@@ -196,7 +202,7 @@ class WithAMesh(FaultsTest):
             self.assertIn(CAUSES[fault.kind], outcome.out)
             self.assert_conforms(fault)
 
-        self.for_all([Fault("remesh", kind, ALL) for kind in ("segv", "sleep", "garbage")], look)
+        self.for_all([Fault("remesh", kind, ALL) for kind in ("throw", "segv", "sleep")], look)
 
     def test_lost_tet_of_the_coarse_mesh(self):
         fault = Fault("coarse", "drop", ALL, "remesh=drop")

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/base/enclosed_volume.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/netgen/factory.hpp"
@@ -89,7 +90,7 @@ TEST_P(LatticeDomain, IsFilledWithGoodTets)
   const Measures measures = measures_of(tets);
   EXPECT_GT(measures.mean_ratio, 0.85);
   EXPECT_GT(measures.worst, 0.0);
-  const double volume = coarse::enclosed_volume(skin);
+  const double volume = enclosed_volume(skin.vertex_xyz, skin.triangle_vertices);
   EXPECT_NEAR(measures.volume, volume, 1e-9 * volume);
   EXPECT_NO_THROW(mesh::validate(coarse::fill_surface(surface, {tets}).mesh));
 }

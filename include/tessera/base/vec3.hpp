@@ -51,6 +51,12 @@ inline constexpr Vec3 kNoPoint{std::numeric_limits<double>::infinity(),
   return length > 0.0 ? (1.0 / length) * a : a;
 }
 
+/// @brief Radians, in [0, pi]; exact where arc cosines are not, near 0 and pi. Zero if a vector is.
+[[nodiscard]] inline double angle_between(const Vec3& a, const Vec3& b) noexcept
+{
+  return std::atan2(norm(cross(a, b)), dot(a, b));
+}
+
 [[nodiscard]] inline double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) noexcept
 {
   return 0.5 * norm(cross(b - a, c - a));

@@ -78,9 +78,6 @@ struct DomainTets {
 /// @brief How many tets a domain will have at least, by its triangles and its largest edge. Local.
 [[nodiscard]] double predicted_tets(const DomainSkin& skin);
 
-/// @brief What a closed surface whose normals point out encloses. Local.
-[[nodiscard]] double enclosed_volume(const DomainSkin& skin);
-
 /// @brief The coarse mesh: the surface with the tets of all domains, without its cuts. Vertices
 /// that no tet has are dropped, and segments with them.
 /// @param[in] tets  Those of every domain, in their order.

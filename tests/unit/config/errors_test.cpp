@@ -242,6 +242,8 @@ TEST(ConfigErrors, AMeshNeedsNoSizeAndHasKeysOfItsOwn)
   says("geometry.file = 'a.stl'\ncoarse.max_size = 1\ngeometry.cad = 'b.stl'", "is for a mesh");
   says("geometry.file = 'a.stl'\ncoarse.max_size = 1\ncoarse.mesher = 'gmsh'",
        "leave it out for .stl");
+  says("geometry.file = 'a.STL'\ncoarse.max_size = 1\ncoarse.mesher = 'gmsh'",
+       "leave it out for .stl");
 }
 
 TEST(ConfigErrors, OverridesNameThemselves)

@@ -278,6 +278,14 @@ TEST(CutBySurface, AllIsInsideOfTheHull)
   expect_triangles_are_found(cut);
 }
 
+void expect_one_outside(const Cut& cut, LocalIndex tet)
+{
+  EXPECT_EQ(std::ranges::count(cut.surface.tet_side, Side::outside), 1);
+  EXPECT_EQ(cut.surface.tet_side[at(tet)], Side::outside);
+  expect_volume_between(cut);
+  expect_triangles_are_found(cut);
+}
+
 // The hull of all tets but one, which has a face on the hull: that tet is outside.
 TEST(CutBySurface, ADentIsOutside)
 {
@@ -291,10 +299,7 @@ TEST(CutBySurface, ADentIsOutside)
   for (std::size_t c = 0; c < 3; ++c) add_triangle(sample, {v[c], v[(c + 1) % 3], apex});
   const Cut cut(sample);
   EXPECT_EQ(cut.surface.num_missing, 0);
-  EXPECT_EQ(std::ranges::count(cut.surface.tet_side, Side::outside), 1);
-  EXPECT_EQ(cut.surface.tet_side[at(dent)], Side::outside);
-  expect_volume_between(cut);
-  expect_triangles_are_found(cut);
+  expect_one_outside(cut, dent);
 }
 
 // A large triangle from corner to corner of many tets.
@@ -325,10 +330,7 @@ TEST(CutBySurface, AHollowIsOutside)
     add_triangle(sample, {u, w, v});
   }
   const Cut cut(sample);
-  EXPECT_EQ(std::ranges::count(cut.surface.tet_side, Side::outside), 1);
-  EXPECT_EQ(cut.surface.tet_side[at(hollow)], Side::outside);
-  expect_volume_between(cut);
-  expect_triangles_are_found(cut);
+  expect_one_outside(cut, hollow);
 }
 
 // The same whose faces look outwards.
