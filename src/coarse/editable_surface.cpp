@@ -17,25 +17,22 @@ EditableSurface::EditableSurface(const PatchSurface& surface, std::vector<double
       sizes_(std::move(sizes)),
       triangles_(surface.triangles),
       patch_(surface.triangle_patch),
-      around_(surface.vertex_xyz.size())
+      around_(surface.vertex_xyz.size()),
+      curve_ends_(surface.vertex_xyz.size())
 {
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     for (const LocalIndex v : triangles_[t]) around_[at(v)].push_back(static_cast<LocalIndex>(t));
   }
-  std::vector<std::vector<LocalIndex>> curves_of(xyz_.size());
   for (std::size_t e = 0; e < surface.edges.size(); ++e) {
+    const auto [a, b] = surface.edges[e];
     // A tessellation may drop a sliver between two pieces of a curve, and one of them with it.
-    if (!has_edge(surface.edges[e][0], surface.edges[e][1])) continue;
-    curves_[surface.edges[e]] = surface.edge_curve[e];
-    for (const LocalIndex v : surface.edges[e]) {
-      curves_of[at(v)].push_back(surface.edge_curve[e]);
-    }
+    if (has_edge(a, b)) put_on_curve(a, b, surface.edge_curve[e]);
   }
   for (std::size_t v = 0; v < xyz_.size(); ++v) {
-    const std::vector<LocalIndex>& curves = curves_of[v];
-    const bool goes_on = curves.size() == 2 && curves[0] == curves[1];
-    const bool is_fixed = surface.vertex_is_fixed[v] != 0 || !(curves.empty() || goes_on);
-    freedom_.push_back(is_fixed ? Freedom::none : curves.empty() ? Freedom::patch : Freedom::curve);
+    const std::vector<CurveEnd>& ends = curve_ends_[v];
+    const bool goes_on = ends.size() == 2 && ends[0].curve == ends[1].curve;
+    const bool is_fixed = surface.vertex_is_fixed[v] != 0 || !(ends.empty() || goes_on);
+    freedom_.push_back(is_fixed ? Freedom::none : ends.empty() ? Freedom::patch : Freedom::curve);
   }
 }
 
@@ -70,16 +67,47 @@ bool EditableSurface::has_edge(LocalIndex a, LocalIndex b) const
 
 LocalIndex EditableSurface::curve(LocalIndex a, LocalIndex b) const
 {
-  if (std::min(freedom(a), freedom(b)) == Freedom::patch) return kNoIndex;
-  const auto found = curves_.find(edge_of(a, b));
-  return found == curves_.end() ? kNoIndex : found->second;
+  const auto found = std::ranges::find(curve_ends_[at(a)], b, &CurveEnd::vertex);
+  return found == curve_ends_[at(a)].end() ? kNoIndex : found->curve;
+}
+
+std::vector<std::pair<Edge, LocalIndex>> EditableSurface::curves() const
+{
+  std::vector<std::pair<Edge, LocalIndex>> all;
+  for (LocalIndex a = 0; a < num_vertices(); ++a) {
+    for (const auto& [b, curve] : curve_ends_[at(a)]) {
+      if (a < b) all.push_back({{a, b}, curve});
+    }
+  }
+  return all;
 }
 
 std::vector<LocalIndex> EditableSurface::curve_neighbours(LocalIndex v) const
 {
-  std::vector<LocalIndex> found = neighbours(v);
-  std::erase_if(found, [&](LocalIndex other) { return curve(v, other) == kNoIndex; });
+  std::vector<LocalIndex> found;
+  for (const CurveEnd& end : curve_ends_[at(v)]) found.push_back(end.vertex);
   return found;
+}
+
+// Of two curves on one edge, the lower counts.
+void EditableSurface::put_on_curve(LocalIndex a, LocalIndex b, LocalIndex curve)
+{
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+    std::vector<CurveEnd>& ends = curve_ends_[at(from)];
+    const auto place = std::ranges::lower_bound(ends, to, {}, &CurveEnd::vertex);
+    if (place != ends.end() && place->vertex == to) {
+      place->curve = std::min(place->curve, curve);
+    } else {
+      ends.insert(place, {to, curve});
+    }
+  }
+}
+
+void EditableSurface::take_off_curve(LocalIndex a, LocalIndex b)
+{
+  for (const auto& [from, to] : {std::pair(a, b), std::pair(b, a)}) {
+    std::erase_if(curve_ends_[at(from)], [&](const CurveEnd& end) { return end.vertex == to; });
+  }
 }
 
 std::array<Vec3, 3> EditableSurface::corners_from(LocalIndex t, LocalIndex first) const
@@ -92,11 +120,18 @@ std::array<Vec3, 3> EditableSurface::corners_from(LocalIndex t, LocalIndex first
 
 Vec3 EditableSurface::middle_of_neighbours(LocalIndex v) const
 {
-  const std::vector<LocalIndex> around =
-      freedom(v) == Freedom::curve ? curve_neighbours(v) : neighbours(v);
+  if (freedom(v) == Freedom::curve) {
+    const std::vector<CurveEnd>& two = curve_ends_[at(v)];
+    return midpoint(xyz(two.front().vertex), xyz(two.back().vertex));
+  }
+  // Within a patch every neighbour is a corner of two triangles.
   Vec3 sum{};
-  for (const LocalIndex other : around) sum = sum + xyz(other);
-  return (1.0 / static_cast<double>(around.size())) * sum;
+  for (const LocalIndex t : around_[at(v)]) {
+    for (const LocalIndex other : triangles_[at(t)]) {
+      if (other != v) sum = sum + xyz(other);
+    }
+  }
+  return (0.5 / static_cast<double>(around_[at(v)].size())) * sum;
 }
 
 void EditableSurface::detach(LocalIndex t, LocalIndex v)
@@ -119,6 +154,7 @@ LocalIndex EditableSurface::split(const Edge& edge, const Vec3& xyz)
   xyz_.push_back(xyz);
   sizes_.push_back(0.5 * (size(a) + size(b)));
   around_.emplace_back();
+  curve_ends_.emplace_back();
   for (const LocalIndex t : triangles_at(edge)) {
     const auto second = static_cast<LocalIndex>(triangles_.size());
     triangles_.push_back(replaced(triangles_[at(t)], a, middle));
@@ -129,9 +165,9 @@ LocalIndex EditableSurface::split(const Edge& edge, const Vec3& xyz)
   const LocalIndex on = curve(a, b);
   freedom_.push_back(on == kNoIndex ? Freedom::patch : Freedom::curve);
   if (on == kNoIndex) return middle;
-  curves_.erase(edge);
-  curves_[edge_of(a, middle)] = on;
-  curves_[edge_of(middle, b)] = on;
+  take_off_curve(a, b);
+  put_on_curve(a, middle, on);
+  put_on_curve(middle, b, on);
   return middle;
 }
 
@@ -144,17 +180,19 @@ bool EditableSurface::can_collapse(LocalIndex gone, LocalIndex kept) const
       if (other != kept && has_edge(other, kept)) return false;
     }
   }
-  // Only the triangles at the edge may have both as neighbours (the link condition).
-  std::vector<LocalIndex> opposites;
-  for (const LocalIndex t : triangles_at({gone, kept})) {
-    opposites.push_back(opposite(triangles_[at(t)], {gone, kept}));
-  }
-  std::ranges::sort(opposites);
-  const std::vector<LocalIndex> of_gone = neighbours(gone);
-  const std::vector<LocalIndex> of_kept = neighbours(kept);
-  std::vector<LocalIndex> common;
-  std::ranges::set_intersection(of_gone, of_kept, std::back_inserter(common));
-  return common == opposites;
+  // Only opposite corners of triangles at the edge may be neighbours of both, each of one triangle
+  // (the link condition).
+  const auto num_opposite_to = [&](LocalIndex other) {
+    return std::ranges::count_if(around_[at(gone)], [&](LocalIndex t) {
+      return holds(triangles_[at(t)], kept) && holds(triangles_[at(t)], other);
+    });
+  };
+  return std::ranges::all_of(around_[at(gone)], [&](LocalIndex t) {
+    return std::ranges::all_of(triangles_[at(t)], [&](LocalIndex other) {
+      if (other == gone || other == kept) return true;
+      return num_opposite_to(other) == (has_edge(other, kept) ? 1 : 0);
+    });
+  });
 }
 
 void EditableSurface::collapse(LocalIndex gone, LocalIndex kept)
@@ -162,10 +200,8 @@ void EditableSurface::collapse(LocalIndex gone, LocalIndex kept)
   if (freedom(gone) != Freedom::patch) {
     for (const LocalIndex other : curve_neighbours(gone)) {
       const LocalIndex on = curve(gone, other);
-      curves_.erase(edge_of(gone, other));
-      if (other == kept) continue;
-      const auto [place, is_new] = curves_.try_emplace(edge_of(other, kept), on);
-      if (!is_new) place->second = std::min(place->second, on);
+      take_off_curve(gone, other);
+      if (other != kept) put_on_curve(other, kept, on);
     }
   }
   freedom_[at(kept)] = std::max(freedom(kept), freedom(gone));
@@ -226,7 +262,7 @@ PatchSurface EditableSurface::take(const PatchSurface& given) const
     result.triangle_patch.push_back(patch_[t]);
   }
   // The order of numbers is kept, so edges stay ascending.
-  for (const auto& [edge, curve] : curves_) {
+  for (const auto& [edge, curve] : curves()) {
     result.edges.push_back({numbers[at(edge[0])], numbers[at(edge[1])]});
     result.edge_curve.push_back(curve);
   }

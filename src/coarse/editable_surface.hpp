@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -106,8 +105,10 @@ class EditableSurface {
   [[nodiscard]] bool has_edge(LocalIndex a, LocalIndex b) const;
   /// @brief Curve of an edge, kNoIndex if it is on none.
   [[nodiscard]] LocalIndex curve(LocalIndex a, LocalIndex b) const;
-  [[nodiscard]] const std::map<Edge, LocalIndex>& curves() const { return curves_; }
-  /// @brief The vertices before and after one that lies on a curve.
+  /// @brief Edges on curves, ascending, each with its curve.
+  [[nodiscard]] std::vector<std::pair<Edge, LocalIndex>> curves() const;
+  /// @brief The ends of the curve edges at a vertex, ascending: before and after one that lies
+  /// within a curve.
   [[nodiscard]] std::vector<LocalIndex> curve_neighbours(LocalIndex v) const;
 
   /// @brief The mean of the neighbours of a vertex, for one on a curve of those along it.
@@ -139,8 +140,17 @@ class EditableSurface {
   [[nodiscard]] PatchSurface take(const PatchSurface& given) const;
 
  private:
+  // Half of an edge on a curve.
+  struct CurveEnd {
+    LocalIndex vertex = kNoIndex;  // Where it ends.
+    LocalIndex curve = kNoIndex;
+    auto operator<=>(const CurveEnd&) const = default;
+  };
+
   void detach(LocalIndex t, LocalIndex v);
   void replace(LocalIndex t, LocalIndex old, LocalIndex by);
+  void put_on_curve(LocalIndex a, LocalIndex b, LocalIndex curve);
+  void take_off_curve(LocalIndex a, LocalIndex b);
 
   std::vector<Vec3> xyz_;
   std::vector<double> sizes_;
@@ -148,7 +158,7 @@ class EditableSurface {
   std::vector<Triangle> triangles_;  // Corner 0 of a removed one is kNoIndex.
   std::vector<LocalIndex> patch_;
   std::vector<std::vector<LocalIndex>> around_{};  // Triangles of each vertex.
-  std::map<Edge, LocalIndex> curves_{};
+  std::vector<std::vector<CurveEnd>> curve_ends_;  // At each vertex, ascending.
 };
 
 template <class Counts>

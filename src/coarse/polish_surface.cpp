@@ -9,10 +9,10 @@
 namespace tessera::coarse {
 namespace {
 
-// A triangle with a worse shape is polished: an angle below 38 degrees.
-constexpr double kPolished = 0.71;
+// A triangle with a worse shape is polished: an angle below 44 degrees.
+constexpr double kPolished = 0.8;
 
-constexpr int kMostSweeps = 8;
+constexpr int kMostSweeps = 12;
 
 class Polisher {
  public:
@@ -20,9 +20,10 @@ class Polisher {
 
   void run()
   {
+    int since = 0;
     for (int i = 0; i < kMostSweeps; ++i) {
-      const auto worst = bad_triangles();
-      editor_.begin_pass();
+      const auto worst = bad_triangles(since);
+      since = editor_.begin_pass();
       int count = 0;
       for (const auto& [shape, t] : worst) {
         if (surface_.is_triangle(t) && editor_.shape(t) < kPolished) count += polish(t) ? 1 : 0;
@@ -32,11 +33,15 @@ class Polisher {
   }
 
  private:
-  [[nodiscard]] std::vector<std::pair<double, LocalIndex>> bad_triangles()
+  // Those around which something has changed since.
+  [[nodiscard]] std::vector<std::pair<double, LocalIndex>> bad_triangles(int since)
   {
     std::vector<std::pair<double, LocalIndex>> bad;
     for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
       if (!surface_.is_triangle(t)) continue;
+      const bool has_changed = std::ranges::any_of(
+          surface_.triangle(t), [&](LocalIndex v) { return editor_.has_changed(v, since); });
+      if (!has_changed) continue;
       const double shape = editor_.shape(t);
       if (shape < kPolished) bad.emplace_back(shape, t);
     }

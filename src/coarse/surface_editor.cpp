@@ -120,6 +120,18 @@ const Vec3& SurfaceEditor::normal_at(LocalIndex v, LocalIndex patch, const Vec3&
   return known.normal;
 }
 
+Vec3 SurfaceEditor::along(LocalIndex v, const Vec3& vector)
+{
+  if (surface_.freedom(v) == Freedom::curve) {
+    const std::vector<LocalIndex> two = surface_.curve_neighbours(v);
+    const Vec3 tangent = unit(surface_.xyz(two.back()) - surface_.xyz(two.front()));
+    return dot(vector, tangent) * tangent;
+  }
+  const LocalIndex patch = surface_.patch(surface_.triangles_of(v).front());
+  const Vec3& normal = normal_at(v, patch, surface_.xyz(v));
+  return vector - dot(vector, normal) * normal;
+}
+
 void SurfaceEditor::note_change(std::span<const LocalIndex> triangles)
 {
   changed_.resize(at(surface_.num_vertices()), pass_);

@@ -60,6 +60,9 @@ class SurfaceEditor {
   [[nodiscard]] double shape(LocalIndex t);
   [[nodiscard]] double worst_shape(std::span<const LocalIndex> triangles);
 
+  /// @brief The part of a vector that does not lead off the patch or curve of a vertex.
+  [[nodiscard]] Vec3 along(LocalIndex v, const Vec3& vector);
+
   /// @brief What a step around a vertex that is not meant to make shapes better may leave: a fair
   /// shape, or the worst one there if that is not fair.
   [[nodiscard]] double fair_shape(LocalIndex v);
