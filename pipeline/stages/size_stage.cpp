@@ -79,8 +79,8 @@ double estimated_tets(double volume, double target)
 
 int levels_for(double num_fine_tets)
 {
-  if (num_fine_tets < 2e4) return 1;
-  if (num_fine_tets < 2e6) return 2;
+  if (num_fine_tets < 5e5) return 1;
+  if (num_fine_tets < 4e6) return 2;
   return num_fine_tets < 1e8 ? 3 : 4;
 }
 
