@@ -244,7 +244,7 @@ TEST(StlModel, RemeshedWallThinnerThanItsTrianglesIsRefinedUntilItIsSound)
   const mesh::CoarseMesh mesh = model->generate(rough_remesh());
   expect_on_model(*model, mesh);
   const double exact = 4.0 / 3.0 * std::numbers::pi * (1.0 - std::pow(0.6, 3));
-  EXPECT_LT(volume_of(mesh), exact);
+  EXPECT_LT(volume_of(mesh), 1.05 * exact) << "chords make the hole smaller, too";
   EXPECT_GT(volume_of(mesh), 0.75 * exact) << "chords of 0.6 in a ball of radius 1";
 }
 
