@@ -50,11 +50,12 @@ std::string describe_mesh(const std::filesystem::path& file)
       pieces.size(), num_cells, num_points, names);
 }
 
-// The model is read in a job: the CAD libraries may crash on it.
+// The model is read in a job: the CAD libraries may crash on it. Solids that overlap are listed,
+// not refused.
 model::ModelSource read_source(const std::filesystem::path& file, jobs::JobRunner& jobs)
 {
   netgen::require_model_file(file);
-  return import_in_jobs(file, model::ImportOptions{},
+  return import_in_jobs(file, {.assembly = {.overlap = model::Overlap::first}},
                         [&](const std::string&, const Bytes& request) {
                           return jobs.run(request, kInfoLimits, wait_for_stop_signal());
                         });

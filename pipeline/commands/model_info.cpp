@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -14,6 +15,8 @@
 
 #include "tessera/base/vec3.hpp"
 #include "tessera/model/part_names.hpp"
+
+#include "pipeline/report/assembly_json.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -189,6 +192,28 @@ std::string faces_text(const model::ModelDescription& description, const Boxes& 
   return text;
 }
 
+std::string solid_name(const model::ModelDescription& description, LocalIndex number)
+{
+  const std::string& name = description.solids[static_cast<std::size_t>(number) - 1].name;
+  return name.empty() ? std::to_string(number) : fmt::format("{} '{}'", number, name);
+}
+
+std::string touches_text(const model::ModelDescription& description, const std::string& unit)
+{
+  const std::vector<Touch> touches = touches_of(description);
+  std::string text;
+  if (description.solids.size() > 1) {
+    text = fmt::format("pairs of solids that share faces: {}\n", touches.size());
+  }
+  for (const Touch& touch : touches) {
+    text += fmt::format("  solids {} and {}: {} faces, area {:.6g}{}\n",
+                        solid_name(description, touch.solids[0]),
+                        solid_name(description, touch.solids[1]), touch.num_faces, touch.area,
+                        unit.empty() ? "" : " " + unit + "²");
+  }
+  return text;
+}
+
 std::string edges_text(const model::ModelDescription& description, bool lists_edges,
                        const std::string& unit)
 {
@@ -246,6 +271,16 @@ Json edges_json(const model::ModelDescription& description)
   return edges;
 }
 
+Json touches_json(const model::ModelDescription& description)
+{
+  Json touches = Json::array();
+  for (const Touch& touch : touches_of(description)) {
+    touches.push_back(
+        {{"solids", touch.solids}, {"num_faces", touch.num_faces}, {"area", touch.area}});
+  }
+  return touches;
+}
+
 Json solids_json(const model::ModelDescription& description)
 {
   Json solids = Json::array();
@@ -260,6 +295,24 @@ Json solids_json(const model::ModelDescription& description)
 }
 
 }  // namespace
+
+std::vector<Touch> touches_of(const model::ModelDescription& description)
+{
+  std::map<std::array<LocalIndex, 2>, Touch> found;
+  for (const model::FaceDescription& face : description.faces) {
+    for (std::size_t s = 1; s < face.solids.size(); ++s) {
+      const std::array<LocalIndex, 2> pair{face.solids[s - 1], face.solids[s]};
+      if (pair[0] == pair[1]) continue;
+      Touch& touch = found[pair];
+      touch.solids = pair;
+      ++touch.num_faces;
+      touch.area += face.area;
+    }
+  }
+  std::vector<Touch> touches;
+  for (const auto& [pair, touch] : found) touches.push_back(touch);
+  return touches;
+}
 
 std::vector<SuggestedSize> suggested_sizes(const Extent& extent)
 {
@@ -283,6 +336,7 @@ std::string model_text(const model::ModelSource& source, const model::ModelDescr
                   norm(boxes.model.high - boxes.model.low), unit, box_text(boxes.model),
                   unit.empty() ? "the file does not say" : unit);
   text += solids_text(description, unit);
+  text += touches_text(description, unit);
   text += faces_text(description, boxes, unit);
   text += edges_text(description, lists_edges, unit);
   for (const std::string& repair : source.repairs) text += fmt::format("repair: {}\n", repair);
@@ -296,6 +350,8 @@ std::string model_json(const model::ModelSource& source, const model::ModelDescr
             {"length_unit", source.length_unit},
             {"box", json_of(boxes.model)},
             {"solids", solids_json(description)},
+            {"touches", touches_json(description)},
+            {"assembly", assembly_json(source.assembly)},
             {"faces", faces_json(description, boxes)},
             {"edges", edges_json(description)},
             {"num_edges", description.edges.size()},

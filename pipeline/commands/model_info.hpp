@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,16 @@ struct Extent {
   double volume = 0.0;  ///< Of all solids, > 0.
   double area = 0.0;    ///< Of all faces.
 };
+
+/// @brief Two solids that share faces.
+struct Touch {
+  std::array<LocalIndex, 2> solids{};  ///< From 1, ascending.
+  LocalIndex num_faces = 0;
+  double area = 0.0;  ///< File length unit squared.
+};
+
+/// @brief All of them, by numbers. Local. @pre description.require_sound() does not throw.
+[[nodiscard]] std::vector<Touch> touches_of(const model::ModelDescription& description);
 
 /// @brief Three sizes that suit a model. Local.
 [[nodiscard]] std::vector<SuggestedSize> suggested_sizes(const Extent& extent);

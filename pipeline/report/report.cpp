@@ -14,6 +14,7 @@
 #include "tessera/io/vtu.hpp"
 #include "tessera/netgen/factory.hpp"
 
+#include "pipeline/report/assembly_json.hpp"
 #include "pipeline/report/cuts_json.hpp"
 #include "pipeline/report/defeature_json.hpp"
 #include "pipeline/report/names_json.hpp"
@@ -137,6 +138,7 @@ Json model_json(const model::ModelSource& model)
 {
   return {{"repairs", model.repairs},
           {"length_unit", model.length_unit},
+          {"assembly", assembly_json(model.assembly)},
           {"digest", to_hex(hash_bytes(model.content))}};
 }
 

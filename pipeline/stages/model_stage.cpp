@@ -36,6 +36,18 @@ bool has_died(const jobs::JobOutcome& outcome)
   return has_ended && !was_killed_from_outside(outcome);
 }
 
+// Lengths of the file, as import has them.
+model::ImportOptions import_options(const config::Case& run_case)
+{
+  const config::GeometryOptions& geometry = run_case.geometry;
+  model::ImportOptions options{.feature_angle_deg = run_case.coarse.feature_angle_deg,
+                               .cad = geometry.cad,
+                               .smooth = geometry.smooth,
+                               .assembly = geometry.assembly};
+  options.assembly.gap /= geometry.scale;
+  return options;
+}
+
 }  // namespace
 
 model::ModelSource import_in_jobs(
@@ -93,9 +105,7 @@ model::ModelSource run_model_stage(const config::Case& run_case, RunContext& con
       keep_if_failed(job, outcome, context);
       return outcome;
     };
-    return import_in_jobs(
-        file, {run_case.coarse.feature_angle_deg, run_case.geometry.cad, run_case.geometry.smooth},
-        run_import);
+    return import_in_jobs(file, import_options(run_case), run_import);
   });
   all_or_none(context.comm, [&] {
     throw_unless_read(run_load("model", load_model_message(source, run_case.geometry.scale),

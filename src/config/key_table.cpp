@@ -40,6 +40,30 @@ constexpr Key kKeys[] = {
      .unit = "output length units per file length unit",
      .meaning = "Factor applied to the model. Every length below is in output units.",
      .reason = "the mesh keeps the model's unit"},
+    {.name = "geometry.overlap",
+     .rule = word_rule([](Case& c) -> model::Overlap& { return c.geometry.assembly.overlap; }),
+     .meaning =
+         "What becomes of space that two solids of a .step, .iges or .brep have in common. "
+         "\"error\": the model is refused, with both solids, the volume and the place. \"first\": "
+         "the solid that comes first in the file has it; \"last\": the one that comes last. "
+         "\"cut\": "
+         "it becomes a solid of its own, with the name of the first.",
+     .reason =
+         "solids that overlap are most often a mistake, and only who made them knows which of "
+         "them is there"},
+    {.name = "geometry.gap",
+     .rule = RealRule{[](Case& c) -> double& { return c.geometry.assembly.gap; }, 0.0,
+                      Bound::inclusive, kHuge, Bound::inclusive},
+     .unit = "output length unit",
+     .meaning =
+         "Solids of a .step, .iges or .brep whose faces are nearer to each other share these "
+         "faces, and overlaps that are thinner are none; the report lists the gaps. 0: only "
+         "faces within OpenCASCADE's own tolerances of each other are shared.",
+     .reason = "as much comes of rounding, when a program writes the file in another unit, and no "
+               "fit of two parts is so tight",
+     .derived_default = "a millionth of the diagonal of the model's box",
+     .example = "0.001",
+     .is_optional = true},
 
     {.name = "size.target",
      .rule = RealRule{[](Case& c) -> double& { return c.size.target; }, 0.0, Bound::exclusive,

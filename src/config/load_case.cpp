@@ -234,6 +234,29 @@ void check_own_mesh(const Case& loaded, bool is_mesh, const std::string& where)
   }
 }
 
+// What only a model with solids of OpenCASCADE has.
+void check_assembly(const Case& loaded, bool is_mesh, const std::string& where)
+{
+  const GeometryOptions& geometry = loaded.geometry;
+  const std::filesystem::path& model = geometry.cad.empty() ? geometry.file : geometry.cad;
+  const std::string kind = model::lower_case_extension(model);
+  const bool has_solids = kind != ".geo" && kind != ".stl" && !model::is_mesh_name(model);
+  if (!has_solids && geometry.assembly != model::AssemblyOptions{}) {
+    fail(where,
+         "geometry.overlap, geometry.gap and [[geometry.contact]] are for .step, .iges and "
+         ".brep; leave them out for "
+             + kind);
+  }
+  if (geometry.assembly.contacts.empty()) return;
+  const std::string_view other =
+      is_mesh                                                  ? "a mesh in geometry.file"
+      : loaded.coarse.mesher == coarse::Mesher::gmsh           ? "coarse.mesher = \"gmsh\""
+      : loaded.decompose.method == decompose::Method::geometry ? "decompose.method = \"geometry\""
+                                                               : "";
+  if (other.empty()) return;
+  fail(where, fmt::format("[[geometry.contact]] excludes {}: solids would be joined again", other));
+}
+
 void check_required(const Case& loaded, const std::string& where)
 {
   if (loaded.geometry.file.empty()) {
@@ -244,6 +267,7 @@ void check_required(const Case& loaded, const std::string& where)
     fail(where, "no size; give either size.target or coarse.max_size");
   }
   check_own_mesh(loaded, is_mesh, where);
+  check_assembly(loaded, is_mesh, where);
   if (loaded.size.max > 0.0 && loaded.size.min > loaded.size.max) {
     fail(where, fmt::format("size.min = {} is above size.max = {}; it must not be",
                             number_text(loaded.size.min), number_text(loaded.size.max)));

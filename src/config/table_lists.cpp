@@ -242,6 +242,25 @@ constexpr Key kNameKeys[] = {
      .is_optional = true},
 };
 
+constexpr Key kContactKeys[] = {
+    {.name = "geometry.contact.body",
+     .rule =
+         TextRule{[](Case& c) -> std::string& { return c.geometry.assembly.contacts.back().body; }},
+     .meaning =
+         "The one solid: its number in the list of tessera info MODEL, or its name in the "
+         "file. Or several, whose numbers or names match: * stands for any characters, ? for "
+         "one, [ab] for one of these.",
+     .reason = "a contact has two sides",
+     .example = "\"shaft\""},
+    {.name = "geometry.contact.other",
+     .rule = TextRule{[](Case& c) -> std::string& {
+       return c.geometry.assembly.contacts.back().other;
+     }},
+     .meaning = "The other solid, or several, as of body.",
+     .reason = "a contact has two sides",
+     .example = "\"2\""},
+};
+
 constexpr Key kPlaneKeys[] = {
     {.name = "decompose.plane.point",
      .rule = TripleRule{[](Case& c) -> Vec3& { return c.planes.given.back().point; }, kHuge},
@@ -271,6 +290,14 @@ constexpr TableList kTableLists[] = {
      .size = [](const Case& c) { return c.geometry.names.size(); },
      .resize = [](Case& c, std::size_t size) { c.geometry.names.resize(size); },
      .defect = [](const Case& c) { return model::defect_of(c.geometry.names.back()); }},
+    {.name = "geometry.contact",
+     .keys = kContactKeys,
+     .meaning = "Solids of a .step, .iges or .brep that are kept apart where they touch: each has "
+                "faces, edges and points of its own there. At the rim they stay together where a "
+                "third solid holds both.",
+     .reason = "solids that touch share the faces between them",
+     .size = [](const Case& c) { return c.geometry.assembly.contacts.size(); },
+     .resize = [](Case& c, std::size_t size) { c.geometry.assembly.contacts.resize(size); }},
     {.name = "decompose.plane",
      .keys = kPlaneKeys,
      .meaning =

@@ -383,7 +383,7 @@ model::ModelSource of_open_cascade(CadFile cad, const model::ModelSource& source
       fmt::format("{}: OpenCASCADE made the solids once more; sizes that the file gives to solids "
                   "are lost",
                   why));
-  return closed_source(std::move(cad), source.file_name);
+  return closed_source(std::move(cad), source.file_name, {.overlap = model::Overlap::cut});
 }
 
 // OpenCASCADE tells whether what NETGEN does not see is there. Nothing: it is not, and `source`

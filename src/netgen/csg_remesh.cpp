@@ -181,7 +181,7 @@ coarse::CoarseSurface remesh_csg(const model::Model& csg, const Geometry& geomet
                                  const std::string& file_name)
 {
   coarse::PatchSurface tessellation = with_occ_errors(file_name, [&] {
-    make_closed_solids(solids);
+    make_closed_solids(solids, {.overlap = model::Overlap::cut});
     return tessellation_of(solids.shape, least_size_of_file(geometry, options.max_size));
   });
   CsgTriangles triangles = triangles_of_csg(std::move(tessellation), geometry, box);

@@ -22,11 +22,6 @@ namespace fs = std::filesystem;
 using model::ImportOptions;
 using model::ModelSource;
 
-ModelSource import_shape(const fs::path& file, const ImportOptions& /*options*/, StepReader reader)
-{
-  return import_occ(file, reader);
-}
-
 struct FileKind {
   std::string_view extension;  // Lower case.
   ModelSource (*import)(const fs::path& file, const ImportOptions& options, StepReader reader);
@@ -36,11 +31,11 @@ constexpr FileKind kFileKinds[] = {
     {".geo",
      [](const fs::path& file, const ImportOptions&, StepReader) { return import_csg(file); }},
     {".stl", import_stl},
-    {".step", import_shape},
-    {".stp", import_shape},
-    {".iges", import_shape},
-    {".igs", import_shape},
-    {".brep", import_shape},
+    {".step", import_occ},
+    {".stp", import_occ},
+    {".iges", import_occ},
+    {".igs", import_occ},
+    {".brep", import_occ},
     {".msh", import_own_mesh},
     {".vol", import_own_mesh},
     {".vtu", import_own_mesh},

@@ -9,6 +9,7 @@
 #include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS_Shape.hxx>
 
+#include "tessera/model/assembly.hpp"
 #include "tessera/netgen/factory.hpp"
 
 namespace tessera::netgen {
@@ -29,6 +30,7 @@ struct CadFile {
   std::string length_unit{};           ///< "mm", "m", "in", …; empty if the file does not say.
   std::vector<std::string> repairs{};  ///< What was changed since, one line each.
   bool may_overlap = false;            ///< Solids may touch or overlap, and could not be glued.
+  model::Assembly assembly{};          ///< What was found where solids meet.
 };
 
 /// @brief Reads a file by its extension: .step .stp .iges .igs .brep .brp (text or binary).
@@ -38,7 +40,8 @@ struct CadFile {
 
 /// @brief Makes `cad.shape` one closed, valid solid, or a compound of several that share the faces
 /// on which they touch. Names follow their faces and solids; every change adds to `cad.repairs`.
-/// @throws GeometryError that says what the file holds instead, or what stays open.
-void make_closed_solids(CadFile& cad);
+/// @throws GeometryError that says what the file holds instead, what stays open, or what overlaps.
+/// @throws ConfigError if one of `options.contacts` fits no solid.
+void make_closed_solids(CadFile& cad, const model::AssemblyOptions& options);
 
 }  // namespace tessera::netgen

@@ -68,12 +68,15 @@ Bytes occ_content(const CadFile& cad)
   return to_bytes(content);
 }
 
-model::ModelSource closed_source(CadFile cad, const std::string& file_name)
+model::ModelSource closed_source(CadFile cad, const std::string& file_name,
+                                 const model::AssemblyOptions& options)
 {
   try {
-    with_occ_errors("healing", [&] { make_closed_solids(cad); });
+    with_occ_errors("healing", [&] { make_closed_solids(cad, options); });
   } catch (const GeometryError& error) {
     throw GeometryError(fmt::format("{}: {}", file_name, error.what()));
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: {}", file_name, error.what()));
   }
   model::ModelSource source;
   source.format = model::Format::occ;
@@ -81,6 +84,7 @@ model::ModelSource closed_source(CadFile cad, const std::string& file_name)
   source.length_unit = cad.length_unit;
   source.content = occ_content(cad);
   source.repairs = cad.repairs;
+  source.assembly = cad.assembly;
   return source;
 }
 

@@ -28,8 +28,9 @@ struct OccContent {
 [[nodiscard]] Bytes occ_content(const CadFile& cad);
 
 /// @brief Closes the solids, and packs them for all ranks; `cad.repairs` are those of the source.
-/// Local. @throws GeometryError of make_closed_solids(), after the file's name.
-[[nodiscard]] model::ModelSource closed_source(CadFile cad, const std::string& file_name);
+/// Local. @throws As make_closed_solids(), after the file's name.
+[[nodiscard]] model::ModelSource closed_source(CadFile cad, const std::string& file_name,
+                                               const model::AssemblyOptions& options);
 
 /// @brief Reads it back. Local. @throws InputError if the bytes are damaged or hold no shape.
 [[nodiscard]] OccContent read_occ_content(std::span<const std::byte> bytes);

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Shape.hxx>
 
+#include "tessera/model/assembly.hpp"
+
 #include "netgen/occ_cad_file.hpp"
+#include "netgen/occ_fuse.hpp"
 
 namespace tessera::netgen {
 
@@ -16,8 +18,10 @@ void follow_names(const TopoDS_Shape& shape, ShapeNames& names,
                   const std::function<TopTools_ListOfShape(const TopoDS_Shape&)>& images_of);
 
 /// @brief A compound of the solids in which two that touch share the faces between them, so that
-/// their meshes conform. Solids that overlap are cut into parts. Those that touch along curves or
-/// in points only keep their faces whole. What was done is in `cad.repairs`.
-[[nodiscard]] TopoDS_Shape glued(const std::vector<TopoDS_Shape>& solids, CadFile& cad);
+/// their meshes conform. Those that touch along curves or in points only keep their faces whole.
+/// What was found and done is in `cad.assembly` and `cad.repairs`.
+/// @throws GeometryError if solids overlap and `options.overlap` does not say what is to be done.
+[[nodiscard]] TopoDS_Shape glued(const Shapes& solids, const model::AssemblyOptions& options,
+                                 CadFile& cad);
 
 }  // namespace tessera::netgen

@@ -22,6 +22,7 @@
 #include "tessera/base/repair.hpp"
 
 #include "netgen/occ_cad_file.hpp"
+#include "netgen/occ_contacts.hpp"
 #include "netgen/occ_glue.hpp"
 #include "netgen/occ_overlaps.hpp"
 #include "netgen/occ_periods.hpp"
@@ -243,9 +244,22 @@ void require_curves(const TopoDS_Shape& shape)
   }
 }
 
+// One part of an assembly, placed twice at the same place, is one solid.
+void tell_of_doubles(CadFile& cad, std::size_t num_different)
+{
+  std::size_t num_placed = 0;
+  for (TopExp_Explorer each(cad.shape, TopAbs_SOLID); each.More(); each.Next()) ++num_placed;
+  if (num_placed == num_different) return;
+  cad.repairs.push_back(
+      fmt::format("solids that the file has twice at the same place were taken "
+                  "once: {} were left out",
+                  num_placed - num_different));
+}
+
 std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
 {
   std::vector<TopoDS_Shape> given = parts_of(cad.shape, TopAbs_SOLID);
+  tell_of_doubles(cad, given.size());
   const auto num_empty = std::erase_if(
       given, [](const TopoDS_Shape& solid) { return count(solid, TopAbs_FACE) == 0; });
   if (num_empty > 0) cad.repairs.emplace_back("solids without faces were left out");
@@ -275,11 +289,12 @@ std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
 
 }  // namespace
 
-void make_closed_solids(CadFile& cad)
+void make_closed_solids(CadFile& cad, const model::AssemblyOptions& options)
 {
   std::vector<TopoDS_Shape> solids = closed_solids(cad);
   for (TopoDS_Shape& solid : solids) solid = without_overlaps(outward(solid, cad), cad);
-  cad.shape = solids.size() == 1 ? solids.front() : glued(solids, cad);
+  cad.shape = solids.size() == 1 ? solids.front() : glued(solids, options, cad);
+  keep_apart(options.contacts, cad);
   for (TopExp_Explorer parts(cad.shape, TopAbs_SOLID); parts.More(); parts.Next()) {
     if (!is_closed(parts.Current())) {
       throw GeometryError(

@@ -401,9 +401,10 @@ void OccModel::locate_segment_ends(mesh::CoarseMesh& mesh) const
 
 }  // namespace
 
-model::ModelSource import_occ(const std::filesystem::path& file, StepReader reader)
+model::ModelSource import_occ(const std::filesystem::path& file,
+                              const model::ImportOptions& options, StepReader reader)
 {
-  return closed_source(read_cad_file(file, reader), file.string());
+  return closed_source(read_cad_file(file, reader), file.string(), options.assembly);
 }
 
 std::unique_ptr<LoadedModel> load_occ(const model::ModelSource& source)

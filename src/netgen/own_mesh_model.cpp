@@ -334,11 +334,14 @@ model::ModelSource import_own_mesh(const std::filesystem::path& file,
   content.own =
       coarse::make_own_mesh(read_mesh_file(file), file.string(), options.feature_angle_deg);
   if (!options.cad.empty())
-    content.cad = import_model(options.cad, {options.feature_angle_deg}, reader);
+    content.cad = import_model(
+        options.cad, {.feature_angle_deg = options.feature_angle_deg, .assembly = options.assembly},
+        reader);
   model::ModelSource source{.format = model::Format::own, .file_name = file.string()};
   source.repairs = content.own.repairs;
   if (content.cad) {
     source.length_unit = content.cad->length_unit;
+    source.assembly = content.cad->assembly;
     source.repairs.insert(source.repairs.end(), content.cad->repairs.begin(),
                           content.cad->repairs.end());
   }

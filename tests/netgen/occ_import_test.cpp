@@ -241,7 +241,9 @@ TEST_F(OccImport, OverlapOfNextToNothingBecomesAFaceAndNoSolid)
 {
   const model::ModelSource source =
       netgen::import_model(write_brep(testing::overlapping_boxes(1e-6)), {});
-  EXPECT_EQ(source.repairs, std::vector<std::string>{"touching solids were glued: 1 shared faces"});
+  ASSERT_EQ(source.repairs.size(), 1U);
+  EXPECT_TRUE(contains(source.repairs[0], "glued: 1 shared faces of area 0.36"))
+      << source.repairs[0];
   const auto model = netgen::load_model(source);
   EXPECT_EQ(testing::coarse_mesh_of(*model, 0.5).num_materials(), 2);
 }
@@ -250,10 +252,10 @@ TEST_F(OccImport, SolidsThatAreTangentAreNotJoinedThere)
 {
   const model::ModelSource source =
       netgen::import_model(write_brep(testing::bearing({0.3, 3.7})), {});
-  EXPECT_EQ(source.repairs,
-            (std::vector<std::string>{
-                "solids touch without a common face, and were left as they are there: 4 pairs",
-                "touching solids were glued: 1 shared faces"}));
+  ASSERT_EQ(source.repairs.size(), 2U);
+  EXPECT_EQ(source.repairs[0],
+            "solids touch without a common face, and were left as they are there: 4 pairs");
+  EXPECT_TRUE(contains(source.repairs[1], "glued: 1 shared faces")) << source.repairs[1];
   const auto model = netgen::load_model(source);
   const model::ModelDescription description = netgen::describe_model(*model);
   EXPECT_EQ(description.solids.size(), 5U);

@@ -129,7 +129,7 @@ TEST(OccPeriods, SolidKeepsItsFaces)
   const double volume = netgen::volume_of(cad.shape);
   const int num_faces = count(cad.shape, TopAbs_FACE);
   move_a_rim(foot_of(cad.shape));
-  netgen::make_closed_solids(cad);
+  netgen::make_closed_solids(cad, {});
   EXPECT_EQ(count(cad.shape, TopAbs_FACE), num_faces);
   EXPECT_NEAR(netgen::volume_of(cad.shape), volume, 1e-9 * volume);
   ASSERT_EQ(cad.repairs.size(), 1U);
@@ -143,7 +143,7 @@ TEST(OccPeriods, SoundSolidIsLeftAlone)
   ShapeBuild_ReShape changes;
   EXPECT_TRUE(netgen::with_closed_wires(shape, changes).IsSame(shape));
   netgen::CadFile cad{.shape = shape};
-  netgen::make_closed_solids(cad);
+  netgen::make_closed_solids(cad, {});
   EXPECT_TRUE(cad.repairs.empty()) << cad.repairs.front();
 }
 

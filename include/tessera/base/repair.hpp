@@ -26,6 +26,7 @@ enum class Repair : int {
   overlapping_edges,  ///< Edges of a solid that lie on each other become one.
   glued_solids,       ///< Touching solids get common faces.
   wider_glue_gap,     ///< Solids are glued over a gap, as they would else be cut into films.
+  closed_gaps,        ///< Solids that nearly touch get common faces.
   // Triangles of OpenCASCADE.
   face_from_boundary,  ///< A face that it cannot triangulate is triangulated from its boundary.
   sampled_face,        ///< A face without triangles gets some, for NETGEN's sizes only.
@@ -120,6 +121,7 @@ constexpr auto enum_words(Repair /*type*/)
       {overlapping_edges, "overlapping_edges"},
       {glued_solids, "glued_solids"},
       {wider_glue_gap, "wider_glue_gap"},
+      {closed_gaps, "closed_gaps"},
       {face_from_boundary, "face_from_boundary"},
       {sampled_face, "sampled_face"},
       {finer_tessellation, "finer_tessellation"},

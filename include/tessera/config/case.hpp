@@ -13,6 +13,7 @@
 #include "tessera/fill/options.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
+#include "tessera/model/assembly.hpp"
 #include "tessera/model/options.hpp"
 #include "tessera/quality/options.hpp"
 #include "tessera/refine/options.hpp"
@@ -27,6 +28,7 @@ struct GeometryOptions {
   bool smooth = false;           ///< Whether the surface of a coarse mesh is made smooth.
   double scale = 1.0;            ///< Output length units per file length unit, > 0.
   std::vector<model::PartName> names{};  ///< Of patches and materials.
+  model::AssemblyOptions assembly{};     ///< Lengths in output length units.
 
   friend bool operator==(const GeometryOptions&, const GeometryOptions&) = default;
 };

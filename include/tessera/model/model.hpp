@@ -11,6 +11,7 @@
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/model/assembly.hpp"
 
 namespace tessera::model {
 
@@ -21,8 +22,12 @@ struct ImportOptions {
   double feature_angle_deg = 30.0;
   std::filesystem::path cad{};  ///< Of a mesh file: the CAD model it is of; empty: none.
   bool smooth = false;          ///< Of a mesh file without CAD model: its surface is made smooth.
+  AssemblyOptions assembly{};   ///< STEP, IGES, BREP, also of `cad`; lengths of the file.
 
-  static auto fields(auto& self) { return std::tie(self.feature_angle_deg, self.cad, self.smooth); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.feature_angle_deg, self.cad, self.smooth, self.assembly);
+  }
 };
 
 /// @brief What a model was read from.
@@ -42,10 +47,12 @@ struct ModelSource {
   std::string length_unit{};  ///< "mm", "m", …; empty if the file does not say.
   Bytes content{};  ///< .geo text; checked STL triangles; BREP and names; checked mesh and CAD.
   std::vector<std::string> repairs{};  ///< What import changed, one line each; for the report.
+  Assembly assembly{};                 ///< Of STEP, IGES, BREP: what was found where solids meet.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.format, self.file_name, self.length_unit, self.content, self.repairs);
+    return std::tie(self.format, self.file_name, self.length_unit, self.content, self.repairs,
+                    self.assembly);
   }
 };
 

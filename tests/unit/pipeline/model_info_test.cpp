@@ -2,6 +2,7 @@
 #include "pipeline/commands/model_info.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -30,6 +31,28 @@ model::ModelDescription unit_tet()
   tet.vertex_xyz = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   tet.triangle_vertices = {0, 2, 3, 0, 3, 1, 0, 1, 2, 1, 2, 3};
   return tet;
+}
+
+TEST(ModelInfo, SumsUpWhatSolidsShare)
+{
+  model::ModelDescription solids = unit_tet();
+  EXPECT_TRUE(touches_of(solids).empty());
+  EXPECT_EQ(model_text({}, solids, false).find("share faces"), std::string::npos);
+  solids.solids.push_back({"other", 1.0});
+  solids.solids.push_back({.volume = 1.0});
+  solids.faces[0].solids = solids.faces[3].solids = {1, 2};
+  solids.faces[1].solids = {2, 3};
+  const std::vector<Touch> touches = touches_of(solids);
+  ASSERT_EQ(touches.size(), 2U);
+  EXPECT_EQ(touches[0].solids, (std::array<LocalIndex, 2>{1, 2}));
+  EXPECT_EQ(touches[0].num_faces, 2);
+  EXPECT_DOUBLE_EQ(touches[0].area, 0.5 + 0.866);
+  const std::string text = model_text({}, solids, false);
+  EXPECT_NE(text.find("pairs of solids that share faces: 2\n"
+                      "  solids 1 'tet' and 2 'other': 2 faces, area 1.366\n"
+                      "  solids 2 'other' and 3: 1 faces, area 0.5\n"),
+            std::string::npos)
+      << text;
 }
 
 TEST(ModelInfo, SuggestsSizesOfTwoDigitsThatFallWithTheTetsWanted)

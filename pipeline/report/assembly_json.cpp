@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/report/assembly_json.hpp"
+
+namespace tessera::pipeline {
+
+Json assembly_json(const model::Assembly& assembly)
+{
+  Json overlaps = Json::array();
+  for (const model::CommonPart& part : assembly.overlaps) {
+    overlaps.push_back({{"solids", part.solids.numbers},
+                        {"names", part.solids.names},
+                        {"volume", part.volume},
+                        {"box", {{"low", part.low}, {"high", part.high}}}});
+  }
+  Json gaps = Json::array();
+  for (const model::ClosedGap& gap : assembly.gaps) {
+    gaps.push_back({{"solids", gap.solids.numbers},
+                    {"names", gap.solids.names},
+                    {"width", gap.width},
+                    {"place", gap.place}});
+  }
+  return {{"overlaps", std::move(overlaps)},
+          {"closed_gaps", std::move(gaps)},
+          {"tolerance", assembly.tolerance}};
+}
+
+}  // namespace tessera::pipeline
