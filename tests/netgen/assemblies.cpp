@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
@@ -56,6 +57,13 @@ Body ball(const std::string& name, const gp_Pnt& centre, double radius)
 {
   return {name, BRepPrimAPI_MakeSphere(centre, radius).Shape(),
           4.0 / 3.0 * kPi * radius * radius * radius};
+}
+
+// Of a body that is another one moved, STEP would have an assembly.
+TopoDS_Shape as_part_of_its_own(const TopoDS_Shape& solid)
+{
+  const gp_Trsf place = solid.Location().Transformation();
+  return BRepBuilderAPI_Transform(solid.Located(TopLoc_Location()), place, Standard_True).Shape();
 }
 
 AssemblyModel ball_in_block()
@@ -173,7 +181,7 @@ void write_step(const AssemblyModel& model, const std::filesystem::path& file)
   const auto colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
   double hue = 0.0;
   for (const Body& body : model.bodies) {
-    const TDF_Label label = shapes->AddShape(body.solid, Standard_False);
+    const TDF_Label label = shapes->AddShape(as_part_of_its_own(body.solid), Standard_False);
     TDataStd_Name::Set(label, body.name.c_str());
     colours->SetColor(label, Quantity_Color(hue += 40.0, 0.5, 1.0, Quantity_TOC_HLS),
                       XCAFDoc_ColorSurf);
