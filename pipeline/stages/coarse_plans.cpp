@@ -18,7 +18,7 @@
 namespace tessera::pipeline {
 namespace {
 
-// NETGEN and Gmsh join the points of solids that are to be kept apart.
+// NETGEN and Gmsh may join the points of solids that are to be kept apart.
 bool has_contacts(const config::Case& run_case)
 {
   return !run_case.geometry.assembly.contacts.empty();

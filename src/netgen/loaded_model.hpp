@@ -106,8 +106,7 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
 [[nodiscard]] std::unique_ptr<LoadedModel> load_own_mesh(const model::ModelSource& source);
 
 [[nodiscard]] model::ModelSource import_occ(const std::filesystem::path& file,
-                                            const model::ImportOptions& options,
-                                            StepReader reader);
+                                            const model::ImportOptions& options, StepReader reader);
 [[nodiscard]] std::unique_ptr<LoadedModel> load_occ(const model::ModelSource& source);
 
 }  // namespace tessera::netgen

@@ -74,10 +74,7 @@ struct CommonPart {
   Vec3 low{};  ///< Corners of its box.
   Vec3 high{};
 
-  static auto fields(auto& self)
-  {
-    return std::tie(self.solids, self.volume, self.low, self.high);
-  }
+  static auto fields(auto& self) { return std::tie(self.solids, self.volume, self.low, self.high); }
 };
 
 /// @brief A gap between two solids that was closed. File length unit.
