@@ -13,7 +13,6 @@
 #include "tessera/fill/options.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
-#include "tessera/model/assembly.hpp"
 #include "tessera/model/options.hpp"
 #include "tessera/quality/options.hpp"
 #include "tessera/refine/options.hpp"
