@@ -26,6 +26,8 @@
 #include "pipeline/jobs/node_workers.hpp"
 #include "pipeline/predict/dry_run.hpp"
 #include "pipeline/predict/prediction_file.hpp"
+#include "pipeline/report/mesh_view.hpp"
+#include "pipeline/report/names_json.hpp"
 #include "pipeline/report/report.hpp"
 #include "pipeline/report/report_page.hpp"
 #include "pipeline/run_pipeline.hpp"
@@ -33,6 +35,7 @@
 #include "pipeline/runtime/terminal.hpp"
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/store/run_state.hpp"
+#include "pipeline/viewer/view_page.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -226,7 +229,7 @@ class CaseRun {
       if (comm_.rank() != 0) return;
       run_figures.predicted = predicted(run, run_figures, context);
       const std::string json = report_json(run, verdict, run_figures, context.times);
-      write_page(json, run.pictures);  // First: a run with a report.json has ended.
+      write_page(json, &run);  // First: a run with a report.json has ended.
       io::write_text_atomically(given_.output.directory / "report.json", json);
       folder_->remove_half_written();  // Of jobs that were killed and done again.
       state.clear();
@@ -297,15 +300,28 @@ class CaseRun {
       }
     };
     try_to([&] { io::write_text_atomically(given_.output.directory / "report.json", json); });
-    try_to([&] { write_page(json, {}); });
+    try_to([&] { write_page(json, nullptr); });
   }
 
-  void write_page(const std::string& json, const std::vector<MeshPicture>& pictures) const
+  static std::string view_of(const std::string& json, const RunResult& run)
+  {
+    return view_html(mesh_view({.patches = patch_names(run.coarse.mesh),
+                                .materials = run.coarse.mesh.material_names,
+                                .length_unit = run.model.length_unit,
+                                .report = json},
+                               run.drawings.surface));
+  }
+
+  // `run`: nullptr if it has failed.
+  void write_page(const std::string& json, const RunResult* run) const
   {
     if (!given_.output.report_html) return;
     const std::filesystem::path& folder = given_.output.directory;
-    io::write_text_atomically(folder / "report.html",
-                              report_page(report_source(json, pictures, folder)));
+    const ReportSource source =
+        run == nullptr
+            ? report_source(json, {}, {}, folder)
+            : report_source(json, run->drawings.pictures, view_of(json, *run), folder);
+    io::write_text_atomically(folder / "report.html", report_page(source));
   }
 
   [[nodiscard]] std::size_t peak_rss_bytes() const

@@ -84,14 +84,14 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
                                      places_of_vertices(run, cut)};
   if (options.on_piece) {
     run_hand_over_stage(outline.files, mesh, options.on_piece, run.filled, context);
-    run.pictures = run_picture_stage(run, cut, {}, context);
+    run.drawings = run_picture_stage(run, cut, {}, context);
     return run;
   }
   if (!outline.is_one_pass && !outline.splits_pieces()) {
     run_write_stage(run.resolved, outline.files, mesh, run.filled, context);
   }
   write_indices(run, outline.files, mesh, context);
-  run.pictures = run_picture_stage(run, cut, outline.files, context);
+  run.drawings = run_picture_stage(run, cut, outline.files, context);
   run.files = run_export_stage(run.resolved, context);
   if (!run.files.empty()) write_indices(run, outline.files, mesh, context);
   return run;

@@ -21,6 +21,7 @@
 #include "pipeline/stages/hand_over_stage.hpp"
 #include "pipeline/store/filled_pieces.hpp"
 #include "pipeline/store/run_state.hpp"
+#include "pipeline/viewer/surface.hpp"
 
 namespace tessera::pipeline {
 
@@ -29,6 +30,12 @@ struct RunOptions {
   const RunState* state = nullptr;            ///< Of the output folder; nullptr: keep nothing.
   std::vector<LocalIndex> only_subdomains{};  ///< Ascending; empty: all.
   PieceSink on_piece{};                       ///< If set, gets the pieces: no files are written.
+};
+
+/// @brief What the report shows of a mesh.
+struct Drawings {
+  std::vector<MeshPicture> pictures{};
+  Surface surface{};  ///< To turn.
 };
 
 /// @brief What a run has made; the same on every rank unless it says otherwise. The mesh itself is
@@ -52,7 +59,7 @@ struct RunResult {
   GlobalIndex num_vertices = 0;               ///< Of the whole mesh, made or not.
   GlobalIndex num_tets = 0;
   std::vector<formats::PieceCounts> files{};  ///< Of run_export_stage(); may be empty.
-  std::vector<MeshPicture> pictures{};        ///< On rank 0, if the case wants a report for people.
+  Drawings drawings{};                        ///< On rank 0, if the case wants a report for people.
 };
 
 }  // namespace tessera::pipeline

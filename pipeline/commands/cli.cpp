@@ -265,6 +265,10 @@ void add_info(CLI::App& app, Parsed& parsed)
                    "Of a model: draw it from two sides, with the numbers of its faces")
       ->type_name("FILE.png")
       ->check(not_empty());
+  info->add_option("--html", parsed.info.html,
+                   "Of a model or mesh: write a page to turn it and to point at it")
+      ->type_name("FILE.html")
+      ->check(not_empty());
 }
 
 void add_compare(CLI::App& app, CompareCommand& command)

@@ -68,6 +68,7 @@ struct InfoCommand {
   bool edges = false;                              ///< Of a model: list its edges as well.
   bool json = false;                               ///< Of a model: print JSON instead of text.
   std::optional<std::filesystem::path> picture{};  ///< Of a model: draw it into this PNG file.
+  std::optional<std::filesystem::path> html{};     ///< Of a model or mesh: write a page.
 };
 
 /// @brief `tessera compare`: two runs side by side.

@@ -16,7 +16,9 @@
 #include "tessera/model/model.hpp"
 #include "tessera/netgen/factory.hpp"
 
+#include "pipeline/commands/mesh_page.hpp"
 #include "pipeline/commands/model_info.hpp"
+#include "pipeline/commands/model_page.hpp"
 #include "pipeline/commands/model_picture.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
 #include "pipeline/runtime/run_context.hpp"
@@ -86,6 +88,7 @@ std::string describe_model(const InfoCommand& command, jobs::JobRunner& jobs)
     io::write_text_atomically(*command.picture,
                               {reinterpret_cast<const char*>(png.data()), png.size()});
   }
+  if (command.html) io::write_text_atomically(*command.html, model_page(source, description));
   return command.json ? model_json(source, description)
                       : model_text(source, description, command.edges);
 }
@@ -102,6 +105,12 @@ std::string describe(const InfoCommand& command, jobs::JobRunner& jobs)
   if (!is_mesh && extension != ".toml") return describe_model(command, jobs);
   if (command.edges || command.json || command.picture) {
     throw ConfigError(file.string() + ": --edges, --json and --picture are for CAD models");
+  }
+  if (command.html && !is_mesh) {
+    throw ConfigError(file.string() + ": --html is for CAD models and meshes");
+  }
+  if (command.html) {
+    io::write_text_atomically(*command.html, mesh_page(file, throw_if_stop_requested));
   }
   return is_mesh ? describe_mesh(file) : config::to_toml(config::load_case(file));
 }

@@ -84,14 +84,6 @@ std::vector<std::optional<Vec3>> normals_of(const model::ModelDescription& descr
   return flat;
 }
 
-Extent extent_of(const model::ModelDescription& description)
-{
-  Extent extent;
-  for (const model::SolidDescription& solid : description.solids) extent.volume += solid.volume;
-  for (const model::FaceDescription& face : description.faces) extent.area += face.area;
-  return extent;
-}
-
 std::vector<LocalIndex> faces_of_solids(const model::ModelDescription& description)
 {
   std::vector<LocalIndex> numbers(description.solids.size(), 0);
@@ -112,34 +104,11 @@ std::string box_text(const Box& box)
                       : fmt::format("{} to {}", point_text(box.low), point_text(box.high));
 }
 
-// Two digits, such as 1.3 or 0.087: nobody wants to type more.
-double rounded(double value)
-{
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-  const double steps = std::round(value / unit);
-  // Of a decimal text, so that 0.87 is not 0.8700000000000001.
-  return std::stod(fmt::format("{:.2g}", steps * unit));
-}
-
 double predicted_tets(const Extent& extent, double size)
 {
   const double thinness = extent.area * size / extent.volume;
   return (kTetsPerCube + kTetsPerThinness * thinness * thinness) * extent.volume
          / (size * size * size);
-}
-
-// The number of tets falls as the size grows.
-double size_for(const Extent& extent, double num_tets)
-{
-  constexpr int kSteps = 60;
-  double low = std::cbrt(kTetsPerCube * extent.volume / num_tets);
-  double high = 2.0 * low;
-  while (predicted_tets(extent, high) > num_tets) high *= 2.0;
-  for (int step = 0; step < kSteps; ++step) {
-    const double middle = 0.5 * (low + high);
-    (predicted_tets(extent, middle) > num_tets ? low : high) = middle;
-  }
-  return high;
 }
 
 std::string count_text(double count)
@@ -314,13 +283,45 @@ std::vector<Touch> touches_of(const model::ModelDescription& description)
   return touches;
 }
 
+Extent extent_of(const model::ModelDescription& description)
+{
+  Extent extent;
+  for (const model::SolidDescription& solid : description.solids) extent.volume += solid.volume;
+  for (const model::FaceDescription& face : description.faces) extent.area += face.area;
+  return extent;
+}
+
+TetsOfSize tets_of_size() { return {kTetsPerCube, kTetsPerThinness}; }
+
+double rounded_size(double size)
+{
+  const double unit = std::pow(10.0, std::floor(std::log10(size)) - 1.0);
+  const double steps = std::round(size / unit);
+  // Of a decimal text, so that 0.87 is not 0.8700000000000001.
+  return std::stod(fmt::format("{:.2g}", steps * unit));
+}
+
+// The number of tets falls as the size grows.
+double size_for(const Extent& extent, double num_tets)
+{
+  constexpr int kSteps = 60;
+  double low = std::cbrt(kTetsPerCube * extent.volume / num_tets);
+  double high = 2.0 * low;
+  while (predicted_tets(extent, high) > num_tets) high *= 2.0;
+  for (int step = 0; step < kSteps; ++step) {
+    const double middle = 0.5 * (low + high);
+    (predicted_tets(extent, middle) > num_tets ? low : high) = middle;
+  }
+  return high;
+}
+
 std::vector<SuggestedSize> suggested_sizes(const Extent& extent)
 {
   constexpr std::array<std::pair<const char*, double>, 3> kWanted{
       {{"coarse", 2e4}, {"medium", 2e5}, {"fine", 2e6}}};
   std::vector<SuggestedSize> sizes;
   for (const auto& [name, num_tets] : kWanted) {
-    const double size = rounded(size_for(extent, num_tets));
+    const double size = rounded_size(size_for(extent, num_tets));
     sizes.push_back({name, size, predicted_tets(extent, size)});
   }
   return sizes;

@@ -33,6 +33,23 @@ struct Touch {
 /// @brief All of them, by numbers. Local. @pre description.require_sound() does not throw.
 [[nodiscard]] std::vector<Touch> touches_of(const model::ModelDescription& description);
 
+/// @brief Of a model. Local.
+[[nodiscard]] Extent extent_of(const model::ModelDescription& description);
+
+/// @brief About how many tets an edge length makes: (`per_cube` + `per_thinness` * thinness²) *
+/// volume / size³, where thinness is area * size / volume. Up to twice or half of it.
+struct TetsOfSize {
+  double per_cube = 0.0;
+  double per_thinness = 0.0;
+};
+[[nodiscard]] TetsOfSize tets_of_size();
+
+/// @brief The size that makes about so many tets. Local.
+[[nodiscard]] double size_for(const Extent& extent, double num_tets);
+
+/// @brief Two digits, such as 1.3 or 0.087: nobody wants to type more. Local.
+[[nodiscard]] double rounded_size(double size);
+
 /// @brief Three sizes that suit a model. Local.
 [[nodiscard]] std::vector<SuggestedSize> suggested_sizes(const Extent& extent);
 

@@ -8,6 +8,9 @@
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/quality/tet_quality.hpp"
 
+#include "pipeline/drawing/coarse_boundary.hpp"
+#include "pipeline/drawing/flat_triangles.hpp"
+
 namespace tessera::pipeline {
 namespace {
 
@@ -48,10 +51,10 @@ Canvas canvas_for(const Vec3& eye, std::span<const double> xyz)
 }
 
 template <class Values>
-LocalIndex value_of(const Values& arrays, const std::string& name, GlobalIndex cell)
+LocalIndex value_of(const Values& arrays, const std::string& name, std::size_t cell)
 {
   const auto found = arrays.find(name);
-  return found == arrays.end() ? 0 : found->second[static_cast<std::size_t>(cell)];
+  return found == arrays.end() ? 0 : found->second[cell];
 }
 
 Colour mixed(const Colour& a, const Colour& b, double share_of_b)
@@ -102,46 +105,24 @@ void MeshScene::draw_surface(const Triangle& corners, LocalIndex subdomain, Loca
 
 void MeshScene::draw_boundary(const mesh::MeshArrays& boundary)
 {
-  const auto width = static_cast<std::size_t>(boundary.vertices_per_cell);
-  // Of second order: a triangle at each corner, and the one between the nodes of the sides.
-  const bool is_curved = width == 6;
-  constexpr std::array<std::array<std::size_t, 3>, 4> kParts{
-      {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}}};
-  constexpr std::array<std::array<std::size_t, 3>, 1> kWhole{{{0, 1, 2}}};
-  const std::span<const std::array<std::size_t, 3>> parts =
-      is_curved ? std::span<const std::array<std::size_t, 3>>(kParts) : kWhole;
+  const Sides sides = boundary.vertices_per_cell == 3 ? Sides::drawn : Sides::hidden;
   const std::span<const double> xyz(boundary.point_xyz);
-  for (GlobalIndex cell = 0; cell < boundary.num_cells(); ++cell) {
-    const LocalIndex* const v = &boundary.cell_points[width * static_cast<std::size_t>(cell)];
-    const LocalIndex subdomain = value_of(boundary.cell_ints, "subdomain", cell);
-    const LocalIndex patch = value_of(boundary.cell_ints, "patch", cell);
-    for (const auto& [a, b, c] : parts) {
-      draw_surface({point_at(xyz, v[a]), point_at(xyz, v[b]), point_at(xyz, v[c])}, subdomain,
-                   patch, is_curved ? Sides::hidden : Sides::drawn);
-    }
-  }
+  for_each_flat_triangle(boundary, [&](std::size_t cell, const std::array<LocalIndex, 3>& points) {
+    const auto [a, b, c] = points;
+    draw_surface({point_at(xyz, a), point_at(xyz, b), point_at(xyz, c)},
+                 value_of(boundary.cell_ints, "subdomain", cell),
+                 value_of(boundary.cell_ints, "patch", cell), sides);
+  });
 }
 
 void MeshScene::draw_coarse_boundary(const subdomain::PartitionedMesh& cut,
                                      const std::vector<char>& is_made)
 {
-  const mesh::Skeleton& skeleton = cut.skeleton;
-  const auto is_there = [&](LocalIndex s) { return s != kNoIndex && is_made[at(s)] != 0; };
-  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
-    const LocalIndex* const sides = &skeleton.triangle_subdomains[2 * at(t)];
-    if (is_there(sides[0]) == is_there(sides[1])) continue;
-    Triangle corners{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const LocalIndex v = skeleton.triangle_vertices[3 * at(t) + c];
-      corners[c] = cut.coarse.position(skeleton.vertex_coarse[at(v)]);
-    }
-    LocalIndex patch = skeleton.triangle_patch[at(t)];
-    if (patch == kNoIndex) {
-      patch = cut.coarse.num_patches();  // Where the made part ends.
-    } else if (!cut.coarse.patch_row.empty()) {
-      patch = cut.coarse.patch_row[at(patch)];
-    }
-    draw_surface(corners, is_there(sides[0]) ? sides[0] : sides[1], patch, Sides::hidden);
+  for (const CoarseTriangle& triangle : coarse_boundary(cut, is_made)) {
+    if (triangle.is_between) continue;
+    const auto [a, b, c] = triangle.vertices;
+    draw_surface({cut.coarse.position(a), cut.coarse.position(b), cut.coarse.position(c)},
+                 triangle.subdomain, triangle.patch, Sides::hidden);
   }
 }
 

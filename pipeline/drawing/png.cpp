@@ -6,6 +6,8 @@
 
 #include <zlib.h>
 
+#include "pipeline/drawing/deflate.hpp"
+
 namespace tessera::pipeline {
 namespace {
 
@@ -15,15 +17,6 @@ void put_32(Octets& out, std::uint32_t value)
 {
   for (int shift = 24; shift >= 0; shift -= 8)
     out.push_back(static_cast<std::uint8_t>(value >> shift));
-}
-
-Octets compressed(const Octets& data)
-{
-  auto size = compressBound(data.size());
-  Octets packed(size);
-  compress2(packed.data(), &size, data.data(), data.size(), Z_DEFAULT_COMPRESSION);
-  packed.resize(size);
-  return packed;
 }
 
 void put_chunk(Octets& out, std::string_view kind, const Octets& data)
@@ -64,7 +57,7 @@ Bytes to_png(const Picture& picture)
     palette.insert(palette.end(), colour.begin(), colour.end());
   }
   put_chunk(out, "PLTE", palette);
-  put_chunk(out, "IDAT", compressed(rows_of(picture)));
+  put_chunk(out, "IDAT", deflated(rows_of(picture)));
   put_chunk(out, "IEND", {});
   const auto* const first = reinterpret_cast<const std::byte*>(out.data());
   return {first, first + out.size()};

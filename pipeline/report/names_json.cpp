@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "tessera/base/sort_unique.hpp"
+
 namespace tessera::pipeline {
 
 std::vector<std::string> patch_names(const mesh::CoarseMesh& coarse)
@@ -38,6 +40,19 @@ Json materials_json(const RunResult& run)
   return materials;
 }
 
+// The numbers in the list of faces of the model, ascending, of each row of the files.
+std::vector<std::vector<LocalIndex>> faces_of_rows(const mesh::CoarseMesh& coarse,
+                                                   std::size_t num_rows)
+{
+  std::vector<std::vector<LocalIndex>> faces(num_rows);
+  for (std::size_t p = 0; p < coarse.patch_names.size(); ++p) {
+    const std::size_t row = coarse.patch_row.empty() ? p : at(coarse.patch_row[p]);
+    faces[row].push_back(coarse.patch_surface[p] + 1);
+  }
+  for (std::vector<LocalIndex>& numbers : faces) sort_unique(numbers);
+  return faces;
+}
+
 // By row of the files; summed as materials are.
 Json patches_json(const RunResult& run, const std::vector<std::string>& names)
 {
@@ -51,11 +66,13 @@ Json patches_json(const RunResult& run, const std::vector<std::string>& names)
     }
   }
   Json patches = Json::array();
+  const std::vector<std::vector<LocalIndex>> faces = faces_of_rows(run.coarse.mesh, names.size());
   for (std::size_t r = 0; r < rows.size(); ++r) {
     patches.push_back({{"id", r},
                        {"name", names[r]},
                        {"triangles", rows[r].num_triangles},
-                       {"area", rows[r].area}});
+                       {"area", rows[r].area},
+                       {"faces", faces[r]}});
   }
   return patches;
 }

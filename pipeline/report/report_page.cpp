@@ -200,9 +200,10 @@ std::string head_html(const Report& report)
 }  // namespace
 
 ReportSource report_source(std::string json, const std::vector<MeshPicture>& pictures,
-                           fs::path folder)
+                           std::string view, fs::path folder)
 {
-  ReportSource source{.json = std::move(json), .folder = std::move(folder)};
+  ReportSource source{
+      .json = std::move(json), .view = std::move(view), .folder = std::move(folder)};
   for (const MeshPicture& picture : pictures) source.pictures[picture.name] = base64(picture.png);
   return source;
 }
@@ -230,6 +231,7 @@ std::string report_page(const ReportSource& source)
   std::string body = head_html(report) + verdict_html(report);
   body += section_html("Key figures", cards_html(report));
   body += section_html("Pictures", pictures_html(report));
+  body += section_html("To turn and to point at", source.view);
   body += section_html("Quality", pair_html(quality_figures(report)));
   body += section_html("Time, and who waited", time_html(report));
   body += section_html("Materials", materials_html(report));

@@ -14,12 +14,13 @@ namespace tessera::pipeline {
 struct ReportSource {
   std::string json{};                             ///< report.json.
   std::map<std::string, std::string> pictures{};  ///< PNG files in base64, by MeshPicture::name.
+  std::string view{};                             ///< Of view_html(); empty: nothing to turn.
   std::filesystem::path folder{};                 ///< The output folder, as the user calls it.
 };
 
 /// @brief What a run has just made. Local.
 [[nodiscard]] ReportSource report_source(std::string json, const std::vector<MeshPicture>& pictures,
-                                         std::filesystem::path folder);
+                                         std::string view, std::filesystem::path folder);
 
 /// @brief What is in an output folder: report.json, and the pictures of report.html if it has any.
 /// Local.

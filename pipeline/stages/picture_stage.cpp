@@ -2,112 +2,31 @@
 #include "pipeline/stages/picture_stage.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "tessera/base/bytes.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/io/vtu.hpp"
 
+#include "pipeline/drawing/mesh_scene.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/stages/drawing_plan.hpp"
 
 namespace tessera::pipeline {
 namespace {
 
-// What a core reads and draws in about a second.
-constexpr GlobalIndex kMostTriangles = 1'500'000;
-constexpr GlobalIndex kMostTets = 4'000'000;
 // Files are drawn in so many lots: no more ranks have canvases, of 20 MB. All of it is two seconds
 // of work of one core.
 constexpr std::size_t kMostDrawing = 16;
-// Of one file: a rank needs some 130 bytes a tet to read it.
-constexpr GlobalIndex kMostTetsOfAFile = 1'000'000;
 
-enum class Content { boundary, tets };
-
-struct FileToDraw {
-  std::filesystem::path path{};
-  Content content = Content::boundary;
-};
-
-// What is drawn from files, and what from the coarse mesh.
-struct DrawingPlan {
-  std::vector<FileToDraw> files{};
-  std::vector<LocalIndex> coarse_cut{};  // Subdomains whose tets would take too long.
-  bool is_coarse_boundary = false;
-};
-
-class PlanMaker {
- public:
-  PlanMaker(const RunResult& run, const subdomain::PartitionedMesh& cut, const MeshScene& scene)
-      : pieces_(at(cut.num_subdomains())), cut_(cut), scene_(scene)
-  {
-    for (const subdomain::PieceSummary& piece : run.filled.pieces) {
-      pieces_[at(piece.subdomain)] = &piece;
-    }
-    has_all_ = run.only_subdomains.empty();
-  }
-
-  [[nodiscard]] DrawingPlan plan(const std::vector<subdomain::SubdomainRange>& files)
-  {
-    for (const subdomain::SubdomainRange& file : files) add_tets(file);
-    if (files.empty()) plan_.coarse_cut = cut_subdomains(0, cut_.num_subdomains());
-    GlobalIndex num_triangles = 0;
-    for (const subdomain::SubdomainRange& file : files) {
-      num_triangles += sum(file, &subdomain::PieceSummary::num_boundary);
-    }
-    // The open sides of a part of the mesh are in no file.
-    plan_.is_coarse_boundary = files.empty() || !has_all_ || num_triangles > kMostTriangles;
-    if (plan_.is_coarse_boundary) return std::move(plan_);
-    for (const subdomain::SubdomainRange& file : files) {
-      if (sum(file, &subdomain::PieceSummary::num_boundary) == 0) continue;
-      plan_.files.push_back({subdomain::piece_path("boundary", file.number), Content::boundary});
-    }
-    return std::move(plan_);
-  }
-
- private:
-  [[nodiscard]] GlobalIndex sum(const subdomain::SubdomainRange& file,
-                                GlobalIndex subdomain::PieceSummary::*figure) const
-  {
-    GlobalIndex sum = 0;
-    for (LocalIndex s = file.first; s < file.last; ++s) {
-      if (pieces_[at(s)] != nullptr) sum += pieces_[at(s)]->*figure;
-    }
-    return sum;
-  }
-
-  [[nodiscard]] std::vector<LocalIndex> cut_subdomains(LocalIndex first, LocalIndex last) const
-  {
-    std::vector<LocalIndex> subdomains;
-    for (LocalIndex s = first; s < last; ++s) {
-      if (pieces_[at(s)] != nullptr && scene_.is_cut(cut_, s)) subdomains.push_back(s);
-    }
-    return subdomains;
-  }
-
-  void add_tets(const subdomain::SubdomainRange& file)
-  {
-    const std::vector<LocalIndex> subdomains = cut_subdomains(file.first, file.last);
-    if (subdomains.empty()) return;
-    const GlobalIndex num_tets = sum(file, &subdomain::PieceSummary::num_tets);
-    if (num_tets > kMostTetsOfAFile || num_tets_ + num_tets > kMostTets) {
-      plan_.coarse_cut.insert(plan_.coarse_cut.end(), subdomains.begin(), subdomains.end());
-      return;
-    }
-    num_tets_ += num_tets;
-    plan_.files.push_back({subdomain::piece_path("mesh", file.number), Content::tets});
-  }
-
-  std::vector<const subdomain::PieceSummary*> pieces_;
-  const subdomain::PartitionedMesh& cut_;
-  const MeshScene& scene_;
-  bool has_all_ = true;
-  GlobalIndex num_tets_ = 0;
-  DrawingPlan plan_{};
-};
+std::size_t num_lots(const DrawingPlan& plan) { return std::min(plan.files.size(), kMostDrawing); }
 
 void draw_coarse(const RunResult& run, const subdomain::PartitionedMesh& cut,
                  const DrawingPlan& plan, MeshScene& scene)
@@ -122,36 +41,72 @@ void draw_coarse(const RunResult& run, const subdomain::PartitionedMesh& cut,
   if (plan.is_coarse_boundary) scene.draw_coarse_boundary(cut, is_made);
 }
 
-void draw_file(const FileToDraw& file, const std::filesystem::path& folder, MeshScene& scene)
-{
-  const mesh::MeshArrays arrays = io::read_vtu(folder / file.path, io::CellOrder::up_to_second);
-  if (file.content == Content::boundary) {
-    scene.draw_boundary(arrays);
-  } else {
-    scene.draw_cut_tets(arrays);
+// What a rank has read of files: drawn, and kept for the surface to turn.
+class FileDrawer {
+ public:
+  FileDrawer(const std::filesystem::path& folder, MeshScene& scene)
+      : folder_(folder), scene_(scene)
+  {
   }
-}
 
-// A picture with a hole is better than no mesh: what cannot be read is told, not thrown.
-void draw_files(const DrawingPlan& plan, MeshScene& scene, StageScope& stage, RunContext& context)
+  // A picture with a hole is better than no mesh: what cannot be read is told, not thrown.
+  void draw(const FileToDraw& file)
+  {
+    const auto boundary = read(file.reads_boundary(), "boundary", file.number);
+    const auto tets = read(file.reads_tets(), "mesh", file.number);
+    if (file.has_boundary && boundary) scene_.draw_boundary(*boundary);
+    if (file.is_cut && tets) scene_.draw_cut_tets(*tets);
+    if (!file.has_surface || !boundary) return;
+    const bool has_quality = file.has_quality && tets;
+    parts_.push_back(surface_part(file.number, *boundary, has_quality ? &*tets : nullptr));
+  }
+
+  [[nodiscard]] GlobalIndex num_unread() const { return num_unread_; }
+  [[nodiscard]] const std::vector<SurfacePart>& parts() const { return parts_; }
+
+ private:
+  std::optional<mesh::MeshArrays> read(bool is_wanted, const std::string& kind, LocalIndex number)
+  {
+    if (!is_wanted) return std::nullopt;
+    try {
+      return io::read_vtu(folder_ / subdomain::piece_path(kind, number),
+                          io::CellOrder::up_to_second);
+    } catch (const InputError&) {
+      ++num_unread_;
+      return std::nullopt;
+    }
+  }
+
+  const std::filesystem::path& folder_;
+  MeshScene& scene_;
+  GlobalIndex num_unread_ = 0;
+  std::vector<SurfacePart> parts_{};
+};
+
+// On rank 0 the surface of all files; elsewhere none.
+Surface draw_files(const DrawingPlan& plan, MeshScene& scene, StageScope& stage,
+                   RunContext& context)
 {
-  GlobalIndex num_unread = 0;
-  const std::size_t num_lots = std::min(plan.files.size(), kMostDrawing);
-  for_each_dynamic(in_order(num_lots), in_thread([&](LocalIndex lot) {
-                     for (std::size_t row = at(lot); row < plan.files.size(); row += num_lots) {
-                       try {
-                         draw_file(plan.files[row], context.folder, scene);
-                       } catch (const InputError&) {
-                         ++num_unread;
-                       }
+  FileDrawer drawer(context.folder, scene);
+  const std::size_t lots = num_lots(plan);
+  for_each_dynamic(in_order(lots), in_thread([&](LocalIndex lot) {
+                     for (std::size_t row = at(lot); row < plan.files.size(); row += lots) {
+                       drawer.draw(plan.files[row]);
                      }
                    }),
                    stage, context);
-  num_unread = context.comm.sum(num_unread);
+  const GlobalIndex num_unread = context.comm.sum(drawer.num_unread());
   if (num_unread > 0) {
     context.log.warn("{} files could not be read back: the pictures lack what is in them",
                      num_unread);
   }
+  std::vector<SurfacePart> parts;
+  for (const Bytes& of_rank : context.comm.gather_to_root(to_bytes(drawer.parts()))) {
+    for (SurfacePart& part : from_bytes<std::vector<SurfacePart>>(of_rank)) {
+      parts.push_back(std::move(part));
+    }
+  }
+  return joined(std::move(parts));
 }
 
 // On rank 0. Strip by strip: who has drawn nothing needs no canvas.
@@ -171,26 +126,24 @@ void put_together(Canvas& canvas, const comm::Communicator& comm)
 
 }  // namespace
 
-std::vector<MeshPicture> run_picture_stage(const RunResult& run,
-                                           const subdomain::PartitionedMesh& cut,
-                                           const std::vector<subdomain::SubdomainRange>& files,
-                                           RunContext& context)
+Drawings run_picture_stage(const RunResult& run, const subdomain::PartitionedMesh& cut,
+                           const std::vector<subdomain::SubdomainRange>& files,
+                           RunContext& context)
 {
   if (!run.resolved.output.report_html) return {};
   MeshScene scene(cut.coarse.vertex_xyz);
-  const DrawingPlan plan = PlanMaker(run, cut, scene).plan(files);
-  const auto num_lots = static_cast<std::int64_t>(std::min(plan.files.size(), kMostDrawing));
-  StageScope stage(context, "pictures", num_lots, "lots of files");
+  const DrawingPlan plan = plan_drawing(run, cut, scene, files);
+  StageScope stage(context, "pictures", static_cast<std::int64_t>(num_lots(plan)), "lots of files");
   if (context.comm.rank() == 0) draw_coarse(run, cut, plan, scene);
-  draw_files(plan, scene, stage, context);
+  Drawings drawings{.surface = draw_files(plan, scene, stage, context)};
   for (Canvas* const canvas : scene.canvases()) put_together(*canvas, context.comm);
-  std::vector<MeshPicture> pictures;
   if (context.comm.rank() == 0) {
-    pictures = scene.pictures();
+    drawings.pictures = scene.pictures();
+    if (plan.is_coarse_surface) drawings.surface = coarse_surface(cut, run.filled.pieces);
     stage.work_is_done();
   }
   stage.finish(fmt::format("from {} files", plan.files.size()));
-  return pictures;
+  return drawings;
 }
 
 }  // namespace tessera::pipeline

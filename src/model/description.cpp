@@ -39,10 +39,12 @@ bool is_sound(const ModelDescription& model)
       return solid >= 1 && static_cast<std::size_t>(solid) <= model.solids.size();
     });
   };
-  const auto has_length = [](const EdgeDescription& edge) {
-    return std::isfinite(edge.length) && is_finite(edge.low) && is_finite(edge.high);
+  const auto is_whole = [&](const EdgeDescription& edge) {
+    return std::isfinite(edge.length) && is_finite(edge.low) && is_finite(edge.high)
+           && are_below(edge.faces, model.faces.size()) && edge.line_xyz.size() % 6 == 0
+           && are_finite(edge.line_xyz);
   };
-  return !model.triangle_face.empty() && std::ranges::all_of(model.edges, has_length)
+  return !model.triangle_face.empty() && std::ranges::all_of(model.edges, is_whole)
          && std::ranges::all_of(model.faces, bounds_solids);
 }
 
@@ -58,6 +60,12 @@ void EdgeDescription::add_line(const Vec3& a, const Vec3& b)
     }
   }
   length += norm(b - a);
+  draw_line(a, b);
+}
+
+void EdgeDescription::draw_line(const Vec3& a, const Vec3& b)
+{
+  for (const Vec3& point : {a, b}) line_xyz.insert(line_xyz.end(), point.begin(), point.end());
 }
 
 void ModelDescription::require_sound() const

@@ -345,6 +345,12 @@ void CsgModel::add_edges(const mesh::CoarseMesh& mesh, model::ModelDescription& 
     model::EdgeDescription& edge = to.edges.emplace_back();
     edge.number = named_curve(curve).number;
     for (const auto& [a, b] : of_curve) edge.add_line(mesh.position(a), mesh.position(b));
+    const auto num_surfaces = static_cast<LocalIndex>(geometry_->GetNSurf());
+    for (std::size_t f = 0; f < to.faces.size(); ++f) {
+      const LocalIndex surface = to.faces[f].number - 1;
+      if (surface != curve / num_surfaces && surface != curve % num_surfaces) continue;
+      edge.faces.push_back(static_cast<LocalIndex>(f));
+    }
   }
 }
 

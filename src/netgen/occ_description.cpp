@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <BRepBndLib.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -74,10 +76,42 @@ void add_solids(const OccContent& content, model::ModelDescription& to)
   }
 }
 
+// By the nodes that the triangles of a face have on it.
+void add_lines(const TopoDS_Edge& edge, model::EdgeDescription& to)
+{
+  Handle(Poly_PolygonOnTriangulation) polygon;
+  Handle(Poly_Triangulation) mesh;
+  TopLoc_Location place;
+  BRep_Tool::PolygonOnTriangulation(edge, polygon, mesh, place);
+  if (polygon.IsNull() || mesh.IsNull()) return;
+  const auto node = [&](int i) {
+    const gp_Pnt point = mesh->Node(polygon->Node(i)).Transformed(place);
+    return Vec3{point.X(), point.Y(), point.Z()};
+  };
+  for (int i = 2; i <= polygon->NbNodes(); ++i) to.draw_line(node(i - 1), node(i));
+}
+
+// Rows of the faces around each edge, by its number.
+std::vector<std::vector<LocalIndex>> faces_of_edges(const TopoDS_Shape& shape)
+{
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  std::vector<std::vector<LocalIndex>> faces(static_cast<std::size_t>(edges.Extent()));
+  LocalIndex row = 0;
+  for (const TopoDS_Shape& face : parts_of(shape, TopAbs_FACE)) {
+    for (const TopoDS_Shape& edge : parts_of(face, TopAbs_EDGE)) {
+      faces[static_cast<std::size_t>(edges.FindIndex(edge)) - 1].push_back(row);
+    }
+    ++row;
+  }
+  return faces;
+}
+
 // Edges that are points keep their numbers, and are not in the list.
 void add_edges(const OccContent& content, model::ModelDescription& to)
 {
   std::size_t row = 0;
+  const std::vector<std::vector<LocalIndex>> faces = faces_of_edges(content.shape);
   for (const TopoDS_Shape& shape : parts_of(content.shape, TopAbs_EDGE)) {
     const std::size_t here = row++;
     const TopoDS_Edge& edge = TopoDS::Edge(shape);
@@ -90,7 +124,9 @@ void add_edges(const OccContent& content, model::ModelDescription& to)
                         .name = content.edge_names.at(here),
                         .length = length_of(edge),
                         .low = {low.X(), low.Y(), low.Z()},
-                        .high = {high.X(), high.Y(), high.Z()}});
+                        .high = {high.X(), high.Y(), high.Z()},
+                        .faces = faces[here]});
+    add_lines(edge, to.edges.back());
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/coarse/on_geometry.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/stl_file.hpp"
@@ -158,6 +159,8 @@ class StlModel final : public LoadedModel {
     return coarse;
   }
 
+  void add_faces_of_edges(model::ModelDescription& to) const;
+
   // Nothing is near a point that is not finite.
   [[nodiscard]] Vec3 found(const model::NearestPoint& nearest) const
   {
@@ -172,6 +175,18 @@ class StlModel final : public LoadedModel {
   double box_diagonal_;
   std::string name_;
 };
+
+void StlModel::add_faces_of_edges(model::ModelDescription& to) const
+{
+  for (std::size_t side = 0; side < surface_.triangle_vertices.size(); ++side) {
+    const std::size_t next = side % 3 == 2 ? side - 2 : side + 1;
+    const LocalIndex curve = features_.curve_of_edge(surface_.triangle_vertices[side],
+                                                     surface_.triangle_vertices[next]);
+    if (curve == kNoIndex) continue;
+    to.edges[at(curve)].faces.push_back(features_.triangle_patch[side / 3]);
+  }
+  for (model::EdgeDescription& edge : to.edges) sort_unique(edge.faces);
+}
 
 model::ModelDescription StlModel::describe(coarse::SurfaceMesher /*mesher*/) const
 {
@@ -201,6 +216,7 @@ model::ModelDescription StlModel::describe(coarse::SurfaceMesher /*mesher*/) con
     face.solids = {material};
     described.solids[at(material - 1)].volume += tet_volume(origin, a, b, c);
   }
+  add_faces_of_edges(described);
   return described;
 }
 

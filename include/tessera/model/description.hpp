@@ -31,13 +31,19 @@ struct EdgeDescription {
   double length = 0.0;   ///< File length unit.
   Vec3 low{};            ///< Corners of its box, file length unit.
   Vec3 high{};
+  std::vector<LocalIndex> faces{};  ///< Rows of the faces that it bounds, ascending.
+  std::vector<double> line_xyz{};   ///< Shape (num_lines, 2, 3): straight lines to draw it with.
 
   /// @brief Makes it longer by the straight line between two points.
   void add_line(const Vec3& a, const Vec3& b);
 
+  /// @brief Adds a straight line to what it is drawn with, and to nothing else.
+  void draw_line(const Vec3& a, const Vec3& b);
+
   static auto fields(auto& self)
   {
-    return std::tie(self.number, self.name, self.length, self.low, self.high);
+    return std::tie(self.number, self.name, self.length, self.low, self.high, self.faces,
+                    self.line_xyz);
   }
 };
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import html
+import os
 import pathlib
-from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -213,6 +214,26 @@ class Mesh:
             color: "patch", "material" or "subdomain".
         """
         return _picture.picture(self, (width, height), color)
+
+    def show(self, file: Union[str, os.PathLike, None] = None, *, height: int = 720) -> Optional[pathlib.Path]:
+        """Shows the surface to turn and to point at: faces by click, a cut, colours, the worst tets. Local.
+
+        The program makes a page of the files of the whole mesh, which need `boundary.pvtu`. In a notebook it is
+        shown in a frame. Elsewhere it becomes a file, and a line says which.
+
+        Args:
+            file: Write the page there, in a notebook as well. Default: `view.html` in the working directory.
+            height: Of the frame, pixels.
+
+        Returns:
+            The file; None in a notebook.
+
+        Raises:
+            TesseraError: The program cannot make the page.
+        """
+        from . import _view
+
+        return _view.show(self, None if file is None else pathlib.Path(file), height)
 
     def __repr__(self) -> str:
         if self.__dict__.get("_load"):

@@ -82,8 +82,8 @@ def environment() -> dict[str, str]:
     }
 
 
-def run(command: Sequence[str]) -> tuple[int, str]:
-    """Runs a command to its end and copies what it prints to sys.stdout.
+def run(command: Sequence[str], *, echo: bool = True) -> tuple[int, str]:
+    """Runs a command to its end and copies what it prints to sys.stdout, or with echo=False nowhere.
 
     Returns:
         Its exit code, and what it said on standard error.
@@ -100,7 +100,7 @@ def run(command: Sequence[str]) -> tuple[int, str]:
         ) as process:
             try:
                 assert process.stdout is not None
-                _copy(process.stdout)
+                _copy(process.stdout, echo)
                 process.wait()
             except BaseException:
                 _stop(process)
@@ -115,11 +115,12 @@ def _end_with_this_process() -> list[str]:
     return [setpriv, "--pdeathsig", "TERM"] if setpriv else []
 
 
-def _copy(stream: IO[bytes]) -> None:
+def _copy(stream: IO[bytes], echo: bool) -> None:
     decoder = codecs.getincrementaldecoder("utf-8")("replace")
     while part := os.read(stream.fileno(), 65536):
-        sys.stdout.write(decoder.decode(part))
-        sys.stdout.flush()
+        if echo:
+            sys.stdout.write(decoder.decode(part))
+            sys.stdout.flush()
 
 
 def _stop(process: subprocess.Popen) -> None:
