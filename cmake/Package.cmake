@@ -26,8 +26,8 @@ string(
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)
-# For `import tessera` in Python.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-vtk9")
+# For `import tessera` in Python, and for views in pages.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-vtk9, libjs-three")
 # For who compiles against the headers; ParaView shows the results; Python hands meshes to the others.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
     "libopenmpi-dev, cmake, paraview, python3-mpi4py, python3-dolfinx, python3-petsc4py, python3-meshio"

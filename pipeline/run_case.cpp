@@ -318,9 +318,8 @@ class CaseRun {
     if (!given_.output.report_html) return;
     const std::filesystem::path& folder = given_.output.directory;
     const ReportSource source =
-        run == nullptr
-            ? report_source(json, {}, {}, folder)
-            : report_source(json, run->drawings.pictures, view_of(json, *run), folder);
+        run == nullptr ? report_source(json, {}, {}, folder)
+                       : report_source(json, run->drawings.pictures, view_of(json, *run), folder);
     io::write_text_atomically(folder / "report.html", report_page(source));
   }
 

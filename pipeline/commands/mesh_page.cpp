@@ -33,7 +33,8 @@ struct MeshSurface {
 };
 
 // Files of tets and of triangles have one name, in folders of their own.
-std::optional<fs::path> tets_beside(const std::vector<fs::path>& tet_files, const fs::path& boundary)
+std::optional<fs::path> tets_beside(const std::vector<fs::path>& tet_files,
+                                    const fs::path& boundary)
 {
   const auto found = std::ranges::find_if(
       tet_files, [&](const fs::path& file) { return file.filename() == boundary.filename(); });
@@ -74,7 +75,8 @@ MeshSurface read_surface(const fs::path& index, const std::function<void()>& bef
   const fs::path boundary = index.parent_path() / "boundary.pvtu";
   std::error_code error;
   if (index.filename() != "mesh.pvtu" || !fs::exists(boundary, error)) {
-    throw InputError(index.string() + ": --html needs the index mesh.pvtu with boundary.pvtu beside it");
+    throw InputError(index.string()
+                     + ": --html needs the index mesh.pvtu with boundary.pvtu beside it");
   }
   const std::vector<fs::path> tet_files = io::piece_files(index);
   MeshSurface mesh;

@@ -146,9 +146,8 @@ std::vector<std::string> names_of_solids(const model::ModelDescription& model)
 
 Json colourings_json(const model::ModelDescription& model, const FileColours& colours)
 {
-  Json colourings = {
-      {{"array", "face"}, {"label", "face"}, {"names", names_of_faces(model)}},
-      {{"array", "solid"}, {"label", "solid"}, {"names", names_of_solids(model)}}};
+  Json colourings = {{{"array", "face"}, {"label", "face"}, {"names", names_of_faces(model)}},
+                     {{"array", "solid"}, {"label", "solid"}, {"names", names_of_solids(model)}}};
   if (colours.names.size() > 1) {
     colourings.push_back({{"array", "colour"},
                           {"label", "colour in the file"},
@@ -201,7 +200,8 @@ std::string cards_html(const model::ModelSource& source, const model::ModelDescr
   std::string html = "<dl class=\"cards\">\n";
   html += card("solids", count(model.solids.size())) + card("faces", count(model.faces.size()))
           + card("edges", count(model.edges.size()));
-  html += card("volume", fmt::format("{:.6g}{}", extent.volume, unit.empty() ? "" : " " + unit + "³"));
+  html +=
+      card("volume", fmt::format("{:.6g}{}", extent.volume, unit.empty() ? "" : " " + unit + "³"));
   html += card("area", fmt::format("{:.6g}{}", extent.area, unit.empty() ? "" : " " + unit + "²"));
   return html + card("length unit", unit.empty() ? "the file does not say" : unit) + "</dl>\n";
 }

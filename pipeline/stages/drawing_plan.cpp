@@ -37,8 +37,8 @@ class PlanMaker {
     if (files.empty()) plan_.coarse_cut = cut_subdomains(0, cut_.num_subdomains());
     // The open sides of a part of the mesh are in no file.
     plan_.is_coarse_boundary = files.empty() || !has_all_ || num_triangles > kMostTriangles;
-    plan_.is_coarse_surface = plan_.is_coarse_boundary
-                              || triangles_a_face_ * num_triangles > Surface::kMostTriangles;
+    plan_.is_coarse_surface =
+        plan_.is_coarse_boundary || triangles_a_face_ * num_triangles > Surface::kMostTriangles;
     for (std::size_t row = 0; row < files.size(); ++row) add_cut(files[row], plan_.files[row]);
     for (std::size_t row = 0; row < files.size(); ++row) add_boundary(files[row], plan_.files[row]);
     std::erase_if(plan_.files, [](const FileToDraw& file) {

@@ -24,8 +24,8 @@ struct FileToDraw {
   [[nodiscard]] bool reads_tets() const { return has_quality || is_cut; }
 };
 
-/// @brief What is drawn from files, and what from the coarse mesh. Depends on counts alone, never on
-/// ranks or time.
+/// @brief What is drawn from files, and what from the coarse mesh. Depends on counts alone, never
+/// on ranks or time.
 struct DrawingPlan {
   std::vector<FileToDraw> files{};       ///< Those that are needed, ascending.
   std::vector<LocalIndex> coarse_cut{};  ///< Ascending; subdomains whose tets would take too long.

@@ -44,8 +44,7 @@ void draw_coarse(const RunResult& run, const subdomain::PartitionedMesh& cut,
 // What a rank has read of files: drawn, and kept for the surface to turn.
 class FileDrawer {
  public:
-  FileDrawer(const std::filesystem::path& folder, MeshScene& scene)
-      : folder_(folder), scene_(scene)
+  FileDrawer(const std::filesystem::path& folder, MeshScene& scene) : folder_(folder), scene_(scene)
   {
   }
 
@@ -127,8 +126,7 @@ void put_together(Canvas& canvas, const comm::Communicator& comm)
 }  // namespace
 
 Drawings run_picture_stage(const RunResult& run, const subdomain::PartitionedMesh& cut,
-                           const std::vector<subdomain::SubdomainRange>& files,
-                           RunContext& context)
+                           const std::vector<subdomain::SubdomainRange>& files, RunContext& context)
 {
   if (!run.resolved.output.report_html) return {};
   MeshScene scene(cut.coarse.vertex_xyz);

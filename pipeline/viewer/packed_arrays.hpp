@@ -14,9 +14,9 @@ namespace tessera::pipeline {
 /// @brief Arrays of whole numbers as text for a page, small, read by web/arrays.js.
 ///
 /// Of each array the differences between neighbours are kept, the first one from 0, modulo
-/// 2^(8 width). A difference d, from -2^(8 width - 1) on, is 2 d, or -2 d - 1 if it is negative. First
-/// stand the lowest bytes of all values, then the next ones. The arrays stand one behind the other.
-/// All of it is deflated (zlib), and in base64.
+/// 2^(8 width). A difference d, from -2^(8 width - 1) on, is 2 d, or -2 d - 1 if it is negative.
+/// First stand the lowest bytes of all values, then the next ones. The arrays stand one behind the
+/// other. All of it is deflated (zlib), and in base64.
 class PackedArrays {
  public:
   /// @param[in] width Bytes of a value: 1, 2 or 4. @pre Each value fits.

@@ -33,8 +33,8 @@ class TetRows {
   // The number of tets if there is none.
   [[nodiscard]] std::size_t row_of(GlobalIndex id) const
   {
-    const auto found = std::ranges::lower_bound(rows_, id, {},
-                                                [this](std::size_t row) { return ids_[row]; });
+    const auto found =
+        std::ranges::lower_bound(rows_, id, {}, [this](std::size_t row) { return ids_[row]; });
     return found == rows_.end() || ids_[*found] != id ? rows_.size() : *found;
   }
 
@@ -68,8 +68,8 @@ std::vector<std::uint32_t> qualities_behind(const mesh::MeshArrays& boundary,
   return qualities;
 }
 
-// Arrays of a boundary file, and what they are called here. A cell array of another name, such as the
-// layer of a boundary layer, needs a line here and a colouring where the page is described.
+// Arrays of a boundary file, and what they are called here. A cell array of another name, such as
+// the layer of a boundary layer, needs a line here and a colouring where the page is described.
 constexpr std::array<std::pair<const char*, const char*>, 2> kCellArrays{
     {{"patch", "face"}, {"subdomain", "subdomain"}}};
 
@@ -127,9 +127,8 @@ Surface joined(std::vector<SurfacePart> parts)
     for (const auto& [name, values] : part.cells) append(surface.cells[name], values);
   }
   // What not all files have is shown of none.
-  std::erase_if(surface.cells, [&](const auto& array) {
-    return array.second.size() != surface.num_triangles();
-  });
+  std::erase_if(surface.cells,
+                [&](const auto& array) { return array.second.size() != surface.num_triangles(); });
   return surface;
 }
 

@@ -25,11 +25,12 @@ struct Surface {
 
   std::vector<double> point_xyz{};    ///< Shape (num_points, 3).
   std::vector<LocalIndex> corners{};  ///< Shape (num_triangles, 3), seen from outside.
-  /// "face" (patch of a mesh, row of a model's faces), "subdomain", "quality" (quality_byte() of the
-  /// tet behind), whatever is there.
+  /// "face" (patch of a mesh, row of a model's faces), "subdomain", "quality" (quality_byte() of
+  /// the tet behind), whatever is there.
   CellValues cells{};
-  std::vector<double> line_xyz{};  ///< Shape (num_lines, 2, 3); lines of its own, inside of its box.
-  bool is_coarse = false;          ///< Coarse triangles stand for those of the mesh.
+  std::vector<double>
+      line_xyz{};          ///< Shape (num_lines, 2, 3); lines of its own, inside of its box.
+  bool is_coarse = false;  ///< Coarse triangles stand for those of the mesh.
 
   [[nodiscard]] std::size_t num_triangles() const { return corners.size() / 3; }
 };

@@ -11,7 +11,8 @@ namespace tessera::pipeline {
 /// the file of Debian's package libjs-three. Local.
 [[nodiscard]] std::filesystem::path three_js_file();
 
-/// @brief three.js as text for a page: deflated, in base64. Nothing if the file is not there. Local.
+/// @brief three.js as text for a page: deflated, in base64. Nothing if the file is not there.
+/// Local.
 [[nodiscard]] std::optional<std::string> packed_three_js();
 
 }  // namespace tessera::pipeline

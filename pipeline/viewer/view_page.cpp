@@ -29,13 +29,25 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kSteps = 65535.0;  // Of a side of the box: coordinates have 16 bits.
 
-// MIT asks for it where three.js goes.
+// Goes wherever three.js goes, as its licence asks.
 constexpr std::string_view kLicence =
-    "<p class=\"soft\">Drawn with three.js, © its authors, under the MIT licence: permission is granted, "
-    "free of charge, to any person obtaining a copy of it to use, copy, modify, merge, publish, "
-    "distribute, sublicense and sell copies, provided that the above copyright notice and this "
-    "permission notice are included. It is provided “as is”, without warranty of any kind; in no event "
-    "shall its authors be liable for any claim, damages or other liability.</p>\n";
+    R"html(<details class="soft"><summary>Drawn with three.js</summary>
+<p>The MIT License. Copyright © 2010-2019 three.js authors. Permission is hereby granted, free of charge, to any person
+obtaining a copy of this software and associated documentation files (the "Software"), to deal in the Software without
+restriction, including without limitation the rights to use, copy, modify, merge, publish, distribute, sublicense, and/or
+sell copies of the Software, and to permit persons to whom the Software is furnished to do so, subject to the following
+conditions: The above copyright notice and this permission notice shall be included in all copies or substantial portions
+of the Software. THE SOFTWARE IS PROVIDED "AS IS", WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT
+LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE
+AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR
+OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE.</p>
+</details>
+)html";
+
+constexpr std::string_view kCoarseNote =
+    "<p class=\"soft\" id=\"viewer-coarse\">Coarse triangles stand here for those of the mesh: "
+    "there are "
+    "more of these than a page has room for, or only a part of the mesh was made.</p>\n";
 
 struct Box {
   Vec3 low{};
@@ -134,12 +146,13 @@ std::string view_html(const SurfaceView& view)
   }
   const ViewerFiles files = viewer_files();
   return fmt::format(
-      "<style>\n{}</style>\n{}{}"
+      "<style>\n{}</style>\n{}{}{}"
       "<script type=\"application/json\" id=\"viewer-data\">{}</script>\n"
       "<script type=\"text/plain\" id=\"viewer-arrays\">{}</script>\n"
       "<script type=\"text/plain\" id=\"viewer-three\">{}</script>\n"
       "<script type=\"module\">\n{}</script>\n",
-      files.style, files.markup, kLicence, json_text(data), arrays.text(), *three, files.script);
+      files.style, surface.is_coarse ? kCoarseNote : "", files.markup, kLicence, json_text(data),
+      arrays.text(), *three, files.script);
 }
 
 }  // namespace tessera::pipeline

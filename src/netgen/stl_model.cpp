@@ -180,8 +180,8 @@ void StlModel::add_faces_of_edges(model::ModelDescription& to) const
 {
   for (std::size_t side = 0; side < surface_.triangle_vertices.size(); ++side) {
     const std::size_t next = side % 3 == 2 ? side - 2 : side + 1;
-    const LocalIndex curve = features_.curve_of_edge(surface_.triangle_vertices[side],
-                                                     surface_.triangle_vertices[next]);
+    const LocalIndex curve =
+        features_.curve_of_edge(surface_.triangle_vertices[side], surface_.triangle_vertices[next]);
     if (curve == kNoIndex) continue;
     to.edges[at(curve)].faces.push_back(features_.triangle_patch[side / 3]);
   }
