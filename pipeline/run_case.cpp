@@ -23,6 +23,7 @@
 
 #include "pipeline/estimate/disk_space.hpp"
 #include "pipeline/estimate/only_subdomains.hpp"
+#include "pipeline/estimate/output_plan.hpp"
 #include "pipeline/jobs/node_workers.hpp"
 #include "pipeline/predict/dry_run.hpp"
 #include "pipeline/predict/prediction_file.hpp"
@@ -307,7 +308,7 @@ class CaseRun {
   {
     return view_html(mesh_view({.patches = patch_names(run.coarse.mesh),
                                 .materials = run.coarse.mesh.material_names,
-                                .length_unit = run.model.length_unit,
+                                .length_unit = output_length_unit(run),
                                 .report = json},
                                run.drawings.surface));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/report/mesh_view.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -30,7 +31,6 @@ Json faces_json(const MeshWords& words, const Json& report)
     }
     faces.push_back(std::move(face));
   }
-  // Where only a part of the mesh was made, its coarse triangles have one more.
   faces.push_back({{"name", "not made"}, {"numbers", Json::array()}});
   return faces;
 }
@@ -86,6 +86,9 @@ SurfaceView mesh_view(const MeshWords& words, Surface surface)
   const Json report = words.report ? Json::parse(*words.report) : Json::object();
   SurfaceView view{.surface = std::move(surface)};
   if (view.surface.corners.empty()) return view;
+  // Where only a part of the mesh was made, its coarse triangles have one more.
+  const auto not_made = static_cast<std::uint32_t>(words.patches.size());
+  for (std::uint32_t& face : view.surface.cells["face"]) face = std::min(face, not_made);
   add_materials(report, view.surface);
   const Json faces = faces_json(words, report);
   view.description = {{"kind", "mesh"},

@@ -25,9 +25,9 @@ function unpackedArray(bytes, begin, { width, size }) {
   for (let i = 0; i < size; ++i) {
     let code = 0;
     for (let plane = 0; plane < width; ++plane) {
-      code += bytes[begin + plane * size + i] * 2 ** (8 * plane);
+      code |= bytes[begin + plane * size + i] << (8 * plane);
     }
-    last += code % 2 === 0 ? code / 2 : -(code + 1) / 2;
+    last = (last + ((code >>> 1) ^ -(code & 1))) | 0;
     values[i] = last;  // Modulo 2^(8 width).
   }
   return values;

@@ -21,9 +21,8 @@ function mixed(a, b, share) {
 
 // The colour of each value of a colouring.
 function coloursOf(colouring, palette) {
-  if (colouring.colours) return (value) => rgbOf(colouring.colours[value]);
   if (!colouring.scale) {
-    const colours = palette.map(rgbOf);
+    const colours = (colouring.colours ?? palette).map(rgbOf);
     return (value) => colours[value % colours.length];
   }
   const scale = colouring.scale.map(rgbOf);
