@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <utility>
@@ -178,7 +179,7 @@ SurfaceView model_view(const model::ModelSource& source, const model::ModelDescr
   const FileColours colours = colours_of(model);
   return {.surface = surface_of(model, colours),
           .description = {{"kind", "model"},
-                          {"file", source.file_name},
+                          {"file", std::filesystem::path(source.file_name).filename().string()},
                           {"unit", source.length_unit},
                           {"faces", faces_json(model)},
                           {"edges", edges_json(model)},

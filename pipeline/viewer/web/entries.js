@@ -31,6 +31,6 @@ function regionEntry(shape, name, size) {
 }
 
 function caseText(file, size, entries) {
-  const head = `[geometry]\nfile = ${tomlText(file)}   # relative to this case file\n\n[size]\ntarget = ${size}\n`;
+  const head = `[geometry]\nfile = ${tomlText(file)}   # beside this case file\n\n[size]\ntarget = ${size}\n`;
   return [head, ...entries].join("\n");
 }
