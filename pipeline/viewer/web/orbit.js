@@ -82,6 +82,7 @@ class Orbit {
 
   stop() {
     cancelAnimationFrame(this.flight);
+    this.isFlying = false;
   }
 
   // Goes to another view, the short way round. What `to` leaves out stays.
@@ -102,9 +103,11 @@ class Orbit {
         tilt: between(from.tilt, goal.tilt),
         height: from.height * (goal.height / from.height) ** share,
       };
+      this.isFlying = time < 1;
       this.update();
-      if (time < 1) this.flight = requestAnimationFrame(step);
+      if (this.isFlying) this.flight = requestAnimationFrame(step);
     };
+    this.isFlying = true;
     this.flight = requestAnimationFrame(step);
   }
 }

@@ -30,11 +30,14 @@ class Viewer {
     this.resize();
   }
 
+  // Whether all that there is to see has been drawn stands with the canvas, for who waits for it.
   wantFrame() {
     if (this.frame) return;
+    this.canvas.dataset.drawn = "no";
     this.frame = requestAnimationFrame(() => {
       this.frame = 0;
       this.scene.draw(this.orbit.camera);
+      this.canvas.dataset.drawn = this.orbit.isFlying ? "no" : "yes";
     });
   }
 
@@ -102,7 +105,7 @@ class Viewer {
 
   enableCut() {
     for (const id of ["cut-place", "cut-other"]) byId(id).addEventListener("input", () => this.cut());
-    byId("cut").addEventListener("input", () => {
+    byId("cut").addEventListener("change", () => {
       // What is on the eye's side goes.
       this.cutSide = this.orbit.toEye()[byId("cut").value] < 0 ? -1 : 1;
       this.cut();
