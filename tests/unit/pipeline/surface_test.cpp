@@ -23,7 +23,7 @@ namespace {
 mesh::MeshArrays regular_tet()
 {
   return {.point_xyz = {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1},
-          .cell_points = {0, 1, 2, 3},
+          .cell_points = {0, 2, 1, 3},
           .point_ids = {10, 11, 12, 13},
           .cell_ids = {7}};
 }
@@ -61,7 +61,7 @@ TEST(SurfacePart, FindsTetsWhoseIdsDoNotAscend)
   tets.cell_ids = {9, 7, 8};
   tets.point_xyz[0] = 100.0;
   tets.point_xyz.insert(tets.point_xyz.end(), {1, 1, 1});
-  tets.cell_points = {0, 1, 2, 3, 4, 1, 2, 3, 0, 1, 2, 3};
+  tets.cell_points = {0, 2, 1, 3, 4, 2, 1, 3, 0, 2, 1, 3};
   const SurfacePart part = surface_part(0, two_sides(7), &tets);
   EXPECT_EQ(part.cells.at("quality").front(), 250U);
 }
