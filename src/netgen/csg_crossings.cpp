@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "netgen/csg_access.hpp"
+#include "netgen/csg_tree.hpp"
 #include "netgen/netgen_versions.hpp"
 
 namespace tessera::netgen {
@@ -16,7 +16,6 @@ namespace {
 
 using Geometry = ::netgen::CSGeometry;
 using ::netgen::Plane;
-using ::netgen::Solid;
 using Point = ::netgen::Point<3>;
 using Vector = ::netgen::Vec<3>;
 
@@ -28,15 +27,18 @@ struct Line {
 };
 
 // Nothing if the planes are nearly parallel.
-bool find_line(const Plane& a, const Plane& b, const ::netgen::Box<3>& box, Line& line)
+bool find_line(const Geometry& geometry, int first, int second, const ::netgen::Box<3>& box,
+               Line& line)
 {
   constexpr double kParallel = 1e-6;
+  const Plane& a = *as_plane(geometry.GetSurface(first));
+  const Plane& b = *as_plane(geometry.GetSurface(second));
   const Vector direction = Cross(a.N(), b.N());
   const double sine = direction.Length() / (a.N().Length() * b.N().Length());
   if (sine < kParallel) return false;
   line.direction = (1.0 / direction.Length()) * direction;
   Point middle = box.Center();
-  ::netgen::ProjectToEdge(&a, &b, middle);
+  project_to_edge(geometry, first, second, middle);
   line.length = 2.0 * box.Diam();
   line.start = middle - (0.5 * line.length) * line.direction;
   return true;
@@ -81,7 +83,8 @@ class Crossings {
       if (objects.part[i] == kNoIndex) continue;
       surfaces_.resize(std::max(surfaces_.size(), solid + 1));
       parts_.resize(surfaces_.size());
-      const Surfaces of_part = surfaces_of(static_cast<int>(i));
+      const Surfaces of_part =
+          surfaces_of(geometry, *geometry.GetTopLevelObject(static_cast<int>(i))->GetSolid());
       surfaces_[solid].insert(of_part.begin(), of_part.end());
       parts_[solid].push_back(static_cast<int>(i));
     }
@@ -97,20 +100,9 @@ class Crossings {
   }
 
  private:
-  [[nodiscard]] Surfaces surfaces_of(int object) const
+  [[nodiscard]] bool is_plane(int surface) const
   {
-    NetgenArray<int> indices;
-    geometry_.GetTopLevelObject(object)->GetSolid()->GetSurfaceIndices(indices);
-    Surfaces surfaces;
-    for (const int surface : indices) {
-      surfaces.insert(geometry_.GetSurfaceClassRepresentant(surface));
-    }
-    return surfaces;
-  }
-
-  [[nodiscard]] const Plane* plane(int surface) const
-  {
-    return dynamic_cast<const Plane*>(geometry_.GetSurface(surface));
+    return as_plane(geometry_.GetSurface(surface)) != nullptr;
   }
 
   // Of cuts of `a` with surfaces of `b`, on what both have.
@@ -137,14 +129,12 @@ class Crossings {
   // A line of two planes, and the third surface. Two curved surfaces are left to NETGEN.
   void find_on(const Side& first, const Side& second, int shared)
   {
-    const Plane* const cut = plane(first.surface);
-    const bool is_other_flat = plane(second.surface) != nullptr;
-    const Plane* const flat = plane(is_other_flat ? second.surface : shared);
-    if (cut == nullptr || flat == nullptr) return;
+    const bool is_other_flat = is_plane(second.surface);
     // NETGEN sees that two straight edges cross.
-    if (is_other_flat && plane(shared) != nullptr) return;
+    if (is_plane(shared) == is_other_flat) return;
+    const int flat = is_other_flat ? second.surface : shared;
     Line line;
-    if (!find_line(*cut, *flat, box_, line)) return;
+    if (!find_line(geometry_, first.surface, flat, box_, line)) return;
     const ::netgen::Surface& third = *geometry_.GetSurface(is_other_flat ? shared : second.surface);
     for (const Point& point : points_on(third, line)) {
       if (has_edge(first, shared, point) && has_edge(second, shared, point)) add(point);
@@ -155,14 +145,9 @@ class Crossings {
   [[nodiscard]] bool has_edge(const Side& side, int shared, const Point& point) const
   {
     return std::ranges::any_of(parts_[side.solid], [&](int object) {
-      const Solid* const solid = geometry_.GetTopLevelObject(object)->GetSolid();
-      NetgenArray<int> indices;
-      Solid* found = nullptr;
-      solid->TangentialSolid(point, found, indices, geometry_.GetIdEps() * geometry_.MaxSize());
-      const std::unique_ptr<Solid> local(found);
-      if (local == nullptr) return false;
-      Surfaces here;
-      for (const int i : indices) here.insert(geometry_.GetSurfaceClassRepresentant(i));
+      const Surfaces here =
+          surfaces_at(point, geometry_, *geometry_.GetTopLevelObject(object)->GetSolid(),
+                      geometry_.GetIdEps() * geometry_.MaxSize());
       return here.contains(side.surface) && here.contains(shared);
     });
   }

@@ -9,37 +9,92 @@
 #include "tessera/base/error.hpp"
 
 #include "netgen/csg_access.hpp"
+#include "netgen/csg_parse.hpp"
 #include "netgen/netgen_session.hpp"
 
 namespace tessera::netgen {
 namespace {
 
 using Geometry = ::netgen::CSGeometry;
-using ::netgen::Solid;
 using ::netgen::TopLevelObject;
 
-class Cutter {
+// A solid of the file as it is to be meshed.
+struct Part {
+  std::string name{};
+  LocalIndex number = 0;  // In the tree.
+};
+
+// Statements that make parts of solids: the one way to make solids of NETGEN's CSG that no version
+// hides.
+class Statements {
  public:
-  Cutter(Geometry& geometry, const cut::CutTree& tree) : geometry_(geometry), tree_(tree)
+  Statements(const std::string& file_text, const cut::CutTree& tree) : tree_(tree)
   {
-    cut_.num_surfaces = geometry.GetNSurf();
+    while (file_text.find(prefix_) != std::string::npos) prefix_ += '_';
   }
 
-  CutObjects run()
+  std::vector<Part> add(const std::string& solid, LocalIndex root)
+  {
+    std::vector<Part> parts;
+    add_parts(solid, root, parts);
+    return parts;
+  }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  void add_parts(const std::string& solid, LocalIndex row, std::vector<Part>& parts)
+  {
+    const cut::CutNode& node = tree_.nodes.at(at(row));
+    if (node.is_leaf()) {
+      parts.push_back({solid, node.part});
+      return;
+    }
+    const std::string below = add_solid(half_space(node.plane));
+    add_parts(add_solid(fmt::format("{} and {}", solid, below)), node.below, parts);
+    add_parts(add_solid(fmt::format("{} and not {}", solid, below)), node.above, parts);
+  }
+
+  static std::string half_space(const cut::Plane& plane)
+  {
+    constexpr const char* kAllDigits = "plane ({:.17g}; {:.17g})";
+    return fmt::format(kAllDigits, fmt::join(plane.offset * plane.normal, ", "),
+                       fmt::join(plane.normal, ", "));
+  }
+
+  std::string add_solid(const std::string& what)
+  {
+    std::string name = fmt::format("{}{}", prefix_, num_solids_++);
+    text_ += fmt::format("solid {} = {};\n", name, what);
+    return name;
+  }
+
+  const cut::CutTree& tree_;
+  std::string prefix_ = "tessera_cut_";
+  int num_solids_ = 0;
+  std::string text_ = "\n";  // The last line of a file may be a comment.
+};
+
+class Replacement {
+ public:
+  Replacement(Geometry& geometry, LocalIndex num_surfaces) : geometry_(geometry)
+  {
+    cut_.num_surfaces = num_surfaces;
+  }
+
+  // `parts`: of each top-level object; none if it is a surface.
+  CutObjects run(const std::vector<std::vector<Part>>& parts)
   {
     const std::vector<TopLevelObject> uncut = take_objects();
     for (std::size_t i = 0; i < uncut.size(); ++i) {
-      object_ = &uncut[i];
-      number_ = static_cast<LocalIndex>(i);
-      Solid* const solid = const_cast<Solid*>(object_->GetSolid());
-      if (object_->GetSurface() == nullptr) {
-        add_parts(tree_.solid_root.at(i), solid);
-      } else {
-        add_object(solid, kNoIndex);
+      const TopLevelObject& object = uncut[i];
+      const auto number = static_cast<LocalIndex>(i);
+      if (object.GetSurface() != nullptr) add(object, *object.GetSolid(), number, kNoIndex);
+      for (const Part& part : parts[i]) {
+        add(object, *geometry_.GetSolid(part.name), number, part.number);
       }
     }
     repeat_modifications();
-    geometry_.FindIdenticSurfaces(kIdenticSurfaces * geometry_.MaxSize());
     return std::move(cut_);
   }
 
@@ -57,46 +112,19 @@ class Cutter {
     return objects;
   }
 
-  // `solid` has a name: only such may be operands of several solids.
-  void add_parts(LocalIndex row, Solid* solid)
+  void add(const TopLevelObject& like, const ::netgen::Solid& solid, LocalIndex number,
+           LocalIndex part)
   {
-    const cut::CutNode& node = tree_.nodes.at(at(row));
-    if (node.part != kNoIndex) return add_object(solid, node.part);
-    Solid* const below = half_space(row);
-    add_parts(node.below, named(new Solid(Solid::SECTION, solid, below)));
-    add_parts(node.above, named(new Solid(Solid::SECTION, solid, new Solid(Solid::SUB, below))));
-  }
-
-  Solid* half_space(LocalIndex row)
-  {
-    const cut::Plane& plane = tree_.nodes.at(at(row)).plane;
-    const Vec3 point = plane.offset * plane.normal;
-    auto* const primitive = new ::netgen::Plane(
-        to_netgen(point), ::netgen::Vec<3>(plane.normal[0], plane.normal[1], plane.normal[2]));
-    geometry_.AddSurfaces(primitive);
-    return named(new Solid(primitive));
-  }
-
-  // The geometry owns it.
-  Solid* named(Solid* solid)
-  {
-    auto* const root = new Solid(Solid::ROOT, solid);
-    geometry_.SetSolid(fmt::format("tessera cut {}", num_named_++).c_str(), root);
-    root->SetMaxH(object_->GetSolid()->GetMaxH());
-    return root;
-  }
-
-  void add_object(Solid* solid, LocalIndex part)
-  {
-    auto* const surface = const_cast<::netgen::Surface*>(object_->GetSurface());
-    const int row = geometry_.SetTopLevelObject(solid, surface);
+    const int row = geometry_.SetTopLevelObject(const_cast<::netgen::Solid*>(&solid),
+                                                const_cast<::netgen::Surface*>(like.GetSurface()));
     TopLevelObject& added = *geometry_.GetTopLevelObject(row);
-    added.SetMaxH(object_->GetMaxH());
-    added.SetMaterial(object_->GetMaterial());
-    added.SetLayer(object_->GetLayer());
-    added.SetBCProp(object_->GetBCProp());
-    added.SetBCName(object_->GetBCName());
-    cut_.solid.push_back(number_);
+    added.GetSolid()->SetMaxH(like.GetSolid()->GetMaxH());
+    added.SetMaxH(like.GetMaxH());
+    added.SetMaterial(like.GetMaterial());
+    added.SetLayer(like.GetLayer());
+    added.SetBCProp(like.GetBCProp());
+    added.SetBCName(like.GetBCName());
+    cut_.solid.push_back(number);
     cut_.part.push_back(part);
   }
 
@@ -119,10 +147,6 @@ class Cutter {
   }
 
   Geometry& geometry_;
-  const cut::CutTree& tree_;
-  const TopLevelObject* object_ = nullptr;
-  LocalIndex number_ = 0;
-  int num_named_ = 0;
   CutObjects cut_{};
 };
 
@@ -137,10 +161,22 @@ void require_cuttable(const Geometry& geometry)
 
 }  // namespace
 
-CutObjects cut_geometry(Geometry& geometry, const cut::CutTree& tree)
+CutGeometry cut_geometry(const Geometry& uncut, const std::string& text,
+                         const std::string& file_name, const cut::CutTree& tree)
 {
-  require_cuttable(geometry);
-  return Cutter(geometry, tree).run();
+  require_cuttable(uncut);
+  Statements statements(text, tree);
+  std::vector<std::vector<Part>> parts;
+  for (int i = 0; i < uncut.GetNTopLevelObjects(); ++i) {
+    const TopLevelObject& object = *uncut.GetTopLevelObject(i);
+    parts.emplace_back();
+    if (object.GetSurface() == nullptr) {
+      parts.back() = statements.add(object.GetSolid()->Name(), tree.solid_root.at(at(i)));
+    }
+  }
+  CutGeometry cut{.geometry = parse_csg(text + statements.text(), file_name)};
+  cut.objects = Replacement(*cut.geometry, uncut.GetNSurf()).run(parts);
+  return cut;
 }
 
 }  // namespace tessera::netgen

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <csg.hpp>
@@ -25,10 +26,17 @@ struct CutObjects {
   LocalIndex num_surfaces = 0;      ///< Of the uncut geometry; planes of cuts come after them.
 };
 
-/// @brief Replaces the solids to be meshed by their parts. Planes come after all surfaces, so
-/// surfaces keep their numbers.
+struct CutGeometry {
+  std::unique_ptr<::netgen::CSGeometry> geometry{};
+  CutObjects objects{};
+};
+
+/// @brief Geometry of a file whose solids to be meshed are replaced by their parts. Planes come after
+/// all surfaces, so surfaces keep their numbers. Local.
+/// @param[in] uncut Geometry of the text.
 /// @throws NetgenError if the geometry identifies faces or has singular ones: these are told by
 /// the numbers of its solids.
-[[nodiscard]] CutObjects cut_geometry(::netgen::CSGeometry& geometry, const cut::CutTree& tree);
+[[nodiscard]] CutGeometry cut_geometry(const ::netgen::CSGeometry& uncut, const std::string& text,
+                                       const std::string& file_name, const cut::CutTree& tree);
 
 }  // namespace tessera::netgen

@@ -284,14 +284,13 @@ coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
                                            const cut::CutTree& tree) const
 {
   const std::string what = file_name_ + ": coarse mesh of the parts";
-  const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
+  const CutGeometry cut = cut_geometry(*geometry_, text_, file_name_, tree);
   NetgenSession session(surface_parameters(options));
   return session.run(what, [&] {
-    const CutObjects objects = cut_geometry(*geometry, tree);
-    add_crossings(*geometry, objects, box_);
-    const auto mesh = netgen_surface(*geometry, session);
-    coarse::CoarseSurface surface =
-        to_coarse_surface(*mesh, numbers_of_parts(*geometry_, objects), options.max_size, what);
+    add_crossings(*cut.geometry, cut.objects, box_);
+    const auto mesh = netgen_surface(*cut.geometry, session);
+    coarse::CoarseSurface surface = to_coarse_surface(
+        *mesh, numbers_of_parts(*geometry_, cut.objects), options.max_size, what);
     separate_patches(surface.mesh);
     return surface;
   });

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +28,7 @@
 #include "tessera/base/error.hpp"
 
 #include "netgen/csg_access.hpp"
+#include "netgen/csg_tree.hpp"
 #include "netgen/netgen_versions.hpp"
 
 namespace tessera::netgen {
@@ -92,27 +92,6 @@ bool is_cone(const Numbers& numbers)
   return numbers.kind == "cone" && numbers.all.at(6) != numbers.all.at(7);
 }
 
-// NETGEN keeps the operation of a node to itself. Its text tells: "(LEFT AND RIGHT)", "NOT INNER";
-// a solid with a name, which is no operation, is its name there.
-enum class Operation { both, either, complement, named };
-
-std::string text_of(const Solid& solid)
-{
-  std::ostringstream out;
-  solid.GetSolidData(out, 0);
-  return out.str();
-}
-
-Operation operation_of(Solid& solid)
-{
-  const std::string text = text_of(solid);
-  if (solid.S2() != nullptr) {
-    const std::string_view rest = std::string_view(text).substr(1 + text_of(*solid.S1()).size());
-    return rest.starts_with(" AND ") ? Operation::both : Operation::either;
-  }
-  return text.starts_with("NOT ") ? Operation::complement : Operation::named;
-}
-
 class Builder {
  public:
   explicit Builder(const ::netgen::Box<3>& box)
@@ -131,9 +110,8 @@ class Builder {
     if (const ::netgen::Primitive* const primitive = solid.GetPrimitive()) {
       return {build(Numbers(*primitive)), false};
     }
-    const Operation operation = operation_of(solid);
     const Part left = build(*solid.S1());
-    switch (operation) {
+    switch (operation_of(solid)) {
       case Operation::named:
         return left;
       case Operation::complement:
@@ -276,61 +254,40 @@ void for_each_solid(Geometry& geometry, const Visit& visit)
   }
 }
 
-class ConesByCircles final : public ::netgen::SolidIterator {
- public:
-  // NOLINTNEXTLINE(readability-identifier-naming): NETGEN's
-  void Do(Solid* solid) override
-  {
-    auto* const cone = dynamic_cast<::netgen::Cone*>(solid->GetPrimitive());
-    if (cone == nullptr) return;
-    const Numbers numbers(*cone);
-    const std::array<double, 2> radii{numbers.all.at(6), numbers.all.at(7)};
-    if (!is_cone(numbers) || std::min(radii[0], radii[1]) != 0.0) return;
-    const std::size_t apex = radii[0] == 0.0 ? 0 : 1;
-    const Vec3 middle = 0.5 * (numbers.point(0) + numbers.point(3));
-    std::vector<double> changed = numbers.all;
-    std::ranges::copy(middle, changed.begin() + 3 * static_cast<std::ptrdiff_t>(apex));
-    changed[6 + apex] = 0.5 * radii[1 - apex];
-    NetgenArray<double> values;
-    for (const double value : changed) values.Append(value);
-    cone->SetPrimitiveData(values);
-  }
-};
-
-class Primitives final : public ::netgen::SolidIterator {
- public:
-  // NOLINTNEXTLINE(readability-identifier-naming): NETGEN's
-  void Do(Solid* solid) override
-  {
-    if (const ::netgen::Primitive* const primitive = solid->GetPrimitive()) {
-      all.emplace_back(*primitive);
-    }
-  }
-
-  std::vector<Numbers> all{};
-};
+void describe_by_circles(::netgen::Primitive& body)
+{
+  const Numbers numbers(body);
+  if (!is_cone(numbers)) return;
+  const std::array<double, 2> radii{numbers.all.at(6), numbers.all.at(7)};
+  if (std::min(radii[0], radii[1]) != 0.0) return;
+  const std::size_t apex = radii[0] == 0.0 ? 0 : 1;
+  const Vec3 middle = 0.5 * (numbers.point(0) + numbers.point(3));
+  std::vector<double> changed = numbers.all;
+  std::ranges::copy(middle, changed.begin() + 3 * static_cast<std::ptrdiff_t>(apex));
+  changed[6 + apex] = 0.5 * radii[1 - apex];
+  NetgenArray<double> values;
+  for (const double value : changed) values.Append(value);
+  body.SetPrimitiveData(values);
+}
 
 }  // namespace
 
 void describe_cones_by_circles(Geometry& geometry)
 {
-  for_each_solid(geometry, [](int, Solid& solid) {
-    ConesByCircles cones;
-    solid.IterateSolid(cones);
-  });
+  for_each_solid(geometry,
+                 [](int, Solid& solid) { for_each_body(solid, describe_by_circles); });
 }
 
 bool has_apex(Geometry& geometry, double tolerance)
 {
   bool has = false;
   for_each_solid(geometry, [&](int, Solid& solid) {
-    Primitives primitives;
-    solid.IterateSolid(primitives);
-    for (const Numbers& numbers : primitives.all) {
-      if (!is_cone(numbers)) continue;
+    for_each_body(solid, [&](const ::netgen::Primitive& body) {
+      const Numbers numbers(body);
+      if (!is_cone(numbers)) return;
       const auto apex = to_netgen(ConeShape(numbers).apex);
-      has = has || (solid.IsIn(apex, tolerance) && !solid.IsStrictIn(apex, tolerance));
-    }
+      has = has || place_of(apex, solid, tolerance) == Place::on;
+    });
   });
   return has;
 }
@@ -345,9 +302,9 @@ std::string why_only_netgen(Geometry& geometry)
     if (geometry.GetTopLevelObject(i)->GetSurface() != nullptr) why = "has a surface without solid";
   }
   for_each_solid(geometry, [&](int, Solid& solid) {
-    Primitives primitives;
-    solid.IterateSolid(primitives);
-    if (!std::ranges::all_of(primitives.all, has_counterpart)) why = kNoCounterpart;
+    for_each_body(solid, [&](const ::netgen::Primitive& body) {
+      if (!has_counterpart(Numbers(body))) why = kNoCounterpart;
+    });
   });
   return why;
 }

@@ -14,6 +14,7 @@
 #include "tessera/base/union_find.hpp"
 
 #include "netgen/csg_access.hpp"
+#include "netgen/csg_tree.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -172,9 +173,11 @@ class Triangles {
     const double tolerance = std::numeric_limits<double>::epsilon() * box_.Diam();
     const int num_objects = geometry_.GetNTopLevelObjects();
     for (int i = 0; i < num_objects; ++i) {
-      const auto* const object = geometry_.GetTopLevelObject(i);
-      const bool is_solid = object->GetSurface() == nullptr;
-      if (is_solid && object->GetSolid()->IsIn(to_netgen(point), tolerance)) return at(i);
+      auto* const object = geometry_.GetTopLevelObject(i);
+      if (object->GetSurface() != nullptr) continue;
+      if (place_of(to_netgen(point), *object->GetSolid(), tolerance) != Place::outside) {
+        return at(i);
+      }
     }
     return at(num_objects);
   }
