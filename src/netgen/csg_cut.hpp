@@ -31,8 +31,8 @@ struct CutGeometry {
   CutObjects objects{};
 };
 
-/// @brief Geometry of a file whose solids to be meshed are replaced by their parts. Planes come after
-/// all surfaces, so surfaces keep their numbers. Local.
+/// @brief Geometry of a file whose solids to be meshed are replaced by their parts. Planes come
+/// after all surfaces, so surfaces keep their numbers. Local.
 /// @param[in] uncut Geometry of the text.
 /// @throws NetgenError if the geometry identifies faces or has singular ones: these are told by
 /// the numbers of its solids.

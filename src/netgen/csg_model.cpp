@@ -289,8 +289,8 @@ coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
   return session.run(what, [&] {
     add_crossings(*cut.geometry, cut.objects, box_);
     const auto mesh = netgen_surface(*cut.geometry, session);
-    coarse::CoarseSurface surface = to_coarse_surface(
-        *mesh, numbers_of_parts(*geometry_, cut.objects), options.max_size, what);
+    coarse::CoarseSurface surface =
+        to_coarse_surface(*mesh, numbers_of_parts(*geometry_, cut.objects), options.max_size, what);
     separate_patches(surface.mesh);
     return surface;
   });

@@ -274,8 +274,7 @@ void describe_by_circles(::netgen::Primitive& body)
 
 void describe_cones_by_circles(Geometry& geometry)
 {
-  for_each_solid(geometry,
-                 [](int, Solid& solid) { for_each_body(solid, describe_by_circles); });
+  for_each_solid(geometry, [](int, Solid& solid) { for_each_body(solid, describe_by_circles); });
 }
 
 bool has_apex(Geometry& geometry, double tolerance)

@@ -99,8 +99,7 @@ std::set<int> surfaces_at(const Point& point, const ::netgen::CSGeometry& geomet
     return surfaces;
   }
   surfaces = surfaces_at(point, geometry, *solid.S1(), tolerance);
-  if (solid.S2() != nullptr)
-    surfaces.merge(surfaces_at(point, geometry, *solid.S2(), tolerance));
+  if (solid.S2() != nullptr) surfaces.merge(surfaces_at(point, geometry, *solid.S2(), tolerance));
   return surfaces;
 }
 

@@ -27,7 +27,8 @@ void for_each_body(::netgen::Solid& solid, const Visit& visit)
 
 enum class Place { outside, on, inside };
 
-/// @brief Where a point is. Nearer than the tolerance to the surface of a body it is on that. Local.
+/// @brief Where a point is. Nearer than the tolerance to the surface of a body it is on that.
+/// Local.
 /// @param[in] tolerance File length unit.
 [[nodiscard]] Place place_of(const ::netgen::Point<3>& point, ::netgen::Solid& solid,
                              double tolerance);

@@ -18,8 +18,7 @@
 /// What differs between NETGEN 6.2.1905 (Debian 12) and 6.2.2501 (Debian 13), and nothing else.
 ///
 /// The library of 6.2.2501 hides its classes of surfaces and solids of CSG, and many functions.
-/// What it does not hide is called in their place, also virtual functions. csg_hidden.cpp says what
-/// is not there then.
+/// What it does not hide is called in their place, also virtual functions.
 #if __has_include(<netgen_version.hpp>)  // Not in 6.2.1905.
 
 namespace netgen {

@@ -55,14 +55,12 @@ TEST(CsgTree, PlacesPointsAsTheOperationsSay)
     for (int j = 0; j < 9; ++j) {
       for (int k = 0; k < 9; ++k) {
         const Vec3 p{-1.4 + 0.31 * i, -1.24 + 0.3 * j, -1.24 + 0.3 * k};
-        const bool in_cube =
-            std::abs(p[0]) < 1.0 && std::abs(p[1]) < 1.0 && std::abs(p[2]) < 1.0;
+        const bool in_cube = std::abs(p[0]) < 1.0 && std::abs(p[1]) < 1.0 && std::abs(p[2]) < 1.0;
         const bool in_ball = norm(p - Vec3{0, 0, 1}) < 0.5;
         const bool in_far = norm(p - Vec3{5, 0, 0}) < 1.0;
         const bool is_inside = (in_cube && !in_ball && p[0] < 0.0) || in_far;
         num_inside += is_inside ? 1 : 0;
-        EXPECT_EQ(tree.place(p),
-                  is_inside ? Place::inside : Place::outside)
+        EXPECT_EQ(tree.place(p), is_inside ? Place::inside : Place::outside)
             << p[0] << ' ' << p[1] << ' ' << p[2];
       }
     }
