@@ -117,7 +117,7 @@ void set_sizes(::netgen::Mesh& mesh, const FillInput& input, double grading)
   }
   align_octree(mesh, best_cell(input.size_h), grading);
   for (std::size_t s = 0; s < input.size_h.size(); ++s) {
-    mesh.RestrictLocalH(to_netgen(point_at(std::span(input.size_xyz), s)),
+    mesh.RestrictLocalH(to_point3d(point_at(std::span(input.size_xyz), s)),
                         largest_cell(input.size_h[s]));
   }
 }

@@ -28,7 +28,7 @@ void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& te
   const std::size_t num_skin = skin.vertex.size();
   const auto first_inner = static_cast<LocalIndex>(mesh.GetNP());
   for (std::size_t v = num_skin; v < tets.vertex_xyz.size() / 3; ++v) {
-    mesh.AddPoint(to_netgen(scale * point_at(std::span(tets.vertex_xyz), v)));
+    mesh.AddPoint(to_point3d(scale * point_at(std::span(tets.vertex_xyz), v)));
   }
   std::vector<LocalIndex> vertices;
   for (const LocalIndex v : tets.tet_vertices) {

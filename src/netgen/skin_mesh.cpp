@@ -43,14 +43,14 @@ std::vector<LocalIndex> point_order(LocalIndex num_vertices, unsigned seed)
   return order;
 }
 
-::netgen::Point3d to_netgen(const Vec3& p) { return {p[0], p[1], p[2]}; }
+::netgen::Point3d to_point3d(const Vec3& p) { return {p[0], p[1], p[2]}; }
 
 void add_surface(::netgen::Mesh& mesh, const std::vector<double>& vertex_xyz,
                  const std::vector<LocalIndex>& triangle_vertices,
                  const std::vector<LocalIndex>& order)
 {
   for (const LocalIndex v : order) {
-    mesh.AddPoint(to_netgen(point_at(std::span(vertex_xyz), v)));
+    mesh.AddPoint(to_point3d(point_at(std::span(vertex_xyz), v)));
   }
   mesh.AddFaceDescriptor(
       ::netgen::FaceDescriptor(1, 1, 0, 0));  // Domain 1 inside, nothing outside.
@@ -68,7 +68,7 @@ void add_surface(::netgen::Mesh& mesh, const std::vector<double>& vertex_xyz,
 void add_skin(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
 {
   for (std::size_t v = 0; v < skin.vertex.size(); ++v) {
-    mesh.AddPoint(to_netgen(point_at(std::span(skin.vertex_xyz), v)));
+    mesh.AddPoint(to_point3d(point_at(std::span(skin.vertex_xyz), v)));
   }
   const LocalIndex num_patches = 1 + *std::ranges::max_element(skin.triangle_patch);
   for (LocalIndex p = 0; p < num_patches; ++p) {
@@ -91,7 +91,7 @@ void add_skin(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
 void set_sizes(::netgen::Mesh& mesh, const std::array<Vec3, 2>& box,
                const ::netgen::MeshingParameters& parameters)
 {
-  mesh.SetLocalH(to_netgen(box[0]), to_netgen(box[1]), parameters.grading);
+  mesh.SetLocalH(to_point3d(box[0]), to_point3d(box[1]), parameters.grading);
   mesh.CalcLocalH(parameters.grading);
   for (const auto& wanted : parameters.meshsize_points) mesh.RestrictLocalH(wanted.pnt, wanted.h);
 }

@@ -13,7 +13,7 @@
 namespace tessera::netgen {
 
 // A point of ours as NETGEN's.
-[[nodiscard]] ::netgen::Point3d to_netgen(const Vec3& p);
+[[nodiscard]] ::netgen::Point3d to_point3d(const Vec3& p);
 
 // Order in which NETGEN gets the skin's vertices: entry i is the vertex that comes as number i.
 // Seed 0: as given; else another fixed order.

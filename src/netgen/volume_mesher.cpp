@@ -34,7 +34,7 @@ constexpr int kMostStepsOfHole = 2;
 void add_all(::netgen::Mesh& mesh, const coarse::DomainTets& tets)
 {
   for (std::size_t v = mesh.GetNP(); v < tets.vertex_xyz.size() / 3; ++v) {
-    mesh.AddPoint(to_netgen(point_at(std::span(tets.vertex_xyz), v)));
+    mesh.AddPoint(to_point3d(point_at(std::span(tets.vertex_xyz), v)));
   }
   add_tets(mesh, tets.tet_vertices);
 }
