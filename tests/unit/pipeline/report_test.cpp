@@ -85,6 +85,7 @@ TEST(Report, NamesCoarseTetsWithSmallAngles)
   EXPECT_EQ(report_of(run)["coarse"]["sharp"]["num_tets"], 0);
   EXPECT_TRUE(report_of(run)["warnings"].empty());
   run.coarse.mesh.patch_names = {"in", "out"};
+  run.coarse.mesh.patch_surface = {0, 1};
   run.sharp = {.num_forced = 3, .num_others = 1, .worst = {{1.5, 0.25, {1.0, 2.0, 3.0}, {1}}}};
   const Json sharp = report_of(run)["coarse"]["sharp"];
   EXPECT_EQ(sharp["num_forced"], 3);
@@ -178,14 +179,16 @@ TEST(Report, PatchesOfARowAreSummed)
   RunResult run = run_of_two_pieces();
   run.coarse.mesh.patch_names = {"wall", "inlet", "wall"};
   run.coarse.mesh.patch_row = {0, 1, 0};
+  run.coarse.mesh.patch_surface = {4, 2, 1};
   run.filled.pieces[0].patches = {{0, 2, 0.5}, {2, 1, 0.25}};
   run.filled.pieces[1].patches = {{1, 3, 1.5}, {2, 1, 0.25}};
   EXPECT_EQ(report_of(run)["patches"],
-            Json::parse(R"([{"id": 0, "name": "wall", "triangles": 4, "area": 1.0},
-                            {"id": 1, "name": "inlet", "triangles": 3, "area": 1.5}])"));
+            Json::parse(R"([{"id": 0, "name": "wall", "triangles": 4, "area": 1.0,
+                             "faces": [2, 5]},
+                            {"id": 1, "name": "inlet", "triangles": 3, "area": 1.5, "faces": [3]}])"));
   run.coarse.mesh.patch_row = {};
   EXPECT_EQ(report_of(run)["patches"][2],
-            Json::parse(R"({"id": 2, "name": "wall", "triangles": 2, "area": 0.5})"));
+            Json::parse(R"({"id": 2, "name": "wall", "triangles": 2, "area": 0.5, "faces": [2]})"));
 }
 
 TEST(Report, HasEveryKeyOfTheSchema)
