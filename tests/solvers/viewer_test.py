@@ -10,6 +10,7 @@ import unittest
 import numpy as np
 import solver_meshes
 from selenium import webdriver
+from selenium.common.exceptions import TimeoutException
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
@@ -95,7 +96,10 @@ class PageTest(unittest.TestCase):
         while time.monotonic() < end:
             time.sleep(0.3)
             is_drawn = self.canvas.get_attribute("data-drawn") == "yes"
-            now = self.canvas.screenshot_as_png
+            try:
+                now = self.canvas.screenshot_as_png
+            except TimeoutException:  # After 10 s, which a busy machine may take.
+                continue
             if is_drawn and now == before:
                 return pixels(now)
             before = now if is_drawn else b""
