@@ -117,7 +117,7 @@ class NothingElseIsWritten(program.ProgramTest):
                 self.assert_writes_only_there(model)
 
     def test_jobs_that_fail(self):
-        ball = self.write("ball.geo", program.BALL)
+        ball = self.write("ball.geo", program.BALL.replace("; 1)", "; 1000)"))  # More than one tet.
         no_mesh = "coarse=segv remesh=segv"
         for fault, code in (("fill=segv@1", DEGRADED), ("improve=exit", OK), (no_mesh, program.FAILED)):
             with self.subTest(fault=fault):
