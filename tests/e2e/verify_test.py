@@ -41,7 +41,7 @@ class Refusal(program.ProgramTest):
 
     def test_tet_that_is_lost_after_its_region_was_judged(self):
         case = self.write_case(max_size=0.6, subdomains=6)
-        outcome = self.run_with("improve=lose@0", case, "out")
+        outcome = self.run_with("improve=lose", case, "out")
         self.assert_no_mesh(outcome, "out", "pieces do not meet: the faces of their tets do not cancel")
 
 
