@@ -218,7 +218,7 @@ class Regions(BarTest):
         on_sphere = [
             math.dist(a, b) for a, b in edges_of(out) if all(math.hypot(*p) > 0.999 for p in (a, b))
         ]  # fmt: skip
-        self.assertLess(statistics.median(on_sphere), 0.15)
+        self.assertLess(statistics.median(on_sphere), 1.3 / 8.0)
 
 
 class Fields(BarTest):
