@@ -52,7 +52,9 @@ CASES = {
     "bracket_edge": Expected(BRACKET, 0.02, ("bracket",), numbered(11), ("mm",)),
     "bracket_parts": Expected(BRACKET, 0.02, ("bracket",), numbered(11), ("mm",)),
     "brick": Expected(2, 1e-9, ("brick",), numbered(6), coarser=("size.target=0.2",)),
-    "cone": Expected(math.pi * 8**2 * 12 / 3, 0.05, ("material_1",), numbered(2)),
+    "cone": Expected(
+        math.pi * 8**2 * 12 / 3, 0.05, ("material_1",), numbered(2), coarser=("refine.levels=1",)
+    ),
     "core": Expected(1000, 1e-9, ("core", "shell", "matrix"), CORE_PATCHES),
     "cylinder": Expected(math.pi * 5**2 * 20, 0.05, ("cylinder",), CYLINDER_PATCHES, ("mm",)),
     "frustum": Expected(FRUSTUM, 0.05, ("material_1",), numbered(3)),
