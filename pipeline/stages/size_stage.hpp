@@ -24,7 +24,7 @@ namespace tessera::pipeline {
 
 /// @brief Levels for a wanted number of fine tets: 1 below 5·10^5, 2 below 4·10^6, 3 below 10^8, 4
 /// above. Fewer make better tets, more make them in less time: the coarse mesh, whose surface is
-/// serial, has some 60,000 tets at the first two steps.
+/// serial, has 60,000 tets or so at most on one or two levels.
 [[nodiscard]] int levels_for(double num_fine_tets);
 
 }  // namespace tessera::pipeline

@@ -47,7 +47,7 @@ constexpr double kGoodShape = 0.6;
 // than fair.
 constexpr double kMostLoss = 0.7;
 
-// So much is fair where a vertex goes from a curve: 12.6 degrees. Rings of needles between two
+// So much is fair where a vertex goes from a curve: 12.5 degrees. Rings of needles between two
 // curves have too many vertices, and the first of them that goes makes a needle longer: part1.stl
 // at size 0.332 kept all of them, and its 1st percentile was 14.8 degrees where it is 35.8 now.
 constexpr double kFairOnCurve = 0.25;
