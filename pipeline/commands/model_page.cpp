@@ -207,14 +207,6 @@ std::string cards_html(const model::ModelSource& source, const model::ModelDescr
   return html + card("length unit", unit.empty() ? "the file does not say" : unit) + "</dl>\n";
 }
 
-std::string repairs_html(const model::ModelSource& source)
-{
-  if (source.repairs.empty()) return {};
-  std::string html = "<ul class=\"notes\">\n";
-  for (const std::string& repair : source.repairs) html += "<li>" + escaped(repair) + "</li>\n";
-  return html + "</ul>\n";
-}
-
 }  // namespace
 
 std::string model_page(const model::ModelSource& source, const model::ModelDescription& model)
@@ -224,7 +216,7 @@ std::string model_page(const model::ModelSource& source, const model::ModelDescr
       escaped(source.file_name));
   body += section_html("To turn and to point at", view_html(model_view(source, model)));
   body += section_html("What it holds", cards_html(source, model));
-  body += section_html("Repairs when it was read", repairs_html(source));
+  body += section_html("Repairs when it was read", notes_html(source.repairs));
   return page_html("Tessera: " + source.file_name, body);
 }
 

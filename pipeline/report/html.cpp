@@ -273,6 +273,14 @@ std::string table_html(const std::vector<std::string>& head,
   return html + "</tbody></table></div>\n";
 }
 
+std::string notes_html(const std::vector<std::string>& notes)
+{
+  if (notes.empty()) return {};
+  std::string html = "<ul class=\"notes\">\n";
+  for (const std::string& note : notes) html += "<li>" + escaped(note) + "</li>\n";
+  return html + "</ul>\n";
+}
+
 std::string section_html(std::string_view heading, const std::string& content)
 {
   if (content.empty()) return {};

@@ -87,6 +87,9 @@ struct BarAxis {
 [[nodiscard]] std::string table_html(const std::vector<std::string>& head,
                                      const std::vector<std::vector<std::string>>& rows);
 
+/// @brief A list of sentences, text; empty if there are none.
+[[nodiscard]] std::string notes_html(const std::vector<std::string>& notes);
+
 /// @brief A section with a heading; empty if it has no content.
 [[nodiscard]] std::string section_html(std::string_view heading, const std::string& content);
 

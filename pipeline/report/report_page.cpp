@@ -92,9 +92,7 @@ std::string advice_html(const Report& report)
   if (advice.empty()) {
     return status == "ok" || status == "degraded" ? "<p>None.</p>\n" : "";
   }
-  std::string html = "<ul class=\"notes\">\n";
-  for (const std::string& one : advice) html += "<li>" + escaped(one) + "</li>\n";
-  return html + "</ul>\n";
+  return notes_html(advice);
 }
 
 std::string worst_html(const Report& report)

@@ -100,31 +100,31 @@ class Remesher {
   }
 
  private:
-  // The edges around which something has changed since the last sweep of this kind.
-  std::vector<Edge> next_edges(int& since)
+  // Step by step over the edges around which something has changed since the last sweep of this
+  // kind, until no more changes.
+  template <class Sweep>
+  void sweep(int most, int& since, const Sweep& step)
   {
-    std::vector<Edge> edges = editor_.changed_edges(since);
-    since = editor_.begin_pass();
-    return edges;
+    for (int i = 0; i < most; ++i) {
+      const std::vector<Edge> edges = editor_.changed_edges(since);
+      since = editor_.begin_pass();
+      if (step(edges) == 0) return;
+    }
   }
 
   void flip_edges()
   {
-    for (int i = 0; i < kFlipSweeps; ++i) {
-      const auto count =
-          std::ranges::count_if(next_edges(flipped_since_),
-                                [this](const Edge& edge) { return editor_.flip_if_better(edge); });
-      if (count == 0) return;
-    }
+    sweep(kFlipSweeps, flipped_since_, [this](const std::vector<Edge>& edges) {
+      return std::ranges::count_if(
+          edges, [this](const Edge& edge) { return editor_.flip_if_better(edge); });
+    });
   }
 
   void even_out_valences()
   {
-    for (int i = 0; i < kFlipSweeps; ++i) {
-      const auto count = std::ranges::count_if(next_edges(evened_since_),
-                                               [this](const Edge& edge) { return even_out(edge); });
-      if (count == 0) return;
-    }
+    sweep(kFlipSweeps, evened_since_, [this](const std::vector<Edge>& edges) {
+      return std::ranges::count_if(edges, [this](const Edge& edge) { return even_out(edge); });
+    });
   }
 
   // If that brings the numbers of triangles at the vertices there nearer to what fits.
@@ -167,14 +167,13 @@ class Remesher {
   // those around have been flipped.
   void split_long_edges()
   {
-    for (int i = 0; i < kMostSweeps; ++i) {
+    sweep(kMostSweeps, split_since_, [this](const std::vector<Edge>& edges) {
       std::vector<std::pair<double, Edge>> longest;
-      for (const Edge& edge : next_edges(split_since_)) {
+      for (const Edge& edge : edges) {
         const double relative = editor_.relative_length(edge);
         if (relative <= (is_on_curve(edge) ? kTooLongOfCurve : kTooLong)) continue;
         longest.emplace_back(-relative, edge);
       }
-      if (longest.empty()) return;
       std::ranges::sort(longest);
       const LocalIndex first_new = surface_.num_vertices();
       for (const auto& [relative, edge] : longest) {
@@ -183,28 +182,28 @@ class Remesher {
         });
         if (is_first) editor_.split(edge);
       }
-      flip_edges();
-    }
+      if (!longest.empty()) flip_edges();
+      return longest.size();
+    });
   }
 
   void collapse_short_edges()
   {
-    for (int i = 0; i < kMostSweeps; ++i) {
+    sweep(kMostSweeps, collapsed_since_, [this](const std::vector<Edge>& edges) {
       std::vector<std::pair<double, Edge>> shortest;
-      for (const Edge& edge : next_edges(collapsed_since_)) {
+      for (const Edge& edge : edges) {
         const double relative = editor_.relative_length(edge);
         if (relative >= (is_on_curve(edge) ? kTooShortOfCurve : kTooShort)) continue;
         shortest.emplace_back(relative, edge);
       }
       std::ranges::sort(shortest);
-      const auto count = std::ranges::count_if(shortest, [this](const auto& one) {
+      return std::ranges::count_if(shortest, [this](const auto& one) {
         const auto [a, b] = one.second;
         if (!surface_.is_vertex(a) || !surface_.is_vertex(b) || !surface_.has_edge(a, b))
           return false;
         return collapse(a, b) || collapse(b, a);
       });
-      if (count == 0) return;
-    }
+    });
   }
 
   bool collapse(LocalIndex gone, LocalIndex kept)

@@ -23,6 +23,13 @@ struct ShapeLabel {
 /// @brief Labels of faces and solids; a shape and its reverse are the same key.
 using ShapeNames = NCollection_DataMap<TopoDS_Shape, ShapeLabel, TopTools_ShapeMapHasher>;
 
+/// @brief What they say of a face, an edge or a solid; an empty label if they do not know it.
+[[nodiscard]] inline ShapeLabel label_in(const ShapeNames& names, const TopoDS_Shape& part)
+{
+  const ShapeLabel* const label = names.Seek(part);
+  return label != nullptr ? *label : ShapeLabel();
+}
+
 /// @brief What a STEP, IGES or BREP file holds, coordinates in the file's own length unit.
 struct CadFile {
   TopoDS_Shape shape{};

@@ -102,11 +102,7 @@ model::SolidPair pair_of(const Shapes& solids, std::size_t one, std::size_t othe
   model::SolidPair pair;
   const auto [low, high] = std::minmax(one, other);
   pair.numbers = {static_cast<LocalIndex>(low) + 1, static_cast<LocalIndex>(high) + 1};
-  const auto name = [&](std::size_t row) {
-    const ShapeLabel* const label = names.Seek(solids[row]);
-    return label == nullptr ? std::string() : label->name;
-  };
-  pair.names = {name(low), name(high)};
+  pair.names = {label_in(names, solids[low]).name, label_in(names, solids[high]).name};
   return pair;
 }
 

@@ -10,9 +10,7 @@
 
 #include <BRep_Builder.hxx>
 #include <NCollection_DataMap.hxx>
-#include <TopExp_Explorer.hxx>
 #include <TopTools_ShapeMapHasher.hxx>
-#include <TopoDS_Compound.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <fmt/format.h>
 
@@ -28,21 +26,11 @@ namespace {
 using Rows = std::vector<std::size_t>;
 using RowPairs = std::set<std::pair<std::size_t, std::size_t>>;  // Both orders.
 
-Shapes solids_of(const TopoDS_Shape& shape)
-{
-  Shapes solids;
-  for (TopExp_Explorer each(shape, TopAbs_SOLID); each.More(); each.Next()) {
-    solids.push_back(each.Current());
-  }
-  return solids;
-}
-
 std::vector<std::string> names_of(const Shapes& solids, const ShapeNames& names)
 {
   std::vector<std::string> all;
   for (const TopoDS_Shape& solid : solids) {
-    const ShapeLabel* const label = names.Seek(solid);
-    all.push_back(label == nullptr ? "" : label->name);
+    all.push_back(label_in(names, solid).name);
   }
   return all;
 }
@@ -179,15 +167,11 @@ class Copies {
 
 std::size_t count_common_faces(const Shapes& solids, const RowPairs& pairs)
 {
-  NCollection_DataMap<TopoDS_Shape, std::size_t, TopTools_ShapeMapHasher> first_with;
+  PartOwners owners;
   std::size_t number = 0;
   for (std::size_t row = 0; row < solids.size(); ++row) {
     for (const TopoDS_Shape& face : parts_of(solids[row], TopAbs_FACE)) {
-      if (const std::size_t* const first = first_with.Seek(face)) {
-        if (pairs.contains({*first, row})) ++number;
-      } else {
-        first_with.Bind(face, row);
-      }
+      if (pairs.contains({owners.first_with(face, row), row})) ++number;
     }
   }
   return number;
@@ -198,16 +182,15 @@ std::size_t count_common_faces(const Shapes& solids, const RowPairs& pairs)
 void keep_apart(const std::vector<model::Contact>& contacts, CadFile& cad)
 {
   if (contacts.empty()) return;
-  const Shapes solids = solids_of(cad.shape);
+  const Shapes solids = parts_of(cad.shape, TopAbs_SOLID);
   const RowPairs pairs = pairs_of(contacts, names_of(solids, cad.names));
   const std::size_t num_faces = count_common_faces(solids, pairs);
   Copies copies(solids, pairs, cad.names);
-  TopoDS_Compound apart;
-  BRep_Builder().MakeCompound(apart);
+  Shapes apart;
   for (std::size_t row = 0; row < solids.size(); ++row) {
-    BRep_Builder().Add(apart, copies.for_solid(solids[row], row));
+    apart.push_back(copies.for_solid(solids[row], row));
   }
-  cad.shape = apart;
+  cad.shape = compound_of(apart);
   cad.repairs.push_back(
       num_faces == 0
           ? "solids of [[geometry.contact]] have no face in common, so that none was doubled"

@@ -34,12 +34,6 @@ struct StoredContent {
   }
 };
 
-ShapeLabel label_in(const ShapeNames& names, const TopoDS_Shape& part)
-{
-  const ShapeLabel* label = names.Seek(part);
-  return label != nullptr ? *label : ShapeLabel();
-}
-
 }  // namespace
 
 Bytes occ_content(const CadFile& cad)

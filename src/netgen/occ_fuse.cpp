@@ -12,9 +12,7 @@
 #include <BRep_Builder.hxx>
 #include <GProp_GProps.hxx>
 #include <Message_Report.hxx>
-#include <NCollection_DataMap.hxx>
 #include <TopTools_MapOfShape.hxx>
-#include <TopTools_ShapeMapHasher.hxx>
 
 #include "tessera/base/repair.hpp"
 #include "tessera/base/union_find.hpp"
@@ -29,11 +27,6 @@ using Fuse = BRepAlgoAPI_BuilderAlgo;
 // Gaps and overlaps that count as touching, in thinnest ones: what OpenCASCADE takes by itself;
 // wider ones only where solids would be cut into films, or gaps are to be closed.
 constexpr std::array<double, 4> kFuseGaps{0.0, 0.1, 1.0, 10.0};
-
-int count_solids(const TopoDS_Shape& shape)
-{
-  return static_cast<int>(parts_of(shape, TopAbs_SOLID).size());
-}
 
 // Whether solids were cut where they overlap by next to nothing.
 bool left_films(const TopoDS_Shape& fused, int num_given, double thinnest)
@@ -69,7 +62,9 @@ Shapes images_of(const TopoDS_Shape& solid, Fuse& fuse)
 // Whether nothing was lost. Fewer solids than were given are right if some are the same.
 bool keeps_all(const Shapes& solids, Fuse& fuse)
 {
-  if (count_solids(fuse.Shape()) >= count_solids(compound_of(solids))) return true;
+  if (count_of(fuse.Shape(), TopAbs_SOLID) >= count_of(compound_of(solids), TopAbs_SOLID)) {
+    return true;
+  }
   constexpr double kLoss = 1e-3;
   return std::ranges::all_of(solids, [&](const TopoDS_Shape& solid) {
     double volume = 0.0;
@@ -81,7 +76,7 @@ bool keeps_all(const Shapes& solids, Fuse& fuse)
 // With the least gap that leaves no films; null if that fails.
 std::unique_ptr<Fuse> fuse_without_films(const Shapes& solids, const Nearness& nearness)
 {
-  const int num_given = count_solids(compound_of(solids));
+  const int num_given = count_of(compound_of(solids), TopAbs_SOLID);
   std::unique_ptr<Fuse> fuse;
   for (const double gap : kFuseGaps) {
     if (nearness.closes_gaps && gap < 1.0) continue;
@@ -96,20 +91,6 @@ std::unique_ptr<Fuse> fuse_without_films(const Shapes& solids, const Nearness& n
   const bool is_whole = !fuse->HasErrors() && keeps_all(solids, *fuse);
   return is_whole ? std::move(fuse) : nullptr;
 }
-
-// Which solid was the first to come with a part.
-class PartOwners {
- public:
-  std::size_t first_with(const TopoDS_Shape& part, std::size_t solid)
-  {
-    if (const std::size_t* const first = owner_.Seek(part)) return *first;
-    owner_.Bind(part, solid);
-    return solid;
-  }
-
- private:
-  NCollection_DataMap<TopoDS_Shape, std::size_t, TopTools_ShapeMapHasher> owner_{};
-};
 
 // The lowest number of the solids with which each hangs together by common faces or parts.
 std::vector<std::size_t> groups_of(const Shapes& solids, Fuse& fuse, double thinnest)
@@ -183,6 +164,13 @@ std::optional<FusedSolids> fused_by_groups(const Shapes& solids,
 }
 
 }  // namespace
+
+std::size_t PartOwners::first_with(const TopoDS_Shape& part, std::size_t solid)
+{
+  if (const std::size_t* const first = owner_.Seek(part)) return *first;
+  owner_.Bind(part, solid);
+  return solid;
+}
 
 TopTools_ListOfShape FusedSolids::images_of(const TopoDS_Shape& part) const
 {

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <NCollection_DataMap.hxx>
 #include <TopTools_ListOfShape.hxx>
+#include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shape.hxx>
 
@@ -29,6 +31,16 @@ struct FusedSolids {
 
   /// @brief Pairs of faces that OpenCASCADE could not intersect.
   [[nodiscard]] int num_failed_pairs() const;
+};
+
+/// @brief Which solid was the first to come with a part.
+class PartOwners {
+ public:
+  /// @brief That solid: the given one if the part is new.
+  std::size_t first_with(const TopoDS_Shape& part, std::size_t solid);
+
+ private:
+  NCollection_DataMap<TopoDS_Shape, std::size_t, TopTools_ShapeMapHasher> owner_{};
 };
 
 /// @brief How near is no gap and no overlap, but rounding. File length unit.

@@ -15,11 +15,9 @@
 #include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <NCollection_DataMap.hxx>
 #include <Precision.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
-#include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS.hxx>
 #include <gp_Pnt.hxx>
 
@@ -148,17 +146,13 @@ class NearSearch {
 // Without strips.
 std::map<RowPair, double> common_areas(const Shapes& solids, const FusedSolids& fused, double gap)
 {
-  NCollection_DataMap<TopoDS_Shape, std::size_t, TopTools_ShapeMapHasher> first_with;
+  PartOwners owners;
   std::map<RowPair, double> areas;
   for (std::size_t row = 0; row < solids.size(); ++row) {
     for (const TopoDS_Shape& part : fused.solids_of(solids[row])) {
       for (const TopoDS_Shape& face : parts_of(part, TopAbs_FACE)) {
-        const std::size_t* const first = first_with.Seek(face);
-        if (first == nullptr) {
-          first_with.Bind(face, row);
-        } else if (*first != row && !is_strip(face, gap)) {
-          areas[{*first, row}] += area_of(face);
-        }
+        const std::size_t first = owners.first_with(face, row);
+        if (first != row && !is_strip(face, gap)) areas[{first, row}] += area_of(face);
       }
     }
   }
@@ -174,10 +168,9 @@ std::vector<model::ClosedGap> close_gaps(const Shapes& solids, double gap, const
   const NearPairs near = NearSearch(solids, fused, gap).run();
   if (near.empty()) return {};
   auto closed = fuse_at_faces(solids, {.thinnest = gap, .closes_gaps = true});
-  const auto num_solids = [](const FusedSolids& of) {
-    return parts_of(of.shape, TopAbs_SOLID).size();
-  };
-  if (!closed || num_solids(*closed) != num_solids(fused)) return {};
+  if (!closed || count_of(closed->shape, TopAbs_SOLID) != count_of(fused.shape, TopAbs_SOLID)) {
+    return {};
+  }
   std::map<RowPair, double> before = common_areas(solids, fused, gap);
   std::map<RowPair, double> after = common_areas(solids, *closed, gap);
   std::vector<model::ClosedGap> gaps;

@@ -39,8 +39,6 @@ bool any_boxes_touch(const Shapes& solids, double gap)
   return false;
 }
 
-std::size_t count_solids(const TopoDS_Shape& shape) { return parts_of(shape, TopAbs_SOLID).size(); }
-
 struct CommonFaces {
   std::size_t number = 0;
   double area = 0.0;
@@ -153,8 +151,8 @@ class Gluing {
 
   TopoDS_Shape result_of(const FusedSolids& fused)
   {
-    const std::size_t num_given = count_solids(apart_);
-    const std::size_t num_solids = count_solids(fused.shape);
+    const int num_given = count_of(apart_, TopAbs_SOLID);
+    const int num_solids = count_of(fused.shape, TopAbs_SOLID);
     const CommonFaces common = common_faces_of(fused.shape);
     cad_.assembly.tolerance = common.tolerance;
     if (num_solids == num_given && common.number == common_faces_of(apart_).number) return apart_;

@@ -34,11 +34,6 @@ namespace {
 // Sewing gaps that are tried, in fractions of the box diagonal; a wider gap is no rounding.
 constexpr std::array<double, 4> kSewingGaps{1e-6, 1e-5, 1e-4, 1e-3};
 
-int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind)
-{
-  return static_cast<int>(parts_of(shape, kind).size());
-}
-
 std::string counted(int number, const std::string& thing)
 {
   return fmt::format("{} {}{}", number, thing, number == 1 ? "" : "s");
@@ -53,7 +48,7 @@ std::string contents_of(const TopoDS_Shape& shape)
                                                                        {TopAbs_EDGE, "edge"},
                                                                        {TopAbs_VERTEX, "point"}}};
   for (const auto& [kind, name] : kinds) {
-    const int number = count(shape, kind);
+    const int number = count_of(shape, kind);
     if (number == 0) continue;
     text += (text.empty() ? "" : ", ") + counted(number, name);
     if (kind == TopAbs_FACE) break;
@@ -122,7 +117,7 @@ std::vector<TopoDS_Shape> solids_from_faces(const TopoDS_Shape& faces, CadFile& 
         fmt::format("no closed solid: sewn with gap {:g}, {} of {} bound one face only, the first "
                     "at {}; close the gaps in the CAD program",
                     sewn.gap, counted(sewn.num_open_edges, "edge"),
-                    counted(count(faces, TopAbs_FACE), "face"), sewn.first_open_edge));
+                    counted(count_of(faces, TopAbs_FACE), "face"), sewn.first_open_edge));
   }
   std::vector<TopoDS_Shape> solids;
   for (const TopoDS_Shape& shell : sewn.closed_shells) {
@@ -130,7 +125,7 @@ std::vector<TopoDS_Shape> solids_from_faces(const TopoDS_Shape& faces, CadFile& 
   }
   note_repair(Repair::sewn_faces, static_cast<GlobalIndex>(solids.size()));
   std::string line =
-      fmt::format("sewed {} with gap {:g} into {}", counted(count(faces, TopAbs_FACE), "face"),
+      fmt::format("sewed {} with gap {:g} into {}", counted(count_of(faces, TopAbs_FACE), "face"),
                   sewn.gap, counted(static_cast<int>(solids.size()), "solid"));
   if (sewn.num_open_shells > 0) {
     line += fmt::format("; left out {}", counted(sewn.num_open_shells, "open shell"));
@@ -210,7 +205,7 @@ std::vector<TopoDS_Shape> healed(const TopoDS_Shape& given, int number, CadFile&
   }
   if (closed.empty()) {
     cad.repairs.push_back(fmt::format("{} {}", name, was));
-    return solids_from_faces(count(better, TopAbs_FACE) > 0 ? better : solid, cad);
+    return solids_from_faces(count_of(better, TopAbs_FACE) > 0 ? better : solid, cad);
   }
   note_repair(Repair::fixed_shapes);
   cad.repairs.push_back(fmt::format("{} {}; its wires, faces and shells were fixed{}", name, was,
@@ -261,10 +256,10 @@ std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
   std::vector<TopoDS_Shape> given = parts_of(cad.shape, TopAbs_SOLID);
   tell_of_doubles(cad, given.size());
   const auto num_empty = std::erase_if(
-      given, [](const TopoDS_Shape& solid) { return count(solid, TopAbs_FACE) == 0; });
+      given, [](const TopoDS_Shape& solid) { return count_of(solid, TopAbs_FACE) == 0; });
   if (num_empty > 0) cad.repairs.emplace_back("solids without faces were left out");
   if (given.empty()) {
-    if (count(cad.shape, TopAbs_FACE) == 0) {
+    if (count_of(cad.shape, TopAbs_FACE) == 0) {
       throw GeometryError(fmt::format(
           "no solid and no face to make one of; the file holds {}: export the model as a solid",
           contents_of(cad.shape)));

@@ -21,6 +21,11 @@ std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum k
   return {map.cbegin(), map.cend()};
 }
 
+int count_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind)
+{
+  return static_cast<int>(parts_of(shape, kind).size());
+}
+
 double box_diagonal_of(const TopoDS_Shape& shape)
 {
   Bnd_Box box;

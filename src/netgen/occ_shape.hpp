@@ -12,6 +12,9 @@ namespace tessera::netgen {
 /// surfaces (faces) and curves (edges).
 [[nodiscard]] std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind);
 
+/// @brief How many different parts of a kind there are.
+[[nodiscard]] int count_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind);
+
 /// @brief Diagonal of the bounding box, from the geometry alone: a triangulation that a mesher left
 /// on the shape does not change it.
 [[nodiscard]] double box_diagonal_of(const TopoDS_Shape& shape);
