@@ -4,6 +4,9 @@ include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
 install(TARGETS tessera EXPORT tesseraTargets)
+if(TARGET tessera_netgen_library)  # Loaded, never linked: without the link for developers.
+  install(TARGETS tessera_netgen_library LIBRARY NAMELINK_SKIP)
+endif()
 install(DIRECTORY include/tessera TYPE INCLUDE FILES_MATCHING PATTERN "*.hpp")
 if(TARGET tessera_program)
   install(TARGETS tessera_program)

@@ -376,6 +376,7 @@ void keep_heap()
 std::unique_ptr<jobs::Worker> make_mesh_worker()
 {
   keep_heap();
+  netgen::load_library();
   return std::make_unique<MeshWorker>();
 }
 

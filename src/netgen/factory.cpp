@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/netgen/factory.hpp"
 
-#include <algorithm>
-#include <array>
-#include <fstream>
 #include <set>
-#include <string_view>
-
-#include <fmt/format.h>
+#include <utility>
 
 #include "tessera/base/error.hpp"
-#include "tessera/model/options.hpp"
 
+#include "netgen/door.hpp"
+#include "netgen/fill_kernel.hpp"
 #include "netgen/gmsh_mesher.hpp"
 #include "netgen/loaded_model.hpp"
+#include "netgen/model_file.hpp"
+#include "netgen/skin_overlap.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -21,74 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using model::ImportOptions;
 using model::ModelSource;
-
-struct FileKind {
-  std::string_view extension;  // Lower case.
-  ModelSource (*import)(const fs::path& file, const ImportOptions& options, StepReader reader);
-};
-
-constexpr FileKind kFileKinds[] = {
-    {".geo",
-     [](const fs::path& file, const ImportOptions&, StepReader) { return import_csg(file); }},
-    {".stl", import_stl},
-    {".step", import_occ},
-    {".stp", import_occ},
-    {".iges", import_occ},
-    {".igs", import_occ},
-    {".brep", import_occ},
-    {".msh", import_own_mesh},
-    {".vol", import_own_mesh},
-    {".vtu", import_own_mesh},
-};
-
-[[noreturn]] void throw_unknown_kind(const fs::path& file)
-{
-  std::string allowed;
-  for (const FileKind& kind : kFileKinds) {
-    allowed += (allowed.empty() ? "" : " ") + std::string(kind.extension);
-  }
-  throw InputError(
-      fmt::format("{}: not a kind of CAD file that is known by its extension; known are {}",
-                  file.string(), allowed));
-}
-
-const FileKind* find_kind(const fs::path& file)
-{
-  const auto* const kind =
-      std::ranges::find(kFileKinds, model::lower_case_extension(file), &FileKind::extension);
-  return kind == std::ranges::end(kFileKinds) ? nullptr : kind;
-}
-
-const FileKind& kind_of(const fs::path& file)
-{
-  const FileKind* const kind = find_kind(file);
-  if (kind == nullptr) throw_unknown_kind(file);
-  return *kind;
-}
-
-// Says what is wrong before a reader of NETGEN or OpenCASCADE, whose words help less, sees the
-// file.
-void require_readable(const fs::path& file)
-{
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) {
-    throw InputError(file.string() + ": no such file; check geometry.file, which is relative to the "
-                     "case file's folder");
-  }
-  if (status.type() == fs::file_type::directory) {
-    throw InputError(file.string() + ": is a folder; name a CAD file in it");
-  }
-  if (fs::is_other(status) && status.type() != fs::file_type::unknown) {
-    throw InputError(file.string() + ": is a pipe or a device; name a CAD file");
-  }
-  if (!std::ifstream(file, std::ios::binary)) {
-    throw InputError(file.string() + ": cannot be read; check its permissions");
-  }
-  if (fs::file_size(file, error) == 0 && !error) {
-    throw InputError(file.string() + ": is empty; export the model again");
-  }
-}
 
 // What load_model() made, seen as a mesher; the model stays the caller's.
 class MesherOfModel final : public coarse::CoarseMesher {
@@ -130,26 +60,71 @@ const LoadedModel& loaded(const model::Model& model)
   return *loaded;
 }
 
+class NetgenDoor final : public Door {
+ public:
+  [[nodiscard]] ModelSource import_model(const fs::path& file, const ImportOptions& options,
+                                         StepReader reader) const override
+  {
+    require_model_file(file);
+    switch (format_of(file)) {
+      case model::Format::csg:
+        return import_csg(file);
+      case model::Format::stl:
+        return import_stl(file, options, reader);
+      case model::Format::own:
+        return import_own_mesh(file, options, reader);
+      default:
+        return import_occ(file, options, reader);
+    }
+  }
+
+  [[nodiscard]] std::unique_ptr<model::Model> load_model(const ModelSource& source) const override
+  {
+    return load_any_model(source);
+  }
+
+  [[nodiscard]] model::ModelDescription describe_model(const model::Model& model,
+                                                       coarse::SurfaceMesher mesher) const override
+  {
+    return loaded(model).describe(mesher);
+  }
+
+  [[nodiscard]] coarse::ModelFigures measure_model(const model::Model& model) const override
+  {
+    return loaded(model).figures();
+  }
+
+  void name_curves(const model::Model& model, mesh::CoarseMesh& mesh) const override
+  {
+    const std::set<LocalIndex> curves(mesh.segment_curve.begin(), mesh.segment_curve.end());
+    mesh.curves.clear();
+    for (const LocalIndex curve : curves) {
+      if (curve != kNoIndex) mesh.curves.push_back(loaded(model).named_curve(curve));
+    }
+  }
+
+  [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(
+      const model::Model& model) const override
+  {
+    return std::make_unique<MesherOfModel>(loaded(model));
+  }
+
+  [[nodiscard]] std::unique_ptr<fill::Kernel> make_fill_kernel() const override
+  {
+    return make_netgen_kernel();
+  }
+
+  [[nodiscard]] bool skin_overlaps(const fill::FillInput& skin) const override
+  {
+    return cuts_itself(skin);
+  }
+};
+
 }  // namespace
 
 void LoadedModel::write_brep(const fs::path& /*file*/) const
 {
   throw ConfigError("coarse.mesher = \"gmsh\" is for .step, .iges and .brep; leave it out");
-}
-
-void require_model_file(const fs::path& file)
-{
-  static_cast<void>(kind_of(file));
-  require_readable(file);
-}
-
-bool is_model_name(const fs::path& file) { return find_kind(file) != nullptr; }
-
-model::ModelSource import_model(const fs::path& file, const ImportOptions& options,
-                                StepReader reader)
-{
-  require_model_file(file);
-  return kind_of(file).import(file, options, reader);
 }
 
 std::unique_ptr<LoadedModel> load_any_model(const ModelSource& source)
@@ -168,30 +143,10 @@ std::unique_ptr<LoadedModel> load_any_model(const ModelSource& source)
   }
 }
 
-std::unique_ptr<model::Model> load_model(const ModelSource& source)
-{
-  return load_any_model(source);
-}
-
-coarse::ModelFigures measure_model(const model::Model& model) { return loaded(model).figures(); }
-
-model::ModelDescription describe_model(const model::Model& model, coarse::SurfaceMesher mesher)
-{
-  return loaded(model).describe(mesher);
-}
-
-void name_curves(const model::Model& model, mesh::CoarseMesh& mesh)
-{
-  const std::set<LocalIndex> curves(mesh.segment_curve.begin(), mesh.segment_curve.end());
-  mesh.curves.clear();
-  for (const LocalIndex curve : curves) {
-    if (curve != kNoIndex) mesh.curves.push_back(loaded(model).named_curve(curve));
-  }
-}
-
-std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(const model::Model& model)
-{
-  return std::make_unique<MesherOfModel>(loaded(model));
-}
-
 }  // namespace tessera::netgen
+
+const tessera::netgen::Door* tessera_netgen_door()
+{
+  static const tessera::netgen::NetgenDoor door;
+  return &door;
+}

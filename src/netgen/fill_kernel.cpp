@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "netgen/fill_kernel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +11,6 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
-#include "tessera/netgen/factory.hpp"
 
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
@@ -187,6 +188,6 @@ class FillKernel final : public fill::Kernel {
 
 }  // namespace
 
-std::unique_ptr<fill::Kernel> make_fill_kernel() { return std::make_unique<FillKernel>(); }
+std::unique_ptr<fill::Kernel> make_netgen_kernel() { return std::make_unique<FillKernel>(); }
 
 }  // namespace tessera::netgen

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <meshing.hpp>
+#include "netgen/skin_overlap.hpp"
 
-#include "tessera/netgen/factory.hpp"
+#include <meshing.hpp>
 
 #include "netgen/netgen_session.hpp"
 #include "netgen/skin_mesh.hpp"
 
 namespace tessera::netgen {
 
-bool skin_overlaps(const fill::FillInput& skin)
+bool cuts_itself(const fill::FillInput& skin)
 {
   NetgenSession session{::netgen::MeshingParameters()};
   return session.run("overlap test", [&] {

@@ -15,6 +15,8 @@ namespace {
 
 }  // namespace
 
+void load_library() {}  // There is none.
+
 void require_model_file(const std::filesystem::path& /*file*/) { refuse(); }
 
 bool is_model_name(const std::filesystem::path& /*file*/) { return false; }

@@ -12,9 +12,14 @@
 #include "tessera/model/model.hpp"
 
 /// The only door to NETGEN and OpenCASCADE; free of their types. Everything behind it may crash,
-/// exit or hang, so the program calls it in jobs only, unless it says otherwise. In a build without
-/// NETGEN everything but is_model_name() and netgen_version() throws ConfigError.
+/// exit or hang, so the program calls it in jobs only, unless it says otherwise. It stands in a
+/// library of its own, which the first call loads: MPI's ranks never do. In a build without NETGEN
+/// everything but load_library(), is_model_name() and netgen_version() throws ConfigError.
 namespace tessera::netgen {
+
+/// @brief Loads that library now, so that processes that are forked from this one need not. Local.
+/// @throws ConfigError if it cannot be loaded; as does every call that needs it.
+void load_library();
 
 /// @brief Looks at a CAD file's name and kind, reads nothing and calls no library: for any process.
 /// @note Local. @throws InputError if the file is missing, unreadable, empty or of an unknown kind.
@@ -68,7 +73,8 @@ void name_curves(const model::Model& model, mesh::CoarseMesh& mesh);
 /// @note Local.
 [[nodiscard]] bool skin_overlaps(const fill::FillInput& skin);
 
-/// @brief NETGEN's version, e.g. "6.2.1905"; "none" in a build without NETGEN.
+/// @brief The version of NETGEN that this build was linked with, e.g. "6.2.1905"; "none" without
+/// NETGEN. Calls no library: for any process.
 [[nodiscard]] std::string netgen_version();
 
 }  // namespace tessera::netgen
