@@ -71,8 +71,8 @@ class PlanMaker {
   bool takes_tets(const subdomain::SubdomainRange& file)
   {
     const GlobalIndex num_tets = sum(file, &subdomain::PieceSummary::num_tets);
-    if (num_tets > kMostTetsOfAFile || num_tets_ + num_tets > kMostTets) return false;
-    num_tets_ += num_tets;
+    if (num_tets > kMostTetsOfAFile || plan_.num_tets + num_tets > kMostTets) return false;
+    plan_.num_tets += num_tets;
     return true;
   }
 
@@ -98,7 +98,6 @@ class PlanMaker {
   const MeshScene& scene_;
   bool has_all_;
   GlobalIndex triangles_a_face_;
-  GlobalIndex num_tets_ = 0;
   DrawingPlan plan_{};
 };
 

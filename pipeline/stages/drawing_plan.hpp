@@ -28,6 +28,7 @@ struct FileToDraw {
 /// on ranks or time.
 struct DrawingPlan {
   std::vector<FileToDraw> files{};       ///< Those that are needed, ascending.
+  GlobalIndex num_tets = 0;              ///< That are read.
   std::vector<LocalIndex> coarse_cut{};  ///< Ascending; subdomains whose tets would take too long.
   bool is_coarse_boundary = false;
   bool is_coarse_surface = false;

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,10 +25,15 @@ namespace tessera::pipeline {
 namespace {
 
 // Files are drawn in so many lots: no more ranks have canvases, of 20 MB. All of it is two seconds
-// of work of one core.
+// of work of one core. Canvases of a rank more cost as much as to read and draw so many tets.
 constexpr std::size_t kMostDrawing = 16;
+constexpr GlobalIndex kTetsOfALot = 50'000;
 
-std::size_t num_lots(const DrawingPlan& plan) { return std::min(plan.files.size(), kMostDrawing); }
+std::size_t num_lots(const DrawingPlan& plan)
+{
+  const auto worth = static_cast<std::size_t>(1 + plan.num_tets / kTetsOfALot);
+  return std::min({plan.files.size(), kMostDrawing, worth});
+}
 
 void draw_coarse(const RunResult& run, const subdomain::PartitionedMesh& cut,
                  const DrawingPlan& plan, MeshScene& scene)
@@ -108,18 +115,23 @@ Surface draw_files(const DrawingPlan& plan, MeshScene& scene, StageScope& stage,
   return joined(std::move(parts));
 }
 
-// On rank 0. Strip by strip: who has drawn nothing needs no canvas.
+// On rank 0, strip by strip. Who has drawn nothing has no canvas.
 void put_together(Canvas& canvas, const comm::Communicator& comm)
 {
   constexpr std::size_t kStrip = std::size_t{1} << 16;
   std::vector<std::uint64_t>& pixels = canvas.pixels();
   if (comm.rank() == 0) pixels.resize(canvas.num_pixels());
   for (std::size_t first = 0; first < canvas.num_pixels(); first += kStrip) {
-    std::vector<std::uint64_t> strip(std::min(kStrip, canvas.num_pixels() - first));
-    const auto begin = pixels.begin() + static_cast<std::ptrdiff_t>(pixels.empty() ? 0 : first);
-    if (!pixels.empty()) std::copy_n(begin, strip.size(), strip.begin());
-    comm.max_in_place(strip);
-    if (comm.rank() == 0) std::ranges::copy(strip, begin);
+    const std::size_t size = std::min(kStrip, canvas.num_pixels() - first);
+    std::span<std::uint64_t> mine;
+    if (!pixels.empty()) mine = std::span(pixels).subspan(first, size);
+    for (const Bytes& strip : comm.gather_to_root(std::as_bytes(mine))) {
+      for (std::size_t i = 0; i < strip.size() / sizeof(std::uint64_t); ++i) {
+        std::uint64_t pixel = 0;
+        std::memcpy(&pixel, &strip[i * sizeof pixel], sizeof pixel);
+        mine[i] = std::max(mine[i], pixel);
+      }
+    }
   }
 }
 

@@ -29,9 +29,6 @@ namespace {
 // signals that ask a program to stop: whoever holds one back holds it back for the whole process.
 Environment::Environment(int& argc, char**& argv)
 {
-  // A program that was started without mpirun needs no daemon of Open MPI, which takes longer to
-  // start than the program does. It would be for MPI_Comm_spawn.
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   const HeldSignals held{SIGINT, SIGTERM, SIGUSR1};
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
