@@ -1,5 +1,6 @@
-# `cpack -G DEB` in the build folder, when all is built: tessera_<version>_<architecture>.deb for the
-# Debian that it was built on.
+# In the build folder, when all is built. `cpack -G DEB`: tessera_<version>_<architecture>.deb for the
+# Debian that it was built on. `cpack -G TGZ`: a folder with all libraries, for any Linux whose glibc
+# is not older (PackageOptions.cmake, PortableFiles.cmake).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tessera)
 set(CPACK_PACKAGE_VENDOR "The Tessera authors")
@@ -10,6 +11,9 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_RESOURCE_FILE_README ${PROJECT_SOURCE_DIR}/README.md)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/DebianFiles.cmake)
+set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/cmake/PackageOptions.cmake)
+set(CPACK_TESSERA_LIBDIR ${CMAKE_INSTALL_LIBDIR})
+string(TOLOWER ${CMAKE_SYSTEM_NAME}-${CMAKE_SYSTEM_PROCESSOR} CPACK_TESSERA_PLATFORM)
 
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)

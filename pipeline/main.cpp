@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,7 @@
 #include "pipeline/front_door/session.hpp"
 #include "pipeline/jobs/test_fault.hpp"
 #include "pipeline/runtime/exit_code.hpp"
+#include "pipeline/runtime/installed.hpp"
 #include "pipeline/runtime/peer_watch.hpp"
 
 namespace tessera::pipeline {
@@ -91,12 +93,30 @@ ExitCode run_guarded(int argc, char** argv, const comm::Communicator& comm, jobs
   }
 }
 
+// Of a package with MPI inside. Ranks that another MPI has started would each be alone in it.
+bool can_use_mpi()
+{
+  const std::optional<std::filesystem::path> mpi = mpi_inside();
+  if (!mpi) return true;
+  if (is_rank_of_other_mpi(*mpi)) {
+    std::fputs(
+        "tessera: this package has an MPI inside, for one machine: start it with "
+        "tessera-mpirun, which is beside it. With the MPI of this machine or cluster, use "
+        "the package without MPI, or build from the sources\n",
+        stderr);
+    return false;
+  }
+  use_mpi_inside(*mpi);
+  return true;
+}
+
 }  // namespace
 }  // namespace tessera::pipeline
 
 int main(int argc, char** argv)
 {
   using namespace tessera;
+  if (!pipeline::can_use_mpi()) return static_cast<int>(pipeline::ExitCode::wrong_input);
   const Session session(argc, argv);
   session.catch_stop_signals();
   const pipeline::PeerWatch watch(pipeline::end_without_peer);  // Ends before MPI does.

@@ -6,10 +6,12 @@
 #include <fstream>
 #include <iterator>
 #include <span>
+#include <system_error>
 #include <vector>
 
 #include "pipeline/drawing/deflate.hpp"
 #include "pipeline/report/html.hpp"
+#include "pipeline/runtime/installed.hpp"
 
 namespace tessera::pipeline {
 
@@ -17,6 +19,9 @@ std::filesystem::path three_js_file()
 {
   const char* const named = std::getenv("TESSERA_THREE_JS");
   if (named != nullptr && *named != '\0') return named;
+  std::filesystem::path packed = install_prefix() / "share/tessera/three.min.js";
+  std::error_code failed;
+  if (std::filesystem::exists(packed, failed)) return packed;
   return "/usr/share/javascript/three/three.min.js";
 }
 

@@ -8,7 +8,7 @@
 namespace tessera::pipeline {
 
 /// @brief Where three.js is looked for: what the environment variable TESSERA_THREE_JS names, else
-/// the file of Debian's package libjs-three. Local.
+/// what was packed with the program, else the file of Debian's package libjs-three. Local.
 [[nodiscard]] std::filesystem::path three_js_file();
 
 /// @brief three.js as text for a page: deflated, in base64. Nothing if the file is not there.

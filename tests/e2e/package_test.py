@@ -68,6 +68,7 @@ class Package(program.ProgramTest):
         for file in ("libtessera.so", "cmake/tessera/tesseraConfig.cmake"):
             self.assertEqual(len([*self.usr.glob(f"lib/**/{file}")]), 1, file)
         self.assertEqual([entry.name for entry in self.usr.parent.iterdir()], ["usr"])
+        self.assertEqual([entry.name for entry in (self.usr / "bin").iterdir()], ["tessera"])
         for given in program.CONFIGS.rglob("*"):
             if given.is_file():
                 installed = self.usr / "share" / "tessera" / given.relative_to(program.CONFIGS)

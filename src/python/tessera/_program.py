@@ -23,7 +23,7 @@ _MESSAGE = re.compile(r"^tessera: (.*(?:\n  .*)*)", re.MULTILINE)
 # What mpirun tells its ranks. A program that is started from one of these must not take it for itself.
 _KEPT = ("OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM")
 _OF_MPIRUN = re.compile(
-    r"PMIX_|(OMPI|PRTE)_(?!MCA_)"
+    r"PMI_|PMIX_|(OMPI|PRTE)_(?!MCA_)"
     r"|OMPI_MCA_(orte_|ess|pmix|shmem_RUNTIME|mpi_oversubscribe|initial_wdir)"
     r"|OMPI_MCA_(PREFIXES|cpu_type|mca_base_component_path|num_procs)"  # Open MPI 5
 )
@@ -61,11 +61,13 @@ def _is_program(file: pathlib.Path) -> bool:
 
 
 def command_line(arguments: Sequence[str], ranks: int) -> list[str]:
-    """The program with its arguments, from two ranks on under mpirun."""
-    command = [str(find_program()), *arguments]
+    """The program with its arguments, from two ranks on under mpirun: its own, if it has MPI inside."""
+    program = find_program()
+    command = [str(program), *arguments]
     if ranks == 1:
         return command
-    mpirun = shutil.which("mpirun")
+    own = program.resolve().parent / "tessera-mpirun"
+    mpirun = str(own) if _is_program(own) else shutil.which("mpirun")
     if mpirun is None:
         raise ProgramNotFound("mpirun is not in PATH: install openmpi-bin, or mesh with ranks=1")
     # As pipeline/run: two runs on one machine would else share the first cores, and Open MPI counts cores
