@@ -18,12 +18,14 @@
 #include "tessera/io/files.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/jobs/this_process.hpp"
+#include "tessera/model/options.hpp"
 #include "tessera/netgen/factory.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
 
 #include "pipeline/estimate/disk_space.hpp"
 #include "pipeline/estimate/only_subdomains.hpp"
 #include "pipeline/estimate/output_plan.hpp"
+#include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/node_workers.hpp"
 #include "pipeline/predict/dry_run.hpp"
 #include "pipeline/predict/prediction_file.hpp"
@@ -134,7 +136,10 @@ class CaseRun {
       return work(context);
     } catch (const comm::ThrownOnAllRanks& thrown) {
       progress.clear();
-      if (comm_.rank() == 0) report_failure(thrown.error(), context);
+      if (comm_.rank() == 0) {
+        show_places(thrown.error(), context);
+        report_failure(thrown.error(), context);
+      }
       const ExitCode code = exit_code_of(thrown.error());
       if (code == ExitCode::stopped && is_mesh()) {
         throw comm::Collective<Interrupted>(std::string(thrown.error().what())
@@ -284,6 +289,19 @@ class CaseRun {
         .wall_time_s = run_figures.wall_time_s,
         .stages = context.times};
     return compare_with_prediction(given_.output.directory, PredictedRun(given_, run), actual);
+  }
+
+  // Of an STL file that could not be read or meshed, where that may be its own fault.
+  void show_places(const std::exception& error, RunContext& context) const
+  {
+    const ErrorKind kind = kind_of(error);
+    const bool is_of_model =
+        kind == ErrorKind::geometry || kind == ErrorKind::mesh || kind == ErrorKind::netgen;
+    const std::filesystem::path& file = given_.geometry.file;
+    const bool has_coarse_mesh = std::ranges::any_of(
+        context.times, [](const StageTime& time) { return time.name == "coarse"; });
+    if (!is_mesh() || !is_of_model || has_coarse_mesh) return;
+    if (model::lower_case_extension(file) == ".stl") keep_places(file, error.what(), context);
   }
 
   // The report of a run that has ended stays: it is what a refused --resume is judged by.

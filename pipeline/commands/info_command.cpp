@@ -9,18 +9,21 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/coarse/surface_places.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/model/options.hpp"
 #include "tessera/netgen/factory.hpp"
 
 #include "pipeline/commands/mesh_page.hpp"
 #include "pipeline/commands/model_info.hpp"
 #include "pipeline/commands/model_page.hpp"
-#include "pipeline/commands/model_picture.hpp"
+#include "pipeline/drawing/model_picture.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/report/places_page.hpp"
 #include "pipeline/runtime/run_context.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
 #include "pipeline/stages/model_stage.hpp"
@@ -79,6 +82,22 @@ model::ModelDescription describe(const model::ModelSource& source,
   return std::move(*description);
 }
 
+// A page, and no more, of an STL file that bounds no body: the error comes all the same.
+void write_places(const InfoCommand& command, const std::string& message, jobs::JobRunner& jobs)
+{
+  jobs::JobOutcome outcome =
+      jobs.run(places_request(command.file), kInfoLimits, wait_for_stop_signal());
+  const auto places = read_result(outcome, from_bytes<coarse::SurfacePlaces>);
+  if (!places || places->places.empty()) return;
+  if (command.html)
+    io::write_text_atomically(*command.html, places_page(command.file, message, *places));
+  if (command.picture) {
+    const Bytes png = to_png(places_picture(*places));
+    io::write_text_atomically(*command.picture,
+                              {reinterpret_cast<const char*>(png.data()), png.size()});
+  }
+}
+
 std::string describe_model(const InfoCommand& command, jobs::JobRunner& jobs)
 {
   const model::ModelSource source = read_source(command.file, jobs);
@@ -93,6 +112,17 @@ std::string describe_model(const InfoCommand& command, jobs::JobRunner& jobs)
                       : model_text(source, description, command.edges);
 }
 
+std::string describe_any_model(const InfoCommand& command, jobs::JobRunner& jobs)
+{
+  try {
+    return describe_model(command, jobs);
+  } catch (const GeometryError& error) {
+    const bool is_stl = model::lower_case_extension(command.file) == ".stl";
+    if (is_stl && (command.html || command.picture)) write_places(command, error.what(), jobs);
+    throw;
+  }
+}
+
 std::string describe(const InfoCommand& command, jobs::JobRunner& jobs)
 {
   const std::filesystem::path& file = command.file;
@@ -102,7 +132,7 @@ std::string describe(const InfoCommand& command, jobs::JobRunner& jobs)
   }
   const std::string extension = file.extension().string();
   const bool is_mesh = extension == ".pvtu" || extension == ".vtu";
-  if (!is_mesh && extension != ".toml") return describe_model(command, jobs);
+  if (!is_mesh && extension != ".toml") return describe_any_model(command, jobs);
   if (command.edges || command.json || command.picture) {
     throw ConfigError(file.string() + ": --edges, --json and --picture are for CAD models");
   }

@@ -20,6 +20,7 @@
 #include "tessera/io/vtu.hpp"
 
 #include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/report/places_page.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -211,6 +212,23 @@ void keep_meshes_of_failed_region(const fs::path& kept,
   try_to_keep(context, [&] {
     write_coarse(kept.parent_path() / "coarse.vtu", coarse, decomposition);
     write_region(kept / "region.vtu", extract());
+  });
+}
+
+void keep_places(const fs::path& file, const std::string& message, RunContext& context)
+{
+  jobs::JobOutcome outcome =
+      context.jobs.run(places_request(file), kSkinLimits, wait_for_stop_signal());
+  const auto places = read_result(outcome, from_bytes<coarse::SurfacePlaces>);
+  if (!places || places->places.empty()) return;
+  try_to_keep(context, [&] {
+    const fs::path failure = context.folder / "failure";
+    io::make_own_folder(failure);
+    io::write_vtu(places_arrays(*places), failure / "places.vtu", io::Compression::none);
+    io::write_text_atomically(failure / "places.png", text_of(to_png(places_picture(*places))));
+    io::write_text_atomically(failure / "places.html", places_page(file, message, *places));
+    context.log.info("failure: {}: see {}", places_text(*places),
+                     (failure / "places.html").string());
   });
 }
 

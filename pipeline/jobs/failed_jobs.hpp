@@ -52,6 +52,13 @@ void keep_meshes_of_failed_region(const std::filesystem::path& kept,
                                   const mesh::CoarseMesh& coarse,
                                   const mesh::Decomposition& decomposition, RunContext& context);
 
+/// @brief Of a run whose STL file bounds no body: DIR/failure/places.vtu, .png and .html, which
+/// show where. A job finds the places; if there are none, nothing is written. Local; warns as
+/// keep_failed_job().
+/// @param[in] message Why the run failed.
+void keep_places(const std::filesystem::path& file, const std::string& message,
+                 RunContext& context);
+
 /// @brief Reads a kept job. Local.
 /// @throws InputError naming the file: missing, truncated, of another version of the program.
 [[nodiscard]] RecordedJob read_failed_job(const std::filesystem::path& folder);

@@ -17,8 +17,11 @@
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/coarse/optimize_interior.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
+#include "tessera/coarse/surface_places.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/model/scaled_model.hpp"
+#include "tessera/model/stl_file.hpp"
+#include "tessera/model/triangle_surface.hpp"
 #include "tessera/netgen/factory.hpp"
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
@@ -121,6 +124,11 @@ class MeshWorker final : public jobs::Worker {
     fail_if_asked("import", static_cast<LocalIndex>(request.reader));
     return garbled_if_asked(
         "import", to_bytes(netgen::import_model(request.file, request.options, request.reader)));
+  }
+
+  [[nodiscard]] static Bytes answer(const PlacesRequest& request)
+  {
+    return to_bytes(coarse::find_places(model::welded_surface(model::read_stl(request.file))));
   }
 
   [[nodiscard]] Bytes answer(const BoxRequest& /*request*/) const

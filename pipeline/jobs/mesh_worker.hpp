@@ -65,6 +65,10 @@ namespace tessera::pipeline {
                                    const model::ImportOptions& options,
                                    netgen::StepReader reader = netgen::StepReader::with_names);
 
+/// @brief run: where the triangles of an STL file bound no body; result: bytes of a
+/// coarse::SurfacePlaces. Needs no load.
+[[nodiscard]] Bytes places_request(const std::filesystem::path& file);
+
 /// @brief run: result: the diagonal of the model's box, output length unit, a double. Needs the
 /// model.
 [[nodiscard]] Bytes box_request();

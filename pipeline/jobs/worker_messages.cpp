@@ -44,6 +44,11 @@ Bytes import_request(const std::filesystem::path& file, const model::ImportOptio
   return to_bytes(Request(ImportRequest{file.string(), options, reader}));
 }
 
+Bytes places_request(const std::filesystem::path& file)
+{
+  return to_bytes(Request(PlacesRequest{file.string()}));
+}
+
 Bytes box_request() { return to_bytes(Request(BoxRequest{})); }
 
 double box_diagonal_from_bytes(std::span<const std::byte> result)

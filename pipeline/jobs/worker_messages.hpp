@@ -152,8 +152,15 @@ struct SkinRequest {
   static auto fields(auto& self) { return std::tie(self.subdomain); }
 };
 
-using Request = std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDomainRequest,
-                             CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
-                             RefineTask, SkinRequest, DescribeRequest, FiguresRequest>;
+struct PlacesRequest {
+  std::string file{};
+
+  static auto fields(auto& self) { return std::tie(self.file); }
+};
+
+using Request =
+    std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDomainRequest,
+                 CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest, RefineTask,
+                 SkinRequest, DescribeRequest, FiguresRequest, PlacesRequest>;
 
 }  // namespace tessera::pipeline

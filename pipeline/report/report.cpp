@@ -22,6 +22,7 @@
 #include "pipeline/report/repairs_json.hpp"
 #include "pipeline/report/sharp_json.hpp"
 #include "pipeline/report/size_warning.hpp"
+#include "pipeline/report/wrap_json.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 
@@ -134,12 +135,15 @@ Json warnings_json(const RunResult& run)
   return warnings;
 }
 
-Json model_json(const model::ModelSource& model)
+Json model_json(const RunResult& run)
 {
-  return {{"repairs", model.repairs},
-          {"length_unit", model.length_unit},
-          {"assembly", assembly_json(model.assembly)},
-          {"digest", to_hex(hash_bytes(model.content))}};
+  const model::ModelSource& model = run.model;
+  Json json{{"repairs", model.repairs},
+            {"length_unit", model.length_unit},
+            {"assembly", assembly_json(model.assembly)},
+            {"digest", to_hex(hash_bytes(model.content))}};
+  if (model.wrap.is_any()) json["wrap"] = wrap_json(model.wrap, run.resolved.geometry.scale);
+  return json;
 }
 
 Json decompose_json(const RunResult& run)
@@ -337,6 +341,9 @@ Verdict judge(const RunResult& run)
         "help",
         run.num_straightened, held_back));
   }
+  if (run.model.wrap.is_any()) {
+    verdict.reasons.push_back(wrap_reason(run.model.wrap, run.resolved.geometry.scale));
+  }
   if (misses_sizes(run.coarse)) verdict.reasons.push_back(*size_warning(run.coarse));
   if (const coarse::VertexDistance& off = run.coarse.distance; off.num_off > 0) {
     verdict.reasons.push_back(fmt::format(
@@ -391,7 +398,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   if (!figures.predicted.empty()) json["prediction"] = prediction_json(figures.predicted);
   json["quality"] = quality_json(run.filled);
   if (run.resolved.output.order == 2) json["second_order"] = second_order_json(run);
-  json["model"] = model_json(run.model);
+  json["model"] = model_json(run);
   if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);
   add_names(json, run);
   json["coarse"] = coarse_json(run);

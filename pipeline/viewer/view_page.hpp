@@ -12,8 +12,9 @@ namespace tessera::pipeline {
 /// @brief A surface with all that its page says of it.
 struct SurfaceView {
   Surface surface{};
-  /// What web/viewer.js reads: "kind" ("mesh", "model"), "unit", "faces" (by row of the surface's
-  /// "face"), "colourings", "worst", and of a model more. Colours and layout are added.
+  /// What web/viewer.js reads: "kind" ("mesh", "model", "places"), "unit", "faces" (by row of the
+  /// surface's "face"), "colourings", "worst" (marks), and of a model more. Colours and layout are
+  /// added.
   nlohmann::ordered_json description{};
 };
 

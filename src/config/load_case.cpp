@@ -257,6 +257,21 @@ void check_assembly(const Case& loaded, bool is_mesh, const std::string& where)
   fail(where, fmt::format("[[geometry.contact]] excludes {}: solids would be joined again", other));
 }
 
+// What only an STL file needs.
+void check_wrap(const Case& loaded, const std::string& where)
+{
+  const GeometryOptions& geometry = loaded.geometry;
+  if (geometry.stl == model::StlOptions{}) return;
+  if (geometry.stl.repair != model::StlRepair::wrap) {
+    fail(where, "geometry.wrap_tolerance needs geometry.repair = \"wrap\"");
+  }
+  const std::string kind = model::lower_case_extension(geometry.file);
+  if (kind == ".stl") return;
+  fail(where, fmt::format("geometry.repair = \"wrap\" is for .stl, whose triangles may bound no "
+                          "body; leave it out for {}",
+                          kind));
+}
+
 void check_required(const Case& loaded, const std::string& where)
 {
   if (loaded.geometry.file.empty()) {
@@ -268,6 +283,7 @@ void check_required(const Case& loaded, const std::string& where)
   }
   check_own_mesh(loaded, is_mesh, where);
   check_assembly(loaded, is_mesh, where);
+  check_wrap(loaded, where);
   if (loaded.size.max > 0.0 && loaded.size.min > loaded.size.max) {
     fail(where, fmt::format("size.min = {} is above size.max = {}; it must not be",
                             number_text(loaded.size.min), number_text(loaded.size.max)));

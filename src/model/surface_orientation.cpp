@@ -176,18 +176,6 @@ bool is_inside_out(const TriangleSurface& surface, const Shell& shell, const std
 
 }  // namespace
 
-double solid_angle(const std::array<Vec3, 3>& corners, const Vec3& p)
-{
-  const Vec3 a = corners[0] - p;
-  const Vec3 b = corners[1] - p;
-  const Vec3 c = corners[2] - p;
-  const double la = norm(a);
-  const double lb = norm(b);
-  const double lc = norm(c);
-  const double denominator = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-  return 2.0 * std::atan2(dot(a, cross(b, c)), denominator);
-}
-
 Orientation orient(TriangleSurface& surface, std::span<const LocalIndex> opposite,
                    const std::string& name)
 {

@@ -121,6 +121,15 @@ void weld_and_record(CheckedSurface& checked)
   drop_and_record(checked);
 }
 
+CheckedSurface welded(const TriangleSoup& soup)
+{
+  CheckedSurface checked;
+  checked.surface = weld_equal_corners(soup);
+  drop_and_record(checked);
+  weld_and_record(checked);
+  return checked;
+}
+
 void record_turns(CheckedSurface& checked, const Orientation& orientation)
 {
   checked.counted_repairs.add(Repair::turned_triangles,
@@ -224,10 +233,7 @@ bool is_consistent(const TriangleSurface& surface)
 
 CheckedSurface check_surface(const TriangleSoup& soup, const std::string& name)
 {
-  CheckedSurface checked;
-  checked.surface = weld_equal_corners(soup);
-  drop_and_record(checked);
-  weld_and_record(checked);
+  CheckedSurface checked = welded(soup);
   require_triangles(checked.surface, name);
   require_two_triangles_per_edge(checked.surface, name);
 
@@ -238,6 +244,8 @@ CheckedSurface check_surface(const TriangleSoup& soup, const std::string& name)
   set_materials(checked.surface, orientation.shells);
   return checked;
 }
+
+TriangleSurface welded_surface(const TriangleSoup& soup) { return welded(soup).surface; }
 
 double box_diagonal(const TriangleSurface& surface)
 {

@@ -17,7 +17,7 @@
 #include "netgen/loaded_model.hpp"
 #include "netgen/stl_mesher.hpp"
 #include "netgen/stl_triangles.hpp"
-#include "netgen/stl_union.hpp"
+#include "netgen/stl_wrap.hpp"
 #include "netgen/volume_mesher.hpp"
 
 namespace tessera::netgen {
@@ -234,14 +234,14 @@ model::ModelSource import_stl(const std::filesystem::path& file,
                               const model::ImportOptions& options, StepReader reader)
 {
   const model::TriangleSoup soup = model::read_stl(file);
-  model::CheckedSurface checked = model::check_surface(soup, file.string());
-  if (reader != StepReader::plain) unite_flat_contacts(soup, checked, file.string());
+  auto [checked, wrap] = checked_or_wrapped(soup, options.stl, reader, file.string());
   note_repairs(checked.counted_repairs);
   return {.format = model::Format::stl,
           .file_name = file.string(),
           .length_unit = {},
           .content = to_bytes(StlContent{options.feature_angle_deg, to_bytes(checked.surface)}),
-          .repairs = std::move(checked.repairs)};
+          .repairs = std::move(checked.repairs),
+          .wrap = std::move(wrap)};
 }
 
 std::unique_ptr<LoadedModel> load_stl(const model::ModelSource& source)

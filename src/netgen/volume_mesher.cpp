@@ -144,7 +144,8 @@ void require_no_overlaps(const std::vector<coarse::Overlap>& overlaps,
   throw NetgenError(fmt::format(
       "{}: the surface cuts itself at {} pairs of triangles, first {} and {} at ({:g}); part "
       "bodies that overlap, and in an STL file those that touch without a common face, in the CAD "
-      "program; for a thin wall try a smaller coarse.max_size",
+      "program, or let geometry.repair = \"wrap\" make one body of an STL file; for a thin wall "
+      "try a smaller coarse.max_size",
       what, overlaps.size(), name_of(surface, names, first), name_of(surface, names, second),
       fmt::join(place, ", ")));
 }

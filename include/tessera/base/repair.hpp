@@ -39,6 +39,7 @@ enum class Repair : int {
   turned_triangles,   ///< Triangles and shells that look the wrong way are turned.
   flat_triangles,     ///< Triangles without a height, and folds onto others, are taken out.
   flat_contacts,      ///< Surfaces that lie flat on each other become one.
+  wrapped_surface,    ///< A closed surface is made around triangles that bound no body.
   // Import of CSG.
   csg_by_occ,  ///< OpenCASCADE makes the solids that NETGEN's CSG cannot mesh.
   // Sizes.
@@ -132,6 +133,7 @@ constexpr auto enum_words(Repair /*type*/)
       {turned_triangles, "turned_triangles"},
       {flat_triangles, "flat_triangles"},
       {flat_contacts, "flat_contacts"},
+      {wrapped_surface, "wrapped_surface"},
       {csg_by_occ, "csg_by_occ"},
       {round_places, "round_places"},
       {wall_sizes, "wall_sizes"},

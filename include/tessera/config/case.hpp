@@ -28,6 +28,7 @@ struct GeometryOptions {
   double scale = 1.0;            ///< Output length units per file length unit, > 0.
   std::vector<model::PartName> names{};  ///< Of patches and materials.
   model::AssemblyOptions assembly{};     ///< Lengths in output length units.
+  model::StlOptions stl{};               ///< The same.
 
   friend bool operator==(const GeometryOptions&, const GeometryOptions&) = default;
 };

@@ -23,10 +23,11 @@ struct ImportOptions {
   std::filesystem::path cad{};  ///< Of a mesh file: the CAD model it is of; empty: none.
   bool smooth = false;          ///< Of a mesh file without CAD model: its surface is made smooth.
   AssemblyOptions assembly{};   ///< STEP, IGES, BREP, also of `cad`; lengths of the file.
+  StlOptions stl{};             ///< STL; lengths of the file.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.feature_angle_deg, self.cad, self.smooth, self.assembly);
+    return std::tie(self.feature_angle_deg, self.cad, self.smooth, self.assembly, self.stl);
   }
 };
 
@@ -48,11 +49,12 @@ struct ModelSource {
   Bytes content{};  ///< .geo text; checked STL triangles; BREP and names; checked mesh and CAD.
   std::vector<std::string> repairs{};  ///< What import changed, one line each; for the report.
   Assembly assembly{};                 ///< Of STEP, IGES, BREP: what was found where solids meet.
+  Wrap wrap{};                         ///< Of STL, if it was wrapped.
 
   static auto fields(auto& self)
   {
     return std::tie(self.format, self.file_name, self.length_unit, self.content, self.repairs,
-                    self.assembly);
+                    self.assembly, self.wrap);
   }
 };
 

@@ -100,6 +100,50 @@ struct AssemblyOptions {
 /// diagonal of the model's box.
 inline constexpr double kThinnest = 1e-6;
 
+/// @brief What is done about an STL file whose triangles bound no body: the surface is open, or has
+/// edges with more than two triangles, or cuts itself.
+enum class StlRepair : int {
+  mend,  ///< What invents nothing: points are joined, triangles turned or dropped. Then it is
+         ///< refused.
+  wrap,  ///< A closed surface is made around the triangles.
+};
+[[nodiscard]] constexpr StlRepair last_value(StlRepair /*type*/) { return StlRepair::wrap; }
+
+/// @brief Words of it in case files.
+constexpr auto enum_words(StlRepair /*type*/)
+{
+  return std::to_array<EnumWord<StlRepair>>({
+      {StlRepair::mend, "mend"},
+      {StlRepair::wrap, "wrap"},
+  });
+}
+
+/// @brief How an STL file is read.
+struct StlOptions {
+  StlRepair repair = StlRepair::mend;
+  /// What a wrap may be off the file, > 0; 0: not given, then it follows from the box.
+  double wrap_tolerance = 0.0;
+
+  static auto fields(auto& self) { return std::tie(self.repair, self.wrap_tolerance); }
+  friend bool operator==(const StlOptions&, const StlOptions&) = default;
+};
+
+/// @brief What a wrap has made of an STL file.
+struct Wrap {
+  std::string reason{};            ///< Why the file bounds no body; empty: nothing was wrapped.
+  LocalIndex num_triangles = 0;    ///< Of the wrap.
+  double tolerance = 0.0;          ///< File length unit, as those below.
+  double distance_max = 0.0;       ///< From the wrap to the triangles of the file.
+  double file_distance_max = 0.0;  ///< From these to the wrap.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.reason, self.num_triangles, self.tolerance, self.distance_max,
+                    self.file_distance_max);
+  }
+  [[nodiscard]] bool is_any() const { return !reason.empty(); }
+};
+
 /// @brief With its dot, in lower case. Local.
 [[nodiscard]] std::string lower_case_extension(const std::filesystem::path& file);
 

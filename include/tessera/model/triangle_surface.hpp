@@ -82,6 +82,10 @@ struct CheckedSurface {
 /// coordinates of the first; also if a shell is one-sided or encloses nothing.
 [[nodiscard]] CheckedSurface check_surface(const TriangleSoup& soup, const std::string& name);
 
+/// @brief What check_surface() has before it asks whether edges have two triangles: corners joined,
+/// triangles without two different edges and repeated ones dropped, nothing turned. Local.
+[[nodiscard]] TriangleSurface welded_surface(const TriangleSoup& soup);
+
 /// @brief Length of the diagonal of the bounding box. Local.
 [[nodiscard]] double box_diagonal(const TriangleSurface& surface);
 

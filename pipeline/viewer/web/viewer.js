@@ -143,8 +143,9 @@ class Viewer {
     const worst = this.data.worst ?? [];
     if (worst.length === 0) return;
     byId("worst").hidden = false;
+    if (this.data.worst_label) byId("worst").firstElementChild.textContent = this.data.worst_label;
     worst.forEach((tet, i) => {
-      const title = `mean ratio ${tet.mean_ratio.toFixed(4)}, in subdomain ${tet.subdomain}`;
+      const title = tet.title ?? `mean ratio ${tet.mean_ratio.toFixed(4)}, in subdomain ${tet.subdomain}`;
       byId("worst").append(buttonOf(String(i + 1), title, () => this.flyToTet(tet)));
     });
     const places = worst.flatMap((tet) => this.surface.sceneOf(tet.centre));

@@ -12,7 +12,7 @@
 
 #include "tessera/base/error.hpp"
 
-#include "pipeline/commands/model_picture.hpp"
+#include "pipeline/drawing/model_picture.hpp"
 
 namespace tessera::pipeline {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/commands/model_picture.hpp"
+#include "pipeline/drawing/model_picture.hpp"
 
 #include <algorithm>
 #include <array>
