@@ -73,12 +73,22 @@ TEST(ToToml, ReadsBackAsTheSameCaseWithATargetSize)
   EXPECT_EQ(parse_case(to_toml(wanted), "/elsewhere/case.toml"), wanted);
 }
 
+TEST(ToToml, ReadsBackAsTheSameCaseWithAWrap)
+{
+  Case wanted;
+  wanted.geometry.file = "/models/robot.stl";
+  wanted.geometry.stl = {.repair = model::StlRepair::wrap, .wrap_tolerance = 0.25};
+  wanted.coarse.max_size = 2.0;
+  EXPECT_EQ(parse_case(to_toml(wanted), "/elsewhere/case.toml").geometry, wanted.geometry);
+}
+
 TEST(ToToml, WritesEveryKeyThatIsGiven)
 {
   const std::string text = to_toml(complete_case());
   for (const Key& key : all_keys()) {
     const std::string line = "\n" + std::string(last_part(key.name)) + " = ";
-    const bool is_not_given = key.name == "size.target" || key.name == "geometry.cad";
+    const bool is_not_given = key.name == "size.target" || key.name == "geometry.cad"
+                              || key.name == "geometry.wrap_tolerance";
     EXPECT_EQ(text.find(line) != std::string::npos, !is_not_given) << key.name;
   }
 }
@@ -246,8 +256,8 @@ TEST(KnownKeys, AreThoseOfTheReferenceWithTheirWords)
     EXPECT_EQ(key.words.size() == 2,
               key.name == "coarse.optimize" || key.name == "improve.seams"
                   || key.name == "decompose.method" || key.name == "geometry.smooth"
-                  || key.name == "coarse.mesher" || key.name == "output.cell_quality"
-                  || key.name == "output.report_html")
+                  || key.name == "geometry.repair" || key.name == "coarse.mesher"
+                  || key.name == "output.cell_quality" || key.name == "output.report_html")
         << key.name;
   }
 }
