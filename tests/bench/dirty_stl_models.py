@@ -29,9 +29,10 @@ def read_stl(file):
 
 
 def write_stl(file, triangles):
-    rows = np.zeros(len(triangles), dtype=np.dtype([("normal", "<f4", 3), ("xyz", "<f4", (3, 3)), ("bits", "<u2")]))
-    rows["xyz"] = triangles
-    file.write_bytes(b"dirty".ljust(80) + struct.pack("<I", len(triangles)) + rows.tobytes())
+    """As text: NETGEN's Python reads no other."""
+    facets = ("facet normal 0 0 0\nouter loop\n" + "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*p) for p in one)
+              + "endloop\nendfacet\n" for one in triangles)
+    file.write_text("solid dirty\n" + "".join(facets) + "endsolid dirty\n")
 
 
 def volume_of(triangles):
