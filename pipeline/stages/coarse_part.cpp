@@ -138,7 +138,8 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   run.field_content =
       comm::on_root(context.comm, [&] { return subdomain::size_field_content(given.size); });
   require_same_run(run, options.state, context);
-  run.resolved = resolve_size(given, context);
+  // A wrap is that rough.
+  run.resolved = resolve_size(given, given.geometry.scale * run.model.wrap.tolerance, context);
   run.resolved.fill = config::resolved_fill(given, !options.only_subdomains.empty());
   if (auto kept = kept_coarse_mesh(options.state, context)) {
     run.planes = std::move(kept->planes);

@@ -58,14 +58,15 @@ double volume_of(const config::Case& given, RunContext& context)
 
 // Gmsh makes its surface by itself. A target that is larger than the model says only that as few
 // tets as possible are wanted.
-double least_feature(const config::Case& resolved, double volume)
+double least_feature(const config::Case& resolved, double volume, double noise)
 {
   constexpr double kPartOfTarget = 0.05;
   constexpr double kMostOfMaxSize = 0.5;  // What is larger is no detail of the mesh.
   if (resolved.coarse.mesher == coarse::Mesher::gmsh) return 0.0;
-  const double wanted = resolved.size.min >= 0.0
-                            ? resolved.size.min
-                            : kPartOfTarget * std::min(resolved.size.target, std::cbrt(volume));
+  const double wanted =
+      resolved.size.min >= 0.0
+          ? resolved.size.min
+          : std::max(noise, kPartOfTarget * std::min(resolved.size.target, std::cbrt(volume)));
   return std::min(wanted, kMostOfMaxSize * resolved.coarse.max_size);
 }
 
@@ -84,7 +85,7 @@ int levels_for(double num_fine_tets)
   return num_fine_tets < 1e8 ? 3 : 4;
 }
 
-config::Case resolve_size(const config::Case& given, RunContext& context)
+config::Case resolve_size(const config::Case& given, double noise, RunContext& context)
 {
   if (model::is_mesh_name(given.geometry.file)) return given;
   config::Case resolved = given;
@@ -99,7 +100,7 @@ config::Case resolve_size(const config::Case& given, RunContext& context)
     context.log.info("size.target {}: coarse.max_size = {}", given.size.target,
                      resolved.coarse.max_size);
   }
-  resolved.coarse.defeature = least_feature(resolved, volume);
+  resolved.coarse.defeature = least_feature(resolved, volume, noise);
   return resolved;
 }
 

@@ -16,8 +16,11 @@ namespace tessera::pipeline {
 /// The number of fine tets is estimated from the model's volume, or from its box where the volume
 /// is not known (CSG). The usual number of levels grows with it so that the serial coarse mesh
 /// stays small: each level makes it 8 times smaller. But it keeps enough tets to cut.
+/// @param[in] noise What is smaller in the model is merged unless the case has a size.min; output
+/// length unit.
 /// @note Collective: asks the model, which is loaded in the workers, for its box and volume.
-[[nodiscard]] config::Case resolve_size(const config::Case& given, RunContext& context);
+[[nodiscard]] config::Case resolve_size(const config::Case& given, double noise,
+                                        RunContext& context);
 
 /// @brief Number of regular tets of that edge in that volume.
 [[nodiscard]] double estimated_tets(double volume, double target);

@@ -10,6 +10,8 @@
 #include "tessera/coarse/surface_overlap.hpp"
 #include "tessera/mesh/half_edges.hpp"
 
+#include "coarse/box_tree.hpp"
+
 namespace tessera::coarse {
 namespace {
 
@@ -24,7 +26,11 @@ constexpr double kReach = 0.75;
 // faces with 10 degrees between them may be so sharp as neighbours may be to each other.
 constexpr double kLeastArea = 1e-3;
 constexpr double kLeastCosine = -0.985;
-constexpr double kLeastGap = 0.02;  // Between two corners, of the spacing.
+
+// Between a corner and a triangle, of the spacing: one that has a corner beside it, and one of
+// another sheet. Bodies that meet along an edge are held together by what is as thick as that.
+constexpr double kLeastGap = 0.02;
+constexpr double kLeastGapOfSheets = 0.3;
 
 // A plane that a corner should lie on; without a normal, a place.
 struct Sample {
@@ -131,7 +137,7 @@ class SoundTriangles {
     do {
       is_bad_.assign(places_.size(), 0);
       split_squares();
-      find_twins();
+      find_touches();
       find_folds();
       find_cuts();
     } while (draw_back());
@@ -203,25 +209,43 @@ class SoundTriangles {
     return miss(square, 1) < miss(square, 0) ? 1 : 0;
   }
 
-  // Corners that are nearly one point: two sheets would touch there, or triangles be needles.
-  // Points are near in any direction if they are near.
-  void find_twins()
+  // Corners that nearly lie on a triangle that is not theirs: two sheets would touch there, or
+  // triangles be needles.
+  void find_touches()
   {
-    constexpr Vec3 kDirection{0.4082, 0.5345, 0.7401};
-    const double nearest = kLeastGap * spacing_;
-    std::vector<std::pair<double, LocalIndex>> along;
+    std::vector<Box> boxes;
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
+      boxes.push_back(box_of(surface_.corners(t)));
+    const BoxTree tree(std::move(boxes));
+    const std::vector<std::vector<LocalIndex>> neighbours = neighbours_of_corners();
+    const double gap = kLeastGapOfSheets * spacing_;
     for (std::size_t cell = 0; cell < places_.size(); ++cell) {
-      const auto number = static_cast<LocalIndex>(cell);
-      along.emplace_back(dot(kDirection, place(number)), number);
+      const Vec3& corner = surface_.vertex_xyz[cell];
+      const Vec3 off{gap, gap, gap};
+      const Box around{corner - off, corner + off};
+      tree.visit(
+          [&](const Box& box) { return box.touches(around); },
+          [&](LocalIndex t) { look_at_touch(static_cast<LocalIndex>(cell), t, neighbours[cell]); });
     }
-    std::ranges::sort(along);
-    for (std::size_t i = 0; i < along.size(); ++i) {
-      for (std::size_t j = i + 1; j < along.size(); ++j) {
-        if (along[j].first - along[i].first > nearest) break;
-        const std::array cells{along[i].second, along[j].second};
-        if (norm(place(cells[0]) - place(cells[1])) < nearest) blame(cells);
-      }
+  }
+
+  [[nodiscard]] std::vector<std::vector<LocalIndex>> neighbours_of_corners() const
+  {
+    std::vector<std::vector<LocalIndex>> neighbours(places_.size());
+    for (const auto& v : surface_.triangles) {
+      for (std::size_t c = 0; c < 3; ++c) neighbours[at(v[c])].push_back(v[(c + 1) % 3]);
     }
+    return neighbours;
+  }
+
+  void look_at_touch(LocalIndex cell, LocalIndex t, const std::vector<LocalIndex>& neighbours)
+  {
+    const PatchSurface::Triangle& v = surface_.triangles[at(t)];
+    if (std::ranges::find(v, cell) != v.end()) return;
+    const bool is_beside = std::ranges::find_first_of(v, neighbours) != v.end();
+    const double gap = (is_beside ? kLeastGap : kLeastGapOfSheets) * spacing_;
+    const Vec3 nearest = model::nearest_point_of(surface_.corners(at(t)), place(cell));
+    if (norm(nearest - place(cell)) < gap) blame(std::array{cell, v[0], v[1], v[2]});
   }
 
   // Neighbours that lie on each other, whose edges do not cut.

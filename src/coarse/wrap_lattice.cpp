@@ -11,6 +11,15 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 
 constexpr float kPutInside = 2.0F;
+constexpr float kPutOutside = -1.0F;
+
+// Where bodies meet along an edge the choice must be the same all along it.
+constexpr double kNoDifference = 0.01;
+
+// Corners that meet across a diagonal belong together if all is inside that is so near to it, in
+// parts of the spacing. Where bodies only touch it is not.
+constexpr double kNeck = 0.1;
+constexpr int kPartsOfDiagonal = 8;
 
 // 21 bits an axis. Sheets that lie behind each other enclose more than half far beyond their box,
 // so places may be below zero.
@@ -143,10 +152,10 @@ bool WrapLattice::follow()
   return true;
 }
 
-// The eight cells around a point that is inside now.
-void WrapLattice::put_inside(const LatticePlace& point)
+// A point on the other side, and the eight cells around it.
+void WrapLattice::put(const LatticePlace& point, float winding)
 {
-  winding_of_[key_of(point)] = kPutInside;
+  winding_of_[key_of(point)] = winding;
   for (std::size_t c = 0; c < 8; ++c) {
     const LatticePlace near = corner_of({point[0] - 1, point[1] - 1, point[2] - 1}, c);
     add_cell(near);
@@ -154,48 +163,93 @@ void WrapLattice::put_inside(const LatticePlace& point)
   }
 }
 
-// Puts a point inside where two corners meet only across a side's or the cell's diagonal: of those
-// outside the one that is most inside. Whether it had to.
-bool WrapLattice::mend(const LatticePlace& cell)
+// Pairs of corners of a cell that meet only across a side's or the cell's diagonal.
+std::vector<WrapLattice::Meeting> WrapLattice::meetings(const LatticePlace& cell)
 {
   std::array<bool, 8> in{};
   int num_inside = 0;
   for (std::size_t c = 0; c < 8; ++c) num_inside += (in[c] = is_inside(corner_of(cell, c))) ? 1 : 0;
-  std::size_t best = 8;
-  const auto propose = [&](std::size_t c) {
-    if (in[c]) return;
-    if (best == 8 || winding_at(corner_of(cell, c)) > winding_at(corner_of(cell, best))) best = c;
-  };
+  std::vector<Meeting> found;
   for (std::size_t c = 0; c < 8; ++c) {
     for (std::size_t a = 0; a < 3; ++a) {
-      const std::size_t b = (a + 1) % 3;
-      const std::size_t across = c ^ (1U << a) ^ (1U << b);
       const std::size_t beside = c ^ (1U << a);
-      const std::size_t other = c ^ (1U << b);
-      if (in[c] && in[across] && !in[beside] && !in[other]) {
-        propose(beside);
-        propose(other);
+      const std::size_t other = c ^ (1U << ((a + 1) % 3));
+      const std::size_t across = beside ^ other ^ c;
+      if (c < across && in[c] && in[across] && !in[beside] && !in[other])
+        found.push_back({.inside = {c, across}, .outside = {beside, other}});
+    }
+  }
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (in[c] != in[7 - c] || num_inside != (in[c] ? 2 : 6)) continue;
+    Meeting& meeting = found.emplace_back();
+    for (std::size_t other = 0; other < 8; ++other)
+      (in[other] ? meeting.inside : meeting.outside).push_back(other);
+  }
+  return found;
+}
+
+// Of some corners of a cell the one that is most inside, or least.
+LatticePlace WrapLattice::extreme(const LatticePlace& cell, const std::vector<std::size_t>& corners,
+                                  bool is_most)
+{
+  const double sign = is_most ? 1.0 : -1.0;
+  LatticePlace best = corner_of(cell, corners.front());
+  for (const std::size_t c : corners) {
+    const LatticePlace point = corner_of(cell, c);
+    if (sign * winding_at(point) > sign * winding_at(best) + kNoDifference) best = point;
+  }
+  return best;
+}
+bool WrapLattice::is_neck(const Vec3& from, const Vec3& to) const
+{
+  for (int i = 1; i < kPartsOfDiagonal; ++i) {
+    const Vec3 middle = from + (static_cast<double>(i) / kPartsOfDiagonal) * (to - from);
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (const double side : {-kNeck, kNeck}) {
+        Vec3 beside = middle;
+        beside[a] += side * spacing_;
+        if (winding_(beside) < 0.5) return false;
       }
     }
-    const bool meets_across = in[c] == in[7 - c] && num_inside == (in[c] ? 2 : 6);
-    if (!meets_across) continue;
-    for (std::size_t other = 0; other < 8; ++other) propose(other);
   }
-  if (best == 8) return false;
-  put_inside(corner_of(cell, best));
   return true;
 }
 
+// Bodies that touch at no more than an edge or a corner are taken apart there.
+void WrapLattice::separate(const LatticePlace& cell)
+{
+  for (const Meeting& meeting : meetings(cell)) {
+    if (meeting.inside.size() != 2) continue;
+    const Vec3 from = position(corner_of(cell, meeting.inside[0]));
+    const Vec3 to = position(corner_of(cell, meeting.inside[1]));
+    if (!is_neck(from, to)) return put(extreme(cell, meeting.inside, false), kPutOutside);
+  }
+}
+
+// Puts the point inside that is most so, of those that would join corners. Whether there are any.
+bool WrapLattice::join(const LatticePlace& cell)
+{
+  std::vector<std::size_t> outside;
+  for (const Meeting& meeting : meetings(cell))
+    outside.insert(outside.end(), meeting.outside.begin(), meeting.outside.end());
+  if (outside.empty()) return false;
+  put(extreme(cell, outside, true), kPutInside);
+  return true;
+}
+
+// No point is put outside after one was put inside, so this ends.
 bool WrapLattice::compose()
 {
+  for (std::size_t i = 0; i < cells_.size() && cells_.size() <= most_cells_; ++i)
+    separate(cells_[i]);
   for (bool has_changed = true; has_changed;) {
+    if (!follow()) return false;
     has_changed = false;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       const LatticePlace cell = cells_[i];
-      while (mend(cell)) has_changed = true;
+      while (join(cell)) has_changed = true;
       if (cells_.size() > most_cells_) return false;
     }
-    if (!follow()) return false;
   }
   return true;
 }
@@ -216,7 +270,7 @@ void WrapLattice::add_square(const LatticePlace& point, std::size_t axis, int di
   }
   const double in = winding_at(point);
   const double out = winding_at(next);
-  if (in < 1.5) square.share = std::clamp((in - 0.5) / (in - out), 0.05, 0.95);
+  if (in < 1.5 && out > -0.5) square.share = std::clamp((in - 0.5) / (in - out), 0.05, 0.95);
   to.squares.push_back(square);
 }
 

@@ -37,8 +37,9 @@ struct LatticeBoundary {
 /// @brief Finds that boundary, cell by cell, without looking at the rest of the lattice. Local.
 ///
 /// It starts from the cells that triangles touch, and follows the boundary from there, so over
-/// holes too. Points are put inside until the inside is well-composed @cite latecki1997: then the
-/// squares are a closed manifold.
+/// holes too. Where points inside meet only across a diagonal, bodies that touch there are taken
+/// apart, and other points are put inside until the inside is well-composed @cite latecki1997: then
+/// the squares are a closed manifold.
 class WrapLattice {
  public:
   using Winding = std::function<double(const Vec3&)>;
@@ -54,13 +55,24 @@ class WrapLattice {
  private:
   using Key = std::uint64_t;  // Of a place.
 
+  // Corners of a cell that meet only across a diagonal, and those that would join them.
+  struct Meeting {
+    std::vector<std::size_t> inside{};
+    std::vector<std::size_t> outside{};
+  };
+
   void add_cells_of(const std::array<Vec3, 3>& triangle);
   void add_cell(const LatticePlace& cell);
   bool follow();
   void add_across_mixed_faces(const LatticePlace& cell);
   bool compose();
-  bool mend(const LatticePlace& cell);
-  void put_inside(const LatticePlace& point);
+  [[nodiscard]] bool is_neck(const Vec3& from, const Vec3& to) const;
+  void separate(const LatticePlace& cell);
+  bool join(const LatticePlace& cell);
+  void put(const LatticePlace& point, float winding);
+  [[nodiscard]] std::vector<Meeting> meetings(const LatticePlace& cell);
+  [[nodiscard]] LatticePlace extreme(const LatticePlace& cell,
+                                     const std::vector<std::size_t>& corners, bool is_most);
   [[nodiscard]] double winding_at(const LatticePlace& point);
   [[nodiscard]] bool is_inside(const LatticePlace& point) { return winding_at(point) > 0.5; }
   [[nodiscard]] bool is_mixed(const LatticePlace& cell);

@@ -15,6 +15,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/model/winding.hpp"
 
+#include "coarse/wrap_caps.hpp"
 #include "coarse/wrap_corners.hpp"
 #include "coarse/wrap_lattice.hpp"
 #include "coarse/wrap_sheets.hpp"
@@ -134,12 +135,15 @@ WrappedSurface wrap_surface(const model::TriangleSoup& soup, double tolerance,
   if (triangles.empty()) throw GeometryError(name + ": holds no triangle with an area");
   const double least = least_tolerance(triangles, diagonal);
   if (tolerance < least) refuse_tolerance(tolerance, least, name);
-  const LatticeBoundary boundary = boundary_of(triangles, tolerance, least, name);
-  const FileTriangles file(std::move(triangles));
+  std::vector<Corners> closed = triangles;
+  std::ranges::copy(hole_caps(triangles, tolerance), std::back_inserter(closed));
+  const LatticeBoundary boundary = boundary_of(closed, tolerance, least, name);
+  const FileTriangles target(std::move(closed));
   const PatchSurface sound =
-      sound_triangles(boundary, tolerance, corner_places(boundary, tolerance, file), file);
-  const PatchSurface surface = flipped_to_file(sound, tolerance, file);
+      sound_triangles(boundary, tolerance, corner_places(boundary, tolerance, target), target);
+  const PatchSurface surface = flipped_to_file(sound, tolerance, target);
   const std::vector<Corners> wrap = corners_of(surface);
+  const FileTriangles file(std::move(triangles));
   return {.soup = soup_of(surface, soup),
           .tolerance = tolerance,
           .distance_max = largest_distance(wrap, file, tolerance),

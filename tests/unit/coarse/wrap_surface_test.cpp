@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <random>
 #include <span>
 #include <string>
@@ -102,6 +103,43 @@ TEST(WrapSurface, BodiesThatCrossBecomeOne)
   EXPECT_NEAR(volume_of(sound(wrap)), 2.0 - 0.5 * 0.6 * 0.7, 2e-3);
   EXPECT_LT(wrap.distance_max, 0.05);
   EXPECT_GT(wrap.file_distance_max, 0.2) << "parts of the file lie inside";
+}
+
+// Of triangles that share vertices.
+int num_shells(const model::TriangleSurface& surface)
+{
+  std::vector<LocalIndex> lowest(at(surface.num_vertices()));
+  std::iota(lowest.begin(), lowest.end(), 0);
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (std::size_t t = 0; t < at(surface.num_triangles()); ++t) {
+      const std::span v = std::span(surface.triangle_vertices).subspan(3 * t, 3);
+      const LocalIndex least = std::min({lowest[at(v[0])], lowest[at(v[1])], lowest[at(v[2])]});
+      for (const LocalIndex vertex : v) {
+        has_changed = has_changed || lowest[at(vertex)] != least;
+        lowest[at(vertex)] = least;
+      }
+    }
+  }
+  std::ranges::sort(lowest);
+  return static_cast<int>(std::ranges::unique(lowest).begin() - lowest.begin());
+}
+
+TEST(WrapSurface, BodiesThatMeetAtAnEdgeOrACornerAreTakenApart)
+{
+  for (const Vec3& low : {Vec3{1.0, 1.0, 0.0}, Vec3{1.0, 1.0, 1.0}}) {
+    const model::TriangleSurface surface =
+        sound(wrap_surface(joined(cube_soup(), cube_soup(low)), 0.06, "cubes"));
+    EXPECT_EQ(num_shells(surface), 2) << low[2];
+    EXPECT_NEAR(volume_of(surface), 2.0, 1e-2) << low[2];
+  }
+}
+
+TEST(WrapSurface, FlatHolesAreClosedFlat)
+{
+  model::TriangleSoup soup = cube_soup();
+  testing::remove_triangle(soup, 0);
+  EXPECT_NEAR(volume_of(sound(wrap_surface(soup, 0.05, "cube"))), 1.0, 1e-9);
 }
 
 TEST(WrapSurface, CavityStays)
