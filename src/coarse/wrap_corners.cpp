@@ -102,6 +102,19 @@ Vec3 meeting_point(const std::vector<Sample>& samples, Vec3 point)
   return point;
 }
 
+// Where planes are nearly one, noise of the file says where they meet.
+bool is_bent(const std::vector<Sample>& samples)
+{
+  constexpr double kFlat = 0.94;  // Cosine of 20 degrees.
+  for (const Sample& a : samples) {
+    for (const Sample& b : samples) {
+      if (norm(a.normal) > 0.0 && norm(b.normal) > 0.0 && dot(a.normal, b.normal) < kFlat)
+        return true;
+    }
+  }
+  return false;
+}
+
 Vec3 within(Vec3 point, const Vec3& middle, double reach)
 {
   for (std::size_t a = 0; a < 3; ++a)
@@ -331,10 +344,10 @@ std::vector<CornerPlaces> corner_places(const LatticeBoundary& boundary, double 
     CornerPlaces place{mean, mean, mean, middle};
     const bool is_on_file = std::ranges::any_of(
         samples[cell], [](const Sample& sample) { return norm(sample.normal) > 0.0; });
-    if (is_on_file) {
+    if (is_on_file) place.sharp = place.smooth = near_file(mean, 0.5 * spacing, file);
+    if (is_bent(samples[cell])) {
       place.sharp = near_file(within(meeting_point(samples[cell], mean), middle, kReach * spacing),
                               0.5 * spacing, file);
-      place.smooth = near_file(mean, 0.5 * spacing, file);
     }
     places.push_back(place);
   }

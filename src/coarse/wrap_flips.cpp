@@ -13,7 +13,7 @@ namespace tessera::coarse {
 namespace {
 
 // Of the spacing: an edge whose middle is so far off the file cuts an edge of it short.
-constexpr double kShort = 0.02;
+constexpr double kShort = 0.1;
 constexpr double kLeastArea = 1e-3;      // Twice a triangle's, of the spacing squared.
 constexpr double kLeastCosine = -0.985;  // Between neighbours.
 constexpr int kMostSweeps = 3;

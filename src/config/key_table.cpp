@@ -79,7 +79,8 @@ constexpr Key kKeys[] = {
      .unit = "output length unit",
      .meaning =
          "How exact a wrap is: what is thinner may be lost, and gaps that are narrower may be "
-         "filled. Half of it makes four times as many triangles. size.min is as large unless given.",
+         "filled. Half of it makes four times as many triangles. size.min is as large unless "
+         "given.",
      .reason = "with it most files are wrapped within seconds, by 20,000 to 150,000 triangles",
      .derived_default = "1/200 of the diagonal of the box of the file",
      .example = "0.1",

@@ -2,6 +2,7 @@
 #include "decompose/parts.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -115,12 +116,14 @@ class Parts {
       }
       all.push_back(std::move(component));
     }
-    std::vector<const Component*> best(weight_.size(), nullptr);
-    for (const Component& component : all) {
-      const Component*& there = best[at(component.part)];
-      if (there == nullptr || there->weight < component.weight) there = &component;
+    std::vector<std::size_t> heaviest(weight_.size(), all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      std::size_t& there = heaviest[at(all[i].part)];
+      if (there == all.size() || all[there].weight < all[i].weight) there = i;
     }
-    for (Component& component : all) component.is_heaviest = best[at(component.part)] == &component;
+    for (const std::size_t i : heaviest) {
+      if (i < all.size()) all[i].is_heaviest = true;
+    }
     return all;
   }
 
