@@ -2,7 +2,6 @@
 #include "decompose/parts.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -103,7 +102,8 @@ class Parts {
     return reached;
   }
 
-  [[nodiscard]] std::vector<Component> components() const
+  // Not inlined: GCC 14 else sees memory freed that cannot be.
+  [[nodiscard, gnu::noinline]] std::vector<Component> components() const
   {
     std::vector<Component> all;
     std::vector<char> is_seen(part_.size(), 0);
@@ -116,14 +116,12 @@ class Parts {
       }
       all.push_back(std::move(component));
     }
-    std::vector<std::size_t> heaviest(weight_.size(), all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      std::size_t& there = heaviest[at(all[i].part)];
-      if (there == all.size() || all[there].weight < all[i].weight) there = i;
+    std::vector<const Component*> best(weight_.size(), nullptr);
+    for (const Component& component : all) {
+      const Component*& there = best[at(component.part)];
+      if (there == nullptr || there->weight < component.weight) there = &component;
     }
-    for (const std::size_t i : heaviest) {
-      if (i < all.size()) all[i].is_heaviest = true;
-    }
+    for (Component& component : all) component.is_heaviest = best[at(component.part)] == &component;
     return all;
   }
 
