@@ -102,8 +102,7 @@ class Parts {
     return reached;
   }
 
-  // Not inlined: GCC 14 else sees memory freed that cannot be.
-  [[nodiscard, gnu::noinline]] std::vector<Component> components() const
+  [[nodiscard]] std::vector<Component> components() const
   {
     std::vector<Component> all;
     std::vector<char> is_seen(part_.size(), 0);

@@ -136,8 +136,7 @@ class LargeRing {
     }
   }
 
-  // Not inlined: GCC 14 else sees writes past the end that cannot happen.
-  [[gnu::noinline]] void add_chord(std::size_t i, std::size_t k, Swap& swap) const
+  void add_chord(std::size_t i, std::size_t k, Swap& swap) const
   {
     if (k == i + 1) return;
     const Triangle triangle{i, apex_[i][k], k};

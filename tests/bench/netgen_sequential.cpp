@@ -23,7 +23,6 @@
 
 // Defined in NETGEN's libraries and declared in none of its headers (6.2.1905).
 namespace netgen {
-CSGeometry* ParseCSG(std::istream& text, CSGeometry* instance);
 extern DLL_HEADER MeshingParameters mparam;
 }  // namespace netgen
 
@@ -37,13 +36,19 @@ struct Quality {
   double min_dihedral_deg = 180.0;
 };
 
+std::unique_ptr<netgen::NetgenGeometry> read_geometry(const std::string& file)
+{
+  if (!std::ifstream(file)) throw std::runtime_error(file + ": cannot be read");
+  for (const auto& reader : netgen::geometryregister) {
+    if (auto* const geometry = reader->Load(file))
+      return std::unique_ptr<netgen::NetgenGeometry>(geometry);
+  }
+  throw std::runtime_error(file + ": is not a NETGEN geometry");
+}
+
 std::shared_ptr<netgen::Mesh> make_mesh(const std::string& file)
 {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error(file + ": cannot be read");
-  const std::unique_ptr<netgen::CSGeometry> geometry(netgen::ParseCSG(in, nullptr));
-  if (!geometry) throw std::runtime_error(file + ": is not a NETGEN geometry");
-  geometry->FindIdenticSurfaces(1e-8 * geometry->MaxSize());
+  const auto geometry = read_geometry(file);
   std::shared_ptr<netgen::Mesh> mesh;
   if (geometry->GenerateMesh(mesh, netgen::mparam) != 0) throw std::runtime_error("NETGEN gave up");
   return mesh;

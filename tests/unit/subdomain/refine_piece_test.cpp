@@ -109,7 +109,8 @@ struct Case {
   }
 };
 
-const Case& case_of(const Way& way)
+// By value: GCC 14 takes what is returned for a part of a reference that is given.
+const Case& case_of(Way way)  // NOLINT(performance-unnecessary-value-param)
 {
   static std::vector<std::pair<std::string, std::unique_ptr<Case>>> made;
   const auto known = std::ranges::find(made, name_of(way), &decltype(made)::value_type::first);
