@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "tessera/base/types.hpp"
@@ -109,11 +110,7 @@ class Rims {
 
 // What a cap must leave alone.
 struct Surface {
-  explicit Surface(std::span<const Corners> triangles, double least_distance)
-      : search(triangles), winding(triangles), tolerance(least_distance)
-  {
-  }
-  model::TriangleSearch search;
+  const FileTriangles& file;
   model::WindingNumbers winding;
   double tolerance;
 };
@@ -179,7 +176,7 @@ class LeastArea {
   [[nodiscard]] bool lies_on_surface(const Vec3& point) const
   {
     const double near = kMostNear * surface_.tolerance;
-    const Vec3 foot = surface_.search.nearest(point).xyz;
+    const Vec3 foot = surface_.file.search.nearest(point).xyz;
     return norm(foot - point) < near && norm(rim_.nearest(foot).xyz - foot) > near;
   }
 
@@ -214,7 +211,7 @@ bool is_of_hole(const std::vector<Corners>& cap, const Surface& surface)
   double sum = 0.0;
   for (const auto& [a, b, c] : cap) {
     const Vec3 middle = (1.0 / 3.0) * (a + b + c);
-    farthest = std::max(farthest, norm(surface.search.nearest(middle).xyz - middle));
+    farthest = std::max(farthest, surface.file.distance(middle));
     area += triangle_area(a, b, c);
     sum += triangle_area(a, b, c) * surface.winding.at(middle);
   }
@@ -223,11 +220,11 @@ bool is_of_hole(const std::vector<Corners>& cap, const Surface& surface)
 
 }  // namespace
 
-std::vector<Corners> hole_caps(std::span<const Corners> triangles, double tolerance)
+std::vector<Corners> hole_caps(const FileTriangles& file, double tolerance)
 {
-  const Surface surface(triangles, tolerance);
+  const Surface surface{file, model::WindingNumbers(file.triangles), tolerance};
   std::vector<Corners> caps;
-  for (const Loop& rim : Rims(triangles).loops()) {
+  for (const Loop& rim : Rims(file.triangles).loops()) {
     if (rim.size() < 3) continue;
     const std::vector<Corners> cap = cap_of(rim, surface);
     if (is_of_hole(cap, surface)) caps.insert(caps.end(), cap.begin(), cap.end());

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "tessera/base/vec3.hpp"
+
+#include "coarse/wrap_corners.hpp"
 
 namespace tessera::coarse {
 
@@ -15,8 +16,8 @@ namespace tessera::coarse {
 /// A hole counts if its triangles are farther than a tolerance from the surface, and if winding
 /// numbers are about 1/2 there. So a gap between sheets stays, and so does an end that lies within
 /// a body or outside of all.
-/// @param[in] triangles Oriented; not empty. Corners are one if their bits are.
-[[nodiscard]] std::vector<std::array<Vec3, 3>> hole_caps(
-    std::span<const std::array<Vec3, 3>> triangles, double tolerance);
+/// @param[in] file Oriented; not empty. Corners are one if their bits are.
+[[nodiscard]] std::vector<std::array<Vec3, 3>> hole_caps(const FileTriangles& file,
+                                                         double tolerance);
 
 }  // namespace tessera::coarse

@@ -200,6 +200,8 @@ LatticePlace WrapLattice::extreme(const LatticePlace& cell, const std::vector<st
   }
   return best;
 }
+
+// Whether all is inside around the way from one point to another.
 bool WrapLattice::is_neck(const Vec3& from, const Vec3& to) const
 {
   for (int i = 1; i < kPartsOfDiagonal; ++i) {

@@ -135,15 +135,15 @@ WrappedSurface wrap_surface(const model::TriangleSoup& soup, double tolerance,
   if (triangles.empty()) throw GeometryError(name + ": holds no triangle with an area");
   const double least = least_tolerance(triangles, diagonal);
   if (tolerance < least) refuse_tolerance(tolerance, least, name);
-  std::vector<Corners> closed = triangles;
-  std::ranges::copy(hole_caps(triangles, tolerance), std::back_inserter(closed));
+  const FileTriangles file(std::move(triangles));
+  std::vector<Corners> closed = file.triangles;
+  std::ranges::copy(hole_caps(file, tolerance), std::back_inserter(closed));
   const LatticeBoundary boundary = boundary_of(closed, tolerance, least, name);
   const FileTriangles target(std::move(closed));
   const PatchSurface sound =
       sound_triangles(boundary, tolerance, corner_places(boundary, tolerance, target), target);
   const PatchSurface surface = flipped_to_file(sound, tolerance, target);
   const std::vector<Corners> wrap = corners_of(surface);
-  const FileTriangles file(std::move(triangles));
   return {.soup = soup_of(surface, soup),
           .tolerance = tolerance,
           .distance_max = largest_distance(wrap, file, tolerance),

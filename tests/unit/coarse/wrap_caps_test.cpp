@@ -16,6 +16,11 @@ using Corners = std::array<Vec3, 3>;
 
 constexpr double kTolerance = 0.05;
 
+std::vector<Corners> caps_of(const std::vector<Corners>& triangles)
+{
+  return hole_caps(FileTriangles(triangles), kTolerance);
+}
+
 double area_of(const std::vector<Corners>& triangles)
 {
   double area = 0.0;
@@ -60,7 +65,7 @@ std::vector<Corners> tube(double bottom, double top, int num_sides)
 TEST(WrapCaps, EndsOfATubeAreClosedByTheirPlanes)
 {
   const std::vector<Corners> open = tube(0.0, 5.0, 32);
-  const std::vector<Corners> caps = hole_caps(open, kTolerance);
+  const std::vector<Corners> caps = caps_of(open);
   EXPECT_EQ(caps.size(), 2U * 30U);
   const double disc = 16.0 * std::sin(2.0 * std::numbers::pi / 32.0);
   EXPECT_NEAR(area_of(caps), 2.0 * disc, 1e-12);
@@ -70,7 +75,7 @@ TEST(WrapCaps, EndsOfATubeAreClosedByTheirPlanes)
 TEST(WrapCaps, LongRimIsClosedAsWell)
 {
   const std::vector<Corners> open = tube(0.0, 5.0, 1000);
-  const std::vector<Corners> caps = hole_caps(open, kTolerance);
+  const std::vector<Corners> caps = caps_of(open);
   EXPECT_EQ(caps.size(), 2U * 998U);
   EXPECT_NEAR(volume_of(with(open, caps)), 5.0 * std::numbers::pi, 1e-3);
 }
@@ -83,8 +88,8 @@ TEST(WrapCaps, EndWithinABodyStaysOpen)
   for (Corners& corners : narrow) {
     for (Vec3& p : corners) p = {0.3 * p[0], 0.3 * p[1], p[2]};
   }
-  const std::vector<Corners> body = with(wide, hole_caps(wide, kTolerance));
-  const std::vector<Corners> caps = hole_caps(with(body, narrow), kTolerance);
+  const std::vector<Corners> body = with(wide, caps_of(wide));
+  const std::vector<Corners> caps = caps_of(with(body, narrow));
   ASSERT_EQ(caps.size(), 30U);
   for (const Corners& corners : caps) EXPECT_EQ(corners[0][2], 6.0);
 }
@@ -96,13 +101,13 @@ TEST(WrapCaps, LooseTrianglesAndNarrowGapsGetNone)
     const Vec3 middle = (1.0 / 3.0) * (a + b + c);
     for (Vec3* p : {&a, &b, &c}) *p = middle + 0.99 * (*p - middle);
   }
-  EXPECT_TRUE(hole_caps(loose, kTolerance).empty());
+  EXPECT_TRUE(caps_of(loose).empty());
 }
 
 TEST(WrapCaps, NothingOfAClosedSurface)
 {
   const std::vector<Corners> open = tube(0.0, 5.0, 8);
-  EXPECT_TRUE(hole_caps(with(open, hole_caps(open, kTolerance)), kTolerance).empty());
+  EXPECT_TRUE(caps_of(with(open, caps_of(open))).empty());
 }
 
 // A box without the side at x = 0, and a tooth that sticks out of its side at y = 1. The least area
@@ -120,7 +125,7 @@ TEST(WrapCaps, CapLeavesTheSurfaceBeyondItsRim)
     open.push_back({p, q, x + q});
     open.push_back({p, x + q, x + p});
   }
-  EXPECT_NEAR(volume_of(with(open, hole_caps(open, kTolerance))), 1.0 + 0.5 / 3.0, 1e-12);
+  EXPECT_NEAR(volume_of(with(open, caps_of(open))), 1.0 + 0.5 / 3.0, 1e-12);
 }
 
 }  // namespace
