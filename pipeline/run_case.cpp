@@ -275,7 +275,7 @@ class CaseRun {
     if (!has_files()) return {};
     GlobalIndex num_boundary = 0;
     for (const subdomain::PieceSummary& piece : run.filled.pieces)
-      num_boundary += piece.num_boundary;
+      num_boundary += piece.num_all_boundary();
     const FolderSize size = size_of_folders(given_.output.directory, {"mesh", "boundary"});
     const ActualRun actual{
         .num_ranks = comm_.size(),

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 
 #include "pipeline/estimate/disk_space.hpp"
@@ -78,10 +79,16 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   if (outline.splits_pieces()) split_pieces(run, cut, output, context);
 
   const number::IdLayout ids = number_mesh(run, cut, outline);
-  run.num_vertices = ids.num_vertices();
+  const auto layers = subdomain::layer_tables(cut.coarse, cut.skeleton,
+                                              mesh::lattice_levels(cut.skeleton, cut.levels));
+  const subdomain::WriteContext mesh{.coarse = cut.coarse,
+                                     .skeleton = cut.skeleton,
+                                     .ids = ids,
+                                     .length_unit = output.length_unit,
+                                     .places_of = places_of_vertices(run, cut),
+                                     .layers = layers ? &*layers : nullptr};
+  run.num_vertices = mesh.num_vertices();
   run.num_tets = ids.num_tets();
-  const subdomain::WriteContext mesh{cut.coarse, cut.skeleton, ids, output.length_unit,
-                                     places_of_vertices(run, cut)};
   if (options.on_piece) {
     run_hand_over_stage(outline.files, mesh, options.on_piece, run.filled, context);
     run.drawings = run_picture_stage(run, cut, {}, context);

@@ -11,6 +11,7 @@
 #include "tessera/decompose/decompose.hpp"
 #include "tessera/fill/options.hpp"
 #include "tessera/formats/piece.hpp"
+#include "tessera/layers/grow_layers.hpp"
 #include "tessera/mesh/edge_levels.hpp"
 #include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/model/model.hpp"
@@ -47,7 +48,8 @@ struct RunResult {
   Hash128 field_content{};        ///< Of size.field; zero without one.
   cut::CutChoice planes{};        ///< Without nodes unless the model is cut before it is meshed.
   CoarseResult coarse{};
-  coarse::SharpTets sharp{};  ///< Of the coarse mesh; on rank 0.
+  layers::LayerCover cover{};  ///< Of the walls by layers; without patches if there are none.
+  coarse::SharpTets sharp{};   ///< Of the coarse mesh; on rank 0.
   mesh::EdgeLevels levels{};  ///< Of the coarse edges, in all.
   int splits = 0;             ///< How many of them follow after the fills.
   decompose::DecomposeResult decomposition{};

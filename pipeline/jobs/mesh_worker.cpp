@@ -24,6 +24,7 @@
 #include "tessera/model/triangle_surface.hpp"
 #include "tessera/netgen/factory.hpp"
 #include "tessera/refine/skin.hpp"
+#include "tessera/subdomain/column_folds.hpp"
 #include "tessera/subdomain/fill_subdomain.hpp"
 #include "tessera/subdomain/improve_seam_region.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
@@ -75,6 +76,7 @@ class MeshWorker final : public jobs::Worker {
   void take(MeshLoad load)
   {
     ids_.reset();
+    layers_.reset();
     regions_.reset();
     refinement_.reset();
     limiter_ = {};
@@ -98,9 +100,9 @@ class MeshWorker final : public jobs::Worker {
     length_unit_ = std::move(load.length_unit);
     output_options_.compression = load.compression;
     output_options_.cell_quality = load.cell_quality;
-    ids_ =
-        number::IdLayout::by_host(mesh::HostLayout(cut_->skeleton),
-                                  mesh::lattice_levels(cut_->skeleton, cut_->levels), load.counts);
+    const auto levels = mesh::lattice_levels(cut_->skeleton, cut_->levels);
+    ids_ = number::IdLayout::by_host(mesh::HostLayout(cut_->skeleton), levels, load.counts);
+    layers_ = subdomain::layer_tables(coarse_, cut_->skeleton, levels);
   }
 
   void take(ImprovementLoad load)
@@ -200,6 +202,15 @@ class MeshWorker final : public jobs::Worker {
     return garbled_if_asked(stage_of(request.options), to_bytes(made));
   }
 
+  [[nodiscard]] Bytes answer(const LayerRequest& request) const
+  {
+    fail_if_asked("layers");
+    LayeredMesh made{.mesh = request.mesh};
+    made.cover =
+        layers::grow_layers(made.mesh, request.layers, *scaled_model_, request.keep_tets);
+    return garbled_if_asked("layers", to_bytes(made));
+  }
+
   // After tets were flipped: by their centroids.
   [[nodiscard]] static std::vector<LocalIndex> parts_of_tets(const mesh::CoarseMesh& mesh,
                                                              const cut::CutTree& planes)
@@ -236,12 +247,15 @@ class MeshWorker final : public jobs::Worker {
     context.levels = context.levels.limited(test.levels);
     const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, context);
     auto folds = untangle::find_folds(complex, cut_->skeleton, lattice, limiter);
+    const auto of_layers =
+        subdomain::find_column_folds(complex.faces, lattice, context, test.subdomain);
     // NETGEN begins with the skin alone if children are bad, and our optimiser untangles them. Both
     // need a sound skin: points are kept off the geometry only where it is not.
     if (test.kernel != fill::KernelKind::subdivide && !folds.empty()
         && !netgen::skin_overlaps(skin_of(context, test.subdomain))) {
       folds.clear();
     }
+    folds.insert(folds.end(), of_layers.begin(), of_layers.end());
     return folds;
   }
 
@@ -256,8 +270,13 @@ class MeshWorker final : public jobs::Worker {
                                         .levels = cut_->levels,
                                         .measure_distance = true};
     std::optional<subdomain::WriteContext> numbers;
-    if (ids_)
-      numbers.emplace(subdomain::WriteContext{coarse_, cut_->skeleton, *ids_, length_unit_});
+    if (ids_) {
+      numbers.emplace(subdomain::WriteContext{.coarse = coarse_,
+                                              .skeleton = cut_->skeleton,
+                                              .ids = *ids_,
+                                              .length_unit = length_unit_,
+                                              .layers = layers_ ? &*layers_ : nullptr});
+    }
     BatchFiller batch(task, output_, numbers ? &*numbers : nullptr, output_options_);
     if (regions_ && kernels_[at(task.first)] != fill::KernelKind::subdivide) {
       batch.keep_seams(*regions_);
@@ -351,6 +370,7 @@ class MeshWorker final : public jobs::Worker {
   mesh::ProjectionLimiter limiter_{};
   std::filesystem::path output_{};
   std::optional<number::IdLayout> ids_{};  ///< If they are known before the pieces are.
+  std::optional<subdomain::LayerTables> layers_{};  ///< Beside these, of a mesh with layers.
   std::string length_unit_{};
   io::OutputOptions output_options_{};
   improve::ImproveOptions improve_options_{};

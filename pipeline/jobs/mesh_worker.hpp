@@ -20,6 +20,7 @@
 #include "tessera/improve/region_mesh.hpp"
 #include "tessera/io/options.hpp"
 #include "tessera/jobs/job_runner.hpp"
+#include "tessera/layers/grow_layers.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/decomposition.hpp"
 #include "tessera/mesh/piece.hpp"
@@ -118,6 +119,19 @@ struct CoarseTry {
                                         std::vector<coarse::DomainTets> filled,
                                         const coarse::CoarseOptions& options,
                                         const cut::CutTree& planes);
+
+/// @brief A coarse mesh with layers.
+struct LayeredMesh {
+  mesh::CoarseMesh mesh{};
+  layers::LayerCover cover{};
+
+  static auto fields(auto& self) { return std::tie(self.mesh, self.cover); }
+};
+
+/// @brief run: makes room for layers; result: bytes of a LayeredMesh. Needs the model.
+/// @param[in] keep_tets As for layers::grow_layers().
+[[nodiscard]] Bytes layer_request(const mesh::CoarseMesh& mesh,
+                                  const std::vector<layers::LayerOptions>& layers, bool keep_tets);
 
 /// @brief One subdomain that a plan job tests.
 struct UntangleTest {

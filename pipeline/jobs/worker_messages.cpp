@@ -90,6 +90,12 @@ Bytes coarse_mesh_request(coarse::CoarseSurface surface, std::vector<coarse::Dom
       Request(CoarseMeshRequest{std::move(surface), std::move(filled), options, planes}));
 }
 
+Bytes layer_request(const mesh::CoarseMesh& mesh, const std::vector<layers::LayerOptions>& layers,
+                    bool keep_tets)
+{
+  return to_bytes(Request(LayerRequest{mesh, layers, keep_tets}));
+}
+
 Bytes untangle_request(const std::vector<UntangleTest>& tests,
                        const mesh::ProjectionLimiter& limiter)
 {

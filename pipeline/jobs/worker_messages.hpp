@@ -132,6 +132,14 @@ struct CoarseMeshRequest {
   }
 };
 
+struct LayerRequest {
+  mesh::CoarseMesh mesh{};
+  std::vector<layers::LayerOptions> layers{};
+  bool keep_tets = false;
+
+  static auto fields(auto& self) { return std::tie(self.mesh, self.layers, self.keep_tets); }
+};
+
 struct UntangleRequest {
   std::vector<UntangleTest> tests{};
   mesh::ProjectionLimiter limiter{};
@@ -161,6 +169,6 @@ struct PlacesRequest {
 using Request =
     std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDomainRequest,
                  CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest, RefineTask,
-                 SkinRequest, DescribeRequest, FiguresRequest, PlacesRequest>;
+                 SkinRequest, DescribeRequest, FiguresRequest, PlacesRequest, LayerRequest>;
 
 }  // namespace tessera::pipeline

@@ -256,7 +256,13 @@ class Sampler {
       counts[at(piece.subdomain)] = subdomain::counts_of(piece);
     const auto ids = number::IdLayout::by_host(
         mesh::HostLayout(cut.skeleton), mesh::lattice_levels(cut.skeleton, cut.levels), counts);
-    const subdomain::WriteContext mesh{cut.coarse, cut.skeleton, ids, length_unit_};
+    const auto layers = subdomain::layer_tables(
+        cut.coarse, cut.skeleton, mesh::lattice_levels(cut.skeleton, cut.levels));
+    const subdomain::WriteContext mesh{.coarse = cut.coarse,
+                                       .skeleton = cut.skeleton,
+                                       .ids = ids,
+                                       .length_unit = length_unit_,
+                                       .layers = layers ? &*layers : nullptr};
     const io::OutputOptions& options = run_.resolved.output;
     FileCosts costs;
     const fs::path empty = own_.folder / "header.vtu";

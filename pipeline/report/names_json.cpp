@@ -32,8 +32,8 @@ Json materials_json(const RunResult& run)
     double volume = 0.0;
     for (const subdomain::PieceSummary& piece : run.filled.pieces) {
       if (piece.material != id) continue;
-      num_tets += piece.num_tets;
-      volume += piece.volume;
+      num_tets += piece.num_all_tets();
+      volume += piece.whole_volume();
     }
     materials.push_back({{"id", id}, {"name", name}, {"tets", num_tets}, {"volume", volume}});
   }

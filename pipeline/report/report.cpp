@@ -17,6 +17,7 @@
 #include "pipeline/report/assembly_json.hpp"
 #include "pipeline/report/cuts_json.hpp"
 #include "pipeline/report/defeature_json.hpp"
+#include "pipeline/report/layers_json.hpp"
 #include "pipeline/report/names_json.hpp"
 #include "pipeline/report/quality_json.hpp"
 #include "pipeline/report/repairs_json.hpp"
@@ -65,7 +66,7 @@ Json subdomains_json(const RunResult& run)
   for (const subdomain::PieceSummary& piece : run.filled.pieces) {
     subdomains.push_back({{"id", piece.subdomain},
                           {"material", piece.material},
-                          {"tets", piece.num_tets},
+                          {"tets", piece.num_all_tets()},
                           {"kernel", word_of(piece.kernel)},
                           {"tries", piece.tries},
                           {"seconds", piece.cpu_s},
@@ -101,7 +102,7 @@ std::vector<GlobalIndex> tets_of_parts(const RunResult& run)
   for (std::size_t part = 0; part + 1 < offsets.size(); ++part) {
     GlobalIndex& sum = tets.emplace_back(0);
     for (LocalIndex s = offsets[part]; s < offsets[part + 1]; ++s) {
-      sum += run.filled.pieces[at(s)].num_tets;
+      sum += run.filled.pieces[at(s)].num_all_tets();
     }
   }
   return tets;
@@ -272,6 +273,13 @@ Json coarse_json(const RunResult& run)
   return json;
 }
 
+double whole_volume(const std::vector<subdomain::PieceSummary>& pieces)
+{
+  double volume = 0.0;
+  for (const subdomain::PieceSummary& piece : pieces) volume += piece.whole_volume();
+  return volume;
+}
+
 Hash128 digest_of(const std::vector<subdomain::PieceSummary>& pieces)
 {
   Hash128 digest;
@@ -368,7 +376,7 @@ MeshResult result_of(const RunResult& run, const Verdict& verdict)
           .num_vertices = run.num_vertices,
           .num_tets = run.filled.num_tets(),
           .num_subdomains = static_cast<LocalIndex>(pieces.size()),
-          .volume = sum(pieces, &subdomain::PieceSummary::volume),
+          .volume = whole_volume(pieces),
           .digest = to_hex(digest_of(pieces)),
           .folder = run.resolved.output.directory};
 }
@@ -381,7 +389,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   json["reasons"] = verdict.reasons;
   json["warnings"] = warnings_json(run);
   add_counts(json, run);
-  json["volume"] = sum(pieces, &subdomain::PieceSummary::volume);
+  json["volume"] = whole_volume(pieces);
   json["boundary_area"] = sum(pieces, &subdomain::PieceSummary::boundary_area);
   json["model_distance_max"] = std::max(largest(pieces, &subdomain::PieceSummary::model_distance),
                                         run.coarse.distance.largest);
@@ -397,6 +405,7 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   json["stages"] = stages_json(times);
   if (!figures.predicted.empty()) json["prediction"] = prediction_json(figures.predicted);
   json["quality"] = quality_json(run.filled);
+  if (!run.cover.patches.empty()) json["layers"] = layers_json(run);
   if (run.resolved.output.order == 2) json["second_order"] = second_order_json(run);
   json["model"] = model_json(run);
   if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);

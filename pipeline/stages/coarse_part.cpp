@@ -18,6 +18,7 @@
 #include "pipeline/stages/coarse_stage.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
+#include "pipeline/stages/layer_stage.hpp"
 #include "pipeline/stages/levels_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/stages/name_stage.hpp"
@@ -30,13 +31,15 @@ namespace {
 struct CutCoarseMesh {
   cut::CutChoice planes{};
   CoarseResult coarse{};
+  layers::LayerCover cover{};
   mesh::EdgeLevels levels{};
   int splits = 0;
   decompose::DecomposeResult decomposition{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.planes, self.coarse, self.levels, self.splits, self.decomposition);
+    return std::tie(self.planes, self.coarse, self.cover, self.levels, self.splits,
+                    self.decomposition);
   }
 };
 
@@ -52,8 +55,8 @@ void keep_coarse_mesh(const RunResult& run, const RunState* state, const RunCont
 {
   all_or_none(context.comm, [&] {
     if (state == nullptr || context.comm.rank() != 0) return;
-    state->keep_coarse(
-        to_bytes(CutCoarseMesh{run.planes, run.coarse, run.levels, run.splits, run.decomposition}));
+    state->keep_coarse(to_bytes(CutCoarseMesh{run.planes, run.coarse, run.cover, run.levels,
+                                              run.splits, run.decomposition}));
   });
 }
 
@@ -106,6 +109,7 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   run.coarse = run_coarse_stage(run.resolved, run.planes.tree, context);
   model::apply_names(parts, run.coarse.mesh);
   const bool is_fine_enough = refine_for_sizes(run, parts, context);
+  grow_layers(run, context);
   choose_levels(run, context);
   if (!is_fine_enough) run.coarse.missed_size = longest_edge_in_sizes(run, context);
 }
@@ -144,6 +148,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   if (auto kept = kept_coarse_mesh(options.state, context)) {
     run.planes = std::move(kept->planes);
     run.coarse = std::move(kept->coarse);
+    run.cover = std::move(kept->cover);
     run.levels = kept->levels;  // A copy does not hold the memory of all that was kept.
     run.splits = kept->splits;
     run.decomposition = std::move(kept->decomposition);

@@ -19,7 +19,7 @@ void sum_over_ranks(quality::Histogram& histogram, const comm::Communicator& com
 GlobalIndex FilledPieces::num_tets() const
 {
   GlobalIndex num_tets = 0;
-  for (const subdomain::PieceSummary& piece : pieces) num_tets += piece.num_tets;
+  for (const subdomain::PieceSummary& piece : pieces) num_tets += piece.num_all_tets();
   return num_tets;
 }
 

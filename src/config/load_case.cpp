@@ -303,6 +303,21 @@ void check_order(const Case& loaded, const std::string& where)
        "subdomains are filled on all levels");
 }
 
+// Columns stand on the lattice of the coarse walls, which a split no longer has.
+void check_layers(const Case& loaded, const std::string& where)
+{
+  if (loaded.layers.empty()) return;
+  const bool splits = loaded.fill.levels > 0 && loaded.fill.levels < loaded.refine.levels
+                      && loaded.fill.levels != fill::kAllLevels;
+  const std::string_view other =
+      loaded.output.order == 2 ? "output.order = 2"
+      : splits                 ? "fill.levels below refine.levels"
+      : loaded.decompose.method == decompose::Method::geometry ? "decompose.method = \"geometry\""
+                                                               : "";
+  if (other.empty()) return;
+  fail(where, fmt::format("[[layer]] excludes {}; leave out one of them", other));
+}
+
 void check_planes(const Case& loaded, const std::string& where)
 {
   if (loaded.planes.given.empty() || loaded.decompose.method == decompose::Method::geometry) return;
@@ -358,6 +373,7 @@ Case parse_case(std::string_view text, const std::filesystem::path& file,
   check_required(loaded, name);
   check_order(loaded, name);
   check_planes(loaded, name);
+  check_layers(loaded, name);
   resolve_paths(file, loaded);
   return loaded;
 }

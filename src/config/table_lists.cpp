@@ -275,6 +275,47 @@ constexpr Key kPlaneKeys[] = {
      .example = "[1.0, 0.0, 0.0]"},
 };
 
+constexpr Key kLayerKeys[] = {
+    {.name = "layer.patch",
+     .rule = TextRule{[](Case& c) -> std::string& { return c.layers.back().patch; }},
+     .meaning = "The patches of that name, or whose names match it: * stands for any characters, ? "
+                "for one, [ab] for one of these. No patch may fit two entries.",
+     .reason = "layers are on walls, and only the user knows which patches these are",
+     .example = "\"wall*\""},
+    {.name = "layer.first",
+     .rule = RealRule{[](Case& c) -> double& { return c.layers.back().first; }, 0.0,
+                      Bound::exclusive, kHuge, Bound::inclusive},
+     .unit = "output length unit",
+     .meaning = "Height of the layer at the wall. Entries may differ in it; where their patches "
+                "meet, the smaller one holds.",
+     .reason = "it follows from the flow",
+     .example = "0.01"},
+    {.name = "layer.growth",
+     .rule = RealRule{[](Case& c) -> double& { return c.layers.back().growth; }, 1.0,
+                      Bound::inclusive, 3.0, Bound::inclusive},
+     .meaning = "Height of a layer by that of the one nearer to the wall. The same in all entries.",
+     .reason = "what flow solvers recommend",
+     .derived_default = "1.2",
+     .example = "1.2",
+     .is_optional = true},
+    {.name = "layer.count",
+     .rule = IntegerRule{[](Case& c) -> int& { return c.layers.back().count; }, 1,
+                         layers::kMostLayers},
+     .meaning = "Number of layers in the final mesh, whatever the levels. The same in all entries. "
+                "Either this or thickness.",
+     .reason = "one of the two says how far layers reach",
+     .example = "5",
+     .is_optional = true},
+    {.name = "layer.thickness",
+     .rule = RealRule{[](Case& c) -> double& { return c.layers.back().thickness; }, 0.0,
+                      Bound::exclusive, kHuge, Bound::inclusive},
+     .unit = "output length unit",
+     .meaning = "Of all layers together; their number is the one that comes nearest.",
+     .reason = "one of the two says how far layers reach",
+     .example = "0.1",
+     .is_optional = true},
+};
+
 constexpr std::string_view kNamed[] = {"patch", "material"};
 
 constexpr std::string_view kShapes[] = {"box",   "ball",     "cylinder", "halfspace",
@@ -308,6 +349,14 @@ constexpr TableList kTableLists[] = {
      .size = [](const Case& c) { return c.planes.given.size(); },
      .resize = [](Case& c, std::size_t size) { c.planes.given.resize(size); },
      .defect = [](const Case& c) { return cut::defect_of(c.planes.given.back()); }},
+    {.name = "layer",
+     .keys = kLayerKeys,
+     .meaning = "Layers of flat cells on walls: a stack over every boundary triangle of a patch, "
+                "each layer higher than the one before it.",
+     .reason = "only flows along walls need them",
+     .size = [](const Case& c) { return c.layers.size(); },
+     .resize = [](Case& c, std::size_t size) { c.layers.resize(size); },
+     .defect = [](const Case& c) { return layers::defect_of(c.layers.back()); }},
     {.name = "fill.region",
      .keys = kRegionKeys,
      .unique_key = "fill.region.material",

@@ -155,22 +155,65 @@ void set_owners(Skeleton& out)
   }
 }
 
-// The lowest triangle on the geometry gives an edge its patch and the parameters of its ends.
-void set_edge_patches(Skeleton& out)
+// The lowest of some triangles on the geometry gives an edge its patch and the parameters of its
+// ends. What is there already stays.
+template <class IsOne>
+void set_edge_patches(const Skeleton& skeleton, const IsOne& is_one, FlatArray<LocalIndex>& patch,
+                      FlatArray<double>& parameters)
 {
   constexpr std::array<std::array<std::size_t, 2>, 3> kSideCorners{{{0, 1}, {0, 2}, {1, 2}}};
-  for (LocalIndex t = 0; t < out.num_triangles(); ++t) {
-    if (out.triangle_patch[at(t)] == kNoIndex) continue;
+  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
+    if (skeleton.triangle_patch[at(t)] == kNoIndex || !is_one(t)) continue;
     for (std::size_t side = 0; side < 3; ++side) {
-      const std::size_t edge = at(out.triangle_edges[3 * at(t) + side]);
-      if (out.edge_patch[edge] != kNoIndex) continue;
-      out.edge_patch[edge] = out.triangle_patch[at(t)];
+      const std::size_t edge = at(skeleton.triangle_edges[3 * at(t) + side]);
+      if (patch[edge] != kNoIndex) continue;
+      patch[edge] = skeleton.triangle_patch[at(t)];
       for (std::size_t end = 0; end < 2; ++end) {
-        const double* uv = &out.triangle_uv[2 * (3 * at(t) + kSideCorners[side][end])];
-        std::copy_n(uv, 2, &out.edge_parameters[2 * (2 * edge + end)]);
+        const double* uv = &skeleton.triangle_uv[2 * (3 * at(t) + kSideCorners[side][end])];
+        std::copy_n(uv, 2, &parameters[2 * (2 * edge + end)]);
       }
     }
   }
+}
+
+// Curves that leave a wall come before patches beside it, as where layers grow.
+void set_vertex_sides(Skeleton& out)
+{
+  out.vertex_side_edge.assign(at(out.num_vertices()), kNoIndex);
+  for (const bool is_curve : {true, false}) {
+    for (LocalIndex e = 0; e < out.num_edges(); ++e) {
+      const bool counts = is_curve ? !out.is_on_wall(e) && out.edge_curve[at(e)] != kNoIndex
+                                   : out.edge_side_patch[at(e)] != kNoIndex;
+      if (!counts) continue;
+      for (std::size_t end = 0; end < 2; ++end) {
+        LocalIndex& edge = out.vertex_side_edge[at(out.edge_vertices[2 * at(e) + end])];
+        if (edge == kNoIndex) edge = e;
+      }
+    }
+  }
+}
+
+// Which edges lie on walls, and what else they lie on there.
+void set_edge_walls(const WallLayers& layers, Skeleton& out)
+{
+  if (layers.are_none()) return;
+  const auto is_wall = [&](LocalIndex t) { return layers.is_wall(out.triangle_patch[at(t)]); };
+  const auto num_edges = at(out.num_edges());
+  out.edge_on_wall.assign(num_edges, 0);
+  for (LocalIndex t = 0; t < out.num_triangles(); ++t) {
+    if (!is_wall(t)) continue;
+    for (std::size_t side = 0; side < 3; ++side) {
+      out.edge_on_wall[at(out.triangle_edges[3 * at(t) + side])] = 1;
+    }
+  }
+  out.edge_side_patch.assign(num_edges, kNoIndex);
+  out.edge_side_uv.assign(4 * num_edges, 0.0);
+  set_edge_patches(
+      out, [&](LocalIndex t) { return !is_wall(t); }, out.edge_side_patch, out.edge_side_uv);
+  for (std::size_t e = 0; e < num_edges; ++e) {
+    if (out.edge_on_wall[e] == 0) out.edge_side_patch[e] = kNoIndex;
+  }
+  set_vertex_sides(out);
 }
 
 // A segment puts its edge on a curve; of duplicate segments the lowest counts.
@@ -191,14 +234,20 @@ void set_edge_curves(const CoarseMesh& coarse, const std::vector<Edge>& edges, S
   }
 }
 
-// Canonical records: curves come before patches.
+// Canonical records: curves come before patches, and walls before patches without layers.
 void set_edge_records(const CoarseMesh& coarse, const std::vector<Edge>& edges, Skeleton& out)
 {
   out.edge_curve.assign(edges.size(), kNoIndex);
   out.edge_patch.assign(edges.size(), kNoIndex);
   out.edge_parameters.assign(4 * edges.size(), 0.0);
-  set_edge_patches(out);
+  const auto is_wall = [&](LocalIndex t) {
+    return coarse.layers.is_wall(out.triangle_patch[at(t)]);
+  };
+  const auto is_any = [](LocalIndex /*t*/) { return true; };
+  set_edge_patches(out, is_wall, out.edge_patch, out.edge_parameters);
+  set_edge_patches(out, is_any, out.edge_patch, out.edge_parameters);
   set_edge_curves(coarse, edges, out);
+  set_edge_walls(coarse.layers, out);
 }
 
 }  // namespace
@@ -215,6 +264,24 @@ bool Skeleton::is_inside(LocalIndex t) const
 {
   return triangle_subdomains[2 * at(t)] != kNoIndex
          && triangle_subdomains[2 * at(t) + 1] != kNoIndex;
+}
+
+LocalIndex find_edge(const Skeleton& skeleton, const std::array<LocalIndex, 2>& vertices)
+{
+  LocalIndex low = 0;
+  LocalIndex high = skeleton.num_edges();
+  const auto edge = [&](LocalIndex e) {
+    return Edge{skeleton.edge_vertices[2 * at(e)], skeleton.edge_vertices[2 * at(e) + 1]};
+  };
+  while (low < high) {
+    const LocalIndex middle = low + (high - low) / 2;
+    if (edge(middle) < vertices) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low < skeleton.num_edges() && edge(low) == vertices ? low : kNoIndex;
 }
 
 Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposition)

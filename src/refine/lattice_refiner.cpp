@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <utility>
 
 namespace tessera::refine {
@@ -17,28 +18,35 @@ SurfaceParameters middle(const SurfaceParameters& a, const SurfaceParameters& b)
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
 }
 
-// Refines one complex; lives for one call of refine_lattice().
+// Which ends of columns are refined. Without layers there are those of the tets only.
+enum class Side { tets, walls };
+
+// Refines one complex; lives for one call of refine_lattice(). On the side of the walls only what
+// lies on them gets points; on the side of the tets these follow from the walls' points.
 class LatticeRefiner {
  public:
   LatticeRefiner(const mesh::Complex& complex, mesh::LatticeLevels levels,
-                 const RefineContext& context)
-      : complex_(complex), context_(context), result_(std::move(levels))
+                 const RefineContext& context, Side side = Side::tets)
+      : complex_(complex), context_(context), side_(side), result_(std::move(levels))
   {
     if (!context.model.has_parameters()) return;
     edge_parameters_.resize(result_.edge_points().size());
     triangle_uv_.resize(result_.triangle_points().size());
   }
 
-  mesh::RefinedLattice run()
+  // @param[in] walls Points of the other side; null without layers.
+  mesh::RefinedLattice run(const mesh::RefinedLattice* walls = nullptr)
   {
     for (LocalIndex e = 0; e < complex_.num_edges(); ++e) place_ends(e);
     for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) place_corners(t);
+    if (walls != nullptr) place_behind_walls(*walls);
     for (int level = 1; level <= result_.levels().largest(); ++level) {
       for (LocalIndex e = 0; e < complex_.num_edges(); ++e) {
-        if (level <= result_.levels().edge(e)) refine_edge(e, result_.edge_intervals(e) >> level);
+        if (!is_refined(is_wall_edge(e)) || level > result_.levels().edge(e)) continue;
+        refine_edge(e, result_.edge_intervals(e) >> level);
       }
       for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) {
-        if (level > result_.levels().triangle(t)) continue;
+        if (!is_refined(is_wall_triangle(t)) || level > result_.levels().triangle(t)) continue;
         refine_triangle(t, result_.triangle_intervals(t) >> level);
       }
     }
@@ -48,9 +56,100 @@ class LatticeRefiner {
  private:
   [[nodiscard]] bool has_parameters() const { return !triangle_uv_.empty(); }
 
+  [[nodiscard]] bool is_refined(bool is_on_wall) const
+  {
+    return is_on_wall == (side_ == Side::walls);
+  }
+
+  [[nodiscard]] bool is_wall_edge(LocalIndex e) const
+  {
+    const LocalIndex edge = complex_.edge_skeleton[at(e)];
+    return edge != kNoIndex && context_.skeleton.is_on_wall(edge);
+  }
+
+  [[nodiscard]] bool is_wall_triangle(LocalIndex t) const
+  {
+    return context_.coarse.layers.is_wall(patch_of(t));
+  }
+
   [[nodiscard]] Vec3 coarse_position(LocalIndex vertex) const
   {
-    return context_.coarse.position(complex_.vertex_coarse[at(vertex)]);
+    const LocalIndex v = complex_.vertex_coarse[at(vertex)];
+    return side_ == Side::walls ? context_.coarse.layers.wall(v) : context_.coarse.position(v);
+  }
+
+  // From the wall to the tets.
+  [[nodiscard]] Vec3 coarse_column(LocalIndex vertex) const
+  {
+    const LocalIndex v = complex_.vertex_coarse[at(vertex)];
+    return context_.coarse.position(v) - context_.coarse.layers.wall(v);
+  }
+
+  void place_behind_walls(const mesh::RefinedLattice& walls)
+  {
+    for (LocalIndex e = 0; e < complex_.num_edges(); ++e) {
+      if (is_wall_edge(e)) place_edge_behind_wall(e, walls);
+    }
+    for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) {
+      if (is_wall_triangle(t)) place_triangle_behind_wall(t, walls);
+    }
+  }
+
+  void place_edge_behind_wall(LocalIndex e, const mesh::RefinedLattice& walls)
+  {
+    const LocalIndex n = result_.edge_intervals(e);
+    const Vec3 first = coarse_column(complex_.edge_vertices[2 * at(e)]);
+    const Vec3 along = coarse_column(complex_.edge_vertices[2 * at(e) + 1]) - first;
+    const bool has_columns = first != Vec3{} || along != Vec3{};
+    for (LocalIndex k = 1; k < n; ++k) {
+      const double part = static_cast<double>(k) / n;
+      const Vec3 straight = walls.edge_point(e, k) + (first + part * along);
+      result_.place_edge_point(e, k, has_columns ? on_side_patch(e, k, straight) : straight);
+    }
+  }
+
+  // Where columns begin along the rim of a wall, they begin on the patch beside it.
+  [[nodiscard]] Vec3 on_side_patch(LocalIndex e, LocalIndex k, const Vec3& straight) const
+  {
+    const LocalIndex edge = complex_.edge_skeleton[at(e)];
+    const LocalIndex n = result_.edge_intervals(e);
+    const double factor =
+        context_.limiter.factor(mesh::LatticePointKey::on_edge(edge, n, k));
+    return straight
+           + factor
+                 * (side_patch_point(context_, edge, static_cast<double>(k) / n, straight)
+                    - straight);
+  }
+
+  void place_triangle_behind_wall(LocalIndex t, const mesh::RefinedLattice& walls)
+  {
+    const LocalIndex n = result_.triangle_intervals(t);
+    const LocalIndex* v = &complex_.triangle_vertices[3 * at(t)];
+    const Vec3 first = coarse_column(v[0]);
+    const Vec3 along_i = coarse_column(v[1]) - first;
+    const Vec3 along_j = coarse_column(v[2]) - first;
+    for (std::size_t side = 0; side < 3; ++side) {
+      for (LocalIndex k = 1; k < n; ++k) {
+        result_.place_triangle_point(t, lattice::side_point(n, side, k), side_point(t, side, k));
+      }
+    }
+    for (LocalIndex j = 1; j < n; ++j) {
+      for (LocalIndex i = 1; i + j < n; ++i) {
+        const double part_i = static_cast<double>(i) / n;
+        const double part_j = static_cast<double>(j) / n;
+        result_.place_triangle_point(
+            t, {i, j},
+            walls.triangle_point(t, {i, j}) + (first + part_i * along_i + part_j * along_j));
+      }
+    }
+  }
+
+  // Of the edge that is this side of a triangle.
+  [[nodiscard]] Vec3 side_point(LocalIndex t, std::size_t side, LocalIndex k) const
+  {
+    const LocalIndex e = complex_.triangle_edges[3 * at(t) + side];
+    const int finer_by = result_.levels().edge(e) - result_.levels().triangle(t);
+    return result_.edge_point(e, k << finer_by);
   }
 
   void place_ends(LocalIndex e)
@@ -135,9 +234,7 @@ class LatticeRefiner {
   void copy_side_point(LocalIndex t, std::size_t side, LocalIndex k, LocalIndex step)
   {
     const TrianglePoint p = lattice::side_point(result_.triangle_intervals(t), side, k);
-    const LocalIndex e = complex_.triangle_edges[3 * at(t) + side];
-    const int finer_by = result_.levels().edge(e) - result_.levels().triangle(t);
-    const Vec3 point = result_.edge_point(e, k << finer_by);
+    const Vec3 point = side_point(t, side, k);
     result_.place_triangle_point(t, p, point);
     const LocalIndex patch = patch_of(t);
     if (patch == kNoIndex || !has_parameters()) return;
@@ -204,17 +301,86 @@ class LatticeRefiner {
 
   const mesh::Complex& complex_;
   const RefineContext& context_;
+  Side side_;
   mesh::RefinedLattice result_;
   std::vector<SurfaceParameters> edge_parameters_{};  ///< As edge_points(), of parametric models.
   std::vector<SurfaceParameters> triangle_uv_{};      ///< As triangle_points(), likewise.
 };
 
+// What is not on a wall ends where it begins.
+void place_beside_walls(const mesh::Complex& complex, const RefineContext& context,
+                        const mesh::RefinedLattice& tets, mesh::RefinedLattice& walls)
+{
+  for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
+    const LocalIndex edge = complex.edge_skeleton[at(e)];
+    if (edge != kNoIndex && context.skeleton.is_on_wall(edge)) continue;
+    for (LocalIndex k = 1; k < tets.edge_intervals(e); ++k) {
+      walls.place_edge_point(e, k, tets.edge_point(e, k));
+    }
+  }
+  for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
+    const LocalIndex triangle = complex.triangle_skeleton[at(t)];
+    if (triangle != kNoIndex
+        && context.coarse.layers.is_wall(context.skeleton.triangle_patch[at(triangle)])) {
+      continue;
+    }
+    const LocalIndex n = tets.triangle_intervals(t);
+    for (LocalIndex j = 1; j < n; ++j) {
+      for (LocalIndex i = 1; i + j < n; ++i) {
+        walls.place_triangle_point(t, {i, j}, tets.triangle_point(t, {i, j}));
+      }
+    }
+  }
+}
+
+void add(const mesh::ModelDistance& more, mesh::ModelDistance& sum)
+{
+  sum.largest = std::max(sum.largest, more.largest);
+  sum.largest_held_back = std::max(sum.largest_held_back, more.largest_held_back);
+  sum.num_held_back += more.num_held_back;
+}
+
 }  // namespace
+
+Vec3 side_patch_point(const RefineContext& context, LocalIndex edge, double part,
+                      const Vec3& point)
+{
+  const mesh::Skeleton& skeleton = context.skeleton;
+  const LocalIndex patch = skeleton.edge_side_patch[at(edge)];
+  if (patch == kNoIndex) return point;
+  const double* uv = &skeleton.edge_side_uv[4 * at(edge)];
+  const SurfaceParameters guess{uv[0] + part * (uv[2] - uv[0]), uv[1] + part * (uv[3] - uv[1])};
+  return context.model.project_to_surface(context.coarse.patch_surface[at(patch)], point, guess)
+      .xyz;
+}
+
+Vec3 side_point_of_vertex(const RefineContext& context, LocalIndex vertex, const Vec3& point)
+{
+  const mesh::Skeleton& skeleton = context.skeleton;
+  const LocalIndex edge = skeleton.vertex_side_edge[at(vertex)];
+  if (edge == kNoIndex) return point;
+  const std::size_t end = skeleton.edge_vertices[2 * at(edge)] == vertex ? 0 : 1;
+  if (skeleton.is_on_wall(edge)) {
+    return side_patch_point(context, edge, static_cast<double>(end), point);
+  }
+  const double t = skeleton.edge_parameters[2 * (2 * at(edge) + end)];
+  return context.model.project_to_curve(skeleton.edge_curve[at(edge)], point, t).xyz;
+}
 
 mesh::RefinedLattice refine_lattice(const mesh::Complex& complex, mesh::LatticeLevels levels,
                                     const RefineContext& context)
 {
-  return LatticeRefiner(complex, std::move(levels), context).run();
+  if (context.coarse.layers.are_none()) {
+    return LatticeRefiner(complex, std::move(levels), context).run();
+  }
+  auto walls = std::make_shared<mesh::RefinedLattice>(
+      LatticeRefiner(complex, levels, context, Side::walls).run());
+  mesh::RefinedLattice tets =
+      LatticeRefiner(complex, std::move(levels), context).run(walls.get());
+  place_beside_walls(complex, context, tets, *walls);
+  add(walls->distance, tets.distance);
+  tets.walls = std::move(walls);
+  return tets;
 }
 
 mesh::RefinedLattice refine_lattice(const mesh::Complex& complex, const RefineContext& context)

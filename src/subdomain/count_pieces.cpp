@@ -4,6 +4,7 @@
 #include "tessera/fill/subdivide.hpp"
 #include "tessera/mesh/complex.hpp"
 #include "tessera/mesh/lattice_levels.hpp"
+#include "tessera/subdomain/layer_tables.hpp"
 
 namespace tessera::subdomain {
 
@@ -11,6 +12,7 @@ std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& 
                                                          const mesh::EdgeLevels& levels)
 {
   const mesh::LatticeLevels of_skeleton = mesh::lattice_levels(cut.skeleton, levels);
+  const auto layers = layer_tables(cut.coarse, cut.skeleton, of_skeleton);
   std::vector<number::PieceCounts> counts;
   for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
     const auto inside = fill::count_subdivision(
@@ -22,6 +24,9 @@ std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& 
       if (!is_on_geometry || cut.skeleton.triangle_owner(t) != s) continue;
       piece.boundary_triangles += mesh::num_small_triangles(cut.skeleton, of_skeleton, t);
     }
+    if (!layers) continue;
+    piece.tets += layers->counts(s).tets;
+    piece.boundary_triangles += layers->counts(s).side_triangles;
   }
   return counts;
 }
@@ -29,8 +34,8 @@ std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& 
 number::PieceCounts counts_of(const PieceSummary& piece)
 {
   return {.interior_vertices = piece.num_interior_vertices,
-          .tets = piece.num_tets,
-          .boundary_triangles = piece.num_boundary,
+          .tets = piece.num_all_tets(),
+          .boundary_triangles = piece.num_all_boundary(),
           .owned_vertices = piece.num_owned_vertices};
 }
 

@@ -3,17 +3,21 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "tessera/fill/check.hpp"
 #include "tessera/fill/size_samples.hpp"
 #include "tessera/fill/subdivide.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/optimize/optimize.hpp"
 #include "tessera/refine/skin.hpp"
+#include "tessera/subdomain/layer_tables.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
 #include "subdomain/boundary_triangles.hpp"
+#include "subdomain/layer_columns.hpp"
 #include "subdomain/piece_schedule.hpp"
 
 namespace tessera::subdomain {
@@ -22,9 +26,20 @@ namespace {
 // A skin, and the tets that some kernel put into it, unchecked.
 struct RawFill {
   mesh::Skin skin{};
+  mesh::Columns columns{};
   mesh::ModelDistance distance{};
   fill::FillOutput tets{};
 };
+
+RawFill skin_of(const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
+                const refine::RefineContext& refine, LocalIndex subdomain)
+{
+  RawFill raw;
+  raw.skin = refine::extract_skin(complex, lattice, refine.skeleton, subdomain);
+  raw.columns = make_columns(complex, lattice, raw.skin, refine, subdomain);
+  raw.distance = lattice.distance;
+  return raw;
+}
 
 fill::FillInput input_of(const mesh::Skin& skin)
 {
@@ -36,8 +51,9 @@ RawFill subdivide(const PartitionedMesh& cut, const refine::RefineContext& refin
 {
   const mesh::TetComplex complex = mesh::tet_complex(cut.coarse, cut.skeleton, cut.tets[subdomain]);
   const mesh::RefinedLattice lattice = refine::refine_lattice(complex.faces, refine);
-  return {refine::extract_skin(complex.faces, lattice, cut.skeleton, subdomain), lattice.distance,
-          fill::subdivide(complex, lattice)};
+  RawFill raw = skin_of(complex.faces, lattice, refine, subdomain);
+  raw.tets = fill::subdivide(complex, lattice);
+  return raw;
 }
 
 // The children of the coarse tets, made better by NETGEN.
@@ -90,8 +106,7 @@ RawFill mesh_skin(const PartitionedMesh& cut, const refine::RefineContext& refin
 {
   const mesh::Complex complex = mesh::skin_complex(cut.skeleton, subdomain);
   const mesh::RefinedLattice lattice = refine::refine_lattice(complex, refine);
-  RawFill raw{
-      refine::extract_skin(complex, lattice, cut.skeleton, subdomain), lattice.distance, {}};
+  RawFill raw = skin_of(complex, lattice, refine, subdomain);
   fill::FillInput input = input_of(raw.skin);
   fill::add_size_samples(cut.coarse, cut.tets[subdomain], cut.vertex_size, refine.levels, input);
   raw.tets = netgen.fill(input, settings);
@@ -129,6 +144,45 @@ RawFill raw_fill(const PartitionedMesh& cut, const refine::RefineContext& refine
   return raw;
 }
 
+// What layers add to the area on the outside: walls are in front of them, and sides beside them.
+double added_outside_area(const PartitionedMesh& cut, const PieceSummary& without,
+                          const std::vector<PatchArea>& with)
+{
+  std::set<LocalIndex> inside;
+  for (const LocalIndex t : cut.skeleton.triangles_of(without.subdomain)) {
+    if (cut.skeleton.is_inside(t)) inside.insert(cut.skeleton.triangle_patch[at(t)]);
+  }
+  const auto outside = [&](const std::vector<PatchArea>& patches) {
+    double area = 0.0;
+    for (const PatchArea& patch : patches) {
+      if (!inside.contains(patch.patch)) area += patch.area;
+    }
+    return area;
+  };
+  return outside(with) - outside(without.patches);
+}
+
+// Of a piece with layers, and of its patches, which lie in front of them. Layers that are not
+// positive are folds, whatever has filled the piece.
+void measure_layers(const PartitionedMesh& cut, FilledPiece& filled)
+{
+  const auto tables =
+      layer_tables(cut.coarse, cut.skeleton, mesh::lattice_levels(cut.skeleton, cut.levels));
+  if (!tables) return;
+  const LayeredPiece layered = with_layers(filled.piece, *tables);
+  PieceSummary& summary = filled.result.summary;
+  for (LocalIndex t = filled.piece.num_tets(); t < layered.piece.num_tets(); ++t) {
+    const auto& [a, b, c, d] = layered.piece.corners(t);
+    const double volume = tet_volume(a, b, c, d);
+    summary.is_folded = summary.is_folded || !(volume > 0.0);
+    summary.layers.volume += volume;
+  }
+  summary.boundary_area += added_outside_area(cut, summary, patch_areas(layered.piece));
+  summary.layers.num_tets = layered.piece.num_tets() - filled.piece.num_tets();
+  summary.layers.num_side_triangles = layered.piece.num_boundary() - filled.piece.num_boundary();
+  summary.patches = patch_areas(layered.piece);
+}
+
 FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain, RawFill& raw)
 {
   const fill::FillFacts facts = fill::check_fill(input_of(raw.skin), raw.tets);
@@ -148,6 +202,8 @@ FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain, 
   summary.model_distance = raw.distance.largest;
   summary.held_back_distance = raw.distance.largest_held_back;
   summary.volume = facts.volume;
+  piece.columns = std::move(raw.columns);
+  measure_layers(cut, filled);
   return filled;
 }
 

@@ -79,11 +79,25 @@ void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshAr
   number_by_owner(piece, mesh, arrays);
 }
 
-// All but the positions and corners, which the piece itself gives away.
-mesh::MeshArrays tet_arrays(const mesh::Piece& piece, const WriteContext& mesh, bool with_quality)
+// Points of layers are owned as the vertices that their columns stand on.
+void add_layer_points(const LayeredPiece& layered, const WriteContext& mesh,
+                      mesh::MeshArrays& arrays)
 {
-  mesh::MeshArrays arrays = with_names(mesh);
-  add_points(piece, mesh, arrays);
+  auto& owner = arrays.point_ints["owner"];
+  const mesh::HostLayout hosts(mesh.skeleton);
+  for (const mesh::HostPoint& vertex : layered.columns) {
+    const LocalIndex of_column = mesh::owner_of_host(mesh.skeleton, hosts, vertex.host);
+    for (LocalIndex layer = 0; layer < mesh.layers->num_layers(); ++layer) {
+      arrays.point_ids.push_back(mesh.ids.num_vertices() + mesh.layers->point(vertex, layer));
+      owner.push_back(of_column);
+    }
+  }
+}
+
+// All but the positions and corners, which the piece itself gives away.
+mesh::MeshArrays tet_arrays(const mesh::Piece& piece, mesh::MeshArrays arrays,
+                            const WriteContext& mesh, bool with_quality)
+{
   arrays.cell_ids.resize(at(piece.num_tets()));
   std::iota(arrays.cell_ids.begin(), arrays.cell_ids.end(), mesh.ids.first_tet(piece.subdomain));
   arrays.cell_ints["attribute"].assign(at(piece.num_tets()), piece.material);
@@ -132,8 +146,16 @@ mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArray
 
 PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh, bool with_quality)
 {
+  mesh::MeshArrays points = with_names(mesh);
+  add_points(piece, mesh, points);
+  if (mesh.layers != nullptr) {
+    LayeredPiece layered = with_layers(std::move(piece), *mesh.layers);
+    add_layer_points(layered, mesh, points);
+    points.cell_ints["layer"] = std::move(layered.tet_layer);
+    piece = std::move(layered.piece);
+  }
   PieceArrays arrays;
-  arrays.tets = tet_arrays(piece, mesh, with_quality);
+  arrays.tets = tet_arrays(piece, std::move(points), mesh, with_quality);
   arrays.boundary = boundary_arrays(piece, arrays.tets, mesh);
   arrays.tets.point_xyz = std::move(piece.vertex_xyz);
   if (piece.is_of_second_order()) arrays.tets.vertices_per_cell = 10;

@@ -11,6 +11,17 @@
 namespace tessera::subdomain {
 namespace {
 
+// Which points of a piece others may have: those of its skin, and those of layers.
+struct SharedPoints {
+  std::size_t num_skin = 0;
+  GlobalIndex first_of_layers = 0;  // Id.
+
+  [[nodiscard]] bool has(std::size_t point, GlobalIndex id) const
+  {
+    return point < num_skin || id >= first_of_layers;
+  }
+};
+
 template <class T>
 void append(std::map<std::string, std::vector<T>>& to,
             const std::map<std::string, std::vector<T>>& from)
@@ -20,15 +31,15 @@ void append(std::map<std::string, std::vector<T>>& to,
   }
 }
 
-// Appends the points that are not there yet; the first `num_shared` may be.
+// Appends the points that are not there yet; those that are shared may be.
 template <class PointOfId>
-std::vector<LocalIndex> append_points(const mesh::MeshArrays& from, std::size_t num_shared,
+std::vector<LocalIndex> append_points(const mesh::MeshArrays& from, const SharedPoints& shared,
                                       PointOfId& known, mesh::MeshArrays& to)
 {
   std::vector<LocalIndex> place(from.point_ids.size());
   for (std::size_t p = 0; p < place.size(); ++p) {
     const auto next = static_cast<LocalIndex>(to.num_points());
-    if (p < num_shared) {
+    if (shared.has(p, from.point_ids[p])) {
       const auto [found, is_new] = known.emplace(from.point_ids[p], next);
       place[p] = found->second;
       if (!is_new) continue;
@@ -43,10 +54,10 @@ std::vector<LocalIndex> append_points(const mesh::MeshArrays& from, std::size_t 
 }
 
 template <class PointOfId>
-void append(const mesh::MeshArrays& from, std::size_t num_shared, PointOfId& known,
+void append(const mesh::MeshArrays& from, const SharedPoints& shared, PointOfId& known,
             mesh::MeshArrays& to)
 {
-  const std::vector<LocalIndex> place = append_points(from, num_shared, known, to);
+  const std::vector<LocalIndex> place = append_points(from, shared, known, to);
   to.cell_points.reserve(to.cell_points.size() + from.cell_points.size());
   for (const LocalIndex point : from.cell_points) {
     to.cell_points.push_back(place[at(point)]);
@@ -58,9 +69,10 @@ void append(const mesh::MeshArrays& from, std::size_t num_shared, PointOfId& kno
 }
 
 template <class PointOfId>
-void remember(const mesh::MeshArrays& first, std::size_t num_shared, PointOfId& known)
+void remember(const mesh::MeshArrays& first, const SharedPoints& shared, PointOfId& known)
 {
-  for (std::size_t p = 0; p < num_shared; ++p) {
+  for (std::size_t p = 0; p < first.point_ids.size(); ++p) {
+    if (!shared.has(p, first.point_ids[p])) continue;
     known.emplace(first.point_ids[p], static_cast<LocalIndex>(p));
   }
 }
@@ -127,12 +139,13 @@ Hash128 PieceFile::add(mesh::Piece piece)
     num_skin_of_first_ = num_skin;
     return digest;
   }
+  const GlobalIndex first_of_layers = mesh_.ids.num_vertices();
   if (tet_points_.empty()) {  // Most files hold one piece: only now it is known that this does not.
-    remember(arrays_.tets, num_skin_of_first_, tet_points_);
-    remember(arrays_.boundary, arrays_.boundary.point_ids.size(), boundary_points_);
+    remember(arrays_.tets, {num_skin_of_first_, first_of_layers}, tet_points_);
+    remember(arrays_.boundary, {arrays_.boundary.point_ids.size(), 0}, boundary_points_);
   }
-  append(added.tets, num_skin, tet_points_, arrays_.tets);
-  append(added.boundary, num_boundary, boundary_points_, arrays_.boundary);
+  append(added.tets, {num_skin, first_of_layers}, tet_points_, arrays_.tets);
+  append(added.boundary, {num_boundary, 0}, boundary_points_, arrays_.boundary);
   return digest;
 }
 

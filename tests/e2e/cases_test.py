@@ -59,6 +59,9 @@ CASES = {
     "cylinder": Expected(math.pi * 5**2 * 20, 0.05, ("cylinder",), CYLINDER_PATCHES, ("mm",)),
     "frustum": Expected(FRUSTUM, 0.05, ("material_1",), numbered(3)),
     "own_mesh": Expected(math.pi * 5**2 * 20, 0.1, ("rod",), frozenset({"jacket", "ends"}), ("mm",)),
+    "pipe_layers": Expected(
+        2 * math.pi, 0.05, ("full",), numbered(3), coarser=("size.target=0.3",)
+    ),
     # The sum of the signed volumes under the triangles of the file.
     "plate": Expected(52942.7655, 0.01, ("material_1",), numbered(7)),
     "shaft": Expected(

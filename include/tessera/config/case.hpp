@@ -13,6 +13,7 @@
 #include "tessera/fill/options.hpp"
 #include "tessera/improve/options.hpp"
 #include "tessera/io/options.hpp"
+#include "tessera/layers/options.hpp"
 #include "tessera/model/options.hpp"
 #include "tessera/quality/options.hpp"
 #include "tessera/refine/options.hpp"
@@ -45,6 +46,7 @@ struct Case {
   coarse::CoarseOptions coarse{};
   decompose::DecomposeOptions decompose{};
   cut::PlaneSettings planes{};  ///< Of decompose.method "geometry".
+  std::vector<layers::LayerOptions> layers{};  ///< On walls; empty: none.
   refine::RefineOptions refine{};
   fill::FillOptions fill{};
   improve::ImproveOptions improve{};
@@ -70,8 +72,8 @@ struct Case {
                               std::span<const std::string> overrides = {});
 
 /// @brief The options of the fill, with what other tables want in place of "auto": formats for
-/// OpenFOAM that no tet has several faces on the geometry, tets of second order that subdomains are
-/// filled on all levels. Local.
+/// OpenFOAM that no tet has several faces on the geometry, tets of second order and layers that
+/// subdomains are filled on all levels. Local.
 /// @param[in] is_partial Only some subdomains are made: then no tets are divided.
 [[nodiscard]] fill::FillOptions resolved_fill(const Case& given, bool is_partial);
 

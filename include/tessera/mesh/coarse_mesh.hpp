@@ -9,6 +9,7 @@
 #include "tessera/base/flat_array.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/mesh/wall_layers.hpp"
 
 namespace tessera::mesh {
 
@@ -53,12 +54,14 @@ struct CoarseMesh {
                                       ///< first patch. Empty: each patch is its own row.
   std::vector<std::string> material_names{};  ///< Entry m-1 names material m.
 
+  WallLayers layers{};  ///< Between the tets and the geometry.
+
   static auto fields(auto& self)
   {
     return std::tie(self.vertex_xyz, self.tet_vertices, self.tet_material, self.face_vertices,
                     self.face_patch, self.face_uv, self.segment_vertices, self.segment_curve,
                     self.segment_t, self.curves, self.patch_names, self.patch_surface,
-                    self.patch_row, self.material_names);
+                    self.patch_row, self.material_names, self.layers);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }

@@ -13,6 +13,16 @@
 
 namespace tessera::mesh {
 
+/// @brief The points of layers over the vertices of a piece, by the names of these vertices.
+struct Columns {
+  std::vector<HostPoint> vertices{};  ///< Shape (num_columns), ascending.
+  std::vector<double> point_xyz{};    ///< Shape (num_columns, num_layers, 3), towards the wall.
+
+  static auto fields(auto& self) { return std::tie(self.vertices, self.point_xyz); }
+
+  [[nodiscard]] LocalIndex size() const { return static_cast<LocalIndex>(vertices.size()); }
+};
+
 /// @brief The tets of one subdomain, finished and immutable.
 ///
 /// Vertices are numbered locally, those of the skin first. Global ids are not known before all
@@ -34,12 +44,14 @@ struct Piece {
   // Of a piece of second order; else empty. Nodes count as vertices.
   std::vector<LocalIndex> tet_edge_nodes{};       ///< Shape (num_tets, 6), kQuadraticTetEdges.
   std::vector<LocalIndex> boundary_edge_nodes{};  ///< Shape (num_boundary, 3): sides 01, 12, 20.
+  Columns columns{};                              ///< Of its skin; empty without layers.
 
   static auto fields(auto& self)
   {
     return std::tie(self.subdomain, self.material, self.vertex_xyz, self.skin_host, self.skin_index,
                     self.tet_vertices, self.boundary_vertices, self.boundary_patch,
-                    self.boundary_tet, self.tet_edge_nodes, self.boundary_edge_nodes);
+                    self.boundary_tet, self.tet_edge_nodes, self.boundary_edge_nodes,
+                    self.columns);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -74,6 +75,10 @@ class RefinedLattice {
   }
 
   ModelDistance distance{};  ///< Measured if the context asks for it.
+
+  /// Where the columns of these points end, of the same shape; null if the mesh has no layers. What
+  /// has no column ends where it begins.
+  std::shared_ptr<const RefinedLattice> walls{};
 
  private:
   LatticeLevels levels_{};

@@ -34,6 +34,18 @@ struct Skeleton {
   /// Shape (num_edges, 2, 2). Parameters of the ends on what counts: (t, 0) or (u, v).
   FlatArray<double> edge_parameters{};
 
+  /// Shape (num_edges), or empty without layers: whether an edge is a side of a wall's triangle.
+  /// Such an edge is refined on the wall, and its record is the wall's.
+  FlatArray<char> edge_on_wall{};
+  /// Shape (num_edges), or empty without layers: the patch without layers that columns along a
+  /// wall's edge lie on, or kNoIndex; and the parameters of the ends there, shape (num_edges, 2, 2).
+  FlatArray<LocalIndex> edge_side_patch{};
+  FlatArray<double> edge_side_uv{};
+  /// Shape (num_vertices), or empty without layers: the edge that says along what the column of a
+  /// vertex at the rim of a wall goes. It is off the walls, and has the curve; or on one, and has the
+  /// side patch; or kNoIndex.
+  FlatArray<LocalIndex> vertex_side_edge{};
+
   FlatArray<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3); rows of vertex_coarse.
   FlatArray<LocalIndex> triangle_edges{};     ///< Shape (num_triangles, 3); sides 01, 02, 12.
   FlatArray<LocalIndex> triangle_patch{};     ///< Patch, or kNoIndex off the geometry.
@@ -47,7 +59,9 @@ struct Skeleton {
   static auto fields(auto& self)
   {
     return std::tie(self.vertex_coarse, self.vertex_owner, self.edge_vertices, self.edge_owner,
-                    self.edge_curve, self.edge_patch, self.edge_parameters, self.triangle_vertices,
+                    self.edge_curve, self.edge_patch, self.edge_parameters, self.edge_on_wall,
+                    self.edge_side_patch, self.edge_side_uv, self.vertex_side_edge,
+                    self.triangle_vertices,
                     self.triangle_edges, self.triangle_patch, self.triangle_uv,
                     self.triangle_subdomains, self.subdomain_triangles);
   }
@@ -69,6 +83,12 @@ struct Skeleton {
   /// @brief Whether both sides of triangle `t` are subdomains (of one or of two materials).
   [[nodiscard]] bool is_inside(LocalIndex t) const;
 
+  /// @brief Whether edge `e` is a side of a wall's triangle.
+  [[nodiscard]] bool is_on_wall(LocalIndex e) const
+  {
+    return !edge_on_wall.empty() && edge_on_wall[at(e)] != 0;
+  }
+
  private:
   template <class T>
   static LocalIndex size_of(const FlatArray<T>& array)
@@ -76,6 +96,11 @@ struct Skeleton {
     return static_cast<LocalIndex>(array.size());
   }
 };
+
+/// @brief Row of the edge with these vertices of the skeleton, which ascend; kNoIndex: there is
+/// none. Local; O(log n).
+[[nodiscard]] LocalIndex find_edge(const Skeleton& skeleton,
+                                   const std::array<LocalIndex, 2>& vertices);
 
 /// @brief Builds the skeleton. Local; O(n log n) in the coarse tets.
 /// @pre validate(coarse) holds and the decomposition belongs to that mesh.

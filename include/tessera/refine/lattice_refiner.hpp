@@ -25,6 +25,9 @@ struct RefineContext {
 /// @brief Refines the edges and triangles of a complex, level by level. New points on the geometry
 /// are projected at every level, curves first: one projection at the end would fold.
 ///
+/// With layers the walls are refined first (mesh::RefinedLattice::walls). The points of the tets
+/// behind them follow from these and from the columns of the coarse vertices.
+///
 /// A point's position depends on its coarse entity and the context only. So every subdomain that
 /// shares it computes the same bits without a message.
 ///
@@ -38,5 +41,17 @@ struct RefineContext {
 [[nodiscard]] mesh::RefinedLattice refine_lattice(const mesh::Complex& complex,
                                                   mesh::LatticeLevels levels,
                                                   const RefineContext& context);
+
+/// @brief A point of a column over a skeleton edge at the rim of a wall, put onto the patch without
+/// layers beside it; the point itself if there is none. Local.
+/// @param[in] part  Where along the edge the column is, from 0 to 1.
+/// @throws GeometryError if the projection fails.
+[[nodiscard]] Vec3 side_patch_point(const RefineContext& context, LocalIndex edge, double part,
+                                    const Vec3& point);
+
+/// @brief The same for a column over a skeleton vertex: onto the curve that leaves the wall there,
+/// else onto the patch.
+[[nodiscard]] Vec3 side_point_of_vertex(const RefineContext& context, LocalIndex vertex,
+                                        const Vec3& point);
 
 }  // namespace tessera::refine

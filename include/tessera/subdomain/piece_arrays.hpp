@@ -11,6 +11,7 @@
 #include "tessera/mesh/piece.hpp"
 #include "tessera/mesh/skeleton.hpp"
 #include "tessera/number/id_layout.hpp"
+#include "tessera/subdomain/layer_tables.hpp"
 #include "tessera/subdomain/mesh_part.hpp"
 
 namespace tessera::subdomain {
@@ -30,6 +31,13 @@ struct WriteContext {
   /// Who owns the vertices of a piece, shape (num_vertices). Needed where `ids` is by owner, as it
   /// is once seams were improved.
   std::function<std::vector<VertexPlace>(const mesh::Piece&)> places_of{};
+  const LayerTables* layers = nullptr;  ///< Of a mesh with layers.
+
+  /// @brief Vertices of the whole mesh, those of layers last.
+  [[nodiscard]] GlobalIndex num_vertices() const
+  {
+    return ids.num_vertices() + (layers == nullptr ? 0 : layers->num_points());
+  }
 };
 
 /// @brief What the files of one piece hold.

@@ -23,6 +23,19 @@ struct PatchArea {
   static auto fields(auto& self) { return std::tie(self.patch, self.num_triangles, self.area); }
 };
 
+/// @brief What the layers of a piece add to it; the other figures are without them, but for areas of
+/// patches.
+struct LayerSummary {
+  GlobalIndex num_tets = 0;
+  GlobalIndex num_side_triangles = 0;  ///< On patches without layers.
+  double volume = 0.0;                 ///< Output length unit cubed.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.num_tets, self.num_side_triangles, self.volume);
+  }
+};
+
 /// @brief The scalars that a run keeps of every finished piece: O(subdomains) on every rank.
 struct PieceSummary {
   LocalIndex subdomain = kNoIndex;
@@ -39,6 +52,7 @@ struct PieceSummary {
   double volume = 0.0;                    ///< Output length unit cubed.
   double boundary_area = 0.0;        ///< Outside of the model only; output length unit squared.
   std::vector<PatchArea> patches{};  ///< Of num_boundary; ascending, none without triangles.
+  LayerSummary layers{};
   double model_distance = 0.0;       ///< Largest, of the points not held back; output length unit.
   double held_back_distance = 0.0;   ///< Largest, of the held-back points; output length unit.
   double cpu_s = 0.0;                ///< Of the try that succeeded.
@@ -58,10 +72,18 @@ struct PieceSummary {
     return std::tie(self.subdomain, self.material, self.kernel, self.tries, self.num_held_back,
                     self.num_tets, self.num_interior_vertices, self.num_owned_vertices,
                     self.num_boundary, self.euler_characteristic, self.volume, self.boundary_area,
-                    self.patches, self.model_distance, self.held_back_distance, self.cpu_s,
+                    self.patches, self.layers, self.model_distance, self.held_back_distance, self.cpu_s,
                     self.was_limited, self.is_folded, self.min_scaled_jacobian, self.tets,
                     self.seam_tets, self.outside, self.surface, self.content, self.digest);
   }
+
+  // With its layers.
+  [[nodiscard]] GlobalIndex num_all_tets() const { return num_tets + layers.num_tets; }
+  [[nodiscard]] GlobalIndex num_all_boundary() const
+  {
+    return num_boundary + layers.num_side_triangles;
+  }
+  [[nodiscard]] double whole_volume() const { return volume + layers.volume; }
 };
 
 /// @brief What is kept of one piece besides its tets.

@@ -51,8 +51,8 @@ TEST(ConfigErrors, RightKeyInWrongTableIsNear)
 
 TEST(ConfigErrors, NoKeyIsSuggestedWhenNoneIsNear)
 {
-  const std::string message = error_of_key("[boundary]\nlayers = 3");
-  EXPECT_NE(message.find("case.toml:6: unknown key \"boundary.layers\""), std::string::npos);
+  const std::string message = error_of_key("[turbulence]\nviscosity = 3");
+  EXPECT_NE(message.find("case.toml:6: unknown key \"turbulence.viscosity\""), std::string::npos);
   EXPECT_EQ(message.find("did you mean"), std::string::npos);
 }
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace tessera::layers {
+
+/// @brief Layers on some patches; table `[[layer]]` of a case file. Lengths in output length units.
+struct LayerOptions {
+  std::string patch{};     ///< Name of the patches, or a pattern as of the shell.
+  double first = 0.0;      ///< Height of the layer at the wall, > 0.
+  double growth = 1.2;     ///< Height of a layer by that of the one before it, in [1, 3].
+  int count = 0;           ///< Number of layers, >= 1; 0: as many as `thickness` takes.
+  double thickness = 0.0;  ///< Of all layers, > 0; 0: as `count` layers have.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.patch, self.first, self.growth, self.count, self.thickness);
+  }
+
+  friend bool operator==(const LayerOptions&, const LayerOptions&) = default;
+};
+
+/// @brief The most layers there may be.
+inline constexpr int kMostLayers = 100;
+
+/// @brief What is wrong with an entry, or empty. Local.
+[[nodiscard]] std::string defect_of(const LayerOptions& options);
+
+/// @brief Number of layers: `count`, or what comes nearest to `thickness`, at least one. Local.
+[[nodiscard]] int num_layers(const LayerOptions& options);
+
+/// @brief Thickness of all num_layers() together, output length unit. Local.
+[[nodiscard]] double thickness(const LayerOptions& options);
+
+/// @brief Where the layers of an entry end, as parts of its thickness from the tets to the wall:
+/// mesh::WallLayers::ends. Local.
+[[nodiscard]] std::vector<double> layer_ends(const LayerOptions& options);
+
+}  // namespace tessera::layers

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "tessera/base/vec3.hpp"
+
+namespace tessera::mesh {
+
+/// @brief Whether a prism is positive however it is cut into tets, and all parts of it when its
+/// triangle is refined. Local.
+///
+/// The volumes of such parts are linear in the column that they stand on, so it is enough to take
+/// the columns of the corners. A corner may be without a column.
+/// @param[in] low, high Corners of both ends; `low`, seen from `high`, turns counter-clockwise.
+[[nodiscard]] bool is_positive_prism(const std::array<Vec3, 3>& low,
+                                     const std::array<Vec3, 3>& high);
+
+}  // namespace tessera::mesh

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/host_layout.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
+#include "tessera/mesh/piece.hpp"
+#include "tessera/mesh/skeleton.hpp"
+
+/// Layers on walls as parts of pieces: which points and cells there are, and their places among all
+/// others. Points are counted under the host entity of the vertex that their column stands on.
+namespace tessera::subdomain {
+
+/// @brief What layers add to a piece.
+struct LayerCounts {
+  GlobalIndex tets = 0;
+  GlobalIndex side_triangles = 0;  ///< On patches without layers; owned as those of such patches.
+
+  friend bool operator==(const LayerCounts&, const LayerCounts&) = default;
+};
+
+/// @brief Whether columns stand on the fine vertices of a host: it lies on a wall, and a column of a
+/// coarse vertex of it has a length. Local. @pre host is the skeleton's; the mesh has layers.
+[[nodiscard]] bool has_columns(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
+                               const mesh::HostLayout& hosts, mesh::HostEntity host);
+
+/// @brief Counts of all layers, in closed form. Made by every process for itself.
+class LayerTables {
+ public:
+  /// @param[in] coarse, skeleton Borrowed. @param[in] levels Of the skeleton.
+  /// @pre The mesh has layers.
+  LayerTables(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
+              const mesh::LatticeLevels& levels);
+
+  [[nodiscard]] LocalIndex num_layers() const { return coarse_->layers.num_layers(); }
+
+  /// @brief As the function of that name.
+  [[nodiscard]] bool has_columns(mesh::HostEntity host) const
+  {
+    return first_column_[at(host)] != first_column_[at(host) + 1];
+  }
+
+  /// @brief Points of all columns.
+  [[nodiscard]] GlobalIndex num_points() const { return first_column_.back() * num_layers(); }
+
+  /// @brief Number of a point among them. @param[in] layer Ends at it, from 0 at the tets.
+  /// @pre has_columns(vertex.host)
+  [[nodiscard]] GlobalIndex point(const mesh::HostPoint& vertex, LocalIndex layer) const
+  {
+    return (first_column_[at(vertex.host)] + vertex.index) * num_layers() + layer;
+  }
+
+  [[nodiscard]] const LayerCounts& counts(LocalIndex subdomain) const
+  {
+    return counts_[at(subdomain)];
+  }
+
+  /// @brief Whether a patch has layers.
+  [[nodiscard]] bool is_wall(LocalIndex patch) const { return coarse_->layers.is_wall(patch); }
+
+  /// @brief The patch that the side of a layer lies on which stands on a small edge between two
+  /// vertices of walls, if the subdomain owns that side; kNoIndex: none, or there is another prism
+  /// or another owner.
+  [[nodiscard]] LocalIndex side_patch(const mesh::HostPoint& a, const mesh::HostPoint& b,
+                                      LocalIndex subdomain) const;
+
+ private:
+  void count_columns(const mesh::LatticeLevels& levels);
+  void find_side_owners();
+  void count_cells(const mesh::LatticeLevels& levels);
+  [[nodiscard]] GlobalIndex num_tets_on(LocalIndex triangle,
+                                        const mesh::LatticeLevels& levels) const;
+  [[nodiscard]] GlobalIndex num_side_triangles_on(LocalIndex edge, LocalIndex intervals) const;
+  [[nodiscard]] bool is_wall_triangle(LocalIndex triangle) const
+  {
+    return is_wall(skeleton_->triangle_patch[at(triangle)]);
+  }
+  [[nodiscard]] LocalIndex common_edge(const mesh::HostPoint& a, const mesh::HostPoint& b) const;
+  [[nodiscard]] bool is_end(LocalIndex edge, mesh::HostEntity vertex) const;
+
+  const mesh::CoarseMesh* coarse_;
+  const mesh::Skeleton* skeleton_;
+  mesh::HostLayout hosts_;
+  std::vector<GlobalIndex> first_column_{0};  ///< Shape (num_on_skeleton + 1).
+  std::vector<LocalIndex> side_owner_{};      ///< Shape (num_edges): lowest with a wall there.
+  std::vector<LayerCounts> counts_{};         ///< Shape (num_subdomains).
+};
+
+/// @brief The tables of a mesh with layers; none without. Local.
+[[nodiscard]] std::optional<LayerTables> layer_tables(const mesh::CoarseMesh& coarse,
+                                                      const mesh::Skeleton& skeleton,
+                                                      const mesh::LatticeLevels& levels);
+
+/// @brief A piece with its layers.
+struct LayeredPiece {
+  mesh::Piece piece{};  ///< Points and tets of layers come last; its boundary is the geometry.
+  std::vector<mesh::HostPoint> columns{};  ///< Ascending; their points are the last vertices,
+                                           ///< num_layers each, from the tets outwards.
+  LocalIndex num_vertices = 0;             ///< Without these.
+  std::vector<LocalIndex> tet_layer{};     ///< Shape (num_tets): from 1 at the wall; 0: in none.
+};
+
+/// @brief Puts layers onto a piece. Local.
+/// @pre The piece has columns over all vertices of its walls.
+/// @throws MeshError if one is missing.
+[[nodiscard]] LayeredPiece with_layers(mesh::Piece piece, const LayerTables& tables);
+
+}  // namespace tessera::subdomain

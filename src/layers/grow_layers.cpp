@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/layers/grow_layers.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/error.hpp"
+#include "tessera/base/name_patterns.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+
+#include "layers/interior.hpp"
+#include "layers/wall_mover.hpp"
+#include "layers/wall_surface.hpp"
+
+namespace tessera::layers {
+namespace {
+
+// So many steps; after each the tets are made better. Then some more for what was held back.
+constexpr int kSteps = 6;
+constexpr int kMoreSteps = 3;
+
+constexpr double kCovered = 0.1;
+constexpr double kFull = 0.9;
+
+// Which entry each patch has, or kNoIndex.
+std::vector<LocalIndex> entries_of_patches(const mesh::CoarseMesh& mesh,
+                                           std::span<const LayerOptions> options)
+{
+  std::vector<LocalIndex> entries(at(mesh.num_patches()), kNoIndex);
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const auto fits = matching_names("patch", options[i].patch, mesh.patch_names);
+    for (std::size_t p = 0; p < fits.size(); ++p) {
+      if (!fits[p]) continue;
+      if (entries[p] != kNoIndex) {
+        throw ConfigError(fmt::format(
+            "patch \"{}\" fits \"{}\" and \"{}\"; it must fit one entry only",
+            mesh.patch_names[p], options[at(entries[p])].patch, options[i].patch));
+      }
+      entries[p] = static_cast<LocalIndex>(i);
+    }
+  }
+  return entries;
+}
+
+// Patches may meet, and a column has one number of layers.
+void require_alike(std::span<const LayerOptions> options)
+{
+  for (const LayerOptions& one : options) {
+    if (num_layers(one) == num_layers(options.front()) && one.growth == options.front().growth) {
+      continue;
+    }
+    throw ConfigError(fmt::format(
+        "\"{}\" has {} layers that grow by {:g}, and \"{}\" {} by {:g}; all entries "
+        "must have the same count and growth, and only first may differ",
+        options.front().patch, num_layers(options.front()), options.front().growth, one.patch,
+        num_layers(one), one.growth));
+  }
+}
+
+void require_thinner_than_model(const mesh::CoarseMesh& mesh, std::span<const LayerOptions> options)
+{
+  const double diagonal = box_diagonal(mesh.vertex_xyz);
+  for (const LayerOptions& one : options) {
+    if (thickness(one) <= diagonal) continue;
+    throw ConfigError(fmt::format(
+        "the {} layers of \"{}\" are {:g} thick, and the diagonal of the model's box is "
+        "{:g}; choose a smaller first, growth or count",
+        num_layers(one), one.patch, thickness(one), diagonal));
+  }
+}
+
+void require_outside(const mesh::CoarseMesh& mesh, const std::vector<LocalIndex>& entries)
+{
+  std::map<std::array<LocalIndex, 3>, LocalIndex> patch_of;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    if (entries[at(mesh.face_patch[at(f)])] == kNoIndex) continue;
+    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
+    patch_of.emplace(mesh::sorted_triangle(v[0], v[1], v[2]), mesh.face_patch[at(f)]);
+  }
+  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {
+    if (triangle.tets[1] == kNoIndex) continue;
+    const auto found = patch_of.find(triangle.vertices);
+    if (found == patch_of.end()) continue;
+    throw ConfigError(
+        fmt::format("patch \"{}\" lies between two materials; layers are for the "
+                    "outside of the model",
+                    mesh.patch_names[at(found->second)]));
+  }
+}
+
+LayerCover measure(const mesh::CoarseMesh& mesh, const WallMover& mover)
+{
+  std::map<LocalIndex, PatchCover> covers;
+  const WallSurface& walls = mover.walls();
+  for (const SurfaceTriangle& triangle : walls.triangles) {
+    if (!triangle.is_wall) continue;
+    std::array<Vec3, 3> corners{};
+    double least = 1.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto row = at(walls.wall_of_vertex[at(triangle.vertices[c])]);
+      const WallVertex& vertex = walls.vertices[row];
+      corners[c] = vertex.wall;
+      least = std::min(least, vertex.column == Vec3{} ? 0.0 : mover.parts()[row]);
+    }
+    const LocalIndex patch = mesh.face_patch[at(triangle.face)];
+    PatchCover& cover = covers[patch];
+    cover.patch = patch;
+    const double area = triangle_area(corners[0], corners[1], corners[2]);
+    cover.area += area;
+    if (least >= kCovered) cover.covered += area;
+    if (least >= kFull) cover.full += area;
+  }
+  LayerCover all;
+  for (const auto& [patch, cover] : covers) all.patches.push_back(cover);
+  return all;
+}
+
+mesh::WallLayers layers_of(const mesh::CoarseMesh& mesh, const WallMover& mover,
+                           const std::vector<LocalIndex>& entries, std::vector<double> ends)
+{
+  mesh::WallLayers layers;
+  layers.wall_xyz = mesh.vertex_xyz;
+  for (const WallVertex& vertex : mover.walls().vertices) {
+    std::ranges::copy(vertex.wall, &layers.wall_xyz[3 * at(vertex.vertex)]);
+  }
+  for (const LocalIndex entry : entries) layers.patch_is_wall.push_back(entry == kNoIndex ? 0 : 1);
+  layers.ends = std::move(ends);
+  return layers;
+}
+
+}  // namespace
+
+PatchCover LayerCover::sum() const
+{
+  PatchCover sum{.patch = kNoIndex};
+  for (const PatchCover& patch : patches) {
+    sum.area += patch.area;
+    sum.covered += patch.covered;
+    sum.full += patch.full;
+  }
+  return sum;
+}
+
+LayerCover grow_layers(mesh::CoarseMesh& mesh, std::span<const LayerOptions> options,
+                       const model::Model& model, bool keep_tets)
+{
+  const std::vector<LocalIndex> entries = entries_of_patches(mesh, options);
+  require_alike(options);
+  require_thinner_than_model(mesh, options);
+  require_outside(mesh, entries);
+  std::vector<double> heights;
+  for (const LocalIndex entry : entries) {
+    heights.push_back(entry == kNoIndex ? 0.0 : thickness(options[at(entry)]));
+  }
+  std::vector<double> ends = layer_ends(options.front());
+  WallMover mover(mesh, model, find_walls(mesh, heights), ends);
+  for (int step = 1; step <= kSteps + kMoreSteps; ++step) {
+    mover.move_to(std::min(1.0, static_cast<double>(step) / kSteps));
+    if (!keep_tets) mover.renumber(improve_interior(mesh));
+  }
+  mover.update_parameters();
+  const LayerCover cover = measure(mesh, mover);
+  mesh.layers = layers_of(mesh, mover, entries, std::move(ends));
+  mesh::validate(mesh);
+  return cover;
+}
+
+}  // namespace tessera::layers

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/layers/options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tessera::layers {
+namespace {
+
+// Of `count` layers, the first one of height 1.
+double height_of(int count, double growth)
+{
+  double sum = 0.0;
+  double height = 1.0;
+  for (int layer = 0; layer < count; ++layer, height *= growth) sum += height;
+  return sum;
+}
+
+}  // namespace
+
+std::string defect_of(const LayerOptions& options)
+{
+  if ((options.count > 0) == (options.thickness > 0.0)) {
+    return "must have count or thickness, and not both";
+  }
+  if (options.count == 0 && options.thickness < options.first) {
+    return fmt::format("thickness = {:g} is less than first = {:g}; must be at least that",
+                       options.thickness, options.first);
+  }
+  return {};
+}
+
+int num_layers(const LayerOptions& options)
+{
+  if (options.count > 0) return options.count;
+  const double wanted = options.thickness / options.first;
+  int count = 1;
+  const auto is_nearer = [&](int next) {
+    return std::abs(height_of(next, options.growth) - wanted)
+           < std::abs(height_of(next - 1, options.growth) - wanted);
+  };
+  while (count < kMostLayers && is_nearer(count + 1)) ++count;
+  return count;
+}
+
+double thickness(const LayerOptions& options)
+{
+  return options.first * height_of(num_layers(options), options.growth);
+}
+
+std::vector<double> layer_ends(const LayerOptions& options)
+{
+  const int count = num_layers(options);
+  const double all = height_of(count, options.growth);
+  std::vector<double> ends;
+  // The layer at the tets is the highest one.
+  for (int left = count - 1; left >= 0; --left) {
+    ends.push_back(1.0 - height_of(left, options.growth) / all);
+  }
+  return ends;
+}
+
+}  // namespace tessera::layers

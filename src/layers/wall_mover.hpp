@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/model/model.hpp"
+
+#include "layers/wall_surface.hpp"
+
+namespace tessera::layers {
+
+/// @brief Moves the vertices on walls along their columns, as far as nothing gets bad.
+class WallMover {
+ public:
+  /// @param[in] mesh, model Borrowed. @param[in] walls Of the mesh. @param[in] ends As of
+  /// mesh::WallLayers.
+  WallMover(mesh::CoarseMesh& mesh, const model::Model& model, WallSurface walls,
+            std::span<const double> ends);
+
+  /// @brief Moves every vertex to that part of its column, or as far as it can go.
+  /// @throws GeometryError if a projection fails.
+  void move_to(double part);
+
+  /// @brief The mesh has other numbers now: improve_interior().
+  void renumber(const std::vector<LocalIndex>& number);
+
+  /// @brief The parameters of vertices on patches and curves without layers become those of their
+  /// places now. @throws GeometryError if a projection fails.
+  void update_parameters();
+
+  [[nodiscard]] const WallSurface& walls() const { return walls_; }
+
+  /// @brief Shape (walls().vertices.size()): how far along its column each vertex is, 0 to 1.
+  [[nodiscard]] const std::vector<double>& parts() const { return part_; }
+
+ private:
+  [[nodiscard]] Vec3 place_of(const WallVertex& vertex, double part) const;
+  void place(std::span<const double> parts);
+  void find_tets();
+  void update_segments_at(const WallVertex& vertex);
+  void update_face(LocalIndex face);
+  /// Marks the rows of the vertices of all that is bad.
+  [[nodiscard]] std::vector<LocalIndex> rows_of_bad() const;
+  [[nodiscard]] bool is_bad_triangle(const SurfaceTriangle& triangle) const;
+  [[nodiscard]] bool is_bad_column(const SurfaceTriangle& triangle) const;
+
+  mesh::CoarseMesh& mesh_;
+  const model::Model& model_;
+  WallSurface walls_;
+  std::span<const double> ends_;
+  std::vector<double> part_{};       ///< By row of walls_.vertices.
+  std::vector<LocalIndex> tets_{};   ///< With a vertex on a wall.
+  std::vector<double> least_ratio_{};  ///< Of these tets, that they must keep.
+};
+
+}  // namespace tessera::layers

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "layers/wall_surface.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "tessera/base/index_lists.hpp"
+#include "tessera/base/sort_unique.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+
+namespace tessera::layers {
+namespace {
+
+// A column that leans more than that against one of its triangles is not begun.
+constexpr double kLeastCosine = 0.1;
+
+// A leaning column is longer, so that the layers keep their height; but no more than that.
+constexpr double kMostLean = 2.5;
+
+using Edge = std::array<LocalIndex, 2>;
+
+// A triangle keeps this shape, or half of its own if that is less.
+constexpr double kLeastShape = 0.15;
+
+SurfaceTriangle surface_triangle(const mesh::CoarseMesh& mesh, LocalIndex face,
+                                 const std::array<LocalIndex, 3>& v, bool is_wall)
+{
+  const std::array<Vec3, 3> p{mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2])};
+  return {face, v, is_wall, unit(cross(p[1] - p[0], p[2] - p[0])),
+          std::min(kLeastShape, 0.5 * triangle_shape(p))};
+}
+
+// The faces on the outside of the material, turned so that they point away from the tets; of a face
+// between two materials, away from the lower tet.
+std::vector<std::array<LocalIndex, 3>> outward_faces(const mesh::CoarseMesh& mesh)
+{
+  std::map<std::array<LocalIndex, 3>, LocalIndex> face_of;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
+    face_of.emplace(mesh::sorted_triangle(v[0], v[1], v[2]), f);
+  }
+  std::vector<std::array<LocalIndex, 3>> outward(at(mesh.num_faces()));
+  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {
+    const auto found = face_of.find(triangle.vertices);
+    if (found == face_of.end()) continue;
+    const auto tet = mesh.tet(triangle.tets[0]);
+    const auto& corners = mesh::kTetFaceCorners[at(triangle.corners[0])];
+    for (std::size_t c = 0; c < 3; ++c) outward[at(found->second)][c] = tet[corners[c]];
+  }
+  return outward;
+}
+
+// What is known around the vertices of walls.
+class WallFinder {
+ public:
+  WallFinder(const mesh::CoarseMesh& mesh, std::span<const double> thickness)
+      : mesh_(mesh), thickness_(thickness)
+  {
+  }
+
+  WallSurface run()
+  {
+    find_vertices();
+    find_triangles();
+    find_segments();
+    const IndexLists around = triangles_around();
+    for (std::size_t row = 0; row < surface_.vertices.size(); ++row) {
+      set_column(surface_.vertices[row], around[static_cast<LocalIndex>(row)]);
+    }
+    return std::move(surface_);
+  }
+
+ private:
+  [[nodiscard]] bool is_wall(LocalIndex face) const
+  {
+    return thickness_[at(mesh_.face_patch[at(face)])] > 0.0;
+  }
+
+  void find_vertices()
+  {
+    surface_.wall_of_vertex.assign(at(mesh_.num_vertices()), kNoIndex);
+    std::vector<LocalIndex> on_wall;
+    for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
+      if (!is_wall(f)) continue;
+      on_wall.insert(on_wall.end(), &mesh_.face_vertices[3 * at(f)],
+                     &mesh_.face_vertices[3 * at(f)] + 3);
+    }
+    sort_unique(on_wall);
+    for (const LocalIndex v : on_wall) {
+      surface_.wall_of_vertex[at(v)] = static_cast<LocalIndex>(surface_.vertices.size());
+      surface_.vertices.push_back({.vertex = v, .wall = mesh_.position(v)});
+    }
+  }
+
+  void find_triangles()
+  {
+    const auto outward = outward_faces(mesh_);
+    for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
+      const auto& v = outward[at(f)];
+      const bool touches = std::ranges::any_of(
+          v, [&](LocalIndex one) { return surface_.wall_of_vertex[at(one)] != kNoIndex; });
+      if (touches) surface_.triangles.push_back(surface_triangle(mesh_, f, v, is_wall(f)));
+    }
+  }
+
+  // Curves that leave a wall: their segments are no sides of its triangles.
+  void find_segments()
+  {
+    std::set<Edge> on_walls;
+    for (const SurfaceTriangle& triangle : surface_.triangles) {
+      if (!triangle.is_wall) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto [low, high] =
+            std::minmax(triangle.vertices[c], triangle.vertices[(c + 1) % 3]);
+        on_walls.insert({low, high});
+      }
+    }
+    for (LocalIndex s = 0; s < mesh_.num_segments(); ++s) {
+      const LocalIndex* v = &mesh_.segment_vertices[2 * at(s)];
+      if (on_walls.contains({std::min(v[0], v[1]), std::max(v[0], v[1])})) continue;
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (surface_.wall_of_vertex[at(v[end])] != kNoIndex) leaving_[v[end]].push_back({s, end});
+      }
+    }
+  }
+
+  [[nodiscard]] IndexLists triangles_around() const
+  {
+    std::vector<LocalIndex> rows;
+    for (const SurfaceTriangle& triangle : surface_.triangles) {
+      for (const LocalIndex v : triangle.vertices) {
+        rows.push_back(surface_.wall_of_vertex[at(v)]);
+      }
+    }
+    return rows_by_key(rows, static_cast<LocalIndex>(surface_.vertices.size()), 3);
+  }
+
+  void set_column(WallVertex& vertex, std::span<const LocalIndex> around)
+  {
+    std::vector<Vec3> inward;
+    std::vector<LocalIndex> sides;
+    double height = 0.0;
+    for (const LocalIndex row : around) {
+      const SurfaceTriangle& triangle = surface_.triangles[at(row)];
+      const LocalIndex patch = mesh_.face_patch[at(triangle.face)];
+      if (!triangle.is_wall) {
+        sides.push_back(patch);
+        continue;
+      }
+      inward.push_back(-1.0 * triangle.normal);
+      height = height == 0.0 ? thickness_[at(patch)] : std::min(height, thickness_[at(patch)]);
+    }
+    sort_unique(sides);
+    const Vec3 direction = direction_at(vertex, around, sides, inward);
+    double least = direction == Vec3{} ? 0.0 : 1.0;
+    for (const Vec3& normal : inward) least = std::min(least, dot(normal, direction));
+    if (least < kLeastCosine) return;
+    vertex.column = (height * std::min(1.0 / least, kMostLean)) * direction;
+  }
+
+  // Zero if there is none.
+  [[nodiscard]] Vec3 direction_at(WallVertex& vertex, std::span<const LocalIndex> around,
+                                  const std::vector<LocalIndex>& sides,
+                                  const std::vector<Vec3>& inward) const
+  {
+    const auto leaving = leaving_.find(vertex.vertex);
+    if (leaving != leaving_.end()) return along_curve(vertex, leaving->second);
+    if (sides.empty()) return best_direction(inward).direction;
+    if (sides.size() > 1) return {};
+    return along_patch(vertex, around, sides.front(), inward);
+  }
+
+  // Segments of one curve may stand twice, with the parameters of either side.
+  [[nodiscard]] Vec3 along_curve(WallVertex& vertex,
+                                 const std::vector<std::pair<LocalIndex, std::size_t>>& leaving)
+      const
+  {
+    const auto other_end = [&](const std::pair<LocalIndex, std::size_t>& one) {
+      return mesh_.segment_vertices[2 * at(one.first) + 1 - one.second];
+    };
+    const auto [segment, end] = leaving.front();
+    for (const auto& one : leaving) {
+      if (other_end(one) != other_end(leaving.front())) return {};
+    }
+    vertex.curve = mesh_.segment_curve[at(segment)];
+    if (!mesh_.segment_t.empty()) vertex.t = mesh_.segment_t[2 * at(segment) + end];
+    return unit(mesh_.position(other_end(leaving.front())) - vertex.wall);
+  }
+
+  [[nodiscard]] Vec3 along_patch(WallVertex& vertex, std::span<const LocalIndex> around,
+                                 LocalIndex patch, std::vector<Vec3> inward) const
+  {
+    vertex.patch = patch;
+    Vec3 across{};
+    for (const LocalIndex row : around) {
+      const SurfaceTriangle& triangle = surface_.triangles[at(row)];
+      if (triangle.is_wall) continue;
+      across = across + triangle.normal;
+      vertex.uv = parameters_of(triangle.face, vertex.vertex);
+    }
+    across = unit(across);
+    for (Vec3& normal : inward) normal = unit(normal - dot(normal, across) * across);
+    const Vec3 direction = best_direction(inward).direction;
+    return unit(direction - dot(direction, across) * across);
+  }
+
+  [[nodiscard]] model::SurfaceParameters parameters_of(LocalIndex face, LocalIndex vertex) const
+  {
+    if (mesh_.face_uv.empty()) return {};
+    const LocalIndex* v = &mesh_.face_vertices[3 * at(face)];
+    const auto corner = static_cast<std::size_t>(std::find(v, v + 3, vertex) - v);
+    const double* uv = &mesh_.face_uv[2 * (3 * at(face) + corner)];
+    return {uv[0], uv[1]};
+  }
+
+  const mesh::CoarseMesh& mesh_;
+  std::span<const double> thickness_;
+  WallSurface surface_{};
+  std::map<LocalIndex, std::vector<std::pair<LocalIndex, std::size_t>>> leaving_{};
+};
+
+}  // namespace
+
+double triangle_shape(const std::array<Vec3, 3>& corners)
+{
+  double longest = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec3 side = corners[(c + 1) % 3] - corners[c];
+    longest = std::max(longest, dot(side, side));
+  }
+  return norm(cross(corners[1] - corners[0], corners[2] - corners[0])) / longest;
+}
+
+BestDirection best_direction(std::span<const Vec3> normals)
+{
+  constexpr int kSteps = 300;  // The cosine is off by less than 0.01 then.
+  Vec3 centre{};
+  for (const Vec3& normal : normals) centre = centre + normal;
+  centre = (1.0 / static_cast<double>(normals.size())) * centre;
+  // Towards the farthest one by ever shorter steps: the centre of the smallest ball round them.
+  for (int step = 1; step <= kSteps; ++step) {
+    const auto farthest = std::ranges::max_element(normals, {}, [&](const Vec3& normal) {
+      return dot(normal - centre, normal - centre);
+    });
+    centre = centre + (1.0 / (step + 1.0)) * (*farthest - centre);
+  }
+  BestDirection best{unit(centre), 1.0};
+  for (const Vec3& normal : normals) {
+    best.least_cosine = std::min(best.least_cosine, dot(normal, best.direction));
+  }
+  return best;
+}
+
+WallSurface find_walls(const mesh::CoarseMesh& mesh, std::span<const double> thickness)
+{
+  return WallFinder(mesh, thickness).run();
+}
+
+}  // namespace tessera::layers

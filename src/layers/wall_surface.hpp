@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "tessera/base/vec3.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/model/model.hpp"
+
+namespace tessera::layers {
+
+/// @brief A vertex on a wall, and where its column may go.
+struct WallVertex {
+  LocalIndex vertex = kNoIndex;  ///< Of the coarse mesh.
+  Vec3 wall{};                   ///< Where it is on the wall.
+  Vec3 column{};                 ///< To where the tets should begin; zero: there is no way.
+  LocalIndex patch = kNoIndex;   ///< Without layers; the column goes along it.
+  LocalIndex curve = kNoIndex;   ///< Between such patches; the column goes along it.
+  double t = 0.0;                ///< Of `wall` on the curve.
+  model::SurfaceParameters uv{};  ///< Of `wall` on the patch.
+};
+
+/// @brief A triangle of the geometry that has a vertex on a wall.
+struct SurfaceTriangle {
+  LocalIndex face = kNoIndex;          ///< Of the coarse mesh.
+  std::array<LocalIndex, 3> vertices{};  ///< Of the coarse mesh; seen from the tets, it points away.
+  bool is_wall = false;
+  Vec3 normal{};  ///< Away from the tets, before any vertex has moved; of length 1.
+  double least_shape = 0.0;  ///< triangle_shape() that it must keep.
+};
+
+/// @brief Twice the area by the square of the longest side; 0.87 at most.
+[[nodiscard]] double triangle_shape(const std::array<Vec3, 3>& corners);
+
+/// @brief The walls of a coarse mesh.
+struct WallSurface {
+  std::vector<WallVertex> vertices{};        ///< Ascending.
+  std::vector<SurfaceTriangle> triangles{};  ///< In the order of faces.
+  std::vector<LocalIndex> wall_of_vertex{};  ///< Shape (num_vertices): row of vertices, or kNoIndex.
+};
+
+/// @brief Finds walls and the columns on them. Local.
+/// @param[in] thickness Shape (num_patches): of the layers; 0: none.
+/// @pre No wall lies between two materials.
+[[nodiscard]] WallSurface find_walls(const mesh::CoarseMesh& mesh,
+                                     std::span<const double> thickness);
+
+/// @brief The direction whose smallest cosine to the normals is largest, and that cosine. Local.
+struct BestDirection {
+  Vec3 direction{};
+  double least_cosine = 0.0;
+};
+[[nodiscard]] BestDirection best_direction(std::span<const Vec3> normals);
+
+}  // namespace tessera::layers

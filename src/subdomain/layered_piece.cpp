@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/sort_unique.hpp"
+#include "tessera/layers/prism_tets.hpp"
+#include "tessera/subdomain/layer_tables.hpp"
+
+namespace tessera::subdomain {
+namespace {
+
+// Puts prisms onto the triangles of walls, from the tets outwards.
+class LayerBuilder {
+ public:
+  LayerBuilder(mesh::Piece piece, const LayerTables& tables) : tables_(tables)
+  {
+    made_.num_vertices = piece.num_vertices();
+    made_.tet_layer.assign(at(piece.num_tets()), 0);
+    made_.piece = std::move(piece);
+  }
+
+  LayeredPiece run() &&
+  {
+    find_columns();
+    place_points();
+    const LocalIndex num_boundary = piece().num_boundary();
+    for (LocalIndex row = 0; row < num_boundary; ++row) {
+      if (tables_.is_wall(piece().boundary_patch[at(row)])) add_prisms(row);
+    }
+    return std::move(made_);
+  }
+
+ private:
+  // A corner of a wall's triangle, and the row of its column.
+  struct Corner {
+    LocalIndex vertex = kNoIndex;
+    mesh::HostPoint name{};
+    LocalIndex column = kNoIndex;
+  };
+
+  [[nodiscard]] mesh::Piece& piece() { return made_.piece; }
+
+  void find_columns()
+  {
+    for (LocalIndex row = 0; row < piece().num_boundary(); ++row) {
+      if (!tables_.is_wall(piece().boundary_patch[at(row)])) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const mesh::HostPoint name =
+            piece().skin_point(piece().boundary_vertices[3 * at(row) + c]);
+        if (tables_.has_columns(name.host)) made_.columns.push_back(name);
+      }
+    }
+    sort_unique(made_.columns);
+  }
+
+  void place_points()
+  {
+    const mesh::Columns& all = piece().columns;
+    const std::size_t size = 3 * at(tables_.num_layers());
+    for (const mesh::HostPoint& name : made_.columns) {
+      const auto found = std::ranges::lower_bound(all.vertices, name);
+      if (found == all.vertices.end() || *found != name) {
+        throw MeshError(fmt::format("piece {} has no column over vertex {} of host {}",
+                                    piece().subdomain, name.index, name.host));
+      }
+      const double* xyz =
+          &all.point_xyz[size * static_cast<std::size_t>(found - all.vertices.begin())];
+      piece().vertex_xyz.insert(piece().vertex_xyz.end(), xyz, xyz + size);
+    }
+  }
+
+  [[nodiscard]] Corner corner_of(LocalIndex vertex)
+  {
+    Corner corner{vertex, piece().skin_point(vertex)};
+    const auto found = std::ranges::lower_bound(made_.columns, corner.name);
+    if (found != made_.columns.end() && *found == corner.name) {
+      corner.column = static_cast<LocalIndex>(found - made_.columns.begin());
+    }
+    return corner;
+  }
+
+  // Where a layer ends at a corner; layer -1 ends at the tets.
+  [[nodiscard]] LocalIndex point(const Corner& corner, LocalIndex layer) const
+  {
+    if (corner.column == kNoIndex || layer < 0) return corner.vertex;
+    return made_.num_vertices + corner.column * tables_.num_layers() + layer;
+  }
+
+  void add_prisms(LocalIndex row)
+  {
+    std::array<Corner, 3> outward;
+    for (std::size_t c = 0; c < 3; ++c) {
+      outward[c] = corner_of(piece().boundary_vertices[3 * at(row) + c]);
+    }
+    const auto has_column = [](const Corner& corner) { return corner.column != kNoIndex; };
+    if (std::ranges::none_of(outward, has_column)) return;
+    std::array<Corner, 3> sorted = outward;
+    std::ranges::sort(sorted, {}, &Corner::name);
+    const bool is_even = is_rotation(outward, sorted);
+    for (LocalIndex layer = 0; layer < tables_.num_layers(); ++layer) {
+      const LocalIndex first_tet = piece().num_tets();
+      layers::Prism prism{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        prism[c] = point(sorted[c], layer - 1);
+        prism[3 + c] = point(sorted[c], layer);
+      }
+      layers::append_prism_tets(prism, is_even, piece().tet_vertices);
+      made_.tet_layer.resize(at(piece().num_tets()), tables_.num_layers() - layer);
+      for (std::size_t c = 0; c < 3; ++c) {
+        add_side(outward[c], outward[(c + 1) % 3], layer, first_tet);
+      }
+    }
+    end_at_wall(row, outward);
+  }
+
+  static bool is_rotation(const std::array<Corner, 3>& outward, const std::array<Corner, 3>& sorted)
+  {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (outward[c].vertex != sorted[0].vertex) continue;
+      return outward[(c + 1) % 3].vertex == sorted[1].vertex;
+    }
+    return false;
+  }
+
+  // The side of a prism that lies on a patch without layers: two triangles, or one where a column
+  // is missing.
+  void add_side(const Corner& a, const Corner& b, LocalIndex layer, LocalIndex first_tet)
+  {
+    const LocalIndex patch = tables_.side_patch(a.name, b.name, piece().subdomain);
+    if (patch == kNoIndex) return;
+    const std::array<LocalIndex, 4> quad{point(a, layer - 1), point(b, layer - 1), point(b, layer),
+                                         point(a, layer)};
+    const bool begins_at_a = a.name < b.name;
+    const std::array<std::array<std::size_t, 3>, 2> halves =
+        begins_at_a ? std::array<std::array<std::size_t, 3>, 2>{{{0, 1, 2}, {0, 2, 3}}}
+                    : std::array<std::array<std::size_t, 3>, 2>{{{0, 1, 3}, {1, 2, 3}}};
+    for (const auto& half : halves) {
+      const std::array<LocalIndex, 3> triangle{quad[half[0]], quad[half[1]], quad[half[2]]};
+      if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) {
+        continue;
+      }
+      piece().boundary_vertices.insert(piece().boundary_vertices.end(), triangle.begin(),
+                                       triangle.end());
+      piece().boundary_patch.push_back(patch);
+      piece().boundary_tet.push_back(tet_behind(triangle, first_tet));
+    }
+  }
+
+  // The triangle of the tets gives way to that of the wall.
+  void end_at_wall(LocalIndex row, const std::array<Corner, 3>& outward)
+  {
+    std::array<LocalIndex, 3> triangle{};
+    for (std::size_t c = 0; c < 3; ++c) triangle[c] = point(outward[c], tables_.num_layers() - 1);
+    std::ranges::copy(triangle, &piece().boundary_vertices[3 * at(row)]);
+    const LocalIndex num_last = std::min(piece().num_tets(), 3);
+    piece().boundary_tet[at(row)] = tet_behind(triangle, piece().num_tets() - num_last);
+  }
+
+  // Of those from `first` on the one that has the triangle.
+  [[nodiscard]] LocalIndex tet_behind(const std::array<LocalIndex, 3>& triangle, LocalIndex first)
+  {
+    for (LocalIndex t = first; t < piece().num_tets(); ++t) {
+      const LocalIndex* corners = &piece().tet_vertices[4 * at(t)];
+      const bool has_all = std::ranges::all_of(triangle, [&](LocalIndex v) {
+        return std::find(corners, corners + 4, v) != corners + 4;
+      });
+      if (has_all) return t;
+    }
+    throw MeshError(fmt::format("piece {} has a triangle in front of its layers that none of them "
+                                "has",
+                                piece().subdomain));
+  }
+
+  const LayerTables& tables_;
+  LayeredPiece made_{};
+};
+
+}  // namespace
+
+LayeredPiece with_layers(mesh::Piece piece, const LayerTables& tables)
+{
+  return LayerBuilder(std::move(piece), tables).run();
+}
+
+}  // namespace tessera::subdomain

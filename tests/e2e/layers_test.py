@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""[[layer]]: flat cells on walls, the same for any number of ranks, on the geometry, and a mesh that conforms."""
+import math
+import unittest
+
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+
+import program
+from program import DEGRADED, OK, STOPPED, WRONG_INPUT, sets
+
+PIPE = (
+    "algebraic3d\nsolid inlet = plane (0, 0, 0; 0, 0, -1);\nsolid outlet = plane (0, 0, 2; 0, 0, 1);\n"
+    "solid pipe = cylinder (0, 0, 0; 0, 0, 2; 0.5) and inlet and outlet;\ntlo pipe;\n"
+)
+# A ball cut out of a ball, and what is left cut by a plane: walls at both rims of a flat ring.
+SHELL = (
+    "algebraic3d\nsolid outer = sphere (0, 0, 0; 1);\nsolid inner = sphere (0, 0, 0; 0.5);\n"
+    "solid shell = outer and not inner and plane (0, 0, 0; 0, 0, -1);\ntlo shell;\n"
+)
+
+
+def grid_of(file):
+    reader = vtkXMLPUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def points_of(grid, cell):
+    ids = grid.GetCell(cell).GetPointIds()
+    return [grid.GetPoint(ids.GetId(i)) for i in range(ids.GetNumberOfIds())]
+
+
+class LayersTest(program.ProgramTest):
+    def case(self, text=PIPE, patch="patch_3", first=0.02, count=4, max_size=0.3):
+        self.write("model.geo", text)
+        return self.write(
+            "case.toml",
+            f"geometry.file = 'model.geo'\ncoarse.max_size = {max_size}\ndecompose.subdomains = 6\n"
+            f"refine.levels = 1\n[[layer]]\npatch = '{patch}'\nfirst = {first}\ncount = {count}\n",
+        )
+
+    def checked(self, folder):
+        figures, _ = self.assert_checked(folder, volume_tolerance=1e-12)
+        return figures
+
+
+class AnyNumberOfRanks(LayersTest):
+    def test_has_the_same_bits(self):
+        case = self.case()
+        for kernel, others in (("subdivide", (2, 3, 5)), ("optimize", (3,)), ("netgen", (2,))):
+            with self.subTest(kernel=kernel):
+                alone = self.mesh(case, kernel, *sets(f"fill.kernel={kernel}"))
+                figures = self.checked(alone)
+                self.assertGreater(figures["layers"]["num_tets"], 1000)
+                for ranks in others:
+                    other = self.mesh(case, f"{kernel}_{ranks}", *sets(f"fill.kernel={kernel}"), ranks=ranks)
+                    self.assertEqual(program.figures(other), figures)
+                    self.assertEqual(program.mesh_files(other), program.mesh_files(alone))
+
+    def test_and_of_subdomains_and_files_has_the_same_layers(self):
+        case = self.case()
+        found = []
+        for subdomains, files in ((1, 0), (9, 0), (9, 2)):
+            out = self.mesh(
+                case, f"out_{subdomains}_{files}",
+                *sets("fill.kernel=subdivide", f"decompose.subdomains={subdomains}", f"output.files={files}"))
+            figures = self.checked(out)
+            layers = figures["layers"]
+            found.append((layers["num_tets"], round(layers["volume"], 9), figures["num_tets"], figures["num_vertices"]))
+        self.assertEqual(len(set(found)), 1, found)
+
+    def test_goes_on_after_a_stop(self):
+        case = self.case()
+        whole = self.mesh(case, "whole")
+        stopped = self.start("mesh", case, "--output", "out")
+        program.wait_until(lambda: (self.folder / "out" / "pieces").is_dir(), "a store")
+        stopped.send_signal(15)
+        self.assertIn(self.finish(stopped).code, (STOPPED, OK))
+        self.mesh(case, "out", "--resume", ranks=3)
+        self.assertEqual(program.figures(self.folder / "out"), program.figures(whole))
+
+
+class Shape(program.ResultTest, LayersTest):
+    """Of a pipe of radius 0.5: four layers on its side, none on its ends."""
+
+    FIRST, GROWTH, COUNT = 0.02, 1.2, 4
+
+    @classmethod
+    def make_result(cls, maker):
+        return maker.mesh(LayersTest.case(maker), "out", ranks=2)
+
+    def setUp(self):
+        super().setUp()
+        self.grid = grid_of(self.out / "mesh.pvtu")
+        self.layer = self.grid.GetCellData().GetArray("layer")
+
+    def test_every_layer_is_as_high_as_the_case_says(self):
+        ends = [0.5 - sum(self.FIRST * self.GROWTH**i for i in range(n)) for n in range(self.COUNT + 1)]
+        num_of_layer = [0] * (self.COUNT + 1)
+        for cell in range(self.grid.GetNumberOfCells()):
+            layer = int(self.layer.GetValue(cell))
+            num_of_layer[layer] += 1
+            radii = [math.hypot(x, y) for x, y, _ in points_of(self.grid, cell)]
+            if layer == 0:
+                self.assertLess(max(radii), ends[-1] + 1e-3)
+                continue
+            # Walls are curved, so columns of coarse vertices lean a little against each other.
+            self.assertAlmostEqual(max(radii), ends[layer - 1], delta=5e-3)
+            self.assertAlmostEqual(min(radii), ends[layer], delta=5e-3)
+        self.assertEqual(len(set(num_of_layer[1:])), 1, "all layers have as many cells")
+        self.assertEqual(self.report["layers"]["num_tets"], sum(num_of_layer[1:]))
+        self.assertEqual(self.report["layers"]["full_height"], 1.0)
+
+    def test_the_boundary_is_on_the_geometry(self):
+        boundary = grid_of(self.out / "boundary.pvtu")
+        patch = boundary.GetCellData().GetArray("patch")
+        area = [0.0, 0.0, 0.0]
+        for cell in range(boundary.GetNumberOfCells()):
+            points = points_of(boundary, cell)
+            area[int(patch.GetValue(cell))] += boundary.GetCell(cell).ComputeArea()
+            for x, y, z in points:
+                if patch.GetValue(cell) == 2:
+                    self.assertAlmostEqual(math.hypot(x, y), 0.5, places=12)
+                else:
+                    self.assertEqual(z, 2.0 * patch.GetValue(cell))
+        for found, exact in zip(area, (math.pi / 4, math.pi / 4, 2.0 * math.pi)):
+            self.assertAlmostEqual(found / exact, 1.0, delta=0.03)
+
+
+class Rims(LayersTest):
+    def test_of_walls_stay_on_the_patch_beside_them(self):
+        """Of the shell's three patches only its round ones are walls, then only its flat one."""
+        for patch in ("patch_[12]", "patch_3"):
+            with self.subTest(patch=patch):
+                case = self.case(text=SHELL, patch=patch, first=0.01)
+                out = self.mesh(case, "out_" + patch[-2:], *sets("coarse.max_size=0.25", "fill.kernel=subdivide"))
+                figures = self.checked(out)
+                self.assertGreater(figures["layers"]["covered"], 0.99)
+                boundary = grid_of(out / "boundary.pvtu")
+                patches = boundary.GetCellData().GetArray("patch")
+                for cell in range(boundary.GetNumberOfCells()):
+                    for x, y, z in points_of(boundary, cell):
+                        if patches.GetValue(cell) == 2:
+                            self.assertEqual(z, 0.0)
+                        else:
+                            radius = (1.0, 0.5)[int(patches.GetValue(cell))]
+                            self.assertAlmostEqual(math.dist((x, y, z), (0, 0, 0)), radius, places=9)
+
+
+class Room(LayersTest):
+    def test_that_is_missing_makes_layers_thinner(self):
+        outcome = self.run_program("mesh", self.case(patch="*", first=0.1, count=8), "--output", "out")
+        self.assertIn(outcome.code, (OK, DEGRADED), outcome.err)
+        figures = self.checked(self.folder / "out")
+        self.assertLess(figures["layers"]["full_height"], 0.5)
+        self.assertGreater(figures["layers"]["num_tets"], 0)
+
+
+class Refused(LayersTest):
+    def test_is_what_names_no_patch_or_several(self):
+        outcome = self.run_program("mesh", self.case(patch="inlet"), "--output", "out", ranks=2)
+        self.assert_refused(outcome, WRONG_INPUT, "[[layer]]", 'patch = "inlet"', "patch_1")
+        case = self.case()
+        case.write_text(case.read_text() + "[[layer]]\npatch = 'patch_*'\nfirst = 0.02\ncount = 4\n")
+        self.assert_refused(self.run_program("mesh", case, "--output", "out"), WRONG_INPUT, "one entry only")
+
+
+if __name__ == "__main__":
+    unittest.main()

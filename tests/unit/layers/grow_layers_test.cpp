@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/layers/grow_layers.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
+
+#include "support/flat_model.hpp"
+#include "support/meshes.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace tessera::layers {
+namespace {
+
+const testing::FlatModel kModel;
+
+double volume_of_tets(const mesh::CoarseMesh& mesh)
+{
+  double volume = 0.0;
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    const auto v = mesh.tet(t);
+    volume += tet_volume(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]),
+                         mesh.position(v[3]));
+  }
+  return volume;
+}
+
+// Of thickness 0.05 + 0.1.
+LayerOptions two_layers(const std::string& patch)
+{
+  return {.patch = patch, .first = 0.05, .growth = 2.0, .count = 2};
+}
+
+std::string error_of(const std::vector<LayerOptions>& options)
+{
+  mesh::CoarseMesh cube = testing::two_material_cube(2);
+  return testing::message_of<ConfigError>(
+      [&] { (void)grow_layers(cube, options, kModel, false); });
+}
+
+// At the rim columns stay on the other sides of the cube, at its corners on its edges.
+TEST(GrowLayers, OnOneSideOfACubeMakesItShorter)
+{
+  for (const bool keep_tets : {false, true}) {
+    mesh::CoarseMesh cube = testing::kuhn_cube(3);
+    const LayerCover cover =
+        grow_layers(cube, std::vector{two_layers(cube.patch_names[0])}, kModel, keep_tets);
+    EXPECT_NEAR(volume_of_tets(cube), 0.85, 1e-9);
+    ASSERT_EQ(cover.patches.size(), 1U);
+    EXPECT_NEAR(cover.patches[0].area, 1.0, 1e-12);
+    EXPECT_NEAR(cover.patches[0].full, 1.0, 1e-12);
+    EXPECT_EQ(cube.layers.num_layers(), 2);
+    for (LocalIndex v = 0; v < cube.num_vertices(); ++v) {
+      if (cube.layers.wall(v) == cube.position(v)) continue;
+      EXPECT_EQ(cube.layers.wall(v)[0], 0.0);
+      EXPECT_NEAR(cube.position(v)[0], 0.15, 1e-12);
+      EXPECT_NEAR(cube.layers.wall(v)[1], cube.position(v)[1], 1e-12);
+    }
+    if (keep_tets) {
+      EXPECT_EQ(cube.tet_vertices, testing::kuhn_cube(3).tet_vertices);
+    }
+  }
+}
+
+TEST(GrowLayers, OnAllSidesOfACubeMakesItSmaller)
+{
+  mesh::CoarseMesh cube = testing::kuhn_cube(3);
+  const LayerCover cover = grow_layers(cube, std::vector{two_layers("*")}, kModel, false);
+  EXPECT_NEAR(volume_of_tets(cube), 0.7 * 0.7 * 0.7, 0.01);
+  EXPECT_NEAR(cover.sum().full, 6.0, 1e-12);
+}
+
+// More than there is room for: thinner, and still a sound mesh.
+TEST(GrowLayers, ThickerThanHalfTheCubeGoAsFarAsTheyCan)
+{
+  mesh::CoarseMesh cube = testing::kuhn_cube(2);
+  const LayerCover cover = grow_layers(
+      cube, std::vector{LayerOptions{.patch = "*", .first = 0.2, .count = 4}}, kModel, false);
+  EXPECT_GT(volume_of_tets(cube), 0.0);
+  EXPECT_LT(volume_of_tets(cube), 1.0);
+  EXPECT_LT(cover.sum().full, 6.0);
+  EXPECT_NO_THROW(mesh::validate(cube));
+}
+
+TEST(GrowLayers, RefusesWhatItCannotDo)
+{
+  const auto names = testing::two_material_cube(2).patch_names;
+  EXPECT_NE(error_of({two_layers("nothing")}).find("nothing"), std::string::npos);
+  EXPECT_NE(error_of({two_layers(names[0]), two_layers("*")}).find("one entry only"),
+            std::string::npos);
+  EXPECT_NE(error_of({two_layers(names[6])}).find("between two materials"), std::string::npos);
+  LayerOptions other = two_layers(names[1]);
+  other.growth = 1.5;
+  EXPECT_NE(error_of({two_layers(names[0]), other}).find("same count and growth"),
+            std::string::npos);
+  EXPECT_NE(error_of({{.patch = names[0], .first = 9.0, .count = 1}}).find("box"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace tessera::layers

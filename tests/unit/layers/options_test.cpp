@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/layers/options.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tessera::layers {
+namespace {
+
+TEST(LayerOptions, EndsAreThoseOfAGeometricSeries)
+{
+  const LayerOptions options{.patch = "wall", .first = 0.1, .growth = 2.0, .count = 3};
+  EXPECT_DOUBLE_EQ(thickness(options), 0.7);
+  const std::vector<double> ends = layer_ends(options);
+  ASSERT_EQ(ends.size(), 3U);
+  EXPECT_DOUBLE_EQ(ends[0], 4.0 / 7.0);  // The one at the tets is the highest.
+  EXPECT_DOUBLE_EQ(ends[1], 6.0 / 7.0);
+  EXPECT_EQ(ends[2], 1.0);
+}
+
+TEST(LayerOptions, AThicknessTakesTheNumberThatComesNearest)
+{
+  LayerOptions options{.patch = "wall", .first = 0.1, .growth = 1.0, .thickness = 0.34};
+  EXPECT_EQ(num_layers(options), 3);
+  options.thickness = 0.36;
+  EXPECT_EQ(num_layers(options), 4);
+  options.thickness = 1e9;
+  EXPECT_EQ(num_layers(options), kMostLayers);
+}
+
+TEST(LayerOptions, MustHaveEitherCountOrThickness)
+{
+  EXPECT_NE(defect_of({.patch = "a", .first = 1.0}), "");
+  EXPECT_NE(defect_of({.patch = "a", .first = 1.0, .count = 2, .thickness = 3.0}), "");
+  EXPECT_NE(defect_of({.patch = "a", .first = 1.0, .thickness = 0.5}), "");
+  EXPECT_EQ(defect_of({.patch = "a", .first = 1.0, .count = 2}), "");
+  EXPECT_EQ(defect_of({.patch = "a", .first = 1.0, .thickness = 2.0}), "");
+}
+
+}  // namespace
+}  // namespace tessera::layers

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tessera/layers/grow_layers.hpp"
+#include "tessera/mesh/lattice_levels.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+#include "tessera/subdomain/count_pieces.hpp"
+#include "tessera/subdomain/layer_tables.hpp"
+#include "tessera/subdomain/piece_arrays.hpp"
+
+#include "support/decompositions.hpp"
+#include "support/filled_cube.hpp"
+#include "support/flat_model.hpp"
+#include "support/meshes.hpp"
+
+namespace tessera::subdomain {
+namespace {
+
+// A cube with layers on some patches, in four subdomains of two materials.
+class LayeredCube : public ::testing::TestWithParam<std::vector<std::size_t>> {
+ protected:
+  LayeredCube() : coarse_(with_layers_on(GetParam())), body_(coarse_, testing::slabs(coarse_, 2)) {}
+
+  static mesh::CoarseMesh with_layers_on(const std::vector<std::size_t>& patches)
+  {
+    mesh::CoarseMesh cube = testing::two_material_cube(4);
+    std::vector<layers::LayerOptions> options;
+    for (const std::size_t patch : patches) {
+      options.push_back({.patch = cube.patch_names[patch], .first = 0.02, .count = 3});
+    }
+    (void)layers::grow_layers(cube, options, testing::FlatModel(), true);
+    return cube;
+  }
+
+  [[nodiscard]] std::vector<PieceArrays> arrays(int levels, const LayerTables& tables) const
+  {
+    const PartitionedMesh cut(body_.coarse, body_.decomposition, levels);
+    const auto ids = number::IdLayout::by_host(mesh::HostLayout(body_.skeleton),
+                                               mesh::lattice_levels(body_.skeleton, levels),
+                                               count_subdivided_pieces(cut, levels));
+    const std::string unit;
+    const WriteContext mesh{.coarse = body_.coarse,
+                            .skeleton = body_.skeleton,
+                            .ids = ids,
+                            .length_unit = unit,
+                            .layers = &tables};
+    std::vector<PieceArrays> all;
+    for (LocalIndex s = 0; s < body_.num_subdomains(); ++s) {
+      all.push_back(piece_arrays(filled(levels, s).piece, mesh, false));
+    }
+    return all;
+  }
+
+  [[nodiscard]] FilledPiece filled(int levels, LocalIndex subdomain) const
+  {
+    return testing::fill_of(body_, levels, subdomain, {.kernel = fill::KernelKind::subdivide});
+  }
+
+  mesh::CoarseMesh coarse_;
+  testing::Body body_;
+};
+
+TEST_P(LayeredCube, HoldsWhatTheClosedFormsSay)
+{
+  for (const int levels : {0, 1, 2}) {
+    const PartitionedMesh cut(body_.coarse, body_.decomposition, levels);
+    const auto counts = count_subdivided_pieces(cut, levels);
+    double volume = 0.0;
+    for (LocalIndex s = 0; s < body_.num_subdomains(); ++s) {
+      const PieceSummary summary = filled(levels, s).result.summary;
+      EXPECT_FALSE(summary.is_folded);
+      EXPECT_EQ(counts_of(summary).tets, counts[at(s)].tets);
+      EXPECT_EQ(counts_of(summary).boundary_triangles, counts[at(s)].boundary_triangles);
+      volume += summary.whole_volume();
+    }
+    EXPECT_NEAR(volume, 1.0, 1e-12);
+  }
+}
+
+// Every triangle has two tets, or is one of the boundary; every point has one place; ids are dense.
+TEST_P(LayeredCube, IsOneMesh)
+{
+  const int levels = 1;
+  const auto tables = layer_tables(body_.coarse, body_.skeleton,
+                                   mesh::lattice_levels(body_.skeleton, levels));
+  std::map<std::array<GlobalIndex, 3>, int> sides;
+  std::map<GlobalIndex, Vec3> places;
+  std::map<std::array<GlobalIndex, 3>, int> boundary;
+  std::map<GlobalIndex, int> cells;
+  const auto key = [](std::array<GlobalIndex, 3> triangle) {
+    std::ranges::sort(triangle);
+    return triangle;
+  };
+  for (const PieceArrays& piece : arrays(levels, *tables)) {
+    const mesh::MeshArrays& tets = piece.tets;
+    for (std::size_t p = 0; p < tets.point_ids.size(); ++p) {
+      const Vec3 place = point_at(std::span(tets.point_xyz), p);
+      EXPECT_EQ(places.emplace(tets.point_ids[p], place).first->second, place);
+    }
+    for (std::size_t t = 0; t < tets.cell_ids.size(); ++t) {
+      ++cells[tets.cell_ids[t]];
+      for (const auto& face : mesh::kTetFaceCorners) {
+        std::array<GlobalIndex, 3> triangle{};
+        for (std::size_t c = 0; c < 3; ++c) {
+          triangle[c] = tets.point_ids[at(tets.cell_points[4 * t + face[c]])];
+        }
+        ++sides[key(triangle)];
+      }
+    }
+    for (std::size_t t = 0; t < piece.boundary.cell_ids.size(); ++t) {
+      std::array<GlobalIndex, 3> triangle{};
+      for (std::size_t c = 0; c < 3; ++c) {
+        triangle[c] = piece.boundary.point_ids[at(piece.boundary.cell_points[3 * t + c])];
+      }
+      ++boundary[key(triangle)];
+      EXPECT_TRUE(sides.contains(key(triangle)));
+    }
+  }
+  EXPECT_EQ(places.rbegin()->first + 1, static_cast<GlobalIndex>(places.size()));
+  EXPECT_EQ(cells.rbegin()->first + 1, static_cast<GlobalIndex>(cells.size()));
+  for (const auto& [triangle, count] : sides) {
+    EXPECT_TRUE(count == 2 || boundary.contains(triangle));
+    EXPECT_LE(count, 2);
+  }
+  for (const auto& [triangle, count] : boundary) EXPECT_EQ(count, 1);
+}
+
+// One side; two opposite ones, of which one ends at the face between the materials; all but one.
+INSTANTIATE_TEST_SUITE_P(Patches, LayeredCube,
+                         ::testing::Values(std::vector<std::size_t>{0},
+                                           std::vector<std::size_t>{2, 3},
+                                           std::vector<std::size_t>{0, 1, 2, 3, 4}));
+
+}  // namespace
+}  // namespace tessera::subdomain
