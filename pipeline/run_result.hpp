@@ -50,8 +50,8 @@ struct RunResult {
   CoarseResult coarse{};
   layers::LayerCover cover{};  ///< Of the walls by layers; without patches if there are none.
   coarse::SharpTets sharp{};   ///< Of the coarse mesh; on rank 0.
-  mesh::EdgeLevels levels{};  ///< Of the coarse edges, in all.
-  int splits = 0;             ///< How many of them follow after the fills.
+  mesh::EdgeLevels levels{};   ///< Of the coarse edges, in all.
+  int splits = 0;              ///< How many of them follow after the fills.
   decompose::DecomposeResult decomposition{};
   std::vector<fill::KernelKind> kernels{};  ///< By subdomain, as the case wants them.
   mesh::ProjectionLimiter limiter{};

@@ -206,8 +206,7 @@ class MeshWorker final : public jobs::Worker {
   {
     fail_if_asked("layers");
     LayeredMesh made{.mesh = request.mesh};
-    made.cover =
-        layers::grow_layers(made.mesh, request.layers, *scaled_model_, request.keep_tets);
+    made.cover = layers::grow_layers(made.mesh, request.layers, *scaled_model_, request.keep_tets);
     return garbled_if_asked("layers", to_bytes(made));
   }
 
@@ -369,7 +368,7 @@ class MeshWorker final : public jobs::Worker {
   std::optional<subdomain::PartitionedMesh> cut_{};
   mesh::ProjectionLimiter limiter_{};
   std::filesystem::path output_{};
-  std::optional<number::IdLayout> ids_{};  ///< If they are known before the pieces are.
+  std::optional<number::IdLayout> ids_{};           ///< If they are known before the pieces are.
   std::optional<subdomain::LayerTables> layers_{};  ///< Beside these, of a mesh with layers.
   std::string length_unit_{};
   io::OutputOptions output_options_{};

@@ -6,8 +6,8 @@
 
 namespace tessera::pipeline {
 
-/// @brief How much of the walls has layers, by patch, and how many cells these are. @pre The run has
-/// layers.
+/// @brief How much of the walls has layers, by patch, and how many cells these are. @pre The run
+/// has layers.
 [[nodiscard]] Json layers_json(const RunResult& run);
 
 }  // namespace tessera::pipeline

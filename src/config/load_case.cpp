@@ -309,11 +309,11 @@ void check_layers(const Case& loaded, const std::string& where)
   if (loaded.layers.empty()) return;
   const bool splits = loaded.fill.levels > 0 && loaded.fill.levels < loaded.refine.levels
                       && loaded.fill.levels != fill::kAllLevels;
-  const std::string_view other =
-      loaded.output.order == 2 ? "output.order = 2"
-      : splits                 ? "fill.levels below refine.levels"
-      : loaded.decompose.method == decompose::Method::geometry ? "decompose.method = \"geometry\""
-                                                               : "";
+  const std::string_view other = loaded.output.order == 2 ? "output.order = 2"
+                                 : splits                 ? "fill.levels below refine.levels"
+                                 : loaded.decompose.method == decompose::Method::geometry
+                                     ? "decompose.method = \"geometry\""
+                                     : "";
   if (other.empty()) return;
   fail(where, fmt::format("[[layer]] excludes {}; leave out one of them", other));
 }

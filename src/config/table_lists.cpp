@@ -299,8 +299,8 @@ constexpr Key kLayerKeys[] = {
      .example = "1.2",
      .is_optional = true},
     {.name = "layer.count",
-     .rule = IntegerRule{[](Case& c) -> int& { return c.layers.back().count; }, 1,
-                         layers::kMostLayers},
+     .rule =
+         IntegerRule{[](Case& c) -> int& { return c.layers.back().count; }, 1, layers::kMostLayers},
      .meaning = "Number of layers in the final mesh, whatever the levels. The same in all entries. "
                 "Either this or thickness.",
      .reason = "one of the two says how far layers reach",

@@ -55,6 +55,7 @@ void add_points(const LoadedPiece& loaded, const PieceLinks& links,
 void move_tets(LoadedPiece& loaded, const Tags& tags, const std::vector<LocalIndex>& rows,
                Piece& piece)
 {
+  piece.tet_cell = std::move(loaded.tet_cell);
   piece.tet_points = with_nodes(std::move(loaded.tet_points), 4, loaded.tet_nodes, 6);
   for (LocalIndex& point : piece.tet_points) point = rows[at(point)];
   piece.tet_material.reserve(loaded.material.size());

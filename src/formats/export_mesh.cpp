@@ -7,6 +7,7 @@
 
 #include "tessera/comm/all_or_none.hpp"
 
+#include "formats/foam_faces.hpp"
 #include "formats/ghosts.hpp"
 #include "formats/link_pieces.hpp"
 #include "formats/piece_source.hpp"
@@ -41,6 +42,24 @@ struct LinkedPieces {
   LinkedMesh mesh{};
   std::vector<Ghosts> ghosts{};  // By this rank's pieces; empty if no writer needs them.
 };
+
+// Pieces are read once more for it: their faces take the place of closed forms.
+void count_faces_of_cells(const PieceSource& source, LinkedMesh& mesh,
+                          const comm::Communicator& comm, const std::function<void()>& before_each)
+{
+  std::vector<CellFaceCounts> own;
+  all_or_none(comm, [&] {
+    for (std::size_t i = 0; i < mesh.links.size(); ++i) {
+      before_each();
+      const LocalIndex number = source.first_of(comm.rank()) + static_cast<LocalIndex>(i);
+      const Piece piece = build_piece(source.load(number), number, mesh.links[i], mesh);
+      own.push_back(count_cell_faces(piece, mesh.outline.first_cell[at(number)],
+                                     mesh.outline.patch_names.size(),
+                                     mesh.outline.material_names.size()));
+    }
+  });
+  mesh.outline.cell_faces = comm.all_gather_rows(own);
+}
 
 // Ghosts go with the piece, so memory is given back on the way.
 void write_pieces(const PieceSource& source, LinkedPieces& linked, const Writers& writers,
@@ -81,6 +100,9 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
                             .face_numbers = has(io::Format::openfoam),
                             .patch_points = has(io::Format::abaqus) || has(io::Format::exodus)};
   LinkedPieces linked{.mesh = link_pieces(source, comm, before_each, options)};
+  const bool has_polyhedra = has(io::Format::openfoam) || has(io::Format::openfoam_serial);
+  if (has_polyhedra && linked.mesh.outline.has_prisms())
+    count_faces_of_cells(source, linked.mesh, comm, before_each);
   Writers writers;
   all_or_none(comm, [&] { writers = make_writers(request, linked.mesh.outline); });
   if (std::ranges::any_of(writers, [](const auto& writer) { return writer->needs_ghosts(); }))

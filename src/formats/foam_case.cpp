@@ -62,6 +62,28 @@ GlobalIndex num_outer_triangles(const PieceCounts& piece)
   return sum;
 }
 
+GlobalIndex num_patch_triangles(const PieceCounts& piece, std::int32_t tag)
+{
+  if (tag == kNoPatchTag) return piece.num_open_faces - num_outer_triangles(piece);
+  const auto found = std::ranges::find(piece.outer_triangles_of_patch, tag, &TagCount::tag);
+  return found == piece.outer_triangles_of_patch.end() ? 0 : found->count;
+}
+
+FaceCount inner_count(const Outline& outline, LocalIndex piece)
+{
+  if (!outline.cell_faces.empty()) return outline.cell_faces[at(piece)].inner;
+  const GlobalIndex num_faces = num_owned_faces(outline, piece);
+  return {kNoPatchTag, num_faces, 3 * num_faces};
+}
+
+// Behind what has its places already.
+FacePlaces places_behind(const Outline& outline, GlobalIndex face, GlobalIndex corner,
+                         const std::function<FaceCount(LocalIndex piece)>& count_of)
+{
+  return {{outline, face, [&](LocalIndex piece) { return count_of(piece).num_faces; }},
+          {outline, corner, [&](LocalIndex piece) { return count_of(piece).num_corners; }}};
+}
+
 std::string system_text(const SystemFile& file)
 {
   return foam_header({.format = "ascii", .kind = "dictionary", .location = "system"}, file.name)
@@ -97,11 +119,23 @@ bool is_own_decomposition(const std::filesystem::path& path)
 
 }  // namespace
 
-GlobalIndex num_patch_faces(const PieceCounts& piece, std::int32_t tag)
+FaceCount foam_patch_count(const Outline& outline, LocalIndex piece, std::int32_t tag)
 {
-  if (tag == kNoPatchTag) return piece.num_open_faces - num_outer_triangles(piece);
-  const auto found = std::ranges::find(piece.outer_triangles_of_patch, tag, &TagCount::tag);
-  return found == piece.outer_triangles_of_patch.end() ? 0 : found->count;
+  if (outline.cell_faces.empty()) {
+    const GlobalIndex num_faces = num_patch_triangles(outline.pieces[at(piece)], tag);
+    return {tag, num_faces, 3 * num_faces};
+  }
+  const auto& counts = outline.cell_faces[at(piece)].of_patch;
+  const auto found = std::ranges::find(counts, tag, &FaceCount::tag);
+  return found == counts.end() ? FaceCount{.tag = tag} : *found;
+}
+
+GlobalIndex foam_zone_count(const Outline& outline, LocalIndex piece, std::int32_t tag)
+{
+  const auto& counts = outline.cell_faces.empty() ? outline.pieces[at(piece)].tets_of_material
+                                                  : outline.cell_faces[at(piece)].of_material;
+  const auto found = std::ranges::find(counts, tag, &TagCount::tag);
+  return found == counts.end() ? 0 : found->count;
 }
 
 FoamCase foam_case(const Outline& outline)
@@ -113,9 +147,9 @@ FoamCase foam_case(const Outline& outline)
   names.emplace_back("defaultFaces");
   names = foam_words(names);
   const auto add_patch = [&](const std::string& name, std::int32_t tag) {
-    const bool has_faces = std::ranges::any_of(outline.pieces, [tag](const PieceCounts& piece) {
-      return num_patch_faces(piece, tag) > 0;
-    });
+    bool has_faces = false;
+    for (LocalIndex piece = 0; piece < outline.num_pieces(); ++piece)
+      has_faces = has_faces || foam_patch_count(outline, piece, tag).num_faces > 0;
     if (has_faces) result.patches.push_back({name, tag});
   };
   for (std::size_t i = 0; i + 1 < names.size(); ++i)
@@ -126,13 +160,14 @@ FoamCase foam_case(const Outline& outline)
 
 FoamLayout foam_layout(const Outline& outline)
 {
-  FoamLayout layout{.names = foam_case(outline), .inner = {outline, 0, [&](LocalIndex piece) {
-                                                             return num_owned_faces(outline, piece);
-                                                           }}};
+  FoamLayout layout{.names = foam_case(outline),
+                    .inner = places_behind(outline, 0, 0, [&](LocalIndex piece) {
+                      return inner_count(outline, piece);
+                    })};
   for (const FoamPatch& patch : layout.names.patches) {
-    layout.patches.emplace_back(outline, layout.num_faces(), [&](LocalIndex piece) {
-      return num_patch_faces(outline.pieces[at(piece)], patch.tag);
-    });
+    layout.patches.push_back(places_behind(
+        outline, layout.num_faces(), layout.num_corners(),
+        [&](LocalIndex piece) { return foam_patch_count(outline, piece, patch.tag); }));
   }
   return layout;
 }

@@ -29,8 +29,13 @@ struct FoamCase {
 /// @brief Local.
 [[nodiscard]] FoamCase foam_case(const Outline& outline);
 
-/// @brief Outer triangles of a patch in a piece, or its faces without a patch. Local.
-[[nodiscard]] GlobalIndex num_patch_faces(const PieceCounts& piece, std::int32_t tag);
+/// @brief Faces of a patch in a piece with no second cell, or those without a patch. Local.
+[[nodiscard]] FaceCount foam_patch_count(const Outline& outline, LocalIndex piece,
+                                         std::int32_t tag);
+
+/// @brief Cells of a material in a piece. Local.
+[[nodiscard]] GlobalIndex foam_zone_count(const Outline& outline, LocalIndex piece,
+                                          std::int32_t tag);
 
 /// @brief Where the share of each piece begins in an array of the whole mesh.
 class Places {
@@ -52,23 +57,29 @@ class Places {
   std::vector<GlobalIndex> begins_;
 };
 
+/// @brief Where the faces of one kind stand, and their corners.
+struct FacePlaces {
+  Places faces;
+  Places corners;
+};
+
 /// @brief Where the faces of the pieces stand in the serial mesh.
 struct FoamLayout {
   FoamCase names{};
-  Places inner;                   ///< Faces between two tets, in the piece of the lower one.
-  std::vector<Places> patches{};  ///< Of names.patches.
+  FacePlaces inner;                   ///< Between two cells, in the piece of the lower one.
+  std::vector<FacePlaces> patches{};  ///< Of names.patches.
 
-  [[nodiscard]] GlobalIndex num_faces() const
-  {
-    return patches.empty() ? inner.end() : patches.back().end();
-  }
+  [[nodiscard]] const FacePlaces& last() const { return patches.empty() ? inner : patches.back(); }
+  [[nodiscard]] GlobalIndex num_faces() const { return last().faces.end(); }
+  [[nodiscard]] GlobalIndex num_corners() const { return last().corners.end(); }
 };
 
 /// @brief Local.
 [[nodiscard]] FoamLayout foam_layout(const Outline& outline);
 
-/// @brief The most faces of one mesh: its lists have indices of 32 bits into their corners.
-inline constexpr GlobalIndex kMaxFoamFaces = INT32_MAX / 3;
+/// @brief The most corners that the faces of one mesh have: its lists have indices of 32 bits into
+/// them.
+inline constexpr GlobalIndex kMaxFoamCorners = INT32_MAX;
 
 /// @brief Writes controlDict, fvSchemes and fvSolution as checkMesh and laplacianFoam need them;
 /// keeps those that are there. One process. @throws OutputError

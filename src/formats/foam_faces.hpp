@@ -4,42 +4,55 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "tessera/formats/piece.hpp"
 
-/// The faces of a piece in OpenFOAM's order. A face is a side of a tet (4 * tet + opposite corner),
-/// and is seen from outside of this tet, which is its owner.
+/// The faces of a piece in OpenFOAM's order. Cells are tets, or prisms of several tets; a face is a
+/// side of a tet, or two of a prism, which are one face of four corners. It is seen from outside of
+/// its owner.
 namespace tessera::formats {
 
-/// @brief A face and the tet on its other side.
+/// @brief A face of a cell.
 struct FoamFace {
-  LocalIndex side = 0;
-  GlobalIndex neighbour = 0;  ///< Number in the whole mesh, above the owner's.
+  std::array<LocalIndex, 4> points{};  ///< Rows, from the one with the lowest number on: so two
+                                       ///< pieces begin with the same point.
+  int num_points = 3;
+  LocalIndex owner = 0;       ///< Cell of the piece.
+  GlobalIndex neighbour = 0;  ///< Number of the other cell in the whole mesh, if there is
+                              ///< one.
+  LocalIndex side = 0;        ///< One of its sides: 4 * tet + opposite corner.
+
+  [[nodiscard]] std::span<const LocalIndex> corners() const
+  {
+    return std::span(points).first(static_cast<std::size_t>(num_points));
+  }
 };
 
-/// @brief Faces between two tets of which the lower one is in the piece, by owner and then by
+/// @brief Faces between two cells of which the lower one is in the piece, by owner and then by
 /// neighbour; the neighbour may be in a later piece. Local; linear in time.
-/// @param[in] first_tet Number of the piece's first tet in the whole mesh.
-[[nodiscard]] std::vector<FoamFace> foam_inner_faces(const Piece& piece, GlobalIndex first_tet);
+/// @param[in] first_cell Number of the piece's first cell in the whole mesh.
+[[nodiscard]] std::vector<FoamFace> foam_inner_faces(const Piece& piece, GlobalIndex first_cell);
 
 /// @brief Faces to another piece, in an order that both pieces find. Local.
-[[nodiscard]] std::vector<LocalIndex> foam_seam_faces(const Piece& piece, GlobalIndex first_tet,
-                                                      LocalIndex other_piece);
+[[nodiscard]] std::vector<FoamFace> foam_seam_faces(const Piece& piece, GlobalIndex first_cell,
+                                                    LocalIndex other_piece);
 
-/// @brief Faces of a patch with no second tet; of kNoPatchTag those that no triangle stands for.
+/// @brief Faces of a patch with no second cell; of kNoPatchTag those that no triangle stands for.
 /// Local.
-[[nodiscard]] std::vector<LocalIndex> foam_patch_faces(const Piece& piece, std::int32_t tag);
+[[nodiscard]] std::vector<FoamFace> foam_patch_faces(const Piece& piece, std::int32_t tag);
 inline constexpr std::int32_t kNoPatchTag = 0;
 
-/// @brief Rows of a face's points, from the one with the lowest number on: so two pieces begin with
-/// the same point. Local.
-[[nodiscard]] std::array<LocalIndex, 3> foam_face_points(const Piece& piece, LocalIndex side);
+/// @brief Cells of each material, as numbers. Local.
+/// @param[in] first_cell Number of the piece's first cell.
+[[nodiscard]] std::vector<std::vector<std::int32_t>> foam_zone_cells(const Piece& piece,
+                                                                     std::size_t num_materials,
+                                                                     GlobalIndex first_cell);
 
-/// @brief Tets of each material, as numbers. Local.
-/// @param[in] first_tet Number of the piece's first tet.
-[[nodiscard]] std::vector<std::vector<std::int32_t>> foam_zone_tets(const Piece& piece,
-                                                                    std::size_t num_materials,
-                                                                    GlobalIndex first_tet);
+/// @brief What a piece with prisms has of faces and cells. Local.
+/// @param[in] num_patches, num_materials Tags are 1, 2, … up to these.
+[[nodiscard]] CellFaceCounts count_cell_faces(const Piece& piece, GlobalIndex first_cell,
+                                              std::size_t num_patches, std::size_t num_materials);
 
 }  // namespace tessera::formats

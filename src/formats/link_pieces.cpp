@@ -30,8 +30,9 @@ struct OpenFace {
   TriangleKey key{};
   LocalIndex piece = 0;
   LocalIndex side = 0;
+  LocalIndex cell = 0;  // Of the tet.
 
-  static auto fields(auto& self) { return std::tie(self.key, self.piece, self.side); }
+  static auto fields(auto& self) { return std::tie(self.key, self.piece, self.side, self.cell); }
 };
 
 // A point on such a face.
@@ -46,8 +47,9 @@ struct SkinPoint {
 struct OtherSide {
   LocalIndex piece = kNoIndex;
   LocalIndex tet = 0;
+  LocalIndex cell = 0;
 
-  static auto fields(auto& self) { return std::tie(self.piece, self.tet); }
+  static auto fields(auto& self) { return std::tie(self.piece, self.tet, self.cell); }
 };
 
 // Those of a piece, as in its file.
@@ -87,7 +89,8 @@ void add_skin(const LoadedPiece& piece, LocalIndex number, const std::vector<Loc
     if (behind[side] != kNoIndex) continue;
     const auto face = static_cast<LocalIndex>(side);
     const std::vector<LocalIndex> points = piece.points_of_side(face);
-    skin.faces.push_back({key_of_points(piece, points), number, face});
+    skin.faces.push_back(
+        {key_of_points(piece, points), number, face, piece.tet_cell[at(face / 4)]});
     skin.face_points.add(points);
     skin.inner_faces_up_to.push_back(num_inner);
     for (const LocalIndex point : points) is_on_skin[at(point)] = true;
@@ -149,6 +152,7 @@ class Linker {
       counts_[i] = {.num_own_nodes = piece.num_nodes,  // Of foreign ones it is not known yet.
                     .num_points = piece.num_points(),
                     .num_tets = piece.num_tets(),
+                    .num_cells = piece.tet_cell.empty() ? 0 : piece.tet_cell.back() + 1,
                     .points_per_tet = piece.points_per_tet(),
                     .num_triangles = static_cast<GlobalIndex>(piece.triangle_side.size()),
                     .tets_of_material = counted(piece.material),
@@ -173,8 +177,11 @@ class Linker {
         [&](std::span<const std::size_t> rows) {
           if (rows.size() > 2) has_third = true;
           if (rows.size() < 2) return;
-          others[rows[0]] = {received[rows[1]].piece, received[rows[1]].side / 4};
-          others[rows[1]] = {received[rows[0]].piece, received[rows[0]].side / 4};
+          const auto other_side = [&](const OpenFace& face) {
+            return OtherSide{face.piece, face.side / 4, face.cell};
+          };
+          others[rows[0]] = other_side(received[rows[1]]);
+          others[rows[1]] = other_side(received[rows[0]]);
         });
     if (comm_.sum(has_third ? 1 : 0) > 0)
       throw comm::Collective<InputError>(
@@ -188,7 +195,7 @@ class Linker {
         if (options_.patch_points && !source_.has_boundary())
           add_patch_points(skin_.face_points[static_cast<LocalIndex>(f)], 0, links.patch_points);
       } else {
-        links.seams.push_back({face.side, answers[f].piece, answers[f].tet});
+        links.seams.push_back({face.side, answers[f].piece, answers[f].tet, answers[f].cell});
         links.inner_faces_up_to.push_back(skin_.inner_faces_up_to[f]);
       }
     }
@@ -259,8 +266,12 @@ class Linker {
     for (std::size_t p = 0; p < skin_.points.size(); ++p)
       links_of(skin_.points[p].piece).shared_numbers.push_back(answers[p]);
     for (PieceLinks& links : links_)
-      for (SeamFace& seam : links.seams) seam.other_tet += outline.first_tet[at(seam.other_piece)];
-    if (options_.face_numbers) number_seam_faces(outline, first_, comm_, links_);
+      for (SeamFace& seam : links.seams) {
+        seam.other_tet += outline.first_tet[at(seam.other_piece)];
+        seam.other_cell += outline.first_cell[at(seam.other_piece)];
+      }
+    if (options_.face_numbers && !outline.has_prisms())
+      number_seam_faces(outline, first_, comm_, links_);
   }
 
   /// @return How many points of each patch each piece has.
@@ -379,6 +390,7 @@ Outline outline_of(std::vector<PieceCounts> pieces)
     outline.first_point.push_back(outline.first_point.back() + piece.num_own_points
                                   - piece.num_own_nodes);
     outline.first_tet.push_back(outline.first_tet.back() + piece.num_tets);
+    outline.first_cell.push_back(outline.first_cell.back() + piece.num_cells);
     outline.first_triangle.push_back(outline.first_triangle.back() + piece.num_triangles);
   }
   if (!are_of_second_order(outline.pieces)) return outline;

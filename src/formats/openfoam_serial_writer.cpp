@@ -26,23 +26,20 @@ namespace {
 FoamLayout layout_of(const Outline& outline)
 {
   FoamLayout layout = foam_layout(outline);
-  if (layout.num_faces() <= kMaxFoamFaces) return layout;
+  if (layout.num_corners() <= kMaxFoamCorners) return layout;
   throw ConfigError(
-      fmt::format("the mesh has {} faces, but OpenFOAM with labels of 32 bits can have {} in one "
-                  "process; take openfoam, with output.parts",
-                  layout.num_faces(), kMaxFoamFaces));
+      fmt::format("the mesh has {} faces with {} corners, but OpenFOAM with labels of 32 bits can "
+                  "have {} corners in one process; take openfoam, with output.parts",
+                  layout.num_faces(), layout.num_corners(), kMaxFoamCorners));
 }
 
-// Tets of each material, from 0.
+// Cells of each material, from 0.
 std::vector<Places> zones_of(const Outline& outline)
 {
   std::vector<Places> zones;
   for (std::size_t m = 0; m < outline.material_names.size(); ++m) {
     zones.emplace_back(outline, 0, [&](LocalIndex piece) {
-      const auto& counts = outline.pieces[at(piece)].tets_of_material;
-      const auto found =
-          std::ranges::find(counts, static_cast<std::int32_t>(m) + 1, &TagCount::tag);
-      return found == counts.end() ? 0 : found->count;
+      return foam_zone_count(outline, piece, static_cast<std::int32_t>(m) + 1);
     });
   }
   return zones;
@@ -60,11 +57,13 @@ std::vector<RecordSection> list_section(const FoamKind& kind, const char* name, 
 
 std::string list_end(GlobalIndex length) { return std::string(foam_list_tail(length)) + "\n"; }
 
-std::vector<RecordSection> face_sections(GlobalIndex num_faces)
+std::vector<RecordSection> face_sections(const FoamLayout& layout)
 {
-  return {{foam_header({.kind = "faceCompactList"}, "faces") + foam_list_head(num_faces + 1),
-           num_faces + 1, kLabelSize},
-          {list_end(num_faces + 1) + foam_list_head(3 * num_faces), num_faces, 3 * kLabelSize}};
+  const GlobalIndex num_begins = layout.num_faces() + 1;
+  const GlobalIndex num_corners = layout.num_corners();
+  return {{foam_header({.kind = "faceCompactList"}, "faces") + foam_list_head(num_begins),
+           num_begins, kLabelSize},
+          {list_end(num_begins) + foam_list_head(num_corners), num_corners, kLabelSize}};
 }
 
 // The file cellZones: one list a zone.
@@ -101,15 +100,15 @@ class OpenfoamSerialWriter final : public Writer {
         points_(mesh_ / "points",
                 list_section({.kind = "vectorField"}, "points", outline_.num_points(), kPointSize),
                 list_end(outline_.num_points())),
-        faces_(mesh_ / "faces", face_sections(layout_.num_faces()), list_end(layout_.num_faces())),
+        faces_(mesh_ / "faces", face_sections(layout_), list_end(layout_.num_corners())),
         owner_(mesh_ / "owner",
                list_section({.kind = "labelList", .note = note()}, "owner", layout_.num_faces(),
                             kLabelSize),
                list_end(layout_.num_faces())),
         neighbour_(mesh_ / "neighbour",
                    list_section({.kind = "labelList", .note = note()}, "neighbour",
-                                layout_.inner.size(), kLabelSize),
-                   list_end(layout_.inner.size())),
+                                layout_.inner.faces.size(), kLabelSize),
+                   list_end(layout_.inner.faces.size())),
         zones_(mesh_ / "cellZones", zone_file(layout_.names.zones, zone_places_).sections,
                zone_file(layout_.names.zones, zone_places_).tail)
   {
@@ -120,7 +119,7 @@ class OpenfoamSerialWriter final : public Writer {
     io::make_own_folder(mesh_);
     write_foam_system(folder_);
     for (RecordFile* file : files_) file->begin();
-    const std::int32_t end = label(3 * layout_.num_faces());
+    const std::int32_t end = label(layout_.num_corners());
     faces_.write(0, layout_.num_faces(), foam_bytes(std::span(&end, 1)));
   }
 
@@ -130,8 +129,7 @@ class OpenfoamSerialWriter final : public Writer {
                   foam_bytes(std::span(piece.point_xyz).first(3 * at(piece.num_own_points))));
     write_inner_faces(piece);
     for (std::size_t k = 0; k < layout_.patches.size(); ++k) {
-      write_faces(piece, layout_.patches[k].of(piece.number),
-                  foam_patch_faces(piece, layout_.names.patches[k].tag));
+      write_faces(piece, layout_.patches[k], foam_patch_faces(piece, layout_.names.patches[k].tag));
     }
     write_zones(piece);
   }
@@ -147,8 +145,8 @@ class OpenfoamSerialWriter final : public Writer {
     std::vector<FoamBoundary> patches;
     for (std::size_t k = 0; k < layout_.patches.size(); ++k) {
       patches.push_back({.name = layout_.names.patches[k].name,
-                         .num_faces = layout_.patches[k].size(),
-                         .first_face = layout_.patches[k].begin()});
+                         .num_faces = layout_.patches[k].faces.size(),
+                         .first_face = layout_.patches[k].faces.begin()});
     }
     write_whole_file(mesh_ / "boundary", foam_boundary(patches));
   }
@@ -157,47 +155,44 @@ class OpenfoamSerialWriter final : public Writer {
   [[nodiscard]] std::string note() const
   {
     return fmt::format("nPoints:{} nCells:{} nFaces:{} nInternalFaces:{}", outline_.num_points(),
-                       outline_.num_tets(), layout_.num_faces(), layout_.inner.size());
+                       outline_.num_cells(), layout_.num_faces(), layout_.inner.faces.size());
   }
 
   void write_inner_faces(const Piece& piece)
   {
     const std::vector<FoamFace> inner =
-        foam_inner_faces(piece, outline_.first_tet[at(piece.number)]);
-    std::vector<LocalIndex> sides;
+        foam_inner_faces(piece, outline_.first_cell[at(piece.number)]);
     std::vector<std::int32_t> neighbours;
-    for (const FoamFace& face : inner) {
-      sides.push_back(face.side);
-      neighbours.push_back(label(face.neighbour));
-    }
-    const GlobalIndex first = layout_.inner.of(piece.number);
-    write_faces(piece, first, sides);
-    neighbour_.write(0, first, foam_bytes(std::span(std::as_const(neighbours))));
+    for (const FoamFace& face : inner) neighbours.push_back(label(face.neighbour));
+    write_faces(piece, layout_.inner, inner);
+    neighbour_.write(0, layout_.inner.faces.of(piece.number),
+                     foam_bytes(std::span(std::as_const(neighbours))));
   }
 
-  void write_faces(const Piece& piece, GlobalIndex first, const std::vector<LocalIndex>& sides)
+  void write_faces(const Piece& piece, const FacePlaces& places, const std::vector<FoamFace>& faces)
   {
     std::vector<std::int32_t> begins;
     std::vector<std::int32_t> corners;
     std::vector<std::int32_t> owners;
-    const GlobalIndex first_tet = outline_.first_tet[at(piece.number)];
-    for (const LocalIndex side : sides) {
-      begins.push_back(label(3 * (first + static_cast<GlobalIndex>(begins.size()))));
-      for (const LocalIndex row : foam_face_points(piece, side))
+    const GlobalIndex first_cell = outline_.first_cell[at(piece.number)];
+    const GlobalIndex first_corner = places.corners.of(piece.number);
+    for (const FoamFace& face : faces) {
+      begins.push_back(label(first_corner + static_cast<GlobalIndex>(corners.size())));
+      for (const LocalIndex row : face.corners())
         corners.push_back(label(piece.point_numbers[at(row)]));
-      owners.push_back(label(first_tet + side / 4));
+      owners.push_back(label(first_cell + face.owner));
     }
-    faces_.write(0, first, foam_bytes(std::span(std::as_const(begins))));
-    faces_.write(1, first, foam_bytes(std::span(std::as_const(corners))));
-    owner_.write(0, first, foam_bytes(std::span(std::as_const(owners))));
+    faces_.write(0, places.faces.of(piece.number), foam_bytes(std::span(std::as_const(begins))));
+    faces_.write(1, first_corner, foam_bytes(std::span(std::as_const(corners))));
+    owner_.write(0, places.faces.of(piece.number), foam_bytes(std::span(std::as_const(owners))));
   }
 
   void write_zones(const Piece& piece)
   {
-    const std::vector<std::vector<std::int32_t>> tets =
-        foam_zone_tets(piece, zone_places_.size(), outline_.first_tet[at(piece.number)]);
-    for (std::size_t m = 0; m < tets.size(); ++m)
-      zones_.write(m, zone_places_[m].of(piece.number), foam_bytes(std::span(tets[m])));
+    const std::vector<std::vector<std::int32_t>> cells =
+        foam_zone_cells(piece, zone_places_.size(), outline_.first_cell[at(piece.number)]);
+    for (std::size_t m = 0; m < cells.size(); ++m)
+      zones_.write(m, zone_places_[m].of(piece.number), foam_bytes(std::span(cells[m])));
   }
 
   const Outline& outline_;

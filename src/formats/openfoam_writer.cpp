@@ -45,17 +45,18 @@ void require_labels_suffice(const Outline& outline)
 {
   for (LocalIndex number = 0; number < outline.num_pieces(); ++number) {
     const PieceCounts& piece = outline.pieces[at(number)];
-    const GlobalIndex num_faces = 4 * piece.num_tets - num_inner_faces(piece);
-    if (num_faces <= kMaxFoamFaces) continue;
+    const GlobalIndex num_corners = 3 * (4 * piece.num_tets - num_inner_faces(piece));
+    if (num_corners <= kMaxFoamCorners) continue;
     throw ConfigError(fmt::format(
-        "piece {} has {} faces, but OpenFOAM with labels of 32 bits can have {} in a processor; "
-        "make the mesh with a higher output.parts, or take xdmf",
-        number, num_faces, kMaxFoamFaces));
+        "piece {} has faces with {} corners, but OpenFOAM with labels of 32 bits can have {} in "
+        "a processor; make the mesh with a higher output.parts, or take xdmf",
+        number, num_corners, kMaxFoamCorners));
   }
 }
 
 // The faces of a processor and how they fall into patches.
 struct FaceList {
+  std::vector<std::int32_t> begins{0};
   std::vector<std::int32_t> corners{};
   std::vector<std::int32_t> owner{};
   std::vector<std::int32_t> neighbour{};
@@ -70,14 +71,14 @@ struct FaceList {
 class ProcessorFaces {
  public:
   ProcessorFaces(const Piece& piece, const Outline& outline, const FoamLayout& layout)
-      : piece_(piece), first_tet_(outline.first_tet[at(piece.number)])
+      : piece_(piece), first_cell_(outline.first_cell[at(piece.number)])
   {
-    add_inner_faces(layout.inner.of(piece.number));
+    add_inner_faces(layout.inner.faces.of(piece.number));
     for (std::size_t k = 0; k < layout.patches.size(); ++k) {
       const FoamPatch& patch = layout.names.patches[k];
       add_patch({.name = patch.name}, foam_patch_faces(piece, patch.tag));
       for (GlobalIndex i = 0; i < list_.patches.back().num_faces; ++i)
-        list_.serial.push_back(layout.patches[k].of(piece.number) + i + 1);
+        list_.serial.push_back(layout.patches[k].faces.of(piece.number) + i + 1);
     }
     for (const PieceNeighbour& neighbour : outline.pieces[at(piece.number)].neighbours) {
       if (neighbour.num_shared_faces > 0) add_seam(neighbour.piece);
@@ -91,46 +92,47 @@ class ProcessorFaces {
   void add_inner_faces(GlobalIndex first_face)
   {
     GlobalIndex number = first_face;
-    for (const FoamFace& face : foam_inner_faces(piece_, first_tet_)) {
+    for (const FoamFace& face : foam_inner_faces(piece_, first_cell_)) {
       ++number;
-      if (face.neighbour >= first_tet_ + piece_.num_tets()) continue;
-      add(face.side);
-      list_.neighbour.push_back(static_cast<std::int32_t>(face.neighbour - first_tet_));
+      if (face.neighbour >= first_cell_ + piece_.num_cells()) continue;
+      add(face);
+      list_.neighbour.push_back(static_cast<std::int32_t>(face.neighbour - first_cell_));
       list_.serial.push_back(number);
     }
   }
 
   void add_seam(LocalIndex other)
   {
-    const std::vector<LocalIndex> sides = foam_seam_faces(piece_, first_tet_, other);
+    const std::vector<FoamFace> faces = foam_seam_faces(piece_, first_cell_, other);
     add_patch({.name = fmt::format("procBoundary{}to{}", piece_.number, other),
                .processor = piece_.number,
                .other_processor = other},
-              sides);
-    for (const LocalIndex side : sides) {
-      const auto seam = std::ranges::lower_bound(piece_.seams, side, {}, &SeamFace::side);
+              faces);
+    for (const FoamFace& face : faces) {
+      const auto seam = std::ranges::lower_bound(piece_.seams, face.side, {}, &SeamFace::side);
       const GlobalIndex number = seam->face_number + 1;
       list_.serial.push_back(other > piece_.number ? number : -number);
     }
   }
 
-  void add_patch(FoamBoundary patch, const std::vector<LocalIndex>& sides)
+  void add_patch(FoamBoundary patch, const std::vector<FoamFace>& faces)
   {
     patch.first_face = list_.size();
-    patch.num_faces = static_cast<GlobalIndex>(sides.size());
-    for (const LocalIndex side : sides) add(side);
+    patch.num_faces = static_cast<GlobalIndex>(faces.size());
+    for (const FoamFace& face : faces) add(face);
     list_.patches.push_back(std::move(patch));
   }
 
-  void add(LocalIndex side)
+  void add(const FoamFace& face)
   {
-    const std::array<LocalIndex, 3> corners = foam_face_points(piece_, side);
+    const auto corners = face.corners();
     list_.corners.insert(list_.corners.end(), corners.begin(), corners.end());
-    list_.owner.push_back(side / 4);
+    list_.begins.push_back(static_cast<std::int32_t>(list_.corners.size()));
+    list_.owner.push_back(face.owner);
   }
 
   const Piece& piece_;
-  GlobalIndex first_tet_;
+  GlobalIndex first_cell_;
   FaceList list_{};
 };
 
@@ -144,19 +146,17 @@ std::vector<std::int32_t> labels_of(const std::vector<GlobalIndex>& numbers)
 
 std::string faces_text(const FaceList& faces)
 {
-  std::vector<std::int32_t> begins(faces.owner.size() + 1);
-  for (std::size_t i = 0; i < begins.size(); ++i) begins[i] = static_cast<std::int32_t>(3 * i);
-  return foam_header({.kind = "faceCompactList"}, "faces") + foam_labels(begins) + "\n"
+  return foam_header({.kind = "faceCompactList"}, "faces") + foam_labels(faces.begins) + "\n"
          + foam_labels(faces.corners) + "\n";
 }
 
 std::string zones_text(const Piece& piece, const std::vector<std::string>& names)
 {
-  const auto tets = foam_zone_tets(piece, names.size(), 0);
+  const auto cells = foam_zone_cells(piece, names.size(), 0);
   std::string text =
       foam_header({.kind = "regIOobject"}, "cellZones") + fmt::format("{}\n(\n", names.size());
   for (std::size_t m = 0; m < names.size(); ++m)
-    text.append(foam_zone_head(names[m])).append(foam_labels(tets[m])).append(kFoamZoneTail);
+    text.append(foam_zone_head(names[m])).append(foam_labels(cells[m])).append(kFoamZoneTail);
   return text + ")\n";
 }
 
@@ -188,7 +188,10 @@ class OpenfoamWriter final : public Writer {
     write_labels(mesh, {.kind = "labelList", .note = note(piece, faces)}, "neighbour",
                  faces.neighbour);
     write_whole_file(mesh / "cellZones", zones_text(piece, layout_.names.zones));
-    if (layout_.num_faces() < INT32_MAX) write_addressing(mesh, piece, faces);
+    // Nobody has numbered the faces between pieces with prisms.
+    if (layout_.num_faces() < INT32_MAX && !outline_.has_prisms()) {
+      write_addressing(mesh, piece, faces);
+    }
     write_whole_file(mesh / "boundary", foam_boundary(faces.patches));
   }
 
@@ -196,7 +199,7 @@ class OpenfoamWriter final : public Writer {
   static std::string note(const Piece& piece, const FaceList& faces)
   {
     return fmt::format("nPoints:{} nCells:{} nFaces:{} nInternalFaces:{}", piece.num_points(),
-                       piece.num_tets(), faces.size(), faces.neighbour.size());
+                       piece.num_cells(), faces.size(), faces.neighbour.size());
   }
 
   // What a processor's entities are in the serial mesh, for reconstructPar and decomposePar.

@@ -137,6 +137,28 @@ void require_positive(const LoadedPiece& piece, const fs::path& file)
   }
 }
 
+// Tets of one prism follow one another, and say so.
+std::vector<LocalIndex> cells_of_tets(const mesh::MeshArrays& cells, std::size_t num_tets,
+                                      const fs::path& file)
+{
+  std::vector<LocalIndex> cell_of_tet(num_tets);
+  const auto of_prism = cells.cell_ints.find("tet_of_prism");
+  LocalIndex cell = kNoIndex;
+  for (std::size_t t = 0; t < num_tets; ++t) {
+    const std::int32_t number = of_prism == cells.cell_ints.end() ? 0 : of_prism->second[t];
+    const bool follows = number > 0 && number < 3 && t > 0 && of_prism->second[t - 1] == number - 1;
+    if (number != 0 && !follows) {
+      throw InputError(
+          fmt::format("{}: tet_of_prism of tet {} is {}; it must be 0, or 1 or 2 "
+                      "behind a tet where it is one less",
+                      file.string(), t, number));
+    }
+    if (number == 0) ++cell;
+    cell_of_tet[t] = cell;
+  }
+  return cell_of_tet;
+}
+
 // Rows of the boundary's points among those of the piece.
 std::vector<LocalIndex> rows_of(const std::vector<VertexKey>& boundary,
                                 const std::vector<VertexKey>& points, const fs::path& file)
@@ -338,6 +360,7 @@ LoadedPiece PieceSource::load(LocalIndex number) const
   piece.material = material != cells.cell_ints.end()
                        ? std::move(material->second)
                        : std::vector<std::int32_t>(piece.tet_points.size() / 4, 1);
+  piece.tet_cell = cells_of_tets(cells, piece.material.size(), file);
   require_positive(piece, file);
   if (!boundary_ || (*boundary_)[at(number)].empty()) return piece;
   const fs::path& boundary_file = (*boundary_)[at(number)];

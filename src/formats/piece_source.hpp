@@ -22,6 +22,7 @@ struct LoadedPiece {
   std::vector<LocalIndex> tet_nodes{};      ///< Shape (num_tets, 6), kQuadraticTetEdges; or empty.
   LocalIndex num_nodes = 0;                 ///< Points that are nodes.
   std::vector<std::int32_t> material{};     ///< Shape (num_tets), as in the file.
+  std::vector<LocalIndex> tet_cell{};       ///< Shape (num_tets): as Piece::tet_cell.
   std::vector<LocalIndex> triangle_side{};  ///< Shape (num_triangles): 4 * tet + opposite corner.
   std::vector<std::int32_t> patch{};        ///< Shape (num_triangles), as in the file.
 

@@ -36,9 +36,9 @@ std::vector<LocalIndex> entries_of_patches(const mesh::CoarseMesh& mesh,
     for (std::size_t p = 0; p < fits.size(); ++p) {
       if (!fits[p]) continue;
       if (entries[p] != kNoIndex) {
-        throw ConfigError(fmt::format(
-            "patch \"{}\" fits \"{}\" and \"{}\"; it must fit one entry only",
-            mesh.patch_names[p], options[at(entries[p])].patch, options[i].patch));
+        throw ConfigError(
+            fmt::format("patch \"{}\" fits \"{}\" and \"{}\"; it must fit one entry only",
+                        mesh.patch_names[p], options[at(entries[p])].patch, options[i].patch));
       }
       entries[p] = static_cast<LocalIndex>(i);
     }
@@ -53,11 +53,11 @@ void require_alike(std::span<const LayerOptions> options)
     if (num_layers(one) == num_layers(options.front()) && one.growth == options.front().growth) {
       continue;
     }
-    throw ConfigError(fmt::format(
-        "\"{}\" has {} layers that grow by {:g}, and \"{}\" {} by {:g}; all entries "
-        "must have the same count and growth, and only first may differ",
-        options.front().patch, num_layers(options.front()), options.front().growth, one.patch,
-        num_layers(one), one.growth));
+    throw ConfigError(
+        fmt::format("\"{}\" has {} layers that grow by {:g}, and \"{}\" {} by {:g}; all entries "
+                    "must have the same count and growth, and only first may differ",
+                    options.front().patch, num_layers(options.front()), options.front().growth,
+                    one.patch, num_layers(one), one.growth));
   }
 }
 

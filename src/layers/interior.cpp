@@ -80,7 +80,9 @@ std::vector<LocalIndex> improve_interior(mesh::CoarseMesh& mesh)
   for (LocalIndex material = 1; material <= mesh.num_materials(); ++material) {
     const MaterialTets part = tets_of_material(mesh, material);
     const optimize::OptimizeResult better = optimize::optimize(part.tets, schedule_of_step());
-    const auto vertex = [&](LocalIndex v) { return part.vertices[at(better.vertex_origin[at(v)])]; };
+    const auto vertex = [&](LocalIndex v) {
+      return part.vertices[at(better.vertex_origin[at(v)])];
+    };
     for (LocalIndex v = 0; v < static_cast<LocalIndex>(better.vertex_origin.size()); ++v) {
       std::copy_n(&better.vertex_xyz[3 * at(v)], 3, &mesh.vertex_xyz[3 * at(vertex(v))]);
     }

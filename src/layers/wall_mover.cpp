@@ -105,8 +105,8 @@ void WallMover::move_to(double part)
     bool has_changed = false;
     for (const LocalIndex row : bad) {
       const double before = wanted[at(row)];
-      wanted[at(row)] = ++halvings[at(row)] <= kHalvings ? 0.5 * (part_[at(row)] + before)
-                                                         : part_[at(row)];
+      wanted[at(row)] =
+          ++halvings[at(row)] <= kHalvings ? 0.5 * (part_[at(row)] + before) : part_[at(row)];
       has_changed = has_changed || wanted[at(row)] != before;
     }
     if (!has_changed) break;
@@ -195,8 +195,7 @@ void WallMover::update_face(LocalIndex face)
     const LocalIndex v = mesh_.face_vertices[c];
     if (walls_.wall_of_vertex[at(v)] == kNoIndex) continue;
     double* uv = &mesh_.face_uv[2 * c];
-    std::ranges::copy(
-        model_.project_to_surface(surface, mesh_.position(v), {uv[0], uv[1]}).uv, uv);
+    std::ranges::copy(model_.project_to_surface(surface, mesh_.position(v), {uv[0], uv[1]}).uv, uv);
   }
 }
 

@@ -50,8 +50,8 @@ class WallMover {
   const model::Model& model_;
   WallSurface walls_;
   std::span<const double> ends_;
-  std::vector<double> part_{};       ///< By row of walls_.vertices.
-  std::vector<LocalIndex> tets_{};   ///< With a vertex on a wall.
+  std::vector<double> part_{};         ///< By row of walls_.vertices.
+  std::vector<LocalIndex> tets_{};     ///< With a vertex on a wall.
   std::vector<double> least_ratio_{};  ///< Of these tets, that they must keep.
 };
 

@@ -112,8 +112,7 @@ class WallFinder {
     for (const SurfaceTriangle& triangle : surface_.triangles) {
       if (!triangle.is_wall) continue;
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto [low, high] =
-            std::minmax(triangle.vertices[c], triangle.vertices[(c + 1) % 3]);
+        const auto [low, high] = std::minmax(triangle.vertices[c], triangle.vertices[(c + 1) % 3]);
         on_walls.insert({low, high});
       }
     }
@@ -173,9 +172,8 @@ class WallFinder {
   }
 
   // Segments of one curve may stand twice, with the parameters of either side.
-  [[nodiscard]] Vec3 along_curve(WallVertex& vertex,
-                                 const std::vector<std::pair<LocalIndex, std::size_t>>& leaving)
-      const
+  [[nodiscard]] Vec3 along_curve(
+      WallVertex& vertex, const std::vector<std::pair<LocalIndex, std::size_t>>& leaving) const
   {
     const auto other_end = [&](const std::pair<LocalIndex, std::size_t>& one) {
       return mesh_.segment_vertices[2 * at(one.first) + 1 - one.second];
@@ -241,9 +239,8 @@ BestDirection best_direction(std::span<const Vec3> normals)
   centre = (1.0 / static_cast<double>(normals.size())) * centre;
   // Towards the farthest one by ever shorter steps: the centre of the smallest ball round them.
   for (int step = 1; step <= kSteps; ++step) {
-    const auto farthest = std::ranges::max_element(normals, {}, [&](const Vec3& normal) {
-      return dot(normal - centre, normal - centre);
-    });
+    const auto farthest = std::ranges::max_element(
+        normals, {}, [&](const Vec3& normal) { return dot(normal - centre, normal - centre); });
     centre = centre + (1.0 / (step + 1.0)) * (*farthest - centre);
   }
   BestDirection best{unit(centre), 1.0};

@@ -13,21 +13,22 @@ namespace tessera::layers {
 
 /// @brief A vertex on a wall, and where its column may go.
 struct WallVertex {
-  LocalIndex vertex = kNoIndex;  ///< Of the coarse mesh.
-  Vec3 wall{};                   ///< Where it is on the wall.
-  Vec3 column{};                 ///< To where the tets should begin; zero: there is no way.
-  LocalIndex patch = kNoIndex;   ///< Without layers; the column goes along it.
-  LocalIndex curve = kNoIndex;   ///< Between such patches; the column goes along it.
-  double t = 0.0;                ///< Of `wall` on the curve.
+  LocalIndex vertex = kNoIndex;   ///< Of the coarse mesh.
+  Vec3 wall{};                    ///< Where it is on the wall.
+  Vec3 column{};                  ///< To where the tets should begin; zero: there is no way.
+  LocalIndex patch = kNoIndex;    ///< Without layers; the column goes along it.
+  LocalIndex curve = kNoIndex;    ///< Between such patches; the column goes along it.
+  double t = 0.0;                 ///< Of `wall` on the curve.
   model::SurfaceParameters uv{};  ///< Of `wall` on the patch.
 };
 
 /// @brief A triangle of the geometry that has a vertex on a wall.
 struct SurfaceTriangle {
-  LocalIndex face = kNoIndex;          ///< Of the coarse mesh.
-  std::array<LocalIndex, 3> vertices{};  ///< Of the coarse mesh; seen from the tets, it points away.
+  LocalIndex face = kNoIndex;  ///< Of the coarse mesh.
+  std::array<LocalIndex, 3>
+      vertices{};  ///< Of the coarse mesh; seen from the tets, it points away.
   bool is_wall = false;
-  Vec3 normal{};  ///< Away from the tets, before any vertex has moved; of length 1.
+  Vec3 normal{};             ///< Away from the tets, before any vertex has moved; of length 1.
   double least_shape = 0.0;  ///< triangle_shape() that it must keep.
 };
 
@@ -38,7 +39,8 @@ struct SurfaceTriangle {
 struct WallSurface {
   std::vector<WallVertex> vertices{};        ///< Ascending.
   std::vector<SurfaceTriangle> triangles{};  ///< In the order of faces.
-  std::vector<LocalIndex> wall_of_vertex{};  ///< Shape (num_vertices): row of vertices, or kNoIndex.
+  std::vector<LocalIndex>
+      wall_of_vertex{};  ///< Shape (num_vertices): row of vertices, or kNoIndex.
 };
 
 /// @brief Finds walls and the columns on them. Local.

@@ -113,8 +113,7 @@ class LatticeRefiner {
   {
     const LocalIndex edge = complex_.edge_skeleton[at(e)];
     const LocalIndex n = result_.edge_intervals(e);
-    const double factor =
-        context_.limiter.factor(mesh::LatticePointKey::on_edge(edge, n, k));
+    const double factor = context_.limiter.factor(mesh::LatticePointKey::on_edge(edge, n, k));
     return straight
            + factor
                  * (side_patch_point(context_, edge, static_cast<double>(k) / n, straight)
@@ -342,8 +341,7 @@ void add(const mesh::ModelDistance& more, mesh::ModelDistance& sum)
 
 }  // namespace
 
-Vec3 side_patch_point(const RefineContext& context, LocalIndex edge, double part,
-                      const Vec3& point)
+Vec3 side_patch_point(const RefineContext& context, LocalIndex edge, double part, const Vec3& point)
 {
   const mesh::Skeleton& skeleton = context.skeleton;
   const LocalIndex patch = skeleton.edge_side_patch[at(edge)];
@@ -375,8 +373,7 @@ mesh::RefinedLattice refine_lattice(const mesh::Complex& complex, mesh::LatticeL
   }
   auto walls = std::make_shared<mesh::RefinedLattice>(
       LatticeRefiner(complex, levels, context, Side::walls).run());
-  mesh::RefinedLattice tets =
-      LatticeRefiner(complex, std::move(levels), context).run(walls.get());
+  mesh::RefinedLattice tets = LatticeRefiner(complex, std::move(levels), context).run(walls.get());
   place_beside_walls(complex, context, tets, *walls);
   add(walls->distance, tets.distance);
   tets.walls = std::move(walls);

@@ -18,8 +18,7 @@ Triangle corners_of(const mesh::Skin& skin, LocalIndex triangle)
 {
   Triangle corners{};
   for (std::size_t c = 0; c < 3; ++c) {
-    corners[c] =
-        point_at(std::span(skin.vertex_xyz), skin.triangle_vertices[3 * at(triangle) + c]);
+    corners[c] = point_at(std::span(skin.vertex_xyz), skin.triangle_vertices[3 * at(triangle) + c]);
   }
   return corners;
 }

@@ -63,10 +63,9 @@ LayerTables::LayerTables(const mesh::CoarseMesh& coarse, const mesh::Skeleton& s
 void LayerTables::count_columns(const mesh::LatticeLevels& levels)
 {
   const auto add = [&](mesh::HostEntity host, LocalIndex intervals) {
-    const GlobalIndex num_points =
-        subdomain::has_columns(*coarse_, *skeleton_, hosts_, host)
-            ? mesh::num_points_of_host(hosts_.kind_of(host), intervals)
-            : 0;
+    const GlobalIndex num_points = subdomain::has_columns(*coarse_, *skeleton_, hosts_, host)
+                                       ? mesh::num_points_of_host(hosts_.kind_of(host), intervals)
+                                       : 0;
     first_column_.push_back(first_column_.back() + num_points);
   };
   for (LocalIndex v = 0; v < skeleton_->num_vertices(); ++v) add(hosts_.vertex(v), 1);

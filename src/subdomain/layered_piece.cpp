@@ -20,6 +20,7 @@ class LayerBuilder {
   {
     made_.num_vertices = piece.num_vertices();
     made_.tet_layer.assign(at(piece.num_tets()), 0);
+    made_.tet_of_prism.assign(at(piece.num_tets()), 0);
     made_.piece = std::move(piece);
   }
 
@@ -49,8 +50,7 @@ class LayerBuilder {
     for (LocalIndex row = 0; row < piece().num_boundary(); ++row) {
       if (!tables_.is_wall(piece().boundary_patch[at(row)])) continue;
       for (std::size_t c = 0; c < 3; ++c) {
-        const mesh::HostPoint name =
-            piece().skin_point(piece().boundary_vertices[3 * at(row) + c]);
+        const mesh::HostPoint name = piece().skin_point(piece().boundary_vertices[3 * at(row) + c]);
         if (tables_.has_columns(name.host)) made_.columns.push_back(name);
       }
     }
@@ -110,6 +110,9 @@ class LayerBuilder {
       }
       layers::append_prism_tets(prism, is_even, piece().tet_vertices);
       made_.tet_layer.resize(at(piece().num_tets()), tables_.num_layers() - layer);
+      for (LocalIndex t = first_tet; t < piece().num_tets(); ++t) {
+        made_.tet_of_prism.push_back(t - first_tet);
+      }
       for (std::size_t c = 0; c < 3; ++c) {
         add_side(outward[c], outward[(c + 1) % 3], layer, first_tet);
       }
@@ -170,9 +173,10 @@ class LayerBuilder {
       });
       if (has_all) return t;
     }
-    throw MeshError(fmt::format("piece {} has a triangle in front of its layers that none of them "
-                                "has",
-                                piece().subdomain));
+    throw MeshError(
+        fmt::format("piece {} has a triangle in front of its layers that none of them "
+                    "has",
+                    piece().subdomain));
   }
 
   const LayerTables& tables_;

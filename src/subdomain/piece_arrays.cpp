@@ -152,6 +152,7 @@ PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh, bool with_
     LayeredPiece layered = with_layers(std::move(piece), *mesh.layers);
     add_layer_points(layered, mesh, points);
     points.cell_ints["layer"] = std::move(layered.tet_layer);
+    points.cell_ints["tet_of_prism"] = std::move(layered.tet_of_prism);
     piece = std::move(layered.piece);
   }
   PieceArrays arrays;

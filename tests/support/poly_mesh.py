@@ -36,15 +36,23 @@ class PolyMesh:
         faces = body_of(mesh / "faces")
         begins, end = read_list(faces, "<i4")
         corners = read_list(faces, "<i4", end)[0]
-        assert (numpy.diff(begins) == 3).all() and begins[-1] == len(corners)
-        self.faces = corners.reshape(-1, 3)
+        assert begins[0] == 0 and begins[-1] == len(corners)
+        self.num_corners = numpy.diff(begins)
+        assert set(self.num_corners) <= {3, 4}
+        # A triangle has its first corner twice: its second half is of no area.
+        last = numpy.where(self.num_corners == 4, begins[1:] - 1, begins[:-1])
+        self.quads = numpy.stack([corners[begins[:-1] + i] for i in range(3)] + [corners[last]], axis=1)
+        self.faces = self.quads[:, :3]
         self.owner = read_list(body_of(mesh / "owner"), "<i4")[0]
         self.neighbour = read_list(body_of(mesh / "neighbour"), "<i4")[0]
         self.patches = self.read_boundary(mesh / "boundary")
         self.zones = self.read_zones(mesh / "cellZones")
-        a, b, c = (self.points[self.faces[:, i]] for i in range(3))
-        self.face_centres = (a + b + c) / 3.0
-        self.face_areas = numpy.cross(b - a, c - a) / 2.0
+        a, b, c, d = (self.points[self.quads[:, i]] for i in range(4))
+        self.face_areas = (numpy.cross(b - a, c - a) + numpy.cross(c - a, d - a)) / 2.0
+        self.face_centres = (a + b + c) / 3.0  # Of triangles.
+        # What flows out of each face of the field x / 3, by its two halves.
+        self.face_flux = sum(
+            numpy.einsum("ij,ij->i", p + q + r, numpy.cross(q - p, r - p)) / 18.0 for p, q, r in ((a, b, c), (a, c, d)))
 
     @staticmethod
     def read_boundary(file):
@@ -69,10 +77,13 @@ class PolyMesh:
         return int(max(self.owner.max(), self.neighbour.max(initial=0))) + 1
 
     def cell_volumes(self):
-        flux = numpy.einsum("ij,ij->i", self.face_centres, self.face_areas) / 3.0
-        volumes = numpy.bincount(self.owner, flux, minlength=self.num_cells())
+        return self.cell_sums(self.face_flux)
+
+    def cell_sums(self, of_faces):
+        """What leaves each cell, from what goes through each face out of its owner."""
         inner = len(self.neighbour)
-        return volumes - numpy.bincount(self.neighbour, flux[:inner], minlength=self.num_cells())
+        sums = numpy.bincount(self.owner, of_faces, minlength=self.num_cells())
+        return sums - numpy.bincount(self.neighbour, of_faces[:inner], minlength=self.num_cells())
 
     def cell_centres(self):
         """Of tets: the means of their corners."""

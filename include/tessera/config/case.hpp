@@ -45,7 +45,7 @@ struct Case {
   sizing::SizeOptions size{};
   coarse::CoarseOptions coarse{};
   decompose::DecomposeOptions decompose{};
-  cut::PlaneSettings planes{};  ///< Of decompose.method "geometry".
+  cut::PlaneSettings planes{};                 ///< Of decompose.method "geometry".
   std::vector<layers::LayerOptions> layers{};  ///< On walls; empty: none.
   refine::RefineOptions refine{};
   fill::FillOptions fill{};

@@ -55,13 +55,32 @@ struct Box {
   static auto fields(auto& self) { return std::tie(self.lowest, self.highest); }
 };
 
+/// @brief Faces with this tag, and the corners of all of them.
+struct FaceCount {
+  std::int32_t tag = 0;
+  GlobalIndex num_faces = 0;
+  GlobalIndex num_corners = 0;
+
+  static auto fields(auto& self) { return std::tie(self.tag, self.num_faces, self.num_corners); }
+};
+
+/// @brief Faces of the cells of a piece, where the sides of prisms are one face each.
+struct CellFaceCounts {
+  FaceCount inner{};                    ///< Between two cells of which the lower is in the piece.
+  std::vector<FaceCount> of_patch{};    ///< On no second cell, by patch; none of zero.
+  std::vector<TagCount> of_material{};  ///< Cells of each material; none of zero.
+
+  static auto fields(auto& self) { return std::tie(self.inner, self.of_patch, self.of_material); }
+};
+
 /// @brief What is in one piece. Points are vertices, and of second order nodes on edges too.
 struct PieceCounts {
   GlobalIndex num_own_points = 0;  ///< Those that no lower piece has.
   GlobalIndex num_own_nodes = 0;   ///< Those of them that are nodes on edges.
   GlobalIndex num_points = 0;
   GlobalIndex num_tets = 0;
-  int points_per_tet = 0;  ///< 4, or 10 of second order; 0 if there are no tets.
+  GlobalIndex num_cells = 0;  ///< Tets, but those of one prism are one cell.
+  int points_per_tet = 0;     ///< 4, or 10 of second order; 0 if there are no tets.
   GlobalIndex num_triangles = 0;
   std::vector<TagCount> tets_of_material{};    ///< Ascending; none of zero.
   std::vector<TagCount> triangles_of_patch{};  ///< Ascending; none of zero.
@@ -75,7 +94,7 @@ struct PieceCounts {
   static auto fields(auto& self)
   {
     return std::tie(self.num_own_points, self.num_own_nodes, self.num_points, self.num_tets,
-                    self.points_per_tet, self.num_triangles, self.tets_of_material,
+                    self.num_cells, self.points_per_tet, self.num_triangles, self.tets_of_material,
                     self.triangles_of_patch, self.outer_triangles_of_patch, self.points_of_patch,
                     self.num_open_faces, self.neighbours, self.box);
   }
@@ -96,11 +115,14 @@ struct Outline {
   /// tets are of second order.
   std::vector<GlobalIndex> first_node{};
   std::vector<GlobalIndex> first_tet{0};       ///< Shape (num_pieces + 1).
+  std::vector<GlobalIndex> first_cell{0};      ///< Shape (num_pieces + 1).
   std::vector<GlobalIndex> first_triangle{0};  ///< Shape (num_pieces + 1).
   /// Names of the tags 1, 2, …; none empty, none twice.
   std::vector<std::string> material_names{};
-  std::vector<std::string> patch_names{};  ///< As material_names.
-  std::string length_unit{};               ///< Empty if nobody knows it.
+  std::vector<std::string> patch_names{};    ///< As material_names.
+  std::string length_unit{};                 ///< Empty if nobody knows it.
+  std::vector<CellFaceCounts> cell_faces{};  ///< Shape (num_pieces); only for formats of polyhedra,
+                                             ///< and if there are prisms.
 
   [[nodiscard]] LocalIndex num_pieces() const { return static_cast<LocalIndex>(pieces.size()); }
   [[nodiscard]] bool is_of_second_order() const { return !first_node.empty(); }
@@ -111,6 +133,8 @@ struct Outline {
     return is_of_second_order() ? first_node.back() : first_point.back();
   }
   [[nodiscard]] GlobalIndex num_tets() const { return first_tet.back(); }
+  [[nodiscard]] GlobalIndex num_cells() const { return first_cell.back(); }
+  [[nodiscard]] bool has_prisms() const { return num_cells() != num_tets(); }
   [[nodiscard]] GlobalIndex num_triangles() const { return first_triangle.back(); }
 
   /// @brief The own points of a piece, which are its first rows: vertices, then nodes on edges, of
@@ -129,7 +153,8 @@ struct Outline {
 struct SeamFace {
   LocalIndex side = 0;  ///< 4 * tet + corner opposite to the face; tet is a row here.
   LocalIndex other_piece = 0;
-  GlobalIndex other_tet = 0;  ///< Its number in the whole mesh, from 0.
+  GlobalIndex other_tet = 0;   ///< Its number in the whole mesh, from 0.
+  GlobalIndex other_cell = 0;  ///< The same of the cell that it is of.
   /// Its number among all faces between two tets, by the lower tet and then by the higher one, from
   /// 0; -1 unless asked for.
   GlobalIndex face_number = -1;
@@ -163,6 +188,8 @@ struct Piece {
   /// Shape (num_tets, 4), or (num_tets, 10) of second order: rows, in the order of VTK; positive.
   std::vector<LocalIndex> tet_points{};
   std::vector<std::int32_t> tet_material{};  ///< Shape (num_tets): tags from 1.
+  /// Shape (num_tets): cell of the piece, from 0, ascending. Those of one prism are one cell.
+  std::vector<LocalIndex> tet_cell{};
 
   /// Shape (num_triangles, 3), or (num_triangles, 6) of second order, with the nodes between 0 and
   /// 1, 1 and 2, 2 and 0: rows; each on the geometry, once in the mesh, seen from outside of its
@@ -192,6 +219,7 @@ struct Piece {
     return static_cast<LocalIndex>(point_numbers.size());
   }
   [[nodiscard]] LocalIndex num_tets() const { return static_cast<LocalIndex>(tet_material.size()); }
+  [[nodiscard]] LocalIndex num_cells() const { return tet_cell.empty() ? 0 : tet_cell.back() + 1; }
   [[nodiscard]] LocalIndex num_triangles() const
   {
     return static_cast<LocalIndex>(triangle_patch.size());

@@ -50,8 +50,7 @@ struct Piece {
   {
     return std::tie(self.subdomain, self.material, self.vertex_xyz, self.skin_host, self.skin_index,
                     self.tet_vertices, self.boundary_vertices, self.boundary_patch,
-                    self.boundary_tet, self.tet_edge_nodes, self.boundary_edge_nodes,
-                    self.columns);
+                    self.boundary_tet, self.tet_edge_nodes, self.boundary_edge_nodes, self.columns);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }

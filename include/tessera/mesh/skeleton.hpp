@@ -38,12 +38,13 @@ struct Skeleton {
   /// Such an edge is refined on the wall, and its record is the wall's.
   FlatArray<char> edge_on_wall{};
   /// Shape (num_edges), or empty without layers: the patch without layers that columns along a
-  /// wall's edge lie on, or kNoIndex; and the parameters of the ends there, shape (num_edges, 2, 2).
+  /// wall's edge lie on, or kNoIndex; and the parameters of the ends there, shape (num_edges, 2,
+  /// 2).
   FlatArray<LocalIndex> edge_side_patch{};
   FlatArray<double> edge_side_uv{};
   /// Shape (num_vertices), or empty without layers: the edge that says along what the column of a
-  /// vertex at the rim of a wall goes. It is off the walls, and has the curve; or on one, and has the
-  /// side patch; or kNoIndex.
+  /// vertex at the rim of a wall goes. It is off the walls, and has the curve; or on one, and has
+  /// the side patch; or kNoIndex.
   FlatArray<LocalIndex> vertex_side_edge{};
 
   FlatArray<LocalIndex> triangle_vertices{};  ///< Shape (num_triangles, 3); rows of vertex_coarse.
@@ -61,9 +62,8 @@ struct Skeleton {
     return std::tie(self.vertex_coarse, self.vertex_owner, self.edge_vertices, self.edge_owner,
                     self.edge_curve, self.edge_patch, self.edge_parameters, self.edge_on_wall,
                     self.edge_side_patch, self.edge_side_uv, self.vertex_side_edge,
-                    self.triangle_vertices,
-                    self.triangle_edges, self.triangle_patch, self.triangle_uv,
-                    self.triangle_subdomains, self.subdomain_triangles);
+                    self.triangle_vertices, self.triangle_edges, self.triangle_patch,
+                    self.triangle_uv, self.triangle_subdomains, self.subdomain_triangles);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return size_of(vertex_coarse); }

@@ -24,10 +24,7 @@ struct WallLayers {
   /// the last one is 1, the wall.
   FlatArray<double> ends{};
 
-  static auto fields(auto& self)
-  {
-    return std::tie(self.wall_xyz, self.patch_is_wall, self.ends);
-  }
+  static auto fields(auto& self) { return std::tie(self.wall_xyz, self.patch_is_wall, self.ends); }
 
   [[nodiscard]] LocalIndex num_layers() const { return static_cast<LocalIndex>(ends.size()); }
   [[nodiscard]] bool are_none() const { return ends.empty(); }

@@ -16,8 +16,9 @@ namespace tessera::subdomain {
 /// @param[in] complex, lattice Of the subdomain, refined under the limiter of `refine`.
 /// @return Empty if no layer is bad, or there are none.
 /// @note Local.
-[[nodiscard]] std::vector<mesh::PointLimit> find_column_folds(
-    const mesh::Complex& complex, const mesh::RefinedLattice& lattice,
-    const refine::RefineContext& refine, LocalIndex subdomain);
+[[nodiscard]] std::vector<mesh::PointLimit> find_column_folds(const mesh::Complex& complex,
+                                                              const mesh::RefinedLattice& lattice,
+                                                              const refine::RefineContext& refine,
+                                                              LocalIndex subdomain);
 
 }  // namespace tessera::subdomain

@@ -23,8 +23,8 @@ struct LayerCounts {
   friend bool operator==(const LayerCounts&, const LayerCounts&) = default;
 };
 
-/// @brief Whether columns stand on the fine vertices of a host: it lies on a wall, and a column of a
-/// coarse vertex of it has a length. Local. @pre host is the skeleton's; the mesh has layers.
+/// @brief Whether columns stand on the fine vertices of a host: it lies on a wall, and a column of
+/// a coarse vertex of it has a length. Local. @pre host is the skeleton's; the mesh has layers.
 [[nodiscard]] bool has_columns(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
                                const mesh::HostLayout& hosts, mesh::HostEntity host);
 
@@ -102,6 +102,8 @@ struct LayeredPiece {
                                            ///< num_layers each, from the tets outwards.
   LocalIndex num_vertices = 0;             ///< Without these.
   std::vector<LocalIndex> tet_layer{};     ///< Shape (num_tets): from 1 at the wall; 0: in none.
+  std::vector<LocalIndex> tet_of_prism{};  ///< Shape (num_tets): from 0; above it, the tet is of
+                                           ///< the same prism as the one before it.
 };
 
 /// @brief Puts layers onto a piece. Local.

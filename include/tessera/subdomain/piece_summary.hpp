@@ -23,8 +23,8 @@ struct PatchArea {
   static auto fields(auto& self) { return std::tie(self.patch, self.num_triangles, self.area); }
 };
 
-/// @brief What the layers of a piece add to it; the other figures are without them, but for areas of
-/// patches.
+/// @brief What the layers of a piece add to it; the other figures are without them, but for areas
+/// of patches.
 struct LayerSummary {
   GlobalIndex num_tets = 0;
   GlobalIndex num_side_triangles = 0;  ///< On patches without layers.
@@ -53,10 +53,10 @@ struct PieceSummary {
   double boundary_area = 0.0;        ///< Outside of the model only; output length unit squared.
   std::vector<PatchArea> patches{};  ///< Of num_boundary; ascending, none without triangles.
   LayerSummary layers{};
-  double model_distance = 0.0;       ///< Largest, of the points not held back; output length unit.
-  double held_back_distance = 0.0;   ///< Largest, of the held-back points; output length unit.
-  double cpu_s = 0.0;                ///< Of the try that succeeded.
-  bool was_limited = false;          ///< A try ended for time or memory: not reproducible.
+  double model_distance = 0.0;      ///< Largest, of the points not held back; output length unit.
+  double held_back_distance = 0.0;  ///< Largest, of the held-back points; output length unit.
+  double cpu_s = 0.0;               ///< Of the try that succeeded.
+  bool was_limited = false;         ///< A try ended for time or memory: not reproducible.
   bool is_folded = false;  ///< A coarse tet has children that are not positive: there is no piece.
   double min_scaled_jacobian = 1.0;  ///< Bound below that of every tet; 1 if all are straight.
   quality::TetStatistics tets{};
@@ -72,9 +72,10 @@ struct PieceSummary {
     return std::tie(self.subdomain, self.material, self.kernel, self.tries, self.num_held_back,
                     self.num_tets, self.num_interior_vertices, self.num_owned_vertices,
                     self.num_boundary, self.euler_characteristic, self.volume, self.boundary_area,
-                    self.patches, self.layers, self.model_distance, self.held_back_distance, self.cpu_s,
-                    self.was_limited, self.is_folded, self.min_scaled_jacobian, self.tets,
-                    self.seam_tets, self.outside, self.surface, self.content, self.digest);
+                    self.patches, self.layers, self.model_distance, self.held_back_distance,
+                    self.cpu_s, self.was_limited, self.is_folded, self.min_scaled_jacobian,
+                    self.tets, self.seam_tets, self.outside, self.surface, self.content,
+                    self.digest);
   }
 
   // With its layers.

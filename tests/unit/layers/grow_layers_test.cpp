@@ -34,8 +34,7 @@ LayerOptions two_layers(const std::string& patch)
 std::string error_of(const std::vector<LayerOptions>& options)
 {
   mesh::CoarseMesh cube = testing::two_material_cube(2);
-  return testing::message_of<ConfigError>(
-      [&] { (void)grow_layers(cube, options, kModel, false); });
+  return testing::message_of<ConfigError>([&] { (void)grow_layers(cube, options, kModel, false); });
 }
 
 // At the rim columns stay on the other sides of the cube, at its corners on its edges.

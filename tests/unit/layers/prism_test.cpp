@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/prism.hpp"
+
 #include <algorithm>
 #include <array>
 #include <set>
@@ -8,7 +10,6 @@
 
 #include "tessera/base/vec3.hpp"
 #include "tessera/layers/prism_tets.hpp"
-#include "tessera/mesh/prism.hpp"
 
 namespace tessera::layers {
 namespace {

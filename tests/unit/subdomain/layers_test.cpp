@@ -87,8 +87,8 @@ TEST_P(LayeredCube, HoldsWhatTheClosedFormsSay)
 TEST_P(LayeredCube, IsOneMesh)
 {
   const int levels = 1;
-  const auto tables = layer_tables(body_.coarse, body_.skeleton,
-                                   mesh::lattice_levels(body_.skeleton, levels));
+  const auto tables =
+      layer_tables(body_.coarse, body_.skeleton, mesh::lattice_levels(body_.skeleton, levels));
   std::map<std::array<GlobalIndex, 3>, int> sides;
   std::map<GlobalIndex, Vec3> places;
   std::map<std::array<GlobalIndex, 3>, int> boundary;
