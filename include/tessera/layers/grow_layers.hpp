@@ -42,7 +42,7 @@ struct LayerCover {
 /// tets cannot cut itself, so neither can the layers.
 ///
 /// The result depends on the arguments alone.
-/// @cite badoiu2003  The direction that sees all triangles around a vertex best.
+/// @cite badoiu2008  The direction that sees all triangles around a vertex best.
 /// @param[in] keep_tets  Tets stay who they are: none is flipped or merged.
 /// @pre mesh::validate() accepts the mesh; it has no layers. @post mesh::validate() accepts it.
 /// @throws ConfigError if an entry fits no patch, several fit one, they differ in count or growth,

@@ -18,7 +18,6 @@ using Prism = std::array<LocalIndex, 6>;
 ///
 /// The diagonal of each side begins at the corner with the lower name. So the prism on the other
 /// side of it has the same one, and needs no message for it.
-/// @cite dompierre1999  Diagonals by the order of the vertices.
 /// @param[in] is_outward The triangle, seen in ascending order of names, points towards the other
 /// one.
 /// @param[out] tets Corners are appended, positive if the prism is.
