@@ -7,6 +7,7 @@
 
 #include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
+#include "tessera/subdomain/layer_tables.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -119,8 +120,11 @@ RunOutline outline_run(const subdomain::PartitionedMesh& cut,
   if (splits > 0) count_split_tets(cut, splits, outline.pieces);
   outline.are_counts_exact = are_counts_known(kernels);
   outline.is_one_pass = outline.are_counts_exact;
-  outline.num_skeleton_vertices =
-      mesh::num_skeleton_points(cut.skeleton, mesh::lattice_levels(cut.skeleton, all));
+  const mesh::LatticeLevels of_skeleton = mesh::lattice_levels(cut.skeleton, all);
+  outline.num_skeleton_vertices = mesh::num_skeleton_points(cut.skeleton, of_skeleton);
+  if (const auto layers = subdomain::layer_tables(cut.coarse, cut.skeleton, of_skeleton)) {
+    outline.num_skeleton_vertices += layers->num_points();
+  }
   const mesh::LatticeLevels filled = mesh::lattice_levels(cut.skeleton, cut.levels);
   outline.seam_triangles.resize(kernels.size());
   for (LocalIndex s = 0; improve_seams && s < cut.num_subdomains(); ++s) {

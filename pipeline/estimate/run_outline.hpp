@@ -30,7 +30,7 @@ struct RunOutline {
   std::vector<number::PieceCounts> pieces{};  ///< Shape (num_subdomains). Tets and interior
                                               ///< vertices are exact where subdivided, else
                                               ///< expected; boundary triangles are exact.
-  GlobalIndex num_skeleton_vertices = 0;      ///< Fine vertices on all skins; exact.
+  GlobalIndex num_skeleton_vertices = 0;      ///< Fine vertices on all skins, and of layers; exact.
   std::vector<GlobalIndex>
       seam_triangles{};           ///< Shape (num_subdomains). Fine triangles between the
                                   ///< subdomain and others, where seams are improved.

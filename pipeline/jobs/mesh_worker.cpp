@@ -85,6 +85,8 @@ class MeshWorker final : public jobs::Worker {
     decomposition_ = std::move(load.decomposition);
     output_ = std::move(load.output);
     cut_.emplace(coarse_, decomposition_, std::move(load.tables));
+    layers_ = subdomain::layer_tables(coarse_, cut_->skeleton,
+                                      mesh::lattice_levels(cut_->skeleton, cut_->levels));
   }
 
   void take(const SegmentLoad& load)
@@ -102,7 +104,6 @@ class MeshWorker final : public jobs::Worker {
     output_options_.cell_quality = load.cell_quality;
     const auto levels = mesh::lattice_levels(cut_->skeleton, cut_->levels);
     ids_ = number::IdLayout::by_host(mesh::HostLayout(cut_->skeleton), levels, load.counts);
-    layers_ = subdomain::layer_tables(coarse_, cut_->skeleton, levels);
   }
 
   void take(ImprovementLoad load)
@@ -274,14 +275,14 @@ class MeshWorker final : public jobs::Worker {
                                               .skeleton = cut_->skeleton,
                                               .ids = *ids_,
                                               .length_unit = length_unit_,
-                                              .layers = layers_ ? &*layers_ : nullptr});
+                                              .layers = layers_of_mesh()});
     }
     BatchFiller batch(task, output_, numbers ? &*numbers : nullptr, output_options_);
     if (regions_ && kernels_[at(task.first)] != fill::KernelKind::subdivide) {
       batch.keep_seams(*regions_);
     }
     for (LocalIndex s = task.first; s < task.last; ++s) {
-      batch.add(subdomain::fill_subdomain(*cut_, context, s, task.how, *kernel));
+      batch.add(subdomain::fill_subdomain(*cut_, context, s, task.how, *kernel, layers_of_mesh()));
     }
     Bytes result = std::move(batch).finish();
     if (task.how.kernel != fill::KernelKind::netgen) return result;  // No third-party code.
@@ -355,6 +356,11 @@ class MeshWorker final : public jobs::Worker {
             .triangle_vertices = std::move(skin.triangle_vertices)};
   }
 
+  [[nodiscard]] const subdomain::LayerTables* layers_of_mesh() const
+  {
+    return layers_ ? &*layers_ : nullptr;
+  }
+
   [[nodiscard]] refine::RefineContext refine_context(const mesh::ProjectionLimiter& limiter) const
   {
     return {coarse_, cut_->skeleton, *scaled_model_, limiter, cut_->levels};
@@ -369,7 +375,7 @@ class MeshWorker final : public jobs::Worker {
   mesh::ProjectionLimiter limiter_{};
   std::filesystem::path output_{};
   std::optional<number::IdLayout> ids_{};           ///< If they are known before the pieces are.
-  std::optional<subdomain::LayerTables> layers_{};  ///< Beside these, of a mesh with layers.
+  std::optional<subdomain::LayerTables> layers_{};  ///< Of a mesh with layers.
   std::string length_unit_{};
   io::OutputOptions output_options_{};
   improve::ImproveOptions improve_options_{};

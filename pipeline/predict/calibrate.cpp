@@ -163,7 +163,7 @@ class Sampler {
     GlobalIndex expected = 0;
     GlobalIndex interior = 0;
     for (const subdomain::PieceSummary& piece : set.pieces) {
-      tets += piece.num_tets;
+      tets += piece.num_all_tets();
       interior += piece.num_interior_vertices;
       expected += outline.pieces[at(piece.subdomain)].tets;
     }
@@ -206,7 +206,7 @@ class Sampler {
     for (const subdomain::SubdomainRange& job : set.jobs) {
       GlobalIndex tets = 0;
       for (LocalIndex s = job.first; s < job.last; ++s) {
-        if (const subdomain::PieceSummary* piece = find(set, s)) tets += piece->num_tets;
+        if (const subdomain::PieceSummary* piece = find(set, s)) tets += piece->num_all_tets();
       }
       largest = std::max(largest, tets);
     }
@@ -220,8 +220,8 @@ class Sampler {
     GlobalIndex boundary = 0;
     for (const subdomain::SubdomainRange& job : whole_jobs(set)) {
       for (LocalIndex s = job.first; s < job.last; ++s) {
-        tets += find(set, s)->num_tets;
-        boundary += find(set, s)->num_boundary;
+        tets += find(set, s)->num_all_tets();
+        boundary += find(set, s)->num_all_boundary();
       }
     }
     const FileCosts costs =
@@ -329,7 +329,7 @@ RunOutline corrected(RunOutline outline, const Calibration& calibration)
   for (const SampleSet& set : calibration.samples) {
     if (set.levels != outline.levels) continue;  // Also where pieces are split: by the rates.
     for (const subdomain::PieceSummary& piece : set.pieces) {
-      outline.pieces[at(piece.subdomain)].tets = piece.num_tets;
+      outline.pieces[at(piece.subdomain)].tets = piece.num_all_tets();
       outline.pieces[at(piece.subdomain)].interior_vertices = piece.num_interior_vertices;
     }
   }

@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/report/layers_json.hpp"
 
-#include "tessera/layers/options.hpp"
+#include <map>
 
 namespace tessera::pipeline {
+namespace {
+
+// Patches of one row of the files are one patch.
+std::map<LocalIndex, layers::PatchCover> covers_of_rows(const RunResult& run)
+{
+  const FlatArray<LocalIndex>& row_of = run.coarse.mesh.patch_row;
+  std::map<LocalIndex, layers::PatchCover> rows;
+  for (const layers::PatchCover& cover : run.cover.patches) {
+    layers::PatchCover& row = rows[row_of.empty() ? cover.patch : row_of[at(cover.patch)]];
+    row.patch = cover.patch;
+    row.add(cover);
+  }
+  return rows;
+}
+
+}  // namespace
 
 Json layers_json(const RunResult& run)
 {
   Json patches = Json::array();
-  for (const layers::PatchCover& cover : run.cover.patches) {
+  for (const auto& [row, cover] : covers_of_rows(run)) {
     patches.push_back({{"name", run.coarse.mesh.patch_names[at(cover.patch)]},
                        {"area", cover.area},
                        {"covered", cover.covered / cover.area},

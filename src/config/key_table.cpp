@@ -250,13 +250,13 @@ constexpr Key kKeys[] = {
     {.name = "fill.levels",
      .rule =
          IntegerRule{[](Case& c) -> int& { return c.fill.levels; }, 1, fill::kAllLevels, "auto"},
-     .meaning =
-         "On how many of the refine.levels subdomains are filled, by \"netgen\" or "
-         "\"optimize\", and seams improved. For the others tets are split into eight and "
-         "smoothed, which is many times as fast. More than refine.levels is all of them. "
-         "\"auto\" leaves two for the split, but fills on two at least; it is all with "
-         "output.order = 2. Where edges have levels of their own, fewer are left for the split if "
-         "it would make a tenth more tets.",
+     .meaning = "On how many of the refine.levels subdomains are filled, by \"netgen\" or "
+                "\"optimize\", and seams improved. For the others tets are split into eight and "
+                "smoothed, which is many times as fast. More than refine.levels is all of them. "
+                "\"auto\" leaves two for the split, but fills on two at least; it is all with "
+                "output.order = 2 and with [[layer]]. Where edges have levels of their own, fewer "
+                "are left for the split if "
+                "it would make a tenth more tets.",
      .reason = "from three levels on, the split mesh is better in mean and 1st percentile, and "
                "comes many times as fast"},
     {.name = "fill.split_corners",

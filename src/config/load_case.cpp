@@ -293,24 +293,32 @@ void check_required(const Case& loaded, const std::string& where)
   }
 }
 
+// Whether pieces are split after they were filled, because the case says so.
+bool asks_for_split(const Case& loaded)
+{
+  const int levels = refine::levels_of(loaded.refine, sizing::are_wanted(loaded.size));
+  return loaded.fill.levels > 0 && loaded.fill.levels < levels;
+}
+
 // Nodes of second order are put on the tets that were filled.
 void check_order(const Case& loaded, const std::string& where)
 {
-  if (loaded.output.order == 1 || loaded.fill.levels >= loaded.refine.levels) return;
-  if (loaded.fill.levels == 0 || loaded.fill.levels == fill::kAllLevels) return;
+  if (loaded.output.order == 1 || !asks_for_split(loaded)) return;
   fail(where,
        "output.order = 2 excludes fill.levels below refine.levels; leave out fill.levels, so that "
        "subdomains are filled on all levels");
 }
 
-// Columns stand on the lattice of the coarse walls, which a split no longer has.
+// Columns stand on the lattice of the coarse walls, which a split no longer has. A surface that is
+// made smooth knows only the points of its own triangles.
 void check_layers(const Case& loaded, const std::string& where)
 {
   if (loaded.layers.empty()) return;
-  const bool splits = loaded.fill.levels > 0 && loaded.fill.levels < loaded.refine.levels
-                      && loaded.fill.levels != fill::kAllLevels;
+  const std::string defect = layers::defect_of_all(loaded.layers);
+  if (!defect.empty()) fail(where, "[[layer]]: " + defect);
   const std::string_view other = loaded.output.order == 2 ? "output.order = 2"
-                                 : splits                 ? "fill.levels below refine.levels"
+                                 : asks_for_split(loaded) ? "fill.levels below refine.levels"
+                                 : loaded.geometry.smooth ? "geometry.smooth"
                                  : loaded.decompose.method == decompose::Method::geometry
                                      ? "decompose.method = \"geometry\""
                                      : "";

@@ -102,14 +102,12 @@ std::optional<LocalIndex> prism_of(const Piece& piece, LocalIndex tet)
   return static_cast<LocalIndex>(first - piece.tet_cell.begin());
 }
 
-// The other half of a prism's side; kNoIndex if the side is one of its ends.
+// Sides of the tets of a prism that lie in one side of the prism, pair by pair.
 //
-// The tets of a prism go up a stair: each has one corner that the one before it lacks, and lacks
-// one corner of that. The two that are lacked or new at each step are the ends of two columns.
-LocalIndex other_half(const Piece& piece, LocalIndex side)
+// The tets go up a stair: each has one corner that the one before it lacks, and lacks one corner of
+// that. So p2 and q1, p1 and q0 are found, where p and q are the ends of columns; p0 comes first.
+std::array<std::array<LocalIndex, 2>, 3> halves_of_sides(const Piece& piece, LocalIndex first)
 {
-  const auto first = prism_of(piece, side / 4);
-  if (!first) return kNoIndex;
   const auto corners = [&](LocalIndex tet) {
     return std::span(piece.tet_points).subspan(4 * at(tet), 4);
   };
@@ -122,20 +120,27 @@ LocalIndex other_half(const Piece& piece, LocalIndex side)
     const auto all = corners(tet);
     return static_cast<LocalIndex>(4 * tet + (std::ranges::find(all, v) - all.begin()));
   };
-  const LocalIndex low = *first;
-  const LocalIndex middle = low + 1;
-  const LocalIndex high = low + 2;
+  const LocalIndex low = first;
+  const LocalIndex middle = first + 1;
+  const LocalIndex high = first + 2;
   const LocalIndex p0 = corners(low)[0];
   const LocalIndex p1 = only_in(middle, high);
   const LocalIndex q1 = only_in(middle, low);
   const LocalIndex p2 = only_in(low, middle);
   const LocalIndex q2 = *std::ranges::find_if(
       corners(low), [&](LocalIndex v) { return v != p0 && v != p1 && v != p2; });
-  const std::array<std::array<LocalIndex, 2>, 3> pairs{
-      {{side_opposite(low, p1), side_opposite(high, q1)},
-       {side_opposite(middle, q2), side_opposite(high, q2)},
-       {side_opposite(low, p0), side_opposite(middle, p0)}}};
-  for (const auto& [a, b] : pairs) {
+  return {{{side_opposite(low, p1), side_opposite(high, q1)},
+           {side_opposite(middle, q2), side_opposite(high, q2)},
+           {side_opposite(low, p0), side_opposite(middle, p0)}}};
+}
+
+// The other half of a prism's side; kNoIndex if the side is one of its ends, or of no prism of
+// three tets.
+LocalIndex other_half(const Piece& piece, LocalIndex side)
+{
+  const auto first = prism_of(piece, side / 4);
+  if (!first) return kNoIndex;
+  for (const auto& [a, b] : halves_of_sides(piece, *first)) {
     if (side == a) return b;
     if (side == b) return a;
   }

@@ -191,6 +191,8 @@ class OpenfoamWriter final : public Writer {
     // Nobody has numbered the faces between pieces with prisms.
     if (layout_.num_faces() < INT32_MAX && !outline_.has_prisms()) {
       write_addressing(mesh, piece, faces);
+    } else {
+      remove_addressing(mesh);
     }
     write_whole_file(mesh / "boundary", foam_boundary(faces.patches));
   }
@@ -216,6 +218,14 @@ class OpenfoamWriter final : public Writer {
     write_labels(mesh, kind, "faceProcAddressing", labels_of(faces.serial));
     write_labels(mesh, kind, "pointProcAddressing", labels_of(piece.point_numbers));
     write_labels(mesh, kind, "boundaryProcAddressing", patches);
+  }
+
+  // Those of another mesh that was there before.
+  static void remove_addressing(const fs::path& mesh)
+  {
+    for (const char* of : {"cell", "face", "point", "boundary"}) {
+      fs::remove(mesh / fmt::format("{}ProcAddressing", of));
+    }
   }
 
   static void write_labels(const fs::path& mesh, const FoamKind& kind, const std::string& name,

@@ -46,21 +46,6 @@ std::vector<LocalIndex> entries_of_patches(const mesh::CoarseMesh& mesh,
   return entries;
 }
 
-// Patches may meet, and a column has one number of layers.
-void require_alike(std::span<const LayerOptions> options)
-{
-  for (const LayerOptions& one : options) {
-    if (num_layers(one) == num_layers(options.front()) && one.growth == options.front().growth) {
-      continue;
-    }
-    throw ConfigError(
-        fmt::format("\"{}\" has {} layers that grow by {:g}, and \"{}\" {} by {:g}; all entries "
-                    "must have the same count and growth, and only first may differ",
-                    options.front().patch, num_layers(options.front()), options.front().growth,
-                    one.patch, num_layers(one), one.growth));
-  }
-}
-
 void require_thinner_than_model(const mesh::CoarseMesh& mesh, std::span<const LayerOptions> options)
 {
   const double diagonal = box_diagonal(mesh.vertex_xyz);
@@ -104,7 +89,9 @@ LayerCover measure(const mesh::CoarseMesh& mesh, const WallMover& mover)
       const auto row = at(walls.wall_of_vertex[at(triangle.vertices[c])]);
       const WallVertex& vertex = walls.vertices[row];
       corners[c] = vertex.wall;
-      least = std::min(least, vertex.column == Vec3{} ? 0.0 : mover.parts()[row]);
+      const double wanted = norm(vertex.column);
+      const double found = norm(mesh.position(vertex.vertex) - vertex.wall);
+      least = std::min(least, wanted > 0.0 ? found / wanted : 0.0);
     }
     const LocalIndex patch = mesh.face_patch[at(triangle.face)];
     PatchCover& cover = covers[patch];
@@ -137,11 +124,7 @@ mesh::WallLayers layers_of(const mesh::CoarseMesh& mesh, const WallMover& mover,
 PatchCover LayerCover::sum() const
 {
   PatchCover sum{.patch = kNoIndex};
-  for (const PatchCover& patch : patches) {
-    sum.area += patch.area;
-    sum.covered += patch.covered;
-    sum.full += patch.full;
-  }
+  for (const PatchCover& patch : patches) sum.add(patch);
   return sum;
 }
 
@@ -149,7 +132,7 @@ LayerCover grow_layers(mesh::CoarseMesh& mesh, std::span<const LayerOptions> opt
                        const model::Model& model, bool keep_tets)
 {
   const std::vector<LocalIndex> entries = entries_of_patches(mesh, options);
-  require_alike(options);
+  if (const std::string defect = defect_of_all(options); !defect.empty()) throw ConfigError(defect);
   require_thinner_than_model(mesh, options);
   require_outside(mesh, entries);
   std::vector<double> heights;
@@ -158,6 +141,9 @@ LayerCover grow_layers(mesh::CoarseMesh& mesh, std::span<const LayerOptions> opt
   }
   std::vector<double> ends = layer_ends(options.front());
   WallMover mover(mesh, model, find_walls(mesh, heights), ends);
+  if (mover.walls().vertices.empty()) {
+    throw ConfigError("the patches that are named have no triangle in the coarse mesh");
+  }
   for (int step = 1; step <= kSteps + kMoreSteps; ++step) {
     mover.move_to(std::min(1.0, static_cast<double>(step) / kSteps));
     if (!keep_tets) mover.renumber(improve_interior(mesh));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -28,6 +29,23 @@ std::string defect_of(const LayerOptions& options)
   if (options.count == 0 && options.thickness < options.first) {
     return fmt::format("thickness = {:g} is less than first = {:g}; must be at least that",
                        options.thickness, options.first);
+  }
+  std::vector<double> ends = layer_ends(options);
+  ends.insert(ends.begin(), 0.0);
+  if (std::ranges::adjacent_find(ends, std::greater_equal()) == ends.end()) return {};
+  return fmt::format("{} layers that grow by {:g} differ too much in height for numbers of 64 bits",
+                     num_layers(options), options.growth);
+}
+
+std::string defect_of_all(std::span<const LayerOptions> options)
+{
+  const LayerOptions& first = options.front();
+  for (const LayerOptions& one : options) {
+    if (num_layers(one) == num_layers(first) && one.growth == first.growth) continue;
+    return fmt::format(
+        "\"{}\" has {} layers that grow by {:g}, and \"{}\" {} by {:g}; all entries must have the "
+        "same count and growth, and only first may differ",
+        first.patch, num_layers(first), first.growth, one.patch, num_layers(one), one.growth);
   }
   return {};
 }

@@ -79,7 +79,11 @@ void WallMover::renumber(const std::vector<LocalIndex>& number)
 Vec3 WallMover::place_of(const WallVertex& vertex, double part) const
 {
   if (part == 0.0 || vertex.column == Vec3{}) return vertex.wall;
-  const Vec3 point = vertex.wall + part * vertex.column;
+  return beside_wall(vertex, vertex.wall + part * vertex.column);
+}
+
+Vec3 WallMover::beside_wall(const WallVertex& vertex, const Vec3& point) const
+{
   if (vertex.curve != kNoIndex) {
     return model_.project_to_curve(vertex.curve, point, vertex.t).xyz;
   }
@@ -145,21 +149,26 @@ bool WallMover::is_bad_triangle(const SurfaceTriangle& triangle) const
 
 bool WallMover::is_bad_column(const SurfaceTriangle& triangle) const
 {
-  std::array<Vec3, 3> tets{};
-  std::array<Vec3, 3> wall{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const LocalIndex v = triangle.vertices[c];
-    tets[c] = mesh_.position(v);
-    wall[c] = walls_.vertices[at(walls_.wall_of_vertex[at(v)])].wall;
-  }
-  std::array<Vec3, 3> low = tets;
+  std::array<Vec3, 3> low{};
+  for (std::size_t c = 0; c < 3; ++c) low[c] = mesh_.position(triangle.vertices[c]);
   for (const double end : ends_) {
-    std::array<Vec3, 3> high = tets;
-    for (std::size_t c = 0; c < 3; ++c) high[c] = tets[c] + end * (wall[c] - tets[c]);
+    std::array<Vec3, 3> high{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const LocalIndex v = triangle.vertices[c];
+      high[c] = column_point(walls_.vertices[at(walls_.wall_of_vertex[at(v)])], end);
+    }
     if (!mesh::is_positive_prism(low, high)) return true;
     low = high;
   }
   return false;
+}
+
+// Where a layer ends: on the curve or patch that the column goes along.
+Vec3 WallMover::column_point(const WallVertex& vertex, double end) const
+{
+  const Vec3 column = mesh_.position(vertex.vertex) - vertex.wall;
+  return end == 1.0 || column == Vec3{} ? vertex.wall
+                                        : beside_wall(vertex, vertex.wall + (1.0 - end) * column);
 }
 
 void WallMover::update_parameters()

@@ -32,11 +32,11 @@ class WallMover {
 
   [[nodiscard]] const WallSurface& walls() const { return walls_; }
 
-  /// @brief Shape (walls().vertices.size()): how far along its column each vertex is, 0 to 1.
-  [[nodiscard]] const std::vector<double>& parts() const { return part_; }
-
  private:
   [[nodiscard]] Vec3 place_of(const WallVertex& vertex, double part) const;
+  [[nodiscard]] Vec3 column_point(const WallVertex& vertex, double end) const;
+  /// The point on the curve or patch without layers, if there is one.
+  [[nodiscard]] Vec3 beside_wall(const WallVertex& vertex, const Vec3& point) const;
   void place(std::span<const double> parts);
   void find_tets();
   void update_segments_at(const WallVertex& vertex);
@@ -50,7 +50,7 @@ class WallMover {
   const model::Model& model_;
   WallSurface walls_;
   std::span<const double> ends_;
-  std::vector<double> part_{};         ///< By row of walls_.vertices.
+  std::vector<double> part_{};         ///< By row of walls_.vertices: how far along its column.
   std::vector<LocalIndex> tets_{};     ///< With a vertex on a wall.
   std::vector<double> least_ratio_{};  ///< Of these tets, that they must keep.
 };

@@ -32,8 +32,8 @@ SurfaceTriangle surface_triangle(const mesh::CoarseMesh& mesh, LocalIndex face,
           std::min(kLeastShape, 0.5 * triangle_shape(p))};
 }
 
-// The faces on the outside of the material, turned so that they point away from the tets; of a face
-// between two materials, away from the lower tet.
+// The faces of the geometry, turned so that they point away from the tets; of a face between two
+// materials, away from the lower material.
 std::vector<std::array<LocalIndex, 3>> outward_faces(const mesh::CoarseMesh& mesh)
 {
   std::map<std::array<LocalIndex, 3>, LocalIndex> face_of;
@@ -45,8 +45,12 @@ std::vector<std::array<LocalIndex, 3>> outward_faces(const mesh::CoarseMesh& mes
   for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {
     const auto found = face_of.find(triangle.vertices);
     if (found == face_of.end()) continue;
-    const auto tet = mesh.tet(triangle.tets[0]);
-    const auto& corners = mesh::kTetFaceCorners[at(triangle.corners[0])];
+    const auto material = [&](std::size_t side) {
+      return mesh.tet_material[at(triangle.tets[side])];
+    };
+    const std::size_t side = triangle.tets[1] != kNoIndex && material(1) < material(0) ? 1 : 0;
+    const auto tet = mesh.tet(triangle.tets[side]);
+    const auto& corners = mesh::kTetFaceCorners[at(triangle.corners[side])];
     for (std::size_t c = 0; c < 3; ++c) outward[at(found->second)][c] = tet[corners[c]];
   }
   return outward;

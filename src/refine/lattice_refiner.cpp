@@ -104,20 +104,11 @@ class LatticeRefiner {
     for (LocalIndex k = 1; k < n; ++k) {
       const double part = static_cast<double>(k) / n;
       const Vec3 straight = walls.edge_point(e, k) + (first + part * along);
-      result_.place_edge_point(e, k, has_columns ? on_side_patch(e, k, straight) : straight);
+      const LocalIndex edge = complex_.edge_skeleton[at(e)];
+      // Along the rim of a wall columns begin on the patch beside it.
+      result_.place_edge_point(
+          e, k, has_columns ? side_point_of_edge(context_, edge, n, k, straight) : straight);
     }
-  }
-
-  // Where columns begin along the rim of a wall, they begin on the patch beside it.
-  [[nodiscard]] Vec3 on_side_patch(LocalIndex e, LocalIndex k, const Vec3& straight) const
-  {
-    const LocalIndex edge = complex_.edge_skeleton[at(e)];
-    const LocalIndex n = result_.edge_intervals(e);
-    const double factor = context_.limiter.factor(mesh::LatticePointKey::on_edge(edge, n, k));
-    return straight
-           + factor
-                 * (side_patch_point(context_, edge, static_cast<double>(k) / n, straight)
-                    - straight);
   }
 
   void place_triangle_behind_wall(LocalIndex t, const mesh::RefinedLattice& walls)
@@ -332,15 +323,8 @@ void place_beside_walls(const mesh::Complex& complex, const RefineContext& conte
   }
 }
 
-void add(const mesh::ModelDistance& more, mesh::ModelDistance& sum)
-{
-  sum.largest = std::max(sum.largest, more.largest);
-  sum.largest_held_back = std::max(sum.largest_held_back, more.largest_held_back);
-  sum.num_held_back += more.num_held_back;
-}
-
-}  // namespace
-
+// A point of a column over a skeleton edge at the rim of a wall, put onto the patch without layers
+// beside it; the point itself if there is none. `part`: where along the edge, from 0 to 1.
 Vec3 side_patch_point(const RefineContext& context, LocalIndex edge, double part, const Vec3& point)
 {
   const mesh::Skeleton& skeleton = context.skeleton;
@@ -352,17 +336,45 @@ Vec3 side_patch_point(const RefineContext& context, LocalIndex edge, double part
       .xyz;
 }
 
+Vec3 limited(const Vec3& chord, const Vec3& projected, double factor)
+{
+  return factor == 1.0 ? projected : chord + factor * (projected - chord);
+}
+
+void add(const mesh::ModelDistance& more, mesh::ModelDistance& sum)
+{
+  sum.largest = std::max(sum.largest, more.largest);
+  sum.largest_held_back = std::max(sum.largest_held_back, more.largest_held_back);
+  sum.num_held_back += more.num_held_back;
+}
+
+}  // namespace
+
+Vec3 side_point_of_edge(const RefineContext& context, LocalIndex edge, LocalIndex n, LocalIndex k,
+                        const Vec3& point)
+{
+  const double factor = context.limiter.factor(mesh::LatticePointKey::on_edge(edge, n, k));
+  return limited(point, side_patch_point(context, edge, static_cast<double>(k) / n, point), factor);
+}
+
 Vec3 side_point_of_vertex(const RefineContext& context, LocalIndex vertex, const Vec3& point)
 {
   const mesh::Skeleton& skeleton = context.skeleton;
   const LocalIndex edge = skeleton.vertex_side_edge[at(vertex)];
   if (edge == kNoIndex) return point;
   const std::size_t end = skeleton.edge_vertices[2 * at(edge)] == vertex ? 0 : 1;
+  const double factor = context.limiter.factor(key_of_vertex_limit(edge));
   if (skeleton.is_on_wall(edge)) {
-    return side_patch_point(context, edge, static_cast<double>(end), point);
+    return limited(point, side_patch_point(context, edge, static_cast<double>(end), point), factor);
   }
   const double t = skeleton.edge_parameters[2 * (2 * at(edge) + end)];
-  return context.model.project_to_curve(skeleton.edge_curve[at(edge)], point, t).xyz;
+  return limited(point, context.model.project_to_curve(skeleton.edge_curve[at(edge)], point, t).xyz,
+                 factor);
+}
+
+mesh::LatticePointKey key_of_vertex_limit(LocalIndex side_edge)
+{
+  return mesh::LatticePointKey::on_edge(side_edge, 2, 1);
 }
 
 mesh::RefinedLattice refine_lattice(const mesh::Complex& complex, mesh::LatticeLevels levels,

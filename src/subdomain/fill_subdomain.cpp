@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "tessera/fill/check.hpp"
 #include "tessera/fill/size_samples.hpp"
 #include "tessera/fill/subdivide.hpp"
-#include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/optimize/optimize.hpp"
 #include "tessera/refine/skin.hpp"
 #include "tessera/subdomain/layer_tables.hpp"
@@ -71,12 +69,13 @@ RawFill improve_children(const PartitionedMesh& cut, const refine::RefineContext
   return raw;
 }
 
-// The triangles of a skin that are on the geometry.
-std::vector<LocalIndex> outer_triangles(const mesh::Skin& skin, const mesh::Skeleton& skeleton)
+// The triangles of a skin that are on the geometry. In front of a wall there are layers.
+std::vector<LocalIndex> outer_triangles(const mesh::Skin& skin, const PartitionedMesh& cut)
 {
   std::vector<LocalIndex> outer;
   for (LocalIndex t = 0; t < skin.num_triangles(); ++t) {
-    if (skeleton.triangle_patch[at(skin.triangle_parent[at(t)])] == kNoIndex) continue;
+    const LocalIndex patch = cut.skeleton.triangle_patch[at(skin.triangle_parent[at(t)])];
+    if (patch == kNoIndex || cut.coarse.layers.is_wall(patch)) continue;
     const auto first = skin.triangle_vertices.begin() + 3 * std::ptrdiff_t{t};
     outer.insert(outer.end(), first, first + 3);
   }
@@ -89,7 +88,7 @@ void optimize_tets(const PartitionedMesh& cut, const fill::FillTry& how, RawFill
   optimize::TetMesh tets{.vertex_xyz = std::move(raw.tets.vertex_xyz),
                          .tet_vertices = std::move(raw.tets.tet_vertices)};
   optimize::Schedule schedule = piece_schedule(how.split_corners);
-  if (how.split_corners) tets.outer_triangles = outer_triangles(raw.skin, cut.skeleton);
+  if (how.split_corners) tets.outer_triangles = outer_triangles(raw.skin, cut);
   if (how.kernel == fill::KernelKind::subdivide) {
     tets.vertex_fixed.assign(tets.vertex_xyz.size() / 3, 1);
     schedule.steps = optimize::parse_steps("dmmww");
@@ -144,32 +143,11 @@ RawFill raw_fill(const PartitionedMesh& cut, const refine::RefineContext& refine
   return raw;
 }
 
-// What layers add to the area on the outside: walls are in front of them, and sides beside them.
-double added_outside_area(const PartitionedMesh& cut, const PieceSummary& without,
-                          const std::vector<PatchArea>& with)
-{
-  std::set<LocalIndex> inside;
-  for (const LocalIndex t : cut.skeleton.triangles_of(without.subdomain)) {
-    if (cut.skeleton.is_inside(t)) inside.insert(cut.skeleton.triangle_patch[at(t)]);
-  }
-  const auto outside = [&](const std::vector<PatchArea>& patches) {
-    double area = 0.0;
-    for (const PatchArea& patch : patches) {
-      if (!inside.contains(patch.patch)) area += patch.area;
-    }
-    return area;
-  };
-  return outside(with) - outside(without.patches);
-}
-
 // Of a piece with layers, and of its patches, which lie in front of them. Layers that are not
 // positive are folds, whatever has filled the piece.
-void measure_layers(const PartitionedMesh& cut, FilledPiece& filled)
+void measure_layers(const LayerTables& tables, FilledPiece& filled)
 {
-  const auto tables =
-      layer_tables(cut.coarse, cut.skeleton, mesh::lattice_levels(cut.skeleton, cut.levels));
-  if (!tables) return;
-  const LayeredPiece layered = with_layers(filled.piece, *tables);
+  const LayeredPiece layered = with_layers(filled.piece, tables);
   PieceSummary& summary = filled.result.summary;
   for (LocalIndex t = filled.piece.num_tets(); t < layered.piece.num_tets(); ++t) {
     const auto& [a, b, c, d] = layered.piece.corners(t);
@@ -177,13 +155,14 @@ void measure_layers(const PartitionedMesh& cut, FilledPiece& filled)
     summary.is_folded = summary.is_folded || !(volume > 0.0);
     summary.layers.volume += volume;
   }
-  summary.boundary_area += added_outside_area(cut, summary, patch_areas(layered.piece));
+  summary.boundary_area += layered.outside_area;
   summary.layers.num_tets = layered.piece.num_tets() - filled.piece.num_tets();
   summary.layers.num_side_triangles = layered.piece.num_boundary() - filled.piece.num_boundary();
   summary.patches = patch_areas(layered.piece);
 }
 
-FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain, RawFill& raw)
+FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain,
+                              const LayerTables* layers, RawFill& raw)
 {
   const fill::FillFacts facts = fill::check_fill(input_of(raw.skin), raw.tets);
   FilledPiece filled;
@@ -203,7 +182,7 @@ FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain, 
   summary.held_back_distance = raw.distance.largest_held_back;
   summary.volume = facts.volume;
   piece.columns = std::move(raw.columns);
-  measure_layers(cut, filled);
+  if (layers != nullptr) measure_layers(*layers, filled);
   return filled;
 }
 
@@ -211,12 +190,12 @@ FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain, 
 
 FilledPiece fill_subdomain(const PartitionedMesh& cut, const refine::RefineContext& refine,
                            LocalIndex subdomain, const fill::FillTry& how,
-                           const fill::Kernel& netgen)
+                           const fill::Kernel& netgen, const LayerTables* layers)
 {
   RawFill raw = raw_fill(cut, refine, subdomain, how, netgen);
   FilledPiece filled;
   try {
-    filled = check_and_measure(cut, subdomain, raw);
+    filled = check_and_measure(cut, subdomain, layers, raw);
   } catch (const MeshError&) {
     // Of what was subdivided nothing else can be wrong than that it is folded.
     const bool is_subdivision = how.kernel == fill::KernelKind::subdivide;

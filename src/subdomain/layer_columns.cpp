@@ -64,11 +64,7 @@ class ColumnMaker {
     }
     if (kind != mesh::HostKind::edge) return point;
     const LocalIndex edge = hosts_.row_of(at_name.host);
-    const LocalIndex n = intervals_.at(edge);
-    const LocalIndex k = at_name.index + 1;
-    const double factor = refine_.limiter.factor(mesh::LatticePointKey::on_edge(edge, n, k));
-    const double part = static_cast<double>(k) / n;
-    return point + factor * (refine::side_patch_point(refine_, edge, part, point) - point);
+    return refine::side_point_of_edge(refine_, edge, intervals_.at(edge), at_name.index + 1, point);
   }
 
   const mesh::Skin& skin_;

@@ -56,7 +56,7 @@ LayerTables::LayerTables(const mesh::CoarseMesh& coarse, const mesh::Skeleton& s
     : coarse_(&coarse), skeleton_(&skeleton), hosts_(skeleton)
 {
   count_columns(levels);
-  find_side_owners();
+  find_owners();
   count_cells(levels);
 }
 
@@ -77,16 +77,35 @@ void LayerTables::count_columns(const mesh::LatticeLevels& levels)
   }
 }
 
-void LayerTables::find_side_owners()
+void LayerTables::find_owners()
 {
-  side_owner_.assign(at(skeleton_->num_edges()), kNoIndex);
+  column_owner_.assign(at(hosts_.num_on_skeleton()), kNoIndex);
+  const auto own = [&](mesh::HostEntity host, LocalIndex subdomain) {
+    LocalIndex& owner = column_owner_[at(host)];
+    owner = owner == kNoIndex ? subdomain : std::min(owner, subdomain);
+  };
+  has_inner_side_.assign(at(skeleton_->num_edges()), 0);
   for (LocalIndex t = 0; t < skeleton_->num_triangles(); ++t) {
-    if (!is_wall_triangle(t)) continue;
-    const LocalIndex owner = skeleton_->triangle_owner(t);
-    for (std::size_t side = 0; side < 3; ++side) {
-      LocalIndex& of_edge = side_owner_[at(skeleton_->triangle_edges[3 * at(t) + side])];
-      of_edge = of_edge == kNoIndex ? owner : std::min(of_edge, owner);
+    if (!is_wall_triangle(t)) {
+      mark_inner_sides(t);
+      continue;
     }
+    const LocalIndex subdomain = skeleton_->triangle_owner(t);
+    own(hosts_.triangle(t), subdomain);
+    for (std::size_t c = 0; c < 3; ++c) {
+      own(hosts_.vertex(skeleton_->triangle_vertices[3 * at(t) + c]), subdomain);
+      own(hosts_.edge(skeleton_->triangle_edges[3 * at(t) + c]), subdomain);
+    }
+  }
+}
+
+void LayerTables::mark_inner_sides(LocalIndex triangle)
+{
+  if (!skeleton_->is_inside(triangle)) return;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t edge = at(skeleton_->triangle_edges[3 * at(triangle) + c]);
+    const bool is_its = skeleton_->edge_side_patch[edge] == skeleton_->triangle_patch[at(triangle)];
+    if (is_its && skeleton_->edge_side_patch[edge] != kNoIndex) has_inner_side_[edge] = 1;
   }
 }
 
@@ -99,7 +118,7 @@ void LayerTables::count_cells(const mesh::LatticeLevels& levels)
   }
   for (LocalIndex e = 0; e < skeleton_->num_edges(); ++e) {
     if (!skeleton_->is_on_wall(e) || skeleton_->edge_side_patch[at(e)] == kNoIndex) continue;
-    counts_[at(side_owner_[at(e)])].side_triangles +=
+    counts_[at(owner(hosts_.edge(e)))].side_triangles +=
         num_side_triangles_on(e, levels.edge_intervals(e));
   }
 }
@@ -161,12 +180,14 @@ LocalIndex LayerTables::common_edge(const mesh::HostPoint& a, const mesh::HostPo
                                       std::max(hosts_.row_of(a.host), hosts_.row_of(b.host))});
 }
 
-LocalIndex LayerTables::side_patch(const mesh::HostPoint& a, const mesh::HostPoint& b,
-                                   LocalIndex subdomain) const
+std::optional<LayerSide> LayerTables::side(const mesh::HostPoint& a, const mesh::HostPoint& b,
+                                           LocalIndex subdomain) const
 {
   const LocalIndex edge = common_edge(a, b);
-  if (edge == kNoIndex || side_owner_[at(edge)] != subdomain) return kNoIndex;
-  return skeleton_->edge_side_patch[at(edge)];
+  if (edge == kNoIndex || owner(hosts_.edge(edge)) != subdomain) return std::nullopt;
+  const LocalIndex patch = skeleton_->edge_side_patch[at(edge)];
+  if (patch == kNoIndex) return std::nullopt;
+  return LayerSide{patch, has_inner_side_[at(edge)] == 0};
 }
 
 std::optional<LayerTables> layer_tables(const mesh::CoarseMesh& coarse,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -133,8 +134,8 @@ class LayerBuilder {
   // is missing.
   void add_side(const Corner& a, const Corner& b, LocalIndex layer, LocalIndex first_tet)
   {
-    const LocalIndex patch = tables_.side_patch(a.name, b.name, piece().subdomain);
-    if (patch == kNoIndex) return;
+    const auto side = tables_.side(a.name, b.name, piece().subdomain);
+    if (!side) return;
     const std::array<LocalIndex, 4> quad{point(a, layer - 1), point(b, layer - 1), point(b, layer),
                                          point(a, layer)};
     const bool begins_at_a = a.name < b.name;
@@ -148,8 +149,9 @@ class LayerBuilder {
       }
       piece().boundary_vertices.insert(piece().boundary_vertices.end(), triangle.begin(),
                                        triangle.end());
-      piece().boundary_patch.push_back(patch);
+      piece().boundary_patch.push_back(side->patch);
       piece().boundary_tet.push_back(tet_behind(triangle, first_tet));
+      if (side->is_outside) made_.outside_area += area_of(triangle);
     }
   }
 
@@ -158,9 +160,19 @@ class LayerBuilder {
   {
     std::array<LocalIndex, 3> triangle{};
     for (std::size_t c = 0; c < 3; ++c) triangle[c] = point(outward[c], tables_.num_layers() - 1);
+    const std::array<LocalIndex, 3> of_tets{outward[0].vertex, outward[1].vertex,
+                                            outward[2].vertex};
+    made_.outside_area += area_of(triangle) - area_of(of_tets);
     std::ranges::copy(triangle, &piece().boundary_vertices[3 * at(row)]);
     const LocalIndex num_last = std::min(piece().num_tets(), 3);
     piece().boundary_tet[at(row)] = tet_behind(triangle, piece().num_tets() - num_last);
+  }
+
+  [[nodiscard]] double area_of(const std::array<LocalIndex, 3>& triangle) const
+  {
+    const std::span<const double> xyz(made_.piece.vertex_xyz);
+    return triangle_area(point_at(xyz, triangle[0]), point_at(xyz, triangle[1]),
+                         point_at(xyz, triangle[2]));
   }
 
   // Of those from `first` on the one that has the triangle.

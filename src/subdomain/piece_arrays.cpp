@@ -79,14 +79,12 @@ void add_points(const mesh::Piece& piece, const WriteContext& mesh, mesh::MeshAr
   number_by_owner(piece, mesh, arrays);
 }
 
-// Points of layers are owned as the vertices that their columns stand on.
 void add_layer_points(const LayeredPiece& layered, const WriteContext& mesh,
                       mesh::MeshArrays& arrays)
 {
   auto& owner = arrays.point_ints["owner"];
-  const mesh::HostLayout hosts(mesh.skeleton);
   for (const mesh::HostPoint& vertex : layered.columns) {
-    const LocalIndex of_column = mesh::owner_of_host(mesh.skeleton, hosts, vertex.host);
+    const LocalIndex of_column = mesh.layers->owner(vertex.host);
     for (LocalIndex layer = 0; layer < mesh.layers->num_layers(); ++layer) {
       arrays.point_ids.push_back(mesh.ids.num_vertices() + mesh.layers->point(vertex, layer));
       owner.push_back(of_column);

@@ -20,7 +20,10 @@ subdomain::FilledPiece fill_of(const Body& body, int levels, LocalIndex subdomai
   const mesh::ProjectionLimiter limiter;
   const refine::RefineContext refine{body.coarse, body.skeleton, model, limiter, levels, true};
   const subdomain::PartitionedMesh cut(body.coarse, body.decomposition, levels);
-  return subdomain::fill_subdomain(cut, refine, subdomain, how, *netgen::make_fill_kernel());
+  const auto layers = subdomain::layer_tables(body.coarse, body.skeleton,
+                                              mesh::lattice_levels(body.skeleton, levels));
+  return subdomain::fill_subdomain(cut, refine, subdomain, how, *netgen::make_fill_kernel(),
+                                   layers ? &*layers : nullptr);
 }
 
 void FilledCube::SetUpTestSuite()

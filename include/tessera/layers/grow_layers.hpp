@@ -22,6 +22,14 @@ struct PatchCover {
   {
     return std::tie(self.patch, self.area, self.covered, self.full);
   }
+
+  /// @brief Adds the areas of another patch.
+  void add(const PatchCover& other)
+  {
+    area += other.area;
+    covered += other.covered;
+    full += other.full;
+  }
 };
 
 /// @brief What grow_layers() has made.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -28,6 +29,10 @@ inline constexpr int kMostLayers = 100;
 
 /// @brief What is wrong with an entry, or empty. Local.
 [[nodiscard]] std::string defect_of(const LayerOptions& options);
+
+/// @brief What is wrong with several entries together, or empty: patches may meet, and a column has
+/// one number of layers. Local.
+[[nodiscard]] std::string defect_of_all(std::span<const LayerOptions> options);
 
 /// @brief Number of layers: `count`, or what comes nearest to `thickness`, at least one. Local.
 [[nodiscard]] int num_layers(const LayerOptions& options);

@@ -42,16 +42,20 @@ struct RefineContext {
                                                   mesh::LatticeLevels levels,
                                                   const RefineContext& context);
 
-/// @brief A point of a column over a skeleton edge at the rim of a wall, put onto the patch without
-/// layers beside it; the point itself if there is none. Local.
-/// @param[in] part  Where along the edge the column is, from 0 to 1.
+/// @brief A point of the column over point `k` of the `n` intervals of a skeleton edge. At the rim
+/// of a wall it is put onto the patch without layers beside it, as far as the limiter lets that
+/// point of the edge go. Local.
 /// @throws GeometryError if the projection fails.
-[[nodiscard]] Vec3 side_patch_point(const RefineContext& context, LocalIndex edge, double part,
-                                    const Vec3& point);
+[[nodiscard]] Vec3 side_point_of_edge(const RefineContext& context, LocalIndex edge, LocalIndex n,
+                                      LocalIndex k, const Vec3& point);
 
 /// @brief The same for a column over a skeleton vertex: onto the curve that leaves the wall there,
-/// else onto the patch.
+/// else onto the patch, as far as key_of_vertex_limit() allows.
 [[nodiscard]] Vec3 side_point_of_vertex(const RefineContext& context, LocalIndex vertex,
                                         const Vec3& point);
+
+/// @brief What holds back the column over a vertex with this mesh::Skeleton::vertex_side_edge, as a
+/// limiter names no vertices: the middle of that edge. Local.
+[[nodiscard]] mesh::LatticePointKey key_of_vertex_limit(LocalIndex side_edge);
 
 }  // namespace tessera::refine

@@ -23,6 +23,12 @@ struct LayerCounts {
   friend bool operator==(const LayerCounts&, const LayerCounts&) = default;
 };
 
+/// @brief A side of layers, on a patch without layers.
+struct LayerSide {
+  LocalIndex patch = kNoIndex;
+  bool is_outside = true;  ///< Else it lies between two materials.
+};
+
 /// @brief Whether columns stand on the fine vertices of a host: it lies on a wall, and a column of
 /// a coarse vertex of it has a length. Local. @pre host is the skeleton's; the mesh has layers.
 [[nodiscard]] bool has_columns(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
@@ -62,15 +68,19 @@ class LayerTables {
   /// @brief Whether a patch has layers.
   [[nodiscard]] bool is_wall(LocalIndex patch) const { return coarse_->layers.is_wall(patch); }
 
-  /// @brief The patch that the side of a layer lies on which stands on a small edge between two
-  /// vertices of walls, if the subdomain owns that side; kNoIndex: none, or there is another prism
-  /// or another owner.
-  [[nodiscard]] LocalIndex side_patch(const mesh::HostPoint& a, const mesh::HostPoint& b,
-                                      LocalIndex subdomain) const;
+  /// @brief The side of layers that stands on a small edge between two vertices of walls, if it
+  /// lies on a patch and the subdomain owns it. None: there is another prism, or another owner.
+  [[nodiscard]] std::optional<LayerSide> side(const mesh::HostPoint& a, const mesh::HostPoint& b,
+                                              LocalIndex subdomain) const;
+
+  /// @brief Lowest subdomain that has the columns of a host, so a prism there.
+  /// @pre has_columns(host)
+  [[nodiscard]] LocalIndex owner(mesh::HostEntity host) const { return column_owner_[at(host)]; }
 
  private:
   void count_columns(const mesh::LatticeLevels& levels);
-  void find_side_owners();
+  void find_owners();
+  void mark_inner_sides(LocalIndex triangle);
   void count_cells(const mesh::LatticeLevels& levels);
   [[nodiscard]] GlobalIndex num_tets_on(LocalIndex triangle,
                                         const mesh::LatticeLevels& levels) const;
@@ -86,8 +96,9 @@ class LayerTables {
   const mesh::Skeleton* skeleton_;
   mesh::HostLayout hosts_;
   std::vector<GlobalIndex> first_column_{0};  ///< Shape (num_on_skeleton + 1).
-  std::vector<LocalIndex> side_owner_{};      ///< Shape (num_edges): lowest with a wall there.
-  std::vector<LayerCounts> counts_{};         ///< Shape (num_subdomains).
+  std::vector<char> has_inner_side_{};        ///< Shape (num_edges): side between two materials.
+  std::vector<LocalIndex> column_owner_{};  ///< Shape (num_on_skeleton): lowest with a wall there.
+  std::vector<LayerCounts> counts_{};       ///< Shape (num_subdomains).
 };
 
 /// @brief The tables of a mesh with layers; none without. Local.
@@ -102,6 +113,8 @@ struct LayeredPiece {
                                            ///< num_layers each, from the tets outwards.
   LocalIndex num_vertices = 0;             ///< Without these.
   std::vector<LocalIndex> tet_layer{};     ///< Shape (num_tets): from 1 at the wall; 0: in none.
+  double outside_area = 0.0;  ///< What layers add to that of the outside: walls are in front of
+                              ///< them, and sides beside them. Output length unit squared.
   std::vector<LocalIndex> tet_of_prism{};  ///< Shape (num_tets): from 0; above it, the tet is of
                                            ///< the same prism as the one before it.
 };
