@@ -2,12 +2,12 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
-#include <Interface_Static.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TopExp_Explorer.hxx>
@@ -167,28 +167,42 @@ TEST_F(OccImport, CleanSolidNeedsNoRepair)
   }
 }
 
+// A cube of side 2 in a unit that STEP describes so. The unit is put into the text: the writer of
+// OpenCASCADE 7.8 writes another unit, but leaves all numbers in millimetres.
+std::string step_cube(const fs::path& folder, const std::string& unit)
+{
+  STEPControl_Controller::Init();
+  STEPControl_Writer writer;
+  writer.Transfer(BRepPrimAPI_MakeBox(2.0, 2.0, 2.0).Shape(), STEPControl_AsIs);
+  writer.Write((folder / "cube.step").c_str());
+  std::string text = content_of(folder / "cube.step");
+  const std::string millimetre = "( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.MILLI.,.METRE.) )";
+  const std::size_t place = text.find(millimetre);
+  if (place == std::string::npos) throw std::runtime_error("no unit in the file");
+  text.replace(place, millimetre.size(), unit);
+  const std::string inch =
+      "#9001 = LENGTH_MEASURE_WITH_UNIT(LENGTH_MEASURE(25.4),#9002);\n#9002 = " + millimetre
+      + ";\n#9003 = DIMENSIONAL_EXPONENTS(1.,0.,0.,0.,0.,0.,0.);\n";
+  return text.insert(text.rfind("ENDSEC;"), inch);
+}
+
 TEST_F(OccImport, UnitAndNumbersAreTheFiles)
 {
   EXPECT_EQ(netgen::import_model(own_model("sphere.step"), {}).length_unit, "mm");
 
-  STEPControl_Controller::Init();
-  const std::array<std::array<const char*, 2>, 3> units{{{"M", "m"}, {"INCH", "in"}, {"CM", "cm"}}};
-  const std::array<double, 3> millimetres{1000.0, 25.4, 10.0};
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    Interface_Static::SetCVal("write.step.unit", units[i][0]);
-    STEPControl_Writer writer;
-    const double size = 2.0 * millimetres[i];
-    writer.Transfer(BRepPrimAPI_MakeBox(size, size, size).Shape(), STEPControl_AsIs);
-    writer.Write((folder_ / "box.step").c_str());
-    const model::ModelSource source = netgen::import_model(folder_ / "box.step", {});
-    EXPECT_EQ(source.length_unit, units[i][1]);
+  const std::array<std::array<const char*, 2>, 3> units{
+      {{"( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT($,.METRE.) )", "m"},
+       {"( CONVERSION_BASED_UNIT('INCH',#9001) LENGTH_UNIT() NAMED_UNIT(#9003) )", "in"},
+       {"( LENGTH_UNIT() NAMED_UNIT(*) SI_UNIT(.CENTI.,.METRE.) )", "cm"}}};
+  for (const auto& [step, name] : units) {
+    const fs::path file = write("box.step", step_cube(folder_, step));
+    const model::ModelSource source = netgen::import_model(file, {});
+    EXPECT_EQ(source.length_unit, name);
     EXPECT_NEAR(netgen::load_model(source)->box_diagonal(), 2.0 * std::sqrt(3.0), 1e-5);
-    const model::ModelSource plain =
-        netgen::import_model(folder_ / "box.step", {}, netgen::StepReader::plain);
-    EXPECT_EQ(plain.length_unit, units[i][1]);
+    const model::ModelSource plain = netgen::import_model(file, {}, netgen::StepReader::plain);
+    EXPECT_EQ(plain.length_unit, name);
     EXPECT_NEAR(netgen::load_model(plain)->box_diagonal(), 2.0 * std::sqrt(3.0), 1e-5);
   }
-  Interface_Static::SetCVal("write.step.unit", "MM");
 }
 
 // The way in for a file that kills the reader with names: all but some names is the same.
