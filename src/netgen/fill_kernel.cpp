@@ -9,11 +9,11 @@
 
 #include <meshing.hpp>
 
-#include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
 
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
+#include "netgen/netgen_versions.hpp"
 #include "netgen/skin_mesh.hpp"
 
 namespace tessera::netgen {
@@ -176,9 +176,7 @@ class FillKernel final : public fill::Kernel {
     ::netgen::Mesh mesh;
     add_surface(mesh, input.vertex_xyz, input.triangle_vertices, order);
     set_sizes(mesh, input, settings.grading);
-    if (::netgen::MeshVolume(session.parameters(), mesh) != ::netgen::MESHING3_OK) {
-      throw NetgenError("fill: NETGEN gave up; " + session.words());
-    }
+    mesh_volume(session.parameters(), mesh);
     ::netgen::RemoveIllegalElements(mesh);
     if (settings.optimize_steps > 0) ::netgen::OptimizeVolume(session.parameters(), mesh);
     mesh.Compress();

@@ -38,15 +38,16 @@ bool is_meshed(const OccGeometry& geometry, Spread spread, ::netgen::Mesh& mesh,
                                 kRemoveWhatFailed);
 }
 
-void remove_triangles_from(std::size_t first, ::netgen::Mesh& mesh)
+void remove_triangles_from(int first, ::netgen::Mesh& mesh)
 {
-  for (std::size_t t = first; t < mesh.GetNSE(); ++t) mesh.Delete(::netgen::SurfaceElementIndex(t));
+  const auto end = static_cast<int>(mesh.GetNSE());
+  for (int t = first; t < end; ++t) mesh.Delete(::netgen::SurfaceElementIndex(t));
   mesh.Compress();
 }
 
 }  // namespace
 
-bool StlGeometry::ProjectPointGI(int /*surface*/, ::netgen::Point<3>& point,
+bool StlGeometry::ProjectPointGI(int /*face*/, ::netgen::Point<3>& point,
                                  ::netgen::PointGeomInfo& info) const
 {
   SelectChartOfTriangle(info.trignum);
@@ -60,14 +61,14 @@ bool StlGeometry::ProjectPointGI(int /*surface*/, ::netgen::Point<3>& point,
 
 // A middle that is on neither chart stays on the chord.
 void StlGeometry::PointBetween(const ::netgen::Point<3>& first, const ::netgen::Point<3>& second,
-                               double part, int surface, const ::netgen::PointGeomInfo& first_info,
+                               double part, int face, const ::netgen::PointGeomInfo& first_info,
                                const ::netgen::PointGeomInfo& second_info,
                                ::netgen::Point<3>& between, ::netgen::PointGeomInfo& info) const
 {
   between = first + part * (second - first);
   for (const auto& end : {first_info, second_info}) {
     info = end;
-    if (ProjectPointGI(surface, between, info)) return;
+    if (ProjectPointGI(face, between, info)) return;
   }
   info = first_info;
 }
@@ -83,7 +84,7 @@ bool OccGeometry::MeshFace(::netgen::Mesh& mesh, const ::netgen::MeshingParamete
     // The third way asks this class for normals. Triangles of a seam's two sides overlap in it.
     ::netgen::MeshingParameters without_overlaps = parameters;
     without_overlaps.checkoverlap = 0;
-    const std::size_t num_before = mesh.GetNSE();
+    const auto num_before = static_cast<int>(mesh.GetNSE());
     is_done = !NetgenGeometry::MeshFace(mesh, without_overlaps, face, local);
     if (!is_done) remove_triangles_from(num_before, mesh);
   }
@@ -104,8 +105,8 @@ bool OccGeometry::MeshFace(::netgen::Mesh& mesh, const ::netgen::MeshingParamete
 }
 
 // MeshVolume() looks whether the surface is closed after it has filled it, and an open one kills
-// the process. That it cuts itself, MeshVolume() says on standard error alone.
-bool mesh_volume(const ::netgen::MeshingParameters& parameters, ::netgen::Mesh& mesh)
+// the process. Why it fails, it says on standard error alone.
+void mesh_volume(const ::netgen::MeshingParameters& parameters, ::netgen::Mesh& mesh)
 {
   if (parameters.checkoverlappingboundary != 0 && mesh.CheckOverlappingBoundary()) {
     throw ::netgen::NgException("Stop meshing since boundary mesh is overlapping");
@@ -118,7 +119,8 @@ bool mesh_volume(const ::netgen::MeshingParameters& parameters, ::netgen::Mesh& 
   }
   ::netgen::MeshingParameters checked = parameters;
   checked.checkoverlappingboundary = 0;
-  return ::netgen::MeshVolume(checked, mesh) == ::netgen::MESHING3_OK;
+  if (::netgen::MeshVolume(checked, mesh) == ::netgen::MESHING3_OK) return;
+  throw ::netgen::NgException("Stop meshing since too many attempts");
 }
 
 }  // namespace tessera::netgen

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <iosfwd>
 #include <istream>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <typeinfo>
+#include <vector>
 
 #include <BRep_Tool.hxx>
 #include <TopoDS.hxx>
@@ -79,6 +81,50 @@ inline void mesh_stl(::netgen::STLGeometry& geometry, std::shared_ptr<::netgen::
 {
   geometry.GenerateMesh(mesh, parameters);
 }
+
+/// @brief An STL surface whose points stay where they are being optimised.
+///
+/// NETGEN's own takes any triangle of the surface for a point that has left its chart, as one of
+/// the other side of a wall, and tells no one which.
+class StlGeometry final : public ::netgen::STLGeometry {
+ public:
+  // NOLINTBEGIN(readability-identifier-naming): NETGEN's
+  /// @return Whether the point is on the chart of its triangle still; if not, nothing is changed.
+  bool ProjectPointGI(int face, ::netgen::Point<3>& point,
+                      ::netgen::PointGeomInfo& info) const override;
+  void PointBetween(const ::netgen::Point<3>& first, const ::netgen::Point<3>& second, double part,
+                    int face, const ::netgen::PointGeomInfo& first_info,
+                    const ::netgen::PointGeomInfo& second_info, ::netgen::Point<3>& between,
+                    ::netgen::PointGeomInfo& info) const override;
+  /// NETGEN's own calls what its library hides. Nothing here is archived.
+  void DoArchive(ngcore::Archive& /*archive*/) override {}
+  // NOLINTEND(readability-identifier-naming)
+};
+
+/// @brief A shape whose faces may have an apex, as cones do.
+///
+/// There NETGEN's own takes the normal of the one side where a seam ends, so that its front cannot
+/// reach the apex from the other sides.
+class OccGeometry final : public ::netgen::OCCGeometry {
+ public:
+  // NOLINTBEGIN(readability-identifier-naming): NETGEN's
+  /// @return Whether the face could not be meshed.
+  bool MeshFace(::netgen::Mesh& mesh, const ::netgen::MeshingParameters& parameters, int face,
+                ngcore::FlatArray<int, ::netgen::PointIndex> local) const override;
+  /// @return Nothing at an apex of the face that is being meshed.
+  ::netgen::Vec<3> GetNormal(int surface, const ::netgen::Point<3>& point,
+                             const ::netgen::PointGeomInfo* info) const override;
+  /// A file of a mesh has no geometry: NETGEN would not know this class.
+  void SaveToMeshFile(std::ostream& /*file*/) const override {}
+  // NOLINTEND(readability-identifier-naming)
+
+ private:
+  mutable std::vector<::netgen::Point<3>> apices_{};  // Of the face that is being meshed.
+};
+
+/// @brief Fills a surface with tets.
+/// @throws ::netgen::NgException if the surface is open, cuts itself, or cannot be filled.
+void mesh_volume(const ::netgen::MeshingParameters& parameters, ::netgen::Mesh& mesh);
 
 /// @brief Edges that run beside each other 1 / factor of their length apart get finer.
 inline void set_close_edges(::netgen::MeshingParameters& parameters, double factor)
@@ -197,6 +243,15 @@ inline void mesh_stl(::netgen::STLGeometry& geometry, std::shared_ptr<::netgen::
                      ::netgen::MeshingParameters& parameters)
 {
   ::netgen::STLMeshingDummy(&geometry, mesh, parameters);
+}
+
+using StlGeometry = ::netgen::STLGeometry;
+using OccGeometry = ::netgen::OCCGeometry;
+
+inline void mesh_volume(::netgen::MeshingParameters& parameters, ::netgen::Mesh& mesh)
+{
+  if (::netgen::MeshVolume(parameters, mesh) == ::netgen::MESHING3_OK) return;
+  throw ::netgen::NgException("NETGEN gave up");
 }
 
 inline void set_close_edges(::netgen::MeshingParameters& /*parameters*/, double factor)

@@ -322,7 +322,7 @@ coarse::CoarseSurface OccModel::mesh_surface(const coarse::CoarseOptions& option
   }
   NetgenSession session(coarse_parameters(options));
   return session.run("coarse mesh of " + file_name_, [&] {
-    ::netgen::OCCGeometry geometry;
+    OccGeometry geometry;
     geometry.shape = content_.shape;
     triangulate_for_sizes(geometry.shape);
     const auto mesh = mesh_geometry(geometry, session);
@@ -354,7 +354,7 @@ coarse::CoarseSurface OccModel::mesh_parts(const coarse::CoarseOptions& options,
   NetgenSession session(coarse_parameters(options));
   return session.run("coarse mesh of the parts of " + file_name_, [&] {
     const CutShape cut = cut_shape(content_.shape, tree);
-    ::netgen::OCCGeometry geometry;
+    OccGeometry geometry;
     geometry.shape = cut.shape;
     triangulate_for_sizes(geometry.shape);
     const auto mesh = mesh_geometry(geometry, session);

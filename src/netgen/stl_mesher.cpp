@@ -203,7 +203,7 @@ class StlMeshing {
   StlParameters stl_parameters_;
   SizeFile size_file_;
   NetgenSession session_;
-  ::netgen::STLGeometry geometry_{};
+  StlGeometry geometry_{};
   std::shared_ptr<::netgen::Mesh> mesh_ = empty_mesh(geometry_);
   std::vector<LocalIndex> our_vertex_{};  // of NETGEN's vertices, which count from 1
 };

@@ -19,6 +19,7 @@
 
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
+#include "netgen/netgen_versions.hpp"
 #include "netgen/skin_mesh.hpp"
 
 namespace tessera::netgen {
@@ -71,9 +72,7 @@ coarse::DomainTets first_tets(const coarse::DomainSkin& skin, NetgenSession& ses
   ::netgen::Mesh mesh;
   add_skin(mesh, skin);
   set_sizes(mesh, skin.model_box, session.parameters());
-  if (::netgen::MeshVolume(session.parameters(), mesh) != ::netgen::MESHING3_OK) {
-    throw NetgenError("NETGEN gave up on the coarse volume mesh: " + session.words());
-  }
+  mesh_volume(session.parameters(), mesh);
   ::netgen::RemoveIllegalElements(mesh);
   return tets_in(mesh, skin);
 }

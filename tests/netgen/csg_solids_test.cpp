@@ -378,19 +378,33 @@ TEST(CsgPlane, MayBeGivenByAPointOfAnotherSurface)
   EXPECT_EQ(std::set(mesh.patch_surface.begin(), mesh.patch_surface.end()).size(), 2U);
 }
 
-// The rim of a hollow cone touches two sides of its block.
-TEST(CsgApex, BodyThatTouchesItselfIsToldWithThePlace)
+double distance_to_vertices(const Vec3& point, const mesh::CoarseMesh& mesh)
 {
-  const auto model = netgen::load_model(
-      source_of("solid block = orthobrick (-1, -0.3, -0.6; 1, 1.3, 1.5);\n"
-                "solid tip = cone (0, 0, 0; 1; 0, 0, 1.2; 0)\n"
-                "  and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1.2; 0, 0, 1);\n"
-                "solid hollow = block and not tip;\ntlo hollow;\n"));
+  double least = std::numeric_limits<double>::infinity();
+  for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
+    least = std::min(least, norm(mesh.position(v) - point));
+  }
+  return least;
+}
+
+// The rim of a hollow cone touches two sides of its block. NETGEN 6.2.2501 gives the sides a vertex
+// there, NETGEN 6.2.1905 does not.
+TEST(CsgApex, BodyThatTouchesItselfIsMeshedThereOrToldWithThePlace)
+{
+  const std::string hollow =
+      "solid block = orthobrick (-1, -0.3, -0.6; 1, 1.3, 1.5);\n"
+      "solid tip = cone (0, 0, 0; 1; 0, 0, 1.2; 0)\n"
+      "  and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1.2; 0, 0, 1);\n"
+      "solid hollow = block and not tip;\ntlo hollow;\n";
+  const auto model = netgen::load_model(source_of(hollow));
   coarse::CoarseOptions options;
   options.max_size = 0.4;
   try {
-    (void)netgen::make_coarse_mesher(*model)->generate(options);
-    ADD_FAILURE() << "meshed";
+    const mesh::CoarseMesh mesh = netgen::make_coarse_mesher(*model)->generate(options);
+    EXPECT_LT(distance_to_vertices({1.0, 0.0, 0.0}, mesh), 1e-9);
+    EXPECT_LT(distance_to_vertices({-1.0, 0.0, 0.0}, mesh), 1e-9);
+    const double volume = volume_of(hollow);
+    EXPECT_NEAR(volume_of(mesh, 1), volume, 0.02 * volume);
   } catch (const NetgenError& error) {
     EXPECT_NE(std::string(error.what()).find("touches itself at ("), std::string::npos)
         << error.what();
