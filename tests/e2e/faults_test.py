@@ -67,13 +67,11 @@ class FaultsTest(program.ProgramTest):
 
     def run_with(self, fault, command, *arguments):
         """On two ranks, one of which has the fault, or on three that share their workers and have it all."""
-        programs = [
-            ["-n", "1", "env", f"TESSERA_TEST_FAULT={fault.asked if fault.rank in (rank, ALL) else ''}",
-             program.PROGRAM, command, *map(str, arguments)]
-            for rank in (THREE_RANKS if fault.rank == ALL else BOTH_RANKS)
-        ]  # fmt: skip
-        command = [word for number, one in enumerate(programs) for word in ([":"] if number else []) + one]
-        return self.finish(self.start_command([program.MPIEXEC, *command], env=os.environ | LIMITS))
+        ranks = THREE_RANKS if fault.rank == ALL else BOTH_RANKS
+        asked = [fault.asked if fault.rank in (rank, ALL) else "" for rank in ranks]
+        command = program.with_setting_of_rank("TESSERA_TEST_FAULT", asked, [program.PROGRAM, command, *arguments])
+        start = [program.MPIEXEC, "-n", str(len(ranks))]
+        return self.finish(self.start_command([*start, *command], env=os.environ | LIMITS))
 
     def mesh_with(self, fault, *arguments):
         """On a busy machine the other rank may have done all jobs of a stage: then once more."""

@@ -71,6 +71,16 @@ def command_line(arguments, ranks):
     return [*start, PROGRAM, *map(str, arguments)]
 
 
+def with_setting_of_rank(variable, values, command):
+    """`command` for mpirun, with a value of an environment variable for each rank. Several programs, with `:` between them,
+    would do the same, but mpirun of Debian 13 (Open MPI 5.0.7) dies of them."""
+    script = (
+        'variable=$1 rank=${OMPI_COMM_WORLD_RANK:-$PMI_RANK} number=$2; shift 2\n'
+        'eval "export $variable=\\${$((rank + 1))}"; shift "$number"; exec "$@"'
+    )
+    return ["sh", "-c", script, "sh", variable, str(len(values)), *values, *map(str, command)]
+
+
 def mpi_files_in(folder):
     """Settings by which Open MPI 4 and 5 put their own files into a folder."""
     return {"OMPI_MCA_orte_tmpdir_base": str(folder), "PRTE_MCA_prte_tmpdir_base": str(folder)}
