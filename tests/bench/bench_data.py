@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -45,6 +46,8 @@ def rounded(value):
 
 
 def git(*arguments):
+    if not shutil.which("git"):  # As in the roots of tests/on_debian.
+        return ""
     done = subprocess.run(["git", "-C", ROOT, *arguments], capture_output=True, text=True)
     return done.stdout.strip() if done.returncode == 0 else ""
 
