@@ -26,15 +26,54 @@ constexpr int kMoreSteps = 3;
 constexpr double kCovered = 0.1;
 constexpr double kFull = 0.9;
 
+// Which patches have a triangle between two materials.
+std::vector<bool> inner_patches(const mesh::CoarseMesh& mesh)
+{
+  std::map<std::array<LocalIndex, 3>, LocalIndex> patch_of;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
+    patch_of.emplace(mesh::sorted_triangle(v[0], v[1], v[2]), mesh.face_patch[at(f)]);
+  }
+  std::vector<bool> is_inner(at(mesh.num_patches()), false);
+  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {
+    if (triangle.tets[1] == kNoIndex) continue;
+    const auto found = patch_of.find(triangle.vertices);
+    if (found != patch_of.end()) is_inner[at(found->second)] = true;
+  }
+  return is_inner;
+}
+
+// The patches on the outside that an entry fits. Of a pattern those between two materials are left
+// out; one that is named is an error.
+std::vector<bool> walls_of(const LayerOptions& entry, const mesh::CoarseMesh& mesh,
+                           const std::vector<bool>& is_inner)
+{
+  std::vector<bool> fits = matching_names("patch", entry.patch, mesh.patch_names);
+  for (std::size_t p = 0; p < fits.size(); ++p) {
+    if (!fits[p] || !is_inner[p]) continue;
+    fits[p] = false;
+    if (mesh.patch_names[p] != entry.patch) continue;
+    throw ConfigError(fmt::format(
+        "patch \"{}\" lies between two materials; layers are for the outside of the model",
+        entry.patch));
+  }
+  if (std::ranges::count(fits, true) > 0) return fits;
+  throw ConfigError(fmt::format(
+      "all patches that \"{}\" fits lie between two materials; layers are for the outside of the "
+      "model",
+      entry.patch));
+}
+
 // Which entry each patch has, or kNoIndex.
 std::vector<LocalIndex> entries_of_patches(const mesh::CoarseMesh& mesh,
                                            std::span<const LayerOptions> options)
 {
+  const std::vector<bool> is_inner = inner_patches(mesh);
   std::vector<LocalIndex> entries(at(mesh.num_patches()), kNoIndex);
   for (std::size_t i = 0; i < options.size(); ++i) {
-    const auto fits = matching_names("patch", options[i].patch, mesh.patch_names);
-    for (std::size_t p = 0; p < fits.size(); ++p) {
-      if (!fits[p]) continue;
+    const std::vector<bool> walls = walls_of(options[i], mesh, is_inner);
+    for (std::size_t p = 0; p < walls.size(); ++p) {
+      if (!walls[p]) continue;
       if (entries[p] != kNoIndex) {
         throw ConfigError(
             fmt::format("patch \"{}\" fits \"{}\" and \"{}\"; it must fit one entry only",
@@ -55,25 +94,6 @@ void require_thinner_than_model(const mesh::CoarseMesh& mesh, std::span<const La
         "the {} layers of \"{}\" are {:g} thick, and the diagonal of the model's box is "
         "{:g}; choose a smaller first, growth or count",
         num_layers(one), one.patch, thickness(one), diagonal));
-  }
-}
-
-void require_outside(const mesh::CoarseMesh& mesh, const std::vector<LocalIndex>& entries)
-{
-  std::map<std::array<LocalIndex, 3>, LocalIndex> patch_of;
-  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    if (entries[at(mesh.face_patch[at(f)])] == kNoIndex) continue;
-    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
-    patch_of.emplace(mesh::sorted_triangle(v[0], v[1], v[2]), mesh.face_patch[at(f)]);
-  }
-  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {
-    if (triangle.tets[1] == kNoIndex) continue;
-    const auto found = patch_of.find(triangle.vertices);
-    if (found == patch_of.end()) continue;
-    throw ConfigError(
-        fmt::format("patch \"{}\" lies between two materials; layers are for the "
-                    "outside of the model",
-                    mesh.patch_names[at(found->second)]));
   }
 }
 
@@ -134,7 +154,6 @@ LayerCover grow_layers(mesh::CoarseMesh& mesh, std::span<const LayerOptions> opt
   const std::vector<LocalIndex> entries = entries_of_patches(mesh, options);
   if (const std::string defect = defect_of_all(options); !defect.empty()) throw ConfigError(defect);
   require_thinner_than_model(mesh, options);
-  require_outside(mesh, entries);
   std::vector<double> heights;
   for (const LocalIndex entry : entries) {
     heights.push_back(entry == kNoIndex ? 0.0 : thickness(options[at(entry)]));

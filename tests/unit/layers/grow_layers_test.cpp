@@ -81,6 +81,14 @@ TEST(GrowLayers, ThickerThanHalfTheCubeGoAsFarAsTheyCan)
   EXPECT_NO_THROW(mesh::validate(cube));
 }
 
+TEST(GrowLayers, OfAPatternAreOnTheOutsideOnly)
+{
+  mesh::CoarseMesh cube = testing::two_material_cube(2);
+  const LayerCover cover = grow_layers(cube, std::vector{two_layers("*")}, kModel, false);
+  EXPECT_EQ(cover.patches.size(), 6U);
+  EXPECT_FALSE(cube.layers.is_wall(6));
+}
+
 TEST(GrowLayers, RefusesWhatItCannotDo)
 {
   const auto names = testing::two_material_cube(2).patch_names;
