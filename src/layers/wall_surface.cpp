@@ -143,6 +143,7 @@ class WallFinder {
   void set_column(WallVertex& vertex, std::span<const LocalIndex> around)
   {
     std::vector<Vec3> inward;
+    std::map<LocalIndex, Vec3> of_patch;
     std::vector<LocalIndex> sides;
     double height = 0.0;
     for (const LocalIndex row : around) {
@@ -153,6 +154,7 @@ class WallFinder {
         continue;
       }
       inward.push_back(-1.0 * triangle.normal);
+      of_patch[patch] = of_patch[patch] - angle_at(triangle, vertex.vertex) * triangle.normal;
       height = height == 0.0 ? thickness_[at(patch)] : std::min(height, thickness_[at(patch)]);
     }
     sort_unique(sides);
@@ -160,7 +162,22 @@ class WallFinder {
     double least = direction == Vec3{} ? 0.0 : 1.0;
     for (const Vec3& normal : inward) least = std::min(least, dot(normal, direction));
     if (least < kLeastCosine) return;
-    vertex.column = (height * std::min(1.0 / least, kMostLean)) * direction;
+    // Within a patch the geometry is round, and only its triangles have edges.
+    double lean = 1.0;
+    for (const auto& [patch, normal] : of_patch) {
+      lean = std::max(lean, 1.0 / std::max(dot(unit(normal), direction), 1.0 / kMostLean));
+    }
+    vertex.column = (height * lean) * direction;
+  }
+
+  // Radians.
+  [[nodiscard]] double angle_at(const SurfaceTriangle& triangle, LocalIndex vertex) const
+  {
+    const auto& v = triangle.vertices;
+    const auto c = static_cast<std::size_t>(std::ranges::find(v, vertex) - v.begin());
+    const Vec3 here = mesh_.position(vertex);
+    return angle_between(mesh_.position(v[(c + 1) % 3]) - here,
+                         mesh_.position(v[(c + 2) % 3]) - here);
   }
 
   // Zero if there is none.
