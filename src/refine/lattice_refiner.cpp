@@ -101,14 +101,28 @@ class LatticeRefiner {
     const Vec3 first = coarse_column(complex_.edge_vertices[2 * at(e)]);
     const Vec3 along = coarse_column(complex_.edge_vertices[2 * at(e) + 1]) - first;
     const bool has_columns = first != Vec3{} || along != Vec3{};
+    const LocalIndex edge = complex_.edge_skeleton[at(e)];
+    const double length = norm(first);
+    const double more = norm(first + along) - length;
     for (LocalIndex k = 1; k < n; ++k) {
       const double part = static_cast<double>(k) / n;
-      const Vec3 straight = walls.edge_point(e, k) + (first + part * along);
-      const LocalIndex edge = complex_.edge_skeleton[at(e)];
+      const Vec3 column = as_long(first + part * along, length + part * more,
+                                  mesh::LatticePointKey::on_edge(edge, n, k));
+      const Vec3 straight = walls.edge_point(e, k) + column;
       // Along the rim of a wall columns begin on the patch beside it.
       result_.place_edge_point(
           e, k, has_columns ? side_point_of_edge(context_, edge, n, k, straight) : straight);
     }
+  }
+
+  // Columns that lean apart are shorter in between. So a column gets the length that follows from
+  // those around it, as far as its point may go onto the geometry.
+  [[nodiscard]] Vec3 as_long(const Vec3& column, double length,
+                             const mesh::LatticePointKey& key) const
+  {
+    const double found = norm(column);
+    if (!(found > 0.0)) return column;
+    return (1.0 + context_.limiter.factor(key) * (length / found - 1.0)) * column;
   }
 
   void place_triangle_behind_wall(LocalIndex t, const mesh::RefinedLattice& walls)
@@ -118,6 +132,9 @@ class LatticeRefiner {
     const Vec3 first = coarse_column(v[0]);
     const Vec3 along_i = coarse_column(v[1]) - first;
     const Vec3 along_j = coarse_column(v[2]) - first;
+    const double length = norm(first);
+    const double more_i = norm(first + along_i) - length;
+    const double more_j = norm(first + along_j) - length;
     for (std::size_t side = 0; side < 3; ++side) {
       for (LocalIndex k = 1; k < n; ++k) {
         result_.place_triangle_point(t, lattice::side_point(n, side, k), side_point(t, side, k));
@@ -127,9 +144,10 @@ class LatticeRefiner {
       for (LocalIndex i = 1; i + j < n; ++i) {
         const double part_i = static_cast<double>(i) / n;
         const double part_j = static_cast<double>(j) / n;
-        result_.place_triangle_point(
-            t, {i, j},
-            walls.triangle_point(t, {i, j}) + (first + part_i * along_i + part_j * along_j));
+        const Vec3 column = as_long(
+            first + part_i * along_i + part_j * along_j, length + part_i * more_i + part_j * more_j,
+            mesh::LatticePointKey::on_triangle(complex_.triangle_skeleton[at(t)], n, {i, j}));
+        result_.place_triangle_point(t, {i, j}, walls.triangle_point(t, {i, j}) + column);
       }
     }
   }

@@ -108,11 +108,11 @@ class Shape(program.ResultTest, LayersTest):
             num_of_layer[layer] += 1
             radii = [math.hypot(x, y) for x, y, _ in points_of(self.grid, cell)]
             if layer == 0:
-                self.assertLess(max(radii), ends[-1] + 6e-3)
+                self.assertLess(max(radii), ends[-1] + 1e-3)
                 continue
             # Walls are curved, so columns of coarse vertices lean a little against each other.
-            self.assertAlmostEqual(max(radii), ends[layer - 1], delta=6e-3)
-            self.assertAlmostEqual(min(radii), ends[layer], delta=6e-3)
+            self.assertAlmostEqual(max(radii), ends[layer - 1], delta=2e-3)
+            self.assertAlmostEqual(min(radii), ends[layer], delta=2e-3)
         self.assertEqual(len(set(num_of_layer[1:])), 1, "all layers have as many cells")
         self.assertEqual(self.report["layers"]["num_tets"], sum(num_of_layer[1:]))
         self.assertEqual(self.report["layers"]["full_height"], 1.0)
