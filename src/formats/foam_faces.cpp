@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "tessera/mesh/tet_topology.hpp"
@@ -176,8 +177,8 @@ std::vector<FoamFace> foam_inner_faces(const Piece& piece, GlobalIndex first_cel
         ++seam;
       }
     }
-    std::ranges::stable_sort(faces.begin() + static_cast<std::ptrdiff_t>(first_of_cell),
-                             faces.end(), {}, &FoamFace::neighbour);
+    std::ranges::sort(faces.begin() + static_cast<std::ptrdiff_t>(first_of_cell), faces.end(), {},
+                      [](const FoamFace& face) { return std::pair(face.neighbour, face.side); });
     join_equal(piece, faces, first_of_cell);
   }
   return faces;
@@ -192,8 +193,9 @@ std::vector<FoamFace> foam_seam_faces(const Piece& piece, GlobalIndex first_cell
       faces.push_back(face_of_side(piece, seam.side, seam.other_cell));
   }
   // The cell of the lower piece first.
-  std::ranges::stable_sort(faces, {}, [&](const FoamFace& face) {
-    return std::pair(std::minmax({first_cell + face.owner, face.neighbour}));
+  std::ranges::sort(faces, {}, [&](const FoamFace& face) {
+    const GlobalIndex owner = first_cell + face.owner;
+    return std::tuple(std::min(owner, face.neighbour), std::max(owner, face.neighbour), face.side);
   });
   join_equal(piece, faces, 0);
   return faces;

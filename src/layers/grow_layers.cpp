@@ -10,7 +10,6 @@
 #include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/name_patterns.hpp"
-#include "tessera/mesh/tet_topology.hpp"
 
 #include "layers/interior.hpp"
 #include "layers/wall_mover.hpp"
@@ -29,16 +28,10 @@ constexpr double kFull = 0.9;
 // Which patches have a triangle between two materials.
 std::vector<bool> inner_patches(const mesh::CoarseMesh& mesh)
 {
-  std::map<std::array<LocalIndex, 3>, LocalIndex> patch_of;
-  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
-    patch_of.emplace(mesh::sorted_triangle(v[0], v[1], v[2]), mesh.face_patch[at(f)]);
-  }
   std::vector<bool> is_inner(at(mesh.num_patches()), false);
-  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {
-    if (triangle.tets[1] == kNoIndex) continue;
-    const auto found = patch_of.find(triangle.vertices);
-    if (found != patch_of.end()) is_inner[at(found->second)] = true;
+  const std::vector<mesh::TriangleTets> faces = tets_of_faces(mesh);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (faces[f].tets[1] != kNoIndex) is_inner[at(mesh.face_patch[f])] = true;
   }
   return is_inner;
 }

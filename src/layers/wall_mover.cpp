@@ -2,11 +2,11 @@
 #include "layers/wall_mover.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "tessera/base/sort_unique.hpp"
 #include "tessera/mesh/prism.hpp"
+#include "tessera/quality/tet_quality.hpp"
 
 namespace tessera::layers {
 namespace {
@@ -20,16 +20,6 @@ constexpr double kMostTurn = 0.7;
 
 // How often a step is halved where it does harm.
 constexpr int kHalvings = 3;
-
-double mean_ratio(const std::array<Vec3, 4>& p)
-{
-  double squares = 0.0;
-  for (std::size_t a = 0; a < 4; ++a) {
-    for (std::size_t b = a + 1; b < 4; ++b) squares += dot(p[b] - p[a], p[b] - p[a]);
-  }
-  const double volume = tet_volume(p[0], p[1], p[2], p[3]);
-  return volume > 0.0 ? 12.0 * std::cbrt(9.0 * volume * volume) / squares : 0.0;
-}
 
 std::array<Vec3, 4> corners_of(const mesh::CoarseMesh& mesh, LocalIndex tet)
 {
@@ -57,7 +47,7 @@ void WallMover::find_tets()
         v, [&](LocalIndex one) { return walls_.wall_of_vertex[at(one)] != kNoIndex; });
     if (!touches) continue;
     tets_.push_back(t);
-    least_ratio_.push_back(std::min(kLeastRatio, 0.5 * mean_ratio(corners_of(mesh_, t))));
+    least_ratio_.push_back(std::min(kLeastRatio, 0.5 * quality::mean_ratio(corners_of(mesh_, t))));
   }
 }
 
@@ -127,7 +117,8 @@ std::vector<LocalIndex> WallMover::rows_of_bad() const
     }
   };
   for (std::size_t i = 0; i < tets_.size(); ++i) {
-    if (mean_ratio(corners_of(mesh_, tets_[i])) < least_ratio_[i]) add(mesh_.tet(tets_[i]));
+    if (quality::mean_ratio(corners_of(mesh_, tets_[i])) < least_ratio_[i])
+      add(mesh_.tet(tets_[i]));
   }
   for (const SurfaceTriangle& triangle : walls_.triangles) {
     if (is_bad_triangle(triangle) || (triangle.is_wall && is_bad_column(triangle))) {

@@ -8,7 +8,6 @@
 
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/sort_unique.hpp"
-#include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::layers {
 namespace {
@@ -36,25 +35,34 @@ SurfaceTriangle surface_triangle(const mesh::CoarseMesh& mesh, LocalIndex face,
 // materials, away from the lower material.
 std::vector<std::array<LocalIndex, 3>> outward_faces(const mesh::CoarseMesh& mesh)
 {
-  std::map<std::array<LocalIndex, 3>, LocalIndex> face_of;
-  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
-    face_of.emplace(mesh::sorted_triangle(v[0], v[1], v[2]), f);
-  }
-  std::vector<std::array<LocalIndex, 3>> outward(at(mesh.num_faces()));
-  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {
-    const auto found = face_of.find(triangle.vertices);
-    if (found == face_of.end()) continue;
-    const auto material = [&](std::size_t side) {
-      return mesh.tet_material[at(triangle.tets[side])];
-    };
-    const std::size_t side = triangle.tets[1] != kNoIndex && material(1) < material(0) ? 1 : 0;
-    const auto tet = mesh.tet(triangle.tets[side]);
-    const auto& corners = mesh::kTetFaceCorners[at(triangle.corners[side])];
-    for (std::size_t c = 0; c < 3; ++c) outward[at(found->second)][c] = tet[corners[c]];
+  std::vector<std::array<LocalIndex, 3>> outward;
+  for (const mesh::TriangleTets& face : tets_of_faces(mesh)) {
+    const auto material = [&](std::size_t side) { return mesh.tet_material[at(face.tets[side])]; };
+    const std::size_t side = face.tets[1] != kNoIndex && material(1) < material(0) ? 1 : 0;
+    const auto tet = mesh.tet(face.tets[side]);
+    const auto& [a, b, c] = mesh::kTetFaceCorners[at(face.corners[side])];
+    outward.push_back({tet[a], tet[b], tet[c]});
   }
   return outward;
 }
+
+// The direction whose smallest cosine to the normals is largest.
+Vec3 best_direction(std::span<const Vec3> normals)
+{
+  constexpr int kSteps = 300;  // The cosine is off by less than 0.01 then.
+  Vec3 centre{};
+  for (const Vec3& normal : normals) centre = centre + normal;
+  centre = (1.0 / static_cast<double>(normals.size())) * centre;
+  // Towards the farthest one by ever shorter steps: the centre of the smallest ball round them.
+  for (int step = 1; step <= kSteps; ++step) {
+    const auto farthest = std::ranges::max_element(
+        normals, {}, [&](const Vec3& normal) { return dot(normal - centre, normal - centre); });
+    centre = centre + (1.0 / (step + 1.0)) * (*farthest - centre);
+  }
+  return unit(centre);
+}
+
+Edge edge_between(LocalIndex a, LocalIndex b) { return {std::min(a, b), std::max(a, b)}; }
 
 // What is known around the vertices of walls.
 class WallFinder {
@@ -116,13 +124,12 @@ class WallFinder {
     for (const SurfaceTriangle& triangle : surface_.triangles) {
       if (!triangle.is_wall) continue;
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto [low, high] = std::minmax(triangle.vertices[c], triangle.vertices[(c + 1) % 3]);
-        on_walls.insert({low, high});
+        on_walls.insert(edge_between(triangle.vertices[c], triangle.vertices[(c + 1) % 3]));
       }
     }
     for (LocalIndex s = 0; s < mesh_.num_segments(); ++s) {
       const LocalIndex* v = &mesh_.segment_vertices[2 * at(s)];
-      if (on_walls.contains({std::min(v[0], v[1]), std::max(v[0], v[1])})) continue;
+      if (on_walls.contains(edge_between(v[0], v[1]))) continue;
       for (std::size_t end = 0; end < 2; ++end) {
         if (surface_.wall_of_vertex[at(v[end])] != kNoIndex) leaving_[v[end]].push_back({s, end});
       }
@@ -187,7 +194,7 @@ class WallFinder {
   {
     const auto leaving = leaving_.find(vertex.vertex);
     if (leaving != leaving_.end()) return along_curve(vertex, leaving->second);
-    if (sides.empty()) return best_direction(inward).direction;
+    if (sides.empty()) return best_direction(inward);
     if (sides.size() > 1) return {};
     return along_patch(vertex, around, sides.front(), inward);
   }
@@ -221,7 +228,7 @@ class WallFinder {
     }
     across = unit(across);
     for (Vec3& normal : inward) normal = unit(normal - dot(normal, across) * across);
-    const Vec3 direction = best_direction(inward).direction;
+    const Vec3 direction = best_direction(inward);
     return unit(direction - dot(direction, across) * across);
   }
 
@@ -252,23 +259,19 @@ double triangle_shape(const std::array<Vec3, 3>& corners)
   return norm(cross(corners[1] - corners[0], corners[2] - corners[0])) / longest;
 }
 
-BestDirection best_direction(std::span<const Vec3> normals)
+std::vector<mesh::TriangleTets> tets_of_faces(const mesh::CoarseMesh& mesh)
 {
-  constexpr int kSteps = 300;  // The cosine is off by less than 0.01 then.
-  Vec3 centre{};
-  for (const Vec3& normal : normals) centre = centre + normal;
-  centre = (1.0 / static_cast<double>(normals.size())) * centre;
-  // Towards the farthest one by ever shorter steps: the centre of the smallest ball round them.
-  for (int step = 1; step <= kSteps; ++step) {
-    const auto farthest = std::ranges::max_element(
-        normals, {}, [&](const Vec3& normal) { return dot(normal - centre, normal - centre); });
-    centre = centre + (1.0 / (step + 1.0)) * (*farthest - centre);
+  std::map<std::array<LocalIndex, 3>, LocalIndex> face_of;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
+    face_of.emplace(mesh::sorted_triangle(v[0], v[1], v[2]), f);
   }
-  BestDirection best{unit(centre), 1.0};
-  for (const Vec3& normal : normals) {
-    best.least_cosine = std::min(best.least_cosine, dot(normal, best.direction));
+  std::vector<mesh::TriangleTets> of_faces(at(mesh.num_faces()));
+  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {
+    const auto found = face_of.find(triangle.vertices);
+    if (found != face_of.end()) of_faces[at(found->second)] = triangle;
   }
-  return best;
+  return of_faces;
 }
 
 WallSurface find_walls(const mesh::CoarseMesh& mesh, std::span<const double> thickness)

@@ -7,6 +7,7 @@
 
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/tet_topology.hpp"
 #include "tessera/model/model.hpp"
 
 namespace tessera::layers {
@@ -49,11 +50,7 @@ struct WallSurface {
 [[nodiscard]] WallSurface find_walls(const mesh::CoarseMesh& mesh,
                                      std::span<const double> thickness);
 
-/// @brief The direction whose smallest cosine to the normals is largest, and that cosine. Local.
-struct BestDirection {
-  Vec3 direction{};
-  double least_cosine = 0.0;
-};
-[[nodiscard]] BestDirection best_direction(std::span<const Vec3> normals);
+/// @brief The tets of each face. Shape (num_faces). Local. @pre Every face is one of a tet.
+[[nodiscard]] std::vector<mesh::TriangleTets> tets_of_faces(const mesh::CoarseMesh& mesh);
 
 }  // namespace tessera::layers

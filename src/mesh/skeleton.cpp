@@ -266,24 +266,6 @@ bool Skeleton::is_inside(LocalIndex t) const
          && triangle_subdomains[2 * at(t) + 1] != kNoIndex;
 }
 
-LocalIndex find_edge(const Skeleton& skeleton, const std::array<LocalIndex, 2>& vertices)
-{
-  LocalIndex low = 0;
-  LocalIndex high = skeleton.num_edges();
-  const auto edge = [&](LocalIndex e) {
-    return Edge{skeleton.edge_vertices[2 * at(e)], skeleton.edge_vertices[2 * at(e) + 1]};
-  };
-  while (low < high) {
-    const LocalIndex middle = low + (high - low) / 2;
-    if (edge(middle) < vertices) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low < skeleton.num_edges() && edge(low) == vertices ? low : kNoIndex;
-}
-
 Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposition)
 {
   Skeleton skeleton;

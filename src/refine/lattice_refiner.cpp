@@ -18,6 +18,26 @@ SurfaceParameters middle(const SurfaceParameters& a, const SurfaceParameters& b)
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
 }
 
+// As far from the chord towards the projection as the factor says.
+Vec3 limited(const Vec3& chord, const Vec3& projected, double factor)
+{
+  return factor == 1.0 ? projected : chord + factor * (projected - chord);
+}
+
+// Whether an edge or a triangle of a complex lies on a wall.
+bool is_wall_edge(const mesh::Complex& complex, const RefineContext& context, LocalIndex e)
+{
+  const LocalIndex edge = complex.edge_skeleton[at(e)];
+  return edge != kNoIndex && context.skeleton.is_on_wall(edge);
+}
+
+bool is_wall_triangle(const mesh::Complex& complex, const RefineContext& context, LocalIndex t)
+{
+  const LocalIndex triangle = complex.triangle_skeleton[at(t)];
+  return triangle != kNoIndex
+         && context.coarse.layers.is_wall(context.skeleton.triangle_patch[at(triangle)]);
+}
+
 // Which ends of columns are refined. Without layers there are those of the tets only.
 enum class Side { tets, walls };
 
@@ -42,11 +62,14 @@ class LatticeRefiner {
     if (walls != nullptr) place_behind_walls(*walls);
     for (int level = 1; level <= result_.levels().largest(); ++level) {
       for (LocalIndex e = 0; e < complex_.num_edges(); ++e) {
-        if (!is_refined(is_wall_edge(e)) || level > result_.levels().edge(e)) continue;
+        if (!is_refined(is_wall_edge(complex_, context_, e)) || level > result_.levels().edge(e))
+          continue;
         refine_edge(e, result_.edge_intervals(e) >> level);
       }
       for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) {
-        if (!is_refined(is_wall_triangle(t)) || level > result_.levels().triangle(t)) continue;
+        if (!is_refined(is_wall_triangle(complex_, context_, t))
+            || level > result_.levels().triangle(t))
+          continue;
         refine_triangle(t, result_.triangle_intervals(t) >> level);
       }
     }
@@ -59,17 +82,6 @@ class LatticeRefiner {
   [[nodiscard]] bool is_refined(bool is_on_wall) const
   {
     return is_on_wall == (side_ == Side::walls);
-  }
-
-  [[nodiscard]] bool is_wall_edge(LocalIndex e) const
-  {
-    const LocalIndex edge = complex_.edge_skeleton[at(e)];
-    return edge != kNoIndex && context_.skeleton.is_on_wall(edge);
-  }
-
-  [[nodiscard]] bool is_wall_triangle(LocalIndex t) const
-  {
-    return context_.coarse.layers.is_wall(patch_of(t));
   }
 
   [[nodiscard]] Vec3 coarse_position(LocalIndex vertex) const
@@ -88,10 +100,10 @@ class LatticeRefiner {
   void place_behind_walls(const mesh::RefinedLattice& walls)
   {
     for (LocalIndex e = 0; e < complex_.num_edges(); ++e) {
-      if (is_wall_edge(e)) place_edge_behind_wall(e, walls);
+      if (is_wall_edge(complex_, context_, e)) place_edge_behind_wall(e, walls);
     }
     for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) {
-      if (is_wall_triangle(t)) place_triangle_behind_wall(t, walls);
+      if (is_wall_triangle(complex_, context_, t)) place_triangle_behind_wall(t, walls);
     }
   }
 
@@ -296,7 +308,7 @@ class LatticeRefiner {
              const mesh::LatticePointKey& key, const Project& project)
   {
     const double factor = context_.limiter.factor(key);
-    const Vec3 point = factor == 1.0 ? projected.xyz : chord + factor * (projected.xyz - chord);
+    const Vec3 point = limited(chord, projected.xyz, factor);
     if (context_.measure_distance) {
       mesh::ModelDistance& distance = result_.distance;
       const double off = norm(project(point, projected.uv).xyz - point);
@@ -320,18 +332,13 @@ void place_beside_walls(const mesh::Complex& complex, const RefineContext& conte
                         const mesh::RefinedLattice& tets, mesh::RefinedLattice& walls)
 {
   for (LocalIndex e = 0; e < complex.num_edges(); ++e) {
-    const LocalIndex edge = complex.edge_skeleton[at(e)];
-    if (edge != kNoIndex && context.skeleton.is_on_wall(edge)) continue;
+    if (is_wall_edge(complex, context, e)) continue;
     for (LocalIndex k = 1; k < tets.edge_intervals(e); ++k) {
       walls.place_edge_point(e, k, tets.edge_point(e, k));
     }
   }
   for (LocalIndex t = 0; t < complex.num_triangles(); ++t) {
-    const LocalIndex triangle = complex.triangle_skeleton[at(t)];
-    if (triangle != kNoIndex
-        && context.coarse.layers.is_wall(context.skeleton.triangle_patch[at(triangle)])) {
-      continue;
-    }
+    if (is_wall_triangle(complex, context, t)) continue;
     const LocalIndex n = tets.triangle_intervals(t);
     for (LocalIndex j = 1; j < n; ++j) {
       for (LocalIndex i = 1; i + j < n; ++i) {
@@ -352,11 +359,6 @@ Vec3 side_patch_point(const RefineContext& context, LocalIndex edge, double part
   const SurfaceParameters guess{uv[0] + part * (uv[2] - uv[0]), uv[1] + part * (uv[3] - uv[1])};
   return context.model.project_to_surface(context.coarse.patch_surface[at(patch)], point, guess)
       .xyz;
-}
-
-Vec3 limited(const Vec3& chord, const Vec3& projected, double factor)
-{
-  return factor == 1.0 ? projected : chord + factor * (projected - chord);
 }
 
 void add(const mesh::ModelDistance& more, mesh::ModelDistance& sum)

@@ -7,6 +7,7 @@
 
 #include "tessera/layers/prism_tets.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/sorted_rows.hpp"
 #include "tessera/mesh/triangle_grading.hpp"
 
 namespace tessera::subdomain {
@@ -176,8 +177,8 @@ LocalIndex LayerTables::common_edge(const mesh::HostPoint& a, const mesh::HostPo
   if (kind_a != HostKind::vertex) return kNoIndex;
   if (kind_b == HostKind::edge) return common_edge(b, a);
   if (kind_b != HostKind::vertex) return kNoIndex;
-  return mesh::find_edge(*skeleton_, {std::min(hosts_.row_of(a.host), hosts_.row_of(b.host)),
-                                      std::max(hosts_.row_of(a.host), hosts_.row_of(b.host))});
+  return mesh::find_edge_row(skeleton_->edge_vertices, hosts_.row_of(a.host),
+                             hosts_.row_of(b.host));
 }
 
 std::optional<LayerSide> LayerTables::side(const mesh::HostPoint& a, const mesh::HostPoint& b,

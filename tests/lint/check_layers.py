@@ -20,7 +20,7 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "untangle": CORE | {"model"},
     "refine": CORE | {"model"},
     "fill": CORE | {"model"},
-    "layers": CORE | {"model", "optimize"},
+    "layers": CORE | {"model", "optimize", "quality"},
     "improve": CORE | {"model"},
     "delaunay": BASE | {"mesh"},
     "optimize": BASE | {"mesh"},  # knows no lattice and no process but its own

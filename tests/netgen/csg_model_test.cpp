@@ -11,6 +11,7 @@
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/netgen/factory.hpp"
 
+#include "support/meshes.hpp"
 #include "support/temporary_file.hpp"
 
 namespace tessera {
@@ -85,17 +86,6 @@ struct Loaded {
   mesh::CoarseMesh mesh;
 };
 
-double volume(const mesh::CoarseMesh& mesh)
-{
-  double sum = 0.0;
-  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
-    const auto tet = mesh.tet(t);
-    sum += tet_volume(mesh.position(tet[0]), mesh.position(tet[1]), mesh.position(tet[2]),
-                      mesh.position(tet[3]));
-  }
-  return sum;
-}
-
 // Projects points near every face of the named patch; their distance to the surface's formula.
 void expect_on_formula(const Loaded& loaded, const std::string& patch,
                        const std::function<double(const Vec3&)>& distance)
@@ -116,7 +106,7 @@ void expect_on_formula(const Loaded& loaded, const std::string& patch,
 TEST(CsgCoarseMesh, FillsTheCubeExactly)
 {
   const Loaded cube(kCube, 0.5);
-  EXPECT_NEAR(volume(cube.mesh), 1.0, 1e-12);
+  EXPECT_NEAR(testing::volume_of(cube.mesh), 1.0, 1e-12);
   EXPECT_EQ(cube.mesh.num_patches(), 6);
   EXPECT_EQ(cube.mesh.num_materials(), 1);
   EXPECT_EQ(
@@ -192,7 +182,7 @@ TEST(CsgCoarseMesh, KeepsTheFaceBetweenTwoMaterialsOnce)
     for (const LocalIndex v : two.mesh.tet(t)) x += 0.25 * two.mesh.position(v)[0];
     EXPECT_EQ(two.mesh.tet_material[static_cast<std::size_t>(t)], x < 0.5 ? 1 : 2);
   }
-  EXPECT_NEAR(volume(two.mesh), 1.0, 1e-12);
+  EXPECT_NEAR(testing::volume_of(two.mesh), 1.0, 1e-12);
 }
 
 TEST(CsgCoarseMesh, TakesNamesFromTheFile)

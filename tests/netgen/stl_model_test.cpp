@@ -15,6 +15,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
+#include "support/meshes.hpp"
 #include "support/stl_models.hpp"
 #include "support/temporary_file.hpp"
 
@@ -102,17 +103,6 @@ std::set<Edge> edges_between_patches(const mesh::CoarseMesh& mesh)
   return edges;
 }
 
-double volume_of(const mesh::CoarseMesh& mesh)
-{
-  double volume = 0.0;
-  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
-    const auto tet = mesh.tet(t);
-    volume += tet_volume(mesh.position(tet[0]), mesh.position(tet[1]), mesh.position(tet[2]),
-                         mesh.position(tet[3]));
-  }
-  return volume;
-}
-
 TEST(StlModel, ImportKeepsTheFilesRepairsAndFeatureAngle)
 {
   model::TriangleSoup soup = cube_soup();
@@ -153,7 +143,7 @@ TEST(StlModel, CubeIsMeshedWithSixPatchesAndTwelveCurves)
   expect_on_model(*model, mesh);
   EXPECT_EQ(mesh.num_patches(), 6);
   EXPECT_EQ(std::set(mesh.segment_curve.begin(), mesh.segment_curve.end()).size(), 12U);
-  EXPECT_NEAR(volume_of(mesh), 1.0, 1e-12);
+  EXPECT_NEAR(testing::volume_of(mesh), 1.0, 1e-12);
   EXPECT_EQ(segments_of(mesh), edges_between_patches(mesh));
 }
 
@@ -164,7 +154,7 @@ TEST(StlModel, SphereWithoutFeaturesIsMeshedWithoutSegments)
   expect_on_model(*model, mesh);
   EXPECT_EQ(mesh.num_patches(), 1);
   EXPECT_EQ(mesh.num_segments(), 0);
-  EXPECT_NEAR(volume_of(mesh), 4.0 / 3.0 * std::numbers::pi, 0.5);
+  EXPECT_NEAR(testing::volume_of(mesh), 4.0 / 3.0 * std::numbers::pi, 0.5);
 }
 
 // NETGEN's own rule would make an edge of every edge above 30 degrees, and of no other.
@@ -217,7 +207,7 @@ TEST(StlModel, CavityStaysEmpty)
   const auto model = load(joined(cube_soup({-1.0, -1.0, -1.0}, 3.0), cube_soup()));
   const mesh::CoarseMesh mesh = mesh_of(*model, 1.0);
   expect_on_model(*model, mesh);
-  EXPECT_NEAR(volume_of(mesh), 26.0, 1e-10);
+  EXPECT_NEAR(testing::volume_of(mesh), 26.0, 1e-10);
 }
 
 // A ball with a ball-shaped hole that leaves a wall of 0.03 at one side.
@@ -244,8 +234,8 @@ TEST(StlModel, RemeshedWallThinnerThanItsTrianglesIsRefinedUntilItIsSound)
   const mesh::CoarseMesh mesh = model->generate(rough_remesh());
   expect_on_model(*model, mesh);
   const double exact = 4.0 / 3.0 * std::numbers::pi * (1.0 - std::pow(0.6, 3));
-  EXPECT_LT(volume_of(mesh), 1.05 * exact) << "chords make the hole smaller, too";
-  EXPECT_GT(volume_of(mesh), 0.75 * exact) << "chords of 0.6 in a ball of radius 1";
+  EXPECT_LT(testing::volume_of(mesh), 1.05 * exact) << "chords make the hole smaller, too";
+  EXPECT_GT(testing::volume_of(mesh), 0.75 * exact) << "chords of 0.6 in a ball of radius 1";
 }
 
 TEST(StlModel, RemeshedBodiesThatOverlapAreRefusedWithTheirFacesAndThePlace)
@@ -278,7 +268,7 @@ void expect_one_body(const model::TriangleSoup& soup, double volume)
   const auto model = load_stl(source);
   const mesh::CoarseMesh mesh = mesh_of(*model, 0.5);
   expect_on_model(*model, mesh);
-  EXPECT_NEAR(volume_of(mesh), volume, 1e-5);
+  EXPECT_NEAR(testing::volume_of(mesh), volume, 1e-5);
 }
 
 TEST(StlModel, BodiesThatLieOnEachOtherAreOne)

@@ -134,4 +134,15 @@ mesh::CoarseMesh two_material_cube(int n)
   return mesh;
 }
 
+double volume_of(const mesh::CoarseMesh& mesh)
+{
+  double volume = 0.0;
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    const auto tet = mesh.tet(t);
+    volume += tet_volume(mesh.position(tet[0]), mesh.position(tet[1]), mesh.position(tet[2]),
+                         mesh.position(tet[3]));
+  }
+  return volume;
+}
+
 }  // namespace tessera::testing

@@ -14,4 +14,7 @@ namespace tessera::testing {
 /// between the materials on patch 6. @pre n is even.
 [[nodiscard]] mesh::CoarseMesh two_material_cube(int n);
 
+/// @brief Of all tets.
+[[nodiscard]] double volume_of(const mesh::CoarseMesh& mesh);
+
 }  // namespace tessera::testing

@@ -97,11 +97,6 @@ struct Skeleton {
   }
 };
 
-/// @brief Row of the edge with these vertices of the skeleton, which ascend; kNoIndex: there is
-/// none. Local; O(log n).
-[[nodiscard]] LocalIndex find_edge(const Skeleton& skeleton,
-                                   const std::array<LocalIndex, 2>& vertices);
-
 /// @brief Builds the skeleton. Local; O(n log n) in the coarse tets.
 /// @pre validate(coarse) holds and the decomposition belongs to that mesh.
 [[nodiscard]] Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposition);

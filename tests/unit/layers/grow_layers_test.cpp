@@ -14,17 +14,6 @@ namespace {
 
 const testing::FlatModel kModel;
 
-double volume_of_tets(const mesh::CoarseMesh& mesh)
-{
-  double volume = 0.0;
-  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
-    const auto v = mesh.tet(t);
-    volume += tet_volume(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]),
-                         mesh.position(v[3]));
-  }
-  return volume;
-}
-
 // Of thickness 0.05 + 0.1.
 LayerOptions two_layers(const std::string& patch)
 {
@@ -44,7 +33,7 @@ TEST(GrowLayers, OnOneSideOfACubeMakesItShorter)
     mesh::CoarseMesh cube = testing::kuhn_cube(3);
     const LayerCover cover =
         grow_layers(cube, std::vector{two_layers(cube.patch_names[0])}, kModel, keep_tets);
-    EXPECT_NEAR(volume_of_tets(cube), 0.85, 1e-9);
+    EXPECT_NEAR(testing::volume_of(cube), 0.85, 1e-9);
     ASSERT_EQ(cover.patches.size(), 1U);
     EXPECT_NEAR(cover.patches[0].area, 1.0, 1e-12);
     EXPECT_NEAR(cover.patches[0].full, 1.0, 1e-12);
@@ -65,7 +54,7 @@ TEST(GrowLayers, OnAllSidesOfACubeMakesItSmaller)
 {
   mesh::CoarseMesh cube = testing::kuhn_cube(3);
   const LayerCover cover = grow_layers(cube, std::vector{two_layers("*")}, kModel, false);
-  EXPECT_NEAR(volume_of_tets(cube), 0.7 * 0.7 * 0.7, 0.01);
+  EXPECT_NEAR(testing::volume_of(cube), 0.7 * 0.7 * 0.7, 0.01);
   EXPECT_NEAR(cover.sum().full, 6.0, 1e-12);
 }
 
@@ -75,8 +64,8 @@ TEST(GrowLayers, ThickerThanHalfTheCubeGoAsFarAsTheyCan)
   mesh::CoarseMesh cube = testing::kuhn_cube(2);
   const LayerCover cover = grow_layers(
       cube, std::vector{LayerOptions{.patch = "*", .first = 0.2, .count = 4}}, kModel, false);
-  EXPECT_GT(volume_of_tets(cube), 0.0);
-  EXPECT_LT(volume_of_tets(cube), 1.0);
+  EXPECT_GT(testing::volume_of(cube), 0.0);
+  EXPECT_LT(testing::volume_of(cube), 1.0);
   EXPECT_LT(cover.sum().full, 6.0);
   EXPECT_NO_THROW(mesh::validate(cube));
 }
