@@ -211,6 +211,14 @@ class MeshWorker final : public jobs::Worker {
     return garbled_if_asked("layers", to_bytes(made));
   }
 
+  [[nodiscard]] Bytes answer(const RimRequest& request) const
+  {
+    fail_if_asked("rims");
+    mesh::CoarseMesh made = request.mesh;
+    topology::divide_at_rims(made, request.splits, *scaled_model_);
+    return garbled_if_asked("rims", to_bytes(made));
+  }
+
   // After tets were flipped: by their centroids.
   [[nodiscard]] static std::vector<LocalIndex> parts_of_tets(const mesh::CoarseMesh& mesh,
                                                              const cut::CutTree& planes)

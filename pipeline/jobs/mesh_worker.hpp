@@ -31,6 +31,7 @@
 #include "tessera/number/id_layout.hpp"
 #include "tessera/subdomain/piece_summary.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
+#include "tessera/topology/split_patches.hpp"
 
 /// Everything that runs in job processes because it calls NETGEN or OpenCASCADE, and the messages
 /// that start it. A job's result is the bytes that the stage reads back.
@@ -132,6 +133,10 @@ struct LayeredMesh {
 /// @param[in] keep_tets As for layers::grow_layers().
 [[nodiscard]] Bytes layer_request(const mesh::CoarseMesh& mesh,
                                   const std::vector<layers::LayerOptions>& layers, bool keep_tets);
+
+/// @brief run: makes a coarse mesh ready to be opened; result: bytes of it. Needs the model.
+/// @see topology::divide_at_rims()
+[[nodiscard]] Bytes rim_request(const mesh::CoarseMesh& mesh, const topology::SplitOptions& splits);
 
 /// @brief One subdomain that a plan job tests.
 struct UntangleTest {

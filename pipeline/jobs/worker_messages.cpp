@@ -96,6 +96,11 @@ Bytes layer_request(const mesh::CoarseMesh& mesh, const std::vector<layers::Laye
   return to_bytes(Request(LayerRequest{mesh, layers, keep_tets}));
 }
 
+Bytes rim_request(const mesh::CoarseMesh& mesh, const topology::SplitOptions& splits)
+{
+  return to_bytes(Request(RimRequest{mesh, splits}));
+}
+
 Bytes untangle_request(const std::vector<UntangleTest>& tests,
                        const mesh::ProjectionLimiter& limiter)
 {

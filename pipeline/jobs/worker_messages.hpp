@@ -140,6 +140,13 @@ struct LayerRequest {
   static auto fields(auto& self) { return std::tie(self.mesh, self.layers, self.keep_tets); }
 };
 
+struct RimRequest {
+  mesh::CoarseMesh mesh{};
+  topology::SplitOptions splits{};
+
+  static auto fields(auto& self) { return std::tie(self.mesh, self.splits); }
+};
+
 struct UntangleRequest {
   std::vector<UntangleTest> tests{};
   mesh::ProjectionLimiter limiter{};
@@ -166,9 +173,9 @@ struct PlacesRequest {
   static auto fields(auto& self) { return std::tie(self.file); }
 };
 
-using Request =
-    std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDomainRequest,
-                 CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest, RefineTask,
-                 SkinRequest, DescribeRequest, FiguresRequest, PlacesRequest, LayerRequest>;
+using Request = std::variant<ImportRequest, BoxRequest, CoarseSurfaceRequest, CoarseDomainRequest,
+                             CoarseMeshRequest, UntangleRequest, FillTask, ImproveRequest,
+                             RefineTask, SkinRequest, DescribeRequest, FiguresRequest,
+                             PlacesRequest, LayerRequest, RimRequest>;
 
 }  // namespace tessera::pipeline

@@ -406,6 +406,9 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   if (!figures.predicted.empty()) json["prediction"] = prediction_json(figures.predicted);
   json["quality"] = quality_json(run.filled);
   if (!run.cover.patches.empty()) json["layers"] = layers_json(run);
+  for (const auto& [plus, minus] : mesh::split_patch_names(run.coarse.mesh)) {
+    json["splits"].push_back({{"plus", plus}, {"minus", minus}});
+  }
   if (run.resolved.output.order == 2) json["second_order"] = second_order_json(run);
   json["model"] = model_json(run);
   if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);

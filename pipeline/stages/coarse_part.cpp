@@ -23,6 +23,7 @@
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/stages/name_stage.hpp"
 #include "pipeline/stages/size_stage.hpp"
+#include "pipeline/stages/split_stage.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -109,9 +110,11 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   run.coarse = run_coarse_stage(run.resolved, run.planes.tree, context);
   model::apply_names(parts, run.coarse.mesh);
   const bool is_fine_enough = refine_for_sizes(run, parts, context);
+  divide_at_rims(run, context);
   grow_layers(run, context);
   choose_levels(run, context);
   if (!is_fine_enough) run.coarse.missed_size = longest_edge_in_sizes(run, context);
+  split_patches(run, context);  // The last one: sizes and layers know patches by their names.
 }
 
 void tell_what_is_within_tolerance(const RunResult& run, RunContext& context)

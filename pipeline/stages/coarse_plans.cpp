@@ -18,16 +18,9 @@
 namespace tessera::pipeline {
 namespace {
 
-// NETGEN and Gmsh may join the points of solids that are to be kept apart.
-bool has_contacts(const config::Case& run_case)
-{
-  return !run_case.geometry.assembly.contacts.empty();
-}
-
 // Gmsh gets what OpenCASCADE has read.
 bool is_for_gmsh(const config::Case& run_case)
 {
-  if (has_contacts(run_case)) return false;
   constexpr std::array<std::string_view, 5> kKinds{".step", ".stp", ".iges", ".igs", ".brep"};
   const std::string kind = model::lower_case_extension(run_case.geometry.file);
   return run_case.coarse.mesher == coarse::Mesher::netgen
@@ -104,7 +97,6 @@ std::vector<coarse::CoarseOptions> coarse_tries(const config::Case& run_case)
   if (asked.mesher == coarse::Mesher::gmsh) return {asked, finer(asked)};
   coarse::CoarseOptions ours = asked;
   ours.surface_mesher = coarse::SurfaceMesher::remesh;
-  if (has_contacts(run_case)) return {ours, finer(ours)};
   coarse::CoarseOptions netgen = asked;
   netgen.defeature = 0.0;
   return {ours, finer(ours), netgen};

@@ -8,9 +8,8 @@
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/share_on_node.hpp"
 
-#include "pipeline/jobs/failed_jobs.hpp"
-#include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/jobs/require_job.hpp"
 #include "pipeline/runtime/with_file_context.hpp"
 
 namespace tessera::pipeline {
@@ -22,14 +21,8 @@ LayeredMesh layered(const RunResult& run, RunContext& context)
 {
   const bool is_own = model::is_mesh_name(run.resolved.geometry.file);
   const Bytes request = layer_request(run.coarse.mesh, run.resolved.layers, is_own);
-  const JobRequest job{"layers", request, kLayerLimits};
-  jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
-  auto made = read_result(outcome, from_bytes<LayeredMesh>);
-  keep_if_failed(job, outcome, context);
-  throw_if_cancelled(outcome);
-  outcome.message += way_on(outcome);
-  jobs::throw_unless_ok(outcome, "[[layer]]");
-  return std::move(*made);
+  return require_job({"layers", request, kLayerLimits}, from_bytes<LayeredMesh>, "[[layer]]",
+                     context);
 }
 
 }  // namespace

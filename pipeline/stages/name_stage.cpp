@@ -50,21 +50,33 @@ bool has_failed(const jobs::JobOutcome& outcome)
          && !was_killed_from_outside(outcome) && !depends_on_machine(outcome);
 }
 
-bool names_parts(const std::vector<sizing::SizeRegion>& regions)
+// Patterns of names in the tables of a case.
+struct Patterns {
+  std::vector<std::string> patches{};
+  std::vector<std::string> curves{};
+};
+
+Patterns patterns_of(const config::Case& given)
 {
-  return std::ranges::any_of(regions, [](const sizing::SizeRegion& region) {
-    return std::holds_alternative<sizing::PatchPattern>(region.shape)
-           || std::holds_alternative<sizing::CurvePattern>(region.shape);
-  });
+  Patterns patterns;
+  for (const sizing::SizeRegion& region : given.size.regions) {
+    if (const auto* patch = std::get_if<sizing::PatchPattern>(&region.shape))
+      patterns.patches.push_back(patch->pattern);
+    if (const auto* curve = std::get_if<sizing::CurvePattern>(&region.shape))
+      patterns.curves.push_back(curve->pattern);
+  }
+  for (const layers::LayerOptions& layer : given.layers) {
+    if (layer.patch != "*") patterns.patches.push_back(layer.patch);  // That names none of them.
+  }
+  for (const topology::SplitPatch& split : given.splits.patches)
+    patterns.patches.push_back(split.patch);
+  return patterns;
 }
 
-template <class Pattern>
-bool matches_any(const std::vector<sizing::SizeRegion>& regions, const std::string& name)
+bool matches_any(const std::vector<std::string>& patterns, const std::string& name)
 {
-  return std::ranges::any_of(regions, [&](const sizing::SizeRegion& region) {
-    const auto* shape = std::get_if<Pattern>(&region.shape);
-    return shape != nullptr && matches_pattern(shape->pattern, name);
-  });
+  return std::ranges::any_of(
+      patterns, [&](const std::string& pattern) { return matches_pattern(pattern, name); });
 }
 
 // Curves of a CSG file have numbers of other kinds; they are found by none.
@@ -77,21 +89,20 @@ std::optional<LocalIndex> curve_of(const model::EdgeDescription& edge)
 }
 
 coarse::KeptParts kept_parts(const model::ModelDescription& described,
-                             const model::NamedParts& named,
-                             const std::vector<sizing::SizeRegion>& regions)
+                             const model::NamedParts& named, const Patterns& patterns)
 {
   std::set<LocalIndex> patches;
   for (const model::NumberedName& face : named.faces) patches.insert(face.number - 1);
   for (const model::FaceDescription& face : described.faces) {
     const std::string name =
         face.name.empty() ? mesh::default_patch_name(face.number - 1) : face.name;
-    if (matches_any<sizing::PatchPattern>(regions, name)) patches.insert(face.number - 1);
+    if (matches_any(patterns.patches, name)) patches.insert(face.number - 1);
   }
   std::set<LocalIndex> curves;
   for (const model::EdgeDescription& edge : described.edges) {
     const auto curve = curve_of(edge);
-    const bool is_named = matches_any<sizing::CurvePattern>(regions, edge.number)
-                          || matches_any<sizing::CurvePattern>(regions, edge.name);
+    const bool is_named =
+        matches_any(patterns.curves, edge.number) || matches_any(patterns.curves, edge.name);
     if (curve && is_named) curves.insert(*curve);
   }
   return {{patches.begin(), patches.end()}, {curves.begin(), curves.end()}};
@@ -119,7 +130,9 @@ model::ModelDescription describe_model(const config::Case& given, RunContext& co
 
 PartsOfCase find_parts_of_case(const config::Case& given, model::Format format, RunContext& context)
 {
-  const bool keeps_parts = given.coarse.defeature > 0.0 && names_parts(given.size.regions);
+  const Patterns patterns = patterns_of(given);
+  const bool keeps_parts =
+      given.coarse.defeature > 0.0 && !(patterns.patches.empty() && patterns.curves.empty());
   if (given.geometry.names.empty() && !keeps_parts) return {};
   StageScope stage(context, "names");
   PartsOfCase parts = comm::on_root(context.comm, [&] {
@@ -131,7 +144,7 @@ PartsOfCase find_parts_of_case(const config::Case& given, model::Format format, 
           description_of(describe_in_jobs(format, run), given);
       PartsOfCase found{
           model::find_named_parts(described, given.geometry.names, given.geometry.scale)};
-      found.kept = kept_parts(described, found.named, given.size.regions);
+      found.kept = kept_parts(described, found.named, patterns);
       return found;
     });
   });

@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/mesh/double_vertices.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
 
@@ -194,7 +195,8 @@ mesh::ProjectionLimiter lowered(const mesh::ProjectionLimiter& limiter,
                                 const std::vector<mesh::PointLimit>& folds, const RefineWork& work)
 {
   std::vector<mesh::PointLimit> entries(limiter.entries().begin(), limiter.entries().end());
-  entries.insert(entries.end(), folds.begin(), folds.end());
+  const auto found = mesh::on_all_sides(folds, work.cut.skeleton, work.cut.coarse);
+  entries.insert(entries.end(), found.begin(), found.end());
   mesh::ProjectionLimiter lower(std::move(entries));
   if (lower == limiter) {
     throw MeshError(

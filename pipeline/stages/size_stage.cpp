@@ -13,6 +13,7 @@
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/jobs/require_job.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -26,14 +27,8 @@ constexpr double kSizeForEdge = 0.83;
 double measure_box(const config::Case& given, RunContext& context)
 {
   const Bytes request = box_request();
-  const JobRequest job{"box", request, kQueryLimits};
-  jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
-  const auto diagonal = read_result(outcome, box_diagonal_from_bytes);
-  keep_if_failed(job, outcome, context);
-  throw_if_cancelled(outcome);
-  outcome.message += way_on(outcome);
-  jobs::throw_unless_ok(outcome, given.geometry.file.string() + ": size of the model");
-  return *diagonal;
+  return require_job({"box", request, kQueryLimits}, box_diagonal_from_bytes,
+                     given.geometry.file.string() + ": size of the model", context);
 }
 
 // Of all solids; NaN if it cannot be had.

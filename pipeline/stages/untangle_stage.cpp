@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/mesh/double_vertices.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
@@ -117,8 +118,9 @@ mesh::ProjectionLimiter run_untangle_stage(const UntangleWork& work,
   StageScope stage(context, "plan");
   std::vector<LocalIndex> subdomains = work.subdomains;
   while (!subdomains.empty()) {
-    const auto found =
-        gather(test_subdomains(subdomains, work, limiter, stage, context), context.comm);
+    const auto found = mesh::on_all_sides(
+        gather(test_subdomains(subdomains, work, limiter, stage, context), context.comm),
+        work.cut.skeleton, work.cut.coarse);
     std::vector<mesh::PointLimit> all(limiter.entries().begin(), limiter.entries().end());
     all.insert(all.end(), found.begin(), found.end());
     limiter = mesh::ProjectionLimiter(std::move(all));

@@ -148,6 +148,7 @@ class Checker {
 
   Findings findings_{};
   Counts counts_{};
+  bool has_splits_ = false;  // Points of a piece of this rank may be double on purpose.
   GlobalIndex num_components_ = 0;
   GlobalIndex num_boundary_components_ = 0;
   bool has_unusable_ids_ = false;

@@ -62,6 +62,7 @@ class EdgeGroup {
   {
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       for (std::size_t j = i + 1; j < triangles_.size(); ++j) {
+        if (triangles_[i]->is_on_split && triangles_[j]->is_on_split) continue;
         const Vec3 a = widened(triangles_[i]->inward);
         const Vec3 b = widened(triangles_[j]->inward);
         if (dot(a, b) > 0.5 && norm(a - b) <= kFoldAngle) return true;

@@ -23,7 +23,8 @@ struct EdgeMatch {
 ///
 /// Reported: edges with an odd number of boundary triangles, and boundary triangles that lie on one
 /// another at their common edge. Such a fold has no volume: it is the rim of a crack, where the
-/// pieces' triangles do not match although they cover the same face.
+/// pieces' triangles do not match although they cover the same face. On the rim of a split it is
+/// meant.
 /// @note Collective.
 [[nodiscard]] EdgeMatch match_edges(std::span<const EdgeRecord> records,
                                     const comm::Communicator& comm, Findings& findings);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check/match_vertices.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <string>
@@ -59,14 +60,37 @@ void check_inner(const VertexRecord& first, const VertexRecord& other, Findings&
       });
 }
 
-// Reports different ids at one position in different pieces; those in one piece it has reported.
-void compare_ids(std::span<const VertexRecord> received, std::span<const std::size_t> rows,
+bool is_on_split(const VertexRecord& vertex) { return vertex.is_on_plus || vertex.is_on_minus; }
+
+// Both sides of a split have a point at each place, be it the same one.
+void check_sides(std::span<const VertexRecord> received, std::span<const std::size_t> rows,
                  Findings& findings)
 {
+  const auto has = [&](bool VertexRecord::*side) {
+    return std::ranges::any_of(rows, [&](std::size_t row) { return received[row].*side; });
+  };
+  const bool has_plus = has(&VertexRecord::is_on_plus);
+  if (has_plus == has(&VertexRecord::is_on_minus)) return;
+  const VertexRecord& vertex = received[rows[0]];
+  findings.add(Kind::split_point, place_of(vertex), [&] {
+    return fmt::format(
+        "{} is on the {} side of a split patch, and no point of the other side is "
+        "at that place",
+        describe(vertex), has_plus ? "plus" : "minus");
+  });
+}
+
+// Reports different ids at one position, but on a split. In a mesh without splits those in one
+// piece are reported already.
+void compare_ids(std::span<const VertexRecord> received, std::span<const std::size_t> rows,
+                 bool has_splits, Findings& findings)
+{
+  if (has_splits) check_sides(received, rows, findings);
   for (const std::size_t row : rows.subspan(1)) {
     const VertexRecord& first = received[rows[0]];
     const VertexRecord& other = received[row];
-    if (first.piece == other.piece) continue;
+    if (first.piece == other.piece && !has_splits) continue;
+    if (is_on_split(first) && is_on_split(other)) continue;
     findings.add(Kind::duplicate_point, place_of(other),
                  [&] { return fmt::format("{} and {}", describe(first), describe(other)); });
   }
@@ -74,7 +98,8 @@ void compare_ids(std::span<const VertexRecord> received, std::span<const std::si
 
 constexpr std::array kFlags{&VertexRecord::is_used,    &VertexRecord::is_inner,
                             &VertexRecord::is_on_seam, &VertexRecord::is_listed,
-                            &VertexRecord::is_shared,  &VertexRecord::is_contradicted};
+                            &VertexRecord::is_shared,  &VertexRecord::is_contradicted,
+                            &VertexRecord::is_on_plus, &VertexRecord::is_on_minus};
 
 std::uint8_t flags_of(const VertexRecord& record)
 {
@@ -118,12 +143,12 @@ std::vector<VertexFlags> VertexMatcher::flags(std::span<const VertexKey> keys) c
   answers.reserve(exchange.received().size());
   for (const VertexKey& key : exchange.received()) {
     const VertexRecord vertex = record(static_cast<std::size_t>(slots_[slot_of(key)]));
-    answers.push_back({vertex.is_on_seam, vertex.is_shared});
+    answers.push_back({vertex.is_on_seam, vertex.is_shared, is_on_split(vertex)});
   }
   return exchange.answer(std::span<const VertexFlags>(answers), comm_);
 }
 
-VertexTotals VertexMatcher::finish()
+VertexTotals VertexMatcher::finish(bool has_splits)
 {
   VertexTotals totals;
   if (identity_ == VertexIdentity::ids) totals.ids.reserve(size());
@@ -140,7 +165,7 @@ VertexTotals VertexMatcher::finish()
       if (vertex.is_contradicted) ++totals.num_contradicted;
     }
   }
-  match_positions();
+  match_positions(has_splits);
   vertices_ = std::deque<Vertex>();  // {} would keep memory.
   flags_ = std::deque<std::uint8_t>();
   slots_ = std::vector<LocalIndex>();
@@ -211,6 +236,8 @@ void VertexMatcher::take(VertexRecord& first, const VertexRecord& other)
   const bool is_on_seam = first.is_on_seam || other.is_on_seam;
   first.is_used = is_used;
   first.is_on_seam = is_on_seam;
+  first.is_on_plus = first.is_on_plus || other.is_on_plus;
+  first.is_on_minus = first.is_on_minus || other.is_on_minus;
   if (identity_ == VertexIdentity::ids)
     compare_positions(first, other, findings_);
   else
@@ -219,7 +246,7 @@ void VertexMatcher::take(VertexRecord& first, const VertexRecord& other)
 }
 
 // In several rounds, so that only a part of the vertices is sent at a time.
-void VertexMatcher::match_positions()
+void VertexMatcher::match_positions(bool has_splits)
 {
   if (identity_ != VertexIdentity::ids) return;
   const auto most = comm_.max(static_cast<double>(vertices_.size()));
@@ -235,7 +262,7 @@ void VertexMatcher::match_positions()
         sent, [&](const VertexRecord& record) { return key(record)[0]; }, comm_);
     comm::for_each_group(exchange.received(), key, order_of,
                          [&](std::span<const std::size_t> rows) {
-                           compare_ids(exchange.received(), rows, findings_);
+                           compare_ids(exchange.received(), rows, has_splits, findings_);
                          });
   }
 }

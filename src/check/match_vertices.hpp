@@ -17,10 +17,14 @@ namespace tessera::check {
 
 /// @brief What is known of a vertex from all pieces.
 struct VertexFlags {
-  bool is_on_seam = false;  ///< On a seam triangle of any piece.
-  bool is_shared = false;   ///< In several pieces of tets.
+  bool is_on_seam = false;   ///< On a seam triangle of any piece.
+  bool is_shared = false;    ///< In several pieces of tets.
+  bool is_on_split = false;  ///< On a patch of a split.
 
-  static auto fields(auto& self) { return std::tie(self.is_on_seam, self.is_shared); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.is_on_seam, self.is_shared, self.is_on_split);
+  }
 };
 
 struct VertexTotals {
@@ -49,7 +53,9 @@ class VertexMatcher {
 
   /// @brief Compares the positions of different vertices and counts.
   /// @note Collective; once, at the end.
-  [[nodiscard]] VertexTotals finish();
+  /// @param[in] has_splits Whether some points are double on purpose. Then those of one piece are
+  /// looked at, too: nobody could tell before what patches they are on.
+  [[nodiscard]] VertexTotals finish(bool has_splits);
 
  private:
   [[nodiscard]] std::uint64_t owner_of(const VertexKey& key) const;
@@ -60,7 +66,7 @@ class VertexMatcher {
   void set(std::size_t row, const VertexRecord& record);
   void take(std::span<const VertexRecord> records, std::span<const std::size_t> rows);
   void take(VertexRecord& first, const VertexRecord& other);
-  void match_positions();
+  void match_positions(bool has_splits);
 
   // A VertexRecord without its flags, which are in a byte of their own: padding would cost a sixth.
   struct Vertex {

@@ -119,7 +119,7 @@ void report_equal_points(const PieceMesh& mesh, Kind kind, LocalIndex p, LocalIn
 }
 
 // The vertex of each point, with a defect for each point that repeats an id or a position.
-std::vector<LocalIndex> match_points(const PieceMesh& mesh, Findings& findings)
+std::vector<LocalIndex> match_points(PieceMesh& mesh, Findings& findings)
 {
   const auto by_position = lowest_of_equal(
       mesh.num_points(), [&](LocalIndex p) { return key_of_position(mesh.position(p)); });
@@ -131,6 +131,8 @@ std::vector<LocalIndex> match_points(const PieceMesh& mesh, Findings& findings)
     const auto i = static_cast<std::size_t>(p);
     if (mesh.identity == VertexIdentity::ids && vertex[i] != p)
       report_equal_points(mesh, Kind::point_id_twice, p, vertex[i], findings);
+    else if (by_position[i] != p && !mesh.split_patches().empty())
+      mesh.equal_points.push_back({by_position[i], p});
     else if (by_position[i] != p)
       report_equal_points(mesh, Kind::duplicate_point, p, by_position[i], findings);
   }
@@ -208,6 +210,17 @@ CellNumbers<std::int32_t> take_ints(mesh::MeshArrays& arrays, const std::string&
 }
 
 }  // namespace
+
+void report_equal_points_inside(const PieceMesh& mesh, const std::vector<bool>& on_surface,
+                                Findings& findings)
+{
+  for (const auto& [lowest, p] : mesh.equal_points) {
+    if (on_surface[static_cast<std::size_t>(lowest)] && on_surface[static_cast<std::size_t>(p)]) {
+      continue;
+    }
+    report_equal_points(mesh, Kind::duplicate_point, p, lowest, findings);
+  }
+}
 
 PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, VertexIdentity identity,
                           Findings& findings)

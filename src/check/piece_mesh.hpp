@@ -76,6 +76,8 @@ struct PieceMesh {
   std::vector<LocalIndex> cell_nodes{};     ///< Of cells of second order, else empty; shape
                                             ///< (num_cells, 6 or 3), numbered as cell_vertices.
   std::vector<LocalIndex> unused_points{};
+  /// Pairs at one position, if points may be double on purpose; else they are reported.
+  std::vector<std::array<LocalIndex, 2>> equal_points{};
   CellNumbers<GlobalIndex> cell_ids{};    ///< Taken from the arrays, as the next two.
   CellNumbers<std::int32_t> attribute{};  ///< Shape (num_cells); material, 0 if the file has none.
   CellNumbers<std::int32_t> subdomain{};  ///< Shape (num_cells); if the file has none, the piece's
@@ -96,6 +98,13 @@ struct PieceMesh {
     const auto width = static_cast<std::size_t>(arrays.vertices_per_cell);
     const auto& all = cell_vertices.empty() ? arrays.cell_points : cell_vertices;
     return std::span(all).subspan(static_cast<std::size_t>(c) * width, width);
+  }
+  /// @brief Names of patches on the plus and on the minus side of a split, in turn; usually none.
+  [[nodiscard]] std::span<const std::string> split_patches() const
+  {
+    const auto found = arrays.field_texts.find("split_patches");
+    if (found == arrays.field_texts.end()) return {};
+    return found->second;
   }
   [[nodiscard]] bool is_of_second_order() const { return !cell_nodes.empty(); }
   void set_cell(LocalIndex c, std::span<const LocalIndex> vertices)
@@ -137,6 +146,11 @@ struct PieceMesh {
 /// @throws InputError if the piece has 2^29 cells or 2^31 points.
 [[nodiscard]] PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays,
                                         VertexIdentity identity, Findings& findings);
+
+/// @brief Reports the equal_points that are not both among `on_surface`. Local.
+/// @param[in] on_surface Shape (num_points).
+void report_equal_points_inside(const PieceMesh& mesh, const std::vector<bool>& on_surface,
+                                Findings& findings);
 
 /// @brief "piece 3" or "boundary piece 3".
 [[nodiscard]] std::string to_text(const PieceName& name);

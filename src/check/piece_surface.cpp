@@ -71,6 +71,41 @@ class RegionSelection {
   LocalIndex last_ = 0;
 };
 
+// Which triangles of a boundary piece are on which side of a split.
+class SplitSides {
+ public:
+  explicit SplitSides(const PieceMesh& mesh)
+  {
+    const auto patches = mesh.arrays.cell_ints.find("patch");
+    const auto names = mesh.arrays.field_texts.find("patch_names");
+    const auto split = mesh.split_patches();
+    if (split.empty() || patches == mesh.arrays.cell_ints.end()
+        || names == mesh.arrays.field_texts.end())
+      return;
+    patches_ = patches->second;
+    for (const std::string& name : names->second) {
+      const auto found = std::ranges::find(split, name) - split.begin();
+      is_plus_.push_back(found < std::ssize(split) && found % 2 == 0);
+      is_minus_.push_back(found < std::ssize(split) && found % 2 == 1);
+    }
+  }
+
+  [[nodiscard]] bool is_plus(LocalIndex cell) const { return has(is_plus_, cell); }
+  [[nodiscard]] bool is_minus(LocalIndex cell) const { return has(is_minus_, cell); }
+
+ private:
+  [[nodiscard]] bool has(const std::vector<bool>& is_on, LocalIndex cell) const
+  {
+    if (patches_.empty()) return false;
+    const auto patch = static_cast<std::size_t>(patches_[static_cast<std::size_t>(cell)]);
+    return patch < is_on.size() && is_on[patch];
+  }
+
+  std::span<const std::int32_t> patches_{};
+  std::vector<bool> is_plus_{};  // By patch.
+  std::vector<bool> is_minus_{};
+};
+
 // With the nodes of its edges, those of second order: so both sides must agree on them. @param[in]
 // keys Of the vertices; ascending.
 TriangleKey key_of_triangle(const PieceMesh& mesh, std::span<const LocalIndex> vertices,
@@ -264,7 +299,9 @@ std::vector<VertexRecord> PieceSurface::vertex_records() const
                        .is_used = vertex.is_used,
                        .is_inner = vertex.is_inner,
                        .is_on_seam = vertex.is_on_seam,
-                       .is_listed = name.is_boundary});
+                       .is_listed = name.is_boundary,
+                       .is_on_plus = vertex.is_on_plus,
+                       .is_on_minus = vertex.is_on_minus});
   }
   return records;
 }
@@ -313,13 +350,18 @@ std::vector<VertexRecord> listed_vertices(const PieceMesh& mesh)
   PieceSurface points;
   points.name = mesh.name;
   VertexSelection selection(mesh, points.vertices);
+  const SplitSides sides(mesh);
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     if (mesh.is_left_out(c)) continue;
-    for (const LocalIndex v : mesh.cell(c)) selection.add(v, false, false);
-    for (std::size_t i = 0; mesh.is_of_second_order() && i < 3; ++i) {
-      selection.add(node_between(mesh, c, mesh.cell(c)[i], mesh.cell(c)[(i + 1) % 3]), false,
-                    false);
-    }
+    const auto list = [&](LocalIndex point) {
+      SurfaceVertex& vertex =
+          points.vertices[static_cast<std::size_t>(selection.add(point, false, false))];
+      vertex.is_on_plus = vertex.is_on_plus || sides.is_plus(c);
+      vertex.is_on_minus = vertex.is_on_minus || sides.is_minus(c);
+    };
+    for (const LocalIndex v : mesh.cell(c)) list(v);
+    for (std::size_t i = 0; mesh.is_of_second_order() && i < 3; ++i)
+      list(node_between(mesh, c, mesh.cell(c)[i], mesh.cell(c)[(i + 1) % 3]));
   }
   return points.vertex_records();
 }

@@ -23,9 +23,11 @@ struct SurfaceVertex {
   Vec3 position{};
   GlobalIndex id = kNoId;
   LocalIndex point = 0;  ///< Row in its piece.
-  bool is_used = false;  ///< As in VertexRecord, as are the next two.
+  bool is_used = false;  ///< As in VertexRecord, as are the others.
   bool is_inner = false;
   bool is_on_seam = false;
+  bool is_on_plus = false;
+  bool is_on_minus = false;
 };
 
 /// @brief What tets of a piece have in common.

@@ -89,11 +89,14 @@ struct VertexRecord {
   bool is_listed = false;        ///< From the boundary file.
   bool is_shared = false;        ///< Several pieces of tets have it.
   bool is_contradicted = false;  ///< And not at one position.
+  bool is_on_plus = false;       ///< On a patch of a split, on the one side; boundary file only.
+  bool is_on_minus = false;      ///< On the other side.
 
   static auto fields(auto& self)
   {
     return std::tie(self.position, self.id, self.piece, self.point, self.is_used, self.is_inner,
-                    self.is_on_seam, self.is_listed, self.is_shared, self.is_contradicted);
+                    self.is_on_seam, self.is_listed, self.is_shared, self.is_contradicted,
+                    self.is_on_plus, self.is_on_minus);
   }
 };
 
@@ -107,11 +110,12 @@ struct EdgeRecord {
   LocalIndex boundary_component = 0;  ///< Of its piece.
   LocalIndex twin = kNoPiece;         ///< A piece that may have counted half of the edge.
   bool is_on_boundary = false;
+  bool is_on_split = false;  ///< The triangle's third vertex is on a patch of a split.
 
   static auto fields(auto& self)
   {
     return std::tie(self.key, self.inward, self.middle, self.piece, self.cell,
-                    self.boundary_component, self.twin, self.is_on_boundary);
+                    self.boundary_component, self.twin, self.is_on_boundary, self.is_on_split);
   }
 };
 

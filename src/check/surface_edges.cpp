@@ -77,8 +77,9 @@ class EdgeFan {
   }
 
   // One record for each triangle, or for all if nothing depends on how many there are.
+  // `flags` of vertices may be empty if no triangle is open.
   void append_records(std::span<const LocalIndex> boundary_component,
-                      std::vector<EdgeRecord>& records) const
+                      std::span<const VertexFlags> flags, std::vector<EdgeRecord>& records) const
   {
     const bool is_inner =
         std::none_of(triangles_.begin(), triangles_.end(),
@@ -89,6 +90,8 @@ class EdgeFan {
       record.twin = triangles_.size() > 2 ? twin_of(edge) : kNoPiece;
       if (!is_open(role(edge))) continue;
       record.inward = inward_of(edge);
+      record.is_on_split =
+          !flags.empty() && flags[static_cast<std::size_t>(apex_of(edge))].is_on_split;
       record.boundary_component = boundary_component[static_cast<std::size_t>(edge.triangle)];
       record.is_on_boundary = true;
     }
@@ -127,13 +130,17 @@ class EdgeFan {
     return is_first_of_two ? partner(edge) : kNoPiece;
   }
 
+  [[nodiscard]] LocalIndex apex_of(const TriangleEdge& edge) const
+  {
+    return surface_
+        .triangles[static_cast<std::size_t>(edge.triangle)][static_cast<std::size_t>(edge.corner)];
+  }
+
   // Unit vector from the edge to the apex, normal to the edge; zero if they are on one line.
   [[nodiscard]] std::array<float, 3> inward_of(const TriangleEdge& edge) const
   {
-    const LocalIndex apex = surface_.triangles[static_cast<std::size_t>(edge.triangle)]
-                                              [static_cast<std::size_t>(edge.corner)];
     const Vec3 along = surface_.position(edge.upper) - surface_.position(edge.lower);
-    const Vec3 to_apex = surface_.position(apex) - surface_.position(edge.lower);
+    const Vec3 to_apex = surface_.position(apex_of(edge)) - surface_.position(edge.lower);
     const Vec3 across = to_apex - (dot(to_apex, along) / dot(along, along)) * along;
     const double length = norm(across);
     std::array<float, 3> inward{};
@@ -201,7 +208,7 @@ void close_edges(PieceSurface& surface, SurfaceEdges& edges)
     if (fan.is_half())
       ++edges.num_halves;
     else
-      fan.append_records({}, edges.shared);
+      fan.append_records({}, {}, edges.shared);
     fan.close();
   });
 }
@@ -218,7 +225,8 @@ std::vector<EdgeRecord> close_last_edges(PieceSurface& surface, std::span<const 
     if (fan.is_half())
       ++edges.num_halves;
     else
-      fan.append_records(component, fan.has_end_that_is_not_shared(flags) ? own : edges.shared);
+      fan.append_records(component, flags,
+                         fan.has_end_that_is_not_shared(flags) ? own : edges.shared);
     fan.close();
   });
   return own;

@@ -235,7 +235,7 @@ void check_own_mesh(const Case& loaded, bool is_mesh, const std::string& where)
 }
 
 // What only a model with solids of OpenCASCADE has.
-void check_assembly(const Case& loaded, bool is_mesh, const std::string& where)
+void check_assembly(const Case& loaded, const std::string& where)
 {
   const GeometryOptions& geometry = loaded.geometry;
   const std::filesystem::path& model = geometry.cad.empty() ? geometry.file : geometry.cad;
@@ -243,18 +243,9 @@ void check_assembly(const Case& loaded, bool is_mesh, const std::string& where)
   const bool has_solids = kind != ".geo" && kind != ".stl" && !model::is_mesh_name(model);
   if (!has_solids && geometry.assembly != model::AssemblyOptions{}) {
     fail(where,
-         "geometry.overlap, geometry.gap and [[geometry.contact]] are for .step, .iges and "
-         ".brep; leave them out for "
+         "geometry.overlap and geometry.gap are for .step, .iges and .brep; leave them out for "
              + kind);
   }
-  if (geometry.assembly.contacts.empty()) return;
-  const std::string_view other =
-      is_mesh                                                  ? "a mesh in geometry.file"
-      : loaded.coarse.mesher == coarse::Mesher::gmsh           ? "coarse.mesher = \"gmsh\""
-      : loaded.decompose.method == decompose::Method::geometry ? "decompose.method = \"geometry\""
-                                                               : "";
-  if (other.empty()) return;
-  fail(where, fmt::format("[[geometry.contact]] excludes {}: solids would be joined again", other));
 }
 
 // What only an STL file needs.
@@ -282,7 +273,7 @@ void check_required(const Case& loaded, const std::string& where)
     fail(where, "no size; give either size.target or coarse.max_size");
   }
   check_own_mesh(loaded, is_mesh, where);
-  check_assembly(loaded, is_mesh, where);
+  check_assembly(loaded, where);
   check_wrap(loaded, where);
   if (loaded.size.max > 0.0 && loaded.size.min > loaded.size.max) {
     fail(where, fmt::format("size.min = {} is above size.max = {}; it must not be",
@@ -307,6 +298,22 @@ void check_order(const Case& loaded, const std::string& where)
   fail(where,
        "output.order = 2 excludes fill.levels below refine.levels; leave out fill.levels, so that "
        "subdomains are filled on all levels");
+}
+
+// Layers of which the case does not say how many there are lead up to the size inside.
+void complete_layers(Case& loaded, const std::string& where)
+{
+  for (layers::LayerOptions& layer : loaded.layers) {
+    if (layers::is_complete(layer)) continue;
+    if (loaded.size.target > 0.0) layer.count = layers::count_up_to(layer, loaded.size.target);
+    if (layer.count > 0) continue;
+    fail(where, fmt::format("[[layer]] of \"{}\" has neither count nor thickness, and {}; give "
+                            "one of them",
+                            layer.patch,
+                            loaded.size.target > 0.0
+                                ? "with growth = 1 its layers never get as high as size.target"
+                                : "there is no size.target that its layers could lead up to"));
+  }
 }
 
 // Columns stand on the lattice of the coarse walls, which a split no longer has. A surface that is
@@ -381,6 +388,7 @@ Case parse_case(std::string_view text, const std::filesystem::path& file,
   check_required(loaded, name);
   check_order(loaded, name);
   check_planes(loaded, name);
+  complete_layers(loaded, name);
   check_layers(loaded, name);
   resolve_paths(file, loaded);
   return loaded;

@@ -244,8 +244,7 @@ constexpr Key kNameKeys[] = {
 
 constexpr Key kContactKeys[] = {
     {.name = "geometry.contact.body",
-     .rule =
-         TextRule{[](Case& c) -> std::string& { return c.geometry.assembly.contacts.back().body; }},
+     .rule = TextRule{[](Case& c) -> std::string& { return c.splits.contacts.back().body; }},
      .meaning =
          "The one solid: its number in the list of tessera info MODEL, or its name in the "
          "file. Or several, whose numbers or names match: * stands for any characters, ? for "
@@ -253,9 +252,7 @@ constexpr Key kContactKeys[] = {
      .reason = "a contact has two sides",
      .example = "\"shaft\""},
     {.name = "geometry.contact.other",
-     .rule = TextRule{[](Case& c) -> std::string& {
-       return c.geometry.assembly.contacts.back().other;
-     }},
+     .rule = TextRule{[](Case& c) -> std::string& { return c.splits.contacts.back().other; }},
      .meaning = "The other solid, or several, as of body.",
      .reason = "a contact has two sides",
      .example = "\"2\""},
@@ -305,7 +302,8 @@ constexpr Key kLayerKeys[] = {
          IntegerRule{[](Case& c) -> int& { return c.layers.back().count; }, 1, layers::kMostLayers},
      .meaning = "Number of layers in the final mesh, whatever the levels. The same in all entries. "
                 "Either this or thickness.",
-     .reason = "one of the two says how far layers reach",
+     .reason = "so the last layer is about as high as the tets inside",
+     .derived_default = "as many as lead up to size.target",
      .example = "5",
      .is_optional = true},
     {.name = "layer.thickness",
@@ -313,9 +311,18 @@ constexpr Key kLayerKeys[] = {
                       Bound::exclusive, kHuge, Bound::inclusive},
      .unit = "output length unit",
      .meaning = "Of all layers together; their number is the one that comes nearest.",
-     .reason = "one of the two says how far layers reach",
+     .reason = "count says it",
      .example = "0.1",
      .is_optional = true},
+};
+
+constexpr Key kSplitKeys[] = {
+    {.name = "split.patch",
+     .rule = TextRule{[](Case& c) -> std::string& { return c.splits.patches.back().patch; }},
+     .meaning = "The patches of that name, or whose names match it: * stands for any characters, ? "
+                "for one, [ab] for one of these. They lie between two materials.",
+     .reason = "only the user knows where the mesh is to be open",
+     .example = "\"crack\""},
 };
 
 constexpr std::string_view kNamed[] = {"patch", "material"};
@@ -335,12 +342,12 @@ constexpr TableList kTableLists[] = {
      .defect = [](const Case& c) { return model::defect_of(c.geometry.names.back()); }},
     {.name = "geometry.contact",
      .keys = kContactKeys,
-     .meaning = "Solids of a .step, .iges or .brep that are kept apart where they touch: each has "
-                "faces, edges and points of its own there. At the rim they stay together where a "
+     .meaning = "Solids that are kept apart where they touch: each has points of its own there, at "
+                "the same places, and a patch of its own. At the rim they stay together where a "
                 "third solid holds both.",
      .reason = "solids that touch share the faces between them",
-     .size = [](const Case& c) { return c.geometry.assembly.contacts.size(); },
-     .resize = [](Case& c, std::size_t size) { c.geometry.assembly.contacts.resize(size); }},
+     .size = [](const Case& c) { return c.splits.contacts.size(); },
+     .resize = [](Case& c, std::size_t size) { c.splits.contacts.resize(size); }},
     {.name = "decompose.plane",
      .keys = kPlaneKeys,
      .meaning =
@@ -359,6 +366,14 @@ constexpr TableList kTableLists[] = {
      .size = [](const Case& c) { return c.layers.size(); },
      .resize = [](Case& c, std::size_t size) { c.layers.resize(size); },
      .defect = [](const Case& c) { return layers::defect_of(c.layers.back()); }},
+    {.name = "split",
+     .keys = kSplitKeys,
+     .meaning = "Patches along which the mesh is open, as a crack or a baffle: both sides have "
+                "points of their own at the same places, but at the rim. A patch X becomes X_plus "
+                "and X_minus.",
+     .reason = "the mesh hangs together where two materials meet",
+     .size = [](const Case& c) { return c.splits.patches.size(); },
+     .resize = [](Case& c, std::size_t size) { c.splits.patches.resize(size); }},
     {.name = "fill.region",
      .keys = kRegionKeys,
      .unique_key = "fill.region.material",

@@ -10,6 +10,7 @@
 #include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/name_patterns.hpp"
+#include "tessera/mesh/face_tets.hpp"
 
 #include "layers/interior.hpp"
 #include "layers/wall_mover.hpp"
@@ -29,7 +30,7 @@ constexpr double kFull = 0.9;
 std::vector<bool> inner_patches(const mesh::CoarseMesh& mesh)
 {
   std::vector<bool> is_inner(at(mesh.num_patches()), false);
-  const std::vector<mesh::TriangleTets> faces = tets_of_faces(mesh);
+  const std::vector<mesh::TriangleTets> faces = mesh::tets_of_faces(mesh);
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (faces[f].tets[1] != kNoIndex) is_inner[at(mesh.face_patch[f])] = true;
   }

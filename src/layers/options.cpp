@@ -10,6 +10,9 @@
 namespace tessera::layers {
 namespace {
 
+// Of a regular one, by its edge.
+constexpr double kHeightOfTet = 0.816;
+
 // Of `count` layers, the first one of height 1.
 double height_of(int count, double growth)
 {
@@ -23,9 +26,10 @@ double height_of(int count, double growth)
 
 std::string defect_of(const LayerOptions& options)
 {
-  if ((options.count > 0) == (options.thickness > 0.0)) {
-    return "must have count or thickness, and not both";
+  if (options.count > 0 && options.thickness > 0.0) {
+    return "must not have both count and thickness";
   }
+  if (!is_complete(options)) return {};
   if (options.count == 0 && options.thickness < options.first) {
     return fmt::format("thickness = {:g} is less than first = {:g}; must be at least that",
                        options.thickness, options.first);
@@ -48,6 +52,20 @@ std::string defect_of_all(std::span<const LayerOptions> options)
         first.patch, num_layers(first), first.growth, one.patch, num_layers(one), one.growth);
   }
   return {};
+}
+
+bool is_complete(const LayerOptions& options)
+{
+  return options.count > 0 || options.thickness > 0.0;
+}
+
+int count_up_to(const LayerOptions& options, double size)
+{
+  const double wanted = kHeightOfTet * size / options.growth;
+  if (options.first >= wanted) return 1;
+  if (options.growth == 1.0) return 0;
+  const double count = 1.0 + std::log(wanted / options.first) / std::log(options.growth);
+  return static_cast<int>(std::lround(std::min<double>(count, kMostLayers)));
 }
 
 int num_layers(const LayerOptions& options)

@@ -8,6 +8,7 @@
 
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/sort_unique.hpp"
+#include "tessera/mesh/face_tets.hpp"
 
 namespace tessera::layers {
 namespace {
@@ -36,7 +37,7 @@ SurfaceTriangle surface_triangle(const mesh::CoarseMesh& mesh, LocalIndex face,
 std::vector<std::array<LocalIndex, 3>> outward_faces(const mesh::CoarseMesh& mesh)
 {
   std::vector<std::array<LocalIndex, 3>> outward;
-  for (const mesh::TriangleTets& face : tets_of_faces(mesh)) {
+  for (const mesh::TriangleTets& face : mesh::tets_of_faces(mesh)) {
     const auto material = [&](std::size_t side) { return mesh.tet_material[at(face.tets[side])]; };
     const std::size_t side = face.tets[1] != kNoIndex && material(1) < material(0) ? 1 : 0;
     const auto tet = mesh.tet(face.tets[side]);
@@ -257,21 +258,6 @@ double triangle_shape(const std::array<Vec3, 3>& corners)
     longest = std::max(longest, dot(side, side));
   }
   return norm(cross(corners[1] - corners[0], corners[2] - corners[0])) / longest;
-}
-
-std::vector<mesh::TriangleTets> tets_of_faces(const mesh::CoarseMesh& mesh)
-{
-  std::map<std::array<LocalIndex, 3>, LocalIndex> face_of;
-  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
-    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
-    face_of.emplace(mesh::sorted_triangle(v[0], v[1], v[2]), f);
-  }
-  std::vector<mesh::TriangleTets> of_faces(at(mesh.num_faces()));
-  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh.tet_vertices)) {
-    const auto found = face_of.find(triangle.vertices);
-    if (found != face_of.end()) of_faces[at(found->second)] = triangle;
-  }
-  return of_faces;
 }
 
 WallSurface find_walls(const mesh::CoarseMesh& mesh, std::span<const double> thickness)

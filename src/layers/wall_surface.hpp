@@ -7,7 +7,6 @@
 
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
-#include "tessera/mesh/tet_topology.hpp"
 #include "tessera/model/model.hpp"
 
 namespace tessera::layers {
@@ -49,8 +48,5 @@ struct WallSurface {
 /// @pre No wall lies between two materials.
 [[nodiscard]] WallSurface find_walls(const mesh::CoarseMesh& mesh,
                                      std::span<const double> thickness);
-
-/// @brief The tets of each face. Shape (num_faces). Local. @pre Every face is one of a tet.
-[[nodiscard]] std::vector<mesh::TriangleTets> tets_of_faces(const mesh::CoarseMesh& mesh);
 
 }  // namespace tessera::layers

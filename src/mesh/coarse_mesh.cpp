@@ -43,6 +43,8 @@ void validate_shapes(const CoarseMesh& mesh)
   require(mesh.patch_surface.size() == mesh.patch_names.size(), "patch_surface has a wrong length");
   require(mesh.patch_row.empty() || mesh.patch_row.size() == mesh.patch_names.size(),
           "patch_row has a wrong length");
+  require(mesh.patch_other_side.empty() || mesh.patch_other_side.size() == mesh.patch_names.size(),
+          "patch_other_side has a wrong length");
   require_indices_below(mesh.patch_row, mesh.num_patches(), "patch_row");
   require_indices_below(mesh.tet_vertices, mesh.num_vertices(), "tet_vertices");
   require_indices_below(mesh.face_vertices, mesh.num_vertices(), "face_vertices");
@@ -90,6 +92,19 @@ void validate_faces(const CoarseMesh& mesh)
 }  // namespace
 
 std::string default_patch_name(LocalIndex patch) { return fmt::format("patch_{}", patch + 1); }
+
+std::vector<std::array<std::string, 2>> split_patch_names(const CoarseMesh& mesh)
+{
+  std::vector<std::array<std::string, 2>> names;
+  for (std::size_t plus = 0; plus < mesh.patch_other_side.size(); ++plus) {
+    const LocalIndex minus = mesh.patch_other_side[plus];
+    if (minus == kNoIndex || at(minus) < plus) continue;
+    const std::array<std::string, 2> both{mesh.patch_names[plus], mesh.patch_names[at(minus)]};
+    // Patches of one row have one name.
+    if (std::ranges::find(names, both) == names.end()) names.push_back(both);
+  }
+  return names;
+}
 
 void validate(const CoarseMesh& mesh)
 {

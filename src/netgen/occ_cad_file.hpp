@@ -48,7 +48,6 @@ struct CadFile {
 /// @brief Makes `cad.shape` one closed, valid solid, or a compound of several that share the faces
 /// on which they touch. Names follow their faces and solids; every change adds to `cad.repairs`.
 /// @throws GeometryError that says what the file holds instead, what stays open, or what overlaps.
-/// @throws ConfigError if one of `options.contacts` fits no solid.
 void make_closed_solids(CadFile& cad, const model::AssemblyOptions& options);
 
 }  // namespace tessera::netgen

@@ -22,7 +22,6 @@
 #include "tessera/base/repair.hpp"
 
 #include "netgen/occ_cad_file.hpp"
-#include "netgen/occ_contacts.hpp"
 #include "netgen/occ_glue.hpp"
 #include "netgen/occ_overlaps.hpp"
 #include "netgen/occ_periods.hpp"
@@ -289,7 +288,6 @@ void make_closed_solids(CadFile& cad, const model::AssemblyOptions& options)
   std::vector<TopoDS_Shape> solids = closed_solids(cad);
   for (TopoDS_Shape& solid : solids) solid = without_overlaps(outward(solid, cad), cad);
   cad.shape = solids.size() == 1 ? solids.front() : glued(solids, options, cad);
-  keep_apart(options.contacts, cad);
   for (TopExp_Explorer parts(cad.shape, TopAbs_SOLID); parts.More(); parts.Next()) {
     if (!is_closed(parts.Current())) {
       throw GeometryError(

@@ -41,6 +41,18 @@ bool is_wall_triangle(const mesh::Complex& complex, const RefineContext& context
 // Which ends of columns are refined. Without layers there are those of the tets only.
 enum class Side { tets, walls };
 
+// Points inside of a triangle with `n` intervals a side that are new with this step.
+template <class Visit>
+void for_each_new_inner_point(LocalIndex n, LocalIndex step, const Visit& visit)
+{
+  for (LocalIndex j = step; j < n; j += step) {
+    const bool row_is_old = (j / step) % 2 == 0;
+    for (LocalIndex i = step; i + j < n; i += step) {
+      if (!row_is_old || (i / step) % 2 != 0) visit(TrianglePoint{i, j});
+    }
+  }
+}
+
 // Refines one complex; lives for one call of refine_lattice(). On the side of the walls only what
 // lies on them gets points; on the side of the tets these follow from the walls' points.
 class LatticeRefiner {
@@ -59,18 +71,13 @@ class LatticeRefiner {
   {
     for (LocalIndex e = 0; e < complex_.num_edges(); ++e) place_ends(e);
     for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) place_corners(t);
-    if (walls != nullptr) place_behind_walls(*walls);
+    walls_ = walls;
     for (int level = 1; level <= result_.levels().largest(); ++level) {
       for (LocalIndex e = 0; e < complex_.num_edges(); ++e) {
-        if (!is_refined(is_wall_edge(complex_, context_, e)) || level > result_.levels().edge(e))
-          continue;
-        refine_edge(e, result_.edge_intervals(e) >> level);
+        if (level <= result_.levels().edge(e)) refine_edge_on(level, e);
       }
       for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) {
-        if (!is_refined(is_wall_triangle(complex_, context_, t))
-            || level > result_.levels().triangle(t))
-          continue;
-        refine_triangle(t, result_.triangle_intervals(t) >> level);
+        if (level <= result_.levels().triangle(t)) refine_triangle_on(level, t);
       }
     }
     return std::move(result_);
@@ -79,9 +86,20 @@ class LatticeRefiner {
  private:
   [[nodiscard]] bool has_parameters() const { return !triangle_uv_.empty(); }
 
-  [[nodiscard]] bool is_refined(bool is_on_wall) const
+  void refine_edge_on(int level, LocalIndex e)
   {
-    return is_on_wall == (side_ == Side::walls);
+    const LocalIndex step = result_.edge_intervals(e) >> level;
+    if (is_wall_edge(complex_, context_, e) == (side_ == Side::walls)) return refine_edge(e, step);
+    if (walls_ != nullptr) refine_edge_behind_wall(e, step);
+  }
+
+  void refine_triangle_on(int level, LocalIndex t)
+  {
+    const LocalIndex step = result_.triangle_intervals(t) >> level;
+    if (is_wall_triangle(complex_, context_, t) == (side_ == Side::walls)) {
+      return refine_triangle(t, step);
+    }
+    if (walls_ != nullptr) refine_triangle_behind_wall(t, step);
   }
 
   [[nodiscard]] Vec3 coarse_position(LocalIndex vertex) const
@@ -90,78 +108,78 @@ class LatticeRefiner {
     return side_ == Side::walls ? context_.coarse.layers.wall(v) : context_.coarse.position(v);
   }
 
-  // From the wall to the tets.
-  [[nodiscard]] Vec3 coarse_column(LocalIndex vertex) const
+  // Length of the column of a coarse vertex.
+  [[nodiscard]] double coarse_length(LocalIndex vertex) const
   {
     const LocalIndex v = complex_.vertex_coarse[at(vertex)];
-    return context_.coarse.position(v) - context_.coarse.layers.wall(v);
+    return norm(context_.coarse.position(v) - context_.coarse.layers.wall(v));
   }
 
-  void place_behind_walls(const mesh::RefinedLattice& walls)
+  // A column in the middle of two others, from the wall to the tets. Columns that lean apart are
+  // shorter in between; so it gets the length that is wanted, as far as its point may go onto the
+  // geometry. If it may not go at all, its end is in the middle of the others' ends, as without
+  // layers.
+  [[nodiscard]] Vec3 column_between(const Vec3& a, const Vec3& b, double wanted_length,
+                                    const mesh::LatticePointKey& key) const
   {
-    for (LocalIndex e = 0; e < complex_.num_edges(); ++e) {
-      if (is_wall_edge(complex_, context_, e)) place_edge_behind_wall(e, walls);
-    }
-    for (LocalIndex t = 0; t < complex_.num_triangles(); ++t) {
-      if (is_wall_triangle(complex_, context_, t)) place_triangle_behind_wall(t, walls);
-    }
+    const Vec3 column = midpoint(a, b);
+    const double length = norm(column);
+    if (!(length > 0.0)) return column;
+    return (1.0 + context_.limiter.factor(key) * (wanted_length / length - 1.0)) * column;
   }
 
-  void place_edge_behind_wall(LocalIndex e, const mesh::RefinedLattice& walls)
+  void refine_edge_behind_wall(LocalIndex e, LocalIndex step)
   {
     const LocalIndex n = result_.edge_intervals(e);
-    const Vec3 first = coarse_column(complex_.edge_vertices[2 * at(e)]);
-    const Vec3 along = coarse_column(complex_.edge_vertices[2 * at(e) + 1]) - first;
-    const bool has_columns = first != Vec3{} || along != Vec3{};
     const LocalIndex edge = complex_.edge_skeleton[at(e)];
-    const double length = norm(first);
-    const double more = norm(first + along) - length;
-    for (LocalIndex k = 1; k < n; ++k) {
+    const double first = coarse_length(complex_.edge_vertices[2 * at(e)]);
+    const double last = coarse_length(complex_.edge_vertices[2 * at(e) + 1]);
+    const bool has_columns = first > 0.0 || last > 0.0;
+    const auto column = [&](LocalIndex k) {
+      return result_.edge_point(e, k) - walls_->edge_point(e, k);
+    };
+    for (LocalIndex k = step; k < n; k += 2 * step) {
       const double part = static_cast<double>(k) / n;
-      const Vec3 column = as_long(first + part * along, length + part * more,
-                                  mesh::LatticePointKey::on_edge(edge, n, k));
-      const Vec3 straight = walls.edge_point(e, k) + column;
+      const Vec3 straight =
+          walls_->edge_point(e, k)
+          + column_between(column(k - step), column(k + step), first + part * (last - first),
+                           mesh::LatticePointKey::on_edge(edge, n, k));
       // Along the rim of a wall columns begin on the patch beside it.
       result_.place_edge_point(
           e, k, has_columns ? side_point_of_edge(context_, edge, n, k, straight) : straight);
     }
   }
 
-  // Columns that lean apart are shorter in between. So a column gets the length that follows from
-  // those around it, as far as its point may go onto the geometry.
-  [[nodiscard]] Vec3 as_long(const Vec3& column, double length,
-                             const mesh::LatticePointKey& key) const
-  {
-    const double found = norm(column);
-    if (!(found > 0.0)) return column;
-    return (1.0 + context_.limiter.factor(key) * (length / found - 1.0)) * column;
-  }
-
-  void place_triangle_behind_wall(LocalIndex t, const mesh::RefinedLattice& walls)
+  void refine_triangle_behind_wall(LocalIndex t, LocalIndex step)
   {
     const LocalIndex n = result_.triangle_intervals(t);
-    const LocalIndex* v = &complex_.triangle_vertices[3 * at(t)];
-    const Vec3 first = coarse_column(v[0]);
-    const Vec3 along_i = coarse_column(v[1]) - first;
-    const Vec3 along_j = coarse_column(v[2]) - first;
-    const double length = norm(first);
-    const double more_i = norm(first + along_i) - length;
-    const double more_j = norm(first + along_j) - length;
     for (std::size_t side = 0; side < 3; ++side) {
-      for (LocalIndex k = 1; k < n; ++k) {
+      for (LocalIndex k = step; k < n; k += 2 * step) {
         result_.place_triangle_point(t, lattice::side_point(n, side, k), side_point(t, side, k));
       }
     }
-    for (LocalIndex j = 1; j < n; ++j) {
-      for (LocalIndex i = 1; i + j < n; ++i) {
-        const double part_i = static_cast<double>(i) / n;
-        const double part_j = static_cast<double>(j) / n;
-        const Vec3 column = as_long(
-            first + part_i * along_i + part_j * along_j, length + part_i * more_i + part_j * more_j,
-            mesh::LatticePointKey::on_triangle(complex_.triangle_skeleton[at(t)], n, {i, j}));
-        result_.place_triangle_point(t, {i, j}, walls.triangle_point(t, {i, j}) + column);
-      }
-    }
+    for_each_new_inner_point(n, step, [&](const TrianglePoint& p) {
+      const auto [a, b] = lattice::parents(p, step);
+      const auto key = mesh::LatticePointKey::on_triangle(complex_.triangle_skeleton[at(t)], n, p);
+      result_.place_triangle_point(
+          t, p,
+          walls_->triangle_point(t, p)
+              + column_between(column_at(t, a), column_at(t, b), wanted_length(t, p), key));
+    });
+  }
+
+  [[nodiscard]] Vec3 column_at(LocalIndex t, const TrianglePoint& p) const
+  {
+    return result_.triangle_point(t, p) - walls_->triangle_point(t, p);
+  }
+
+  [[nodiscard]] double wanted_length(LocalIndex t, const TrianglePoint& p) const
+  {
+    const LocalIndex* v = &complex_.triangle_vertices[3 * at(t)];
+    const double first = coarse_length(v[0]);
+    const LocalIndex n = result_.triangle_intervals(t);
+    return first + static_cast<double>(p.i) / n * (coarse_length(v[1]) - first)
+           + static_cast<double>(p.j) / n * (coarse_length(v[2]) - first);
   }
 
   // Of the edge that is this side of a triangle.
@@ -240,13 +258,8 @@ class LatticeRefiner {
     for (std::size_t side = 0; side < 3; ++side) {
       for (LocalIndex k = step; k < n; k += 2 * step) copy_side_point(t, side, k, step);
     }
-    for (LocalIndex j = step; j < n; j += step) {
-      const bool row_is_old = (j / step) % 2 == 0;
-      for (LocalIndex i = step; i + j < n; i += step) {
-        if (row_is_old && (i / step) % 2 == 0) continue;
-        refine_inner_point(t, {i, j}, step);
-      }
-    }
+    for_each_new_inner_point(n, step,
+                             [&](const TrianglePoint& p) { refine_inner_point(t, p, step); });
   }
 
   // The points of a side are those of its edge. The triangle only finds its own parameters for
@@ -322,6 +335,7 @@ class LatticeRefiner {
   const mesh::Complex& complex_;
   const RefineContext& context_;
   Side side_;
+  const mesh::RefinedLattice* walls_ = nullptr;  // Points of the other side; none without layers.
   mesh::RefinedLattice result_;
   std::vector<SurfaceParameters> edge_parameters_{};  ///< As edge_points(), of parametric models.
   std::vector<SurfaceParameters> triangle_uv_{};      ///< As triangle_points(), likewise.

@@ -41,6 +41,10 @@ mesh::MeshArrays with_names(const WriteContext& mesh)
   mesh::MeshArrays arrays;
   arrays.field_texts["material_names"] = mesh.coarse.material_names;
   arrays.field_texts["patch_names"] = names_of_rows(mesh.coarse);
+  for (const auto& sides : mesh::split_patch_names(mesh.coarse)) {
+    auto& names = arrays.field_texts["split_patches"];
+    names.insert(names.end(), sides.begin(), sides.end());
+  }
   arrays.field_texts["length_unit"] = names_or_none(mesh.length_unit);
   arrays.field_texts["tessera_version"] = {std::string(version())};
   return arrays;

@@ -18,9 +18,12 @@ class Assemblies(program.ProgramTest):
         cls.models = cls.make_maker().folder / "models"
         subprocess.run([MAKER, cls.models], check=True, capture_output=True)
 
-    def mesh_of(self, model, output, *settings, ranks=None, size=0.4):
-        case = self.write("case.toml", f"geometry.file = '{self.models / model}'\n" + "\n".join(settings))
-        return self.mesh(case, output, *sets(f"coarse.max_size={size}", "refine.levels=1"), ranks=ranks)
+    def case_of(self, model, *settings, size=0.4):
+        text = f"geometry.file = '{self.models / model}'\ncoarse.max_size = {size}\nrefine.levels = 1\n"
+        return self.write("case.toml", text + "\n".join(settings))
+
+    def mesh_of(self, model, output, *settings, ranks=None):
+        return self.mesh(self.case_of(model, *settings), output, ranks=ranks)
 
     def info(self, model):
         outcome = self.run_program("info", self.models / model, "--json")
@@ -63,14 +66,24 @@ class Assemblies(program.ProgramTest):
         """boxes_at_edge: three interfaces of area 1; the outside has an area of 16."""
         contact = "[[geometry.contact]]\nbody = 'a'\nother = 'b'"
         shared = program.figures(self.mesh_of("boxes_at_edge.step", "shared"))
-        report = program.figures(self.mesh_of("boxes_at_edge.step", "apart", contact))
+        report, _ = self.assert_checked(self.mesh_of("boxes_at_edge.step", "apart", contact), 1e-9)
         self.assertAlmostEqual(report["volume"], shared["volume"], delta=1e-9)
         self.assertAlmostEqual(report["boundary_area"], shared["boundary_area"] + 2.0, delta=1e-9)
-        self.assertIn("solids in contact were kept apart: 1 faces were doubled", report["model"]["repairs"])
-        found = json.loads(self.run_program("check", "apart/mesh.pvtu", "--json").out)
-        self.assertEqual((found["digest"], found["num_open_seam_triangles"]), (report["digest"], 0))
-        # Files do not say that points are double on purpose.
-        self.assertEqual({one["kind"] for one in found["offenders"]}, {"duplicate_point", "folded_boundary"})
+        self.assertEqual(len(report["splits"]), 1)
+        areas = {one["name"]: one["area"] for one in report["patches"]}
+        for side in ("plus", "minus"):
+            self.assertAlmostEqual(areas[report["splits"][0][side]], 1.0, delta=1e-9)
+        outcome = self.run_program("mesh", self.case_of("boxes_at_edge.step", contact.replace("'b'", "'shaft'")))
+        self.assert_refused(outcome, WRONG_INPUT, "[[geometry.contact]]", '"shaft"', '"a", "b", "c"')
+
+    def test_a_contact_may_be_round(self):
+        """pin_in_hole: the pin's side, 1.4 pi long and wide, is in contact with the plate."""
+        out = self.mesh_of("pin_in_hole.step", "out", "[[geometry.contact]]\nbody = '1'\nother = '2'")
+        report, _ = self.assert_checked(out, 1e-9)
+        areas = {one["name"]: one["area"] for one in report["patches"]}
+        for pair in report["splits"]:
+            self.assertAlmostEqual(areas[pair["plus"]], areas[pair["minus"]], places=12)
+        self.assertAlmostEqual(sum(areas[pair["plus"]] for pair in report["splits"]), 1.4 * math.pi, delta=0.05)
 
     def test_a_gap_is_closed_if_the_case_allows_it(self):
         for setting, num_gaps in (("geometry.gap = 0.002", 1), ("", 0)):
@@ -95,8 +108,7 @@ class Assemblies(program.ProgramTest):
                 self.assertEqual(len(digests), 1)
 
     def test_keys_of_assemblies_are_for_files_with_solids(self):
-        for setting in ("geometry.overlap = 'cut'", "geometry.gap = 0.1",
-                        "[[geometry.contact]]\nbody = '1'\nother = '2'"):
+        for setting in ("geometry.overlap = 'cut'", "geometry.gap = 0.1"):
             with self.subTest(setting=setting):
                 case = self.write_case()
                 case.write_text(case.read_text() + setting + "\n")

@@ -233,69 +233,6 @@ TEST_F(OccAssembly, ClosesGapsBelowTheToleranceAndListsThem)
   }
 }
 
-// How many vertices of the coarse mesh lie on both sides of the plane, and how many are single.
-struct Doubled {
-  LocalIndex vertices = 0;
-  LocalIndex singles = 0;
-};
-
-Doubled doubled_on(const mesh::CoarseMesh& mesh, const std::function<bool(const Vec3&)>& is_there)
-{
-  std::map<LocalIndex, std::set<LocalIndex>> materials;
-  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      const LocalIndex v = mesh.tet_vertices[4 * at(t) + c];
-      if (is_there(mesh.position(v))) materials[v].insert(mesh.tet_material[at(t)]);
-    }
-  }
-  Doubled found;
-  for (const auto& [vertex, of] : materials) {
-    ++(of.size() > 1 ? found.singles : found.vertices);
-  }
-  return found;
-}
-
-TEST_F(OccAssembly, KeepsSolidsInContactApart)
-{
-  const AssemblyModel assembly = testing::assembly("offset_boxes");
-  const auto is_between = [](const Vec3& p) {
-    return std::abs(p[2] - 1.0) < 1e-9 && p[0] > 0.99 && p[1] > 0.99 && p[0] < 2.01 && p[1] < 2.01;
-  };
-  for (const bool is_apart : {false, true}) {
-    model::AssemblyOptions options;
-    if (is_apart) options.contacts = {{"1", "2"}};
-    const model::ModelSource source = read(assembly, options);
-    const auto model = netgen::load_model(source);
-    EXPECT_EQ(common_areas(netgen::describe_model(*model)).empty(), is_apart);
-    EXPECT_EQ(netgen::describe_model(*model).faces.size(), is_apart ? 14U : 13U);
-    const mesh::CoarseMesh mesh =
-        testing::coarse_mesh_of(*model, 0.5, coarse::SurfaceMesher::remesh);
-    const Doubled found = doubled_on(mesh, is_between);
-    EXPECT_EQ(found.singles == 0, is_apart);
-    EXPECT_EQ(found.vertices > 0, is_apart);
-  }
-}
-
-// At the line where three bodies meet the third holds the two that are in contact.
-TEST_F(OccAssembly, KeepsTheRimOfAContactWhereAThirdSolidHoldsIt)
-{
-  const model::ModelSource source =
-      read(testing::assembly("boxes_at_edge"), {.contacts = {{"1", "2"}}});
-  const auto model = netgen::load_model(source);
-  const Areas areas = common_areas(netgen::describe_model(*model));
-  EXPECT_EQ(areas.size(), 2U);
-  EXPECT_FALSE(areas.contains({1, 2}));
-  const mesh::CoarseMesh mesh = testing::coarse_mesh_of(*model, 0.3, coarse::SurfaceMesher::remesh);
-  const auto at_rim = [](const Vec3& p) {
-    return std::abs(p[0] - 1.0) < 1e-9 && std::abs(p[1] - 1.0) < 1e-9;
-  };
-  const auto inside = [](const Vec3& p) { return std::abs(p[0] - 1.0) < 1e-9 && p[1] < 0.99; };
-  EXPECT_EQ(doubled_on(mesh, at_rim).vertices, 0);
-  EXPECT_GT(doubled_on(mesh, at_rim).singles, 1);
-  EXPECT_EQ(doubled_on(mesh, inside).singles, 0);
-  EXPECT_GT(doubled_on(mesh, inside).vertices, 4);
-}
-
 TEST_F(OccAssembly, TakesASolidOnceThatIsThereTwiceAndSaysSo)
 {
   AssemblyModel assembly = testing::assembly("offset_boxes");
@@ -304,13 +241,6 @@ TEST_F(OccAssembly, TakesASolidOnceThatIsThereTwiceAndSaysSo)
   EXPECT_EQ(description_of(source).solids.size(), 2U);
   EXPECT_TRUE(contains(source.repairs.front(), "twice at the same place were taken once: 1"))
       << source.repairs.front();
-}
-
-TEST_F(OccAssembly, RefusesAContactOfASolidThatIsNotThere)
-{
-  const std::string text =
-      refusal_of(testing::assembly("offset_boxes"), {.contacts = {{"1", "shaft"}}});
-  EXPECT_TRUE(contains(text, "[[geometry.contact]]: no solid is or fits \"shaft\"")) << text;
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "tessera/quality/options.hpp"
 #include "tessera/refine/options.hpp"
 #include "tessera/sizing/options.hpp"
+#include "tessera/topology/options.hpp"
 
 namespace tessera::config {
 
@@ -47,6 +48,7 @@ struct Case {
   decompose::DecomposeOptions decompose{};
   cut::PlaneSettings planes{};                 ///< Of decompose.method "geometry".
   std::vector<layers::LayerOptions> layers{};  ///< On walls; empty: none.
+  topology::SplitOptions splits{};             ///< Cracks and baffles; empty: none.
   refine::RefineOptions refine{};
   fill::FillOptions fill{};
   improve::ImproveOptions improve{};

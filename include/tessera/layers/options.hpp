@@ -15,6 +15,7 @@ struct LayerOptions {
   double growth = 1.2;     ///< Height of a layer by that of the one before it, in [1, 3].
   int count = 0;           ///< Number of layers, >= 1; 0: as many as `thickness` takes.
   double thickness = 0.0;  ///< Of all layers, > 0; 0: as `count` layers have.
+                           ///< Both 0: count_up_to() the size inside.
 
   static auto fields(auto& self)
   {
@@ -30,11 +31,19 @@ inline constexpr int kMostLayers = 100;
 /// @brief What is wrong with an entry, or empty. Local.
 [[nodiscard]] std::string defect_of(const LayerOptions& options);
 
+/// @brief Whether it has count or thickness. Local.
+[[nodiscard]] bool is_complete(const LayerOptions& options);
+
+/// @brief The number of layers that lead up to tets of edge length `size`: these are about as high
+/// as one more layer would be. 0 if layers do not grow, and so never get there. Local.
+[[nodiscard]] int count_up_to(const LayerOptions& options, double size);
+
 /// @brief What is wrong with several entries together, or empty: patches may meet, and a column has
 /// one number of layers. Local.
 [[nodiscard]] std::string defect_of_all(std::span<const LayerOptions> options);
 
 /// @brief Number of layers: `count`, or what comes nearest to `thickness`, at least one. Local.
+/// @pre is_complete(), here and below.
 [[nodiscard]] int num_layers(const LayerOptions& options);
 
 /// @brief Thickness of all num_layers() together, output length unit. Local.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <tuple>
@@ -52,6 +53,9 @@ struct CoarseMesh {
   FlatArray<LocalIndex> patch_row{};  ///< Shape (num_patches); row of the patch in files, dense
                                       ///< from 0. Patches of one row have one name, that of its
                                       ///< first patch. Empty: each patch is its own row.
+  /// Shape (num_patches), or empty: the patch on the other side of a split, at the same places;
+  /// kNoIndex if a patch is none of a split.
+  FlatArray<LocalIndex> patch_other_side{};
   std::vector<std::string> material_names{};  ///< Entry m-1 names material m.
 
   WallLayers layers{};  ///< Between the tets and the geometry.
@@ -61,7 +65,8 @@ struct CoarseMesh {
     return std::tie(self.vertex_xyz, self.tet_vertices, self.tet_material, self.face_vertices,
                     self.face_patch, self.face_uv, self.segment_vertices, self.segment_curve,
                     self.segment_t, self.curves, self.patch_names, self.patch_surface,
-                    self.patch_row, self.material_names, self.layers);
+                    self.patch_row, self.patch_other_side, self.material_names,
+                    self.layers);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
@@ -86,6 +91,9 @@ struct CoarseMesh {
     return static_cast<LocalIndex>(size / width);
   }
 };
+
+/// @brief Names of the two sides of each split, plus and minus. Local.
+[[nodiscard]] std::vector<std::array<std::string, 2>> split_patch_names(const CoarseMesh& mesh);
 
 /// @brief Throws MeshError unless the mesh keeps what CoarseMesh promises. Local.
 ///

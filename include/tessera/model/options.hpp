@@ -73,26 +73,14 @@ constexpr auto enum_words(Overlap /*type*/)
   });
 }
 
-/// @brief Solids that are kept apart where they touch: each has faces of its own there. Table
-/// `[[geometry.contact]]` of a case file. Both are a number of `tessera info`, or a name in the
-/// file, or a pattern of these, see matches_pattern().
-struct Contact {
-  std::string body{};
-  std::string other{};
-
-  static auto fields(auto& self) { return std::tie(self.body, self.other); }
-  friend bool operator==(const Contact&, const Contact&) = default;
-};
-
 /// @brief How solids of a STEP, IGES or BREP file are put together.
 struct AssemblyOptions {
   Overlap overlap = Overlap::error;
   /// Nearer solids touch, and thinner overlaps are none; >= 0. Less than 0: not given, then it is
   /// kThinnest of the diagonal of the model's box.
   double gap = -1.0;
-  std::vector<Contact> contacts{};
 
-  static auto fields(auto& self) { return std::tie(self.overlap, self.gap, self.contacts); }
+  static auto fields(auto& self) { return std::tie(self.overlap, self.gap); }
   friend bool operator==(const AssemblyOptions&, const AssemblyOptions&) = default;
 };
 

@@ -32,9 +32,9 @@ TEST(Assemblies, AreThoseOfTheCase)
 {
   const Case loaded = parsed(std::string("size.target = 1\ngeometry.overlap = 'last'\n")
                              + "geometry.gap = 0.5\n" + kContact);
-  const model::AssemblyOptions wanted{
-      .overlap = model::Overlap::last, .gap = 0.5, .contacts = {{"shaft", "2"}}};
-  EXPECT_EQ(loaded.geometry.assembly, wanted);
+  EXPECT_EQ(loaded.geometry.assembly,
+            (model::AssemblyOptions{.overlap = model::Overlap::last, .gap = 0.5}));
+  EXPECT_EQ(loaded.splits, (topology::SplitOptions{.contacts = {{"shaft", "2"}}}));
   EXPECT_EQ(parse_case(to_toml(loaded), "/cases/case.toml", {}), loaded);
 }
 
@@ -50,7 +50,7 @@ TEST(Assemblies, AreOfModelsWithSolids)
 {
   for (const char* model : {"a.geo", "a.STL", "a.msh"}) {
     const std::string size = model[2] == 'm' ? "" : "size.target = 1\n";
-    for (const char* lines : {"geometry.overlap = 'cut'\n", "geometry.gap = 0\n", kContact}) {
+    for (const char* lines : {"geometry.overlap = 'cut'\n", "geometry.gap = 0\n"}) {
       EXPECT_TRUE(contains(error_of(size + lines, model), "are for .step, .iges and .brep"))
           << model << lines;
     }
@@ -60,17 +60,13 @@ TEST(Assemblies, AreOfModelsWithSolids)
             model::Overlap::first);
 }
 
-TEST(Assemblies, WithContactsExcludeWhatWouldJoinThem)
+TEST(Assemblies, MayHaveContactsWhateverTheModel)
 {
-  const std::string size = "size.target = 1\n";
-  EXPECT_TRUE(contains(error_of(std::string("geometry.cad = 'a.step'\n") + kContact, "a.msh"),
-                       "[[geometry.contact]] excludes a mesh in geometry.file"));
-  EXPECT_TRUE(contains(error_of(size + "coarse.mesher = 'gmsh'\n" + kContact),
-                       "excludes coarse.mesher = \"gmsh\""));
-  EXPECT_TRUE(contains(error_of(size + "decompose.method = 'geometry'\n" + kContact),
-                       "excludes decompose.method = \"geometry\""));
-  EXPECT_TRUE(
-      contains(error_of(size + "[[geometry.contact]]\nbody = 'a'\n"), "no geometry.contact.other"));
+  for (const char* model : {"a.geo", "a.stl", "a.step"}) {
+    EXPECT_EQ(parsed(std::string("size.target = 1\n") + kContact, model).splits.contacts.size(), 1U);
+  }
+  EXPECT_TRUE(contains(error_of("size.target = 1\n[[geometry.contact]]\nbody = 'a'\n"),
+                       "no geometry.contact.other"));
 }
 
 }  // namespace

@@ -43,6 +43,22 @@ TEST(Layers, AreFilledOnAllLevels)
   EXPECT_EQ(resolved_fill(parsed(""), false).levels, 0);
 }
 
+TEST(Layers, LeadUpToTheSizeOfTheCase)
+{
+  EXPECT_EQ(parsed("[[layer]]\npatch = 'a'\nfirst = 0.1\n").layers[0].count, 11);
+  EXPECT_TRUE(contains(error_of("[[layer]]\npatch = 'a'\nfirst = 0.1\ngrowth = 1\n"),
+                       "neither count nor thickness"));
+}
+
+TEST(Splits, AreThoseOfTheCase)
+{
+  const Case loaded = parsed("[[split]]\npatch = 'crack*'\n");
+  ASSERT_EQ(loaded.splits.patches.size(), 1U);
+  EXPECT_EQ(loaded.splits.patches[0].patch, "crack*");
+  EXPECT_EQ(parse_case(to_toml(loaded), "/cases/case.toml", {}), loaded);
+  EXPECT_TRUE(contains(error_of("[[split]]\n"), "split.patch"));
+}
+
 TEST(Layers, RefuseWhatDoesNotGoWithThem)
 {
   const std::string layer = kLayer;
@@ -51,7 +67,7 @@ TEST(Layers, RefuseWhatDoesNotGoWithThem)
                        "[[layer]] excludes fill.levels"));
   EXPECT_TRUE(contains(error_of("decompose.method = 'geometry'\n" + layer),
                        "[[layer]] excludes decompose.method"));
-  EXPECT_TRUE(contains(error_of(layer + "thickness = 1\n"), "count or thickness"));
+  EXPECT_TRUE(contains(error_of(layer + "thickness = 1\n"), "both count and thickness"));
   EXPECT_TRUE(contains(error_of("[[layer]]\npatch = 'a'\nfirst = -1\ncount = 1\n"), "layer.first"));
 }
 

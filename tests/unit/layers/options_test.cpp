@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/layers/options.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace tessera::layers {
@@ -27,9 +29,22 @@ TEST(LayerOptions, AThicknessTakesTheNumberThatComesNearest)
   EXPECT_EQ(num_layers(options), kMostLayers);
 }
 
-TEST(LayerOptions, MustHaveEitherCountOrThickness)
+TEST(LayerOptions, LeadUpToTheSizeInside)
 {
-  EXPECT_NE(defect_of({.patch = "a", .first = 1.0}), "");
+  LayerOptions options{.patch = "wall", .first = 0.1, .growth = 1.2};
+  EXPECT_FALSE(is_complete(options));
+  options.count = count_up_to(options, 1.0);
+  EXPECT_EQ(options.count, 11);
+  const double last = options.first * std::pow(options.growth, options.count - 1);
+  EXPECT_NEAR(last * options.growth, 0.816, 0.1 * 0.816);
+  EXPECT_EQ(count_up_to(options, 0.1), 1);
+  options.growth = 1.0;
+  EXPECT_EQ(count_up_to(options, 1.0), 0);
+}
+
+TEST(LayerOptions, MustNotHaveBothCountAndThickness)
+{
+  EXPECT_EQ(defect_of({.patch = "a", .first = 1.0}), "");
   EXPECT_NE(defect_of({.patch = "a", .first = 1.0, .count = 2, .thickness = 3.0}), "");
   EXPECT_NE(defect_of({.patch = "a", .first = 1.0, .thickness = 0.5}), "");
   EXPECT_EQ(defect_of({.patch = "a", .first = 1.0, .count = 2}), "");

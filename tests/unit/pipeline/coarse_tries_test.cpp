@@ -57,16 +57,6 @@ TEST(CoarseTries, OfGmshHaveBothSizes)
   EXPECT_EQ(tries[1].max_size, 5.0);
 }
 
-TEST(CoarseTries, OfSolidsInContactAreOfTheRemesherAlone)
-{
-  config::Case run_case = case_of("part.step");
-  run_case.geometry.assembly.contacts = {{"a", "b"}};
-  const std::vector<CoarseOptions> tries = coarse_tries(run_case);
-  ASSERT_EQ(tries.size(), 2U);
-  for (const CoarseOptions& each : tries) EXPECT_EQ(each.surface_mesher, SurfaceMesher::remesh);
-  EXPECT_FALSE(may_gmsh_help(run_case));
-}
-
 TEST(CoarseTries, OfAMeshIsOne) { EXPECT_EQ(coarse_tries(case_of("part.msh")).size(), 1U); }
 
 }  // namespace

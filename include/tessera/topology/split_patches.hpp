@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/edge_levels.hpp"
+#include "tessera/model/model.hpp"
+#include "tessera/topology/options.hpp"
+
+/// Cracks, baffles and contacts: triangles between two materials along which a mesh is opened. Both
+/// sides have points of their own there, at the same places. At the rim, where one can go around,
+/// points stay single.
+namespace tessera::topology {
+
+/// @brief Whether the rim is too near somewhere: divide_at_rims() has something to do. Local.
+/// @throws ConfigError if an entry fits no patch, or one that is not between two materials, or no
+/// solid.
+[[nodiscard]] bool are_rims_near(const mesh::CoarseMesh& mesh, const SplitOptions& options);
+
+/// @brief Puts vertices into edges and triangles between the rim and the rim. Nothing could open
+/// there, as a coarse edge is told by its ends. The vertices are on the geometry, or, where a tet
+/// would not be positive, on the way there. Local.
+/// @post !are_rims_near(). @throws as are_rims_near(); GeometryError if a projection fails.
+void divide_at_rims(mesh::CoarseMesh& mesh, const SplitOptions& options, const model::Model& model);
+
+/// @brief Opens a mesh. What is opened of a patch X becomes two: `X_plus` on the material with the
+/// lower number, and `X_minus` on the other one; CoarseMesh::patch_other_side tells of it. Copies
+/// of vertices stand right behind each other, so on both sides all orders of vertices are the same:
+/// what is made of these sides has the same bits. Local; O(n log n).
+/// @param[in,out] levels Of the mesh's edges; those of copies are as before.
+/// @pre !are_rims_near(). @post mesh::validate() accepts the mesh.
+/// @throws as are_rims_near().
+void split_patches(mesh::CoarseMesh& mesh, const SplitOptions& options, mesh::EdgeLevels& levels);
+
+}  // namespace tessera::topology

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "topology/split_faces.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/name_patterns.hpp"
+#include "tessera/base/union_find.hpp"
+#include "tessera/mesh/face_tets.hpp"
+
+namespace tessera::topology {
+namespace {
+
+using MaterialPairs = std::set<std::array<LocalIndex, 2>>;  // Ascending, each from 1.
+
+std::vector<bool> chosen_patches(const std::vector<SplitPatch>& splits,
+                                 const std::vector<std::string>& names)
+{
+  std::vector<bool> chosen(names.size(), false);
+  for (const SplitPatch& one : splits) {
+    std::vector<bool> fits;
+    try {
+      fits = matching_names("patch", one.patch, names);
+    } catch (const ConfigError& error) {
+      throw ConfigError(fmt::format("[[split]]: {}", error.what()));
+    }
+    for (std::size_t p = 0; p < fits.size(); ++p) chosen[p] = chosen[p] || fits[p];
+  }
+  return chosen;
+}
+
+std::vector<LocalIndex> materials_that_fit(const std::string& pattern,
+                                           const std::vector<std::string>& names)
+{
+  std::vector<LocalIndex> materials;
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    const std::string number = std::to_string(m + 1);
+    if (matches_pattern(pattern, number) || matches_pattern(pattern, names[m])) {
+      materials.push_back(static_cast<LocalIndex>(m) + 1);
+    }
+  }
+  if (!materials.empty()) return materials;
+  throw ConfigError(
+      fmt::format("[[geometry.contact]]: no solid is or fits \"{}\"; there are {}, numbered from 1 "
+                  "to {}",
+                  pattern, nearest_first(pattern, names), names.size()));
+}
+
+MaterialPairs chosen_materials(const std::vector<Contact>& contacts,
+                               const std::vector<std::string>& names)
+{
+  MaterialPairs pairs;
+  for (const Contact& contact : contacts) {
+    const std::vector<LocalIndex> others = materials_that_fit(contact.other, names);
+    for (const LocalIndex a : materials_that_fit(contact.body, names)) {
+      for (const LocalIndex b : others) pairs.insert({std::min(a, b), std::max(a, b)});
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+SplitFaces::SplitFaces(const mesh::CoarseMesh& mesh, const SplitOptions& options) : mesh_(mesh)
+{
+  find_faces(options);
+  find_sides();
+}
+
+std::size_t SplitFaces::corner(LocalIndex tet, LocalIndex vertex) const
+{
+  const auto corners = mesh_.tet(tet);
+  return 4 * at(tet)
+         + static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
+}
+
+void SplitFaces::find_faces(const SplitOptions& options)
+{
+  const std::vector<bool> patch_is_split = chosen_patches(options.patches, mesh_.patch_names);
+  const MaterialPairs contacts = chosen_materials(options.contacts, mesh_.material_names);
+  LocalIndex face = 0;
+  for (const mesh::TriangleTets& triangle : mesh::tets_of_faces(mesh_)) {
+    std::array<LocalIndex, 2>& tets = tets_.emplace_back(triangle.tets);
+    const auto material = [&](std::size_t side) { return mesh_.tet_material[at(tets[side])]; };
+    const bool is_inner = tets[1] != kNoIndex;
+    if (is_inner && material(1) < material(0)) std::swap(tets[0], tets[1]);
+    const LocalIndex patch = mesh_.face_patch[at(face)];
+    if (patch_is_split[at(patch)] && !is_inner) {
+      throw ConfigError(fmt::format(
+          "[[split]]: patch \"{}\" is on the outside of the model; only patches between two "
+          "materials can be split",
+          mesh_.patch_names[at(patch)]));
+    }
+    is_split_.push_back(patch_is_split[at(patch)]
+                        || (is_inner && contacts.contains({material(0), material(1)})));
+    if (is_split_.back()) faces_.push_back(face);
+    ++face;
+  }
+}
+
+void SplitFaces::find_sides()
+{
+  std::vector<bool> is_on_split(at(mesh_.num_vertices()), false);
+  std::vector<std::array<LocalIndex, 3>> split;
+  for (const LocalIndex f : faces_) {
+    const LocalIndex* v = &mesh_.face_vertices[3 * at(f)];
+    split.push_back(mesh::sorted_triangle(v[0], v[1], v[2]));
+    for (const LocalIndex corner : split.back()) is_on_split[at(corner)] = true;
+  }
+  std::ranges::sort(split);
+  UnionFind fans(4 * mesh_.num_tets());
+  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh_.tet_vertices)) {
+    if (triangle.tets[1] == kNoIndex) continue;
+    if (std::ranges::binary_search(split, triangle.vertices)) continue;
+    for (const LocalIndex v : triangle.vertices) {
+      if (!is_on_split[at(v)]) continue;
+      fans.join(static_cast<LocalIndex>(corner(triangle.tets[0], v)),
+                static_cast<LocalIndex>(corner(triangle.tets[1], v)));
+    }
+  }
+  num_sides_.assign(at(mesh_.num_vertices()), 0);
+  side_.assign(mesh_.tet_vertices.size(), 0);
+  for (std::size_t c = 0; c < side_.size(); ++c) {
+    const LocalIndex v = mesh_.tet_vertices[c];
+    const auto first = static_cast<std::size_t>(fans.find(static_cast<LocalIndex>(c)));
+    if (is_on_split[at(v)]) side_[c] = first == c ? num_sides_[at(v)]++ : side_[first];
+  }
+  for (LocalIndex& number : num_sides_) number = std::max(number, 1);
+}
+
+}  // namespace tessera::topology

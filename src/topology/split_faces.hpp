@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tessera/base/types.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/tet_topology.hpp"
+#include "tessera/topology/options.hpp"
+
+namespace tessera::topology {
+
+/// @brief The faces along which a mesh is to be opened, and what there is on both sides.
+class SplitFaces {
+ public:
+  /// @throws ConfigError if an entry fits no patch, or one that is not between two materials, or no
+  /// solid.
+  SplitFaces(const mesh::CoarseMesh& mesh, const SplitOptions& options);
+
+  [[nodiscard]] const std::vector<LocalIndex>& faces() const { return faces_; }  ///< Ascending.
+  [[nodiscard]] bool is_split(LocalIndex face) const { return is_split_[at(face)]; }
+  /// @brief The tets of any face, of two materials the lower one first.
+  [[nodiscard]] const std::array<LocalIndex, 2>& tets(LocalIndex face) const
+  {
+    return tets_[at(face)];
+  }
+
+  /// @brief Which of the sides of a vertex a tet is on, from 0. Tets around a vertex are on one
+  /// side if they hang together by triangles that are not split.
+  [[nodiscard]] LocalIndex side(LocalIndex tet, LocalIndex vertex) const
+  {
+    return side_[corner(tet, vertex)];
+  }
+  [[nodiscard]] LocalIndex num_sides(LocalIndex vertex) const { return num_sides_[at(vertex)]; }
+
+  /// @brief Whether a split face parts its tets at one of its vertices.
+  [[nodiscard]] bool is_parted(LocalIndex face, LocalIndex vertex) const
+  {
+    return side(tets(face)[0], vertex) != side(tets(face)[1], vertex);
+  }
+
+ private:
+  [[nodiscard]] std::size_t corner(LocalIndex tet, LocalIndex vertex) const;
+  void find_faces(const SplitOptions& options);
+  void find_sides();
+
+  const mesh::CoarseMesh& mesh_;
+  std::vector<bool> is_split_{};  // Shape (num_faces).
+  std::vector<std::array<LocalIndex, 2>> tets_{};
+  std::vector<LocalIndex> faces_{};
+  std::vector<LocalIndex> side_{};       // Shape (num_tets, 4).
+  std::vector<LocalIndex> num_sides_{};  // Shape (num_vertices).
+};
+
+}  // namespace tessera::topology

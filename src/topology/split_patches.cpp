@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/topology/split_patches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tessera/base/index_lists.hpp"
+#include "tessera/refine/choose_levels.hpp"
+
+#include "topology/split_faces.hpp"
+
+namespace tessera::topology {
+namespace {
+
+// Gives every side of a vertex a vertex of its own.
+class Opener {
+ public:
+  Opener(mesh::CoarseMesh& mesh, const SplitOptions& options) : mesh_(mesh), split_(mesh, options)
+  {
+    for (LocalIndex v = 0; v < mesh.num_vertices(); ++v) {
+      first_copy_.push_back(static_cast<LocalIndex>(origin_.size()));
+      origin_.insert(origin_.end(), at(split_.num_sides(v)), v);
+    }
+  }
+
+  void run(mesh::EdgeLevels& levels)
+  {
+    make_patches();
+    // All of it is found on the closed mesh, whose tets know their sides.
+    FlatArray<LocalIndex> tets = open_tets();
+    open_segments();
+    open_faces();
+    mesh_.tet_vertices = std::move(tets);
+    mesh_.vertex_xyz = copied(mesh_.vertex_xyz);
+    mesh_.layers.wall_xyz = copied(mesh_.layers.wall_xyz);
+    open_edges(levels);
+  }
+
+ private:
+  [[nodiscard]] LocalIndex copy(LocalIndex tet, LocalIndex vertex) const
+  {
+    return first_copy_[at(vertex)] + split_.side(tet, vertex);
+  }
+
+  // Copies of a vertex stand at one place.
+  [[nodiscard]] FlatArray<double> copied(const FlatArray<double>& xyz) const
+  {
+    FlatArray<double> all;
+    if (xyz.empty()) return all;
+    for (const LocalIndex v : origin_) {
+      all.insert(all.end(), &xyz[3 * at(v)], &xyz[3 * at(v)] + 3);
+    }
+    return all;
+  }
+
+  // What is opened of a patch is patches of its own, unless it is all of it: then that is one side.
+  void make_patches()
+  {
+    const LocalIndex num_before = mesh_.num_patches();
+    std::vector<bool> has_open(at(num_before), false);
+    std::vector<bool> has_closed(at(num_before), false);
+    for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
+      (split_.is_split(f) ? has_open : has_closed)[at(mesh_.face_patch[at(f)])] = true;
+    }
+    mesh_.patch_other_side.assign(at(num_before), kNoIndex);
+    plus_.assign(at(num_before), kNoIndex);
+    for (LocalIndex p = 0; p < num_before; ++p) {
+      if (!has_open[at(p)]) continue;
+      const std::string name = mesh_.patch_names[at(p)];
+      plus_[at(p)] = has_closed[at(p)] ? add_patch(p, name + "_plus") : p;
+      mesh_.patch_names[at(plus_[at(p)])] = name + "_plus";
+      const LocalIndex minus = add_patch(p, name + "_minus");
+      mesh_.patch_other_side[at(plus_[at(p)])] = minus;
+      mesh_.patch_other_side[at(minus)] = plus_[at(p)];
+    }
+    name_rows_anew();
+  }
+
+  // On the same surface.
+  LocalIndex add_patch(LocalIndex like, const std::string& name)
+  {
+    mesh_.patch_names.push_back(name);
+    mesh_.patch_surface.push_back(LocalIndex{mesh_.patch_surface[at(like)]});
+    mesh_.patch_other_side.push_back(kNoIndex);
+    if (!mesh_.patch_row.empty()) mesh_.patch_row.push_back(LocalIndex{mesh_.patch_row[at(like)]});
+    if (!mesh_.layers.are_none()) mesh_.layers.patch_is_wall.push_back(0);
+    return mesh_.num_patches() - 1;
+  }
+
+  // Patches that were of one row still are if they have one name.
+  void name_rows_anew()
+  {
+    if (mesh_.patch_row.empty()) return;
+    std::map<std::pair<LocalIndex, std::string>, LocalIndex> rows;
+    for (LocalIndex p = 0; p < mesh_.num_patches(); ++p) {
+      const auto next = static_cast<LocalIndex>(rows.size());
+      const auto key = std::pair(LocalIndex{mesh_.patch_row[at(p)]}, mesh_.patch_names[at(p)]);
+      mesh_.patch_row[at(p)] = rows.try_emplace(key, next).first->second;
+    }
+  }
+
+  [[nodiscard]] FlatArray<LocalIndex> open_tets() const
+  {
+    FlatArray<LocalIndex> opened;
+    opened.reserve(mesh_.tet_vertices.size());
+    for (LocalIndex t = 0; t < mesh_.num_tets(); ++t) {
+      for (const LocalIndex v : mesh_.tet(t)) opened.push_back(copy(t, v));
+    }
+    return opened;
+  }
+
+  // A segment gets a copy for each pair of copies that a tet has.
+  void open_segments()
+  {
+    const IndexLists tets_at = rows_by_key(mesh_.tet_vertices, mesh_.num_vertices(), 4);
+    const LocalIndex num_before = mesh_.num_segments();
+    for (LocalIndex s = 0; s < num_before; ++s) {
+      const std::array<LocalIndex, 2> ends{mesh_.segment_vertices[2 * at(s)],
+                                           mesh_.segment_vertices[2 * at(s) + 1]};
+      std::set<std::array<LocalIndex, 2>> copies;
+      for (const LocalIndex t : tets_at[ends[0]]) {
+        if (std::ranges::find(mesh_.tet(t), ends[1]) == mesh_.tet(t).end()) continue;
+        copies.insert({copy(t, ends[0]), copy(t, ends[1])});
+      }
+      for (const auto& one : copies) {
+        if (one == *copies.begin()) {
+          std::ranges::copy(one, &mesh_.segment_vertices[2 * at(s)]);
+          continue;
+        }
+        mesh_.segment_vertices.insert(mesh_.segment_vertices.end(), one.begin(), one.end());
+        mesh_.segment_curve.push_back(LocalIndex{mesh_.segment_curve[at(s)]});
+        if (mesh_.segment_t.empty()) continue;
+        const std::array<double, 2> t{mesh_.segment_t[2 * at(s)], mesh_.segment_t[2 * at(s) + 1]};
+        mesh_.segment_t.insert(mesh_.segment_t.end(), t.begin(), t.end());
+      }
+    }
+  }
+
+  void open_faces()
+  {
+    const LocalIndex num_before = mesh_.num_faces();
+    for (LocalIndex f = 0; f < num_before; ++f) {
+      std::array<LocalIndex, 3> corners{};
+      std::copy_n(&mesh_.face_vertices[3 * at(f)], 3, corners.begin());
+      const auto set_corners = [&](LocalIndex face, LocalIndex tet) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          mesh_.face_vertices[3 * at(face) + c] = copy(tet, corners[c]);
+        }
+      };
+      set_corners(f, split_.tets(f)[0]);
+      if (!split_.is_split(f)) continue;
+      mesh_.face_patch[at(f)] = plus_[at(mesh_.face_patch[at(f)])];
+      add_other_side(f, mesh_.patch_other_side[at(mesh_.face_patch[at(f)])]);
+      set_corners(mesh_.num_faces() - 1, split_.tets(f)[1]);
+    }
+  }
+
+  void add_other_side(LocalIndex f, LocalIndex patch)
+  {
+    mesh_.face_vertices.resize(mesh_.face_vertices.size() + 3);
+    mesh_.face_patch.push_back(patch);
+    if (mesh_.face_uv.empty()) return;
+    std::array<double, 6> uv{};
+    std::copy_n(&mesh_.face_uv[6 * at(f)], 6, uv.begin());
+    mesh_.face_uv.insert(mesh_.face_uv.end(), uv.begin(), uv.end());
+  }
+
+  void open_edges(mesh::EdgeLevels& levels) const
+  {
+    if (levels.is_uniform()) return;
+    std::vector<LocalIndex> edges = refine::coarse_edges(mesh_);
+    FlatArray<std::int8_t> of_edges;
+    for (std::size_t e = 0; e < edges.size(); e += 2) {
+      const LocalIndex a = origin_[at(edges[e])];
+      const LocalIndex b = origin_[at(edges[e + 1])];
+      of_edges.push_back(static_cast<std::int8_t>(levels.of(a, b)));
+    }
+    levels = mesh::EdgeLevels(std::move(edges), std::move(of_edges));
+  }
+
+  mesh::CoarseMesh& mesh_;
+  SplitFaces split_;
+  std::vector<LocalIndex> plus_{};        // Of each patch before: one side of what is opened of it.
+  std::vector<LocalIndex> first_copy_{};  // Of each vertex, as a vertex of the opened mesh.
+  std::vector<LocalIndex> origin_{};      // Of each vertex of the opened mesh.
+};
+
+}  // namespace
+
+void split_patches(mesh::CoarseMesh& mesh, const SplitOptions& options, mesh::EdgeLevels& levels)
+{
+  Opener(mesh, options).run(levels);
+  mesh::validate(mesh);
+}
+
+}  // namespace tessera::topology
