@@ -27,11 +27,16 @@ class Watch:
         self.log = folder / "log" / "run.log"
         # A resumed run goes on in the log of the one before.
         self.old_size = self.log.stat().st_size if self.log.exists() else 0
+        self._seen = 0, []  # Size of the log when it was read last, and the stages that had ended.
 
     def ended_stages(self):
-        with contextlib.suppress(FileNotFoundError), self.log.open() as log:
-            log.seek(self.old_size)
-            return _STAGE_LINE.findall(log.read())
+        with contextlib.suppress(FileNotFoundError):
+            size = self.log.stat().st_size
+            if size != self._seen[0]:
+                with self.log.open() as log:
+                    log.seek(self.old_size)
+                    self._seen = size, _STAGE_LINE.findall(log.read())
+            return self._seen[1]
         return []
 
     def wait_for_stage(self, stage, stages=STAGES):
@@ -121,7 +126,7 @@ class RestartTest(program.ProgramTest):
     def setUpClass(cls):
         maker = cls.make_maker()
         cls.arguments = cls.make_arguments(maker)
-        cls.reference = maker.mesh(cls.arguments[0], "reference", *cls.arguments[1:], ranks=2)
+        cls.reference = maker.mesh(cls.arguments[0], "reference", *cls.arguments[1:])
 
     def setUp(self):
         super().setUp()
@@ -143,6 +148,14 @@ class RestartTest(program.ProgramTest):
             if moment(watch) and watch.kill(victims) != OK and not (self.out / "mesh.pvtu").exists():
                 return
         self.fail(f"{TRIES} runs have ended before they could be killed")
+
+    def from_here(self, values):
+        """The values, each with what the killed run has left as it was."""
+        kept = shutil.copytree(self.out, self.folder / "kept", symlinks=True)
+        for value in values:
+            shutil.rmtree(self.out)
+            shutil.copytree(kept, self.out, symlinks=True)
+            yield value
 
     def resume(self, ranks=None):
         """Compares the end with the reference; the output of the resumed run."""

@@ -25,6 +25,9 @@ HANG_S = 180.0
 # Exit codes of the program.
 OK, FAILED, DEGRADED, WRONG_INPUT, INTERNAL, CANNOT_WRITE, STOPPED = 0, 2, 3, 64, 70, 73, 75
 
+# For cases of tests that do not look at the report's page: its pictures take a third of a tiny run.
+NO_PAGE = "output.report_html = false\n"
+
 BALL = "algebraic3d\nsolid ball = sphere (0, 0, 0; 1);\ntlo ball;\n"
 
 # A ball of one material in a shell of another.
@@ -107,19 +110,28 @@ class ProgramTest(unittest.TestCase):
         file.write_bytes(content if isinstance(content, bytes) else content.encode())
         return file
 
-    def write_case(self, name="case.toml", geometry="ball.geo", max_size=0.7, subdomains=4, levels=1):
-        """A case of a second or two; ball.geo is made if the case names it."""
+    def write_case(self, name="case.toml", geometry="ball.geo", max_size=0.7, subdomains=4, levels=1, page=False):
+        """A case of a second or two; ball.geo is made if the case names it. `page`: with report.html."""
         if geometry == "ball.geo":
             self.write(geometry, BALL)
         return self.write(
             name,
             f"geometry.file = '{geometry}'\ncoarse.max_size = {max_size}\n"
-            f"decompose.subdomains = {subdomains}\nrefine.levels = {levels}\n",
+            f"decompose.subdomains = {subdomains}\nrefine.levels = {levels}\n{'' if page else NO_PAGE}",
         )
 
     def start(self, *arguments, ranks=None, **options):
         """Starts the program in the folder; what it leaves running ends with the test."""
+        if ranks is None:
+            options["env"] = self.without_daemon(options.get("env") or os.environ)
         return self.start_command(command_line(arguments, ranks), **options)
+
+    def without_daemon(self, env):
+        """For the bare program: Open MPI 4 does not start its daemon, which takes as long as a small run. What a user has
+        is in portable_test.py. Each process has a folder of its own: one that ends removes what is in it."""
+        folder = tempfile.mkdtemp(prefix="tessera_mpi_")
+        self.addCleanup(shutil.rmtree, folder, ignore_errors=True)
+        return {"OMPI_MCA_ess_singleton_isolated": "1", **mpi_files_in(folder), **env}
 
     def start_command(self, command, **options):
         """The same with a command of its own."""
@@ -157,7 +169,7 @@ class ProgramTest(unittest.TestCase):
     def assert_checked(self, folder, volume_tolerance):
         """What `check` finds in the files is what the report says. Gives both."""
         reported = figures(folder)
-        outcome = self.run_program("check", folder / "mesh.pvtu", "--json", ranks=2)
+        outcome = self.run_program("check", folder / "mesh.pvtu", "--json")
         self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
         found = json.loads(outcome.out)
         for key in ("digest", "num_tets", "num_vertices"):
@@ -246,10 +258,17 @@ def children(pid):
 
 def descendants(pid):
     """All processes that come from `pid`, itself not included."""
-    found = []
-    for child in children(pid):
-        found += [child, *descendants(child)]
-    return found
+    below = {}
+    for number in sorted(int(entry) for entry in os.listdir("/proc") if entry.isdigit()):
+        if stat := _stat(number):
+            below.setdefault(int(stat[1]), []).append(number)
+
+    def all_below(parent):
+        for child in below.get(parent, []):
+            yield child
+            yield from all_below(child)
+
+    return [*all_below(pid)]
 
 
 def is_program(pid):

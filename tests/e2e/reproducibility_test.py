@@ -15,42 +15,43 @@ def fill_order(folder):
 
 
 class Reproducibility(program.ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.case = self.write_case(subdomains=6)
+    """`alone` is the mesh of one process."""
+
+    @classmethod
+    def setUpClass(cls):
+        maker = cls.make_maker()
+        cls.case = maker.write_case(subdomains=6)
+        cls.alone = maker.mesh(cls.case, "alone")
 
     def assert_same_bits(self, one, other):
         self.assertEqual(figures(one), figures(other))
         self.assertEqual(mesh_files(one), mesh_files(other))
 
     def test_any_number_of_ranks(self):
-        alone = self.mesh(self.case, "alone")
-        self.assertEqual(len(list(alone.glob("mesh/*.vtu"))), 6)
+        self.assertEqual(len(list(self.alone.glob("mesh/*.vtu"))), 6)
         for ranks in (1, 2, 3, 5):
             with self.subTest(ranks=ranks):
-                self.assert_same_bits(alone, self.mesh(self.case, f"ranks_{ranks}", ranks=ranks))
+                self.assert_same_bits(self.alone, self.mesh(self.case, f"ranks_{ranks}", ranks=ranks))
 
     def test_more_ranks_than_subdomains(self):
         case = self.write_case(subdomains=2)
         self.assert_same_bits(self.mesh(case, "alone"), self.mesh(case, "together", ranks=3))
 
     def test_run_to_run(self):
-        self.assert_same_bits(self.mesh(self.case, "first"), self.mesh(self.case, "second"))
+        self.assert_same_bits(self.alone, self.mesh(self.case, "second"))
 
     def test_jobs_in_reverse_order(self):
-        forwards = self.mesh(self.case, "forwards")
         environment = os.environ | {"TESSERA_TEST_FILL_ORDER": "reverse"}
         backwards = self.mesh(self.case, "backwards", env=environment)
-        order = fill_order(forwards)
+        order = fill_order(self.alone)
         self.assertEqual(sorted(order), list(range(6)))
         self.assertEqual(fill_order(backwards), order[::-1])
-        self.assert_same_bits(forwards, backwards)
+        self.assert_same_bits(self.alone, backwards)
 
     def test_another_cut_is_another_mesh(self):
         """The comparison sees a difference when there is one."""
-        other = self.write_case("other.toml", subdomains=5)
-        one, two = self.mesh(self.case, "six"), self.mesh(other, "five")
-        self.assertNotEqual(figures(one)["digest"], figures(two)["digest"])
+        other = self.write_case(subdomains=5)
+        self.assertNotEqual(figures(self.mesh(other, "five"))["digest"], figures(self.alone)["digest"])
 
 
 class StlReproducibility(program.ProgramTest):

@@ -44,8 +44,8 @@ def middle(a, b):
 
 
 class SecondOrderTest(program.ProgramTest):
-    def made(self, case, folder, *values, ranks=2):
-        return self.mesh(case, folder, *sets("output.order=2", *values), ranks=ranks)
+    def made(self, case, folder, *values, ranks=None):
+        return self.mesh(case, folder, *sets("output.order=2", "output.report_html=false", *values), ranks=ranks)
 
     def checked(self, folder):
         """Its figures; `check` finds the same in the files, and nothing wrong."""
@@ -61,7 +61,7 @@ class AnyNumberOfRanks(SecondOrderTest):
     def test_has_the_same_bits(self):
         self.write("core.geo", program.TWO_MATERIALS)
         case = self.write_case(geometry="core.geo", max_size=0.8, subdomains=6, levels=1)
-        for kernel, others in (("subdivide", (2, 3, 5)), ("optimize", (2, 3, 5)), ("netgen", (3,))):
+        for kernel, others in (("subdivide", (2, 3, 5)), ("optimize", (3,)), ("netgen", (2,))):
             with self.subTest(kernel=kernel):
                 alone = self.made(case, kernel, f"fill.kernel={kernel}", ranks=None)
                 figures = self.checked(alone)
@@ -75,7 +75,7 @@ class AnyNumberOfRanks(SecondOrderTest):
         case = self.write_case(levels=3)
         graded = ("fill.kernel=optimize", "size.target=0.15", "size.curvature=10")
         many = self.checked(self.made(case, "many", *graded))
-        few = self.checked(self.made(case, "few", *graded, "output.files=2"))
+        few = self.checked(self.made(case, "few", *graded, "output.files=2", ranks=2))
         self.assertEqual(few["digest"], many["digest"])
 
 
@@ -144,11 +144,11 @@ class Volume(SecondOrderTest):
     def assert_converges(self, name, exact, *values):
         case = program.CONFIGS / "cases" / f"{name}.toml"
         errors = []
-        for levels in (1, 2, 3):
+        for levels in (2, 3):
             folder = f"{name}_{levels}"
             out = self.made(case, folder, f"refine.levels={levels}", "fill.kernel=subdivide", *values)
             errors.append(abs(self.checked(out)["volume"] / exact - 1.0))
-        order = math.log2(errors[1] / errors[2])
+        order = math.log2(errors[0] / errors[1])
         self.assertGreaterEqual(order, 3.8, errors)
 
     def test_of_a_ball_converges(self):

@@ -8,7 +8,7 @@ import unittest
 
 import kill
 import program
-from program import OK, WRONG_INPUT
+from program import NO_PAGE, OK, WRONG_INPUT
 from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
@@ -112,11 +112,11 @@ class BarTest(program.ProgramTest):
         size = f"target = {target}\n" if target else ""
         return self.write(
             "case.toml",
-            f"geometry.file = 'bar.geo'\ndecompose.subdomains = {subdomains}\n"
+            f"geometry.file = 'bar.geo'\ndecompose.subdomains = {subdomains}\n{NO_PAGE}"
             f"[size]\ngrading = {GROWTH}\n{size}{text}",
         )
 
-    def made(self, text, *arguments, target=TARGET, ranks=2, output="out"):
+    def made(self, text, *arguments, target=TARGET, ranks=None, output="out"):
         return self.mesh(self.write_bar(text, target), output, *SUBDIVIDE, *arguments, ranks=ranks)
 
     def assert_follows(self, folder, size_at):
@@ -213,7 +213,7 @@ class Regions(BarTest):
 
     def test_curvature(self):
         self.write("ball.geo", program.BALL)
-        case = self.write("case.toml", "geometry.file = 'ball.geo'\ncoarse.max_size = 1.0\nsize.curvature = 8.0\n")
+        case = self.write("case.toml", "geometry.file = 'ball.geo'\ncoarse.max_size = 1.0\nsize.curvature = 8.0\n" + NO_PAGE)
         out = self.mesh(case, "out", *SUBDIVIDE)
         on_sphere = [
             math.dist(a, b) for a, b in edges_of(out) if all(math.hypot(*p) > 0.999 for p in (a, b))
@@ -293,7 +293,7 @@ class Runs(BarTest):
             other = self.made(self.text, ranks=ranks, output=f"ranks_{ranks}")
             self.assertEqual(program.figures(other), program.figures(alone))
             self.assertEqual(program.mesh_files(other), program.mesh_files(alone))
-        outcome = self.run_program("check", alone / "mesh.pvtu", "--json", ranks=2)
+        outcome = self.run_program("check", alone / "mesh.pvtu", "--json")
         self.assertEqual(outcome.code, OK, outcome.err + outcome.out)
         self.assertEqual(json.loads(outcome.out)["digest"], program.figures(alone)["digest"])
 
@@ -326,7 +326,7 @@ class Killed(kill.RestartTest):
         maker.write("bar.geo", BAR)
         case = maker.write(
             "case.toml",
-            "geometry.file = 'bar.geo'\ndecompose.subdomains = 8\n"
+            f"geometry.file = 'bar.geo'\ndecompose.subdomains = 8\n{NO_PAGE}"
             f"[size]\ntarget = 0.2\nfield = 'field.vti'\n{CORNER_BALL}",
         )
         return [case, "--set", "fill.kernel=optimize"]
@@ -340,7 +340,7 @@ class Killed(kill.RestartTest):
         self.assert_refused(outcome, WRONG_INPUT, "size.field has changed", "--overwrite")
 
     def repeat_refused(self):
-        outcome = self.run_program("mesh", *self.arguments, "--output", "out", ranks=2)
+        outcome = self.run_program("mesh", *self.arguments, "--output", "out")
         self.assert_refused(outcome, program.CANNOT_WRITE, "size.field has changed", "--overwrite")
 
     def with_another_field(self, work):
