@@ -6,7 +6,7 @@ import unittest
 
 import kill
 import program
-from program import OK, sets
+from program import NO_PAGE, OK, sets
 
 SUBDIVIDE = "fill.kernel=subdivide"
 OPTIMIZE = "fill.kernel=optimize"
@@ -17,7 +17,7 @@ def write_graded_case(test, target, subdomains=6):
     test.write("core.geo", program.TWO_MATERIALS)
     return test.write(
         "case.toml",
-        f"geometry.file = 'core.geo'\nsize.target = {target}\ndecompose.subdomains = {subdomains}\n",
+        f"geometry.file = 'core.geo'\nsize.target = {target}\ndecompose.subdomains = {subdomains}\n{NO_PAGE}",
     )
 
 
@@ -26,7 +26,7 @@ class GradedTest(program.ProgramTest):
         super().setUp()
         self.case = write_graded_case(self, 0.45)
 
-    def made(self, folder, *values, ranks=2):
+    def made(self, folder, *values, ranks=None):
         return self.mesh(self.case, folder, *sets(*values), ranks=ranks)
 
     def checked(self, folder):

@@ -106,7 +106,7 @@ class PageTest(ProgramTest):
 
 class ReportTest(PageTest):
     def test_same_page_of_any_number_of_ranks(self):
-        case = self.write_case()
+        case = self.write_case(page=True)
         pages = []
         for ranks, folder in ((1, "one"), (3, "three")):
             self.mesh(case, folder, ranks=ranks)
@@ -144,7 +144,7 @@ class ReportTest(PageTest):
         self.assertEqual(lowest, int(quality["min_dihedral_deg"] // 5))
 
     def test_degraded_run_shows_every_reason(self):
-        case = self.write_case()
+        case = self.write_case(page=True)
         outcome = self.run_program("mesh", case, "--output", "out", "--set", "quality.min_dihedral_deg=60",
                                    "--set", "quality.min_mean_ratio=0.99")
         self.assertEqual(outcome.code, DEGRADED, outcome.err)
@@ -157,7 +157,7 @@ class ReportTest(PageTest):
         self.assertIn("A wanted quality was missed", page.text)
 
     def test_failed_run_says_why_and_what_to_do(self):
-        case = self.write_case()
+        case = self.write_case(page=True)
         fault = os.environ | {"TESSERA_TEST_FAULT": "coarse=segv remesh=segv"}
         outcome = self.run_program("mesh", case, "--output", "out", ranks=2, env=fault)
         self.assertEqual(outcome.code, FAILED, outcome.err)
@@ -168,7 +168,7 @@ class ReportTest(PageTest):
         self.assertIn("--resume", page.text)
 
     def test_names_of_the_model_cannot_change_the_page(self):
-        self.write_case("case.toml")
+        self.write_case("case.toml", page=True)
         case = self.write(
             "<b>&'é.toml",
             (self.folder / "case.toml").read_text()
@@ -189,15 +189,15 @@ class ReportTest(PageTest):
         ):
             with self.subTest(folder):
                 arguments = [argument for key in keys for argument in ("--set", key)]
-                self.mesh(self.write_case(), folder, *arguments, ranks=2)
+                self.mesh(self.write_case(page=True), folder, *arguments, ranks=2)
                 self.assert_pictures(self.page(folder), ["picture-subdomains", "picture-patches", "picture-cut"])
 
     def test_part_of_a_mesh_is_drawn_closed(self):
-        self.mesh(self.write_case(), "part", "--set", "fill.kernel=subdivide", "--only-subdomains", "1,2")
+        self.mesh(self.write_case(page=True), "part", "--set", "fill.kernel=subdivide", "--only-subdomains", "1,2")
         self.assert_pictures(self.page("part"), ["picture-subdomains", "picture-patches", "picture-cut"])
 
     def test_can_be_turned_off_and_on_again(self):
-        case = self.write_case()
+        case = self.write_case(page=True)
         folder = self.mesh(case, "out", "--set", "output.report_html=false")
         self.assertFalse((folder / "report.html").exists())
         self.assertNotIn("pictures", [stage["name"] for stage in self.report("out")["stages"]])
@@ -209,7 +209,7 @@ class ReportTest(PageTest):
         self.assertFalse((folder / "report.html").exists(), "it was of another run")
 
     def test_command_of_the_page_makes_the_same_mesh_again(self):
-        self.mesh(self.write_case(), "out", "--set", "fill.kernel=subdivide")
+        self.mesh(self.write_case(page=True), "out", "--set", "fill.kernel=subdivide")
         digest = self.report("out")["digest"]
         command = re.search(r"tessera (mesh [^\n]*)\n", self.page("out").text).group(1)
         outcome = self.run_program(*command.split())
@@ -221,7 +221,7 @@ class CompareTest(PageTest):
     @classmethod
     def setUpClass(cls):
         cls.made = cls.make_maker()
-        case = cls.made.write_case()
+        case = cls.made.write_case(page=True)
         cls.made.mesh(case, "a")
         cls.made.mesh(case, "b", "--set", "refine.levels=2", "--set", "fill.kernel=subdivide", ranks=2)
         cls.made.mesh(case, "same", "--set", "output.report_html=false")

@@ -142,7 +142,7 @@ class SecondOrderFormatsTest(program.ProgramTest):
         cls.maker.write("two.geo", program.TWO_MATERIALS.replace("(0, 0, 0; 1)", "(0, 0, 0; 1) -bcname=inner")
                         .replace("(0, 0, 0; 2)", "(0, 0, 0; 2) -bcname=outer"))  # fmt: skip
         cls.case = cls.maker.write_case(geometry="two.geo", max_size=1.2, levels=1)
-        cls.mesh_folder = cls.maker.mesh(cls.case, "mesh", *cls.keys(2), ranks=2)
+        cls.mesh_folder = cls.maker.mesh(cls.case, "mesh", *cls.keys(2))
         cls.num_points = program.figures(cls.mesh_folder)["num_vertices"]
 
     @staticmethod
@@ -179,7 +179,7 @@ class Files(SecondOrderFormatsTest):
                     self.assertEqual({tuple(x) for x in (found.xyz[nodes].round(9) + 0.0).tolist()}, expected)
 
     def test_number_vertices_as_of_first_order_and_nodes_after_them(self):
-        first = self.mesh(self.case, "first", *self.keys(1), ranks=2)
+        first = self.mesh(self.case, "first", *self.keys(1))
         straight = convert_test.read_exodus(self.converted(first, "straight", ["exodus"]))
         curved = read_exodus(self.converted(self.mesh_folder, "curved", ["exodus"]))
         num_vertices = len(straight.xyz)
@@ -230,7 +230,7 @@ class SameBits(SecondOrderFormatsTest):
     def test_graded_levels_and_corners_that_are_split(self):
         """Edges of pieces with other levels beside them have nodes as well."""
         keys = ("refine.levels=3", "size.target=0.4", "fill.split_corners=true")
-        mesh = self.mesh(self.case, "graded", *self.keys(2, *keys), ranks=2)
+        mesh = self.mesh(self.case, "graded", *self.keys(2, *keys))
         reference = read_pieces(mesh)
         found = read_exodus(self.converted(mesh, "out", ["exodus"], ranks=3))
         self.assertEqual(len(found.xyz), program.figures(mesh)["num_vertices"])
@@ -240,7 +240,7 @@ class SameBits(SecondOrderFormatsTest):
 
 class Parts(SecondOrderFormatsTest):
     def test_know_their_neighbours(self):
-        mesh = self.mesh(self.case, "parts", *self.keys(2, "output.parts=2"), ranks=2)
+        mesh = self.mesh(self.case, "parts", *self.keys(2, "output.parts=2"))
         pairs = parts_test.shared_points(mesh)
         self.assertEqual([pair[:2] for pair in pairs], [[0, 1]])
         self.assertEqual(program.figures(mesh)["file_neighbours"], pairs)

@@ -61,7 +61,7 @@ class ViewTest(program.ProgramTest):
 class Report(ViewTest):
     def test_report_shows_the_triangles_of_the_files(self):
         self.write("two.geo", program.TWO_MATERIALS)
-        case = self.write_case(geometry="two.geo", max_size=1.2)
+        case = self.write_case(geometry="two.geo", max_size=1.2, page=True)
         views = []
         for ranks, folder in ((1, "one"), (3, "three")):
             self.mesh(case, folder, ranks=ranks)
@@ -78,14 +78,14 @@ class Report(ViewTest):
         self.assertEqual([c["array"] for c in page.data["colourings"]], ["face", "subdomain", "material", "quality"])
 
     def test_second_order_is_drawn_by_four_triangles_a_face(self):
-        self.mesh(self.write_case(), "out", "--set", "output.order=2")
+        self.mesh(self.write_case(page=True), "out", "--set", "output.order=2")
         page, mesh = self.page("out/report.html"), tessera.read(self.folder / "out")
         self.assertEqual(len(page.corners), 4 * len(mesh.triangles))
         drawn = np.linalg.norm(page.points, axis=1)
         np.testing.assert_allclose(drawn, 1.0, atol=1e-3)  # All nodes are on the ball.
 
     def test_part_of_a_mesh_is_shown_closed_by_coarse_triangles(self):
-        self.mesh(self.write_case(), "part", "--set", "fill.kernel=subdivide", "--only-subdomains", "1,2")
+        self.mesh(self.write_case(page=True), "part", "--set", "fill.kernel=subdivide", "--only-subdomains", "1,2")
         page = self.page("part/report.html")
         self.assertTrue(page.data["is_coarse"])
         self.assertEqual(set(page.arrays["subdomain"]), {1, 2})
@@ -95,7 +95,7 @@ class Report(ViewTest):
         self.assertEqual(page.data["faces"][page.arrays["face"].max()]["name"], "not made")
 
     def test_names_cannot_change_the_page(self):
-        self.write_case("case.toml")
+        self.write_case("case.toml", page=True)
         name = "</script><script>alert(1)</script>&\"ü"
         case = self.write(
             "named.toml",
@@ -109,7 +109,7 @@ class Report(ViewTest):
 
     def test_without_three_js_there_are_pictures_alone(self):
         env = os.environ | {"TESSERA_THREE_JS": str(self.folder / "none.js")}
-        self.mesh(self.write_case(), "out", env=env)
+        self.mesh(self.write_case(page=True), "out", env=env)
         text = self.text("out/report.html")
         self.assertNotIn("<script", text)
         self.assertIn("picture-subdomains", text)
@@ -193,7 +193,7 @@ class Model(ViewTest):
 class MeshPage(ViewTest):
     def test_page_of_a_mesh_and_show(self):
         self.write("two.geo", program.TWO_MATERIALS)
-        folder = self.mesh(self.write_case(geometry="two.geo", max_size=1.2), "out")
+        folder = self.mesh(self.write_case(geometry="two.geo", max_size=1.2, page=True), "out")
         mesh = tessera.read(folder)
         outcome = self.run_program("info", folder / "mesh.pvtu", "--html", "mesh.html", ranks=2)
         self.assertEqual(outcome.code, OK, outcome.err)

@@ -70,7 +70,7 @@ class OutputFolder(program.ResultTest):
     @staticmethod
     def make_result(maker):
         model = program.CONFIGS / "geometry" / "two_blocks.step"
-        case = maker.write_case(geometry=model, max_size=8, subdomains=NUM_SUBDOMAINS)
+        case = maker.write_case(geometry=model, max_size=8, subdomains=NUM_SUBDOMAINS, page=True)
         return maker.mesh(case, "out", ranks=2)
 
     def assert_array(self, array, vtk_type, what):
