@@ -28,11 +28,11 @@ def read_stl(file):
     return np.array(numbers, dtype=float).reshape(-1, 3, 3)
 
 
-def write_stl(file, triangles):
+def write_stl(file, triangles, name="dirty"):
     """As text: NETGEN's Python reads no other."""
     facets = ("facet normal 0 0 0\nouter loop\n" + "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*p) for p in one)
               + "endloop\nendfacet\n" for one in triangles)
-    file.write_text("solid dirty\n" + "".join(facets) + "endsolid dirty\n")
+    file.write_text(f"solid {name}\n" + "".join(facets) + f"endsolid {name}\n")
 
 
 def volume_of(triangles):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models of CSG for the bench of layers: text of a .geo file, wanted size, and patches that are walls."""
+"""Models for the bench of layers: text of a .geo file, or a function of layer_surfaces; wanted size, and patches that
+are walls."""
 import dataclasses
 
 
@@ -8,8 +9,21 @@ class Model:
     name: str
     what: str
     size: float
-    text: str
+    text: str  # Of CSG; empty: layer_surfaces makes triangles.
     walls: str = "*"
+    surface: str = ""
+
+    def write(self, folder):
+        """Its file."""
+        if not self.surface:
+            file = folder / f"{self.name}.geo"
+            file.write_text("algebraic3d\n" + self.text.lstrip("\n") + "\n")
+            return file
+        import layer_surfaces  # Not for models of CSG: it needs VTK.
+        from dirty_stl_models import write_stl
+        file = folder / f"{self.name}.stl"
+        write_stl(file, getattr(layer_surfaces, self.surface)(), self.name)
+        return file
 
 
 def all_models():
@@ -73,4 +87,31 @@ solid wedge = plane (0, 0, 0; -1, 0, 0) and plane (1, 0, 0; 0.1, 1, 0) and plane
     and plane (0, 0, 0.2; 0, 0, -1) and plane (0, 0, 0.8; 0, 0, 1);
 solid flow = channel and not wedge;
 tlo flow;"""),
+        Model("manifold", "a pipe that parts into four", 0.1, """
+solid ends = orthobrick (-1.5, -3, -2; 2, 3, 1);
+solid trunk = cylinder (-2, 0, 0; 0, 0, 0; 0.5) and plane (0, 0, 0; 1, 0, 0);
+solid joint = sphere (0, 0, 0; 0.6);
+solid one = cylinder (0, 0, 0; 3, 3, 0; 0.3) and plane (0, 0, 0; -1, -1, 0);
+solid two = cylinder (0, 0, 0; 3, 0.8, 0; 0.3) and plane (0, 0, 0; -1, -0.3, 0);
+solid three = cylinder (0, 0, 0; 3, -3, 0; 0.3) and plane (0, 0, 0; -1, 1, 0);
+solid four = cylinder (0, 0, 0; 1, 0, -3; 0.3) and plane (0, 0, 0; -1, 0, 3);
+solid manifold = ends and (trunk or joint or one or two or three or four);
+tlo manifold;""", "*"),
+        Model("valve", "a ball valve, half open", 0.1, """
+solid run = cylinder (-3, 0, 0; 3, 0, 0; 0.5) and plane (-2, 0, 0; -1, 0, 0) and plane (2, 0, 0; 1, 0, 0);
+solid cavity = sphere (0, 0, 0; 1);
+solid bore = cylinder (-3, -2, 0; 3, 2, 0; 0.45);
+solid ball = sphere (0, 0, 0; 0.8) and not bore;
+solid stem = cylinder (0, 0, 0; 0, 0, 2; 0.2) and plane (0, 0, 0.6; 0, 0, -1) and plane (0, 0, 1.5; 0, 0, 1);
+solid flow = (run or cavity) and not ball and not stem;
+tlo flow;"""),
+        Model("shaft", "a shaft out of the middle of a bore: a gap of 0.6 to 1.4 sizes", 0.1, """
+solid bore = cylinder (0, 0, 0; 0, 0, 2; 0.6) and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 2; 0, 0, 1);
+solid shaft = cylinder (0.04, 0, -1; 0.04, 0, 3; 0.5);
+solid film = bore and not shaft;
+tlo film;"""),
+        Model("naca", "a NACA 0012 from wall to wall, its trailing edge sharp", 0.05, "", surface="naca_between_walls"),
+        Model("wing", "a NACA 0012 with a flat tip", 0.05, "", surface="naca_with_tip"),
+        Model("car", "a car on the ground in a box (STL)", 0.15, "", surface="car"),
+        Model("vessel", "a vessel that parts twice (STL)", 0.08, "", "vessel_1", surface="vessel"),
     ]
