@@ -1,12 +1,28 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """GetFEM solves on mesh_v2.msh: volumes and areas by region, the patch test, and conduction through
-two materials."""
+two materials, and through a plate with layers."""
+import pathlib
+import tempfile
 import unittest
 
 import getfem
 import numpy as np
 import solver_meshes
 from solver_meshes import Mesh, read_pvtu
+
+PLATE = """algebraic3d
+solid plate = plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 0.5; 0, 0, 1) and plane (0, 0, 0; -1, 0, 0)
+    and plane (2, 0, 0; 1, 0, 0) and plane (0, 0, 0; 0, -1, 0) and plane (0, 1, 0; 0, 1, 0);
+tlo plate;
+"""
+LAYERS = """geometry.file = "plate.geo"
+size.target = 0.2
+[[layer]]
+patch = "*"
+first = 0.001
+growth = 1.5
+count = 6
+"""
 
 
 class Problem:
@@ -103,6 +119,23 @@ class GetFEM(unittest.TestCase):
         self.assertLess(abs(found - exact).max() / abs(exact).max(), 1e-10)
         wrong = problem.solve(dict.fromkeys(conductivity, 1.0), mesh.outer_areas(), exact)
         self.assertGreater(abs(wrong - exact).max() / abs(exact).max(), 1e-3)
+
+    def test_layers(self):
+        """Heat flows across a plate between its two large sides: flat tets give the linear temperature too."""
+        with tempfile.TemporaryDirectory() as scratch:
+            (pathlib.Path(scratch) / "plate.geo").write_text(PLATE)
+            case = pathlib.Path(scratch) / "plate.toml"
+            case.write_text(LAYERS)
+            mesh = Mesh(case, 2)
+        self.addCleanup(mesh.remove)
+        self.assertGreater(mesh.report()["layers"]["full_height"], 0.99)
+        problem = Problem(mesh.convert("msh2") / "mesh_v2.msh")
+        self.assertEqual(problem.mesh.nbcvs(), mesh.num_tets())
+        sides = [name for name, area in mesh.areas().items() if abs(area - 2.0) < 1e-9]
+        self.assertEqual(len(sides), 2)
+        exact = 1.0 + 2.0 * problem.points()[2]
+        found = problem.solve(dict.fromkeys(mesh.volumes(), 1.0), sides, exact)
+        self.assertLess(abs(found - exact).max() / abs(exact).max(), 1e-8)
 
     def contact_of(self, boxes):
         """Along which axis, and where, the second block follows the first."""
