@@ -148,7 +148,7 @@ bool WallMover::is_bad_column(const SurfaceTriangle& triangle) const
       const LocalIndex v = triangle.vertices[c];
       high[c] = column_point(walls_.vertices[at(walls_.wall_of_vertex[at(v)])], end);
     }
-    if (!mesh::is_positive_prism(low, high)) return true;
+    if (!mesh::has_positive_parts(low, high)) return true;
     low = high;
   }
   return false;

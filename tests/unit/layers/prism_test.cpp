@@ -57,6 +57,19 @@ TEST(PrismTets, OfASideHaveTheDiagonalFromItsLowerName)
   EXPECT_FALSE(edges.contains({0, 5}));
 }
 
+// It leans so far that where one side is finer, half of it would be turned over.
+TEST(Prism, MayBePositiveAndHaveHalvesThatAreNot)
+{
+  using Triangle = std::array<Vec3, 3>;
+  const Triangle low{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+  const Triangle leaning{{{-0.6, 0.3, 0.5}, {0.8, 0.3, 0.3}, {-0.1, 0.6, 0.4}}};
+  EXPECT_TRUE(mesh::is_positive_prism(low, leaning));
+  EXPECT_FALSE(mesh::has_positive_parts(low, leaning));
+  const Triangle upright{{{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}};
+  EXPECT_TRUE(mesh::has_positive_parts(low, upright));
+  EXPECT_FALSE(mesh::has_positive_parts(upright, low));
+}
+
 TEST(PrismTets, WithoutSomeColumnsAreFewer)
 {
   std::vector<LocalIndex> tets;
