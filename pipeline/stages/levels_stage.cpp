@@ -13,6 +13,7 @@
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/decompose/predicted_fine_tets.hpp"
 #include "tessera/fill/fallbacks.hpp"
+#include "tessera/mesh/coarse_edges.hpp"
 #include "tessera/refine/choose_levels.hpp"
 #include "tessera/sizing/coarse_sizes.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
@@ -54,7 +55,7 @@ std::vector<double> num_wanted(const sizing::SizeOptions& options, const mesh::C
 mesh::EdgeLevels wanted_levels(const config::Case& resolved, const mesh::CoarseMesh& coarse,
                                const sizing::SizeField& sizes)
 {
-  std::vector<LocalIndex> edges = refine::coarse_edges(coarse);
+  std::vector<LocalIndex> edges = mesh::coarse_edges(coarse);
   const std::vector<double> wanted = num_wanted(resolved.size, coarse, sizes, edges);
   return refine::choose_levels(coarse, std::move(edges), wanted,
                                refine::levels_of(resolved.refine, true));

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "tessera/mesh/sorted_rows.hpp"
-#include "tessera/mesh/tet_edges.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::refine {
@@ -111,19 +110,6 @@ class Raiser {
 };
 
 }  // namespace
-
-std::vector<LocalIndex> coarse_edges(const mesh::CoarseMesh& coarse)
-{
-  std::vector<std::array<LocalIndex, 2>> edges;
-  mesh::for_each_edge(coarse.tet_vertices, coarse.num_vertices(), [&](LocalIndex a, LocalIndex b) {
-    edges.push_back({std::min(a, b), std::max(a, b)});
-  });
-  std::ranges::sort(edges);
-  std::vector<LocalIndex> flat;
-  flat.reserve(2 * edges.size());
-  for (const auto& edge : edges) flat.insert(flat.end(), edge.begin(), edge.end());
-  return flat;
-}
 
 mesh::EdgeLevels choose_levels(const mesh::CoarseMesh& coarse, std::vector<LocalIndex> edges,
                                const std::vector<double>& num_wanted, int most)

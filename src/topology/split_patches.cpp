@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tessera/base/index_lists.hpp"
-#include "tessera/refine/choose_levels.hpp"
+#include "tessera/mesh/coarse_edges.hpp"
 
 #include "topology/split_faces.hpp"
 
@@ -173,7 +173,7 @@ class Opener {
   void open_edges(mesh::EdgeLevels& levels) const
   {
     if (levels.is_uniform()) return;
-    std::vector<LocalIndex> edges = refine::coarse_edges(mesh_);
+    std::vector<LocalIndex> edges = mesh::coarse_edges(mesh_);
     FlatArray<std::int8_t> of_edges;
     for (std::size_t e = 0; e < edges.size(); e += 2) {
       const LocalIndex a = origin_[at(edges[e])];

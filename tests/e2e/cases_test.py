@@ -33,6 +33,7 @@ def numbered(count):
 
 
 CYLINDER_PATCHES = frozenset({"side", "top", "bottom"})
+PENNY_PATCHES = numbered(20) - numbered(3) | {"patch_1", "middle", "middle_plus", "middle_minus"}
 CORE_PATCHES = frozenset({"outside", "core_skin", "shell_skin"})
 SHAFT_PATCHES = frozenset("journal taper seat keyway flange stub bore hole".split())
 # The keyway's walls end on a cylinder of radius 18; its floor is 13 above the axis, 8 wide, 24 long.
@@ -59,6 +60,9 @@ CASES = {
     "cylinder": Expected(math.pi * 5**2 * 20, 0.05, ("cylinder",), CYLINDER_PATCHES, ("mm",)),
     "frustum": Expected(FRUSTUM, 0.05, ("material_1",), numbered(3)),
     "own_mesh": Expected(math.pi * 5**2 * 20, 0.1, ("rod",), frozenset({"jacket", "ends"}), ("mm",)),
+    "penny_crack": Expected(
+        432, 1e-9, ("puck_low", "puck_high", "rest_low", "rest_high"), PENNY_PATCHES, coarser=()
+    ),
     "pipe_layers": Expected(
         2 * math.pi, 0.05, ("full",), numbered(3), coarser=("size.target=0.3",)
     ),

@@ -21,7 +21,7 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "refine": CORE | {"model"},
     "fill": CORE | {"model"},
     "layers": CORE | {"model", "optimize", "quality"},
-    "topology": CORE | {"model", "refine"},
+    "topology": CORE | {"model"},
     "improve": CORE | {"model"},
     "delaunay": BASE | {"mesh"},
     "optimize": BASE | {"mesh"},  # knows no lattice and no process but its own

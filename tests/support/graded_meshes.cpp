@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/mesh/coarse_edges.hpp"
 #include "tessera/refine/choose_levels.hpp"
 
 namespace tessera::testing {
@@ -66,7 +67,7 @@ mesh::EdgeLevels random_levels(const mesh::CoarseMesh& coarse, int most, double 
                                std::uint32_t seed)
 {
   std::mt19937 random(seed);
-  std::vector<LocalIndex> edges = refine::coarse_edges(coarse);
+  std::vector<LocalIndex> edges = mesh::coarse_edges(coarse);
   std::vector<double> num_wanted(edges.size() / 2);
   for (double& wanted : num_wanted) {
     const bool is_above = static_cast<double>(random() % 1000) < 1000.0 * share;

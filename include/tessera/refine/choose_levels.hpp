@@ -9,17 +9,13 @@
 
 namespace tessera::refine {
 
-/// @brief The edges of the tets of a coarse mesh. Shape (num_edges, 2): each row ascends, and the
-/// rows as well. Local; O(n log n).
-[[nodiscard]] std::vector<LocalIndex> coarse_edges(const mesh::CoarseMesh& coarse);
-
 /// @brief A level for each coarse edge: the smallest that makes its parts as short as wanted. Then
 /// edges are raised until in every tet levels differ by one at most, and no triangle on the
 /// geometry has two sides that are finer than the third.
 ///
 /// 2^l parts are enough for `num_wanted` if that is 1.4 * 2^l or less. Between 1.2 and sqrt(2) the
 /// number of tets at equal size is the same.
-/// @param[in] edges coarse_edges().
+/// @param[in] edges mesh::coarse_edges().
 /// @param[in] num_wanted Shape (num_edges). How many wanted lengths each edge is long: the integral
 /// of ds / h along it.
 /// @param[in] most No edge gets more levels.

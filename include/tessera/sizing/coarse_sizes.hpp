@@ -57,7 +57,7 @@ struct PartInSizes {
 /// The surface turns by the angle between two triangles of one patch over two fifths of their
 /// heights on the common edge. So the radius of a cylinder comes out a fifth too small, that of a
 /// sphere a fifth too large.
-/// @param[in] edge_vertices refine::coarse_edges(). @return Shape (num_edges).
+/// @param[in] edge_vertices mesh::coarse_edges(). @return Shape (num_edges).
 [[nodiscard]] std::vector<double> lengths_in_radii(const mesh::CoarseMesh& coarse,
                                                    std::span<const LocalIndex> edge_vertices);
 

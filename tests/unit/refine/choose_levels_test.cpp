@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tessera/mesh/coarse_edges.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 #include "support/graded_meshes.hpp"
@@ -35,7 +36,7 @@ TEST(CoarseEdges, AreThoseOfTheTetsInOrder)
   }
   std::vector<LocalIndex> flat;
   for (const auto& edge : expected) flat.insert(flat.end(), edge.begin(), edge.end());
-  EXPECT_EQ(coarse_edges(coarse), flat);
+  EXPECT_EQ(mesh::coarse_edges(coarse), flat);
 }
 
 // Of one tet, all of whose edges ask for the same.
@@ -45,7 +46,7 @@ int level_for(double num_wanted, int most = 10)
   coarse.vertex_xyz = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   coarse.tet_vertices = {0, 1, 2, 3};
   const auto levels =
-      choose_levels(coarse, coarse_edges(coarse), std::vector<double>(6, num_wanted), most);
+      choose_levels(coarse, mesh::coarse_edges(coarse), std::vector<double>(6, num_wanted), most);
   EXPECT_TRUE(levels.is_uniform());
   return levels.largest();
 }
@@ -85,7 +86,7 @@ struct Wanted {
 Wanted some_wanted(const CoarseMesh& coarse, int most, double share, std::uint32_t seed)
 {
   std::mt19937 random(seed);
-  Wanted wanted{.edges = coarse_edges(coarse)};
+  Wanted wanted{.edges = mesh::coarse_edges(coarse)};
   for (std::size_t e = 0; 2 * e < wanted.edges.size(); ++e) {
     const bool is_above = static_cast<double>(random() % 1000) < 1000.0 * share;
     const int level = is_above ? static_cast<int>(random() % 7) : 0;
@@ -175,7 +176,7 @@ TEST(ChooseLevels, DoesNotDependOnTheOrderOfTheTets)
       std::ranges::shuffle(tet, random);
       other.tet_vertices.insert(other.tet_vertices.end(), tet.begin(), tet.end());
     }
-    EXPECT_EQ(coarse_edges(other), wanted.edges);
+    EXPECT_EQ(mesh::coarse_edges(other), wanted.edges);
     EXPECT_EQ(choose_levels(other, wanted.edges, wanted.num_wanted, 10), levels);
   }
 }

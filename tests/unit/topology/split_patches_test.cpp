@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/mesh/coarse_edges.hpp"
 #include "tessera/mesh/double_vertices.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/refine/choose_levels.hpp"
@@ -146,7 +147,7 @@ TEST(SplitPatches, GivesBothSidesTheSameOrder)
 TEST(SplitPatches, KeepsTheLevelsOfEdges)
 {
   mesh::CoarseMesh cube = cube_with_crack(2, [](const Vec3&) { return true; });
-  std::vector<LocalIndex> edges = refine::coarse_edges(cube);
+  std::vector<LocalIndex> edges = mesh::coarse_edges(cube);
   std::vector<double> wanted;
   for (std::size_t e = 0; e < edges.size(); e += 2) {
     wanted.push_back(cube.position(edges[e])[0] == 0.5 ? 4.0 : 2.0);
@@ -155,7 +156,7 @@ TEST(SplitPatches, KeepsTheLevelsOfEdges)
   ASSERT_FALSE(levels.is_uniform());
   const auto histogram = levels.histogram();
   split_patches(cube, kCrack, levels);
-  edges = refine::coarse_edges(cube);
+  edges = mesh::coarse_edges(cube);
   for (std::size_t e = 0; e < edges.size(); e += 2) {
     const bool is_fine = cube.position(edges[e])[0] == 0.5 && cube.position(edges[e + 1])[0] == 0.5;
     if (is_fine) {
