@@ -19,7 +19,7 @@ class Assemblies(program.ProgramTest):
         subprocess.run([MAKER, cls.models], check=True, capture_output=True)
 
     def case_of(self, model, *settings, size=0.4):
-        text = f"geometry.file = '{self.models / model}'\ncoarse.max_size = {size}\nrefine.levels = 1\n"
+        text = f"geometry.file = '{self.models / model}'\ncoarse.max_size = {size}\nrefine.levels = 1\noutput.report_html = false\n"
         return self.write("case.toml", text + "\n".join(settings))
 
     def mesh_of(self, model, output, *settings, ranks=None):
@@ -104,7 +104,7 @@ class Assemblies(program.ProgramTest):
         ):
             with self.subTest(model=model):
                 digests = {program.figures(self.mesh_of(model, f"{model}{ranks}", setting, ranks=ranks))["digest"]
-                           for ranks in (1, 2, 3)}
+                           for ranks in (None, 3)}
                 self.assertEqual(len(digests), 1)
 
     def test_keys_of_assemblies_are_for_files_with_solids(self):

@@ -36,7 +36,7 @@ class Names(program.ProgramTest):
         home.mkdir()
         (home / f"{name}.toml").write_text(
             f"geometry.file = {toml_text(model.name)}\ncoarse.max_size = 0.9\n"
-            "decompose.subdomains = 2\nrefine.levels = 1\n"
+            "decompose.subdomains = 2\nrefine.levels = 1\n" + program.NO_PAGE
         )
         shutil.copy(model, home)
         case, out, parts = home / f"{name}.toml", home / name, home / f"{name} 2"
@@ -140,7 +140,7 @@ class SymbolicLinks(program.ProgramTest):
 
     def setUp(self):
         super().setUp()
-        self.case = self.write_case(max_size=0.9, subdomains=3)
+        self.case = self.write_case(max_size=0.9, subdomains=3, page=True)
         self.out = self.folder / "out"
         self.elsewhere = self.folder / "elsewhere"
 

@@ -4,7 +4,7 @@ import json
 import unittest
 
 import program
-from program import WRONG_INPUT, sets
+from program import NO_PAGE, WRONG_INPUT, sets
 
 # A block whose upper half is narrower by 0.001.
 STEP = 0.001
@@ -47,7 +47,7 @@ class Defeature(program.ProgramTest):
         for name in (model, "ledge.stl"):
             with self.subTest(model=name):
                 case = self.case(name, "size.min = 0.01")
-                one = self.mesh(case, "one", "--overwrite")
+                one = self.mesh(case, "one", "--overwrite", *sets("output.report_html=true"))
                 three = self.mesh(case, "three", "--overwrite", ranks=3)
                 self.assertEqual(program.mesh_files(one), program.mesh_files(three))
                 self.assertEqual(program.figures(one), program.figures(three))
@@ -77,7 +77,9 @@ class Defeature(program.ProgramTest):
 
     def test_the_default_follows_the_target(self):
         """A twentieth of 0.25, or nothing."""
-        case = self.write("target.toml", "geometry.file = 'ledge.stl'\nsize.target = 0.25\n")
+        self.write("ledge.stl", ledge_stl().replace(str(STEP), "0.01"))
+        kernel = "fill.kernel = 'subdivide'\n"
+        case = self.write("target.toml", f"geometry.file = 'ledge.stl'\nsize.target = 0.25\n{kernel}{NO_PAGE}")
         report, merged = self.merged(self.mesh(case, "default"))
         self.assertEqual((merged["tolerance"], merged["num_faces"]), (0.0125, 1))
         none = self.mesh(case, "none", *sets("size.min=0"))

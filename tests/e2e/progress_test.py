@@ -15,7 +15,7 @@ CONTROL_CHARACTERS = re.compile(r"[\x00-\x09\x0b-\x1f\x7f]")
 class Progress(program.ProgramTest):
     def setUp(self):
         super().setUp()
-        self.arguments = ["mesh", self.write_case(levels=1), "--output", "out"]
+        self.arguments = ["mesh", self.write_case(levels=1, page=True), "--output", "out"]
 
     def output_on_terminal(self, *arguments, ranks=None):
         """Standard output when it is a pseudo-terminal."""

@@ -26,8 +26,7 @@ def told(what):
 class Door(program.ProgramTest):
     def setUp(self):
         super().setUp()
-        case = self.write_case()
-        case.write_text(case.read_text() + "output.report_html = false\n")
+        self.write_case()
 
     def run_ranks(self, ranks, code):
         process = self.start_command(

@@ -34,7 +34,7 @@ class Repairs(program.ProgramTest):
 
     def test_one_of_the_import_is_needed(self):
         self.write_open_cube()
-        for ranks in (1, 3):
+        for ranks in (None, 3):
             report = self.mesh_without("", f"on_{ranks}", ranks)
             self.assertEqual(report["repairs"], {"welded_vertices": 1})
             self.assertNotIn("left_out", report)
@@ -46,7 +46,7 @@ class Repairs(program.ProgramTest):
     def test_one_of_the_sizes_is_needed(self):
         """Without it edges of 20 over a thickness of 0.5 make tets that are flat."""
         self.write_plate()
-        reports = [self.mesh_without("", f"on_{ranks}", ranks) for ranks in (1, 3)]
+        reports = [self.mesh_without("", f"on_{ranks}", ranks) for ranks in (None, 3)]
         self.assertEqual(reports[0], reports[1])
         self.assertGreater(reports[0]["repairs"]["wall_sizes"], 0)
         without = self.mesh_without("wall_sizes", "without")
@@ -59,7 +59,7 @@ class Repairs(program.ProgramTest):
     def test_a_try_is_one_and_the_next_takes_its_place(self):
         self.write_plate()
         fault = {"TESSERA_TEST_FAULT": "remesh=throw@0"}
-        for ranks in (1, 3):
+        for ranks in (None, 3):
             report = self.mesh_without("", f"first_{ranks}", ranks, **fault)
             self.assertEqual(report["repairs"]["finer_coarse_size"], 1)
             report = self.mesh_without("finer_coarse_size", f"second_{ranks}", ranks, **fault)
@@ -68,7 +68,7 @@ class Repairs(program.ProgramTest):
 
     def test_those_of_fills_are_counted_by_subdomains(self):
         self.case = self.write_case()
-        report = self.mesh_without("", "out", 2, DEGRADED, TESSERA_TEST_FAULT="fill=throw@2")
+        report = self.mesh_without("", "out", None, DEGRADED, TESSERA_TEST_FAULT="fill=throw@2")
         self.assertEqual(report["repairs"]["fill_tries"], 1)
         self.assertEqual(report["repairs"]["subdivided_fills"], 1)
         report = self.mesh_without("fill_tries", "once", 2, DEGRADED, TESSERA_TEST_FAULT="fill=throw@2")

@@ -61,9 +61,9 @@ class OnePass(kill.RestartTest):
         self.resume()
 
     def test_damaged_records_of_the_stages_before_are_made_again(self):
-        for names in (("coarse", "plan"), ("run",)):
+        self.kill_run(self.has_pieces(2))
+        for names in self.from_here((("coarse", "plan"), ("run",))):
             with self.subTest(records=names):
-                self.kill_run(self.has_pieces(2))
                 for name in names:
                     flip_byte(self.record(name))
                 self.resume()

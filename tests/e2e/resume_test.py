@@ -127,7 +127,7 @@ class GivenTwice(program.ProgramTest):
         """Case, limits, what is made of it, model, version, pieces: a run of something else is in the way."""
         self.mesh(self.case, "out")
         files = self.files()
-        for other in (("--set", "refine.levels=1"), ("--set", "fill.timeout_s=500"), ("--set", "output.report_html=false")):
+        for other in (("--set", "refine.levels=1"), ("--set", "fill.timeout_s=500"), ("--set", "output.report_html=true")):
             self.assert_refused(self.mesh_again(*other), CANNOT_WRITE, "not empty", "--overwrite")
         self.write("ball.geo", program.BALL.replace("; 1)", "; 1.5)"))
         for ranks in (None, 3):

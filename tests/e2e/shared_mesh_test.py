@@ -20,9 +20,11 @@ def shared_inodes(pid):
 
 
 class SharedMeshTest(program.ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.case = self.write_case(max_size=0.6, subdomains=6)
+    @classmethod
+    def setUpClass(cls):
+        maker = cls.make_maker()
+        cls.case = maker.write_case(max_size=0.6, subdomains=6)
+        cls.reference = maker.mesh(cls.case, "reference", ranks=RANKS)
 
     def mesh_with(self, fault, output):
         return self.mesh(
@@ -53,17 +55,15 @@ class SharedMeshTest(program.ProgramTest):
         self.assertEqual(len(program.program_children(models[0])), RANKS)
 
     def test_rank_that_cannot_join_the_workers_of_the_node(self):
-        reference = self.mesh_with("", "reference")
-        self.assertNotIn("process of their own", self.log_of(reference))
+        self.assertNotIn("process of their own", self.log_of(self.reference))
         folder = self.mesh_with("join=throw@2", "alone")
         self.assertIn(
             f"warning 1 of {RANKS} ranks keep the model in a process of their own: thrown for a test", self.log_of(folder)
         )
-        self.assertEqual(program.mesh_files(folder), program.mesh_files(reference))
+        self.assertEqual(program.mesh_files(folder), program.mesh_files(self.reference))
 
     def test_copies_make_the_same_mesh(self):
-        reference = self.mesh_with("", "reference")
-        self.assertNotIn("coarse mesh: ", self.log_of(reference))
+        self.assertNotIn("coarse mesh: ", self.log_of(self.reference))
         for fault, words in (
             ("share=throw@0", f"{RANKS} ranks have a copy of their own; thrown for a test"),
             ("share=throw@2", f"{RANKS} ranks have a copy of their own; thrown for a test"),
@@ -72,8 +72,8 @@ class SharedMeshTest(program.ProgramTest):
             with self.subTest(fault=fault):
                 folder = self.mesh_with(fault, fault.replace("=", "_").replace("@", "_"))
                 self.assertIn(f"coarse mesh: {words}", self.log_of(folder))
-                self.assertEqual(program.figures(folder), program.figures(reference))
-                self.assertEqual(program.mesh_files(folder), program.mesh_files(reference))
+                self.assertEqual(program.figures(folder), program.figures(self.reference))
+                self.assertEqual(program.mesh_files(folder), program.mesh_files(self.reference))
 
 
 if __name__ == "__main__":

@@ -83,7 +83,7 @@ class SplitCorners(program.ProgramTest):
             ("parts", ("output.parts=2",)),
         ):
             with self.subTest(name):
-                split = self.made("two" if name == "another_kernel" else "half", name, *keys, ranks=2)
+                split = self.made("two" if name == "another_kernel" else "half", name, *keys)
                 self.assertEqual(num_corner_tets(split), 0)
                 self.assert_checked(split, volume_tolerance=1e-12)
 

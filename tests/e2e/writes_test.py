@@ -56,7 +56,7 @@ class WritesTest(program.ProgramTest):
     @classmethod
     def setUpClass(cls):
         maker = cls.make_maker()
-        cls.case = maker.write_case(max_size=0.9, subdomains=3)
+        cls.case = maker.write_case(max_size=0.9, subdomains=3, page=True)
         cls.reference = maker.mesh(cls.case, "reference")
 
     def run_alone(self, *arguments, largest_file=None, env=None, **options):
@@ -116,7 +116,7 @@ class FullDisk(WritesTest):
                     self.assertEqual(has_mesh, "report.html" in outcome.messages[0], "it comes after the mesh")
                     named += re.findall(rf"cannot write {output}/(\S+):", outcome.messages[0])
                     self.assert_resumes(output)
-            limit = max(16, 2 * limit)
+            limit = max(16, 3 * limit)
             self.assertLess(limit, 1e6)
         for file in (LOCK, "case.toml", "pieces/coarse.record"):
             self.assertIn(file, named)
