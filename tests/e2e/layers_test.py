@@ -42,7 +42,7 @@ class LayersTest(program.ProgramTest):
         return self.write(
             "case.toml",
             f"geometry.file = 'model.geo'\ncoarse.max_size = {max_size}\ndecompose.subdomains = 6\n"
-            f"refine.levels = 1\n[[layer]]\npatch = '{patch}'\nfirst = {first}\ncount = {count}\n",
+            f"refine.levels = 1\n{program.NO_PAGE}[[layer]]\npatch = '{patch}'\nfirst = {first}\ncount = {count}\n",
         )
 
     def checked(self, folder):
@@ -93,7 +93,7 @@ class Shape(program.ResultTest, LayersTest):
 
     @classmethod
     def make_result(cls, maker):
-        return maker.mesh(LayersTest.case(maker), "out", ranks=2)
+        return maker.mesh(LayersTest.case(maker), "out")
 
     def setUp(self):
         super().setUp()

@@ -240,7 +240,7 @@ class CannotWrite(OutcomeTest):
 
     def assert_reports_full_disk(self, ranks, limited_from, file, *arguments):
         """`limited_from`: 0 the rank processes, 1 the processes that jobs come from."""
-        case = self.write_case(max_size=0.15, levels=2)  # Some seconds, of which one is to be met.
+        case = self.write_case(max_size=0.2, levels=2)  # Some seconds, of which one is to be met.
         process = self.start("mesh", case, "--output", "out", *arguments, ranks=ranks)
         begun = ["pieces/plan.record", "log/run.log"][limited_from]
         program.wait_until((self.folder / "out" / begun).exists, begun)

@@ -53,7 +53,7 @@ class Repartition(program.ResultTest):
     def make_result(maker):
         maker.write("two.geo", program.TWO_MATERIALS)
         case = maker.write_case(geometry="two.geo", max_size=1.0, subdomains=5)
-        return maker.mesh(case, "out", ranks=2)
+        return maker.mesh(case, "out")
 
     def repartition(self, output, parts, *options, ranks=2, mesh=None, code=program.OK):
         """Runs it; the new folder and its report."""
