@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 import program
-from program import OK, WRONG_INPUT, sets
+from program import OK, WRONG_INPUT
 
 MAKER = pathlib.Path(program.PROGRAM).parent / "assembly_models"
 
