@@ -247,6 +247,17 @@ void add_convert(CLI::App& app, ConvertCommand& command)
       ->trigger_on_parse()
       ->take_all()
       ->required();
+  const auto take_layers = [&command](const std::string& word) {
+    command.layers = *value_of<io::LayerCells>(word);
+  };
+  const std::vector<std::string> layers(kWords<io::LayerCells>.begin(),
+                                        kWords<io::LayerCells>.end());
+  convert
+      ->add_option_function<std::string>("--layers", take_layers,
+                                         "What layers on walls are made of; prisms if not given")
+      ->type_name(fmt::format("{}", fmt::join(layers, "|")))
+      ->check(CLI::IsMember(layers).description(""))
+      ->trigger_on_parse();
   convert->add_option("--output", command.output, "Folder of the files")
       ->type_name("DIR")
       ->check(not_empty())

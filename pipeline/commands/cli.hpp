@@ -59,6 +59,7 @@ struct ConvertCommand {
   std::filesystem::path mesh_file{};
   std::vector<io::Format> formats{};  ///< Not empty, none twice.
   std::filesystem::path output{};
+  io::LayerCells layers = io::LayerCells::prisms;
   bool overwrite = false;  ///< Use an output folder that is not empty.
 };
 

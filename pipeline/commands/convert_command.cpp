@@ -43,12 +43,14 @@ ExitCode run_convert_command(const ConvertCommand& command, const comm::Communic
     folder.emplace(command.output,
                    command.overwrite ? io::ExistingFolder::overwrite : io::ExistingFolder::refuse);
   });
-  const formats::Outline mesh = formats::export_mesh(
-      {command.mesh_file, command.formats, command.output}, comm, throw_if_stop_requested);
+  const formats::Outline mesh =
+      formats::export_mesh({command.mesh_file, command.formats, command.output, command.layers},
+                           comm, throw_if_stop_requested);
   if (comm.rank() != 0) return ExitCode::ok;
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-  fmt::print("{} tets in {} pieces as {}, {:.1f} s: {}\n", mesh.num_tets(), mesh.num_pieces(),
-             words_of(command.formats), time.count(), command.output.string());
+  fmt::print("{} {} in {} pieces as {}, {:.1f} s: {}\n", mesh.num_cells(),
+             mesh.has_prisms() ? "cells" : "tets", mesh.num_pieces(), words_of(command.formats),
+             time.count(), command.output.string());
   return ExitCode::ok;
 }
 

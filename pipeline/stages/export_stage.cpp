@@ -21,10 +21,10 @@ std::vector<formats::PieceCounts> run_export_stage(const config::Case& run_case,
   if (others.empty() && run_case.output.parts == 0) return {};
   StageScope stage(context, others.empty() ? "neighbours" : "export");
   const std::filesystem::path index = context.folder / "mesh.pvtu";
-  formats::Outline mesh = others.empty()
-                              ? formats::outline_of(index, context.comm, throw_if_stop_requested)
-                              : formats::export_mesh({index, others, context.folder}, context.comm,
-                                                     throw_if_stop_requested);
+  formats::Outline mesh =
+      others.empty() ? formats::outline_of(index, context.comm, throw_if_stop_requested)
+                     : formats::export_mesh({index, others, context.folder, run_case.output.layers},
+                                            context.comm, throw_if_stop_requested);
   stage.work_is_done();
   stage.finish(fmt::format("{} pieces in {} more formats", mesh.num_pieces(), others.size()));
   return std::move(mesh.pieces);

@@ -344,6 +344,11 @@ constexpr Key kKeys[] = {
          "does, so tets are curved there; each is certainly valid. Excludes fill.levels below "
          "refine.levels.",
      .reason = "what every solver reads"},
+    {.name = "output.layers",
+     .rule = word_rule([](Case& c) -> io::LayerCells& { return c.output.layers; }),
+     .meaning = "What formats other than pvtu have where [[layer]] is: prisms, or the tets that "
+                "they are cut into.",
+     .reason = "flat tets make errors that prisms do not"},
     {.name = "output.compression",
      .rule = word_rule([](Case& c) -> io::Compression& { return c.output.compression; }),
      .meaning = "Compression of the arrays in the mesh files.",

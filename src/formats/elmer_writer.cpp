@@ -2,8 +2,10 @@
 #include "formats/elmer_writer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/io/files.hpp"
 
+#include "formats/cells.hpp"
 #include "formats/plain_name.hpp"
 #include "formats/tets_behind.hpp"
 #include "formats/text_buffer.hpp"
@@ -20,18 +23,32 @@
 namespace tessera::formats {
 namespace {
 
-// Elmer's numbers of shapes.
-constexpr int kTriangle = 303;
-constexpr int kTet = 504;
+// Elmer's number of a shape.
+constexpr int type_of(Shape shape)
+{
+  switch (shape) {
+    case Shape::tet:
+      return 504;
+    case Shape::pyramid:
+      return 605;
+    case Shape::prism:
+      return 706;
+    case Shape::triangle:
+      return 303;
+    case Shape::quad:
+      return 404;
+  }
+  return 0;
+}
 
 void require_integers_suffice(const Outline& outline)
 {
   const GlobalIndex most =
-      std::max({outline.num_points(), outline.num_tets(), outline.num_triangles()});
+      std::max({outline.num_points(), outline.num_cells(), outline.num_faces()});
   if (most <= INT32_MAX) return;
   throw ConfigError(fmt::format(
-      "the mesh has {} tets and {} points, but Elmer can have {} of each; take xdmf or mfem",
-      outline.num_tets(), outline.num_points(), INT32_MAX));
+      "the mesh has {} cells and {} points, but Elmer can have {} of each; take xdmf or mfem",
+      outline.num_cells(), outline.num_points(), INT32_MAX));
 }
 
 std::string lower_case(std::string text)
@@ -60,13 +77,21 @@ std::string names_text(const Outline& outline)
   return text + "! ----- names for boundaries -----\n" + name_lines(outline.patch_names, taken);
 }
 
-std::string header_text(const Piece& piece)
+std::string header_text(const Piece& piece, const PieceCells& cells)
 {
-  std::string text =
-      fmt::format("{} {} {}\n", piece.num_points(), piece.num_tets(), piece.num_triangles());
-  text += fmt::format("{}\n{} {}\n", piece.num_triangles() > 0 ? 2 : 1, kTet, piece.num_tets());
-  if (piece.num_triangles() > 0) text += fmt::format("{} {}\n", kTriangle, piece.num_triangles());
-  return text + fmt::format("{} 0\n", piece.shared_points.size());
+  std::size_t num_cells = 0;
+  std::size_t num_faces = 0;
+  int num_types = 0;
+  std::string types;
+  for (const Shape shape : kShapes) {
+    const std::size_t count = cells[shape].size();
+    (is_cell(shape) ? num_cells : num_faces) += count;
+    if (count == 0 && shape != Shape::tet) continue;
+    ++num_types;
+    types += fmt::format("{} {}\n", type_of(shape), count);
+  }
+  return fmt::format("{} {} {}\n{}\n{}{} 0\n", piece.num_points(), num_cells, num_faces, num_types,
+                     types, piece.shared_points.size());
 }
 
 TextBuffer nodes_text(const Piece& piece)
@@ -79,31 +104,50 @@ TextBuffer nodes_text(const Piece& piece)
   return text;
 }
 
-TextBuffer elements_text(const Piece& piece, GlobalIndex first_tet)
+TextBuffer elements_text(const Piece& piece, const PieceCells& cells, const Outline& outline)
 {
   TextBuffer text;
-  const auto node = [&](LocalIndex row) { return piece.point_numbers[at(row)] + 1; };
-  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-    const LocalIndex* const row = piece.tet_points.data() + 4 * at(t);
-    text.add("{} {} {} {} {} {} {}\n", first_tet + t + 1, piece.tet_material[at(t)], kTet,
-             node(row[0]), node(row[1]), node(row[2]), node(row[3]));
+  for (const Shape shape : kCellShapes) {
+    const ElementList list = cells[shape];
+    const std::vector<GlobalIndex> nodes = point_numbers(piece, list, 1);
+    GlobalIndex number = outline.first_number(shape, piece.number);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      text.add("{} {} {} {}\n", ++number, list.tags[i], type_of(shape),
+               fmt::join(std::span(nodes).subspan(list.width * i, list.width), " "));
+    }
   }
   return text;
 }
 
-// A tet of another piece cannot be named as a parent: 0 stands for it.
-TextBuffer boundary_text(const Piece& piece, GlobalIndex first_tet, GlobalIndex first_triangle)
+// Numbers of the cells on both sides of a face, from 1. A cell of another piece cannot be named as
+// a parent: 0 stands for it.
+std::array<GlobalIndex, 2> parents_of(LocalIndex side, const std::vector<LocalIndex>& behind,
+                                      const PieceCells& cells, const ByShape<GlobalIndex>& first_of)
+{
+  const auto number = [&](LocalIndex tet) {
+    const CellPlace cell = cells.cell_of(tet);
+    return first_of[cell.shape] + cell.row + 1;
+  };
+  const LocalIndex other = behind[at(side)];
+  return {number(side / 4), other == kNoIndex ? 0 : number(other)};
+}
+
+TextBuffer boundary_text(const Piece& piece, const PieceCells& cells, const Outline& outline)
 {
   TextBuffer text;
   const std::vector<LocalIndex> behind = tets_behind(piece.num_points(), piece.tet_points);
-  const auto node = [&](LocalIndex row) { return piece.point_numbers[at(row)] + 1; };
-  for (LocalIndex t = 0; t < piece.num_triangles(); ++t) {
-    const LocalIndex side = piece.triangle_side[at(t)];
-    const LocalIndex other = behind[at(side)];
-    const LocalIndex* const row = piece.triangle_points.data() + 3 * at(t);
-    text.add("{} {} {} {} {} {} {} {}\n", first_triangle + t + 1, piece.triangle_patch[at(t)],
-             first_tet + side / 4 + 1, other == kNoIndex ? 0 : first_tet + other + 1, kTriangle,
-             node(row[0]), node(row[1]), node(row[2]));
+  ByShape<GlobalIndex> first_of;
+  for (const Shape shape : kShapes) first_of[shape] = outline.first_number(shape, piece.number);
+  std::size_t face = 0;
+  for (const Shape shape : kFaceShapes) {
+    const ElementList list = cells[shape];
+    const std::vector<GlobalIndex> nodes = point_numbers(piece, list, 1);
+    GlobalIndex number = first_of[shape] - outline.num_cells();
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto [parent, other] = parents_of(cells.tet_side(face++), behind, cells, first_of);
+      text.add("{} {} {} {} {} {}\n", ++number, list.tags[i], parent, other, type_of(shape),
+               fmt::join(std::span(nodes).subspan(list.width * i, list.width), " "));
+    }
   }
   return text;
 }
@@ -138,13 +182,12 @@ class ElmerWriter final : public Writer {
 
   void write(const Piece& piece) override
   {
-    const GlobalIndex first_tet = outline_.first_tet[at(piece.number)];
-    const GlobalIndex first_triangle = outline_.first_triangle[at(piece.number)];
+    const PieceCells cells(piece);
     write_part(piece, "nodes", nodes_text(piece));
-    write_part(piece, "elements", elements_text(piece, first_tet));
-    write_part(piece, "boundary", boundary_text(piece, first_tet, first_triangle));
+    write_part(piece, "elements", elements_text(piece, cells, outline_));
+    write_part(piece, "boundary", boundary_text(piece, cells, outline_));
     write_part(piece, "shared", shared_text(piece));
-    write_whole_file(part(piece, "header"), header_text(piece));
+    write_whole_file(part(piece, "header"), header_text(piece, cells));
   }
 
   void commit() override { write_whole_file(folder_ / "mesh.names", names_text(outline_)); }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
+#include <functional>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,15 +14,23 @@
 
 #include <fmt/format.h>
 
+#include "formats/cells.hpp"
 #include "formats/netcdf_file.hpp"
+#include "formats/plain_name.hpp"
 #include "formats/record_file.hpp"
 #include "formats/tag_groups.hpp"
 
 namespace tessera::formats {
 namespace {
 
-/// Of the side opposite to each corner.
+// Of the side opposite to each corner of a tet; those of other cells follow CellSide::side.
 constexpr std::array<GlobalIndex, 4> kSideOppositeToCorner{2, 3, 1, 4};
+
+GlobalIndex number_of_side(const CellSide& side)
+{
+  if (side.cell.shape == Shape::tet) return kSideOppositeToCorner[side.side];
+  return static_cast<GlobalIndex>(side.side) + 1;
+}
 
 // What the Exodus library writes of itself in Debian 12, which readers ask for.
 constexpr float kVersion = 6.02F;
@@ -30,13 +40,63 @@ constexpr std::size_t kShortestNameLength = 33;  // Older readers take no other.
 constexpr std::size_t kSectionsOfPoints = 3;
 constexpr std::size_t kSectionsOfSideSet = 2;
 
+// Cells of one shape and material. Blocks of one shape stand together.
+struct Block {
+  GlobalIndex id = 0;
+  std::string name{};
+  Shape shape = Shape::tet;
+  GlobalIndex num_cells = 0;
+};
+
+std::vector<Block> blocks_of(const Outline& outline, const ByShape<TagGroups>& cells)
+{
+  const std::array<const char*, kCellShapes.size()> suffixes{"", "_pyramids", "_prisms"};
+  std::set<std::string> taken;
+  std::vector<Block> blocks;
+  GlobalIndex first_id = 0;
+  for (std::size_t s = 0; s < kCellShapes.size(); ++s) {
+    const TagGroups& groups = cells[kCellShapes[s]];
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      blocks.push_back({first_id + groups.tag(g),
+                        unique_name(groups.names()[g] + suffixes[s], std::identity{}, taken),
+                        kCellShapes[s], groups.total(g)});
+    }
+    first_id += static_cast<GlobalIndex>(outline.material_names.size());
+  }
+  return blocks;
+}
+
+// Ids and names.
+struct Named {
+  std::vector<GlobalIndex> ids{};
+  std::vector<std::string> names{};
+};
+
+Named named(const std::vector<Block>& blocks)
+{
+  Named result;
+  for (const Block& block : blocks) {
+    result.ids.push_back(block.id);
+    result.names.push_back(block.name);
+  }
+  return result;
+}
+
+Named named(const TagGroups& groups)
+{
+  Named result{.names = groups.names()};
+  for (std::size_t g = 0; g < groups.size(); ++g) result.ids.push_back(groups.tag(g));
+  return result;
+}
+
 class Layout {
  public:
-  Layout(const Outline& outline, const TagGroups& blocks, const TagGroups& side_sets,
+  Layout(const Outline& outline, const std::vector<Block>& blocks, const TagGroups& side_sets,
          const TagGroups& node_sets)
   {
+    const Named named_blocks = named(blocks);
     std::size_t longest = kShortestNameLength - 1;
-    for (const auto* names : {&blocks.names(), &side_sets.names()})
+    for (const auto* names : {&named_blocks.names, &side_sets.names()})
       for (const std::string& name : *names) longest = std::max(longest, name.size());
     name_length_ = longest + 1;
     layout_.attributes = {{"api_version", kVersion},
@@ -53,16 +113,16 @@ class Layout {
                           {"time_step", 0},
                           {"num_dim", 3},
                           {"num_nodes", outline.num_points()},
-                          {"num_elem", outline.num_tets()}};
+                          {"num_elem", outline.num_cells()}};
     add("time_whole", NetcdfType::float64, {"time_step"});
-    add_groups("eb", "num_el_blk", blocks);
-    add_groups("ss", "num_side_sets", side_sets);
-    add_groups("ns", "num_node_sets", node_sets);
+    add_groups("eb", "num_el_blk", named_blocks);
+    add_groups("ss", "num_side_sets", named(side_sets));
+    add_groups("ns", "num_node_sets", named(node_sets));
     add("coor_names", NetcdfType::text, {"num_dim", "len_name"}, padded({"x", "y", "z"}));
     for (const char* const name : {"coordx", "coordy", "coordz"})
       add(name, NetcdfType::float64, {"num_nodes"});
     for (std::size_t b = 0; b < blocks.size(); ++b)
-      add_block(fmt::format("{}", b + 1), blocks.total(b), outline.points_per_tet());
+      add_block(fmt::format("{}", b + 1), blocks[b], outline);
     for (std::size_t s = 0; s < side_sets.size(); ++s)
       add_side_set(fmt::format("{}", s + 1), side_sets.total(s));
     for (std::size_t s = 0; s < node_sets.size(); ++s)
@@ -80,30 +140,30 @@ class Layout {
   }
 
   // Ids, names, and that each is there.
-  void add_groups(const std::string& prefix, const std::string& dimension, const TagGroups& groups)
+  void add_groups(const std::string& prefix, const std::string& dimension, const Named& groups)
   {
-    if (groups.size() == 0) return;
-    layout_.dimensions.push_back({dimension, static_cast<GlobalIndex>(groups.size())});
-    const std::vector<std::int32_t> ones(groups.size(), 1);
-    std::vector<GlobalIndex> ids;
-    for (std::size_t g = 0; g < groups.size(); ++g) ids.push_back(groups.tag(g));
+    if (groups.ids.empty()) return;
+    layout_.dimensions.push_back({dimension, static_cast<GlobalIndex>(groups.ids.size())});
+    const std::vector<std::int32_t> ones(groups.ids.size(), 1);
     add(prefix + "_status", NetcdfType::int32, {dimension},
         big_endian(std::span<const std::int32_t>(ones)));
     add(prefix + "_prop1", NetcdfType::int64, {dimension},
-        big_endian(std::span<const GlobalIndex>(ids)));
+        big_endian(std::span<const GlobalIndex>(groups.ids)));
     layout_.variables.back().attributes = {{"name", "ID"}};
-    add(prefix + "_names", NetcdfType::text, {dimension, "len_name"}, padded(groups.names()));
+    add(prefix + "_names", NetcdfType::text, {dimension, "len_name"}, padded(groups.names));
   }
 
-  void add_block(const std::string& number, GlobalIndex num_tets, std::size_t points_per_tet)
+  void add_block(const std::string& number, const Block& block, const Outline& outline)
   {
-    const std::string tets = "num_el_in_blk" + number;
+    const std::string cells = "num_el_in_blk" + number;
     const std::string points = "num_nod_per_el" + number;
-    layout_.dimensions.push_back({tets, num_tets});
-    layout_.dimensions.push_back({points, static_cast<GlobalIndex>(points_per_tet)});
-    add("connect" + number, NetcdfType::int64, {tets, points});
-    layout_.variables.back().attributes = {
-        {"elem_type", points_per_tet == 4 ? "TETRA" : "TETRA10"}};
+    const std::size_t num_points = outline.points_per(block.shape);
+    layout_.dimensions.push_back({cells, block.num_cells});
+    layout_.dimensions.push_back({points, static_cast<GlobalIndex>(num_points)});
+    add("connect" + number, NetcdfType::int64, {cells, points});
+    const std::map<std::size_t, std::string> types{
+        {4, "TETRA"}, {5, "PYRAMID"}, {6, "WEDGE"}, {10, "TETRA10"}};
+    layout_.variables.back().attributes = {{"elem_type", types.at(num_points)}};
   }
 
   void add_side_set(const std::string& number, GlobalIndex num_sides)
@@ -137,15 +197,16 @@ class ExodusWriter final : public Writer {
  public:
   explicit ExodusWriter(const WriterTarget& target)
       : outline_(target.outline),
-        blocks_(outline_, Grouped::tets),
-        side_sets_(outline_, Grouped::triangles),
-        node_sets_(outline_, Grouped::points),
+        cells_(groups_by_shape(outline_)),
+        blocks_(blocks_of(outline_, cells_)),
+        side_sets_(TagGroups::of_elements(outline_, kFaceShapes)),
+        node_sets_(TagGroups::of_points(outline_)),
         file_(target.folder / "mesh.exo",
               Layout(outline_, blocks_, side_sets_, node_sets_).sections(), {}),
         first_element_(blocks_.size() + 1, 1)
   {
     for (std::size_t b = 0; b < blocks_.size(); ++b)
-      first_element_[b + 1] = first_element_[b] + blocks_.total(b);
+      first_element_[b + 1] = first_element_[b] + blocks_[b].num_cells;
   }
 
   void begin() override { file_.begin(); }
@@ -153,7 +214,8 @@ class ExodusWriter final : public Writer {
   void write(const Piece& piece) override
   {
     write_points(piece);
-    write_side_sets(piece, write_blocks(piece));
+    const PieceCells cells(piece);
+    write_side_sets(piece.number, cells, write_blocks(piece, cells));
     write_node_sets(piece);
   }
 
@@ -179,36 +241,45 @@ class ExodusWriter final : public Writer {
     }
   }
 
-  // Gives the number of each tet, from 1.
-  std::vector<GlobalIndex> write_blocks(const Piece& piece)
+  // Gives the number of each cell, from 1.
+  ByShape<std::vector<GlobalIndex>> write_blocks(const Piece& piece, const PieceCells& cells)
   {
-    const std::size_t width = outline_.points_per_tet();
-    std::vector<GlobalIndex> element_of_tet(at(piece.num_tets()));
-    blocks_.for_each_of(piece, [&](std::size_t block, GlobalIndex first,
-                                   std::span<const LocalIndex> tets) {
-      std::vector<GlobalIndex> nodes;
-      nodes.reserve(width * tets.size());
-      GlobalIndex element = first_element_[block] + first;
-      for (const LocalIndex tet : tets) {
-        element_of_tet[at(tet)] = element++;
-        for (const LocalIndex point : std::span(piece.tet_points).subspan(width * at(tet), width))
-          nodes.push_back(piece.point_numbers[at(point)] + 1);
-      }
-      put(kSectionsOfPoints + block, static_cast<GlobalIndex>(width) * first, nodes);
-    });
-    return element_of_tet;
+    ByShape<std::vector<GlobalIndex>> elements;
+    std::size_t first_block = 0;
+    for (const Shape shape : kCellShapes) {
+      const ElementList list = cells[shape];
+      elements[shape].resize(list.size());
+      const auto write_block = [&](std::size_t group, GlobalIndex first,
+                                   std::span<const LocalIndex> rows) {
+        const std::size_t block = first_block + group;
+        GlobalIndex element = first_element_[block] + first;
+        std::vector<GlobalIndex> nodes;
+        nodes.reserve(list.width * rows.size());
+        for (const LocalIndex row : rows) {
+          elements[shape][at(row)] = element++;
+          for (const LocalIndex point : list.of(at(row)))
+            nodes.push_back(piece.point_numbers[at(point)] + 1);
+        }
+        put(kSectionsOfPoints + block, static_cast<GlobalIndex>(list.width) * first, nodes);
+      };
+      cells_[shape].for_each_of(piece.number, list.tags, write_block);
+      first_block += cells_[shape].size();
+    }
+    return elements;
   }
 
-  void write_side_sets(const Piece& piece, const std::vector<GlobalIndex>& element_of_tet)
+  void write_side_sets(LocalIndex piece, const PieceCells& cells,
+                       const ByShape<std::vector<GlobalIndex>>& element_of)
   {
     side_sets_.for_each_of(
-        piece, [&](std::size_t set, GlobalIndex first, std::span<const LocalIndex> triangles) {
+        piece, cells.patches(),
+        [&](std::size_t set, GlobalIndex first, std::span<const LocalIndex> faces) {
           std::vector<GlobalIndex> elements;
           std::vector<GlobalIndex> sides;
-          for (const LocalIndex triangle : triangles) {
-            const LocalIndex side = piece.triangle_side[at(triangle)];
-            elements.push_back(element_of_tet[at(side / 4)]);
-            sides.push_back(kSideOppositeToCorner[at(side % 4)]);
+          for (const LocalIndex face : faces) {
+            const CellSide side = cells.side_of(at(face));
+            elements.push_back(element_of[side.cell.shape][at(side.cell.row)]);
+            sides.push_back(number_of_side(side));
           }
           const std::size_t section = kSectionsOfPoints + blocks_.size() + kSectionsOfSideSet * set;
           put(section, first, elements);
@@ -219,16 +290,19 @@ class ExodusWriter final : public Writer {
   void write_node_sets(const Piece& piece)
   {
     node_sets_.for_each_of(
-        piece, [&](std::size_t set, GlobalIndex first, std::span<const LocalIndex> points) {
+        piece.number, patches_of_points(piece),
+        [&](std::size_t set, GlobalIndex first, std::span<const LocalIndex> rows) {
           std::vector<GlobalIndex> nodes;
-          for (const LocalIndex point : points) nodes.push_back(piece.point_numbers[at(point)] + 1);
+          for (const LocalIndex row : rows)
+            nodes.push_back(piece.point_numbers[at(piece.patch_points[at(row)].point)] + 1);
           put(kSectionsOfPoints + blocks_.size() + kSectionsOfSideSet * side_sets_.size() + set,
               first, nodes);
         });
   }
 
   const Outline& outline_;
-  TagGroups blocks_;
+  ByShape<TagGroups> cells_;
+  std::vector<Block> blocks_;
   TagGroups side_sets_;
   TagGroups node_sets_;
   RecordFile file_;

@@ -92,7 +92,7 @@ std::vector<io::SharedPoints> shared_points(const std::vector<PieceCounts>& piec
 Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm,
                     const std::function<void()>& before_each)
 {
-  const PieceSource source(request.mesh, comm);
+  const PieceSource source(request.mesh, comm, request.layers);
   const auto has = [&](io::Format format) {
     return std::ranges::find(request.formats, format) != request.formats.end();
   };

@@ -132,7 +132,7 @@ FaceCount foam_patch_count(const Outline& outline, LocalIndex piece, std::int32_
 
 GlobalIndex foam_zone_count(const Outline& outline, LocalIndex piece, std::int32_t tag)
 {
-  const auto& counts = outline.cell_faces.empty() ? outline.pieces[at(piece)].tets_of_material
+  const auto& counts = outline.cell_faces.empty() ? outline.pieces[at(piece)].elements[Shape::tet]
                                                   : outline.cell_faces[at(piece)].of_material;
   const auto found = std::ranges::find(counts, tag, &TagCount::tag);
   return found == counts.end() ? 0 : found->count;

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <tuple>
 #include <utility>
 
-#include "tessera/mesh/tet_topology.hpp"
-
+#include "formats/joined_tets.hpp"
 #include "formats/tets_behind.hpp"
 
 namespace tessera::formats {
@@ -17,10 +15,15 @@ namespace {
 FoamFace face_of_side(const Piece& piece, LocalIndex side, GlobalIndex neighbour = 0)
 {
   FoamFace face{.owner = piece.tet_cell[at(side / 4)], .neighbour = neighbour, .side = side};
-  const auto& corners = mesh::kTetFaceCorners[at(side % 4)];
-  for (std::size_t i = 0; i < 3; ++i)
-    face.points[i] = piece.tet_points[4 * at(side / 4) + corners[i]];
+  std::ranges::copy(triangle_of_side(JoinedTets(piece), side), face.points.begin());
   return face;
+}
+
+void join_half(const Piece& piece, LocalIndex other_side, FoamFace& face)
+{
+  const JoinedTets tets(piece);
+  face.points = quad_of(triangle_of_side(tets, face.side), triangle_of_side(tets, other_side));
+  face.num_points = 4;
 }
 
 void begin_at_lowest(const Piece& piece, FoamFace& face)
@@ -31,29 +34,6 @@ void begin_at_lowest(const Piece& piece, FoamFace& face)
   std::ranges::rotate(points, lowest);
 }
 
-bool has(const FoamFace& face, LocalIndex point)
-{
-  return std::ranges::find(face.corners(), point) != face.corners().end();
-}
-
-// Two triangles with a common edge become four corners: the other one's third corner goes between
-// the ends of that edge.
-FoamFace joined(const FoamFace& a, const FoamFace& b)
-{
-  const auto others = b.corners();
-  const LocalIndex apex =
-      *std::ranges::find_if(others, [&](LocalIndex point) { return !has(a, point); });
-  FoamFace face = a;
-  face.num_points = 4;
-  std::size_t to = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const LocalIndex next = a.points[(i + 1) % 3];
-    face.points[to++] = a.points[i];
-    if (has(b, a.points[i]) && has(b, next)) face.points[to++] = apex;
-  }
-  return face;
-}
-
 // Joins triangles that stand side by side in the list and lie between the same two cells.
 void join_equal(const Piece& piece, std::vector<FoamFace>& faces, std::size_t first)
 {
@@ -62,7 +42,7 @@ void join_equal(const Piece& piece, std::vector<FoamFace>& faces, std::size_t fi
     FoamFace face = faces[i];
     const bool is_pair = i + 1 < faces.size() && faces[i + 1].owner == face.owner
                          && faces[i + 1].neighbour == face.neighbour;
-    if (is_pair) face = joined(face, faces[++i]);
+    if (is_pair) join_half(piece, faces[++i].side, face);
     begin_at_lowest(piece, face);
     faces[num_kept++] = face;
   }
@@ -92,60 +72,6 @@ std::vector<LocalIndex> sides_of_patch(const Piece& piece, std::int32_t tag)
       sides.push_back(piece.triangle_side[t]);
   }
   return sides;
-}
-
-// First tet of a prism of three, if the tet is of one.
-std::optional<LocalIndex> prism_of(const Piece& piece, LocalIndex tet)
-{
-  const LocalIndex cell = piece.tet_cell[at(tet)];
-  const auto [first, last] = std::ranges::equal_range(piece.tet_cell, cell);
-  if (last - first != 3) return std::nullopt;
-  return static_cast<LocalIndex>(first - piece.tet_cell.begin());
-}
-
-// Sides of the tets of a prism that lie in one side of the prism, pair by pair.
-//
-// The tets go up a stair: each has one corner that the one before it lacks, and lacks one corner of
-// that. So p2 and q1, p1 and q0 are found, where p and q are the ends of columns; p0 comes first.
-std::array<std::array<LocalIndex, 2>, 3> halves_of_sides(const Piece& piece, LocalIndex first)
-{
-  const auto corners = [&](LocalIndex tet) {
-    return std::span(piece.tet_points).subspan(4 * at(tet), 4);
-  };
-  const auto only_in = [&](LocalIndex tet, LocalIndex other) {
-    return *std::ranges::find_if(corners(tet), [&](LocalIndex v) {
-      return std::ranges::find(corners(other), v) == corners(other).end();
-    });
-  };
-  const auto side_opposite = [&](LocalIndex tet, LocalIndex v) {
-    const auto all = corners(tet);
-    return static_cast<LocalIndex>(4 * tet + (std::ranges::find(all, v) - all.begin()));
-  };
-  const LocalIndex low = first;
-  const LocalIndex middle = first + 1;
-  const LocalIndex high = first + 2;
-  const LocalIndex p0 = corners(low)[0];
-  const LocalIndex p1 = only_in(middle, high);
-  const LocalIndex q1 = only_in(middle, low);
-  const LocalIndex p2 = only_in(low, middle);
-  const LocalIndex q2 = *std::ranges::find_if(
-      corners(low), [&](LocalIndex v) { return v != p0 && v != p1 && v != p2; });
-  return {{{side_opposite(low, p1), side_opposite(high, q1)},
-           {side_opposite(middle, q2), side_opposite(high, q2)},
-           {side_opposite(low, p0), side_opposite(middle, p0)}}};
-}
-
-// The other half of a prism's side; kNoIndex if the side is one of its ends, or of no prism of
-// three tets.
-LocalIndex other_half(const Piece& piece, LocalIndex side)
-{
-  const auto first = prism_of(piece, side / 4);
-  if (!first) return kNoIndex;
-  for (const auto& [a, b] : halves_of_sides(piece, *first)) {
-    if (side == a) return b;
-    if (side == b) return a;
-  }
-  return kNoIndex;
 }
 
 FaceCount count_of(std::int32_t tag, std::span<const FoamFace> faces)
@@ -204,15 +130,10 @@ std::vector<FoamFace> foam_seam_faces(const Piece& piece, GlobalIndex first_cell
 std::vector<FoamFace> foam_patch_faces(const Piece& piece, std::int32_t tag)
 {
   const std::vector<LocalIndex> sides = sides_of_patch(piece, tag);
-  std::vector<LocalIndex> sorted = sides;
-  std::ranges::sort(sorted);
   std::vector<FoamFace> faces;
-  for (const LocalIndex side : sides) {
-    const LocalIndex half = other_half(piece, side);
-    const bool is_pair = half != kNoIndex && std::ranges::binary_search(sorted, half);
-    if (is_pair && half < side) continue;  // It went with the other half.
-    FoamFace face = face_of_side(piece, side);
-    if (is_pair) face = joined(face, face_of_side(piece, half));
+  for (const JoinedSide& side : joined_sides(JoinedTets(piece), sides)) {
+    FoamFace face = face_of_side(piece, sides[at(side.row)]);
+    if (side.other_row != kNoIndex) join_half(piece, sides[at(side.other_row)], face);
     begin_at_lowest(piece, face);
     faces.push_back(face);
   }

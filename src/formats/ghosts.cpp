@@ -11,23 +11,28 @@
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/record_exchange.hpp"
 
+#include "formats/cells.hpp"
+
 namespace tessera::formats {
 namespace {
 
-// A tet on its way to a piece that it touches.
-struct GhostTet {
+constexpr std::size_t kMostCorners = 6;
+
+// A cell on its way to a piece that it touches.
+struct GhostCell {
   LocalIndex target = 0;
   LocalIndex piece = 0;
-  GlobalIndex number = 0;
-  std::array<GlobalIndex, 4> points{};
+  Shape shape = Shape::tet;
+  GlobalIndex number = 0;  // Of those of its shape in its piece; then in the whole mesh.
+  std::array<GlobalIndex, kMostCorners> points{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.target, self.piece, self.number, self.points);
+    return std::tie(self.target, self.piece, self.shape, self.number, self.points);
   }
 };
 
-// A point of such a tet.
+// A point of such a cell.
 struct GhostPoint {
   LocalIndex target = 0;
   GlobalIndex number = 0;
@@ -37,7 +42,7 @@ struct GhostPoint {
 };
 
 struct GhostSet {
-  std::vector<GhostTet> tets{};
+  std::vector<GhostCell> cells{};
   std::vector<GhostPoint> points{};
 };
 
@@ -53,9 +58,14 @@ class GhostFinder {
 
   GhostSet find()
   {
-    for (LocalIndex t = 0; t < piece_.num_tets(); ++t) {
-      const auto corners = std::span(piece_.tet_points).subspan(4 * at(t), 4);
-      for (const LocalIndex target : targets_of(corners)) add(t, corners, target);
+    const PieceCells cells(piece_);
+    for (const Shape shape : kCellShapes) {
+      const ElementList list = cells[shape];
+      for (std::size_t row = 0; row < list.size(); ++row) {
+        const GhostCell cell{
+            .piece = piece_.number, .shape = shape, .number = static_cast<GlobalIndex>(row)};
+        for (const LocalIndex target : targets_of(list.of(row))) add(cell, list.of(row), target);
+      }
     }
     std::ranges::sort(needed_);
     const auto repeated = std::ranges::unique(needed_);
@@ -85,15 +95,15 @@ class GhostFinder {
     return targets_;
   }
 
-  void add(LocalIndex tet, std::span<const LocalIndex> corners, LocalIndex target)
+  void add(GhostCell ghost, std::span<const LocalIndex> corners, LocalIndex target)
   {
-    GhostTet ghost{target, piece_.number, tet};
-    for (std::size_t c = 0; c < 4; ++c) {
+    ghost.target = target;
+    for (std::size_t c = 0; c < corners.size(); ++c) {
       ghost.points[c] = piece_.point_numbers[at(corners[c])];
       if (!std::ranges::binary_search(sharers(corners[c]), target))
         needed_.push_back({target, corners[c]});
     }
-    found_.tets.push_back(ghost);
+    found_.cells.push_back(ghost);
   }
 
   const Piece& piece_;
@@ -134,13 +144,13 @@ class Delivery {
 
 void deliver(const GhostSet& sent, const Delivery& delivery, std::vector<GhostSet>& received)
 {
-  std::vector<std::vector<GhostTet>*> tets;
+  std::vector<std::vector<GhostCell>*> cells;
   std::vector<std::vector<GhostPoint>*> points;
   for (GhostSet& set : received) {
-    tets.push_back(&set.tets);
+    cells.push_back(&set.cells);
     points.push_back(&set.points);
   }
-  delivery.send(std::span(sent.tets), tets);
+  delivery.send(std::span(sent.cells), cells);
   delivery.send(std::span(sent.points), points);
 }
 
@@ -148,14 +158,15 @@ void deliver(const GhostSet& sent, const Delivery& delivery, std::vector<GhostSe
 Ghosts sorted(GhostSet set, const Outline& outline)
 {
   Ghosts ghosts;
-  for (GhostTet& tet : set.tets) tet.number += outline.first_tet[at(tet.piece)];
-  std::ranges::sort(set.tets, {}, &GhostTet::number);
-  for (const GhostTet& tet : set.tets) {
-    ghosts.tets.push_back(tet.number);
-    ghosts.tet_piece.push_back(tet.piece);
-    ghosts.tet_points.insert(ghosts.tet_points.end(), tet.points.begin(), tet.points.end());
+  for (GhostCell& cell : set.cells) cell.number += outline.first_number(cell.shape, cell.piece);
+  std::ranges::sort(set.cells, {}, &GhostCell::number);
+  for (const GhostCell& cell : set.cells) {
+    ghosts.cells.push_back(cell.number);
+    ghosts.cell_shape.push_back(cell.shape);
+    ghosts.cell_piece.push_back(cell.piece);
+    ghosts.cell_points.add(std::span(cell.points).first(num_corners(cell.shape)));
   }
-  set.tets = {};
+  set.cells = {};
   std::ranges::sort(set.points, {}, &GhostPoint::number);
   for (const GhostPoint& point : set.points) {
     if (!ghosts.points.empty() && ghosts.points.back() == point.number) continue;

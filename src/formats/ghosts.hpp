@@ -12,7 +12,7 @@
 
 namespace tessera::formats {
 
-/// @brief Reads all pieces once more and gives each the tets of others that share a point with it.
+/// @brief Reads all pieces once more and gives each the cells of others that share a point with it.
 /// A rank holds one piece, and the ghosts of its pieces.
 /// @note Collective. @throws InputError on all ranks.
 /// @return By this rank's pieces.

@@ -95,7 +95,8 @@ class Hdf5Maker {
   {
     const std::array<hsize_t, 2> shape{static_cast<hsize_t>(array.num_rows),
                                        static_cast<hsize_t>(array.num_columns)};
-    const Handle space(H5Screate_simple(2, shape.data(), nullptr), &H5Sclose, path_);
+    const int num_dimensions = array.num_columns == 0 ? 1 : 2;
+    const Handle space(H5Screate_simple(num_dimensions, shape.data(), nullptr), &H5Sclose, path_);
     const Handle made = dataset(array.name, type_of(array.type), space);
     for (const auto& [name, value] : array.attributes) {
       const Handle scalar(H5Screate(H5S_SCALAR), &H5Sclose, path_);

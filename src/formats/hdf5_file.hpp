@@ -12,12 +12,12 @@ namespace tessera::formats {
 
 enum class Hdf5Type { float64, int64, int32 };
 
-/// @brief A two-dimensional array of an HDF5 file.
+/// @brief An array of an HDF5 file, of two dimensions but where it says so.
 struct Hdf5Array {
   std::string name{};  ///< Path, such as "/geometry/vertices".
   Hdf5Type type = Hdf5Type::float64;
   GlobalIndex num_rows = 0;
-  int num_columns = 1;
+  int num_columns = 1;  ///< 0: the array has one dimension.
   std::map<std::string, int> attributes{};
 };
 

@@ -8,7 +8,8 @@
 #include <unordered_set>
 
 #include "tessera/comm/record_exchange.hpp"
-#include "tessera/mesh/tet_topology.hpp"
+
+#include "formats/joined_tets.hpp"
 
 namespace tessera::formats {
 namespace {
@@ -79,15 +80,16 @@ std::vector<OtherPieces> others_with_edge(const std::vector<Candidate>& candidat
 
 SkinEdges skin_edges(const LoadedPiece& piece, const std::vector<LocalIndex>& behind)
 {
+  const JoinedTets tets(piece);
+  std::vector<LocalIndex> sides;
+  for (std::size_t side = 0; side < behind.size(); ++side)
+    if (behind[side] == kNoIndex) sides.push_back(static_cast<LocalIndex>(side));
   SkinEdges edges;
   std::unordered_set<Edge, EdgeHash> known;
-  for (std::size_t side = 0; side < behind.size(); ++side) {
-    if (behind[side] != kNoIndex) continue;
-    const auto& corners = mesh::kTetFaceCorners[side % 4];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [low, high] =
-          std::minmax({piece.tet_points[4 * (side / 4) + corners[i]],
-                       piece.tet_points[4 * (side / 4) + corners[(i + 1) % 3]]});
+  for (const JoinedSide& side : joined_sides(tets, sides)) {
+    const std::vector<LocalIndex> corners = corners_of(tets, sides, side);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % corners.size()]);
       const Edge edge{low, high};
       if (!known.insert(edge).second) continue;
       edges.points.push_back(edge);

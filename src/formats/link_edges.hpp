@@ -16,7 +16,7 @@ struct SkinEdges {
   std::vector<std::array<LocalIndex, 2>> points{};  ///< Rows in the file.
 };
 
-/// @brief Local. @param[in] behind Of tets_behind().
+/// @brief Those of cells: not the diagonals of prisms. Local. @param[in] behind Of tets_behind().
 [[nodiscard]] SkinEdges skin_edges(const LoadedPiece& piece, const std::vector<LocalIndex>& behind);
 
 /// @brief Finds the edges that pieces share. Their points do not say it: two pieces may share both

@@ -15,6 +15,7 @@
 #include "tessera/comm/record_exchange.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
+#include "formats/count_elements.hpp"
 #include "formats/link_edges.hpp"
 #include "formats/match_nodes.hpp"
 #include "formats/name_tags.hpp"
@@ -108,15 +109,6 @@ GlobalIndex number_of_own(const Outline& outline, const SkinPoint& point)
   return number;
 }
 
-std::vector<TagCount> counted(const std::vector<std::int32_t>& values)
-{
-  std::map<std::int32_t, GlobalIndex> counts;
-  for (const std::int32_t value : values) ++counts[value];
-  std::vector<TagCount> list;
-  for (const auto& [value, count] : counts) list.push_back({value, count});
-  return list;
-}
-
 Box box_of(const std::vector<double>& point_xyz)
 {
   Box box;
@@ -154,11 +146,11 @@ class Linker {
                     .num_tets = piece.num_tets(),
                     .num_cells = piece.tet_cell.empty() ? 0 : piece.tet_cell.back() + 1,
                     .points_per_tet = piece.points_per_tet(),
-                    .num_triangles = static_cast<GlobalIndex>(piece.triangle_side.size()),
-                    .tets_of_material = counted(piece.material),
-                    .triangles_of_patch = counted(piece.patch),
+                    .elements = counted_elements(piece),
                     .box = box_of(piece.point_xyz)};
       triangles_.push_back({piece.triangle_side, piece.patch});
+      halves_.push_back(source_.has_boundary() ? std::vector<SideHalves>{}
+                                               : skin_halves(piece, behind));
     }
   }
 
@@ -219,11 +211,10 @@ class Linker {
       counts_[i].outer_triangles_of_patch = counted(outer_patches);
       if (source_.has_boundary()) continue;
       links.is_inner_triangle.assign(links.open_sides.size(), 0);
-      counts_[i].num_triangles = num_open;
-      if (num_open > 0) counts_[i].triangles_of_patch = {{0, num_open}};
-      counts_[i].outer_triangles_of_patch = counts_[i].triangles_of_patch;
+      count_open_faces(links.open_sides, halves_[i], counts_[i]);
     }
     triangles_ = {};
+    halves_ = {};
   }
 
   void link_points()
@@ -361,6 +352,7 @@ class Linker {
   std::vector<PieceLinks> links_{};
   std::vector<PieceCounts> counts_{};
   std::vector<Triangles> triangles_{};
+  std::vector<std::vector<SideHalves>> halves_{};
   Skin skin_{};
   std::vector<SkinEdges> skin_edges_{};
   std::vector<SkinNode> skin_nodes_{};
@@ -391,7 +383,11 @@ Outline outline_of(std::vector<PieceCounts> pieces)
                                   - piece.num_own_nodes);
     outline.first_tet.push_back(outline.first_tet.back() + piece.num_tets);
     outline.first_cell.push_back(outline.first_cell.back() + piece.num_cells);
-    outline.first_triangle.push_back(outline.first_triangle.back() + piece.num_triangles);
+    for (const Shape shape : kShapes) {
+      GlobalIndex first = outline.first_of[shape].back();
+      for (const TagCount& count : piece.elements[shape]) first += count.count;
+      outline.first_of[shape].push_back(first);
+    }
   }
   if (!are_of_second_order(outline.pieces)) return outline;
   outline.first_node = {outline.first_point.back()};

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "formats/cells.hpp"
 #include "formats/limits.hpp"
 #include "formats/plain_name.hpp"
 #include "formats/record_file.hpp"
@@ -17,7 +18,36 @@
 namespace tessera::formats {
 namespace {
 
-enum Section : std::size_t { kVertices, kTetrahedra, kTriangles };
+// Sections of the file; elements follow the points.
+constexpr std::size_t kVertices = 0;
+constexpr std::size_t kFirstShape = 1;
+
+constexpr const char* keyword_of(Shape shape)
+{
+  switch (shape) {
+    case Shape::tet:
+      return "Tetrahedra";
+    case Shape::pyramid:
+      return "Pyramids";
+    case Shape::prism:
+      return "Prisms";
+    case Shape::triangle:
+      return "Triangles";
+    case Shape::quad:
+      return "Quadrilaterals";
+  }
+  return "";
+}
+
+// Those of tets and triangles are always there.
+std::vector<Shape> shapes_of(const Outline& outline)
+{
+  std::vector<Shape> shapes;
+  for (const Shape shape : kShapes)
+    if (shape == Shape::tet || shape == Shape::triangle || outline.num_of(shape) > 0)
+      shapes.push_back(shape);
+  return shapes;
+}
 
 constexpr std::string_view kNoReference = " 0\n";
 
@@ -32,9 +62,9 @@ Widths widths_of(const Outline& outline)
   return {num_digits(outline.num_points()), num_digits(static_cast<GlobalIndex>(num_tags))};
 }
 
-GlobalIndex cell_size(const Widths& widths, std::size_t num_corners)
+GlobalIndex cell_size(const Widths& widths, std::size_t num_points)
 {
-  return static_cast<GlobalIndex>(num_corners * (widths.point + 1) + widths.tag + 1);
+  return static_cast<GlobalIndex>(num_points * (widths.point + 1) + widths.tag + 1);
 }
 
 // # patch 1 inlet
@@ -51,13 +81,15 @@ std::vector<RecordSection> sections_of(const Outline& outline)
   const Widths widths = widths_of(outline);
   constexpr auto kPointSize =
       static_cast<GlobalIndex>(3 * (kRealWidth + 1) - 1 + kNoReference.size());
-  return {
+  std::vector<RecordSection> sections{
       {fmt::format("MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n{}\n", outline.num_points()),
-       outline.num_points(), kPointSize},
-      {fmt::format("\nTetrahedra\n{}\n", outline.num_tets()), outline.num_tets(),
-       cell_size(widths, 4)},
-      {fmt::format("\nTriangles\n{}\n", outline.num_triangles()), outline.num_triangles(),
-       cell_size(widths, 3)}};
+       outline.num_points(), kPointSize}};
+  for (const Shape shape : shapes_of(outline)) {
+    const GlobalIndex count = outline.num_of(shape);
+    sections.push_back({fmt::format("\n{}\n{}\n", keyword_of(shape), count), count,
+                        cell_size(widths, num_corners(shape))});
+  }
+  return sections;
 }
 
 class MeditWriter final : public Writer {
@@ -78,10 +110,10 @@ class MeditWriter final : public Writer {
   {
     const std::size_t p = at(piece.number);
     file_.write(kVertices, outline_.first_point[p], points(piece));
-    file_.write(kTetrahedra, outline_.first_tet[p],
-                cells(piece, piece.tet_points, piece.tet_material));
-    file_.write(kTriangles, outline_.first_triangle[p],
-                cells(piece, piece.triangle_points, piece.triangle_patch));
+    const PieceCells cells(piece);
+    std::size_t section = kFirstShape;
+    for (const Shape shape : shapes_of(outline_))
+      file_.write(section++, outline_.first_of[shape][p], elements(piece, cells[shape]));
   }
 
   void close() override { file_.close(); }
@@ -99,15 +131,13 @@ class MeditWriter final : public Writer {
     return text.take();
   }
 
-  std::string cells(const Piece& piece, const std::vector<LocalIndex>& rows,
-                    const std::vector<std::int32_t>& tags) const
+  [[nodiscard]] std::string elements(const Piece& piece, const ElementList& list) const
   {
     TextRecords text;
-    const std::size_t num_corners = tags.empty() ? 0 : rows.size() / tags.size();
-    for (std::size_t i = 0; i < tags.size(); ++i) {
-      for (const LocalIndex row : std::span(rows).subspan(i * num_corners, num_corners))
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      for (const LocalIndex row : list.of(i))
         text.integer(piece.point_numbers[at(row)] + 1, widths_.point).text(" ");
-      text.integer(tags[i], widths_.tag).text("\n");
+      text.integer(list.tags[i], widths_.tag).text("\n");
     }
     return text.take();
   }

@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "tessera/mesh/tet_topology.hpp"
-
+#include "formats/cells.hpp"
+#include "formats/joined_tets.hpp"
 #include "formats/plain_name.hpp"
 #include "formats/text_buffer.hpp"
 #include "formats/whole_file.hpp"
@@ -21,12 +21,26 @@
 namespace tessera::formats {
 namespace {
 
-// MFEM's numbers of shapes.
-constexpr int kTriangle = 2;
-constexpr int kTet = 4;
+// MFEM's number of a shape.
+constexpr int type_of(Shape shape)
+{
+  switch (shape) {
+    case Shape::tet:
+      return 4;
+    case Shape::pyramid:
+      return 7;
+    case Shape::prism:
+      return 6;
+    case Shape::triangle:
+      return 2;
+    case Shape::quad:
+      return 3;
+  }
+  return 0;
+}
 
-// Points that name an entity, ascending by their numbers in the whole mesh: so all pieces write
-// them alike.
+// Points that name an entity, in an order that follows from their numbers in the whole mesh: so all
+// pieces write them alike.
 template <std::size_t N>
 struct Entity {
   std::array<GlobalIndex, N> numbers{};
@@ -35,11 +49,18 @@ struct Entity {
   friend auto operator<=>(const Entity&, const Entity&) = default;
 };
 
+// Ascending; four go around from the lowest to the lower of the two beside it.
 template <std::size_t N>
 Entity<N> entity_of(const Piece& piece, std::array<LocalIndex, N> rows)
 {
   Entity<N> entity;
-  std::ranges::sort(rows, {}, [&](LocalIndex row) { return piece.point_numbers[at(row)]; });
+  const auto number_of = [&](LocalIndex row) { return piece.point_numbers[at(row)]; };
+  if constexpr (N < 4) {
+    std::ranges::sort(rows, {}, number_of);
+  } else {
+    std::ranges::rotate(rows, std::ranges::min_element(rows, {}, number_of));
+    if (number_of(rows[3]) < number_of(rows[1])) std::swap(rows[1], rows[3]);
+  }
   entity.rows = rows;
   for (std::size_t i = 0; i < N; ++i) entity.numbers[i] = piece.point_numbers[at(rows[i])];
   return entity;
@@ -49,7 +70,8 @@ Entity<N> entity_of(const Piece& piece, std::array<LocalIndex, N> rows)
 struct Group {
   std::vector<Entity<1>> points{};
   std::vector<Entity<2>> edges{};
-  std::vector<Entity<3>> faces{};
+  std::vector<Entity<3>> triangles{};
+  std::vector<Entity<4>> quads{};
 };
 using Groups = std::map<std::vector<LocalIndex>, Group>;  // By all pieces of the set, ascending.
 
@@ -58,6 +80,13 @@ std::vector<LocalIndex> members(const Piece& piece, std::span<const LocalIndex> 
   std::vector<LocalIndex> all(others.begin(), others.end());
   all.insert(std::ranges::lower_bound(all, piece.number), piece.number);
   return all;
+}
+
+std::vector<LocalIndex> sides_of_seams(const Piece& piece)
+{
+  std::vector<LocalIndex> sides;
+  for (const SeamFace& seam : piece.seams) sides.push_back(seam.side);
+  return sides;
 }
 
 Groups groups_of(const Piece& piece)
@@ -71,16 +100,21 @@ Groups groups_of(const Piece& piece)
     groups[members(piece, piece.edge_sharers[static_cast<LocalIndex>(e)])].edges.push_back(
         entity_of<2>(piece, piece.shared_edges[e]));
   }
-  for (const SeamFace& seam : piece.seams) {
-    const LocalIndex* const corner = piece.tet_points.data() + 4 * at(seam.side / 4);
-    const auto& [a, b, c] = mesh::kTetFaceCorners[at(seam.side % 4)];
-    groups[members(piece, std::span(&seam.other_piece, 1))].faces.push_back(
-        entity_of<3>(piece, {corner[a], corner[b], corner[c]}));
+  const JoinedTets tets(piece);
+  const std::vector<LocalIndex> sides = sides_of_seams(piece);
+  for (const JoinedSide& side : joined_sides(tets, sides)) {
+    Group& group = groups[members(piece, std::span(&piece.seams[at(side.row)].other_piece, 1))];
+    const std::vector<LocalIndex> c = corners_of(tets, sides, side);
+    if (side.shape() == Shape::quad)
+      group.quads.push_back(entity_of<4>(piece, {c[0], c[1], c[2], c[3]}));
+    else
+      group.triangles.push_back(entity_of<3>(piece, {c[0], c[1], c[2]}));
   }
   for (auto& [pieces, group] : groups) {
     std::ranges::sort(group.points);
     std::ranges::sort(group.edges);
-    std::ranges::sort(group.faces);
+    std::ranges::sort(group.triangles);
+    std::ranges::sort(group.quads);
   }
   return groups;
 }
@@ -111,20 +145,25 @@ void add_names(const Outline& outline, TextBuffer& text)
     text.add("# boundary attribute {}: {}\n", i + 1, plain_name(outline.patch_names[i]));
 }
 
+void add_elements(const PieceCells& cells, std::span<const Shape> shapes, TextBuffer& text)
+{
+  std::size_t count = 0;
+  for (const Shape shape : shapes) count += cells[shape].size();
+  text.add("{}\n", count);
+  for (const Shape shape : shapes) {
+    const ElementList list = cells[shape];
+    for (std::size_t i = 0; i < list.size(); ++i)
+      text.add("{} {} {}\n", list.tags[i], type_of(shape), fmt::join(list.of(i), " "));
+  }
+}
+
 void add_serial_mesh(const Piece& piece, const Sets& sets, TextBuffer& text)
 {
-  text.add("\ndimension\n3\n\nelements\n{}\n", piece.num_tets());
-  for (LocalIndex t = 0; t < piece.num_tets(); ++t) {
-    const LocalIndex* const point = piece.tet_points.data() + 4 * at(t);
-    text.add("{} {} {} {} {} {}\n", piece.tet_material[at(t)], kTet, point[0], point[1], point[2],
-             point[3]);
-  }
-  text.add("{}\nboundary\n{}\n", sets.materials, piece.num_triangles());
-  for (LocalIndex t = 0; t < piece.num_triangles(); ++t) {
-    const LocalIndex* const point = piece.triangle_points.data() + 3 * at(t);
-    text.add("{} {} {} {} {}\n", piece.triangle_patch[at(t)], kTriangle, point[0], point[1],
-             point[2]);
-  }
+  const PieceCells cells(piece);
+  text.add("\ndimension\n3\n\nelements\n");
+  add_elements(cells, kCellShapes, text);
+  text.add("{}\nboundary\n", sets.materials);
+  add_elements(cells, kFaceShapes, text);
   text.add("{}\nvertices\n{}\n3\n", sets.patches, piece.num_points());
   for (std::size_t i = 0; i < piece.point_xyz.size(); i += 3)
     text.add("{} {} {}\n", piece.point_xyz[i], piece.point_xyz[i + 1], piece.point_xyz[i + 2]);
@@ -134,6 +173,9 @@ void add_serial_mesh(const Piece& piece, const Sets& sets, TextBuffer& text)
 // Group 0 is the piece alone; it shares nothing.
 void add_group_list(const Piece& piece, const Groups& groups, TextBuffer& text)
 {
+  std::size_t num_faces = 0;
+  for (const auto& [pieces, group] : groups)
+    num_faces += group.triangles.size() + group.quads.size();
   text.add(
       "\ncommunication_groups\nnumber_of_groups {}\n\n"
       "# number of entities in each group, followed by ranks in group\n1 {}\n",
@@ -143,7 +185,7 @@ void add_group_list(const Piece& piece, const Groups& groups, TextBuffer& text)
   text.add(
       "\ntotal_shared_vertices {}\ntotal_shared_edges {}\ntotal_shared_faces {}\n"
       "\n# group 0 has no shared entities\n",
-      piece.shared_points.size(), piece.shared_edges.size(), piece.seams.size());
+      piece.shared_points.size(), piece.shared_edges.size(), num_faces);
 }
 
 void add_groups(const Groups& groups, TextBuffer& text)
@@ -154,9 +196,11 @@ void add_groups(const Groups& groups, TextBuffer& text)
     for (const Entity<1>& point : group.points) text.add("{}\n", point.rows[0]);
     text.add("\nshared_edges {}\n", group.edges.size());
     for (const Entity<2>& edge : group.edges) text.add("{} {}\n", edge.rows[0], edge.rows[1]);
-    text.add("\nshared_faces {}\n", group.faces.size());
-    for (const Entity<3>& face : group.faces)
-      text.add("{} {} {} {}\n", kTriangle, face.rows[0], face.rows[1], face.rows[2]);
+    text.add("\nshared_faces {}\n", group.triangles.size() + group.quads.size());
+    for (const Entity<3>& face : group.triangles)
+      text.add("{} {}\n", type_of(Shape::triangle), fmt::join(face.rows, " "));
+    for (const Entity<4>& face : group.quads)
+      text.add("{} {}\n", type_of(Shape::quad), fmt::join(face.rows, " "));
   }
 }
 

@@ -23,8 +23,7 @@ constexpr int kRealWidth = 24;  // The longest number that is read back with the
 
 // Sections of the file.
 constexpr std::size_t kNodes = 0;
-constexpr std::size_t kTriangles = 1;
-constexpr std::size_t kTets = 2;
+constexpr std::size_t kFirstShape = 1;  // Others follow as in kMshShapes.
 
 // Characters of numbers up to this one.
 int width_of(GlobalIndex number) { return static_cast<int>(fmt::formatted_size("{}", number)); }
@@ -39,12 +38,11 @@ void add_number(std::string& text, GlobalIndex number, int width)
 void require_short_numbers(const Outline& outline)
 {
   constexpr GlobalIndex kMost = std::numeric_limits<std::int32_t>::max();
-  const GlobalIndex num_elements = outline.num_tets() + outline.num_triangles();
-  if (num_elements <= kMost) return;
+  if (outline.num_elements() <= kMost) return;
   throw ConfigError(fmt::format(
-      "format msh2 holds {} elements at most, for its numbers have 32 bits; the mesh has {} tets "
-      "and {} triangles: take msh or xdmf",
-      kMost, outline.num_tets(), outline.num_triangles()));
+      "format msh2 holds {} elements at most, for its numbers have 32 bits; the mesh has {} cells "
+      "and {} faces: take msh or xdmf",
+      kMost, outline.num_cells(), outline.num_faces()));
 }
 
 class Msh2Writer final : public Writer {
@@ -52,7 +50,7 @@ class Msh2Writer final : public Writer {
   explicit Msh2Writer(const WriterTarget& target)
       : outline_(target.outline),
         point_width_(width_of(outline_.num_points())),
-        element_width_(width_of(outline_.num_tets() + outline_.num_triangles())),
+        element_width_(width_of(outline_.num_elements())),
         tag_width_(width_of(static_cast<GlobalIndex>(outline_.material_names.size()
                                                      + outline_.patch_names.size()))),
         file_(target.folder / "mesh_v2.msh", sections(), "$EndElements\n")
@@ -66,10 +64,13 @@ class Msh2Writer final : public Writer {
     const LocalIndex number = piece.number;
     for (const PointRun& run : outline_.own_points(number))
       file_.write(kNodes, run.first_number, nodes_of(piece, run));
-    file_.write(kTriangles, outline_.first_triangle[at(number)],
-                elements_of(piece, msh_triangles(outline_, piece), msh_tag_of_patch(outline_, 0)));
-    file_.write(kTets, outline_.first_tet[at(number)],
-                elements_of(piece, msh_tets(outline_, piece), 0));
+    const PieceCells cells(piece);
+    std::size_t section = kFirstShape;
+    for (const Shape shape : kMshShapes) {
+      file_.write(section++, outline_.first_of[shape][at(number)],
+                  elements_of(piece, msh_cells(outline_, number, shape, cells[shape]),
+                              is_cell(shape) ? 0 : msh_tag_of_patch(outline_, 0)));
+    }
   }
 
   void close() override { file_.close(); }
@@ -93,11 +94,12 @@ class Msh2Writer final : public Writer {
     const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
                              + msh_physical_names(msh_entities(outline_))
                              + fmt::format("$Nodes\n{}\n", outline_.num_points());
-    return {
-        {head, outline_.num_points(), node_size()},
-        {fmt::format("$EndNodes\n$Elements\n{}\n", outline_.num_triangles() + outline_.num_tets()),
-         outline_.num_triangles(), element_size(msh_triangle_type(outline_))},
-        {"", outline_.num_tets(), element_size(msh_tet_type(outline_))}};
+    std::vector<RecordSection> sections{{head, outline_.num_points(), node_size()}};
+    for (const Shape shape : kMshShapes) {
+      sections.push_back({"", outline_.num_of(shape), element_size(msh_type(outline_, shape))});
+    }
+    sections[kFirstShape].head = fmt::format("$EndNodes\n$Elements\n{}\n", outline_.num_elements());
+    return sections;
   }
 
   [[nodiscard]] std::string nodes_of(const Piece& piece, const PointRun& run) const
@@ -118,13 +120,13 @@ class Msh2Writer final : public Writer {
                                         std::int32_t shift) const
   {
     std::string text;
-    text.reserve(static_cast<std::size_t>(element_size(cells.type)) * cells.tags.size());
+    text.reserve(static_cast<std::size_t>(element_size(cells.type)) * cells.list.size());
     std::vector<GlobalIndex> nodes;
-    for (std::size_t c = 0; c < cells.tags.size(); ++c) {
+    for (std::size_t c = 0; c < cells.list.size(); ++c) {
       add_number(text, cells.first_element + static_cast<GlobalIndex>(c), element_width_);
       add_number(text, cells.type.number, width_of(cells.type.number));
       add_number(text, 2, 1);
-      for (int tag = 0; tag < 2; ++tag) add_number(text, cells.tags[c] + shift, tag_width_);
+      for (int tag = 0; tag < 2; ++tag) add_number(text, cells.list.tags[c] + shift, tag_width_);
       nodes.clear();
       msh_add_nodes(piece, cells, c, nodes);
       for (const GlobalIndex node : nodes) add_number(text, node, point_width_);

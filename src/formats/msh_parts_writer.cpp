@@ -12,12 +12,24 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/io/files.hpp"
 
+#include "formats/cells.hpp"
 #include "formats/msh_sections.hpp"
 
 namespace tessera::formats {
 namespace {
+
+// Those of the elements of some shapes, ascending.
+std::vector<std::int32_t> tags_of(const PieceCounts& piece, std::span<const Shape> shapes)
+{
+  std::vector<std::int32_t> tags;
+  for (const Shape shape : shapes)
+    for (const TagCount& count : piece.elements[shape]) tags.push_back(count.tag);
+  sort_unique(tags);
+  return tags;
+}
 
 // Tags of the entities that pieces have, above those of the model: no two pieces share one.
 class PartTags {
@@ -29,8 +41,8 @@ class PartTags {
     for (const PieceCounts& piece : outline.pieces) {
       first_surface_.push_back(num_surfaces_ + 1);
       first_volume_.push_back(num_volumes_ + 1);
-      num_surfaces_ += static_cast<std::int32_t>(piece.triangles_of_patch.size());
-      num_volumes_ += static_cast<std::int32_t>(piece.tets_of_material.size());
+      num_surfaces_ += static_cast<std::int32_t>(tags_of(piece, kFaceShapes).size());
+      num_volumes_ += static_cast<std::int32_t>(tags_of(piece, kCellShapes).size());
     }
   }
 
@@ -62,13 +74,16 @@ class MshPart {
   MshPart(const Outline& outline, const PartTags& tags, const Piece& piece)
       : piece_(piece),
         ghosts_(piece.ghosts),
-        box_(outline.pieces[at(piece.number)].box),
+        counts_(outline.pieces[at(piece.number)]),
         tags_(tags),
-        triangles_(msh_triangles(outline, piece)),
-        tets_(msh_tets(outline, piece)),
+        cells_(piece),
+        patches_(tags_of(counts_, kFaceShapes)),
+        materials_(tags_of(counts_, kCellShapes)),
         tag_of_first_patch_(msh_tag_of_patch(outline, 1)),
         num_pieces_(outline.num_pieces())
   {
+    for (const Shape shape : kShapes)
+      elements_[shape] = msh_cells(outline, piece.number, shape, cells_[shape]);
   }
 
   [[nodiscard]] std::string text(const std::string& head)
@@ -82,7 +97,7 @@ class MshPart {
   }
 
  private:
-  [[nodiscard]] bool has_ghosts() const { return !ghosts_.tets.empty(); }
+  [[nodiscard]] bool has_ghosts() const { return !ghosts_.cells.empty(); }
   [[nodiscard]] std::int32_t part() const { return piece_.number + 1; }
 
   void add_part_entities()
@@ -91,20 +106,21 @@ class MshPart {
     bytes_.add(GlobalIndex{has_ghosts() ? 1 : 0});
     if (has_ghosts()) bytes_.add(tags_.ghosts(piece_.number)).add(part());
     bytes_.add(GlobalIndex{0}).add(GlobalIndex{0});
-    bytes_.add(static_cast<GlobalIndex>(triangles_.counts.size()));
-    bytes_.add(static_cast<GlobalIndex>(tets_.counts.size()));
-    add_entities(triangles_, tags_.surface(piece_.number), tag_of_first_patch_);
-    add_entities(tets_, tags_.volume(piece_.number), 1);
+    bytes_.add(static_cast<GlobalIndex>(patches_.size()));
+    bytes_.add(static_cast<GlobalIndex>(materials_.size()));
+    add_entities(patches_, kMshSurface, tags_.surface(piece_.number), tag_of_first_patch_);
+    add_entities(materials_, kMshVolume, tags_.volume(piece_.number), 1);
     bytes_.add("\n$EndPartitionedEntities\n");
   }
 
-  void add_entities(const MshCells& cells, std::int32_t tag, std::int32_t first_parent)
+  void add_entities(const std::vector<std::int32_t>& tags, std::int32_t dimension,
+                    std::int32_t first_entity, std::int32_t first_parent)
   {
-    for (const TagCount& count : cells.counts) {
-      const std::int32_t parent = first_parent + count.tag - 1;
-      bytes_.add(tag++).add(cells.type.dimension).add(parent);
+    for (const std::int32_t tag : tags) {
+      const std::int32_t parent = first_parent + tag - 1;
+      bytes_.add(first_entity++).add(dimension).add(parent);
       bytes_.add(GlobalIndex{1}).add(part());
-      msh4_add_entity({.tag = parent, .box = box_}, bytes_);
+      msh4_add_entity({.tag = parent, .box = counts_.box}, bytes_);
     }
   }
 
@@ -127,40 +143,65 @@ class MshPart {
 
   void add_elements()
   {
-    const auto num_tets = static_cast<GlobalIndex>(tets_.tags.size());
-    const auto num_triangles = static_cast<GlobalIndex>(triangles_.tags.size());
-    const auto num_ghosts = static_cast<GlobalIndex>(ghosts_.tets.size());
-    const auto num_blocks = triangles_.counts.size() + tets_.counts.size() + (has_ghosts() ? 1 : 0);
-    GlobalIndex first = tets_.first_element;
-    GlobalIndex last = first + num_tets - 1;
+    const GlobalIndex none = elements_[Shape::tet].first_element;
+    std::vector<GlobalIndex> firsts;
+    GlobalIndex last = none - 1;
+    auto num_elements = static_cast<GlobalIndex>(ghosts_.cells.size());
     if (has_ghosts()) {
-      first = std::min(first, ghosts_.tets.front() + 1);
-      last = std::max(last, ghosts_.tets.back() + 1);
+      firsts.push_back(ghosts_.cells.front() + 1);
+      last = std::max(last, ghosts_.cells.back() + 1);
     }
-    if (num_triangles > 0) last = triangles_.first_element + num_triangles - 1;
-    bytes_.add(msh4_elements_head(static_cast<GlobalIndex>(num_blocks),
-                                  num_triangles + num_tets + num_ghosts, first, last));
-    add_blocks(triangles_, tags_.surface(piece_.number));
-    add_blocks(tets_, tags_.volume(piece_.number));
-    if (has_ghosts()) add_ghost_block();
+    for (const MshCells& cells : elements_.values) {
+      const auto size = static_cast<GlobalIndex>(cells.list.size());
+      if (size == 0) continue;
+      firsts.push_back(cells.first_element);
+      last = std::max(last, cells.first_element + size - 1);
+      num_elements += size;
+    }
+    bytes_.add(msh4_elements_head(num_blocks(), num_elements,
+                                  firsts.empty() ? none : std::ranges::min(firsts), last));
+    for (const Shape shape : kMshShapes) add_blocks(shape);
+    for (const Shape shape : kCellShapes) add_ghost_block(shape);
     bytes_.add(kMshEndElements);
   }
 
-  void add_blocks(const MshCells& cells, std::int32_t tag)
+  [[nodiscard]] GlobalIndex num_blocks() const
   {
+    std::size_t count = 0;
+    for (const MshCells& cells : elements_.values) count += cells.counts.size();
+    for (const Shape shape : kCellShapes)
+      if (num_ghosts(shape) > 0) ++count;
+    return static_cast<GlobalIndex>(count);
+  }
+
+  void add_blocks(Shape shape)
+  {
+    const MshCells& cells = elements_[shape];
+    const auto& tags = is_cell(shape) ? materials_ : patches_;
+    const std::int32_t first_entity =
+        is_cell(shape) ? tags_.volume(piece_.number) : tags_.surface(piece_.number);
     for (const TagCount& count : cells.counts) {
-      bytes_.add(msh4_block_head(cells.type, tag++, count.count));
+      const auto row = std::ranges::lower_bound(tags, count.tag) - tags.begin();
+      const std::int32_t entity = first_entity + static_cast<std::int32_t>(row);
+      bytes_.add(msh4_block_head(cells.type, entity, count.count));
       bytes_.add(bytes_of(msh4_records(piece_, cells, count)));
     }
   }
 
-  void add_ghost_block()
+  [[nodiscard]] GlobalIndex num_ghosts(Shape shape) const
   {
-    bytes_.add(msh4_block_head(kMshTet, tags_.ghosts(piece_.number),
-                               static_cast<GlobalIndex>(ghosts_.tets.size())));
-    for (std::size_t g = 0; g < ghosts_.tets.size(); ++g) {
-      bytes_.add(ghosts_.tets[g] + 1);
-      for (const GlobalIndex number : std::span(ghosts_.tet_points).subspan(4 * g, 4))
+    return std::ranges::count(ghosts_.cell_shape, shape);
+  }
+
+  void add_ghost_block(Shape shape)
+  {
+    if (num_ghosts(shape) == 0) return;
+    bytes_.add(
+        msh4_block_head(elements_[shape].type, tags_.ghosts(piece_.number), num_ghosts(shape)));
+    for (std::size_t g = 0; g < ghosts_.cells.size(); ++g) {
+      if (ghosts_.cell_shape[g] != shape) continue;
+      bytes_.add(ghosts_.cells[g] + 1);
+      for (const GlobalIndex number : ghosts_.cell_points[static_cast<LocalIndex>(g)])
         bytes_.add(number + 1);
     }
   }
@@ -168,9 +209,9 @@ class MshPart {
   // Each with the part that it belongs to, and the one part that it is a ghost of here.
   void add_ghosts()
   {
-    bytes_.add("$GhostElements\n").add(static_cast<GlobalIndex>(ghosts_.tets.size()));
-    for (std::size_t g = 0; g < ghosts_.tets.size(); ++g) {
-      bytes_.add(ghosts_.tets[g] + 1).add(ghosts_.tet_piece[g] + 1);
+    bytes_.add("$GhostElements\n").add(static_cast<GlobalIndex>(ghosts_.cells.size()));
+    for (std::size_t g = 0; g < ghosts_.cells.size(); ++g) {
+      bytes_.add(ghosts_.cells[g] + 1).add(ghosts_.cell_piece[g] + 1);
       bytes_.add(GlobalIndex{1}).add(part());
     }
     bytes_.add("\n$EndGhostElements\n");
@@ -178,10 +219,12 @@ class MshPart {
 
   const Piece& piece_;
   const Ghosts& ghosts_;
-  const Box& box_;
+  const PieceCounts& counts_;
   const PartTags& tags_;
-  MshCells triangles_;
-  MshCells tets_;
+  PieceCells cells_;
+  std::vector<std::int32_t> patches_;
+  std::vector<std::int32_t> materials_;
+  ByShape<MshCells> elements_{};
   std::int32_t tag_of_first_patch_;
   LocalIndex num_pieces_;
   MshBytes bytes_{};

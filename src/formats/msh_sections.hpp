@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,9 +12,11 @@
 
 #include "tessera/formats/piece.hpp"
 
+#include "formats/cells.hpp"
+
 /// What the forms of Gmsh's MSH files have in common. Entities and physical groups have the same
 /// tags: materials 1…M, patches M+1…M+P, because some readers have one list of groups for all
-/// dimensions. Points have their numbers plus 1, tets too, and triangles follow the tets.
+/// dimensions. Points and elements have their numbers plus 1: faces follow cells.
 namespace tessera::formats {
 
 /// @brief A kind of cell as MSH numbers it.
@@ -22,14 +25,15 @@ struct MshCellType {
   std::int32_t number = 0;
   std::size_t num_points = 0;
 };
-inline constexpr MshCellType kMshTriangle{2, 2, 3};
-inline constexpr MshCellType kMshTet{3, 4, 4};
-inline constexpr MshCellType kMshTriangle6{2, 9, 6};
-inline constexpr MshCellType kMshTet10{3, 11, 10};
+inline constexpr std::int32_t kMshSurface = 2;  ///< A dimension.
+inline constexpr std::int32_t kMshVolume = 3;
 
-/// @brief The kinds of cells that a mesh has. Local.
-[[nodiscard]] MshCellType msh_triangle_type(const Outline& outline);
-[[nodiscard]] MshCellType msh_tet_type(const Outline& outline);
+/// @brief The kind that elements of a shape have in a mesh. Local.
+[[nodiscard]] MshCellType msh_type(const Outline& outline, Shape shape);
+
+/// @brief The order in which files have elements.
+inline constexpr std::array kMshShapes{Shape::triangle, Shape::quad, Shape::tet, Shape::pyramid,
+                                       Shape::prism};
 
 /// @brief Bytes of numbers, one behind the other. MSH's size_t is a GlobalIndex here.
 class MshBytes {
@@ -70,10 +74,9 @@ template <class Values>
 /// @brief Cells of one kind of a piece.
 struct MshCells {
   MshCellType type{};
-  std::span<const LocalIndex> points{};  ///< Shape (num_cells, type.num_points): rows.
-  std::span<const std::int32_t> tags{};  ///< Shape (num_cells): materials or patches.
-  std::span<const TagCount> counts{};    ///< How many cells have which tag; ascending.
-  GlobalIndex first_element = 0;         ///< Tag of the first cell in files.
+  ElementList list{};
+  std::span<const TagCount> counts{};  ///< How many cells have which tag; ascending.
+  GlobalIndex first_element = 0;       ///< Tag of the first cell in files.
 };
 
 /// @brief Tags of the nodes of a cell, in the order of MSH, which has the last two nodes of a tet
@@ -81,11 +84,9 @@ struct MshCells {
 void msh_add_nodes(const Piece& piece, const MshCells& cells, std::size_t cell,
                    std::vector<GlobalIndex>& nodes);
 
-/// @brief The triangles of a piece. Local. Borrows from both.
-[[nodiscard]] MshCells msh_triangles(const Outline& outline, const Piece& piece);
-
-/// @brief The tets of a piece. Local. Borrows from both.
-[[nodiscard]] MshCells msh_tets(const Outline& outline, const Piece& piece);
+/// @brief Elements of one shape of a piece. Local. Borrows from the outline and from `list`.
+[[nodiscard]] MshCells msh_cells(const Outline& outline, LocalIndex piece, Shape shape,
+                                 const ElementList& list);
 
 /// @brief What a block of version 4.1 holds of a piece: of each cell with a tag, its own tag as an
 /// element and those of its nodes. Local.

@@ -33,13 +33,15 @@ struct Blocks {
   Lists<GlobalIndex> first_of_pieces{};  // By piece: where it begins in the block of each tag.
 };
 
-Blocks blocks_of(const Outline& outline, const MshCellType& type,
-                 std::vector<TagCount> PieceCounts::*counts, std::size_t num_tags)
+Blocks blocks_of(const Outline& outline, Shape shape)
 {
+  const std::size_t num_tags =
+      is_cell(shape) ? outline.material_names.size() : outline.patch_names.size();
   std::vector<GlobalIndex> sums(num_tags + 1, 0);
-  Blocks blocks{.type = type, .block_of = std::vector<std::size_t>(num_tags + 1, 0)};
+  Blocks blocks{.type = msh_type(outline, shape),
+                .block_of = std::vector<std::size_t>(num_tags + 1, 0)};
   for (const PieceCounts& piece : outline.pieces) {
-    for (const TagCount& count : piece.*counts)
+    for (const TagCount& count : piece.elements[shape])
       blocks.first_of_pieces.values.push_back(
           std::exchange(sums[at(count.tag)], sums[at(count.tag)] + count.count));
     blocks.first_of_pieces.end_list();
@@ -51,14 +53,18 @@ Blocks blocks_of(const Outline& outline, const MshCellType& type,
   return blocks;
 }
 
+ByShape<Blocks> blocks_of_shapes(const Outline& outline)
+{
+  ByShape<Blocks> blocks;
+  for (const Shape shape : kShapes) blocks[shape] = blocks_of(outline, shape);
+  return blocks;
+}
+
 class MshWriter final : public Writer {
  public:
   explicit MshWriter(const WriterTarget& target)
       : outline_(target.outline),
-        triangles_(blocks_of(outline_, msh_triangle_type(outline_),
-                             &PieceCounts::triangles_of_patch, outline_.patch_names.size())),
-        tets_(blocks_of(outline_, msh_tet_type(outline_), &PieceCounts::tets_of_material,
-                        outline_.material_names.size())),
+        blocks_(blocks_of_shapes(outline_)),
         file_(target.folder / "mesh.msh", sections(), kMshEndElements)
   {
   }
@@ -74,8 +80,13 @@ class MshWriter final : public Writer {
       const auto xyz = std::span(piece.point_xyz).subspan(3 * at(run.first_row), 3 * at(run.count));
       file_.write(kNodePoints, run.first_number, bytes_of(xyz));
     }
-    write(piece, triangles_, kFirstBlock, msh_triangles(outline_, piece));
-    write(piece, tets_, kFirstBlock + triangles_.counts.size(), msh_tets(outline_, piece));
+    const PieceCells cells(piece);
+    std::size_t first_block = kFirstBlock;
+    for (const Shape shape : kMshShapes) {
+      write(piece, blocks_[shape], first_block,
+            msh_cells(outline_, piece.number, shape, cells[shape]));
+      first_block += blocks_[shape].counts.size();
+    }
   }
 
   void close() override { file_.close(); }
@@ -96,30 +107,31 @@ class MshWriter final : public Writer {
   [[nodiscard]] std::vector<RecordSection> sections() const
   {
     const GlobalIndex num_points = outline_.num_points();
-    const GlobalIndex num_cells = outline_.num_triangles() + outline_.num_tets();
-    const auto num_blocks =
-        static_cast<GlobalIndex>(triangles_.counts.size() + tets_.counts.size());
+    const GlobalIndex num_elements = outline_.num_elements();
+    GlobalIndex num_blocks = 0;
+    for (const Blocks& blocks : blocks_.values)
+      num_blocks += static_cast<GlobalIndex>(blocks.counts.size());
     std::vector<RecordSection> sections(kFirstBlock);
     sections[kNodeTags] = {
         msh4_head(msh_entities(outline_)) + msh4_nodes_head(1, num_points, 1, num_points),
         num_points, kTagSize};
     sections[kNodePoints] = {"", num_points, kPointSize};
     sections[kElementsHead] = {
-        kMshEndNodes + msh4_elements_head(num_blocks, num_cells, 1, num_cells), 0, 0};
-    for (const Blocks* const blocks : {&triangles_, &tets_}) {
-      for (const TagCount& count : blocks->counts) {
+        kMshEndNodes + msh4_elements_head(num_blocks, num_elements, 1, num_elements), 0, 0};
+    for (const Shape shape : kMshShapes) {
+      const MshCellType& type = blocks_[shape].type;
+      for (const TagCount& count : blocks_[shape].counts) {
         const std::int32_t entity =
-            blocks == &triangles_ ? msh_tag_of_patch(outline_, count.tag) : count.tag;
-        sections.push_back({msh4_block_head(blocks->type, entity, count.count), count.count,
-                            static_cast<GlobalIndex>(blocks->type.num_points + 1) * kTagSize});
+            is_cell(shape) ? count.tag : msh_tag_of_patch(outline_, count.tag);
+        sections.push_back({msh4_block_head(type, entity, count.count), count.count,
+                            static_cast<GlobalIndex>(type.num_points + 1) * kTagSize});
       }
     }
     return sections;
   }
 
   const Outline& outline_;
-  Blocks triangles_;
-  Blocks tets_;
+  ByShape<Blocks> blocks_;
   RecordFile file_;
 };
 

@@ -76,15 +76,17 @@ Tags name_tags(const FileNames& names, Outline& outline)
   Tagger materials(names.materials, 1, "material");
   Tagger patches(names.patches, 0, "patch");
   for (const PieceCounts& piece : outline.pieces) {
-    materials.add(piece.tets_of_material);
-    patches.add(piece.triangles_of_patch);
+    for (const Shape shape : kShapes)
+      (is_cell(shape) ? materials : patches).add(piece.elements[shape]);
   }
   Tags tags;
   materials.set_tags(false, tags.tag_of_material, outline.material_names);
   patches.set_tags(true, tags.tag_of_patch, outline.patch_names);
   for (PieceCounts& piece : outline.pieces) {
-    piece.tets_of_material = tagged(piece.tets_of_material, tags.tag_of_material);
-    piece.triangles_of_patch = tagged(piece.triangles_of_patch, tags.tag_of_patch);
+    for (const Shape shape : kShapes) {
+      piece.elements[shape] =
+          tagged(piece.elements[shape], is_cell(shape) ? tags.tag_of_material : tags.tag_of_patch);
+    }
     piece.outer_triangles_of_patch = tagged(piece.outer_triangles_of_patch, tags.tag_of_patch);
   }
   outline.length_unit = names.length_unit;

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <span>
+#include <string_view>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -20,6 +22,8 @@
 #include "tessera/mesh/mesh_arrays.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/subdomain/mesh_input.hpp"
+
+#include "formats/joined_tets.hpp"
 
 namespace tessera::formats {
 namespace {
@@ -157,6 +161,41 @@ std::vector<LocalIndex> cells_of_tets(const mesh::MeshArrays& cells, std::size_t
     cell_of_tet[t] = cell;
   }
   return cell_of_tet;
+}
+
+constexpr const char* kTakeTets = "`tessera convert --layers tets` writes the tets themselves";
+
+// Tets of one cell must make a prism or a pyramid.
+void require_cells(const LoadedPiece& piece, const fs::path& file)
+{
+  const JoinedTets tets(piece);
+  if (!tets.has_prisms()) return;
+  for (LocalIndex tet = 0; tet < tets.num_tets();) {
+    const CellTets cell = tets_of_cell(tets, tet);
+    const std::string_view defect = defect_of_cell(tets, cell);
+    if (!defect.empty()) {
+      throw InputError(fmt::format("{}: tets {} to {} are one cell by tet_of_prism, but {}; {}",
+                                   file.string(), tet, tet + cell.count - 1, defect, kTakeTets));
+    }
+    tet += cell.count;
+  }
+}
+
+// The two triangles of a side of a prism must be on one patch.
+void require_whole_sides(const LoadedPiece& piece, const fs::path& file)
+{
+  const JoinedTets tets(piece);
+  if (!tets.has_prisms()) return;
+  for (const JoinedSide& side : joined_sides(tets, piece.triangle_side)) {
+    const bool is_whole = side.other_row == kNoIndex
+                              ? other_half(tets, piece.triangle_side[at(side.row)]) == kNoIndex
+                              : piece.patch[at(side.row)] == piece.patch[at(side.other_row)];
+    if (is_whole) continue;
+    throw InputError(
+        fmt::format("{}: triangle {} is half a side of a prism, and the other half is not on its "
+                    "patch; {}",
+                    file.string(), side.row, kTakeTets));
+  }
 }
 
 // Rows of the boundary's points among those of the piece.
@@ -308,8 +347,9 @@ std::vector<LocalIndex> LoadedPiece::points_of_side(LocalIndex side) const
   return points;
 }
 
-PieceSource::PieceSource(const fs::path& index, const comm::Communicator& comm)
-    : num_ranks_(comm.size()), tets_(subdomain::pieces_of(index, comm))
+PieceSource::PieceSource(const fs::path& index, const comm::Communicator& comm,
+                         io::LayerCells layers)
+    : num_ranks_(comm.size()), layers_(layers), tets_(subdomain::pieces_of(index, comm))
 {
   find_boundary(index, comm);
   const FirstPiece first = on_root(comm, [&] {
@@ -361,13 +401,17 @@ LoadedPiece PieceSource::load(LocalIndex number) const
                        ? std::move(material->second)
                        : std::vector<std::int32_t>(piece.tet_points.size() / 4, 1);
   piece.tet_cell = cells_of_tets(cells, piece.material.size(), file);
+  const bool has_prisms = layers_ == io::LayerCells::prisms && piece.tet_nodes.empty();
+  if (!has_prisms) std::iota(piece.tet_cell.begin(), piece.tet_cell.end(), 0);
   require_positive(piece, file);
+  require_cells(piece, file);
   if (!boundary_ || (*boundary_)[at(number)].empty()) return piece;
   const fs::path& boundary_file = (*boundary_)[at(number)];
   mesh::MeshArrays boundary = read_cells(boundary_file, 3);
   take_nodes(boundary, 3);  // They are those of the tets.
   add_triangles(boundary, keys_of_points(boundary, identity_, boundary_file), cells.cell_ids,
                 boundary_file, piece);
+  require_whole_sides(piece, boundary_file);
   return piece;
 }
 

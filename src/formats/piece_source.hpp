@@ -10,19 +10,21 @@
 
 #include "tessera/base/entity_key.hpp"
 #include "tessera/comm/communicator.hpp"
+#include "tessera/io/options.hpp"
 
 namespace tessera::formats {
 
 /// @brief A piece as it stands in its files, with what is easily told of it. Of second order the
 /// nodes on edges are points as well: the last ones.
 struct LoadedPiece {
-  std::vector<double> point_xyz{};          ///< Shape (num_points, 3).
-  std::vector<VertexKey> point_keys{};      ///< Shape (num_points): the same in all pieces.
-  std::vector<LocalIndex> tet_points{};     ///< Shape (num_tets, 4): corners; positive.
-  std::vector<LocalIndex> tet_nodes{};      ///< Shape (num_tets, 6), kQuadraticTetEdges; or empty.
-  LocalIndex num_nodes = 0;                 ///< Points that are nodes.
-  std::vector<std::int32_t> material{};     ///< Shape (num_tets), as in the file.
-  std::vector<LocalIndex> tet_cell{};       ///< Shape (num_tets): as Piece::tet_cell.
+  std::vector<double> point_xyz{};       ///< Shape (num_points, 3).
+  std::vector<VertexKey> point_keys{};   ///< Shape (num_points): the same in all pieces.
+  std::vector<LocalIndex> tet_points{};  ///< Shape (num_tets, 4): corners; positive.
+  std::vector<LocalIndex> tet_nodes{};   ///< Shape (num_tets, 6), kQuadraticTetEdges; or empty.
+  LocalIndex num_nodes = 0;              ///< Points that are nodes.
+  std::vector<std::int32_t> material{};  ///< Shape (num_tets), as in the file.
+  std::vector<LocalIndex>
+      tet_cell{};  ///< Shape (num_tets): as Piece::tet_cell; of second order a cell each.
   std::vector<LocalIndex> triangle_side{};  ///< Shape (num_triangles): 4 * tet + opposite corner.
   std::vector<std::int32_t> patch{};        ///< Shape (num_triangles), as in the file.
 
@@ -52,7 +54,9 @@ class PieceSource {
  public:
   /// @brief Finds the files, and how points of different pieces are recognised. @note Collective.
   /// @throws InputError on all ranks, naming the file.
-  PieceSource(const std::filesystem::path& index, const comm::Communicator& comm);
+  /// @param[in] layers What the tets of a prism are: one cell, or cells of their own.
+  PieceSource(const std::filesystem::path& index, const comm::Communicator& comm,
+              io::LayerCells layers = io::LayerCells::prisms);
 
   [[nodiscard]] LocalIndex num_pieces() const { return static_cast<LocalIndex>(tets_.size()); }
   /// @brief Whether files say which triangles are on the geometry.
@@ -75,6 +79,7 @@ class PieceSource {
   void find_boundary(const std::filesystem::path& index, const comm::Communicator& comm);
 
   int num_ranks_;
+  io::LayerCells layers_;
   std::vector<std::filesystem::path> tets_;
   std::optional<std::vector<std::filesystem::path>> boundary_{};  ///< Empty path: none.
   VertexIdentity identity_ = VertexIdentity::ids;

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,16 +13,13 @@
 #include "tessera/io/files.hpp"
 #include "tessera/io/vtu.hpp"
 
+#include "formats/cells.hpp"
 #include "formats/shared_file.hpp"
 
 namespace tessera::formats {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Numbers that VTK has for kinds of cells.
-constexpr std::uint8_t kTriangle = 5;
-constexpr std::uint8_t kTet = 10;
 
 constexpr std::string_view kPieceFolder = "cells";
 
@@ -90,6 +86,7 @@ class PvtuCellsWriter final : public Writer {
 
   void write(const Piece& piece) override
   {
+    const PieceCells cells(piece);
     VtuText text;
     text.element(
         "<?xml version=\"1.0\"?>\n"
@@ -99,9 +96,9 @@ class PvtuCellsWriter final : public Writer {
     put_neighbours(piece.number, text);
     text.element("</FieldData>\n");
     text.element(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-                             piece.num_points(), piece.num_tets() + piece.num_triangles()));
-    put_data(piece, text);
-    put_geometry(piece, text);
+                             piece.num_points(), num_elements(cells)));
+    put_data(piece, cells, text);
+    put_geometry(piece, cells, text);
     text.element("</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_");
     SharedFile file(folder_ / kPieceFolder / file_name(piece.number));
     file.create();
@@ -138,16 +135,24 @@ class PvtuCellsWriter final : public Writer {
                fmt::format(R"( NumberOfComponents="3" NumberOfTuples="{}")", rows.size() / 3));
   }
 
-  void put_data(const Piece& piece, VtuText& text) const
+  static std::size_t num_elements(const PieceCells& cells)
   {
-    std::vector<GlobalIndex> ids(at(piece.num_tets()));
-    std::iota(ids.begin(), ids.end(), outline_.first_tet[at(piece.number)]);
-    std::vector<std::int32_t> attribute = piece.tet_material;
+    std::size_t count = 0;
+    for (const Shape shape : kShapes) count += cells[shape].size();
+    return count;
+  }
+
+  void put_data(const Piece& piece, const PieceCells& cells, VtuText& text) const
+  {
+    std::vector<GlobalIndex> ids;
+    std::vector<std::int32_t> attribute;
     const auto num_materials = static_cast<std::int32_t>(outline_.material_names.size());
-    GlobalIndex id = outline_.num_tets() + outline_.first_triangle[at(piece.number)];
-    for (const std::int32_t patch : piece.triangle_patch) {
-      ids.push_back(id++);
-      attribute.push_back(num_materials + patch);
+    for (const Shape shape : kShapes) {
+      GlobalIndex id = outline_.first_number(shape, piece.number);
+      for (const std::int32_t tag : cells[shape].tags) {
+        ids.push_back(id++);
+        attribute.push_back(is_cell(shape) ? tag : num_materials + tag);
+      }
     }
     text.element("<PointData GlobalIds=\"GlobalPointIds\">\n");
     text.array("Int64", "GlobalPointIds", piece.point_numbers, R"( IdType="1")");
@@ -157,15 +162,20 @@ class PvtuCellsWriter final : public Writer {
     text.element("</CellData>\n");
   }
 
-  static void put_geometry(const Piece& piece, VtuText& text)
+  static void put_geometry(const Piece& piece, const PieceCells& cells, VtuText& text)
   {
-    std::vector<LocalIndex> corners = piece.tet_points;
-    corners.insert(corners.end(), piece.triangle_points.begin(), piece.triangle_points.end());
-    std::vector<std::uint8_t> kinds(at(piece.num_tets()), kTet);
-    kinds.resize(kinds.size() + at(piece.num_triangles()), kTriangle);
+    std::vector<LocalIndex> corners;
+    std::vector<std::uint8_t> kinds;
     std::vector<std::int64_t> ends;
     std::int64_t end = 0;
-    for (const std::uint8_t kind : kinds) ends.push_back(end += kind == kTet ? 4 : 3);
+    for (const Shape shape : kShapes) {
+      const ElementList list = cells[shape];
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        append_vtk_points(shape, list.of(i), corners);
+        kinds.push_back(vtk_type(shape));
+        ends.push_back(end += static_cast<std::int64_t>(list.width));
+      }
+    }
     text.element("<Points>\n");
     text.array("Float64", "Points", piece.point_xyz, R"( NumberOfComponents="3")");
     text.element("</Points>\n<Cells>\n");

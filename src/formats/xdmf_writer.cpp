@@ -13,6 +13,7 @@
 #include "tessera/base/xml_escape.hpp"
 #include "tessera/io/files.hpp"
 
+#include "formats/cells.hpp"
 #include "formats/hdf5_file.hpp"
 #include "formats/shared_file.hpp"
 
@@ -21,9 +22,11 @@ namespace {
 
 constexpr const char* kPoints = "/geometry/vertices";
 constexpr const char* kTets = "/viz/topology/cells";
+constexpr const char* kMixedCells = "/viz/topology/mixed_cells";
 constexpr const char* kMaterial = "/cells/material";
 constexpr const char* kPiece = "/cells/piece";
 constexpr const char* kTriangles = "/boundary/triangles";
+constexpr const char* kMixedFaces = "/boundary/mixed_faces";
 constexpr const char* kPatch = "/boundary/patch";
 // Of the partition: where the points, tets and triangles of each piece begin, shape
 // (num_pieces + 1, 3), and rows of (piece, other piece, points that both have).
@@ -31,6 +34,65 @@ constexpr const char* kFirsts = "/pieces/first_point_tet_triangle";
 constexpr const char* kNeighbours = "/pieces/neighbours";
 // Of second order, where the nodes on edges of each piece begin; points are vertices there.
 constexpr const char* kFirstNodes = "/pieces/first_node";
+// With prisms, as in kFirsts.
+constexpr const char* kFirstsOfShapes = "/pieces/first_pyramid_prism_quad";
+
+// XDMF's number of a shape in a mixed topology: there each element has its own before its points.
+constexpr GlobalIndex mixed_type(Shape shape)
+{
+  switch (shape) {
+    case Shape::tet:
+      return 6;
+    case Shape::pyramid:
+      return 7;
+    case Shape::prism:
+      return 8;
+    case Shape::triangle:
+      return 4;
+    case Shape::quad:
+      return 5;
+  }
+  return 0;
+}
+
+// Numbers of an element in a mixed topology.
+constexpr GlobalIndex mixed_size(Shape shape)
+{
+  return 1 + static_cast<GlobalIndex>(num_corners(shape));
+}
+
+bool has_mixed(const Outline& outline, Shape shape)
+{
+  return is_cell(shape) ? outline.has_prisms() : outline.num_of(Shape::quad) > 0;
+}
+
+Hdf5Array mixed_array(const Outline& outline, const char* name, std::span<const Shape> shapes)
+{
+  GlobalIndex size = 0;
+  for (const Shape shape : shapes) size += mixed_size(shape) * outline.num_of(shape);
+  return {name, Hdf5Type::int64, size, 0, {}};
+}
+
+Hdf5Array cells_array(const Outline& outline)
+{
+  if (outline.has_prisms()) return mixed_array(outline, kMixedCells, kCellShapes);
+  const auto width = static_cast<int>(outline.points_per_tet());
+  return {kTets,
+          Hdf5Type::int64,
+          outline.num_tets(),
+          width,
+          {{"cell_dim", 3}, {"cell_corners", width}}};
+}
+
+Hdf5Array faces_array(const Outline& outline)
+{
+  if (has_mixed(outline, Shape::triangle)) return mixed_array(outline, kMixedFaces, kFaceShapes);
+  return {kTriangles,
+          Hdf5Type::int64,
+          outline.num_faces(),
+          static_cast<int>(outline.points_per_triangle()),
+          {}};
+}
 
 GlobalIndex num_neighbours(const Outline& outline)
 {
@@ -42,26 +104,21 @@ GlobalIndex num_neighbours(const Outline& outline)
 
 Hdf5Layout layout_of(const Outline& outline)
 {
-  const GlobalIndex num_tets = outline.num_tets();
-  const GlobalIndex num_triangles = outline.num_triangles();
-  const auto per_tet = static_cast<int>(outline.points_per_tet());
-  const auto per_triangle = static_cast<int>(outline.points_per_triangle());
+  const GlobalIndex num_cells = outline.num_cells();
   Hdf5Layout layout{.arrays = {{kPoints, Hdf5Type::float64, outline.num_points(), 3, {}},
-                               {kTets,
-                                Hdf5Type::int64,
-                                num_tets,
-                                per_tet,
-                                {{"cell_dim", 3}, {"cell_corners", per_tet}}},
-                               {kMaterial, Hdf5Type::int32, num_tets, 1, {}},
-                               {kPiece, Hdf5Type::int32, num_tets, 1, {}},
-                               {kTriangles, Hdf5Type::int64, num_triangles, per_triangle, {}},
-                               {kPatch, Hdf5Type::int32, num_triangles, 1, {}},
+                               cells_array(outline),
+                               {kMaterial, Hdf5Type::int32, num_cells, 1, {}},
+                               {kPiece, Hdf5Type::int32, num_cells, 1, {}},
+                               faces_array(outline),
+                               {kPatch, Hdf5Type::int32, outline.num_faces(), 1, {}},
                                {kFirsts, Hdf5Type::int64, outline.num_pieces() + 1, 3, {}},
                                {kNeighbours, Hdf5Type::int64, num_neighbours(outline), 3, {}}},
                     .texts = {{"/names/materials", outline.material_names},
                               {"/names/patches", outline.patch_names}}};
   if (outline.is_of_second_order())
     layout.arrays.push_back({kFirstNodes, Hdf5Type::int64, outline.num_pieces() + 1, 1, {}});
+  if (outline.has_prisms())
+    layout.arrays.push_back({kFirstsOfShapes, Hdf5Type::int64, outline.num_pieces() + 1, 3, {}});
   return layout;
 }
 
@@ -69,9 +126,10 @@ std::string data_item(const Hdf5Array& array)
 {
   const bool is_real = array.type == Hdf5Type::float64;
   const int precision = array.type == Hdf5Type::int32 ? 4 : 8;
+  const std::string columns = array.num_columns == 0 ? "" : fmt::format(" {}", array.num_columns);
   return fmt::format(
-      R"(<DataItem Dimensions="{} {}" NumberType="{}" Precision="{}" Format="HDF">mesh.h5:{}</DataItem>)",
-      array.num_rows, array.num_columns, is_real ? "Float" : "Int", precision, array.name);
+      R"(<DataItem Dimensions="{}{}" NumberType="{}" Precision="{}" Format="HDF">mesh.h5:{}</DataItem>)",
+      array.num_rows, columns, is_real ? "Float" : "Int", precision, array.name);
 }
 
 std::string attribute(const char* name, const Hdf5Array& array)
@@ -82,15 +140,18 @@ std::string attribute(const char* name, const Hdf5Array& array)
       name, data_item(array));
 }
 
+// @param[in] tags Of the cells, one a row.
 std::string grid(const char* name, const char* kind, const Hdf5Array& points,
-                 const Hdf5Array& cells)
+                 const Hdf5Array& cells, const Hdf5Array& tags)
 {
+  const bool is_mixed = cells.num_columns == 0;
   return fmt::format(
       "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
-      "      <Topology TopologyType=\"{}\" NumberOfElements=\"{}\" NodesPerElement=\"{}\">{}"
-      "</Topology>\n"
+      "      <Topology TopologyType=\"{}\" NumberOfElements=\"{}\"{}>{}</Topology>\n"
       "      <Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
-      name, kind, cells.num_rows, cells.num_columns, data_item(cells), data_item(points));
+      name, is_mixed ? "Mixed" : kind, tags.num_rows,
+      is_mixed ? "" : fmt::format(" NodesPerElement=\"{}\"", cells.num_columns), data_item(cells),
+      data_item(points));
 }
 
 // <Information Name="patch 1" Value="inlet"/>, one a tag.
@@ -125,20 +186,21 @@ std::string meshio_names(int dimension, const std::vector<std::string>& names_of
 }
 
 // Without its names and its end.
-std::string tets_grid(const Hdf5Layout& layout)
+std::string cells_grid(const Hdf5Layout& layout)
 {
-  const auto& [points, tets, material, piece] =
+  const auto& [points, cells, material, piece] =
       std::tie(layout.arrays[0], layout.arrays[1], layout.arrays[2], layout.arrays[3]);
-  return grid("mesh", tets.num_columns == 4 ? "Tetrahedron" : "Tetrahedron_10", points, tets)
-         + attribute("material", material) + attribute("piece", piece);
+  const char* const kind = cells.num_columns == 4 ? "Tetrahedron" : "Tetrahedron_10";
+  return grid("mesh", kind, points, cells, material) + attribute("material", material)
+         + attribute("piece", piece);
 }
 
 std::string boundary_grid(const Hdf5Layout& layout)
 {
-  const auto& [points, triangles, patch] =
+  const auto& [points, faces, patch] =
       std::tie(layout.arrays[0], layout.arrays[4], layout.arrays[5]);
-  return grid("boundary", triangles.num_columns == 3 ? "Triangle" : "Triangle_6", points, triangles)
-         + attribute("patch", patch);
+  const char* const kind = faces.num_columns == 3 ? "Triangle" : "Triangle_6";
+  return grid("boundary", kind, points, faces, patch) + attribute("patch", patch);
 }
 
 class XdmfWriter final : public Writer {
@@ -160,20 +222,22 @@ class XdmfWriter final : public Writer {
 
   void write(const Piece& piece) override
   {
-    const GlobalIndex tet = outline_.first_tet[at(piece.number)];
-    const GlobalIndex triangle = outline_.first_triangle[at(piece.number)];
     for (const PointRun& run : outline_.own_points(piece.number)) {
       put<double>(kPoints, 3 * run.first_number,
                   std::span(piece.point_xyz).subspan(3 * at(run.first_row), 3 * at(run.count)));
     }
-    put<GlobalIndex>(kTets, static_cast<GlobalIndex>(outline_.points_per_tet()) * tet,
-                     numbers(piece, piece.tet_points));
-    put<std::int32_t>(kMaterial, tet, piece.tet_material);
-    put<std::int32_t>(kPiece, tet, std::vector(piece.tet_material.size(), piece.number));
-    put<GlobalIndex>(kTriangles,
-                     static_cast<GlobalIndex>(outline_.points_per_triangle()) * triangle,
-                     numbers(piece, piece.triangle_points));
-    put<std::int32_t>(kPatch, triangle, piece.triangle_patch);
+    const PieceCells cells(piece);
+    for (const Shape shape : kShapes) {
+      const ElementList list = cells[shape];
+      const GlobalIndex first = outline_.first_number(shape, piece.number);
+      if (is_cell(shape)) {
+        put<std::int32_t>(kMaterial, first, list.tags);
+        put<std::int32_t>(kPiece, first, std::vector(list.size(), piece.number));
+      } else {
+        put<std::int32_t>(kPatch, first - outline_.num_cells(), list.tags);
+      }
+      write_points_of(piece, shape, list);
+    }
   }
 
   void close() override { file_.close(); }
@@ -181,12 +245,12 @@ class XdmfWriter final : public Writer {
   void commit() override
   {
     file_.commit();
-    const std::string tets = tets_grid(layout_);
+    const std::string tets = cells_grid(layout_);
     const std::string boundary = boundary_grid(layout_);
     const std::vector<std::string>& materials = outline_.material_names;
     const std::vector<std::string>& patches = outline_.patch_names;
     std::string both = tets + names("material", materials) + kGridEnd;
-    if (outline_.num_triangles() > 0) {
+    if (outline_.num_faces() > 0) {
       both += boundary + names("patch", patches) + kGridEnd;
       write_index("boundary.xdmf", boundary + meshio_names(2, patches) + kGridEnd);
     }
@@ -205,8 +269,8 @@ class XdmfWriter final : public Writer {
     std::vector<GlobalIndex> firsts;
     std::vector<GlobalIndex> neighbours;
     for (std::size_t p = 0; p < outline_.first_tet.size(); ++p) {
-      firsts.insert(firsts.end(),
-                    {outline_.first_point[p], outline_.first_tet[p], outline_.first_triangle[p]});
+      firsts.insert(firsts.end(), {outline_.first_point[p], outline_.first_of[Shape::tet][p],
+                                   outline_.first_of[Shape::triangle][p]});
     }
     for (LocalIndex p = 0; p < outline_.num_pieces(); ++p) {
       for (const PieceNeighbour& other : outline_.pieces[at(p)].neighbours)
@@ -215,6 +279,40 @@ class XdmfWriter final : public Writer {
     put<GlobalIndex>(kFirsts, 0, firsts);
     put<GlobalIndex>(kFirstNodes, 0, outline_.first_node);
     put<GlobalIndex>(kNeighbours, 0, neighbours);
+    if (outline_.has_prisms()) put<GlobalIndex>(kFirstsOfShapes, 0, firsts_of_shapes());
+  }
+
+  [[nodiscard]] std::vector<GlobalIndex> firsts_of_shapes() const
+  {
+    std::vector<GlobalIndex> firsts;
+    for (std::size_t p = 0; p < outline_.first_tet.size(); ++p)
+      for (const Shape shape : {Shape::pyramid, Shape::prism, Shape::quad})
+        firsts.push_back(outline_.first_of[shape][p]);
+    return firsts;
+  }
+
+  // Of a mixed topology all elements of one shape stand together.
+  void write_points_of(const Piece& piece, Shape shape, const ElementList& list)
+  {
+    const GlobalIndex first = outline_.first_of[shape][at(piece.number)];
+    if (!has_mixed(outline_, shape)) {
+      put<GlobalIndex>(is_cell(shape) ? kTets : kTriangles,
+                       static_cast<GlobalIndex>(outline_.points_per(shape)) * first,
+                       point_numbers(piece, list));
+      return;
+    }
+    GlobalIndex place = mixed_size(shape) * first;
+    for (const Shape before : kShapes) {
+      if (is_cell(before) == is_cell(shape) && before < shape)
+        place += mixed_size(before) * outline_.num_of(before);
+    }
+    const std::vector<GlobalIndex> numbers = point_numbers(piece, list);
+    std::vector<GlobalIndex> mixed;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      mixed.push_back(mixed_type(shape));
+      append_vtk_points(shape, std::span(numbers).subspan(list.width * i, list.width), mixed);
+    }
+    put<GlobalIndex>(is_cell(shape) ? kMixedCells : kMixedFaces, place, mixed);
   }
 
   template <class Value>
@@ -224,14 +322,6 @@ class XdmfWriter final : public Writer {
     if (offsets_.empty()) offsets_ = hdf5_offsets(file_.temporary_path(), layout_);
     file_.write(offsets_.at(array) + first * static_cast<GlobalIndex>(sizeof(Value)),
                 std::as_bytes(values));
-  }
-
-  static std::vector<GlobalIndex> numbers(const Piece& piece, const std::vector<LocalIndex>& rows)
-  {
-    std::vector<GlobalIndex> numbers;
-    numbers.reserve(rows.size());
-    for (const LocalIndex row : rows) numbers.push_back(piece.point_numbers[at(row)]);
-    return numbers;
   }
 
   const Outline& outline_;

@@ -2,8 +2,9 @@
 """Readers of Gmsh's MSH files that know nothing of the program that wrote them."""
 import numpy as np
 
-NUM_NODES = {2: 3, 4: 4, 9: 6, 11: 10}  # By type of element: triangle, tet, both of second order.
-DIMENSION = {2: 2, 4: 3, 9: 2, 11: 3}
+# By type of element: triangle, quad, tet, prism, pyramid, triangle and tet of second order.
+NUM_NODES = {2: 3, 3: 4, 4: 4, 6: 6, 7: 5, 9: 6, 11: 10}
+DIMENSION = {2: 2, 3: 2, 4: 3, 6: 3, 7: 3, 9: 2, 11: 3}
 TRIANGLE, TET = 2, 4
 
 

@@ -39,7 +39,8 @@ class Deck:
         numbered = numpy.array([row.split(",") for row in rows], dtype=float)
         assert (numbered[:, 0] == numpy.arange(1, len(rows) + 1)).all()
         self.xyz = numbered[:, 1:]  # Row i of node i + 1.
-        self.elements = re.findall(r"^\*ELEMENT, TYPE=C3D(?:4|10), ELSET=(\S+)$", text, re.MULTILINE)
+        elements = re.findall(r"^\*ELEMENT, TYPE=C3D(?:4|6|10), ELSET=(\S+)$", text, re.MULTILINE)
+        self.elements = list(dict.fromkeys(elements))
         self.surfaces = re.findall(r"^\*SURFACE, NAME=(\S+), TYPE=ELEMENT$", text, re.MULTILINE)
         self.nodes = {
             name: numpy.array(numbers.split(), dtype=int)

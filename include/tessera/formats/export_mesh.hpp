@@ -17,6 +17,7 @@ struct ExportRequest {
   std::filesystem::path mesh{};       ///< A .pvtu or .vtu file of tets.
   std::vector<io::Format> formats{};  ///< Of io::Format::pvtu there is nothing to do.
   std::filesystem::path folder{};     ///< Exists.
+  io::LayerCells layers = io::LayerCells::prisms;
 };
 
 /// @brief Writes a mesh in other formats. Every piece is read twice, once to find what it shares

@@ -12,11 +12,12 @@
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/formats/shape.hpp"
 
 /// What writers of file formats see of a mesh: what all ranks know of it, and its pieces one at a
-/// time. Everything is numbered anew, by pieces: the points, tets and triangles of a piece have
-/// consecutive numbers that follow those of the pieces before it. So every piece has its place in a
-/// file that all write, and the numbers are the same for any number of ranks.
+/// time. Everything is numbered anew, by pieces: the points of a piece, and its elements of each
+/// shape, have consecutive numbers that follow those of the pieces before it. So every piece has
+/// its place in a file that all write, and the numbers are the same for any number of ranks.
 namespace tessera::formats {
 
 /// @brief So many cells with this tag.
@@ -81,10 +82,10 @@ struct PieceCounts {
   GlobalIndex num_tets = 0;
   GlobalIndex num_cells = 0;  ///< Tets, but those of one prism are one cell.
   int points_per_tet = 0;     ///< 4, or 10 of second order; 0 if there are no tets.
-  GlobalIndex num_triangles = 0;
-  std::vector<TagCount> tets_of_material{};    ///< Ascending; none of zero.
-  std::vector<TagCount> triangles_of_patch{};  ///< Ascending; none of zero.
-  /// The same without those that have a tet on the other side too.
+  /// Cells of each material and faces of each patch: ascending; none of zero.
+  ByShape<std::vector<TagCount>> elements{};
+  /// Of triangles, also those that are half a face, without those that have a tet on the other side
+  /// too.
   std::vector<TagCount> outer_triangles_of_patch{};
   std::vector<TagCount> points_of_patch{};   ///< Piece::patch_points; if asked for.
   GlobalIndex num_open_faces = 0;            ///< Of tets: with no tet on the other side anywhere.
@@ -94,9 +95,9 @@ struct PieceCounts {
   static auto fields(auto& self)
   {
     return std::tie(self.num_own_points, self.num_own_nodes, self.num_points, self.num_tets,
-                    self.num_cells, self.points_per_tet, self.num_triangles, self.tets_of_material,
-                    self.triangles_of_patch, self.outer_triangles_of_patch, self.points_of_patch,
-                    self.num_open_faces, self.neighbours, self.box);
+                    self.num_cells, self.points_per_tet, self.elements,
+                    self.outer_triangles_of_patch, self.points_of_patch, self.num_open_faces,
+                    self.neighbours, self.box);
   }
 };
 
@@ -114,9 +115,10 @@ struct Outline {
   /// Shape (num_pieces + 1): of the own nodes on edges, which follow all vertices. Empty unless
   /// tets are of second order.
   std::vector<GlobalIndex> first_node{};
-  std::vector<GlobalIndex> first_tet{0};       ///< Shape (num_pieces + 1).
-  std::vector<GlobalIndex> first_cell{0};      ///< Shape (num_pieces + 1).
-  std::vector<GlobalIndex> first_triangle{0};  ///< Shape (num_pieces + 1).
+  std::vector<GlobalIndex> first_tet{0};   ///< Shape (num_pieces + 1); of prisms too.
+  std::vector<GlobalIndex> first_cell{0};  ///< Shape (num_pieces + 1); in the order of their tets.
+  /// Shape (num_pieces + 1) each: so many elements of a shape are in the pieces before.
+  ByShape<std::vector<GlobalIndex>> first_of{{{{0}, {0}, {0}, {0}, {0}}}};
   /// Names of the tags 1, 2, …; none empty, none twice.
   std::vector<std::string> material_names{};
   std::vector<std::string> patch_names{};    ///< As material_names.
@@ -135,7 +137,29 @@ struct Outline {
   [[nodiscard]] GlobalIndex num_tets() const { return first_tet.back(); }
   [[nodiscard]] GlobalIndex num_cells() const { return first_cell.back(); }
   [[nodiscard]] bool has_prisms() const { return num_cells() != num_tets(); }
-  [[nodiscard]] GlobalIndex num_triangles() const { return first_triangle.back(); }
+  [[nodiscard]] GlobalIndex num_of(Shape shape) const { return first_of[shape].back(); }
+  [[nodiscard]] GlobalIndex num_faces() const
+  {
+    return num_of(Shape::triangle) + num_of(Shape::quad);
+  }
+  [[nodiscard]] GlobalIndex num_elements() const { return num_cells() + num_faces(); }
+
+  /// @brief Number of the first element of a shape in a piece: elements have theirs from 0 in the
+  /// order of shapes, those of one shape by pieces.
+  [[nodiscard]] GlobalIndex first_number(Shape shape, LocalIndex piece) const
+  {
+    GlobalIndex number = first_of[shape][at(piece)];
+    for (const Shape before : kShapes)
+      if (before < shape) number += num_of(before);
+    return number;
+  }
+
+  /// @brief Points of an element: corners, and of second order nodes.
+  [[nodiscard]] std::size_t points_per(Shape shape) const
+  {
+    if (!is_of_second_order()) return num_corners(shape);
+    return is_cell(shape) ? points_per_tet() : points_per_triangle();
+  }
 
   /// @brief The own points of a piece, which are its first rows: vertices, then nodes on edges, of
   /// which there are none but of second order.
@@ -166,14 +190,15 @@ struct PatchPoint {
   std::int32_t patch = 0;  ///< A tag.
 };
 
-/// @brief Tets of other pieces that share a point with a piece, and those of their points that the
+/// @brief Cells of other pieces that share a point with a piece, and those of their points that the
 /// piece has not. Numbers are those of the whole mesh, from 0.
 struct Ghosts {
-  std::vector<GlobalIndex> tets{};        ///< Shape (num_ghosts): ascending.
-  std::vector<LocalIndex> tet_piece{};    ///< Shape (num_ghosts): whose they are.
-  std::vector<GlobalIndex> tet_points{};  ///< Shape (num_ghosts, 4): numbers; positive.
-  std::vector<GlobalIndex> points{};      ///< Shape (num_ghost_points): ascending.
-  std::vector<double> point_xyz{};        ///< Shape (num_ghost_points, 3).
+  std::vector<GlobalIndex> cells{};      ///< Shape (num_ghosts): ascending, so shape by shape.
+  std::vector<Shape> cell_shape{};       ///< Shape (num_ghosts).
+  std::vector<LocalIndex> cell_piece{};  ///< Shape (num_ghosts): whose they are.
+  Lists<GlobalIndex> cell_points{};      ///< Shape (num_ghosts, …): numbers; positive.
+  std::vector<GlobalIndex> points{};     ///< Shape (num_ghost_points): ascending.
+  std::vector<double> point_xyz{};       ///< Shape (num_ghost_points, 3).
 };
 
 /// @brief One piece. Rows are local, numbers are those of the whole mesh, from 0.

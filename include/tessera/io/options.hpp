@@ -57,6 +57,19 @@ constexpr auto enum_words(Format /*tag*/)
          || format == Format::exodus || format == Format::msh || format == Format::msh2;
 }
 
+/// @brief What formats other than pvtu have on walls with layers.
+enum class LayerCells : int { prisms, tets };
+[[nodiscard]] constexpr LayerCells last_value(LayerCells /*type*/) { return LayerCells::tets; }
+
+/// @brief Words of `output.layers`, and of `tessera convert --layers`.
+constexpr auto enum_words(LayerCells /*tag*/)
+{
+  return std::to_array<EnumWord<LayerCells>>({
+      {LayerCells::prisms, "prisms"},
+      {LayerCells::tets, "tets"},
+  });
+}
+
 /// @brief How the arrays of mesh files are packed.
 enum class Compression : int { none, lz4, zlib };
 [[nodiscard]] constexpr Compression last_value(Compression /*type*/) { return Compression::zlib; }
@@ -78,8 +91,9 @@ struct OutputOptions {
   /// them.
   std::vector<Format> formats{Format::pvtu};
   Compression compression = Compression::lz4;
-  LocalIndex files = 0;       ///< Number of piece files; 0: one for each subdomain.
-  LocalIndex parts = 0;       ///< Number of balanced, connected parts, a file each; 0: see `files`.
+  LocalIndex files = 0;  ///< Number of piece files; 0: one for each subdomain.
+  LocalIndex parts = 0;  ///< Number of balanced, connected parts, a file each; 0: see `files`.
+  LayerCells layers = LayerCells::prisms;  ///< Of formats other than pvtu.
   int order = 1;              ///< 1: straight tets; 2: with a node in the middle of every edge.
   bool cell_quality = false;  ///< Also write the mean ratio of every tet.
   bool report_html = true;    ///< Also write the report for people, with pictures.

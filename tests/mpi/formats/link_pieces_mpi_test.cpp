@@ -201,7 +201,7 @@ TEST_P(LinkPieces, TrianglesAreFacesSeenFromOutside)
     }
   }
   EXPECT_EQ(comm_.sum(num_own), 192);
-  EXPECT_EQ(mesh_.outline.num_triangles(), 192);
+  EXPECT_EQ(mesh_.outline.num_faces(), 192);
 }
 
 TEST_P(LinkPieces, TagsBeginAtOneAndPatchesOfOneNameAreOne)
@@ -210,8 +210,9 @@ TEST_P(LinkPieces, TagsBeginAtOneAndPatchesOfOneNameAreOne)
   EXPECT_EQ(mesh_.outline.patch_names, (std::vector<std::string>{"skin", "patch_2"}));
   std::map<std::int32_t, GlobalIndex> triangles;
   for (const PieceCounts& piece : mesh_.outline.pieces) {
-    EXPECT_EQ(piece.tets_of_material.front().tag, 1);
-    for (const TagCount& count : piece.triangles_of_patch) triangles[count.tag] += count.count;
+    EXPECT_EQ(piece.elements[Shape::tet].front().tag, 1);
+    for (const TagCount& count : piece.elements[Shape::triangle])
+      triangles[count.tag] += count.count;
   }
   const bool has_patches = GetParam() != Files::without_boundary;
   EXPECT_EQ(triangles[1], has_patches ? 128 : 192);
@@ -270,9 +271,9 @@ TEST_P(LinkPieces, CountsOfFacesAddUp)
       shared.insert(neighbour.num_shared_faces);
     EXPECT_EQ(shared, (std::multiset<GlobalIndex>{0, 0, 0, 0, 8, 8, 8}));
     EXPECT_EQ(piece.num_open_faces, 24);
-    ASSERT_EQ(piece.outer_triangles_of_patch.size(), piece.triangles_of_patch.size());
-    for (std::size_t i = 0; i < piece.triangles_of_patch.size(); ++i)
-      EXPECT_EQ(piece.outer_triangles_of_patch[i].count, piece.triangles_of_patch[i].count);
+    ASSERT_EQ(piece.outer_triangles_of_patch.size(), piece.elements[Shape::triangle].size());
+    for (std::size_t i = 0; i < piece.elements[Shape::triangle].size(); ++i)
+      EXPECT_EQ(piece.outer_triangles_of_patch[i].count, piece.elements[Shape::triangle][i].count);
   }
 }
 

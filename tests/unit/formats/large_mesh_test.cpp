@@ -20,12 +20,14 @@ Outline two_pieces(GlobalIndex num_tets)
     PieceCounts piece;
     piece.num_own_points = piece.num_points = num_tets / 5;
     piece.num_tets = num_tets;
-    piece.tets_of_material = {{1, num_tets}};
+    piece.elements[Shape::tet] = {{1, num_tets}};
     piece.neighbours = {{other, 100, 0}};
     outline.pieces.push_back(piece);
     outline.first_point.push_back(outline.first_point.back() + piece.num_own_points);
     outline.first_tet.push_back(outline.first_tet.back() + num_tets);
-    outline.first_triangle.push_back(0);
+    outline.first_cell.push_back(outline.first_tet.back());
+    for (const Shape shape : kShapes)
+      outline.first_of[shape].push_back(shape == Shape::tet ? outline.first_tet.back() : 0);
   }
   outline.material_names = {"steel"};
   return outline;
@@ -65,7 +67,7 @@ TEST(LargeMesh, ElmerNeedsNumbersOf32Bits)
 {
   EXPECT_EQ(refusal(io::Format::elmer, 1000000000), "");
   const std::string message = refusal(io::Format::elmer, 2000000000);
-  EXPECT_NE(message.find("4000000000 tets"), std::string::npos) << message;
+  EXPECT_NE(message.find("4000000000 cells"), std::string::npos) << message;
   EXPECT_NE(message.find("mfem"), std::string::npos) << message;
 }
 

@@ -13,7 +13,7 @@ namespace {
 Outline outline_with(GlobalIndex num_tets)
 {
   Outline outline;
-  outline.first_tet = {0, num_tets};
+  outline.first_cell = {0, num_tets};
   outline.first_point = {0, 5};
   return outline;
 }

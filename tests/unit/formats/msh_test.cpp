@@ -19,14 +19,16 @@ Outline outline_of(GlobalIndex num_tets, GlobalIndex num_triangles)
 {
   Outline outline;
   PieceCounts piece{.num_own_points = 4, .num_points = 4, .num_tets = num_tets};
-  piece.num_triangles = num_triangles;
-  piece.tets_of_material = {{1, num_tets}};
-  piece.triangles_of_patch = {{1, num_triangles}};
+  piece.elements[Shape::tet] = {{1, num_tets}};
+  piece.elements[Shape::triangle] = {{1, num_triangles}};
   piece.box.add({{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
   outline.pieces = {piece};
   outline.first_point = {0, 4};
   outline.first_tet = {0, num_tets};
-  outline.first_triangle = {0, num_triangles};
+  outline.first_cell = {0, num_tets};
+  for (const Shape shape : kShapes) outline.first_of[shape] = {0, 0};
+  outline.first_of[Shape::tet] = {0, num_tets};
+  outline.first_of[Shape::triangle] = {0, num_triangles};
   outline.material_names = {"steel"};
   outline.patch_names = {"skin"};
   return outline;
@@ -45,7 +47,7 @@ TEST(Msh2Writer, RefusesMoreElementsThanItHasNumbersForAndNamesOtherFormats)
     ADD_FAILURE() << "not refused";
   } catch (const ConfigError& error) {
     const std::string said = error.what();
-    for (const char* const word : {"msh2", "2147483647", "2147483637 tets", "11 triangles", "xdmf"})
+    for (const char* const word : {"msh2", "2147483647", "2147483637 cells", "11 faces", "xdmf"})
       EXPECT_NE(said.find(word), std::string::npos) << word << " in: " << said;
   }
 }

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <tuple>
+
+namespace tessera::formats {
+
+/// @brief What elements of a mesh look like: cells, then faces on its patches.
+enum class Shape : int { tet, pyramid, prism, triangle, quad };
+[[nodiscard]] constexpr Shape last_value(Shape /*type*/) { return Shape::quad; }
+
+inline constexpr std::array kCellShapes{Shape::tet, Shape::pyramid, Shape::prism};
+inline constexpr std::array kFaceShapes{Shape::triangle, Shape::quad};
+inline constexpr std::array kShapes{Shape::tet, Shape::pyramid, Shape::prism, Shape::triangle,
+                                    Shape::quad};
+
+/// @brief Whether elements of this shape are cells, which have a material; faces have a patch.
+[[nodiscard]] constexpr bool is_cell(Shape shape) { return shape <= Shape::prism; }
+
+[[nodiscard]] constexpr std::size_t num_corners(Shape shape)
+{
+  return std::array<std::size_t, kShapes.size()>{4, 5, 6, 3, 4}[static_cast<std::size_t>(shape)];
+}
+
+/// @brief A value for each shape.
+template <class T>
+struct ByShape {
+  std::array<T, kShapes.size()> values{};
+
+  [[nodiscard]] T& operator[](Shape shape) { return values[static_cast<std::size_t>(shape)]; }
+  [[nodiscard]] const T& operator[](Shape shape) const
+  {
+    return values[static_cast<std::size_t>(shape)];
+  }
+
+  static auto fields(auto& self) { return std::tie(self.values); }
+};
+
+}  // namespace tessera::formats

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Prisms and pyramids of layers: Gmsh finds them positive and of the right volume, meshio and VTK find as many in each
+format, and CalculiX solves the patch test on them."""
+import pathlib
+import tempfile
+import unittest
+
+import gmsh
+import meshio
+import numpy
+import solver_meshes
+from calculix_test import GRADIENT, Deck
+from solver_meshes import Mesh, read_pvtu
+from vtkmodules.vtkIOExodus import vtkExodusIIReader as Exodus
+
+# A pipe with a round end that goes over smoothly into its wall: no columns stand on the circle where they meet.
+MODEL = """algebraic3d
+solid inlet = plane (0, 0, 0; 0, 0, -1) -bcname=inlet;
+solid side = cylinder (0, 0, 0; 0, 0, 1; 0.5) -bcname=wall;
+solid cut = plane (0, 0, 1; 0, 0, 1);
+solid cap = sphere (0, 0, 1; 0.5) -bcname=end;
+solid pipe = side and inlet and cut;
+solid body = pipe or cap;
+tlo body;
+"""
+CASE = """geometry.file = "model.geo"
+coarse.max_size = 0.4
+decompose.subdomains = 3
+refine.levels = 1
+[[layer]]
+patch = "wall"
+first = 0.03
+count = 2
+"""
+GMSH_TYPES = {4: "tetra", 7: "pyramid", 6: "wedge", 2: "triangle", 3: "quad"}
+
+
+class Layers(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder:
+            case = pathlib.Path(folder) / "case.toml"
+            case.write_text(CASE, encoding="utf-8")
+            case.with_name("model.geo").write_text(MODEL, encoding="utf-8")
+            cls.mesh = Mesh(case, 3)
+        cls.addClassCleanup(cls.mesh.remove)
+        _, _, arrays, _ = read_pvtu(cls.mesh.mesh / "mesh.pvtu")
+        of_prism = arrays["tet_of_prism"]
+        sizes = numpy.diff(numpy.append(numpy.flatnonzero(of_prism == 0), len(of_prism)))
+        cls.counts = {kind: int((sizes == size).sum()) for kind, size in (("tetra", 1), ("pyramid", 2), ("wedge", 3))}
+        assert min(cls.counts.values()) > 10, cls.counts
+
+    def test_gmsh_finds_positive_cells(self):
+        for word, name in (("msh", "mesh.msh"), ("msh2", "mesh_v2.msh")):
+            with self.subTest(word):
+                gmsh.initialize(["", "-nopopup"], readConfigFiles=False)
+                self.addCleanup(gmsh.finalize)
+                gmsh.option.setNumber("General.Terminal", 0)
+                gmsh.open(str(self.mesh.convert(word) / name))
+                sums, counts = {2: 0.0, 3: 0.0}, {}
+                for dimension in sums:
+                    for kind in gmsh.model.mesh.getElementTypes(dimension):
+                        points, weights = gmsh.model.mesh.getIntegrationPoints(kind, "Gauss4")
+                        _, determinants, _ = gmsh.model.mesh.getJacobians(kind, points)
+                        table = determinants.reshape(-1, len(weights))
+                        self.assertGreater(table.min(), 0.0, GMSH_TYPES[kind])
+                        sums[dimension] += float((table * weights).sum())
+                        counts[GMSH_TYPES[kind]] = len(table)
+                self.assertEqual({kind: counts[kind] for kind in self.counts}, self.counts)
+                self.assertGreater(counts["quad"], 0)
+                self.assertAlmostEqual(sums[3] / sum(self.mesh.volumes().values()), 1.0, delta=1e-9)
+                self.assertAlmostEqual(sums[2] / sum(self.mesh.areas().values()), 1.0, delta=1e-9)
+                gmsh.clear()
+
+    def test_meshio_reads_as_many(self):
+        files = {"msh": "mesh.msh", "msh2": "mesh_v2.msh", "medit": "mesh.mesh", "exodus": "mesh.exo", "xdmf": "tets.xdmf"}
+        for word, name in files.items():
+            with self.subTest(word):
+                found = meshio.read(self.mesh.convert(word) / name)
+                counts = {}
+                for block in found.cells:
+                    counts[block.type] = counts.get(block.type, 0) + len(block.data)
+                self.assertEqual({kind: counts.get(kind) for kind in self.counts}, self.counts)
+
+    def test_vtk_reads_exodus(self):
+        reader = Exodus()
+        reader.SetFileName(str(self.mesh.convert("exodus") / "mesh.exo"))
+        reader.UpdateInformation()
+        names = [reader.GetObjectName(Exodus.ELEM_BLOCK, i) for i in range(reader.GetNumberOfObjects(Exodus.ELEM_BLOCK))]
+        self.assertEqual([name.partition("_")[2] for name in names], ["1", "1_pyramids", "1_prisms"])
+        reader.Update()
+        grids = reader.GetOutput().GetBlock(0)
+        counts = [grids.GetBlock(i).GetNumberOfCells() for i in range(grids.GetNumberOfBlocks())]
+        self.assertEqual(counts, list(self.counts.values()))
+
+    def test_calculix_solves_the_patch_test(self):
+        """All nodes move as those on the boundary do; its volume is ours."""
+        deck = Deck(self.mesh.convert("abaqus") / "mesh.inp")
+        held = numpy.unique(numpy.concatenate(list(deck.nodes.values())))
+        moves = deck.xyz @ GRADIENT.T
+        load = "*BOUNDARY\n" + "".join(
+            f"{node},{axis + 1},{axis + 1},{moves[node - 1, axis]:.13e}\n" for node in held for axis in range(3))
+        load += "*DSLOAD\n" + "".join(f"{name},P,0.\n" for name in deck.surfaces)
+        load += "*NODE PRINT, NSET=NALL\nU\n*EL PRINT, ELSET=EALL, TOTALS=ONLY\nEVOL\n"
+        tables = deck.solve(load)
+        nodes, found = deck.displacements(tables, "NALL")
+        error = abs(found - moves[nodes - 1]).max() / abs(moves).max()
+        print(f"patch test: {error:.1e}")
+        volume = tables["total volume for set EALL"][0, 0]
+        self.assertAlmostEqual(volume / sum(self.mesh.volumes().values()), 1.0, delta=1e-3)
+        self.assertLess(error, 1e-3)
+
+
+if __name__ == "__main__":
+    solver_meshes.main()
