@@ -49,18 +49,22 @@ class Layers(unittest.TestCase):
         sizes = numpy.diff(numpy.append(numpy.flatnonzero(of_prism == 0), len(of_prism)))
         cls.counts = {kind: int((sizes == size).sum()) for kind, size in (("tetra", 1), ("pyramid", 2), ("wedge", 3))}
         assert min(cls.counts.values()) > 10, cls.counts
+        words = ("msh", "msh2", "medit", "exodus", "xdmf", "abaqus")
+        cls.folders = {word: cls.mesh.convert(word) for word in words}
 
     def test_gmsh_finds_positive_cells(self):
+        gmsh.initialize(["", "-nopopup"], readConfigFiles=False)
+        self.addCleanup(gmsh.finalize)
+        gmsh.option.setNumber("General.Terminal", 0)
         for word, name in (("msh", "mesh.msh"), ("msh2", "mesh_v2.msh")):
             with self.subTest(word):
-                gmsh.initialize(["", "-nopopup"], readConfigFiles=False)
-                self.addCleanup(gmsh.finalize)
-                gmsh.option.setNumber("General.Terminal", 0)
-                gmsh.open(str(self.mesh.convert(word) / name))
+                gmsh.open(str(self.folders[word] / name))
                 sums, counts = {2: 0.0, 3: 0.0}, {}
                 for dimension in sums:
                     for kind in gmsh.model.mesh.getElementTypes(dimension):
                         points, weights = gmsh.model.mesh.getIntegrationPoints(kind, "Gauss4")
+                        if GMSH_TYPES[kind] == "pyramid":  # Gmsh 4.8 has a sum of 16 / 9.
+                            weights = weights * (4.0 / 3.0 / sum(weights))
                         _, determinants, _ = gmsh.model.mesh.getJacobians(kind, points)
                         table = determinants.reshape(-1, len(weights))
                         self.assertGreater(table.min(), 0.0, GMSH_TYPES[kind])
@@ -76,7 +80,7 @@ class Layers(unittest.TestCase):
         files = {"msh": "mesh.msh", "msh2": "mesh_v2.msh", "medit": "mesh.mesh", "exodus": "mesh.exo", "xdmf": "tets.xdmf"}
         for word, name in files.items():
             with self.subTest(word):
-                found = meshio.read(self.mesh.convert(word) / name)
+                found = meshio.read(self.folders[word] / name)
                 counts = {}
                 for block in found.cells:
                     counts[block.type] = counts.get(block.type, 0) + len(block.data)
@@ -84,10 +88,10 @@ class Layers(unittest.TestCase):
 
     def test_vtk_reads_exodus(self):
         reader = Exodus()
-        reader.SetFileName(str(self.mesh.convert("exodus") / "mesh.exo"))
+        reader.SetFileName(str(self.folders["exodus"] / "mesh.exo"))
         reader.UpdateInformation()
         names = [reader.GetObjectName(Exodus.ELEM_BLOCK, i) for i in range(reader.GetNumberOfObjects(Exodus.ELEM_BLOCK))]
-        self.assertEqual([name.partition("_")[2] for name in names], ["1", "1_pyramids", "1_prisms"])
+        self.assertEqual(names, [names[0], names[0] + "_pyramids", names[0] + "_prisms"])
         reader.Update()
         grids = reader.GetOutput().GetBlock(0)
         counts = [grids.GetBlock(i).GetNumberOfCells() for i in range(grids.GetNumberOfBlocks())]
@@ -95,7 +99,7 @@ class Layers(unittest.TestCase):
 
     def test_calculix_solves_the_patch_test(self):
         """All nodes move as those on the boundary do; its volume is ours."""
-        deck = Deck(self.mesh.convert("abaqus") / "mesh.inp")
+        deck = Deck(self.folders["abaqus"] / "mesh.inp")
         held = numpy.unique(numpy.concatenate(list(deck.nodes.values())))
         moves = deck.xyz @ GRADIENT.T
         load = "*BOUNDARY\n" + "".join(
