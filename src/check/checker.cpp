@@ -29,15 +29,6 @@ GlobalIndex num_tets(const PieceRecords& records)
   return num_tets;
 }
 
-// Shape (num_points): those of the mesh that its surface has.
-std::vector<bool> surface_points(const PieceMesh& mesh, const PieceSurface& surface)
-{
-  std::vector<bool> is_on_surface(static_cast<std::size_t>(mesh.num_points()), false);
-  for (const SurfaceVertex& vertex : surface.vertices)
-    is_on_surface[static_cast<std::size_t>(vertex.point)] = true;
-  return is_on_surface;
-}
-
 // Runs what reads a piece. Whatever is wrong then is so with the piece's file.
 template <class Work>
 void with_piece_name(PieceName name, const Work& work)
@@ -154,9 +145,7 @@ void Checker::read_tets(PieceName name)
   PieceMesh mesh = load(name, findings_);
   const PieceTopology topology = analyse_topology(mesh, edge_lengths_, findings_);
   PieceSurface& surface = surfaces_.emplace_back(make_surface(mesh, topology, inner_, seam_keys_));
-  if (!mesh.equal_points.empty()) {
-    report_equal_points_inside(mesh, surface_points(mesh, surface), findings_);
-  }
+  report_equal_points_inside(mesh, surface, findings_);
   records_.push_back(measure(mesh, mean_ratios_, findings_));
 
   if (mesh.has_point_ids) {
@@ -190,7 +179,7 @@ void Checker::read_boundary(PieceName name, std::vector<VertexRecord>& vertices)
 // Counts the vertices that no other piece can have, and takes their ids and those of the cells.
 void Checker::take_ids(const PieceMesh& mesh, const PieceSurface& surface)
 {
-  std::vector<bool> is_taken = surface_points(mesh, surface);
+  std::vector<bool> is_taken = points_of_surface(mesh, surface);
   std::vector<GlobalIndex> inner_ids;
   for_each_used_vertex(mesh, [&](LocalIndex v) {
     if (is_taken[static_cast<std::size_t>(v)]) return;

@@ -109,15 +109,6 @@ void check_points(const PieceMesh& mesh, Findings& findings)
   }
 }
 
-void report_equal_points(const PieceMesh& mesh, Kind kind, LocalIndex p, LocalIndex lowest,
-                         Findings& findings)
-{
-  findings.add(kind, {mesh.name.piece, p}, [&] {
-    return fmt::format("{}: {} and {}", to_text(mesh.name), describe_point(mesh, lowest),
-                       describe_point(mesh, p));
-  });
-}
-
 // The vertex of each point, with a defect for each point that repeats an id or a position.
 std::vector<LocalIndex> match_points(PieceMesh& mesh, Findings& findings)
 {
@@ -211,15 +202,13 @@ CellNumbers<std::int32_t> take_ints(mesh::MeshArrays& arrays, const std::string&
 
 }  // namespace
 
-void report_equal_points_inside(const PieceMesh& mesh, const std::vector<bool>& on_surface,
-                                Findings& findings)
+void report_equal_points(const PieceMesh& mesh, Kind kind, LocalIndex p, LocalIndex lowest,
+                         Findings& findings)
 {
-  for (const auto& [lowest, p] : mesh.equal_points) {
-    if (on_surface[static_cast<std::size_t>(lowest)] && on_surface[static_cast<std::size_t>(p)]) {
-      continue;
-    }
-    report_equal_points(mesh, Kind::duplicate_point, p, lowest, findings);
-  }
+  findings.add(kind, {mesh.name.piece, p}, [&] {
+    return fmt::format("{}: {} and {}", to_text(mesh.name), describe_point(mesh, lowest),
+                       describe_point(mesh, p));
+  });
 }
 
 PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays, VertexIdentity identity,

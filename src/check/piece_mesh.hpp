@@ -147,10 +147,9 @@ struct PieceMesh {
 [[nodiscard]] PieceMesh make_piece_mesh(PieceName name, mesh::MeshArrays arrays,
                                         VertexIdentity identity, Findings& findings);
 
-/// @brief Reports the equal_points that are not both among `on_surface`. Local.
-/// @param[in] on_surface Shape (num_points).
-void report_equal_points_inside(const PieceMesh& mesh, const std::vector<bool>& on_surface,
-                                Findings& findings);
+/// @brief Reports that point `p` is the same as `lowest`. Local.
+void report_equal_points(const PieceMesh& mesh, Kind kind, LocalIndex p, LocalIndex lowest,
+                         Findings& findings);
 
 /// @brief "piece 3" or "boundary piece 3".
 [[nodiscard]] std::string to_text(const PieceName& name);

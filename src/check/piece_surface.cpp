@@ -378,6 +378,26 @@ void for_each_listed(const PieceMesh& mesh, const std::function<void(const Trian
   }
 }
 
+std::vector<bool> points_of_surface(const PieceMesh& mesh, const PieceSurface& surface)
+{
+  std::vector<bool> is_on_surface(static_cast<std::size_t>(mesh.num_points()), false);
+  for (const SurfaceVertex& vertex : surface.vertices)
+    is_on_surface[static_cast<std::size_t>(vertex.point)] = true;
+  return is_on_surface;
+}
+
+void report_equal_points_inside(const PieceMesh& mesh, const PieceSurface& surface,
+                                Findings& findings)
+{
+  if (mesh.equal_points.empty()) return;
+  const std::vector<bool> is_on_surface = points_of_surface(mesh, surface);
+  for (const auto& [lowest, p] : mesh.equal_points) {
+    const bool may_be_of_split = is_on_surface[static_cast<std::size_t>(lowest)]
+                                 && is_on_surface[static_cast<std::size_t>(p)];
+    if (!may_be_of_split) report_equal_points(mesh, Kind::duplicate_point, p, lowest, findings);
+  }
+}
+
 void apply(const TriangleVerdict& verdict, PieceSurface& surface, std::vector<VertexKey>& seam_keys)
 {
   const auto found = std::lower_bound(surface.rows.begin(), surface.rows.end(), verdict.row);

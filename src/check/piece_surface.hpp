@@ -98,6 +98,16 @@ struct PieceSurface {
 void for_each_listed(const PieceMesh& mesh,
                      const std::function<void(const TriangleRecord&)>& visit);
 
+/// @brief Which points of a piece are on its surface. Shape (num_points). Local. @pre It has not
+/// shrunk.
+[[nodiscard]] std::vector<bool> points_of_surface(const PieceMesh& mesh,
+                                                  const PieceSurface& surface);
+
+/// @brief Reports PieceMesh::equal_points that are not both on the surface: no split can be there.
+/// Local. @pre as points_of_surface().
+void report_equal_points_inside(const PieceMesh& mesh, const PieceSurface& surface,
+                                Findings& findings);
+
 /// @brief Notes what a triangle turned out to be. Local. @pre the surface still has it.
 /// @param[in,out] seam_keys Gets the vertices of which it is new that they are on a seam.
 void apply(const TriangleVerdict& verdict, PieceSurface& surface,

@@ -65,8 +65,7 @@ struct CoarseMesh {
     return std::tie(self.vertex_xyz, self.tet_vertices, self.tet_material, self.face_vertices,
                     self.face_patch, self.face_uv, self.segment_vertices, self.segment_curve,
                     self.segment_t, self.curves, self.patch_names, self.patch_surface,
-                    self.patch_row, self.patch_other_side, self.material_names,
-                    self.layers);
+                    self.patch_row, self.patch_other_side, self.material_names, self.layers);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }

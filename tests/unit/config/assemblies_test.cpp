@@ -63,7 +63,8 @@ TEST(Assemblies, AreOfModelsWithSolids)
 TEST(Assemblies, MayHaveContactsWhateverTheModel)
 {
   for (const char* model : {"a.geo", "a.stl", "a.step"}) {
-    EXPECT_EQ(parsed(std::string("size.target = 1\n") + kContact, model).splits.contacts.size(), 1U);
+    EXPECT_EQ(parsed(std::string("size.target = 1\n") + kContact, model).splits.contacts.size(),
+              1U);
   }
   EXPECT_TRUE(contains(error_of("size.target = 1\n[[geometry.contact]]\nbody = 'a'\n"),
                        "no geometry.contact.other"));
