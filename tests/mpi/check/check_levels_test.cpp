@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/mesh/coarse_edges.hpp"
 #include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/refine/choose_levels.hpp"
@@ -77,7 +78,7 @@ mesh::Decomposition deal_out(const mesh::CoarseMesh& coarse, LocalIndex num_subd
 mesh::EdgeLevels levels_of(const mesh::CoarseMesh& coarse, const std::vector<std::uint64_t>& finer,
                            int level)
 {
-  std::vector<LocalIndex> edges = refine::coarse_edges(coarse);
+  std::vector<LocalIndex> edges = mesh::coarse_edges(coarse);
   std::map<LocalIndex, int> next;
   std::vector<std::int8_t> levels;
   for (std::size_t e = 0; e < edges.size(); e += 2) {
@@ -143,7 +144,7 @@ TEST(CheckLevels, TwoTetsConformWhicheverOfTheirNineEdgesAreFiner)
   constexpr int kNumSubsets = 1 << 9;
   const mesh::CoarseMesh coarse = copies_of(kuhn_cube(1), {0, 3}, kNumSubsets);
   const Body body(coarse, deal_out(coarse, 2));
-  ASSERT_EQ(refine::coarse_edges(coarse).size(), 2U * 9U * kNumSubsets);
+  ASSERT_EQ(mesh::coarse_edges(coarse).size(), 2U * 9U * kNumSubsets);
   std::vector<std::uint64_t> finer(kNumSubsets);
   for (std::size_t copy = 0; copy < finer.size(); ++copy) finer[copy] = copy;
   for (const int level : {0, 1}) {

@@ -19,9 +19,9 @@ namespace {
 Case complete_case()
 {
   Case wanted;
-  wanted.geometry = {.file = "/m \"q\" \\ ü\t.step",
-                     .scale = 1.0 / 3.0,
-                     .assembly = {model::Overlap::cut, 1e-9, {{"st\"ep", "[12]"}, {"a", "b"}}}};
+  wanted.geometry = {
+      .file = "/m \"q\" \\ ü\t.step", .scale = 1.0 / 3.0, .assembly = {model::Overlap::cut, 1e-9}};
+  wanted.splits = {.patches = {{"cr\"ack*"}}, .contacts = {{"st\"ep", "[12]"}, {"a", "b"}}};
   wanted.size = {.min = 1e-3,
                  .max = 1.0 / 7.0,
                  .grading = 0.2,
