@@ -45,7 +45,7 @@ TEST(Layers, AreFilledOnAllLevels)
 
 TEST(Layers, LeadUpToTheSizeOfTheCase)
 {
-  EXPECT_EQ(parsed("[[layer]]\npatch = 'a'\nfirst = 0.1\n").layers[0].count, 11);
+  EXPECT_EQ(parsed("[[layer]]\npatch = 'a'\nfirst = 0.1\n").layers[0].count, 12);
   EXPECT_TRUE(contains(error_of("[[layer]]\npatch = 'a'\nfirst = 0.1\ngrowth = 1\n"),
                        "neither count nor thickness"));
 }

@@ -257,7 +257,8 @@ TEST(KnownKeys, AreThoseOfTheReferenceWithTheirWords)
               key.name == "coarse.optimize" || key.name == "improve.seams"
                   || key.name == "decompose.method" || key.name == "geometry.smooth"
                   || key.name == "geometry.repair" || key.name == "coarse.mesher"
-                  || key.name == "output.cell_quality" || key.name == "output.report_html")
+                  || key.name == "output.cell_quality" || key.name == "output.layers"
+                  || key.name == "output.report_html")
         << key.name;
   }
 }

@@ -34,7 +34,7 @@ TEST(LayerOptions, LeadUpToTheSizeInside)
   LayerOptions options{.patch = "wall", .first = 0.1, .growth = 1.2};
   EXPECT_FALSE(is_complete(options));
   options.count = count_up_to(options, 1.0);
-  EXPECT_EQ(options.count, 11);
+  EXPECT_EQ(options.count, 12);
   const double last = options.first * std::pow(options.growth, options.count - 1);
   EXPECT_NEAR(last * options.growth, 0.816, 0.1 * 0.816);
   EXPECT_EQ(count_up_to(options, 0.1), 1);
