@@ -258,10 +258,9 @@ class Package(program.ProgramTest):
 
     def filling(self, process):
         """All processes below, once the fill has begun."""
-        below = program.descendants(process.pid)
         stage = self.folder / "out/log/run.log"
         started = stage.is_file() and re.search(r"^.*plan ", stage.read_text(), re.MULTILINE)
-        return below if started else None
+        return program.descendants(process.pid) if started else None
 
     def test_it_runs_where_mpi_has_started(self):
         code = (

@@ -17,7 +17,8 @@ import corpus_files  # noqa: E402
 
 NODES = {1: two_each(1), 2: two_each(1, 2), 4: two_each(1, 2, 3, 4)}
 SHAFT = program.CONFIGS / "cases" / "shaft.toml"
-COARSER = ("--set", "refine.levels=1")
+NO_PAGE = program.sets("output.report_html=false")
+COARSER = [*program.sets("refine.levels=1"), *NO_PAGE]
 
 
 class SameBits(NodesTest):
@@ -54,7 +55,7 @@ class SameBits(NodesTest):
     def test_a_step_file_by_wanted_edge_length(self):
         package = corpus_files.unpack_package("occt-misc", room.ROOT / "build" / "corpus")
         model = package / "usr/share/opencascade/data/step/linkrods.step"
-        self.assert_same_on_all(model, "--size", "0.25")
+        self.assert_same_on_all(model, "--size", "0.25", *NO_PAGE)
 
     def test_a_run_goes_on_on_other_nodes(self):
         arguments = ["mesh", SHAFT, *COARSER, "--progress", "never", "--output"]
