@@ -129,7 +129,7 @@ class GetFEM(unittest.TestCase):
             mesh = Mesh(case, 2)
         self.addCleanup(mesh.remove)
         self.assertGreater(mesh.report()["layers"]["full_height"], 0.99)
-        problem = Problem(mesh.convert("msh2") / "mesh_v2.msh")
+        problem = Problem(mesh.convert("msh2", "--layers", "tets") / "mesh_v2.msh")
         self.assertEqual(problem.mesh.nbcvs(), mesh.num_tets())
         sides = [name for name, area in mesh.areas().items() if abs(area - 2.0) < 1e-9]
         self.assertEqual(len(sides), 2)

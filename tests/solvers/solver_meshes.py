@@ -106,10 +106,10 @@ class Mesh:
     def remove(self):
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def convert(self, name):
-        """Folder with the mesh in another format."""
+    def convert(self, name, *more):
+        """Folder with the mesh in another format. `more`: options of `tessera convert`."""
         folder = self.folder / name
-        run([self.program, "convert", self.mesh / "mesh.pvtu", "--format", name, "--output", folder])
+        run([self.program, "convert", self.mesh / "mesh.pvtu", "--format", name, "--output", folder, *more])
         return folder
 
     def report(self):
