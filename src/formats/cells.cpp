@@ -45,23 +45,6 @@ std::vector<GlobalIndex> point_numbers(const Piece& piece, const ElementList& li
   return numbers;
 }
 
-std::uint8_t vtk_type(Shape shape)
-{
-  switch (shape) {
-    case Shape::tet:
-      return 10;
-    case Shape::pyramid:
-      return 14;
-    case Shape::prism:
-      return 13;
-    case Shape::triangle:
-      return 5;
-    case Shape::quad:
-      return 9;
-  }
-  return 0;
-}
-
 PieceCells::PieceCells(const Piece& piece)
     : piece_(piece), has_prisms_(piece.num_cells() != piece.num_tets())
 {

@@ -28,8 +28,8 @@ struct ElementList {
 [[nodiscard]] std::vector<GlobalIndex> point_numbers(const Piece& piece, const ElementList& list,
                                                      GlobalIndex first = 0);
 
-/// @brief The number that VTK has for a shape, of first order. Local.
-[[nodiscard]] std::uint8_t vtk_type(Shape shape);
+/// @brief The number that VTK has for a shape, of first order.
+inline constexpr ByShape<std::uint8_t> kVtkTypes{{10, 14, 13, 5, 9}};
 
 /// @brief Appends the points of an element in VTK's order: the first triangle of its prisms is seen
 /// from outside. Local.

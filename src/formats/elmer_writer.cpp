@@ -24,22 +24,7 @@ namespace tessera::formats {
 namespace {
 
 // Elmer's number of a shape.
-constexpr int type_of(Shape shape)
-{
-  switch (shape) {
-    case Shape::tet:
-      return 504;
-    case Shape::pyramid:
-      return 605;
-    case Shape::prism:
-      return 706;
-    case Shape::triangle:
-      return 303;
-    case Shape::quad:
-      return 404;
-  }
-  return 0;
-}
+constexpr ByShape<int> kTypes{{504, 605, 706, 303, 404}};
 
 void require_integers_suffice(const Outline& outline)
 {
@@ -88,7 +73,7 @@ std::string header_text(const Piece& piece, const PieceCells& cells)
     (is_cell(shape) ? num_cells : num_faces) += count;
     if (count == 0 && shape != Shape::tet) continue;
     ++num_types;
-    types += fmt::format("{} {}\n", type_of(shape), count);
+    types += fmt::format("{} {}\n", kTypes[shape], count);
   }
   return fmt::format("{} {} {}\n{}\n{}{} 0\n", piece.num_points(), num_cells, num_faces, num_types,
                      types, piece.shared_points.size());
@@ -112,7 +97,7 @@ TextBuffer elements_text(const Piece& piece, const PieceCells& cells, const Outl
     const std::vector<GlobalIndex> nodes = point_numbers(piece, list, 1);
     GlobalIndex number = outline.first_number(shape, piece.number);
     for (std::size_t i = 0; i < list.size(); ++i) {
-      text.add("{} {} {} {}\n", ++number, list.tags[i], type_of(shape),
+      text.add("{} {} {} {}\n", ++number, list.tags[i], kTypes[shape],
                fmt::join(std::span(nodes).subspan(list.width * i, list.width), " "));
     }
   }
@@ -145,7 +130,7 @@ TextBuffer boundary_text(const Piece& piece, const PieceCells& cells, const Outl
     GlobalIndex number = first_of[shape] - outline.num_cells();
     for (std::size_t i = 0; i < list.size(); ++i) {
       const auto [parent, other] = parents_of(cells.tet_side(face++), behind, cells, first_of);
-      text.add("{} {} {} {} {} {}\n", ++number, list.tags[i], parent, other, type_of(shape),
+      text.add("{} {} {} {} {} {}\n", ++number, list.tags[i], parent, other, kTypes[shape],
                fmt::join(std::span(nodes).subspan(list.width * i, list.width), " "));
     }
   }

@@ -22,22 +22,8 @@ namespace {
 constexpr std::size_t kVertices = 0;
 constexpr std::size_t kFirstShape = 1;
 
-constexpr const char* keyword_of(Shape shape)
-{
-  switch (shape) {
-    case Shape::tet:
-      return "Tetrahedra";
-    case Shape::pyramid:
-      return "Pyramids";
-    case Shape::prism:
-      return "Prisms";
-    case Shape::triangle:
-      return "Triangles";
-    case Shape::quad:
-      return "Quadrilaterals";
-  }
-  return "";
-}
+constexpr ByShape<const char*> kKeywords{
+    {"Tetrahedra", "Pyramids", "Prisms", "Triangles", "Quadrilaterals"}};
 
 // Those of tets and triangles are always there.
 std::vector<Shape> shapes_of(const Outline& outline)
@@ -86,7 +72,7 @@ std::vector<RecordSection> sections_of(const Outline& outline)
        outline.num_points(), kPointSize}};
   for (const Shape shape : shapes_of(outline)) {
     const GlobalIndex count = outline.num_of(shape);
-    sections.push_back({fmt::format("\n{}\n{}\n", keyword_of(shape), count), count,
+    sections.push_back({fmt::format("\n{}\n{}\n", kKeywords[shape], count), count,
                         cell_size(widths, num_corners(shape))});
   }
   return sections;

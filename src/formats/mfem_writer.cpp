@@ -22,22 +22,7 @@ namespace tessera::formats {
 namespace {
 
 // MFEM's number of a shape.
-constexpr int type_of(Shape shape)
-{
-  switch (shape) {
-    case Shape::tet:
-      return 4;
-    case Shape::pyramid:
-      return 7;
-    case Shape::prism:
-      return 6;
-    case Shape::triangle:
-      return 2;
-    case Shape::quad:
-      return 3;
-  }
-  return 0;
-}
+constexpr ByShape<int> kTypes{{4, 7, 6, 2, 3}};
 
 // Points that name an entity, in an order that follows from their numbers in the whole mesh: so all
 // pieces write them alike.
@@ -153,7 +138,7 @@ void add_elements(const PieceCells& cells, std::span<const Shape> shapes, TextBu
   for (const Shape shape : shapes) {
     const ElementList list = cells[shape];
     for (std::size_t i = 0; i < list.size(); ++i)
-      text.add("{} {} {}\n", list.tags[i], type_of(shape), fmt::join(list.of(i), " "));
+      text.add("{} {} {}\n", list.tags[i], kTypes[shape], fmt::join(list.of(i), " "));
   }
 }
 
@@ -198,9 +183,9 @@ void add_groups(const Groups& groups, TextBuffer& text)
     for (const Entity<2>& edge : group.edges) text.add("{} {}\n", edge.rows[0], edge.rows[1]);
     text.add("\nshared_faces {}\n", group.triangles.size() + group.quads.size());
     for (const Entity<3>& face : group.triangles)
-      text.add("{} {}\n", type_of(Shape::triangle), fmt::join(face.rows, " "));
+      text.add("{} {}\n", kTypes[Shape::triangle], fmt::join(face.rows, " "));
     for (const Entity<4>& face : group.quads)
-      text.add("{} {}\n", type_of(Shape::quad), fmt::join(face.rows, " "));
+      text.add("{} {}\n", kTypes[Shape::quad], fmt::join(face.rows, " "));
   }
 }
 

@@ -172,7 +172,7 @@ class PvtuCellsWriter final : public Writer {
       const ElementList list = cells[shape];
       for (std::size_t i = 0; i < list.size(); ++i) {
         append_vtk_points(shape, list.of(i), corners);
-        kinds.push_back(vtk_type(shape));
+        kinds.push_back(kVtkTypes[shape]);
         ends.push_back(end += static_cast<std::int64_t>(list.width));
       }
     }

@@ -38,22 +38,7 @@ constexpr const char* kFirstNodes = "/pieces/first_node";
 constexpr const char* kFirstsOfShapes = "/pieces/first_pyramid_prism_quad";
 
 // XDMF's number of a shape in a mixed topology: there each element has its own before its points.
-constexpr GlobalIndex mixed_type(Shape shape)
-{
-  switch (shape) {
-    case Shape::tet:
-      return 6;
-    case Shape::pyramid:
-      return 7;
-    case Shape::prism:
-      return 8;
-    case Shape::triangle:
-      return 4;
-    case Shape::quad:
-      return 5;
-  }
-  return 0;
-}
+constexpr ByShape<GlobalIndex> kMixedTypes{{6, 7, 8, 4, 5}};
 
 // Numbers of an element in a mixed topology.
 constexpr GlobalIndex mixed_size(Shape shape)
@@ -309,7 +294,7 @@ class XdmfWriter final : public Writer {
     const std::vector<GlobalIndex> numbers = point_numbers(piece, list);
     std::vector<GlobalIndex> mixed;
     for (std::size_t i = 0; i < list.size(); ++i) {
-      mixed.push_back(mixed_type(shape));
+      mixed.push_back(kMixedTypes[shape]);
       append_vtk_points(shape, std::span(numbers).subspan(list.width * i, list.width), mixed);
     }
     put<GlobalIndex>(is_cell(shape) ? kMixedCells : kMixedFaces, place, mixed);

@@ -8,18 +8,14 @@
 namespace tessera::mesh {
 namespace {
 
-// Of each vertex of the skeleton the lowest coarse vertex that it is a copy of, or itself. Empty if
-// none is a copy.
+// Of each vertex of the skeleton the lowest coarse vertex that it is a copy of, or itself.
 std::vector<LocalIndex> originals(const Skeleton& skeleton, const CoarseMesh& coarse)
 {
   std::vector<LocalIndex> original(at(coarse.num_vertices()));
-  bool has_copies = false;
   for (LocalIndex v = 0; v < coarse.num_vertices(); ++v) {
     const bool is_copy = v > 0 && coarse.position(v) == coarse.position(v - 1);
     original[at(v)] = is_copy ? original[at(v) - 1] : v;
-    has_copies = has_copies || is_copy;
   }
-  if (!has_copies) return {};
   std::vector<LocalIndex> of_skeleton;
   for (const LocalIndex v : skeleton.vertex_coarse) of_skeleton.push_back(original[at(v)]);
   return of_skeleton;
@@ -61,9 +57,8 @@ class Sides {
 std::vector<PointLimit> on_all_sides(std::vector<PointLimit> limits, const Skeleton& skeleton,
                                      const CoarseMesh& coarse)
 {
-  if (limits.empty()) return limits;
+  if (limits.empty() || coarse.patch_other_side.empty()) return limits;
   const std::vector<LocalIndex> original = originals(skeleton, coarse);
-  if (original.empty()) return limits;
   const Sides<2> edges(skeleton.edge_vertices, original);
   const Sides<3> triangles(skeleton.triangle_vertices, original);
   std::vector<PointLimit> all;

@@ -68,8 +68,9 @@ MaterialPairs chosen_materials(const std::vector<Contact>& contacts,
 
 SplitFaces::SplitFaces(const mesh::CoarseMesh& mesh, const SplitOptions& options) : mesh_(mesh)
 {
-  find_faces(options);
-  find_sides();
+  const std::vector<mesh::TriangleTets> triangles = mesh::triangles_of_tets(mesh.tet_vertices);
+  find_faces(options, triangles);
+  find_sides(triangles);
 }
 
 std::size_t SplitFaces::corner(LocalIndex tet, LocalIndex vertex) const
@@ -79,12 +80,13 @@ std::size_t SplitFaces::corner(LocalIndex tet, LocalIndex vertex) const
          + static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
 }
 
-void SplitFaces::find_faces(const SplitOptions& options)
+void SplitFaces::find_faces(const SplitOptions& options,
+                            std::span<const mesh::TriangleTets> triangles)
 {
   const std::vector<bool> patch_is_split = chosen_patches(options.patches, mesh_.patch_names);
   const MaterialPairs contacts = chosen_materials(options.contacts, mesh_.material_names);
   LocalIndex face = 0;
-  for (const mesh::TriangleTets& triangle : mesh::tets_of_faces(mesh_)) {
+  for (const mesh::TriangleTets& triangle : mesh::tets_of_faces(mesh_, triangles)) {
     std::array<LocalIndex, 2>& tets = tets_.emplace_back(triangle.tets);
     const auto material = [&](std::size_t side) { return mesh_.tet_material[at(tets[side])]; };
     const bool is_inner = tets[1] != kNoIndex;
@@ -103,7 +105,7 @@ void SplitFaces::find_faces(const SplitOptions& options)
   }
 }
 
-void SplitFaces::find_sides()
+void SplitFaces::find_sides(std::span<const mesh::TriangleTets> triangles)
 {
   std::vector<bool> is_on_split(at(mesh_.num_vertices()), false);
   std::vector<std::array<LocalIndex, 3>> split;
@@ -114,7 +116,7 @@ void SplitFaces::find_sides()
   }
   std::ranges::sort(split);
   UnionFind fans(4 * mesh_.num_tets());
-  for (const mesh::TriangleTets& triangle : mesh::triangles_of_tets(mesh_.tet_vertices)) {
+  for (const mesh::TriangleTets& triangle : triangles) {
     if (triangle.tets[1] == kNoIndex) continue;
     if (std::ranges::binary_search(split, triangle.vertices)) continue;
     for (const LocalIndex v : triangle.vertices) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "tessera/base/types.hpp"
@@ -42,8 +43,8 @@ class SplitFaces {
 
  private:
   [[nodiscard]] std::size_t corner(LocalIndex tet, LocalIndex vertex) const;
-  void find_faces(const SplitOptions& options);
-  void find_sides();
+  void find_faces(const SplitOptions& options, std::span<const mesh::TriangleTets> triangles);
+  void find_sides(std::span<const mesh::TriangleTets> triangles);
 
   const mesh::CoarseMesh& mesh_;
   std::vector<bool> is_split_{};  // Shape (num_faces).

@@ -41,7 +41,7 @@ class Walls:
         self.patches = {name: range(begin, end) for name, (_, begin, end, _)
                         in PolyMesh.read_boundary(mesh / "boundary").items() if is_wall(name)}
         self.faces = np.concatenate([np.array(one, dtype=int) for one in self.patches.values()])
-        self.num_cells = int(self.owner.max()) + 1
+        self.num_cells = int(max(self.owner.max(), self.neighbour.max(initial=0))) + 1  # The last may own no face.
         self.measure_faces()
 
     def measure_faces(self):

@@ -126,7 +126,8 @@ def read_abaqus(folder):
     return Found(numbers[:, 1:], tets, [names[e] for e in sorted(names)], triangles, patches, nodes)
 
 
-def read_medit(folder):
+def medit_sections(folder):
+    """A function that gives the rows of a section, and {(kind, tag): name}."""
     text, _, comments = (folder / "mesh.mesh").read_text().partition("\nEnd\n")
     name_of = {(kind, int(tag)): name for kind, tag, name in re.findall(r"^# (\w+) (\d+) (.*)$", comments, re.M)}
     words = text.split()
@@ -136,6 +137,11 @@ def read_medit(folder):
         count = int(words[at + 1])
         return numpy.array(words[at + 2 : at + 2 + count * width], dtype=float).reshape(count, width)
 
+    return section, name_of
+
+
+def read_medit(folder):
+    section, name_of = medit_sections(folder)
     xyz = section("Vertices", 4)[:, :3]
     tets, triangles = section("Tetrahedra", 5).astype(int), section("Triangles", 4).astype(int)
     return Found(xyz, tets[:, :4] - 1, [name_of["material", tag] for tag in tets[:, 4]],

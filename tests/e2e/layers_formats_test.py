@@ -12,21 +12,12 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import program  # noqa: E402
-from convert_test import Netcdf, grid_of, hashes  # noqa: E402
+from capsule import CAPSULE  # noqa: E402
+from convert_test import Netcdf, grid_of, hashes, medit_sections  # noqa: E402
 from msh_file import Msh  # noqa: E402
 from poly_mesh import PolyMesh  # noqa: E402
 from program import OK, sets  # noqa: E402
 
-# A pipe with a round end that goes over smoothly into its wall: no columns stand on the circle where they meet.
-CAPSULE = """algebraic3d
-solid inlet = plane (0, 0, 0; 0, 0, -1) -bcname=inlet;
-solid side = cylinder (0, 0, 0; 0, 0, 1; 0.5) -bcname=wall;
-solid cut = plane (0, 0, 1; 0, 0, 1);
-solid cap = sphere (0, 0, 1; 0.5) -bcname=end;
-solid pipe = side and inlet and cut;
-solid body = pipe or cap;
-tlo body;
-"""
 FORMATS = ("abaqus", "elmer", "exodus", "medit", "mfem", "mfem-sets", "msh", "msh2", "msh-parts", "openfoam",
            "openfoam-serial", "pvtu-cells", "xdmf")  # fmt: skip
 
@@ -147,14 +138,7 @@ def read_msh_parts(folder):
 
 
 def read_medit(folder):
-    text, _, comments = (folder / "mesh.mesh").read_text().partition("\nEnd\n")
-    name_of = {(kind, int(tag)): name for kind, tag, name in re.findall(r"^# (\w+) (\d+) (.*)$", comments, re.M)}
-    words = text.split()
-
-    def section(keyword, width):
-        at = words.index(keyword)
-        return numpy.array(words[at + 2 : at + 2 + int(words[at + 1]) * width], dtype=float).reshape(-1, width)
-
+    section, name_of = medit_sections(folder)
     mesh = Mesh(section("Vertices", 4)[:, :3])
     for keyword, kind in (("Tetrahedra", "tet"), ("Pyramids", "pyramid"), ("Prisms", "prism"),
                           ("Triangles", "triangle"), ("Quadrilaterals", "quad")):  # fmt: skip

@@ -2,6 +2,7 @@
 """Prisms and pyramids of layers: Gmsh finds them positive and of the right volume, meshio and VTK find as many in each
 format, and CalculiX solves the patch test on them."""
 import pathlib
+import sys
 import tempfile
 import unittest
 
@@ -13,16 +14,9 @@ from calculix_test import GRADIENT, Deck
 from solver_meshes import Mesh, read_pvtu
 from vtkmodules.vtkIOExodus import vtkExodusIIReader as Exodus
 
-# A pipe with a round end that goes over smoothly into its wall: no columns stand on the circle where they meet.
-MODEL = """algebraic3d
-solid inlet = plane (0, 0, 0; 0, 0, -1) -bcname=inlet;
-solid side = cylinder (0, 0, 0; 0, 0, 1; 0.5) -bcname=wall;
-solid cut = plane (0, 0, 1; 0, 0, 1);
-solid cap = sphere (0, 0, 1; 0.5) -bcname=end;
-solid pipe = side and inlet and cut;
-solid body = pipe or cap;
-tlo body;
-"""
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from capsule import CAPSULE  # noqa: E402
+
 CASE = """geometry.file = "model.geo"
 coarse.max_size = 0.4
 decompose.subdomains = 3
@@ -41,7 +35,7 @@ class Layers(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             case = pathlib.Path(folder) / "case.toml"
             case.write_text(CASE, encoding="utf-8")
-            case.with_name("model.geo").write_text(MODEL, encoding="utf-8")
+            case.with_name("model.geo").write_text(CAPSULE, encoding="utf-8")
             cls.mesh = Mesh(case, 3)
         cls.addClassCleanup(cls.mesh.remove)
         _, _, arrays, _ = read_pvtu(cls.mesh.mesh / "mesh.pvtu")

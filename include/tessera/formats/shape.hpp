@@ -19,23 +19,26 @@ inline constexpr std::array kShapes{Shape::tet, Shape::pyramid, Shape::prism, Sh
 /// @brief Whether elements of this shape are cells, which have a material; faces have a patch.
 [[nodiscard]] constexpr bool is_cell(Shape shape) { return shape <= Shape::prism; }
 
-[[nodiscard]] constexpr std::size_t num_corners(Shape shape)
-{
-  return std::array<std::size_t, kShapes.size()>{4, 5, 6, 3, 4}[static_cast<std::size_t>(shape)];
-}
-
-/// @brief A value for each shape.
+/// @brief A value for each shape, in their order.
 template <class T>
 struct ByShape {
   std::array<T, kShapes.size()> values{};
 
-  [[nodiscard]] T& operator[](Shape shape) { return values[static_cast<std::size_t>(shape)]; }
-  [[nodiscard]] const T& operator[](Shape shape) const
+  [[nodiscard]] constexpr T& operator[](Shape shape)
+  {
+    return values[static_cast<std::size_t>(shape)];
+  }
+  [[nodiscard]] constexpr const T& operator[](Shape shape) const
   {
     return values[static_cast<std::size_t>(shape)];
   }
 
   static auto fields(auto& self) { return std::tie(self.values); }
 };
+
+[[nodiscard]] constexpr std::size_t num_corners(Shape shape)
+{
+  return ByShape<std::size_t>{{4, 5, 6, 3, 4}}[shape];
+}
 
 }  // namespace tessera::formats

@@ -10,9 +10,9 @@
 namespace tessera::mesh {
 
 /// @brief Adds the same limits for the other sides of what was split: edges and triangles whose
-/// vertices are at the same places. So both sides of a crack stay alike. Local; does nothing if no
-/// vertex is double.
-/// @pre Coarse vertices at one place that belong together follow one another.
+/// vertices are at the same places. So both sides of a crack stay alike. Local; does nothing
+/// without splits.
+/// @pre Copies of a coarse vertex stand right behind it.
 /// @see topology::split_patches()
 [[nodiscard]] std::vector<PointLimit> on_all_sides(std::vector<PointLimit> limits,
                                                    const Skeleton& skeleton,
