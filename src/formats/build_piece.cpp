@@ -6,7 +6,7 @@
 
 #include "tessera/base/quadratic_tet.hpp"
 
-#include "formats/link_pieces.hpp"
+#include "formats/link/link_pieces.hpp"
 
 namespace tessera::formats {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "tessera/comm/all_or_none.hpp"
 
-#include "formats/foam_faces.hpp"
-#include "formats/ghosts.hpp"
-#include "formats/link_pieces.hpp"
+#include "formats/foam/faces.hpp"
+#include "formats/link/ghosts.hpp"
+#include "formats/link/link_pieces.hpp"
 #include "formats/piece_source.hpp"
 #include "formats/writer.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "formats/link_pieces.hpp"
+#include "formats/link/link_pieces.hpp"
 
 namespace tessera::formats {
 

@@ -7,7 +7,7 @@
 #include "tessera/base/entity_key.hpp"
 #include "tessera/comm/communicator.hpp"
 
-#include "formats/link_pieces.hpp"
+#include "formats/link/link_pieces.hpp"
 
 namespace tessera::formats {
 

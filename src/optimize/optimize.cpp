@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/optimize/optimize.hpp"
 
-#include "optimize/kernels.hpp"
-#include "optimize/passes.hpp"
-#include "optimize/untangle.hpp"
+#include "optimize/kernels/kernels.hpp"
+#include "optimize/passes/passes.hpp"
+#include "optimize/passes/untangle.hpp"
 #include "optimize/working_mesh.hpp"
 
 namespace tessera::optimize {

@@ -8,9 +8,9 @@
 #include "tessera/base/error.hpp"
 
 #include "optimize/input_check.hpp"
-#include "optimize/passes.hpp"
+#include "optimize/passes/passes.hpp"
+#include "optimize/passes/untangle.hpp"
 #include "optimize/tet_energy.hpp"
-#include "optimize/untangle.hpp"
 #include "optimize/working_mesh.hpp"
 
 namespace tessera::optimize {

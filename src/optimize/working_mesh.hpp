@@ -9,7 +9,7 @@
 #include "tessera/optimize/tet_mesh.hpp"
 
 #include "optimize/corners.hpp"
-#include "optimize/kernels.hpp"
+#include "optimize/kernels/kernels.hpp"
 #include "optimize/point.hpp"
 
 namespace tessera::optimize {

@@ -45,7 +45,7 @@ QUARANTINE = {  # third-party header -> the only places that may include it
     r"(nglib\.h|netgen/.*|meshing\.hpp|csg\.hpp|stlgeom\.hpp|occgeom\.hpp|mystdlib\.h|[A-Z]\w+\.hxx)": ("src/netgen/",),
     r"(pt)?scotch\.h": ("src/migrate/scotch_",),
     r"vtk.*": ("src/io/vtk_",),
-    r"hdf5\.h": ("src/formats/hdf5_",),
+    r"hdf5\.h": ("src/formats/files/hdf5_",),
     r"zlib\.h": ("pipeline/drawing/",),
     r"toml.*": ("src/config/",),
     r"fmt/.*": ("src/", "pipeline/"),  # In no public header: users need not have it.

@@ -14,7 +14,7 @@
 #include "tessera/layers/prism_tets.hpp"
 
 #include "formats/joined_tets.hpp"
-#include "formats/tets_behind.hpp"
+#include "formats/link/tets_behind.hpp"
 
 namespace tessera::formats {
 namespace {

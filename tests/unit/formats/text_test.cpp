@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/files/text_records.hpp"
 #include "formats/labels.hpp"
 #include "formats/plain_name.hpp"
-#include "formats/text_records.hpp"
 
 namespace tessera::formats {
 namespace {
