@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
-#include "tessera/coarse/surface_places.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/io/files.hpp"
@@ -17,6 +16,7 @@
 #include "tessera/model/model.hpp"
 #include "tessera/model/options.hpp"
 #include "tessera/netgen/factory.hpp"
+#include "tessera/surface/places.hpp"
 
 #include "pipeline/commands/mesh_page.hpp"
 #include "pipeline/commands/model_info.hpp"
@@ -87,7 +87,7 @@ void write_places(const InfoCommand& command, const std::string& message, jobs::
 {
   jobs::JobOutcome outcome =
       jobs.run(places_request(command.file), kInfoLimits, wait_for_stop_signal());
-  const auto places = read_result(outcome, from_bytes<coarse::SurfacePlaces>);
+  const auto places = read_result(outcome, from_bytes<surface::SurfacePlaces>);
   if (!places || places->places.empty()) return;
   if (command.html)
     io::write_text_atomically(*command.html, places_page(command.file, message, *places));

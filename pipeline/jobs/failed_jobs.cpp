@@ -219,7 +219,7 @@ void keep_places(const fs::path& file, const std::string& message, RunContext& c
 {
   jobs::JobOutcome outcome =
       context.jobs.run(places_request(file), kSkinLimits, wait_for_stop_signal());
-  const auto places = read_result(outcome, from_bytes<coarse::SurfacePlaces>);
+  const auto places = read_result(outcome, from_bytes<surface::SurfacePlaces>);
   if (!places || places->places.empty()) return;
   try_to_keep(context, [&] {
     const fs::path failure = context.folder / "failure";

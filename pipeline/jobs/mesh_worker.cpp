@@ -17,7 +17,6 @@
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/coarse/optimize_interior.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
-#include "tessera/coarse/surface_places.hpp"
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/model/scaled_model.hpp"
 #include "tessera/model/stl_file.hpp"
@@ -31,6 +30,7 @@
 #include "tessera/subdomain/piece_surface.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
 #include "tessera/subdomain/seam_optimizer.hpp"
+#include "tessera/surface/places.hpp"
 #include "tessera/untangle/fold_test.hpp"
 
 #include "pipeline/jobs/batch_filler.hpp"
@@ -131,7 +131,7 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] static Bytes answer(const PlacesRequest& request)
   {
-    return to_bytes(coarse::find_places(model::welded_surface(model::read_stl(request.file))));
+    return to_bytes(surface::find_places(model::welded_surface(model::read_stl(request.file))));
   }
 
   [[nodiscard]] Bytes answer(const BoxRequest& /*request*/) const
@@ -157,7 +157,7 @@ class MeshWorker final : public jobs::Worker {
   }
 
   // The mesher works in file length units.
-  [[nodiscard]] coarse::CoarseOptions for_mesher(coarse::CoarseOptions options) const
+  [[nodiscard]] surface::CoarseOptions for_mesher(surface::CoarseOptions options) const
   {
     options.max_size /= scale_;
     options.defeature /= scale_;
@@ -185,9 +185,9 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] Bytes answer(const CoarseMeshRequest& request) const
   {
-    cut::CutMesh filled = coarse::fill_surface(request.surface, request.filled);
+    cut::CutMesh filled = surface::fill_surface(request.surface, request.filled);
     CoarseTry made{.mesh = std::move(filled.mesh), .tet_part = std::move(filled.tet_part)};
-    const coarse::Defeatured& merged = request.surface.defeatured;
+    const surface::Defeatured& merged = request.surface.defeatured;
     made.distance = coarse::snap_vertices(made.mesh, *netgen_model_, merged);
     made.defeatured = merged.scaled(scale_);
     if (request.options.optimize) {

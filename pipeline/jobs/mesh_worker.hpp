@@ -11,8 +11,6 @@
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/hash.hpp"
 #include "tessera/base/shared_bytes.hpp"
-#include "tessera/coarse/coarse_surface.hpp"
-#include "tessera/coarse/options.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/cut/cut_tree.hpp"
 #include "tessera/fill/fill_try.hpp"
@@ -31,6 +29,8 @@
 #include "tessera/number/id_layout.hpp"
 #include "tessera/subdomain/piece_summary.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
+#include "tessera/surface/coarse_surface.hpp"
+#include "tessera/surface/options.hpp"
 #include "tessera/topology/split_patches.hpp"
 
 /// Everything that runs in job processes because it calls NETGEN or OpenCASCADE, and the messages
@@ -68,7 +68,7 @@ namespace tessera::pipeline {
                                    netgen::StepReader reader = netgen::StepReader::with_names);
 
 /// @brief run: where the triangles of an STL file bound no body; result: bytes of a
-/// coarse::SurfacePlaces. Needs no load.
+/// surface::SurfacePlaces. Needs no load.
 [[nodiscard]] Bytes places_request(const std::filesystem::path& file);
 
 /// @brief run: result: the diagonal of the model's box, output length unit, a double. Needs the
@@ -80,7 +80,7 @@ namespace tessera::pipeline {
 
 /// @brief run: result: bytes of a model::ModelDescription in file length units. Needs the model.
 /// @param[in] mesher As for netgen::describe_model().
-[[nodiscard]] Bytes describe_request(coarse::SurfaceMesher mesher);
+[[nodiscard]] Bytes describe_request(surface::SurfaceMesher mesher);
 
 /// @brief Reads the result of a describe_request(). @throws InputError if it is damaged.
 [[nodiscard]] model::ModelDescription description_from_bytes(std::span<const std::byte> result);
@@ -93,7 +93,7 @@ struct CoarseTry {
   mesh::CoarseMesh mesh{};
   std::vector<LocalIndex> tet_part{};  ///< Shape (num_tets), if the model was cut.
   coarse::VertexDistance distance{};
-  coarse::Defeatured defeatured{};
+  surface::Defeatured defeatured{};
 
   static auto fields(auto& self)
   {
@@ -101,24 +101,24 @@ struct CoarseTry {
   }
 };
 
-/// @brief run: the coarse surface; result: bytes of a coarse::CoarseSurface in file length units.
+/// @brief run: the coarse surface; result: bytes of a surface::CoarseSurface in file length units.
 /// Needs the model.
 /// @param[in] planes Into which parts the model is cut before; without nodes: not at all.
 /// @param[in] rung   Number of the try, for the faults of tests.
-[[nodiscard]] Bytes coarse_surface_request(const coarse::CoarseOptions& options,
+[[nodiscard]] Bytes coarse_surface_request(const surface::CoarseOptions& options,
                                            const cut::CutTree& planes, LocalIndex rung);
 
 /// @brief run: fills one domain of such a surface and makes its tets better; result: bytes of
-/// coarse::DomainTets. Needs the model.
-[[nodiscard]] Bytes coarse_domain_request(coarse::DomainSkin skin,
-                                          const coarse::CoarseOptions& options);
+/// surface::DomainTets. Needs the model.
+[[nodiscard]] Bytes coarse_domain_request(surface::DomainSkin skin,
+                                          const surface::CoarseOptions& options);
 
 /// @brief run: puts the coarse mesh together and its vertices onto the geometry; result: bytes of a
 /// CoarseTry. Needs the model.
 /// @param[in] filled All domains, in their order.
-[[nodiscard]] Bytes coarse_mesh_request(coarse::CoarseSurface surface,
-                                        std::vector<coarse::DomainTets> filled,
-                                        const coarse::CoarseOptions& options,
+[[nodiscard]] Bytes coarse_mesh_request(surface::CoarseSurface surface,
+                                        std::vector<surface::DomainTets> filled,
+                                        const surface::CoarseOptions& options,
                                         const cut::CutTree& planes);
 
 /// @brief A coarse mesh with layers.

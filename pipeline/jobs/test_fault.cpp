@@ -110,29 +110,29 @@ class FaultyMesher final : public coarse::CoarseMesher {
   {
   }
 
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
-                                                   const cut::CutTree& planes) const override
+  [[nodiscard]] surface::CoarseSurface mesh_surface(const surface::CoarseOptions& options,
+                                                    const cut::CutTree& planes) const override
   {
     fail(kind_at(stage_of(options), rung_));
     return sound_->mesh_surface(options, planes);
   }
 
-  [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
-                                               const coarse::CoarseOptions& options) const override
+  [[nodiscard]] surface::DomainTets fill_domain(
+      const surface::DomainSkin& skin, const surface::CoarseOptions& options) const override
   {
     return sound_->fill_domain(skin, options);
   }
 
-  [[nodiscard]] coarse::DomainTets mesh_domain(const coarse::DomainSkin& skin,
-                                               const coarse::CoarseOptions& options) const override
+  [[nodiscard]] surface::DomainTets mesh_domain(
+      const surface::DomainSkin& skin, const surface::CoarseOptions& options) const override
   {
-    coarse::DomainTets tets = sound_->mesh_domain(skin, options);
+    surface::DomainTets tets = sound_->mesh_domain(skin, options);
     if (kind_at(stage_of(options), kNoIndex) == "drop") drop_a_tet(tets.tet_vertices);
     return tets;
   }
 
-  [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
-                                                  coarse::DomainTets tets) const override
+  [[nodiscard]] surface::DomainTets improve_domain(const surface::DomainSkin& skin,
+                                                   surface::DomainTets tets) const override
   {
     return sound_->improve_domain(skin, std::move(tets));
   }
@@ -250,10 +250,10 @@ Bytes garbled_if_asked(std::string_view stage, Bytes result, LocalIndex item)
   return result;
 }
 
-std::string_view stage_of(const coarse::CoarseOptions& options)
+std::string_view stage_of(const surface::CoarseOptions& options)
 {
-  if (options.mesher == coarse::Mesher::gmsh) return "gmsh";
-  return options.surface_mesher == coarse::SurfaceMesher::remesh ? "remesh" : "coarse";
+  if (options.mesher == surface::Mesher::gmsh) return "gmsh";
+  return options.surface_mesher == surface::SurfaceMesher::remesh ? "remesh" : "coarse";
 }
 
 std::unique_ptr<coarse::CoarseMesher> make_faulty_if_asked(

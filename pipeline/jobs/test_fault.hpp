@@ -45,7 +45,7 @@ void fail_if_asked(std::string_view stage, LocalIndex item = kNoIndex);
                                      LocalIndex item = kNoIndex);
 
 /// @brief coarse, remesh or gmsh.
-[[nodiscard]] std::string_view stage_of(const coarse::CoarseOptions& options);
+[[nodiscard]] std::string_view stage_of(const surface::CoarseOptions& options);
 
 /// @brief The mesher itself, or one that fails.
 [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_faulty_if_asked(

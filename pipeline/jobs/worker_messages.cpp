@@ -58,7 +58,7 @@ double box_diagonal_from_bytes(std::span<const std::byte> result)
   throw InputError("the model's box has no size");
 }
 
-Bytes describe_request(coarse::SurfaceMesher mesher)
+Bytes describe_request(surface::SurfaceMesher mesher)
 {
   return to_bytes(Request(DescribeRequest{mesher}));
 }
@@ -72,19 +72,19 @@ model::ModelDescription description_from_bytes(std::span<const std::byte> result
 
 Bytes figures_request() { return to_bytes(Request(FiguresRequest{})); }
 
-Bytes coarse_surface_request(const coarse::CoarseOptions& options, const cut::CutTree& planes,
+Bytes coarse_surface_request(const surface::CoarseOptions& options, const cut::CutTree& planes,
                              LocalIndex rung)
 {
   return to_bytes(Request(CoarseSurfaceRequest{options, planes, rung}));
 }
 
-Bytes coarse_domain_request(coarse::DomainSkin skin, const coarse::CoarseOptions& options)
+Bytes coarse_domain_request(surface::DomainSkin skin, const surface::CoarseOptions& options)
 {
   return to_bytes(Request(CoarseDomainRequest{std::move(skin), options}));
 }
 
-Bytes coarse_mesh_request(coarse::CoarseSurface surface, std::vector<coarse::DomainTets> filled,
-                          const coarse::CoarseOptions& options, const cut::CutTree& planes)
+Bytes coarse_mesh_request(surface::CoarseSurface surface, std::vector<surface::DomainTets> filled,
+                          const surface::CoarseOptions& options, const cut::CutTree& planes)
 {
   return to_bytes(
       Request(CoarseMeshRequest{std::move(surface), std::move(filled), options, planes}));

@@ -97,7 +97,7 @@ struct BoxRequest {
 };
 
 struct DescribeRequest {
-  coarse::SurfaceMesher mesher{};
+  surface::SurfaceMesher mesher{};
   static auto fields(auto& self) { return std::tie(self.mesher); }
 };
 
@@ -106,7 +106,7 @@ struct FiguresRequest {
 };
 
 struct CoarseSurfaceRequest {
-  coarse::CoarseOptions options{};
+  surface::CoarseOptions options{};
   cut::CutTree planes{};
   LocalIndex rung = 0;
 
@@ -114,16 +114,16 @@ struct CoarseSurfaceRequest {
 };
 
 struct CoarseDomainRequest {
-  coarse::DomainSkin skin{};
-  coarse::CoarseOptions options{};
+  surface::DomainSkin skin{};
+  surface::CoarseOptions options{};
 
   static auto fields(auto& self) { return std::tie(self.skin, self.options); }
 };
 
 struct CoarseMeshRequest {
-  coarse::CoarseSurface surface{};
-  std::vector<coarse::DomainTets> filled{};  ///< All domains, in their order.
-  coarse::CoarseOptions options{};
+  surface::CoarseSurface surface{};
+  std::vector<surface::DomainTets> filled{};  ///< All domains, in their order.
+  surface::CoarseOptions options{};
   cut::CutTree planes{};
 
   static auto fields(auto& self)

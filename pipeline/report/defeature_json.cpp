@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostListed = 20;
 
-Json parts_json(const std::vector<coarse::MergedPart>& parts, const char* measure)
+Json parts_json(const std::vector<surface::MergedPart>& parts, const char* measure)
 {
   Json list = Json::array();
   for (std::size_t i = 0; i < std::min(kMostListed, parts.size()); ++i) {
@@ -33,7 +33,7 @@ std::string name_of(LocalIndex surface, const mesh::CoarseMesh& mesh)
 
 Json defeatured_json(const CoarseResult& coarse)
 {
-  const coarse::Defeatured& merged = coarse.defeatured;
+  const surface::Defeatured& merged = coarse.defeatured;
   Json faces = parts_json(merged.patches, "area");
   for (std::size_t i = 0; i < faces.size(); ++i) {
     faces[i]["name"] = name_of(merged.patches[i].number, coarse.mesh);
@@ -49,7 +49,7 @@ Json defeatured_json(const CoarseResult& coarse)
 
 std::string defeatured_words(const CoarseResult& coarse)
 {
-  const coarse::Defeatured& merged = coarse.defeatured;
+  const surface::Defeatured& merged = coarse.defeatured;
   std::vector<std::string> faces;
   for (std::size_t i = 0; i < std::min(kMostListed, merged.patches.size()); ++i) {
     faces.push_back(name_of(merged.patches[i].number, coarse.mesh));

@@ -21,10 +21,10 @@
 namespace tessera::pipeline {
 namespace {
 
-using coarse::kNumPlaceKinds;
-using coarse::Place;
-using coarse::PlaceKind;
-using coarse::SurfacePlaces;
+using surface::kNumPlaceKinds;
+using surface::Place;
+using surface::PlaceKind;
+using surface::SurfacePlaces;
 using Json = nlohmann::ordered_json;
 
 constexpr std::array kKinds{PlaceKind::open_edge, PlaceKind::crowded_edge, PlaceKind::crossing};
@@ -45,7 +45,7 @@ std::size_t row_of_triangle(const SurfacePlaces& places, std::size_t triangle)
 std::vector<std::string> row_names()
 {
   std::vector<std::string> names{"triangles without such a place"};
-  for (const PlaceKind kind : kKinds) names.push_back(coarse::words_of(kind));
+  for (const PlaceKind kind : kKinds) names.push_back(surface::words_of(kind));
   return names;
 }
 
@@ -98,7 +98,7 @@ Json marks_json(const SurfacePlaces& places)
   Json marks = Json::array();
   for (const Place& place : some_places(places, kMostButtons)) {
     marks.push_back({{"centre", place.middle()},
-                     {"title", fmt::format("one of the {}", coarse::words_of(place.kind))}});
+                     {"title", fmt::format("one of the {}", surface::words_of(place.kind))}});
   }
   return marks;
 }
@@ -133,7 +133,7 @@ std::string table_of(const SurfacePlaces& places)
   constexpr std::size_t kMostRows = 50;  // Of each kind.
   std::vector<std::vector<std::string>> rows;
   for (const Place& place : some_places(places, kMostRows)) {
-    rows.push_back({escaped(coarse::words_of(place.kind)), point_text(place.from),
+    rows.push_back({escaped(surface::words_of(place.kind)), point_text(place.from),
                     place.kind == PlaceKind::crossing ? "" : point_text(place.to)});
   }
   return table_html({"place", "from", "to"}, rows);
@@ -147,7 +147,7 @@ std::string places_text(const SurfacePlaces& places)
   for (const PlaceKind kind : kKinds) {
     const std::size_t count = places.count(kind);
     if (count == 0) continue;
-    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", coarse::words_of(kind), count);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", surface::words_of(kind), count);
   }
   return text;
 }

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "tessera/coarse/surface_places.hpp"
 #include "tessera/mesh/mesh_arrays.hpp"
+#include "tessera/surface/places.hpp"
 
 #include "pipeline/drawing/png.hpp"
 
@@ -13,20 +13,20 @@
 namespace tessera::pipeline {
 
 /// @brief "edges with one triangle: 3, edges with …: 1"; empty if there is no place.
-[[nodiscard]] std::string places_text(const coarse::SurfacePlaces& places);
+[[nodiscard]] std::string places_text(const surface::SurfacePlaces& places);
 
 /// @brief The triangles of the file, with cell arrays `open_edges`, `crowded_edges` and
 /// `crossings`: how many of them are at each.
-[[nodiscard]] mesh::MeshArrays places_arrays(const coarse::SurfacePlaces& places);
+[[nodiscard]] mesh::MeshArrays places_arrays(const surface::SurfacePlaces& places);
 
 /// @brief The file from two opposite sides; triangles at places have another colour than the
 /// others, and marks stand at some hundred places. Numbers are those of the page's legend.
-[[nodiscard]] Picture places_picture(const coarse::SurfacePlaces& places);
+[[nodiscard]] Picture places_picture(const surface::SurfacePlaces& places);
 
 /// @brief A page with that picture, a view to turn with marks, and the first places with their
 /// coordinates.
 /// @param[in] message Why the file is refused.
 [[nodiscard]] std::string places_page(const std::filesystem::path& file, const std::string& message,
-                                      const coarse::SurfacePlaces& places);
+                                      const surface::SurfacePlaces& places);
 
 }  // namespace tessera::pipeline

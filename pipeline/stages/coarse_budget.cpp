@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tessera/coarse/coarse_surface.hpp"
+#include "tessera/surface/coarse_surface.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -28,7 +28,7 @@ constexpr double kStall_s = 120.0;
 constexpr double kMemory_gib = 16.0;
 constexpr double kLeastIdle_s = 20.0;
 
-double budget_s(const coarse::CoarseOptions& options, double least_s, double expected_s)
+double budget_s(const surface::CoarseOptions& options, double least_s, double expected_s)
 {
   return options.timeout_s > 0.0 ? options.timeout_s : std::max(least_s, kMargin * expected_s);
 }
@@ -42,11 +42,11 @@ double expected_triangles(double area, double size)
 
 }  // namespace
 
-jobs::JobLimits surface_limits(const coarse::CoarseOptions& options,
+jobs::JobLimits surface_limits(const surface::CoarseOptions& options,
                                const coarse::ModelFigures& model, bool is_first)
 {
-  const bool is_netgen = options.mesher == coarse::Mesher::netgen
-                         && options.surface_mesher == coarse::SurfaceMesher::netgen;
+  const bool is_netgen = options.mesher == surface::Mesher::netgen
+                         && options.surface_mesher == surface::SurfaceMesher::netgen;
   const double expected_s =
       (is_netgen ? kSecondsPerFace : kSecondsPerFaceOfOthers) * model.num_faces
       + kSecondsPerTriangle * expected_triangles(model.area, options.max_size)
@@ -58,15 +58,16 @@ jobs::JobLimits surface_limits(const coarse::CoarseOptions& options,
           .idle_cpu_s = is_netgen ? std::max(kLeastIdle_s, cpu_s / 3.0) : 0.0};
 }
 
-jobs::JobLimits domain_limits(const coarse::CoarseOptions& options, const coarse::DomainSkin& skin)
+jobs::JobLimits domain_limits(const surface::CoarseOptions& options,
+                              const surface::DomainSkin& skin)
 {
-  const double expected_s = coarse::predicted_tets(skin) / kTetsPerSecond;
+  const double expected_s = surface::predicted_tets(skin) / kTetsPerSecond;
   return {.cpu_s = budget_s(options, kWholeOrDomain_s, expected_s),
           .stall_s = kStall_s,
           .memory_gib = kMemory_gib};
 }
 
-jobs::JobLimits whole_limits(const coarse::CoarseOptions& options, double num_tets)
+jobs::JobLimits whole_limits(const surface::CoarseOptions& options, double num_tets)
 {
   const double expected_s = num_tets / kTetsPerSecond;
   return {.cpu_s = budget_s(options, kWholeOrDomain_s, expected_s),

@@ -23,14 +23,14 @@ bool is_for_gmsh(const config::Case& run_case)
 {
   constexpr std::array<std::string_view, 5> kKinds{".step", ".stp", ".iges", ".igs", ".brep"};
   const std::string kind = model::lower_case_extension(run_case.geometry.file);
-  return run_case.coarse.mesher == coarse::Mesher::netgen
+  return run_case.coarse.mesher == surface::Mesher::netgen
          && std::ranges::find(kKinds, kind) != kKinds.end();
 }
 
 bool has_gmsh() { return jobs::is_on_path("gmsh"); }
 
 // What is merged may be what made a surface touch itself.
-coarse::CoarseOptions finer(coarse::CoarseOptions options)
+surface::CoarseOptions finer(surface::CoarseOptions options)
 {
   options.max_size *= 0.5;
   options.defeature *= 0.5;
@@ -39,7 +39,7 @@ coarse::CoarseOptions finer(coarse::CoarseOptions options)
 
 // Options, and whether the model is cut before.
 struct Attempt {
-  coarse::CoarseOptions options{};
+  surface::CoarseOptions options{};
   bool is_cut = false;
 };
 
@@ -52,12 +52,12 @@ std::vector<Attempt> attempts_at(const config::Case& run_case, const cut::CutTre
   if (planes.num_parts > 0) {
     attempts = {{run_case.coarse, true}, {finer(run_case.coarse), true}};
   }
-  for (const coarse::CoarseOptions& options : coarse_tries(run_case)) {
+  for (const surface::CoarseOptions& options : coarse_tries(run_case)) {
     attempts.push_back({options, false});
   }
   if (with_gmsh) {
     attempts.push_back({run_case.coarse, false});
-    attempts.back().options.mesher = coarse::Mesher::gmsh;
+    attempts.back().options.mesher = surface::Mesher::gmsh;
     attempts.back().options.defeature = 0.0;
   }
   return attempts;
@@ -90,26 +90,26 @@ coarse::ModelFigures figures_of(const config::Case& run_case, RunContext& contex
 
 }  // namespace
 
-std::vector<coarse::CoarseOptions> coarse_tries(const config::Case& run_case)
+std::vector<surface::CoarseOptions> coarse_tries(const config::Case& run_case)
 {
-  const coarse::CoarseOptions& asked = run_case.coarse;
+  const surface::CoarseOptions& asked = run_case.coarse;
   if (model::is_mesh_name(run_case.geometry.file)) return {asked};
-  if (asked.mesher == coarse::Mesher::gmsh) return {asked, finer(asked)};
-  coarse::CoarseOptions ours = asked;
-  ours.surface_mesher = coarse::SurfaceMesher::remesh;
-  coarse::CoarseOptions netgen = asked;
+  if (asked.mesher == surface::Mesher::gmsh) return {asked, finer(asked)};
+  surface::CoarseOptions ours = asked;
+  ours.surface_mesher = surface::SurfaceMesher::remesh;
+  surface::CoarseOptions netgen = asked;
   netgen.defeature = 0.0;
   return {ours, finer(ours), netgen};
 }
 
 RepairCounts repairs_of(const CoarsePlan& plan, const CoarsePlan& first)
 {
-  const coarse::CoarseOptions& tried = plan.options;
+  const surface::CoarseOptions& tried = plan.options;
   RepairCounts repairs;
   if (plan.planes.num_parts != first.planes.num_parts) repairs.add(Repair::uncut_model);
   if (tried.mesher != first.options.mesher) {
     repairs.add(Repair::gmsh_mesh);
-  } else if (tried.surface_mesher == coarse::SurfaceMesher::netgen
+  } else if (tried.surface_mesher == surface::SurfaceMesher::netgen
              && first.options.surface_mesher != tried.surface_mesher) {
     repairs.add(Repair::netgen_surface);
   }

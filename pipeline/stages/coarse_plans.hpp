@@ -19,7 +19,7 @@ namespace tessera::pipeline {
 /// are remeshed, then with edges of half the length; then NETGEN makes the surface. Gmsh, where the
 /// case wants it, has both sizes. A mesh that the case brings is the coarse mesh; no other one
 /// could be made. Local.
-[[nodiscard]] std::vector<coarse::CoarseOptions> coarse_tries(const config::Case& run_case);
+[[nodiscard]] std::vector<surface::CoarseOptions> coarse_tries(const config::Case& run_case);
 
 /// @brief What the tries of a case are told: those of coarse_tries(), before them two on the parts
 /// if planes cut the model; Gmsh comes last, where rank 0 finds the program.

@@ -30,11 +30,11 @@ bool is_final(const jobs::JobOutcome& outcome)
          || outcome.error == ErrorKind::config || outcome.loads_are_lost;
 }
 
-std::string name_of(const coarse::CoarseOptions& options)
+std::string name_of(const surface::CoarseOptions& options)
 {
-  const bool is_remesh = options.surface_mesher == coarse::SurfaceMesher::remesh;
+  const bool is_remesh = options.surface_mesher == surface::SurfaceMesher::remesh;
   std::string_view who = is_remesh ? "remeshed triangles, " : "NETGEN's surface, ";
-  if (options.mesher == coarse::Mesher::gmsh) who = "Gmsh, ";
+  if (options.mesher == surface::Mesher::gmsh) who = "Gmsh, ";
   return fmt::format("{}max_size {:g}", who, options.max_size);
 }
 
@@ -151,8 +151,8 @@ class CoarseTries {
     if (made.surface) end = RungEnd::surface;
     if (is_final(made.outcome) || was_killed_from_outside(made.outcome)) end = RungEnd::final;
     // Rank 0 has found Gmsh; this rank's machine may be without.
-    const bool was_gmsh_asked = plans_.front().options.mesher == coarse::Mesher::gmsh;
-    if (plan.options.mesher == coarse::Mesher::gmsh && !was_gmsh_asked
+    const bool was_gmsh_asked = plans_.front().options.mesher == surface::Mesher::gmsh;
+    if (plan.options.mesher == surface::Mesher::gmsh && !was_gmsh_asked
         && made.outcome.error == ErrorKind::config) {
       end = RungEnd::failed;
     }
@@ -172,11 +172,11 @@ class CoarseTries {
     ladder_.restore(on_root(context_.comm, [&] { return ladder_.snapshot(); }));
   }
 
-  coarse::CoarseSurface take_surface(LocalIndex rung)
+  surface::CoarseSurface take_surface(LocalIndex rung)
   {
     const auto own = surfaces_.find(rung);
     Bytes bytes = own == surfaces_.end() ? Bytes{} : to_bytes(own->second);
-    return from_bytes<coarse::CoarseSurface>(
+    return from_bytes<surface::CoarseSurface>(
         context_.comm.broadcast(std::move(bytes), ladder_.holder(rung)));
   }
 
@@ -207,7 +207,7 @@ class CoarseTries {
   RunContext& context_;
   bool is_in_parts_ = is_cut(plans_.front());
   CoarseResult result_{};
-  std::map<LocalIndex, coarse::CoarseSurface> surfaces_{};  // Made by this rank.
+  std::map<LocalIndex, surface::CoarseSurface> surfaces_{};  // Made by this rank.
   std::vector<RungOutcome> ended_here_{};
   std::map<LocalIndex, jobs::JobOutcome> outcomes_{};
   std::map<LocalIndex, RepairCounts> repairs_{};

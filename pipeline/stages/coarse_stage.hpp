@@ -19,10 +19,10 @@ namespace tessera::pipeline {
 struct CoarseResult {
   mesh::CoarseMesh mesh{};
   std::vector<LocalIndex> tet_part{};   ///< Of the parts it was meshed in; empty: as a whole.
-  coarse::CoarseOptions options{};      ///< Those of the try that succeeded.
+  surface::CoarseOptions options{};     ///< Those of the try that succeeded.
   int tries = 0;                        ///< Tries that were needed, from 1.
   coarse::VertexDistance distance{};    ///< Output length unit.
-  coarse::Defeatured defeatured{};      ///< Output length unit.
+  surface::Defeatured defeatured{};     ///< Output length unit.
   std::vector<std::string> failures{};  ///< What the tries before said, for the report.
   bool was_limited = false;             ///< A try ended for time or memory: not reproducible.
   RepairCounts repairs{};               ///< That are in this mesh, without those of the import.

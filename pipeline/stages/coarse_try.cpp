@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "tessera/coarse/coarse_surface.hpp"
 #include "tessera/comm/all_or_none.hpp"
+#include "tessera/surface/coarse_surface.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
@@ -38,7 +38,7 @@ std::optional<Result> result_of(const JobRequest& job, const jobs::JobRunner::Wa
 
 struct FilledDomain {
   LocalIndex domain = 0;  // From 1.
-  coarse::DomainTets tets{};
+  surface::DomainTets tets{};
 
   static auto fields(auto& self) { return std::tie(self.domain, self.tets); }
 };
@@ -57,7 +57,7 @@ struct DomainShare {
   std::vector<FailedDomain> failed{};
 };
 
-std::vector<double> triangles_of_domains(const coarse::CoarseSurface& surface)
+std::vector<double> triangles_of_domains(const surface::CoarseSurface& surface)
 {
   std::vector<double> num_triangles(at(surface.num_domains()));
   for (const auto& domains : surface.face_domains) {
@@ -68,17 +68,17 @@ std::vector<double> triangles_of_domains(const coarse::CoarseSurface& surface)
   return num_triangles;
 }
 
-DomainShare fill_share(const coarse::CoarseSurface& surface, const coarse::CoarseOptions& options,
+DomainShare fill_share(const surface::CoarseSurface& surface, const surface::CoarseOptions& options,
                        StageScope& stage, RunContext& context)
 {
   DomainShare share;
   const auto fill = [&](LocalIndex item, const jobs::JobRunner::WaitCallback& on_wait) {
     const LocalIndex domain = item + 1;
-    coarse::DomainSkin skin = coarse::skin_of(surface, domain);
+    surface::DomainSkin skin = surface::skin_of(surface, domain);
     const jobs::JobLimits limits = domain_limits(options, skin);
     const Bytes request = coarse_domain_request(std::move(skin), options);
     jobs::JobOutcome outcome;
-    auto tets = result_of<coarse::DomainTets>(
+    auto tets = result_of<surface::DomainTets>(
         {fmt::format("coarse: domain {}", domain), request, limits}, on_wait, outcome, context);
     if (tets) {
       share.repairs += take_noted_repairs();
@@ -95,11 +95,11 @@ DomainShare fill_share(const coarse::CoarseSurface& surface, const coarse::Coars
 // All domains, on rank 0; or the first that failed, on every rank.
 struct DomainTry {
   std::optional<FailedDomain> failed{};
-  std::vector<coarse::DomainTets> filled{};
+  std::vector<surface::DomainTets> filled{};
   RepairCounts repairs{};
 };
 
-DomainTry fill_domains(const coarse::CoarseSurface& surface, const coarse::CoarseOptions& options,
+DomainTry fill_domains(const surface::CoarseSurface& surface, const surface::CoarseOptions& options,
                        StageScope& stage, RunContext& context)
 {
   const DomainShare share = fill_share(surface, options, stage, context);
@@ -126,16 +126,16 @@ SurfaceTry try_coarse_surface(const CoarsePlan& plan, const jobs::JobRunner::Wai
 {
   SurfaceTry made;
   // Gmsh is a child of the job and has the same limit.
-  coarse::CoarseOptions options = plan.options;
+  surface::CoarseOptions options = plan.options;
   options.timeout_s = plan.limits.cpu_s;
   const Bytes request = coarse_surface_request(options, plan.planes, plan.rung);
-  made.surface = result_of<coarse::CoarseSurface>({"coarse", request, plan.limits}, on_wait,
-                                                  made.outcome, context);
+  made.surface = result_of<surface::CoarseSurface>({"coarse", request, plan.limits}, on_wait,
+                                                   made.outcome, context);
   made.repairs = take_noted_repairs();
   return made;
 }
 
-CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, coarse::CoarseSurface surface,
+CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, surface::CoarseSurface surface,
                                   StageScope& stage, RunContext& context)
 {
   DomainTry domains = fill_domains(surface, plan.options, stage, context);

@@ -5,10 +5,10 @@
 #include <tuple>
 
 #include "tessera/base/repair.hpp"
-#include "tessera/coarse/coarse_surface.hpp"
-#include "tessera/coarse/options.hpp"
 #include "tessera/cut/cut_tree.hpp"
 #include "tessera/jobs/job_runner.hpp"
+#include "tessera/surface/coarse_surface.hpp"
+#include "tessera/surface/options.hpp"
 
 #include "pipeline/jobs/mesh_worker.hpp"
 #include "pipeline/runtime/run_context.hpp"
@@ -17,7 +17,7 @@ namespace tessera::pipeline {
 
 /// @brief What is tried.
 struct CoarsePlan {
-  coarse::CoarseOptions options{};
+  surface::CoarseOptions options{};
   cut::CutTree planes{};     ///< Without nodes: the model is not cut.
   LocalIndex rung = 0;       ///< Number of the try, from 0.
   jobs::JobLimits limits{};  ///< Of the surface.
@@ -26,7 +26,7 @@ struct CoarsePlan {
 /// @brief How the surface of a try has ended.
 struct SurfaceTry {
   jobs::JobOutcome outcome{};
-  std::optional<coarse::CoarseSurface> surface{};
+  std::optional<surface::CoarseSurface> surface{};
   RepairCounts repairs{};  ///< In the surface.
 };
 
@@ -51,7 +51,7 @@ struct CoarseAttempt {
 /// @param surface The same on every rank.
 /// @note Collective. @throws Interrupted on a signal, on every rank.
 [[nodiscard]] CoarseAttempt fill_coarse_surface(const CoarsePlan& plan,
-                                                coarse::CoarseSurface surface, StageScope& stage,
+                                                surface::CoarseSurface surface, StageScope& stage,
                                                 RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -130,7 +130,7 @@ mesh::SizePoints sizes_for_a_finer_mesh(const RunResult& run, RunContext& contex
   if (!sizing::is_graded(run.resolved.size)) return {};
   // A mesh is as it is, and Gmsh takes no sizes at points.
   if (model::is_mesh_name(run.resolved.geometry.file)) return {};
-  if (run.resolved.coarse.mesher == coarse::Mesher::gmsh) return {};
+  if (run.resolved.coarse.mesher == surface::Mesher::gmsh) return {};
   StageScope stage(context, "levels");
   mesh::SizePoints points = comm::on_root(context.comm, [&] {
     return with_file_context(

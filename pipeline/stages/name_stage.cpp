@@ -88,8 +88,8 @@ std::optional<LocalIndex> curve_of(const model::EdgeDescription& edge)
   return read.ec == std::errc() && read.ptr == end ? std::optional(number - 1) : std::nullopt;
 }
 
-coarse::KeptParts kept_parts(const model::ModelDescription& described,
-                             const model::NamedParts& named, const Patterns& patterns)
+surface::KeptParts kept_parts(const model::ModelDescription& described,
+                              const model::NamedParts& named, const Patterns& patterns)
 {
   std::set<LocalIndex> patches;
   for (const model::NumberedName& face : named.faces) patches.insert(face.number - 1);
@@ -115,16 +115,16 @@ jobs::JobOutcome describe_in_jobs(
     const std::function<jobs::JobOutcome(const std::string&, const Bytes&)>& run_describe)
 {
   jobs::JobOutcome outcome =
-      run_describe("describe", describe_request(coarse::SurfaceMesher::netgen));
+      run_describe("describe", describe_request(surface::SurfaceMesher::netgen));
   if (format != model::Format::csg || !has_failed(outcome)) return outcome;
   jobs::JobOutcome second =
-      run_describe("describe_remeshed", describe_request(coarse::SurfaceMesher::remesh));
+      run_describe("describe_remeshed", describe_request(surface::SurfaceMesher::remesh));
   return has_failed(second) ? outcome : second;
 }
 
 model::ModelDescription describe_model(const config::Case& given, RunContext& context)
 {
-  const Bytes request = describe_request(coarse::SurfaceMesher::netgen);
+  const Bytes request = describe_request(surface::SurfaceMesher::netgen);
   return description_of(run_describe("describe", request, context), given);
 }
 

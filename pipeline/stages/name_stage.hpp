@@ -6,12 +6,12 @@
 #include <tuple>
 
 #include "tessera/base/bytes.hpp"
-#include "tessera/coarse/options.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/jobs/job_runner.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/model/part_names.hpp"
+#include "tessera/surface/options.hpp"
 
 #include "pipeline/runtime/run_context.hpp"
 
@@ -35,7 +35,7 @@ namespace tessera::pipeline {
 /// @brief What the case says of parts of the model.
 struct PartsOfCase {
   model::NamedParts named{};
-  coarse::KeptParts kept{};  ///< Named by [[geometry.name]], or as the shape of a [[size.region]].
+  surface::KeptParts kept{};  ///< Named by [[geometry.name]], or as the shape of a [[size.region]].
 
   static auto fields(auto& self) { return std::tie(self.named, self.kept); }
 };

@@ -57,7 +57,7 @@ double least_feature(const config::Case& resolved, double volume, double noise)
 {
   constexpr double kPartOfTarget = 0.05;
   constexpr double kMostOfMaxSize = 0.5;  // What is larger is no detail of the mesh.
-  if (resolved.coarse.mesher == coarse::Mesher::gmsh) return 0.0;
+  if (resolved.coarse.mesher == surface::Mesher::gmsh) return 0.0;
   const double wanted =
       resolved.size.min >= 0.0
           ? resolved.size.min

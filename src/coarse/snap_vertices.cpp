@@ -15,7 +15,7 @@ constexpr double kLeastVolume = 0.5;
 
 class Snapper {
  public:
-  Snapper(mesh::CoarseMesh& mesh, const model::Model& model, const Defeatured& merged)
+  Snapper(mesh::CoarseMesh& mesh, const model::Model& model, const surface::Defeatured& merged)
       : mesh_(mesh),
         model_(model),
         merged_(merged),
@@ -188,7 +188,7 @@ class Snapper {
 
   mesh::CoarseMesh& mesh_;
   const model::Model& model_;
-  const Defeatured& merged_;
+  const surface::Defeatured& merged_;
   std::vector<std::vector<std::size_t>> corners_;  // Of faces, at each vertex.
   std::vector<std::vector<std::size_t>> ends_;     // Of segments, at each vertex.
   std::vector<std::vector<LocalIndex>> tets_;      // Around each vertex.
@@ -197,7 +197,7 @@ class Snapper {
 }  // namespace
 
 VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model,
-                             const Defeatured& merged)
+                             const surface::Defeatured& merged)
 {
   return Snapper(mesh, model, merged).run();
 }

@@ -152,7 +152,7 @@ constexpr Key kKeys[] = {
      .reason = "a name for what it holds"},
 
     {.name = "coarse.mesher",
-     .rule = word_rule([](Case& c) -> coarse::Mesher& { return c.coarse.mesher; }),
+     .rule = word_rule([](Case& c) -> surface::Mesher& { return c.coarse.mesher; }),
      .meaning = "The program that makes the coarse mesh: \"netgen\", or \"gmsh\", which must be "
                 "installed, for .step, .iges and .brep. Gmsh has no coarse.grading.",
      .reason = "NETGEN reads every kind of model and is always there"},

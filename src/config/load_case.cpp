@@ -220,7 +220,7 @@ void check_own_mesh(const Case& loaded, bool is_mesh, const std::string& where)
                             geometry.smooth ? "smooth" : "cad"));
   }
   const std::string kind = model::lower_case_extension(geometry.file);
-  if (loaded.coarse.mesher == coarse::Mesher::gmsh
+  if (loaded.coarse.mesher == surface::Mesher::gmsh
       && (is_mesh || kind == ".geo" || kind == ".stl")) {
     fail(where, fmt::format("coarse.mesher = \"gmsh\" is for .step, .iges and .brep; {}",
                             is_mesh ? "the mesh in geometry.file is the coarse mesh"

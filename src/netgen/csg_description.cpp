@@ -13,7 +13,7 @@ namespace {
 
 class Describer {
  public:
-  Describer(const ::netgen::CSGeometry& geometry, const coarse::CoarseSurface& surface)
+  Describer(const ::netgen::CSGeometry& geometry, const surface::CoarseSurface& surface)
       : geometry_(geometry), surface_(surface)
   {
   }
@@ -79,7 +79,7 @@ class Describer {
   }
 
   const ::netgen::CSGeometry& geometry_;
-  const coarse::CoarseSurface& surface_;
+  const surface::CoarseSurface& surface_;
   const mesh::CoarseMesh& mesh_ = surface_.mesh;
   std::map<LocalIndex, model::FaceDescription> faces_{};  // By the model's surface number.
   model::ModelDescription described_{};
@@ -88,7 +88,7 @@ class Describer {
 }  // namespace
 
 model::ModelDescription describe_csg(const ::netgen::CSGeometry& geometry,
-                                     const coarse::CoarseSurface& surface)
+                                     const surface::CoarseSurface& surface)
 {
   return Describer(geometry, surface).run();
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tessera/coarse/coarse_surface.hpp"
 #include "tessera/model/description.hpp"
+#include "tessera/surface/coarse_surface.hpp"
 
 namespace netgen {
 class CSGeometry;
@@ -13,6 +13,6 @@ namespace tessera::netgen {
 /// @brief What a CSG model holds, by the triangles of a surface mesh in its numbers: areas and
 /// volumes are those of the triangles. Edges are left out. Local.
 [[nodiscard]] model::ModelDescription describe_csg(const ::netgen::CSGeometry& geometry,
-                                                   const coarse::CoarseSurface& surface);
+                                                   const surface::CoarseSurface& surface);
 
 }  // namespace tessera::netgen

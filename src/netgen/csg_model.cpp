@@ -94,7 +94,7 @@ class CsgModel final : public LoadedModel {
     return {.curve = curve,
             .number = fmt::format("{}-{}", curve / num_surfaces + 1, curve % num_surfaces + 1)};
   }
-  [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher mesher) const override;
+  [[nodiscard]] model::ModelDescription describe(surface::SurfaceMesher mesher) const override;
   [[nodiscard]] coarse::ModelFigures figures() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
   [[nodiscard]] bool has_apex() const { return netgen::has_apex(*geometry_, tolerance_); }
@@ -104,14 +104,14 @@ class CsgModel final : public LoadedModel {
   [[nodiscard]] std::string names_of(const std::vector<int>& solids) const;
   [[nodiscard]] CsgSolids solids() const;
   using LoadedModel::mesh_surface;
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
-                                                   const NetgenSurfaceUser& use) const override;
-  [[nodiscard]] coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
-                                                 const cut::CutTree& tree) const override;
+  [[nodiscard]] surface::CoarseSurface mesh_surface(const surface::CoarseOptions& options,
+                                                    const NetgenSurfaceUser& use) const override;
+  [[nodiscard]] surface::CoarseSurface mesh_parts(const surface::CoarseOptions& options,
+                                                  const cut::CutTree& tree) const override;
 
  private:
   [[nodiscard]] const ::netgen::Surface& surface(LocalIndex number) const;
-  [[nodiscard]] coarse::CoarseSurface remesh_solids(const coarse::CoarseOptions& options) const;
+  [[nodiscard]] surface::CoarseSurface remesh_solids(const surface::CoarseOptions& options) const;
   void require_on(const ::netgen::Surface& surface, const Point& point, const Vec3& from) const;
   void add_edges(const mesh::CoarseMesh& mesh, model::ModelDescription& to) const;
 
@@ -248,10 +248,10 @@ std::shared_ptr<::netgen::Mesh> netgen_surface(Geometry& geometry, NetgenSession
   return mesh;
 }
 
-coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& options,
-                                             const NetgenSurfaceUser& use) const
+surface::CoarseSurface CsgModel::mesh_surface(const surface::CoarseOptions& options,
+                                              const NetgenSurfaceUser& use) const
 {
-  if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
+  if (options.surface_mesher == surface::SurfaceMesher::remesh) {
     return remesh_solids(options);
   }
   // NETGEN changes the geometry that it meshes. With a fresh one each try depends on options alone.
@@ -259,7 +259,7 @@ coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& option
   const std::string what = file_name_ + ": coarse mesh";
   NetgenSession session(surface_parameters(options));
   const auto mesh = session.run(what, [&] { return netgen_surface(*geometry, session); });
-  coarse::CoarseSurface surface =
+  surface::CoarseSurface surface =
       to_coarse_surface(*mesh, numbers_of(*geometry), options.max_size, what);
   separate_patches(surface.mesh);
   session.run(file_name_, [&] { use(*geometry, *mesh, 1.0, surface); });
@@ -267,7 +267,7 @@ coarse::CoarseSurface CsgModel::mesh_surface(const coarse::CoarseOptions& option
 }
 
 // OpenCASCADE makes the solids, and their triangles are remeshed. The model stays NETGEN's.
-coarse::CoarseSurface CsgModel::remesh_solids(const coarse::CoarseOptions& options) const
+surface::CoarseSurface CsgModel::remesh_solids(const surface::CoarseOptions& options) const
 {
   if (const std::string why = why_only_netgen(*geometry_); !why.empty()) {
     throw NetgenError(fmt::format("{}: {}", file_name_, why));
@@ -280,8 +280,8 @@ coarse::CoarseSurface CsgModel::remesh_solids(const coarse::CoarseOptions& optio
   }
 }
 
-coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
-                                           const cut::CutTree& tree) const
+surface::CoarseSurface CsgModel::mesh_parts(const surface::CoarseOptions& options,
+                                            const cut::CutTree& tree) const
 {
   const std::string what = file_name_ + ": coarse mesh of the parts";
   const CutGeometry cut = cut_geometry(*geometry_, text_, file_name_, tree);
@@ -289,7 +289,7 @@ coarse::CoarseSurface CsgModel::mesh_parts(const coarse::CoarseOptions& options,
   return session.run(what, [&] {
     add_crossings(*cut.geometry, cut.objects, box_);
     const auto mesh = netgen_surface(*cut.geometry, session);
-    coarse::CoarseSurface surface =
+    surface::CoarseSurface surface =
         to_coarse_surface(*mesh, numbers_of_parts(*geometry_, cut.objects), options.max_size, what);
     separate_patches(surface.mesh);
     return surface;
@@ -318,7 +318,7 @@ coarse::ModelFigures CsgModel::figures() const
 coarse::CadSurface CsgModel::triangles_for_fit(double size) const
 {
   const std::unique_ptr<Geometry> geometry = parse_csg(text_, file_name_);
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = size;
   NetgenSession session(surface_parameters(options));
   const auto mesh =
@@ -353,15 +353,15 @@ void CsgModel::add_edges(const mesh::CoarseMesh& mesh, model::ModelDescription& 
   }
 }
 
-model::ModelDescription CsgModel::describe(coarse::SurfaceMesher mesher) const
+model::ModelDescription CsgModel::describe(surface::SurfaceMesher mesher) const
 {
   constexpr double kSize = 0.1;       // In parts of the box diagonal.
   constexpr double kCurvature = 3.0;  // So volumes are good to some percent.
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = kSize * box_diagonal_;
   options.curvature = kCurvature;
   options.surface_mesher = mesher;
-  const coarse::CoarseSurface surface = mesh_surface(options, [](const auto&...) {});
+  const surface::CoarseSurface surface = mesh_surface(options, [](const auto&...) {});
   model::ModelDescription described = describe_csg(*geometry_, surface);
   add_edges(surface.mesh, described);
   return described;

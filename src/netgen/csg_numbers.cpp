@@ -20,7 +20,7 @@ using Geometry = ::netgen::CSGeometry;
 
 class Numbering {
  public:
-  Numbering(coarse::CoarseSurface surface, const CsgTriangles& triangles, const Geometry& geometry)
+  Numbering(surface::CoarseSurface surface, const CsgTriangles& triangles, const Geometry& geometry)
       : surface_(std::move(surface)),
         mesh_(surface_.mesh),
         triangles_(triangles),
@@ -28,7 +28,7 @@ class Numbering {
   {
   }
 
-  coarse::CoarseSurface run()
+  surface::CoarseSurface run()
   {
     number_curves();
     number_solids();
@@ -104,7 +104,7 @@ class Numbering {
     return name_unless_default(name);
   }
 
-  coarse::CoarseSurface surface_;
+  surface::CoarseSurface surface_;
   mesh::CoarseMesh& mesh_;
   const CsgTriangles& triangles_;
   const Geometry& geometry_;
@@ -112,9 +112,9 @@ class Numbering {
 
 }  // namespace
 
-coarse::CoarseSurface in_numbers_of_csg(const coarse::PatchSurface& surface,
-                                        const CsgTriangles& triangles, const Geometry& geometry,
-                                        double max_size)
+surface::CoarseSurface in_numbers_of_csg(const surface::PatchSurface& surface,
+                                         const CsgTriangles& triangles, const Geometry& geometry,
+                                         double max_size)
 {
   const SurfaceNames later{[](LocalIndex) { return std::string(); },
                            [](LocalIndex) { return std::string(); }};

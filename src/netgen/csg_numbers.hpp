@@ -3,8 +3,8 @@
 
 #include <csg.hpp>
 
-#include "tessera/coarse/coarse_surface.hpp"
-#include "tessera/coarse/patch_surface.hpp"
+#include "tessera/surface/coarse_surface.hpp"
+#include "tessera/surface/patch_surface.hpp"
 
 #include "netgen/csg_triangles.hpp"
 
@@ -14,9 +14,9 @@ namespace tessera::netgen {
 /// of NETGEN's CSG has: patches, curves, materials. Each body is a domain. Local.
 /// @param[in] surface  Its patches and curves are those of `triangles`.
 /// @param[in] max_size Largest edge in solids for which the file wants no smaller one.
-[[nodiscard]] coarse::CoarseSurface in_numbers_of_csg(const coarse::PatchSurface& surface,
-                                                      const CsgTriangles& triangles,
-                                                      const ::netgen::CSGeometry& geometry,
-                                                      double max_size);
+[[nodiscard]] surface::CoarseSurface in_numbers_of_csg(const surface::PatchSurface& surface,
+                                                       const CsgTriangles& triangles,
+                                                       const ::netgen::CSGeometry& geometry,
+                                                       double max_size);
 
 }  // namespace tessera::netgen

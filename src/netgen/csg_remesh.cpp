@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "tessera/coarse/on_geometry.hpp"
-#include "tessera/coarse/surface_overlap.hpp"
-#include "tessera/coarse/surface_reference.hpp"
+#include "tessera/surface/on_geometry.hpp"
+#include "tessera/surface/overlap.hpp"
+#include "tessera/surface/reference.hpp"
 
 #include "netgen/csg_access.hpp"
 #include "netgen/csg_numbers.hpp"
@@ -69,14 +69,14 @@ constexpr double kLeastSize = 0.1;
 class Sizes {
  public:
   Sizes(const CsgTriangles& triangles, const Geometry& geometry,
-        const coarse::CoarseOptions& options)
+        const surface::CoarseOptions& options)
       : triangles_(triangles), geometry_(geometry), options_(options)
   {
   }
 
   [[nodiscard]] std::vector<double> run() const
   {
-    const coarse::PatchSurface& surface = triangles_.cad.triangles;
+    const surface::PatchSurface& surface = triangles_.cad.triangles;
     const std::vector<double> of_patch = sizes_of_file();
     std::vector<double> sizes;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -114,7 +114,7 @@ class Sizes {
   // The smallest one along its edges, by the normals of the file's surface at its corners.
   [[nodiscard]] double radius_at(std::size_t t) const
   {
-    const coarse::PatchSurface& surface = triangles_.cad.triangles;
+    const surface::PatchSurface& surface = triangles_.cad.triangles;
     const LocalIndex on = triangles_.cad.patch_surface[at(surface.triangle_patch[t])];
     const std::array<Vec3, 3> corners = surface.corners(t);
     std::array<Vec3, 3> normals{};
@@ -133,7 +133,7 @@ class Sizes {
 
   const CsgTriangles& triangles_;
   const Geometry& geometry_;
-  const coarse::CoarseOptions& options_;
+  const surface::CoarseOptions& options_;
 };
 
 // The smallest edge that is wanted all over a solid or surface of the file: triangles of
@@ -149,9 +149,9 @@ double least_size_of_file(const Geometry& geometry, double max_size)
 }
 
 // What the case names, in the numbers of the triangles.
-coarse::CoarseOptions in_numbers_of(const coarse::CadSurface& cad, coarse::CoarseOptions options)
+surface::CoarseOptions in_numbers_of(const coarse::CadSurface& cad, surface::CoarseOptions options)
 {
-  coarse::KeptParts kept;
+  surface::KeptParts kept;
   for (std::size_t p = 0; p < cad.patch_surface.size(); ++p) {
     if (options.kept.has_patch(cad.patch_surface[p]))
       kept.patches.push_back(static_cast<LocalIndex>(p));
@@ -164,41 +164,42 @@ coarse::CoarseOptions in_numbers_of(const coarse::CadSurface& cad, coarse::Coars
   return options;
 }
 
-coarse::Defeatured in_numbers_of_file(coarse::RemeshedSurface remeshed,
-                                      const coarse::CadSurface& cad)
+surface::Defeatured in_numbers_of_file(surface::RemeshedSurface remeshed,
+                                       const coarse::CadSurface& cad)
 {
-  coarse::Defeatured merged = std::move(remeshed.defeatured);
+  surface::Defeatured merged = std::move(remeshed.defeatured);
   merged.patches =
-      coarse::renumbered(merged.patches, cad.patch_surface, remeshed.surface.triangle_patch);
-  merged.curves = coarse::renumbered(merged.curves, cad.curve_number, remeshed.surface.edge_curve);
+      surface::renumbered(merged.patches, cad.patch_surface, remeshed.surface.triangle_patch);
+  merged.curves = surface::renumbered(merged.curves, cad.curve_number, remeshed.surface.edge_curve);
   return merged;
 }
 
 }  // namespace
 
-coarse::CoarseSurface remesh_csg(const model::Model& csg, const Geometry& geometry, CadFile solids,
-                                 const ::netgen::Box<3>& box, const coarse::CoarseOptions& options,
-                                 const std::string& file_name)
+surface::CoarseSurface remesh_csg(const model::Model& csg, const Geometry& geometry, CadFile solids,
+                                  const ::netgen::Box<3>& box,
+                                  const surface::CoarseOptions& options,
+                                  const std::string& file_name)
 {
-  coarse::PatchSurface tessellation = with_occ_errors(file_name, [&] {
+  surface::PatchSurface tessellation = with_occ_errors(file_name, [&] {
     make_closed_solids(solids, {.overlap = model::Overlap::cut});
     return tessellation_of(solids.shape, least_size_of_file(geometry, options.max_size));
   });
   CsgTriangles triangles = triangles_of_csg(std::move(tessellation), geometry, box);
   triangles.cad.triangles.triangle_max_size = Sizes(triangles, geometry, options).run();
-  const coarse::SurfaceReference reference(triangles.cad.triangles);
+  const surface::SurfaceReference reference(triangles.cad.triangles);
   const auto forbidden =
-      solids.may_overlap ? coarse::Forbidden::all_cuts : coarse::Forbidden::cuts_within_bodies;
-  coarse::RemeshedSurface remeshed = coarse::remesh_on_geometry(
+      solids.may_overlap ? surface::Forbidden::all_cuts : surface::Forbidden::cuts_within_bodies;
+  surface::RemeshedSurface remeshed = surface::remesh_on_geometry(
       reference, ByTriangles(csg, triangles.cad), in_numbers_of(triangles.cad, options), forbidden);
-  const coarse::PatchSurface& surface = remeshed.surface;
+  const surface::PatchSurface& surface = remeshed.surface;
   const SurfaceNames names{[&](LocalIndex patch) {
                              const LocalIndex on = triangles.cad.patch_surface[at(patch)];
                              return name_unless_default(geometry.GetSurface(on)->GetBCName());
                            },
                            [](LocalIndex) { return std::string(); }};
-  require_no_overlaps(coarse::forbidden_overlaps(surface, forbidden), surface, names, file_name);
-  coarse::CoarseSurface coarse = in_numbers_of_csg(surface, triangles, geometry, options.max_size);
+  require_no_overlaps(surface::forbidden_overlaps(surface, forbidden), surface, names, file_name);
+  surface::CoarseSurface coarse = in_numbers_of_csg(surface, triangles, geometry, options.max_size);
   coarse.defeatured = in_numbers_of_file(std::move(remeshed), triangles.cad);
   return coarse;
 }

@@ -5,9 +5,9 @@
 
 #include <csg.hpp>
 
-#include "tessera/coarse/coarse_surface.hpp"
-#include "tessera/coarse/options.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/surface/coarse_surface.hpp"
+#include "tessera/surface/options.hpp"
 
 #include "netgen/occ_cad_file.hpp"
 
@@ -20,10 +20,10 @@ namespace tessera::netgen {
 /// @param[in] box    All solids fill it.
 /// @throws NetgenError if the solids are not those of the file, or their surface cuts itself.
 /// @throws GeometryError of OpenCASCADE, or if a projection fails.
-[[nodiscard]] coarse::CoarseSurface remesh_csg(const model::Model& csg,
-                                               const ::netgen::CSGeometry& geometry, CadFile solids,
-                                               const ::netgen::Box<3>& box,
-                                               const coarse::CoarseOptions& options,
-                                               const std::string& file_name);
+[[nodiscard]] surface::CoarseSurface remesh_csg(const model::Model& csg,
+                                                const ::netgen::CSGeometry& geometry,
+                                                CadFile solids, const ::netgen::Box<3>& box,
+                                                const surface::CoarseOptions& options,
+                                                const std::string& file_name);
 
 }  // namespace tessera::netgen

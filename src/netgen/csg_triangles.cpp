@@ -19,7 +19,7 @@
 namespace tessera::netgen {
 namespace {
 
-using coarse::PatchSurface;
+using surface::PatchSurface;
 using Geometry = ::netgen::CSGeometry;
 using Edge = PatchSurface::Edge;
 

@@ -6,7 +6,7 @@
 #include <csg.hpp>
 
 #include "tessera/coarse/fit_to_cad.hpp"
-#include "tessera/coarse/patch_surface.hpp"
+#include "tessera/surface/patch_surface.hpp"
 
 namespace tessera::netgen {
 
@@ -27,7 +27,7 @@ struct CsgTriangles {
 /// @param[in] surface Its materials are bodies, from 1.
 /// @param[in] box All solids fill it.
 /// @throws NetgenError if the triangles are not those of the file's solids.
-[[nodiscard]] CsgTriangles triangles_of_csg(coarse::PatchSurface surface,
+[[nodiscard]] CsgTriangles triangles_of_csg(surface::PatchSurface surface,
                                             const ::netgen::CSGeometry& geometry,
                                             const ::netgen::Box<3>& box);
 

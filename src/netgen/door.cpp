@@ -53,7 +53,7 @@ std::unique_ptr<model::Model> load_model(const model::ModelSource& source)
   return door().load_model(source);
 }
 
-model::ModelDescription describe_model(const model::Model& model, coarse::SurfaceMesher mesher)
+model::ModelDescription describe_model(const model::Model& model, surface::SurfaceMesher mesher)
 {
   return door().describe_model(model, mesher);
 }

@@ -20,7 +20,7 @@ class Door {
   [[nodiscard]] virtual std::unique_ptr<model::Model> load_model(
       const model::ModelSource& source) const = 0;
   [[nodiscard]] virtual model::ModelDescription describe_model(
-      const model::Model& model, coarse::SurfaceMesher mesher) const = 0;
+      const model::Model& model, surface::SurfaceMesher mesher) const = 0;
   [[nodiscard]] virtual coarse::ModelFigures measure_model(const model::Model& model) const = 0;
   virtual void name_curves(const model::Model& model, mesh::CoarseMesh& mesh) const = 0;
   [[nodiscard]] virtual std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(

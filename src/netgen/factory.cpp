@@ -25,10 +25,10 @@ class MesherOfModel final : public coarse::CoarseMesher {
  public:
   explicit MesherOfModel(const LoadedModel& model) : model_(model) {}
 
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
-                                                   const cut::CutTree& planes) const override
+  [[nodiscard]] surface::CoarseSurface mesh_surface(const surface::CoarseOptions& options,
+                                                    const cut::CutTree& planes) const override
   {
-    if (options.mesher == coarse::Mesher::netgen) return model_.mesh_surface(options, planes);
+    if (options.mesher == surface::Mesher::netgen) return model_.mesh_surface(options, planes);
     if (planes.num_parts > 0) {
       throw ConfigError(
           "coarse.mesher = \"gmsh\" meshes whole models only; with decompose.method = "
@@ -37,14 +37,14 @@ class MesherOfModel final : public coarse::CoarseMesher {
     return {.mesh = mesh_with_gmsh(model_, options)};
   }
 
-  [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
-                                               const coarse::CoarseOptions& options) const override
+  [[nodiscard]] surface::DomainTets fill_domain(
+      const surface::DomainSkin& skin, const surface::CoarseOptions& options) const override
   {
     return model_.fill_domain(skin, options);
   }
 
-  [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
-                                                  coarse::DomainTets tets) const override
+  [[nodiscard]] surface::DomainTets improve_domain(const surface::DomainSkin& skin,
+                                                   surface::DomainTets tets) const override
   {
     return model_.improve_domain(skin, std::move(tets));
   }
@@ -84,7 +84,7 @@ class NetgenDoor final : public Door {
   }
 
   [[nodiscard]] model::ModelDescription describe_model(const model::Model& model,
-                                                       coarse::SurfaceMesher mesher) const override
+                                                       surface::SurfaceMesher mesher) const override
   {
     return loaded(model).describe(mesher);
   }

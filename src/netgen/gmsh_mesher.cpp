@@ -49,7 +49,7 @@ class ScratchFolder {
 };
 
 // What the mesh depends on stands here, so that a user's own settings of Gmsh change nothing.
-std::string script_for(const coarse::CoarseOptions& options)
+std::string script_for(const surface::CoarseOptions& options)
 {
   return fmt::format(
       "General.NumThreads = 1;\n"
@@ -84,7 +84,7 @@ std::string words_of(const fs::path& log)
   return (errors.empty() ? last : errors).substr(0, kLongest);
 }
 
-void run_gmsh(const ScratchFolder& folder, const coarse::CoarseOptions& options)
+void run_gmsh(const ScratchFolder& folder, const surface::CoarseOptions& options)
 {
   const fs::path log = folder.file("log.txt");
   const jobs::JobLimits limits{
@@ -115,7 +115,7 @@ void run_gmsh(const ScratchFolder& folder, const coarse::CoarseOptions& options)
   }
 }
 
-coarse::OwnMesh read_result(const ScratchFolder& folder, const coarse::CoarseOptions& options)
+coarse::OwnMesh read_result(const ScratchFolder& folder, const surface::CoarseOptions& options)
 {
   const fs::path file = folder.file("mesh.msh");
   if (!fs::exists(file)) {
@@ -130,14 +130,14 @@ mesh::CoarseMesh fitted_mesh(const coarse::OwnMesh& own, const LoadedModel& cad,
                              const std::string& name)
 {
   const coarse::CadSurface surface = cad.triangles_for_fit(coarse::size_for_fit(own.mesh));
-  const coarse::SurfaceReference reference(surface.triangles);
+  const surface::SurfaceReference reference(surface.triangles);
   mesh::CoarseMesh mesh = coarse::fit_to_cad(own, surface, reference, cad, name);
   cad.add_parameters(reference, mesh);
   mesh::validate(mesh);
   return mesh;
 }
 
-mesh::CoarseMesh mesh_with_gmsh(const LoadedModel& model, const coarse::CoarseOptions& options)
+mesh::CoarseMesh mesh_with_gmsh(const LoadedModel& model, const surface::CoarseOptions& options)
 {
   const ScratchFolder folder;
   model.write_brep(folder.file("model.brep"));

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "tessera/coarse/options.hpp"
 #include "tessera/coarse/own_mesh.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/surface/options.hpp"
 
 #include "netgen/loaded_model.hpp"
 
@@ -19,7 +19,7 @@ namespace tessera::netgen {
 /// @throws ConfigError if there is no program gmsh, or if the model has no BREP.
 /// @throws NetgenError with Gmsh's own words if it gives up, dies or takes too long.
 [[nodiscard]] mesh::CoarseMesh mesh_with_gmsh(const LoadedModel& model,
-                                              const coarse::CoarseOptions& options);
+                                              const surface::CoarseOptions& options);
 
 /// @brief Fits a mesh to the CAD model that it is of, with parameters. @throws As fit_to_cad().
 [[nodiscard]] mesh::CoarseMesh fitted_mesh(const coarse::OwnMesh& own, const LoadedModel& cad,

@@ -10,9 +10,9 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
-#include "tessera/coarse/defeature.hpp"
-#include "tessera/coarse/mend_folds.hpp"
-#include "tessera/coarse/mend_surface.hpp"
+#include "tessera/surface/defeature.hpp"
+#include "tessera/surface/mend_folds.hpp"
+#include "tessera/surface/mend_surface.hpp"
 
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/skin_mesh.hpp"
@@ -22,7 +22,7 @@ namespace tessera::netgen {
 namespace {
 
 // Vertices of the surface are in NETGEN's mesh already, in their order.
-void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& tets, int domain,
+void give_to_netgen(const surface::DomainSkin& skin, const surface::DomainTets& tets, int domain,
                     double scale, ::netgen::Mesh& mesh)
 {
   const std::size_t num_skin = skin.vertex.size();
@@ -39,19 +39,19 @@ void give_to_netgen(const coarse::DomainSkin& skin, const coarse::DomainTets& te
 }
 
 struct Mended {
-  coarse::CoarseSurface surface{};
+  surface::CoarseSurface surface{};
   RepairCounts repairs{};
   // Folds that could not be mended; the largest number if they are not known.
   LocalIndex num_left = std::numeric_limits<LocalIndex>::max();
 };
 
 // Neither of these two loses a surface that can be filled because a projection fails.
-Mended shaped(const coarse::CoarseSurface& surface, const LoadedModel& model)
+Mended shaped(const surface::CoarseSurface& surface, const LoadedModel& model)
 {
   if (is_left_out(Repair::mend_surface)) return {surface};
   try {
     Mended better{surface};
-    const LocalIndex num_steps = coarse::mend_surface(better.surface, model).total();
+    const LocalIndex num_steps = surface::mend_surface(better.surface, model).total();
     if (num_steps == 0) return {surface};
     model.locate_parameters(better.surface.mesh);
     better.repairs.add(Repair::mend_surface, num_steps);
@@ -65,7 +65,7 @@ Mended unfolded(Mended as_it_was, const LoadedModel& model)
 {
   try {
     Mended better = as_it_was;
-    const coarse::FoldStatistics done = coarse::mend_folds(better.surface, model);
+    const surface::FoldStatistics done = surface::mend_folds(better.surface, model);
     as_it_was.num_left = done.num_before;
     const LocalIndex num_steps = done.num_flips + done.num_cuts;
     if (num_steps == 0) return as_it_was;
@@ -81,7 +81,7 @@ Mended unfolded(Mended as_it_was, const LoadedModel& model)
 
 // A fold keeps points off the geometry, which is worse than a bad angle. Where better shapes have
 // folds that cannot be mended, those before may have none.
-coarse::CoarseSurface mended(coarse::CoarseSurface surface, const LoadedModel& model)
+surface::CoarseSurface mended(surface::CoarseSurface surface, const LoadedModel& model)
 {
   if (surface.num_domains() == 0) return surface;
   Mended best = unfolded(shaped(surface, model), model);
@@ -93,57 +93,57 @@ coarse::CoarseSurface mended(coarse::CoarseSurface surface, const LoadedModel& m
   return std::move(best.surface);
 }
 
-coarse::CoarseSurface defeatured(coarse::CoarseSurface surface, const LoadedModel& model,
-                                 const coarse::CoarseOptions& options)
+surface::CoarseSurface defeatured(surface::CoarseSurface surface, const LoadedModel& model,
+                                  const surface::CoarseOptions& options)
 {
   if (options.defeature == 0.0 || surface.num_domains() == 0) return surface;
-  if (coarse::defeature(surface, model, {options.defeature, options.kept}))
+  if (surface::defeature(surface, model, {options.defeature, options.kept}))
     model.locate_parameters(surface.mesh);
   return surface;
 }
 
 }  // namespace
 
-coarse::CoarseSurface LoadedModel::mesh_surface(const coarse::CoarseOptions& options,
-                                                const cut::CutTree& planes) const
+surface::CoarseSurface LoadedModel::mesh_surface(const surface::CoarseOptions& options,
+                                                 const cut::CutTree& planes) const
 {
   const bool is_cut = planes.num_parts > 0;
-  const bool has_merged = !is_cut && options.surface_mesher == coarse::SurfaceMesher::remesh;
-  coarse::CoarseSurface surface =
+  const bool has_merged = !is_cut && options.surface_mesher == surface::SurfaceMesher::remesh;
+  surface::CoarseSurface surface =
       is_cut ? mesh_parts(options, planes) : mesh_surface(options, [](const auto&...) {});
   if (!has_merged) surface = defeatured(std::move(surface), *this, options);
   return mended(std::move(surface), *this);
 }
 
-coarse::CoarseSurface LoadedModel::mesh_parts(const coarse::CoarseOptions& /*options*/,
-                                              const cut::CutTree& /*tree*/) const
+surface::CoarseSurface LoadedModel::mesh_parts(const surface::CoarseOptions& /*options*/,
+                                               const cut::CutTree& /*tree*/) const
 {
   throw ConfigError("decompose.method = \"geometry\" needs a solid model: CSG, STEP, IGES or BREP");
 }
 
-coarse::DomainTets LoadedModel::fill_domain(const coarse::DomainSkin& skin,
-                                            const coarse::CoarseOptions& options) const
+surface::DomainTets LoadedModel::fill_domain(const surface::DomainSkin& skin,
+                                             const surface::CoarseOptions& options) const
 {
   return netgen::fill_domain(skin, options);
 }
 
-coarse::DomainTets LoadedModel::improve_domain(const coarse::DomainSkin& skin,
-                                               coarse::DomainTets tets) const
+surface::DomainTets LoadedModel::improve_domain(const surface::DomainSkin& skin,
+                                                surface::DomainTets tets) const
 {
   return netgen::improve_domain(skin, std::move(tets));
 }
 
-mesh::CoarseMesh LoadedModel::generate(const coarse::CoarseOptions& options,
+mesh::CoarseMesh LoadedModel::generate(const surface::CoarseOptions& options,
                                        const NetgenMeshUser& use) const
 {
   mesh::CoarseMesh coarse;
   const auto fill = [&](const ::netgen::NetgenGeometry& geometry, ::netgen::Mesh& mesh,
-                        double scale, const coarse::CoarseSurface& surface) {
-    const std::vector<coarse::DomainTets> tets = mesh_domains(surface, options);
+                        double scale, const surface::CoarseSurface& surface) {
+    const std::vector<surface::DomainTets> tets = mesh_domains(surface, options);
     for (LocalIndex domain = 1; domain <= surface.num_domains(); ++domain) {
-      give_to_netgen(coarse::skin_of(surface, domain), tets[at(domain - 1)], domain, scale, mesh);
+      give_to_netgen(surface::skin_of(surface, domain), tets[at(domain - 1)], domain, scale, mesh);
     }
-    coarse = coarse::fill_surface(surface, tets).mesh;
+    coarse = surface::fill_surface(surface, tets).mesh;
     use(geometry, mesh);
   };
   static_cast<void>(mesh_surface(options, fill));

@@ -10,10 +10,10 @@
 #include "tessera/coarse/coarse_mesher.hpp"
 #include "tessera/coarse/fit_to_cad.hpp"
 #include "tessera/coarse/model_figures.hpp"
-#include "tessera/coarse/surface_reference.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/netgen/factory.hpp"
+#include "tessera/surface/reference.hpp"
 
 namespace netgen {
 class Mesh;
@@ -27,13 +27,13 @@ using NetgenMeshUser = std::function<void(const ::netgen::NetgenGeometry&, ::net
 
 /// @brief The same of a surface. NETGEN's lengths are `scale` times those of `ours`.
 using NetgenSurfaceUser = std::function<void(const ::netgen::NetgenGeometry&, ::netgen::Mesh&,
-                                             double scale, const coarse::CoarseSurface& ours)>;
+                                             double scale, const surface::CoarseSurface& ours)>;
 
 /// @brief A loaded model of any format: projection, and one try at a coarse mesh.
 class LoadedModel : public model::Model, public coarse::CoarseMesher {
  public:
   /// @brief What the model holds, for people. @throws NetgenError
-  [[nodiscard]] virtual model::ModelDescription describe(coarse::SurfaceMesher mesher) const = 0;
+  [[nodiscard]] virtual model::ModelDescription describe(surface::SurfaceMesher mesher) const = 0;
 
   /// @brief Number and name of a curve.
   [[nodiscard]] virtual mesh::NamedCurve named_curve(LocalIndex curve) const
@@ -44,23 +44,23 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   /// @brief How much there is to mesh; zeros if nothing is. @throws NetgenError
   [[nodiscard]] virtual coarse::ModelFigures figures() const { return {}; }
 
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
-                                                   const cut::CutTree& planes) const final;
+  [[nodiscard]] surface::CoarseSurface mesh_surface(const surface::CoarseOptions& options,
+                                                    const cut::CutTree& planes) const final;
 
   /// @brief The surface of the uncut model. Lets `use` go on with it in NETGEN, if NETGEN made it.
   /// @throws Also what `use` throws.
-  [[nodiscard]] virtual coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
-                                                           const NetgenSurfaceUser& use) const = 0;
+  [[nodiscard]] virtual surface::CoarseSurface mesh_surface(const surface::CoarseOptions& options,
+                                                            const NetgenSurfaceUser& use) const = 0;
 
   /// @brief The surfaces of the parts that `tree` cuts the model into.
   /// @throws ConfigError if the model has no solids that could be cut.
-  [[nodiscard]] virtual coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
-                                                         const cut::CutTree& tree) const;
+  [[nodiscard]] virtual surface::CoarseSurface mesh_parts(const surface::CoarseOptions& options,
+                                                          const cut::CutTree& tree) const;
 
-  [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
-                                               const coarse::CoarseOptions& options) const final;
-  [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
-                                                  coarse::DomainTets tets) const final;
+  [[nodiscard]] surface::DomainTets fill_domain(const surface::DomainSkin& skin,
+                                                const surface::CoarseOptions& options) const final;
+  [[nodiscard]] surface::DomainTets improve_domain(const surface::DomainSkin& skin,
+                                                   surface::DomainTets tets) const final;
 
   /// @brief Makes parameters of a coarse mesh exact that are good guesses, if the model has some.
   virtual void locate_parameters(mesh::CoarseMesh& /*mesh*/) const {}
@@ -68,7 +68,7 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
   /// @brief As generate(options), and lets `use` go on with the mesh in NETGEN. There NETGEN can do
   /// what Tessera does otherwise (refine it), so the two can be compared on one coarse mesh.
   /// @throws Also what `use` throws.
-  [[nodiscard]] mesh::CoarseMesh generate(const coarse::CoarseOptions& options,
+  [[nodiscard]] mesh::CoarseMesh generate(const surface::CoarseOptions& options,
                                           const NetgenMeshUser& use) const;
   using CoarseMesher::generate;
 
@@ -82,7 +82,7 @@ class LoadedModel : public model::Model, public coarse::CoarseMesher {
 
   /// @brief Puts parameters into a mesh that fit_to_cad() made, if the model has some.
   /// @param[in] reference Of triangles_for_fit().
-  virtual void add_parameters(const coarse::SurfaceReference& /*reference*/,
+  virtual void add_parameters(const surface::SurfaceReference& /*reference*/,
                               mesh::CoarseMesh& /*mesh*/) const
   {
   }

@@ -27,7 +27,7 @@ class Conversion {
   {
   }
 
-  coarse::CoarseSurface run(double max_size)
+  surface::CoarseSurface run(double max_size)
   {
     add_vertices();
     add_patches();
@@ -155,7 +155,7 @@ class Conversion {
   std::vector<LocalIndex> patch_of_descriptor_{};  // Descriptors count from 1.
   std::set<Ends> on_curves_{};
   std::set<Ends> off_curves_{};
-  coarse::CoarseSurface to_{};
+  surface::CoarseSurface to_{};
   mesh::CoarseMesh& mesh_ = to_.mesh;
 };
 
@@ -232,7 +232,7 @@ coarse::CadSurface surface_of_mesh(const ::netgen::Mesh& from, const GeometryNum
   return SurfaceConversion(from, numbers).run();
 }
 
-void add_domains(coarse::CoarseSurface& surface, double max_size,
+void add_domains(surface::CoarseSurface& surface, double max_size,
                  const std::function<LocalIndex(LocalIndex)>& material,
                  const std::function<std::string(LocalIndex)>& material_name)
 {
@@ -252,8 +252,8 @@ void add_domains(coarse::CoarseSurface& surface, double max_size,
   }
 }
 
-coarse::CoarseSurface to_coarse_surface(const ::netgen::Mesh& from, const GeometryNumbers& numbers,
-                                        double max_size, const std::string& what)
+surface::CoarseSurface to_coarse_surface(const ::netgen::Mesh& from, const GeometryNumbers& numbers,
+                                         double max_size, const std::string& what)
 {
   try {
     return Conversion(from, numbers).run(max_size);

@@ -9,9 +9,9 @@
 #include <meshing.hpp>
 
 #include "tessera/base/types.hpp"
-#include "tessera/coarse/coarse_surface.hpp"
 #include "tessera/coarse/fit_to_cad.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/surface/coarse_surface.hpp"
 
 namespace tessera::netgen {
 
@@ -55,14 +55,14 @@ struct GeometryNumbers {
 /// @param[in] max_size Largest edge in domains for which the file wants no smaller one.
 /// @param[in] what     Put before an error: which mesh.
 /// @throws NetgenError if it has other elements than triangles, or encloses nothing.
-[[nodiscard]] coarse::CoarseSurface to_coarse_surface(const ::netgen::Mesh& from,
-                                                      const GeometryNumbers& numbers,
-                                                      double max_size, const std::string& what);
+[[nodiscard]] surface::CoarseSurface to_coarse_surface(const ::netgen::Mesh& from,
+                                                       const GeometryNumbers& numbers,
+                                                       double max_size, const std::string& what);
 
 /// @brief Adds the domains that faces bound, and their materials. Local.
 /// @param[in] material      Of a domain, both from 1.
 /// @param[in] material_name May be empty, and give empty texts: "material_N".
-void add_domains(coarse::CoarseSurface& surface, double max_size,
+void add_domains(surface::CoarseSurface& surface, double max_size,
                  const std::function<LocalIndex(LocalIndex)>& material,
                  const std::function<std::string(LocalIndex)>& material_name);
 

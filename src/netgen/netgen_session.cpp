@@ -122,7 +122,7 @@ std::string message_of_current_exception()
 
 }  // namespace
 
-::netgen::MeshingParameters coarse_parameters(const coarse::CoarseOptions& options)
+::netgen::MeshingParameters coarse_parameters(const surface::CoarseOptions& options)
 {
   ::netgen::MeshingParameters parameters;
   parameters.maxh = options.max_size;
@@ -142,7 +142,7 @@ double scale_for_netgen(double box_diagonal)
   return std::exp2(std::round(std::log2(kDiagonal / box_diagonal)));
 }
 
-::netgen::MeshingParameters surface_parameters(const coarse::CoarseOptions& options)
+::netgen::MeshingParameters surface_parameters(const surface::CoarseOptions& options)
 {
   ::netgen::MeshingParameters parameters = coarse_parameters(options);
   parameters.perfstepsend = ::netgen::MESHCONST_OPTSURFACE;

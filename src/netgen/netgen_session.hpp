@@ -9,15 +9,15 @@
 
 #include <meshing.hpp>
 
-#include "tessera/coarse/options.hpp"
+#include "tessera/surface/options.hpp"
 
 namespace tessera::netgen {
 
 /// @brief NETGEN's settings for a coarse mesh; every format uses these.
-[[nodiscard]] ::netgen::MeshingParameters coarse_parameters(const coarse::CoarseOptions& options);
+[[nodiscard]] ::netgen::MeshingParameters coarse_parameters(const surface::CoarseOptions& options);
 
 /// @brief The same, for NETGEN to end with the surface.
-[[nodiscard]] ::netgen::MeshingParameters surface_parameters(const coarse::CoarseOptions& options);
+[[nodiscard]] ::netgen::MeshingParameters surface_parameters(const surface::CoarseOptions& options);
 
 /// @brief What NETGEN's meshers get lengths multiplied by: some have absolute lengths in them
 /// (segments below 1e-10, boxes grown by 10), so they always see a model of about one size. It is a

@@ -15,7 +15,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
-#include "tessera/coarse/on_geometry.hpp"
+#include "tessera/surface/on_geometry.hpp"
 
 #include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
@@ -62,7 +62,7 @@ class OccModel final : public LoadedModel {
   [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex curve, const Vec3& point,
                                                    double guess) const override;
   [[nodiscard]] double box_diagonal() const override { return box_diagonal_; }
-  [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher /*mesher*/) const override
+  [[nodiscard]] model::ModelDescription describe(surface::SurfaceMesher /*mesher*/) const override
   {
     return with_occ_errors(file_name_, [&] { return describe_shape(content_); });
   }
@@ -73,7 +73,7 @@ class OccModel final : public LoadedModel {
   [[nodiscard]] coarse::ModelFigures figures() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
   void write_brep(const std::filesystem::path& file) const override;
-  void add_parameters(const coarse::SurfaceReference& reference,
+  void add_parameters(const surface::SurfaceReference& reference,
                       mesh::CoarseMesh& mesh) const override;
   void locate_parameters(mesh::CoarseMesh& mesh) const override
   {
@@ -83,10 +83,10 @@ class OccModel final : public LoadedModel {
     });
   }
   using LoadedModel::mesh_surface;
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
-                                                   const NetgenSurfaceUser& use) const override;
-  [[nodiscard]] coarse::CoarseSurface mesh_parts(const coarse::CoarseOptions& options,
-                                                 const cut::CutTree& tree) const override;
+  [[nodiscard]] surface::CoarseSurface mesh_surface(const surface::CoarseOptions& options,
+                                                    const NetgenSurfaceUser& use) const override;
+  [[nodiscard]] surface::CoarseSurface mesh_parts(const surface::CoarseOptions& options,
+                                                  const cut::CutTree& tree) const override;
 
  private:
   [[nodiscard]] const OccSurface& surface_at(LocalIndex surface) const;
@@ -95,9 +95,9 @@ class OccModel final : public LoadedModel {
   [[nodiscard]] GeometryNumbers numbers_of_parts(const ::netgen::OCCGeometry& geometry,
                                                  const CutShape& cut) const;
   [[nodiscard]] std::string solid_name(LocalIndex material) const;
-  [[nodiscard]] coarse::CoarseSurface remesh(const coarse::SurfaceReference& reference,
-                                             const coarse::CoarseOptions& options) const;
-  static void guess_parameters(const coarse::SurfaceReference& reference, mesh::CoarseMesh& mesh);
+  [[nodiscard]] surface::CoarseSurface remesh(const surface::SurfaceReference& reference,
+                                              const surface::CoarseOptions& options) const;
+  static void guess_parameters(const surface::SurfaceReference& reference, mesh::CoarseMesh& mesh);
   static void triangulate_for_sizes(const TopoDS_Shape& shape);
   static std::shared_ptr<::netgen::Mesh> mesh_geometry(::netgen::OCCGeometry& geometry,
                                                        NetgenSession& session);
@@ -226,21 +226,21 @@ GeometryNumbers OccModel::numbers_of_parts(const ::netgen::OCCGeometry& geometry
 }
 
 // OpenCASCADE's triangles, made well-shaped and put on the faces.
-coarse::CoarseSurface OccModel::remesh(const coarse::SurfaceReference& reference,
-                                       const coarse::CoarseOptions& options) const
+surface::CoarseSurface OccModel::remesh(const surface::SurfaceReference& reference,
+                                        const surface::CoarseOptions& options) const
 {
   // Solids that overlap were cut, if they could be. So where two cut each other now, they touch or
   // nearly do, as a ball and its race, and chords of one lie in the other.
   const auto forbidden =
-      content_.may_overlap ? coarse::Forbidden::all_cuts : coarse::Forbidden::cuts_within_bodies;
-  coarse::RemeshedSurface remeshed =
-      coarse::remesh_on_geometry(reference, *this, options, forbidden);
-  const coarse::PatchSurface& surface = remeshed.surface;
+      content_.may_overlap ? surface::Forbidden::all_cuts : surface::Forbidden::cuts_within_bodies;
+  surface::RemeshedSurface remeshed =
+      surface::remesh_on_geometry(reference, *this, options, forbidden);
+  const surface::PatchSurface& surface = remeshed.surface;
   const SurfaceNames names{
       [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
       [this](LocalIndex material) { return solid_name(material); }};
-  require_no_overlaps(coarse::forbidden_overlaps(surface, forbidden), surface, names, file_name_);
-  coarse::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names);
+  require_no_overlaps(surface::forbidden_overlaps(surface, forbidden), surface, names, file_name_);
+  surface::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names);
   coarse.defeatured = std::move(remeshed.defeatured);
   add_parameters(reference, coarse.mesh);
   return coarse;
@@ -279,7 +279,7 @@ void OccModel::write_brep(const std::filesystem::path& file) const
   if (!is_written) throw OutputError(file.string() + ": cannot be written");
 }
 
-void OccModel::add_parameters(const coarse::SurfaceReference& reference,
+void OccModel::add_parameters(const surface::SurfaceReference& reference,
                               mesh::CoarseMesh& mesh) const
 {
   guess_parameters(reference, mesh);
@@ -288,7 +288,7 @@ void OccModel::add_parameters(const coarse::SurfaceReference& reference,
 }
 
 // Those of the tessellation, a little inside each face and segment: at a seam that is their side.
-void OccModel::guess_parameters(const coarse::SurfaceReference& reference, mesh::CoarseMesh& mesh)
+void OccModel::guess_parameters(const surface::SurfaceReference& reference, mesh::CoarseMesh& mesh)
 {
   constexpr double kInside = 0.1;
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
@@ -311,12 +311,12 @@ void OccModel::guess_parameters(const coarse::SurfaceReference& reference, mesh:
   }
 }
 
-coarse::CoarseSurface OccModel::mesh_surface(const coarse::CoarseOptions& options,
-                                             const NetgenSurfaceUser& use) const
+surface::CoarseSurface OccModel::mesh_surface(const surface::CoarseOptions& options,
+                                              const NetgenSurfaceUser& use) const
 {
-  if (options.surface_mesher == coarse::SurfaceMesher::remesh) {
+  if (options.surface_mesher == surface::SurfaceMesher::remesh) {
     return with_occ_errors(file_name_, [&] {
-      const coarse::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
+      const surface::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
       return remesh(reference, options);
     });
   }
@@ -326,7 +326,7 @@ coarse::CoarseSurface OccModel::mesh_surface(const coarse::CoarseOptions& option
     geometry.shape = content_.shape;
     triangulate_for_sizes(geometry.shape);
     const auto mesh = mesh_geometry(geometry, session);
-    coarse::CoarseSurface coarse =
+    surface::CoarseSurface coarse =
         to_coarse_surface(*mesh, numbers_for(geometry), options.max_size, file_name_);
     locate_face_corners(coarse.mesh);
     locate_segment_ends(coarse.mesh);
@@ -348,8 +348,8 @@ std::shared_ptr<::netgen::Mesh> OccModel::mesh_geometry(::netgen::OCCGeometry& g
   return mesh;
 }
 
-coarse::CoarseSurface OccModel::mesh_parts(const coarse::CoarseOptions& options,
-                                           const cut::CutTree& tree) const
+surface::CoarseSurface OccModel::mesh_parts(const surface::CoarseOptions& options,
+                                            const cut::CutTree& tree) const
 {
   NetgenSession session(coarse_parameters(options));
   return session.run("coarse mesh of the parts of " + file_name_, [&] {
@@ -358,7 +358,7 @@ coarse::CoarseSurface OccModel::mesh_parts(const coarse::CoarseOptions& options,
     geometry.shape = cut.shape;
     triangulate_for_sizes(geometry.shape);
     const auto mesh = mesh_geometry(geometry, session);
-    coarse::CoarseSurface coarse =
+    surface::CoarseSurface coarse =
         to_coarse_surface(*mesh, numbers_of_parts(geometry, cut), options.max_size, file_name_);
     locate_face_corners(coarse.mesh);
     locate_segment_ends(coarse.mesh);

@@ -26,14 +26,14 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/base/union_find.hpp"
-#include "tessera/coarse/surface_overlap.hpp"
+#include "tessera/surface/overlap.hpp"
 
 #include "netgen/occ_triangulation.hpp"
 
 namespace tessera::netgen {
 namespace {
 
-using coarse::PatchSurface;
+using surface::PatchSurface;
 
 // How far triangles may be off the surface, in parts of the wanted size, and how much neighbours
 // may turn, radians. With these the remeshed surface follows something better than its own edges
@@ -233,9 +233,9 @@ PatchSurface triangles_of(const TopoDS_Shape& shape, double size, double part)
 {
   triangulate(shape, size, part);
   PatchSurface surface = Tessellation(shape).run();
-  coarse::separate_patches(surface);
+  surface::separate_patches(surface);
   try {
-    coarse::validate(surface);
+    surface::validate(surface);
   } catch (const MeshError& error) {
     throw NetgenError(std::string("OpenCASCADE's triangles: ") + error.what());
   }
@@ -248,11 +248,11 @@ PatchSurface tessellation_of(const TopoDS_Shape& shape, double size)
 {
   PatchSurface best = triangles_of(shape, size, 1.0);
   if (is_left_out(Repair::finer_tessellation)) return best;
-  std::size_t num_cuts = coarse::find_overlaps(best).size();
+  std::size_t num_cuts = surface::find_overlaps(best).size();
   double part = kFiner;
   for (int round = 0; round < kMostFiner && num_cuts > 0; ++round, part *= kFiner) {
     PatchSurface finer = triangles_of(shape, size, part);
-    const std::size_t num_left = coarse::find_overlaps(finer).size();
+    const std::size_t num_left = surface::find_overlaps(finer).size();
     if (num_left >= num_cuts) break;
     num_cuts = num_left;
     best = std::move(finer);

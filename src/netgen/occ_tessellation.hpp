@@ -3,7 +3,7 @@
 
 #include <TopoDS_Shape.hxx>
 
-#include "tessera/coarse/patch_surface.hpp"
+#include "tessera/surface/patch_surface.hpp"
 
 namespace tessera::netgen {
 
@@ -13,6 +13,6 @@ namespace tessera::netgen {
 /// solids in TopExp_Explorer's order. Vertices of the shape are fixed.
 /// @param[in] size  Edge length that the triangles shall be good enough for, file length unit.
 /// @throws NetgenError if a face cannot be triangulated or the triangles leave a gap.
-[[nodiscard]] coarse::PatchSurface tessellation_of(const TopoDS_Shape& shape, double size);
+[[nodiscard]] surface::PatchSurface tessellation_of(const TopoDS_Shape& shape, double size);
 
 }  // namespace tessera::netgen

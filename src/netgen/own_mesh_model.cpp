@@ -61,15 +61,15 @@ class OwnSurfaceModel : public LoadedModel {
     return kTolerance * box_diagonal_;
   }
   [[nodiscard]] double box_diagonal() const override { return box_diagonal_; }
-  [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher mesher) const override;
+  [[nodiscard]] model::ModelDescription describe(surface::SurfaceMesher mesher) const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double) const override
   {
     throw ConfigError("a mesh is no CAD model that another mesh could be fitted to");
   }
 
   using LoadedModel::mesh_surface;
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions&,
-                                                   const NetgenSurfaceUser&) const override
+  [[nodiscard]] surface::CoarseSurface mesh_surface(const surface::CoarseOptions&,
+                                                    const NetgenSurfaceUser&) const override
   {
     return {.mesh = mesh_};
   }
@@ -162,7 +162,7 @@ model::ModelDescription describe_mesh(const mesh::CoarseMesh& mesh)
   return described;
 }
 
-model::ModelDescription OwnSurfaceModel::describe(coarse::SurfaceMesher /*mesher*/) const
+model::ModelDescription OwnSurfaceModel::describe(surface::SurfaceMesher /*mesher*/) const
 {
   return describe_mesh(mesh_);
 }
@@ -203,15 +203,15 @@ class CadOwnModel final : public LoadedModel {
   {
     return cad_->named_curve(curve);
   }
-  [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher mesher) const override;
+  [[nodiscard]] model::ModelDescription describe(surface::SurfaceMesher mesher) const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override
   {
     return cad_->triangles_for_fit(size);
   }
 
   using LoadedModel::mesh_surface;
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions&,
-                                                   const NetgenSurfaceUser&) const override
+  [[nodiscard]] surface::CoarseSurface mesh_surface(const surface::CoarseOptions&,
+                                                    const NetgenSurfaceUser&) const override
   {
     return {.mesh = fitted_mesh(own_, *cad_, name_)};
   }
@@ -223,7 +223,7 @@ class CadOwnModel final : public LoadedModel {
 };
 
 // Faces are the CAD's, since they have its numbers; solids are the mesh's materials.
-model::ModelDescription CadOwnModel::describe(coarse::SurfaceMesher mesher) const
+model::ModelDescription CadOwnModel::describe(surface::SurfaceMesher mesher) const
 {
   model::ModelDescription described = cad_->describe(mesher);
   const mesh::CoarseMesh mesh = fitted_mesh(own_, *cad_, name_);

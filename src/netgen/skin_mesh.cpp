@@ -65,7 +65,7 @@ void add_surface(::netgen::Mesh& mesh, const std::vector<double>& vertex_xyz,
   }
 }
 
-void add_skin(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
+void add_skin(::netgen::Mesh& mesh, const surface::DomainSkin& skin)
 {
   for (std::size_t v = 0; v < skin.vertex.size(); ++v) {
     mesh.AddPoint(to_point3d(point_at(std::span(skin.vertex_xyz), v)));

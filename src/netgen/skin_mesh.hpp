@@ -8,7 +8,7 @@
 
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
-#include "tessera/coarse/coarse_surface.hpp"
+#include "tessera/surface/coarse_surface.hpp"
 
 namespace tessera::netgen {
 
@@ -27,7 +27,7 @@ void add_surface(::netgen::Mesh& mesh, const std::vector<double>& vertex_xyz,
 
 // Makes the skin of a domain of a coarse mesh that of an empty NETGEN mesh, with patches and
 // curves: NETGEN wants no tet with two faces on one patch.
-void add_skin(::netgen::Mesh& mesh, const coarse::DomainSkin& skin);
+void add_skin(::netgen::Mesh& mesh, const surface::DomainSkin& skin);
 
 // The sizes that NETGEN would want inside of the skin. They are kept in a grid through `box`, and
 // so tets inside depend on where that lies.

@@ -29,7 +29,7 @@ namespace {
 // restrictions of the size and more optimisation steps gave no clear gain.
 class StlParameters {
  public:
-  explicit StlParameters(const coarse::CoarseOptions& options)
+  explicit StlParameters(const surface::CoarseOptions& options)
   {
     ::netgen::stldoctor.geom_tol_fact = kPointTolerance;
     ::netgen::stlparam.resthsurfcurvenable = 1;
@@ -54,7 +54,7 @@ class StlParameters {
 class StlMeshing {
  public:
   StlMeshing(const model::TriangleSurface& surface, const model::SurfaceFeatures& features,
-             const coarse::CoarseOptions& options, const std::string& name)
+             const surface::CoarseOptions& options, const std::string& name)
       : surface_(surface),
         features_(features),
         name_(name),
@@ -66,7 +66,7 @@ class StlMeshing {
   {
   }
 
-  coarse::CoarseSurface run(const NetgenSurfaceUser& use)
+  surface::CoarseSurface run(const NetgenSurfaceUser& use)
   {
     session_.run(name_ + ": loading into NETGEN", [&] { give_triangles(); });
     give_feature_edges();
@@ -80,14 +80,14 @@ class StlMeshing {
                                     session_.words().empty() ? "" : ": " + session_.words()));
     }
     take_own_numbers();
-    coarse::CoarseSurface surface = to_coarse_surface(*mesh_, numbers(), max_size_, name_);
+    surface::CoarseSurface surface = to_coarse_surface(*mesh_, numbers(), max_size_, name_);
     for (double& x : surface.mesh.vertex_xyz) x /= scale_;
     session_.run(name_, [&] { use(geometry_, *mesh_, scale_, surface); });
     return surface;
   }
 
  private:
-  [[nodiscard]] ::netgen::MeshingParameters parameters(coarse::CoarseOptions options) const
+  [[nodiscard]] ::netgen::MeshingParameters parameters(surface::CoarseOptions options) const
   {
     options.max_size *= scale_;
     options.points = {};
@@ -210,10 +210,10 @@ class StlMeshing {
 
 }  // namespace
 
-coarse::CoarseSurface mesh_stl_surface(const model::TriangleSurface& surface,
-                                       const model::SurfaceFeatures& features,
-                                       const coarse::CoarseOptions& options,
-                                       const std::string& name, const NetgenSurfaceUser& use)
+surface::CoarseSurface mesh_stl_surface(const model::TriangleSurface& surface,
+                                        const model::SurfaceFeatures& features,
+                                        const surface::CoarseOptions& options,
+                                        const std::string& name, const NetgenSurfaceUser& use)
 {
   return StlMeshing(surface, features, options, name).run(use);
 }

@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "tessera/coarse/options.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/model/surface_features.hpp"
 #include "tessera/model/triangle_surface.hpp"
+#include "tessera/surface/options.hpp"
 
 #include "netgen/loaded_model.hpp"
 
@@ -21,10 +21,10 @@ namespace tessera::netgen {
 /// @param use   Gets NETGEN's mesh, scaled by a power of two.
 /// @note May crash or hang inside NETGEN.
 /// @throws NetgenError if NETGEN gives up.
-[[nodiscard]] coarse::CoarseSurface mesh_stl_surface(const model::TriangleSurface& surface,
-                                                     const model::SurfaceFeatures& features,
-                                                     const coarse::CoarseOptions& options,
-                                                     const std::string& name,
-                                                     const NetgenSurfaceUser& use);
+[[nodiscard]] surface::CoarseSurface mesh_stl_surface(const model::TriangleSurface& surface,
+                                                      const model::SurfaceFeatures& features,
+                                                      const surface::CoarseOptions& options,
+                                                      const std::string& name,
+                                                      const NetgenSurfaceUser& use);
 
 }  // namespace tessera::netgen

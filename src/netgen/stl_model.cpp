@@ -8,11 +8,11 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/sort_unique.hpp"
-#include "tessera/coarse/on_geometry.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/stl_file.hpp"
 #include "tessera/model/surface_features.hpp"
 #include "tessera/model/triangle_surface.hpp"
+#include "tessera/surface/on_geometry.hpp"
 
 #include "netgen/loaded_model.hpp"
 #include "netgen/stl_mesher.hpp"
@@ -51,10 +51,10 @@ std::vector<model::SegmentSearch> searches_of_curves(const model::TriangleSurfac
   return searches;
 }
 
-coarse::PatchSurface patches_of(const model::TriangleSurface& surface,
-                                const model::SurfaceFeatures& features)
+surface::PatchSurface patches_of(const model::TriangleSurface& surface,
+                                 const model::SurfaceFeatures& features)
 {
-  coarse::PatchSurface patches = triangles_of(surface);
+  surface::PatchSurface patches = triangles_of(surface);
   patches.vertex_is_fixed.assign(patches.vertex_xyz.size(), 0);
   patches.patch_materials.resize(at(features.num_patches()));
   for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
@@ -108,7 +108,7 @@ class StlModel final : public LoadedModel {
     return {found(search.nearest(point)), 0.0};
   }
 
-  [[nodiscard]] model::ModelDescription describe(coarse::SurfaceMesher mesher) const override;
+  [[nodiscard]] model::ModelDescription describe(surface::SurfaceMesher mesher) const override;
 
   [[nodiscard]] coarse::ModelFigures figures() const override
   {
@@ -134,27 +134,27 @@ class StlModel final : public LoadedModel {
   }
 
   using LoadedModel::mesh_surface;
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
-                                                   const NetgenSurfaceUser& use) const override
+  [[nodiscard]] surface::CoarseSurface mesh_surface(const surface::CoarseOptions& options,
+                                                    const NetgenSurfaceUser& use) const override
   {
-    if (options.surface_mesher == coarse::SurfaceMesher::netgen)
+    if (options.surface_mesher == surface::SurfaceMesher::netgen)
       return mesh_stl_surface(surface_, features_, options, name_, use);
-    const coarse::SurfaceReference reference(patches_of(surface_, features_));
+    const surface::SurfaceReference reference(patches_of(surface_, features_));
     return remesh(reference, options);
   }
 
  private:
   // The triangles of the file, made well-shaped.
-  [[nodiscard]] coarse::CoarseSurface remesh(const coarse::SurfaceReference& reference,
-                                             const coarse::CoarseOptions& options) const
+  [[nodiscard]] surface::CoarseSurface remesh(const surface::SurfaceReference& reference,
+                                              const surface::CoarseOptions& options) const
   {
     const SurfaceNames names{
         [this](LocalIndex patch) { return features_.patch_names[at(patch)]; },
         [this](LocalIndex material) { return surface_.material_names[at(material - 1)]; }};
-    coarse::RemeshedSurface remeshed = coarse::remesh_on_geometry(reference, *this, options);
-    const coarse::PatchSurface& surface = remeshed.surface;
-    require_no_overlaps(coarse::find_overlaps(surface), surface, names, name_);
-    coarse::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names);
+    surface::RemeshedSurface remeshed = surface::remesh_on_geometry(reference, *this, options);
+    const surface::PatchSurface& surface = remeshed.surface;
+    require_no_overlaps(surface::find_overlaps(surface), surface, names, name_);
+    surface::CoarseSurface coarse = to_coarse_surface(surface, options.max_size, names);
     coarse.defeatured = std::move(remeshed.defeatured);
     return coarse;
   }
@@ -188,7 +188,7 @@ void StlModel::add_faces_of_edges(model::ModelDescription& to) const
   for (model::EdgeDescription& edge : to.edges) sort_unique(edge.faces);
 }
 
-model::ModelDescription StlModel::describe(coarse::SurfaceMesher /*mesher*/) const
+model::ModelDescription StlModel::describe(surface::SurfaceMesher /*mesher*/) const
 {
   model::ModelDescription described{.vertex_xyz = surface_.vertex_xyz,
                                     .triangle_vertices = surface_.triangle_vertices,

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tessera/coarse/patch_surface.hpp"
 #include "tessera/model/triangle_surface.hpp"
+#include "tessera/surface/patch_surface.hpp"
 
 namespace tessera::netgen {
 
 /// @brief The vertices and triangles of a surface, without patches. Local.
-[[nodiscard]] inline coarse::PatchSurface triangles_of(const model::TriangleSurface& surface)
+[[nodiscard]] inline surface::PatchSurface triangles_of(const model::TriangleSurface& surface)
 {
-  coarse::PatchSurface triangles;
+  surface::PatchSurface triangles;
   for (LocalIndex v = 0; v < surface.num_vertices(); ++v) {
     triangles.vertex_xyz.push_back(surface.position(v));
   }

@@ -18,11 +18,11 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/union_find.hpp"
-#include "tessera/coarse/flat_contacts.hpp"
-#include "tessera/coarse/surface_overlap.hpp"
 #include "tessera/mesh/half_edges.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/winding.hpp"
+#include "tessera/surface/flat_contacts.hpp"
+#include "tessera/surface/overlap.hpp"
 
 #include "netgen/occ_cells.hpp"
 #include "netgen/occ_error.hpp"
@@ -318,7 +318,7 @@ std::optional<model::CheckedSurface> united(const model::TriangleSurface& surfac
   const double volume = volume_of(corners_of(soup), bodies.origin());
   soup.solid_names = {surface.solid_names[at(surface.triangle_solid.front())]};
   model::CheckedSurface made = model::check_surface(soup, name);
-  const coarse::PatchSurface triangles = triangles_of(made.surface);
+  const surface::PatchSurface triangles = triangles_of(made.surface);
   if (!find_flat_contacts(triangles, tolerance).empty()) return std::nullopt;
   if (!find_overlaps(triangles).empty()) return std::nullopt;
   const double most_off = kMostOffOnAverage * tolerance * bodies.area();

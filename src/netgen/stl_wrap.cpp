@@ -8,9 +8,9 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
-#include "tessera/coarse/flat_contacts.hpp"
-#include "tessera/coarse/surface_overlap.hpp"
-#include "tessera/coarse/wrap_surface.hpp"
+#include "tessera/surface/flat_contacts.hpp"
+#include "tessera/surface/overlap.hpp"
+#include "tessera/surface/wrap_surface.hpp"
 
 #include "netgen/stl_triangles.hpp"
 #include "netgen/stl_union.hpp"
@@ -27,14 +27,14 @@ constexpr double kTouching = 1e-6;
 // Why nobody could fill a closed surface; empty if that can be.
 std::string what_cuts(const model::TriangleSurface& surface)
 {
-  const coarse::PatchSurface triangles = triangles_of(surface);
-  const std::vector<coarse::Overlap> overlaps = coarse::find_overlaps(triangles);
+  const surface::PatchSurface triangles = triangles_of(surface);
+  const std::vector<surface::Overlap> overlaps = surface::find_overlaps(triangles);
   if (!overlaps.empty()) {
     return fmt::format("surface cuts itself at {} pairs of triangles, first at ({:.9g})",
                        overlaps.size(), fmt::join(overlaps.front().place, ", "));
   }
   const auto contacts =
-      coarse::find_flat_contacts(triangles, kTouching * model::box_diagonal(surface));
+      surface::find_flat_contacts(triangles, kTouching * model::box_diagonal(surface));
   if (contacts.empty()) return {};
   return fmt::format("surface lies flat on itself at {} pairs of triangles", contacts.size());
 }
@@ -48,7 +48,7 @@ std::string without_name(const std::string& message, const std::string& name)
 StlSurface wrapped(const model::TriangleSoup& soup, double tolerance, const std::string& reason,
                    const std::string& name)
 {
-  const coarse::WrappedSurface made = coarse::wrap_surface(soup, tolerance, name);
+  const surface::WrappedSurface made = surface::wrap_surface(soup, tolerance, name);
   StlSurface surface{.checked = model::check_surface(made.soup, name)};
   surface.wrap = {.reason = reason,
                   .num_triangles = surface.checked.surface.num_triangles(),

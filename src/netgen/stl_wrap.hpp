@@ -23,7 +23,7 @@ struct StlSurface {
 /// fill it. What bounds a body stays as it is.
 /// @param[in] reader  With the plain one nothing is joined that lies flat on each other.
 /// @throws GeometryError as model::check_surface(), naming the key that wraps, and as
-/// coarse::wrap_surface().
+/// surface::wrap_surface().
 [[nodiscard]] StlSurface checked_or_wrapped(const model::TriangleSoup& soup,
                                             const model::StlOptions& options, StepReader reader,
                                             const std::string& name);

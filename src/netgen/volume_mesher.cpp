@@ -15,7 +15,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/coarse/optimize_domain.hpp"
-#include "tessera/coarse/touching_faces.hpp"
+#include "tessera/surface/touching_faces.hpp"
 
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/netgen_session.hpp"
@@ -32,7 +32,7 @@ constexpr int kMostRounds = 3;
 // two.
 constexpr int kMostStepsOfHole = 2;
 
-void add_all(::netgen::Mesh& mesh, const coarse::DomainTets& tets)
+void add_all(::netgen::Mesh& mesh, const surface::DomainTets& tets)
 {
   for (std::size_t v = mesh.GetNP(); v < tets.vertex_xyz.size() / 3; ++v) {
     mesh.AddPoint(to_point3d(point_at(std::span(tets.vertex_xyz), v)));
@@ -40,7 +40,7 @@ void add_all(::netgen::Mesh& mesh, const coarse::DomainTets& tets)
   add_tets(mesh, tets.tet_vertices);
 }
 
-coarse::DomainTets tets_in(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
+surface::DomainTets tets_in(::netgen::Mesh& mesh, const surface::DomainSkin& skin)
 {
   mesh.Compress();
   const auto num_fixed = static_cast<LocalIndex>(skin.vertex.size());
@@ -50,7 +50,7 @@ coarse::DomainTets tets_in(::netgen::Mesh& mesh, const coarse::DomainSkin& skin)
 }
 
 // What NETGEN does not say of a skin that it cannot fill; empty if the skin touches itself nowhere.
-std::string touching_words(const coarse::DomainSkin& skin)
+std::string touching_words(const surface::DomainSkin& skin)
 {
   constexpr double kTouching = 1e-7;  // Of the model's diagonal.
   std::vector<std::array<LocalIndex, 3>> triangles;
@@ -59,7 +59,7 @@ std::string touching_words(const coarse::DomainSkin& skin)
     triangles.push_back({v[0], v[1], v[2]});
   }
   const double tolerance = kTouching * norm(skin.model_box[1] - skin.model_box[0]);
-  const auto touching = coarse::find_touching_faces(skin.vertex_xyz, triangles, tolerance);
+  const auto touching = surface::find_touching_faces(skin.vertex_xyz, triangles, tolerance);
   if (!touching) return {};
   return fmt::format(
       "; the surface touches itself at ({:g}): if that is the model's, its wall has no thickness "
@@ -67,7 +67,7 @@ std::string touching_words(const coarse::DomainSkin& skin)
       fmt::join(touching->place, ", "));
 }
 
-coarse::DomainTets first_tets(const coarse::DomainSkin& skin, NetgenSession& session)
+surface::DomainTets first_tets(const surface::DomainSkin& skin, NetgenSession& session)
 {
   ::netgen::Mesh mesh;
   add_skin(mesh, skin);
@@ -79,8 +79,8 @@ coarse::DomainTets first_tets(const coarse::DomainSkin& skin, NetgenSession& ses
 
 // A tet with two faces on one patch has children that become flat where the patch is smooth. Our
 // optimiser knows no patches and may make some.
-std::optional<coarse::DomainTets> without_illegal_tets(const coarse::DomainSkin& skin,
-                                                       const coarse::DomainTets& tets)
+std::optional<surface::DomainTets> without_illegal_tets(const surface::DomainSkin& skin,
+                                                        const surface::DomainTets& tets)
 {
   ::netgen::Mesh mesh;
   add_skin(mesh, skin);
@@ -93,7 +93,7 @@ std::optional<coarse::DomainTets> without_illegal_tets(const coarse::DomainSkin&
   return tets_in(mesh, skin);
 }
 
-coarse::DomainTets better_tets(const coarse::DomainSkin& skin, coarse::DomainTets tets)
+surface::DomainTets better_tets(const surface::DomainSkin& skin, surface::DomainTets tets)
 {
   for (int round = 0; round < kMostRounds; ++round) {
     tets = coarse::optimize_domain(std::move(tets));
@@ -104,7 +104,7 @@ coarse::DomainTets better_tets(const coarse::DomainSkin& skin, coarse::DomainTet
   return coarse::mend_domain(coarse::smooth_domain(std::move(tets)));
 }
 
-std::string name_of(const coarse::PatchSurface& surface, const SurfaceNames& names,
+std::string name_of(const surface::PatchSurface& surface, const SurfaceNames& names,
                     std::size_t triangle)
 {
   const LocalIndex patch = surface.triangle_patch[triangle];
@@ -113,8 +113,8 @@ std::string name_of(const coarse::PatchSurface& surface, const SurfaceNames& nam
 }
 
 // Patches without triangles are left out.
-void add_patches(const coarse::PatchSurface& from, const SurfaceNames& names,
-                 coarse::CoarseSurface& to)
+void add_patches(const surface::PatchSurface& from, const SurfaceNames& names,
+                 surface::CoarseSurface& to)
 {
   // One of which all triangles were merged away keeps its row: names of others do not depend on it.
   constexpr std::array<LocalIndex, 2> kNoMaterials{0, 0};
@@ -134,8 +134,8 @@ void add_patches(const coarse::PatchSurface& from, const SurfaceNames& names,
 
 }  // namespace
 
-void require_no_overlaps(const std::vector<coarse::Overlap>& overlaps,
-                         const coarse::PatchSurface& surface, const SurfaceNames& names,
+void require_no_overlaps(const std::vector<surface::Overlap>& overlaps,
+                         const surface::PatchSurface& surface, const SurfaceNames& names,
                          const std::string& what)
 {
   if (overlaps.empty()) return;
@@ -149,10 +149,10 @@ void require_no_overlaps(const std::vector<coarse::Overlap>& overlaps,
       fmt::join(place, ", ")));
 }
 
-coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface, double max_size,
-                                        const SurfaceNames& names)
+surface::CoarseSurface to_coarse_surface(const surface::PatchSurface& surface, double max_size,
+                                         const SurfaceNames& names)
 {
-  coarse::CoarseSurface result;
+  surface::CoarseSurface result;
   mesh::CoarseMesh& mesh = result.mesh;
   for (const Vec3& p : surface.vertex_xyz)
     mesh.vertex_xyz.insert(mesh.vertex_xyz.end(), p.begin(), p.end());
@@ -167,21 +167,22 @@ coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface, dou
   return result;
 }
 
-coarse::DomainTets fill_domain(const coarse::DomainSkin& skin, const coarse::CoarseOptions& options)
+surface::DomainTets fill_domain(const surface::DomainSkin& skin,
+                                const surface::CoarseOptions& options)
 {
   if (skin.vertex.empty()) return {};
   const double scale = scale_for_netgen(norm(skin.model_box[1] - skin.model_box[0]));
-  coarse::CoarseOptions scaled = options;
+  surface::CoarseOptions scaled = options;
   scaled.max_size = scale * std::min(options.max_size, skin.max_size);
   scaled.points = options.points.scaled(scale);
-  coarse::DomainSkin scaled_skin = skin;
+  surface::DomainSkin scaled_skin = skin;
   for (double& x : scaled_skin.vertex_xyz) x *= scale;
   for (Vec3& corner : scaled_skin.model_box) corner = scale * corner;
   ::netgen::MeshingParameters parameters = coarse_parameters(scaled);
   if (skin.is_hole) parameters.maxoutersteps = kMostStepsOfHole;
   NetgenSession session(parameters);
   try {
-    coarse::DomainTets tets =
+    surface::DomainTets tets =
         session.run("coarse volume mesh", [&] { return first_tets(scaled_skin, session); });
     for (double& x : tets.vertex_xyz) x /= scale;
     return tets;
@@ -190,7 +191,7 @@ coarse::DomainTets fill_domain(const coarse::DomainSkin& skin, const coarse::Coa
   }
 }
 
-coarse::DomainTets improve_domain(const coarse::DomainSkin& skin, coarse::DomainTets tets)
+surface::DomainTets improve_domain(const surface::DomainSkin& skin, surface::DomainTets tets)
 {
   if (skin.vertex.empty()) return tets;
   NetgenSession session;

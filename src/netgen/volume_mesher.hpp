@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "tessera/coarse/coarse_surface.hpp"
-#include "tessera/coarse/options.hpp"
-#include "tessera/coarse/patch_surface.hpp"
-#include "tessera/coarse/surface_overlap.hpp"
+#include "tessera/surface/coarse_surface.hpp"
+#include "tessera/surface/options.hpp"
+#include "tessera/surface/overlap.hpp"
+#include "tessera/surface/patch_surface.hpp"
 
 namespace tessera::netgen {
 
@@ -22,27 +22,27 @@ struct SurfaceNames {
 /// place.
 /// @param[in] what Put before the error: which model.
 /// @note Local. @throws NetgenError with the faces and the place if there are any.
-void require_no_overlaps(const std::vector<coarse::Overlap>& overlaps,
-                         const coarse::PatchSurface& surface, const SurfaceNames& names,
+void require_no_overlaps(const std::vector<surface::Overlap>& overlaps,
+                         const surface::PatchSurface& surface, const SurfaceNames& names,
                          const std::string& what);
 
 /// @brief A remeshed surface in the form in which its domains are filled; patch and curve numbers
 /// are the model's. Without parameters.
 /// @param[in] max_size Largest edge inside, file length unit.
 /// @note Local.
-[[nodiscard]] coarse::CoarseSurface to_coarse_surface(const coarse::PatchSurface& surface,
-                                                      double max_size, const SurfaceNames& names);
+[[nodiscard]] surface::CoarseSurface to_coarse_surface(const surface::PatchSurface& surface,
+                                                       double max_size, const SurfaceNames& names);
 
 /// @brief Fills a domain by NETGEN's volume mesher. Sizes inside follow from the skin, the options'
 /// grading and their points.
 /// @note Local; may crash or hang inside NETGEN.
 /// @throws NetgenError if NETGEN gives up.
-[[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
-                                             const coarse::CoarseOptions& options);
+[[nodiscard]] surface::DomainTets fill_domain(const surface::DomainSkin& skin,
+                                              const surface::CoarseOptions& options);
 
 /// @brief Better tets in the same skin: by our optimiser, which is some twenty times faster than
 /// NETGEN's, and by NETGEN where it left a tet with two faces on one patch. Local.
-[[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
-                                                coarse::DomainTets tets);
+[[nodiscard]] surface::DomainTets improve_domain(const surface::DomainSkin& skin,
+                                                 surface::DomainTets tets);
 
 }  // namespace tessera::netgen

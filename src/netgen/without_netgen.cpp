@@ -30,7 +30,7 @@ model::ModelSource import_model(const std::filesystem::path& /*file*/,
 std::unique_ptr<model::Model> load_model(const model::ModelSource& /*source*/) { refuse(); }
 
 model::ModelDescription describe_model(const model::Model& /*model*/,
-                                       coarse::SurfaceMesher /*mesher*/)
+                                       surface::SurfaceMesher /*mesher*/)
 {
   refuse();
 }

@@ -264,7 +264,7 @@ class Bench {
   const Arguments& arguments_;
   std::unique_ptr<model::Model> model_;
   model::ModelDescription described_;
-  coarse::CoarseOptions coarse_;
+  surface::CoarseOptions coarse_;
   MeshFigures uncut_{};
 };
 

@@ -70,7 +70,7 @@ Quality quality_of(const ::netgen::Mesh& mesh)
   return quality;
 }
 
-Refined refine(const std::string& file, int levels, const coarse::CoarseOptions& options)
+Refined refine(const std::string& file, int levels, const surface::CoarseOptions& options)
 {
   const auto model = netgen::load_model(netgen::import_model(file, {}));
   const auto& loaded = dynamic_cast<const netgen::LoadedModel&>(*model);
@@ -122,7 +122,7 @@ int main(int argc, char** argv)
     std::cerr << "usage: netgen_refine MODEL LEVELS MAX_SIZE [GRADING [CURVATURE]]\n";
     return 64;
   }
-  tessera::coarse::CoarseOptions options{.max_size = std::atof(argv[3])};
+  tessera::surface::CoarseOptions options{.max_size = std::atof(argv[3])};
   if (argc > 4) options.grading = std::atof(argv[4]);
   if (argc > 5) options.curvature = std::atof(argv[5]);
   try {

@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "tessera/base/box_diagonal.hpp"
-#include "tessera/coarse/on_geometry.hpp"
-#include "tessera/coarse/surface_overlap.hpp"
 #include "tessera/netgen/factory.hpp"
 #include "tessera/quality/tet_quality.hpp"
+#include "tessera/surface/on_geometry.hpp"
+#include "tessera/surface/overlap.hpp"
 
 #include "netgen/loaded_model.hpp"
 
@@ -55,7 +55,7 @@ void print_shapes(const std::vector<Corners>& triangles, double max_size)
       lengths[lengths.size() / 2] / max_size);
 }
 
-std::vector<Corners> triangles_of(const coarse::PatchSurface& surface)
+std::vector<Corners> triangles_of(const surface::PatchSurface& surface)
 {
   std::vector<Corners> triangles;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
@@ -92,21 +92,21 @@ double size_from(const std::string& word, const netgen::LoadedModel& model)
 }
 
 // The surface as a run makes it, and its tets.
-void fill(const netgen::LoadedModel& model, coarse::CoarseOptions options,
-          coarse::SurfaceMesher mesher)
+void fill(const netgen::LoadedModel& model, surface::CoarseOptions options,
+          surface::SurfaceMesher mesher)
 {
   options.surface_mesher = mesher;
   const double begin = cpu_seconds();
-  std::printf("  %s: ", mesher == coarse::SurfaceMesher::netgen ? "NETGEN" : "remeshed");
+  std::printf("  %s: ", mesher == surface::SurfaceMesher::netgen ? "NETGEN" : "remeshed");
   try {
-    coarse::CoarseSurface surface = model.mesh_surface(options, cut::CutTree{});
+    surface::CoarseSurface surface = model.mesh_surface(options, cut::CutTree{});
     print_shapes(triangles_of(surface.mesh), options.max_size);
     std::printf(", %.1f s", cpu_seconds() - begin);
-    std::vector<coarse::DomainTets> tets;
+    std::vector<surface::DomainTets> tets;
     for (LocalIndex d = 1; d <= surface.num_domains(); ++d) {
-      tets.push_back(model.mesh_domain(coarse::skin_of(surface, d), options));
+      tets.push_back(model.mesh_domain(surface::skin_of(surface, d), options));
     }
-    const mesh::CoarseMesh mesh = coarse::fill_surface(std::move(surface), tets).mesh;
+    const mesh::CoarseMesh mesh = surface::fill_surface(std::move(surface), tets).mesh;
     std::printf("; %d tets, smallest dihedral angle %.2f deg, %.1f s\n", mesh.num_tets(),
                 smallest_dihedral_deg(mesh), cpu_seconds() - begin);
   } catch (const std::exception& error) {
@@ -117,27 +117,27 @@ void fill(const netgen::LoadedModel& model, coarse::CoarseOptions options,
 void run(const std::string& size, const std::string& file, bool with_fill)
 {
   const auto model = netgen::load_any_model(netgen::import_model(file, {}));
-  coarse::CoarseOptions options;
-  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  surface::CoarseOptions options;
+  options.surface_mesher = surface::SurfaceMesher::remesh;
   options.max_size = size_from(size, *model);
-  const coarse::SurfaceReference reference(model->triangles_for_fit(options.max_size).triangles);
+  const surface::SurfaceReference reference(model->triangles_for_fit(options.max_size).triangles);
   const std::size_t num_given = reference.surface().triangles.size();
-  const std::size_t given_cuts = coarse::find_overlaps(reference.surface()).size();
+  const std::size_t given_cuts = surface::find_overlaps(reference.surface()).size();
 
   const double begin = cpu_seconds();
-  const coarse::PatchSurface surface =
-      coarse::remesh_on_geometry(reference, *model, options).surface;
+  const surface::PatchSurface surface =
+      surface::remesh_on_geometry(reference, *model, options).surface;
   const double seconds = cpu_seconds() - begin;
   std::printf("%s: %zu triangles that cut at %zu pairs -> ",
               file.substr(file.rfind('/') + 1).c_str(), num_given, given_cuts);
   print_shapes(triangles_of(surface), options.max_size);
   std::printf(" that cut at %zu pairs; %.2f s, %.0f triangles a second\n",
-              coarse::find_overlaps(surface).size(), seconds,
+              surface::find_overlaps(surface).size(), seconds,
               static_cast<double>(surface.triangles.size()) / seconds);
   std::fflush(stdout);
   if (!with_fill) return;
-  fill(*model, options, coarse::SurfaceMesher::remesh);
-  fill(*model, options, coarse::SurfaceMesher::netgen);
+  fill(*model, options, surface::SurfaceMesher::remesh);
+  fill(*model, options, surface::SurfaceMesher::netgen);
 }
 
 }  // namespace

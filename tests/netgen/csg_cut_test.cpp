@@ -37,9 +37,9 @@ std::unique_ptr<model::Model> load(const std::string& text)
   return netgen::load_model(netgen::import_model(file.path(), {}));
 }
 
-coarse::CoarseOptions options_of(double max_size)
+surface::CoarseOptions options_of(double max_size)
 {
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = max_size;
   return options;
 }

@@ -53,7 +53,7 @@ struct Loaded {
   // Few elements a curvature radius: NETGEN's bound for a torus is far above its curvature.
   [[nodiscard]] mesh::CoarseMesh generate(double max_size, double curvature = 1.0) const
   {
-    coarse::CoarseOptions options;
+    surface::CoarseOptions options;
     options.max_size = max_size;
     options.curvature = curvature;
     return netgen::make_coarse_mesher(*model)->generate(options);
@@ -136,9 +136,9 @@ TEST(CsgCoarseMesh, IsTheSameForATorusOfAnotherScale)
       const std::string text = "algebraic3d\nsolid ring = " + solid + ";\ntlo ring;\n";
       const testing::TemporaryFile file("model.geo", text);
       const auto model = netgen::load_model(netgen::import_model(file.path(), {}));
-      coarse::CoarseOptions options;
+      surface::CoarseOptions options;
       options.max_size = size;
-      options.surface_mesher = coarse::SurfaceMesher::remesh;
+      options.surface_mesher = surface::SurfaceMesher::remesh;
       return netgen::make_coarse_mesher(*model)->generate(options).num_tets();
     };
     const LocalIndex num_tets = num_tets_of(large, 1.0);

@@ -58,7 +58,7 @@ TEST(CsgApex, IsMeshed)
   const model::ModelSource source = source_of(std::string(kTip) + "tlo cone1 -material=steel;\n");
   EXPECT_EQ(source.repairs.size(), 1U);
   const auto model = netgen::load_model(source);
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = 0.3;
   const mesh::CoarseMesh mesh = netgen::make_coarse_mesher(*model)->generate(options);
   EXPECT_NEAR(volume_of(mesh, 1), kTipVolume, 0.05 * kTipVolume);
@@ -108,7 +108,7 @@ TEST(CsgApex, IsNoMatterOutsideTheSolid)
                 "  and plane (0, -0.25, 0.25; 0, -1, 0) and plane (0, 1.25, 0.25; 0, 1, 0);\n"
                 "solid all = (ball or tip) and stump;\ntlo all;\n"));
   EXPECT_FALSE(model->has_parameters());
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = 0.3;
   EXPECT_GT(netgen::make_coarse_mesher(*model)->generate(options).num_tets(), 0);
 }
@@ -190,9 +190,9 @@ Remeshed remeshed(const std::string& solids, double max_size)
 {
   Remeshed made{.source = source_of(solids)};
   made.model = netgen::load_model(made.source);
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = max_size;
-  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  options.surface_mesher = surface::SurfaceMesher::remesh;
   made.mesh = netgen::make_coarse_mesher(*made.model)->generate(options);
   return made;
 }
@@ -316,25 +316,25 @@ TEST(CsgRemesh, NamesWhatIsMergedInTheNumbersOfTheFile)
       "solid step = orthobrick (0.3, 0.3, 0.9; 0.6, 0.6, 1.005);\n"
       "solid both = cube or step;\ntlo both;\n");
   const auto model = netgen::load_model(source);
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = 0.4;
-  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  options.surface_mesher = surface::SurfaceMesher::remesh;
   options.defeature = 0.02;
   const auto mesher = netgen::make_coarse_mesher(*model);
-  const coarse::Defeatured merged = mesher->mesh_surface(options, {}).defeatured;
+  const surface::Defeatured merged = mesher->mesh_surface(options, {}).defeatured;
   ASSERT_EQ(merged.patches.size(), 4U);
-  for (const coarse::MergedPart& side : merged.patches) {
+  for (const surface::MergedPart& side : merged.patches) {
     EXPECT_NEAR(side.measure, 0.3 * 0.005, 1e-9);
     const Vec3 on_it = model->project_to_surface(side.number, side.centre, {}).xyz;
     EXPECT_LT(norm(on_it - side.centre), 1e-9);
   }
   ASSERT_FALSE(merged.curves.empty());
-  for (const coarse::MergedPart& edge : merged.curves) {
+  for (const surface::MergedPart& edge : merged.curves) {
     const Vec3 on_it = model->project_to_curve(edge.number, edge.centre, 0.0).xyz;
     EXPECT_LT(norm(on_it - edge.centre), 1e-9);
   }
   options.kept.patches = {merged.patches.front().number};
-  for (const coarse::MergedPart& side : mesher->mesh_surface(options, {}).defeatured.patches)
+  for (const surface::MergedPart& side : mesher->mesh_surface(options, {}).defeatured.patches)
     EXPECT_NE(side.number, options.kept.patches.front());
 }
 
@@ -397,7 +397,7 @@ TEST(CsgApex, BodyThatTouchesItselfIsMeshedThereOrToldWithThePlace)
       "  and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1.2; 0, 0, 1);\n"
       "solid hollow = block and not tip;\ntlo hollow;\n";
   const auto model = netgen::load_model(source_of(hollow));
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = 0.4;
   try {
     const mesh::CoarseMesh mesh = netgen::make_coarse_mesher(*model)->generate(options);

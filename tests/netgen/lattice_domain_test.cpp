@@ -44,9 +44,9 @@ struct Loaded {
   }
 };
 
-coarse::CoarseOptions options_of(double max_size)
+surface::CoarseOptions options_of(double max_size)
 {
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = max_size;
   return options;
 }
@@ -57,7 +57,7 @@ struct Measures {
   double worst = 1.0;
 };
 
-Measures measures_of(const coarse::DomainTets& tets)
+Measures measures_of(const surface::DomainTets& tets)
 {
   Measures measures;
   const auto num_tets = static_cast<double>(tets.tet_vertices.size() / 4);
@@ -79,20 +79,20 @@ class LatticeDomain : public ::testing::TestWithParam<const char*> {};
 TEST_P(LatticeDomain, IsFilledWithGoodTets)
 {
   const Loaded loaded(GetParam());
-  const coarse::CoarseOptions options = options_of(0.3);
-  const coarse::CoarseSurface surface = loaded.mesher->mesh_surface(options, {});
+  const surface::CoarseOptions options = options_of(0.3);
+  const surface::CoarseSurface surface = loaded.mesher->mesh_surface(options, {});
   ASSERT_EQ(surface.num_domains(), 1);
-  const coarse::DomainSkin skin = coarse::skin_of(surface, 1);
+  const surface::DomainSkin skin = surface::skin_of(surface, 1);
   EXPECT_EQ(testing::topology_of(skin.triangle_vertices).num_unmatched_edges, 0);
   static_cast<void>(take_noted_repairs());
-  const coarse::DomainTets tets = loaded.mesher->mesh_domain(skin, options);
+  const surface::DomainTets tets = loaded.mesher->mesh_domain(skin, options);
   EXPECT_EQ(take_noted_repairs()[Repair::netgen_tets], 0);
   const Measures measures = measures_of(tets);
   EXPECT_GT(measures.mean_ratio, 0.85);
   EXPECT_GT(measures.worst, 0.0);
   const double volume = enclosed_volume(skin.vertex_xyz, skin.triangle_vertices);
   EXPECT_NEAR(measures.volume, volume, 1e-9 * volume);
-  EXPECT_NO_THROW(mesh::validate(coarse::fill_surface(surface, {tets}).mesh));
+  EXPECT_NO_THROW(mesh::validate(surface::fill_surface(surface, {tets}).mesh));
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, LatticeDomain, ::testing::Values(kBall, kNotched),
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Models, LatticeDomain, ::testing::Values(kBall, kNotche
                            return std::string(of.index == 0 ? "Ball" : "NotchedBlock");
                          });
 
-void append(coarse::DomainSkin& skin, const fill::FillInput& other, const Vec3& offset)
+void append(surface::DomainSkin& skin, const fill::FillInput& other, const Vec3& offset)
 {
   const auto first = static_cast<LocalIndex>(skin.vertex_xyz.size() / 3);
   for (std::size_t v = 0; v < other.vertex_xyz.size() / 3; ++v) {
@@ -111,10 +111,10 @@ void append(coarse::DomainSkin& skin, const fill::FillInput& other, const Vec3& 
 }
 
 // Two cubes with one corner at the same place: only one of its vertices is of Delaunay tets.
-coarse::DomainSkin touching_cubes()
+surface::DomainSkin touching_cubes()
 {
   const fill::FillInput cube = testing::cube_skin(3);
-  coarse::DomainSkin skin;
+  surface::DomainSkin skin;
   append(skin, cube, {0, 0, 0});
   append(skin, cube, {1, 1, 1});
   skin.vertex.resize(skin.vertex_xyz.size() / 3);
@@ -130,19 +130,19 @@ class GivesUpOnHoles : public coarse::CoarseMesher {
  public:
   explicit GivesUpOnHoles(const coarse::CoarseMesher& mesher) : mesher_(mesher) {}
 
-  [[nodiscard]] coarse::CoarseSurface mesh_surface(const coarse::CoarseOptions& options,
-                                                   const cut::CutTree& planes) const override
+  [[nodiscard]] surface::CoarseSurface mesh_surface(const surface::CoarseOptions& options,
+                                                    const cut::CutTree& planes) const override
   {
     return mesher_.mesh_surface(options, planes);
   }
-  [[nodiscard]] coarse::DomainTets fill_domain(const coarse::DomainSkin& skin,
-                                               const coarse::CoarseOptions& options) const override
+  [[nodiscard]] surface::DomainTets fill_domain(
+      const surface::DomainSkin& skin, const surface::CoarseOptions& options) const override
   {
     if (skin.is_hole) throw NetgenError("a hole");
     return mesher_.fill_domain(skin, options);
   }
-  [[nodiscard]] coarse::DomainTets improve_domain(const coarse::DomainSkin& skin,
-                                                  coarse::DomainTets tets) const override
+  [[nodiscard]] surface::DomainTets improve_domain(const surface::DomainSkin& skin,
+                                                   surface::DomainTets tets) const override
   {
     return mesher_.improve_domain(skin, std::move(tets));
   }
@@ -151,7 +151,7 @@ class GivesUpOnHoles : public coarse::CoarseMesher {
   const coarse::CoarseMesher& mesher_;
 };
 
-void expect_two_cubes(const coarse::DomainTets& tets)
+void expect_two_cubes(const surface::DomainTets& tets)
 {
   const Measures measures = measures_of(tets);
   EXPECT_NEAR(measures.volume, 2.0, 1e-9);

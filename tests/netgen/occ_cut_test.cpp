@@ -28,7 +28,7 @@ struct CutModel {
   CutModel(const std::string& name, double max_size, const cut::CutTree& tree)
       : model(testing::load_own(name)), uncut(testing::coarse_mesh_of(*model, max_size))
   {
-    coarse::CoarseOptions options;
+    surface::CoarseOptions options;
     options.max_size = max_size;
     cut = netgen::make_coarse_mesher(*model)->generate_parts(options, tree);
   }

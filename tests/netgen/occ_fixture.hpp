@@ -22,9 +22,9 @@ namespace tessera::testing {
 
 [[nodiscard]] inline mesh::CoarseMesh coarse_mesh_of(
     const model::Model& model, double max_size,
-    coarse::SurfaceMesher mesher = coarse::SurfaceMesher::netgen)
+    surface::SurfaceMesher mesher = surface::SurfaceMesher::netgen)
 {
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = max_size;
   options.surface_mesher = mesher;
   return netgen::make_coarse_mesher(model)->generate(options);

@@ -281,7 +281,7 @@ TEST_F(OccImport, SolidsThatAreTangentAreMeshed)
 {
   const auto model =
       netgen::load_model(netgen::import_model(write_brep(testing::bearing({0.3, 3.7})), {}));
-  for (const auto mesher : {coarse::SurfaceMesher::netgen, coarse::SurfaceMesher::remesh}) {
+  for (const auto mesher : {surface::SurfaceMesher::netgen, surface::SurfaceMesher::remesh}) {
     const mesh::CoarseMesh mesh = testing::coarse_mesh_of(*model, 8.0, mesher);
     EXPECT_EQ(mesh.num_materials(), 5);
     EXPECT_LT(mesh.num_tets(), 100000);

@@ -11,7 +11,7 @@
 #include <BRepTools.hxx>
 #include <gtest/gtest.h>
 
-#include "tessera/coarse/mend_folds.hpp"
+#include "tessera/surface/mend_folds.hpp"
 
 #include "support/temporary_folder.hpp"
 
@@ -63,7 +63,7 @@ struct OwnModel {
 void PrintTo(const OwnModel& model, std::ostream* out) { *out << model.file; }
 
 // Whoever makes the surface, the mesh keeps the same promises.
-class OccMesh : public ::testing::TestWithParam<std::tuple<OwnModel, coarse::SurfaceMesher>> {
+class OccMesh : public ::testing::TestWithParam<std::tuple<OwnModel, surface::SurfaceMesher>> {
  protected:
   [[nodiscard]] static CoarseMesh mesh_of(const model::Model& model)
   {
@@ -146,17 +146,17 @@ INSTANTIATE_TEST_SUITE_P(
         ::testing::Values(OwnModel{"sphere.step", 6.0}, OwnModel{"cylinder.step", 6.0},
                           OwnModel{"torus.step", 6.0}, OwnModel{"bracket.step", 10.0},
                           OwnModel{"two_blocks.step", 5.0}, OwnModel{"frustum.iges", 1.0}),
-        ::testing::Values(coarse::SurfaceMesher::netgen, coarse::SurfaceMesher::remesh)));
+        ::testing::Values(surface::SurfaceMesher::netgen, surface::SurfaceMesher::remesh)));
 
 // Towards its tip a cone bends more than any tessellation shows, so a remeshed one is wider there.
 INSTANTIATE_TEST_SUITE_P(Cone, OccMesh,
                          ::testing::Combine(::testing::Values(OwnModel{"cone.brep", 5.0}),
-                                            ::testing::Values(coarse::SurfaceMesher::netgen)));
+                                            ::testing::Values(surface::SurfaceMesher::netgen)));
 
 TEST(OccCoarseMesh, RemeshedHasTheVolumesAndNamesOfTheSolids)
 {
   const CoarseMesh mesh =
-      coarse_mesh_of(*load_own("two_blocks.step"), 5.0, coarse::SurfaceMesher::remesh);
+      coarse_mesh_of(*load_own("two_blocks.step"), 5.0, surface::SurfaceMesher::remesh);
   const std::map<std::string, double> expected{{"steel", 1000.0}, {"copper", 288.0}};
   ASSERT_EQ(mesh.num_materials(), 2);
   for (LocalIndex m = 1; m <= 2; ++m) {
@@ -240,9 +240,9 @@ TEST(OccCoarseMesh, HasNoShortEdgesWhereCurvesTouch)
 TEST(OccSurface, HasNoMoreThanItsShareAtALongNarrowLedge)
 {
   const auto model = load_own("ledge.brep");
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = 1.0;
-  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  options.surface_mesher = surface::SurfaceMesher::remesh;
   const auto surface = netgen::make_coarse_mesher(*model)->mesh_surface(options, {});
   EXPECT_GT(surface.mesh.num_faces(), 500);
   EXPECT_LT(surface.mesh.num_faces(), 3'000);
@@ -254,9 +254,9 @@ TEST(OccSurface, HasNoMoreThanItsShareAtSmallRoundedEdges)
   const auto file = folder.path() / "rounded.brep";
   ASSERT_TRUE(BRepTools::Write(testing::rounded_block(0.05), file.c_str()));
   const auto model = netgen::load_model(netgen::import_model(file, {}));
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = 1.0;
-  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  options.surface_mesher = surface::SurfaceMesher::remesh;
   const auto surface = netgen::make_coarse_mesher(*model)->mesh_surface(options, {});
   EXPECT_GT(surface.mesh.num_faces(), 2'000);
   EXPECT_LT(surface.mesh.num_faces(), 30'000);
@@ -269,11 +269,11 @@ TEST(OccSurface, DoesNotFoldAtANarrowLedgeForBetterShapes)
   const auto file = folder.path() / "shaft.brep";
   ASSERT_TRUE(BRepTools::Write(testing::shoulder(0.05), file.c_str()));
   const auto model = netgen::load_model(netgen::import_model(file, {}));
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = 5.0;
-  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  options.surface_mesher = surface::SurfaceMesher::remesh;
   auto surface = netgen::make_coarse_mesher(*model)->mesh_surface(options, {});
-  EXPECT_EQ(coarse::mend_folds(surface, *model).num_before, 0);
+  EXPECT_EQ(surface::mend_folds(surface, *model).num_before, 0);
 }
 
 }  // namespace

@@ -224,7 +224,8 @@ TEST(OccTriangulation, OneFaceThatOpenCascadeCannotDoRefusesNoModel)
     return std::set<LocalIndex>(described.triangle_face.begin(), described.triangle_face.end());
   }();
   EXPECT_EQ(drawn.size(), 6U);
-  const mesh::CoarseMesh mesh = testing::coarse_mesh_of(*model, 0.3, coarse::SurfaceMesher::remesh);
+  const mesh::CoarseMesh mesh =
+      testing::coarse_mesh_of(*model, 0.3, surface::SurfaceMesher::remesh);
   double volume = 0.0;
   for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
     const auto v = mesh.tet(t);

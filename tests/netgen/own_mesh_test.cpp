@@ -59,7 +59,7 @@ class OwnMeshOf : public ::testing::TestWithParam<Sample> {
   {
     cad_ = fs::path(TESSERA_GEOMETRY_DIR) / GetParam().name;
     model_ = load_any_model(import_model(cad_, {}));
-    coarse::CoarseOptions options;
+    surface::CoarseOptions options;
     options.max_size = GetParam().size;
     made_ = model_->generate(
         options, [&](const auto&, ::netgen::Mesh& mesh) { mesh.Save(file_.path().string()); });

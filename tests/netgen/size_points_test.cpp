@@ -71,7 +71,7 @@ TEST_P(SizePoints, AreFollowedAtASurfaceAndElsewhereSizesStay)
 {
   const auto model = load_own(GetParam());
   const auto mesher = netgen::make_coarse_mesher(*model);
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = 1e6;
   const mesh::CoarseMesh coarsest = mesher->generate(options);
   const Vec3 place = outermost_vertex(coarsest);

@@ -43,7 +43,7 @@ std::unique_ptr<LoadedModel> load(const model::TriangleSoup& soup)
 
 mesh::CoarseMesh mesh_of(const LoadedModel& model, double max_size)
 {
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = max_size;
   return model.generate(options);
 }
@@ -219,10 +219,10 @@ model::TriangleSoup thin_walled_ball()
   return joined(sphere_soup(5), hole);
 }
 
-coarse::CoarseOptions rough_remesh()
+surface::CoarseOptions rough_remesh()
 {
-  coarse::CoarseOptions options;
-  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  surface::CoarseOptions options;
+  options.surface_mesher = surface::SurfaceMesher::remesh;
   options.max_size = 0.5;
   options.curvature = 0.5;
   return options;
@@ -307,7 +307,7 @@ TEST(StlModel, BodiesThatLieOnEachOtherStayTwoIfTheFileNamesThem)
 {
   model::TriangleSoup both = joined(cube_soup(), cube_soup({0.2, 0.3, 1.0}, 0.5));
   both.solid_names = {"lower", "upper"};
-  EXPECT_EQ(load(both)->describe(coarse::SurfaceMesher::netgen).solids.size(), 2U);
+  EXPECT_EQ(load(both)->describe(surface::SurfaceMesher::netgen).solids.size(), 2U);
 }
 
 TEST(StlModel, BodiesThatLieOnEachOtherStayAsTheyAreIfTheFileNamesTheirSides)

@@ -6,11 +6,11 @@
 namespace tessera::testing {
 
 void add_patch(const model::TriangleSoup& soup, double scale, const Vec3& shift,
-               coarse::PatchSurface& surface)
+               surface::PatchSurface& surface)
 {
   const LocalIndex patch = surface.num_patches();
   for (std::size_t i = 0; i < soup.corner_xyz.size(); i += 9) {
-    coarse::PatchSurface::Triangle v{};
+    surface::PatchSurface::Triangle v{};
     for (std::size_t c = 0; c < 3; ++c) {
       const double* x = &soup.corner_xyz[i + 3 * c];
       const Vec3 point = scale * Vec3{x[0], x[1], x[2]} + shift;

@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "tessera/coarse/coarse_surface.hpp"
-#include "tessera/coarse/options.hpp"
 #include "tessera/cut/cut_mesh.hpp"
 #include "tessera/cut/cut_tree.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/surface/coarse_surface.hpp"
+#include "tessera/surface/options.hpp"
 
 namespace tessera::coarse {
 
@@ -24,35 +24,35 @@ class CoarseMesher {
   /// @throws NetgenError with NETGEN's own words if it gives up, or cannot make a part.
   /// @throws GeometryError if the model has no closed solid.
   /// @throws ConfigError if there are planes, but no solids that could be cut: an STL file.
-  [[nodiscard]] virtual CoarseSurface mesh_surface(const CoarseOptions& options,
-                                                   const cut::CutTree& planes) const = 0;
+  [[nodiscard]] virtual surface::CoarseSurface mesh_surface(const surface::CoarseOptions& options,
+                                                            const cut::CutTree& planes) const = 0;
 
   /// @brief Fills one domain of such a surface, or a hole in one, without a lattice. A pure
   /// function of the arguments. Gives up on a hole early.
   /// @throws NetgenError with NETGEN's own words if it gives up.
-  [[nodiscard]] virtual DomainTets fill_domain(const DomainSkin& skin,
-                                               const CoarseOptions& options) const = 0;
+  [[nodiscard]] virtual surface::DomainTets fill_domain(
+      const surface::DomainSkin& skin, const surface::CoarseOptions& options) const = 0;
 
   /// @brief Better tets in the same skin, with the same boundary. A pure function of the arguments.
-  [[nodiscard]] virtual DomainTets improve_domain(const DomainSkin& skin,
-                                                  DomainTets tets) const = 0;
+  [[nodiscard]] virtual surface::DomainTets improve_domain(const surface::DomainSkin& skin,
+                                                           surface::DomainTets tets) const = 0;
 
   /// @brief Tets of one domain of such a surface: with a lattice inside, where that can be done.
-  [[nodiscard]] virtual DomainTets mesh_domain(const DomainSkin& skin,
-                                               const CoarseOptions& options) const;
+  [[nodiscard]] virtual surface::DomainTets mesh_domain(
+      const surface::DomainSkin& skin, const surface::CoarseOptions& options) const;
 
   /// @brief All steps in turn. @throws MeshError also if the result is not a valid mesh.
-  [[nodiscard]] cut::CutMesh generate_parts(const CoarseOptions& options,
+  [[nodiscard]] cut::CutMesh generate_parts(const surface::CoarseOptions& options,
                                             const cut::CutTree& planes) const;
-  [[nodiscard]] mesh::CoarseMesh generate(const CoarseOptions& options) const
+  [[nodiscard]] mesh::CoarseMesh generate(const surface::CoarseOptions& options) const
   {
     return generate_parts(options, {}).mesh;
   }
 
  protected:
   /// @brief mesh_domain() of all domains. Shape (num_domains).
-  [[nodiscard]] std::vector<DomainTets> mesh_domains(const CoarseSurface& surface,
-                                                     const CoarseOptions& options) const;
+  [[nodiscard]] std::vector<surface::DomainTets> mesh_domains(
+      const surface::CoarseSurface& surface, const surface::CoarseOptions& options) const;
 };
 
 }  // namespace tessera::coarse

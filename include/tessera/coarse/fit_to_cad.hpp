@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "tessera/coarse/own_mesh.hpp"
-#include "tessera/coarse/patch_surface.hpp"
-#include "tessera/coarse/surface_reference.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/surface/patch_surface.hpp"
+#include "tessera/surface/reference.hpp"
 
 namespace tessera::coarse {
 
 /// @brief The surface of a CAD model as triangles, and what the model calls its parts.
 struct CadSurface {
-  PatchSurface triangles{};                 ///< Without patches that have no triangle.
+  surface::PatchSurface triangles{};        ///< Without patches that have no triangle.
   double size = 0.0;                        ///< Edge length that the triangles were made for, > 0.
   std::vector<LocalIndex> patch_surface{};  ///< Shape (num_patches); the Model's surface number.
   std::vector<LocalIndex> curve_number{};   ///< The Model's number of each curve.
@@ -40,7 +40,7 @@ struct CadSurface {
 /// its shortest edge (says the largest distance, and where), a face has no triangles, an edge
 /// between two faces lies on no curve of theirs.
 [[nodiscard]] mesh::CoarseMesh fit_to_cad(const OwnMesh& own, const CadSurface& cad,
-                                          const SurfaceReference& reference,
+                                          const surface::SurfaceReference& reference,
                                           const model::Model& model, const std::string& name);
 
 }  // namespace tessera::coarse

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "tessera/coarse/coarse_surface.hpp"
+#include "tessera/surface/coarse_surface.hpp"
 
 namespace tessera::coarse {
 
@@ -12,15 +12,15 @@ namespace tessera::coarse {
 /// manyholes.geo it takes 0.8 s where NETGEN's optimiser takes 11 s: 185,337 tets for 168,471, mean
 /// ratio 0.872 for 0.851, its 1st percentile 0.71 for 0.65, smallest angle 18.8 for 16.7 degrees.
 /// @note Local. @throws MeshError as optimize::optimize().
-[[nodiscard]] DomainTets optimize_domain(DomainTets tets);
+[[nodiscard]] surface::DomainTets optimize_domain(surface::DomainTets tets);
 
 /// @brief As optimize_domain(), but vertices are moved only. Local.
-[[nodiscard]] DomainTets smooth_domain(DomainTets tets);
+[[nodiscard]] surface::DomainTets smooth_domain(surface::DomainTets tets);
 
 /// @brief Puts vertices into the worst tets of a domain. Local.
 ///
 /// Such tets have their four corners on the skin, as across a thin wall; neither moves nor swaps
 /// help. No new tet has two faces on the skin.
-[[nodiscard]] DomainTets mend_domain(DomainTets tets);
+[[nodiscard]] surface::DomainTets mend_domain(surface::DomainTets tets);
 
 }  // namespace tessera::coarse

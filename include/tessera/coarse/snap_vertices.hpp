@@ -3,9 +3,9 @@
 
 #include <tuple>
 
-#include "tessera/coarse/defeature.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/surface/defeature.hpp"
 
 namespace tessera::coarse {
 
@@ -42,6 +42,6 @@ inline constexpr double kMostOfEdgeOff = 1e-4;
 /// @param[in] merged  What was merged: a vertex at such a place may be off by the tolerance.
 /// @throws GeometryError if a projection fails.
 VertexDistance snap_vertices(mesh::CoarseMesh& mesh, const model::Model& model,
-                             const Defeatured& merged = {});
+                             const surface::Defeatured& merged = {});
 
 }  // namespace tessera::coarse

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "tessera/coarse/options.hpp"
 #include "tessera/cut/options.hpp"
 #include "tessera/decompose/options.hpp"
 #include "tessera/fill/options.hpp"
@@ -18,6 +17,7 @@
 #include "tessera/quality/options.hpp"
 #include "tessera/refine/options.hpp"
 #include "tessera/sizing/options.hpp"
+#include "tessera/surface/options.hpp"
 #include "tessera/topology/options.hpp"
 
 namespace tessera::config {
@@ -44,7 +44,7 @@ struct GeometryOptions {
 struct Case {
   GeometryOptions geometry{};
   sizing::SizeOptions size{};
-  coarse::CoarseOptions coarse{};
+  surface::CoarseOptions coarse{};
   decompose::DecomposeOptions decompose{};
   cut::PlaneSettings planes{};                 ///< Of decompose.method "geometry".
   std::vector<layers::LayerOptions> layers{};  ///< On walls; empty: none.

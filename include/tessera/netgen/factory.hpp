@@ -53,7 +53,7 @@ enum class StepReader : int {
 /// @note Local. @throws NetgenError if its faces cannot be triangulated.
 /// @param[in] mesher Whose triangles a CSG model is described by, with the same numbers and names.
 [[nodiscard]] model::ModelDescription describe_model(
-    const model::Model& model, coarse::SurfaceMesher mesher = coarse::SurfaceMesher::netgen);
+    const model::Model& model, surface::SurfaceMesher mesher = surface::SurfaceMesher::netgen);
 
 /// @brief How much there is to mesh, within a second or so. Length unit of the file.
 /// @note Local. @throws NetgenError

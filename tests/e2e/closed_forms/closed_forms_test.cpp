@@ -109,7 +109,7 @@ class ClosedForms : public ::testing::TestWithParam<TestBody> {
 
   static testing::Body mesh_of(const model::Model& model, double max_size)
   {
-    coarse::CoarseOptions options;
+    surface::CoarseOptions options;
     options.max_size = max_size;
     const mesh::CoarseMesh coarse = netgen::make_coarse_mesher(model)->generate(options);
     mesh::validate(coarse);

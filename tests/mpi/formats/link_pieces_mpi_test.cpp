@@ -17,7 +17,7 @@
 #include "support/box_pieces.hpp"
 #include "support/shared_folder.hpp"
 
-#include "formats/link_pieces.hpp"
+#include "formats/link/link_pieces.hpp"
 
 namespace tessera::formats {
 namespace {

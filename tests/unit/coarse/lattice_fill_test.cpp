@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coarse/lattice_fill.hpp"
+#include "coarse/domains/lattice_fill.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,9 +16,9 @@
 
 #include "support/surfaces.hpp"
 
-#include "coarse/kept_tets.hpp"
-#include "coarse/lattice_points.hpp"
-#include "coarse/skin_distance.hpp"
+#include "coarse/domains/kept_tets.hpp"
+#include "coarse/domains/lattice_points.hpp"
+#include "coarse/domains/skin_distance.hpp"
 #include "voxel_skin.hpp"
 
 namespace tessera::coarse {
@@ -33,16 +33,19 @@ double volume_of(const std::vector<double>& xyz, std::span<const LocalIndex> v)
   return tet_volume(place(xyz, v[0]), place(xyz, v[1]), place(xyz, v[2]), place(xyz, v[3]));
 }
 
-DomainTets no_filler(const DomainSkin& /*hole*/) { throw NetgenError("nothing is filled"); }
+surface::DomainTets no_filler(const surface::DomainSkin& /*hole*/)
+{
+  throw NetgenError("nothing is filled");
+}
 
 // A tet from a new vertex in the middle to each triangle: right if the hole is seen from there.
-DomainTets fan(const DomainSkin& hole)
+surface::DomainTets fan(const surface::DomainSkin& hole)
 {
   const auto middle = static_cast<LocalIndex>(hole.vertex.size());
   Vec3 sum{};
   for (LocalIndex v = 0; v < middle; ++v) sum = sum + place(hole.vertex_xyz, v);
   sum = (1.0 / middle) * sum;
-  DomainTets tets{hole.vertex_xyz, {}};
+  surface::DomainTets tets{hole.vertex_xyz, {}};
   tets.vertex_xyz.insert(tets.vertex_xyz.end(), sum.begin(), sum.end());
   for (std::size_t i = 0; i < hole.triangle_vertices.size(); i += 3) {
     const LocalIndex* v = &hole.triangle_vertices[i];
@@ -53,15 +56,15 @@ DomainTets fan(const DomainSkin& hole)
   return tets;
 }
 
-CoarseOptions options_of(const DomainSkin& skin)
+surface::CoarseOptions options_of(const surface::DomainSkin& skin)
 {
-  CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = skin.max_size;
   return options;
 }
 
 // Triangles by their sorted vertices: how many tets have one.
-std::map<Triangle, int> faces_of(const DomainTets& tets)
+std::map<Triangle, int> faces_of(const surface::DomainTets& tets)
 {
   std::map<Triangle, int> faces;
   for (std::size_t i = 0; i < tets.tet_vertices.size(); ++i) {
@@ -76,7 +79,7 @@ std::map<Triangle, int> faces_of(const DomainTets& tets)
   return faces;
 }
 
-void expect_boundary_is_skin(const DomainSkin& skin, const DomainTets& tets)
+void expect_boundary_is_skin(const surface::DomainSkin& skin, const surface::DomainTets& tets)
 {
   const std::map<Triangle, int> faces = faces_of(tets);
   for (std::size_t i = 0; i < skin.triangle_vertices.size(); i += 3) {
@@ -91,7 +94,7 @@ void expect_boundary_is_skin(const DomainSkin& skin, const DomainTets& tets)
   EXPECT_EQ(3 * std::ranges::count_if(faces, is_single), std::ssize(skin.triangle_vertices));
 }
 
-void expect_fills(const DomainSkin& skin, const DomainTets& tets)
+void expect_fills(const surface::DomainSkin& skin, const surface::DomainTets& tets)
 {
   double volume = 0.0;
   std::vector<char> is_used(tets.vertex_xyz.size() / 3, 0);
@@ -112,9 +115,9 @@ void expect_fills(const DomainSkin& skin, const DomainTets& tets)
 }
 
 // One tet: all of its triangles are faces of the Delaunay tets.
-DomainSkin one_tet()
+surface::DomainSkin one_tet()
 {
-  DomainSkin skin;
+  surface::DomainSkin skin;
   skin.vertex = {0, 1, 2, 3};
   skin.vertex_xyz = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   skin.triangle_vertices = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
@@ -126,7 +129,7 @@ DomainSkin one_tet()
 
 TEST(LatticePoints, LieInsideAndNotNearTheSkin)
 {
-  const DomainSkin skin = testing::l_shape_skin(8, 0.25);
+  const surface::DomainSkin skin = testing::l_shape_skin(8, 0.25);
   const std::vector<double> xyz = lattice_points(skin, options_of(skin));
   ASSERT_GT(xyz.size(), 3 * 50U);
   const SkinDistance distance(skin);
@@ -139,7 +142,7 @@ TEST(LatticePoints, LieInsideAndNotNearTheSkin)
 // A larger edge gives fewer points: spacing grows away from the skin.
 TEST(LatticePoints, GrowUpToTheLargestEdge)
 {
-  DomainSkin skin = testing::cube_skin(16, 0.25);
+  surface::DomainSkin skin = testing::cube_skin(16, 0.25);
   const auto num_fine = lattice_points(skin, options_of(skin)).size();
   skin.max_size = 2.0;
   const auto num_coarse = lattice_points(skin, options_of(skin)).size();
@@ -147,7 +150,7 @@ TEST(LatticePoints, GrowUpToTheLargestEdge)
   EXPECT_GT(num_coarse, 0U);
 }
 
-std::vector<double> all_points(const DomainSkin& skin)
+std::vector<double> all_points(const surface::DomainSkin& skin)
 {
   std::vector<double> xyz = skin.vertex_xyz;
   const std::vector<double> inside = lattice_points(skin, options_of(skin));
@@ -156,13 +159,13 @@ std::vector<double> all_points(const DomainSkin& skin)
 }
 
 // What the tets that are kept leave of a volume, the holes have.
-void expect_holes_have_the_rest(const DomainSkin& skin, const std::vector<double>& xyz,
+void expect_holes_have_the_rest(const surface::DomainSkin& skin, const std::vector<double>& xyz,
                                 KeptTets& kept)
 {
-  const std::vector<DomainSkin> holes = kept.holes();
+  const std::vector<surface::DomainSkin> holes = kept.holes();
   double volume = 0.0;
   std::vector<LocalIndex> vertices;
-  for (const DomainSkin& hole : holes) {
+  for (const surface::DomainSkin& hole : holes) {
     const testing::SurfaceTopology topology = testing::topology_of(hole.triangle_vertices);
     EXPECT_EQ(topology.num_unmatched_edges, 0);
     EXPECT_TRUE(hole.is_hole);
@@ -184,7 +187,7 @@ void expect_holes_have_the_rest(const DomainSkin& skin, const std::vector<double
 
 TEST(KeptTets, HolesHaveWhatTheyLeave)
 {
-  for (const DomainSkin& skin :
+  for (const surface::DomainSkin& skin :
        {testing::cube_skin(4, 0.5), testing::l_shape_skin(6, 1.0 / 3.0), testing::ball_skin(6)}) {
     const std::vector<double> xyz = all_points(skin);
     KeptTets kept(skin, xyz);
@@ -202,7 +205,7 @@ TEST(KeptTets, HolesHaveWhatTheyLeave)
 }
 
 // Flips all squares of a cube_skin(): none of its triangles is a face of a Delaunay tet then.
-DomainSkin with_other_diagonals(DomainSkin skin)
+surface::DomainSkin with_other_diagonals(surface::DomainSkin skin)
 {
   for (std::size_t i = 0; i < skin.triangle_vertices.size(); i += 6) {
     LocalIndex* const v = &skin.triangle_vertices[i];  // a b d, b c d
@@ -214,7 +217,7 @@ DomainSkin with_other_diagonals(DomainSkin skin)
 
 TEST(KeptTets, PointsInsideTellTheSideWhereNoTriangleDoes)
 {
-  DomainSkin skin = with_other_diagonals(testing::cube_skin(6, 1.0));
+  surface::DomainSkin skin = with_other_diagonals(testing::cube_skin(6, 1.0));
   skin.max_size = 0.7;  // Most tets lie deeper than the skin's.
   const std::vector<double> xyz = all_points(skin);
   KeptTets kept(skin, xyz);
@@ -229,14 +232,14 @@ TEST(KeptTets, PointsInsideTellTheSideWhereNoTriangleDoes)
 
 TEST(KeptTets, TrianglesInsideHaveAPatchOfTheirOwn)
 {
-  const DomainSkin skin = testing::cube_skin(4, 0.5);  // Patches 0 to 5.
+  const surface::DomainSkin skin = testing::cube_skin(4, 0.5);  // Patches 0 to 5.
   const std::vector<double> xyz = all_points(skin);
   KeptTets kept(skin, xyz);
   kept.take_out_around(std::array<LocalIndex, 1>{0});
-  const std::vector<DomainSkin> holes = kept.holes();
+  const std::vector<surface::DomainSkin> holes = kept.holes();
   ASSERT_FALSE(holes.empty());
   const auto num_of_skin = static_cast<LocalIndex>(skin.vertex.size());
-  for (const DomainSkin& hole : holes) {
+  for (const surface::DomainSkin& hole : holes) {
     for (std::size_t i = 0; i < hole.triangle_patch.size(); ++i) {
       EXPECT_LE(hole.triangle_patch[i], 6);
       const LocalIndex* v = &hole.triangle_vertices[3 * i];
@@ -251,7 +254,7 @@ TEST(KeptTets, TrianglesInsideHaveAPatchOfTheirOwn)
 
 TEST(FillWithLattice, OneTetNeedsNoFiller)
 {
-  const DomainSkin skin = one_tet();
+  const surface::DomainSkin skin = one_tet();
   const auto tets = fill_with_lattice(skin, options_of(skin), no_filler);
   ASSERT_TRUE(tets.has_value());
   expect_fills(skin, *tets);
@@ -260,7 +263,8 @@ TEST(FillWithLattice, OneTetNeedsNoFiller)
 TEST(FillWithLattice, NoTriangleMissingNeedsNoFiller)
 {
   static_cast<void>(take_noted_repairs());
-  for (const DomainSkin& skin : {testing::cube_skin(6, 1.0), testing::l_shape_skin(8, 0.25)}) {
+  for (const surface::DomainSkin& skin :
+       {testing::cube_skin(6, 1.0), testing::l_shape_skin(8, 0.25)}) {
     const auto tets = fill_with_lattice(skin, options_of(skin), no_filler);
     ASSERT_TRUE(tets.has_value());
     EXPECT_GT(tets->vertex_xyz.size(), skin.vertex_xyz.size());
@@ -272,7 +276,7 @@ TEST(FillWithLattice, NoTriangleMissingNeedsNoFiller)
 TEST(FillWithLattice, AFillerFillsTheHolesOfABall)
 {
   static_cast<void>(take_noted_repairs());
-  const DomainSkin skin = testing::ball_skin(8);
+  const surface::DomainSkin skin = testing::ball_skin(8);
   const auto tets = fill_with_lattice(skin, options_of(skin), fan);
   ASSERT_TRUE(tets.has_value());
   expect_fills(skin, *tets);
@@ -286,9 +290,9 @@ TEST(FillWithLattice, AFillerFillsTheHolesOfABall)
 TEST(FillWithLattice, AFillerThatGivesUpIsAskedAboutLargerHoles)
 {
   static_cast<void>(take_noted_repairs());
-  const DomainSkin skin = testing::ball_skin(8);
+  const surface::DomainSkin skin = testing::ball_skin(8);
   std::vector<double> volumes;
-  const HoleFiller filler = [&](const DomainSkin& hole) -> DomainTets {
+  const HoleFiller filler = [&](const surface::DomainSkin& hole) -> surface::DomainTets {
     volumes.push_back(testing::volume_inside(hole.vertex_xyz, hole.triangle_vertices));
     throw NetgenError("nothing is filled");
   };
@@ -301,14 +305,16 @@ TEST(FillWithLattice, AFillerThatGivesUpIsAskedAboutLargerHoles)
 
 TEST(FillWithLattice, TooLittleIsNoFill)
 {
-  const DomainSkin skin = testing::ball_skin(8);
-  const HoleFiller nothing = [](const DomainSkin& hole) { return DomainTets{hole.vertex_xyz, {}}; };
+  const surface::DomainSkin skin = testing::ball_skin(8);
+  const HoleFiller nothing = [](const surface::DomainSkin& hole) {
+    return surface::DomainTets{hole.vertex_xyz, {}};
+  };
   EXPECT_FALSE(fill_with_lattice(skin, options_of(skin), nothing).has_value());
 }
 
 TEST(FillWithLattice, ASkinThatLooksInwardsIsRefused)
 {
-  DomainSkin skin = one_tet();
+  surface::DomainSkin skin = one_tet();
   for (std::size_t i = 0; i < skin.triangle_vertices.size(); i += 3) {
     std::swap(skin.triangle_vertices[i], skin.triangle_vertices[i + 1]);
   }

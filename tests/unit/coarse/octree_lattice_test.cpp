@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coarse/octree_lattice.hpp"
+#include "coarse/domains/octree_lattice.hpp"
 
 #include <algorithm>
 #include <array>

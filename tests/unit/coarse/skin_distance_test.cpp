@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "coarse/skin_distance.hpp"
+#include "coarse/domains/skin_distance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ std::vector<Vec3> some_points(double low, double high)
 TEST(SkinDistance, OfACube)
 {
   constexpr double kLeast = 0.1;
-  const DomainSkin skin = testing::cube_skin(2, 1.0);
+  const surface::DomainSkin skin = testing::cube_skin(2, 1.0);
   const SkinDistance distance(skin);
   for (const Vec3& p : some_points(-0.5, 2.5)) {
     const double depth = std::min(std::ranges::min(p), 2.0 - std::ranges::max(p));
@@ -51,7 +51,7 @@ double l_shape_depth(const Vec3& p, double size)
 TEST(SkinDistance, OfAnLShape)
 {
   constexpr double kLeast = 0.15;
-  const DomainSkin skin = testing::l_shape_skin(4, 0.5);
+  const surface::DomainSkin skin = testing::l_shape_skin(4, 0.5);
   const SkinDistance distance(skin);
   for (const Vec3& p : some_points(-0.3, 2.3)) {
     EXPECT_EQ(distance.is_inside(p, kLeast), l_shape_depth(p, 2.0) >= kLeast)
@@ -62,7 +62,7 @@ TEST(SkinDistance, OfAnLShape)
 // Points whose nearest place is a vertex or a point of an edge, of a concave corner too.
 TEST(SkinDistance, NearVerticesAndEdges)
 {
-  const DomainSkin skin = testing::l_shape_skin(2, 1.0);
+  const surface::DomainSkin skin = testing::l_shape_skin(2, 1.0);
   const SkinDistance distance(skin);
   const double e = 1e-3;
   for (const double z : {1.0, 0.7}) {  // The edge's vertex, and between its vertices.
@@ -80,7 +80,7 @@ TEST(SkinDistance, NearVerticesAndEdges)
 
 TEST(SkinDistance, OfABall)
 {
-  const DomainSkin skin = testing::ball_skin(6);
+  const surface::DomainSkin skin = testing::ball_skin(6);
   const SkinDistance distance(skin);
   constexpr double kSag = 0.06;  // Of triangles below the sphere.
   for (const Vec3& p : some_points(-1.2, 1.2)) {

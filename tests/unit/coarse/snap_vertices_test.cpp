@@ -56,7 +56,7 @@ TEST_F(SnapVertices, CountsApartWhatWasMerged)
 {
   const LocalIndex v = pull_out(1.01);
   const testing::LazyModel lazy(sphere, 0.5);
-  Defeatured merged{.tolerance = 0.02, .places = {ball.position(v)}};
+  surface::Defeatured merged{.tolerance = 0.02, .places = {ball.position(v)}};
   VertexDistance found = snap_vertices(ball, lazy, merged);
   EXPECT_EQ(found.num_off, 0);
   EXPECT_EQ(found.num_merged, 1);

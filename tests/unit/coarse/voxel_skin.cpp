@@ -37,7 +37,7 @@ class Maker {
     skin_.triangle_patch.insert(skin_.triangle_patch.end(), {patch, patch});
   }
 
-  coarse::DomainSkin take(int n)
+  surface::DomainSkin take(int n)
   {
     skin_.vertex.resize(skin_.vertex_xyz.size() / 3);
     std::iota(skin_.vertex.begin(), skin_.vertex.end(), 0);
@@ -59,13 +59,13 @@ class Maker {
 
   double side_;
   std::map<Place, LocalIndex> row_{};
-  coarse::DomainSkin skin_{};
+  surface::DomainSkin skin_{};
 };
 
 }  // namespace
 
-coarse::DomainSkin voxel_skin(int n, double side,
-                              const std::function<bool(const Place& cell)>& is_inside)
+surface::DomainSkin voxel_skin(int n, double side,
+                               const std::function<bool(const Place& cell)>& is_inside)
 {
   const auto has = [&](const Place& cell) {
     return std::ranges::all_of(cell, [&](int c) { return c >= 0 && c < n; }) && is_inside(cell);
@@ -85,19 +85,19 @@ coarse::DomainSkin voxel_skin(int n, double side,
   return maker.take(n);
 }
 
-coarse::DomainSkin cube_skin(int n, double side)
+surface::DomainSkin cube_skin(int n, double side)
 {
   return voxel_skin(n, side, [](const Place& /*cell*/) { return true; });
 }
 
-coarse::DomainSkin l_shape_skin(int n, double side)
+surface::DomainSkin l_shape_skin(int n, double side)
 {
   return voxel_skin(n, side, [n](const Place& cell) { return 2 * std::min(cell[0], cell[1]) < n; });
 }
 
-coarse::DomainSkin ball_skin(int n)
+surface::DomainSkin ball_skin(int n)
 {
-  coarse::DomainSkin skin = cube_skin(n, 2.0 / n);
+  surface::DomainSkin skin = cube_skin(n, 2.0 / n);
   for (std::size_t i = 0; i < skin.vertex_xyz.size(); i += 3) {
     const Vec3 p = unit(point_at(std::span<const double>(skin.vertex_xyz), i / 3) - Vec3{1, 1, 1});
     std::ranges::copy(p, &skin.vertex_xyz[i]);

@@ -96,7 +96,7 @@ using Types = ::testing::Types<
     mesh::PointLimit, mesh::ProjectionLimiter, improve::Band, improve::PiecePart,
     improve::PieceUpdate, improve::ImproveOptions, subdomain::RegionRecord, subdomain::PieceSummary,
     subdomain::FillResult, subdomain::CoreFigures, subdomain::FailedTries, verify::SeamHash,
-    quality::TetStatistics, quality::QualityHistograms, fill::FillTry, coarse::CoarseOptions,
+    quality::TetStatistics, quality::QualityHistograms, fill::FillTry, surface::CoarseOptions,
     coarse::VertexDistance, decompose::DecomposeReport, decompose::DecomposeResult,
     number::PieceCounts, mesh::HostPoint, number::VertexList, io::LogPlace, check::SubdomainFigures,
     migrate::MeshBlock, migrate::TetColumn, IndexLists, cut::CutReport, cut::CutChoice,

@@ -8,9 +8,9 @@
 namespace tessera::pipeline {
 namespace {
 
-coarse::CoarseOptions sized(double size, double timeout_s = 0.0)
+surface::CoarseOptions sized(double size, double timeout_s = 0.0)
 {
-  coarse::CoarseOptions options;
+  surface::CoarseOptions options;
   options.max_size = size;
   options.timeout_s = timeout_s;
   return options;
@@ -43,7 +43,7 @@ TEST(CoarseBudget, AThousandFacesHaveTheirVerdictWithinThreeMinutesOnTwoRanks)
   run_case.geometry.file = "part.step";
   run_case.coarse.max_size = 1.0 / 6.0;
   double all_s = 0.0;
-  for (const coarse::CoarseOptions& options : coarse_tries(run_case)) {
+  for (const surface::CoarseOptions& options : coarse_tries(run_case)) {
     const double seconds = surface_limits(options, model, all_s == 0.0).cpu_s;
     EXPECT_LE(seconds, 130.0);
     all_s += seconds;
@@ -53,9 +53,9 @@ TEST(CoarseBudget, AThousandFacesHaveTheirVerdictWithinThreeMinutesOnTwoRanks)
 
 TEST(CoarseBudget, OnlyNetgensSurfacesAreWatchedForProgress)
 {
-  coarse::CoarseOptions options = sized(1.0);
+  surface::CoarseOptions options = sized(1.0);
   EXPECT_GT(surface_limits(options, {}, true).idle_cpu_s, 0.0);
-  options.surface_mesher = coarse::SurfaceMesher::remesh;
+  options.surface_mesher = surface::SurfaceMesher::remesh;
   EXPECT_EQ(surface_limits(options, {}, true).idle_cpu_s, 0.0);
 }
 

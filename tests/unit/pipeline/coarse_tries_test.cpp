@@ -10,8 +10,8 @@
 namespace tessera::pipeline {
 namespace {
 
-using coarse::CoarseOptions;
-using coarse::SurfaceMesher;
+using surface::CoarseOptions;
+using surface::SurfaceMesher;
 
 config::Case case_of(const std::string& file)
 {
@@ -49,11 +49,11 @@ INSTANTIATE_TEST_SUITE_P(Kinds, CoarseTriesOfCad,
 TEST(CoarseTries, OfGmshHaveBothSizes)
 {
   config::Case run_case = case_of("part.step");
-  run_case.coarse.mesher = coarse::Mesher::gmsh;
+  run_case.coarse.mesher = surface::Mesher::gmsh;
   const std::vector<CoarseOptions> tries = coarse_tries(run_case);
   ASSERT_EQ(tries.size(), 2U);
   EXPECT_EQ(tries[0], run_case.coarse);
-  EXPECT_EQ(tries[1].mesher, coarse::Mesher::gmsh);
+  EXPECT_EQ(tries[1].mesher, surface::Mesher::gmsh);
   EXPECT_EQ(tries[1].max_size, 5.0);
 }
 

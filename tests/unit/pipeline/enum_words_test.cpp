@@ -2,9 +2,9 @@
 // The words that case files, the command line, reports and messages use are promised to users.
 #include <gtest/gtest.h>
 
-#include "tessera/coarse/options.hpp"
 #include "tessera/fill/options.hpp"
 #include "tessera/io/options.hpp"
+#include "tessera/surface/options.hpp"
 
 #include "pipeline/commands/cli.hpp"
 
@@ -16,8 +16,8 @@ TEST(PromisedWords, AreThese)
   EXPECT_EQ(word_of(fill::KernelKind::netgen), "netgen");
   EXPECT_EQ(word_of(fill::KernelKind::subdivide), "subdivide");
   EXPECT_EQ(word_of(fill::KernelKind::optimize), "optimize");
-  EXPECT_EQ(word_of(coarse::SurfaceMesher::netgen), "netgen");
-  EXPECT_EQ(word_of(coarse::SurfaceMesher::remesh), "remesh");
+  EXPECT_EQ(word_of(surface::SurfaceMesher::netgen), "netgen");
+  EXPECT_EQ(word_of(surface::SurfaceMesher::remesh), "remesh");
   EXPECT_EQ(word_of(io::Format::pvtu), "pvtu");
   EXPECT_EQ(word_of(io::Compression::none), "none");
   EXPECT_EQ(word_of(io::Compression::lz4), "lz4");

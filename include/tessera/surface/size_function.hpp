@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tessera/base/box_tree.hpp"
+#include "tessera/base/vec3.hpp"
+#include "tessera/surface/options.hpp"
+
+namespace tessera::surface {
+
+/// @brief A place that wants short edges: a triangle, a segment (two corners are one) or a point.
+struct SizeSource {
+  std::array<Vec3, 3> corners{};
+  double size = 0.0;  ///< Wanted edge length there.
+};
+
+/// @brief The edge length that is wanted at each place: the largest one, but less near sources,
+/// from which it grows with the distance. Local; a pure function of what was given to it.
+///
+/// The distance is that in space. So a size does not depend on how a surface is divided, and what
+/// is small on one side of a wall is small on the other.
+class SizeFunction {
+ public:
+  /// @brief With the points of the options as sources.
+  explicit SizeFunction(const CoarseOptions& options);
+
+  [[nodiscard]] double largest() const { return largest_; }
+  [[nodiscard]] double operator()(const Vec3& place) const;
+
+  /// @brief Gives it more sources.
+  void limit(const std::vector<SizeSource>& sources);
+
+ private:
+  // Children are node + 1 and `other_child`; a leaf has sources [first, last).
+  struct Node {
+    Box box{};
+    double least = 0.0;  // Smallest size of its sources.
+    LocalIndex other_child = kNoIndex;
+    LocalIndex first = 0;
+    LocalIndex last = 0;
+  };
+
+  LocalIndex build(LocalIndex first, LocalIndex last);
+  [[nodiscard]] double least_in(const Node& node, const Vec3& place) const;
+
+  double largest_;
+  double growth_;
+  std::vector<SizeSource> sources_{};  // In the order of the leaves.
+  std::vector<Node> nodes_{};
+};
+
+}  // namespace tessera::surface

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "coarse/domains/lattice_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/vec3.hpp"
+#include "tessera/surface/size_function.hpp"
+
+#include "coarse/domains/octree_lattice.hpp"
+#include "coarse/domains/skin_distance.hpp"
+
+namespace tessera::coarse {
+namespace {
+
+// Least distance to the skin, in spacings of the lattice. From 0.4 to 0.8 G and quality hardly
+// change: at 0.5 part1.stl, screw.step and linkrods.step have their best mean ratios but for 0.4.
+constexpr double kLeastDistance = 0.5;
+
+// Spacing of the lattice over the largest size. A mesher's edges have 1.18 of it, and lattices of 1
+// gave a fifth more tets than 1.2, at the same G. With 1.1 `size.target` is met: the root mean
+// square of the edges of screw.step and linkrods.step is 0.99 of it.
+constexpr double kSpacingOfSize = 1.1;
+
+// Growth of the wanted spacing with the distance over that on the surface. Good tets need no slow
+// growth. With 3.3 G is 0.955 of NETGEN's and the 1st percentile 1.025, with 4.3 0.950 and 1.020,
+// on 27 files of the corpus; with 0.3 of the distance G is 1.0.
+constexpr double kGrowthOfGrading = 4.0;
+
+// Each triangle wants edges as long as its own.
+std::vector<surface::SizeSource> sizes_of(const std::vector<std::array<Vec3, 3>>& triangles)
+{
+  std::vector<surface::SizeSource> sources;
+  sources.reserve(triangles.size());
+  for (const auto& corners : triangles) {
+    const auto& [a, b, c] = corners;
+    const double squares = dot(b - a, b - a) + dot(c - b, c - b) + dot(a - c, a - c);
+    sources.push_back({.corners = corners, .size = std::sqrt(squares / 3.0)});
+  }
+  return sources;
+}
+
+}  // namespace
+
+std::vector<double> lattice_points(const surface::DomainSkin& skin,
+                                   const surface::CoarseOptions& options)
+{
+  surface::CoarseOptions inside = options;
+  inside.max_size = kSpacingOfSize * std::min(options.max_size, skin.max_size);
+  inside.grading = kGrowthOfGrading * options.grading;
+  const SkinDistance distance(skin);
+  surface::SizeFunction size(inside);
+  size.limit(sizes_of(distance.triangles()));
+  std::vector<double> xyz;
+  const LatticeSpace space{.wanted_edge = std::cref(size),
+                           .is_needed = [&](const Vec3& place, double within) {
+                             return !distance.is_outside(place, within);
+                           }};
+  const std::array<Vec3, 2> box = bounding_box(skin.vertex_xyz);
+  for (const LatticePoint& point : octree_lattice(box, cell_side(inside.max_size), space)) {
+    if (!distance.is_inside(point.xyz, kLeastDistance * point.spacing)) continue;
+    xyz.insert(xyz.end(), point.xyz.begin(), point.xyz.end());
+  }
+  return xyz;
+}
+
+}  // namespace tessera::coarse

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/surface/on_geometry.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "tessera/base/error.hpp"
+#include "tessera/base/repair.hpp"
+#include "tessera/surface/overlap.hpp"
+
+#include "surface/crossings.hpp"
+#include "surface/editable_surface.hpp"
+#include "surface/remesh/patch_folds.hpp"
+#include "surface/remesh/remesh.hpp"
+
+namespace tessera::surface {
+namespace {
+
+// A triangle whose normal turns by more than this cosine says was folded by the move.
+constexpr double kLeastCosine = 0.5;
+
+// In parts of its shortest edge: a vertex that would go farther stays, as its place may be on
+// another branch. With 0.5, one vertex of TSM_104_01_L_DV_A.stp and one of SOT404.stp stayed off
+// fillets.
+constexpr double kMostOfEdge = 0.8;
+
+// Each halves the edges where the surface cuts itself. Faces that lie in each other would be made
+// finer and finer all over: they are given up when there are so many times more triangles.
+constexpr std::size_t kMostGrowth = 3;
+constexpr int kFinerRounds = 5;
+
+// A vertex that another sheet holds back is tried again, as that sheet may have moved away since.
+constexpr int kMostPasses = 4;
+
+class Mover {
+ public:
+  Mover(PatchSurface& surface, const SurfaceReference& reference, const model::Model& model)
+      : surface_(surface),
+        reference_(reference),
+        model_(model),
+        guard_(surface),
+        around_(surface.vertex_xyz.size()),
+        curve_(surface.vertex_xyz.size(), kNoIndex)
+  {
+    for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+      for (const LocalIndex v : surface_.triangles[t])
+        around_[at(v)].push_back(static_cast<LocalIndex>(t));
+    }
+    for (std::size_t e = 0; e < surface_.edges.size(); ++e) {
+      for (const LocalIndex v : surface_.edges[e]) curve_[at(v)] = surface_.edge_curve[e];
+    }
+  }
+
+  void run()
+  {
+    std::vector<std::size_t> left;
+    for (std::size_t v = 0; v < around_.size(); ++v) {
+      if (surface_.vertex_is_fixed[v] == 0 && !around_[v].empty()) left.push_back(v);
+    }
+    for (int pass = 0; pass < kMostPasses && !left.empty(); ++pass) {
+      std::vector<std::size_t> held_back;
+      for (const std::size_t v : left) {
+        if (!move(v, target(v))) held_back.push_back(v);
+      }
+      left = std::move(held_back);
+    }
+  }
+
+ private:
+  [[nodiscard]] Vec3 target(std::size_t v) const
+  {
+    const Vec3& point = surface_.vertex_xyz[v];
+    if (curve_[v] != kNoIndex) {
+      return model_.project_to_curve(curve_[v], point, reference_.curve_parameter(curve_[v], point))
+          .xyz;
+    }
+    const LocalIndex patch = surface_.triangle_patch[at(around_[v].front())];
+    return model_.project_to_surface(patch, point, reference_.parameters(patch, point)).xyz;
+  }
+
+  // Whether that is all: false if another sheet is in the way.
+  bool move(std::size_t v, const Vec3& target)
+  {
+    const Vec3 before = surface_.vertex_xyz[v];
+    if (target == before) return true;
+    double shortest = std::numeric_limits<double>::infinity();
+    std::vector<Vec3> normals;
+    for (const LocalIndex t : around_[v]) {
+      normals.push_back(normal(at(t)));
+      for (const Vec3& corner : surface_.corners(at(t))) {
+        const double length = norm(corner - before);
+        if (length > 0.0) shortest = std::min(shortest, length);
+      }
+    }
+    if (norm(target - before) > kMostOfEdge * shortest) return true;
+    surface_.vertex_xyz[v] = target;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const Vec3 after = normal(at(around_[v][i]));
+      if (dot(after, normals[i]) >= kLeastCosine * norm(after) * norm(normals[i])) continue;
+      surface_.vertex_xyz[v] = before;
+      return true;
+    }
+    if (keep(v)) return true;
+    surface_.vertex_xyz[v] = before;
+    return false;
+  }
+
+  // Unless the triangles around the vertex cut others where it is now.
+  bool keep(std::size_t v)
+  {
+    std::vector<PlacedTriangle> made;
+    for (const LocalIndex t : around_[v]) {
+      made.push_back({surface_.triangles[at(t)], surface_.corners(at(t))});
+    }
+    if (!guard_.allows(around_[v], made)) return false;
+    for (std::size_t i = 0; i < made.size(); ++i) guard_.change(around_[v][i], made[i]);
+    return true;
+  }
+
+  [[nodiscard]] Vec3 normal(std::size_t t) const { return normal_of(surface_.corners(t)); }
+
+  PatchSurface& surface_;
+  const SurfaceReference& reference_;
+  const model::Model& model_;
+  CrossingGuard guard_;
+  std::vector<std::vector<LocalIndex>> around_;  // Triangles of each vertex.
+  std::vector<LocalIndex> curve_;                // Of each vertex that lies on one.
+};
+
+std::vector<std::size_t> triangles_of(const std::vector<Overlap>& overlaps)
+{
+  std::vector<std::size_t> triangles;
+  for (const Overlap& overlap : overlaps) {
+    triangles.push_back(overlap.first);
+    triangles.push_back(overlap.second);
+  }
+  return triangles;
+}
+
+// A surface on the geometry, with shorter edges where it would cut itself or fold.
+class Finer {
+ public:
+  Finer(const SurfaceReference& reference, const model::Model& model, const CoarseOptions& options)
+      : reference_(reference),
+        model_(model),
+        sizes_(size_function_of(reference, options)),
+        surface_(remesh(reference, reference.surface(), sizes_, &model))
+  {
+    if (options.defeature > 0.0) merge({options.defeature, options.kept, std::cref(sizes_)});
+    put_on_geometry(surface_, reference_, model_);
+    most_triangles_ = kMostGrowth * surface_.triangles.size();
+  }
+
+  // Shorter edges at forbidden cuts.
+  void mend_cuts(Forbidden forbidden)
+  {
+    for (int round = 0; round < kFinerRounds && may_grow(); ++round) {
+      const std::vector<Overlap> cuts = forbidden_overlaps(surface_, forbidden);
+      if (cuts.empty()) return;
+      surface_ = finer_at(triangles_of(cuts));
+      note_repair(Repair::finer_at_cuts);
+    }
+  }
+
+  // Shorter edges at cuts that are allowed. Bodies that touch, as a ball and its race, cut each
+  // other however short edges are there: that ends when it does not help.
+  void lessen_allowed_cuts(Forbidden forbidden)
+  {
+    if (forbidden == Forbidden::all_cuts || !forbidden_overlaps(surface_, forbidden).empty())
+      return;
+    std::vector<Overlap> cuts = find_overlaps(surface_);
+    for (int round = 0; round < kFinerRounds && !cuts.empty() && may_grow(); ++round) {
+      try {
+        PatchSurface finer = finer_at(triangles_of(cuts));
+        std::vector<Overlap> left = find_overlaps(finer);
+        if (left.size() >= cuts.size() || !forbidden_overlaps(finer, forbidden).empty()) return;
+        surface_ = std::move(finer);
+        cuts = std::move(left);
+        note_repair(Repair::finer_at_cuts);
+      } catch (const GeometryError&) {
+        return;
+      }
+    }
+  }
+
+  // Shorter edges where the surface would fold, as long as there are fewer such places then. A
+  // projection that fails on the way loses nothing.
+  void mend_folds()
+  {
+    std::vector<std::size_t> folding = folding_triangles(surface_, reference_, model_);
+    if (folding.empty() || is_left_out(Repair::finer_at_folds)) return;
+    std::size_t num_cut = find_overlaps(surface_).size();
+    for (int round = 0; round < kFinerRounds && !folding.empty() && may_grow(); ++round) {
+      try {
+        PatchSurface finer = finer_at(folding);
+        std::vector<std::size_t> left = folding_triangles(finer, reference_, model_);
+        const std::size_t left_cut = find_overlaps(finer).size();
+        if (left.size() >= folding.size() || left_cut > num_cut) return;
+        surface_ = std::move(finer);
+        folding = std::move(left);
+        note_repair(Repair::finer_at_folds);
+        num_cut = left_cut;
+      } catch (const GeometryError&) {
+        return;
+      }
+    }
+  }
+
+  [[nodiscard]] RemeshedSurface take() && { return {std::move(surface_), std::move(defeatured_)}; }
+
+ private:
+  [[nodiscard]] bool may_grow() const { return surface_.triangles.size() <= most_triangles_; }
+
+  // That leaves bad triangles beside what is merged.
+  void merge(const MergeLimits& limits)
+  {
+    defeatured_ = defeature(surface_, reference_, model_, limits);
+    if (defeatured_.is_any()) surface_ = remesh(reference_, surface_, sizes_, &model_);
+  }
+
+  // Edges of half their length at some triangles, from now on.
+  [[nodiscard]] PatchSurface finer_at(const std::vector<std::size_t>& triangles)
+  {
+    std::vector<SizeSource> sources;
+    for (const std::size_t t : triangles) {
+      const std::array<Vec3, 3> p = surface_.corners(t);
+      sources.push_back({p, 0.5 * sizes_((1.0 / 3.0) * (p[0] + p[1] + p[2]))});
+    }
+    sizes_.limit(sources);
+    PatchSurface finer = remesh(reference_, surface_, sizes_, &model_);
+    put_on_geometry(finer, reference_, model_);
+    return finer;
+  }
+
+  const SurfaceReference& reference_;
+  const model::Model& model_;
+  SizeFunction sizes_;
+  PatchSurface surface_;
+  Defeatured defeatured_{};
+  std::size_t most_triangles_ = 0;
+};
+
+}  // namespace
+
+void put_on_geometry(PatchSurface& surface, const SurfaceReference& reference,
+                     const model::Model& model)
+{
+  Mover(surface, reference, model).run();
+}
+
+RemeshedSurface remesh_on_geometry(const SurfaceReference& reference, const model::Model& model,
+                                   const CoarseOptions& options, Forbidden forbidden)
+{
+  Finer surface(reference, model, options);
+  if (!is_left_out(Repair::finer_at_cuts)) {
+    surface.mend_cuts(forbidden);
+    surface.lessen_allowed_cuts(forbidden);
+  }
+  surface.mend_folds();
+  return std::move(surface).take();
+}
+
+}  // namespace tessera::surface

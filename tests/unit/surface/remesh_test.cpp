@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/remesh/remesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/model/triangle_surface.hpp"
+
+#include "support/flat_model.hpp"
+#include "support/stl_models.hpp"
+
+#include "surface/sizes/strip_sizes.hpp"
+
+namespace tessera::surface {
+namespace {
+
+// One patch without curves.
+PatchSurface surface_of(const model::TriangleSoup& soup)
+{
+  const model::TriangleSurface from = model::check_surface(soup, "test").surface;
+  PatchSurface surface;
+  for (LocalIndex v = 0; v < from.num_vertices(); ++v)
+    surface.vertex_xyz.push_back(from.position(v));
+  for (LocalIndex t = 0; t < from.num_triangles(); ++t) {
+    const LocalIndex* v = &from.triangle_vertices[3 * at(t)];
+    surface.triangles.push_back({v[0], v[1], v[2]});
+  }
+  surface.vertex_is_fixed.assign(surface.vertex_xyz.size(), 0);
+  surface.triangle_patch.assign(surface.triangles.size(), 0);
+  surface.patch_materials = {{1, 0}};
+  return surface;
+}
+
+// The cube's twelve edges are curves, one each, and its faces patches; corners are where curves
+// end.
+PatchSurface cube()
+{
+  PatchSurface surface = surface_of(testing::cube_soup());
+  surface.patch_materials.assign(6, {1, 0});
+  std::set<PatchSurface::Edge> edges;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto p = surface.corners(t);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (p[0][axis] != p[1][axis] || p[1][axis] != p[2][axis]) continue;
+      surface.triangle_patch[t] = static_cast<LocalIndex>(2 * axis + (p[0][axis] > 0.5 ? 1 : 0));
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (norm(p[c] - p[(c + 1) % 3]) > 1.1) continue;  // A diagonal.
+      const auto [low, high] =
+          std::minmax(surface.triangles[t][c], surface.triangles[t][(c + 1) % 3]);
+      edges.insert({low, high});
+    }
+  }
+  for (const auto& edge : edges) {
+    surface.edge_curve.push_back(static_cast<LocalIndex>(surface.edges.size()));
+    surface.edges.push_back(edge);
+  }
+  return surface;
+}
+
+double volume_of(const PatchSurface& surface)
+{
+  double volume = 0.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto p = surface.corners(t);
+    volume += dot(p[0], cross(p[1], p[2])) / 6.0;
+  }
+  return volume;
+}
+
+double worst_quality(const PatchSurface& surface)
+{
+  double worst = 1.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto p = surface.corners(t);
+    const Vec3 a = p[1] - p[0];
+    const Vec3 b = p[2] - p[1];
+    const Vec3 c = p[0] - p[2];
+    worst = std::min(
+        worst, 2.0 * std::sqrt(3.0) * norm(cross(a, b)) / (dot(a, a) + dot(b, b) + dot(c, c)));
+  }
+  return worst;
+}
+
+double longest_edge(const PatchSurface& surface)
+{
+  double longest = 0.0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+    const auto p = surface.corners(t);
+    for (std::size_t c = 0; c < 3; ++c) longest = std::max(longest, norm(p[(c + 1) % 3] - p[c]));
+  }
+  return longest;
+}
+
+CoarseOptions of_size(double max_size)
+{
+  CoarseOptions options;
+  options.max_size = max_size;
+  return options;
+}
+
+TEST(Remesh, MakesGoodTrianglesOfTheSizeAskedOnAFlatBody)
+{
+  const SurfaceReference reference(cube());
+  const PatchSurface fine = remesh(reference, of_size(0.1));
+  EXPECT_NO_THROW(validate(fine));
+  EXPECT_NEAR(volume_of(fine), 1.0, 1e-12) << "edges and corners are kept";
+  EXPECT_GT(worst_quality(fine), 0.5);
+  EXPECT_LT(longest_edge(fine), 0.2);
+  EXPECT_GT(longest_edge(fine), 0.05);
+  EXPECT_EQ(std::ranges::count(fine.vertex_is_fixed, 1), 8);
+}
+
+TEST(Remesh, CoarsensWhatIsFinerThanAsked)
+{
+  const SurfaceReference fine(remesh(SurfaceReference(cube()), of_size(0.1)));
+  const PatchSurface coarse = remesh(fine, of_size(0.5));
+  EXPECT_NO_THROW(validate(coarse));
+  EXPECT_LT(4 * coarse.triangles.size(), fine.surface().triangles.size());
+  EXPECT_NEAR(volume_of(coarse), 1.0, 1e-12);
+}
+
+TEST(Remesh, RepairsNeedles)
+{
+  PatchSurface needles = surface_of(testing::sphere_soup(3));
+  for (const std::size_t t : {0U, 100U, 200U}) {
+    const auto& v = needles.triangles[t];
+    const Vec3 a = needles.vertex_xyz[at(v[0])];
+    Vec3& b = needles.vertex_xyz[at(v[1])];
+    b = b + 0.999 * (a - b);
+  }
+  ASSERT_LT(worst_quality(needles), 0.01);
+  const PatchSurface better = remesh(SurfaceReference(needles), of_size(0.5));
+  EXPECT_NO_THROW(validate(better));
+  EXPECT_GT(worst_quality(better), 0.3);
+}
+
+TEST(Remesh, FollowsCurvature)
+{
+  CoarseOptions options = of_size(2.0);
+  options.curvature = 4.0;
+  const PatchSurface sphere =
+      remesh(SurfaceReference(surface_of(testing::sphere_soup(4))), options);
+  EXPECT_NO_THROW(validate(sphere));
+  EXPECT_LT(longest_edge(sphere), 0.7) << "the radius asks for 0.25, the size for 2";
+  EXPECT_NEAR(volume_of(sphere), 4.0 / 3.0 * std::acos(-1.0), 0.25);
+}
+
+TEST(Remesh, DividesCurvesIntoEqualEdges)
+{
+  const PatchSurface fine = remesh(SurfaceReference(cube()), of_size(0.3));
+  EXPECT_EQ(fine.edges.size(), 36U) << "three on each edge of the cube, 1.18 times the size";
+  for (const auto& [a, b] : fine.edges)
+    EXPECT_NEAR(norm(fine.vertex_xyz[at(b)] - fine.vertex_xyz[at(a)]), 1.0 / 3.0, 0.02);
+}
+
+TEST(Remesh, HasShortEdgesInANarrowStripAndNotElsewhere)
+{
+  PatchSurface plate = cube();
+  constexpr double kThickness = 0.04;
+  for (Vec3& p : plate.vertex_xyz) p[2] *= kThickness;
+  const std::vector<SizeSource> strips =
+      narrow_strips_of(EditableSurface(plate, std::vector<double>(8, 1.0)), of_size(1.0));
+  EXPECT_EQ(strips.size(), 8U) << "the long edges of the four narrow faces";
+  for (const SizeSource& strip : strips) EXPECT_NEAR(strip.size, 4.0 * kThickness, 1e-12);
+  EXPECT_TRUE(
+      narrow_strips_of(EditableSurface(cube(), std::vector<double>(8, 1.0)), of_size(1.0)).empty());
+  CoarseOptions merging = of_size(1.0);
+  merging.defeature = 1.1 * kThickness;
+  EXPECT_TRUE(
+      narrow_strips_of(EditableSurface(plate, std::vector<double>(8, 1.0)), merging).empty());
+}
+
+TEST(Remesh, PutsVerticesOfCurvesOnTheModel)
+{
+  // Each edge of the cube is bent outwards by a little.
+  constexpr double kOut = 0.01;
+  class Bent final : public testing::FlatModel {
+   public:
+    [[nodiscard]] model::CurvePoint project_to_curve(LocalIndex, const Vec3& point,
+                                                     double) const override
+    {
+      const Vec3 middle{0.5, 0.5, 0.5};
+      return {point + kOut * unit(point - middle), 0.0};
+    }
+  } const model;
+  const SurfaceReference reference(cube());
+  const PatchSurface bent =
+      remesh(reference, reference.surface(), SizeFunction(of_size(0.3)), &model);
+  int count = 0;
+  for (const auto& edge : bent.edges) {
+    for (const LocalIndex v : edge) {
+      if (bent.vertex_is_fixed[at(v)] != 0) continue;
+      const Vec3& p = bent.vertex_xyz[at(v)];
+      const auto outside = [](double x) { return x < 0.0 || x > 1.0; };
+      EXPECT_TRUE(std::ranges::any_of(p, outside));
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 0);
+}
+
+TEST(Remesh, GivesTheSameBitsAgain)
+{
+  const SurfaceReference reference(surface_of(testing::sphere_soup(3)));
+  EXPECT_EQ(remesh(reference, of_size(0.3)).vertex_xyz, remesh(reference, of_size(0.3)).vertex_xyz);
+}
+
+// Two triangles on each of two sheets that meet in a square; the sheets cut it by one diagonal.
+TEST(PatchSurfaceCheck, AcceptsSheetsWithOneDiagonalOnceTheyAreSeparated)
+{
+  PatchSurface pillow;
+  pillow.vertex_xyz = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  pillow.vertex_is_fixed = {1, 1, 1, 1};
+  pillow.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}};
+  pillow.triangle_patch = {0, 0, 1, 1};
+  pillow.edges = {{0, 1}, {0, 3}, {1, 2}, {2, 3}};
+  pillow.edge_curve = {0, 1, 2, 3};
+  pillow.patch_materials = {{1, 0}, {1, 0}};
+  EXPECT_THROW(validate(pillow), MeshError);
+  separate_patches(pillow);
+  EXPECT_NO_THROW(validate(pillow));
+  EXPECT_EQ(pillow.vertex_xyz.size(), 5U) << "one sheet got a vertex of its own";
+  EXPECT_EQ(pillow.triangles.size(), 6U);
+}
+
+TEST(PatchSurfaceCheck, NamesTheEdgeOfAHole)
+{
+  PatchSurface open = cube();
+  open.triangles.pop_back();
+  open.triangle_patch.pop_back();
+  try {
+    validate(open);
+    FAIL() << "a hole was accepted";
+  } catch (const MeshError& error) {
+    EXPECT_NE(std::string(error.what()).find("1 triangles at the edge ("), std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace tessera::surface
