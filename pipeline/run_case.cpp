@@ -43,6 +43,20 @@
 namespace tessera::pipeline {
 namespace {
 
+// A build without NETGEN fills by itself, if the case says so.
+void require_kernels(const fill::FillOptions& options)
+{
+  if (netgen::netgen_version() != "none") return;
+  bool asks = options.kernel == fill::KernelKind::netgen;
+  for (const fill::FillRegion& region : options.regions) {
+    asks = asks || region.kernel == fill::KernelKind::netgen;
+  }
+  if (!asks) return;
+  throw ConfigError(
+      "this build of tessera has no NETGEN (it was configured with -DTESSERA_WITH_NETGEN=OFF): set "
+      "fill.kernel = \"optimize\", also in every [[fill.region]]");
+}
+
 enum class Purpose : int { mesh, prediction };
 
 // What tets of second order are not made for.
@@ -170,6 +184,7 @@ class CaseRun {
   {
     if (is_resumed()) state().require_begun();
     netgen::require_model_file(given_.geometry.file);  // A mistyped name leaves no folder behind.
+    require_kernels(given_.fill);
     io::require_compression(given_.output.compression);
     const bool is_there = options_.existing == io::ExistingFolder::refuse && is_mesh()
                           && has_files() && state().has_made(given_);

@@ -65,7 +65,7 @@ namespace tessera::pipeline {
 /// @brief run: reads a CAD file; result: bytes of a ModelSource. Needs no load.
 [[nodiscard]] Bytes import_request(const std::filesystem::path& file,
                                    const model::ImportOptions& options,
-                                   netgen::StepReader reader = netgen::StepReader::with_names);
+                                   model::StepReader reader = model::StepReader::with_names);
 
 /// @brief run: where the triangles of an STL file bound no body; result: bytes of a
 /// surface::SurfacePlaces. Needs no load.

@@ -39,7 +39,7 @@ Bytes load_improvement_message(const improve::ImproveOptions& options,
 }
 
 Bytes import_request(const std::filesystem::path& file, const model::ImportOptions& options,
-                     netgen::StepReader reader)
+                     model::StepReader reader)
 {
   return to_bytes(Request(ImportRequest{file.string(), options, reader}));
 }

@@ -87,7 +87,7 @@ using Load = std::variant<ModelLoad, MeshLoad, SegmentLoad, LimiterLoad, Numbers
 struct ImportRequest {
   std::string file{};
   model::ImportOptions options{};
-  netgen::StepReader reader = netgen::StepReader::with_names;
+  model::StepReader reader = model::StepReader::with_names;
 
   static auto fields(auto& self) { return std::tie(self.file, self.options, self.reader); }
 };

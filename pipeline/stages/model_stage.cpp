@@ -62,7 +62,7 @@ model::ModelSource import_in_jobs(
       (has_two_readers(file) || has_two_readers(options.cad)) && !is_left_out(Repair::plain_reader);
   if (has_died(outcome) && may_be_plain) {
     jobs::JobOutcome plain =
-        run_import("model_plain", import_request(file, options, netgen::StepReader::plain));
+        run_import("model_plain", import_request(file, options, model::StepReader::plain));
     if (plain.status == jobs::JobStatus::ok) death = outcome.message;
     if (!death.empty() || plain.status == jobs::JobStatus::cancelled) outcome = std::move(plain);
   }

@@ -16,7 +16,7 @@ class Door {
 
   [[nodiscard]] virtual model::ModelSource import_model(const std::filesystem::path& file,
                                                         const model::ImportOptions& options,
-                                                        StepReader reader) const = 0;
+                                                        model::StepReader reader) const = 0;
   [[nodiscard]] virtual std::unique_ptr<model::Model> load_model(
       const model::ModelSource& source) const = 0;
   [[nodiscard]] virtual model::ModelDescription describe_model(

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/netgen/factory.hpp"
 
-#include <set>
 #include <utility>
 
 #include "tessera/base/error.hpp"
 
+#include "geometry/loaded_model.hpp"
+#include "geometry/own_mesh_model.hpp"
 #include "netgen/door.hpp"
 #include "netgen/fill_kernel.hpp"
-#include "netgen/gmsh_mesher.hpp"
-#include "netgen/loaded_model.hpp"
+#include "netgen/loaders.hpp"
 #include "netgen/model_file.hpp"
+#include "netgen/model_mesher.hpp"
 #include "netgen/skin_overlap.hpp"
 
 namespace tessera::netgen {
@@ -20,50 +21,10 @@ namespace fs = std::filesystem;
 using model::ImportOptions;
 using model::ModelSource;
 
-// What load_model() made, seen as a mesher; the model stays the caller's.
-class MesherOfModel final : public coarse::CoarseMesher {
- public:
-  explicit MesherOfModel(const LoadedModel& model) : model_(model) {}
-
-  [[nodiscard]] surface::CoarseSurface mesh_surface(const surface::CoarseOptions& options,
-                                                    const cut::CutTree& planes) const override
-  {
-    if (options.mesher == surface::Mesher::netgen) return model_.mesh_surface(options, planes);
-    if (planes.num_parts > 0) {
-      throw ConfigError(
-          "coarse.mesher = \"gmsh\" meshes whole models only; with decompose.method = "
-          "\"geometry\" leave it out");
-    }
-    return {.mesh = mesh_with_gmsh(model_, options)};
-  }
-
-  [[nodiscard]] surface::DomainTets fill_domain(
-      const surface::DomainSkin& skin, const surface::CoarseOptions& options) const override
-  {
-    return model_.fill_domain(skin, options);
-  }
-
-  [[nodiscard]] surface::DomainTets improve_domain(const surface::DomainSkin& skin,
-                                                   surface::DomainTets tets) const override
-  {
-    return model_.improve_domain(skin, std::move(tets));
-  }
-
- private:
-  const LoadedModel& model_;
-};
-
-const LoadedModel& loaded(const model::Model& model)
-{
-  const auto* loaded = dynamic_cast<const LoadedModel*>(&model);
-  if (loaded == nullptr) throw MeshError("this needs a model of load_model()");
-  return *loaded;
-}
-
 class NetgenDoor final : public Door {
  public:
   [[nodiscard]] ModelSource import_model(const fs::path& file, const ImportOptions& options,
-                                         StepReader reader) const override
+                                         model::StepReader reader) const override
   {
     require_model_file(file);
     switch (format_of(file)) {
@@ -72,9 +33,12 @@ class NetgenDoor final : public Door {
       case model::Format::stl:
         return import_stl(file, options, reader);
       case model::Format::own:
-        return import_own_mesh(file, options, reader);
+        return geometry::import_own_mesh(file, options,
+                                         [&](const fs::path& cad, const ImportOptions& of_cad) {
+                                           return import_model(cad, of_cad, reader);
+                                         });
       default:
-        return import_occ(file, options, reader);
+        return import_cad(file, options, reader);
     }
   }
 
@@ -86,27 +50,23 @@ class NetgenDoor final : public Door {
   [[nodiscard]] model::ModelDescription describe_model(const model::Model& model,
                                                        surface::SurfaceMesher mesher) const override
   {
-    return loaded(model).describe(mesher);
+    return geometry::as_loaded(model).describe(mesher);
   }
 
   [[nodiscard]] coarse::ModelFigures measure_model(const model::Model& model) const override
   {
-    return loaded(model).figures();
+    return geometry::as_loaded(model).figures();
   }
 
   void name_curves(const model::Model& model, mesh::CoarseMesh& mesh) const override
   {
-    const std::set<LocalIndex> curves(mesh.segment_curve.begin(), mesh.segment_curve.end());
-    mesh.curves.clear();
-    for (const LocalIndex curve : curves) {
-      if (curve != kNoIndex) mesh.curves.push_back(loaded(model).named_curve(curve));
-    }
+    geometry::name_curves(model, mesh);
   }
 
   [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> make_coarse_mesher(
       const model::Model& model) const override
   {
-    return std::make_unique<MesherOfModel>(loaded(model));
+    return std::make_unique<ModelMesher>(geometry::as_loaded(model));
   }
 
   [[nodiscard]] std::unique_ptr<fill::Kernel> make_fill_kernel() const override
@@ -122,12 +82,7 @@ class NetgenDoor final : public Door {
 
 }  // namespace
 
-void LoadedModel::write_brep(const fs::path& /*file*/) const
-{
-  throw ConfigError("coarse.mesher = \"gmsh\" is for .step, .iges and .brep; leave it out");
-}
-
-std::unique_ptr<LoadedModel> load_any_model(const ModelSource& source)
+std::unique_ptr<geometry::LoadedModel> load_any_model(const ModelSource& source)
 {
   switch (source.format) {
     case model::Format::csg:
@@ -135,9 +90,9 @@ std::unique_ptr<LoadedModel> load_any_model(const ModelSource& source)
     case model::Format::stl:
       return load_stl(source);
     case model::Format::occ:
-      return load_occ(source);
+      return load_cad(source);
     case model::Format::own:
-      return load_own_mesh(source);
+      return geometry::load_own_mesh(source, load_any_model);
     default:
       throw InputError(source.file_name + ": unknown format of model");
   }

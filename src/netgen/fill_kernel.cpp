@@ -12,9 +12,9 @@
 #include "tessera/base/vec3.hpp"
 
 #include "netgen/mesh_conversion.hpp"
-#include "netgen/netgen_session.hpp"
-#include "netgen/netgen_versions.hpp"
+#include "netgen/session.hpp"
 #include "netgen/skin_mesh.hpp"
+#include "netgen/versions.hpp"
 
 namespace tessera::netgen {
 namespace {

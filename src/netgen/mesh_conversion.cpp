@@ -12,6 +12,8 @@
 
 #include "tessera/base/error.hpp"
 
+#include "geometry/named_surface.hpp"
+
 namespace tessera::netgen {
 namespace {
 
@@ -105,7 +107,7 @@ class Conversion {
 
   void add_domains(double max_size)
   {
-    netgen::add_domains(
+    geometry::add_domains(
         to_, max_size, [this](LocalIndex domain) { return material(domain); },
         numbers_.material_name);
     if (to_.domain_material.empty()) throw NetgenError("NETGEN's surface encloses nothing");
@@ -230,26 +232,6 @@ class SurfaceConversion {
 coarse::CadSurface surface_of_mesh(const ::netgen::Mesh& from, const GeometryNumbers& numbers)
 {
   return SurfaceConversion(from, numbers).run();
-}
-
-void add_domains(surface::CoarseSurface& surface, double max_size,
-                 const std::function<LocalIndex(LocalIndex)>& material,
-                 const std::function<std::string(LocalIndex)>& material_name)
-{
-  LocalIndex num_domains = 0;
-  for (const auto& [out_of, into] : surface.face_domains) {
-    num_domains = std::max({num_domains, out_of, into});
-  }
-  surface.domain_max_size.assign(at(num_domains), max_size);
-  LocalIndex num_materials = 0;
-  for (LocalIndex domain = 1; domain <= num_domains; ++domain) {
-    surface.domain_material.push_back(material(domain));
-    num_materials = std::max(num_materials, surface.domain_material.back());
-  }
-  for (LocalIndex m = 1; m <= num_materials; ++m) {
-    const std::string given = material_name ? material_name(m) : "";
-    surface.mesh.material_names.push_back(given.empty() ? fmt::format("material_{}", m) : given);
-  }
 }
 
 surface::CoarseSurface to_coarse_surface(const ::netgen::Mesh& from, const GeometryNumbers& numbers,

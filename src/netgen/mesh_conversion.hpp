@@ -59,13 +59,6 @@ struct GeometryNumbers {
                                                        const GeometryNumbers& numbers,
                                                        double max_size, const std::string& what);
 
-/// @brief Adds the domains that faces bound, and their materials. Local.
-/// @param[in] material      Of a domain, both from 1.
-/// @param[in] material_name May be empty, and give empty texts: "material_N".
-void add_domains(surface::CoarseSurface& surface, double max_size,
-                 const std::function<LocalIndex(LocalIndex)>& material,
-                 const std::function<std::string(LocalIndex)>& material_name);
-
 /// @brief Adds tets of ours, corners as rows of vertices, all of one domain. Local.
 void add_tets(::netgen::Mesh& mesh, const std::vector<LocalIndex>& tet_vertices, int domain = 1);
 

@@ -82,7 +82,7 @@ model::Format format_of(const fs::path& file)
 
 void require_model_file(const fs::path& file)
 {
-  static_cast<void>(format_of(file));
+  require_reader(format_of(file));
   require_readable(file);
 }
 

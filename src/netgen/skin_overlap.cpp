@@ -3,7 +3,7 @@
 
 #include <meshing.hpp>
 
-#include "netgen/netgen_session.hpp"
+#include "netgen/session.hpp"
 #include "netgen/skin_mesh.hpp"
 
 namespace tessera::netgen {

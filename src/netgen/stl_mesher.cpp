@@ -13,9 +13,9 @@
 #include "tessera/base/error.hpp"
 
 #include "netgen/mesh_conversion.hpp"
-#include "netgen/netgen_session.hpp"
-#include "netgen/netgen_versions.hpp"
+#include "netgen/session.hpp"
 #include "netgen/size_file.hpp"
+#include "netgen/versions.hpp"
 
 namespace tessera::netgen {
 namespace {

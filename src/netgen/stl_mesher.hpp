@@ -8,7 +8,7 @@
 #include "tessera/model/triangle_surface.hpp"
 #include "tessera/surface/options.hpp"
 
-#include "netgen/loaded_model.hpp"
+#include "netgen/model_mesher.hpp"
 
 namespace tessera::netgen {
 

@@ -22,8 +22,8 @@
 #include "tessera/netgen/factory.hpp"
 #include "tessera/quality/tet_quality.hpp"
 
-#include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
+#include "netgen/model_mesher.hpp"
 
 namespace tessera {
 namespace {
@@ -73,10 +73,10 @@ Quality quality_of(const ::netgen::Mesh& mesh)
 Refined refine(const std::string& file, int levels, const surface::CoarseOptions& options)
 {
   const auto model = netgen::load_model(netgen::import_model(file, {}));
-  const auto& loaded = dynamic_cast<const netgen::LoadedModel&>(*model);
+  const auto& loaded = dynamic_cast<const geometry::LoadedModel&>(*model);
   Refined refined;
-  const mesh::CoarseMesh coarse =
-      loaded.generate(options, [&](const ::netgen::NetgenGeometry& geometry, ::netgen::Mesh& mesh) {
+  const mesh::CoarseMesh coarse = netgen::ModelMesher(loaded).generate(
+      options, [&](const ::netgen::NetgenGeometry& geometry, ::netgen::Mesh& mesh) {
         refined.coarse = quality_of(mesh);
         const ::netgen::Refinement& refinement = geometry.GetRefinement();
         for (int level = 0; level < levels; ++level) {

@@ -21,7 +21,8 @@
 #include "tessera/surface/on_geometry.hpp"
 #include "tessera/surface/overlap.hpp"
 
-#include "netgen/loaded_model.hpp"
+#include "netgen/loaders.hpp"
+#include "netgen/model_mesher.hpp"
 
 namespace tessera {
 namespace {
@@ -85,14 +86,14 @@ double smallest_dihedral_deg(const mesh::CoarseMesh& mesh)
   return quality::angle_deg(largest_cosine);
 }
 
-double size_from(const std::string& word, const netgen::LoadedModel& model)
+double size_from(const std::string& word, const geometry::LoadedModel& model)
 {
   const double number = std::stod(word);
   return word.back() == '%' ? 0.01 * number * model.box_diagonal() : number;
 }
 
 // The surface as a run makes it, and its tets.
-void fill(const netgen::LoadedModel& model, surface::CoarseOptions options,
+void fill(const geometry::LoadedModel& model, surface::CoarseOptions options,
           surface::SurfaceMesher mesher)
 {
   options.surface_mesher = mesher;
@@ -104,7 +105,7 @@ void fill(const netgen::LoadedModel& model, surface::CoarseOptions options,
     std::printf(", %.1f s", cpu_seconds() - begin);
     std::vector<surface::DomainTets> tets;
     for (LocalIndex d = 1; d <= surface.num_domains(); ++d) {
-      tets.push_back(model.mesh_domain(surface::skin_of(surface, d), options));
+      tets.push_back(netgen::ModelMesher(model).mesh_domain(surface::skin_of(surface, d), options));
     }
     const mesh::CoarseMesh mesh = surface::fill_surface(std::move(surface), tets).mesh;
     std::printf("; %d tets, smallest dihedral angle %.2f deg, %.1f s\n", mesh.num_tets(),

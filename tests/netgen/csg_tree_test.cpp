@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "netgen/csg_tree.hpp"
-
 #include <cmath>
 #include <memory>
 #include <set>
@@ -9,8 +7,9 @@
 
 #include "tessera/base/vec3.hpp"
 
-#include "netgen/csg_access.hpp"
-#include "netgen/csg_parse.hpp"
+#include "netgen/csg/access.hpp"
+#include "netgen/csg/parse.hpp"
+#include "netgen/csg/tree.hpp"
 
 namespace tessera::netgen {
 namespace {

@@ -11,8 +11,8 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
 
-#include "netgen/loaded_model.hpp"
 #include "netgen/mesh_conversion.hpp"
+#include "netgen/model_mesher.hpp"
 #include "netgen/occ_fixture.hpp"
 
 namespace tessera {
@@ -22,8 +22,8 @@ class NetgenForm : public ::testing::TestWithParam<std::pair<const char*, double
  protected:
   [[nodiscard]] mesh::CoarseMesh generate(const netgen::NetgenMeshUser& use) const
   {
-    const auto& loaded = dynamic_cast<const netgen::LoadedModel&>(*model_);
-    return loaded.generate({.max_size = GetParam().second}, use);
+    const auto& loaded = dynamic_cast<const geometry::LoadedModel&>(*model_);
+    return netgen::ModelMesher(loaded).generate({.max_size = GetParam().second}, use);
   }
 
   std::unique_ptr<model::Model> model_ = testing::load_own(GetParam().first);

@@ -199,7 +199,7 @@ TEST_F(OccImport, UnitAndNumbersAreTheFiles)
     const model::ModelSource source = netgen::import_model(file, {});
     EXPECT_EQ(source.length_unit, name);
     EXPECT_NEAR(netgen::load_model(source)->box_diagonal(), 2.0 * std::sqrt(3.0), 1e-5);
-    const model::ModelSource plain = netgen::import_model(file, {}, netgen::StepReader::plain);
+    const model::ModelSource plain = netgen::import_model(file, {}, model::StepReader::plain);
     EXPECT_EQ(plain.length_unit, name);
     EXPECT_NEAR(netgen::load_model(plain)->box_diagonal(), 2.0 * std::sqrt(3.0), 1e-5);
   }
@@ -211,7 +211,7 @@ TEST_F(OccImport, PlainStepReaderReadsTheSameShapesAndSaysWhatItLost)
   for (const char* name : {"sphere.step", "bracket.step", "two_blocks.step"}) {
     const model::ModelSource source = netgen::import_model(own_model(name), {});
     const model::ModelSource plain =
-        netgen::import_model(own_model(name), {}, netgen::StepReader::plain);
+        netgen::import_model(own_model(name), {}, model::StepReader::plain);
     EXPECT_EQ(plain.length_unit, source.length_unit);
     ASSERT_FALSE(plain.repairs.empty());
     EXPECT_TRUE(contains(plain.repairs.front(), "plain reader")) << plain.repairs.front();

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "netgen/occ_overlaps.hpp"
-
 #include <ostream>
 #include <set>
 #include <string>
@@ -16,10 +14,11 @@
 
 #include "support/temporary_folder.hpp"
 
+#include "cad/heal/overlaps.hpp"
+#include "cad/shape.hpp"
 #include "netgen/occ_fixture.hpp"
-#include "netgen/occ_shape.hpp"
 
-namespace tessera::netgen {
+namespace tessera::cad {
 namespace {
 
 constexpr double kGap = 2e-6;  // More than OpenCASCADE takes for one, and nothing in a mesh.
@@ -146,4 +145,4 @@ TEST(OccOverlapsOf, ATubeWithoutAWallStayAndAreReported)
 }
 
 }  // namespace
-}  // namespace tessera::netgen
+}  // namespace tessera::cad

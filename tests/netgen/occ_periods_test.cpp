@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "netgen/occ_periods.hpp"
-
 #include <numbers>
 
 #include <BRepBuilderAPI_MakeEdge.hxx>
@@ -20,8 +18,9 @@
 #include <gp_Ax1.hxx>
 #include <gtest/gtest.h>
 
-#include "netgen/occ_cad_file.hpp"
-#include "netgen/occ_shape.hpp"
+#include "cad/cad_file.hpp"
+#include "cad/heal/periods.hpp"
+#include "cad/shape.hpp"
 
 namespace tessera {
 namespace {
@@ -92,46 +91,46 @@ TopoDS_Edge false_point(const TopoDS_Face& face)
 
 int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind)
 {
-  return static_cast<int>(netgen::parts_of(shape, kind).size());
+  return static_cast<int>(cad::parts_of(shape, kind).size());
 }
 
 TEST(OccPeriods, CurveInAnotherPeriodIsMovedBack)
 {
   const TopoDS_Shape shape = pin();
-  const double volume = netgen::volume_of(shape);
+  const double volume = cad::volume_of(shape);
   move_a_rim(foot_of(shape));
   ASSERT_FALSE(BRepCheck_Analyzer(shape).IsValid());
   ShapeBuild_ReShape changes;
-  const TopoDS_Shape closed = netgen::with_closed_wires(shape, changes);
+  const TopoDS_Shape closed = cad::with_closed_wires(shape, changes);
   EXPECT_TRUE(BRepCheck_Analyzer(closed).IsValid());
-  EXPECT_NEAR(netgen::volume_of(closed), volume, 1e-9 * volume);
+  EXPECT_NEAR(cad::volume_of(closed), volume, 1e-9 * volume);
 }
 
 TEST(OccPeriods, EdgeThatIsFalselyAPointIsLeftOut)
 {
   const TopoDS_Shape shape = pin();
-  ASSERT_FALSE(netgen::has_false_points(shape));
+  ASSERT_FALSE(cad::has_false_points(shape));
   const TopoDS_Face foot = foot_of(shape);
   TopoDS_Wire wire = TopoDS::Wire(TopExp_Explorer(foot, TopAbs_WIRE).Current());
   wire.Free(Standard_True);
   BRep_Builder().Add(wire, false_point(foot));
-  ASSERT_TRUE(netgen::has_false_points(shape));
+  ASSERT_TRUE(cad::has_false_points(shape));
   ShapeBuild_ReShape changes;
-  const TopoDS_Shape closed = netgen::with_closed_wires(shape, changes);
-  EXPECT_FALSE(netgen::has_false_points(closed));
+  const TopoDS_Shape closed = cad::with_closed_wires(shape, changes);
+  EXPECT_FALSE(cad::has_false_points(closed));
   EXPECT_TRUE(BRepCheck_Analyzer(closed).IsValid());
   EXPECT_EQ(count(closed, TopAbs_EDGE), count(pin(), TopAbs_EDGE));
 }
 
 TEST(OccPeriods, SolidKeepsItsFaces)
 {
-  netgen::CadFile cad{.shape = pin()};
-  const double volume = netgen::volume_of(cad.shape);
+  cad::CadFile cad{.shape = pin()};
+  const double volume = cad::volume_of(cad.shape);
   const int num_faces = count(cad.shape, TopAbs_FACE);
   move_a_rim(foot_of(cad.shape));
-  netgen::make_closed_solids(cad, {});
+  cad::make_closed_solids(cad, {});
   EXPECT_EQ(count(cad.shape, TopAbs_FACE), num_faces);
-  EXPECT_NEAR(netgen::volume_of(cad.shape), volume, 1e-9 * volume);
+  EXPECT_NEAR(cad::volume_of(cad.shape), volume, 1e-9 * volume);
   ASSERT_EQ(cad.repairs.size(), 1U);
   EXPECT_NE(cad.repairs[0].find("periodic"), std::string::npos) << cad.repairs[0];
 }
@@ -141,9 +140,9 @@ TEST(OccPeriods, SoundSolidIsLeftAlone)
   const TopoDS_Shape shape = pin();
   ASSERT_TRUE(BRepCheck_Analyzer(shape).IsValid());
   ShapeBuild_ReShape changes;
-  EXPECT_TRUE(netgen::with_closed_wires(shape, changes).IsSame(shape));
-  netgen::CadFile cad{.shape = shape};
-  netgen::make_closed_solids(cad, {});
+  EXPECT_TRUE(cad::with_closed_wires(shape, changes).IsSame(shape));
+  cad::CadFile cad{.shape = shape};
+  cad::make_closed_solids(cad, {});
   EXPECT_TRUE(cad.repairs.empty()) << cad.repairs.front();
 }
 

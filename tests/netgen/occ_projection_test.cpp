@@ -23,10 +23,10 @@
 #include <gp_Ax3.hxx>
 #include <gtest/gtest.h>
 
-#include "netgen/occ_curve.hpp"
+#include "cad/project/curve.hpp"
+#include "cad/project/surface.hpp"
+#include "cad/project/trim.hpp"
 #include "netgen/occ_fixture.hpp"
-#include "netgen/occ_surface.hpp"
-#include "netgen/occ_trim.hpp"
 
 namespace tessera {
 namespace {
@@ -174,7 +174,7 @@ TEST(OccProjection, ATrimmedSurfaceHasTheSeamOfItsFace)
   const Handle(Geom_Surface) bend =
       new Geom_RectangularTrimmedSurface(BRep_Tool::Surface(face), 0.0, 1.0, 0.0, 2.0 * kPi);
   ASSERT_FALSE(bend->IsVClosed() || bend->IsVPeriodic());
-  const netgen::OccSurface surface(on_surface(face, bend), 26.0, 1);
+  const cad::OccSurface surface(on_surface(face, bend), 26.0, 1);
   const auto at = [&](double u, double v) {
     const gp_Pnt p = bend->Value(u, v);
     return Vec3{p.X(), p.Y(), p.Z()};
@@ -276,8 +276,8 @@ TopoDS_Face thread_of(double radius, double rounds, double pitch, double width)
 TEST(OccTrim, AFaceGoesRoundMoreThanOnce)
 {
   const TopoDS_Face face = thread_of(5.0, 1.9, 2.0, 1.0);
-  const netgen::OccTrim trim(face, {2.0 * kPi, 0.0}, 64);
-  const netgen::OccSurface surface(face, 20.0, 1);
+  const cad::OccTrim trim(face, {2.0 * kPi, 0.0}, 64);
+  const cad::OccSurface surface(face, 20.0, 1);
   for (double u = 0.2; u < 1.9 * 2.0 * kPi; u += 0.11) {
     const double low = u / kPi;
     for (const double branch : {-2.0 * kPi, 0.0, 2.0 * kPi}) {
@@ -295,7 +295,7 @@ TEST(OccTolerance, OfAnEndIsThatOfTheVertexWhereThePointIs)
   const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(1, 0, 0));
   BRep_Builder().UpdateVertex(TopExp::LastVertex(edge), 0.01);
   const auto tolerance_at = [&](double box_diagonal, const Vec3& point) {
-    return netgen::OccCurve(edge, box_diagonal).end_tolerance(point);
+    return cad::OccCurve(edge, box_diagonal).end_tolerance(point);
   };
   EXPECT_DOUBLE_EQ(tolerance_at(100.0, {1.0, 0.005, 0.0}), 0.01);
   EXPECT_LT(tolerance_at(100.0, {1.0, 0.05, 0.0}), 1e-5) << "not at the vertex";

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "netgen/occ_triangulation.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -33,17 +31,18 @@
 
 #include "support/temporary_folder.hpp"
 
+#include "cad/shape.hpp"
+#include "cad/triangles/triangulation.hpp"
+#include "geometry/polygon_triangles.hpp"
 #include "netgen/occ_fixture.hpp"
-#include "netgen/occ_shape.hpp"
-#include "netgen/polygon_triangles.hpp"
 
-namespace tessera::netgen {
+namespace tessera::cad {
 namespace {
 
-using Point = PlaneMesh::Point;
+using Point = geometry::PlaneMesh::Point;
 using Edge = std::pair<int, int>;
 
-double area_of(const PlaneMesh& mesh)
+double area_of(const geometry::PlaneMesh& mesh)
 {
   double area = 0.0;
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -61,22 +60,22 @@ double area_of(const PlaneMesh& mesh)
 const std::vector<Point> kSquareWithHole{{0, 0},     {0.5, 0},   {1, 0},    {1, 0.5},
                                          {1, 1},     {0.5, 1},   {0, 1},    {0, 0.5},
                                          {0.4, 0.4}, {0.4, 0.6}, {0.6, 0.5}};
-const std::vector<PlaneMesh::Loop> kItsLoops{{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10}};
+const std::vector<geometry::PlaneMesh::Loop> kItsLoops{{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10}};
 
 TEST(PolygonTriangles, CoverAPolygonWithAHoleOnce)
 {
-  const PlaneMesh mesh = triangulate_polygon(kSquareWithHole, kItsLoops);
+  const geometry::PlaneMesh mesh = geometry::triangulate_polygon(kSquareWithHole, kItsLoops);
   EXPECT_EQ(mesh.points, kSquareWithHole);
   EXPECT_NEAR(area_of(mesh), 1.0 - 0.02, 1e-12);
 }
 
 TEST(PolygonTriangles, RefinementLeavesTheSidesWhole)
 {
-  PlaneMesh mesh = triangulate_polygon(kSquareWithHole, kItsLoops);
+  geometry::PlaneMesh mesh = geometry::triangulate_polygon(kSquareWithHole, kItsLoops);
   const auto is_long = [](const Point& a, const Point& b) {
     return std::hypot(a[0] - b[0], a[1] - b[1]) > 0.2;
   };
-  refine_inside(mesh, is_long, 1000);
+  geometry::refine_inside(mesh, is_long, 1000);
   EXPECT_NEAR(area_of(mesh), 0.98, 1e-12);
   EXPECT_GT(mesh.points.size(), kSquareWithHole.size());
   std::map<Edge, int> count;
@@ -90,8 +89,8 @@ TEST(PolygonTriangles, RefinementLeavesTheSidesWhole)
 
 TEST(PolygonTriangles, ThereAreNoneOfAPolygonThatCrossesItself)
 {
-  EXPECT_TRUE(
-      triangulate_polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {{0, 1, 2, 3}}).triangles.empty());
+  EXPECT_TRUE(geometry::triangulate_polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}}, {{0, 1, 2, 3}})
+                  .triangles.empty());
 }
 
 double area_of(const Poly_Triangulation& mesh)
@@ -254,4 +253,4 @@ TEST(OccTriangulation, SamplesAreOnTheFaceAndHaveParameters)
 }
 
 }  // namespace
-}  // namespace tessera::netgen
+}  // namespace tessera::cad

@@ -16,7 +16,8 @@
 
 #include "support/temporary_file.hpp"
 
-#include "netgen/loaded_model.hpp"
+#include "netgen/loaders.hpp"
+#include "netgen/model_mesher.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -61,18 +62,19 @@ class OwnMeshOf : public ::testing::TestWithParam<Sample> {
     model_ = load_any_model(import_model(cad_, {}));
     surface::CoarseOptions options;
     options.max_size = GetParam().size;
-    made_ = model_->generate(
+    made_ = ModelMesher(*model_).generate(
         options, [&](const auto&, ::netgen::Mesh& mesh) { mesh.Save(file_.path().string()); });
   }
 
   [[nodiscard]] mesh::CoarseMesh read_with(const model::ImportOptions& options) const
   {
-    return load_any_model(import_model(file_.path(), options))->generate({});
+    const auto model = load_any_model(import_model(file_.path(), options));
+    return ModelMesher(*model).generate({});
   }
 
   fs::path cad_{};
   TemporaryFile file_{"mesh.vol", ""};
-  std::unique_ptr<LoadedModel> model_{};
+  std::unique_ptr<geometry::LoadedModel> model_{};
   mesh::CoarseMesh made_{};
 };
 
@@ -114,7 +116,7 @@ TEST(OwnMesh, OfAnotherSizeIsRefusedWithTheDistance)
   const auto model =
       load_any_model(import_model(folder / "cylinder.msh", {.cad = folder / "torus.step"}));
   try {
-    (void)model->generate({});
+    (void)ModelMesher(*model).generate({});
     FAIL() << "not refused";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("the largest distance"), std::string::npos)

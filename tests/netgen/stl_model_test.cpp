@@ -19,7 +19,8 @@
 #include "support/stl_models.hpp"
 #include "support/temporary_file.hpp"
 
-#include "netgen/loaded_model.hpp"
+#include "netgen/loaders.hpp"
+#include "netgen/model_mesher.hpp"
 
 namespace tessera::netgen {
 namespace {
@@ -36,29 +37,29 @@ model::ModelSource import(const model::TriangleSoup& soup)
   return import_stl(file.path(), {});
 }
 
-std::unique_ptr<LoadedModel> load(const model::TriangleSoup& soup)
+std::unique_ptr<geometry::LoadedModel> load(const model::TriangleSoup& soup)
 {
   return load_stl(import(soup));
 }
 
-mesh::CoarseMesh mesh_of(const LoadedModel& model, double max_size)
+mesh::CoarseMesh mesh_of(const geometry::LoadedModel& model, double max_size)
 {
   surface::CoarseOptions options;
   options.max_size = max_size;
-  return model.generate(options);
+  return ModelMesher(model).generate(options);
 }
 
-double distance_to_surface(const LoadedModel& model, LocalIndex surface, const Vec3& p)
+double distance_to_surface(const geometry::LoadedModel& model, LocalIndex surface, const Vec3& p)
 {
   return norm(model.project_to_surface(surface, p, {}).xyz - p);
 }
 
-double distance_to_curve(const LoadedModel& model, LocalIndex curve, const Vec3& p)
+double distance_to_curve(const geometry::LoadedModel& model, LocalIndex curve, const Vec3& p)
 {
   return norm(model.project_to_curve(curve, p, 0.0).xyz - p);
 }
 
-void expect_on_model(const LoadedModel& model, const mesh::CoarseMesh& mesh)
+void expect_on_model(const geometry::LoadedModel& model, const mesh::CoarseMesh& mesh)
 {
   EXPECT_NO_THROW(mesh::validate(mesh));
   for (std::size_t i = 0; i < mesh.face_vertices.size(); ++i) {
@@ -231,7 +232,7 @@ surface::CoarseOptions rough_remesh()
 TEST(StlModel, RemeshedWallThinnerThanItsTrianglesIsRefinedUntilItIsSound)
 {
   const auto model = load(thin_walled_ball());
-  const mesh::CoarseMesh mesh = model->generate(rough_remesh());
+  const mesh::CoarseMesh mesh = ModelMesher(*model).generate(rough_remesh());
   expect_on_model(*model, mesh);
   const double exact = 4.0 / 3.0 * std::numbers::pi * (1.0 - std::pow(0.6, 3));
   EXPECT_LT(testing::volume_of(mesh), 1.05 * exact) << "chords make the hole smaller, too";
@@ -243,7 +244,7 @@ TEST(StlModel, RemeshedBodiesThatOverlapAreRefusedWithTheirFacesAndThePlace)
   model::TriangleSoup both = joined(cube_soup(), cube_soup({0.6, 0.7, 0.8}, 1.0));
   both.solid_names = {"left", "right"};
   try {
-    (void)load(both)->generate(rough_remesh());
+    (void)ModelMesher(*load(both)).generate(rough_remesh());
     FAIL() << "bodies that overlap were meshed";
   } catch (const MeshError& error) {
     EXPECT_TRUE(std::string(error.what()).find("the surface cuts itself at") != std::string::npos)
@@ -325,7 +326,7 @@ TEST(StlModel, PlainReaderJoinsNothing)
 {
   const testing::TemporaryFile file(
       "model.stl", testing::ascii_stl(in_one_solid(cube_soup(), cube_soup({0.2, 0.3, 1.0}, 0.5))));
-  EXPECT_TRUE(import_stl(file.path(), {}, StepReader::plain).repairs.empty());
+  EXPECT_TRUE(import_stl(file.path(), {}, model::StepReader::plain).repairs.empty());
 }
 
 TEST(StlModel, OwnModelsGiveGoodCoarseMeshes)

@@ -143,4 +143,11 @@ struct Wrap {
 /// Local.
 [[nodiscard]] std::string defect_of(const PartName& name);
 
+/// @brief Readers of STEP and STL.
+enum class StepReader : int {
+  with_names,  ///< Names, colours, assemblies: goes through most of a file. Joins what touches.
+  plain,       ///< Shapes only, and these as they are in the file: for what kills the other one.
+};
+[[nodiscard]] constexpr StepReader last_value(StepReader /*type*/) { return StepReader::plain; }
+
 }  // namespace tessera::model

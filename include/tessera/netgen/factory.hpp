@@ -10,11 +10,12 @@
 #include "tessera/fill/kernel.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
+#include "tessera/model/options.hpp"
 
 /// The only door to NETGEN and OpenCASCADE; free of their types. Everything behind it may crash,
 /// exit or hang, so the program calls it in jobs only, unless it says otherwise. It stands in a
 /// library of its own, which the first call loads: MPI's ranks never do. In a build without NETGEN
-/// everything but load_library(), is_model_name() and netgen_version() throws ConfigError.
+/// meshes of the user's and STL files can be read, and nothing can be meshed: ConfigError.
 namespace tessera::netgen {
 
 /// @brief Loads that library now, so that processes that are forked from this one need not. Local.
@@ -29,22 +30,15 @@ void require_model_file(const std::filesystem::path& file);
 /// Calls no library: for any process. In a build without NETGEN no name is. Local.
 [[nodiscard]] bool is_model_name(const std::filesystem::path& file);
 
-/// @brief Readers of STEP and STL.
-enum class StepReader : int {
-  with_names,  ///< Names, colours, assemblies: goes through most of a file. Joins what touches.
-  plain,       ///< Shapes only, and these as they are in the file: for what kills the other one.
-};
-[[nodiscard]] constexpr StepReader last_value(StepReader /*type*/) { return StepReader::plain; }
-
 /// @brief Reads a CAD file by its extension (.geo .stl .step .stp .iges .igs .brep) and checks it.
 /// @note Local.
 /// @param[in] reader  Of a STEP or STL file; others have one reader. What the plain one loses is
 /// said in ModelSource::repairs.
 /// @throws InputError as require_model_file().
 /// @throws GeometryError if it holds no closed solid (names the open edges, the missing solid, …).
-[[nodiscard]] model::ModelSource import_model(const std::filesystem::path& file,
-                                              const model::ImportOptions& options,
-                                              StepReader reader = StepReader::with_names);
+[[nodiscard]] model::ModelSource import_model(
+    const std::filesystem::path& file, const model::ImportOptions& options,
+    model::StepReader reader = model::StepReader::with_names);
 
 /// @brief Loads what import_model() read. @throws GeometryError if NETGEN refuses it.
 [[nodiscard]] std::unique_ptr<model::Model> load_model(const model::ModelSource& source);

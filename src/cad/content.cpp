@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cad/content.hpp"
+
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+#include <BinTools.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+
+#include "cad/error.hpp"
+#include "cad/shape.hpp"
+
+namespace tessera::cad {
+namespace {
+
+struct StoredContent {
+  std::string image{};  // As BinTools writes the shape.
+  std::vector<std::string> face_names{};
+  std::vector<std::string> face_colours{};
+  std::vector<std::string> edge_names{};
+  std::vector<std::string> solid_names{};
+  bool may_overlap = false;
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.image, self.face_names, self.face_colours, self.edge_names,
+                    self.solid_names, self.may_overlap);
+  }
+};
+
+}  // namespace
+
+Bytes occ_content(const CadFile& cad)
+{
+  std::ostringstream image(std::ios::binary);
+  BinTools::Write(cad.shape, image, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
+  StoredContent content{.image = image.str(), .may_overlap = cad.may_overlap};
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    const ShapeLabel label = label_in(cad.names, faces(f));
+    content.face_names.push_back(label.name);
+    content.face_colours.push_back(label.colour);
+  }
+  for (const TopoDS_Shape& edge : parts_of(cad.shape, TopAbs_EDGE)) {
+    content.edge_names.push_back(label_in(cad.names, edge).name);
+  }
+  for (TopExp_Explorer solids(cad.shape, TopAbs_SOLID); solids.More(); solids.Next()) {
+    const ShapeLabel label = label_in(cad.names, solids.Current());
+    content.solid_names.push_back(label.name);
+    for (const TopoDS_Shape& face : parts_of(solids.Current(), TopAbs_FACE)) {
+      auto& colour = content.face_colours[static_cast<std::size_t>(faces.FindIndex(face)) - 1];
+      if (colour.empty()) colour = label.colour;
+    }
+  }
+  return to_bytes(content);
+}
+
+model::ModelSource closed_source(CadFile cad, const std::string& file_name,
+                                 const model::AssemblyOptions& options)
+{
+  try {
+    with_occ_errors("healing", [&] { make_closed_solids(cad, options); });
+  } catch (const GeometryError& error) {
+    throw GeometryError(fmt::format("{}: {}", file_name, error.what()));
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: {}", file_name, error.what()));
+  }
+  model::ModelSource source;
+  source.format = model::Format::occ;
+  source.file_name = file_name;
+  source.length_unit = cad.length_unit;
+  source.content = occ_content(cad);
+  source.repairs = cad.repairs;
+  source.assembly = cad.assembly;
+  return source;
+}
+
+OccContent read_occ_content(std::span<const std::byte> bytes)
+{
+  auto stored = from_bytes<StoredContent>(bytes);
+  OccContent content;
+  std::istringstream image(std::move(stored.image), std::ios::binary);
+  BinTools::Read(content.shape, image);
+  if (content.shape.IsNull()) throw InputError("the stored CAD model holds no shape");
+  content.face_names = std::move(stored.face_names);
+  content.face_colours = std::move(stored.face_colours);
+  content.edge_names = std::move(stored.edge_names);
+  content.solid_names = std::move(stored.solid_names);
+  content.may_overlap = stored.may_overlap;
+  return content;
+}
+
+}  // namespace tessera::cad

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cad/model.hpp"
+
+#include <array>
+#include <utility>
+
+#include <BRepGProp.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp.hxx>
+#include <TopoDS.hxx>
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/surface/on_geometry.hpp"
+
+#include "cad/description.hpp"
+#include "cad/error.hpp"
+#include "cad/shape.hpp"
+#include "cad/triangles/tessellation.hpp"
+#include "geometry/named_surface.hpp"
+
+namespace tessera::cad {
+
+CadModel::CadModel(OccContent content, std::string file_name)
+    : content_(std::move(content)),
+      file_name_(std::move(file_name)),
+      box_diagonal_(box_diagonal_of(content_.shape))
+{
+  TopExp::MapShapes(content_.shape, TopAbs_FACE, faces_);
+  TopExp::MapShapes(content_.shape, TopAbs_EDGE, edges_);
+  for (const TopoDS_Shape& face : parts_of(content_.shape, TopAbs_FACE)) {
+    surfaces_.emplace_back(TopoDS::Face(face), box_diagonal_, faces_.Extent());
+  }
+  for (const TopoDS_Shape& shape : parts_of(content_.shape, TopAbs_EDGE)) {
+    const TopoDS_Edge& edge = TopoDS::Edge(shape);
+    curves_.push_back(
+        BRep_Tool::Degenerated(edge) ? nullptr : std::make_unique<OccCurve>(edge, box_diagonal_));
+  }
+}
+
+const OccSurface& CadModel::surface_at(LocalIndex surface) const
+{
+  return surfaces_.at(static_cast<std::size_t>(surface));
+}
+
+const OccCurve& CadModel::curve_at(LocalIndex curve) const
+{
+  const auto& found = curves_.at(static_cast<std::size_t>(curve));
+  if (found == nullptr) throw GeometryError(fmt::format("edge {} is a point", curve));
+  return *found;
+}
+
+model::ModelDescription CadModel::describe(surface::SurfaceMesher /*mesher*/) const
+{
+  return with_occ_errors(file_name_, [&] { return describe_shape(content_); });
+}
+
+void CadModel::locate_parameters(mesh::CoarseMesh& mesh) const
+{
+  with_occ_errors(file_name_, [&] {
+    locate_face_corners(mesh);
+    locate_segment_ends(mesh);
+  });
+}
+
+model::SurfacePoint CadModel::project_to_surface(LocalIndex surface, const Vec3& point,
+                                                 const model::SurfaceParameters& guess) const
+{
+  return with_occ_errors(fmt::format("projection onto face {}", surface),
+                         [&] { return surface_at(surface).project(point, guess); });
+}
+
+model::CurvePoint CadModel::project_to_curve(LocalIndex curve, const Vec3& point,
+                                             double guess) const
+{
+  return with_occ_errors(fmt::format("projection onto edge {}", curve),
+                         [&] { return curve_at(curve).project(point, guess); });
+}
+
+std::string CadModel::solid_name(LocalIndex material) const
+{
+  const auto at = static_cast<std::size_t>(material - 1);
+  return at < content_.solid_names.size() ? content_.solid_names[at] : std::string();
+}
+
+// OpenCASCADE's triangles, made well-shaped and put on the faces.
+surface::CoarseSurface CadModel::mesh_whole(const surface::CoarseOptions& options) const
+{
+  return with_occ_errors(file_name_, [&] {
+    const surface::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
+    // Solids that overlap were cut, if they could be. So where two cut each other now, they touch
+    // or nearly do, as a ball and its race, and chords of one lie in the other.
+    const auto forbidden = content_.may_overlap ? surface::Forbidden::all_cuts
+                                                : surface::Forbidden::cuts_within_bodies;
+    surface::RemeshedSurface remeshed =
+        surface::remesh_on_geometry(reference, *this, options, forbidden);
+    const surface::PatchSurface& surface = remeshed.surface;
+    const geometry::SurfaceNames names{
+        [this](LocalIndex patch) {
+          return content_.face_names.at(static_cast<std::size_t>(patch));
+        },
+        [this](LocalIndex material) { return solid_name(material); }};
+    geometry::require_no_overlaps(surface::forbidden_overlaps(surface, forbidden), surface, names,
+                                  file_name_);
+    surface::CoarseSurface coarse = geometry::to_coarse_surface(surface, options.max_size, names);
+    coarse.defeatured = std::move(remeshed.defeatured);
+    add_parameters(reference, coarse.mesh);
+    return coarse;
+  });
+}
+
+coarse::ModelFigures CadModel::figures() const
+{
+  return with_occ_errors(file_name_, [&] {
+    GProp_GProps surface;
+    GProp_GProps solids;
+    BRepGProp::SurfaceProperties(content_.shape, surface);
+    BRepGProp::VolumeProperties(content_.shape, solids);
+    return coarse::ModelFigures{
+        .num_faces = faces_.Extent(), .area = surface.Mass(), .volume = solids.Mass()};
+  });
+}
+
+coarse::CadSurface CadModel::triangles_for_fit(double size) const
+{
+  return with_occ_errors(file_name_, [&] {
+    coarse::CadSurface cad{.triangles = tessellation_of(content_.shape, size),
+                           .size = size,
+                           .patch_names = content_.face_names,
+                           .solid_names = content_.solid_names};
+    for (LocalIndex p = 0; p < faces_.Extent(); ++p) cad.patch_surface.push_back(p);
+    for (LocalIndex c = 0; c < edges_.Extent(); ++c) cad.curve_number.push_back(c);
+    return cad;
+  });
+}
+
+// In the oldest version of the format, which every program reads.
+void CadModel::write_brep(const std::filesystem::path& file) const
+{
+  const bool is_written = BRepTools::Write(content_.shape, file.c_str(), Standard_False,
+                                           Standard_False, TopTools_FormatVersion_VERSION_1);
+  if (!is_written) throw OutputError(file.string() + ": cannot be written");
+}
+
+void CadModel::add_parameters(const surface::SurfaceReference& reference,
+                              mesh::CoarseMesh& mesh) const
+{
+  guess_parameters(reference, mesh);
+  locate_face_corners(mesh);
+  locate_segment_ends(mesh);
+}
+
+// Those of the tessellation, a little inside each face and segment: at a seam that is their side.
+void CadModel::guess_parameters(const surface::SurfaceReference& reference, mesh::CoarseMesh& mesh)
+{
+  constexpr double kInside = 0.1;
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
+    const Vec3 middle =
+        (1.0 / 3.0) * (mesh.position(v[0]) + mesh.position(v[1]) + mesh.position(v[2]));
+    const LocalIndex surface = mesh.patch_surface[at(mesh.face_patch[at(f)])];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 corner = mesh.position(v[c]);
+      const auto uv = reference.parameters(surface, corner + kInside * (middle - corner));
+      mesh.face_uv.insert(mesh.face_uv.end(), uv.begin(), uv.end());
+    }
+  }
+  for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {
+    const Vec3 a = mesh.position(mesh.segment_vertices[2 * at(s)]);
+    const Vec3 b = mesh.position(mesh.segment_vertices[2 * at(s) + 1]);
+    const LocalIndex curve = mesh.segment_curve[at(s)];
+    mesh.segment_t.push_back(reference.curve_parameter(curve, a + kInside * (b - a)));
+    mesh.segment_t.push_back(reference.curve_parameter(curve, b + kInside * (a - b)));
+  }
+}
+
+// What NETGEN has at a corner is only a guess: its optimiser moves points and forgets parameters.
+void CadModel::locate_face_corners(mesh::CoarseMesh& mesh) const
+{
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const auto at = static_cast<std::size_t>(f);
+    const LocalIndex patch = mesh.face_patch[at];
+    if (patch == kNoIndex) continue;  // Of a cut.
+    std::array<Vec3, 3> corners{};
+    std::array<model::SurfaceParameters, 3> guesses{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      corners[c] = mesh.position(mesh.face_vertices[3 * at + c]);
+      guesses[c] = {mesh.face_uv[2 * (3 * at + c)], mesh.face_uv[2 * (3 * at + c) + 1]};
+    }
+    const LocalIndex surface = mesh.patch_surface[static_cast<std::size_t>(patch)];
+    const auto uv = surface_at(surface).triangle_parameters(corners, guesses);
+    for (std::size_t c = 0; c < 3; ++c) {
+      mesh.face_uv[2 * (3 * at + c)] = uv[c][0];
+      mesh.face_uv[2 * (3 * at + c) + 1] = uv[c][1];
+    }
+  }
+}
+
+// The guess at an end of a closed curve says which of its two parameters is meant.
+void CadModel::locate_segment_ends(mesh::CoarseMesh& mesh) const
+{
+  for (std::size_t end = 0; end < mesh.segment_t.size(); ++end) {
+    if (mesh.segment_curve[end / 2] == kNoIndex) continue;  // Bounds a cut.
+    const OccCurve& curve = curve_at(mesh.segment_curve[end / 2]);
+    const Vec3 point = mesh.position(mesh.segment_vertices[end]);
+    mesh.segment_t[end] = curve.locate(point, mesh.segment_t[end]).t;
+  }
+}
+
+}  // namespace tessera::cad

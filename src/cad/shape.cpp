@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cad/shape.hpp"
+
+#include <cmath>
+
+#include <BRepBndLib.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+
+namespace tessera::cad {
+
+std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind)
+{
+  TopTools_IndexedMapOfShape map;
+  TopExp::MapShapes(shape, kind, map);
+  return {map.cbegin(), map.cend()};
+}
+
+int count_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind)
+{
+  return static_cast<int>(parts_of(shape, kind).size());
+}
+
+double box_diagonal_of(const TopoDS_Shape& shape)
+{
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, Standard_False);
+  return std::sqrt(box.SquareExtent());
+}
+
+double volume_of(const TopoDS_Shape& shape)
+{
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  return properties.Mass();
+}
+
+double area_of(const TopoDS_Shape& shape)
+{
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(shape, properties);
+  return properties.Mass();
+}
+
+bool is_closed(const TopoDS_Shape& solid)
+{
+  TopExp_Explorer shells(solid, TopAbs_SHELL);
+  if (!shells.More()) return false;
+  for (; shells.More(); shells.Next()) {
+    if (!BRep_Tool::IsClosed(shells.Current())) return false;
+  }
+  return true;
+}
+
+}  // namespace tessera::cad

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <TopAbs_ShapeEnum.hxx>
+#include <TopoDS_Shape.hxx>
+
+namespace tessera::cad {
+
+/// @brief The different parts of a kind, in the order of TopExp::MapShapes: the numbering of
+/// surfaces (faces) and curves (edges).
+[[nodiscard]] std::vector<TopoDS_Shape> parts_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind);
+
+/// @brief How many different parts of a kind there are.
+[[nodiscard]] int count_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind);
+
+/// @brief Diagonal of the bounding box, from the geometry alone: a triangulation that a mesher left
+/// on the shape does not change it.
+[[nodiscard]] double box_diagonal_of(const TopoDS_Shape& shape);
+
+/// @brief Of what its faces enclose; negative if they look inwards.
+[[nodiscard]] double volume_of(const TopoDS_Shape& shape);
+
+/// @brief Of all its faces.
+[[nodiscard]] double area_of(const TopoDS_Shape& shape);
+
+/// @brief Whether it has shells, and each is closed.
+[[nodiscard]] bool is_closed(const TopoDS_Shape& solid);
+
+}  // namespace tessera::cad
