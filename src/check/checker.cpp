@@ -13,8 +13,8 @@
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
-#include "check/piece_topology.hpp"
-#include "check/second_order.hpp"
+#include "check/piece/second_order.hpp"
+#include "check/piece/topology.hpp"
 
 namespace tessera::check {
 namespace {

@@ -11,11 +11,11 @@
 
 #include "tessera/base/error.hpp"
 
-#include "decompose/initial_partition.hpp"
-#include "decompose/merge_small.hpp"
 #include "decompose/numbering.hpp"
-#include "decompose/repair.hpp"
-#include "decompose/seam_angles.hpp"
+#include "decompose/partition/initial_partition.hpp"
+#include "decompose/repair/merge_small.hpp"
+#include "decompose/repair/repair.hpp"
+#include "decompose/repair/seam_angles.hpp"
 
 namespace tessera::decompose {
 namespace {

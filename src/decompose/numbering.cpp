@@ -12,7 +12,7 @@
 
 #include "tessera/base/error.hpp"
 
-#include "decompose/checked_partition.hpp"
+#include "decompose/partition/checked_partition.hpp"
 #include "decompose/parts.hpp"
 
 namespace tessera::decompose {

@@ -6,7 +6,7 @@
 #include "tessera/decompose/graph_partitioner.hpp"
 #include "tessera/mesh/decomposition.hpp"
 
-#include "decompose/tet_partition.hpp"
+#include "decompose/partition/tet_partition.hpp"
 
 namespace tessera::decompose {
 

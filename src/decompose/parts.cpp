@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "decompose/checked_partition.hpp"
+#include "decompose/partition/checked_partition.hpp"
 
 namespace tessera::decompose {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "atomic_file.hpp"
+#include "io/atomic_file.hpp"
 
 #include <atomic>
 #include <cerrno>

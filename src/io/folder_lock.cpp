@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "folder_lock.hpp"
+#include "io/folder_lock.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 
 #include "tessera/base/error.hpp"
 
-#include "atomic_file.hpp"
+#include "io/atomic_file.hpp"
 
 namespace tessera::io {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "tessera/base/error.hpp"
 
-#include "atomic_file.hpp"
+#include "io/atomic_file.hpp"
 
 namespace tessera::io {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "tessera/base/error.hpp"
 
-#include "atomic_file.hpp"
-#include "folder_lock.hpp"
+#include "io/atomic_file.hpp"
+#include "io/folder_lock.hpp"
 
 namespace tessera::io {
 namespace {

@@ -14,8 +14,8 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/io/files.hpp"
 
-#include "atomic_file.hpp"
-#include "segments.hpp"
+#include "io/atomic_file.hpp"
+#include "io/segments.hpp"
 
 namespace tessera::io {
 namespace {

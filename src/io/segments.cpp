@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "segments.hpp"
+#include "io/segments.hpp"
 
 #include <cerrno>
 

@@ -45,11 +45,11 @@ ALLOWED[FRONT_DOOR] = set(ALLOWED) - BEHIND_THE_DOOR
 ALLOWED["pipeline"] = set(ALLOWED) - {"geometry", "cad"}
 QUARANTINE = {  # third-party header -> the only places that may include it
     r"mpi\.h": ("include/tessera/comm/", "src/comm/"),
-    r"metis\.h": ("src/decompose/metis_",),
+    r"metis\.h": ("src/decompose/partition/metis_",),
     r"(nglib\.h|netgen/.*|meshing\.hpp|csg\.hpp|stlgeom\.hpp|occgeom\.hpp|mystdlib\.h)": ("src/netgen/",),
     r"[A-Z]\w+\.hxx": ("src/cad/", "src/netgen/cad_", "src/netgen/csg/solids.", "src/netgen/session.", "src/netgen/version"),
     r"(pt)?scotch\.h": ("src/migrate/scotch_",),
-    r"vtk.*": ("src/io/vtk_",),
+    r"vtk.*": ("src/io/vtu/vtk_",),
     r"hdf5\.h": ("src/formats/files/hdf5_",),
     r"zlib\.h": ("pipeline/drawing/",),
     r"toml.*": ("src/config/",),

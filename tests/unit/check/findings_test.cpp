@@ -9,9 +9,9 @@
 
 #include "support/byte_image.hpp"
 
-#include "check/match_triangles.hpp"
-#include "check/piece_figures.hpp"
-#include "check/records.hpp"
+#include "check/match/records.hpp"
+#include "check/match/triangles.hpp"
+#include "check/piece/figures.hpp"
 
 namespace tessera::check {
 namespace {

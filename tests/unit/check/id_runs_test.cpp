@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "check/id_runs.hpp"
+#include "check/match/id_runs.hpp"
 
 #include <limits>
 

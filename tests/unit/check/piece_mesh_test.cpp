@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "check/piece_mesh.hpp"
-
 #include <algorithm>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "support/meshes.hpp"
+
+#include "check/piece/mesh.hpp"
 
 namespace tessera::check {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "check/piece_topology.hpp"
-
 #include <algorithm>
 #include <array>
 
 #include <gtest/gtest.h>
 
 #include "support/meshes.hpp"
+
+#include "check/piece/topology.hpp"
 
 namespace tessera::check {
 namespace {

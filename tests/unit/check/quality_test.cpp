@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "check/quality.hpp"
+#include "check/piece/quality.hpp"
 
 #include <cmath>
 #include <limits>

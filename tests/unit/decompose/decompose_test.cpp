@@ -14,7 +14,7 @@
 
 #include "support/meshes.hpp"
 
-#include "decompose/initial_partition.hpp"
+#include "decompose/partition/initial_partition.hpp"
 #include "partitioners.hpp"
 
 namespace tessera::decompose {
