@@ -11,6 +11,18 @@ HAS_VTK = os.environ["TESSERA_WITH_VTK"] == "ON"
 KUHN_TETS = [(0, 1, 3, 7), (0, 5, 1, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 4, 5, 7), (0, 6, 4, 7)]
 
 
+TETRAHEDRON_STL = (
+    "solid tet\n"
+    + "".join(
+        "facet normal 0 0 0\nouter loop\n"
+        + "".join("vertex {} {} {}\n".format(*[(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)][v]) for v in facet)
+        + "endloop\nendfacet\n"
+        for facet in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
+    )
+    + "endsolid tet\n"
+)
+
+
 def array(name, kind, values, components=1):
     return (
         f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">'
@@ -67,6 +79,31 @@ class MissingParts(program.ProgramTest):
             self.run_program("info", "ball.geo"), program.WRONG_INPUT, "TESSERA_WITH_NETGEN=OFF"
         )
         self.assertEqual(self.run_program("mesh", case, "--dump-config").code, program.OK)
+
+    @unittest.skipIf(HAS_NETGEN, "this build has NETGEN")
+    def test_without_netgen_a_mesh_of_the_user_is_refined(self):
+        self.write("cube.vtu", cube_vtu())
+        case = self.write(
+            "case.toml",
+            f"geometry.file = 'cube.vtu'\ndecompose.subdomains = 2\nrefine.levels = 2\n"
+            f"output.compression = 'none'\n{program.NO_PAGE}",
+        )
+        refused = self.run_program("mesh", case, "--output", "out")
+        self.assert_refused(refused, program.WRONG_INPUT, 'fill.kernel = "optimize"')
+        self.assertFalse((self.folder / "out").exists())
+        for kernel in ("optimize", "subdivide"):
+            out = self.mesh(case, kernel, "--set", f"fill.kernel={kernel}", ranks=2)
+            check = self.run_program("check", out / "mesh.pvtu", ranks=2)
+            self.assertEqual(check.code, program.OK, check.out + check.err)
+
+    @unittest.skipIf(HAS_NETGEN, "this build has NETGEN")
+    def test_without_netgen_an_stl_file_is_described_and_not_meshed(self):
+        self.write("tet.stl", TETRAHEDRON_STL)
+        info = self.run_program("info", "tet.stl")
+        self.assertEqual(info.code, program.OK, info.err)
+        case = self.write("case.toml", "geometry.file = 'tet.stl'\nfill.kernel = 'optimize'\nsize.target = 0.5\noutput.compression = 'none'\n")
+        outcome = self.run_program("mesh", case, "--output", "out")
+        self.assert_refused(outcome, program.WRONG_INPUT, "TESSERA_WITH_NETGEN=OFF")
 
     @unittest.skipIf(HAS_VTK or not HAS_NETGEN, "this build has VTK or cannot mesh")
     def test_without_vtk_a_case_must_ask_for_no_compression(self):
