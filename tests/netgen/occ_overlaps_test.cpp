@@ -114,10 +114,10 @@ TEST_P(OccOverlaps, TakeNoTriangles)
   const tessera::testing::TemporaryFolder folder;
   const auto file = folder.path() / "touching.brep";
   ASSERT_TRUE(BRepTools::Write(GetParam().solid, file.c_str()));
-  const auto model = load_model(import_model(file, {}));
+  const auto model = netgen::load_model(netgen::import_model(file, {}));
   surface::CoarseOptions options;
   options.max_size = 1.0;
-  const auto surface = make_coarse_mesher(*model)->mesh_surface(options, {});
+  const auto surface = netgen::make_coarse_mesher(*model)->mesh_surface(options, {});
   EXPECT_LT(surface.mesh.num_faces(), 1'000);
 }
 

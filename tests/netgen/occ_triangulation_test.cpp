@@ -216,10 +216,10 @@ TEST(OccTriangulation, OneFaceThatOpenCascadeCannotDoRefusesNoModel)
   const testing::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "stray_edge.brep";
   BRepTools::Write(cube, file.c_str());
-  const auto model = load_model(import_model(file, {}));
-  EXPECT_EQ(describe_model(*model).triangle_vertices.size() % 3, 0U);
+  const auto model = netgen::load_model(netgen::import_model(file, {}));
+  EXPECT_EQ(netgen::describe_model(*model).triangle_vertices.size() % 3, 0U);
   const std::set<LocalIndex> drawn = [&] {
-    const auto described = describe_model(*model);
+    const auto described = netgen::describe_model(*model);
     return std::set<LocalIndex>(described.triangle_face.begin(), described.triangle_face.end());
   }();
   EXPECT_EQ(drawn.size(), 6U);
