@@ -162,6 +162,9 @@ class MeshWorker final : public jobs::Worker {
     options.max_size /= scale_;
     options.defeature /= scale_;
     options.points = options.points.scaled(1.0 / scale_);
+    for (surface::PeriodicPatches& side : options.periodic) {
+      side.there.shift = (1.0 / scale_) * side.there.shift;
+    }
     return options;
   }
 

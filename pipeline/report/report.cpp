@@ -409,6 +409,9 @@ std::string report_json(const RunResult& run, const Verdict& verdict, const RunF
   for (const auto& [plus, minus] : mesh::split_patch_names(run.coarse.mesh)) {
     json["splits"].push_back({{"plus", plus}, {"minus", minus}});
   }
+  for (const mesh::PeriodicPair& pair : mesh::periodic_pairs(run.coarse.mesh)) {
+    json["periodic"].push_back({{"from", pair.from}, {"to", pair.to}});
+  }
   if (run.resolved.output.order == 2) json["second_order"] = second_order_json(run);
   json["model"] = model_json(run);
   if (!run.resolved.size.field.empty()) json["size_field_digest"] = to_hex(run.field_content);

@@ -22,6 +22,7 @@
 #include "pipeline/stages/levels_stage.hpp"
 #include "pipeline/stages/model_stage.hpp"
 #include "pipeline/stages/name_stage.hpp"
+#include "pipeline/stages/periodic_stage.hpp"
 #include "pipeline/stages/size_stage.hpp"
 #include "pipeline/stages/split_stage.hpp"
 
@@ -106,10 +107,12 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   const PartsOfCase of_case = find_parts_of_case(run.resolved, run.model.format, context);
   const model::NamedParts& parts = of_case.named;
   run.resolved.coarse.kept = of_case.kept;
+  run.resolved.coarse.periodic = of_case.periodic;
   run.planes = choose_cuts(run, context);
   run.coarse = run_coarse_stage(run.resolved, run.planes.tree, context);
   model::apply_names(parts, run.coarse.mesh);
   const bool is_fine_enough = refine_for_sizes(run, parts, context);
+  join_periodic_sides(run, context);
   divide_at_rims(run, context);
   grow_layers(run, context);
   choose_levels(run, context);

@@ -70,6 +70,9 @@ Patterns patterns_of(const config::Case& given)
   }
   for (const topology::SplitPatch& split : given.splits.patches)
     patterns.patches.push_back(split.patch);
+  for (const topology::PeriodicSide& side : given.periodic) {
+    patterns.patches.insert(patterns.patches.end(), {side.from, side.to});
+  }
   return patterns;
 }
 
@@ -88,15 +91,21 @@ std::optional<LocalIndex> curve_of(const model::EdgeDescription& edge)
   return read.ec == std::errc() && read.ptr == end ? std::optional(number - 1) : std::nullopt;
 }
 
+// The name that a face will have as a patch.
+std::string name_of(const model::FaceDescription& face, const model::NamedParts& named)
+{
+  const auto given = std::ranges::find(named.faces, face.number, &model::NumberedName::number);
+  if (given != named.faces.end()) return given->name;
+  return face.name.empty() ? mesh::default_patch_name(face.number - 1) : face.name;
+}
+
 surface::KeptParts kept_parts(const model::ModelDescription& described,
-                              const model::NamedParts& named, const Patterns& patterns)
+                             const model::NamedParts& named, const Patterns& patterns)
 {
   std::set<LocalIndex> patches;
   for (const model::NumberedName& face : named.faces) patches.insert(face.number - 1);
   for (const model::FaceDescription& face : described.faces) {
-    const std::string name =
-        face.name.empty() ? mesh::default_patch_name(face.number - 1) : face.name;
-    if (matches_any(patterns.patches, name)) patches.insert(face.number - 1);
+    if (matches_any(patterns.patches, name_of(face, named))) patches.insert(face.number - 1);
   }
   std::set<LocalIndex> curves;
   for (const model::EdgeDescription& edge : described.edges) {
@@ -106,6 +115,46 @@ surface::KeptParts kept_parts(const model::ModelDescription& described,
     if (curve && is_named) curves.insert(*curve);
   }
   return {{patches.begin(), patches.end()}, {curves.begin(), curves.end()}};
+}
+
+// Centroid of some faces, file length unit.
+Vec3 centroid_of(const model::ModelDescription& model, const std::vector<LocalIndex>& faces)
+{
+  Vec3 sum{};
+  double area = 0.0;
+  for (std::size_t t = 0; t < model.triangle_face.size(); ++t) {
+    if (std::ranges::find(faces, model.triangle_face[t]) == faces.end()) continue;
+    const auto corner = [&](std::size_t c) {
+      return point_at(std::span(model.vertex_xyz), model.triangle_vertices[3 * t + c]);
+    };
+    const double of_triangle = triangle_area(corner(0), corner(1), corner(2));
+    sum = sum + (of_triangle / 3.0) * (corner(0) + corner(1) + corner(2));
+    area += of_triangle;
+  }
+  return (1.0 / area) * sum;
+}
+
+std::vector<surface::PeriodicPatches> periodic_patches(const model::ModelDescription& described,
+                                                      const model::NamedParts& named,
+                                                      const config::Case& given)
+{
+  std::vector<surface::PeriodicPatches> all;
+  for (const topology::PeriodicSide& side : given.periodic) {
+    const auto faces_of = [&](const std::string& pattern) {
+      std::vector<LocalIndex> faces;
+      for (const model::FaceDescription& face : described.faces) {
+        if (matches_pattern(pattern, name_of(face, named))) faces.push_back(face.number - 1);
+      }
+      return faces;
+    };
+    surface::PeriodicPatches patches{.from = faces_of(side.from), .to = faces_of(side.to)};
+    if (patches.from.empty() || patches.to.empty()) continue;  // join_periodic_sides() will say so.
+    patches.there = transform_of(
+        side, given.geometry.scale
+                  * (centroid_of(described, patches.to) - centroid_of(described, patches.from)));
+    all.push_back(std::move(patches));
+  }
+  return all;
 }
 
 }  // namespace
@@ -133,7 +182,8 @@ PartsOfCase find_parts_of_case(const config::Case& given, model::Format format, 
   const Patterns patterns = patterns_of(given);
   const bool keeps_parts =
       given.coarse.defeature > 0.0 && !(patterns.patches.empty() && patterns.curves.empty());
-  if (given.geometry.names.empty() && !keeps_parts) return {};
+  const bool has_sides = !given.periodic.empty() && format != model::Format::own;
+  if (given.geometry.names.empty() && !keeps_parts && !has_sides) return {};
   StageScope stage(context, "names");
   PartsOfCase parts = comm::on_root(context.comm, [&] {
     return with_file_context(given, [&] {
@@ -145,6 +195,7 @@ PartsOfCase find_parts_of_case(const config::Case& given, model::Format format, 
       PartsOfCase found{
           model::find_named_parts(described, given.geometry.names, given.geometry.scale)};
       found.kept = kept_parts(described, found.named, patterns);
+      if (has_sides) found.periodic = periodic_patches(described, found.named, given);
       return found;
     });
   });

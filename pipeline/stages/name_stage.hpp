@@ -37,11 +37,13 @@ struct PartsOfCase {
   model::NamedParts named{};
   surface::KeptParts kept{};  ///< Named by [[geometry.name]], or as the shape of a [[size.region]].
 
-  static auto fields(auto& self) { return std::tie(self.named, self.kept); }
+  std::vector<surface::PeriodicPatches> periodic{};  ///< Of [[periodic]], output length unit.
+
+  static auto fields(auto& self) { return std::tie(self.named, self.kept, self.periodic); }
 };
 
 /// @brief Which faces, solids and curves of the model the case names; asks nothing of the model if
-/// the case gives no names, and names nothing that could be merged.
+/// the case gives no names, names nothing that could be merged, and has no periodic sides.
 /// @note Collective: the model is described in a job of rank 0.
 /// @throws ConfigError on every rank if a name of [[geometry.name]] fits nothing, or two fit the
 /// same.

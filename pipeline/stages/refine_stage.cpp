@@ -11,8 +11,8 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
-#include "tessera/mesh/double_vertices.hpp"
 #include "tessera/mesh/lattice.hpp"
+#include "tessera/mesh/orbits.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
@@ -195,7 +195,7 @@ mesh::ProjectionLimiter lowered(const mesh::ProjectionLimiter& limiter,
                                 const std::vector<mesh::PointLimit>& folds, const RefineWork& work)
 {
   std::vector<mesh::PointLimit> entries(limiter.entries().begin(), limiter.entries().end());
-  const auto found = mesh::on_all_sides(folds, work.cut.skeleton, work.cut.coarse);
+  const auto found = mesh::on_whole_orbits(folds, work.cut.skeleton.orbits);
   entries.insert(entries.end(), found.begin(), found.end());
   mesh::ProjectionLimiter lower(std::move(entries));
   if (lower == limiter) {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
-#include "tessera/mesh/double_vertices.hpp"
+#include "tessera/mesh/orbits.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
@@ -118,9 +118,9 @@ mesh::ProjectionLimiter run_untangle_stage(const UntangleWork& work,
   StageScope stage(context, "plan");
   std::vector<LocalIndex> subdomains = work.subdomains;
   while (!subdomains.empty()) {
-    const auto found = mesh::on_all_sides(
+    const auto found = mesh::on_whole_orbits(
         gather(test_subdomains(subdomains, work, limiter, stage, context), context.comm),
-        work.cut.skeleton, work.cut.coarse);
+        work.cut.skeleton.orbits);
     std::vector<mesh::PointLimit> all(limiter.entries().begin(), limiter.entries().end());
     all.insert(all.end(), found.begin(), found.end());
     limiter = mesh::ProjectionLimiter(std::move(all));

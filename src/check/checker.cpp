@@ -104,6 +104,7 @@ bool Checker::match()
   triangles_.close();
   match_last_edges();
   match_last_vertices();
+  if (!is_partial_) periodic_.finish(comm_, findings_);
   ::malloc_trim(0);
   return true;
 }
@@ -170,6 +171,7 @@ void Checker::read_boundary(PieceName name, std::vector<VertexRecord>& vertices)
   const PieceMesh mesh = load(name, findings_);
   std::ranges::move(listed_vertices(mesh), std::back_inserter(vertices));
   if (mesh.has_point_ids) ++counts_.num_pieces_with_point_ids;
+  periodic_.add(mesh, findings_);
   has_splits_ = has_splits_ || !mesh.split_patches().empty();
   if (mesh.num_cells() == 0) return;
   if (!mesh.arrays.cell_longs.contains("tet")) ++counts_.num_boundary_pieces_without_tet;
@@ -419,9 +421,8 @@ void Checker::match_ids(std::vector<PointId> shared)
 {
   append_runs(std::move(shared), point_id_space(), point_ids_, findings_);
   check_ids(point_ids_, point_id_space(!is_partial_), comm_, findings_);
-  const GlobalIndex num_defects =
-      findings_.count(Kind::point_id_hole) + findings_.count(Kind::point_id_twice);
-  has_unusable_ids_ = comm_.sum(num_defects) > 0;
+  has_unusable_ids_ =
+      comm_.sum(findings_.count(Kind::point_id_hole) + findings_.count(Kind::point_id_twice)) > 0;
 
   // Where some pieces have no cell ids, the others' need not be dense.
   if (comm_.sum(counts_.num_pieces_with_cell_ids) == tets_.num_pieces)

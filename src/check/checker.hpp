@@ -15,6 +15,7 @@
 #include "check/findings.hpp"
 #include "check/match/edges.hpp"
 #include "check/match/id_runs.hpp"
+#include "check/match/periodic.hpp"
 #include "check/match/records.hpp"
 #include "check/match/triangles.hpp"
 #include "check/match/vertices.hpp"
@@ -155,6 +156,7 @@ class Checker {
 
   TriangleMatcher triangles_;
   VertexMatcher vertices_;
+  PeriodicMatcher periodic_{};
   SurfaceEdges edges_{};
   std::vector<TriangleRecord> inner_{};           // On two tets of a piece of the batch at hand.
   std::vector<VertexKey> seam_keys_{};            // Vertices that were found on a seam, to be told.

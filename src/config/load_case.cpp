@@ -333,6 +333,21 @@ void check_layers(const Case& loaded, const std::string& where)
   fail(where, fmt::format("[[layer]] excludes {}; leave out one of them", other));
 }
 
+// What makes sides anew, or surfaces that are not alike on both.
+void check_periodic(const Case& loaded, const std::string& where)
+{
+  if (loaded.periodic.empty()) return;
+  const bool is_mesh = model::is_mesh_name(loaded.geometry.file);
+  const std::string_view other =
+      !loaded.layers.empty()                                     ? "[[layer]]"
+      : loaded.geometry.smooth                                   ? "geometry.smooth"
+      : !is_mesh && loaded.coarse.mesher == coarse::Mesher::gmsh ? "coarse.mesher = \"gmsh\""
+      : loaded.decompose.method == decompose::Method::geometry   ? "decompose.method = \"geometry\""
+                                                                 : "";
+  if (other.empty()) return;
+  fail(where, fmt::format("[[periodic]] excludes {}; leave out one of them", other));
+}
+
 void check_planes(const Case& loaded, const std::string& where)
 {
   if (loaded.planes.given.empty() || loaded.decompose.method == decompose::Method::geometry) return;
@@ -390,6 +405,7 @@ Case parse_case(std::string_view text, const std::filesystem::path& file,
   check_planes(loaded, name);
   complete_layers(loaded, name);
   check_layers(loaded, name);
+  check_periodic(loaded, name);
   resolve_paths(file, loaded);
   return loaded;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "config/key_table.hpp"
+#include "config/topology_keys.hpp"
 
 namespace tessera::config {
 namespace {
@@ -242,22 +243,6 @@ constexpr Key kNameKeys[] = {
      .is_optional = true},
 };
 
-constexpr Key kContactKeys[] = {
-    {.name = "geometry.contact.body",
-     .rule = TextRule{[](Case& c) -> std::string& { return c.splits.contacts.back().body; }},
-     .meaning =
-         "The one solid: its number in the list of tessera info MODEL, or its name in the "
-         "file. Or several, whose numbers or names match: * stands for any characters, ? for "
-         "one, [ab] for one of these.",
-     .reason = "a contact has two sides",
-     .example = "\"shaft\""},
-    {.name = "geometry.contact.other",
-     .rule = TextRule{[](Case& c) -> std::string& { return c.splits.contacts.back().other; }},
-     .meaning = "The other solid, or several, as of body.",
-     .reason = "a contact has two sides",
-     .example = "\"2\""},
-};
-
 constexpr Key kPlaneKeys[] = {
     {.name = "decompose.plane.point",
      .rule = TripleRule{[](Case& c) -> Vec3& { return c.planes.given.back().point; }, kHuge},
@@ -316,15 +301,6 @@ constexpr Key kLayerKeys[] = {
      .is_optional = true},
 };
 
-constexpr Key kSplitKeys[] = {
-    {.name = "split.patch",
-     .rule = TextRule{[](Case& c) -> std::string& { return c.splits.patches.back().patch; }},
-     .meaning = "The patches of that name, or whose names match it: * stands for any characters, ? "
-                "for one, [ab] for one of these. They lie between two materials.",
-     .reason = "only the user knows where the mesh is to be open",
-     .example = "\"crack\""},
-};
-
 constexpr std::string_view kNamed[] = {"patch", "material"};
 
 constexpr std::string_view kShapes[] = {"box",   "ball",     "cylinder", "halfspace",
@@ -374,6 +350,14 @@ constexpr TableList kTableLists[] = {
      .reason = "the mesh hangs together where two materials meet",
      .size = [](const Case& c) { return c.splits.patches.size(); },
      .resize = [](Case& c, std::size_t size) { c.splits.patches.resize(size); }},
+    {.name = "periodic",
+     .keys = kPeriodicKeys,
+     .meaning = "Sides of the mesh that are images of each other, with the same points and "
+                "triangles, as of one cell of a lattice or one blade of a wheel.",
+     .reason = "most models are no part of a larger one",
+     .size = [](const Case& c) { return c.periodic.size(); },
+     .resize = [](Case& c, std::size_t size) { c.periodic.resize(size); },
+     .defect = [](const Case& c) { return topology::defect_of(c.periodic.back()); }},
     {.name = "fill.region",
      .keys = kRegionKeys,
      .unique_key = "fill.region.material",

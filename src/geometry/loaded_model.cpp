@@ -87,6 +87,8 @@ surface::CoarseSurface LoadedModel::mesh_surface(const surface::CoarseOptions& o
   const bool has_merged = !is_cut && options.surface_mesher == surface::SurfaceMesher::remesh;
   surface::CoarseSurface surface = is_cut ? mesh_parts(options, planes) : mesh_whole(options);
   if (!has_merged) surface = defeatured(std::move(surface), *this, options);
+  // Steps on one side only would part it from its image.
+  if (!options.periodic.empty()) return surface;
   return mended(std::move(surface), *this);
 }
 

@@ -43,8 +43,6 @@ void validate_shapes(const CoarseMesh& mesh)
   require(mesh.patch_surface.size() == mesh.patch_names.size(), "patch_surface has a wrong length");
   require(mesh.patch_row.empty() || mesh.patch_row.size() == mesh.patch_names.size(),
           "patch_row has a wrong length");
-  require(mesh.patch_other_side.empty() || mesh.patch_other_side.size() == mesh.patch_names.size(),
-          "patch_other_side has a wrong length");
   require_indices_below(mesh.patch_row, mesh.num_patches(), "patch_row");
   require_indices_below(mesh.tet_vertices, mesh.num_vertices(), "tet_vertices");
   require_indices_below(mesh.face_vertices, mesh.num_vertices(), "face_vertices");
@@ -52,6 +50,25 @@ void validate_shapes(const CoarseMesh& mesh)
   require_indices_below(mesh.segment_vertices, mesh.num_vertices(), "segment_vertices");
   for (const LocalIndex m : mesh.tet_material) {
     require(m >= 1 && m <= mesh.num_materials(), fmt::format("material {} has no name", m));
+  }
+}
+
+void validate_images(const CoarseMesh& mesh)
+{
+  const SideImages& images = mesh.images;
+  if (images.are_none()) return;
+  require(images.patch_origin.size() == mesh.patch_names.size()
+              && images.patch_transform.size() == mesh.patch_names.size(),
+          "images have a wrong number of patches");
+  require(images.face_origin.size() == mesh.face_patch.size(),
+          "images have a wrong number of faces");
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const LocalIndex patch = images.patch_origin[at(mesh.face_patch[at(f)])];
+    const LocalIndex origin = images.face_origin[at(f)];
+    require(origin == kNoIndex
+                ? patch == kNoIndex
+                : origin >= 0 && origin < mesh.num_faces() && mesh.face_patch[at(origin)] == patch,
+            fmt::format("face {} is the image of none of its patch's origin", f));
   }
 }
 
@@ -96,14 +113,33 @@ std::string default_patch_name(LocalIndex patch) { return fmt::format("patch_{}"
 std::vector<std::array<std::string, 2>> split_patch_names(const CoarseMesh& mesh)
 {
   std::vector<std::array<std::string, 2>> names;
-  for (std::size_t plus = 0; plus < mesh.patch_other_side.size(); ++plus) {
-    const LocalIndex minus = mesh.patch_other_side[plus];
-    if (minus == kNoIndex || at(minus) < plus) continue;
-    const std::array<std::string, 2> both{mesh.patch_names[plus], mesh.patch_names[at(minus)]};
+  for (LocalIndex minus = 0; minus < mesh.num_patches(); ++minus) {
+    if (!mesh.images.is_of_split(minus)) continue;
+    const LocalIndex plus = mesh.images.patch_origin[at(minus)];
+    const std::array<std::string, 2> both{mesh.patch_names[at(plus)], mesh.patch_names[at(minus)]};
     // Patches of one row have one name.
     if (std::ranges::find(names, both) == names.end()) names.push_back(both);
   }
   return names;
+}
+
+std::vector<PeriodicPair> periodic_pairs(const CoarseMesh& mesh)
+{
+  std::vector<PeriodicPair> pairs;
+  const SideImages& images = mesh.images;
+  std::vector<std::size_t> by_entry;  // Of the case.
+  for (std::size_t p = 0; p < images.patch_origin.size(); ++p) {
+    if (images.patch_origin[p] != kNoIndex && images.patch_transform[p] != 0) by_entry.push_back(p);
+  }
+  std::ranges::stable_sort(by_entry, {}, [&](std::size_t p) { return images.patch_transform[p]; });
+  for (const std::size_t p : by_entry) {
+    const PeriodicPair pair{.from = mesh.patch_names[at(images.patch_origin[p])],
+                            .to = mesh.patch_names[p],
+                            .there = images.transforms[at(images.patch_transform[p])]};
+    // Patches of one row have one name.
+    if (std::ranges::find(pairs, pair) == pairs.end()) pairs.push_back(pair);
+  }
+  return pairs;
 }
 
 void validate(const CoarseMesh& mesh)
@@ -111,6 +147,7 @@ void validate(const CoarseMesh& mesh)
   validate_shapes(mesh);
   validate_tets(mesh);
   validate_faces(mesh);
+  validate_images(mesh);
 }
 
 }  // namespace tessera::mesh

@@ -9,6 +9,8 @@
 #include "tessera/mesh/host_layout.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
+#include "mesh/skeleton_orbits.hpp"
+
 namespace tessera::mesh {
 namespace {
 
@@ -66,9 +68,11 @@ bool sorted_points_out_of(const CoarseMesh& coarse, LocalIndex tet, LocalIndex o
   return is_even_triangle(vertices[face[0]], vertices[face[1]], vertices[face[2]]);
 }
 
-// Triangles still in coarse vertex numbers.
-void collect_triangles(const CoarseMesh& coarse, const Decomposition& decomposition, Skeleton& out)
+// Triangles still in coarse vertex numbers. @return The coarse face of each, or kNoIndex.
+std::vector<LocalIndex> collect_triangles(const CoarseMesh& coarse,
+                                          const Decomposition& decomposition, Skeleton& out)
 {
+  std::vector<LocalIndex> triangle_face;
   const FaceTable faces(coarse);
   for (const TriangleTets& triangle : triangles_of_tets(coarse.tet_vertices)) {
     std::array<LocalIndex, 2> subdomains{kNoIndex, kNoIndex};
@@ -79,6 +83,7 @@ void collect_triangles(const CoarseMesh& coarse, const Decomposition& decomposit
     }
     if (subdomains[0] == subdomains[1]) continue;
     const LocalIndex face = faces.find(triangle.vertices);
+    triangle_face.push_back(face);
     out.triangle_vertices.insert(out.triangle_vertices.end(), triangle.vertices.begin(),
                                  triangle.vertices.end());
     out.triangle_patch.push_back(face == kNoIndex ? kNoIndex : coarse.face_patch[at(face)]);
@@ -86,6 +91,7 @@ void collect_triangles(const CoarseMesh& coarse, const Decomposition& decomposit
     out.triangle_subdomains.insert(out.triangle_subdomains.end(), subdomains.begin(),
                                    subdomains.end());
   }
+  return triangle_face;
 }
 
 LocalIndex skeleton_vertex(const Skeleton& skeleton, LocalIndex coarse_vertex)
@@ -269,13 +275,14 @@ bool Skeleton::is_inside(LocalIndex t) const
 Skeleton build_skeleton(const CoarseMesh& coarse, const Decomposition& decomposition)
 {
   Skeleton skeleton;
-  collect_triangles(coarse, decomposition, skeleton);
+  const std::vector<LocalIndex> triangle_face = collect_triangles(coarse, decomposition, skeleton);
   number_vertices(skeleton);
   const std::vector<Edge> edges = number_edges(skeleton);
   set_owners(skeleton);
   set_edge_records(coarse, edges, skeleton);
   skeleton.subdomain_triangles =
       rows_by_key(skeleton.triangle_subdomains, decomposition.num_subdomains(), 2);
+  skeleton.orbits = find_orbits(skeleton, coarse, triangle_face);
   return skeleton;
 }
 

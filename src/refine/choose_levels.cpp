@@ -54,6 +54,28 @@ std::vector<LocalIndex> edges_of_faces(const mesh::CoarseMesh& coarse,
   return rows;
 }
 
+// Rows of edges that are images of each other. Shape (num_pairs, 2).
+std::vector<LocalIndex> pairs_of_images(const mesh::CoarseMesh& coarse,
+                                        const std::vector<LocalIndex>& edges)
+{
+  std::vector<LocalIndex> pairs;
+  const auto& origins = coarse.images.face_origin;
+  for (std::size_t f = 0; f < origins.size(); ++f) {
+    if (origins[f] == kNoIndex) continue;
+    const auto corners = [&](std::size_t face) {
+      const LocalIndex* v = &coarse.face_vertices[3 * face];
+      return mesh::sorted_triangle(v[0], v[1], v[2]);
+    };
+    const auto from = corners(at(origins[f]));
+    const auto to = corners(f);
+    for (const auto& [a, b] : {std::pair(0U, 1U), std::pair(0U, 2U), std::pair(1U, 2U)}) {
+      pairs.push_back(mesh::find_edge_row(edges, from[a], from[b]));
+      pairs.push_back(mesh::find_edge_row(edges, to[a], to[b]));
+    }
+  }
+  return pairs;
+}
+
 // Edges are raised where a rule asks for it, and never lowered. So the order of tets and triangles
 // does not matter.
 class Raiser {
@@ -74,6 +96,7 @@ class Raiser {
 
   // No triangle has two finer sides: its children there would be slender, and no kernel betters the
   // surface.
+  // @return Whether any edge was raised; as join_images().
   bool complete(std::span<const LocalIndex> of_faces)
   {
     bool has_changed = false;
@@ -83,6 +106,17 @@ class Raiser {
       const auto num_finer =
           std::ranges::count_if(sides, [&](LocalIndex e) { return levels_[at(e)] == most; });
       if (num_finer == 2) has_changed = raise(sides, most) || has_changed;
+    }
+    return has_changed;
+  }
+
+  // Images of each other have one level.
+  bool join_images(std::span<const LocalIndex> pairs)
+  {
+    bool has_changed = false;
+    for (std::size_t first = 0; first < pairs.size(); first += 2) {
+      const auto both = pairs.subspan(first, 2);
+      has_changed = raise(both, largest(both)) || has_changed;
     }
     return has_changed;
   }
@@ -119,10 +153,11 @@ mesh::EdgeLevels choose_levels(const mesh::CoarseMesh& coarse, std::vector<Local
   for (const double num : num_wanted) levels.push_back(level_for(num, most));
   const std::vector<LocalIndex> of_tets = edges_of_tets(coarse, edges);
   const std::vector<LocalIndex> of_faces = edges_of_faces(coarse, edges);
+  const std::vector<LocalIndex> of_images = pairs_of_images(coarse, edges);
   Raiser raiser(levels);
   do {
     raiser.even_out(of_tets);
-  } while (raiser.complete(of_faces));
+  } while (raiser.complete(of_faces) || raiser.join_images(of_images));
   return {std::move(edges), std::move(levels)};
 }
 

@@ -6,6 +6,9 @@
 #include <memory>
 #include <utility>
 
+#include "refine/image_points.hpp"
+#include "refine/limited.hpp"
+
 namespace tessera::refine {
 namespace {
 
@@ -16,12 +19,6 @@ using model::SurfaceParameters;
 SurfaceParameters middle(const SurfaceParameters& a, const SurfaceParameters& b)
 {
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-}
-
-// As far from the chord towards the projection as the factor says.
-Vec3 limited(const Vec3& chord, const Vec3& projected, double factor)
-{
-  return factor == 1.0 ? projected : chord + factor * (projected - chord);
 }
 
 // Whether an edge or a triangle of a complex lies on a wall.
@@ -55,11 +52,17 @@ void for_each_new_inner_point(LocalIndex n, LocalIndex step, const Visit& visit)
 
 // Refines one complex; lives for one call of refine_lattice(). On the side of the walls only what
 // lies on them gets points; on the side of the tets these follow from the walls' points.
+//
+// What is the image of something at another place gets the points of that, and moves in the end.
 class LatticeRefiner {
  public:
   LatticeRefiner(const mesh::Complex& complex, mesh::LatticeLevels levels,
                  const RefineContext& context, Side side = Side::tets)
-      : complex_(complex), context_(context), side_(side), result_(std::move(levels))
+      : complex_(complex),
+        context_(context),
+        orbits_(context.skeleton.orbits),
+        side_(side),
+        result_(std::move(levels))
   {
     if (!context.model.has_parameters()) return;
     edge_parameters_.resize(result_.edge_points().size());
@@ -80,6 +83,8 @@ class LatticeRefiner {
         if (level <= result_.levels().triangle(t)) refine_triangle_on(level, t);
       }
     }
+    move_to_images(
+        complex_, orbits_, [this](LocalIndex v) { return coarse_position(v); }, result_);
     return std::move(result_);
   }
 
@@ -102,9 +107,29 @@ class LatticeRefiner {
     if (walls_ != nullptr) refine_triangle_behind_wall(t, step);
   }
 
-  [[nodiscard]] Vec3 coarse_position(LocalIndex vertex) const
+  // The skeleton's edge or triangle that one of the complex is refined as; kNoIndex inside.
+  [[nodiscard]] LocalIndex edge_origin(LocalIndex e) const
   {
-    const LocalIndex v = complex_.vertex_coarse[at(vertex)];
+    const LocalIndex edge = complex_.edge_skeleton[at(e)];
+    return edge == kNoIndex ? kNoIndex : orbits_.edges.origin_of(edge);
+  }
+  [[nodiscard]] LocalIndex triangle_origin(LocalIndex t) const
+  {
+    const LocalIndex triangle = complex_.triangle_skeleton[at(t)];
+    return triangle == kNoIndex ? kNoIndex : orbits_.triangles.origin_of(triangle);
+  }
+
+  // Coarse vertex of a corner of what is refined; `local` is that of the complex.
+  [[nodiscard]] LocalIndex coarse_vertex(const FlatArray<LocalIndex>& of_skeleton,
+                                         std::size_t corner, LocalIndex origin,
+                                         LocalIndex local) const
+  {
+    return origin == kNoIndex ? complex_.vertex_coarse[at(local)]
+                              : context_.skeleton.vertex_coarse[at(of_skeleton[corner])];
+  }
+
+  [[nodiscard]] Vec3 coarse_position(LocalIndex v) const
+  {
     return side_ == Side::walls ? context_.coarse.layers.wall(v) : context_.coarse.position(v);
   }
 
@@ -182,20 +207,27 @@ class LatticeRefiner {
            + static_cast<double>(p.j) / n * (coarse_length(v[2]) - first);
   }
 
-  // Of the edge that is this side of a triangle.
+  // Of the edge that is this side of a triangle, where the triangle is refined.
   [[nodiscard]] Vec3 side_point(LocalIndex t, std::size_t side, LocalIndex k) const
   {
-    const LocalIndex e = complex_.triangle_edges[3 * at(t) + side];
-    const int finer_by = result_.levels().edge(e) - result_.levels().triangle(t);
-    return result_.edge_point(e, k << finer_by);
+    const Vec3 point = point_of_side(complex_, result_, t, side, k);
+    if (orbits_.are_none()) return point;
+    const LocalIndex origin = triangle_origin(t);
+    const LocalIndex edge =
+        origin == kNoIndex ? complex_.edge_skeleton[at(complex_.triangle_edges[3 * at(t) + side])]
+                           : context_.skeleton.triangle_edges[3 * at(origin) + side];
+    return edge == kNoIndex ? point : orbits_.image(orbits_.edges.image_of(edge), point);
   }
 
   void place_ends(LocalIndex e)
   {
-    const LocalIndex edge = complex_.edge_skeleton[at(e)];
+    const LocalIndex edge = edge_origin(e);
     for (LocalIndex end = 0; end < 2; ++end) {
       const LocalIndex k = end * result_.edge_intervals(e);
-      result_.place_edge_point(e, k, coarse_position(complex_.edge_vertices[2 * at(e) + at(end)]));
+      result_.place_edge_point(
+          e, k,
+          coarse_position(coarse_vertex(context_.skeleton.edge_vertices, 2 * at(edge) + at(end),
+                                        edge, complex_.edge_vertices[2 * at(e) + at(end)])));
       if (edge == kNoIndex || !has_parameters()) continue;
       const double* p = &context_.skeleton.edge_parameters[2 * (2 * at(edge) + at(end))];
       edge_parameters_[result_.edge_place(e, k)] = {p[0], p[1]};
@@ -204,12 +236,14 @@ class LatticeRefiner {
 
   void place_corners(LocalIndex t)
   {
-    const LocalIndex triangle = complex_.triangle_skeleton[at(t)];
+    const LocalIndex triangle = triangle_origin(t);
     const LocalIndex n = result_.triangle_intervals(t);
     const std::array<TrianglePoint, 3> corners{{{0, 0}, {n, 0}, {0, n}}};
     for (std::size_t c = 0; c < 3; ++c) {
-      result_.place_triangle_point(t, corners[c],
-                                   coarse_position(complex_.triangle_vertices[3 * at(t) + c]));
+      result_.place_triangle_point(
+          t, corners[c],
+          coarse_position(coarse_vertex(context_.skeleton.triangle_vertices, 3 * at(triangle) + c,
+                                        triangle, complex_.triangle_vertices[3 * at(t) + c])));
       if (triangle == kNoIndex || !has_parameters()) continue;
       const double* uv = &context_.skeleton.triangle_uv[2 * (3 * at(triangle) + c)];
       triangle_uv_[result_.triangle_place(t, corners[c])] = {uv[0], uv[1]};
@@ -218,7 +252,7 @@ class LatticeRefiner {
 
   void refine_edge(LocalIndex e, LocalIndex step)
   {
-    const LocalIndex edge = complex_.edge_skeleton[at(e)];
+    const LocalIndex edge = edge_origin(e);
     for (LocalIndex k = step; k < result_.edge_intervals(e); k += 2 * step) {
       const Vec3 chord = midpoint(result_.edge_point(e, k - step), result_.edge_point(e, k + step));
       const bool is_free = edge == kNoIndex || context_.skeleton.edge_patch[at(edge)] == kNoIndex;
@@ -229,7 +263,7 @@ class LatticeRefiner {
   // Onto the edge's curve if it has one, else onto the patch of its canonical record.
   Vec3 place_on_geometry(LocalIndex e, LocalIndex k, LocalIndex step, const Vec3& chord)
   {
-    const std::size_t edge = at(complex_.edge_skeleton[at(e)]);
+    const std::size_t edge = at(edge_origin(e));
     SurfaceParameters parameters{};
     if (has_parameters()) {
       parameters = middle(edge_parameters_[result_.edge_place(e, k - step)],
@@ -246,10 +280,9 @@ class LatticeRefiner {
     };
     const model::SurfacePoint projected = project(chord, parameters);
     if (has_parameters()) edge_parameters_[result_.edge_place(e, k)] = projected.uv;
-    return limit(
-        chord, projected,
-        mesh::LatticePointKey::on_edge(complex_.edge_skeleton[at(e)], result_.edge_intervals(e), k),
-        project);
+    return limit(chord, projected,
+                 mesh::LatticePointKey::on_edge(edge_origin(e), result_.edge_intervals(e), k),
+                 project);
   }
 
   void refine_triangle(LocalIndex t, LocalIndex step)
@@ -287,10 +320,10 @@ class LatticeRefiner {
       const model::SurfacePoint projected =
           project(chord, has_parameters() ? guess_uv(t, p, step) : SurfaceParameters{});
       if (has_parameters()) triangle_uv_[result_.triangle_place(t, p)] = projected.uv;
-      point = limit(chord, projected,
-                    mesh::LatticePointKey::on_triangle(complex_.triangle_skeleton[at(t)],
-                                                       result_.triangle_intervals(t), p),
-                    project);
+      point = limit(
+          chord, projected,
+          mesh::LatticePointKey::on_triangle(triangle_origin(t), result_.triangle_intervals(t), p),
+          project);
     }
     result_.place_triangle_point(t, p, point);
   }
@@ -305,7 +338,7 @@ class LatticeRefiner {
 
   [[nodiscard]] LocalIndex patch_of(LocalIndex t) const
   {
-    const LocalIndex triangle = complex_.triangle_skeleton[at(t)];
+    const LocalIndex triangle = triangle_origin(t);
     return triangle == kNoIndex ? kNoIndex : context_.skeleton.triangle_patch[at(triangle)];
   }
 
@@ -334,6 +367,7 @@ class LatticeRefiner {
 
   const mesh::Complex& complex_;
   const RefineContext& context_;
+  const mesh::Orbits& orbits_;
   Side side_;
   const mesh::RefinedLattice* walls_ = nullptr;  // Points of the other side; none without layers.
   mesh::RefinedLattice result_;
@@ -362,19 +396,6 @@ void place_beside_walls(const mesh::Complex& complex, const RefineContext& conte
   }
 }
 
-// A point of a column over a skeleton edge at the rim of a wall, put onto the patch without layers
-// beside it; the point itself if there is none. `part`: where along the edge, from 0 to 1.
-Vec3 side_patch_point(const RefineContext& context, LocalIndex edge, double part, const Vec3& point)
-{
-  const mesh::Skeleton& skeleton = context.skeleton;
-  const LocalIndex patch = skeleton.edge_side_patch[at(edge)];
-  if (patch == kNoIndex) return point;
-  const double* uv = &skeleton.edge_side_uv[4 * at(edge)];
-  const SurfaceParameters guess{uv[0] + part * (uv[2] - uv[0]), uv[1] + part * (uv[3] - uv[1])};
-  return context.model.project_to_surface(context.coarse.patch_surface[at(patch)], point, guess)
-      .xyz;
-}
-
 void add(const mesh::ModelDistance& more, mesh::ModelDistance& sum)
 {
   sum.largest = std::max(sum.largest, more.largest);
@@ -383,33 +404,6 @@ void add(const mesh::ModelDistance& more, mesh::ModelDistance& sum)
 }
 
 }  // namespace
-
-Vec3 side_point_of_edge(const RefineContext& context, LocalIndex edge, LocalIndex n, LocalIndex k,
-                        const Vec3& point)
-{
-  const double factor = context.limiter.factor(mesh::LatticePointKey::on_edge(edge, n, k));
-  return limited(point, side_patch_point(context, edge, static_cast<double>(k) / n, point), factor);
-}
-
-Vec3 side_point_of_vertex(const RefineContext& context, LocalIndex vertex, const Vec3& point)
-{
-  const mesh::Skeleton& skeleton = context.skeleton;
-  const LocalIndex edge = skeleton.vertex_side_edge[at(vertex)];
-  if (edge == kNoIndex) return point;
-  const std::size_t end = skeleton.edge_vertices[2 * at(edge)] == vertex ? 0 : 1;
-  const double factor = context.limiter.factor(key_of_vertex_limit(edge));
-  if (skeleton.is_on_wall(edge)) {
-    return limited(point, side_patch_point(context, edge, static_cast<double>(end), point), factor);
-  }
-  const double t = skeleton.edge_parameters[2 * (2 * at(edge) + end)];
-  return limited(point, context.model.project_to_curve(skeleton.edge_curve[at(edge)], point, t).xyz,
-                 factor);
-}
-
-mesh::LatticePointKey key_of_vertex_limit(LocalIndex side_edge)
-{
-  return mesh::LatticePointKey::on_edge(side_edge, 2, 1);
-}
 
 mesh::RefinedLattice refine_lattice(const mesh::Complex& complex, mesh::LatticeLevels levels,
                                     const RefineContext& context)

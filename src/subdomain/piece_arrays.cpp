@@ -45,6 +45,9 @@ mesh::MeshArrays with_names(const WriteContext& mesh)
     auto& names = arrays.field_texts["split_patches"];
     names.insert(names.end(), sides.begin(), sides.end());
   }
+  if (const auto pairs = mesh::periodic_pairs(mesh.coarse); !pairs.empty()) {
+    arrays.field_texts[mesh::kPeriodicPairsName] = mesh::to_texts(pairs);
+  }
   arrays.field_texts["length_unit"] = names_or_none(mesh.length_unit);
   arrays.field_texts["tessera_version"] = {std::string(version())};
   return arrays;

@@ -3,29 +3,26 @@
 
 #include <algorithm>
 
+#include "tessera/delaunay/predicates.hpp"
+
 #include "surface/editable_surface.hpp"
 
 namespace tessera::surface {
 namespace {
 
-// Six times the signed volume of a tet.
-double volume6(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
-{
-  return dot(cross(b - a, c - a), d - a);
-}
-
-// Where the edge, whose ends are on different sides of the triangle's plane, goes through its
-// inside.
+// Where the edge, whose ends seem to be on different sides of the triangle's plane, goes through
+// its inside. Exact: triangles of one plane, as that of a side that was turned, are off it by
+// rounding.
 std::optional<Vec3> piercing(const Vec3& from, const Vec3& to, double above, double below,
                              const std::array<Vec3, 3>& triangle)
 {
-  std::array<double, 3> sides{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    sides[c] = volume6(from, to, triangle[c], triangle[(c + 1) % 3]);
+  const auto& [a, b, c] = triangle;
+  const int side = delaunay::orient3d(from, to, a, b);
+  if (side == 0 || delaunay::orient3d(from, to, b, c) != side
+      || delaunay::orient3d(from, to, c, a) != side
+      || delaunay::orient3d(a, b, c, from) * delaunay::orient3d(a, b, c, to) >= 0) {
+    return std::nullopt;
   }
-  const bool is_inside = (sides[0] > 0.0 && sides[1] > 0.0 && sides[2] > 0.0)
-                         || (sides[0] < 0.0 && sides[1] < 0.0 && sides[2] < 0.0);
-  if (!is_inside) return std::nullopt;
   return from + (above / (above - below)) * (to - from);
 }
 

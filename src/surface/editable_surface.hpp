@@ -116,6 +116,8 @@ class EditableSurface {
 
   void set_size(LocalIndex v, double size) { sizes_[at(v)] = size; }
   void move(LocalIndex v, const Vec3& xyz) { xyz_[at(v)] = xyz; }
+  /// @brief The vertex stays where it is from now on.
+  void fix(LocalIndex v) { freedom_[at(v)] = Freedom::none; }
 
   /// @brief Puts a vertex at `xyz` into an edge; returns it.
   LocalIndex split(const Edge& edge, const Vec3& xyz);

@@ -250,11 +250,12 @@ LocalIndex SurfaceEditor::split(const Edge& edge, double part)
   surface_.set_size(middle, sizes_(surface_.xyz(middle)));
   const std::vector<LocalIndex>& made = surface_.triangles_of(middle);
   note_change(made);
-  if (guard_) guard_split(made, old.front());
+  if (guard_) guard_changed(made, old.front());
   return middle;
 }
 
-void SurfaceEditor::guard_split(std::span<const LocalIndex> made, LocalIndex beside)
+// Triangles that were made without asking; new ones lie beside another.
+void SurfaceEditor::guard_changed(std::span<const LocalIndex> made, LocalIndex beside)
 {
   for (const LocalIndex t : made) {
     const bool is_upright = shape(t) >= 0.0;
@@ -370,6 +371,14 @@ bool SurfaceEditor::move(LocalIndex v, const Vec3& wanted, double least)
   note_change(around);
   for (std::size_t i = 0; i < around.size(); ++i) put(around[i], made[i]);
   return true;
+}
+
+void SurfaceEditor::put_at(LocalIndex v, const Vec3& place)
+{
+  surface_.move(v, place);
+  const std::vector<LocalIndex>& around = surface_.triangles_of(v);
+  note_change(around);
+  if (guard_) guard_changed(around, around.front());
 }
 
 }  // namespace tessera::surface

@@ -85,6 +85,12 @@ class SurfaceEditor {
   /// `wanted` itself.
   bool move(LocalIndex v, const Vec3& wanted, double least);
 
+  /// @brief Moves a vertex to a place on its patch or curve, whatever comes of it.
+  void put_at(LocalIndex v, const Vec3& place);
+
+  /// @brief The vertex stays where it is from now on.
+  void fix(LocalIndex v) { surface_.fix(v); }
+
   /// @brief What there is now.
   [[nodiscard]] PatchSurface take() const { return surface_.take(reference_.surface()); }
 
@@ -103,7 +109,7 @@ class SurfaceEditor {
   bool flip(const EditableSurface::Flip& flip, double least);
   [[nodiscard]] bool cuts_nothing(std::span<const LocalIndex> old,
                                   std::span<const PlacedTriangle> made, bool is_inside);
-  void guard_split(std::span<const LocalIndex> made, LocalIndex beside);
+  void guard_changed(std::span<const LocalIndex> made, LocalIndex beside);
   [[nodiscard]] bool is_upright(const PlacedTriangle& one);
   [[nodiscard]] const Vec3& normal_at(LocalIndex v, LocalIndex patch, const Vec3& place);
   [[nodiscard]] PlacedNormal& known_normal(LocalIndex v, LocalIndex patch);

@@ -67,7 +67,13 @@ class Opener {
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
       (split_.is_split(f) ? has_open : has_closed)[at(mesh_.face_patch[at(f)])] = true;
     }
-    mesh_.patch_other_side.assign(at(num_before), kNoIndex);
+    mesh::SideImages& images = mesh_.images;
+    if (images.are_none()) {
+      images.transforms.push_back({});
+      images.patch_origin.assign(at(num_before), kNoIndex);
+      images.patch_transform.assign(at(num_before), 0);
+      images.face_origin.assign(at(mesh_.num_faces()), kNoIndex);
+    }
     plus_.assign(at(num_before), kNoIndex);
     for (LocalIndex p = 0; p < num_before; ++p) {
       if (!has_open[at(p)]) continue;
@@ -75,8 +81,8 @@ class Opener {
       plus_[at(p)] = has_closed[at(p)] ? add_patch(p, name + "_plus") : p;
       mesh_.patch_names[at(plus_[at(p)])] = name + "_plus";
       const LocalIndex minus = add_patch(p, name + "_minus");
-      mesh_.patch_other_side[at(plus_[at(p)])] = minus;
-      mesh_.patch_other_side[at(minus)] = plus_[at(p)];
+      images.patch_origin[at(minus)] = plus_[at(p)];
+      minus_of_[plus_[at(p)]] = minus;
     }
     name_rows_anew();
   }
@@ -86,7 +92,8 @@ class Opener {
   {
     mesh_.patch_names.push_back(name);
     mesh_.patch_surface.push_back(LocalIndex{mesh_.patch_surface[at(like)]});
-    mesh_.patch_other_side.push_back(kNoIndex);
+    mesh_.images.patch_origin.push_back(kNoIndex);
+    mesh_.images.patch_transform.push_back(0);
     if (!mesh_.patch_row.empty()) mesh_.patch_row.push_back(LocalIndex{mesh_.patch_row[at(like)]});
     if (!mesh_.layers.are_none()) mesh_.layers.patch_is_wall.push_back(0);
     return mesh_.num_patches() - 1;
@@ -155,7 +162,7 @@ class Opener {
       set_corners(f, split_.tets(f)[0]);
       if (!split_.is_split(f)) continue;
       mesh_.face_patch[at(f)] = plus_[at(mesh_.face_patch[at(f)])];
-      add_other_side(f, mesh_.patch_other_side[at(mesh_.face_patch[at(f)])]);
+      add_other_side(f, minus_of_.at(mesh_.face_patch[at(f)]));
       set_corners(mesh_.num_faces() - 1, split_.tets(f)[1]);
     }
   }
@@ -164,6 +171,7 @@ class Opener {
   {
     mesh_.face_vertices.resize(mesh_.face_vertices.size() + 3);
     mesh_.face_patch.push_back(patch);
+    mesh_.images.face_origin.push_back(f);
     if (mesh_.face_uv.empty()) return;
     std::array<double, 6> uv{};
     std::copy_n(&mesh_.face_uv[6 * at(f)], 6, uv.begin());
@@ -185,9 +193,10 @@ class Opener {
 
   mesh::CoarseMesh& mesh_;
   SplitFaces split_;
-  std::vector<LocalIndex> plus_{};        // Of each patch before: one side of what is opened of it.
-  std::vector<LocalIndex> first_copy_{};  // Of each vertex, as a vertex of the opened mesh.
-  std::vector<LocalIndex> origin_{};      // Of each vertex of the opened mesh.
+  std::vector<LocalIndex> plus_{};  // Of each patch before: one side of what is opened of it.
+  std::map<LocalIndex, LocalIndex> minus_of_{};  // Of such a side.
+  std::vector<LocalIndex> first_copy_{};         // Of each vertex, as a vertex of the opened mesh.
+  std::vector<LocalIndex> origin_{};             // Of each vertex of the opened mesh.
 };
 
 }  // namespace

@@ -33,6 +33,7 @@ def numbered(count):
 
 
 CYLINDER_PATCHES = frozenset({"side", "top", "bottom"})
+PACKING_PATCHES = frozenset({"skin", "left", "right", "front", "back", "bottom", "top"})
 PENNY_PATCHES = numbered(20) - numbered(3) | {"patch_1", "middle", "middle_plus", "middle_minus"}
 CORE_PATCHES = frozenset({"outside", "core_skin", "shell_skin"})
 SHAFT_PATCHES = frozenset("journal taper seat keyway flange stub bore hole".split())
@@ -60,6 +61,9 @@ CASES = {
     "cylinder": Expected(math.pi * 5**2 * 20, 0.05, ("cylinder",), CYLINDER_PATCHES, ("mm",)),
     "frustum": Expected(FRUSTUM, 0.05, ("material_1",), numbered(3)),
     "own_mesh": Expected(math.pi * 5**2 * 20, 0.1, ("rod",), frozenset({"jacket", "ends"}), ("mm",)),
+    "packing": Expected(
+        1, 1e-9, ("matrix", "grains"), PACKING_PATCHES, coarser=("size.target=0.1",)
+    ),
     "penny_crack": Expected(
         432, 1e-9, ("puck_low", "puck_high", "rest_low", "rest_high"), PENNY_PATCHES, coarser=()
     ),

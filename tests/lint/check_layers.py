@@ -16,7 +16,7 @@ ALLOWED = {  # module -> project modules it may include, besides itself
     "geometry": CORE | {"model", "cut", "surface", "coarse", "io"},
     "cad": CORE | {"model", "cut", "surface", "coarse", "geometry"},
     "netgen": CORE | {"model", "cut", "surface", "coarse", "fill", "io", "geometry", "cad"},
-    "surface": CORE | {"model", "cut"},
+    "surface": CORE | {"model", "cut", "delaunay"},
     "coarse": CORE | {"model", "cut", "surface", "delaunay", "optimize", "quality"},
     "cut": CORE | {"model"},
     "decompose": CORE | {"model"},
@@ -60,10 +60,11 @@ QUARANTINE = {  # third-party header -> the only places that may include it
 }
 PARTS = {  # (module, other module, "*": any) -> the only headers of the other that it may include
     ("config", "*"): ("options.hpp",),
-    ("check", "mesh"): ("mesh_arrays.hpp",),
+    ("check", "mesh"): ("mesh_arrays.hpp", "periodic_pairs.hpp"),
     ("delaunay", "mesh"): ("tet_topology.hpp",),
     ("optimize", "mesh"): ("tet_topology.hpp",),
     ("pipeline", "netgen"): ("factory.hpp",),
+    ("surface", "delaunay"): ("predicates.hpp",),
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]')
 

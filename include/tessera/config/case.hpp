@@ -46,9 +46,10 @@ struct Case {
   sizing::SizeOptions size{};
   surface::CoarseOptions coarse{};
   decompose::DecomposeOptions decompose{};
-  cut::PlaneSettings planes{};                 ///< Of decompose.method "geometry".
-  std::vector<layers::LayerOptions> layers{};  ///< On walls; empty: none.
-  topology::SplitOptions splits{};             ///< Cracks and baffles; empty: none.
+  cut::PlaneSettings planes{};                     ///< Of decompose.method "geometry".
+  std::vector<layers::LayerOptions> layers{};      ///< On walls; empty: none.
+  topology::SplitOptions splits{};                 ///< Cracks and baffles; empty: none.
+  std::vector<topology::PeriodicSide> periodic{};  ///< Sides that are images; empty: none.
   refine::RefineOptions refine{};
   fill::FillOptions fill{};
   improve::ImproveOptions improve{};

@@ -10,6 +10,8 @@
 #include "tessera/base/flat_array.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
+#include "tessera/mesh/periodic_pairs.hpp"
+#include "tessera/mesh/side_images.hpp"
 #include "tessera/mesh/wall_layers.hpp"
 
 namespace tessera::mesh {
@@ -53,11 +55,9 @@ struct CoarseMesh {
   FlatArray<LocalIndex> patch_row{};  ///< Shape (num_patches); row of the patch in files, dense
                                       ///< from 0. Patches of one row have one name, that of its
                                       ///< first patch. Empty: each patch is its own row.
-  /// Shape (num_patches), or empty: the patch on the other side of a split, at the same places;
-  /// kNoIndex if a patch is none of a split.
-  FlatArray<LocalIndex> patch_other_side{};
   std::vector<std::string> material_names{};  ///< Entry m-1 names material m.
 
+  SideImages images{};  ///< Periodic sides, and minus sides of splits.
   WallLayers layers{};  ///< Between the tets and the geometry.
 
   static auto fields(auto& self)
@@ -65,7 +65,7 @@ struct CoarseMesh {
     return std::tie(self.vertex_xyz, self.tet_vertices, self.tet_material, self.face_vertices,
                     self.face_patch, self.face_uv, self.segment_vertices, self.segment_curve,
                     self.segment_t, self.curves, self.patch_names, self.patch_surface,
-                    self.patch_row, self.patch_other_side, self.material_names, self.layers);
+                    self.patch_row, self.material_names, self.images, self.layers);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
@@ -94,12 +94,16 @@ struct CoarseMesh {
 /// @brief Names of the two sides of each split, plus and minus. Local.
 [[nodiscard]] std::vector<std::array<std::string, 2>> split_patch_names(const CoarseMesh& mesh);
 
+/// @brief Its periodic sides, in the order of their transforms. Local.
+[[nodiscard]] std::vector<PeriodicPair> periodic_pairs(const CoarseMesh& mesh);
+
 /// @brief Throws MeshError unless the mesh keeps what CoarseMesh promises. Local.
 ///
 /// - Indices are in range and sizes of arrays are consistent.
 /// - Every tet is positive.
 /// - Every face is a face of one tet, or of two if their materials differ.
 /// - Every triangle of a tet that is outside or between two materials is a face.
+/// - Every face of a patch that is an image is the image of a face.
 void validate(const CoarseMesh& mesh);
 
 }  // namespace tessera::mesh

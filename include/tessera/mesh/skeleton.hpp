@@ -11,6 +11,7 @@
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/decomposition.hpp"
+#include "tessera/mesh/orbits.hpp"
 
 namespace tessera::mesh {
 
@@ -57,13 +58,16 @@ struct Skeleton {
 
   IndexLists subdomain_triangles{};  ///< Triangles of each subdomain, ascending.
 
+  Orbits orbits{};  ///< What is the image of what; empty: nothing.
+
   static auto fields(auto& self)
   {
     return std::tie(self.vertex_coarse, self.vertex_owner, self.edge_vertices, self.edge_owner,
                     self.edge_curve, self.edge_patch, self.edge_parameters, self.edge_on_wall,
                     self.edge_side_patch, self.edge_side_uv, self.vertex_side_edge,
                     self.triangle_vertices, self.triangle_edges, self.triangle_patch,
-                    self.triangle_uv, self.triangle_subdomains, self.subdomain_triangles);
+                    self.triangle_uv, self.triangle_subdomains, self.subdomain_triangles,
+                    self.orbits);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return size_of(vertex_coarse); }

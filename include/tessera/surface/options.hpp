@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/affine.hpp"
 #include "tessera/base/enum_words.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/mesh/size_points.hpp"
@@ -68,6 +69,17 @@ struct KeptParts {
   friend bool operator==(const KeptParts&, const KeptParts&) = default;
 };
 
+/// @brief Patches whose triangles are to be images of those of others. The model's numbers.
+struct PeriodicPatches {
+  std::vector<LocalIndex> from{};
+  std::vector<LocalIndex> to{};
+  Affine there{};  ///< From the ones to the others.
+
+  static auto fields(auto& self) { return std::tie(self.from, self.to, self.there); }
+
+  friend bool operator==(const PeriodicPatches&, const PeriodicPatches&) = default;
+};
+
 /// @brief Options of the coarse mesh; table `[coarse]` of a case file.
 struct CoarseOptions {
   Mesher mesher = Mesher::netgen;
@@ -80,7 +92,8 @@ struct CoarseOptions {
 
   /// Shorter edges are merged, and narrower faces; output length unit, >= 0; 0: none.
   double defeature = 0.0;
-  KeptParts kept{};  ///< These are not merged, however small.
+  KeptParts kept{};                         ///< These are not merged, however small.
+  std::vector<PeriodicPatches> periodic{};  ///< Found from the model; lengths as of max_size.
 
   bool optimize = false;  ///< Whether optimize_interior() follows.
 
@@ -94,7 +107,7 @@ struct CoarseOptions {
   static auto fields(auto& self)
   {
     return std::tie(self.mesher, self.max_size, self.grading, self.curvature,
-                    self.feature_angle_deg, self.defeature, self.kept, self.optimize,
+                    self.feature_angle_deg, self.defeature, self.kept, self.periodic, self.optimize,
                     self.surface_mesher, self.timeout_s, self.points);
   }
 

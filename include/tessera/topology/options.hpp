@@ -5,6 +5,9 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/affine.hpp"
+#include "tessera/base/vec3.hpp"
+
 namespace tessera::topology {
 
 /// @brief Patches along which the mesh is opened; table `[[split]]` of a case file.
@@ -36,5 +39,37 @@ struct SplitOptions {
 
   [[nodiscard]] bool are_none() const { return patches.empty() && contacts.empty(); }
 };
+
+/// @brief Patches that are the image of others, so that the mesh can be put side by side with
+/// itself; table `[[periodic]]` of a case file. Lengths are output length units.
+struct PeriodicSide {
+  static constexpr double kNoAngle = 360.0;  ///< Not given.
+
+  std::string from{};           ///< Name of the patches, or a pattern as of the shell.
+  std::string to{};             ///< Of their images.
+  Vec3 translation = kNoPoint;  ///< kNoPoint: not given.
+  Vec3 axis_point = kNoPoint;   ///< Of a rotation: a point of its axis; kNoPoint: not given.
+  Vec3 axis = kNoPoint;         ///< Its direction, of any length.
+  double angle_deg = kNoAngle;  ///< By the right-hand rule.
+
+  static auto fields(auto& self)
+  {
+    return std::tie(self.from, self.to, self.translation, self.axis_point, self.axis,
+                    self.angle_deg);
+  }
+  friend bool operator==(const PeriodicSide&, const PeriodicSide&) = default;
+
+  [[nodiscard]] bool has_translation() const { return translation != kNoPoint; }
+  [[nodiscard]] bool has_rotation() const { return axis_point != kNoPoint || axis != kNoPoint; }
+};
+
+/// @brief What an entry must not be, as a sentence's end; empty: it is sound. Local.
+[[nodiscard]] std::string defect_of(const PeriodicSide& side);
+
+/// @brief What leads from one side to the other. Local.
+/// @param[in] shift From the centroid of the one to that of the other: the translation if the entry
+/// gives neither that nor a rotation.
+/// @pre defect_of() finds nothing.
+[[nodiscard]] Affine transform_of(const PeriodicSide& side, const Vec3& shift);
 
 }  // namespace tessera::topology

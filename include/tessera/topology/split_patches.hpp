@@ -25,7 +25,7 @@ namespace tessera::topology {
 void divide_at_rims(mesh::CoarseMesh& mesh, const SplitOptions& options, const model::Model& model);
 
 /// @brief Opens a mesh. What is opened of a patch X becomes two: `X_plus` on the material with the
-/// lower number, and `X_minus` on the other one; CoarseMesh::patch_other_side tells of it. Copies
+/// lower number, and `X_minus` on the other one, which is its image: CoarseMesh::images. Copies
 /// of vertices stand right behind each other, so on both sides all orders of vertices are the same:
 /// what is made of these sides has the same bits. Local; O(n log n).
 /// @param[in,out] levels Of the mesh's edges; those of copies are as before.

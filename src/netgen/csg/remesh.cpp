@@ -151,10 +151,18 @@ double least_size_of_file(const Geometry& geometry, double max_size)
 // What the case names, in the numbers of the triangles.
 surface::CoarseOptions in_numbers_of(const coarse::CadSurface& cad, surface::CoarseOptions options)
 {
-  surface::KeptParts kept;
-  for (std::size_t p = 0; p < cad.patch_surface.size(); ++p) {
-    if (options.kept.has_patch(cad.patch_surface[p]))
-      kept.patches.push_back(static_cast<LocalIndex>(p));
+  const auto patches_on = [&](const std::vector<LocalIndex>& surfaces) {
+    std::vector<LocalIndex> patches;
+    for (std::size_t p = 0; p < cad.patch_surface.size(); ++p) {
+      if (std::ranges::find(surfaces, cad.patch_surface[p]) != surfaces.end())
+        patches.push_back(static_cast<LocalIndex>(p));
+    }
+    return patches;
+  };
+  surface::KeptParts kept{.patches = patches_on(options.kept.patches)};
+  for (surface::PeriodicPatches& side : options.periodic) {
+    side.from = patches_on(side.from);
+    side.to = patches_on(side.to);
   }
   for (std::size_t c = 0; c < cad.curve_number.size(); ++c) {
     if (options.kept.has_curve(cad.curve_number[c]))

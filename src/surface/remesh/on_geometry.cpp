@@ -14,6 +14,7 @@
 #include "surface/crossings.hpp"
 #include "surface/editable_surface.hpp"
 #include "surface/remesh/patch_folds.hpp"
+#include "surface/remesh/periodic_rims.hpp"
 #include "surface/remesh/remesh.hpp"
 
 namespace tessera::surface {
@@ -146,9 +147,11 @@ class Finer {
   Finer(const SurfaceReference& reference, const model::Model& model, const CoarseOptions& options)
       : reference_(reference),
         model_(model),
+        rims_(reference, options.periodic),
         sizes_(size_function_of(reference, options)),
         surface_(remesh(reference, reference.surface(), sizes_, &model))
   {
+    if (!rims_.are_none()) match_sides();
     if (options.defeature > 0.0) merge({options.defeature, options.kept, std::cref(sizes_)});
     put_on_geometry(surface_, reference_, model_);
     most_triangles_ = kMostGrowth * surface_.triangles.size();
@@ -209,7 +212,11 @@ class Finer {
     }
   }
 
-  [[nodiscard]] RemeshedSurface take() && { return {std::move(surface_), std::move(defeatured_)}; }
+  [[nodiscard]] RemeshedSurface take() &&
+  {
+    rims_.copy_triangles(surface_);
+    return {std::move(surface_), std::move(defeatured_)};
+  }
 
  private:
   [[nodiscard]] bool may_grow() const { return surface_.triangles.size() <= most_triangles_; }
@@ -218,7 +225,19 @@ class Finer {
   void merge(const MergeLimits& limits)
   {
     defeatured_ = defeature(surface_, reference_, model_, limits);
-    if (defeatured_.is_any()) surface_ = remesh(reference_, surface_, sizes_, &model_);
+    if (defeatured_.is_any()) surface_ = remeshed();
+  }
+
+  [[nodiscard]] PatchSurface remeshed() const
+  {
+    return remesh(reference_, surface_, sizes_, &model_, rims_.are_none() ? nullptr : &rims_);
+  }
+
+  // What one side wants, the other one gets as well.
+  void match_sides()
+  {
+    sizes_.limit(rims_.sizes_of_images(surface_, sizes_));
+    surface_ = remeshed();
   }
 
   // Edges of half their length at some triangles, from now on.
@@ -230,13 +249,14 @@ class Finer {
       sources.push_back({p, 0.5 * sizes_((1.0 / 3.0) * (p[0] + p[1] + p[2]))});
     }
     sizes_.limit(sources);
-    PatchSurface finer = remesh(reference_, surface_, sizes_, &model_);
+    PatchSurface finer = remeshed();
     put_on_geometry(finer, reference_, model_);
     return finer;
   }
 
   const SurfaceReference& reference_;
   const model::Model& model_;
+  PeriodicRims rims_;
   SizeFunction sizes_;
   PatchSurface surface_;
   Defeatured defeatured_{};

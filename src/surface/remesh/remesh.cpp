@@ -14,6 +14,7 @@
 
 #include "surface/editor.hpp"
 #include "surface/remesh/divide_curves.hpp"
+#include "surface/remesh/periodic_rims.hpp"
 #include "surface/remesh/polish.hpp"
 #include "surface/sizes/strip_sizes.hpp"
 #include "surface/sizes/surface_sizes.hpp"
@@ -78,9 +79,10 @@ class Remesher {
     return surface_;
   }
 
-  PatchSurface run()
+  PatchSurface run(const PeriodicRims* rims)
   {
     divide_curves(editor_);
+    if (rims != nullptr) rims->match(editor_);
     for (int round = 0; round < kRounds; ++round) {
       collapse_short_edges();
       flip_edges();
@@ -284,12 +286,12 @@ SizeFunction size_function_of(const SurfaceReference& reference, const CoarseOpt
 }
 
 PatchSurface remesh(const SurfaceReference& reference, const PatchSurface& start,
-                    const SizeFunction& sizes, const model::Model* model)
+                    const SizeFunction& sizes, const model::Model* model, const PeriodicRims* rims)
 {
   // Most surfaces do not come to cut themselves, and guarding steps takes as long as all else.
-  PatchSurface surface = Remesher(reference, start, sizes, model, true).run();
+  PatchSurface surface = Remesher(reference, start, sizes, model, true).run(rims);
   if (find_overlaps(surface).empty()) return surface;
-  return Remesher(reference, start, sizes, model, false).run();
+  return Remesher(reference, start, sizes, model, false).run(rims);
 }
 
 PatchSurface remesh(const SurfaceReference& reference, const CoarseOptions& options)

@@ -8,6 +8,8 @@
 
 namespace tessera::surface {
 
+class PeriodicRims;
+
 /// @brief A surface with well-shaped triangles of the wanted sizes on the reference. Local.
 ///
 /// Round by round its edges are split, collapsed and flipped and its vertices smoothed. Curves stay
@@ -24,9 +26,11 @@ namespace tessera::surface {
 /// @param[in] start  Where it begins: the reference's surface, or another one that has its patches
 /// and curves, or some of them.
 /// @param[in] model  If given, vertices on curves come to lie on its curves.
+/// @param[in] rims  If given, curves that are images of each other get vertices that are.
 /// @pre validate() accepts the reference's surface.
 [[nodiscard]] PatchSurface remesh(const SurfaceReference& reference, const PatchSurface& start,
-                                  const SizeFunction& sizes, const model::Model* model = nullptr);
+                                  const SizeFunction& sizes, const model::Model* model = nullptr,
+                                  const PeriodicRims* rims = nullptr);
 
 /// @brief The sizes that the options and the surface ask for: shorter edges where it bends, in
 /// narrow strips and at thin walls, and where the model itself wants them. Local.

@@ -22,6 +22,8 @@ Case complete_case()
   wanted.geometry = {
       .file = "/m \"q\" \\ ü\t.step", .scale = 1.0 / 3.0, .assembly = {model::Overlap::cut, 1e-9}};
   wanted.splits = {.patches = {{"cr\"ack*"}}, .contacts = {{"st\"ep", "[12]"}, {"a", "b"}}};
+  wanted.periodic = {{.from = "a*", .to = "\"b\"", .translation = {1.0 / 3.0, 0.0, -2.0}},
+                     {.from = "c", .to = "d", .axis = {0.0, 0.0, 1.0}, .angle_deg = 0.1}};
   wanted.size = {.min = 1e-3,
                  .max = 1.0 / 7.0,
                  .grading = 0.2,

@@ -9,7 +9,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/coarse_edges.hpp"
-#include "tessera/mesh/double_vertices.hpp"
+#include "tessera/mesh/skeleton.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/refine/choose_levels.hpp"
 
@@ -95,6 +95,11 @@ TEST(SplitPatches, PartsWhatNothingElseHoldsTogether)
   }
 }
 
+bool is_on_crack(const mesh::CoarseMesh& mesh, LocalIndex patch)
+{
+  return mesh.patch_names[at(patch)].starts_with("crack_");
+}
+
 TEST(SplitPatches, LeavesTheRimSingle)
 {
   mesh::CoarseMesh cube = cube_with_crack(4, is_in_middle);
@@ -110,8 +115,9 @@ TEST(SplitPatches, LeavesTheRimSingle)
   }
   const auto plus = std::ranges::find(cube.patch_names, "crack_plus") - cube.patch_names.begin();
   const auto minus = std::ranges::find(cube.patch_names, "crack_minus") - cube.patch_names.begin();
-  EXPECT_EQ(cube.patch_other_side[static_cast<std::size_t>(plus)], minus);
-  EXPECT_EQ(cube.patch_other_side[static_cast<std::size_t>(minus)], plus);
+  EXPECT_EQ(cube.images.patch_origin[static_cast<std::size_t>(minus)], plus);
+  EXPECT_TRUE(cube.images.is_of_split(static_cast<LocalIndex>(minus)));
+  EXPECT_FALSE(cube.images.is_of_split(static_cast<LocalIndex>(plus)));
 }
 
 // Its three vertices are all on the rim, so one is put into its middle.
@@ -135,7 +141,7 @@ TEST(SplitPatches, GivesBothSidesTheSameOrder)
   open(cube);
   std::multiset<std::vector<Vec3>> sides;
   for (LocalIndex f = 0; f < cube.num_faces(); ++f) {
-    if (cube.patch_other_side[at(cube.face_patch[at(f)])] == kNoIndex) continue;
+    if (!is_on_crack(cube, cube.face_patch[at(f)])) continue;
     std::vector<LocalIndex> v(&cube.face_vertices[3 * at(f)], &cube.face_vertices[3 * at(f)] + 3);
     std::ranges::sort(v);
     sides.insert({cube.position(v[0]), cube.position(v[1]), cube.position(v[2])});
@@ -183,11 +189,11 @@ TEST(SplitPatches, HasLimitsOnBothSides)
   };
   int num_on_crack = 0;
   for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
-    const bool is_on_crack = cube.patch_other_side[at(skeleton.triangle_patch[at(t)])] != kNoIndex;
+    const bool has_two_sides = is_on_crack(cube, skeleton.triangle_patch[at(t)]);
     const auto key = mesh::LatticePointKey::on_triangle(t, 4, {1, 1});
-    const auto limits = mesh::on_all_sides({{key, 0.5}}, skeleton, cube);
-    ASSERT_EQ(limits.size(), is_on_crack ? 2U : 1U);
-    num_on_crack += is_on_crack ? 1 : 0;
+    const auto limits = mesh::on_whole_orbits({{key, 0.5}}, skeleton.orbits);
+    ASSERT_EQ(limits.size(), has_two_sides ? 2U : 1U);
+    num_on_crack += has_two_sides ? 1 : 0;
     for (const mesh::PointLimit& limit : limits) {
       EXPECT_EQ(limit.key.index, key.index);
       EXPECT_EQ(limit.factor, 0.5);

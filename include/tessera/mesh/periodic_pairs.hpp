@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tessera/base/affine.hpp"
+
+namespace tessera::mesh {
+
+/// @brief A patch whose points and triangles are the images of another one's, as files say it.
+struct PeriodicPair {
+  std::string from{};
+  std::string to{};
+  Affine there{};  ///< Lengths are the file's.
+
+  friend bool operator==(const PeriodicPair&, const PeriodicPair&) = default;
+};
+
+/// @brief Name of the array of field data with the texts of to_texts().
+inline constexpr const char* kPeriodicPairsName = "periodic_patches";
+
+/// @brief Three texts a pair: both names, and the rows of a 3 x 4 matrix, whose last column is the
+/// shift, as numbers that read back as the same. Local.
+[[nodiscard]] std::vector<std::string> to_texts(std::span<const PeriodicPair> pairs);
+
+/// @brief The other way round. Local. @throws InputError if the texts are none of to_texts().
+[[nodiscard]] std::vector<PeriodicPair> periodic_pairs(std::span<const std::string> texts);
+
+}  // namespace tessera::mesh

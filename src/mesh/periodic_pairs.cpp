@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/periodic_pairs.hpp"
+
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+
+namespace tessera::mesh {
+namespace {
+
+std::string text_of(const Affine& there)
+{
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < 3; ++i) {
+    numbers.insert(numbers.end(), there.rows[i].begin(), there.rows[i].end());
+    numbers.push_back(there.shift[i]);
+  }
+  return fmt::format("{}", fmt::join(numbers, " "));
+}
+
+Affine affine_of(const std::string& text)
+{
+  std::istringstream in(text);
+  Affine there;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (double& number : there.rows[i]) in >> number;
+    in >> there.shift[i];
+  }
+  if (!in) throw InputError(fmt::format("\"{}\" is no matrix of 3 x 4 numbers", text));
+  return there;
+}
+
+}  // namespace
+
+std::vector<std::string> to_texts(std::span<const PeriodicPair> pairs)
+{
+  std::vector<std::string> texts;
+  for (const PeriodicPair& pair : pairs) {
+    texts.insert(texts.end(), {pair.from, pair.to, text_of(pair.there)});
+  }
+  return texts;
+}
+
+std::vector<PeriodicPair> periodic_pairs(std::span<const std::string> texts)
+{
+  if (texts.size() % 3 != 0) {
+    throw InputError(
+        fmt::format("{} has {} texts; must be three a pair", kPeriodicPairsName, texts.size()));
+  }
+  std::vector<PeriodicPair> pairs;
+  for (std::size_t i = 0; i < texts.size(); i += 3) {
+    pairs.push_back({texts[i], texts[i + 1], affine_of(texts[i + 2])});
+  }
+  return pairs;
+}
+
+}  // namespace tessera::mesh
