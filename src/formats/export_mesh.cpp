@@ -10,6 +10,7 @@
 #include "formats/foam/faces.hpp"
 #include "formats/link/ghosts.hpp"
 #include "formats/link/link_pieces.hpp"
+#include "formats/link/match_periodic.hpp"
 #include "formats/piece_source.hpp"
 #include "formats/writer.hpp"
 
@@ -41,6 +42,7 @@ void on_first_rank(const comm::Communicator& comm, const Writers& writers, void 
 struct LinkedPieces {
   LinkedMesh mesh{};
   std::vector<Ghosts> ghosts{};  // By this rank's pieces; empty if no writer needs them.
+  std::vector<std::vector<PeriodicPoint>> periodic_points{};  // The same.
 };
 
 // Pieces are read once more for it: their faces take the place of closed forms.
@@ -61,7 +63,7 @@ void count_faces_of_cells(const PieceSource& source, LinkedMesh& mesh,
   mesh.outline.cell_faces = comm.all_gather_rows(own);
 }
 
-// Ghosts go with the piece, so memory is given back on the way.
+// Ghosts and the like go with the piece, so memory is given back on the way.
 void write_pieces(const PieceSource& source, LinkedPieces& linked, const Writers& writers,
                   LocalIndex first, const std::function<void()>& before_each)
 {
@@ -71,6 +73,8 @@ void write_pieces(const PieceSource& source, LinkedPieces& linked, const Writers
     const LocalIndex number = first + static_cast<LocalIndex>(i);
     Piece piece = build_piece(source.load(number), number, mesh.links[i], mesh);
     if (!linked.ghosts.empty()) piece.ghosts = std::move(linked.ghosts[i]);
+    if (!linked.periodic_points.empty())
+      piece.periodic_points = std::move(linked.periodic_points[i]);
     for (const auto& writer : writers) writer->write(piece);
   }
   for (const auto& writer : writers) writer->close();
@@ -96,13 +100,18 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
   const auto has = [&](io::Format format) {
     return std::ranges::find(request.formats, format) != request.formats.end();
   };
-  const LinkOptions options{.shared_edges = has(io::Format::mfem) || has(io::Format::mfem_sets),
-                            .face_numbers = has(io::Format::openfoam),
-                            .patch_points = has(io::Format::abaqus) || has(io::Format::exodus)};
+  const bool has_periodic =
+      !source.names().periodic.empty() && (has(io::Format::msh) || has(io::Format::msh2));
+  const LinkOptions options{
+      .shared_edges = has(io::Format::mfem) || has(io::Format::mfem_sets),
+      .face_numbers = has(io::Format::openfoam),
+      .patch_points = has_periodic || has(io::Format::abaqus) || has(io::Format::exodus)};
   LinkedPieces linked{.mesh = link_pieces(source, comm, before_each, options)};
   const bool has_polyhedra = has(io::Format::openfoam) || has(io::Format::openfoam_serial);
   if (has_polyhedra && linked.mesh.outline.has_prisms())
     count_faces_of_cells(source, linked.mesh, comm, before_each);
+  if (has_periodic)
+    linked.periodic_points = match_periodic_patches(source, linked.mesh, comm, before_each);
   Writers writers;
   all_or_none(comm, [&] { writers = make_writers(request, linked.mesh.outline); });
   if (std::ranges::any_of(writers, [](const auto& writer) { return writer->needs_ghosts(); }))

@@ -20,6 +20,7 @@
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/mesh/mesh_arrays.hpp"
+#include "tessera/mesh/periodic_pairs.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/subdomain/mesh_input.hpp"
 
@@ -319,7 +320,8 @@ struct FirstPiece {
 
   static auto fields(auto& self)
   {
-    return std::tie(self.has_ids, self.names.materials, self.names.patches, self.names.length_unit);
+    return std::tie(self.has_ids, self.names.materials, self.names.patches, self.names.length_unit,
+                    self.names.periodic);
   }
 };
 
@@ -330,7 +332,8 @@ FileNames names_in(const mesh::MeshArrays& cells)
     return found == cells.field_texts.end() ? std::vector<std::string>{} : found->second;
   };
   const std::vector<std::string> unit = texts("length_unit");
-  return {texts("material_names"), texts("patch_names"), unit.empty() ? "" : unit.front()};
+  return {texts("material_names"), texts("patch_names"), unit.empty() ? "" : unit.front(),
+          texts(mesh::kPeriodicPairsName)};
 }
 
 }  // namespace

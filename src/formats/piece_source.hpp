@@ -47,6 +47,7 @@ struct FileNames {
   std::vector<std::string> materials{};  ///< Of "attribute" 1, 2, …
   std::vector<std::string> patches{};    ///< Of "patch" 0, 1, …
   std::string length_unit{};
+  std::vector<std::string> periodic{};  ///< As mesh::to_texts() has them.
 };
 
 /// @brief The files of a mesh, and which rank reads which.

@@ -19,11 +19,12 @@ class Msh:
     `names` {(dimension, physical tag): name}, `physicals` {(dimension, entity): tags}, `parents` and
     `parts` {(dimension, entity): …} of partitioned entities, `ghost_parts` {entity: part}, `nodes` and
     `xyz`, `blocks` [(dimension, entity, type, rows of element and nodes)], `ghosts` rows of element,
-    owner and part, `order` of the sections."""
+    owner and part, `periodic` [(dimension, entity of the images, entity of the originals, matrix, rows of two
+    nodes)], `order` of the sections."""
 
     def __init__(self, file):
         self.names, self.physicals, self.parents, self.parts, self.ghost_parts = {}, {}, {}, {}, {}
-        self.blocks, self.order, self.num_parts = [], [], 0
+        self.blocks, self.order, self.num_parts, self.periodic = [], [], 0, []
         self.ghosts = np.empty((0, 3), int)
         self._file = file
         self._content = file.read_bytes()
@@ -170,6 +171,22 @@ class Msh:
             self.physicals[DIMENSION[kind], entity] = [physical]
             groups.setdefault((DIMENSION[kind], entity, kind), []).append([element, *nodes])
         self.blocks = [(*key, np.array(rows)) for key, rows in groups.items()]
+
+    def _read_Periodic(self):
+        if self.version == "2.2":
+            for _ in range(int(self._line())):
+                entities = map(int, self._line().split())
+                word, *numbers = self._line().split()
+                assert word == "Affine"
+                matrix = np.array([float(number) for number in numbers]).reshape(4, 4)
+                nodes = [[int(node) for node in self._line().split()] for _ in range(int(self._line()))]
+                self.periodic.append((*entities, matrix, np.array(nodes)))
+            return
+        for _ in range(self._sizes(1)[0]):
+            entities = self._ints(3)
+            assert self._sizes(1) == [16]
+            matrix = self._array("<f8", 4, 4)
+            self.periodic.append((*entities, matrix, self._array("<u8", self._sizes(1)[0], 2).astype(int)))
 
     def _read_GhostElements(self):
         rows = []

@@ -7,28 +7,11 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import program  # noqa: E402
+from msh_file import Msh  # noqa: E402
+from periodic_models import PACKING, PAIRS, SECTOR, packing_case, sector_case  # noqa: E402
 from program import FAILED, OK, WRONG_INPUT, sets  # noqa: E402
 from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader  # noqa: E402
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter  # noqa: E402
-
-# One cell of a packing: balls in the corners, which its sides cut, and one off the middle.
-BALLS = [(x, y, z, 0.3) for x in (0, 1) for y in (0, 1) for z in (0, 1)] + [(0.45, 0.5, 0.55, 0.25)]
-PACKING = (
-    "algebraic3d\n"
-    + "".join(f"solid b{i} = sphere ({x}, {y}, {z}; {r});\n" for i, (x, y, z, r) in enumerate(BALLS))
-    + f"solid balls = {' or '.join(f'b{i}' for i in range(len(BALLS)))};\nsolid box = orthobrick (0, 0, 0; 1, 1, 1);\n"
-    "solid matrix = box and not balls;\nsolid grains = box and balls;\ntlo matrix;\ntlo grains;\n"
-)
-SIDES = {"left": 14, "right": 15, "front": 12, "back": 13, "bottom": 10, "top": 11}
-PAIRS = {("left", "right"): (1, 0, 0), ("front", "back"): (0, 1, 0), ("bottom", "top"): (0, 0, 1)}
-
-# A sector of 30 degrees of a wheel with a hole in each.
-SECTOR = (
-    "algebraic3d\nsolid wheel = cylinder (0, 0, 0; 0, 0, 1; 1) and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 0.3; 0, 0, 1);\n"
-    "solid hub = cylinder (0, 0, 0; 0, 0, 1; 0.3);\nsolid hole = cylinder (0.676, 0.181, 0; 0.676, 0.181, 1; 0.09);\n"
-    "solid start = plane (0, 0, 0; 0, -1, 0);\nsolid end = plane (0, 0, 0; -0.5, 0.8660254037844386, 0);\n"
-    "solid sector = wheel and start and end and not hub and not hole;\ntlo sector;\n"
-)
 
 
 def grid_of(file, reader_type=vtkXMLPUnstructuredGridReader):
@@ -36,6 +19,13 @@ def grid_of(file, reader_type=vtkXMLPUnstructuredGridReader):
     reader.SetFileName(str(file))
     reader.Update()
     return reader.GetOutput()
+
+
+def write_grid(grid, file):
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(file))
+    writer.SetInputData(grid)
+    writer.Write()
 
 
 def shifted(by):
@@ -48,20 +38,13 @@ def turned(degrees):
 
 
 class PeriodicTest(program.ProgramTest):
-    def packing(self, more="refine.levels = 1\n", pairs=tuple(PAIRS)):
+    def packing(self, *changes, **more):
         self.write("model.geo", PACKING)
-        names = "".join(f"[[geometry.name]]\nname = '{n}'\npatch = {{ faces = [{f}] }}\n" for n, f in SIDES.items())
-        sides = "".join(f"[[periodic]]\nfrom = '{a}'\nto = '{b}'\n" for a, b in pairs)
-        head = "geometry.file = 'model.geo'\ncoarse.max_size = 0.25\ndecompose.subdomains = 7\n"
-        return self.write("case.toml", head + more + names + sides)
+        return self.write("case.toml", packing_case(*changes, **more))
 
-    def sector(self, more="refine.levels = 2\n"):
+    def sector(self, *changes):
         self.write("model.geo", SECTOR)
-        head = "geometry.file = 'model.geo'\ncoarse.max_size = 0.15\ndecompose.subdomains = 4\n"
-        normals = {"start": [0, -1, 0], "end": [-0.5, 0.8660254037844386, 0]}
-        names = "".join(f"[[geometry.name]]\nname = '{n}'\npatch = {{ normal = {v} }}\n" for n, v in normals.items())
-        side = "[[periodic]]\nfrom = 'start'\nto = 'end'\nrotation = { axis = [0, 0, 1], angle = 30 }\n"
-        return self.write("case.toml", head + more + names + side)
+        return self.write("case.toml", sector_case(*changes))
 
     def triangles(self, folder, name):
         """Of a patch, all points of each triangle."""
@@ -140,6 +123,73 @@ class Sides(PeriodicTest):
             self.assert_alike(parts, start, end, shifted(shift))
 
 
+class MshFiles(PeriodicTest):
+    """Both forms of Gmsh's files say which nodes are images of which."""
+
+    def convert(self, mesh, name, ranks):
+        formats = [word for form in ("msh", "msh2") for word in ("--format", form)]
+        done = self.run_program("convert", mesh / "mesh.pvtu", *formats, "--output", name, ranks=ranks)
+        self.assertEqual(done.code, OK, done.err)
+        return [self.folder / name / file for file in ("mesh.msh", "mesh_v2.msh")]
+
+    def cracked_packing(self):
+        """With two points at one place where a ball meets a side."""
+        self.write("model.geo", PACKING)
+        return self.write("case.toml", packing_case() + "[[split]]\npatch = 'patch_*'\n")
+
+    def assert_all_nodes(self, msh, pairs):
+        """Each node of a patch is listed once, and lies where its partner's image is; so do the triangles."""
+        tags = {name: tag for (_, tag), name in msh.names.items()}
+        triangles_of = {}
+        for dimension, entity, _, rows in msh.blocks:
+            if dimension == 2:
+                triangles_of.setdefault(entity, set()).update(map(frozenset, rows[:, 1:].tolist()))
+        expected = [(2, tags[end], tags[start]) for start, end in pairs]
+        self.assertEqual([link[:3] for link in msh.periodic], expected)
+        for _, image, original, matrix, nodes in msh.periodic:
+            self.assertGreater(len(nodes), 20)
+            for entity, listed in zip((image, original), nodes.T.tolist()):
+                self.assertEqual(sorted(listed), sorted(frozenset().union(*triangles_of[entity])))
+            original_of = dict(nodes.tolist())
+            triangles = {frozenset(original_of[node] for node in triangle) for triangle in triangles_of[image]}
+            self.assertEqual(triangles, triangles_of[original])
+            images = msh.node_xyz[nodes[:, 1]] @ matrix[:3, :3].T + matrix[:3, 3]
+            self.assertLess(abs(msh.node_xyz[nodes[:, 0]] - images).max(), 1e-13)
+            self.assertEqual(matrix[3].tolist(), [0, 0, 0, 1])
+
+    def test_list_all_nodes_of_the_sides_for_any_number_of_ranks(self):
+        for case, pairs, settings in (
+            (self.packing, PAIRS, ()),
+            (self.cracked_packing, PAIRS, ("refine.levels=0",)),
+            (self.sector, [("start", "end")], ("refine.levels=1", "output.order=2")),
+        ):
+            with self.subTest(case=case.__name__):
+                mesh = self.mesh(case(), case.__name__, *sets(*settings, "fill.kernel=subdivide"), ranks=2)
+                alone = self.convert(mesh, f"{case.__name__}_1", 1)
+                for file in alone:
+                    self.assert_all_nodes(Msh(file), pairs)
+                for file, other in zip(alone, self.convert(mesh, f"{case.__name__}_3", 3)):
+                    self.assertEqual(file.read_bytes(), other.read_bytes())
+
+    def test_say_nothing_of_other_meshes(self):
+        mesh = self.mesh(self.packing(pairs=()), "mesh", *sets("fill.kernel=subdivide"))
+        for file in self.convert(mesh, "out", 2):
+            self.assertEqual(Msh(file).order[-1], "Elements")
+
+    def test_are_refused_if_a_point_has_no_partner(self):
+        mesh = self.mesh(self.packing(), "mesh", *sets("fill.kernel=subdivide"))
+        for file in mesh.glob("mesh/*.vtu"):
+            grid = grid_of(file, vtkXMLUnstructuredGridReader)
+            texts = grid.GetFieldData().GetAbstractArray("periodic_patches")
+            self.assertEqual(texts.GetValue(1), "right")
+            texts.SetValue(2, "1 0 0 2 0 1 0 0 0 0 1 0")
+            write_grid(grid, file)
+        for ranks in (1, 3):
+            done = self.run_program("convert", mesh / "mesh.pvtu", "--format", "msh", "--output", "no", ranks=ranks)
+            self.assert_refused(done, WRONG_INPUT, '"right"', '"left"', "tessera check")
+            self.assertFalse((self.folder / "no/mesh.msh").exists())
+
+
 class Checked(PeriodicTest):
     def test_is_that_each_point_has_a_partner(self):
         out = self.mesh(self.packing(), "out", *sets("fill.kernel=subdivide"))
@@ -150,10 +200,7 @@ class Checked(PeriodicTest):
                 x, y, z = grid.GetPoint(row)
                 grid.GetPoints().SetPoint(row, x, y + 1e-5 * math.sin(math.pi * y) * math.sin(math.pi * z), z)
             if rows:
-                writer = vtkXMLUnstructuredGridWriter()
-                writer.SetFileName(str(file))
-                writer.SetInputData(grid)
-                writer.Write()
+                write_grid(grid, file)
         for ranks in (1, 3):
             found = self.run_program("check", out / "mesh.pvtu", "--json", ranks=ranks)
             self.assertEqual(found.code, FAILED, found.err)

@@ -4,7 +4,11 @@ elements, groups, partitions and ghosts, volumes and areas by name."""
 import json
 import multiprocessing
 import os
+import pathlib
 import re
+import shutil
+import sys
+import tempfile
 import unittest
 
 import gmsh
@@ -13,6 +17,9 @@ import numpy as np
 import solver_meshes
 from solver_meshes import Mesh, read_pvtu, run, tet_volumes, triangle_areas
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from periodic_models import PACKING, PAIRS, SECTOR, packing_case, sector_case  # noqa: E402
 
 NUM_PARTS = 3
 
@@ -90,6 +97,62 @@ def figures_of(*files):
     """Figures of a model of several files. For a process of its own: Gmsh 4.8 crashes when it forgets
     such a model, also one of files that it has written itself."""
     return Model(*files).figures()
+
+
+class PeriodicSides(unittest.TestCase):
+    """What Gmsh says of them has all nodes of a side, each where its partner's image is. Of version 2.2 it says nothing,
+    also of its own files: it writes that form of what it has read, which must be what is in ours."""
+
+    @classmethod
+    def setUpClass(cls):
+        gmsh.initialize(["", "-nopopup"], readConfigFiles=False)
+        cls.addClassCleanup(gmsh.finalize)
+        gmsh.option.setNumber("General.Terminal", 0)
+
+    def files(self, model, case, *settings):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="tessera_periodic_"))
+        self.addCleanup(shutil.rmtree, folder)
+        (folder / "model.geo").write_text(model, encoding="utf-8")
+        (folder / "case.toml").write_text(case, encoding="utf-8")
+        mesh = Mesh(folder / "case.toml", NUM_PARTS, "fill.kernel='subdivide'", *settings)
+        self.addCleanup(mesh.remove)
+        return mesh.convert("msh") / "mesh.msh", mesh.convert("msh2") / "mesh_v2.msh"
+
+    def assert_alike(self, file, pairs):
+        model = Model(file)
+        self.assertEqual([line for line in model.said if "compiled with ANN" not in line], [])
+        sides = {}
+        for _, entity in gmsh.model.getEntities(2):
+            group = gmsh.model.getPhysicalGroupsForEntity(2, entity)[0]
+            sides[gmsh.model.getPhysicalName(2, group)] = entity
+        for start, end in pairs:
+            master, nodes, of_nodes, matrix = gmsh.model.mesh.getPeriodicNodes(2, sides[end], True)
+            self.assertEqual(master, sides[start])
+            for side, listed in ((start, of_nodes), (end, nodes)):
+                of_side = np.concatenate(gmsh.model.mesh.getElements(2, sides[side])[2])
+                self.assertEqual(sorted(listed.tolist()), np.unique(of_side).tolist())
+            matrix = np.reshape(matrix, (4, 4))
+            images = model.xyz[of_nodes.astype(int)] @ matrix[:3, :3].T + matrix[:3, 3]
+            self.assertLess(abs(model.xyz[nodes.astype(int)] - images).max(), 1e-12)
+
+    def assert_written_alike(self, file):
+        written = file.with_name("written.msh")
+        gmsh.option.setNumber("Mesh.MshFileVersion", 2.2)
+        gmsh.write(str(written))
+        expected = periodic_of(written)
+        self.assertGreater(len(expected), 0)
+        self.assertEqual(periodic_of(file), expected)
+        self.assertEqual(Model(file).said, [])
+
+    def test_of_a_cell_of_a_packing(self):
+        file, old = self.files(PACKING, packing_case())
+        self.assert_alike(file, PAIRS)
+        self.assert_written_alike(old)
+
+    def test_of_a_sector_of_second_order(self):
+        file, old = self.files(SECTOR, sector_case("refine.levels = 1\n"), "output.order=2")
+        self.assert_alike(file, [("start", "end")])
+        self.assert_written_alike(old)
 
 
 class Gmsh(unittest.TestCase):
@@ -274,6 +337,19 @@ FOAM_FILES = {
     "fvSchemes": "divSchemes {} gradSchemes {} laplacianSchemes {}\n",
     "fvSolution": "",
 }
+
+
+def periodic_of(file):
+    """By dimension and entities of a pair in a file of version 2.2: the transform, and pairs of nodes in their order."""
+    lines = iter(file.read_text(encoding="utf-8").split("$Periodic\n")[1].split("$EndPeriodic")[0].splitlines())
+    found = {}
+    for _ in range(int(next(lines))):
+        entities = tuple(next(lines).split())
+        word, *matrix = next(lines).split()
+        nodes = sorted(tuple(map(int, next(lines).split())) for _ in range(int(next(lines))))
+        found[entities] = word, [round(float(number), 12) for number in matrix], nodes
+    assert next(lines, None) is None
+    return found
 
 
 def num_tets_of(file):

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/affine.hpp"
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
@@ -108,6 +109,15 @@ struct PointRun {
   LocalIndex count = 0;
 };
 
+/// @brief A patch whose points are the images of those of another one.
+struct PeriodicPatch {
+  std::int32_t from = 0;  ///< A tag of a patch.
+  std::int32_t to = 0;    ///< Of its images.
+  Affine there{};
+  /// Shape (num_pieces + 1): so many points of Piece::periodic_points are in the pieces before.
+  std::vector<GlobalIndex> first_point{0};
+};
+
 /// @brief What all ranks know of a mesh; the same on each.
 struct Outline {
   std::vector<PieceCounts> pieces{};
@@ -123,6 +133,7 @@ struct Outline {
   std::vector<std::string> material_names{};
   std::vector<std::string> patch_names{};    ///< As material_names.
   std::string length_unit{};                 ///< Empty if nobody knows it.
+  std::vector<PeriodicPatch> periodic{};     ///< Empty unless asked for.
   std::vector<CellFaceCounts> cell_faces{};  ///< Shape (num_pieces); only for formats of polyhedra,
                                              ///< and if there are prisms.
 
@@ -190,6 +201,13 @@ struct PatchPoint {
   std::int32_t patch = 0;  ///< A tag.
 };
 
+/// @brief A point of a patch that is the image of another one.
+struct PeriodicPoint {
+  std::int32_t patch = 0;     ///< A row of Outline::periodic.
+  LocalIndex point = 0;       ///< A row.
+  GlobalIndex of_number = 0;  ///< Number of the point whose image it is.
+};
+
 /// @brief Cells of other pieces that share a point with a piece, and those of their points that the
 /// piece has not. Numbers are those of the whole mesh, from 0.
 struct Ghosts {
@@ -229,6 +247,10 @@ struct Piece {
   /// lowest has it here, which need not own it: so all pieces together have each point of a patch
   /// once. Empty unless asked for.
   std::vector<PatchPoint> patch_points{};
+
+  /// Those of `patch_points` that are images, ascending by patch, then by row. Empty unless asked
+  /// for.
+  std::vector<PeriodicPoint> periodic_points{};
 
   std::vector<LocalIndex> shared_points{};  ///< Rows of points that other pieces have; ascending.
   IndexLists sharers{};           ///< Shape (num_shared, …): those other pieces, ascending.

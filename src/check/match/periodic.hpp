@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
-#include <tuple>
 #include <vector>
 
 #include "tessera/base/vec3.hpp"
 #include "tessera/comm/communicator.hpp"
+#include "tessera/comm/find_partners.hpp"
 #include "tessera/mesh/periodic_pairs.hpp"
 
 #include "check/findings.hpp"
@@ -25,29 +24,18 @@ class PeriodicMatcher {
   void finish(const comm::Communicator& comm, Findings& findings);
 
  private:
-  struct SidePoint {
-    Vec3 place{};  // Of a point of the one side, its image.
+  struct Point {
     Vec3 position{};
     GlobalIndex id = kNoId;
     LocalIndex piece = 0;
     LocalIndex point = 0;
-    LocalIndex pair = 0;
-    std::int64_t slab = 0;
-    bool is_image = false;
-    bool is_answered = true;  // Or there for another's sake.
-
-    static auto fields(auto& self)
-    {
-      return std::tie(self.place, self.position, self.id, self.piece, self.point, self.pair,
-                      self.slab, self.is_image, self.is_answered);
-    }
   };
 
-  void compare(std::vector<SidePoint> points, double tolerance, Findings& findings) const;
-  void report(const SidePoint& one, Findings& findings) const;
+  void report(const Point& one, const comm::SidePoint& place, Findings& findings) const;
 
   std::vector<mesh::PeriodicPair> pairs_{};  // The same in all pieces.
-  std::vector<SidePoint> points_{};
+  std::vector<comm::SidePoint> places_{};    // Their groups are rows of pairs_.
+  std::vector<Point> points_{};              // Whose places these are.
 };
 
 }  // namespace tessera::check

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "formats/writers/msh.hpp"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "formats/files/record_file.hpp"
+#include "formats/writers/msh_periodic.hpp"
 #include "formats/writers/msh_sections.hpp"
 
 namespace tessera::formats {
@@ -65,7 +67,7 @@ class MshWriter final : public Writer {
   explicit MshWriter(const WriterTarget& target)
       : outline_(target.outline),
         blocks_(blocks_of_shapes(outline_)),
-        file_(target.folder / "mesh.msh", sections(), kMshEndElements)
+        file_(target.folder / "mesh.msh", sections(), tail(target.outline))
   {
   }
 
@@ -87,12 +89,22 @@ class MshWriter final : public Writer {
             msh_cells(outline_, piece.number, shape, cells[shape]));
       first_block += blocks_[shape].counts.size();
     }
+    for_each_periodic(outline_, piece, [&](std::size_t row, GlobalIndex first, const auto& points) {
+      std::vector<std::array<GlobalIndex, 2>> nodes;
+      for (const PeriodicPoint& point : points) nodes.push_back(msh_periodic_nodes(piece, point));
+      file_.write(first_block + row, first, bytes_of(nodes));
+    });
   }
 
   void close() override { file_.close(); }
   void commit() override { file_.commit(); }
 
  private:
+  static std::string tail(const Outline& outline)
+  {
+    return outline.periodic.empty() ? kMshEndElements : std::string("\n") + kMshEndPeriodic;
+  }
+
   void write(const Piece& piece, const Blocks& blocks, std::size_t first_block,
              const MshCells& cells)
   {
@@ -126,6 +138,10 @@ class MshWriter final : public Writer {
         sections.push_back({msh4_block_head(type, entity, count.count), count.count,
                             static_cast<GlobalIndex>(type.num_points + 1) * kTagSize});
       }
+    }
+    for (std::size_t row = 0; row < outline_.periodic.size(); ++row) {
+      sections.push_back({(row == 0 ? kMshEndElements : "") + msh4_periodic_head(outline_, row),
+                          outline_.periodic[row].first_point.back(), 2 * kTagSize});
     }
     return sections;
   }

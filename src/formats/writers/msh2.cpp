@@ -14,6 +14,7 @@
 #include "tessera/base/error.hpp"
 
 #include "formats/files/record_file.hpp"
+#include "formats/writers/msh_periodic.hpp"
 #include "formats/writers/msh_sections.hpp"
 
 namespace tessera::formats {
@@ -21,9 +22,11 @@ namespace {
 
 constexpr int kRealWidth = 24;  // The longest number that is read back with the same bits.
 
+constexpr const char* kEndElements = "$EndElements\n";
+
 // Sections of the file.
 constexpr std::size_t kNodes = 0;
-constexpr std::size_t kFirstShape = 1;  // Others follow as in kMshShapes.
+constexpr std::size_t kFirstShape = 1;  // Others follow as in kMshShapes, then periodic patches.
 
 // Characters of numbers up to this one.
 int width_of(GlobalIndex number) { return static_cast<int>(fmt::formatted_size("{}", number)); }
@@ -53,7 +56,8 @@ class Msh2Writer final : public Writer {
         element_width_(width_of(outline_.num_elements())),
         tag_width_(width_of(static_cast<GlobalIndex>(outline_.material_names.size()
                                                      + outline_.patch_names.size()))),
-        file_(target.folder / "mesh_v2.msh", sections(), "$EndElements\n")
+        file_(target.folder / "mesh_v2.msh", sections(),
+              outline_.periodic.empty() ? kEndElements : kMshEndPeriodic)
   {
   }
 
@@ -71,6 +75,15 @@ class Msh2Writer final : public Writer {
                   elements_of(piece, msh_cells(outline_, number, shape, cells[shape]),
                               is_cell(shape) ? 0 : msh_tag_of_patch(outline_, 0)));
     }
+    for_each_periodic(outline_, piece, [&](std::size_t row, GlobalIndex first, const auto& points) {
+      std::string text;
+      for (const PeriodicPoint& point : points) {
+        for (const GlobalIndex node : msh_periodic_nodes(piece, point))
+          add_number(text, node, point_width_);
+        text += '\n';
+      }
+      file_.write(section + row, first, text);
+    });
   }
 
   void close() override { file_.close(); }
@@ -99,6 +112,10 @@ class Msh2Writer final : public Writer {
       sections.push_back({"", outline_.num_of(shape), element_size(msh_type(outline_, shape))});
     }
     sections[kFirstShape].head = fmt::format("$EndNodes\n$Elements\n{}\n", outline_.num_elements());
+    for (std::size_t row = 0; row < outline_.periodic.size(); ++row) {
+      sections.push_back({(row == 0 ? kEndElements : "") + msh2_periodic_head(outline_, row),
+                          outline_.periodic[row].first_point.back(), 2 * (1 + point_width_) + 1});
+    }
     return sections;
   }
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "formats/writers/msh_periodic.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "formats/writers/msh_sections.hpp"
+
+namespace tessera::formats {
+
+std::array<double, 16> msh_matrix(const Affine& there)
+{
+  std::array<double, 16> matrix{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::ranges::copy(there.rows[i], matrix.begin() + static_cast<std::ptrdiff_t>(4 * i));
+    matrix[4 * i + 3] = there.shift[i];
+  }
+  matrix[15] = 1.0;
+  return matrix;
+}
+
+std::string msh4_periodic_head(const Outline& outline, std::size_t row)
+{
+  const PeriodicPatch& patch = outline.periodic[row];
+  const std::array<double, 16> matrix = msh_matrix(patch.there);
+  MshBytes bytes;
+  if (row == 0) bytes.add("$Periodic\n").add(static_cast<GlobalIndex>(outline.periodic.size()));
+  bytes.add(kMshSurface);
+  bytes.add(msh_tag_of_patch(outline, patch.to)).add(msh_tag_of_patch(outline, patch.from));
+  bytes.add(static_cast<GlobalIndex>(matrix.size())).add(bytes_of(matrix));
+  return bytes.add(patch.first_point.back()).text();
+}
+
+std::string msh2_periodic_head(const Outline& outline, std::size_t row)
+{
+  const PeriodicPatch& patch = outline.periodic[row];
+  const std::string head = fmt::format("$Periodic\n{}\n", outline.periodic.size());
+  return fmt::format("{}{} {} {}\nAffine {}\n{}\n", row == 0 ? head : "", kMshSurface,
+                     msh_tag_of_patch(outline, patch.to), msh_tag_of_patch(outline, patch.from),
+                     fmt::join(msh_matrix(patch.there), " "), patch.first_point.back());
+}
+
+void for_each_periodic(const Outline& outline, const Piece& piece, const VisitPeriodic& visit)
+{
+  for (std::size_t row = 0; row < outline.periodic.size(); ++row) {
+    const auto found = std::ranges::equal_range(
+        piece.periodic_points, static_cast<std::int32_t>(row), {}, &PeriodicPoint::patch);
+    if (!found.empty()) visit(row, outline.periodic[row].first_point[at(piece.number)], found);
+  }
+}
+
+std::array<GlobalIndex, 2> msh_periodic_nodes(const Piece& piece, const PeriodicPoint& point)
+{
+  return {piece.point_numbers[at(point.point)] + 1, point.of_number + 1};
+}
+
+}  // namespace tessera::formats
