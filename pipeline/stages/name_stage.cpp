@@ -100,7 +100,7 @@ std::string name_of(const model::FaceDescription& face, const model::NamedParts&
 }
 
 surface::KeptParts kept_parts(const model::ModelDescription& described,
-                             const model::NamedParts& named, const Patterns& patterns)
+                              const model::NamedParts& named, const Patterns& patterns)
 {
   std::set<LocalIndex> patches;
   for (const model::NumberedName& face : named.faces) patches.insert(face.number - 1);
@@ -135,8 +135,8 @@ Vec3 centroid_of(const model::ModelDescription& model, const std::vector<LocalIn
 }
 
 std::vector<surface::PeriodicPatches> periodic_patches(const model::ModelDescription& described,
-                                                      const model::NamedParts& named,
-                                                      const config::Case& given)
+                                                       const model::NamedParts& named,
+                                                       const config::Case& given)
 {
   std::vector<surface::PeriodicPatches> all;
   for (const topology::PeriodicSide& side : given.periodic) {

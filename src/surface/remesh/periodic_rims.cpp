@@ -33,19 +33,23 @@ bool holds_patch(const std::vector<LocalIndex>& patches, LocalIndex patch)
   return std::ranges::find(patches, patch) != patches.end();
 }
 
-// Vertices on curves, by curve.
-std::map<LocalIndex, std::set<LocalIndex>> vertices_on_curves(const EditableSurface& surface)
+std::set<LocalIndex> vertices_on(const EditableSurface& surface, LocalIndex curve)
 {
-  std::map<LocalIndex, std::set<LocalIndex>> vertices;
-  for (const auto& [edge, curve] : surface.curves()) vertices[curve].insert({edge[0], edge[1]});
+  std::set<LocalIndex> vertices;
+  for (const auto& [edge, of_edge] : surface.curves()) {
+    if (of_edge == curve) vertices.insert({edge[0], edge[1]});
+  }
   return vertices;
 }
 
 // Lets one curve have the vertices that it is to have; lives for one step of match().
 class CurveFollower {
  public:
-  CurveFollower(SurfaceEditor& editor, LocalIndex curve, const std::set<LocalIndex>& vertices)
-      : editor_(editor), surface_(editor.surface()), curve_(curve), vertices_(vertices)
+  CurveFollower(SurfaceEditor& editor, LocalIndex curve)
+      : editor_(editor),
+        surface_(editor.surface()),
+        curve_(curve),
+        vertices_(vertices_on(surface_, curve))
   {
   }
 
@@ -76,6 +80,7 @@ class CurveFollower {
     }
   }
 
+  // Where the curve is nearest; of one that was merged away there is nothing left to divide.
   void put_vertex(const Vec3& place)
   {
     double nearest = std::numeric_limits<double>::infinity();
@@ -88,6 +93,7 @@ class CurveFollower {
       nearest = off;
       at_place = edge;
     }
+    if (std::isinf(nearest)) return;
     const Vec3& a = surface_.xyz(at_place[0]);
     const Vec3 along = surface_.xyz(at_place[1]) - a;
     const double part = dot(place - a, along) / dot(along, along);
@@ -138,8 +144,8 @@ class CurveFollower {
   SurfaceEditor& editor_;
   const EditableSurface& surface_;
   LocalIndex curve_;
-  const std::set<LocalIndex>& vertices_;
-  std::vector<bool> is_taken_{};  // Of the places of follow().
+  std::set<LocalIndex> vertices_;  // That it has at first.
+  std::vector<bool> is_taken_{};   // Of the places of follow().
 };
 
 // Curves of one orbit: its lowest, and the images of that.
@@ -151,7 +157,7 @@ struct CurveOrbit {
 std::vector<Vec3> places_of(const EditableSurface& surface, LocalIndex curve, const Affine& there)
 {
   std::vector<Vec3> places;
-  for (const LocalIndex v : vertices_on_curves(surface)[curve]) {
+  for (const LocalIndex v : vertices_on(surface, curve)) {
     places.push_back(there(surface.xyz(v)));
   }
   return places;
@@ -160,24 +166,19 @@ std::vector<Vec3> places_of(const EditableSurface& surface, LocalIndex curve, co
 void match_orbit(SurfaceEditor& editor, const CurveOrbit& orbit)
 {
   const EditableSurface& surface = editor.surface();
-  const auto vertices_on = [&](LocalIndex curve) { return vertices_on_curves(surface)[curve]; };
   for (const auto& [curve, there] : orbit.images) {
-    const std::set<LocalIndex> vertices = vertices_on(curve);
-    const auto places = places_of(surface, orbit.base, there);
-    const auto extra = CurveFollower(editor, curve, vertices).follow(places);
-    const std::set<LocalIndex> of_base = vertices_on(orbit.base);
-    CurveFollower base(editor, orbit.base, of_base);
+    const auto extra = CurveFollower(editor, curve).follow(places_of(surface, orbit.base, there));
+    CurveFollower base(editor, orbit.base);
     for (const Vec3& place : extra) base.put_vertex(there.inverse()(place));
   }
   for (const auto& [curve, there] : orbit.images) {
-    const std::set<LocalIndex> vertices = vertices_on(curve);
     const auto places = places_of(surface, orbit.base, there);
-    CurveFollower follower(editor, curve, vertices);
+    CurveFollower follower(editor, curve);
     static_cast<void>(follower.follow(places));
     follower.fill(places);
-    for (const LocalIndex v : vertices_on(curve)) editor.fix(v);
+    for (const LocalIndex v : vertices_on(surface, curve)) editor.fix(v);
   }
-  for (const LocalIndex v : vertices_on(orbit.base)) editor.fix(v);
+  for (const LocalIndex v : vertices_on(surface, orbit.base)) editor.fix(v);
 }
 
 // The vertex at a place, among some.
