@@ -123,6 +123,16 @@ class Sides(PeriodicTest):
             self.assert_alike(parts, start, end, shifted(shift))
 
 
+class Cracks(PeriodicTest):
+    def test_go_through_sides(self):
+        self.write("model.geo", PACKING)
+        case = self.write("case.toml", packing_case() + "[[split]]\npatch = 'patch_*'\n")
+        for settings in (("fill.kernel=netgen",), ("output.order=2",)):
+            with self.subTest(settings=settings):
+                report = self.assert_packing(self.mesh(case, settings[0][:8], *sets(*settings), ranks=2))
+                self.assertGreater(len(report["splits"]), 8)
+
+
 class MshFiles(PeriodicTest):
     """Both forms of Gmsh's files say which nodes are images of which."""
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "check/match/periodic.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <set>
 #include <tuple>
@@ -27,12 +28,12 @@ void PeriodicMatcher::add(const PieceMesh& boundary, Findings& findings)
     return;
   }
   std::set<std::tuple<LocalIndex, LocalIndex, bool>> known;
-  const auto add_cell = [&](LocalIndex c, LocalIndex pair, bool is_image) {
+  const auto add_cell = [&](LocalIndex c, LocalIndex group, bool is_image) {
     for (const LocalIndex v : boundary.cell(c)) {
-      if (!known.emplace(v, pair, is_image).second) continue;
+      if (!known.emplace(v, group, is_image).second) continue;
       const Vec3 position = boundary.position(v);
-      places_.push_back({.place = is_image ? position : pairs_[at(pair)].there(position),
-                         .group = pair,
+      places_.push_back({.place = is_image ? position : pairs_[at(group)].there(position),
+                         .group = group,
                          .is_image = is_image});
       points_.push_back({.position = position,
                          .id = boundary.point_id(v),
@@ -44,10 +45,17 @@ void PeriodicMatcher::add(const PieceMesh& boundary, Findings& findings)
     const auto patch = static_cast<std::size_t>(patches->second[at(c)]);
     if (boundary.is_left_out(c) || patch >= names->second.size()) continue;
     for (LocalIndex pair = 0; pair < std::ssize(pairs_); ++pair) {
-      if (names->second[patch] == pairs_[at(pair)].from) add_cell(c, pair, false);
-      if (names->second[patch] == pairs_[at(pair)].to) add_cell(c, pair, true);
+      if (names->second[patch] == pairs_[at(pair)].from) add_cell(c, group_of(pair), false);
+      if (names->second[patch] == pairs_[at(pair)].to) add_cell(c, group_of(pair), true);
     }
   }
+}
+
+// Several patches on one side may have one name, and those on the other side names of their own.
+LocalIndex PeriodicMatcher::group_of(LocalIndex pair) const
+{
+  const auto first = std::ranges::find(pairs_, pairs_[at(pair)].there, &mesh::PeriodicPair::there);
+  return static_cast<LocalIndex>(first - pairs_.begin());
 }
 
 void PeriodicMatcher::report(const Point& one, const comm::SidePoint& place,

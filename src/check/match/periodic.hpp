@@ -31,10 +31,11 @@ class PeriodicMatcher {
     LocalIndex point = 0;
   };
 
+  [[nodiscard]] LocalIndex group_of(LocalIndex pair) const;
   void report(const Point& one, const comm::SidePoint& place, Findings& findings) const;
 
   std::vector<mesh::PeriodicPair> pairs_{};  // The same in all pieces.
-  std::vector<comm::SidePoint> places_{};    // Their groups are rows of pairs_.
+  std::vector<comm::SidePoint> places_{};    // Group: the first pair with the transform.
   std::vector<Point> points_{};              // Whose places these are.
 };
 
