@@ -13,6 +13,7 @@
 
 #include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/index_lists.hpp"
 #include "tessera/base/name_patterns.hpp"
 #include "tessera/mesh/face_tets.hpp"
 #include "tessera/mesh/orbits.hpp"
@@ -151,7 +152,6 @@ class Joiner {
     std::vector<Affine> products{Affine{}};
     const mesh::OrbitTable orbits =
         mesh::find_orbits(mesh_.num_vertices(), links_, images_.transforms, products);
-    require_wide(orbits);
     for (LocalIndex v = 0; v < mesh_.num_vertices(); ++v) {
       if (orbits.image_of(v) == 0) continue;
       const Vec3 place = products[at(orbits.image_of(v))](mesh_.position(orbits.base_of(v)));
@@ -231,29 +231,43 @@ class Joiner {
     images_.face_origin[at(to)] = from;
   }
 
-  void require_wide(const mesh::OrbitTable& orbits) const
+  // How often each transform leads from the base of its orbit to a vertex, back counting less.
+  [[nodiscard]] std::vector<std::vector<int>> steps_from_bases(const mesh::OrbitTable& orbits) const
   {
-    for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
-      if (images_.face_origin[at(f)] == kNoIndex) continue;
-      auto bases = vertices_of_face(f);
-      for (LocalIndex& v : bases) v = orbits.base_of(v);
-      std::ranges::sort(bases);
-      if (std::ranges::adjacent_find(bases) == bases.end()) continue;
-      const LocalIndex patch = mesh_.face_patch[at(f)];
-      throw MeshError(fmt::format(
-          "[[periodic]]: the triangle at ({:g}) of patch \"{}\" has a corner and the image of that "
-          "corner; make the coarse mesh finer, so that there are two edges from side to side",
-          fmt::join(mesh_.position(mesh_.face_vertices[3 * at(f)]), ", "),
-          mesh_.patch_names[at(patch)]));
+    std::vector<LocalIndex> ends;
+    for (const mesh::ImageLink& link : links_) ends.insert(ends.end(), {link.from, link.to});
+    const IndexLists links_at = rows_by_key(ends, mesh_.num_vertices(), 2);
+    std::vector<std::vector<int>> steps(at(mesh_.num_vertices()));
+    for (LocalIndex base = 0; base < mesh_.num_vertices(); ++base) {
+      if (orbits.base_of(base) != base) continue;
+      steps[at(base)].assign(images_.transforms.size(), 0);
+      std::vector<LocalIndex> reached{base};
+      for (std::size_t next = 0; next < reached.size(); ++next) {
+        const LocalIndex here = reached[next];
+        for (const LocalIndex l : links_at[here]) {
+          const mesh::ImageLink& link = links_[at(l)];
+          const LocalIndex there = link.from == here ? link.to : link.from;
+          if (!steps[at(there)].empty()) continue;
+          steps[at(there)] = steps[at(here)];
+          steps[at(there)][at(link.transform)] += link.from == here ? 1 : -1;
+          reached.push_back(there);
+        }
+      }
     }
+    return steps;
   }
 
-  // Vertices of an orbit behind each other, where its lowest is.
+  // Vertices of an orbit behind each other, where its lowest is; by the steps that lead to them. So
+  // also a face with a corner and the image of that has the order of its own image.
   void number_by(const mesh::OrbitTable& orbits)
   {
+    const std::vector<std::vector<int>> steps = steps_from_bases(orbits);
     std::vector<LocalIndex> rows(at(mesh_.num_vertices()));
     std::iota(rows.begin(), rows.end(), 0);
-    std::ranges::stable_sort(rows, {}, [&](LocalIndex v) { return orbits.base_of(v); });
+    std::ranges::stable_sort(rows, [&](LocalIndex a, LocalIndex b) {
+      const LocalIndex base = orbits.base_of(a);
+      return base == orbits.base_of(b) ? steps[at(a)] < steps[at(b)] : base < orbits.base_of(b);
+    });
     std::vector<LocalIndex> number(rows.size());
     FlatArray<double> xyz;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -261,10 +275,33 @@ class Joiner {
       const double* place = &mesh_.vertex_xyz[3 * at(rows[i])];
       xyz.insert(xyz.end(), place, place + 3);
     }
+    require_same_order(number);
     mesh_.vertex_xyz = std::move(xyz);
     for (auto* const vertices :
          {&mesh_.tet_vertices, &mesh_.face_vertices, &mesh_.segment_vertices}) {
       for (LocalIndex& v : *vertices) v = number[at(v)];
+    }
+  }
+
+  void require_same_order(const std::vector<LocalIndex>& number) const
+  {
+    std::map<std::pair<LocalIndex, LocalIndex>, LocalIndex> image;  // Of a vertex by a transform.
+    for (const mesh::ImageLink& link : links_) image[{link.from, link.transform}] = link.to;
+    for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
+      if (images_.face_origin[at(f)] == kNoIndex) continue;
+      const LocalIndex patch = mesh_.face_patch[at(f)];
+      const LocalIndex transform = images_.patch_transform[at(patch)];
+      auto corners = vertices_of_face(images_.face_origin[at(f)]);
+      std::ranges::sort(corners, {}, [&](LocalIndex v) { return number[at(v)]; });
+      const auto number_of_image = [&](LocalIndex v) {
+        return number[at(image.at({v, transform}))];
+      };
+      if (std::ranges::is_sorted(corners, {}, number_of_image)) continue;
+      throw MeshError(fmt::format(
+          "[[periodic]]: the triangle at ({:g}) of patch \"{}\" has a corner and the image of that "
+          "corner; make the coarse mesh finer, so that there are two edges from side to side",
+          fmt::join(mesh_.position(mesh_.face_vertices[3 * at(f)]), ", "),
+          mesh_.patch_names[at(patch)]));
     }
   }
 

@@ -105,6 +105,15 @@ class Sides(PeriodicTest):
                 self.assert_checked(out, volume_tolerance=1e-12)
                 self.assert_alike(out, "start", "end", turned(30))
 
+    def test_of_a_sector_may_meet_on_its_axis(self):
+        self.write("model.geo", SECTOR.replace(" and not hub", ""))
+        names = "".join(f"[[geometry.name]]\nname = '{n}'\npatch = {{ normal = [0, 0, {z}] }}\n" for n, z in (("low", -1), ("high", 1)))
+        case = self.write("case.toml", sector_case() + names + "[[periodic]]\nfrom = 'low'\nto = 'high'\n")
+        out = self.mesh(case, "out", *sets("fill.kernel=netgen"), ranks=2)
+        self.assert_checked(out, volume_tolerance=1e-12)
+        self.assert_alike(out, "start", "end", turned(30))
+        self.assert_alike(out, "low", "high", shifted((0, 0, 0.3)))
+
     def test_have_the_sizes_that_one_of_them_has(self):
         more = "[[size.region]]\nsize = 0.03\nball = { centre = [0, 0.3, 0.7], radius = 0.15 }\n"
         out = self.mesh(self.packing(more), "out", ranks=2)

@@ -16,8 +16,8 @@ inline constexpr double kMostOffImage = 1e-6;
 /// say: CoarseMesh::images. Vertices that are images of each other stand behind each other then.
 /// Local; O(n log n).
 /// @throws ConfigError if an entry fits no patch, or a patch fits two, or lies between materials.
-/// @throws MeshError if sides do not match, with the place and the distance; or if the mesh is so
-/// narrow that a face has a vertex and its image.
+/// @throws MeshError if sides do not match, with the place and the distance; or if a face has a
+/// vertex and its image, and transforms do not commute, so that it cannot have its image's order.
 void join_periodic_sides(mesh::CoarseMesh& mesh, std::span<const PeriodicSide> sides);
 
 }  // namespace tessera::topology
