@@ -2,9 +2,11 @@
 #include "tessera/mesh/orbits.hpp"
 
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "tessera/base/index_lists.hpp"
+#include "tessera/mesh/orbit_walk.hpp"
 
 namespace tessera::mesh {
 namespace {
@@ -36,41 +38,21 @@ class Products {
   std::map<std::tuple<LocalIndex, LocalIndex, bool>, LocalIndex> known_{};
 };
 
-// Links of each row, both ways.
-IndexLists links_of_rows(LocalIndex num_rows, std::span<const ImageLink> links)
-{
-  std::vector<LocalIndex> ends;
-  for (const ImageLink& link : links) ends.insert(ends.end(), {link.from, link.to});
-  return rows_by_key(ends, num_rows, 2);
-}
-
 }  // namespace
 
 OrbitTable find_orbits(LocalIndex num_rows, std::span<const ImageLink> links,
                        std::span<const Affine> transforms, std::vector<Affine>& images)
 {
   Products products(transforms, images);
-  const IndexLists links_at = links_of_rows(num_rows, links);
   OrbitTable table;
-  table.base.assign(at(num_rows), kNoIndex);
+  table.base.resize(at(num_rows));
+  std::iota(table.base.begin(), table.base.end(), 0);
   table.image.assign(at(num_rows), 0);
-  for (LocalIndex row = 0; row < num_rows; ++row) {
-    if (table.base[at(row)] != kNoIndex) continue;
-    table.base[at(row)] = row;
-    std::vector<LocalIndex> reached{row};
-    for (std::size_t next = 0; next < reached.size(); ++next) {
-      const LocalIndex here = reached[next];
-      for (const LocalIndex l : links_at[here]) {
-        const ImageLink& link = links[at(l)];
-        const bool is_forward = link.from == here;
-        const LocalIndex there = is_forward ? link.to : link.from;
-        if (table.base[at(there)] != kNoIndex) continue;
-        table.base[at(there)] = row;
-        table.image[at(there)] = products.after(table.image[at(here)], link.transform, is_forward);
-        reached.push_back(there);
-      }
-    }
-  }
+  walk_orbits(num_rows, links, [&](LocalIndex here, LocalIndex there, const ImageLink& link) {
+    table.base[at(there)] = LocalIndex{table.base[at(here)]};
+    table.image[at(there)] =
+        products.after(table.image[at(here)], link.transform, link.from == here);
+  });
   return table;
 }
 

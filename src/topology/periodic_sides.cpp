@@ -13,10 +13,9 @@
 
 #include "tessera/base/box_diagonal.hpp"
 #include "tessera/base/error.hpp"
-#include "tessera/base/index_lists.hpp"
 #include "tessera/base/name_patterns.hpp"
 #include "tessera/mesh/face_tets.hpp"
-#include "tessera/mesh/orbits.hpp"
+#include "tessera/mesh/orbit_walk.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/model/nearest_point.hpp"
 
@@ -198,8 +197,7 @@ class Joiner {
   {
     return fmt::format(
         "{}: the sides do not match: the image of the point ({:g}) is ({:g}), and the nearest "
-        "point "
-        "of the other side is {:.3g} away, more than {:.3g}; {}",
+        "point of the other side is {:.3g} away, more than {:.3g}; {}",
         words_of(side), fmt::join(point, ", "), fmt::join(image, ", "), off, tolerance_,
         side.has_translation() || side.has_rotation()
             ? "correct the translation or rotation, or the model"
@@ -232,28 +230,16 @@ class Joiner {
   }
 
   // How often each transform leads from the base of its orbit to a vertex, back counting less.
-  [[nodiscard]] std::vector<std::vector<int>> steps_from_bases(const mesh::OrbitTable& orbits) const
+  // Empty for a vertex without images.
+  [[nodiscard]] std::vector<std::vector<int>> steps_from_bases() const
   {
-    std::vector<LocalIndex> ends;
-    for (const mesh::ImageLink& link : links_) ends.insert(ends.end(), {link.from, link.to});
-    const IndexLists links_at = rows_by_key(ends, mesh_.num_vertices(), 2);
     std::vector<std::vector<int>> steps(at(mesh_.num_vertices()));
-    for (LocalIndex base = 0; base < mesh_.num_vertices(); ++base) {
-      if (orbits.base_of(base) != base) continue;
-      steps[at(base)].assign(images_.transforms.size(), 0);
-      std::vector<LocalIndex> reached{base};
-      for (std::size_t next = 0; next < reached.size(); ++next) {
-        const LocalIndex here = reached[next];
-        for (const LocalIndex l : links_at[here]) {
-          const mesh::ImageLink& link = links_[at(l)];
-          const LocalIndex there = link.from == here ? link.to : link.from;
-          if (!steps[at(there)].empty()) continue;
-          steps[at(there)] = steps[at(here)];
-          steps[at(there)][at(link.transform)] += link.from == here ? 1 : -1;
-          reached.push_back(there);
-        }
-      }
-    }
+    const auto count = [&](LocalIndex here, LocalIndex there, const mesh::ImageLink& link) {
+      steps[at(here)].resize(images_.transforms.size());
+      steps[at(there)] = steps[at(here)];
+      steps[at(there)][at(link.transform)] += link.from == here ? 1 : -1;
+    };
+    mesh::walk_orbits(mesh_.num_vertices(), links_, count);
     return steps;
   }
 
@@ -261,7 +247,7 @@ class Joiner {
   // also a face with a corner and the image of that has the order of its own image.
   void number_by(const mesh::OrbitTable& orbits)
   {
-    const std::vector<std::vector<int>> steps = steps_from_bases(orbits);
+    const std::vector<std::vector<int>> steps = steps_from_bases();
     std::vector<LocalIndex> rows(at(mesh_.num_vertices()));
     std::iota(rows.begin(), rows.end(), 0);
     std::ranges::stable_sort(rows, [&](LocalIndex a, LocalIndex b) {

@@ -10,8 +10,9 @@
 namespace tessera::refine {
 
 /// @brief A level for each coarse edge: the smallest that makes its parts as short as wanted. Then
-/// edges are raised until in every tet levels differ by one at most, no triangle on the geometry
-/// has two sides that are finer than the third, and images of each other have one level.
+/// edges are raised until three rules hold. In every tet levels differ by one at most. No triangle
+/// on the geometry has two sides that are finer than the third. Images of each other have one
+/// level.
 ///
 /// 2^l parts are enough for `num_wanted` if that is 1.4 * 2^l or less. Between 1.2 and sqrt(2) the
 /// number of tets at equal size is the same.
