@@ -17,7 +17,7 @@
 #include "tessera/mesh/face_tets.hpp"
 #include "tessera/mesh/orbit_walk.hpp"
 #include "tessera/mesh/tet_topology.hpp"
-#include "tessera/model/nearest_point.hpp"
+#include "tessera/model/point_search.hpp"
 
 namespace tessera::topology {
 namespace {
@@ -178,9 +178,9 @@ class Joiner {
                                                           const Faces& to) const
   {
     const std::vector<LocalIndex> candidates = vertices_of(mesh_, to);
-    std::vector<std::array<Vec3, 2>> places;
-    for (const LocalIndex v : candidates) places.push_back({mesh_.position(v), mesh_.position(v)});
-    const model::SegmentSearch search(places);
+    std::vector<Vec3> places;
+    for (const LocalIndex v : candidates) places.push_back(mesh_.position(v));
+    const model::SegmentSearch search = model::search_of_points(places);
     std::map<LocalIndex, LocalIndex> partner;
     for (const LocalIndex v : vertices_of(mesh_, from)) {
       const Vec3 image = there(mesh_.position(v));

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
-#include "tessera/model/nearest_point.hpp"
+#include "tessera/model/point_search.hpp"
 
 namespace tessera::surface {
 namespace {
@@ -185,7 +185,8 @@ void match_orbit(SurfaceEditor& editor, const CurveOrbit& orbit)
 class VertexFinder {
  public:
   VertexFinder(const PatchSurface& surface, const std::set<LocalIndex>& vertices)
-      : vertices_(vertices.begin(), vertices.end()), search_(places(surface, vertices))
+      : vertices_(vertices.begin(), vertices.end()),
+        search_(model::search_of_points(places(surface, vertices)))
   {
   }
 
@@ -196,13 +197,10 @@ class VertexFinder {
   }
 
  private:
-  static std::vector<std::array<Vec3, 2>> places(const PatchSurface& surface,
-                                                 const std::set<LocalIndex>& vertices)
+  static std::vector<Vec3> places(const PatchSurface& surface, const std::set<LocalIndex>& vertices)
   {
-    std::vector<std::array<Vec3, 2>> places;
-    for (const LocalIndex v : vertices) {
-      places.push_back({surface.vertex_xyz[at(v)], surface.vertex_xyz[at(v)]});
-    }
+    std::vector<Vec3> places;
+    for (const LocalIndex v : vertices) places.push_back(surface.vertex_xyz[at(v)]);
     return places;
   }
 
