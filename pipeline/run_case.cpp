@@ -340,7 +340,7 @@ class CaseRun {
   static std::string view_of(const std::string& json, const RunResult& run)
   {
     return view_html(mesh_view({.patches = patch_names(run.coarse.mesh),
-                                .materials = run.coarse.mesh.material_names,
+                                .materials = mesh::body_names(run.coarse.mesh),
                                 .length_unit = output_length_unit(run),
                                 .report = json},
                                run.drawings.surface));

@@ -125,6 +125,7 @@ std::string face_text(const model::FaceDescription& face, const Box& box,
                                  unit.empty() ? "" : " " + unit + "²", box_text(box));
   if (normal) text += ", normal " + point_text(*normal);
   if (!face.colour.empty()) text += ", colour " + face.colour;
+  if (face.is_inside) text += fmt::format(", inside solid {}", face.solids.front());
   if (face.solids.size() > 1)
     text += fmt::format(", between solids {}", fmt::join(face.solids, " and "));
   return text + "\n";
@@ -223,7 +224,8 @@ Json faces_json(const model::ModelDescription& description, const Boxes& boxes)
                      {"area", face.area},
                      {"box", json_of(boxes.faces[f])},
                      {"normal", normals[f] ? Json(*normals[f]) : Json(nullptr)},
-                     {"solids", face.solids}});
+                     {"solids", face.solids},
+                     {"inside", face.is_inside}});
   }
   return faces;
 }

@@ -19,8 +19,14 @@ Json assembly_json(const model::Assembly& assembly)
                     {"width", gap.width},
                     {"place", gap.place}});
   }
+  Json embedded = Json::array();
+  for (const model::EmbeddedPart& part : assembly.embedded) {
+    embedded.push_back(
+        {{"name", part.name}, {"num_faces", part.num_faces}, {"area", part.area}});
+  }
   return {{"overlaps", std::move(overlaps)},
           {"closed_gaps", std::move(gaps)},
+          {"embedded", std::move(embedded)},
           {"tolerance", assembly.tolerance}};
 }
 

@@ -26,12 +26,12 @@ namespace {
 Json materials_json(const RunResult& run)
 {
   Json materials = Json::array();
-  for (const std::string& name : run.coarse.mesh.material_names) {
+  for (const std::string& name : mesh::body_names(run.coarse.mesh)) {
     const auto id = static_cast<LocalIndex>(materials.size()) + 1;
     GlobalIndex num_tets = 0;
     double volume = 0.0;
     for (const subdomain::PieceSummary& piece : run.filled.pieces) {
-      if (piece.material != id) continue;
+      if (run.coarse.mesh.body(piece.material) != id) continue;
       num_tets += piece.num_all_tets();
       volume += piece.whole_volume();
     }

@@ -65,7 +65,7 @@ Json subdomains_json(const RunResult& run)
   const std::vector<subdomain::FailedTries>& failures = run.filled.failures;
   for (const subdomain::PieceSummary& piece : run.filled.pieces) {
     subdomains.push_back({{"id", piece.subdomain},
-                          {"material", piece.material},
+                          {"material", run.coarse.mesh.body(piece.material)},
                           {"tets", piece.num_all_tets()},
                           {"kernel", word_of(piece.kernel)},
                           {"tries", piece.tries},

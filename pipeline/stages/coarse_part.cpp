@@ -101,6 +101,22 @@ bool refine_for_sizes(RunResult& run, const model::NamedParts& parts, RunContext
   return is_made;
 }
 
+// Of a file with such faces; load_case() looks at those of the case.
+void require_own_surface(const RunResult& run)
+{
+  if (!run.resolved.coarse.has_inner_faces) return;
+  const std::string_view other =
+      run.resolved.coarse.mesher == surface::Mesher::gmsh ? "coarse.mesher = \"gmsh\""
+      : run.resolved.decompose.method == decompose::Method::geometry
+          ? "decompose.method = \"geometry\""
+          : "";
+  if (other.empty()) return;
+  throw ConfigError(fmt::format(
+      "{}: the file has faces inside of solids, which exclude {}; leave that out, or set "
+      "geometry.loose_faces = \"drop\"",
+      run.resolved.geometry.file.string(), other));
+}
+
 // A coarse mesh, and once more where it is too coarse for the sizes.
 void run_coarse_stages(RunResult& run, RunContext& context)
 {
@@ -108,6 +124,8 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   const model::NamedParts& parts = of_case.named;
   run.resolved.coarse.kept = of_case.kept;
   run.resolved.coarse.periodic = of_case.periodic;
+  run.resolved.coarse.has_inner_faces = !run.model.assembly.embedded.empty();
+  require_own_surface(run);
   run.planes = choose_cuts(run, context);
   run.coarse = run_coarse_stage(run.resolved, run.planes.tree, context);
   model::apply_names(parts, run.coarse.mesh);

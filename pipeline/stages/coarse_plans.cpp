@@ -24,6 +24,7 @@ bool is_for_gmsh(const config::Case& run_case)
   constexpr std::array<std::string_view, 5> kKinds{".step", ".stp", ".iges", ".igs", ".brep"};
   const std::string kind = model::lower_case_extension(run_case.geometry.file);
   return run_case.coarse.mesher == surface::Mesher::netgen && run_case.periodic.empty()
+         && !run_case.coarse.has_inner_faces
          && std::ranges::find(kKinds, kind) != kKinds.end();
 }
 
@@ -97,7 +98,8 @@ std::vector<surface::CoarseOptions> coarse_tries(const config::Case& run_case)
   if (asked.mesher == surface::Mesher::gmsh) return {asked, finer(asked)};
   surface::CoarseOptions ours = asked;
   ours.surface_mesher = surface::SurfaceMesher::remesh;
-  if (!asked.periodic.empty()) return {ours, finer(ours)};  // NETGEN's sides are not alike.
+  // NETGEN's sides are not alike, and it knows no faces inside of bodies.
+  if (!asked.periodic.empty() || asked.has_inner_faces) return {ours, finer(ours)};
   surface::CoarseOptions netgen = asked;
   netgen.defeature = 0.0;
   return {ours, finer(ours), netgen};

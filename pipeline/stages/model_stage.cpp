@@ -43,9 +43,8 @@ model::ImportOptions import_options(const config::Case& run_case)
   model::ImportOptions options{.feature_angle_deg = run_case.coarse.feature_angle_deg,
                                .cad = geometry.cad,
                                .smooth = geometry.smooth,
-                               .assembly = geometry.assembly,
+                               .assembly = geometry.assembly.scaled(1.0 / geometry.scale),
                                .stl = geometry.stl};
-  options.assembly.gap /= geometry.scale;
   options.stl.wrap_tolerance /= geometry.scale;
   return options;
 }

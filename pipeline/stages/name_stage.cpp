@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -117,6 +118,27 @@ surface::KeptParts kept_parts(const model::ModelDescription& described,
   return {{patches.begin(), patches.end()}, {curves.begin(), curves.end()}};
 }
 
+// Faces of one name of an [[embed]], and the pieces that such faces cut others into: what was one
+// face, or is one to the case, is one patch.
+void name_pieces(const model::ModelDescription& described, const config::Case& given,
+                 model::NamedParts& named)
+{
+  std::map<LocalIndex, int> num_pieces;
+  for (const model::FaceDescription& face : described.faces) ++num_pieces[face.given_number()];
+  for (const model::FaceDescription& face : described.faces) {
+    const bool has_name =
+        std::ranges::find(named.faces, face.number, &model::NumberedName::number)
+        != named.faces.end();
+    const bool is_embedded = std::ranges::any_of(
+        given.geometry.assembly.embedded,
+        [&](const model::EmbeddedFace& one) { return one.name == face.name; });
+    if (has_name || !(is_embedded || (face.given_number() > 0 && num_pieces[face.given_number()] > 1))) continue;
+    named.faces.push_back(
+        {face.number, face.name.empty() ? mesh::default_patch_name(face.given_number() - 1) : face.name});
+  }
+  std::ranges::sort(named.faces, {}, &model::NumberedName::number);
+}
+
 // Centroid of some faces, file length unit.
 Vec3 centroid_of(const model::ModelDescription& model, const std::vector<LocalIndex>& faces)
 {
@@ -183,7 +205,8 @@ PartsOfCase find_parts_of_case(const config::Case& given, model::Format format, 
   const bool keeps_parts =
       given.coarse.defeature > 0.0 && !(patterns.patches.empty() && patterns.curves.empty());
   const bool has_sides = !given.periodic.empty() && format != model::Format::own;
-  if (given.geometry.names.empty() && !keeps_parts && !has_sides) return {};
+  const bool has_embedded = !given.geometry.assembly.embedded.empty();
+  if (given.geometry.names.empty() && !keeps_parts && !has_sides && !has_embedded) return {};
   StageScope stage(context, "names");
   PartsOfCase parts = comm::on_root(context.comm, [&] {
     return with_file_context(given, [&] {
@@ -194,6 +217,7 @@ PartsOfCase find_parts_of_case(const config::Case& given, model::Format format, 
           description_of(describe_in_jobs(format, run), given);
       PartsOfCase found{
           model::find_named_parts(described, given.geometry.names, given.geometry.scale)};
+      if (has_embedded) name_pieces(described, given, found.named);
       found.kept = kept_parts(described, found.named, patterns);
       if (has_sides) found.periodic = periodic_patches(described, found.named, given);
       return found;

@@ -62,7 +62,7 @@ class StageWork {
         context_(context),
         stage_(stage),
         pieces_(store_of(filled, context.folder)),
-        surfaces_(pieces_, work.cut.skeleton, work.cut.decomposition),
+        surfaces_(pieces_, work.cut),
         neighbours_(mesh::neighbours_by_vertex(work.cut.skeleton)),
         origin_(comm::on_root(context.comm, [&] { return origin_of(work, filled); }))
   {

@@ -38,19 +38,24 @@ SharedPart find_shared(const io::RecordStore& store, LocalIndex subdomain)
 
 }  // namespace
 
-PieceSurfaces::PieceSurfaces(PieceStore pieces, const mesh::Skeleton& skeleton,
-                             const mesh::Decomposition& decomposition)
+PieceSurfaces::PieceSurfaces(PieceStore pieces, const subdomain::PartitionedMesh& cut)
     : store_(store_folder(pieces.folder)),
-      decomposition_(decomposition),
+      cut_(cut),
       pieces_(std::move(pieces)),
-      neighbours_(mesh::neighbours_by_vertex(skeleton))
+      neighbours_(mesh::neighbours_by_vertex(cut.skeleton))
 {
+}
+
+LocalIndex PieceSurfaces::body_of(LocalIndex subdomain) const
+{
+  return cut_.coarse.body(cut_.decomposition.subdomain_material[at(subdomain)]);
 }
 
 void PieceSurfaces::keep_list(LocalIndex subdomain) const
 {
-  store_.put(list_name(subdomain),
-             to_bytes(subdomain::surface_of(stored_piece(pieces_, subdomain))));
+  number::SurfaceList list = subdomain::surface_of(stored_piece(pieces_, subdomain));
+  list.material = body_of(subdomain);
+  store_.put(list_name(subdomain), to_bytes(list));
 }
 
 number::PieceCounts PieceSurfaces::compare(LocalIndex subdomain,
@@ -75,12 +80,11 @@ subdomain::PieceSurroundings PieceSurfaces::surroundings(LocalIndex subdomain,
   around.shared = find_shared(store_, subdomain).surface;
   std::vector<number::OwnedSurface> owners{{subdomain, around.shared.owned}};
   for (const LocalIndex other : neighbours_[at(subdomain)]) {
-    const bool is_of_own_material =
-        decomposition_.subdomain_material[at(other)] == around.surface.material;
-    if (other > subdomain && !is_of_own_material) continue;
+    const bool is_of_own_body = body_of(other) == around.surface.material;
+    if (other > subdomain && !is_of_own_body) continue;
     SharedPart part = find_shared(store_, other);
     if (other < subdomain) owners.push_back({other, std::move(part.surface.owned)});
-    if (is_of_own_material && !split.is_curved)  // Nothing moves beside curved tets.
+    if (is_of_own_body && !split.is_curved)  // Nothing moves beside curved tets.
       around.halos.push_back(subdomain::halo_beside(part.halo, around.surface));
   }
   around.places = number::place_surface(around.surface.simplices, owners,

@@ -4,10 +4,9 @@
 #include <vector>
 
 #include "tessera/io/record_store.hpp"
-#include "tessera/mesh/decomposition.hpp"
 #include "tessera/mesh/piece.hpp"
-#include "tessera/mesh/skeleton.hpp"
 #include "tessera/number/id_layout.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
 
 #include "pipeline/store/piece_store.hpp"
@@ -22,8 +21,7 @@ namespace tessera::pipeline {
 class PieceSurfaces {
  public:
   /// @brief The mesh is borrowed.
-  PieceSurfaces(PieceStore pieces, const mesh::Skeleton& skeleton,
-                const mesh::Decomposition& decomposition);
+  PieceSurfaces(PieceStore pieces, const subdomain::PartitionedMesh& cut);
 
   void keep_list(LocalIndex subdomain) const;
 
@@ -36,8 +34,11 @@ class PieceSurfaces {
                                                           const subdomain::PieceSplit& split) const;
 
  private:
+  // What parts a body but lies on no face is a seam for the split: both sides move there.
+  [[nodiscard]] LocalIndex body_of(LocalIndex subdomain) const;
+
   io::RecordStore store_;
-  const mesh::Decomposition& decomposition_;
+  const subdomain::PartitionedMesh& cut_;
   PieceStore pieces_;
   std::vector<std::vector<LocalIndex>> neighbours_;  ///< By subdomain, ascending.
 };

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include <NCollection_DataMap.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS_Shape.hxx>
 
+#include "tessera/base/types.hpp"
 #include "tessera/model/assembly.hpp"
 #include "tessera/model/options.hpp"
 
@@ -33,6 +35,10 @@ using ShapeNames = NCollection_DataMap<TopoDS_Shape, ShapeLabel, TopTools_ShapeM
 /// @brief What a STEP, IGES or BREP file holds, coordinates in the file's own length unit.
 struct CadFile {
   TopoDS_Shape shape{};
+  /// By solid of TopExp_Explorer: the body that it is a part of, from 1. Empty: each is its own.
+  std::vector<LocalIndex> solid_body{};
+  /// Faces that are pieces of one before those of the case were put in: its number there, from 1.
+  TopTools_DataMapOfShapeInteger given_face{};
   ShapeNames names{};                  ///< Only those that the file names or colours.
   std::string length_unit{};           ///< "mm", "m", "in", …; empty if the file does not say.
   std::vector<std::string> repairs{};  ///< What was changed since, one line each.
@@ -46,7 +52,7 @@ struct CadFile {
                                     model::StepReader reader = model::StepReader::with_names);
 
 /// @brief Makes `cad.shape` one closed, valid solid, or a compound of several that share the faces
-/// on which they touch. Names follow their faces and solids; every change adds to `cad.repairs`.
+/// on which they touch, with the faces in them that are to be embedded. Names follow their faces and solids; every change adds to `cad.repairs`.
 /// @throws GeometryError that says what the file holds instead, what stays open, or what overlaps.
 void make_closed_solids(CadFile& cad, const model::AssemblyOptions& options);
 

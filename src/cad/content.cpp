@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cad/content.hpp"
 
+#include <numeric>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -23,14 +24,16 @@ struct StoredContent {
   std::string image{};  // As BinTools writes the shape.
   std::vector<std::string> face_names{};
   std::vector<std::string> face_colours{};
+  std::vector<LocalIndex> given_face{};
   std::vector<std::string> edge_names{};
   std::vector<std::string> solid_names{};
+  std::vector<LocalIndex> solid_body{};
   bool may_overlap = false;
 
   static auto fields(auto& self)
   {
-    return std::tie(self.image, self.face_names, self.face_colours, self.edge_names,
-                    self.solid_names, self.may_overlap);
+    return std::tie(self.image, self.face_names, self.face_colours, self.given_face,
+                    self.edge_names, self.solid_names, self.solid_body, self.may_overlap);
   }
 };
 
@@ -40,13 +43,17 @@ Bytes occ_content(const CadFile& cad)
 {
   std::ostringstream image(std::ios::binary);
   BinTools::Write(cad.shape, image, Standard_False, Standard_False, BinTools_FormatVersion_CURRENT);
-  StoredContent content{.image = image.str(), .may_overlap = cad.may_overlap};
+  StoredContent content{
+      .image = image.str(), .solid_body = cad.solid_body, .may_overlap = cad.may_overlap};
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(cad.shape, TopAbs_FACE, faces);
   for (int f = 1; f <= faces.Extent(); ++f) {
     const ShapeLabel label = label_in(cad.names, faces(f));
     content.face_names.push_back(label.name);
     content.face_colours.push_back(label.colour);
+    if (cad.given_face.IsEmpty()) continue;
+    const int* const given = cad.given_face.Seek(faces(f));
+    content.given_face.push_back(given == nullptr ? 0 : *given);
   }
   for (const TopoDS_Shape& edge : parts_of(cad.shape, TopAbs_EDGE)) {
     content.edge_names.push_back(label_in(cad.names, edge).name);
@@ -58,6 +65,10 @@ Bytes occ_content(const CadFile& cad)
       auto& colour = content.face_colours[static_cast<std::size_t>(faces.FindIndex(face)) - 1];
       if (colour.empty()) colour = label.colour;
     }
+  }
+  if (content.solid_body.empty()) {
+    content.solid_body.resize(content.solid_names.size());
+    std::iota(content.solid_body.begin(), content.solid_body.end(), 1);
   }
   return to_bytes(content);
 }
@@ -91,8 +102,10 @@ OccContent read_occ_content(std::span<const std::byte> bytes)
   if (content.shape.IsNull()) throw InputError("the stored CAD model holds no shape");
   content.face_names = std::move(stored.face_names);
   content.face_colours = std::move(stored.face_colours);
+  content.given_face = std::move(stored.given_face);
   content.edge_names = std::move(stored.edge_names);
   content.solid_names = std::move(stored.solid_names);
+  content.solid_body = std::move(stored.solid_body);
   content.may_overlap = stored.may_overlap;
   return content;
 }

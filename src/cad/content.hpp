@@ -8,6 +8,7 @@
 #include <TopoDS_Shape.hxx>
 
 #include "tessera/base/bytes.hpp"
+#include "tessera/base/types.hpp"
 #include "tessera/model/model.hpp"
 
 #include "cad/cad_file.hpp"
@@ -19,8 +20,11 @@ struct OccContent {
   TopoDS_Shape shape{};
   std::vector<std::string> face_names{};    ///< In TopExp::MapShapes order; empty text: no name.
   std::vector<std::string> face_colours{};  ///< Beside face_names; its own, or that of a solid.
+  std::vector<LocalIndex> given_face{};     ///< Beside face_names: as in CadFile; 0: put in.
+                                            ///< Empty: nothing was.
   std::vector<std::string> edge_names{};    ///< As face_names.
   std::vector<std::string> solid_names{};   ///< In the order of TopExp_Explorer.
+  std::vector<LocalIndex> solid_body{};     ///< Beside solid_names: as in CadFile, never empty.
   bool may_overlap = false;                 ///< As in CadFile.
 };
 

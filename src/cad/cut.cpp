@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -96,7 +97,7 @@ Polygon clipped(const Polygon& polygon, const cut::Plane& plane, double sign)
   return result;
 }
 
-TopoDS_Shape face_of(const Polygon& polygon, const cut::Plane& plane)
+TopoDS_Face face_of(const Polygon& polygon, const cut::Plane& plane)
 {
   BRepBuilderAPI_MakePolygon wire;
   for (const Vec3& point : polygon) wire.Add(to_occ(point));
@@ -162,9 +163,14 @@ void build(BRepAlgoAPI_BuilderAlgo& operation, const char* what)
   if (operation.HasErrors()) throw NetgenError(fmt::format("OpenCASCADE cannot {}", what));
 }
 
+// The part that a piece of a solid is, by the piece's centre.
+using PartOf = std::function<LocalIndex(LocalIndex solid, const Vec3& centre)>;
+
 class Cutter {
  public:
-  Cutter(const TopoDS_Shape& uncut, const cut::CutTree& tree) : tree_(tree)
+  // @param[in] tools The faces that cut each solid.
+  Cutter(const TopoDS_Shape& uncut, std::vector<TopTools_ListOfShape> tools)
+      : tools_(std::move(tools))
   {
     for (TopExp_Explorer solids(uncut, TopAbs_SOLID); solids.More(); solids.Next()) {
       solids_.push_back(solids.Current());
@@ -176,25 +182,24 @@ class Cutter {
     for (const TopoDS_Shape& edge : edges_) edge_images_.push_back({edge});
   }
 
-  CutShape run()
+  CutShape run(const PartOf& part_of)
   {
     for (std::size_t s = 0; s < solids_.size(); ++s) split(s);
     if (solids_.size() > 1) join();
     require_same_volumes();
-    collect();
+    collect(part_of);
     return std::move(cut_);
   }
 
  private:
   void split(std::size_t s)
   {
-    const LocalIndex root = tree_.solid_root.at(s);
-    if (tree_.nodes.at(at(root)).part != kNoIndex) return;
+    if (tools_.at(s).IsEmpty()) return;
     TopTools_ListOfShape arguments;
     arguments.Append(solids_[s]);
     BRepAlgoAPI_Splitter splitter;
     splitter.SetArguments(arguments);
-    splitter.SetTools(CutFaces(tree_, solids_[s]).run(root));
+    splitter.SetTools(tools_[s]);
     build(splitter, "cut the model");
     pieces_[s] = images_of(splitter, solids_[s]);
     follow(splitter, solids_[s]);
@@ -255,7 +260,7 @@ class Cutter {
     }
   }
 
-  void collect()
+  void collect(const PartOf& part_of)
   {
     struct Piece {
       LocalIndex part;
@@ -266,7 +271,7 @@ class Cutter {
     for (std::size_t s = 0; s < solids_.size(); ++s) {
       const auto solid = static_cast<LocalIndex>(s);
       for (const TopoDS_Shape& piece : pieces_[s]) {
-        pieces.push_back({tree_.part_of(solid, mass_of(piece).centre), solid, piece});
+        pieces.push_back({part_of(solid, mass_of(piece).centre), solid, piece});
       }
     }
     std::ranges::stable_sort(pieces, {}, &Piece::part);
@@ -289,7 +294,7 @@ class Cutter {
     }
   }
 
-  const cut::CutTree& tree_;
+  std::vector<TopTools_ListOfShape> tools_;
   Shapes solids_{};
   Shapes faces_{};
   Shapes edges_{};
@@ -306,6 +311,17 @@ void require_valid(const CutShape& cut, const TopoDS_Shape& uncut)
   throw NetgenError("OpenCASCADE's parts of the model are not valid");
 }
 
+// What it throws is a NetgenError: another try may go without the cut.
+template <class Cut>
+CutShape cut_by(const Cut& cut)
+{
+  try {
+    return with_occ_errors("cuts", cut);
+  } catch (const GeometryError& error) {
+    throw NetgenError(error.what());
+  }
+}
+
 }  // namespace
 
 LocalIndex CutShape::number_in(const TopTools_DataMapOfShapeInteger& map, const TopoDS_Shape& shape)
@@ -316,15 +332,36 @@ LocalIndex CutShape::number_in(const TopTools_DataMapOfShapeInteger& map, const 
 
 CutShape cut_shape(const TopoDS_Shape& uncut, const cut::CutTree& tree)
 {
-  try {
-    return with_occ_errors("cuts", [&] {
-      CutShape cut = Cutter(uncut, tree).run();
-      require_valid(cut, uncut);
-      return cut;
-    });
-  } catch (const GeometryError& error) {
-    throw NetgenError(error.what());
-  }
+  return cut_by([&] {
+    std::vector<TopTools_ListOfShape> tools;
+    for (TopExp_Explorer solids(uncut, TopAbs_SOLID); solids.More(); solids.Next()) {
+      const LocalIndex root = tree.solid_root.at(tools.size());
+      tools.push_back(CutFaces(tree, solids.Current()).run(root));
+    }
+    const auto part_of = [&](LocalIndex solid, const Vec3& centre) {
+      return tree.part_of(solid, centre);
+    };
+    CutShape cut = Cutter(uncut, std::move(tools)).run(part_of);
+    require_valid(cut, uncut);
+    return cut;
+  });
+}
+
+CutShape cut_at_faces(const TopoDS_Shape& uncut, std::vector<TopTools_ListOfShape> tools)
+{
+  return cut_by([&] {
+    CutShape cut = Cutter(uncut, std::move(tools)).run([](LocalIndex, const Vec3&) { return 0; });
+    require_valid(cut, uncut);
+    return cut;
+  });
+}
+
+TopoDS_Face plane_face(const Vec3& point, const Vec3& normal, const TopoDS_Shape& through)
+{
+  Bnd_Box box;
+  BRepBndLib::Add(through, box, Standard_False);
+  const cut::Plane plane{.normal = normal, .offset = dot(normal, point)};
+  return face_of(square_on(plane, box), plane);
 }
 
 }  // namespace tessera::cad

@@ -4,9 +4,12 @@
 #include <vector>
 
 #include <TopTools_DataMapOfShapeInteger.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 
 #include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
 #include "tessera/cut/cut_tree.hpp"
 
 namespace tessera::cad {
@@ -28,5 +31,13 @@ struct CutShape {
 /// @brief Cuts the solids of a shape; the shape stays as it was.
 /// @throws NetgenError if OpenCASCADE fails, or what it made is not valid or has lost volume.
 [[nodiscard]] CutShape cut_shape(const TopoDS_Shape& uncut, const cut::CutTree& tree);
+
+/// @brief The same with faces as tools, those of each solid; all pieces are of part 0.
+[[nodiscard]] CutShape cut_at_faces(const TopoDS_Shape& uncut,
+                                    std::vector<TopTools_ListOfShape> tools);
+
+/// @brief A plane where it crosses the box of a shape, and a little more. `normal`: of length 1.
+[[nodiscard]] TopoDS_Face plane_face(const Vec3& point, const Vec3& normal,
+                                     const TopoDS_Shape& through);
 
 }  // namespace tessera::cad

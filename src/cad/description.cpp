@@ -62,16 +62,22 @@ void add_triangles(const TopoDS_Face& face, LocalIndex row, model::ModelDescript
   }
 }
 
+// Bodies: one may be several solids, which faces inside of it part.
 void add_solids(const OccContent& content, model::ModelDescription& to)
 {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(content.shape, TopAbs_FACE, faces);
-  for (TopExp_Explorer solids(content.shape, TopAbs_SOLID); solids.More(); solids.Next()) {
-    const std::size_t number = to.solids.size() + 1;
-    to.solids.push_back({content.solid_names.at(number - 1), volume_of(solids.Current())});
+  std::size_t row = 0;
+  for (TopExp_Explorer solids(content.shape, TopAbs_SOLID); solids.More(); solids.Next(), ++row) {
+    const LocalIndex number = content.solid_body.at(row);
+    if (to.solids.size() < at(number)) to.solids.push_back({content.solid_names.at(row)});
+    to.solids[at(number - 1)].volume += volume_of(solids.Current());
     for (const TopoDS_Shape& face : parts_of(solids.Current(), TopAbs_FACE)) {
-      auto& around = to.faces[static_cast<std::size_t>(faces.FindIndex(face)) - 1].solids;
-      around.push_back(static_cast<LocalIndex>(number));
+      model::FaceDescription& described =
+          to.faces[static_cast<std::size_t>(faces.FindIndex(face)) - 1];
+      const bool is_known = !described.solids.empty() && described.solids.back() == number;
+      described.is_inside = is_known || face.Orientation() == TopAbs_INTERNAL;
+      if (!is_known) described.solids.push_back(number);
     }
   }
 }
@@ -141,7 +147,11 @@ model::ModelDescription describe_shape(const OccContent& content)
   static_cast<void>(triangulate_faces(content.shape, parameters));
   for (const TopoDS_Shape& face : parts_of(content.shape, TopAbs_FACE)) {
     const auto row = described.faces.size();
-    described.faces.push_back({.number = static_cast<LocalIndex>(row) + 1,
+    const LocalIndex number = static_cast<LocalIndex>(row) + 1;
+    described.faces.push_back({.number = number,
+                               .piece_of = content.given_face.empty()
+                                               ? kNoIndex
+                                               : content.given_face.at(row),
                                .name = content.face_names.at(row),
                                .colour = content.face_colours.at(row),
                                .area = area_of(face)});

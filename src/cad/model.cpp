@@ -15,8 +15,10 @@
 #include "tessera/base/error.hpp"
 #include "tessera/surface/on_geometry.hpp"
 
+#include "cad/cell_numbers.hpp"
 #include "cad/description.hpp"
 #include "cad/error.hpp"
+#include "cad/inner_faces.hpp"
 #include "cad/shape.hpp"
 #include "cad/triangles/tessellation.hpp"
 #include "geometry/named_surface.hpp"
@@ -81,34 +83,63 @@ model::CurvePoint CadModel::project_to_curve(LocalIndex curve, const Vec3& point
 
 std::string CadModel::solid_name(LocalIndex material) const
 {
-  const auto at = static_cast<std::size_t>(material - 1);
-  return at < content_.solid_names.size() ? content_.solid_names[at] : std::string();
+  const std::string& name = content_.solid_names.at(at(material - 1));
+  return name.empty() ? mesh::default_material_name(content_.solid_body.at(at(material - 1)))
+                      : name;
 }
 
-// OpenCASCADE's triangles, made well-shaped and put on the faces.
 surface::CoarseSurface CadModel::mesh_whole(const surface::CoarseOptions& options) const
 {
   return with_occ_errors(file_name_, [&] {
-    const surface::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
-    // Solids that overlap were cut, if they could be. So where two cut each other now, they touch
-    // or nearly do, as a ball and its race, and chords of one lie in the other.
-    const auto forbidden = content_.may_overlap ? surface::Forbidden::all_cuts
-                                                : surface::Forbidden::cuts_within_bodies;
-    surface::RemeshedSurface remeshed =
-        surface::remesh_on_geometry(reference, *this, options, forbidden);
-    const surface::PatchSurface& surface = remeshed.surface;
-    const geometry::SurfaceNames names{
-        [this](LocalIndex patch) {
-          return content_.face_names.at(static_cast<std::size_t>(patch));
-        },
-        [this](LocalIndex material) { return solid_name(material); }};
-    geometry::require_no_overlaps(surface::forbidden_overlaps(surface, forbidden), surface, names,
-                                  file_name_);
-    surface::CoarseSurface coarse = geometry::to_coarse_surface(surface, options.max_size, names);
-    coarse.defeatured = std::move(remeshed.defeatured);
-    add_parameters(reference, coarse.mesh);
-    return coarse;
+    return has_inner_faces(content_.shape) ? mesh_cells(options) : mesh_solids(options);
   });
+}
+
+// A face that ends inside of a solid lies between two cells, of which the mesh knows no more.
+surface::CoarseSurface CadModel::mesh_cells(const surface::CoarseOptions& options) const
+{
+  const CellNumbers numbers(cells_of(content_.shape));
+  const CadModel cells(numbers.content_from(content_), file_name_);
+  surface::CoarseSurface surface = cells.mesh_solids(numbers.options_from(options));
+  numbers.number_as_model(content_.face_names, surface);
+  return surface;
+}
+
+// OpenCASCADE's triangles, made well-shaped and put on the faces.
+surface::CoarseSurface CadModel::mesh_solids(const surface::CoarseOptions& options) const
+{
+  const surface::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
+  // Solids that overlap were cut, if they could be. So where two cut each other now, they touch
+  // or nearly do, as a ball and its race, and chords of one lie in the other.
+  const auto forbidden = content_.may_overlap ? surface::Forbidden::all_cuts
+                                              : surface::Forbidden::cuts_within_bodies;
+  surface::RemeshedSurface remeshed =
+      surface::remesh_on_geometry(reference, *this, options, forbidden);
+  const surface::PatchSurface& surface = remeshed.surface;
+  const geometry::SurfaceNames names{
+      [this](LocalIndex patch) {
+        return content_.face_names.at(static_cast<std::size_t>(patch));
+      },
+      [this](LocalIndex material) { return solid_name(material); }};
+  geometry::require_no_overlaps(surface::forbidden_overlaps(surface, forbidden), surface, names,
+                                file_name_);
+  surface::CoarseSurface coarse = geometry::to_coarse_surface(surface, options.max_size, names);
+  coarse.defeatured = std::move(remeshed.defeatured);
+  add_parameters(reference, coarse.mesh);
+  coarse.mesh.material_row = material_rows();
+  return coarse;
+}
+
+// Empty if each solid is a body.
+FlatArray<LocalIndex> CadModel::material_rows() const
+{
+  FlatArray<LocalIndex> rows;
+  bool are_several = false;
+  for (std::size_t s = 0; s < content_.solid_body.size(); ++s) {
+    rows.push_back(content_.solid_body[s] - 1);
+    are_several = are_several || at(rows.back()) != s;
+  }
+  return are_several ? rows : FlatArray<LocalIndex>{};
 }
 
 coarse::ModelFigures CadModel::figures() const

@@ -58,6 +58,7 @@ class CadModel : public geometry::LoadedModel {
   [[nodiscard]] const std::string& file_name() const { return file_name_; }
   [[nodiscard]] const TopTools_IndexedMapOfShape& faces() const { return faces_; }
   [[nodiscard]] const TopTools_IndexedMapOfShape& edges() const { return edges_; }
+  // Of a solid, from 1: the name of its body.
   [[nodiscard]] std::string solid_name(LocalIndex material) const;
 
   // What a mesher has at a corner is only a guess.
@@ -67,6 +68,9 @@ class CadModel : public geometry::LoadedModel {
  private:
   [[nodiscard]] const OccSurface& surface_at(LocalIndex surface) const;
   [[nodiscard]] const OccCurve& curve_at(LocalIndex curve) const;
+  [[nodiscard]] surface::CoarseSurface mesh_solids(const surface::CoarseOptions& options) const;
+  [[nodiscard]] surface::CoarseSurface mesh_cells(const surface::CoarseOptions& options) const;
+  [[nodiscard]] FlatArray<LocalIndex> material_rows() const;
   static void guess_parameters(const surface::SurfaceReference& reference, mesh::CoarseMesh& mesh);
 
   OccContent content_;

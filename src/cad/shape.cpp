@@ -49,12 +49,14 @@ double area_of(const TopoDS_Shape& shape)
 
 bool is_closed(const TopoDS_Shape& solid)
 {
-  TopExp_Explorer shells(solid, TopAbs_SHELL);
-  if (!shells.More()) return false;
-  for (; shells.More(); shells.Next()) {
+  bool bounds = false;
+  for (TopExp_Explorer shells(solid, TopAbs_SHELL); shells.More(); shells.Next()) {
+    const TopExp_Explorer faces(shells.Current(), TopAbs_FACE);
+    if (faces.More() && faces.Current().Orientation() == TopAbs_INTERNAL) continue;
     if (!BRep_Tool::IsClosed(shells.Current())) return false;
+    bounds = true;
   }
-  return true;
+  return bounds;
 }
 
 }  // namespace tessera::cad

@@ -25,7 +25,7 @@ namespace tessera::cad {
 /// @brief Of all its faces.
 [[nodiscard]] double area_of(const TopoDS_Shape& shape);
 
-/// @brief Whether it has shells, and each is closed.
+/// @brief Whether it has shells, and each is closed, but those of faces inside of it.
 [[nodiscard]] bool is_closed(const TopoDS_Shape& solid);
 
 }  // namespace tessera::cad

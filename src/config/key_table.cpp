@@ -64,6 +64,14 @@ constexpr Key kKeys[] = {
      .derived_default = "a millionth of the diagonal of the model's box",
      .example = "0.001",
      .is_optional = true},
+    {.name = "geometry.loose_faces",
+     .rule =
+         word_rule([](Case& c) -> model::LooseFaces& { return c.geometry.assembly.loose_faces; }),
+     .meaning =
+         "What becomes of faces that a .step, .iges or .brep has beside its solids. \"embed\": "
+         "where they lie inside of a solid, the mesh has them as a patch inside; the rest is left "
+         "out. \"drop\": all are left out.",
+     .reason = "who draws a face into a solid wants it in the mesh, as a fault or a sheet"},
     {.name = "geometry.repair",
      .rule = word_rule([](Case& c) -> model::StlRepair& { return c.geometry.stl.repair; }),
      .meaning =

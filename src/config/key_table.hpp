@@ -63,6 +63,12 @@ struct TripleRule {
   double largest;  ///< No coordinate is beyond it, on either side.
 };
 
+/// @brief A list of points, three numbers each, not empty.
+struct PointListRule {
+  std::vector<Vec3>& (*field)(Case&);
+  double largest;  ///< As of TripleRule.
+};
+
 /// @brief A list of numbers from 1, without repetitions, not empty.
 struct NumberListRule {
   std::vector<LocalIndex>& (*field)(Case&);
@@ -90,7 +96,7 @@ struct WordListRule {
 };
 
 using Rule = std::variant<RealRule, IntegerRule, FlagRule, SwitchRule, PathRule, TripleRule,
-                          NumberListRule, WordRule, TextRule, WordListRule>;
+                          PointListRule, NumberListRule, WordRule, TextRule, WordListRule>;
 
 /// @brief The rule of a field of an enumeration with words.
 /// @param[in] field Captureless; from a Case& to a reference to the member.

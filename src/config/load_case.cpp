@@ -241,11 +241,13 @@ void check_assembly(const Case& loaded, const std::string& where)
   const std::filesystem::path& model = geometry.cad.empty() ? geometry.file : geometry.cad;
   const std::string kind = model::lower_case_extension(model);
   const bool has_solids = kind != ".geo" && kind != ".stl" && !model::is_mesh_name(model);
-  if (!has_solids && geometry.assembly != model::AssemblyOptions{}) {
-    fail(where,
-         "geometry.overlap and geometry.gap are for .step, .iges and .brep; leave them out for "
-             + kind);
-  }
+  if (has_solids) return;
+  model::AssemblyOptions of_others;
+  if (kind == ".geo") of_others.embedded = geometry.assembly.embedded;
+  if (geometry.assembly == of_others) return;
+  fail(where, fmt::format("geometry.overlap, geometry.gap and geometry.loose_faces are for .step, "
+                          ".iges and .brep, and [[embed]] for these and .geo; leave them out for {}",
+                          kind));
 }
 
 // What only an STL file needs.
@@ -333,6 +335,19 @@ void check_layers(const Case& loaded, const std::string& where)
   fail(where, fmt::format("[[layer]] excludes {}; leave out one of them", other));
 }
 
+// What makes the surface of the model without these faces.
+void check_embedded(const Case& loaded, const std::string& where)
+{
+  if (loaded.geometry.assembly.embedded.empty()) return;
+  const std::string_view other =
+      model::is_mesh_name(loaded.geometry.file)       ? "a mesh in geometry.file"
+      : loaded.coarse.mesher == surface::Mesher::gmsh ? "coarse.mesher = \"gmsh\""
+      : loaded.decompose.method == decompose::Method::geometry ? "decompose.method = \"geometry\""
+                                                               : "";
+  if (other.empty()) return;
+  fail(where, fmt::format("[[embed]] excludes {}; leave out one of them", other));
+}
+
 // What makes sides anew, or surfaces that are not alike on both.
 void check_periodic(const Case& loaded, const std::string& where)
 {
@@ -405,6 +420,7 @@ Case parse_case(std::string_view text, const std::filesystem::path& file,
   check_planes(loaded, name);
   complete_layers(loaded, name);
   check_layers(loaded, name);
+  check_embedded(loaded, name);
   check_periodic(loaded, name);
   resolve_paths(file, loaded);
   return loaded;

@@ -86,23 +86,43 @@ bool assign_to(const PathRule& rule, const Value& value, Case& into)
   return true;
 }
 
-bool in_range(const TripleRule& rule, const Vec3& triple)
+bool in_range(const Vec3& triple, double largest)
 {
-  return std::ranges::all_of(triple, [&](double x) { return std::abs(x) <= rule.largest; });
+  return std::ranges::all_of(triple, [&](double x) { return std::abs(x) <= largest; });
+}
+
+// Three numbers in range; nothing if that is something else.
+std::optional<Vec3> as_triple(const Value& value, double largest)
+{
+  const auto* items = std::get_if<std::vector<Value>>(&value.data);
+  if (items == nullptr || items->size() != 3) return std::nullopt;
+  Vec3 triple{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::optional<double> number = as_real((*items)[axis]);
+    if (!number) return std::nullopt;
+    triple[axis] = *number;
+  }
+  return in_range(triple, largest) ? std::optional(triple) : std::nullopt;
 }
 
 bool assign_to(const TripleRule& rule, const Value& value, Case& into)
 {
+  const std::optional<Vec3> triple = as_triple(value, rule.largest);
+  if (triple) rule.field(into) = *triple;
+  return triple.has_value();
+}
+
+bool assign_to(const PointListRule& rule, const Value& value, Case& into)
+{
   const auto* items = std::get_if<std::vector<Value>>(&value.data);
-  if (items == nullptr || items->size() != 3) return false;
-  Vec3 triple{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::optional<double> number = as_real((*items)[axis]);
-    if (!number) return false;
-    triple[axis] = *number;
+  if (items == nullptr || items->empty()) return false;
+  std::vector<Vec3> points;
+  for (const Value& item : *items) {
+    const std::optional<Vec3> point = as_triple(item, rule.largest);
+    if (!point) return false;
+    points.push_back(*point);
   }
-  if (!in_range(rule, triple)) return false;
-  rule.field(into) = triple;
+  rule.field(into) = std::move(points);
   return true;
 }
 
@@ -212,6 +232,9 @@ std::string allowed(const Rule& rule)
           [](const SwitchRule&) { return std::string("true, false or ") + toml_string(kAuto); },
           [](const PathRule&) { return std::string("a path in quotes, not empty"); },
           [](const TripleRule&) { return std::string("a list of three numbers"); },
+          [](const PointListRule&) {
+            return std::string("a list of points, each a list of three numbers");
+          },
           [](const NumberListRule&) {
             return std::string("a list of whole numbers from 1, without repetitions, not empty");
           },
@@ -274,7 +297,12 @@ std::optional<std::string> toml_value(const Rule& rule, const Case& from)
           },
           [&](const TripleRule& triple) {
             const Vec3 value = triple.field(copy);
-            return in_range(triple, value) ? Text(triple_text(value)) : Text();
+            return in_range(value, triple.largest) ? Text(triple_text(value)) : Text();
+          },
+          [&](const PointListRule& list) {
+            std::vector<std::string> points;
+            for (const Vec3& point : list.field(copy)) points.push_back(triple_text(point));
+            return points.empty() ? Text() : Text(fmt::format("[{}]", fmt::join(points, ", ")));
           },
           [&](const NumberListRule& list) {
             const std::vector<LocalIndex>& numbers = list.field(copy);

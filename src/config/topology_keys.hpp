@@ -1,10 +1,64 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
 #include "config/key_table.hpp"
 
-/// Keys of the tables of topology: where a mesh is opened, and which sides are images.
+/// Keys of the tables of topology: what lies inside of solids, where a mesh is opened, and which
+/// sides are images.
 namespace tessera::config {
+
+// The shape of the last embedded face, which becomes one of that kind if it is none.
+template <class Kind>
+Kind& embedded_as(Case& c)
+{
+  auto& shape = c.geometry.assembly.embedded.back().shape;
+  if (!std::holds_alternative<Kind>(shape)) shape = Kind{};
+  return std::get<Kind>(shape);
+}
+
+inline constexpr Key kEmbedKeys[] = {
+    {.name = "embed.name",
+     .rule = TextRule{[](Case& c) -> std::string& {
+       return c.geometry.assembly.embedded.back().name;
+     }},
+     .meaning = "Name of its patch.",
+     .reason = "other tables and solvers know it by that",
+     .example = "\"fault\""},
+    {.name = "embed.polygon",
+     .rule = PointListRule{[](Case& c) -> std::vector<Vec3>& {
+                             return embedded_as<model::Polygon>(c).corners;
+                           },
+                           kHuge},
+     .unit = "output length unit",
+     .meaning = "A plane piece: its corners in turn, three or more.",
+     .reason = "a face has one shape",
+     .example = "[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0]]"},
+    {.name = "embed.disk.centre",
+     .rule = TripleRule{[](Case& c) -> Vec3& { return embedded_as<model::Disk>(c).centre; }, kHuge},
+     .unit = "output length unit",
+     .meaning = "A plane piece with a round rim: its centre.",
+     .reason = "a face has one shape",
+     .example = "[0.0, 0.0, 0.0]"},
+    {.name = "embed.disk.normal",
+     .rule = TripleRule{[](Case& c) -> Vec3& { return embedded_as<model::Disk>(c).normal; }, kHuge},
+     .meaning = "A plane piece with a round rim: the direction across it. Of any length.",
+     .reason = "a face has one shape",
+     .example = "[0.0, 0.0, 1.0]"},
+    {.name = "embed.disk.radius",
+     .rule = RealRule{[](Case& c) -> double& { return embedded_as<model::Disk>(c).radius; }, 0.0,
+                      Bound::exclusive, kHuge, Bound::inclusive},
+     .unit = "output length unit",
+     .meaning = "A plane piece with a round rim: its radius.",
+     .reason = "a face has one shape",
+     .example = "0.5"},
+};
+
+inline constexpr std::string_view kEmbedShapes[] = {"polygon", "disk"};
 
 inline constexpr Key kContactKeys[] = {
     {.name = "geometry.contact.body",

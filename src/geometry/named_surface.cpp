@@ -93,7 +93,7 @@ void add_domains(surface::CoarseSurface& surface, double max_size,
   }
   for (LocalIndex m = 1; m <= num_materials; ++m) {
     const std::string given = material_name ? material_name(m) : "";
-    surface.mesh.material_names.push_back(given.empty() ? fmt::format("material_{}", m) : given);
+    surface.mesh.material_names.push_back(given.empty() ? mesh::default_material_name(m) : given);
   }
 }
 

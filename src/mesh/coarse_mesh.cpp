@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::mesh {
@@ -44,6 +45,11 @@ void validate_shapes(const CoarseMesh& mesh)
   require(mesh.patch_row.empty() || mesh.patch_row.size() == mesh.patch_names.size(),
           "patch_row has a wrong length");
   require_indices_below(mesh.patch_row, mesh.num_patches(), "patch_row");
+  require(mesh.patch_is_inside.empty() || mesh.patch_is_inside.size() == mesh.patch_names.size(),
+          "patch_is_inside has a wrong length");
+  require(mesh.material_row.empty() || mesh.material_row.size() == mesh.material_names.size(),
+          "material_row has a wrong length");
+  require_indices_below(mesh.material_row, mesh.num_materials(), "material_row");
   require_indices_below(mesh.tet_vertices, mesh.num_vertices(), "tet_vertices");
   require_indices_below(mesh.face_vertices, mesh.num_vertices(), "face_vertices");
   require_indices_below(mesh.face_patch, mesh.num_patches(), "face_patch");
@@ -94,14 +100,13 @@ void validate_faces(const CoarseMesh& mesh)
   for (const TriangleTets& triangle : triangles_of_tets(mesh.tet_vertices)) {
     const bool is_face = times_a_face.count(triangle.vertices) > 0;
     faces_of_tets += is_face ? 1 : 0;
-    const auto material = [&](std::size_t side) {
-      return mesh.tet_material[static_cast<std::size_t>(triangle.tets[side])];
+    const auto body = [&](std::size_t side) {
+      return mesh.body(mesh.tet_material[static_cast<std::size_t>(triangle.tets[side])]);
     };
     const bool outside = triangle.tets[1] == kNoIndex;
-    require(
-        is_face || !(outside || material(0) != material(1)),
-        fmt::format("a triangle of tet {} is on the outside or between two materials but no face",
-                    triangle.tets[0]));
+    require(is_face || !(outside || body(0) != body(1)),
+            fmt::format("a triangle of tet {} is on the outside or between two bodies but no face",
+                        triangle.tets[0]));
   }
   require(faces_of_tets == times_a_face.size(), "a face is no triangle of any tet");
 }
@@ -109,6 +114,31 @@ void validate_faces(const CoarseMesh& mesh)
 }  // namespace
 
 std::string default_patch_name(LocalIndex patch) { return fmt::format("patch_{}", patch + 1); }
+
+std::string default_material_name(LocalIndex material)
+{
+  return fmt::format("material_{}", material);
+}
+
+std::vector<std::string> inside_patch_names(const CoarseMesh& mesh)
+{
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < mesh.patch_is_inside.size(); ++p) {
+    if (mesh.patch_is_inside[p] != 0) names.push_back(mesh.patch_names[p]);
+  }
+  sort_unique(names);
+  return names;
+}
+
+std::vector<std::string> body_names(const CoarseMesh& mesh)
+{
+  std::vector<std::string> names;
+  for (LocalIndex m = 1; m <= mesh.num_materials(); ++m) {
+    const bool is_first = at(mesh.body(m)) > names.size();
+    if (is_first) names.push_back(mesh.material_names[at(m - 1)]);
+  }
+  return names;
+}
 
 std::vector<std::array<std::string, 2>> split_patch_names(const CoarseMesh& mesh)
 {

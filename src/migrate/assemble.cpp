@@ -103,6 +103,13 @@ std::optional<std::vector<GlobalIndex>> tet_ids_of(const std::vector<mesh::MeshA
   return ids;
 }
 
+bool have_inside_patches(const std::vector<mesh::MeshArrays>& pieces)
+{
+  return std::ranges::any_of(pieces, [](const mesh::MeshArrays& piece) {
+    return piece.field_texts.contains(mesh::kInsidePatchesName);
+  });
+}
+
 bool all_have_point_ids(const comm::Communicator& comm, const MeshPieces& pieces)
 {
   GlobalIndex num_without = 0;
@@ -252,6 +259,7 @@ AssembledMesh assemble(const comm::Communicator& comm, const MeshPieces& pieces)
                    .behind = draft.behind,
                    .tet_ids = tet_ids.value_or(std::vector<GlobalIndex>{}),
                    .pieces = pieces.boundary,
+                   .has_inside_patches = have_inside_patches(pieces.tets),
                    .has_boundary = pieces.has_boundary,
                    .identity = draft.identity},
                   mesh);

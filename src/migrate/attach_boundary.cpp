@@ -52,14 +52,16 @@ TriangleKey key_of(std::array<VertexKey, 3> vertices)
   return key_of_vertices(vertices);
 }
 
-// Faces on one tet of this rank, or between two materials.
+// Faces on one tet of this rank, or between two materials; all of a mesh with patches inside.
 void add_faces(const BoundaryMatch& match, Rank rank, std::vector<Record>& records)
 {
   const MeshBlock& block = match.joined.block;
   for (std::size_t side = 0; side < match.behind.size(); ++side) {
     const auto tet = static_cast<LocalIndex>(side / 4);
     const LocalIndex other = match.behind[side];
-    if (other != kNoIndex && block.tet_material[at(other)] == block.tet_material[at(tet)]) continue;
+    const bool is_inner =
+        other != kNoIndex && block.tet_material[at(other)] == block.tet_material[at(tet)];
+    if (is_inner && !match.has_inside_patches) continue;
     std::array<VertexKey, 3> keys;
     for (std::size_t i = 0; i < 3; ++i) {
       keys[i] = match.joined.vertex_keys[at(block.tet(tet)[mesh::kTetFaceCorners[side % 4][i]])];

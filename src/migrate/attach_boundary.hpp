@@ -16,7 +16,8 @@ struct BoundaryMatch {
   const std::vector<LocalIndex>& behind;    ///< tets_behind_faces() of the block.
   const std::vector<GlobalIndex>& tet_ids;  ///< As in the files; empty if they have none.
   const std::vector<mesh::MeshArrays>& pieces;
-  bool has_boundary = false;  ///< There is a boundary file; the same on all ranks.
+  bool has_inside_patches = false;  ///< Any face of a tet may be on the boundary file's list.
+  bool has_boundary = false;        ///< There is a boundary file; the same on all ranks.
   VertexIdentity identity = VertexIdentity::ids;
 };
 

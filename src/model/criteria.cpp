@@ -129,7 +129,11 @@ PartKind CriteriaTest::solids() const
 std::vector<Criterion> CriteriaTest::criteria(const FaceCriteria& of) const
 {
   std::vector<Criterion> given;
-  if (!of.faces.empty()) given.push_back(of_numbers("faces", of.faces, faces()));
+  if (!of.faces.empty()) {
+    PartKind kind = faces();
+    for (std::size_t f = 0; f < model_->faces.size(); ++f) kind.numbers[f] = model_->faces[f].given_number();
+    given.push_back(of_numbers("faces", of.faces, kind));
+  }
   if (!of.pattern.empty()) given.push_back(of_pattern(of.pattern, model_->faces));
   if (!of.colour.empty()) given.push_back(of_colour(of.colour, model_->faces));
   if (of.normal != kNoPoint) given.push_back(of_normal(of));

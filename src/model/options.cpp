@@ -3,11 +3,18 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace tessera::model {
 namespace {
+
+// By which corners of a polygon may be off its plane, of its size: what single precision leaves.
+constexpr double kMostOffPlane = 1e-6;
 
 bool is_colour(const std::string& text)
 {
@@ -42,6 +49,32 @@ std::string defect(const FaceCriteria& of)
 
 std::string defect(const SolidCriteria& of) { return defect_of_box(of.box_min, of.box_max); }
 
+std::string defect(const Polygon& of)
+{
+  if (of.corners.size() < 3) return "polygon needs three corners or more";
+  const Vec3& first = of.corners.front();
+  Vec3 normal{};  // Twice the area long.
+  double size = 0.0;
+  for (std::size_t i = 1; i < of.corners.size(); ++i) {
+    size = std::max(size, norm(of.corners[i] - first));
+    if (i > 1) normal = normal + cross(of.corners[i - 1] - first, of.corners[i] - first);
+  }
+  constexpr double kLeastArea = 1e-12;  // Of a square of that size: rounding.
+  if (!(norm(normal) > kLeastArea * size * size)) return "polygon has no area";
+  for (const Vec3& corner : of.corners) {
+    const double off = std::abs(dot(corner - first, normal)) / norm(normal);
+    if (off <= kMostOffPlane * size) continue;
+    return fmt::format("polygon must lie in one plane; corner [{:g}] is off it by {:.3g}",
+                       fmt::join(corner, ", "), off);
+  }
+  return {};
+}
+
+std::string defect(const Disk& of)
+{
+  return of.normal == Vec3{} ? "disk.normal must not be zero" : "";
+}
+
 }  // namespace
 
 std::string lower_case_extension(const std::filesystem::path& file)
@@ -56,6 +89,27 @@ bool is_mesh_name(const std::filesystem::path& file)
 {
   const std::string extension = lower_case_extension(file);
   return extension == ".msh" || extension == ".vol" || extension == ".vtu";
+}
+
+std::string defect_of(const EmbeddedFace& face)
+{
+  return std::visit([](const auto& shape) { return defect(shape); }, face.shape);
+}
+
+AssemblyOptions AssemblyOptions::scaled(double factor) const
+{
+  AssemblyOptions other = *this;
+  if (gap >= 0.0) other.gap *= factor;
+  for (EmbeddedFace& face : other.embedded) {
+    if (auto* const polygon = std::get_if<Polygon>(&face.shape)) {
+      for (Vec3& corner : polygon->corners) corner = factor * corner;
+    } else {
+      auto& disk = std::get<Disk>(face.shape);
+      disk.centre = factor * disk.centre;
+      disk.radius *= factor;
+    }
+  }
+  return other;
 }
 
 std::string defect_of(const PartName& name)

@@ -150,8 +150,8 @@ void apply_names(const NamedParts& parts, mesh::CoarseMesh& coarse)
     if (found != of_face.end()) coarse.patch_names[at(p)] = found->second;
   }
   for (const NumberedName& solid : parts.solids) {
-    if (solid.number <= coarse.num_materials()) {
-      coarse.material_names[at(solid.number - 1)] = solid.name;
+    for (LocalIndex m = 1; m <= coarse.num_materials(); ++m) {
+      if (coarse.body(m) == solid.number) coarse.material_names[at(m - 1)] = solid.name;
     }
   }
   if (!parts.faces.empty()) coarse.patch_row = joined_rows(parts, coarse);

@@ -29,7 +29,7 @@ class NetgenDoor final : public Door {
     require_model_file(file);
     switch (format_of(file)) {
       case model::Format::csg:
-        return import_csg(file);
+        return import_csg(file, options.assembly);
       case model::Format::stl:
         return import_stl(file, options, reader);
       case model::Format::own:

@@ -16,7 +16,8 @@ namespace tessera::netgen {
     const model::ModelSource& source);
 
 // One pair of functions a format; the contracts are those of import_model() and load_model().
-[[nodiscard]] model::ModelSource import_csg(const std::filesystem::path& file);
+[[nodiscard]] model::ModelSource import_csg(const std::filesystem::path& file,
+                                            const model::AssemblyOptions& options);
 [[nodiscard]] std::unique_ptr<geometry::LoadedModel> load_csg(const model::ModelSource& source);
 
 [[nodiscard]] model::ModelSource import_stl(

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tessera/base/version.hpp"
+#include "tessera/mesh/mesh_arrays.hpp"
 #include "tessera/quality/tet_quality.hpp"
 
 namespace tessera::subdomain {
@@ -39,11 +40,14 @@ std::vector<LocalIndex> rows_of_patches(std::vector<LocalIndex> patches,
 mesh::MeshArrays with_names(const WriteContext& mesh)
 {
   mesh::MeshArrays arrays;
-  arrays.field_texts["material_names"] = mesh.coarse.material_names;
+  arrays.field_texts["material_names"] = mesh::body_names(mesh.coarse);
   arrays.field_texts["patch_names"] = names_of_rows(mesh.coarse);
   for (const auto& sides : mesh::split_patch_names(mesh.coarse)) {
     auto& names = arrays.field_texts["split_patches"];
     names.insert(names.end(), sides.begin(), sides.end());
+  }
+  if (auto names = mesh::inside_patch_names(mesh.coarse); !names.empty()) {
+    arrays.field_texts[mesh::kInsidePatchesName] = std::move(names);
   }
   if (const auto pairs = mesh::periodic_pairs(mesh.coarse); !pairs.empty()) {
     arrays.field_texts[mesh::kPeriodicPairsName] = mesh::to_texts(pairs);
@@ -105,7 +109,7 @@ mesh::MeshArrays tet_arrays(const mesh::Piece& piece, mesh::MeshArrays arrays,
 {
   arrays.cell_ids.resize(at(piece.num_tets()));
   std::iota(arrays.cell_ids.begin(), arrays.cell_ids.end(), mesh.ids.first_tet(piece.subdomain));
-  arrays.cell_ints["attribute"].assign(at(piece.num_tets()), piece.material);
+  arrays.cell_ints["attribute"].assign(at(piece.num_tets()), mesh.coarse.body(piece.material));
   arrays.cell_ints["subdomain"].assign(at(piece.num_tets()), piece.subdomain);
   if (with_quality) {
     auto& mean_ratio = arrays.cell_doubles["mean_ratio"];

@@ -116,6 +116,22 @@ void add_tets(const DomainSkin& skin, const DomainTets& tets, LocalIndex materia
   mesh.tet_material.insert(mesh.tet_material.end(), tets.tet_vertices.size() / 4, material);
 }
 
+// Patches of which one body is on both sides.
+void mark_patches_inside(CoarseSurface& surface)
+{
+  mesh::CoarseMesh& mesh = surface.mesh;
+  if (mesh.material_row.empty()) return;
+  const auto body = [&](LocalIndex domain) {
+    return domain == 0 ? 0 : mesh.body(surface.domain_material[at(domain - 1)]);
+  };
+  mesh.patch_is_inside.assign(at(mesh.num_patches()), 0);
+  for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
+    const auto [out_of, into] = surface.face_domains[at(f)];
+    const LocalIndex patch = mesh.face_patch[at(f)];
+    if (patch != kNoIndex && body(out_of) == body(into)) mesh.patch_is_inside[at(patch)] = 1;
+  }
+}
+
 }  // namespace
 
 std::vector<LocalIndex> faces_of(const CoarseSurface& surface, LocalIndex domain)
@@ -169,6 +185,7 @@ cut::CutMesh fill_surface(CoarseSurface surface, const std::vector<DomainTets>& 
 {
   std::vector<DomainSkin> skins;
   for (LocalIndex d = 1; d <= surface.num_domains(); ++d) skins.push_back(skin_of(surface, d));
+  mark_patches_inside(surface);
   cut::CutMesh filled{std::move(surface.mesh), {}};
   for (std::size_t d = 0; d < tets.size(); ++d) {
     add_tets(skins[d], tets[d], surface.domain_material[d], filled.mesh);

@@ -84,7 +84,7 @@ void SplitFaces::find_faces(const SplitOptions& options,
                             std::span<const mesh::TriangleTets> triangles)
 {
   const std::vector<bool> patch_is_split = chosen_patches(options.patches, mesh_.patch_names);
-  const MaterialPairs contacts = chosen_materials(options.contacts, mesh_.material_names);
+  const MaterialPairs contacts = chosen_materials(options.contacts, mesh::body_names(mesh_));
   LocalIndex face = 0;
   for (const mesh::TriangleTets& triangle : mesh::tets_of_faces(mesh_, triangles)) {
     std::array<LocalIndex, 2>& tets = tets_.emplace_back(triangle.tets);
@@ -94,12 +94,13 @@ void SplitFaces::find_faces(const SplitOptions& options,
     const LocalIndex patch = mesh_.face_patch[at(face)];
     if (patch_is_split[at(patch)] && !is_inner) {
       throw ConfigError(fmt::format(
-          "[[split]]: patch \"{}\" is on the outside of the model; only patches between two "
-          "materials can be split",
+          "[[split]]: patch \"{}\" is on the outside of the model; only patches inside of it can "
+          "be split",
           mesh_.patch_names[at(patch)]));
     }
-    is_split_.push_back(patch_is_split[at(patch)]
-                        || (is_inner && contacts.contains({material(0), material(1)})));
+    is_split_.push_back(
+        patch_is_split[at(patch)]
+        || (is_inner && contacts.contains({mesh_.body(material(0)), mesh_.body(material(1))})));
     if (is_split_.back()) faces_.push_back(face);
     ++face;
   }

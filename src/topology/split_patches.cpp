@@ -80,6 +80,7 @@ class Opener {
       const std::string name = mesh_.patch_names[at(p)];
       plus_[at(p)] = has_closed[at(p)] ? add_patch(p, name + "_plus") : p;
       mesh_.patch_names[at(plus_[at(p)])] = name + "_plus";
+      if (!mesh_.patch_is_inside.empty()) mesh_.patch_is_inside[at(plus_[at(p)])] = 0;
       const LocalIndex minus = add_patch(p, name + "_minus");
       images.patch_origin[at(minus)] = plus_[at(p)];
       minus_of_[plus_[at(p)]] = minus;
@@ -96,6 +97,7 @@ class Opener {
     mesh_.images.patch_transform.push_back(0);
     if (!mesh_.patch_row.empty()) mesh_.patch_row.push_back(LocalIndex{mesh_.patch_row[at(like)]});
     if (!mesh_.layers.are_none()) mesh_.layers.patch_is_wall.push_back(0);
+    if (!mesh_.patch_is_inside.empty()) mesh_.patch_is_inside.push_back(0);
     return mesh_.num_patches() - 1;
   }
 

@@ -19,6 +19,9 @@ namespace tessera::mesh {
 /// @brief The name of a patch that the model has none for. `patch`: from 0. Local.
 [[nodiscard]] std::string default_patch_name(LocalIndex patch);
 
+/// @brief The name of a material that the model has none for. `material`: from 1. Local.
+[[nodiscard]] std::string default_material_name(LocalIndex material);
+
 /// @brief What users call a curve of the model.
 struct NamedCurve {
   LocalIndex curve = kNoIndex;  ///< The Model's curve number.
@@ -30,7 +33,9 @@ struct NamedCurve {
 
 /// @brief The small sequential mesh that everything else is derived from; the same on every rank.
 ///
-/// A *face* is a triangle on the geometry, also one between two materials; it stands once. A
+/// A *face* is a triangle on the geometry, also one between two materials; it stands once. Several
+/// materials may be one *body*: then what parts them is only partly faces, so that a face that ends
+/// inside of a body has a material on either side. Files have bodies. A
 /// *segment* is a piece of a geometric curve (feature edge); it may stand more than once, with the
 /// parameters of either side. `surface` and `curve` numbers are the Model's; a *patch* is what
 /// users see: one geometric face with its name. Several patches may lie on one surface.
@@ -55,7 +60,12 @@ struct CoarseMesh {
   FlatArray<LocalIndex> patch_row{};  ///< Shape (num_patches); row of the patch in files, dense
                                       ///< from 0. Patches of one row have one name, that of its
                                       ///< first patch. Empty: each patch is its own row.
+  FlatArray<char> patch_is_inside{};  ///< Shape (num_patches): whether one body is on both sides;
+                                      ///< empty: of none.
   std::vector<std::string> material_names{};  ///< Entry m-1 names material m.
+  FlatArray<LocalIndex> material_row{};  ///< Shape (num_materials); row of the body in files, dense
+                                         ///< from 0, ascending. Materials of one row have one name.
+                                         ///< Empty: each material is its own row.
 
   SideImages images{};  ///< Periodic sides, and minus sides of splits.
   WallLayers layers{};  ///< Between the tets and the geometry.
@@ -65,7 +75,8 @@ struct CoarseMesh {
     return std::tie(self.vertex_xyz, self.tet_vertices, self.tet_material, self.face_vertices,
                     self.face_patch, self.face_uv, self.segment_vertices, self.segment_curve,
                     self.segment_t, self.curves, self.patch_names, self.patch_surface,
-                    self.patch_row, self.material_names, self.images, self.layers);
+                    self.patch_row, self.patch_is_inside, self.material_names, self.material_row, self.images,
+                    self.layers);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
@@ -74,6 +85,12 @@ struct CoarseMesh {
   [[nodiscard]] LocalIndex num_segments() const { return count(segment_vertices.size(), 2); }
   [[nodiscard]] LocalIndex num_patches() const { return count(patch_names.size(), 1); }
   [[nodiscard]] LocalIndex num_materials() const { return count(material_names.size(), 1); }
+
+  /// @brief Number of the body that material `m` is of, from 1.
+  [[nodiscard]] LocalIndex body(LocalIndex m) const
+  {
+    return material_row.empty() ? m : material_row[at(m - 1)] + 1;
+  }
 
   /// @brief Vertices of tet `t`.
   [[nodiscard]] std::span<const LocalIndex, 4> tet(LocalIndex t) const
@@ -94,6 +111,12 @@ struct CoarseMesh {
 /// @brief Names of the two sides of each split, plus and minus. Local.
 [[nodiscard]] std::vector<std::array<std::string, 2>> split_patch_names(const CoarseMesh& mesh);
 
+/// @brief Names of the patches inside of bodies, each once. Local.
+[[nodiscard]] std::vector<std::string> inside_patch_names(const CoarseMesh& mesh);
+
+/// @brief One name a body. Local.
+[[nodiscard]] std::vector<std::string> body_names(const CoarseMesh& mesh);
+
 /// @brief Its periodic sides, in the order of their transforms. Local.
 [[nodiscard]] std::vector<PeriodicPair> periodic_pairs(const CoarseMesh& mesh);
 
@@ -102,7 +125,7 @@ struct CoarseMesh {
 /// - Indices are in range and sizes of arrays are consistent.
 /// - Every tet is positive.
 /// - Every face is a face of one tet, or of two if their materials differ.
-/// - Every triangle of a tet that is outside or between two materials is a face.
+/// - Every triangle of a tet that is outside or between two bodies is a face.
 /// - Every face of a patch that is an image is the image of a face.
 void validate(const CoarseMesh& mesh);
 

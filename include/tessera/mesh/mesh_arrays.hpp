@@ -10,6 +10,9 @@
 
 namespace tessera::mesh {
 
+/// @brief Field text of files: names of the patches that have one body on both sides.
+inline constexpr const char* kInsidePatchesName = "inside_patches";
+
 /// @brief Arrays of one piece file as written or read; nothing is derived, nothing is trusted.
 ///
 /// Plain exchange struct between the file format (io) and its users. Optional arrays are empty when

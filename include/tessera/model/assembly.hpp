@@ -39,13 +39,26 @@ struct ClosedGap {
   static auto fields(auto& self) { return std::tie(self.solids, self.width, self.place); }
 };
 
-/// @brief What was found where solids meet.
+/// @brief A face that was put into solids.
+struct EmbeddedPart {
+  std::string name{};            ///< Empty: the file has none.
+  LocalIndex num_faces = 0;      ///< Pieces of it that solids have.
+  double area = 0.0;             ///< Of these; file length unit squared.
+
+  static auto fields(auto& self) { return std::tie(self.name, self.num_faces, self.area); }
+};
+
+/// @brief What was found where solids meet, and what was put into them.
 struct Assembly {
   std::vector<CommonPart> overlaps{};
   std::vector<ClosedGap> gaps{};
+  std::vector<EmbeddedPart> embedded{};
   double tolerance = 0.0;  ///< By which common faces, their edges and corners may be off; 0: none.
 
-  static auto fields(auto& self) { return std::tie(self.overlaps, self.gaps, self.tolerance); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.overlaps, self.gaps, self.embedded, self.tolerance);
+  }
 };
 
 /// @brief "solid 1 'shaft' and solid 2". Local.

@@ -73,15 +73,70 @@ constexpr auto enum_words(Overlap /*type*/)
   });
 }
 
-/// @brief How solids of a STEP, IGES or BREP file are put together.
+/// @brief What becomes of faces that a file has beside its solids.
+enum class LooseFaces : int {
+  embed,  ///< The mesh has them where they lie inside of a solid.
+  drop,   ///< They are left out.
+};
+[[nodiscard]] constexpr LooseFaces last_value(LooseFaces /*type*/) { return LooseFaces::drop; }
+
+/// @brief Words of it in case files.
+constexpr auto enum_words(LooseFaces /*type*/)
+{
+  return std::to_array<EnumWord<LooseFaces>>({
+      {LooseFaces::embed, "embed"},
+      {LooseFaces::drop, "drop"},
+  });
+}
+
+/// @brief A plane piece by its corners, in turn; at least three, in one plane.
+struct Polygon {
+  std::vector<Vec3> corners{};
+
+  static auto fields(auto& self) { return std::tie(self.corners); }
+  friend bool operator==(const Polygon&, const Polygon&) = default;
+};
+
+/// @brief A plane piece with a round rim.
+struct Disk {
+  Vec3 centre = kNoPoint;
+  Vec3 normal = kNoPoint;  ///< Of any length but 0.
+  double radius = 0.0;     ///< > 0.
+
+  static auto fields(auto& self) { return std::tie(self.centre, self.normal, self.radius); }
+  friend bool operator==(const Disk&, const Disk&) = default;
+};
+
+/// @brief A face that is put into the solids of a model; table `[[embed]]` of a case file. Lengths
+/// are in the output length unit.
+struct EmbeddedFace {
+  std::string name{};  ///< Of its patch.
+  std::variant<Polygon, Disk> shape{};
+
+  static auto fields(auto& self) { return std::tie(self.name, self.shape); }
+  friend bool operator==(const EmbeddedFace&, const EmbeddedFace&) = default;
+};
+
+/// @brief What is wrong with a face whose values are right one by one; empty if nothing is. Local.
+[[nodiscard]] std::string defect_of(const EmbeddedFace& face);
+
+/// @brief How solids of a STEP, IGES or BREP file are put together, and what is put into them.
 struct AssemblyOptions {
   Overlap overlap = Overlap::error;
   /// Nearer solids touch, and thinner overlaps are none; >= 0. Less than 0: not given, then it is
   /// kThinnest of the diagonal of the model's box.
   double gap = -1.0;
+  LooseFaces loose_faces = LooseFaces::embed;
+  std::vector<EmbeddedFace> embedded{};
 
-  static auto fields(auto& self) { return std::tie(self.overlap, self.gap); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.overlap, self.gap, self.loose_faces, self.embedded);
+  }
   friend bool operator==(const AssemblyOptions&, const AssemblyOptions&) = default;
+
+  /// @brief With lengths times `factor`; a gap that is not given stays so. Local.
+  [[nodiscard]] AssemblyOptions scaled(double factor) const;
 };
 
 /// @brief Thinner is no more than the rounding between faces that were meant to be one; of the

@@ -94,6 +94,7 @@ struct CoarseOptions {
   double defeature = 0.0;
   KeptParts kept{};                         ///< These are not merged, however small.
   std::vector<PeriodicPatches> periodic{};  ///< Found from the model; lengths as of max_size.
+  bool has_inner_faces = false;             ///< Of bodies; only remesh() knows them.
 
   bool optimize = false;  ///< Whether optimize_interior() follows.
 
@@ -107,7 +108,8 @@ struct CoarseOptions {
   static auto fields(auto& self)
   {
     return std::tie(self.mesher, self.max_size, self.grading, self.curvature,
-                    self.feature_angle_deg, self.defeature, self.kept, self.periodic, self.optimize,
+                    self.feature_angle_deg, self.defeature, self.kept, self.periodic, self.has_inner_faces,
+                    self.optimize,
                     self.surface_mesher, self.timeout_s, self.points);
   }
 

@@ -22,6 +22,7 @@
 #include "tessera/base/repair.hpp"
 
 #include "cad/cad_file.hpp"
+#include "cad/heal/embed.hpp"
 #include "cad/heal/glue.hpp"
 #include "cad/heal/overlaps.hpp"
 #include "cad/heal/periods.hpp"
@@ -276,18 +277,29 @@ std::vector<TopoDS_Shape> closed_solids(CadFile& cad)
       solids.push_back(solid);
     }
   }
-  TopExp_Explorer loose(cad.shape, TopAbs_FACE, TopAbs_SOLID);
-  if (loose.More()) cad.repairs.emplace_back("faces that belong to no solid were left out");
   return solids;
+}
+
+// Those beside solids; of a file without solids none, as all are sewn.
+std::vector<TopoDS_Shape> loose_faces_of(const TopoDS_Shape& shape)
+{
+  std::vector<TopoDS_Shape> loose;
+  if (count_of(shape, TopAbs_SOLID) == 0) return loose;
+  for (TopExp_Explorer faces(shape, TopAbs_FACE, TopAbs_SOLID); faces.More(); faces.Next()) {
+    loose.push_back(faces.Current());
+  }
+  return loose;
 }
 
 }  // namespace
 
 void make_closed_solids(CadFile& cad, const model::AssemblyOptions& options)
 {
+  const std::vector<TopoDS_Shape> loose = loose_faces_of(cad.shape);
   std::vector<TopoDS_Shape> solids = closed_solids(cad);
   for (TopoDS_Shape& solid : solids) solid = without_overlaps(outward(solid, cad), cad);
   cad.shape = solids.size() == 1 ? solids.front() : glued(solids, options, cad);
+  embed_faces(loose, options, cad);
   for (TopExp_Explorer parts(cad.shape, TopAbs_SOLID); parts.More(); parts.Next()) {
     if (!is_closed(parts.Current())) {
       throw GeometryError(

@@ -46,11 +46,13 @@ struct TriangleRecord {
   std::int32_t subdomain = 0;  ///< Of the tet; in the boundary file: named there, or kNoSubdomain.
   bool is_odd = false;
   bool is_listed = false;  ///< From the boundary file.
+  bool is_inside = false;  ///< On a patch with one material on both sides; boundary file only.
 
   static auto fields(auto& self)
   {
     return std::tie(self.key, self.cell_id, self.centroid, self.piece, self.cell, self.row,
-                    self.component, self.attribute, self.subdomain, self.is_odd, self.is_listed);
+                    self.component, self.attribute, self.subdomain, self.is_odd, self.is_listed,
+                    self.is_inside);
   }
 };
 

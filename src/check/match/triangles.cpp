@@ -119,7 +119,7 @@ void check_boundary(const TriangleGroup& group, TriangleRole role, Findings& fin
     });
   }
   const TriangleRecord& listed = group.listed(0);
-  if (role == TriangleRole::outside || role == TriangleRole::interface) {
+  if (role == TriangleRole::outside || role == TriangleRole::interface || listed.is_inside) {
     check_listed(listed, side_meant(group, listed), findings);
   } else {
     findings.add(Kind::boundary_extra, place_of(listed), [&] {

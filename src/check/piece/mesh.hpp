@@ -106,6 +106,13 @@ struct PieceMesh {
     if (found == arrays.field_texts.end()) return {};
     return found->second;
   }
+  /// @brief Names of patches with one material on both sides; usually none.
+  [[nodiscard]] std::span<const std::string> inside_patches() const
+  {
+    const auto found = arrays.field_texts.find(mesh::kInsidePatchesName);
+    if (found == arrays.field_texts.end()) return {};
+    return found->second;
+  }
   [[nodiscard]] bool is_of_second_order() const { return !cell_nodes.empty(); }
   void set_cell(LocalIndex c, std::span<const LocalIndex> vertices)
   {

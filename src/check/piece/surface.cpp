@@ -71,40 +71,47 @@ class RegionSelection {
   LocalIndex last_ = 0;
 };
 
-// Which triangles of a boundary piece are on which side of a split.
-class SplitSides {
+// Which triangles of a boundary piece are on patches of a kind.
+class NamedPatches {
  public:
-  explicit SplitSides(const PieceMesh& mesh)
+  // @param[in] is_one Tells by the name of a patch.
+  template <class IsOne>
+  NamedPatches(const PieceMesh& mesh, const IsOne& is_one)
   {
     const auto patches = mesh.arrays.cell_ints.find("patch");
     const auto names = mesh.arrays.field_texts.find("patch_names");
-    const auto split = mesh.split_patches();
-    if (split.empty() || patches == mesh.arrays.cell_ints.end()
-        || names == mesh.arrays.field_texts.end())
-      return;
+    if (patches == mesh.arrays.cell_ints.end() || names == mesh.arrays.field_texts.end()) return;
     patches_ = patches->second;
-    for (const std::string& name : names->second) {
-      const auto found = std::ranges::find(split, name) - split.begin();
-      is_plus_.push_back(found < std::ssize(split) && found % 2 == 0);
-      is_minus_.push_back(found < std::ssize(split) && found % 2 == 1);
-    }
+    for (const std::string& name : names->second) is_one_.push_back(is_one(name));
   }
 
-  [[nodiscard]] bool is_plus(LocalIndex cell) const { return has(is_plus_, cell); }
-  [[nodiscard]] bool is_minus(LocalIndex cell) const { return has(is_minus_, cell); }
-
- private:
-  [[nodiscard]] bool has(const std::vector<bool>& is_on, LocalIndex cell) const
+  [[nodiscard]] bool have(LocalIndex cell) const
   {
     if (patches_.empty()) return false;
     const auto patch = static_cast<std::size_t>(patches_[static_cast<std::size_t>(cell)]);
-    return patch < is_on.size() && is_on[patch];
+    return patch < is_one_.size() && is_one_[patch];
   }
 
+ private:
   std::span<const std::int32_t> patches_{};
-  std::vector<bool> is_plus_{};  // By patch.
-  std::vector<bool> is_minus_{};
+  std::vector<bool> is_one_{};  // By patch.
 };
+
+// Those on one side of a split. @param[in] side 0: plus, 1: minus.
+NamedPatches patches_of_splits(const PieceMesh& mesh, std::ptrdiff_t side)
+{
+  return {mesh, [side, split = mesh.split_patches()](const std::string& name) {
+            const auto found = std::ranges::find(split, name) - split.begin();
+            return found < std::ssize(split) && found % 2 == side;
+          }};
+}
+
+NamedPatches patches_inside(const PieceMesh& mesh)
+{
+  return {mesh, [inside = mesh.inside_patches()](const std::string& name) {
+            return std::ranges::find(inside, name) != inside.end();
+          }};
+}
 
 // With the nodes of its edges, those of second order: so both sides must agree on them. @param[in]
 // keys Of the vertices; ascending.
@@ -350,14 +357,15 @@ std::vector<VertexRecord> listed_vertices(const PieceMesh& mesh)
   PieceSurface points;
   points.name = mesh.name;
   VertexSelection selection(mesh, points.vertices);
-  const SplitSides sides(mesh);
+  const NamedPatches plus = patches_of_splits(mesh, 0);
+  const NamedPatches minus = patches_of_splits(mesh, 1);
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     if (mesh.is_left_out(c)) continue;
     const auto list = [&](LocalIndex point) {
       SurfaceVertex& vertex =
           points.vertices[static_cast<std::size_t>(selection.add(point, false, false))];
-      vertex.is_on_plus = vertex.is_on_plus || sides.is_plus(c);
-      vertex.is_on_minus = vertex.is_on_minus || sides.is_minus(c);
+      vertex.is_on_plus = vertex.is_on_plus || plus.have(c);
+      vertex.is_on_minus = vertex.is_on_minus || minus.have(c);
     };
     for (const LocalIndex v : mesh.cell(c)) list(v);
     for (std::size_t i = 0; mesh.is_of_second_order() && i < 3; ++i)
@@ -369,9 +377,11 @@ std::vector<VertexRecord> listed_vertices(const PieceMesh& mesh)
 void for_each_listed(const PieceMesh& mesh, const std::function<void(const TriangleRecord&)>& visit)
 {
   const auto tet = mesh.arrays.cell_longs.find("tet");
+  const NamedPatches inside = patches_inside(mesh);
   for (LocalIndex c = 0; c < mesh.num_cells(); ++c) {
     if (mesh.is_left_out(c)) continue;
     TriangleRecord record = record_of(mesh, mesh.cell(c), c);
+    record.is_inside = inside.have(c);
     if (tet != mesh.arrays.cell_longs.end())
       record.cell_id = tet->second[static_cast<std::size_t>(c)];
     visit(record);

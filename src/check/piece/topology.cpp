@@ -114,6 +114,7 @@ class TriangleMatcher {
         findings_(findings),
         cells_(mesh, 2),
         components_(mesh.num_cells()),
+        has_patches_inside_(!mesh.inside_patches().empty()),
         is_on_surface_(static_cast<std::size_t>(mesh.num_points()), false),
         is_between_(is_on_surface_)
   {
@@ -125,7 +126,7 @@ class TriangleMatcher {
       for_each_triangle(v, [&](std::span<const Side> sides) { match_sides(v, sides); });
     for (LocalIndex v = 0; v < cells_.num_vertices(); ++v) {
       const auto i = static_cast<std::size_t>(v);
-      if (is_on_surface_[i] || is_between_[i])
+      if (is_on_surface_[i] || is_between_[i] || has_patches_inside_)
         for_each_triangle(v, [&](std::span<const Side> sides) { sort_out(sides); });
     }
     number_components();
@@ -176,7 +177,8 @@ class TriangleMatcher {
   {
     const bool is_shown =
         sides.size() == 1
-        || (is_matched(sides) && (is_between_regions(sides) || is_chord(sides[0])));
+        || (is_matched(sides)
+            && (is_between_regions(sides) || has_patches_inside_ || is_chord(sides[0])));
     if (!is_shown) return;
     --topology_.num_inner_triangles;
     const bool is_open = sides.size() == 1;
@@ -251,6 +253,7 @@ class TriangleMatcher {
   CellsByLowestVertices cells_;
   std::vector<Side> bucket_{};  // Of the vertex at hand.
   UnionFind components_;
+  bool has_patches_inside_;  // Any triangle may be on one: all are shown.
   std::vector<bool> is_on_surface_;
   std::vector<bool> is_between_;  // Lowest vertex of a triangle between two regions.
   PieceTopology topology_{};

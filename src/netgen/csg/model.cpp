@@ -385,7 +385,8 @@ CsgSolids made_solids(const CsgModel& model, const std::string& file, const std:
 
 // What NETGEN's CSG cannot mesh is OpenCASCADE's model from here on.
 model::ModelSource of_open_cascade(cad::CadFile cad, const model::ModelSource& source,
-                                   const std::string& why)
+                                   const std::string& why,
+                                   std::vector<model::EmbeddedFace> embedded = {})
 {
   note_repair(Repair::csg_by_occ);
   cad.repairs = source.repairs;
@@ -393,7 +394,9 @@ model::ModelSource of_open_cascade(cad::CadFile cad, const model::ModelSource& s
       fmt::format("{}: OpenCASCADE made the solids once more; sizes that the file gives to solids "
                   "are lost",
                   why));
-  return cad::closed_source(std::move(cad), source.file_name, {.overlap = model::Overlap::cut});
+  return cad::closed_source(
+      std::move(cad), source.file_name,
+      {.overlap = model::Overlap::cut, .embedded = std::move(embedded)});
 }
 
 // OpenCASCADE tells whether what NETGEN does not see is there. Nothing: it is not, and `source`
@@ -423,7 +426,8 @@ std::optional<model::ModelSource> with_specks(const CsgModel& model, model::Mode
 
 }  // namespace
 
-model::ModelSource import_csg(const std::filesystem::path& file)
+model::ModelSource import_csg(const std::filesystem::path& file,
+                              const model::AssemblyOptions& options)
 {
   model::ModelSource source{.format = model::Format::csg, .file_name = file.string()};
   const std::string text = read_text(file);
@@ -432,6 +436,11 @@ model::ModelSource import_csg(const std::filesystem::path& file)
   const SkippedStatements skipped;
   const CsgModel model(source);
   source.repairs = skipped.lines();
+  if (!options.embedded.empty()) {
+    const std::string why = "NETGEN's CSG has no faces that end inside of a solid";
+    return of_open_cascade(made_solids(model, source.file_name, why).cad, source, why,
+                           options.embedded);
+  }
   if (is_left_out(Repair::csg_by_occ)) return source;
   if (auto specks = with_specks(model, source)) return std::move(*specks);
   if (model.has_apex()) {

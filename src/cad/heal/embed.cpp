@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cad/heal/embed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <Bnd_Box.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopTools_MapOfShape.hxx>
+#include <TopoDS_Face.hxx>
+#include <fmt/format.h>
+#include <gp_Circ.hxx>
+#include <gp_Pln.hxx>
+
+#include "tessera/base/error.hpp"
+
+#include "cad/heal/fuse.hpp"
+#include "cad/heal/glue.hpp"
+#include "cad/inner_faces.hpp"
+#include "cad/shape.hpp"
+
+namespace tessera::cad {
+namespace {
+
+gp_Pnt point_of(const Vec3& p) { return {p[0], p[1], p[2]}; }
+
+TopoDS_Face face_of(const model::Polygon& polygon)
+{
+  BRepBuilderAPI_MakePolygon rim;
+  for (const Vec3& corner : polygon.corners) rim.Add(point_of(corner));
+  rim.Close();
+  return BRepBuilderAPI_MakeFace(rim.Wire(), true).Face();
+}
+
+TopoDS_Face face_of(const model::Disk& disk)
+{
+  const gp_Ax2 axis(point_of(disk.centre),
+                    gp_Dir(disk.normal[0], disk.normal[1], disk.normal[2]));
+  const TopoDS_Edge rim = BRepBuilderAPI_MakeEdge(gp_Circ(axis, disk.radius));
+  return BRepBuilderAPI_MakeFace(gp_Pln(gp_Ax3(axis)), BRepBuilderAPI_MakeWire(rim).Wire()).Face();
+}
+
+Bnd_Box box_of(const TopoDS_Shape& shape)
+{
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, Standard_False);
+  return box;
+}
+
+// A face to be put in.
+struct Candidate {
+  TopoDS_Shape face{};
+  ShapeLabel label{};
+  bool is_asked = false;  // By the case.
+};
+
+class Embedding {
+ public:
+  Embedding(std::vector<Candidate> candidates, CadFile& cad)
+      : candidates_(std::move(candidates)), cad_(cad), given_(parts_of(cad.shape, TopAbs_SOLID))
+  {
+  }
+
+  void run()
+  {
+    fuse();
+    const TopoDS_Shape before = cad_.shape;
+    collect_solids();
+    require_same_volumes(before);
+    note_faces();
+    note_pieces(before);
+    follow_names(before, cad_.names, [&](const TopoDS_Shape& part) { return fuse_.Modified(part); });
+  }
+
+ private:
+  void fuse()
+  {
+    TopTools_ListOfShape arguments;
+    for (const TopoDS_Shape& solid : given_) arguments.Append(solid);
+    for (const Candidate& candidate : candidates_) arguments.Append(candidate.face);
+    fuse_.SetArguments(arguments);
+    fuse_.SetNonDestructive(Standard_True);
+    fuse_.SetRunParallel(Standard_False);
+    fuse_.Build();
+    if (fuse_.HasErrors()) {
+      throw GeometryError(fmt::format(
+          "OpenCASCADE cannot put {} into the solids; {}", words_of_faces(),
+          "leave out what is near but not on a side of a solid, or set geometry.loose_faces to "
+          "\"drop\" if they are the file's"));
+    }
+  }
+
+  [[nodiscard]] std::string words_of_faces() const
+  {
+    std::string names;
+    for (const Candidate& candidate : candidates_) {
+      if (candidate.label.name.empty()) continue;
+      names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", candidate.label.name);
+    }
+    return fmt::format("{} faces{}{}", candidates_.size(), names.empty() ? "" : " ", names);
+  }
+
+  // What became of a part of what was given.
+  Shapes images_of(const TopoDS_Shape& part)
+  {
+    const TopTools_ListOfShape& images = fuse_.Modified(part);
+    if (images.IsEmpty()) return {part};
+    return {images.begin(), images.end()};
+  }
+
+  void collect_solids()
+  {
+    Shapes solids;
+    TopTools_MapOfShape added;
+    const std::vector<LocalIndex> before = std::exchange(cad_.solid_body, {});
+    for (std::size_t s = 0; s < given_.size(); ++s) {
+      for (const TopoDS_Shape& image : images_of(given_[s])) {
+        if (!added.Add(image)) continue;
+        solids.push_back(image);
+        cad_.solid_body.push_back(before.empty() ? static_cast<LocalIndex>(s) + 1 : before[s]);
+      }
+    }
+    cad_.shape = compound_of(solids);
+  }
+
+  void note_pieces(const TopoDS_Shape& before)
+  {
+    int number = 0;
+    for (const TopoDS_Shape& face : parts_of(before, TopAbs_FACE)) {
+      ++number;
+      for (const TopoDS_Shape& image : images_of(face)) cad_.given_face.Bind(image, number);
+    }
+  }
+
+  void require_same_volumes(const TopoDS_Shape& before) const
+  {
+    constexpr double kTolerance = 1e-4;  // As of cuts.
+    const double whole = volume_of(before);
+    const double left = volume_of(cad_.shape);
+    const bool is_sound = std::abs(left - whole) <= kTolerance * std::abs(whole)
+                          && (BRepCheck_Analyzer(cad_.shape).IsValid()
+                              || !BRepCheck_Analyzer(before).IsValid());
+    if (is_sound) return;
+    throw GeometryError(fmt::format(
+        "OpenCASCADE put {} into the solids, whose volume is {:g} then, and was {:g}; set "
+        "geometry.loose_faces to \"drop\" if they are the file's",
+        words_of_faces(), left, whole));
+  }
+
+  // Those that solids have, with their names.
+  void note_faces()
+  {
+    TopTools_IndexedMapOfShape of_solids;
+    TopExp::MapShapes(cad_.shape, TopAbs_FACE, of_solids);
+    int num_outside = 0;
+    for (const Candidate& candidate : candidates_) {
+      model::EmbeddedPart part{.name = candidate.label.name};
+      for (const TopoDS_Shape& image : images_of(candidate.face)) {
+        if (!of_solids.Contains(image)) continue;
+        ++part.num_faces;
+        part.area += area_of(image);
+        if (!candidate.label.name.empty()) cad_.names.Bind(image, candidate.label);
+      }
+      if (part.num_faces > 0) {
+        cad_.assembly.embedded.push_back(part);
+      } else if (candidate.is_asked) {
+        throw GeometryError(fmt::format("[[embed]] \"{}\" lies outside of all solids", part.name));
+      } else {
+        ++num_outside;
+      }
+    }
+    if (num_outside > 0) {
+      cad_.repairs.push_back(fmt::format(
+          "faces that lie outside of all solids were left out: {}", num_outside));
+    }
+  }
+
+  std::vector<Candidate> candidates_;
+  CadFile& cad_;
+  Shapes given_;
+  BRepAlgoAPI_BuilderAlgo fuse_{};
+};
+
+std::vector<Candidate> asked_faces(const std::vector<model::EmbeddedFace>& asked)
+{
+  std::vector<Candidate> candidates;
+  for (const model::EmbeddedFace& one : asked) {
+    const TopoDS_Face face =
+        std::visit([](const auto& shape) { return face_of(shape); }, one.shape);
+    candidates.push_back({face, {.name = one.name}, true});
+  }
+  return candidates;
+}
+
+// Those that may lie in a solid.
+std::vector<Candidate> near_faces(const std::vector<TopoDS_Shape>& loose, const CadFile& cad)
+{
+  std::vector<Candidate> candidates;
+  const Bnd_Box solids = box_of(cad.shape);
+  for (const TopoDS_Shape& face : loose) {
+    if (!solids.IsOut(box_of(face))) candidates.push_back({face, label_in(cad.names, face)});
+  }
+  return candidates;
+}
+
+}  // namespace
+
+void embed_faces(const std::vector<TopoDS_Shape>& loose, const model::AssemblyOptions& options,
+                 CadFile& cad)
+{
+  std::vector<Candidate> of_file;
+  if (options.loose_faces == model::LooseFaces::embed) of_file = near_faces(loose, cad);
+  if (of_file.size() < loose.size()) {
+    cad.repairs.push_back(fmt::format("faces that belong to no solid were left out: {}",
+                                      loose.size() - of_file.size()));
+  }
+  if (!of_file.empty()) {
+    Embedding(std::move(of_file), cad).run();
+    cad.given_face.Clear();  // Numbers of the file are those with its own faces.
+  }
+  if (options.embedded.empty()) return;
+  Embedding(asked_faces(options.embedded), cad).run();
+}
+
+}  // namespace tessera::cad

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <TopoDS_Shape.hxx>
+
+#include "cad/cut.hpp"
+
+namespace tessera::cad {
+
+/// @brief Faces of a solid with the solid on both sides, each once: those that end inside of it.
+/// Local.
+[[nodiscard]] std::vector<TopoDS_Shape> inner_faces_of(const TopoDS_Shape& solid);
+
+/// @brief Whether a solid of the shape has inner faces. Local.
+[[nodiscard]] bool has_inner_faces(const TopoDS_Shape& shape);
+
+/// @brief The shape's solids cut into *cells*, of which none has a face inside. Each inner face is
+/// continued on its own surface to the sides of its solid, so it lies between two cells. Local.
+/// @throws NetgenError if a face cannot be continued, with its place, and as cut_shape().
+[[nodiscard]] CutShape cells_of(const TopoDS_Shape& shape);
+
+}  // namespace tessera::cad
