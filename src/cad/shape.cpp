@@ -40,6 +40,24 @@ double volume_of(const TopoDS_Shape& shape)
   return properties.Mass();
 }
 
+bool have_volume_of(const std::vector<TopoDS_Shape>& pieces, const TopoDS_Shape& solid)
+{
+  constexpr double kTolerance = 1e-4;
+  const auto is_same = [&](const auto& volume) {
+    double sum = 0.0;
+    for (const TopoDS_Shape& piece : pieces) sum += volume(piece);
+    const double whole = volume(solid);
+    return std::abs(sum - whole) <= kTolerance * std::abs(whole);
+  };
+  // Adaptive integrals take long. Others were off by 2e-6 over trimmed faces, and by 8e-3 over
+  // small parts of free-form ones.
+  return is_same(volume_of) || is_same([](const TopoDS_Shape& shape) {
+           GProp_GProps properties;
+           BRepGProp::VolumeProperties(shape, properties, 0.1 * kTolerance);
+           return properties.Mass();
+         });
+}
+
 double area_of(const TopoDS_Shape& shape)
 {
   GProp_GProps properties;

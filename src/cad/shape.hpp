@@ -22,6 +22,10 @@ namespace tessera::cad {
 /// @brief Of what its faces enclose; negative if they look inwards.
 [[nodiscard]] double volume_of(const TopoDS_Shape& shape);
 
+/// @brief Whether pieces of a solid have its volume, to a ten thousandth. Local.
+[[nodiscard]] bool have_volume_of(const std::vector<TopoDS_Shape>& pieces,
+                                  const TopoDS_Shape& solid);
+
 /// @brief Of all its faces.
 [[nodiscard]] double area_of(const TopoDS_Shape& shape);
 

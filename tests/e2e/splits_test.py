@@ -162,7 +162,7 @@ class Refused(SplitsTest):
         text = case.read_text()
         for wrong, words in (
             ("patch = 'nowhere'", ("[[split]]", 'patch = "nowhere"', "crack")),
-            ("patch = 'patch_1'", ("[[split]]", '"patch_1"', "between two materials")),
+            ("patch = 'patch_1'", ("[[split]]", '"patch_1"', "only patches inside of it")),
         ):
             case.write_text(text.replace("patch = 'crack'", wrong))
             self.assert_refused(self.run_program("mesh", case, "--output", words[1], ranks=2), WRONG_INPUT, *words)

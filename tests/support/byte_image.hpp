@@ -73,6 +73,12 @@ class Sampler {
     fill(value.emplace());
   }
 
+  template <class... T>
+  void fill(std::variant<T...>& value)
+  {
+    fill(value.template emplace<sizeof...(T) - 1>());
+  }
+
  private:
   int last_ = 4;  // Above the defaults of small counts.
 };

@@ -2,7 +2,6 @@
 #include "cad/heal/embed.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <variant>
@@ -45,8 +44,7 @@ TopoDS_Face face_of(const model::Polygon& polygon)
 
 TopoDS_Face face_of(const model::Disk& disk)
 {
-  const gp_Ax2 axis(point_of(disk.centre),
-                    gp_Dir(disk.normal[0], disk.normal[1], disk.normal[2]));
+  const gp_Ax2 axis(point_of(disk.centre), gp_Dir(disk.normal[0], disk.normal[1], disk.normal[2]));
   const TopoDS_Edge rim = BRepBuilderAPI_MakeEdge(gp_Circ(axis, disk.radius));
   return BRepBuilderAPI_MakeFace(gp_Pln(gp_Ax3(axis)), BRepBuilderAPI_MakeWire(rim).Wire()).Face();
 }
@@ -80,7 +78,8 @@ class Embedding {
     require_same_volumes(before);
     note_faces();
     note_pieces(before);
-    follow_names(before, cad_.names, [&](const TopoDS_Shape& part) { return fuse_.Modified(part); });
+    follow_names(before, cad_.names,
+                 [&](const TopoDS_Shape& part) { return fuse_.Modified(part); });
   }
 
  private:
@@ -94,11 +93,16 @@ class Embedding {
     fuse_.SetRunParallel(Standard_False);
     fuse_.Build();
     if (fuse_.HasErrors()) {
-      throw GeometryError(fmt::format(
-          "OpenCASCADE cannot put {} into the solids; {}", words_of_faces(),
-          "leave out what is near but not on a side of a solid, or set geometry.loose_faces to "
-          "\"drop\" if they are the file's"));
+      fail("OpenCASCADE cannot put {} into the solids");
     }
+  }
+
+  [[noreturn]] void fail(fmt::format_string<std::string> what) const
+  {
+    throw GeometryError(
+        fmt::format(what, words_of_faces())
+        + "; leave out what is near but not on a side of a solid, or set geometry.loose_faces to "
+          "\"drop\" if they are the file's");
   }
 
   [[nodiscard]] std::string words_of_faces() const
@@ -145,17 +149,10 @@ class Embedding {
 
   void require_same_volumes(const TopoDS_Shape& before) const
   {
-    constexpr double kTolerance = 1e-4;  // As of cuts.
-    const double whole = volume_of(before);
-    const double left = volume_of(cad_.shape);
-    const bool is_sound = std::abs(left - whole) <= kTolerance * std::abs(whole)
-                          && (BRepCheck_Analyzer(cad_.shape).IsValid()
-                              || !BRepCheck_Analyzer(before).IsValid());
-    if (is_sound) return;
-    throw GeometryError(fmt::format(
-        "OpenCASCADE put {} into the solids, whose volume is {:g} then, and was {:g}; set "
-        "geometry.loose_faces to \"drop\" if they are the file's",
-        words_of_faces(), left, whole));
+    const bool is_sound =
+        have_volume_of(parts_of(cad_.shape, TopAbs_SOLID), before)
+        && (BRepCheck_Analyzer(cad_.shape).IsValid() || !BRepCheck_Analyzer(before).IsValid());
+    if (!is_sound) fail("OpenCASCADE put {} into the solids, which were not sound then");
   }
 
   // Those that solids have, with their names.
@@ -181,8 +178,8 @@ class Embedding {
       }
     }
     if (num_outside > 0) {
-      cad_.repairs.push_back(fmt::format(
-          "faces that lie outside of all solids were left out: {}", num_outside));
+      cad_.repairs.push_back(
+          fmt::format("faces that lie outside of all solids were left out: {}", num_outside));
     }
   }
 
