@@ -52,7 +52,8 @@ struct CadFile {
                                     model::StepReader reader = model::StepReader::with_names);
 
 /// @brief Makes `cad.shape` one closed, valid solid, or a compound of several that share the faces
-/// on which they touch, with the faces in them that are to be embedded. Names follow their faces and solids; every change adds to `cad.repairs`.
+/// on which they touch, with the faces in them that are to be embedded. Names follow their faces
+/// and solids; every change adds to `cad.repairs`.
 /// @throws GeometryError that says what the file holds instead, what stays open, or what overlaps.
 void make_closed_solids(CadFile& cad, const model::AssemblyOptions& options);
 

@@ -5,6 +5,14 @@
 #include <map>
 #include <utility>
 
+#include <BRepAdaptor_Curve.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tessera/base/error.hpp"
+
 #include "cad/shape.hpp"
 
 namespace tessera::cad {
@@ -26,8 +34,8 @@ std::vector<LocalIndex> pieces_of(const std::vector<LocalIndex>& numbers,
 {
   std::vector<LocalIndex> pieces;
   for (std::size_t p = 0; p < in_model.size(); ++p) {
-    const bool is_piece = in_model[p] != kNoIndex
-                          && std::ranges::find(numbers, in_model[p]) != numbers.end();
+    const bool is_piece =
+        in_model[p] != kNoIndex && std::ranges::find(numbers, in_model[p]) != numbers.end();
     if (is_piece) pieces.push_back(static_cast<LocalIndex>(p));
   }
   return pieces;
@@ -77,6 +85,49 @@ surface::CoarseOptions CellNumbers::options_from(surface::CoarseOptions options)
   return options;
 }
 
+void CellNumbers::require_images(const surface::CoarseOptions& options) const
+{
+  // The shift between two sides is known from triangles.
+  const double tolerance = 1e-4 * box_diagonal_of(cells_.shape);
+  const auto require_all_among = [&](const std::vector<Vec3>& places,
+                                     const std::vector<Vec3>& others) {
+    for (const Vec3& place : places) {
+      const auto is_near = [&](const Vec3& other) { return norm(other - place) <= tolerance; };
+      if (std::ranges::any_of(others, is_near)) continue;
+      throw NetgenError(
+          fmt::format("a face that ends inside of a solid is continued to the solid's sides, and "
+                      "reaches one of "
+                      "two periodic sides near ({:g}) but not the other one; turn the face, or "
+                      "divide the solid "
+                      "in the CAD program so that both sides are cut alike",
+                      fmt::join(place, ", ")));
+    }
+  };
+  for (const surface::PeriodicPatches& sides : options.periodic) {
+    std::vector<Vec3> images = middles_of_cuts(sides.from);
+    for (Vec3& image : images) image = sides.there(image);
+    const std::vector<Vec3> there = middles_of_cuts(sides.to);
+    require_all_among(images, there);
+    require_all_among(there, images);
+  }
+}
+
+// Of edges of these faces that the model does not have.
+std::vector<Vec3> CellNumbers::middles_of_cuts(const std::vector<LocalIndex>& faces) const
+{
+  const std::vector<TopoDS_Shape> all = parts_of(cells_.shape, TopAbs_FACE);
+  std::vector<Vec3> middles;
+  for (const LocalIndex face : faces) {
+    for (const TopoDS_Shape& edge : parts_of(all[at(face)], TopAbs_EDGE)) {
+      if (CutShape::number_in(cells_.edges, edge) != kNoIndex) continue;
+      const BRepAdaptor_Curve curve(TopoDS::Edge(edge));
+      const gp_Pnt p = curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
+      middles.push_back({p.X(), p.Y(), p.Z()});
+    }
+  }
+  return middles;
+}
+
 void CellNumbers::number_as_model(const std::vector<std::string>& face_names,
                                   surface::CoarseSurface& surface) const
 {
@@ -106,8 +157,8 @@ void CellNumbers::renumber_merged(surface::CoarseSurface& surface) const
   for (const LocalIndex patch : mesh.face_patch) left.push_back(mesh.patch_surface[at(patch)]);
   surface::Defeatured& merged = surface.defeatured;
   merged.patches = surface::renumbered(merged.patches, face_, left);
-  merged.curves = surface::renumbered(
-      merged.curves, edge_, {mesh.segment_curve.begin(), mesh.segment_curve.end()});
+  merged.curves = surface::renumbered(merged.curves, edge_,
+                                      {mesh.segment_curve.begin(), mesh.segment_curve.end()});
 }
 
 }  // namespace tessera::cad

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
 #include "tessera/surface/coarse_surface.hpp"
 #include "tessera/surface/options.hpp"
 
@@ -24,6 +25,10 @@ class CellNumbers {
   /// @brief Options whose patches and curves are the cells'.
   [[nodiscard]] surface::CoarseOptions options_from(surface::CoarseOptions options) const;
 
+  /// @brief Throws NetgenError with the place where an edge that only parts cells lies on one of
+  /// two periodic sides and has no image on the other one. @param[in] options options_from().
+  void require_images(const surface::CoarseOptions& options) const;
+
   /// @brief Gives the patches and curves of the cells' surface the model's numbers. Faces that only
   /// part cells become those of cuts, as CoarseSurface has them. Materials stay the cells'.
   /// @param[in] face_names The model's.
@@ -31,6 +36,7 @@ class CellNumbers {
                        surface::CoarseSurface& surface) const;
 
  private:
+  [[nodiscard]] std::vector<Vec3> middles_of_cuts(const std::vector<LocalIndex>& faces) const;
   void renumber_merged(surface::CoarseSurface& surface) const;
 
   CutShape cells_;

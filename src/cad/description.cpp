@@ -148,13 +148,12 @@ model::ModelDescription describe_shape(const OccContent& content)
   for (const TopoDS_Shape& face : parts_of(content.shape, TopAbs_FACE)) {
     const auto row = described.faces.size();
     const LocalIndex number = static_cast<LocalIndex>(row) + 1;
-    described.faces.push_back({.number = number,
-                               .piece_of = content.given_face.empty()
-                                               ? kNoIndex
-                                               : content.given_face.at(row),
-                               .name = content.face_names.at(row),
-                               .colour = content.face_colours.at(row),
-                               .area = area_of(face)});
+    described.faces.push_back(
+        {.number = number,
+         .piece_of = content.given_face.empty() ? kNoIndex : content.given_face.at(row),
+         .name = content.face_names.at(row),
+         .colour = content.face_colours.at(row),
+         .area = area_of(face)});
     add_triangles(TopoDS::Face(face), static_cast<LocalIndex>(row), described);
   }
   add_solids(content, described);

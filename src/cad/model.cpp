@@ -99,8 +99,10 @@ surface::CoarseSurface CadModel::mesh_whole(const surface::CoarseOptions& option
 surface::CoarseSurface CadModel::mesh_cells(const surface::CoarseOptions& options) const
 {
   const CellNumbers numbers(cells_of(content_.shape));
+  const surface::CoarseOptions of_cells = numbers.options_from(options);
+  numbers.require_images(of_cells);
   const CadModel cells(numbers.content_from(content_), file_name_);
-  surface::CoarseSurface surface = cells.mesh_solids(numbers.options_from(options));
+  surface::CoarseSurface surface = cells.mesh_solids(of_cells);
   numbers.number_as_model(content_.face_names, surface);
   return surface;
 }
@@ -111,15 +113,13 @@ surface::CoarseSurface CadModel::mesh_solids(const surface::CoarseOptions& optio
   const surface::SurfaceReference reference(tessellation_of(content_.shape, options.max_size));
   // Solids that overlap were cut, if they could be. So where two cut each other now, they touch
   // or nearly do, as a ball and its race, and chords of one lie in the other.
-  const auto forbidden = content_.may_overlap ? surface::Forbidden::all_cuts
-                                              : surface::Forbidden::cuts_within_bodies;
+  const auto forbidden =
+      content_.may_overlap ? surface::Forbidden::all_cuts : surface::Forbidden::cuts_within_bodies;
   surface::RemeshedSurface remeshed =
       surface::remesh_on_geometry(reference, *this, options, forbidden);
   const surface::PatchSurface& surface = remeshed.surface;
   const geometry::SurfaceNames names{
-      [this](LocalIndex patch) {
-        return content_.face_names.at(static_cast<std::size_t>(patch));
-      },
+      [this](LocalIndex patch) { return content_.face_names.at(static_cast<std::size_t>(patch)); },
       [this](LocalIndex material) { return solid_name(material); }};
   geometry::require_no_overlaps(surface::forbidden_overlaps(surface, forbidden), surface, names,
                                 file_name_);
