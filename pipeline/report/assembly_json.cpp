@@ -21,8 +21,10 @@ Json assembly_json(const model::Assembly& assembly)
   }
   Json embedded = Json::array();
   for (const model::EmbeddedPart& part : assembly.embedded) {
-    embedded.push_back(
-        {{"name", part.name}, {"num_faces", part.num_faces}, {"area", part.area}});
+    embedded.push_back({{"name", part.name},
+                        {"num_faces", part.num_faces},
+                        {"area", part.area},
+                        {"inside", part.is_inside}});
   }
   return {{"overlaps", std::move(overlaps)},
           {"closed_gaps", std::move(gaps)},

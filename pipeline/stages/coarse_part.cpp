@@ -124,7 +124,7 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   const model::NamedParts& parts = of_case.named;
   run.resolved.coarse.kept = of_case.kept;
   run.resolved.coarse.periodic = of_case.periodic;
-  run.resolved.coarse.has_inner_faces = !run.model.assembly.embedded.empty();
+  run.resolved.coarse.has_inner_faces = run.model.assembly.has_inner_faces();
   require_own_surface(run);
   run.planes = choose_cuts(run, context);
   run.coarse = run_coarse_stage(run.resolved, run.planes.tree, context);

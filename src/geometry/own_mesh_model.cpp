@@ -330,9 +330,12 @@ model::ModelSource import_own_mesh(const std::filesystem::path& file,
                          .feature_angle_deg = options.feature_angle_deg};
   content.own =
       coarse::make_own_mesh(read_mesh_file(file), file.string(), options.feature_angle_deg);
-  if (!options.cad.empty())
-    content.cad = import_cad(options.cad, {.feature_angle_deg = options.feature_angle_deg,
-                                           .assembly = options.assembly});
+  if (!options.cad.empty()) {
+    model::ImportOptions of_cad{.feature_angle_deg = options.feature_angle_deg,
+                                .assembly = options.assembly};
+    of_cad.assembly.loose_faces = model::LooseFaces::drop;  // The mesh need not have them.
+    content.cad = import_cad(options.cad, of_cad);
+  }
   model::ModelSource source{.format = model::Format::own, .file_name = file.string()};
   source.repairs = content.own.repairs;
   if (content.cad) {

@@ -53,12 +53,9 @@ std::string defect(const Polygon& of)
 {
   if (of.corners.size() < 3) return "polygon needs three corners or more";
   const Vec3& first = of.corners.front();
-  Vec3 normal{};  // Twice the area long.
+  const Vec3 normal = of.normal();
   double size = 0.0;
-  for (std::size_t i = 1; i < of.corners.size(); ++i) {
-    size = std::max(size, norm(of.corners[i] - first));
-    if (i > 1) normal = normal + cross(of.corners[i - 1] - first, of.corners[i] - first);
-  }
+  for (const Vec3& corner : of.corners) size = std::max(size, norm(corner - first));
   constexpr double kLeastArea = 1e-12;  // Of a square of that size: rounding.
   if (!(norm(normal) > kLeastArea * size * size)) return "polygon has no area";
   for (const Vec3& corner : of.corners) {
@@ -89,6 +86,15 @@ bool is_mesh_name(const std::filesystem::path& file)
 {
   const std::string extension = lower_case_extension(file);
   return extension == ".msh" || extension == ".vol" || extension == ".vtu";
+}
+
+Vec3 Polygon::normal() const
+{
+  Vec3 sum{};
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    sum = sum + cross(corners[i - 1] - corners.front(), corners[i] - corners.front());
+  }
+  return sum;
 }
 
 std::string defect_of(const EmbeddedFace& face)

@@ -11,6 +11,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/name_patterns.hpp"
 #include "tessera/base/union_find.hpp"
+#include "tessera/base/vec3.hpp"
 #include "tessera/mesh/face_tets.hpp"
 
 namespace tessera::topology {
@@ -90,7 +91,7 @@ void SplitFaces::find_faces(const SplitOptions& options,
     std::array<LocalIndex, 2>& tets = tets_.emplace_back(triangle.tets);
     const auto material = [&](std::size_t side) { return mesh_.tet_material[at(tets[side])]; };
     const bool is_inner = tets[1] != kNoIndex;
-    if (is_inner && material(1) < material(0)) std::swap(tets[0], tets[1]);
+    if (is_inner && is_minus_first(face, tets)) std::swap(tets[0], tets[1]);
     const LocalIndex patch = mesh_.face_patch[at(face)];
     if (patch_is_split[at(patch)] && !is_inner) {
       throw ConfigError(fmt::format(
@@ -104,6 +105,22 @@ void SplitFaces::find_faces(const SplitOptions& options,
     if (is_split_.back()) faces_.push_back(face);
     ++face;
   }
+}
+
+// On the plus side is the body with the lower number; inside of a body, what the face looks at.
+bool SplitFaces::is_minus_first(LocalIndex face, const std::array<LocalIndex, 2>& tets) const
+{
+  const auto body = [&](std::size_t side) {
+    return mesh_.body(mesh_.tet_material[at(tets[side])]);
+  };
+  if (body(0) != body(1)) return body(1) < body(0);
+  const LocalIndex* v = &mesh_.face_vertices[3 * at(face)];
+  const auto corners = mesh_.tet(tets[0]);
+  const auto opposite = std::ranges::find_if(
+      corners, [&](LocalIndex corner) { return std::find(v, v + 3, corner) == v + 3; });
+  return tet_volume(mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2]),
+                    mesh_.position(*opposite))
+         < 0.0;
 }
 
 void SplitFaces::find_sides(std::span<const mesh::TriangleTets> triangles)

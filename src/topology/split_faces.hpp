@@ -15,13 +15,14 @@ namespace tessera::topology {
 /// @brief The faces along which a mesh is to be opened, and what there is on both sides.
 class SplitFaces {
  public:
-  /// @throws ConfigError if an entry fits no patch, or one that is not between two materials, or no
+  /// @throws ConfigError if an entry fits no patch, or one on the outside, or no
   /// solid.
   SplitFaces(const mesh::CoarseMesh& mesh, const SplitOptions& options);
 
   [[nodiscard]] const std::vector<LocalIndex>& faces() const { return faces_; }  ///< Ascending.
   [[nodiscard]] bool is_split(LocalIndex face) const { return is_split_[at(face)]; }
-  /// @brief The tets of any face, of two materials the lower one first.
+  /// @brief The tets of any face: first that of the body with the lower number; inside of a body,
+  /// that on the side which the face's normal points to.
   [[nodiscard]] const std::array<LocalIndex, 2>& tets(LocalIndex face) const
   {
     return tets_[at(face)];
@@ -43,6 +44,7 @@ class SplitFaces {
 
  private:
   [[nodiscard]] std::size_t corner(LocalIndex tet, LocalIndex vertex) const;
+  [[nodiscard]] bool is_minus_first(LocalIndex face, const std::array<LocalIndex, 2>& tets) const;
   void find_faces(const SplitOptions& options, std::span<const mesh::TriangleTets> triangles);
   void find_sides(std::span<const mesh::TriangleTets> triangles);
 

@@ -34,7 +34,8 @@ def numbered(count):
 
 CYLINDER_PATCHES = frozenset({"side", "top", "bottom"})
 PACKING_PATCHES = frozenset({"skin", "left", "right", "front", "back", "bottom", "top"})
-PENNY_PATCHES = numbered(20) - numbered(3) | {"patch_1", "middle", "middle_plus", "middle_minus"}
+PENNY_PATCHES = numbered(6) | {"crack_plus", "crack_minus"}
+FAULT_PATCHES = frozenset({"fault", "branch"} | {f"patch_{n}" for n in (1, 2, 4, 5, 6, 10, *range(14, 19), *range(22, 27))})
 CORE_PATCHES = frozenset({"outside", "core_skin", "shell_skin"})
 SHAFT_PATCHES = frozenset("journal taper seat keyway flange stub bore hole".split())
 # The keyway's walls end on a cylinder of radius 18; its floor is 13 above the axis, 8 wide, 24 long.
@@ -59,14 +60,15 @@ CASES = {
     ),
     "core": Expected(1000, 1e-9, ("core", "shell", "matrix"), CORE_PATCHES),
     "cylinder": Expected(math.pi * 5**2 * 20, 0.05, ("cylinder",), CYLINDER_PATCHES, ("mm",)),
+    "faults": Expected(
+        2e6, 1e-9, ("low", "middle", "high"), FAULT_PATCHES, coarser=("size.target=16",)
+    ),
     "frustum": Expected(FRUSTUM, 0.05, ("material_1",), numbered(3)),
     "own_mesh": Expected(math.pi * 5**2 * 20, 0.1, ("rod",), frozenset({"jacket", "ends"}), ("mm",)),
     "packing": Expected(
         1, 1e-9, ("matrix", "grains"), PACKING_PATCHES, coarser=("size.target=0.1",)
     ),
-    "penny_crack": Expected(
-        432, 1e-9, ("puck_low", "puck_high", "rest_low", "rest_high"), PENNY_PATCHES, coarser=()
-    ),
+    "penny_crack": Expected(432, 1e-9, ("block",), PENNY_PATCHES, coarser=()),
     "pipe_layers": Expected(
         2 * math.pi, 0.05, ("full",), numbered(3), coarser=("size.target=0.3",)
     ),

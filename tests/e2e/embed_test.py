@@ -145,9 +145,27 @@ class Crack(EmbedTest):
         tets = grid_of(out / "mesh.pvtu")
         for row in range(tets.GetNumberOfPoints()):
             ids_at[tets.GetPoint(row)].add(int(tets.GetPointData().GetGlobalIds().GetValue(row)))
+        self.assertEqual(self.sides_of_the_crack(tets, boundary), {"crack_plus": {True}, "crack_minus": {False}})
         on_crack = {place for triangle in patches["crack_plus"] for place in triangle}
         for x, y, z in on_crack:
             self.assertEqual(len(ids_at[x, y, z]), 2 if math.hypot(x, y) < 0.5 - 1e-6 else 1)
+
+    @staticmethod
+    def sides_of_the_crack(tets, boundary):
+        """Of each patch, whether its tets are above the plane of the crack: its normal points up."""
+        ids = tets.GetCellData().GetGlobalIds()
+        is_above = {}
+        for cell in range(tets.GetNumberOfCells()):
+            heights = [tets.GetPoint(tets.GetCell(cell).GetPointId(i))[2] for i in range(4)]
+            is_above[int(ids.GetValue(cell))] = sum(heights) > 0
+        texts = boundary.GetFieldData().GetAbstractArray("patch_names")
+        patch, behind = (boundary.GetCellData().GetArray(name) for name in ("patch", "tet"))
+        found = collections.defaultdict(set)
+        for cell in range(boundary.GetNumberOfCells()):
+            name = texts.GetValue(int(patch.GetValue(cell)))
+            if name.startswith("crack"):
+                found[name].add(is_above[int(behind.GetValue(cell))])
+        return found
 
     def test_survives_a_kill(self):
         case = self.case(more="coarse.max_size = 0.12\nrefine.levels = 2\noutput.report_html = false\n")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A penny-shaped crack in a block ([[geometry.contact]]): CalculiX finds how far it opens under pressure, as Sneddon has it."""
+"""A penny-shaped crack in a block ([[embed]], [[split]]): CalculiX finds how far it opens under pressure, as Sneddon has it."""
 import math
 import pathlib
 import tempfile
@@ -11,21 +11,8 @@ from calculix_test import POISSON, YOUNG, Deck
 from solver_meshes import Mesh
 
 RADIUS, HALF, PRESSURE = 1.0, 6.0, 1.0
-# A quarter of a block, as it is alike on all sides. Where the two halves of the puck meet is the crack. Far away from it
-# the block is held.
-BLOCK = f"""algebraic3d
-solid low = orthobrick (0, 0, -{HALF}; {HALF}, {HALF}, 0);
-solid high = orthobrick (0, 0, 0; {HALF}, {HALF}, {HALF});
-solid puck = cylinder (0, 0, -2; 0, 0, 2; {RADIUS}) and orthobrick (-2, -2, -1; 2, 2, 1);
-solid a = low and puck;
-solid b = high and puck;
-solid c = low and not puck;
-solid d = high and not puck;
-tlo a;
-tlo b;
-tlo c;
-tlo d;
-"""
+# A quarter of a block, as it is alike on all sides. Far away from the crack it is held.
+BLOCK = f"algebraic3d\nsolid block = orthobrick (0, 0, -{HALF}; {HALF}, {HALF}, {HALF});\ntlo block;\n"
 CASE = f"""geometry.file = "block.geo"
 size.target = 2.0
 output.order = 2
@@ -33,12 +20,11 @@ decompose.subdomains = 8
 [[size.region]]
 size = SIZE
 cylinder = {{ start = [0, 0, -0.3], end = [0, 0, 0.3], radius = 1.2 }}
-[[geometry.name]]
+[[embed]]
 name = "crack"
-patch = {{ faces = [2] }}
-[[geometry.contact]]
-body = "a"
-other = "b"
+disk = {{ centre = [0, 0, 0], normal = [0, 0, 1], radius = {RADIUS} }}
+[[split]]
+patch = "crack"
 """
 
 

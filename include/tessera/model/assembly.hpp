@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <tuple>
@@ -41,11 +42,15 @@ struct ClosedGap {
 
 /// @brief A face that was put into solids.
 struct EmbeddedPart {
-  std::string name{};            ///< Empty: the file has none.
-  LocalIndex num_faces = 0;      ///< Pieces of it that solids have.
-  double area = 0.0;             ///< Of these; file length unit squared.
+  std::string name{};        ///< Empty: the file has none.
+  LocalIndex num_faces = 0;  ///< Pieces of it that solids have.
+  double area = 0.0;         ///< Of these; file length unit squared.
+  bool is_inside = false;    ///< One of them has one solid of the file on both sides.
 
-  static auto fields(auto& self) { return std::tie(self.name, self.num_faces, self.area); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.name, self.num_faces, self.area, self.is_inside);
+  }
 };
 
 /// @brief What was found where solids meet, and what was put into them.
@@ -58,6 +63,12 @@ struct Assembly {
   static auto fields(auto& self)
   {
     return std::tie(self.overlaps, self.gaps, self.embedded, self.tolerance);
+  }
+
+  /// @brief Whether faces lie inside of solids.
+  [[nodiscard]] bool has_inner_faces() const
+  {
+    return std::ranges::any_of(embedded, &EmbeddedPart::is_inside);
   }
 };
 

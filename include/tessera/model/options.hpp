@@ -93,6 +93,9 @@ constexpr auto enum_words(LooseFaces /*type*/)
 struct Polygon {
   std::vector<Vec3> corners{};
 
+  /// @brief Across it, by the right-hand rule; twice its area long.
+  [[nodiscard]] Vec3 normal() const;
+
   static auto fields(auto& self) { return std::tie(self.corners); }
   friend bool operator==(const Polygon&, const Polygon&) = default;
 };

@@ -15,6 +15,7 @@
 #include <BRepCheck_Analyzer.hxx>
 #include <Bnd_Box.hxx>
 #include <TopExp.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS_Face.hxx>
@@ -39,7 +40,9 @@ TopoDS_Face face_of(const model::Polygon& polygon)
   BRepBuilderAPI_MakePolygon rim;
   for (const Vec3& corner : polygon.corners) rim.Add(point_of(corner));
   rim.Close();
-  return BRepBuilderAPI_MakeFace(rim.Wire(), true).Face();
+  const Vec3 normal = polygon.normal();
+  const gp_Pln plane(point_of(polygon.corners.front()), gp_Dir(normal[0], normal[1], normal[2]));
+  return BRepBuilderAPI_MakeFace(plane, rim.Wire()).Face();
 }
 
 TopoDS_Face face_of(const model::Disk& disk)
@@ -160,6 +163,7 @@ class Embedding {
   {
     TopTools_IndexedMapOfShape of_solids;
     TopExp::MapShapes(cad_.shape, TopAbs_FACE, of_solids);
+    const TopTools_MapOfShape inside = faces_inside_of_bodies();
     int num_outside = 0;
     for (const Candidate& candidate : candidates_) {
       model::EmbeddedPart part{.name = candidate.label.name};
@@ -167,6 +171,7 @@ class Embedding {
         if (!of_solids.Contains(image)) continue;
         ++part.num_faces;
         part.area += area_of(image);
+        part.is_inside = part.is_inside || inside.Contains(image);
         if (!candidate.label.name.empty()) cad_.names.Bind(image, candidate.label);
       }
       if (part.num_faces > 0) {
@@ -181,6 +186,24 @@ class Embedding {
       cad_.repairs.push_back(
           fmt::format("faces that lie outside of all solids were left out: {}", num_outside));
     }
+  }
+
+  // Also those that divide one.
+  [[nodiscard]] TopTools_MapOfShape faces_inside_of_bodies() const
+  {
+    TopTools_MapOfShape inside;
+    TopTools_DataMapOfShapeInteger body_of;
+    std::size_t solid = 0;
+    for (const TopoDS_Shape& part : parts_of(cad_.shape, TopAbs_SOLID)) {
+      const int body = cad_.solid_body.at(solid++);
+      for (const TopoDS_Shape& face : parts_of(part, TopAbs_FACE)) {
+        const int* const other = body_of.Seek(face);
+        if (other != nullptr && *other == body) inside.Add(face);
+        body_of.Bind(face, body);
+      }
+      for (const TopoDS_Shape& face : inner_faces_of(part)) inside.Add(face);
+    }
+    return inside;
   }
 
   std::vector<Candidate> candidates_;
