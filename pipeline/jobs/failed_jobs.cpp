@@ -161,8 +161,8 @@ void write_region(const fs::path& file, const improve::RegionMesh& region)
 
 }  // namespace
 
-fs::path keep_failed_job(const JobRequest& job, const Bytes& request,
-                         const jobs::JobOutcome& outcome, RunContext& context)
+fs::path keep_failed_job(const JobRequest& job, const Bytes& request, const jobs::JobEnd& end,
+                         RunContext& context)
 {
   fs::path kept;
   if (context.num_failed_jobs_kept == kMostKept) return kept;
@@ -173,20 +173,19 @@ fs::path keep_failed_job(const JobRequest& job, const Bytes& request,
     const fs::path folder = make_job_folder(failure, job.name);
     const JobFile job_file{std::string(kMark), record_version(), {job.name, loads, request}};
     io::write_text_atomically(folder / "job.bin", text_of(to_bytes(job_file)));
-    io::write_text_atomically(
-        folder / "log.txt",
-        fmt::format("{}: {}\n\n{}", job.name, outcome.message, tail_of_log(context)));
+    io::write_text_atomically(folder / "log.txt", fmt::format("{}: {}\n\n{}", job.name, end.message,
+                                                              tail_of_log(context)));
     ++context.num_failed_jobs_kept;
     kept = folder;
   });
   return kept;
 }
 
-void keep_if_failed(const JobRequest& job, const jobs::JobOutcome& outcome, RunContext& context)
+void keep_if_failed(const JobRequest& job, const jobs::JobEnd& end, RunContext& context)
 {
   using jobs::JobStatus;
-  if (outcome.status == JobStatus::ok || outcome.status == JobStatus::cancelled) return;
-  static_cast<void>(keep_failed_job(job, job.request, outcome, context));
+  if (end.status == JobStatus::ok || end.status == JobStatus::cancelled) return;
+  static_cast<void>(keep_failed_job(job, job.request, end, context));
 }
 
 void keep_meshes_of_failed_fill(const fs::path& kept, LocalIndex subdomain,

@@ -12,7 +12,7 @@
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/decomposition.hpp"
 
-#include "pipeline/runtime/run_context.hpp"
+#include "pipeline/jobs/run_job.hpp"
 
 /// What a run leaves in DIR/failure of jobs that failed, for `tessera replay` and for people.
 namespace tessera::pipeline {
@@ -32,10 +32,10 @@ struct RecordedJob {
 /// @param[in] request  In place of the job's own, if that would write into the run's folder.
 /// @return The job's folder; empty if it was not kept.
 std::filesystem::path keep_failed_job(const JobRequest& job, const Bytes& request,
-                                      const jobs::JobOutcome& outcome, RunContext& context);
+                                      const jobs::JobEnd& end, RunContext& context);
 
 /// @brief Keeps a job as it was if it failed; not one that was cancelled. Local.
-void keep_if_failed(const JobRequest& job, const jobs::JobOutcome& outcome, RunContext& context);
+void keep_if_failed(const JobRequest& job, const jobs::JobEnd& end, RunContext& context);
 
 /// @brief Adds to a kept fill job what it was about: its subdomain's skin, as `skin.vtu`, which a
 /// job makes, and for all of them DIR/failure/coarse.vtu. Local; warns as keep_failed_job().

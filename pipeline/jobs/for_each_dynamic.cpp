@@ -124,20 +124,4 @@ jobs::JobLimits job_limits(const fill::FillOptions& options, double num_tets)
   return limits;
 }
 
-bool depends_on_machine(const jobs::JobOutcome& outcome)
-{
-  return outcome.status == jobs::JobStatus::out_of_time
-         || outcome.status == jobs::JobStatus::stalled
-         || outcome.status == jobs::JobStatus::out_of_memory || was_killed_from_outside(outcome);
-}
-
-void throw_unless_of_the_job(const jobs::JobOutcome& outcome)
-{
-  throw_if_cancelled(outcome);
-  if (outcome.error == ErrorKind::output || outcome.error == ErrorKind::config) {
-    throw_error(*outcome.error, outcome.message);
-  }
-  if (outcome.loads_are_lost) throw MeshError(outcome.message + way_on(outcome));
-}
-
 }  // namespace tessera::pipeline

@@ -54,10 +54,4 @@ void run_tasks(comm::TaskSource& source, const TaskWork& work, StageScope& stage
 /// @brief Limits of a job that makes or optimises so many tets.
 [[nodiscard]] jobs::JobLimits job_limits(const fill::FillOptions& options, double num_tets);
 
-/// @brief Whether the same job might have ended otherwise on another machine.
-[[nodiscard]] bool depends_on_machine(const jobs::JobOutcome& outcome);
-
-/// @brief Throws for what another try cannot mend: a stop, a full disk, a lost worker. Local.
-void throw_unless_of_the_job(const jobs::JobOutcome& outcome);
-
 }  // namespace tessera::pipeline

@@ -2,11 +2,8 @@
 #include "pipeline/runtime/run_context.hpp"
 
 #include <cmath>
-#include <csignal>
-#include <system_error>
 #include <utility>
 
-#include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/jobs/this_process.hpp"
 
@@ -63,49 +60,6 @@ void StageScope::finish(const std::string& summary)
 jobs::JobRunner::WaitCallback wait_for_stop_signal()
 {
   return [] { return !stop_requested(); };
-}
-
-bool was_killed_from_outside(const jobs::JobOutcome& outcome)
-{
-  return outcome.status == jobs::JobStatus::crashed && outcome.code == SIGKILL;
-}
-
-jobs::JobOutcome run_job(const JobRequest& job, const jobs::JobRunner::WaitCallback& on_wait,
-                         RunContext& context)
-{
-  std::error_code error;  // Without a log the job has said nothing.
-  const std::uintmax_t log_size = std::filesystem::file_size(context.jobs_log, error);
-  context.job_log_begin = error ? 0 : log_size;
-  jobs::JobOutcome outcome = context.jobs.run(job.request, job.limits, on_wait);
-  if (!was_killed_from_outside(outcome) || outcome.loads_are_lost) return outcome;
-  context.progress.clear();
-  context.log.warn("{}: done again: {}", job.name, outcome.message);
-  return context.jobs.run(job.request, job.limits, on_wait);
-}
-
-jobs::JobOutcome run_load(const std::string& kind, SharedBytes message,
-                          const jobs::JobLimits& limits, RunContext& context, const Bytes& told)
-{
-  const std::span<const std::byte> sent = told.empty() ? message.bytes() : told;
-  jobs::JobOutcome outcome = context.jobs.load(sent, limits, wait_for_stop_signal());
-  if (outcome.status != jobs::JobStatus::ok) return outcome;
-  for (auto& [known, loaded] : context.loads) {
-    if (known != kind) continue;
-    loaded = std::move(message);
-    return outcome;
-  }
-  context.loads.emplace_back(kind, std::move(message));
-  return outcome;
-}
-
-std::string way_on(const jobs::JobOutcome& outcome)
-{
-  return was_killed_from_outside(outcome) || outcome.loads_are_lost ? "; go on with --resume" : "";
-}
-
-void throw_if_cancelled(const jobs::JobOutcome& outcome)
-{
-  if (outcome.status == jobs::JobStatus::cancelled) throw Interrupted(kStopped);
 }
 
 void throw_if_stopped(const comm::Communicator& comm)

@@ -4,12 +4,10 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "tessera/base/error.hpp"
 #include "tessera/base/shared_bytes.hpp"
 #include "tessera/comm/communicator.hpp"
 #include "tessera/jobs/job_runner.hpp"
@@ -72,53 +70,6 @@ class StageScope {
 
 /// @brief Callback for jobs beside which this rank has nothing to do: cancels on a stop signal.
 [[nodiscard]] jobs::JobRunner::WaitCallback wait_for_stop_signal();
-
-/// @brief Whether somebody else ended the job, by hand or for lack of memory. Such an end says
-/// nothing about what the job was to do. Local.
-[[nodiscard]] bool was_killed_from_outside(const jobs::JobOutcome& outcome);
-
-/// @brief What to run under which name in the log.
-struct JobRequest {
-  std::string name{};
-  const Bytes& request;
-  const jobs::JobLimits& limits;
-};
-
-/// @brief Runs a job, and once more if it was killed from outside. So the mesh is the same as
-/// without the kill. Local.
-[[nodiscard]] jobs::JobOutcome run_job(const JobRequest& job,
-                                       const jobs::JobRunner::WaitCallback& on_wait,
-                                       RunContext& context);
-
-/// @brief What `read` makes of the result of a job, if that has ended well. A result that cannot be
-/// read becomes a failure of the job: third-party code may have damaged its memory. Local.
-template <class Read>
-auto read_result(jobs::JobOutcome& outcome, const Read& read)
-    -> std::optional<decltype(read(outcome.result))>
-{
-  if (outcome.status != jobs::JobStatus::ok) return std::nullopt;
-  try {
-    return read(outcome.result);
-  } catch (const InputError& error) {
-    outcome.status = jobs::JobStatus::failed;
-    outcome.error = ErrorKind::netgen;
-    outcome.message = std::string("gave a result that cannot be used: ") + error.what();
-    return std::nullopt;
-  }
-}
-
-/// @brief Loads a message of some kind, in place of an earlier one of that kind. Local.
-/// @param[in] told  What the worker is told in its place, if that is not the message itself.
-[[nodiscard]] jobs::JobOutcome run_load(const std::string& kind, SharedBytes message,
-                                        const jobs::JobLimits& limits, RunContext& context,
-                                        const Bytes& told = {});
-
-/// @brief What to add to a job's message where the same run could go well next time. That is so if
-/// nothing was wrong with the job, or what had been loaded for it is lost. Local.
-[[nodiscard]] std::string way_on(const jobs::JobOutcome& outcome);
-
-/// @brief Throws Interrupted if the outcome says that the callback cancelled the job. Local.
-void throw_if_cancelled(const jobs::JobOutcome& outcome);
 
 /// @brief Throws Interrupted on all ranks if a stop signal came to any. @note Collective.
 void throw_if_stopped(const comm::Communicator& comm);

@@ -12,7 +12,7 @@
 #include "tessera/jobs/run_program.hpp"
 #include "tessera/model/options.hpp"
 
-#include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/jobs/run_job.hpp"
 #include "pipeline/stages/coarse_budget.hpp"
 
 namespace tessera::pipeline {
@@ -82,10 +82,10 @@ coarse::ModelFigures figures_of(const config::Case& run_case, RunContext& contex
   if (run_case.coarse.timeout_s > 0.0 || model::is_mesh_name(run_case.geometry.file))
     return kUnknown;
   const Bytes request = figures_request();
-  jobs::JobOutcome outcome =
-      run_job({"coarse: figures", request, kFiguresLimits}, wait_for_stop_signal(), context);
-  throw_unless_of_the_job(outcome);
-  const auto figures = read_result(outcome, from_bytes<coarse::ModelFigures>);
+  const auto [figures, end, cpu_s] =
+      attempt_job({"coarse: figures", request, kFiguresLimits}, from_bytes<coarse::ModelFigures>,
+                  wait_for_stop_signal(), context);
+  throw_unless_of_the_job(end);
   return figures && std::isfinite(figures->area) ? *figures : kUnknown;
 }
 

@@ -16,6 +16,7 @@
 #include "tessera/comm/share_on_node.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/jobs/run_job.hpp"
 #include "pipeline/stages/coarse_ladder.hpp"
 #include "pipeline/stages/coarse_plans.hpp"
 #include "pipeline/stages/coarse_try.hpp"
@@ -24,10 +25,10 @@ namespace tessera::pipeline {
 namespace {
 
 // The model will not get better in another try.
-bool is_final(const jobs::JobOutcome& outcome)
+bool is_final(const jobs::JobEnd& end)
 {
-  return outcome.error == ErrorKind::geometry || outcome.error == ErrorKind::input
-         || outcome.error == ErrorKind::config || outcome.loads_are_lost;
+  return end.error == ErrorKind::geometry || end.error == ErrorKind::input
+         || end.error == ErrorKind::config || end.loads_are_lost;
 }
 
 std::string name_of(const surface::CoarseOptions& options)
@@ -52,13 +53,11 @@ std::string name_of(const surface::CoarseOptions& options)
       failures));
 }
 
-void throw_if_hopeless(const jobs::JobOutcome& outcome, const std::string& file)
+void throw_if_hopeless(const jobs::JobEnd& end, const std::string& file)
 {
   // Another try would be another mesh, and nothing is wrong with this one.
-  if (was_killed_from_outside(outcome)) {
-    throw MeshError(fmt::format("coarse: {}{}", outcome.message, way_on(outcome)));
-  }
-  if (is_final(outcome)) jobs::throw_unless_ok(outcome, file);
+  if (was_killed_from_outside(end)) require_ok(end, "coarse");
+  if (is_final(end)) require_ok(end, file);
 }
 
 bool is_cut(const CoarsePlan& plan) { return plan.planes.num_parts > 0; }
@@ -66,10 +65,10 @@ bool is_cut(const CoarsePlan& plan) { return plan.planes.num_parts > 0; }
 // How a rung has ended, the same on every rank. Nothing goes with it but words and counts.
 struct RungOutcome {
   LocalIndex rung = 0;
-  jobs::JobOutcome outcome{};
+  jobs::JobEnd end{};
   RepairCounts repairs{};  // In its surface.
 
-  static auto fields(auto& self) { return std::tie(self.rung, self.outcome, self.repairs); }
+  static auto fields(auto& self) { return std::tie(self.rung, self.end, self.repairs); }
 };
 
 // The tries at the coarse mesh. Their surfaces are made side by side: the rank that made one keeps
@@ -93,7 +92,7 @@ class CoarseTries {
       const CoarsePlan& plan = plans_[at(*rung)];
       result_.options = plan.options;
       CoarseAttempt made = fill_coarse_surface(plan, take_surface(*rung), stage_, context_);
-      if (made.outcome.status == jobs::JobStatus::ok) {
+      if (made.end.status == jobs::JobStatus::ok) {
         ++result_.tries;
         result_.repairs = repairs_of(plan, plans_.front());
         result_.repairs += repairs_[*rung];
@@ -101,9 +100,9 @@ class CoarseTries {
         if (made.made) take(std::move(*made.made));
         break;
       }
-      all_or_none(context_.comm, [&] { throw_if_hopeless(made.outcome, file_); });
+      all_or_none(context_.comm, [&] { throw_if_hopeless(made.end, file_); });
       ladder_.fill_has_failed(*rung);
-      outcomes_[*rung] = std::move(made.outcome);
+      ends_[*rung] = std::move(made.end);
       note_failures();
     }
     return std::move(result_);
@@ -137,7 +136,7 @@ class CoarseTries {
     note_failures();
     const auto front = ladder_.front();
     if (!front) return front;
-    all_or_none(context_.comm, [&] { throw_if_hopeless(outcomes_[*front], file_); });
+    all_or_none(context_.comm, [&] { throw_if_hopeless(ends_[*front], file_); });
     return front;
   }
 
@@ -146,18 +145,18 @@ class CoarseTries {
     const CoarsePlan& plan = plans_[at(rung)];
     context_.log.debug("coarse: try {} begins: {}", rung + 1, name_of(plan.options));
     SurfaceTry made = try_coarse_surface(plan, on_wait, context_);
-    if (made.outcome.loads_are_lost) throw_if_hopeless(made.outcome, file_);
+    if (made.end.loads_are_lost) throw_if_hopeless(made.end, file_);
     RungEnd end = RungEnd::failed;
     if (made.surface) end = RungEnd::surface;
-    if (is_final(made.outcome) || was_killed_from_outside(made.outcome)) end = RungEnd::final;
+    if (is_final(made.end) || was_killed_from_outside(made.end)) end = RungEnd::final;
     // Rank 0 has found Gmsh; this rank's machine may be without.
     const bool was_gmsh_asked = plans_.front().options.mesher == surface::Mesher::gmsh;
     if (plan.options.mesher == surface::Mesher::gmsh && !was_gmsh_asked
-        && made.outcome.error == ErrorKind::config) {
+        && made.end.error == ErrorKind::config) {
       end = RungEnd::failed;
     }
     if (made.surface) surfaces_[rung] = std::move(*made.surface);
-    ended_here_.push_back({rung, std::move(made.outcome), made.repairs});
+    ended_here_.push_back({rung, std::move(made.end), made.repairs});
     return to_bytes(end);
   }
 
@@ -165,7 +164,7 @@ class CoarseTries {
   void share_outcomes()
   {
     for (RungOutcome& one : context_.comm.all_gather_rows(ended_here_)) {
-      outcomes_[one.rung] = std::move(one.outcome);
+      ends_[one.rung] = std::move(one.end);
       repairs_[one.rung] = one.repairs;
     }
     ended_here_.clear();
@@ -186,13 +185,13 @@ class CoarseTries {
     const std::vector<LocalIndex> failed = ladder_.failed();
     for (std::size_t i = result_.failures.size(); i < failed.size(); ++i) {
       const CoarsePlan& plan = plans_[at(failed[i])];
-      const jobs::JobOutcome& outcome = outcomes_[failed[i]];
+      const jobs::JobEnd& end = ends_[failed[i]];
       ++result_.tries;
       result_.options = plan.options;
       result_.failures.push_back(fmt::format("{}{}: {}", is_cut(plan) ? "in parts, " : "",
-                                             name_of(plan.options), outcome.message));
+                                             name_of(plan.options), end.message));
       context_.log.warn("coarse: try {} failed: {}", result_.tries, result_.failures.back());
-      result_.was_limited = result_.was_limited || depends_on_machine(outcome);
+      result_.was_limited = result_.was_limited || depends_on_machine(end);
     }
     const auto front = ladder_.front();
     if (!is_in_parts_ || !front || is_cut(plans_[at(*front)])) return;
@@ -209,7 +208,7 @@ class CoarseTries {
   CoarseResult result_{};
   std::map<LocalIndex, surface::CoarseSurface> surfaces_{};  // Made by this rank.
   std::vector<RungOutcome> ended_here_{};
-  std::map<LocalIndex, jobs::JobOutcome> outcomes_{};
+  std::map<LocalIndex, jobs::JobEnd> ends_{};
   std::map<LocalIndex, RepairCounts> repairs_{};
 };
 

@@ -19,20 +19,15 @@
 namespace tessera::pipeline {
 namespace {
 
-// Runs a job and reads its result; nothing if it failed, and then `outcome` says why. What this
-// process has noted afterwards are the repairs of the job.
+// What this process has noted afterwards are the repairs of the job.
 template <class Result>
-std::optional<Result> result_of(const JobRequest& job, const jobs::JobRunner::WaitCallback& on_wait,
-                                jobs::JobOutcome& outcome, RunContext& context)
+JobResult<Result> result_of(const JobRequest& job, const jobs::JobRunner::WaitCallback& on_wait,
+                            RunContext& context)
 {
   static_cast<void>(take_noted_repairs());
-  outcome = run_job(job, on_wait, context);
-  auto result = read_result(outcome, from_bytes<Result>);
-  keep_if_failed(job, outcome, context);
-  throw_if_cancelled(outcome);
-  context.log.debug("{}: {:.2f} of {:.0f} s of CPU time", job.name, outcome.cpu_s,
-                    job.limits.cpu_s);
-  outcome.result.clear();
+  auto result = attempt_job(job, from_bytes<Result>, on_wait, context);
+  keep_if_failed(job, result.end, context);
+  context.log.debug("{}: {:.2f} of {:.0f} s of CPU time", job.name, result.cpu_s, job.limits.cpu_s);
   return result;
 }
 
@@ -45,9 +40,9 @@ struct FilledDomain {
 
 struct FailedDomain {
   LocalIndex domain = 0;
-  jobs::JobOutcome outcome{};
+  jobs::JobEnd end{};
 
-  static auto fields(auto& self) { return std::tie(self.domain, self.outcome); }
+  static auto fields(auto& self) { return std::tie(self.domain, self.end); }
 };
 
 // What this rank made of the domains of a surface.
@@ -77,14 +72,13 @@ DomainShare fill_share(const surface::CoarseSurface& surface, const surface::Coa
     surface::DomainSkin skin = surface::skin_of(surface, domain);
     const jobs::JobLimits limits = domain_limits(options, skin);
     const Bytes request = coarse_domain_request(std::move(skin), options);
-    jobs::JobOutcome outcome;
-    auto tets = result_of<surface::DomainTets>(
-        {fmt::format("coarse: domain {}", domain), request, limits}, on_wait, outcome, context);
+    auto [tets, end, cpu_s] = result_of<surface::DomainTets>(
+        {fmt::format("coarse: domain {}", domain), request, limits}, on_wait, context);
     if (tets) {
       share.repairs += take_noted_repairs();
       share.filled.push_back({domain, std::move(*tets)});
     } else {
-      share.failed.push_back({domain, std::move(outcome)});
+      share.failed.push_back({domain, std::move(end)});
     }
   };
   const std::vector<double> weights = triangles_of_domains(surface);
@@ -124,34 +118,32 @@ DomainTry fill_domains(const surface::CoarseSurface& surface, const surface::Coa
 SurfaceTry try_coarse_surface(const CoarsePlan& plan, const jobs::JobRunner::WaitCallback& on_wait,
                               RunContext& context)
 {
-  SurfaceTry made;
   // Gmsh is a child of the job and has the same limit.
   surface::CoarseOptions options = plan.options;
   options.timeout_s = plan.limits.cpu_s;
   const Bytes request = coarse_surface_request(options, plan.planes, plan.rung);
-  made.surface = result_of<surface::CoarseSurface>({"coarse", request, plan.limits}, on_wait,
-                                                   made.outcome, context);
-  made.repairs = take_noted_repairs();
-  return made;
+  auto [surface, end, cpu_s] =
+      result_of<surface::CoarseSurface>({"coarse", request, plan.limits}, on_wait, context);
+  return {std::move(end), std::move(surface), take_noted_repairs()};
 }
 
 CoarseAttempt fill_coarse_surface(const CoarsePlan& plan, surface::CoarseSurface surface,
                                   StageScope& stage, RunContext& context)
 {
   DomainTry domains = fill_domains(surface, plan.options, stage, context);
-  if (domains.failed) return {.outcome = std::move(domains.failed->outcome)};
+  if (domains.failed) return {.end = std::move(domains.failed->end)};
   CoarseAttempt attempt{.repairs = domains.repairs};
-  attempt.outcome = comm::on_root(context.comm, [&] {
+  attempt.end = comm::on_root(context.comm, [&] {
     std::size_t num_tets = surface.mesh.tet_vertices.size() / 4;
     for (const auto& tets : domains.filled) num_tets += tets.tet_vertices.size() / 4;
     const jobs::JobLimits limits = whole_limits(plan.options, static_cast<double>(num_tets));
     const Bytes request = coarse_mesh_request(std::move(surface), std::move(domains.filled),
                                               plan.options, plan.planes);
-    jobs::JobOutcome outcome;
-    attempt.made = result_of<CoarseTry>({"coarse: whole", request, limits}, wait_for_stop_signal(),
-                                        outcome, context);
+    auto whole =
+        result_of<CoarseTry>({"coarse: whole", request, limits}, wait_for_stop_signal(), context);
     attempt.repairs += take_noted_repairs();
-    return outcome;
+    attempt.made = std::move(whole.made);
+    return whole.end;
   });
   return attempt;
 }

@@ -25,7 +25,7 @@ struct CoarsePlan {
 
 /// @brief How the surface of a try has ended.
 struct SurfaceTry {
-  jobs::JobOutcome outcome{};
+  jobs::JobEnd end{};
   std::optional<surface::CoarseSurface> surface{};
   RepairCounts repairs{};  ///< In the surface.
 };
@@ -38,7 +38,7 @@ struct SurfaceTry {
 
 /// @brief How a try at the coarse mesh has ended.
 struct CoarseAttempt {
-  jobs::JobOutcome outcome{};       ///< Of its last job, or of the first one that failed.
+  jobs::JobEnd end{};               ///< Of its last job, or of the first one that failed.
   std::optional<CoarseTry> made{};  ///< On rank 0, if all went well.
   RepairCounts repairs{};           ///< On rank 0, of all these jobs.
 };

@@ -99,15 +99,14 @@ class Filler {
         return {.is_made = true};
       }
     }
-    jobs::JobOutcome outcome = run_try(range, request_of(order, plan, !order.is_probe), on_wait);
-    auto made = read_result(outcome, from_bytes<std::vector<subdomain::FillResult>>);
-    throw_unless_of_the_job(outcome);
+    auto [made, end, cpu_s] = run_try(range, request_of(order, plan, !order.is_probe), on_wait);
+    throw_unless_of_the_job(end);
     context_.log.debug("fill: subdomain {}: try {}{}, {:.2f} s of CPU time", range.first,
-                       order.number + 1, order.is_probe ? " before its turn" : "", outcome.cpu_s);
-    FillVerdict verdict{.is_limited = depends_on_machine(outcome)};
+                       order.number + 1, order.is_probe ? " before its turn" : "", cpu_s);
+    FillVerdict verdict{.is_limited = depends_on_machine(end)};
     if (!made) {
-      if (!order.before.is_made) keep_failure(order, plan, outcome, on_wait);
-      verdict.message = outcome.message;
+      if (!order.before.is_made) keep_failure(order, plan, end, on_wait);
+      verdict.message = end.message;
       return verdict;
     }
     verdict.is_made = true;
@@ -144,7 +143,7 @@ class Filler {
   };
 
   // As a job that measures only: its replay must not touch the run's folder.
-  void keep_failure(const FillOrder& order, const Hash128& plan, const jobs::JobOutcome& outcome,
+  void keep_failure(const FillOrder& order, const Hash128& plan, const jobs::JobEnd& end,
                     const jobs::JobRunner::WaitCallback& on_wait)
   {
     const subdomain::SubdomainRange& range = work_.ranges[at(order.range)];
@@ -153,7 +152,7 @@ class Filler {
     const Bytes request = request_of(anew, plan, false);
     const jobs::JobLimits limits;
     const JobRequest job{name_of(range), request, limits};
-    keep_meshes_of_failed_fill(keep_failed_job(job, request, outcome, context_), range.first,
+    keep_meshes_of_failed_fill(keep_failed_job(job, request, end, context_), range.first,
                                work_.cut.coarse, work_.cut.decomposition, on_wait, context_);
   }
 
@@ -178,12 +177,14 @@ class Filler {
                          .failures = order.before.failures});
   }
 
-  jobs::JobOutcome run_try(const subdomain::SubdomainRange& range, const Bytes& request,
-                           const jobs::JobRunner::WaitCallback& on_wait)
+  JobResult<std::vector<subdomain::FillResult>> run_try(
+      const subdomain::SubdomainRange& range, const Bytes& request,
+      const jobs::JobRunner::WaitCallback& on_wait)
   {
     const jobs::JobLimits limits =
         job_limits(options_, weight_of(range, work_.cut.decomposition.subdomain_weight));
-    return run_job({name_of(range), request, limits}, on_wait, context_);
+    return attempt_job({name_of(range), request, limits},
+                       from_bytes<std::vector<subdomain::FillResult>>, on_wait, context_);
   }
 
   const fill::FillOptions& options_;

@@ -273,26 +273,23 @@ class SeamImprover {
     const Bytes request = improve_request(region, bands);
     const jobs::JobLimits limits = job_limits(run_case_.fill, num_tets);
     const JobRequest job{name, request, limits};
-    jobs::JobOutcome outcome = run_job(job, on_wait, context_);
-    throw_unless_of_the_job(outcome);
-    subdomain::RegionRecord record;
-    if (auto made = read_result(outcome, from_bytes<subdomain::RegionRecord>)) {
-      record = std::move(*made);
-    } else {
-      record = {.has_failed = true,
-                .was_limited = depends_on_machine(outcome),
-                .reason = outcome.message};
-      keep_failure(region, job, outcome, bands);
+    auto [made, end, cpu_s] =
+        attempt_job(job, from_bytes<subdomain::RegionRecord>, on_wait, context_);
+    throw_unless_of_the_job(end);
+    if (!made) {
+      made = subdomain::RegionRecord{
+          .has_failed = true, .was_limited = depends_on_machine(end), .reason = end.message};
+      keep_failure(region, job, end, bands);
     }
-    pieces_->keep_region(region, record);
-    if (!record.is_improved) context_.log.debug("{} stays as it is: {}", name, record.reason);
-    return record;
+    pieces_->keep_region(region, *made);
+    if (!made->is_improved) context_.log.debug("{} stays as it is: {}", name, made->reason);
+    return *std::move(made);
   }
 
-  void keep_failure(LocalIndex region, const JobRequest& job, const jobs::JobOutcome& outcome,
+  void keep_failure(LocalIndex region, const JobRequest& job, const jobs::JobEnd& end,
                     const std::vector<Bytes>& bands)
   {
-    const auto kept = keep_failed_job(job, job.request, outcome, context_);
+    const auto kept = keep_failed_job(job, job.request, end, context_);
     keep_meshes_of_failed_region(
         kept, [&] { return region_mesh(bands, work_.regions, region); }, cut_.coarse,
         cut_.decomposition, context_);

@@ -7,6 +7,7 @@
 #include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/jobs/run_job.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -14,11 +15,9 @@ namespace {
 constexpr const char* kMesh = "mesh";
 constexpr jobs::JobLimits kLoadLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory_gib = 16.0};
 
-void require_loaded(jobs::JobOutcome outcome, const std::string& kind)
+void require_loaded(const jobs::JobEnd& end, const std::string& kind)
 {
-  throw_if_cancelled(outcome);
-  outcome.message += way_on(outcome);
-  jobs::throw_unless_ok(outcome, "loading the " + kind);
+  require_ok(end, "loading the " + kind);
 }
 
 void load_everywhere(const std::string& kind, Bytes message, RunContext& context)

@@ -158,16 +158,17 @@ class StageWork {
     const std::string name = fmt::format("refine: subdomain {}", range.first);
     const Bytes request = refine_request(task);
     const JobRequest job{name, request, job_limits(run_case_.fill, num_tets_of(range))};
-    jobs::JobOutcome outcome = run_job(job, on_wait, context_);
-    throw_unless_of_the_job(outcome);
-    if (auto made = read_result(outcome, from_bytes<RefineTaskResult>)) return keep(*made);
+    const auto [made, end, cpu_s] =
+        attempt_job(job, from_bytes<RefineTaskResult>, on_wait, context_);
+    throw_unless_of_the_job(end);
+    if (made) return keep(*made);
     task.keep = false;  // A replay must not touch the run's folder.
-    static_cast<void>(keep_failed_job(job, refine_request(task), outcome, context_));
-    throw MeshError(fmt::format(
-        "subdomain {} could not be {}: {}; try another decompose.subdomains, {}{}", range.first,
-        work_.split.is_curved ? "curved" : "split further", outcome.message,
-        work_.split.is_curved ? "output.order = 1" : "a larger fill.levels",
-        depends_on_machine(outcome) ? ", a larger fill.memory_gib or fill.timeout_s" : ""));
+    static_cast<void>(keep_failed_job(job, refine_request(task), end, context_));
+    throw MeshError(
+        fmt::format("subdomain {} could not be {}: {}; try another decompose.subdomains, {}{}",
+                    range.first, work_.split.is_curved ? "curved" : "split further", end.message,
+                    work_.split.is_curved ? "output.order = 1" : "a larger fill.levels",
+                    depends_on_machine(end) ? ", a larger fill.memory_gib or fill.timeout_s" : ""));
   }
 
   void keep(const RefineTaskResult& made)

@@ -10,8 +10,6 @@
 #include "tessera/coarse/model_figures.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
-#include "pipeline/jobs/failed_jobs.hpp"
-#include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
 #include "pipeline/jobs/require_job.hpp"
 
@@ -35,10 +33,10 @@ double measure_box(const config::Case& given, RunContext& context)
 double measure_volume(RunContext& context)
 {
   const Bytes request = figures_request();
-  jobs::JobOutcome outcome =
-      run_job({"volume", request, kQueryLimits}, wait_for_stop_signal(), context);
-  throw_unless_of_the_job(outcome);
-  const auto figures = read_result(outcome, from_bytes<coarse::ModelFigures>);
+  const auto [figures, end, cpu_s] =
+      attempt_job({"volume", request, kQueryLimits}, from_bytes<coarse::ModelFigures>,
+                  wait_for_stop_signal(), context);
+  throw_unless_of_the_job(end);
   return figures ? figures->volume : std::numeric_limits<double>::quiet_NaN();
 }
 

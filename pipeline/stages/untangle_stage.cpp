@@ -62,13 +62,12 @@ std::vector<mesh::PointLimit> test_subdomains(const std::vector<LocalIndex>& sub
     const std::vector<UntangleTest>& tests = jobs[at(job)];
     const Bytes request = untangle_request(tests, limiter);
     const JobRequest plan{"plan", request, kUntangleLimits};
-    jobs::JobOutcome outcome = run_job(plan, on_wait, context);
-    const auto smaller = read_result(outcome, from_bytes<mesh::ProjectionLimiter>);
-    keep_if_failed(plan, outcome, context);
-    throw_if_cancelled(outcome);
+    const auto [smaller, end, cpu_s] =
+        attempt_job(plan, from_bytes<mesh::ProjectionLimiter>, on_wait, context);
+    keep_if_failed(plan, end, context);
     if (!smaller) {
       throw MeshError(fmt::format("plan from subdomain {} on: {}{}", tests.front().subdomain,
-                                  outcome.message, way_on(outcome)));
+                                  end.message, way_on(end)));
     }
     found.insert(found.end(), smaller->entries().begin(), smaller->entries().end());
   };

@@ -11,8 +11,6 @@
 #include <poll.h>
 #include <sys/wait.h>
 
-#include "jobs/failure.hpp"
-
 namespace tessera::jobs {
 namespace {
 
@@ -122,10 +120,11 @@ void Call::receive_control()
   link_.zygote_is_gone = link_.zygote_is_gone || link_.control_packets.is_closed();
   if (!link_.zygote_is_gone || outcome_) return;
   if (link_.has_joined()) link_.data.close();  // A job there ends.
-  finish(JobStatus::crashed,
-         "the worker process of this rank is gone, killed from outside; no more jobs can be run");
-  outcome_->code = SIGKILL;
-  outcome_->loads_are_lost = true;
+  finish({.status = JobStatus::crashed,
+          .code = SIGKILL,
+          .loads_are_lost = true,
+          .message = "the worker process of this rank is gone, killed from outside; "
+                     "no more jobs can be run"});
 }
 
 void Call::accept_data(const Packet& packet)
@@ -222,11 +221,9 @@ void Call::kill(Target target, Clock::time_point now)
     ::kill(link_.zygote, SIGKILL);
 }
 
-void Call::finish(JobStatus status, std::string message)
+void Call::finish(JobEnd end)
 {
-  outcome_.emplace();
-  outcome_->status = status;
-  outcome_->message = std::move(message);
+  outcome_.emplace(JobOutcome{std::move(end)});
   if (watch_) {
     outcome_->cpu_s = watch_->cpu_s();
     outcome_->peak_rss_bytes = watch_->peak_rss_bytes();
@@ -247,10 +244,11 @@ void Call::finish_lost()
 {
   link_.data.close();
   if (kill_reason_) {
-    finish(*kill_reason_, killed_message(*kill_reason_));
+    finish({.status = *kill_reason_, .message = killed_message(*kill_reason_)});
   } else {
-    finish(JobStatus::crashed, "the process that holds the model for this node is gone");
-    outcome_->code = SIGKILL;
+    finish({.status = JobStatus::crashed,
+            .code = SIGKILL,
+            .message = "the process that holds the model for this node is gone"});
   }
   outcome_->message += "; what had been loaded is lost";
   outcome_->loads_are_lost = true;
@@ -259,19 +257,21 @@ void Call::finish_lost()
 void Call::finish_ended(const ProcessEnd& end, bool is_model)
 {
   if (kill_reason_) {
-    finish(*kill_reason_, killed_message(*kill_reason_));
+    finish({.status = *kill_reason_, .message = killed_message(*kill_reason_)});
   } else if (answered_ && !is_model) {
     finish_answered();
   } else if (end.fork_error != 0) {
-    finish(JobStatus::failed, std::string("cannot start a process: ") + ::strerror(end.fork_error));
-    outcome_->error = ErrorKind::other;
+    finish({.status = JobStatus::failed,
+            .error = ErrorKind::other,
+            .message = fmt::format("cannot start a process: {}", ::strerror(end.fork_error))});
   } else if (WIFSIGNALED(end.wait_status)) {
-    finish(JobStatus::crashed, signal_message(WTERMSIG(end.wait_status)));
-    outcome_->code = WTERMSIG(end.wait_status);
+    const int signal = WTERMSIG(end.wait_status);
+    finish({.status = JobStatus::crashed, .code = signal, .message = signal_message(signal)});
   } else {
     const int code = WEXITSTATUS(end.wait_status);
-    finish(JobStatus::exited, fmt::format("called exit({})", code));
-    outcome_->code = code;
+    finish({.status = JobStatus::exited,
+            .code = code,
+            .message = fmt::format("called exit({})", code)});
   }
   if (is_model) {
     if (kind_ == PacketKind::run)
@@ -296,13 +296,11 @@ void Call::note_usage(const ProcessEnd& end)
 void Call::finish_answered()
 {
   if (answer_.header().kind == PacketKind::result) {
-    finish(JobStatus::ok, "");
+    finish({});
     outcome_->result = answer_.take();
     note_repairs(repairs_);
   } else {
-    const Failure failure = from_bytes<Failure>(answer_.take());
-    finish(failure.status, failure.message);
-    if (failure.status == JobStatus::failed) outcome_->error = failure.error;
+    finish(from_bytes<JobEnd>(answer_.take()));
   }
   if (kind_ == PacketKind::load && usage_) {
     link_.loaded_bytes = usage_->together_bytes;

@@ -47,7 +47,7 @@ class Call {
   [[nodiscard]] std::optional<JobStatus> reason_to_kill(double since_last_tick_s);
   void kill(Target target, Clock::time_point now);
 
-  void finish(JobStatus status, std::string message);
+  void finish(JobEnd end);
   void finish_lost();
   void finish_ended(const ProcessEnd& end, bool is_model);
   void finish_answered();

@@ -71,7 +71,7 @@ struct Client {
 // is done once, when the first one asks.
 struct Load {
   Hash128 message{};
-  std::optional<Failure> failure{};
+  std::optional<JobEnd> failure{};
 };
 
 class ModelZygote {
@@ -243,7 +243,9 @@ class ModelZygote {
     report_usage_of_load(client, call, cpu_before_s);
     const Load& done = loads_[number];
     if (done.message != hash) {
-      const Failure failure{.message = "ranks of one node load different things"};
+      const JobEnd failure{.status = JobStatus::failed,
+                           .error = ErrorKind::other,
+                           .message = "ranks of one node load different things"};
       post(client, PacketKind::failure, call, to_bytes(failure));
     } else if (done.failure) {
       post(client, PacketKind::failure, call, to_bytes(*done.failure));
@@ -261,9 +263,9 @@ class ModelZygote {
     post(client, PacketKind::usage, call, to_bytes(usage));
   }
 
-  std::optional<Failure> load_into_worker(const Client& client, const Bytes& message)
+  std::optional<JobEnd> load_into_worker(const Client& client, const Bytes& message)
   {
-    std::optional<Failure> failure;
+    std::optional<JobEnd> failure;
     redirect_output(client.log);
     try {
       worker().load(message);
@@ -316,7 +318,7 @@ class ModelZygote {
       send_value(client.socket.get(), PacketKind::repairs, call, take_noted_repairs());
       Outgoing(PacketKind::result, call, result).send_all(client.socket.get());
     } catch (...) {
-      const Failure failure = current_failure();
+      const JobEnd failure = current_failure();
       report_usage_of_job(client, call);
       send_value(client.socket.get(), PacketKind::failure, call, failure);
     }

@@ -31,7 +31,7 @@ enum class PacketKind : std::uint32_t {
   usage,          ///< model zygote after a load, or job → rank: UsageReport
   repairs,        ///< job → rank: RepairCounts
   result,         ///< model zygote after a load or open_door, or job → rank: bytes
-  failure,        ///< model zygote after a load or open_door, or job → rank: bytes of a Failure
+  failure,        ///< model zygote after a load or open_door, or job → rank: bytes of a JobEnd
 };
 
 /// @brief How a process ended.

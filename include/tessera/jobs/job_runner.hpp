@@ -51,23 +51,29 @@ enum class JobStatus : int {
 };
 [[nodiscard]] constexpr JobStatus last_value(JobStatus /*type*/) { return JobStatus::cancelled; }
 
-/// @brief What a job has given and used.
-struct JobOutcome {
+/// @brief How a load or job has ended: well, or why not. This is all that is told of a failure,
+/// from the process where it happens to all ranks.
+struct JobEnd {
   JobStatus status = JobStatus::ok;
   int code = 0;
   std::optional<ErrorKind> error{};  ///< Of what the worker threw; nothing unless `failed`.
   bool loads_are_lost = false;       ///< The process that holds what was loaded died too.
   std::string message{};             ///< One line for people: what happened, in words.
-  Bytes result{};                    ///< What Worker::run() returned; empty unless ok.
-  double cpu_s = 0.0;                ///< CPU time used, seconds.
-  double wall_s = 0.0;               ///< Wall time, seconds.
-  std::size_t peak_rss_bytes = 0;    ///< Largest resident memory seen of the job process.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.status, self.code, self.error, self.loads_are_lost, self.message,
-                    self.result, self.cpu_s, self.wall_s, self.peak_rss_bytes);
+    return std::tie(self.status, self.code, self.error, self.loads_are_lost, self.message);
   }
+};
+
+/// @brief How a job has ended, and what it has given and used.
+struct JobOutcome : JobEnd {
+  Bytes result{};                  ///< What Worker::run() returned; empty unless ok.
+  double cpu_s = 0.0;              ///< CPU time used, seconds.
+  double wall_s = 0.0;             ///< Wall time, seconds.
+  std::size_t peak_rss_bytes = 0;  ///< Largest resident memory seen of the job process.
+
+  static void fields(auto& self) = delete;  ///< Only its JobEnd goes to other ranks.
 };
 
 /// @brief What the worker processes of one rank have used.
@@ -77,9 +83,10 @@ struct JobUsage {
   std::size_t loaded_bytes = 0;    ///< Of the zygotes alone, after the last load.
 };
 
-/// @brief Throws the tessera error that a `failed` outcome names, NetgenError for a process that
-/// died or was killed, Interrupted for `cancelled`; returns on `ok`. `what` is put before the text.
-void throw_unless_ok(const JobOutcome& outcome, const std::string& what);
+/// @brief Throws the tessera error that a `failed` job names, NetgenError for a process that died
+/// or was killed, Interrupted for `cancelled`; returns on `ok`. `what` is put before the text,
+/// unless that begins with it.
+void throw_unless_ok(const JobEnd& end, const std::string& what);
 
 /// @brief Runs loads and jobs in processes that may die without harm.
 ///

@@ -8,10 +8,9 @@
 #include <sys/socket.h>
 
 #include "tessera/base/file_descriptor.hpp"
+#include "tessera/jobs/job_runner.hpp"
 
 #include "support/byte_image.hpp"
-
-#include "jobs/failure.hpp"
 
 namespace tessera::jobs {
 namespace {
@@ -109,7 +108,7 @@ template <class T>
 class PacketValue : public ::testing::Test {
 };
 
-using Values = ::testing::Types<Failure, ProcessEnd, UsageReport>;
+using Values = ::testing::Types<JobEnd, ProcessEnd, UsageReport>;
 TYPED_TEST_SUITE(PacketValue, Values);
 
 TYPED_TEST(PacketValue, ComesBackWhole)
