@@ -67,7 +67,8 @@ class FileDrawer {
     parts_.push_back(surface_part(file.number, *boundary, has_quality ? &*tets : nullptr));
   }
 
-  [[nodiscard]] GlobalIndex num_unread() const { return num_unread_; }
+  // Why, one text for each file.
+  [[nodiscard]] const std::vector<std::string>& unread() const { return unread_; }
   [[nodiscard]] const std::vector<SurfacePart>& parts() const { return parts_; }
 
  private:
@@ -77,15 +78,15 @@ class FileDrawer {
     try {
       return io::read_vtu(folder_ / subdomain::piece_path(kind, number),
                           io::CellOrder::up_to_second);
-    } catch (const InputError&) {
-      ++num_unread_;
+    } catch (const InputError& error) {
+      unread_.emplace_back(error.what());
       return std::nullopt;
     }
   }
 
   const std::filesystem::path& folder_;
   MeshScene& scene_;
-  GlobalIndex num_unread_ = 0;
+  std::vector<std::string> unread_{};
   std::vector<SurfacePart> parts_{};
 };
 
@@ -101,10 +102,9 @@ Surface draw_files(const DrawingPlan& plan, MeshScene& scene, StageScope& stage,
                      }
                    }),
                    stage, context);
-  const GlobalIndex num_unread = context.comm.sum(drawer.num_unread());
-  if (num_unread > 0) {
-    context.log.warn("{} files could not be read back: the pictures lack what is in them",
-                     num_unread);
+  if (const auto unread = context.comm.all_gather_rows(drawer.unread()); !unread.empty()) {
+    context.log.warn("{} files could not be read back: the pictures lack what is in them; {}",
+                     unread.size(), unread.front());
   }
   std::vector<SurfacePart> parts;
   for (const Bytes& of_rank : context.comm.gather_to_root(to_bytes(drawer.parts()))) {

@@ -175,7 +175,7 @@ bool RunState::has_made(config::Case given) const
     given.output.directory = there.output.directory;  // Each may name the folder in its own way.
     return config::to_toml(there) == config::to_toml(given) && has_all_pieces(output_ / "mesh.pvtu")
            && has_all_pieces(output_ / "boundary.pvtu");
-  } catch (const Error&) {
+  } catch (const Error&) {  // Then the folder is refused, as any other that is not empty.
     return false;
   }
 }

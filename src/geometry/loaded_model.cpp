@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/given_up.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/surface/defeature.hpp"
 #include "tessera/surface/mend_folds.hpp"
@@ -32,7 +33,8 @@ Mended shaped(const surface::CoarseSurface& surface, const LoadedModel& model)
     model.locate_parameters(better.surface.mesh);
     better.repairs.add(Repair::mend_surface, num_steps);
     return better;
-  } catch (const GeometryError&) {
+  } catch (const GeometryError& error) {
+    note_given_up("better shapes of coarse triangles", error);
     return {surface};
   }
 }
@@ -50,7 +52,8 @@ Mended unfolded(Mended as_it_was, const LoadedModel& model)
     better.repairs.add(Repair::mend_folds, num_steps - done.num_steps_of_needles);
     better.repairs.add(Repair::mend_needles, done.num_steps_of_needles);
     return better;
-  } catch (const GeometryError&) {
+  } catch (const GeometryError& error) {
+    note_given_up("folds of the coarse surface", error);
     return as_it_was;
   }
 }

@@ -158,7 +158,7 @@ class ModelZygote {
         guest.cores = cores;
         post(guest, PacketKind::model_started, 0, to_bytes(::getpid()));
       }
-    } catch (const Error&) {
+    } catch (const Error&) {  // Who comes later is refused, and says so.
       door_.close();
     }
   }

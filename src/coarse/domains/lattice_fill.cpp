@@ -9,6 +9,7 @@
 
 #include "tessera/base/enclosed_volume.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/given_up.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -130,7 +131,9 @@ std::optional<surface::DomainTets> fill_with_lattice(const surface::DomainSkin& 
     KeptTets kept(skin, xyz);
     kept.take_out_flat();
     return filled(skin, xyz, kept, filler);
-  } catch (const MeshError&) {  // The skin cuts itself, as exact tests see it; NETGEN may not.
+  } catch (
+      const MeshError& error) {  // The skin cuts itself, as exact tests see it; NETGEN may not.
+    note_given_up("tets from a lattice", error);
     return std::nullopt;
   }
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/given_up.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/surface/overlap.hpp"
 
@@ -340,8 +341,9 @@ Mended mend(CoarseSurface& surface, const model::Model& model)
       best = groups.take(mender.surface());
       kept = done;
     }
-  } catch (const GeometryError&) {  // A needle is no reason to lose the surface.
+  } catch (const GeometryError& error) {  // A needle is no reason to lose the surface.
     if (had_folds) throw;
+    note_given_up("needles of the coarse surface", error);
   }
   if (kept.num_left < kept.num_before) surface = std::move(best);
   return {kept, had_folds};
