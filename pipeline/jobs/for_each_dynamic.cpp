@@ -26,12 +26,35 @@ constexpr double kLeastTime_s = 60.0;
 
 constexpr std::chrono::milliseconds kLookAtQueue{1};
 
+// Whether `work` has come to its end. What it throws is held back until all ranks have ended; that
+// it was cancelled is no error.
+bool is_done(const std::function<void()>& work, std::exception_ptr& held)
+{
+  try {
+    work();
+    return true;
+  } catch (const Interrupted&) {
+  } catch (...) {
+    held = std::current_exception();
+  }
+  return false;
+}
+
+// Collective: Interrupted on a signal, or what was held back.
+void throw_everywhere(const std::exception_ptr& held, const comm::Communicator& comm)
+{
+  throw_if_stopped(comm);
+  all_or_none(comm, [&] {
+    if (held) std::rethrow_exception(held);
+  });
+}
+
 }  // namespace
 
 void for_each_dynamic(std::vector<LocalIndex> order, const ItemWork& work, StageScope& stage,
                       RunContext& context, std::int64_t num_before)
 {
-  std::exception_ptr defect;
+  std::exception_ptr error;
   comm::WorkQueue queue(context.comm, std::move(order));
   const auto on_wait = [&] {
     if (stop_requested()) queue.request_stop();
@@ -39,22 +62,12 @@ void for_each_dynamic(std::vector<LocalIndex> order, const ItemWork& work, Stage
     return queue.progress();
   };
   while (const auto item = queue.next()) {
-    try {
-      if (!on_wait()) break;
-      work(*item, on_wait);
-    } catch (const Interrupted&) {
-      queue.request_stop();
-    } catch (...) {
-      defect = std::current_exception();
-      queue.request_stop();
-    }
+    if (!on_wait()) break;
+    if (!is_done([&] { work(*item, on_wait); }, error)) queue.request_stop();
   }
   stage.work_is_done();
   static_cast<void>(queue.finish());
-  throw_if_stopped(context.comm);
-  all_or_none(context.comm, [&] {
-    if (defect) std::rethrow_exception(defect);
-  });
+  throw_everywhere(error, context.comm);
 }
 
 double seconds_now()
@@ -65,24 +78,17 @@ double seconds_now()
 void run_tasks(comm::TaskSource& source, const TaskWork& work, StageScope& stage,
                RunContext& context)
 {
-  std::exception_ptr defect;
-  const auto careful = [&](const comm::Task& task, const std::function<bool()>& on_wait) -> Bytes {
-    try {
-      return work(task, on_wait);
-    } catch (const Interrupted&) {  // It was cancelled, and the board knows why.
-    } catch (...) {
-      defect = std::current_exception();
-    }
-    return {};
+  std::exception_ptr error;
+  const auto careful = [&](const comm::Task& task, const std::function<bool()>& on_wait) {
+    Bytes verdict;  // Stays empty if there is none: the board knows why, or all ranks stop.
+    static_cast<void>(is_done([&] { verdict = work(task, on_wait); }, error));
+    return verdict;
   };
   comm::TaskBoard(context.comm, source).run(careful, [&] {
-    return stop_requested() || defect != nullptr;
+    return stop_requested() || error != nullptr;
   });
   stage.work_is_done();
-  throw_if_stopped(context.comm);
-  all_or_none(context.comm, [&] {
-    if (defect) std::rethrow_exception(defect);
-  });
+  throw_everywhere(error, context.comm);
 }
 
 ItemWork in_thread(std::function<void(LocalIndex item)> work)
