@@ -7,7 +7,7 @@
 #include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/failed_jobs.hpp"
-#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/jobs/replaceable_parts.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -16,7 +16,7 @@ ExitCode replay(const RecordedJob& job)
 {
   fmt::print("replay of {}: {} loads\n", job.name, job.loads.size());
   std::fflush(stdout);
-  const auto worker = make_mesh_worker();
+  const auto worker = replaceable_parts().make_worker();
   try {
     for (const Bytes& load : job.loads) worker->load(load);
     const Bytes result = worker->run(job.request);

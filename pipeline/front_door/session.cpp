@@ -7,7 +7,7 @@
 #include "tessera/comm/environment.hpp"
 #include "tessera/tessera.hpp"
 
-#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/jobs/replaceable_parts.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
 
 namespace tessera {
@@ -35,7 +35,7 @@ struct Session::State {
   {
     require_first();
     pipeline::ignore_write_signals();
-    jobs.emplace(pipeline::make_mesh_worker);
+    jobs.emplace(pipeline::replaceable_parts().make_worker);
     only_runner = &*jobs;
   }
 

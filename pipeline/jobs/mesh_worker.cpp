@@ -34,7 +34,7 @@
 #include "tessera/untangle/fold_test.hpp"
 
 #include "pipeline/jobs/batch_filler.hpp"
-#include "pipeline/jobs/test_fault.hpp"
+#include "pipeline/jobs/replaceable_parts.hpp"
 #include "pipeline/jobs/worker_messages.hpp"
 #include "pipeline/store/fill_record.hpp"
 
@@ -67,7 +67,6 @@ class MeshWorker final : public jobs::Worker {
   void take(ModelLoad load)
   {
     scale_ = load.scale;
-    fail_if_asked("load");
     netgen_model_ = netgen::load_model(load.source);
     scaled_model_ = std::make_unique<model::ScaledModel>(*netgen_model_, scale_);
   }
@@ -91,7 +90,6 @@ class MeshWorker final : public jobs::Worker {
 
   void take(const SegmentLoad& load)
   {
-    fail_if_asked("map");
     take(std::get<MeshLoad>(from_shared_bytes<Load>(SharedBytes::map_segment(load.segment))));
   }
 
@@ -124,9 +122,7 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] static Bytes answer(const ImportRequest& request)
   {
-    fail_if_asked("import", static_cast<LocalIndex>(request.reader));
-    return garbled_if_asked(
-        "import", to_bytes(netgen::import_model(request.file, request.options, request.reader)));
+    return to_bytes(netgen::import_model(request.file, request.options, request.reader));
   }
 
   [[nodiscard]] static Bytes answer(const PlacesRequest& request)
@@ -136,16 +132,12 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] Bytes answer(const BoxRequest& /*request*/) const
   {
-    fail_if_asked("box");
-    return garbled_if_asked("box", to_bytes(scaled_model_->box_diagonal()));
+    return to_bytes(scaled_model_->box_diagonal());
   }
 
   [[nodiscard]] Bytes answer(const DescribeRequest& request) const
   {
-    const auto item = static_cast<LocalIndex>(request.mesher);
-    fail_if_asked("describe", item);
-    return garbled_if_asked("describe",
-                            to_bytes(netgen::describe_model(*netgen_model_, request.mesher)), item);
+    return to_bytes(netgen::describe_model(*netgen_model_, request.mesher));
   }
 
   [[nodiscard]] Bytes answer(const FiguresRequest& /*request*/) const
@@ -168,21 +160,18 @@ class MeshWorker final : public jobs::Worker {
     return options;
   }
 
-  [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> coarse_mesher(
-      LocalIndex rung = kNoIndex) const
+  [[nodiscard]] std::unique_ptr<coarse::CoarseMesher> coarse_mesher() const
   {
-    return make_faulty_if_asked(netgen::make_coarse_mesher(*netgen_model_), rung);
+    return netgen::make_coarse_mesher(*netgen_model_);
   }
 
   [[nodiscard]] Bytes answer(const CoarseSurfaceRequest& request) const
   {
-    return to_bytes(
-        coarse_mesher(request.rung)->mesh_surface(for_mesher(request.options), request.planes));
+    return to_bytes(coarse_mesher()->mesh_surface(for_mesher(request.options), request.planes));
   }
 
   [[nodiscard]] Bytes answer(const CoarseDomainRequest& request) const
   {
-    fail_if_asked("domain");
     return to_bytes(coarse_mesher()->mesh_domain(request.skin, for_mesher(request.options)));
   }
 
@@ -203,23 +192,21 @@ class MeshWorker final : public jobs::Worker {
     for (double& x : made.mesh.vertex_xyz) x *= scale_;
     netgen::name_curves(*netgen_model_, made.mesh);
     mesh::validate(made.mesh);
-    return garbled_if_asked(stage_of(request.options), to_bytes(made));
+    return to_bytes(made);
   }
 
   [[nodiscard]] Bytes answer(const LayerRequest& request) const
   {
-    fail_if_asked("layers");
     LayeredMesh made{.mesh = request.mesh};
     made.cover = layers::grow_layers(made.mesh, request.layers, *scaled_model_, request.keep_tets);
-    return garbled_if_asked("layers", to_bytes(made));
+    return to_bytes(made);
   }
 
   [[nodiscard]] Bytes answer(const RimRequest& request) const
   {
-    fail_if_asked("rims");
     mesh::CoarseMesh made = request.mesh;
     topology::divide_at_rims(made, request.splits, *scaled_model_);
-    return garbled_if_asked("rims", to_bytes(made));
+    return to_bytes(made);
   }
 
   // After tets were flipped: by their centroids.
@@ -242,14 +229,12 @@ class MeshWorker final : public jobs::Worker {
       const auto folds = folds_of(test, request.limiter);
       all.insert(all.end(), folds.begin(), folds.end());
     }
-    return garbled_if_asked("plan", to_bytes(mesh::ProjectionLimiter(std::move(all))),
-                            request.tests.front().subdomain);
+    return to_bytes(mesh::ProjectionLimiter(std::move(all)));
   }
 
   [[nodiscard]] std::vector<mesh::PointLimit> folds_of(const UntangleTest& test,
                                                        const mesh::ProjectionLimiter& limiter) const
   {
-    fail_if_asked("plan", test.subdomain);
     if (is_left_out(Repair::held_back_points)) return {};
     const auto tets =
         untangle::tets_on_geometry(coarse_, cut_->tets[test.subdomain], cut_->on_geometry);
@@ -272,11 +257,11 @@ class MeshWorker final : public jobs::Worker {
 
   [[nodiscard]] Bytes answer(const FillTask& task) const
   {
-    const auto kernel = make_faulty_if_asked(netgen::make_fill_kernel(), task.first);
-    const auto nudged = nudged_if_asked(*scaled_model_, task.first);
+    const auto kernel = replaceable_parts().fill_kernel(task.first);
+    const auto other_model = replaceable_parts().model_of_fill(*scaled_model_, task.first);
     const refine::RefineContext context{.coarse = coarse_,
                                         .skeleton = cut_->skeleton,
-                                        .model = nudged ? *nudged : *scaled_model_,
+                                        .model = other_model ? *other_model : *scaled_model_,
                                         .limiter = limiter_,
                                         .levels = cut_->levels,
                                         .measure_distance = true};
@@ -295,9 +280,7 @@ class MeshWorker final : public jobs::Worker {
     for (LocalIndex s = task.first; s < task.last; ++s) {
       batch.add(subdomain::fill_subdomain(*cut_, context, s, task.how, *kernel, layers_of_mesh()));
     }
-    Bytes result = std::move(batch).finish();
-    if (task.how.kernel != fill::KernelKind::netgen) return result;  // No third-party code.
-    return garbled_if_asked("fill", std::move(result), task.first);
+    return std::move(batch).finish();
   }
 
   // All subdomains of a region are of one material, and so have one kernel.
@@ -312,17 +295,12 @@ class MeshWorker final : public jobs::Worker {
   {
     const LocalIndex region = request.region;
     const improve::RegionMesh mesh = region_mesh(request.bands, *regions_, region);
-    const auto optimizer = make_faulty_if_asked(optimizer_of(region), region);
-    subdomain::RegionRecord record =
-        subdomain::improve_tets(mesh, improve_options_.rounds, *optimizer);
-    lose_tet_if_asked(record.updates, region);
-    return to_bytes(record);
+    const auto optimizer = replaceable_parts().optimizer(optimizer_of(region), region);
+    return to_bytes(subdomain::improve_tets(mesh, improve_options_.rounds, *optimizer));
   }
 
   [[nodiscard]] Bytes answer(const RefineTask& task) const
   {
-    const LocalIndex first = task.pieces.front().piece.subdomain;
-    fail_if_asked("refine", first);
     const Refinement& to = *refinement_;
     refine::RefineContext context = refine_context(limiter_);
     context.measure_distance = true;
@@ -346,15 +324,13 @@ class MeshWorker final : public jobs::Worker {
       batch.add(std::move(refined.filled));
     }
     made.results = std::move(batch).finish();
-    return garbled_if_asked("refine", to_bytes(made), first);
+    return to_bytes(made);
   }
 
   [[nodiscard]] Bytes answer(const SkinRequest& request) const
   {
-    fail_if_asked("skin", request.subdomain);
     fill::FillInput skin = skin_of(refine_context(limiter_), request.subdomain);
-    const SkinMesh mesh{std::move(skin.vertex_xyz), std::move(skin.triangle_vertices)};
-    return garbled_if_asked("skin", to_bytes(mesh), request.subdomain);
+    return to_bytes(SkinMesh{std::move(skin.vertex_xyz), std::move(skin.triangle_vertices)});
   }
 
   [[nodiscard]] fill::FillInput skin_of(const refine::RefineContext& context,

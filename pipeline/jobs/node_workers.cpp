@@ -9,7 +9,7 @@
 
 #include "tessera/base/bytes.hpp"
 
-#include "pipeline/jobs/test_fault.hpp"
+#include "pipeline/jobs/replaceable_parts.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -44,7 +44,7 @@ std::string share_workers(const comm::Communicator& node, int rank, jobs::JobRun
   std::string obstacle;
   if (!is_first) {
     obstacle = obstacle_to([&] {
-      fail_if_asked("join", rank);
+      replaceable_parts().before_sharing("join", rank);
       jobs.join(door.name);
     });
   }

@@ -9,7 +9,7 @@
 
 #include "tessera/comm/share_on_node.hpp"
 
-#include "pipeline/jobs/test_fault.hpp"
+#include "pipeline/jobs/replaceable_parts.hpp"
 #include "pipeline/jobs/worker_messages.hpp"
 
 namespace tessera::pipeline {
@@ -19,7 +19,7 @@ SharedBytes share(const std::function<MeshLoad()>& make, RunContext& context)
 {
   comm::NodeShare made = comm::share_on_node(
       context.comm, [&] { return Load(make()); },
-      [&] { fail_if_asked("share", context.comm.rank()); });
+      [&] { replaceable_parts().before_sharing("share", context.comm.rank()); });
   const bool is_copy = !made.obstacle.empty();
   if (const GlobalIndex num_copies = context.comm.sum(is_copy ? 1 : 0); num_copies > 0) {
     context.log.info("coarse mesh: {} ranks have a copy of their own; {}", num_copies,
