@@ -135,7 +135,9 @@ void write_coarse(const fs::path& file, const mesh::CoarseMesh& coarse,
   mesh::MeshArrays arrays;
   arrays.point_xyz = coarse.vertex_xyz.to_vector();
   arrays.cell_points = coarse.tet_vertices.to_vector();
-  arrays.cell_ints["attribute"] = coarse.tet_material.to_vector();
+  for (const LocalIndex material : coarse.tet_material) {
+    arrays.cell_ints["attribute"].push_back(coarse.body(material));
+  }
   arrays.cell_ints["subdomain"] = decomposition.tet_subdomain.to_vector();
   io::write_vtu(arrays, file, io::Compression::none);
 }

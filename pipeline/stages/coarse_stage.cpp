@@ -237,7 +237,7 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
   warn_of_other_ways(result, run_case, context);
   stage.work_is_done();
   stage.finish(fmt::format("{} tets, {} patches, {} materials", result.mesh.num_tets(),
-                           result.mesh.num_patches(), result.mesh.num_materials()));
+                           result.mesh.num_patches(), mesh::body_names(result.mesh).size()));
   return result;
 }
 

@@ -118,25 +118,25 @@ surface::KeptParts kept_parts(const model::ModelDescription& described,
   return {{patches.begin(), patches.end()}, {curves.begin(), curves.end()}};
 }
 
-// Faces of one name of an [[embed]], and the pieces that such faces cut others into: what was one
-// face, or is one to the case, is one patch.
+// What is one face to the case, or was one before faces were put in, is one patch, under the name
+// that it had.
 void name_pieces(const model::ModelDescription& described, const config::Case& given,
                  model::NamedParts& named)
 {
-  std::map<LocalIndex, int> num_pieces;
-  for (const model::FaceDescription& face : described.faces) ++num_pieces[face.given_number()];
+  std::map<LocalIndex, std::string> name_of_number;
   for (const model::FaceDescription& face : described.faces) {
-    const bool has_name =
-        std::ranges::find(named.faces, face.number, &model::NumberedName::number)
-        != named.faces.end();
-    const bool is_embedded = std::ranges::any_of(
-        given.geometry.assembly.embedded,
-        [&](const model::EmbeddedFace& one) { return one.name == face.name; });
-    if (has_name || !(is_embedded || (face.given_number() > 0 && num_pieces[face.given_number()] > 1))) continue;
-    named.faces.push_back(
-        {face.number, face.name.empty() ? mesh::default_patch_name(face.given_number() - 1) : face.name});
+    if (face.name.empty() && face.given_number() > 0)
+      name_of_number[face.number] = mesh::default_patch_name(face.given_number() - 1);
   }
-  std::ranges::sort(named.faces, {}, &model::NumberedName::number);
+  for (const model::NumberedName& face : named.faces) name_of_number[face.number] = face.name;
+  for (const model::FaceDescription& face : described.faces) {
+    const bool is_embedded =
+        std::ranges::any_of(given.geometry.assembly.embedded,
+                            [&](const model::EmbeddedFace& one) { return one.name == face.name; });
+    if (is_embedded) name_of_number[face.number] = face.name;
+  }
+  named.faces.clear();
+  for (const auto& [number, name] : name_of_number) named.faces.push_back({number, name});
 }
 
 // Centroid of some faces, file length unit.

@@ -99,7 +99,8 @@ class Flipper {
     return std::sqrt(energy) + (is_bad ? kCostOfTwoFacesOnAPatch : 0.0);
   }
 
-  // No corners if the tets do not close around the edge, or one of them is gone.
+  // No corners if the tets do not close around the edge, or one of them is gone or of another
+  // material: what parts a body need not be a face.
   [[nodiscard]] Ring ring_of(std::span<const EdgeOfTet> around) const
   {
     Ring ring{mesh_.tet_material[at(around.front().tet)],
@@ -108,7 +109,8 @@ class Flipper {
               {}};
     std::vector<std::array<LocalIndex, 2>> steps;
     for (const EdgeOfTet& one : around) {
-      if (is_gone_[at(one.tet)] != 0) return ring;
+      if (is_gone_[at(one.tet)] != 0 || mesh_.tet_material[at(one.tet)] != ring.material)
+        return ring;
       steps.push_back(step_of(one));
     }
     std::vector<LocalIndex> corners{steps.front()[0]};
@@ -193,6 +195,7 @@ class Flipper {
   {
     const auto& [first, second] = triangle.tets;
     if (second == kNoIndex || is_gone_[at(first)] != 0 || is_gone_[at(second)] != 0) return false;
+    if (mesh_.tet_material[at(first)] != mesh_.tet_material[at(second)]) return false;
     const auto& corner = mesh::kTetFaceCorners[at(triangle.corners[0])];
     const auto tet = mesh_.tet(first);
     const std::array<LocalIndex, 3> f{tet[corner[0]], tet[corner[1]], tet[corner[2]]};

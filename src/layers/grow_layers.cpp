@@ -48,13 +48,11 @@ std::vector<bool> walls_of(const LayerOptions& entry, const mesh::CoarseMesh& me
     fits[p] = false;
     if (mesh.patch_names[p] != entry.patch) continue;
     throw ConfigError(fmt::format(
-        "patch \"{}\" lies between two materials; layers are for the outside of the model",
-        entry.patch));
+        "patch \"{}\" lies inside of the model; layers are for its outside", entry.patch));
   }
   if (std::ranges::count(fits, true) > 0) return fits;
   throw ConfigError(fmt::format(
-      "all patches that \"{}\" fits lie between two materials; layers are for the outside of the "
-      "model",
+      "all patches that \"{}\" fits lie inside of the model; layers are for its outside",
       entry.patch));
 }
 

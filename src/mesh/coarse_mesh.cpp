@@ -103,7 +103,12 @@ void validate_faces(const CoarseMesh& mesh)
     const auto body = [&](std::size_t side) {
       return mesh.body(mesh.tet_material[static_cast<std::size_t>(triangle.tets[side])]);
     };
+    const auto material = [&](std::size_t side) {
+      return mesh.tet_material[static_cast<std::size_t>(triangle.tets[side])];
+    };
     const bool outside = triangle.tets[1] == kNoIndex;
+    require(!is_face || outside || material(0) != material(1),
+            fmt::format("a face of tet {} lies within one material", triangle.tets[0]));
     require(is_face || !(outside || body(0) != body(1)),
             fmt::format("a triangle of tet {} is on the outside or between two bodies but no face",
                         triangle.tets[0]));

@@ -13,6 +13,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/name_patterns.hpp"
+#include "tessera/base/sort_unique.hpp"
 #include "tessera/model/part_names.hpp"
 
 namespace tessera::model {
@@ -131,7 +132,9 @@ std::vector<Criterion> CriteriaTest::criteria(const FaceCriteria& of) const
   std::vector<Criterion> given;
   if (!of.faces.empty()) {
     PartKind kind = faces();
-    for (std::size_t f = 0; f < model_->faces.size(); ++f) kind.numbers[f] = model_->faces[f].given_number();
+    for (std::size_t f = 0; f < model_->faces.size(); ++f) {
+      kind.numbers[f] = model_->faces[f].given_number();
+    }
     given.push_back(of_numbers("faces", of.faces, kind));
   }
   if (!of.pattern.empty()) given.push_back(of_pattern(of.pattern, model_->faces));
@@ -155,8 +158,11 @@ Criterion CriteriaTest::of_numbers(std::string_view key, const std::vector<Local
 {
   for (const LocalIndex number : wanted) {
     if (std::ranges::find(kind.numbers, number) != kind.numbers.end()) continue;
+    std::vector<LocalIndex> known = kind.numbers;
+    sort_unique(known);
+    std::erase(known, 0);  // Put in by the case.
     throw ConfigError(fmt::format("{} holds {}, but the model's {} are {}", key, number, key,
-                                  ranges_text(kind.numbers)));
+                                  ranges_text(known)));
   }
   Criterion criterion{.text = fmt::format("{} = [{}]", key, fmt::join(wanted, ", "))};
   for (const LocalIndex number : kind.numbers) {

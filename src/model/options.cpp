@@ -52,6 +52,10 @@ std::string defect(const SolidCriteria& of) { return defect_of_box(of.box_min, o
 std::string defect(const Polygon& of)
 {
   if (of.corners.size() < 3) return "polygon needs three corners or more";
+  for (std::size_t i = 0; i < of.corners.size(); ++i) {
+    if (of.corners[i] == of.corners[(i + 1) % of.corners.size()])
+      return "polygon has two equal corners in turn; the last one is joined to the first";
+  }
   const Vec3& first = of.corners.front();
   const Vec3 normal = of.normal();
   double size = 0.0;

@@ -96,8 +96,8 @@ class ChosenPatches {
   {
     const std::string& name = mesh_.patch_names[patch];
     if (is_inside_[patch]) {
-      throw ConfigError(fmt::format(
-          "{}: patch \"{}\" lies between two materials; a side is outside", words_of(side), name));
+      throw ConfigError(fmt::format("{}: patch \"{}\" lies inside of the model; a side is outside",
+                                    words_of(side), name));
     }
     if (!user_[patch].empty()) {
       throw ConfigError(

@@ -89,7 +89,9 @@ void SplitFaces::find_faces(const SplitOptions& options,
   LocalIndex face = 0;
   for (const mesh::TriangleTets& triangle : mesh::tets_of_faces(mesh_, triangles)) {
     std::array<LocalIndex, 2>& tets = tets_.emplace_back(triangle.tets);
-    const auto material = [&](std::size_t side) { return mesh_.tet_material[at(tets[side])]; };
+    const auto body = [&](std::size_t side) {
+      return mesh_.body(mesh_.tet_material[at(tets[side])]);
+    };
     const bool is_inner = tets[1] != kNoIndex;
     if (is_inner && is_minus_first(face, tets)) std::swap(tets[0], tets[1]);
     const LocalIndex patch = mesh_.face_patch[at(face)];
@@ -99,9 +101,8 @@ void SplitFaces::find_faces(const SplitOptions& options,
           "be split",
           mesh_.patch_names[at(patch)]));
     }
-    is_split_.push_back(
-        patch_is_split[at(patch)]
-        || (is_inner && contacts.contains({mesh_.body(material(0)), mesh_.body(material(1))})));
+    const bool is_contact = is_inner && body(0) != body(1) && contacts.contains({body(0), body(1)});
+    is_split_.push_back(patch_is_split[at(patch)] || is_contact);
     if (is_split_.back()) faces_.push_back(face);
     ++face;
   }

@@ -178,6 +178,46 @@ class Crack(EmbedTest):
         self.assertEqual(program.figures(self.folder / "killed")["digest"], program.figures(whole)["digest"])
 
 
+class Together(EmbedTest):
+    """With what else the coarse mesh can have."""
+
+    def pair(self, more, name, embedded=PENNY, model=BLOCK):
+        out = self.mesh(self.case(model, embedded + more, "coarse.max_size = 0.4\nrefine.levels = 1\n"), name, ranks=2)
+        report = self.checked(out)
+        self.assertEqual(len(report["materials"]), 1)
+        return report
+
+    def test_layers_grow_beside_it(self):
+        report = self.pair("[[layer]]\npatch = '*'\nfirst = 0.02\ncount = 3\n", "layers")
+        self.assertAlmostEqual(report["volume"], 8.0, delta=1e-9)
+
+    def test_the_inside_of_the_coarse_mesh_is_optimised(self):
+        report = self.pair("", "optimised", "coarse.optimize = true\n" + PENNY)
+        crack = next(one for one in report["patches"] if one["name"] == "crack")
+        self.assertAlmostEqual(crack["area"] / (math.pi / 4), 1.0, delta=0.03)
+
+    def test_a_contact_of_a_body_with_itself_opens_nothing(self):
+        report = self.pair("[[geometry.contact]]\nbody = '*'\nother = '*'\n", "contact")
+        self.assertEqual(report.get("splits", []), [])
+
+    def test_a_disk_on_a_wall_is_a_patch_also_if_the_wall_has_a_name(self):
+        disk = "[[embed]]\nname = 'inlet'\ndisk = { centre = [0, 0, 1], normal = [0, 0, 1], radius = 0.5 }\n"
+        report = self.pair("[[geometry.name]]\nname = 'wall'\npatch = { normal = [0, 0, 1] }\n", "inlet", disk)
+        areas = {one["name"]: one["area"] for one in report["patches"]}
+        self.assertEqual(len(areas), 7)
+        self.assertAlmostEqual(areas["inlet"] + areas["wall"], 4.0, delta=1e-9)
+
+    def test_periodic_sides_are_cut_alike_or_refused(self):
+        sides = "".join(
+            f"[[geometry.name]]\nname = '{name}'\npatch = {{ normal = [{x}, 0, 0] }}\n" for name, x in (("left", -1), ("right", 1))
+        )
+        sides += "[[periodic]]\nfrom = 'left'\nto = 'right'\n"
+        self.pair(sides, "periodic")
+        tilted = PENNY.replace("normal = [0, 0, 1]", "normal = [1, 2, 3]")
+        case = self.case(BLOCK, tilted + sides, "coarse.max_size = 0.4\nrefine.levels = 1\n")
+        self.assert_refused(self.run_program("mesh", case, "--output", "tilted", ranks=2), FAILED, "periodic sides", "not the other one")
+
+
 class Check(EmbedTest):
     def test_finds_triangles_that_are_inside_of_a_body_but_not_on_a_face_of_it(self):
         out = self.mesh(self.case(), "out")

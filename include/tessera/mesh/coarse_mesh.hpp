@@ -75,8 +75,8 @@ struct CoarseMesh {
     return std::tie(self.vertex_xyz, self.tet_vertices, self.tet_material, self.face_vertices,
                     self.face_patch, self.face_uv, self.segment_vertices, self.segment_curve,
                     self.segment_t, self.curves, self.patch_names, self.patch_surface,
-                    self.patch_row, self.patch_is_inside, self.material_names, self.material_row, self.images,
-                    self.layers);
+                    self.patch_row, self.patch_is_inside, self.material_names, self.material_row,
+                    self.images, self.layers);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }

@@ -12,21 +12,23 @@ namespace tessera::model {
 
 /// @brief One face of a model.
 struct FaceDescription {
-  LocalIndex number = 0;             ///< The model's surface number plus 1.
-  LocalIndex piece_of = kNoIndex;    ///< Number before `[[embed]]` of the face that it is a piece
-                                     ///< of; 0: it was put in. kNoIndex: nothing was.
-  std::string name{};                ///< Empty: the file has none.
-  std::string colour{};              ///< "#RRGGBB"; empty: the file has none.
-  double area = 0.0;                 ///< File length unit squared.
-  std::vector<LocalIndex> solids{};  ///< It bounds, ascending, from 1; also one that it is inside of.
-  bool is_inside = false;            ///< One solid is on both sides.
+  LocalIndex number = 0;           ///< The model's surface number plus 1.
+  LocalIndex piece_of = kNoIndex;  ///< Number before `[[embed]]` of the face that it is a piece
+                                   ///< of; 0: it was put in. kNoIndex: nothing was.
+  std::string name{};              ///< Empty: the file has none.
+  std::string colour{};            ///< "#RRGGBB"; empty: the file has none.
+  double area = 0.0;               ///< File length unit squared.
+  std::vector<LocalIndex>
+      solids{};            ///< It bounds, ascending, from 1; also one that it is inside of.
+  bool is_inside = false;  ///< One solid is on both sides.
 
   /// @brief The number that users know it by: before `[[embed]]`; 0: it was put in.
   [[nodiscard]] LocalIndex given_number() const { return piece_of == kNoIndex ? number : piece_of; }
 
   static auto fields(auto& self)
   {
-    return std::tie(self.number, self.piece_of, self.name, self.colour, self.area, self.solids, self.is_inside);
+    return std::tie(self.number, self.piece_of, self.name, self.colour, self.area, self.solids,
+                    self.is_inside);
   }
 };
 

@@ -108,9 +108,9 @@ struct CoarseOptions {
   static auto fields(auto& self)
   {
     return std::tie(self.mesher, self.max_size, self.grading, self.curvature,
-                    self.feature_angle_deg, self.defeature, self.kept, self.periodic, self.has_inner_faces,
-                    self.optimize,
-                    self.surface_mesher, self.timeout_s, self.points);
+                    self.feature_angle_deg, self.defeature, self.kept, self.periodic,
+                    self.has_inner_faces, self.optimize, self.surface_mesher, self.timeout_s,
+                    self.points);
   }
 
   friend bool operator==(const CoarseOptions&, const CoarseOptions&) = default;

@@ -89,7 +89,9 @@ class Embedding {
   void fuse()
   {
     TopTools_ListOfShape arguments;
-    for (const TopoDS_Shape& solid : given_) arguments.Append(solid);
+    for (const TopoDS_Shape& solid : given_) {
+      if (is_near(solid)) arguments.Append(solid);
+    }
     for (const Candidate& candidate : candidates_) arguments.Append(candidate.face);
     fuse_.SetArguments(arguments);
     fuse_.SetNonDestructive(Standard_True);
@@ -98,6 +100,15 @@ class Embedding {
     if (fuse_.HasErrors()) {
       fail("OpenCASCADE cannot put {} into the solids");
     }
+  }
+
+  // Others stay as they are: where they only touch, a fuse would leave but pieces of curves.
+  [[nodiscard]] bool is_near(const TopoDS_Shape& solid) const
+  {
+    const Bnd_Box box = box_of(solid);
+    return std::ranges::any_of(candidates_, [&](const Candidate& candidate) {
+      return !box.IsOut(box_of(candidate.face));
+    });
   }
 
   [[noreturn]] void fail(fmt::format_string<std::string> what) const
@@ -147,6 +158,9 @@ class Embedding {
     for (const TopoDS_Shape& face : parts_of(before, TopAbs_FACE)) {
       ++number;
       for (const TopoDS_Shape& image : images_of(face)) cad_.given_face.Bind(image, number);
+    }
+    for (const Candidate& candidate : candidates_) {
+      for (const TopoDS_Shape& image : images_of(candidate.face)) cad_.given_face.Bind(image, 0);
     }
   }
 
@@ -223,6 +237,19 @@ std::vector<Candidate> asked_faces(const std::vector<model::EmbeddedFace>& asked
   return candidates;
 }
 
+// What a file has inside of its solids already.
+void note_inner_faces(CadFile& cad)
+{
+  for (const TopoDS_Shape& solid : parts_of(cad.shape, TopAbs_SOLID)) {
+    for (const TopoDS_Shape& face : inner_faces_of(solid)) {
+      cad.assembly.embedded.push_back({.name = label_in(cad.names, face).name,
+                                       .num_faces = 1,
+                                       .area = area_of(face),
+                                       .is_inside = true});
+    }
+  }
+}
+
 // Those that may lie in a solid.
 std::vector<Candidate> near_faces(const std::vector<TopoDS_Shape>& loose, const CadFile& cad)
 {
@@ -239,6 +266,7 @@ std::vector<Candidate> near_faces(const std::vector<TopoDS_Shape>& loose, const 
 void embed_faces(const std::vector<TopoDS_Shape>& loose, const model::AssemblyOptions& options,
                  CadFile& cad)
 {
+  note_inner_faces(cad);
   std::vector<Candidate> of_file;
   if (options.loose_faces == model::LooseFaces::embed) of_file = near_faces(loose, cad);
   if (of_file.size() < loose.size()) {

@@ -123,8 +123,10 @@ void check_boundary(const TriangleGroup& group, TriangleRole role, Findings& fin
     check_listed(listed, side_meant(group, listed), findings);
   } else {
     findings.add(Kind::boundary_extra, place_of(listed), [&] {
-      return fmt::format("{} is neither an outer triangle of the mesh nor between two materials",
-                         describe(listed));
+      return fmt::format(
+          "{} is neither an outer triangle of the mesh, nor between two materials, nor on "
+          "a patch that the file says is inside of one",
+          describe(listed));
     });
   }
 }

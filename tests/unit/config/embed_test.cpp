@@ -61,6 +61,8 @@ TEST(Embed, RefusesWhatIsNoPlaneFace)
   EXPECT_NE(of_corners("[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.1]]")
                 .find("must lie in one plane; corner ["),
             std::string::npos);
+  EXPECT_NE(of_corners("[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 0, 0]]").find("equal corners"),
+            std::string::npos);
   EXPECT_NE(of_corners("[[0, 0], [1, 0, 0], [1, 1, 0]]").find("a list of points"),
             std::string::npos);
   EXPECT_NE(error_of("[[embed]]\nname = 'a'\ndisk = { centre = [0, 0, 0], normal = [0, 0, 0], "

@@ -84,7 +84,7 @@ TEST(GrowLayers, RefusesWhatItCannotDo)
   EXPECT_NE(error_of({two_layers("nothing")}).find("nothing"), std::string::npos);
   EXPECT_NE(error_of({two_layers(names[0]), two_layers("*")}).find("one entry only"),
             std::string::npos);
-  EXPECT_NE(error_of({two_layers(names[6])}).find("between two materials"), std::string::npos);
+  EXPECT_NE(error_of({two_layers(names[6])}).find("lies inside of the model"), std::string::npos);
   LayerOptions other = two_layers(names[1]);
   other.growth = 1.5;
   EXPECT_NE(error_of({two_layers(names[0]), other}).find("same count and growth"),

@@ -223,7 +223,7 @@ TEST(PeriodicSides, SayWhatIsWrong)
             "from \"x0\" to \"x1\" as well; it can have one partner");
   const mesh::CoarseMesh two = testing::two_material_cube(2);
   EXPECT_TRUE(words_of(two, {{.from = "x0", .to = two.patch_names[6]}})
-                  .ends_with("lies between two materials; a side is outside"));
+                  .ends_with("lies inside of the model; a side is outside"));
 }
 
 // Its faces have corners that are images of each other.
