@@ -105,11 +105,11 @@ bool refine_for_sizes(RunResult& run, const model::NamedParts& parts, RunContext
 void require_own_surface(const RunResult& run)
 {
   if (!run.resolved.coarse.has_inner_faces) return;
-  const std::string_view other =
-      run.resolved.coarse.mesher == surface::Mesher::gmsh ? "coarse.mesher = \"gmsh\""
-      : run.resolved.decompose.method == decompose::Method::geometry
-          ? "decompose.method = \"geometry\""
-          : "";
+  const std::string_view other = run.resolved.coarse.mesher == surface::Mesher::gmsh
+                                     ? "coarse.mesher = \"gmsh\""
+                                 : run.resolved.decompose.method == decompose::Method::geometry
+                                     ? "decompose.method = \"geometry\""
+                                     : "";
   if (other.empty()) return;
   throw ConfigError(fmt::format(
       "{}: the file has faces inside of solids, which exclude {}; leave that out, or set "

@@ -24,8 +24,7 @@ bool is_for_gmsh(const config::Case& run_case)
   constexpr std::array<std::string_view, 5> kKinds{".step", ".stp", ".iges", ".igs", ".brep"};
   const std::string kind = model::lower_case_extension(run_case.geometry.file);
   return run_case.coarse.mesher == surface::Mesher::netgen && run_case.periodic.empty()
-         && !run_case.coarse.has_inner_faces
-         && std::ranges::find(kKinds, kind) != kKinds.end();
+         && !run_case.coarse.has_inner_faces && std::ranges::find(kKinds, kind) != kKinds.end();
 }
 
 bool has_gmsh() { return jobs::is_on_path("gmsh"); }

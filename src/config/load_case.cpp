@@ -245,9 +245,10 @@ void check_assembly(const Case& loaded, const std::string& where)
   model::AssemblyOptions of_others;
   if (kind == ".geo") of_others.embedded = geometry.assembly.embedded;
   if (geometry.assembly == of_others) return;
-  fail(where, fmt::format("geometry.overlap, geometry.gap and geometry.loose_faces are for .step, "
-                          ".iges and .brep, and [[embed]] for these and .geo; leave them out for {}",
-                          kind));
+  fail(where,
+       fmt::format("geometry.overlap, geometry.gap and geometry.loose_faces are for .step, "
+                   ".iges and .brep, and [[embed]] for these and .geo; leave them out for {}",
+                   kind));
 }
 
 // What only an STL file needs.
@@ -340,8 +341,8 @@ void check_embedded(const Case& loaded, const std::string& where)
 {
   if (loaded.geometry.assembly.embedded.empty()) return;
   const std::string_view other =
-      model::is_mesh_name(loaded.geometry.file)       ? "a mesh in geometry.file"
-      : loaded.coarse.mesher == surface::Mesher::gmsh ? "coarse.mesher = \"gmsh\""
+      model::is_mesh_name(loaded.geometry.file)                ? "a mesh in geometry.file"
+      : loaded.coarse.mesher == surface::Mesher::gmsh          ? "coarse.mesher = \"gmsh\""
       : loaded.decompose.method == decompose::Method::geometry ? "decompose.method = \"geometry\""
                                                                : "";
   if (other.empty()) return;

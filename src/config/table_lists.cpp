@@ -334,9 +334,7 @@ constexpr TableList kTableLists[] = {
      .reason = "the model has the faces that it has",
      .size = [](const Case& c) { return c.geometry.assembly.embedded.size(); },
      .resize = [](Case& c, std::size_t size) { c.geometry.assembly.embedded.resize(size); },
-     .defect = [](const Case& c) {
-       return model::defect_of(c.geometry.assembly.embedded.back());
-     }},
+     .defect = [](const Case& c) { return model::defect_of(c.geometry.assembly.embedded.back()); }},
     {.name = "decompose.plane",
      .keys = kPlaneKeys,
      .meaning =

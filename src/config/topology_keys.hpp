@@ -23,9 +23,8 @@ Kind& embedded_as(Case& c)
 
 inline constexpr Key kEmbedKeys[] = {
     {.name = "embed.name",
-     .rule = TextRule{[](Case& c) -> std::string& {
-       return c.geometry.assembly.embedded.back().name;
-     }},
+     .rule =
+         TextRule{[](Case& c) -> std::string& { return c.geometry.assembly.embedded.back().name; }},
      .meaning = "Name of its patch.",
      .reason = "other tables and solvers know it by that",
      .example = "\"fault\""},

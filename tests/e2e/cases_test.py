@@ -35,7 +35,7 @@ def numbered(count):
 CYLINDER_PATCHES = frozenset({"side", "top", "bottom"})
 PACKING_PATCHES = frozenset({"skin", "left", "right", "front", "back", "bottom", "top"})
 PENNY_PATCHES = numbered(6) | {"crack_plus", "crack_minus"}
-FAULT_PATCHES = frozenset({"fault", "branch"} | {f"patch_{n}" for n in (1, 2, 4, 5, 6, 10, *range(14, 19), *range(22, 27))})
+FAULT_PATCHES = numbered(16) | {"fault", "branch"}
 CORE_PATCHES = frozenset({"outside", "core_skin", "shell_skin"})
 SHAFT_PATCHES = frozenset("journal taper seat keyway flange stub bore hole".split())
 # The keyway's walls end on a cylinder of radius 18; its floor is 13 above the axis, 8 wide, 24 long.

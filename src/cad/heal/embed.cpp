@@ -59,6 +59,11 @@ Bnd_Box box_of(const TopoDS_Shape& shape)
   return box;
 }
 
+bool may_touch(const TopoDS_Shape& solid, const TopoDS_Shape& face)
+{
+  return !box_of(solid).IsOut(box_of(face));
+}
+
 // A face to be put in.
 struct Candidate {
   TopoDS_Shape face{};
@@ -75,6 +80,8 @@ class Embedding {
 
   void run()
   {
+    drop_far_ones();
+    if (candidates_.empty()) return tell_of_those_outside();
     fuse();
     const TopoDS_Shape before = cad_.shape;
     collect_solids();
@@ -105,10 +112,34 @@ class Embedding {
   // Others stay as they are: where they only touch, a fuse would leave but pieces of curves.
   [[nodiscard]] bool is_near(const TopoDS_Shape& solid) const
   {
-    const Bnd_Box box = box_of(solid);
-    return std::ranges::any_of(candidates_, [&](const Candidate& candidate) {
-      return !box.IsOut(box_of(candidate.face));
+    return std::ranges::any_of(
+        candidates_, [&](const Candidate& candidate) { return may_touch(solid, candidate.face); });
+  }
+
+  void drop_far_ones()
+  {
+    std::erase_if(candidates_, [&](const Candidate& candidate) {
+      const bool is_far = std::ranges::none_of(
+          given_, [&](const TopoDS_Shape& solid) { return may_touch(solid, candidate.face); });
+      if (is_far) note_outside(candidate);
+      return is_far;
     });
+  }
+
+  void note_outside(const Candidate& candidate)
+  {
+    if (candidate.is_asked) {
+      throw GeometryError(
+          fmt::format("[[embed]] \"{}\" lies outside of all solids", candidate.label.name));
+    }
+    ++num_outside_;
+  }
+
+  void tell_of_those_outside()
+  {
+    if (num_outside_ == 0) return;
+    cad_.repairs.push_back(
+        fmt::format("faces that lie outside of all solids were left out: {}", num_outside_));
   }
 
   [[noreturn]] void fail(fmt::format_string<std::string> what) const
@@ -178,7 +209,6 @@ class Embedding {
     TopTools_IndexedMapOfShape of_solids;
     TopExp::MapShapes(cad_.shape, TopAbs_FACE, of_solids);
     const TopTools_MapOfShape inside = faces_inside_of_bodies();
-    int num_outside = 0;
     for (const Candidate& candidate : candidates_) {
       model::EmbeddedPart part{.name = candidate.label.name};
       for (const TopoDS_Shape& image : images_of(candidate.face)) {
@@ -190,16 +220,11 @@ class Embedding {
       }
       if (part.num_faces > 0) {
         cad_.assembly.embedded.push_back(part);
-      } else if (candidate.is_asked) {
-        throw GeometryError(fmt::format("[[embed]] \"{}\" lies outside of all solids", part.name));
       } else {
-        ++num_outside;
+        note_outside(candidate);
       }
     }
-    if (num_outside > 0) {
-      cad_.repairs.push_back(
-          fmt::format("faces that lie outside of all solids were left out: {}", num_outside));
-    }
+    tell_of_those_outside();
   }
 
   // Also those that divide one.
@@ -224,6 +249,7 @@ class Embedding {
   CadFile& cad_;
   Shapes given_;
   BRepAlgoAPI_BuilderAlgo fuse_{};
+  int num_outside_ = 0;
 };
 
 std::vector<Candidate> asked_faces(const std::vector<model::EmbeddedFace>& asked)
@@ -250,14 +276,10 @@ void note_inner_faces(CadFile& cad)
   }
 }
 
-// Those that may lie in a solid.
-std::vector<Candidate> near_faces(const std::vector<TopoDS_Shape>& loose, const CadFile& cad)
+std::vector<Candidate> faces_of_file(const std::vector<TopoDS_Shape>& loose, const CadFile& cad)
 {
   std::vector<Candidate> candidates;
-  const Bnd_Box solids = box_of(cad.shape);
-  for (const TopoDS_Shape& face : loose) {
-    if (!solids.IsOut(box_of(face))) candidates.push_back({face, label_in(cad.names, face)});
-  }
+  for (const TopoDS_Shape& face : loose) candidates.push_back({face, label_in(cad.names, face)});
   return candidates;
 }
 
@@ -267,15 +289,12 @@ void embed_faces(const std::vector<TopoDS_Shape>& loose, const model::AssemblyOp
                  CadFile& cad)
 {
   note_inner_faces(cad);
-  std::vector<Candidate> of_file;
-  if (options.loose_faces == model::LooseFaces::embed) of_file = near_faces(loose, cad);
-  if (of_file.size() < loose.size()) {
-    cad.repairs.push_back(fmt::format("faces that belong to no solid were left out: {}",
-                                      loose.size() - of_file.size()));
-  }
-  if (!of_file.empty()) {
-    Embedding(std::move(of_file), cad).run();
+  if (!loose.empty() && options.loose_faces == model::LooseFaces::embed) {
+    Embedding(faces_of_file(loose, cad), cad).run();
     cad.given_face.Clear();  // Numbers of the file are those with its own faces.
+  } else if (!loose.empty()) {
+    cad.repairs.push_back(
+        fmt::format("faces that belong to no solid were left out: {}", loose.size()));
   }
   if (options.embedded.empty()) return;
   Embedding(asked_faces(options.embedded), cad).run();

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "check/piece/named_patches.hpp"
 #include "check/piece/second_order.hpp"
 
 namespace tessera::check {
@@ -70,48 +71,6 @@ class RegionSelection {
   std::map<PieceRegion, LocalIndex> row_{};
   LocalIndex last_ = 0;
 };
-
-// Which triangles of a boundary piece are on patches of a kind.
-class NamedPatches {
- public:
-  // @param[in] is_one Tells by the name of a patch.
-  template <class IsOne>
-  NamedPatches(const PieceMesh& mesh, const IsOne& is_one)
-  {
-    const auto patches = mesh.arrays.cell_ints.find("patch");
-    const auto names = mesh.arrays.field_texts.find("patch_names");
-    if (patches == mesh.arrays.cell_ints.end() || names == mesh.arrays.field_texts.end()) return;
-    patches_ = patches->second;
-    for (const std::string& name : names->second) is_one_.push_back(is_one(name));
-  }
-
-  [[nodiscard]] bool have(LocalIndex cell) const
-  {
-    if (patches_.empty()) return false;
-    const auto patch = static_cast<std::size_t>(patches_[static_cast<std::size_t>(cell)]);
-    return patch < is_one_.size() && is_one_[patch];
-  }
-
- private:
-  std::span<const std::int32_t> patches_{};
-  std::vector<bool> is_one_{};  // By patch.
-};
-
-// Those on one side of a split. @param[in] side 0: plus, 1: minus.
-NamedPatches patches_of_splits(const PieceMesh& mesh, std::ptrdiff_t side)
-{
-  return {mesh, [side, split = mesh.split_patches()](const std::string& name) {
-            const auto found = std::ranges::find(split, name) - split.begin();
-            return found < std::ssize(split) && found % 2 == side;
-          }};
-}
-
-NamedPatches patches_inside(const PieceMesh& mesh)
-{
-  return {mesh, [inside = mesh.inside_patches()](const std::string& name) {
-            return std::ranges::find(inside, name) != inside.end();
-          }};
-}
 
 // With the nodes of its edges, those of second order: so both sides must agree on them. @param[in]
 // keys Of the vertices; ascending.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -41,14 +40,6 @@ constexpr double kTolerance = 1e-8;
 // Steps are repeated until one is shorter than this part of the box diagonal. NETGEN takes ten.
 constexpr double kConverged = 1e-14;
 constexpr int kMostSteps = 30;
-
-std::string read_text(const std::filesystem::path& file)
-{
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in && !in.eof()) throw InputError(file.string() + ": cannot be read");
-  return text;
-}
 
 // Empty if NETGEN finds no solid. The bounding box that CSGeometry has is a bound for NETGEN's
 // searches, by default 2000 wide.
@@ -394,9 +385,8 @@ model::ModelSource of_open_cascade(cad::CadFile cad, const model::ModelSource& s
       fmt::format("{}: OpenCASCADE made the solids once more; sizes that the file gives to solids "
                   "are lost",
                   why));
-  return cad::closed_source(
-      std::move(cad), source.file_name,
-      {.overlap = model::Overlap::cut, .embedded = std::move(embedded)});
+  return cad::closed_source(std::move(cad), source.file_name,
+                            {.overlap = model::Overlap::cut, .embedded = std::move(embedded)});
 }
 
 // OpenCASCADE tells whether what NETGEN does not see is there. Nothing: it is not, and `source`
@@ -430,7 +420,7 @@ model::ModelSource import_csg(const std::filesystem::path& file,
                               const model::AssemblyOptions& options)
 {
   model::ModelSource source{.format = model::Format::csg, .file_name = file.string()};
-  const std::string text = read_text(file);
+  const std::string text = text_of(file);
   const auto* first = reinterpret_cast<const std::byte*>(text.data());
   source.content.assign(first, first + text.size());
   const SkippedStatements skipped;

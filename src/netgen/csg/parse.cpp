@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "netgen/csg/parse.hpp"
 
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "tessera/base/error.hpp"
@@ -14,6 +16,14 @@
 namespace tessera::netgen {
 
 using Geometry = ::netgen::CSGeometry;
+
+std::string text_of(const std::filesystem::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in && !in.eof()) throw InputError(file.string() + ": cannot be read");
+  return text;
+}
 
 std::unique_ptr<Geometry> parse_csg(const std::string& text, const std::string& file_name)
 {

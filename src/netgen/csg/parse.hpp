@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -10,6 +11,9 @@
 #include <csg.hpp>
 
 namespace tessera::netgen {
+
+/// @brief The text of a file. Local. @throws InputError
+[[nodiscard]] std::string text_of(const std::filesystem::path& file);
 
 /// @brief NETGEN's geometry of the text of a .geo file, with cones, tori and planes described such
 /// that NETGEN can mesh them. Local. @throws InputError

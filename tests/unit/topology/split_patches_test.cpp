@@ -260,8 +260,7 @@ TEST(SplitPatches, RefusesPatchesOnTheOutside)
     return testing::message_of<ConfigError>(
         [&] { (void)are_rims_near(cube, {.patches = {{patch}}}); });
   };
-  EXPECT_NE(error_of(cube.patch_names[0]).find("only patches inside of it"),
-            std::string::npos);
+  EXPECT_NE(error_of(cube.patch_names[0]).find("only patches inside of it"), std::string::npos);
   EXPECT_NE(error_of("nowhere").find("nowhere"), std::string::npos);
 }
 
