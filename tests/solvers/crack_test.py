@@ -55,13 +55,13 @@ class Crack(unittest.TestCase):
             moved[side] = {tuple(deck.xyz[node - 1]): move[2] for node, move in zip(nodes, found)}
         self.assertEqual(set(moved["PLUS"]), set(moved["MINUS"]))
         errors = []
-        for place, below in moved["PLUS"].items():
+        for place, above in moved["PLUS"].items():  # The disk looks up.
             r = math.hypot(place[0], place[1])
             exact = 8.0 * (1.0 - POISSON**2) * PRESSURE / (math.pi * YOUNG) * math.sqrt(max(RADIUS**2 - r * r, 0.0))
             if r < 0.8 * RADIUS:
-                errors.append((moved["MINUS"][place] - below) / exact - 1.0)
+                errors.append((above - moved["MINUS"][place]) / exact - 1.0)
             elif r > RADIUS - 1e-6:
-                self.assertEqual(moved["MINUS"][place], below)
+                self.assertEqual(moved["MINUS"][place], above)
         return float(numpy.mean(errors)), deck.xyz.shape[0]
 
     def test_opens_as_sneddon_says(self):
