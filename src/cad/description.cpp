@@ -20,6 +20,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 
+#include "cad/inner_faces.hpp"
 #include "cad/shape.hpp"
 #include "cad/triangles/triangulation.hpp"
 
@@ -67,6 +68,7 @@ void add_solids(const OccContent& content, model::ModelDescription& to)
 {
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(content.shape, TopAbs_FACE, faces);
+  const TopTools_MapOfShape inside = faces_inside_of_bodies(content.shape, content.solid_body);
   std::size_t row = 0;
   for (TopExp_Explorer solids(content.shape, TopAbs_SOLID); solids.More(); solids.Next(), ++row) {
     const LocalIndex number = content.solid_body.at(row);
@@ -75,8 +77,8 @@ void add_solids(const OccContent& content, model::ModelDescription& to)
     for (const TopoDS_Shape& face : parts_of(solids.Current(), TopAbs_FACE)) {
       model::FaceDescription& described =
           to.faces[static_cast<std::size_t>(faces.FindIndex(face)) - 1];
+      described.is_inside = inside.Contains(face);
       const bool is_known = !described.solids.empty() && described.solids.back() == number;
-      described.is_inside = is_known || face.Orientation() == TopAbs_INTERNAL;
       if (!is_known) described.solids.push_back(number);
     }
   }

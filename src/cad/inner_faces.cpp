@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -16,6 +15,7 @@
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Precision.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
@@ -49,7 +49,16 @@ bool are_in_one_plane(const TopoDS_Face& a, const TopoDS_Face& b)
          && plane.Distance(of_b.Plane().Location()) < Precision::Confusion();
 }
 
-TopoDS_Face on_whole_surface(const TopoDS_Face& face, const std::array<double, 4>& bounds)
+using Bounds = std::array<double, 4>;  // Of both parameters: lowest and highest u, then v.
+
+Bounds bounds_of(const TopoDS_Face& face)
+{
+  Bounds uv{};
+  BRepTools::UVBounds(face, uv[0], uv[1], uv[2], uv[3]);
+  return uv;
+}
+
+TopoDS_Face on_whole_surface(const TopoDS_Face& face, const Bounds& bounds)
 {
   return BRepBuilderAPI_MakeFace(BRep_Tool::Surface(face), bounds[0], bounds[1], bounds[2],
                                  bounds[3], Precision::Confusion());
@@ -58,8 +67,7 @@ TopoDS_Face on_whole_surface(const TopoDS_Face& face, const std::array<double, 4
 // A cone is continued on the face's side of its apex.
 TopoDS_Face on_cone(const TopoDS_Face& face, const gp_Cone& cone, double reach)
 {
-  std::array<double, 4> uv{};
-  BRepTools::UVBounds(face, uv[0], uv[1], uv[2], uv[3]);
+  const Bounds uv = bounds_of(face);
   const double apex = -cone.RefRadius() / std::sin(cone.SemiAngle());
   const bool is_above = 0.5 * (uv[2] + uv[3]) > apex;
   const double low = is_above ? std::max(apex, uv[2] - reach) : uv[2] - reach;
@@ -70,8 +78,7 @@ TopoDS_Face on_cone(const TopoDS_Face& face, const gp_Cone& cone, double reach)
 // Free-form surfaces go on with their tangents.
 TopoDS_Face on_free_form(const TopoDS_Face& face, double reach)
 {
-  std::array<double, 4> uv{};
-  BRepTools::UVBounds(face, uv[0], uv[1], uv[2], uv[3]);
+  const Bounds uv = bounds_of(face);
   Handle(Geom_BoundedSurface) surface =
       new Geom_RectangularTrimmedSurface(BRep_Tool::Surface(face), uv[0], uv[1], uv[2], uv[3]);
   for (const bool along_u : {true, false}) {
@@ -86,8 +93,7 @@ TopoDS_Face continued(const TopoDS_Face& face, const Reach& reach)
 {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   const BRepAdaptor_Surface surface(face);
-  std::array<double, 4> uv{};
-  BRepTools::UVBounds(face, uv[0], uv[1], uv[2], uv[3]);
+  const Bounds uv = bounds_of(face);
   switch (surface.GetType()) {
     case GeomAbs_Plane: {
       const gp_Pln plane = surface.Plane();
@@ -150,6 +156,24 @@ std::vector<TopoDS_Shape> inner_faces_of(const TopoDS_Shape& solid)
     if (face.Orientation() == TopAbs_INTERNAL && seen.Add(face)) inner.push_back(face);
   }
   return inner;
+}
+
+TopTools_MapOfShape faces_inside_of_bodies(const TopoDS_Shape& shape,
+                                           const std::vector<LocalIndex>& solid_body)
+{
+  TopTools_MapOfShape inside;
+  TopTools_DataMapOfShapeInteger body_of;
+  std::size_t row = 0;
+  for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next(), ++row) {
+    const int body = solid_body.at(row);
+    for (const TopoDS_Shape& face : parts_of(solids.Current(), TopAbs_FACE)) {
+      const int* const other = body_of.Seek(face);
+      if (other != nullptr && *other == body) inside.Add(face);
+      body_of.Bind(face, body);
+    }
+    for (const TopoDS_Shape& face : inner_faces_of(solids.Current())) inside.Add(face);
+  }
+  return inside;
 }
 
 bool has_inner_faces(const TopoDS_Shape& shape)

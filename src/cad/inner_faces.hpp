@@ -3,7 +3,10 @@
 
 #include <vector>
 
+#include <TopTools_MapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
+
+#include "tessera/base/types.hpp"
 
 #include "cad/cut.hpp"
 
@@ -12,6 +15,11 @@ namespace tessera::cad {
 /// @brief Faces of a solid with the solid on both sides, each once: those that end inside of it.
 /// Local.
 [[nodiscard]] std::vector<TopoDS_Shape> inner_faces_of(const TopoDS_Shape& solid);
+
+/// @brief Faces with one body on both sides: inner faces, and those that divide a body. Local.
+/// @param[in] solid_body By solid of TopExp_Explorer, as in OccContent.
+[[nodiscard]] TopTools_MapOfShape faces_inside_of_bodies(const TopoDS_Shape& shape,
+                                                         const std::vector<LocalIndex>& solid_body);
 
 /// @brief Whether a solid of the shape has inner faces. Local.
 [[nodiscard]] bool has_inner_faces(const TopoDS_Shape& shape);

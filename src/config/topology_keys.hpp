@@ -79,7 +79,7 @@ inline constexpr Key kSplitKeys[] = {
     {.name = "split.patch",
      .rule = TextRule{[](Case& c) -> std::string& { return c.splits.patches.back().patch; }},
      .meaning = "The patches of that name, or whose names match it: * stands for any characters, ? "
-                "for one, [ab] for one of these. They lie between two materials.",
+                "for one, [ab] for one of these. They lie between two materials or inside of one.",
      .reason = "only the user knows where the mesh is to be open",
      .example = "\"crack\""},
 };

@@ -6,8 +6,8 @@
 
 namespace tessera {
 
-/// @brief Says on standard error, which is the log of a job, what was given up and why, where an
-/// error is none because there is another way. Local.
+/// @brief Says what was given up and why, on standard error: that is the log of a job. For errors
+/// that are none, because there is another way. Local.
 void note_given_up(std::string_view what, const std::exception& why);
 
 }  // namespace tessera

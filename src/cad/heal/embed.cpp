@@ -15,7 +15,6 @@
 #include <BRepCheck_Analyzer.hxx>
 #include <Bnd_Box.hxx>
 #include <TopExp.hxx>
-#include <TopTools_DataMapOfShapeInteger.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS_Face.hxx>
@@ -59,11 +58,6 @@ Bnd_Box box_of(const TopoDS_Shape& shape)
   return box;
 }
 
-bool may_touch(const TopoDS_Shape& solid, const TopoDS_Shape& face)
-{
-  return !box_of(solid).IsOut(box_of(face));
-}
-
 // A face to be put in.
 struct Candidate {
   TopoDS_Shape face{};
@@ -96,31 +90,32 @@ class Embedding {
   void fuse()
   {
     TopTools_ListOfShape arguments;
-    for (const TopoDS_Shape& solid : given_) {
-      if (is_near(solid)) arguments.Append(solid);
+    for (std::size_t s = 0; s < given_.size(); ++s) {
+      if (is_near_[s]) arguments.Append(given_[s]);
     }
     for (const Candidate& candidate : candidates_) arguments.Append(candidate.face);
     fuse_.SetArguments(arguments);
     fuse_.SetNonDestructive(Standard_True);
     fuse_.SetRunParallel(Standard_False);
     fuse_.Build();
-    if (fuse_.HasErrors()) {
-      fail("OpenCASCADE cannot put {} into the solids");
-    }
+    if (fuse_.HasErrors()) fail("OpenCASCADE cannot put {} into the solids");
   }
 
-  // Others stay as they are: where they only touch, a fuse would leave but pieces of curves.
-  [[nodiscard]] bool is_near(const TopoDS_Shape& solid) const
-  {
-    return std::ranges::any_of(
-        candidates_, [&](const Candidate& candidate) { return may_touch(solid, candidate.face); });
-  }
-
+  // Solids that no face is near stay as they are: where they only touch others, a fuse would leave
+  // but pieces of curves.
   void drop_far_ones()
   {
+    std::vector<Bnd_Box> boxes;
+    for (const TopoDS_Shape& solid : given_) boxes.push_back(box_of(solid));
+    is_near_.assign(given_.size(), false);
     std::erase_if(candidates_, [&](const Candidate& candidate) {
-      const bool is_far = std::ranges::none_of(
-          given_, [&](const TopoDS_Shape& solid) { return may_touch(solid, candidate.face); });
+      const Bnd_Box of_face = box_of(candidate.face);
+      bool is_far = true;
+      for (std::size_t s = 0; s < boxes.size(); ++s) {
+        if (boxes[s].IsOut(of_face)) continue;
+        is_near_[s] = true;
+        is_far = false;
+      }
       if (is_far) note_outside(candidate);
       return is_far;
     });
@@ -160,21 +155,13 @@ class Embedding {
     return fmt::format("{} faces{}{}", candidates_.size(), names.empty() ? "" : " ", names);
   }
 
-  // What became of a part of what was given.
-  Shapes images_of(const TopoDS_Shape& part)
-  {
-    const TopTools_ListOfShape& images = fuse_.Modified(part);
-    if (images.IsEmpty()) return {part};
-    return {images.begin(), images.end()};
-  }
-
   void collect_solids()
   {
     Shapes solids;
     TopTools_MapOfShape added;
     const std::vector<LocalIndex> before = std::exchange(cad_.solid_body, {});
     for (std::size_t s = 0; s < given_.size(); ++s) {
-      for (const TopoDS_Shape& image : images_of(given_[s])) {
+      for (const TopoDS_Shape& image : images_of(given_[s], fuse_)) {
         if (!added.Add(image)) continue;
         solids.push_back(image);
         cad_.solid_body.push_back(before.empty() ? static_cast<LocalIndex>(s) + 1 : before[s]);
@@ -188,10 +175,11 @@ class Embedding {
     int number = 0;
     for (const TopoDS_Shape& face : parts_of(before, TopAbs_FACE)) {
       ++number;
-      for (const TopoDS_Shape& image : images_of(face)) cad_.given_face.Bind(image, number);
+      for (const TopoDS_Shape& image : images_of(face, fuse_)) cad_.given_face.Bind(image, number);
     }
     for (const Candidate& candidate : candidates_) {
-      for (const TopoDS_Shape& image : images_of(candidate.face)) cad_.given_face.Bind(image, 0);
+      for (const TopoDS_Shape& image : images_of(candidate.face, fuse_))
+        cad_.given_face.Bind(image, 0);
     }
   }
 
@@ -208,10 +196,10 @@ class Embedding {
   {
     TopTools_IndexedMapOfShape of_solids;
     TopExp::MapShapes(cad_.shape, TopAbs_FACE, of_solids);
-    const TopTools_MapOfShape inside = faces_inside_of_bodies();
+    const TopTools_MapOfShape inside = faces_inside_of_bodies(cad_.shape, cad_.solid_body);
     for (const Candidate& candidate : candidates_) {
       model::EmbeddedPart part{.name = candidate.label.name};
-      for (const TopoDS_Shape& image : images_of(candidate.face)) {
+      for (const TopoDS_Shape& image : images_of(candidate.face, fuse_)) {
         if (!of_solids.Contains(image)) continue;
         ++part.num_faces;
         part.area += area_of(image);
@@ -227,27 +215,10 @@ class Embedding {
     tell_of_those_outside();
   }
 
-  // Also those that divide one.
-  [[nodiscard]] TopTools_MapOfShape faces_inside_of_bodies() const
-  {
-    TopTools_MapOfShape inside;
-    TopTools_DataMapOfShapeInteger body_of;
-    std::size_t solid = 0;
-    for (const TopoDS_Shape& part : parts_of(cad_.shape, TopAbs_SOLID)) {
-      const int body = cad_.solid_body.at(solid++);
-      for (const TopoDS_Shape& face : parts_of(part, TopAbs_FACE)) {
-        const int* const other = body_of.Seek(face);
-        if (other != nullptr && *other == body) inside.Add(face);
-        body_of.Bind(face, body);
-      }
-      for (const TopoDS_Shape& face : inner_faces_of(part)) inside.Add(face);
-    }
-    return inside;
-  }
-
   std::vector<Candidate> candidates_;
   CadFile& cad_;
   Shapes given_;
+  std::vector<bool> is_near_{};  // Of these, whether a face may touch it.
   BRepAlgoAPI_BuilderAlgo fuse_{};
   int num_outside_ = 0;
 };

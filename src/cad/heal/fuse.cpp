@@ -51,14 +51,6 @@ std::unique_ptr<Fuse> fuse_solids(const Shapes& solids, double gap)
   return fuse;
 }
 
-// What became of one of the solids.
-Shapes images_of(const TopoDS_Shape& solid, Fuse& fuse)
-{
-  const TopTools_ListOfShape& images = fuse.Modified(solid);
-  if (images.IsEmpty()) return {solid};
-  return {images.begin(), images.end()};
-}
-
 // Whether nothing was lost. Fewer solids than were given are right if some are the same.
 bool keeps_all(const Shapes& solids, Fuse& fuse)
 {
@@ -164,6 +156,13 @@ std::optional<FusedSolids> fused_by_groups(const Shapes& solids,
 }
 
 }  // namespace
+
+Shapes images_of(const TopoDS_Shape& part, BRepAlgoAPI_BuilderAlgo& fuse)
+{
+  const TopTools_ListOfShape& images = fuse.Modified(part);
+  if (images.IsEmpty()) return {part};
+  return {images.begin(), images.end()};
+}
 
 std::size_t PartOwners::first_with(const TopoDS_Shape& part, std::size_t solid)
 {

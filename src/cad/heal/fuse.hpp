@@ -33,6 +33,9 @@ struct FusedSolids {
   [[nodiscard]] int num_failed_pairs() const;
 };
 
+/// @brief What became of a part of what was fused: itself if it is as it was. Local.
+[[nodiscard]] Shapes images_of(const TopoDS_Shape& part, BRepAlgoAPI_BuilderAlgo& fuse);
+
 /// @brief Which solid was the first to come with a part.
 class PartOwners {
  public:
