@@ -19,6 +19,24 @@ function(tessera_test_timeout variable seconds)
   set(${variable} ${seconds} PARENT_SCOPE)
 endfunction()
 
+# Clang wants the same macros in all that use a precompiled header, GCC only those that the header knows.
+set(TESSERA_PRECOMPILE_TESTS OFF)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(TESSERA_PRECOMPILE_TESTS ON)
+endif()
+
+# The code of tests is run once: with -O1 it takes a sixth less time to compile, measured on six of them.
+function(tessera_optimize_less target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+function(tessera_compile_quickly target)
+  tessera_optimize_less(${target})
+  if(TESSERA_PRECOMPILE_TESTS)
+    target_precompile_headers(${target} REUSE_FROM tessera_test_headers)
+  endif()
+endfunction()
+
 # tessera_add_test(<name> SOURCES <file>... TIMEOUT <seconds> [LINK <target>...] [LABEL <label>])
 #
 # One process, no MPI; one ctest entry. The label is "unit" unless said otherwise.
@@ -35,6 +53,7 @@ function(tessera_add_test name)
 
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE tessera_test_support ${arg_LINK} GTest::gtest_main)
+  tessera_compile_quickly(test_${name})
   add_test(NAME ${name} COMMAND test_${name})
   tessera_test_timeout(timeout ${arg_TIMEOUT})
   set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${timeout})
@@ -55,6 +74,7 @@ function(tessera_add_mpi_test name)
 
   add_executable(test_${name} ${arg_SOURCES})
   target_link_libraries(test_${name} PRIVATE tessera_test_support ${arg_LINK})
+  tessera_compile_quickly(test_${name})
   if(NOT arg_OWN_MAIN)
     target_link_libraries(test_${name} PRIVATE tessera_mpi_gtest_main)
   endif()

@@ -233,10 +233,16 @@ class CannotWrite(OutcomeTest):
         )
         self.assertIsNone(running.poll())
 
-    def limit_files(self, pids, num_bytes=20000):
-        for pid in pids:
-            with contextlib.suppress(ProcessLookupError):  # A job that has ended.
-                resource.prlimit(pid, resource.RLIMIT_FSIZE, (num_bytes, num_bytes))
+    def limit_files(self, pid, num_bytes=20000):
+        with contextlib.suppress(ProcessLookupError):  # A job that has ended.
+            resource.prlimit(pid, resource.RLIMIT_FSIZE, (num_bytes, num_bytes))
+
+    def limit_files_below(self, rank):
+        """Each process before one looks what it has started: what it starts later inherits the limit."""
+        below = program.program_children(rank)
+        while below:
+            self.limit_files(below[0])
+            below = program.program_children(below[0])
 
     def assert_reports_full_disk(self, ranks, limited_from, file, *arguments):
         """`limited_from`: 0 the rank processes, 1 the processes that jobs come from."""
@@ -245,7 +251,7 @@ class CannotWrite(OutcomeTest):
         begun = ["pieces/plan.record", "log/run.log"][limited_from]
         program.wait_until((self.folder / "out" / begun).exists, begun)
         for rank in [process.pid] if ranks is None else program.ranks_of(process):
-            self.limit_files([[rank], program.chain_of(rank)][limited_from])
+            [self.limit_files, self.limit_files_below][limited_from](rank)
         self.assert_refused(self.finish(process), CANNOT_WRITE, f"cannot write out/{file}", "File too large")
         self.assertFalse((self.folder / "out" / "mesh.pvtu").exists())
         # A job of another rank, cancelled while it was writing, leaves its file to --resume.
