@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <BRepGProp.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
@@ -142,13 +143,20 @@ FlatArray<LocalIndex> CadModel::material_rows() const
   return are_several ? rows : FlatArray<LocalIndex>{};
 }
 
+// Of triangles, for they are estimates. OpenCASCADE's integrals over the surfaces took a sixth of a
+// run of 300,000 tets (linkrods). A face that gets no triangles has its integral.
 coarse::ModelFigures CadModel::figures() const
 {
+  constexpr double kDeflection = 0.005;  // Of the box's diagonal.
+  constexpr double kAngle_rad = 0.3;     // Of a cylinder 1.5 % is missing then.
   return with_occ_errors(file_name_, [&] {
+    BRepMesh_IncrementalMesh(content_.shape, kDeflection * box_diagonal_, Standard_False,
+                             kAngle_rad);
     GProp_GProps surface;
     GProp_GProps solids;
-    BRepGProp::SurfaceProperties(content_.shape, surface);
-    BRepGProp::VolumeProperties(content_.shape, solids);
+    BRepGProp::SurfaceProperties(content_.shape, surface, Standard_False, Standard_True);
+    BRepGProp::VolumeProperties(content_.shape, solids, Standard_False, Standard_False,
+                                Standard_True);
     return coarse::ModelFigures{
         .num_faces = faces_.Extent(), .area = surface.Mass(), .volume = solids.Mass()};
   });

@@ -125,7 +125,8 @@ TEST(Import, EmptySolidIsRefused)
 
 TEST(Import, SkippedWordIsReported)
 {
-  const TemporaryFile file("word.geo", std::string(kBall) + "colour;\n");
+  std::string words = kBall;
+  const TemporaryFile file("word.geo", words += "colour;\n");
   const auto source = netgen::import_model(file.path(), {});
   ASSERT_FALSE(source.repairs.empty());
   EXPECT_NE(source.repairs.front().find("colour"), std::string::npos) << source.repairs.front();

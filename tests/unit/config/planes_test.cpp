@@ -27,7 +27,9 @@ std::string error_of(const std::string& lines)
 
 TEST(Planes, AreThoseOfTheCase)
 {
-  const Case loaded = parsed(std::string(kGeometry) + "decompose.planes = 'pca'\n" + kPlane);
+  std::string lines = kGeometry;
+  lines += "decompose.planes = 'pca'\n";
+  const Case loaded = parsed(lines += kPlane);
   EXPECT_EQ(loaded.decompose.method, decompose::Method::geometry);
   EXPECT_EQ(loaded.planes.rule, cut::PlaneRule::pca);
   ASSERT_EQ(loaded.planes.given.size(), 1U);
