@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What most tests include, compiled once: measured on six of them, that is two fifths of their time.
-// No headers of Tessera: each of these would make all tests anew. A test includes what it uses, as ever.
+// What most tests include, compiled once: measured on six of them, that is two fifths of their
+// time. No headers of Tessera: each of these would make all tests anew. A test includes what it
+// uses, as ever.
 #pragma once
 
 #include <algorithm>
