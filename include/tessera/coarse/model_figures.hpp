@@ -8,7 +8,7 @@
 namespace tessera::coarse {
 
 /// @brief What a model has, as far as it says how long its coarse mesh may take and how large its
-/// mesh becomes.
+/// mesh becomes. Area and volume are estimates, of triangles that follow curved faces roughly.
 struct ModelFigures {
   LocalIndex num_faces = 0;
   double area = 0.0;             ///< Of all faces, length unit squared.
