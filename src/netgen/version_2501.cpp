@@ -85,7 +85,7 @@ bool OccGeometry::MeshFace(::netgen::Mesh& mesh, const ::netgen::MeshingParamete
     ::netgen::MeshingParameters without_overlaps = parameters;
     without_overlaps.checkoverlap = 0;
     const auto num_before = static_cast<int>(mesh.GetNSE());
-    is_done = !geometry::NetgenGeometry::MeshFace(mesh, without_overlaps, face, local);
+    is_done = !::netgen::NetgenGeometry::MeshFace(mesh, without_overlaps, face, local);
     if (!is_done) remove_triangles_from(num_before, mesh);
   }
   apices_.clear();
