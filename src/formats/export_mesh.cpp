@@ -7,6 +7,7 @@
 
 #include "tessera/comm/all_or_none.hpp"
 
+#include "formats/foam/cyclic.hpp"
 #include "formats/foam/faces.hpp"
 #include "formats/link/ghosts.hpp"
 #include "formats/link/link_pieces.hpp"
@@ -43,6 +44,7 @@ struct LinkedPieces {
   LinkedMesh mesh{};
   std::vector<Ghosts> ghosts{};  // By this rank's pieces; empty if no writer needs them.
   std::vector<std::vector<PeriodicPoint>> periodic_points{};  // The same.
+  std::vector<std::vector<CyclicFace>> cyclic_faces{};        // The same.
 };
 
 // Pieces are read once more for it: their faces take the place of closed forms.
@@ -63,6 +65,22 @@ void count_faces_of_cells(const PieceSource& source, LinkedMesh& mesh,
   mesh.outline.cell_faces = comm.all_gather_rows(own);
 }
 
+struct PeriodicNeeds {
+  bool points = false;
+  bool faces = false;
+};
+
+void match_periodic(const PieceSource& source, LinkedPieces& linked, const PeriodicNeeds& needs,
+                    const comm::Communicator& comm, const std::function<void()>& before_each)
+{
+  Outline& outline = linked.mesh.outline;
+  all_or_none(comm, [&] { outline.periodic = periodic_patches(source.names(), outline); });
+  if (outline.periodic.empty()) return;
+  if (needs.points)
+    linked.periodic_points = match_periodic_points(source, linked.mesh, comm, before_each);
+  if (needs.faces) linked.cyclic_faces = match_cyclic_faces(source, linked.mesh, comm, before_each);
+}
+
 // Ghosts and the like go with the piece, so memory is given back on the way.
 void write_pieces(const PieceSource& source, LinkedPieces& linked, const Writers& writers,
                   LocalIndex first, const std::function<void()>& before_each)
@@ -75,6 +93,7 @@ void write_pieces(const PieceSource& source, LinkedPieces& linked, const Writers
     if (!linked.ghosts.empty()) piece.ghosts = std::move(linked.ghosts[i]);
     if (!linked.periodic_points.empty())
       piece.periodic_points = std::move(linked.periodic_points[i]);
+    if (!linked.cyclic_faces.empty()) piece.cyclic_faces = std::move(linked.cyclic_faces[i]);
     for (const auto& writer : writers) writer->write(piece);
   }
   for (const auto& writer : writers) writer->close();
@@ -100,18 +119,17 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
   const auto has = [&](io::Format format) {
     return std::ranges::find(request.formats, format) != request.formats.end();
   };
-  const bool has_periodic =
-      !source.names().periodic.empty() && (has(io::Format::msh) || has(io::Format::msh2));
+  const bool has_msh = has(io::Format::msh) || has(io::Format::msh2);
+  const bool has_polyhedra = has(io::Format::openfoam) || has(io::Format::openfoam_serial);
+  const bool has_periodic = !source.names().periodic.empty() && (has_msh || has_polyhedra);
   const LinkOptions options{
       .shared_edges = has(io::Format::mfem) || has(io::Format::mfem_sets),
       .face_numbers = has(io::Format::openfoam),
       .patch_points = has_periodic || has(io::Format::abaqus) || has(io::Format::exodus)};
   LinkedPieces linked{.mesh = link_pieces(source, comm, before_each, options)};
-  const bool has_polyhedra = has(io::Format::openfoam) || has(io::Format::openfoam_serial);
   if (has_polyhedra && linked.mesh.outline.has_prisms())
     count_faces_of_cells(source, linked.mesh, comm, before_each);
-  if (has_periodic)
-    linked.periodic_points = match_periodic_patches(source, linked.mesh, comm, before_each);
+  if (has_periodic) match_periodic(source, linked, {has_msh, has_polyhedra}, comm, before_each);
   Writers writers;
   all_or_none(comm, [&] { writers = make_writers(request, linked.mesh.outline); });
   if (std::ranges::any_of(writers, [](const auto& writer) { return writer->needs_ghosts(); }))

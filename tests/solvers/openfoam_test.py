@@ -51,8 +51,8 @@ class Case(PolyMesh):
         """0/T, from what is wanted on each patch."""
         entries = [f"{name} {{ {value_of_patch(name)} }}" for name in self.outer_patches()]
         entries += [
-            f"{name} {{ type processor; value uniform 0; }}"
-            for name, patch in self.patches.items() if patch[0] == "processor"
+            f"{name} {{ type {patch[0]}; value uniform 0; }}"
+            for name, patch in self.patches.items() if patch[0] in ("processor", "cyclic", "processorCyclic")
         ]  # fmt: skip
         (self.folder / "0").mkdir(exist_ok=True)
         (self.folder / "0/T").write_text(

@@ -115,6 +115,7 @@ struct PeriodicPatch {
   std::int32_t to = 0;    ///< Of its images.
   Affine there{};
   /// Shape (num_pieces + 1): so many points of Piece::periodic_points are in the pieces before.
+  /// Only if these were asked for.
   std::vector<GlobalIndex> first_point{0};
 };
 
@@ -208,6 +209,15 @@ struct PeriodicPoint {
   GlobalIndex of_number = 0;  ///< Number of the point whose image it is.
 };
 
+/// @brief A face of a periodic patch, which is an original or an image; both have one number.
+struct CyclicFace {
+  std::int32_t patch = 0;      ///< A tag.
+  GlobalIndex number = 0;      ///< Of the original among those of its patch, by pieces.
+  LocalIndex row = 0;          ///< Among the faces of the patch in the piece.
+  LocalIndex other_piece = 0;  ///< Whose the partner is; may be the piece itself.
+  LocalIndex first_point = 0;  ///< A row: partners begin with points that are partners.
+};
+
 /// @brief Cells of other pieces that share a point with a piece, and those of their points that the
 /// piece has not. Numbers are those of the whole mesh, from 0.
 struct Ghosts {
@@ -251,6 +261,9 @@ struct Piece {
   /// Those of `patch_points` that are images, ascending by patch, then by row. Empty unless asked
   /// for.
   std::vector<PeriodicPoint> periodic_points{};
+
+  /// Ascending by patch, then by number; only for formats of polyhedra. Empty unless asked for.
+  std::vector<CyclicFace> cyclic_faces{};
 
   std::vector<LocalIndex> shared_points{};  ///< Rows of points that other pieces have; ascending.
   IndexLists sharers{};           ///< Shape (num_shared, …): those other pieces, ascending.

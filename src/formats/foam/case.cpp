@@ -12,7 +12,6 @@
 #include "tessera/io/files.hpp"
 
 #include "formats/files/whole_file.hpp"
-#include "formats/foam/text.hpp"
 #include "formats/link/number_faces.hpp"
 
 namespace tessera::formats {
@@ -156,6 +155,21 @@ FoamCase foam_case(const Outline& outline)
     add_patch(names[i], static_cast<std::int32_t>(i) + 1);
   add_patch(names.back(), kNoPatchTag);
   return result;
+}
+
+FoamBoundary foam_patch_entry(const Outline& outline, const FoamCase& names, std::size_t row)
+{
+  const auto [name, tag] = names.patches[row];
+  FoamBoundary entry{.name = name};
+  for (const PeriodicPatch& pair : outline.periodic) {
+    if (tag != pair.from && tag != pair.to) continue;
+    const bool is_image = tag == pair.to;
+    const auto partner =
+        std::ranges::find(names.patches, is_image ? pair.from : pair.to, &FoamPatch::tag);
+    entry.cyclic = {.neighbour = partner->name,
+                    .there = is_image ? pair.there.inverse() : pair.there};
+  }
+  return entry;
 }
 
 FoamLayout foam_layout(const Outline& outline)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -10,6 +11,7 @@
 #include "tessera/formats/piece.hpp"
 
 #include "formats/foam/faces.hpp"
+#include "formats/foam/text.hpp"
 
 /// What the processors' meshes and the serial mesh of an OpenFOAM case have in common.
 namespace tessera::formats {
@@ -49,6 +51,11 @@ class Places {
   }
 
   [[nodiscard]] GlobalIndex of(LocalIndex piece) const { return begins_[at(piece)]; }
+  [[nodiscard]] LocalIndex piece_with(GlobalIndex place) const
+  {
+    const auto behind = std::ranges::upper_bound(begins_, place);
+    return static_cast<LocalIndex>(behind - begins_.begin()) - 1;
+  }
   [[nodiscard]] GlobalIndex begin() const { return begins_.front(); }
   [[nodiscard]] GlobalIndex end() const { return begins_.back(); }
   [[nodiscard]] GlobalIndex size() const { return end() - begin(); }
@@ -73,6 +80,11 @@ struct FoamLayout {
   [[nodiscard]] GlobalIndex num_faces() const { return last().faces.end(); }
   [[nodiscard]] GlobalIndex num_corners() const { return last().corners.end(); }
 };
+
+/// @brief What the file `boundary` says of a patch beside its faces. Local.
+/// @param[in] row Of outline's FoamCase::patches.
+[[nodiscard]] FoamBoundary foam_patch_entry(const Outline& outline, const FoamCase& names,
+                                            std::size_t row);
 
 /// @brief Local.
 [[nodiscard]] FoamLayout foam_layout(const Outline& outline);

@@ -26,12 +26,18 @@ void join_half(const Piece& piece, LocalIndex other_side, FoamFace& face)
   face.num_points = 4;
 }
 
+void begin_at(LocalIndex point, FoamFace& face)
+{
+  const auto points = std::span(face.points).first(static_cast<std::size_t>(face.num_points));
+  std::ranges::rotate(points, std::ranges::find(points, point));
+}
+
 void begin_at_lowest(const Piece& piece, FoamFace& face)
 {
   const auto points = std::span(face.points).first(static_cast<std::size_t>(face.num_points));
-  const auto lowest = std::ranges::min_element(
-      points, {}, [&](LocalIndex row) { return piece.point_numbers[at(row)]; });
-  std::ranges::rotate(points, lowest);
+  begin_at(*std::ranges::min_element(points, {},
+                                     [&](LocalIndex row) { return piece.point_numbers[at(row)]; }),
+           face);
 }
 
 // Joins triangles that stand side by side in the list and lie between the same two cells.
@@ -136,6 +142,23 @@ std::vector<FoamFace> foam_patch_faces(const Piece& piece, std::int32_t tag)
     if (side.other_row != kNoIndex) join_half(piece, sides[at(side.other_row)], face);
     begin_at_lowest(piece, face);
     faces.push_back(face);
+  }
+  return faces;
+}
+
+std::span<const CyclicFace> cyclic_faces_of(const Piece& piece, std::int32_t tag)
+{
+  return std::ranges::equal_range(piece.cyclic_faces, tag, {}, &CyclicFace::patch);
+}
+
+std::vector<FoamFace> foam_cyclic_faces(const Piece& piece, std::span<const CyclicFace> cyclic)
+{
+  if (cyclic.empty()) return {};
+  const std::vector<FoamFace> of_patch = foam_patch_faces(piece, cyclic.front().patch);
+  std::vector<FoamFace> faces;
+  for (const CyclicFace& one : cyclic) {
+    faces.push_back(of_patch[at(one.row)]);
+    begin_at(one.first_point, faces.back());
   }
   return faces;
 }

@@ -44,6 +44,14 @@ struct FoamFace {
 [[nodiscard]] std::vector<FoamFace> foam_patch_faces(const Piece& piece, std::int32_t tag);
 inline constexpr std::int32_t kNoPatchTag = 0;
 
+/// @brief The faces of a periodic patch that are among `cyclic`, in the order of these, each from
+/// its first point on. Local.
+[[nodiscard]] std::vector<FoamFace> foam_cyclic_faces(const Piece& piece,
+                                                      std::span<const CyclicFace> cyclic);
+
+/// @brief Piece::cyclic_faces of a patch, by number. Local. Empty if it is none of a pair.
+[[nodiscard]] std::span<const CyclicFace> cyclic_faces_of(const Piece& piece, std::int32_t tag);
+
 /// @brief Cells of each material, as numbers. Local.
 /// @param[in] first_cell Number of the piece's first cell.
 [[nodiscard]] std::vector<std::vector<std::int32_t>> foam_zone_cells(const Piece& piece,

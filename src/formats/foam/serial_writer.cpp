@@ -128,9 +128,7 @@ class OpenfoamSerialWriter final : public Writer {
     points_.write(0, outline_.first_point[at(piece.number)],
                   foam_bytes(std::span(piece.point_xyz).first(3 * at(piece.num_own_points))));
     write_inner_faces(piece);
-    for (std::size_t k = 0; k < layout_.patches.size(); ++k) {
-      write_faces(piece, layout_.patches[k], foam_patch_faces(piece, layout_.names.patches[k].tag));
-    }
+    for (std::size_t k = 0; k < layout_.patches.size(); ++k) write_patch(piece, k);
     write_zones(piece);
   }
 
@@ -144,9 +142,9 @@ class OpenfoamSerialWriter final : public Writer {
     for (RecordFile* file : files_) file->commit();
     std::vector<FoamBoundary> patches;
     for (std::size_t k = 0; k < layout_.patches.size(); ++k) {
-      patches.push_back({.name = layout_.names.patches[k].name,
-                         .num_faces = layout_.patches[k].faces.size(),
-                         .first_face = layout_.patches[k].faces.begin()});
+      patches.push_back(foam_patch_entry(outline_, layout_.names, k));
+      patches.back().num_faces = layout_.patches[k].faces.size();
+      patches.back().first_face = layout_.patches[k].faces.begin();
     }
     write_whole_file(mesh_ / "boundary", foam_boundary(patches));
   }
@@ -164,27 +162,55 @@ class OpenfoamSerialWriter final : public Writer {
         foam_inner_faces(piece, outline_.first_cell[at(piece.number)]);
     std::vector<std::int32_t> neighbours;
     for (const FoamFace& face : inner) neighbours.push_back(label(face.neighbour));
-    write_faces(piece, layout_.inner, inner);
+    write_faces(piece, start_of(piece, layout_.inner), inner);
     neighbour_.write(0, layout_.inner.faces.of(piece.number),
                      foam_bytes(std::span(std::as_const(neighbours))));
   }
 
-  void write_faces(const Piece& piece, const FacePlaces& places, const std::vector<FoamFace>& faces)
+  // Where a run of faces begins, and its corners.
+  struct Start {
+    GlobalIndex face = 0;
+    GlobalIndex corner = 0;
+  };
+
+  static Start start_of(const Piece& piece, const FacePlaces& places)
+  {
+    return {places.faces.of(piece.number), places.corners.of(piece.number)};
+  }
+
+  // Those of a periodic patch stand in the order of the originals.
+  void write_patch(const Piece& piece, std::size_t k)
+  {
+    const FacePlaces& places = layout_.patches[k];
+    const std::int32_t tag = layout_.names.patches[k].tag;
+    auto cyclic = cyclic_faces_of(piece, tag);
+    if (cyclic.empty())
+      return write_faces(piece, start_of(piece, places), foam_patch_faces(piece, tag));
+    const std::vector<FoamFace> faces = foam_cyclic_faces(piece, cyclic);
+    for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
+      for (end = i + 1; end < faces.size() && cyclic[end].number == cyclic[end - 1].number + 1;)
+        ++end;
+      const GlobalIndex number = cyclic[i].number;
+      write_faces(piece, {places.faces.begin() + number, places.corners.begin() + 3 * number},
+                  std::span(faces).subspan(i, end - i));
+    }
+  }
+
+  void write_faces(const Piece& piece, const Start& start, std::span<const FoamFace> faces)
   {
     std::vector<std::int32_t> begins;
     std::vector<std::int32_t> corners;
     std::vector<std::int32_t> owners;
     const GlobalIndex first_cell = outline_.first_cell[at(piece.number)];
-    const GlobalIndex first_corner = places.corners.of(piece.number);
     for (const FoamFace& face : faces) {
-      begins.push_back(label(first_corner + static_cast<GlobalIndex>(corners.size())));
+      begins.push_back(label(start.corner + static_cast<GlobalIndex>(corners.size())));
       for (const LocalIndex row : face.corners())
         corners.push_back(label(piece.point_numbers[at(row)]));
       owners.push_back(label(first_cell + face.owner));
     }
-    faces_.write(0, places.faces.of(piece.number), foam_bytes(std::span(std::as_const(begins))));
-    faces_.write(1, first_corner, foam_bytes(std::span(std::as_const(corners))));
-    owner_.write(0, places.faces.of(piece.number), foam_bytes(std::span(std::as_const(owners))));
+    faces_.write(0, start.face, foam_bytes(std::span(std::as_const(begins))));
+    faces_.write(1, start.corner, foam_bytes(std::span(std::as_const(corners))));
+    owner_.write(0, start.face, foam_bytes(std::span(std::as_const(owners))));
   }
 
   void write_zones(const Piece& piece)

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tessera/base/affine.hpp"
 #include "tessera/base/types.hpp"
 
 /// How files of OpenFOAM are written, those of meshes in its binary form with labels of 32 bits.
@@ -44,6 +46,12 @@ template <class Value>
 }
 [[nodiscard]] std::string foam_labels(std::span<const std::int32_t> labels);
 
+/// @brief The partner of a periodic patch.
+struct FoamCyclic {
+  std::string neighbour{};
+  Affine there{};  ///< Leads to the partner.
+};
+
 /// @brief A patch of the file `boundary`.
 struct FoamBoundary {
   std::string name{};
@@ -51,6 +59,8 @@ struct FoamBoundary {
   GlobalIndex first_face = 0;
   LocalIndex processor = kNoIndex;        ///< Set if it is between two processors: whose it is.
   LocalIndex other_processor = kNoIndex;  ///< And the one behind it.
+  std::optional<FoamCyclic> cyclic{};     ///< Set if it is periodic.
+  std::string through{};  ///< Of a patch between two processors: the periodic patch that it is of.
 };
 
 /// @brief The file `boundary`. Local.

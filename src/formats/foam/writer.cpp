@@ -5,7 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -74,14 +76,18 @@ class ProcessorFaces {
       : piece_(piece), first_cell_(outline.first_cell[at(piece.number)])
   {
     add_inner_faces(layout.inner.faces.of(piece.number));
-    for (std::size_t k = 0; k < layout.patches.size(); ++k) {
-      const FoamPatch& patch = layout.names.patches[k];
-      add_patch({.name = patch.name}, foam_patch_faces(piece, patch.tag));
-      for (GlobalIndex i = 0; i < list_.patches.back().num_faces; ++i)
-        list_.serial.push_back(layout.patches[k].faces.of(piece.number) + i + 1);
-    }
+    for (std::size_t k = 0; k < layout.patches.size(); ++k)
+      add_outer_patch(layout, k, foam_patch_entry(outline, layout.names, k));
+    std::set<LocalIndex> others;
     for (const PieceNeighbour& neighbour : outline.pieces[at(piece.number)].neighbours) {
-      if (neighbour.num_shared_faces > 0) add_seam(neighbour.piece);
+      if (neighbour.num_shared_faces > 0) others.insert(neighbour.piece);
+    }
+    const std::set<LocalIndex> behind_seams = others;
+    for (const CyclicFace& face : piece.cyclic_faces) others.insert(face.other_piece);
+    others.erase(piece.number);
+    for (const LocalIndex other : others) {
+      if (behind_seams.contains(other)) add_seam(other);
+      for (std::size_t k = 0; k < layout.patches.size(); ++k) add_cyclic_seam(layout, k, other);
     }
   }
 
@@ -101,12 +107,49 @@ class ProcessorFaces {
     }
   }
 
+  // Of a periodic patch the faces whose partners are here too.
+  void add_outer_patch(const FoamLayout& layout, std::size_t k, FoamBoundary patch)
+  {
+    if (patch.cyclic) return add_cyclic_faces(layout, k, piece_.number, std::move(patch));
+    add_patch(std::move(patch), foam_patch_faces(piece_, layout.names.patches[k].tag));
+    for (GlobalIndex i = 0; i < list_.patches.back().num_faces; ++i)
+      list_.serial.push_back(layout.patches[k].faces.of(piece_.number) + i + 1);
+  }
+
+  // And those whose partners are in another piece.
+  void add_cyclic_seam(const FoamLayout& layout, std::size_t k, LocalIndex other)
+  {
+    const std::string& name = layout.names.patches[k].name;
+    const auto faces = cyclic_faces_of(piece_, layout.names.patches[k].tag);
+    if (std::ranges::find(faces, other, &CyclicFace::other_piece) == faces.end()) return;
+    add_cyclic_faces(layout, k, other,
+                     {.name = fmt::format("{}through{}", seam_name(other), name),
+                      .processor = piece_.number,
+                      .other_processor = other,
+                      .through = name});
+  }
+
+  void add_cyclic_faces(const FoamLayout& layout, std::size_t k, LocalIndex other,
+                        FoamBoundary patch)
+  {
+    std::vector<CyclicFace> faces;
+    std::ranges::copy_if(cyclic_faces_of(piece_, layout.names.patches[k].tag),
+                         std::back_inserter(faces),
+                         [&](const CyclicFace& face) { return face.other_piece == other; });
+    add_patch(std::move(patch), foam_cyclic_faces(piece_, faces));
+    for (const CyclicFace& face : faces)
+      list_.serial.push_back(layout.patches[k].faces.begin() + face.number + 1);
+  }
+
+  [[nodiscard]] std::string seam_name(LocalIndex other) const
+  {
+    return fmt::format("procBoundary{}to{}", piece_.number, other);
+  }
+
   void add_seam(LocalIndex other)
   {
     const std::vector<FoamFace> faces = foam_seam_faces(piece_, first_cell_, other);
-    add_patch({.name = fmt::format("procBoundary{}to{}", piece_.number, other),
-               .processor = piece_.number,
-               .other_processor = other},
+    add_patch({.name = seam_name(other), .processor = piece_.number, .other_processor = other},
               faces);
     for (const FoamFace& face : faces) {
       const auto seam = std::ranges::lower_bound(piece_.seams, face.side, {}, &SeamFace::side);

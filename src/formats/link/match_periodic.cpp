@@ -36,18 +36,6 @@ bool has_points(std::int32_t patch, const Outline& outline)
   });
 }
 
-std::vector<PeriodicPatch> periodic_patches(const FileNames& names, const Outline& outline)
-{
-  std::vector<PeriodicPatch> patches;
-  for (const mesh::PeriodicPair& pair : mesh::periodic_pairs(names.periodic)) {
-    const std::int32_t from = tag_of(pair.from, outline);
-    const std::int32_t to = tag_of(pair.to, outline);
-    if (has_points(from, outline) && has_points(to, outline))
-      patches.push_back({.from = from, .to = to, .there = pair.there});
-  }
-  return patches;
-}
-
 // A point that is the image of none.
 struct Missing {
   LocalIndex piece = 0;
@@ -183,13 +171,23 @@ class PatchMatcher {
 
 }  // namespace
 
-std::vector<std::vector<PeriodicPoint>> match_periodic_patches(
+std::vector<PeriodicPatch> periodic_patches(const FileNames& names, const Outline& outline)
+{
+  std::vector<PeriodicPatch> patches;
+  for (const mesh::PeriodicPair& pair : mesh::periodic_pairs(names.periodic)) {
+    const std::int32_t from = tag_of(pair.from, outline);
+    const std::int32_t to = tag_of(pair.to, outline);
+    if (has_points(from, outline) && has_points(to, outline))
+      patches.push_back({.from = from, .to = to, .there = pair.there});
+  }
+  return patches;
+}
+
+std::vector<std::vector<PeriodicPoint>> match_periodic_points(
     const PieceSource& source, LinkedMesh& mesh, const comm::Communicator& comm,
     const std::function<void()>& before_each)
 {
-  std::vector<PeriodicPatch> patches;
-  all_or_none(comm, [&] { patches = periodic_patches(source.names(), mesh.outline); });
-  if (patches.empty()) return {};
+  std::vector<PeriodicPatch>& patches = mesh.outline.periodic;
   PatchMatcher matcher(mesh.outline, patches);
   const LocalIndex first = source.first_of(comm.rank());
   all_or_none(comm, [&] {
@@ -208,7 +206,6 @@ std::vector<std::vector<PeriodicPoint>> match_periodic_patches(
     for (const GlobalIndex count : comm.all_gather_rows(counts))
       patches[p].first_point.push_back(patches[p].first_point.back() + count);
   }
-  mesh.outline.periodic = std::move(patches);
   return points;
 }
 

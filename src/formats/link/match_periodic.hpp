@@ -12,15 +12,20 @@
 
 namespace tessera::formats {
 
-/// @brief Reads all pieces once more and finds the points whose images those of periodic patches
-/// are. A rank holds one piece, and what its pieces have of such patches. Pairs of which a patch
-/// has no triangles are left out.
+/// @brief The periodic patches that the files tell of, but for pairs of which a patch has no
+/// triangles. Local.
+/// @param[in] outline Linked with LinkOptions::patch_points.
+/// @throws InputError if the files do not say what is periodic.
+[[nodiscard]] std::vector<PeriodicPatch> periodic_patches(const FileNames& names,
+                                                          const Outline& outline);
+
+/// @brief Reads all pieces once more and finds the points whose images those of Outline::periodic
+/// are. A rank holds one piece, and what its pieces have of such patches.
 /// @note Collective.
-/// @param[in,out] mesh Linked with LinkOptions::patch_points; gets Outline::periodic.
+/// @param[in,out] mesh Gets PeriodicPatch::first_point.
 /// @return By this rank's pieces: Piece::periodic_points.
-/// @throws InputError on all ranks if the files do not say what is periodic, or if a point is the
-/// image of none.
-[[nodiscard]] std::vector<std::vector<PeriodicPoint>> match_periodic_patches(
+/// @throws InputError on all ranks if a point is the image of none.
+[[nodiscard]] std::vector<std::vector<PeriodicPoint>> match_periodic_points(
     const PieceSource& source, LinkedMesh& mesh, const comm::Communicator& comm,
     const std::function<void()>& before_each);
 

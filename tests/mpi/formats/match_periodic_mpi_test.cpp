@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <array>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
@@ -12,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/communicator.hpp"
-#include "tessera/io/vtu.hpp"
 #include "tessera/mesh/periodic_pairs.hpp"
 
-#include "support/box_pieces.hpp"
+#include "support/periodic_box.hpp"
 #include "support/shared_folder.hpp"
 
 #include "formats/link/match_periodic.hpp"
@@ -24,26 +21,7 @@
 namespace tessera::formats {
 namespace {
 
-namespace fs = std::filesystem;
-
-const testing::BoxPieces kBox(1, 2);  // 8 pieces of 48 tets; sides of 5 x 5 points.
-
-const std::vector<std::string> kPatchNames{"left", "right", "front", "back", "rest"};
-
-// By x, then by y.
-std::int32_t patch_of(const mesh::MeshArrays& triangles, std::size_t first)
-{
-  for (std::int32_t patch = 0; patch < 4; ++patch) {
-    const auto d = static_cast<std::size_t>(patch / 2);
-    bool is_on = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto point = static_cast<std::size_t>(triangles.cell_points[first + i]);
-      if (triangles.point_xyz[3 * point + d] != patch % 2) is_on = false;
-    }
-    if (is_on) return patch;
-  }
-  return 4;
-}
+using testing::kPeriodicBox;
 
 Affine shifted(const Vec3& by)
 {
@@ -75,29 +53,7 @@ class MatchPeriodic : public ::testing::Test {
  protected:
   void write_files(const std::vector<std::string>& texts) const
   {
-    if (comm_.rank() == 0) {
-      fs::create_directories(folder_ / "mesh");
-      fs::create_directories(folder_ / "boundary");
-      std::vector<fs::path> files;
-      std::vector<fs::path> boundary;
-      mesh::MeshArrays tets;
-      mesh::MeshArrays triangles;
-      for (LocalIndex p = 0; p < kBox.num_pieces(); ++p) {
-        const std::string name = "piece_" + std::to_string(p) + ".vtu";
-        tets = kBox.tets(p);
-        tets.field_texts = {{"patch_names", kPatchNames}, {mesh::kPeriodicPairsName, texts}};
-        triangles = kBox.boundary(p);
-        for (std::size_t i = 0; i < triangles.cell_ints["patch"].size(); ++i)
-          triangles.cell_ints["patch"][i] = patch_of(triangles, 3 * i);
-        files.push_back(fs::path("mesh") / name);
-        boundary.push_back(fs::path("boundary") / name);
-        io::write_vtu(tets, folder_ / files.back(), io::Compression::none);
-        io::write_vtu(triangles, folder_ / boundary.back(), io::Compression::none);
-      }
-      io::write_pvtu(folder_ / "mesh.pvtu", files, tets);
-      io::write_pvtu(folder_ / "boundary.pvtu", boundary, triangles);
-    }
-    comm_.barrier();
+    testing::write_periodic_box(folder_, texts, comm_);
   }
 
   // Collective. What all ranks find.
@@ -105,7 +61,9 @@ class MatchPeriodic : public ::testing::Test {
   {
     const PieceSource source(folder_ / "mesh.pvtu", comm_);
     LinkedMesh mesh = link_pieces(source, comm_, [] {}, {.patch_points = true});
-    const auto points = match_periodic_patches(source, mesh, comm_, [] {});
+    all_or_none(comm_,
+                [&] { mesh.outline.periodic = periodic_patches(source.names(), mesh.outline); });
+    const auto points = match_periodic_points(source, mesh, comm_, [] {});
     std::vector<NumberedPoint> numbered;
     std::vector<Found> found;
     for (std::size_t i = 0; i < mesh.links.size(); ++i) {
@@ -164,9 +122,9 @@ TEST_F(MatchPeriodic, EachPointOfAPatchIsTheImageOfOne)
   }
   for (std::int32_t patch = 0; patch < 2; ++patch) {
     const std::vector<GlobalIndex>& first = outline_.periodic[at(patch)].first_point;
-    EXPECT_EQ(first.size(), at(kBox.num_pieces() + 1));
+    EXPECT_EQ(first.size(), at(kPeriodicBox.num_pieces() + 1));
     EXPECT_EQ(first.back(), 25);
-    for (LocalIndex p = 0; p < kBox.num_pieces(); ++p)
+    for (LocalIndex p = 0; p < kPeriodicBox.num_pieces(); ++p)
       EXPECT_EQ(first[at(p + 1)] - first[at(p)], (counts[{patch, p}]));
   }
 }
