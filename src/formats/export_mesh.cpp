@@ -119,9 +119,9 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
   const auto has = [&](io::Format format) {
     return std::ranges::find(request.formats, format) != request.formats.end();
   };
-  const bool has_msh = has(io::Format::msh) || has(io::Format::msh2);
+  const bool has_nodes = has(io::Format::msh) || has(io::Format::msh2) || has(io::Format::abaqus);
   const bool has_polyhedra = has(io::Format::openfoam) || has(io::Format::openfoam_serial);
-  const bool has_periodic = !source.names().periodic.empty() && (has_msh || has_polyhedra);
+  const bool has_periodic = !source.names().periodic.empty() && (has_nodes || has_polyhedra);
   const LinkOptions options{
       .shared_edges = has(io::Format::mfem) || has(io::Format::mfem_sets),
       .face_numbers = has(io::Format::openfoam),
@@ -129,7 +129,7 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
   LinkedPieces linked{.mesh = link_pieces(source, comm, before_each, options)};
   if (has_polyhedra && linked.mesh.outline.has_prisms())
     count_faces_of_cells(source, linked.mesh, comm, before_each);
-  if (has_periodic) match_periodic(source, linked, {has_msh, has_polyhedra}, comm, before_each);
+  if (has_periodic) match_periodic(source, linked, {has_nodes, has_polyhedra}, comm, before_each);
   Writers writers;
   all_or_none(comm, [&] { writers = make_writers(request, linked.mesh.outline); });
   if (std::ranges::any_of(writers, [](const auto& writer) { return writer->needs_ghosts(); }))

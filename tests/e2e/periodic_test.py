@@ -2,6 +2,7 @@
 """[[periodic]]: sides that are images of each other, with the same points and triangles."""
 import math
 import pathlib
+import re
 import sys
 import unittest
 
@@ -142,14 +143,24 @@ class Cracks(PeriodicTest):
                 self.assertGreater(len(report["splits"]), 8)
 
 
-class MshFiles(PeriodicTest):
-    """Both forms of Gmsh's files say which nodes are images of which."""
+class NodesOfFiles(PeriodicTest):
+    """Both forms of Gmsh's files, and those of Abaqus, say which nodes are images of which."""
 
     def convert(self, mesh, name, ranks):
-        formats = [word for form in ("msh", "msh2") for word in ("--format", form)]
+        formats = [word for form in ("msh", "msh2", "abaqus") for word in ("--format", form)]
         done = self.run_program("convert", mesh / "mesh.pvtu", *formats, "--output", name, ranks=ranks)
         self.assertEqual(done.code, OK, done.err)
-        return [self.folder / name / file for file in ("mesh.msh", "mesh_v2.msh")]
+        return [self.folder / name / file for file in ("mesh.msh", "mesh_v2.msh", "mesh.inp")]
+
+    def assert_same_pairs(self, deck, msh):
+        """Nodes have one number in all files."""
+        for number, link in enumerate(msh.periodic, 1):
+            image, original = (
+                re.search(rf"^\*NSET, NSET=PERIODIC_{number}_{side}, UNSORTED\n([\d\s]+)", deck, re.MULTILINE)[1].split()
+                for side in ("TO", "FROM")
+            )
+            self.assertEqual(list(zip(map(int, image), map(int, original))), [tuple(pair) for pair in link[4].tolist()])
+        self.assertEqual(deck.count("UNSORTED"), 2 * len(msh.periodic))
 
     def cracked_packing(self):
         """With two points at one place where a ball meets a side."""
@@ -185,15 +196,18 @@ class MshFiles(PeriodicTest):
             with self.subTest(case=case.__name__):
                 mesh = self.mesh(case(), case.__name__, *sets(*settings, "fill.kernel=subdivide"), ranks=2)
                 alone = self.convert(mesh, f"{case.__name__}_1", 1)
-                for file in alone:
+                for file in alone[:2]:
                     self.assert_all_nodes(Msh(file), pairs)
+                self.assert_same_pairs(alone[2].read_text(encoding="utf-8"), Msh(alone[0]))
                 for file, other in zip(alone, self.convert(mesh, f"{case.__name__}_3", 3)):
                     self.assertEqual(file.read_bytes(), other.read_bytes())
 
     def test_say_nothing_of_other_meshes(self):
         mesh = self.mesh(self.packing(pairs=()), "mesh", *sets("fill.kernel=subdivide"))
-        for file in self.convert(mesh, "out", 2):
+        *gmsh_files, deck = self.convert(mesh, "out", 2)
+        for file in gmsh_files:
             self.assertEqual(Msh(file).order[-1], "Elements")
+        self.assertNotIn("UNSORTED", deck.read_text(encoding="utf-8"))
 
     def test_are_refused_if_a_point_has_no_partner(self):
         mesh = self.mesh(self.packing(), "mesh", *sets("fill.kernel=subdivide"))

@@ -18,6 +18,7 @@
 #include "formats/files/text_records.hpp"
 #include "formats/labels.hpp"
 #include "formats/limits.hpp"
+#include "formats/periodic_nodes.hpp"
 #include "formats/plain_name.hpp"
 #include "formats/tag_groups.hpp"
 
@@ -70,6 +71,7 @@ class Sections {
     add({}, outline.num_points(), width_ + 3 * (1 + kFieldWidth) + 1);
     add_materials(outline, cells);
     add_surfaces(surfaces, node_sets);
+    add_periodic(outline);
   }
 
   [[nodiscard]] std::size_t width() const { return width_; }
@@ -113,6 +115,23 @@ class Sections {
     for (std::size_t s = 0; s < labels.size(); ++s) {
       add(fmt::format("*NSET, NSET={}{}\n", kNodeSetPrefix, labels[s]), node_sets.total(s),
           width_ + 1);
+    }
+  }
+
+  // Two sets a pair, in one order. A node where several sides meet stands in several pairs.
+  void add_periodic(const Outline& outline)
+  {
+    for (std::size_t p = 0; p < outline.periodic.size(); ++p) {
+      const PeriodicPatch& pair = outline.periodic[p];
+      const auto name = [&](std::int32_t tag) {
+        return plain_name(outline.patch_names[at(tag - 1)]);
+      };
+      const std::string comment = fmt::format("** periodic {}: from patch {} to patch {}\n", p + 1,
+                                              name(pair.from), name(pair.to));
+      for (const auto& [side, before] :
+           {std::pair{"TO", comment}, std::pair{"FROM", std::string()}})
+        add(fmt::format("{}*NSET, NSET=PERIODIC_{}_{}, UNSORTED\n", before, p + 1, side),
+            pair.first_point.back(), width_ + 1);
     }
   }
 
@@ -161,6 +180,7 @@ class AbaqusWriter final : public Writer {
     });
     write_groups(node_sets_, patches_of_points(piece),
                  [&](std::span<const LocalIndex> rows) { return nodes(piece, rows); });
+    write_periodic(piece, section);
   }
 
   void close() override { file_.close(); }
@@ -179,6 +199,23 @@ class AbaqusWriter final : public Writer {
       }
       file_.write(0, run.first_number, text.take());
     }
+  }
+
+  void write_periodic(const Piece& piece, std::size_t first_section)
+  {
+    for_each_periodic(
+        outline_, piece,
+        [&](std::size_t row, GlobalIndex first, std::span<const PeriodicPoint> points) {
+          TextRecords to;
+          TextRecords from;
+          for (const PeriodicPoint& point : points) {
+            const auto [image, original] = periodic_nodes(piece, point);
+            to.integer(image, layout_.width()).text("\n");
+            from.integer(original, layout_.width()).text("\n");
+          }
+          file_.write(first_section + 2 * row, first, to.take());
+          file_.write(first_section + 2 * row + 1, first, from.take());
+        });
   }
 
   [[nodiscard]] std::string elements(const Piece& piece, Shape shape, const ElementList& list,

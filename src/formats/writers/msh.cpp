@@ -91,7 +91,7 @@ class MshWriter final : public Writer {
     }
     for_each_periodic(outline_, piece, [&](std::size_t row, GlobalIndex first, const auto& points) {
       std::vector<std::array<GlobalIndex, 2>> nodes;
-      for (const PeriodicPoint& point : points) nodes.push_back(msh_periodic_nodes(piece, point));
+      for (const PeriodicPoint& point : points) nodes.push_back(periodic_nodes(piece, point));
       file_.write(first_block + row, first, bytes_of(nodes));
     });
   }

@@ -78,7 +78,7 @@ class Msh2Writer final : public Writer {
     for_each_periodic(outline_, piece, [&](std::size_t row, GlobalIndex first, const auto& points) {
       std::string text;
       for (const PeriodicPoint& point : points) {
-        for (const GlobalIndex node : msh_periodic_nodes(piece, point))
+        for (const GlobalIndex node : periodic_nodes(piece, point))
           add_number(text, node, point_width_);
         text += '\n';
       }

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
-#include <span>
 #include <string>
 
 #include "tessera/formats/piece.hpp"
+
+#include "formats/periodic_nodes.hpp"
 
 namespace tessera::formats {
 
@@ -23,18 +23,6 @@ namespace tessera::formats {
 
 /// @brief The same in the text of version 2.2. Local.
 [[nodiscard]] std::string msh2_periodic_head(const Outline& outline, std::size_t row);
-
-/// @brief Called with a row of Outline::periodic, how many of its points are in pieces before, and
-/// the points that this piece has of it: at least one.
-using VisitPeriodic =
-    std::function<void(std::size_t row, GlobalIndex first, std::span<const PeriodicPoint> points)>;
-
-/// @brief Visits what a piece has, row by row. Local.
-void for_each_periodic(const Outline& outline, const Piece& piece, const VisitPeriodic& visit);
-
-/// @brief Tags of the nodes of an image and of the point whose image it is. Local.
-[[nodiscard]] std::array<GlobalIndex, 2> msh_periodic_nodes(const Piece& piece,
-                                                            const PeriodicPoint& point);
 
 inline constexpr const char* kMshEndPeriodic = "$EndPeriodic\n";
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "tessera/formats/piece.hpp"
+
+/// The nodes of periodic patches as files list them: pair by pair.
+namespace tessera::formats {
+
+/// @brief Called with a row of Outline::periodic, how many of its points are in pieces before, and
+/// the points that this piece has of it: at least one.
+using VisitPeriodic =
+    std::function<void(std::size_t row, GlobalIndex first, std::span<const PeriodicPoint> points)>;
+
+/// @brief Visits what a piece has, row by row. Local.
+void for_each_periodic(const Outline& outline, const Piece& piece, const VisitPeriodic& visit);
+
+/// @brief Numbers from 1 of an image and of the point whose image it is. Local.
+[[nodiscard]] std::array<GlobalIndex, 2> periodic_nodes(const Piece& piece,
+                                                        const PeriodicPoint& point);
+
+}  // namespace tessera::formats
