@@ -119,7 +119,8 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
   const auto has = [&](io::Format format) {
     return std::ranges::find(request.formats, format) != request.formats.end();
   };
-  const bool has_nodes = has(io::Format::msh) || has(io::Format::msh2) || has(io::Format::abaqus);
+  const bool has_nodes = has(io::Format::msh) || has(io::Format::msh2) || has(io::Format::abaqus)
+                         || has(io::Format::xdmf);
   const bool has_polyhedra = has(io::Format::openfoam) || has(io::Format::openfoam_serial);
   const bool has_periodic = !source.names().periodic.empty() && (has_nodes || has_polyhedra);
   const LinkOptions options{

@@ -9,6 +9,7 @@ import tempfile
 import unittest
 
 import getfem
+import h5py
 import numpy
 import solver_meshes
 from getfem_test import Problem
@@ -184,6 +185,21 @@ class Periodic(unittest.TestCase):
             low, high = (part.points[part.faces[slice(*part.patches[name][1:3])]] for name in pair)
             shift = numpy.eye(3)[axis]
             numpy.testing.assert_allclose(low + shift, high[:, [0, 2, 1]], rtol=0.0, atol=1e-14)
+
+    def test_hdf5_has_pairs_of_points(self):
+        """All points of a patch, each where the image of its partner is."""
+        mesh = made(wheel_model(1), wheel_case(1, 0.1))
+        self.addCleanup(mesh.remove)
+        with h5py.File(mesh.convert("xdmf") / "mesh.h5") as file:
+            points, patch = file["geometry/vertices"][:], file["boundary/patch"][:].ravel()
+            triangles = file["boundary/triangles"][:]
+            self.assertEqual(list(file["periodic"]), ["1"])
+            pairs, there = file["periodic/1/points"], file["periodic/1/transform"][:]
+            for column, side in enumerate(("to_patch", "from_patch")):
+                expected = numpy.unique(triangles[patch == pairs.attrs[side]])
+                numpy.testing.assert_array_equal(numpy.sort(pairs[:, column]), expected)
+            images = points[pairs[:, 1]] @ there[:, :3].T + there[:, 3]
+            numpy.testing.assert_allclose(points[pairs[:, 0]], images, rtol=0.0, atol=1e-14)
 
     def heat(self, folder):
         """The mean temperature of a wheel that is heated all over and cooled at its hub."""

@@ -14,10 +14,7 @@ namespace tessera::formats {
 std::array<double, 16> msh_matrix(const Affine& there)
 {
   std::array<double, 16> matrix{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::ranges::copy(there.rows[i], matrix.begin() + static_cast<std::ptrdiff_t>(4 * i));
-    matrix[4 * i + 3] = there.shift[i];
-  }
+  std::ranges::copy(periodic_matrix(there), matrix.begin());
   matrix[15] = 1.0;
   return matrix;
 }

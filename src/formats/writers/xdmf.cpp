@@ -16,6 +16,7 @@
 #include "formats/cells.hpp"
 #include "formats/files/hdf5_file.hpp"
 #include "formats/files/shared_file.hpp"
+#include "formats/periodic_nodes.hpp"
 
 namespace tessera::formats {
 namespace {
@@ -36,6 +37,17 @@ constexpr const char* kNeighbours = "/pieces/neighbours";
 constexpr const char* kFirstNodes = "/pieces/first_node";
 // With prisms, as in kFirsts.
 constexpr const char* kFirstsOfShapes = "/pieces/first_pyramid_prism_quad";
+
+// Of a pair of periodic patches: rows of (image, the point whose image it is), and the transform
+// that leads to the images, by rows, the shift last.
+std::string periodic_points_name(std::size_t row)
+{
+  return fmt::format("/periodic/{}/points", row + 1);
+}
+std::string periodic_transform_name(std::size_t row)
+{
+  return fmt::format("/periodic/{}/transform", row + 1);
+}
 
 // XDMF's number of a shape in a mixed topology: there each element has its own before its points.
 constexpr ByShape<GlobalIndex> kMixedTypes{{6, 7, 8, 4, 5}};
@@ -104,6 +116,15 @@ Hdf5Layout layout_of(const Outline& outline)
     layout.arrays.push_back({kFirstNodes, Hdf5Type::int64, outline.num_pieces() + 1, 1, {}});
   if (outline.has_prisms())
     layout.arrays.push_back({kFirstsOfShapes, Hdf5Type::int64, outline.num_pieces() + 1, 3, {}});
+  for (std::size_t p = 0; p < outline.periodic.size(); ++p) {
+    const PeriodicPatch& pair = outline.periodic[p];
+    layout.arrays.push_back({periodic_points_name(p),
+                             Hdf5Type::int64,
+                             pair.first_point.back(),
+                             2,
+                             {{"from_patch", pair.from}, {"to_patch", pair.to}}});
+    layout.arrays.push_back({periodic_transform_name(p), Hdf5Type::float64, 3, 4, {}});
+  }
   return layout;
 }
 
@@ -223,6 +244,7 @@ class XdmfWriter final : public Writer {
       }
       write_points_of(piece, shape, list);
     }
+    write_periodic(piece);
   }
 
   void close() override { file_.close(); }
@@ -265,6 +287,20 @@ class XdmfWriter final : public Writer {
     put<GlobalIndex>(kFirstNodes, 0, outline_.first_node);
     put<GlobalIndex>(kNeighbours, 0, neighbours);
     if (outline_.has_prisms()) put<GlobalIndex>(kFirstsOfShapes, 0, firsts_of_shapes());
+    for (std::size_t p = 0; p < outline_.periodic.size(); ++p)
+      put<double>(periodic_transform_name(p), 0, periodic_matrix(outline_.periodic[p].there));
+  }
+
+  void write_periodic(const Piece& piece)
+  {
+    for_each_periodic(
+        outline_, piece,
+        [&](std::size_t row, GlobalIndex first, std::span<const PeriodicPoint> points) {
+          std::vector<GlobalIndex> pairs;
+          for (const PeriodicPoint& one : points)
+            pairs.insert(pairs.end(), {piece.point_numbers[at(one.point)], one.of_number});
+          put<GlobalIndex>(periodic_points_name(row), 2 * first, pairs);
+        });
   }
 
   [[nodiscard]] std::vector<GlobalIndex> firsts_of_shapes() const
