@@ -21,8 +21,8 @@ MAKE_WHEEL = pathlib.Path(__file__).resolve().parents[2] / "pipeline/tools/make_
 GLIBC = re.compile(r"(ld-linux.*|lib(c|dl|m|mvec|pthread|resolv|rt|util))\.so\.\d+")
 # What the package without MPI leaves to the machine: MPI, and the C++ runtime, which both use.
 OF_HOST = re.compile(GLIBC.pattern + r"|lib(mpi|gcc_s|stdc\+\+)\.so\.\d+")
-# No setting of this machine, but what Open MPI asks of root and of few cores.
-ENVIRONMENT = {"PATH": "/usr/bin:/bin"} | {
+# No setting of this machine, but what Open MPI asks of root and of few cores, and version 5 for its files.
+ENVIRONMENT = {"PATH": "/usr/bin:/bin", "HOME": os.environ["HOME"]} | {
     name: value for name, value in os.environ.items() if name.startswith(("OMPI_", "PRTE_"))
 }
 

@@ -220,7 +220,7 @@ class Periodic(unittest.TestCase):
         return sum(heats) / sum(volumes)
 
     def test_a_sector_is_as_warm_as_the_wheel(self):
-        size = 0.05
+        size = 0.065
         sector, wheel = (made(wheel_model(num), wheel_case(num, size)) for num in (1, NUM_SECTORS))
         insulated = made(wheel_model(1), wheel_case(1, size).split("[[periodic]]")[0])
         for mesh in (sector, wheel, insulated):

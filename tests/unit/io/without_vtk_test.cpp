@@ -7,8 +7,9 @@
 #include "tessera/base/error.hpp"
 #include "tessera/io/vtu.hpp"
 
+#include "support/temporary_folder.hpp"
+
 #include "mesh_samples.hpp"
-#include "temporary_folder.hpp"
 
 namespace tessera::io {
 namespace {
