@@ -29,36 +29,52 @@ std::string word_of_name(const std::string& name)
   return word;
 }
 
+constexpr double kRounding = 1e-9;  // Of a shift, along an axis that it should be across.
+
 std::string text_of(const Vec3& v)
 {
   return fmt::format("({:.17g} {:.17g} {:.17g})", v[0], v[1], v[2]);
 }
 
-// The axis of a rotation of less than half a turn, as long as the sine of its angle.
-Vec3 axis_by_sine(const Affine& there)
+// A rotation. Its axis is a column of axis * axis^T, which holds for half a turn as well; the
+// longest one is the most exact.
+struct Turn {
+  double cosine = 0.0;
+  Vec3 axis{};       // Of length 1.
+  Vec3 axis_sine{};  // The axis, times the sine of the angle about it.
+};
+
+Turn turn_of(const Affine& there)
 {
   const auto& r = there.rows;
-  return 0.5 * Vec3{r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]};
+  Turn turn{.cosine = 0.5 * (r[0][0] + r[1][1] + r[2][2] - 1.0),
+            .axis_sine = 0.5 * Vec3{r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]}};
+  Vec3 longest{};
+  for (std::size_t j = 0; j < 3; ++j) {
+    Vec3 column{};
+    for (std::size_t i = 0; i < 3; ++i)
+      column[i] = 0.5 * (r[i][j] + r[j][i]) - (i == j ? turn.cosine : 0.0);
+    if (norm(column) > norm(longest)) longest = column;
+  }
+  turn.axis = (dot(longest, turn.axis_sine) < 0.0 ? -1.0 : 1.0) / norm(longest) * longest;
+  return turn;
 }
 
-// A shift, or a rotation about an axis. Of all else, as half a turn, OpenFOAM finds the transform
-// from the faces, whose order needs none.
+// A shift, or a rotation about an axis. A screw, which no case makes, is left to OpenFOAM.
 std::string transform_text(const Affine& there)
 {
   if (there.rows == Affine{}.rows) {
     return fmt::format("    transform translational;\n    separationVector {};\n",
                        text_of(there.shift));
   }
-  const Vec3 axis = axis_by_sine(there);
-  const double sine = norm(axis);
-  const double cosine = 0.5 * (there.rows[0][0] + there.rows[1][1] + there.rows[2][2] - 1.0);
-  const bool has_pitch = std::abs(dot(there.shift, axis)) > 1e-9 * norm(there.shift) * sine;
-  if (sine < 1e-6 || has_pitch) return "    transform unknown;\n";
+  const Turn turn = turn_of(there);
+  if (std::abs(dot(there.shift, turn.axis)) > kRounding * norm(there.shift))
+    return "    transform unknown;\n";
   // The point that stays: half the shift, and as much across as its triangle with the centre needs.
   const Vec3 centre =
-      0.5 * (there.shift + (1.0 + cosine) / (sine * sine) * cross(axis, there.shift));
+      0.5 * (there.shift + 1.0 / (1.0 - turn.cosine) * cross(turn.axis_sine, there.shift));
   return fmt::format("    transform rotational;\n    rotationAxis {};\n    rotationCentre {};\n",
-                     text_of(1.0 / sine * axis), text_of(centre));
+                     text_of(turn.axis), text_of(centre));
 }
 
 std::string kind_of(const FoamBoundary& patch)
