@@ -108,4 +108,15 @@ Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links
   return piece;
 }
 
+void for_each_piece(const PieceSource& source, const LinkedMesh& mesh, Rank rank,
+                    const std::function<void()>& before_each,
+                    const std::function<void(Piece piece, std::size_t row)>& visit)
+{
+  for (std::size_t i = 0; i < mesh.links.size(); ++i) {
+    before_each();
+    const LocalIndex number = source.first_of(rank) + static_cast<LocalIndex>(i);
+    visit(build_piece(source.load(number), number, mesh.links[i], mesh), i);
+  }
+}
+
 }  // namespace tessera::formats

@@ -53,14 +53,11 @@ void count_faces_of_cells(const PieceSource& source, LinkedMesh& mesh,
 {
   std::vector<CellFaceCounts> own;
   all_or_none(comm, [&] {
-    for (std::size_t i = 0; i < mesh.links.size(); ++i) {
-      before_each();
-      const LocalIndex number = source.first_of(comm.rank()) + static_cast<LocalIndex>(i);
-      const Piece piece = build_piece(source.load(number), number, mesh.links[i], mesh);
-      own.push_back(count_cell_faces(piece, mesh.outline.first_cell[at(number)],
-                                     mesh.outline.patch_names.size(),
-                                     mesh.outline.material_names.size()));
-    }
+    const Outline& outline = mesh.outline;
+    for_each_piece(source, mesh, comm.rank(), before_each, [&](const Piece& piece, std::size_t) {
+      own.push_back(count_cell_faces(piece, outline.first_cell[at(piece.number)],
+                                     outline.patch_names.size(), outline.material_names.size()));
+    });
   });
   mesh.outline.cell_faces = comm.all_gather_rows(own);
 }
@@ -83,19 +80,15 @@ void match_periodic(const PieceSource& source, LinkedPieces& linked, const Perio
 
 // Ghosts and the like go with the piece, so memory is given back on the way.
 void write_pieces(const PieceSource& source, LinkedPieces& linked, const Writers& writers,
-                  LocalIndex first, const std::function<void()>& before_each)
+                  Rank rank, const std::function<void()>& before_each)
 {
-  const LinkedMesh& mesh = linked.mesh;
-  for (std::size_t i = 0; i < mesh.links.size(); ++i) {
-    before_each();
-    const LocalIndex number = first + static_cast<LocalIndex>(i);
-    Piece piece = build_piece(source.load(number), number, mesh.links[i], mesh);
+  for_each_piece(source, linked.mesh, rank, before_each, [&](Piece piece, std::size_t i) {
     if (!linked.ghosts.empty()) piece.ghosts = std::move(linked.ghosts[i]);
     if (!linked.periodic_points.empty())
       piece.periodic_points = std::move(linked.periodic_points[i]);
     if (!linked.cyclic_faces.empty()) piece.cyclic_faces = std::move(linked.cyclic_faces[i]);
     for (const auto& writer : writers) writer->write(piece);
-  }
+  });
   for (const auto& writer : writers) writer->close();
 }
 
@@ -136,9 +129,7 @@ Outline export_mesh(const ExportRequest& request, const comm::Communicator& comm
   if (std::ranges::any_of(writers, [](const auto& writer) { return writer->needs_ghosts(); }))
     linked.ghosts = collect_ghosts(source, linked.mesh, comm, before_each);
   on_first_rank(comm, writers, &Writer::begin);
-  all_or_none(comm, [&] {
-    write_pieces(source, linked, writers, source.first_of(comm.rank()), before_each);
-  });
+  all_or_none(comm, [&] { write_pieces(source, linked, writers, comm.rank(), before_each); });
   on_first_rank(comm, writers, &Writer::commit);
   return std::move(linked.mesh.outline);
 }

@@ -5,10 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -67,20 +65,10 @@ class FaceMatcher {
   {
     const std::vector<GlobalIndex> partners = comm::find_partners(places_, comm);
     std::vector<std::vector<CyclicFace>> found(num_pieces);
-    std::optional<std::string> defect;
-    for (const Side& side : sides_) {
-      const auto asked = std::span(partners).subspan(side.asks_as, side.num_places);
-      const auto answer = std::ranges::find_if(
-          asked, [](GlobalIndex partner) { return partner != comm::kNoPartner; });
-      if (answer == asked.end()) {
-        if (!defect) defect = missing_text(side);
-        continue;
-      }
-      const auto point = static_cast<std::size_t>(answer - asked.begin());
-      found[at(side.piece - first)].push_back(side.is_image ? image(side, point, *answer)
-                                                            : original(side, *answer));
-    }
-    comm.throw_if_any<InputError>(defect);
+    all_or_none(comm, [&] {
+      for (const Side& side : sides_)
+        found[at(side.piece - first)].push_back(with_partner(side, partners));
+    });
     for (auto& faces : found) {
       std::ranges::sort(faces, {},
                         [](const CyclicFace& face) { return std::pair(face.patch, face.number); });
@@ -97,7 +85,8 @@ class FaceMatcher {
     std::array<LocalIndex, 3> points{};
     Vec3 centre{};
     std::size_t asks_as = 0;  // First row of places_.
-    std::size_t num_places = 0;
+
+    [[nodiscard]] std::size_t num_places() const { return is_image ? points.size() : 1; }
   };
 
   void add_faces(const Piece& piece, std::size_t p, bool is_image)
@@ -111,8 +100,7 @@ class FaceMatcher {
            .piece = piece.number,
            .row = static_cast<LocalIndex>(row),
            .points = {a, b, c},
-           .asks_as = places_.size(),
-           .num_places = is_image ? std::size_t{3} : std::size_t{1}},
+           .asks_as = places_.size()},
           piece.point_xyz);
     }
   }
@@ -122,7 +110,7 @@ class FaceMatcher {
     const PeriodicPatch& pair = outline_.periodic[side.pair];
     const auto [a, b, c] = side.points;
     side.centre = 1.0 / 3.0 * (point_at(xyz, a) + point_at(xyz, b) + point_at(xyz, c));
-    for (std::size_t i = 0; i < side.num_places; ++i) {
+    for (std::size_t i = 0; i < side.num_places(); ++i) {
       const Vec3 place = midpoint(point_at(xyz, side.points[i]), side.centre);
       places_.push_back({.place = side.is_image ? place : pair.there(place),
                          .label = side.is_image ? side.piece : number_of(side),
@@ -135,6 +123,17 @@ class FaceMatcher {
   [[nodiscard]] GlobalIndex number_of(const Side& original) const
   {
     return first_original_[original.pair].of(original.piece) + original.row;
+  }
+
+  [[nodiscard]] CyclicFace with_partner(const Side& side,
+                                        std::span<const GlobalIndex> partners) const
+  {
+    const auto asked = partners.subspan(side.asks_as, side.num_places());
+    const auto answer = std::ranges::find_if(
+        asked, [](GlobalIndex partner) { return partner != comm::kNoPartner; });
+    if (answer == asked.end()) throw InputError(missing_text(side));
+    if (!side.is_image) return original(side, *answer);
+    return image(side, static_cast<std::size_t>(answer - asked.begin()), *answer);
   }
 
   [[nodiscard]] CyclicFace original(const Side& side, GlobalIndex piece_of_image) const
@@ -181,16 +180,12 @@ std::vector<std::vector<CyclicFace>> match_cyclic_faces(const PieceSource& sourc
                                                         const std::function<void()>& before_each)
 {
   FaceMatcher matcher(mesh.outline);
-  const LocalIndex first = source.first_of(comm.rank());
   all_or_none(comm, [&] {
     require_one_partner_each(mesh.outline);
-    for (std::size_t i = 0; i < mesh.links.size(); ++i) {
-      before_each();
-      const LocalIndex number = first + static_cast<LocalIndex>(i);
-      matcher.add(build_piece(source.load(number), number, mesh.links[i], mesh));
-    }
+    for_each_piece(source, mesh, comm.rank(), before_each,
+                   [&](const Piece& piece, std::size_t) { matcher.add(piece); });
   });
-  return matcher.find(first, mesh.links.size(), comm);
+  return matcher.find(source.first_of(comm.rank()), mesh.links.size(), comm);
 }
 
 }  // namespace tessera::formats

@@ -79,14 +79,11 @@ class ProcessorFaces {
     for (std::size_t k = 0; k < layout.patches.size(); ++k)
       add_outer_patch(layout, k, foam_patch_entry(outline, layout.names, k));
     std::set<LocalIndex> others;
-    for (const PieceNeighbour& neighbour : outline.pieces[at(piece.number)].neighbours) {
-      if (neighbour.num_shared_faces > 0) others.insert(neighbour.piece);
-    }
-    const std::set<LocalIndex> behind_seams = others;
+    for (const SeamFace& seam : piece.seams) others.insert(seam.other_piece);
     for (const CyclicFace& face : piece.cyclic_faces) others.insert(face.other_piece);
     others.erase(piece.number);
     for (const LocalIndex other : others) {
-      if (behind_seams.contains(other)) add_seam(other);
+      add_seam(other);
       for (std::size_t k = 0; k < layout.patches.size(); ++k) add_cyclic_seam(layout, k, other);
     }
   }
@@ -119,9 +116,9 @@ class ProcessorFaces {
   // And those whose partners are in another piece.
   void add_cyclic_seam(const FoamLayout& layout, std::size_t k, LocalIndex other)
   {
-    const std::string& name = layout.names.patches[k].name;
-    const auto faces = cyclic_faces_of(piece_, layout.names.patches[k].tag);
-    if (std::ranges::find(faces, other, &CyclicFace::other_piece) == faces.end()) return;
+    const auto& [name, tag] = layout.names.patches[k];
+    const auto is_there = [&](const CyclicFace& face) { return face.other_piece == other; };
+    if (std::ranges::none_of(cyclic_faces_of(piece_, tag), is_there)) return;
     add_cyclic_faces(layout, k, other,
                      {.name = fmt::format("{}through{}", seam_name(other), name),
                       .processor = piece_.number,
@@ -149,6 +146,7 @@ class ProcessorFaces {
   void add_seam(LocalIndex other)
   {
     const std::vector<FoamFace> faces = foam_seam_faces(piece_, first_cell_, other);
+    if (faces.empty()) return;
     add_patch({.name = seam_name(other), .processor = piece_.number, .other_processor = other},
               faces);
     for (const FoamFace& face : faces) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <tuple>
@@ -70,5 +71,11 @@ struct LinkedMesh {
 /// @brief Joins what the files hold and what was found. Local.
 [[nodiscard]] Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links,
                                 const LinkedMesh& mesh);
+
+/// @brief Reads and builds the pieces of a rank in their order, one at a time. Local.
+/// @param[in] visit Called with each, and with its row in `mesh.links`.
+void for_each_piece(const PieceSource& source, const LinkedMesh& mesh, Rank rank,
+                    const std::function<void()>& before_each,
+                    const std::function<void(Piece piece, std::size_t row)>& visit);
 
 }  // namespace tessera::formats

@@ -189,15 +189,11 @@ std::vector<std::vector<PeriodicPoint>> match_periodic_points(
 {
   std::vector<PeriodicPatch>& patches = mesh.outline.periodic;
   PatchMatcher matcher(mesh.outline, patches);
-  const LocalIndex first = source.first_of(comm.rank());
   all_or_none(comm, [&] {
-    for (std::size_t i = 0; i < mesh.links.size(); ++i) {
-      before_each();
-      const LocalIndex number = first + static_cast<LocalIndex>(i);
-      matcher.add(build_piece(source.load(number), number, mesh.links[i], mesh));
-    }
+    for_each_piece(source, mesh, comm.rank(), before_each,
+                   [&](const Piece& piece, std::size_t) { matcher.add(piece); });
   });
-  auto points = matcher.find(first, mesh.links.size(), comm);
+  auto points = matcher.find(source.first_of(comm.rank()), mesh.links.size(), comm);
   for (std::size_t p = 0; p < patches.size(); ++p) {
     std::vector<GlobalIndex> counts;
     for (const auto& of_piece : points)
