@@ -5,6 +5,7 @@ import itertools
 import math
 import pathlib
 import re
+import sys
 import tempfile
 import unittest
 
@@ -19,6 +20,9 @@ from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import cg
 from scipy.spatial import cKDTree
 from solver_meshes import Mesh, mpirun, run
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from periodic_models import packing_model  # noqa: E402
 
 PARTS = 3
 NUM_BALLS, RADIUS = 12, 0.126
@@ -51,17 +55,12 @@ def packing_of_balls():
 
 
 def balls_model():
-    balls = packing_of_balls()
-    solids = "".join(f"solid b{i} = sphere ({x:.6f}, {y:.6f}, {z:.6f}; {RADIUS});\n" for i, (x, y, z) in enumerate(balls))
-    return (
-        f"algebraic3d\n{solids}solid balls = {' or '.join(f'b{i}' for i in range(len(balls)))};\n"
-        "solid box = orthobrick (0, 0, 0; 1, 1, 1);\nsolid matrix = box and not balls;\nsolid grains = box and balls;\n"
-        "tlo matrix;\ntlo grains;\n"
-    )
+    return packing_model([(*(round(x, 6) for x in centre), RADIUS) for centre in packing_of_balls()])
 
 
-def balls_case(size):
-    text = f'geometry.file = "model.geo"\nsize.target = {size}\n'
+def balls_case(sizes):
+    """`sizes`: lines of the case that say how fine."""
+    text = f'geometry.file = "model.geo"\n{sizes}\n'
     for axis, (low, high) in enumerate(PAIRS):
         for name, sign in ((low, -1), (high, 1)):
             normal = [sign * (i == axis) for i in range(3)]
@@ -160,7 +159,7 @@ class Periodic(unittest.TestCase):
     def test_check_mesh(self):
         """In three directions and around an axis, in one mesh and in parts."""
         for mesh, num_patches in (
-            (made(balls_model(), balls_case(0.1)), 6), (made(wheel_model(1), wheel_case(1, 0.05)), 2),
+            (made(balls_model(), balls_case("size.target = 0.1")), 6), (made(wheel_model(1), wheel_case(1, 0.05)), 2),
         ):  # fmt: skip
             self.addCleanup(mesh.remove)
             num_through = 0
@@ -178,7 +177,7 @@ class Periodic(unittest.TestCase):
 
     def test_faces_are_partners(self):
         """In one mesh: face by face and corner by corner, but seen from the other side."""
-        mesh = made(balls_model(), balls_case(0.15))
+        mesh = made(balls_model(), balls_case("size.target = 0.15"))
         self.addCleanup(mesh.remove)
         part = Case(mesh.convert("openfoam-serial"))
         for axis, pair in enumerate(PAIRS):
@@ -238,7 +237,7 @@ class Periodic(unittest.TestCase):
         getfem.util_trace_level(0)
         found = []
         for levels in (0, 1, 2):
-            case = balls_case(0.15).replace("size.target = 0.15", f"coarse.max_size = 0.22\nrefine.levels = {levels}")
+            case = balls_case(f"coarse.max_size = 0.22\nrefine.levels = {levels}")
             mesh = made(balls_model(), case)
             self.addCleanup(mesh.remove)
             problem = PeriodicProblem(mesh.convert("msh2") / "mesh_v2.msh")

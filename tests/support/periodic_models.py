@@ -3,12 +3,19 @@
 
 # One cell of a packing: balls in the corners, which its sides cut, and one off the middle.
 BALLS = [(x, y, z, 0.3) for x in (0, 1) for y in (0, 1) for z in (0, 1)] + [(0.45, 0.5, 0.55, 0.25)]
-PACKING = (
-    "algebraic3d\n"
-    + "".join(f"solid b{i} = sphere ({x}, {y}, {z}; {r});\n" for i, (x, y, z, r) in enumerate(BALLS))
-    + f"solid balls = {' or '.join(f'b{i}' for i in range(len(BALLS)))};\nsolid box = orthobrick (0, 0, 0; 1, 1, 1);\n"
-    "solid matrix = box and not balls;\nsolid grains = box and balls;\ntlo matrix;\ntlo grains;\n"
-)
+
+
+def packing_model(balls):
+    """Balls, as centres and radii, in the unit cube."""
+    return (
+        "algebraic3d\n"
+        + "".join(f"solid b{i} = sphere ({x}, {y}, {z}; {r});\n" for i, (x, y, z, r) in enumerate(balls))
+        + f"solid balls = {' or '.join(f'b{i}' for i in range(len(balls)))};\nsolid box = orthobrick (0, 0, 0; 1, 1, 1);\n"
+        "solid matrix = box and not balls;\nsolid grains = box and balls;\ntlo matrix;\ntlo grains;\n"
+    )
+
+
+PACKING = packing_model(BALLS)
 SIDES = {"left": 14, "right": 15, "front": 12, "back": 13, "bottom": 10, "top": 11}
 PAIRS = {("left", "right"): (1, 0, 0), ("front", "back"): (0, 1, 0), ("bottom", "top"): (0, 0, 1)}
 
