@@ -30,7 +30,6 @@ std::map<LocalIndex, double> sizes_of_faces(const PartSurface& part)
 
 LandmarkFinder::LandmarkFinder(const PartSurface& part, double coarse_size)
     : part_(part),
-      coarse_size_(coarse_size),
       num_edges_(part.points.size(), 0),
       size_(part.points.size(), coarse_size),
       neighbours_(part.points.size(), {kNoIndex, kNoIndex}),

@@ -26,7 +26,6 @@ class LandmarkFinder {
   [[nodiscard]] bool touches_curve(LocalIndex v, const std::vector<double>& heights) const;
 
   const PartSurface& part_;
-  double coarse_size_;
   std::vector<LocalIndex> num_edges_{};                  // At each point.
   std::vector<double> size_{};                           // Of each point.
   std::vector<std::array<LocalIndex, 2>> neighbours_{};  // Along the curve, for points inside one.
