@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/commands/check_command.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/check/check_mesh.hpp"
+#include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/vtu.hpp"
 #include "tessera/subdomain/mesh_input.hpp"
 
@@ -18,13 +20,30 @@
 namespace tessera::pipeline {
 namespace {
 
-check::PieceSource source_of(const std::vector<std::filesystem::path>& files)
+using Files = std::vector<std::filesystem::path>;
+
+check::PieceSource source_of(const Files& files, io::CellOrder order = io::CellOrder::up_to_second)
 {
-  return {static_cast<LocalIndex>(files.size()), [&files](LocalIndex piece) {
+  return {static_cast<LocalIndex>(files.size()), [&files, order](LocalIndex piece) {
             throw_if_stop_requested();
-            return io::read_vtu(files[static_cast<std::size_t>(piece)],
-                                io::CellOrder::up_to_second);
+            return io::read_vtu(files[static_cast<std::size_t>(piece)], order);
           }};
+}
+
+// Files of one piece have one name.
+std::vector<LocalIndex> pieces_of_lines(const Files& lines, const Files& tets)
+{
+  std::vector<LocalIndex> pieces;
+  for (const std::filesystem::path& file : lines) {
+    const auto same = std::ranges::find(tets, file.filename(), &std::filesystem::path::filename);
+    if (same == tets.end()) {
+      throw comm::Collective<InputError>(
+          fmt::format("{}: the mesh has no piece {} that it belongs to", file.string(),
+                      file.filename().string()));
+    }
+    pieces.push_back(static_cast<LocalIndex>(same - tets.begin()));
+  }
+  return pieces;
 }
 
 // Large blocks are mapped, so that what a piece needs while it is read goes back at once. By itself
@@ -72,11 +91,15 @@ ExitCode run_check_command(const CheckCommand& command, const comm::Communicator
   map_large_blocks();
   const auto mesh_files = subdomain::pieces_of(command.mesh_file, comm);
   const check::PieceSource mesh = source_of(mesh_files);
-  const auto boundary_files = subdomain::boundary_pieces_of(command.mesh_file, comm);
+  const auto boundary_files = subdomain::pieces_beside(command.mesh_file, "boundary.pvtu", comm);
   std::optional<check::PieceSource> boundary;
   if (boundary_files) boundary = source_of(*boundary_files);
-  const check::CheckReport report =
+  check::CheckReport report =
       check::check_mesh(mesh, boundary ? &*boundary : nullptr, comm, {command.is_partial});
+  if (const auto line_files = subdomain::pieces_beside(command.mesh_file, "lines.pvtu", comm)) {
+    check::check_lines(mesh, source_of(*line_files, io::CellOrder::edges),
+                       pieces_of_lines(*line_files, mesh_files), comm, report);
+  }
   if (comm.rank() == 0) {
     if (command.json) {
       std::fputs((check::to_json(report) + "\n").c_str(), stdout);

@@ -23,6 +23,7 @@
 #include "tessera/migrate/partition.hpp"
 #include "tessera/subdomain/mesh_input.hpp"
 #include "tessera/subdomain/part_arrays.hpp"
+#include "tessera/subdomain/part_lines.hpp"
 #include "tessera/subdomain/piece_file.hpp"
 
 #include "pipeline/commands/part_report.hpp"
@@ -133,6 +134,7 @@ class Repartition {
     end_step("read");
     mesh_ = subdomain::assemble_pieces(command_.mesh_file, pieces, comm_);
     figures_.notes = mesh_.notes;
+    lines_ = subdomain::read_lines(command_.mesh_file, comm_);
     figures_.tets_digest = sum_over_ranks(migrate::digest_of_tets(mesh_.mesh), comm_);
     end_step("assemble");
     const GlobalIndex num_tets = comm_.sum(mesh_.mesh.num_tets());
@@ -171,6 +173,12 @@ class Repartition {
                                          command_.num_ghost_layers};
     const std::vector<migrate::GhostTets> parts = migrate::find_ghosts(
         comm_, mesh_.mesh, vertex_parts, command_.num_parts, command_.num_ghost_layers);
+    if (lines_) parts_of_lines_ = subdomain::parts_of_lines(*lines_, mesh_.mesh, comm_);
+    if (std::ranges::find(parts_of_lines_, kNoIndex) != parts_of_lines_.end()) {
+      throw comm::Collective<InputError>(command_.mesh_file.string()
+                                         + ": lines.pvtu has edges that no tet has; `tessera "
+                                           "check` says which");
+    }
     all_or_none(comm_, [&] {
       for (const migrate::GhostTets& ghosts : parts) write_part(context, ghosts);
     });
@@ -203,9 +211,19 @@ class Repartition {
     const subdomain::PieceArrays arrays = subdomain::part_arrays(context, part, &ghosts);
     io::write_vtu(arrays.tets, command_.output / subdomain::piece_path("mesh", part),
                   io::usual_compression());
-    if (arrays.boundary.num_cells() == 0) return;
-    io::write_vtu(arrays.boundary, command_.output / subdomain::piece_path("boundary", part),
-                  io::usual_compression());
+    if (arrays.boundary.num_cells() > 0) {
+      io::write_vtu(arrays.boundary, command_.output / subdomain::piece_path("boundary", part),
+                    io::usual_compression());
+    }
+    if (!has_lines(part)) return;
+    io::make_own_folder(command_.output / "lines");
+    io::write_vtu(subdomain::lines_of_part(*lines_, parts_of_lines_, part, arrays.tets),
+                  command_.output / subdomain::piece_path("lines", part), io::usual_compression());
+  }
+
+  [[nodiscard]] bool has_lines(LocalIndex part) const
+  {
+    return std::ranges::find(parts_of_lines_, part) != parts_of_lines_.end();
   }
 
   void write_indices(const subdomain::PartContext& context,
@@ -213,16 +231,21 @@ class Repartition {
   {
     std::vector<fs::path> tets;
     std::vector<fs::path> boundary;
+    std::vector<fs::path> lines;
     for (LocalIndex part = 0; part < command_.num_parts; ++part) {
       tets.push_back(subdomain::piece_path("mesh", part));
       if (figures_.parts[at(part)].num_boundary > 0) {
         boundary.push_back(subdomain::piece_path("boundary", part));
       }
+      if (has_lines(part)) lines.push_back(subdomain::piece_path("lines", part));
     }
     constexpr LocalIndex kNoPart = -1;  // Nothing but the names of arrays.
     const subdomain::PieceArrays schema = subdomain::part_arrays(context, kNoPart, nullptr);
     io::write_pvtu(command_.output / "mesh.pvtu", tets, schema.tets, neighbours);
     io::write_pvtu(command_.output / "boundary.pvtu", boundary, schema.boundary);
+    if (lines.empty()) return;
+    io::write_pvtu(command_.output / "lines.pvtu", lines,
+                   subdomain::lines_of_part(*lines_, parts_of_lines_, kNoPart, schema.tets));
   }
 
   ExitCode finish()
@@ -287,6 +310,8 @@ class Repartition {
   const comm::Communicator& comm_;
   std::optional<io::OutputFolder> folder_{};
   migrate::AssembledMesh mesh_{};
+  std::optional<mesh::MeshArrays> lines_{};
+  std::vector<LocalIndex> parts_of_lines_{};
   subdomain::Texts texts_{};
   RepartitionFigures figures_{};
   Clock::time_point start_ = Clock::now();

@@ -40,6 +40,7 @@ void count_split_tets(const subdomain::PartitionedMesh& cut, int splits,
   for (std::size_t s = 0; s < pieces.size(); ++s) {
     pieces[s].tets = filled[s].tets << 3 * splits;
     pieces[s].boundary_triangles = filled[s].boundary_triangles << 2 * splits;
+    pieces[s].line_edges = filled[s].line_edges << splits;
   }
 }
 

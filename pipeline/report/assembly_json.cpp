@@ -26,9 +26,14 @@ Json assembly_json(const model::Assembly& assembly)
                         {"area", part.area},
                         {"inside", part.is_inside}});
   }
+  Json lines = Json::array();
+  for (const model::EmbeddedLine& line : assembly.lines) {
+    lines.push_back({{"name", line.name}, {"num_edges", line.num_edges}, {"length", line.length}});
+  }
   return {{"overlaps", std::move(overlaps)},
           {"closed_gaps", std::move(gaps)},
           {"embedded", std::move(embedded)},
+          {"lines", std::move(lines)},
           {"tolerance", assembly.tolerance}};
 }
 

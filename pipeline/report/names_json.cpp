@@ -77,6 +77,24 @@ Json patches_json(const RunResult& run, const std::vector<std::string>& names)
   return patches;
 }
 
+// By row of line_names(); summed as materials are.
+Json lines_json(const RunResult& run, const std::vector<std::string>& names)
+{
+  std::vector<subdomain::LineLength> rows(names.size());
+  for (const subdomain::PieceSummary& piece : run.filled.pieces) {
+    for (const subdomain::LineLength& part : piece.lines) {
+      rows[at(part.line)].num_edges += part.num_edges;
+      rows[at(part.line)].length += part.length;
+    }
+  }
+  Json lines = Json::array();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    lines.push_back(
+        {{"id", r}, {"name", names[r]}, {"edges", rows[r].num_edges}, {"length", rows[r].length}});
+  }
+  return lines;
+}
+
 }  // namespace
 
 void add_names(Json& json, const RunResult& run)
@@ -85,6 +103,8 @@ void add_names(Json& json, const RunResult& run)
   json["patch_names"] = names;
   json["patches"] = patches_json(run, names);
   json["materials"] = materials_json(run);
+  const std::vector<std::string> lines = mesh::line_names(run.coarse.mesh);
+  if (!lines.empty()) json["lines"] = lines_json(run, lines);
 }
 
 }  // namespace tessera::pipeline

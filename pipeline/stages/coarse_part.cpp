@@ -104,7 +104,7 @@ bool refine_for_sizes(RunResult& run, const model::NamedParts& parts, RunContext
 // Of a file with such faces; load_case() looks at those of the case.
 void require_own_surface(const RunResult& run)
 {
-  if (!run.resolved.coarse.has_inner_faces) return;
+  if (!run.resolved.coarse.has_inner_parts) return;
   const std::string_view other = run.resolved.coarse.mesher == surface::Mesher::gmsh
                                      ? "coarse.mesher = \"gmsh\""
                                  : run.resolved.decompose.method == decompose::Method::geometry
@@ -124,7 +124,7 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   const model::NamedParts& parts = of_case.named;
   run.resolved.coarse.kept = of_case.kept;
   run.resolved.coarse.periodic = of_case.periodic;
-  run.resolved.coarse.has_inner_faces = run.model.assembly.has_inner_faces();
+  run.resolved.coarse.has_inner_parts = run.model.assembly.has_inner_parts();
   require_own_surface(run);
   run.planes = choose_cuts(run, context);
   run.coarse = run_coarse_stage(run.resolved, run.planes.tree, context);

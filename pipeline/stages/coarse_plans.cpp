@@ -24,7 +24,7 @@ bool is_for_gmsh(const config::Case& run_case)
   constexpr std::array<std::string_view, 5> kKinds{".step", ".stp", ".iges", ".igs", ".brep"};
   const std::string kind = model::lower_case_extension(run_case.geometry.file);
   return run_case.coarse.mesher == surface::Mesher::netgen && run_case.periodic.empty()
-         && !run_case.coarse.has_inner_faces && std::ranges::find(kKinds, kind) != kKinds.end();
+         && !run_case.coarse.has_inner_parts && std::ranges::find(kKinds, kind) != kKinds.end();
 }
 
 bool has_gmsh() { return jobs::is_on_path("gmsh"); }
@@ -98,7 +98,7 @@ std::vector<surface::CoarseOptions> coarse_tries(const config::Case& run_case)
   surface::CoarseOptions ours = asked;
   ours.surface_mesher = surface::SurfaceMesher::remesh;
   // NETGEN's sides are not alike, and it knows no faces inside of bodies.
-  if (!asked.periodic.empty() || asked.has_inner_faces) return {ours, finer(ours)};
+  if (!asked.periodic.empty() || asked.has_inner_parts) return {ours, finer(ours)};
   surface::CoarseOptions netgen = asked;
   netgen.defeature = 0.0;
   return {ours, finer(ours), netgen};

@@ -132,7 +132,7 @@ void name_pieces(const model::ModelDescription& described, const config::Case& g
   for (const model::FaceDescription& face : described.faces) {
     const bool is_embedded =
         std::ranges::any_of(given.geometry.assembly.embedded,
-                            [&](const model::EmbeddedFace& one) { return one.name == face.name; });
+                            [&](const model::EmbeddedShape& one) { return one.name == face.name; });
     if (is_embedded) name_of_number[face.number] = face.name;
   }
   named.faces.clear();

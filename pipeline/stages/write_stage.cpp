@@ -21,16 +21,17 @@
 namespace tessera::pipeline {
 namespace {
 
-// Pieces are in the order of subdomains.
-bool has_boundary(const subdomain::SubdomainRange& range,
-                  const std::vector<subdomain::PieceSummary>& pieces)
+// Whether one of the pieces in a file has some. They are in the order of subdomains.
+template <class HasSome>
+bool any_in(const subdomain::SubdomainRange& range,
+            const std::vector<subdomain::PieceSummary>& pieces, const HasSome& has_some)
 {
   auto piece = std::lower_bound(pieces.begin(), pieces.end(), range.first,
                                 [](const subdomain::PieceSummary& p, LocalIndex subdomain) {
                                   return p.subdomain < subdomain;
                                 });
   for (; piece != pieces.end() && piece->subdomain < range.last; ++piece) {
-    if (piece->num_boundary > 0) return true;
+    if (has_some(*piece)) return true;
   }
   return false;
 }
@@ -41,14 +42,21 @@ void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files, con
 {
   std::vector<std::filesystem::path> tets;
   std::vector<std::filesystem::path> boundary;
+  std::vector<std::filesystem::path> lines;
+  const auto has_boundary = [](const auto& piece) { return piece.num_boundary > 0; };
+  const auto has_lines = [](const auto& piece) { return !piece.lines.empty(); };
   for (const subdomain::SubdomainRange& range : files) {
     tets.push_back(subdomain::piece_path("mesh", range.number));
-    if (has_boundary(range, run.filled.pieces)) {
+    if (any_in(range, run.filled.pieces, has_boundary)) {
       boundary.push_back(subdomain::piece_path("boundary", range.number));
+    }
+    if (any_in(range, run.filled.pieces, has_lines)) {
+      lines.push_back(subdomain::piece_path("lines", range.number));
     }
   }
   io::write_pvtu(folder / "mesh.pvtu", tets, schema.tets, formats::shared_points(run.files));
   io::write_pvtu(folder / "boundary.pvtu", boundary, schema.boundary);
+  if (!lines.empty()) io::write_pvtu(folder / "lines.pvtu", lines, schema.lines);
 }
 
 }  // namespace

@@ -45,8 +45,9 @@ void run_write_stage(const config::Case& run_case,
                      const subdomain::WriteContext& mesh, FilledPieces& filled,
                      RunContext& context);
 
-/// @brief Writes the indices mesh.pvtu and boundary.pvtu: from now on there is a mesh. If it is
-/// known which files share points (RunResult::files), mesh.pvtu says so.
+/// @brief Writes the indices mesh.pvtu and boundary.pvtu, and lines.pvtu if there are lines: from
+/// now on there is a mesh. If it is known which files share points (RunResult::files), mesh.pvtu
+/// says so.
 /// @note Collective. @throws OutputError on every rank.
 void write_indices(const RunResult& run, const std::vector<subdomain::SubdomainRange>& files,
                    const subdomain::WriteContext& mesh, RunContext& context);

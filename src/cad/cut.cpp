@@ -201,7 +201,7 @@ class Cutter {
     splitter.SetTools(tools_[s]);
     build(splitter, "cut the model");
     pieces_[s] = images_of(splitter, solids_[s]);
-    follow(splitter, solids_[s]);
+    follow(splitter, s);
   }
 
   // The faces between two solids were cut on either side by itself.
@@ -229,12 +229,13 @@ class Cutter {
     return all;
   }
 
-  // A face or an edge of two solids has images of both.
-  void follow(BRepAlgoAPI_BuilderAlgo& operation, const TopoDS_Shape& solid)
+  // A face or an edge of two solids has images of both. Tools may have edges of the uncut shape.
+  void follow(BRepAlgoAPI_BuilderAlgo& operation, std::size_t s)
   {
     const auto add = [&](TopAbs_ShapeEnum kind, const Shapes& uncut, std::vector<Shapes>& images) {
       TopTools_IndexedMapOfShape of_solid;
-      TopExp::MapShapes(solid, kind, of_solid);
+      TopExp::MapShapes(solids_[s], kind, of_solid);
+      for (const TopoDS_Shape& tool : tools_[s]) TopExp::MapShapes(tool, kind, of_solid);
       for (std::size_t i = 0; i < uncut.size(); ++i) {
         if (!of_solid.Contains(uncut[i])) continue;
         for (const TopoDS_Shape& image : images_of(operation, uncut[i])) images[i].push_back(image);

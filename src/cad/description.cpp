@@ -7,10 +7,8 @@
 #include <vector>
 
 #include <BRepBndLib.hxx>
-#include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <GProp_GProps.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <TopExp.hxx>
@@ -30,13 +28,6 @@ namespace {
 // How far triangles that are only looked at may be off, in parts of the box diagonal.
 constexpr double kDeflection = 1e-3;
 constexpr double kAngle_rad = 0.3;
-
-double length_of(const TopoDS_Shape& edge)
-{
-  GProp_GProps properties;
-  BRepGProp::LinearProperties(edge, properties);
-  return properties.Mass();
-}
 
 // A face that cannot be triangulated is not drawn, and is in the list all the same.
 void add_triangles(const TopoDS_Face& face, LocalIndex row, model::ModelDescription& to)

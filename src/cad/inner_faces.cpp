@@ -25,6 +25,7 @@
 
 #include "tessera/base/error.hpp"
 
+#include "cad/inner_lines.hpp"
 #include "cad/shape.hpp"
 
 namespace tessera::cad {
@@ -176,21 +177,26 @@ TopTools_MapOfShape faces_inside_of_bodies(const TopoDS_Shape& shape,
   return inside;
 }
 
-bool has_inner_faces(const TopoDS_Shape& shape)
+bool has_inner_parts(const TopoDS_Shape& shape)
 {
-  return std::ranges::any_of(parts_of(shape, TopAbs_SOLID), [](const TopoDS_Shape& solid) {
-    return !inner_faces_of(solid).empty();
-  });
+  return !inner_lines_of(shape).empty()
+         || std::ranges::any_of(parts_of(shape, TopAbs_SOLID), [](const TopoDS_Shape& solid) {
+              return !inner_faces_of(solid).empty();
+            });
 }
 
 CutShape cells_of(const TopoDS_Shape& shape)
 {
+  const std::vector<TopoDS_Shape> lines = inner_lines_of(shape);
+  const Vec3 sweep = lines.empty() ? Vec3{} : sweep_of(lines);
   std::vector<TopTools_ListOfShape> tools;
   for (TopExp_Explorer solids(shape, TopAbs_SOLID); solids.More(); solids.Next()) {
     tools.push_back(tools_for(solids.Current()));
+    append_curtains(lines, sweep, solids.Current(), tools.back());
   }
   CutShape cells = cut_at_faces(shape, std::move(tools));
   require_no_inner_faces(cells);
+  require_lines(cells, shape);
   return cells;
 }
 

@@ -21,12 +21,14 @@ namespace tessera::cad {
 [[nodiscard]] TopTools_MapOfShape faces_inside_of_bodies(const TopoDS_Shape& shape,
                                                          const std::vector<LocalIndex>& solid_body);
 
-/// @brief Whether a solid of the shape has inner faces. Local.
-[[nodiscard]] bool has_inner_faces(const TopoDS_Shape& shape);
+/// @brief Whether a solid of the shape has faces or lines inside. Local.
+[[nodiscard]] bool has_inner_parts(const TopoDS_Shape& shape);
 
-/// @brief The shape's solids cut into *cells*, of which none has a face inside. Each inner face is
-/// continued on its own surface to the sides of its solid, so it lies between two cells. Local.
-/// @throws NetgenError if a face cannot be continued, with its place, and as cut_shape().
+/// @brief The shape's solids cut into *cells*, of which none has a face or a line inside. Each
+/// inner face is continued on its own surface to the sides of its solid, so it lies between two
+/// cells; lines are edges of curtains that do. Local.
+/// @throws NetgenError if a face cannot be continued or a line not be put in, with its place, and
+/// as cut_shape().
 [[nodiscard]] CutShape cells_of(const TopoDS_Shape& shape);
 
 }  // namespace tessera::cad

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cad/model.hpp"
 
+#include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 #include <utility>
 
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepGProp.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
@@ -20,6 +24,7 @@
 #include "cad/description.hpp"
 #include "cad/error.hpp"
 #include "cad/inner_faces.hpp"
+#include "cad/inner_lines.hpp"
 #include "cad/shape.hpp"
 #include "cad/triangles/tessellation.hpp"
 #include "geometry/named_surface.hpp"
@@ -33,6 +38,8 @@ CadModel::CadModel(OccContent content, std::string file_name)
 {
   TopExp::MapShapes(content_.shape, TopAbs_FACE, faces_);
   TopExp::MapShapes(content_.shape, TopAbs_EDGE, edges_);
+  num_edges_of_faces_ =
+      edges_.Extent() - static_cast<LocalIndex>(inner_lines_of(content_.shape).size());
   for (const TopoDS_Shape& face : parts_of(content_.shape, TopAbs_FACE)) {
     surfaces_.emplace_back(TopoDS::Face(face), box_diagonal_, faces_.Extent());
   }
@@ -92,20 +99,48 @@ std::string CadModel::solid_name(LocalIndex material) const
 surface::CoarseSurface CadModel::mesh_whole(const surface::CoarseOptions& options) const
 {
   return with_occ_errors(file_name_, [&] {
-    return has_inner_faces(content_.shape) ? mesh_cells(options) : mesh_solids(options);
+    return has_inner_parts(content_.shape) ? mesh_cells(options) : mesh_solids(options);
   });
 }
 
-// A face that ends inside of a solid lies between two cells, of which the mesh knows no more.
+// What lies inside of a solid is on the sides of cells, of which the mesh knows no more.
 surface::CoarseSurface CadModel::mesh_cells(const surface::CoarseOptions& options) const
 {
   const CellNumbers numbers(cells_of(content_.shape));
-  const surface::CoarseOptions of_cells = numbers.options_from(options);
+  surface::CoarseOptions kept = options;
+  for (LocalIndex curve = 0; curve < edges_.Extent(); ++curve) {
+    if (is_line(curve)) kept.kept.curves.push_back(curve);
+  }
+  const surface::CoarseOptions of_cells = numbers.options_from(std::move(kept));
   numbers.require_images(of_cells);
   const CadModel cells(numbers.content_from(content_), file_name_);
   surface::CoarseSurface surface = cells.mesh_solids(of_cells);
   numbers.number_as_model(content_.face_names, surface);
+  require_whole_lines(surface.mesh);
   return surface;
+}
+
+// That segments lead from one end of each line to the other.
+void CadModel::require_whole_lines(const mesh::CoarseMesh& mesh) const
+{
+  constexpr double kMostMissing = 1e-6;
+  std::map<LocalIndex, std::set<std::array<LocalIndex, 2>>> segments;
+  for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {
+    const LocalIndex a = mesh.segment_vertices[2 * at(s)];
+    const LocalIndex b = mesh.segment_vertices[2 * at(s) + 1];
+    segments[mesh.segment_curve[at(s)]].insert({std::min(a, b), std::max(a, b)});
+  }
+  for (LocalIndex curve = 0; curve < edges_.Extent(); ++curve) {
+    if (!is_line(curve)) continue;
+    double length = 0.0;
+    for (const auto& [a, b] : segments[curve]) length += norm(mesh.position(b) - mesh.position(a));
+    const BRepAdaptor_Curve line(TopoDS::Edge(edges_(curve + 1)));
+    const gp_Pnt from = line.Value(line.FirstParameter());
+    if (length >= (1.0 - kMostMissing) * from.Distance(line.Value(line.LastParameter()))) continue;
+    throw NetgenError(
+        fmt::format("{}: the coarse mesh has not all of the line at ({:g}, {:g}, {:g})", file_name_,
+                    from.X(), from.Y(), from.Z()));
+  }
 }
 
 // OpenCASCADE's triangles, made well-shaped and put on the faces.

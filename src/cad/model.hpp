@@ -41,7 +41,7 @@ class CadModel : public geometry::LoadedModel {
   [[nodiscard]] model::ModelDescription describe(surface::SurfaceMesher mesher) const override;
   [[nodiscard]] mesh::NamedCurve named_curve(LocalIndex curve) const override
   {
-    return {curve, std::to_string(curve + 1), content_.edge_names.at(at(curve))};
+    return {curve, std::to_string(curve + 1), content_.edge_names.at(at(curve)), is_line(curve)};
   }
   [[nodiscard]] coarse::ModelFigures figures() const override;
   [[nodiscard]] coarse::CadSurface triangles_for_fit(double size) const override;
@@ -70,6 +70,9 @@ class CadModel : public geometry::LoadedModel {
   [[nodiscard]] const OccCurve& curve_at(LocalIndex curve) const;
   [[nodiscard]] surface::CoarseSurface mesh_solids(const surface::CoarseOptions& options) const;
   [[nodiscard]] surface::CoarseSurface mesh_cells(const surface::CoarseOptions& options) const;
+  // Lines inside of solids are the last edges.
+  [[nodiscard]] bool is_line(LocalIndex curve) const { return curve >= num_edges_of_faces_; }
+  void require_whole_lines(const mesh::CoarseMesh& mesh) const;
   [[nodiscard]] FlatArray<LocalIndex> material_rows() const;
   static void guess_parameters(const surface::SurfaceReference& reference, mesh::CoarseMesh& mesh);
 
@@ -78,6 +81,7 @@ class CadModel : public geometry::LoadedModel {
   double box_diagonal_ = 0.0;
   TopTools_IndexedMapOfShape faces_{};
   TopTools_IndexedMapOfShape edges_{};
+  LocalIndex num_edges_of_faces_ = 0;
   std::vector<OccSurface> surfaces_{};
   std::vector<std::unique_ptr<OccCurve>> curves_{};  // Nothing for a degenerate edge: numbers are
                                                      // those of the map.

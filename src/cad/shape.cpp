@@ -58,6 +58,13 @@ bool have_volume_of(const std::vector<TopoDS_Shape>& pieces, const TopoDS_Shape&
          });
 }
 
+double length_of(const TopoDS_Shape& edge)
+{
+  GProp_GProps properties;
+  BRepGProp::LinearProperties(edge, properties);
+  return properties.Mass();
+}
+
 double area_of(const TopoDS_Shape& shape)
 {
   GProp_GProps properties;

@@ -26,6 +26,9 @@ namespace tessera::cad {
 [[nodiscard]] bool have_volume_of(const std::vector<TopoDS_Shape>& pieces,
                                   const TopoDS_Shape& solid);
 
+/// @brief Of an edge.
+[[nodiscard]] double length_of(const TopoDS_Shape& edge);
+
 /// @brief Of all its faces.
 [[nodiscard]] double area_of(const TopoDS_Shape& shape);
 

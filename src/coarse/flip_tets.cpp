@@ -258,6 +258,11 @@ Geometry::Geometry(const mesh::CoarseMesh& mesh) : has_vertex_(at(mesh.num_verti
       edges_.push_back(edge_key(corners[c], corners[(c + 1) % 3]));
     }
   }
+  for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {
+    const LocalIndex* ends = &mesh.segment_vertices[2 * at(s)];
+    for (std::size_t end = 0; end < 2; ++end) has_vertex_[at(ends[end])] = 1;
+    edges_.push_back(edge_key(ends[0], ends[1]));
+  }
   std::ranges::sort(faces_);
   std::ranges::sort(edges_);
 }

@@ -10,7 +10,7 @@ namespace tessera::coarse {
 
 using Tet = std::array<LocalIndex, 4>;
 
-// The triangles and edges of a mesh that stay: those on the geometry.
+// The triangles and edges of a mesh that stay: those on the geometry, and lines inside.
 class Geometry {
  public:
   explicit Geometry(const mesh::CoarseMesh& mesh);

@@ -63,12 +63,21 @@ inline constexpr Key kGeometryKeys[] = {
      .is_optional = true},
     {.name = "geometry.loose_faces",
      .rule =
-         word_rule([](Case& c) -> model::LooseFaces& { return c.geometry.assembly.loose_faces; }),
+         word_rule([](Case& c) -> model::LooseParts& { return c.geometry.assembly.loose_faces; }),
      .meaning =
          "What becomes of faces that a .step, .iges or .brep has beside its solids. \"embed\": "
          "where they lie inside of a solid, the mesh has them as a patch inside; the rest is left "
          "out. \"drop\": all are left out.",
      .reason = "who draws a face into a solid wants it in the mesh, as a fault or a sheet"},
+    {.name = "geometry.loose_curves",
+     .rule =
+         word_rule([](Case& c) -> model::LooseParts& { return c.geometry.assembly.loose_curves; }),
+     .meaning =
+         "What becomes of curves that a .step, .iges or .brep has beside its solids and faces. "
+         "\"embed\": where they lie inside of a solid, the mesh has them as edges; the rest is "
+         "left "
+         "out. \"drop\": all are left out.",
+     .reason = "files have many curves that were only drawn to make solids from"},
     {.name = "geometry.repair",
      .rule = word_rule([](Case& c) -> model::StlRepair& { return c.geometry.stl.repair; }),
      .meaning =

@@ -246,8 +246,9 @@ void check_assembly(const Case& loaded, const std::string& where)
   if (kind == ".geo") of_others.embedded = geometry.assembly.embedded;
   if (geometry.assembly == of_others) return;
   fail(where,
-       fmt::format("geometry.overlap, geometry.gap and geometry.loose_faces are for .step, "
-                   ".iges and .brep, and [[embed]] for these and .geo; leave them out for {}",
+       fmt::format("geometry.overlap, geometry.gap, geometry.loose_faces and "
+                   "geometry.loose_curves are for .step, .iges and .brep, and [[embed]] for these "
+                   "and .geo; leave them out for {}",
                    kind));
 }
 
@@ -336,6 +337,17 @@ void check_layers(const Case& loaded, const std::string& where)
   fail(where, fmt::format("[[layer]] excludes {}; leave out one of them", other));
 }
 
+// Lines would have to go on through the layers.
+void check_lines(const Case& loaded, const std::string& where)
+{
+  const auto& embedded = loaded.geometry.assembly.embedded;
+  const auto line = std::ranges::find_if(embedded, &model::EmbeddedShape::is_line);
+  if (line == embedded.end() || loaded.layers.empty()) return;
+  fail(where,
+       fmt::format("[[embed]] \"{}\" with a polyline excludes [[layer]]; leave out one of them",
+                   line->name));
+}
+
 // What makes the surface of the model without these faces.
 void check_embedded(const Case& loaded, const std::string& where)
 {
@@ -422,6 +434,7 @@ Case parse_case(std::string_view text, const std::filesystem::path& file,
   complete_layers(loaded, name);
   check_layers(loaded, name);
   check_embedded(loaded, name);
+  check_lines(loaded, name);
   check_periodic(loaded, name);
   resolve_paths(file, loaded);
   return loaded;

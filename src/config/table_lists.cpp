@@ -328,10 +328,9 @@ constexpr TableList kTableLists[] = {
      .unique_key = "embed.name",
      .alternatives = kEmbedShapes,
      .meaning =
-         "A plane face that is put into the solids of a .step, .iges, .brep or .geo, as a fault "
-         "or a sheet: the mesh conforms to it, and it is a patch. It may end inside of a solid, "
-         "and stick "
-         "out of it; what sticks out is left out.",
+         "A plane face or a line that is put into the solids of a .step, .iges, .brep or .geo, as "
+         "a fault or a well: the mesh conforms to it. A face is a patch, a line a curve. It may "
+         "end inside of a solid, and stick out of it; what sticks out is left out.",
      .reason = "the model has the faces that it has",
      .size = [](const Case& c) { return c.geometry.assembly.embedded.size(); },
      .resize = [](Case& c, std::size_t size) { c.geometry.assembly.embedded.resize(size); },

@@ -12,7 +12,7 @@
 /// sides are images.
 namespace tessera::config {
 
-// The shape of the last embedded face, which becomes one of that kind if it is none.
+// The last embedded shape, which becomes one of that kind if it is none.
 template <class Kind>
 Kind& embedded_as(Case& c)
 {
@@ -25,7 +25,7 @@ inline constexpr Key kEmbedKeys[] = {
     {.name = "embed.name",
      .rule =
          TextRule{[](Case& c) -> std::string& { return c.geometry.assembly.embedded.back().name; }},
-     .meaning = "Name of its patch.",
+     .meaning = "Name of its patch, or of its curve.",
      .reason = "other tables and solvers know it by that",
      .example = "\"fault\""},
     {.name = "embed.polygon",
@@ -55,9 +55,18 @@ inline constexpr Key kEmbedKeys[] = {
      .meaning = "A plane piece with a round rim: its radius.",
      .reason = "a face has one shape",
      .example = "0.5"},
+    {.name = "embed.polyline",
+     .rule = PointListRule{[](Case& c) -> std::vector<Vec3>& {
+                             return embedded_as<model::Polyline>(c).points;
+                           },
+                           kHuge},
+     .unit = "output length unit",
+     .meaning = "A line, as a well: its points in turn, two or more.",
+     .reason = "an entry has one shape",
+     .example = "[[0.2, 0.5, 1.0], [0.2, 0.5, 0.4], [0.6, 0.5, 0.2]]"},
 };
 
-inline constexpr std::string_view kEmbedShapes[] = {"polygon", "disk"};
+inline constexpr std::string_view kEmbedShapes[] = {"polygon", "disk", "polyline"};
 
 inline constexpr Key kContactKeys[] = {
     {.name = "geometry.contact.body",

@@ -78,6 +78,13 @@ void add_triangles(const LoadedPiece& loaded, const PieceLinks& links, const Tag
   piece.is_inner_triangle = links.is_inner_triangle;
 }
 
+void add_lines(const LoadedPiece& loaded, const Tags& tags, const std::vector<LocalIndex>& rows,
+               Piece& piece)
+{
+  for (const LocalIndex point : loaded.line_points) piece.line_points.push_back(rows[at(point)]);
+  for (const std::int32_t value : loaded.line) piece.line.push_back(tags.tag_of_line.at(value));
+}
+
 void add_patch_points(const std::vector<PatchPoint>& patch_points,
                       const std::vector<LocalIndex>& rows, Piece& piece)
 {
@@ -100,6 +107,7 @@ Piece build_piece(LoadedPiece loaded, LocalIndex number, const PieceLinks& links
   add_points(loaded, links, rows, mesh.outline, piece);
   add_triangles(loaded, links, mesh.tags, rows, piece);
   move_tets(loaded, mesh.tags, rows, piece);
+  add_lines(loaded, mesh.tags, rows, piece);
   add_patch_points(links.patch_points, rows, piece);
   piece.seams = links.seams;
   for (const auto& [a, b] : links.shared_edges)

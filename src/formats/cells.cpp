@@ -59,6 +59,7 @@ ElementList PieceCells::operator[](Shape shape) const
     const std::size_t width = tags.empty() ? num_corners(shape) : points.size() / tags.size();
     return ElementList{width, points, tags};
   };
+  if (shape == Shape::line) return list(piece_.line_points, piece_.line);
   if (has_prisms_) return list(points_[shape], tags_[shape]);
   if (shape == Shape::tet) return list(piece_.tet_points, piece_.tet_material);
   if (shape == Shape::triangle) return list(piece_.triangle_points, piece_.triangle_patch);

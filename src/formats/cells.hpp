@@ -15,7 +15,7 @@ namespace tessera::formats {
 struct ElementList {
   std::size_t width = 0;                 ///< Points of an element.
   std::span<const LocalIndex> points{};  ///< Shape (num_elements, width): rows; see PieceCells.
-  std::span<const std::int32_t> tags{};  ///< Shape (num_elements): materials or patches.
+  std::span<const std::int32_t> tags{};  ///< Shape (num_elements): materials, patches or lines.
 
   [[nodiscard]] std::size_t size() const { return tags.size(); }
   [[nodiscard]] std::span<const LocalIndex> of(std::size_t element) const
@@ -29,7 +29,7 @@ struct ElementList {
                                                      GlobalIndex first = 0);
 
 /// @brief The number that VTK has for a shape, of first order.
-inline constexpr ByShape<std::uint8_t> kVtkTypes{{10, 14, 13, 5, 9}};
+inline constexpr ByShape<std::uint8_t> kVtkTypes{{10, 14, 13, 5, 9, 3}};
 
 /// @brief Appends the points of an element in VTK's order: the first triangle of its prisms is seen
 /// from outside. Local.
@@ -57,7 +57,8 @@ struct CellSide {
   std::size_t side = 0;
 };
 
-/// @brief Cells and faces of a piece, as they are if tets of one prism are one cell. Local.
+/// @brief Cells, faces and edges on lines of a piece, as they are if tets of one prism are one
+/// cell. Local.
 ///
 /// Corners of a prism: a triangle, seen from the other one, and the corners above these. Of a
 /// pyramid: its base, seen from its top, and the top. Of a face: seen from outside of its cell.

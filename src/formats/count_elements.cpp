@@ -29,8 +29,9 @@ ByShape<std::vector<TagCount>> counted_elements(const LoadedPiece& piece)
   }
   for (const JoinedSide& side : joined_sides(tets, piece.triangle_side))
     values[side.shape()].push_back(piece.patch[at(side.row)]);
+  values[Shape::line] = piece.line;
   ByShape<std::vector<TagCount>> counts;
-  for (const Shape shape : kShapes) counts[shape] = counted(values[shape]);
+  for (const Shape shape : kAllShapes) counts[shape] = counted(values[shape]);
   return counts;
 }
 

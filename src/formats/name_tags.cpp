@@ -75,14 +75,18 @@ Tags name_tags(const FileNames& names, Outline& outline)
 {
   Tagger materials(names.materials, 1, "material");
   Tagger patches(names.patches, 0, "patch");
+  Tagger lines(names.lines, 0, "line");
   for (const PieceCounts& piece : outline.pieces) {
     for (const Shape shape : kShapes)
       (is_cell(shape) ? materials : patches).add(piece.elements[shape]);
+    lines.add(piece.elements[Shape::line]);
   }
   Tags tags;
   materials.set_tags(false, tags.tag_of_material, outline.material_names);
   patches.set_tags(true, tags.tag_of_patch, outline.patch_names);
+  lines.set_tags(true, tags.tag_of_line, outline.line_names);
   for (PieceCounts& piece : outline.pieces) {
+    piece.elements[Shape::line] = tagged(piece.elements[Shape::line], tags.tag_of_line);
     for (const Shape shape : kShapes) {
       piece.elements[shape] =
           tagged(piece.elements[shape], is_cell(shape) ? tags.tag_of_material : tags.tag_of_patch);

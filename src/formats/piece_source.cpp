@@ -313,6 +313,33 @@ void add_triangles(const mesh::MeshArrays& boundary, const std::vector<VertexKey
                                                   : std::vector<std::int32_t>(triangles.size(), 0);
 }
 
+// Edges that two points of the piece have, which need be no edge of a tet.
+void add_lines(const fs::path& file, VertexIdentity identity, LoadedPiece& piece)
+{
+  const mesh::MeshArrays edges = io::read_vtu(file, io::CellOrder::edges);
+  const std::vector<LocalIndex> row =
+      rows_of(keys_of_points(edges, identity, file), piece.point_keys, file);
+  for (const LocalIndex point : edges.cell_points) piece.line_points.push_back(row[at(point)]);
+  const auto line = edges.cell_ints.find("line");
+  piece.line = line != edges.cell_ints.end()
+                   ? line->second
+                   : std::vector<std::int32_t>(at(static_cast<LocalIndex>(edges.num_cells())), 0);
+}
+
+std::vector<std::string> names_of_lines(const std::vector<fs::path>& files,
+                                        const comm::Communicator& comm)
+{
+  return on_root(comm, [&] {
+    for (const fs::path& file : files) {
+      if (file.empty()) continue;
+      const auto texts = io::read_vtu(file, io::CellOrder::edges).field_texts;
+      const auto names = texts.find("line_names");
+      return names == texts.end() ? std::vector<std::string>{} : names->second;
+    }
+    return std::vector<std::string>{};
+  });
+}
+
 // What the first piece tells of all.
 struct FirstPiece {
   bool has_ids = true;
@@ -354,7 +381,8 @@ PieceSource::PieceSource(const fs::path& index, const comm::Communicator& comm,
                          io::LayerCells layers)
     : num_ranks_(comm.size()), layers_(layers), tets_(subdomain::pieces_of(index, comm))
 {
-  find_boundary(index, comm);
+  boundary_ = files_beside(index, "boundary.pvtu", comm);
+  lines_ = files_beside(index, "lines.pvtu", comm);
   const FirstPiece first = on_root(comm, [&] {
     FirstPiece found;
     if (tets_.empty()) return found;
@@ -365,15 +393,17 @@ PieceSource::PieceSource(const fs::path& index, const comm::Communicator& comm,
   });
   identity_ = first.has_ids ? VertexIdentity::ids : VertexIdentity::positions;
   names_ = first.names;
+  if (lines_) names_.lines = names_of_lines(*lines_, comm);
 }
 
-void PieceSource::find_boundary(const fs::path& index, const comm::Communicator& comm)
+PieceSource::OptionalFiles PieceSource::files_beside(const fs::path& index, const std::string& name,
+                                                     const comm::Communicator& comm) const
 {
-  const auto files = subdomain::boundary_pieces_of(index, comm);
-  if (!files) return;
+  const auto files = subdomain::pieces_beside(index, name, comm);
+  if (!files) return std::nullopt;
   std::map<fs::path, LocalIndex> piece_of;
   for (LocalIndex p = 0; p < num_pieces(); ++p) piece_of[tets_[at(p)].filename()] = p;
-  boundary_.emplace(tets_.size());
+  std::vector<fs::path> of_piece(tets_.size());
   for (const fs::path& file : *files) {
     const auto piece = piece_of.find(file.filename());
     if (piece == piece_of.end()) {
@@ -381,8 +411,9 @@ void PieceSource::find_boundary(const fs::path& index, const comm::Communicator&
                                                      file.string(), index.string(),
                                                      file.filename().string()));
     }
-    (*boundary_)[at(piece->second)] = file;
+    of_piece[at(piece->second)] = file;
   }
+  return of_piece;
 }
 
 LocalIndex PieceSource::first_of(Rank rank) const
@@ -408,6 +439,7 @@ LoadedPiece PieceSource::load(LocalIndex number) const
   if (!has_prisms) std::iota(piece.tet_cell.begin(), piece.tet_cell.end(), 0);
   require_positive(piece, file);
   require_cells(piece, file);
+  if (lines_ && !(*lines_)[at(number)].empty()) add_lines((*lines_)[at(number)], identity_, piece);
   if (!boundary_ || (*boundary_)[at(number)].empty()) return piece;
   const fs::path& boundary_file = (*boundary_)[at(number)];
   mesh::MeshArrays boundary = read_cells(boundary_file, 3);

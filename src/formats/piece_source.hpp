@@ -27,6 +27,8 @@ struct LoadedPiece {
       tet_cell{};  ///< Shape (num_tets): as Piece::tet_cell; of second order a cell each.
   std::vector<LocalIndex> triangle_side{};  ///< Shape (num_triangles): 4 * tet + opposite corner.
   std::vector<std::int32_t> patch{};        ///< Shape (num_triangles), as in the file.
+  std::vector<LocalIndex> line_points{};    ///< Shape (num_line_edges, 2); 3 of second order.
+  std::vector<std::int32_t> line{};         ///< Shape (num_line_edges), as in the file.
 
   [[nodiscard]] LocalIndex num_points() const { return static_cast<LocalIndex>(point_keys.size()); }
   [[nodiscard]] LocalIndex num_tets() const { return static_cast<LocalIndex>(material.size()); }
@@ -48,6 +50,7 @@ struct FileNames {
   std::vector<std::string> patches{};    ///< Of "patch" 0, 1, …
   std::string length_unit{};
   std::vector<std::string> periodic{};  ///< As mesh::to_texts() has them.
+  std::vector<std::string> lines{};     ///< Of "line" 0, 1, …
 };
 
 /// @brief The files of a mesh, and which rank reads which.
@@ -77,12 +80,18 @@ class PieceSource {
   }
 
  private:
-  void find_boundary(const std::filesystem::path& index, const comm::Communicator& comm);
+  using OptionalFiles = std::optional<std::vector<std::filesystem::path>>;
+
+  // By piece, of an index beside that of the mesh.
+  [[nodiscard]] OptionalFiles files_beside(const std::filesystem::path& index,
+                                           const std::string& name,
+                                           const comm::Communicator& comm) const;
 
   int num_ranks_;
   io::LayerCells layers_;
   std::vector<std::filesystem::path> tets_;
-  std::optional<std::vector<std::filesystem::path>> boundary_{};  ///< Empty path: none.
+  OptionalFiles boundary_{};  ///< Empty path: none.
+  OptionalFiles lines_{};
   VertexIdentity identity_ = VertexIdentity::ids;
   FileNames names_{};
 };

@@ -16,7 +16,7 @@ TagGroups TagGroups::of_elements(const Outline& outline, std::span<const Shape> 
     std::vector<TagCount>& counts = counts_of_pieces.emplace_back();
     for (const auto& [tag, count] : sums) counts.push_back({tag, count});
   }
-  return {is_cell(shapes.front()) ? outline.material_names : outline.patch_names, counts_of_pieces};
+  return {outline.names_of(shapes.front()), counts_of_pieces};
 }
 
 TagGroups TagGroups::of_points(const Outline& outline)

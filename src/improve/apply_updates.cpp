@@ -164,6 +164,9 @@ class Updater {
       piece.boundary_vertices.push_back(new_number_[at(v)]);
     }
     piece.boundary_patch = piece_.boundary_patch;
+    for (const LocalIndex v : piece_.line_vertices)
+      piece.line_vertices.push_back(new_number_[at(v)]);
+    piece.line = piece_.line;
     piece.columns = piece_.columns;
     piece.boundary_tet =
         mesh::match_surface(piece.boundary_vertices, piece.num_skin_vertices(), piece.tet_vertices)

@@ -22,11 +22,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Files and folders that a run makes; nothing else is ever removed.
-constexpr std::array kRunFiles{"mesh.pvtu",   "boundary.pvtu", "case.toml",  "report.json",
-                               "report.html", "mesh.xdmf",     "tets.xdmf",  "boundary.xdmf",
-                               "mesh.h5",     "mesh.inp",      "mesh.mesh",  "mesh.exo",
-                               "mesh.msh",    "mesh_v2.msh",   "mesh.names", "cells.pvtu"};
-constexpr std::array kPieceFolders{"mesh", "boundary", "pieces", "cells"};
+constexpr std::array kRunFiles{
+    "mesh.pvtu", "boundary.pvtu", "lines.pvtu",    "case.toml",  "report.json", "report.html",
+    "mesh.xdmf", "tets.xdmf",     "boundary.xdmf", "mesh.h5",    "mesh.inp",    "mesh.mesh",
+    "mesh.exo",  "mesh.msh",      "mesh_v2.msh",   "mesh.names", "cells.pvtu"};
+constexpr std::array kPieceFolders{"mesh", "boundary", "lines", "pieces", "cells"};
 constexpr std::array kOwnFolders{"log", "failure", "dry_run"};
 
 /// What a dry run makes: no reason to refuse the run that it predicts. The prediction outlives an

@@ -116,6 +116,11 @@ void validate_faces(const CoarseMesh& mesh)
   require(faces_of_tets == times_a_face.size(), "a face is no triangle of any tet");
 }
 
+std::string line_name(const NamedCurve& curve)
+{
+  return curve.name.empty() ? "curve_" + curve.number : curve.name;
+}
+
 }  // namespace
 
 std::string default_patch_name(LocalIndex patch) { return fmt::format("patch_{}", patch + 1); }
@@ -133,6 +138,28 @@ std::vector<std::string> inside_patch_names(const CoarseMesh& mesh)
   }
   sort_unique(names);
   return names;
+}
+
+std::vector<std::string> line_names(const CoarseMesh& mesh)
+{
+  std::vector<std::string> names;
+  for (const NamedCurve& curve : mesh.curves) {
+    if (curve.is_line) names.push_back(line_name(curve));
+  }
+  sort_unique(names);
+  return names;
+}
+
+std::map<LocalIndex, LocalIndex> lines_by_curve(const CoarseMesh& mesh)
+{
+  const std::vector<std::string> names = line_names(mesh);
+  std::map<LocalIndex, LocalIndex> lines;
+  for (const NamedCurve& curve : mesh.curves) {
+    if (!curve.is_line) continue;
+    const auto row = std::ranges::lower_bound(names, line_name(curve)) - names.begin();
+    lines.emplace(curve.curve, static_cast<LocalIndex>(row));
+  }
+  return lines;
 }
 
 std::vector<std::string> body_names(const CoarseMesh& mesh)

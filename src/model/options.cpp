@@ -76,6 +76,36 @@ std::string defect(const Disk& of)
   return of.normal == Vec3{} ? "disk.normal must not be zero" : "";
 }
 
+std::string defect(const Polyline& of)
+{
+  if (of.points.size() < 2) return "polyline needs two points or more";
+  for (std::size_t i = 1; i < of.points.size(); ++i) {
+    if (of.points[i] != of.points[i - 1]) continue;
+    return fmt::format("polyline has the point [{:g}] twice in turn",
+                       fmt::join(of.points[i], ", "));
+  }
+  return {};
+}
+
+Polygon scaled_by(double factor, Polygon polygon)
+{
+  for (Vec3& corner : polygon.corners) corner = factor * corner;
+  return polygon;
+}
+
+Disk scaled_by(double factor, Disk disk)
+{
+  disk.centre = factor * disk.centre;
+  disk.radius *= factor;
+  return disk;
+}
+
+Polyline scaled_by(double factor, Polyline line)
+{
+  for (Vec3& point : line.points) point = factor * point;
+  return line;
+}
+
 }  // namespace
 
 std::string lower_case_extension(const std::filesystem::path& file)
@@ -101,23 +131,17 @@ Vec3 Polygon::normal() const
   return sum;
 }
 
-std::string defect_of(const EmbeddedFace& face)
+std::string defect_of(const EmbeddedShape& embedded)
 {
-  return std::visit([](const auto& shape) { return defect(shape); }, face.shape);
+  return std::visit([](const auto& shape) { return defect(shape); }, embedded.shape);
 }
 
 AssemblyOptions AssemblyOptions::scaled(double factor) const
 {
   AssemblyOptions other = *this;
   if (gap >= 0.0) other.gap *= factor;
-  for (EmbeddedFace& face : other.embedded) {
-    if (auto* const polygon = std::get_if<Polygon>(&face.shape)) {
-      for (Vec3& corner : polygon->corners) corner = factor * corner;
-    } else {
-      auto& disk = std::get<Disk>(face.shape);
-      disk.centre = factor * disk.centre;
-      disk.radius *= factor;
-    }
+  for (auto& [name, shape] : other.embedded) {
+    std::visit([&](auto& one) { one = scaled_by(factor, one); }, shape);
   }
   return other;
 }

@@ -15,6 +15,7 @@ IdLayout::IdLayout(GlobalIndex num_skeleton_vertices, const std::vector<PieceCou
     first_vertex_.push_back(first_vertex_.back() + piece.*num_vertices);
     first_tet_.push_back(first_tet_.back() + piece.tets);
     first_boundary_triangle_.push_back(first_boundary_triangle_.back() + piece.boundary_triangles);
+    first_line_edge_.push_back(first_line_edge_.back() + piece.line_edges);
   }
 }
 

@@ -6,6 +6,8 @@
 #include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/subdomain/layer_tables.hpp"
 
+#include "subdomain/line_edges.hpp"
+
 namespace tessera::subdomain {
 
 std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& cut,
@@ -28,14 +30,21 @@ std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& 
     piece.tets += layers->counts(s).tets;
     piece.boundary_triangles += layers->counts(s).side_triangles;
   }
+  for (const LineEdge& line : edges_on_lines(cut.skeleton, cut.coarse)) {
+    number::PieceCounts& owner = counts[at(cut.skeleton.edge_owner[at(line.edge)])];
+    owner.line_edges += of_skeleton.edge_intervals(line.edge);
+  }
   return counts;
 }
 
 number::PieceCounts counts_of(const PieceSummary& piece)
 {
+  GlobalIndex line_edges = 0;
+  for (const LineLength& line : piece.lines) line_edges += line.num_edges;
   return {.interior_vertices = piece.num_interior_vertices,
           .tets = piece.num_all_tets(),
           .boundary_triangles = piece.num_all_boundary(),
+          .line_edges = line_edges,
           .owned_vertices = piece.num_owned_vertices};
 }
 

@@ -68,6 +68,7 @@ mesh::Piece PieceCurver::curved(const mesh::Skin& skin, const mesh::RefinedLatti
   place_nodes(points, numbering, curved);
   add_tets(numbering, curved);
   add_boundary(curved);
+  add_lines(numbering, curved);
   return curved;
 }
 
@@ -115,6 +116,16 @@ void PieceCurver::add_boundary(mesh::Piece& curved) const
       const std::size_t edge = row_of_edge(corners[i], corners[(i + 1) % 3]);
       curved.boundary_edge_nodes.push_back(curved.tet_edge_nodes[6 * tet + edge]);
     }
+  }
+}
+
+void PieceCurver::add_lines(const mesh::LatticeNumbering& numbering, mesh::Piece& curved) const
+{
+  curved.line = piece_.line;
+  for (const LocalIndex edge : surface_.edges_on_lines()) {
+    curved.line_vertices.push_back(numbering.edge_point(edge, 0));
+    curved.line_vertices.push_back(numbering.edge_point(edge, kIntervals));
+    curved.line_nodes.push_back(numbering.edge_point(edge, 1));
   }
 }
 

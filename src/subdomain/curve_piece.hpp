@@ -28,6 +28,7 @@ class PieceCurver {
                    mesh::Piece& curved) const;
   void add_tets(const mesh::LatticeNumbering& numbering, mesh::Piece& curved) const;
   void add_boundary(mesh::Piece& curved) const;
+  void add_lines(const mesh::LatticeNumbering& numbering, mesh::Piece& curved) const;
   [[nodiscard]] FillResult measure(const mesh::Piece& curved, const mesh::Skin& skin,
                                    const PieceSummary& before) const;
 

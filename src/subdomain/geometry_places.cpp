@@ -176,7 +176,8 @@ GeometryFinder::GeometryFinder(const mesh::Skeleton& skeleton, const mesh::Coars
       coarse_(coarse),
       levels_(mesh::lattice_levels(skeleton, levels)),
       hosts_(skeleton),
-      triangles_of_host_(triangles_by_host(skeleton, hosts_))
+      triangles_of_host_(triangles_by_host(skeleton, hosts_)),
+      lines_(edges_on_lines(skeleton, coarse))
 {
 }
 
@@ -254,6 +255,28 @@ void GeometryFinder::place_lattice(LocalIndex row, const mesh::Complex& complex,
       });
 }
 
+// Vertices and edges on lines inside of solids stay as those on the geometry do.
+void GeometryFinder::place_lines(const mesh::Complex& complex,
+                                 const std::vector<mesh::HostPoint>& names,
+                                 GeometryPlaces& places) const
+{
+  places.edge_on_line.assign(at(complex.num_edges()), 0);
+  for (const LineEdge& line : lines_) {
+    LocalIndex before = kNoIndex;
+    for (const mesh::HostPoint& name :
+         points_along(skeleton_, hosts_, line.edge, levels_.edge_intervals(line.edge))) {
+      const LocalIndex vertex = vertex_named(names, name);
+      if (vertex != kNoIndex) places.vertex_on_geometry[at(vertex)] = 1;
+      if (vertex != kNoIndex && before != kNoIndex) {
+        const auto [low, high] = std::minmax(before, vertex);
+        const LocalIndex edge = mesh::find_edge(complex, {low, high});
+        if (edge != kNoIndex) places.edge_on_line[at(edge)] = 1;
+      }
+      before = vertex;
+    }
+  }
+}
+
 GeometryPlaces GeometryFinder::find(const mesh::Complex& complex,
                                     const std::vector<mesh::HostPoint>& names) const
 {
@@ -269,6 +292,7 @@ GeometryPlaces GeometryFinder::find(const mesh::Complex& complex,
     place_lattice(row, complex, names, places);
   }
   places.num_known = static_cast<LocalIndex>(places.triangles.size());
+  place_lines(complex, names, places);
   return places;
 }
 

@@ -16,6 +16,8 @@
 #include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skeleton.hpp"
 
+#include "subdomain/line_edges.hpp"
+
 namespace tessera::subdomain {
 
 // Where an edge or triangle of a piece lies in the lattice of a skeleton triangle on the geometry;
@@ -38,6 +40,7 @@ struct GeometryPlaces {
   std::vector<char> vertex_on_geometry{};     // Shape (num named vertices).
   std::vector<GeometryPlace> edges{};         // Shape (num edges of the complex).
   std::vector<GeometryPlace> of_triangles{};  // Shape (num triangles of the complex).
+  std::vector<char> edge_on_line{};           // Shape (num edges of the complex): inside of solids.
 };
 
 // Finds it by the names of the vertices: tets may be exchanged between pieces, but edges and
@@ -60,6 +63,8 @@ class GeometryFinder {
       const std::vector<mesh::HostPoint>& names) const;
   [[nodiscard]] mesh::HostPoint name_of(LocalIndex triangle, LocalIndex n,
                                         const mesh::lattice::TrianglePoint& p) const;
+  void place_lines(const mesh::Complex& complex, const std::vector<mesh::HostPoint>& names,
+                   GeometryPlaces& places) const;
   void place_lattice(LocalIndex row, const mesh::Complex& complex,
                      const std::vector<mesh::HostPoint>& names, GeometryPlaces& places) const;
 
@@ -68,6 +73,7 @@ class GeometryFinder {
   mesh::LatticeLevels levels_;  // Of the skeleton.
   mesh::HostLayout hosts_;
   IndexLists triangles_of_host_;  // On the geometry only; by host of the skeleton.
+  std::vector<LineEdge> lines_;
 };
 
 // Points that are known before a complex is refined. All borrowed.

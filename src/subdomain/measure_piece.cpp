@@ -140,6 +140,23 @@ std::vector<PatchArea> patch_areas(const mesh::Piece& piece)
   return {values.begin(), values.end()};
 }
 
+std::vector<LineLength> line_lengths(const mesh::Piece& piece)
+{
+  const auto position = [&](LocalIndex v) { return point_at(std::span(piece.vertex_xyz), v); };
+  std::map<LocalIndex, LineLength> lengths;
+  for (std::size_t row = 0; row < piece.line.size(); ++row) {
+    LineLength& line = lengths[piece.line[row]];
+    line.line = piece.line[row];
+    ++line.num_edges;
+    const Vec3 a = position(piece.line_vertices[2 * row]);
+    const Vec3 b = position(piece.line_vertices[2 * row + 1]);
+    const Vec3 middle = piece.line_nodes.empty() ? midpoint(a, b) : position(piece.line_nodes[row]);
+    line.length += norm(middle - a) + norm(b - middle);
+  }
+  const auto values = std::views::values(lengths);
+  return {values.begin(), values.end()};
+}
+
 FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& skin,
                                 const mesh::Piece& piece)
 {
@@ -151,6 +168,7 @@ FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& sk
   summary.num_interior_vertices = piece.num_interior_vertices();
   summary.num_boundary = piece.num_boundary();
   summary.patches = patch_areas(piece);
+  summary.lines = line_lengths(piece);
   summary.boundary_area = outside_area(skin, cut.skeleton);
   summary.outside = verify::outside_hash(skin, cut.skeleton);
   summary.euler_characteristic =
@@ -187,6 +205,7 @@ FillResult measure_split_piece(const mesh::Piece& piece, const mesh::Skin& skin,
   summary.num_interior_vertices = piece.num_interior_vertices();
   summary.num_boundary = piece.num_boundary();
   summary.patches = patch_areas(piece);
+  summary.lines = line_lengths(piece);
   summary.boundary_area = outside_area(skin, surface);
   summary.outside = verify::outside_hash(skin, surface);
   summary.surface = verify::surface_hash(skin);

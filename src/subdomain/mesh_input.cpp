@@ -53,17 +53,18 @@ std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& index,
   return {names.begin(), names.end()};
 }
 
-std::optional<std::vector<std::filesystem::path>> boundary_pieces_of(
-    const std::filesystem::path& mesh, const comm::Communicator& comm)
+std::optional<std::vector<std::filesystem::path>> pieces_beside(const std::filesystem::path& mesh,
+                                                                const std::string& name,
+                                                                const comm::Communicator& comm)
 {
-  const std::filesystem::path boundary = mesh.parent_path() / "boundary.pvtu";
+  const std::filesystem::path index = mesh.parent_path() / name;
   bool is_there = false;
   if (comm.rank() == 0 && mesh.filename() == "mesh.pvtu") {
     std::error_code error;  // What cannot be looked at is as good as absent.
-    is_there = std::filesystem::exists(boundary, error);
+    is_there = std::filesystem::exists(index, error);
   }
   if (comm.sum(is_there ? 1 : 0) == 0) return std::nullopt;
-  return pieces_of(boundary, comm);
+  return pieces_of(index, comm);
 }
 
 migrate::MeshPieces read_pieces(const std::filesystem::path& index, const comm::Communicator& comm,
@@ -71,7 +72,7 @@ migrate::MeshPieces read_pieces(const std::filesystem::path& index, const comm::
 {
   migrate::MeshPieces pieces;
   const auto tet_files = pieces_of(index, comm);
-  const auto boundary_files = boundary_pieces_of(index, comm);
+  const auto boundary_files = pieces_beside(index, "boundary.pvtu", comm);
   comm::all_or_none(comm, [&] {
     pieces.tets = read_own(tet_files, 4, comm, before_each);
     if (boundary_files) pieces.boundary = read_own(*boundary_files, 3, comm, before_each);

@@ -120,15 +120,12 @@ mesh::MeshArrays tet_arrays(const mesh::Piece& piece, mesh::MeshArrays arrays,
   return arrays;
 }
 
-// The boundary has only the points it uses, in the order of the piece.
-mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArrays& tets,
-                                 const WriteContext& mesh)
+// Puts in cells and only the points that they use, in the order of the piece.
+void add_cells(const std::vector<LocalIndex>& vertices, const mesh::Piece& piece,
+               const mesh::MeshArrays& tets, mesh::MeshArrays& arrays)
 {
-  mesh::MeshArrays arrays = with_names(mesh);
-  arrays.vertices_per_cell = piece.is_of_second_order() ? 6 : 3;
   std::vector<LocalIndex> new_point(at(piece.num_vertices()), kNoIndex);
-  for (const LocalIndex v : piece.boundary_vertices) new_point[at(v)] = 0;
-  for (const LocalIndex v : piece.boundary_edge_nodes) new_point[at(v)] = 0;
+  for (const LocalIndex v : vertices) new_point[at(v)] = 0;
   auto& owner = arrays.point_ints["owner"];
   for (std::size_t v = 0; v < new_point.size(); ++v) {
     if (new_point[v] == kNoIndex) continue;
@@ -138,9 +135,16 @@ mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArray
     arrays.point_ids.push_back(tets.point_ids[v]);
     owner.push_back(tets.point_ints.at("owner")[v]);
   }
-  for (const LocalIndex v : with_nodes(piece.boundary_vertices, 3, piece.boundary_edge_nodes, 3)) {
-    arrays.cell_points.push_back(new_point[at(v)]);
-  }
+  for (const LocalIndex v : vertices) arrays.cell_points.push_back(new_point[at(v)]);
+}
+
+mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArrays& tets,
+                                 const WriteContext& mesh)
+{
+  mesh::MeshArrays arrays = with_names(mesh);
+  arrays.vertices_per_cell = piece.is_of_second_order() ? 6 : 3;
+  add_cells(with_nodes(piece.boundary_vertices, 3, piece.boundary_edge_nodes, 3), piece, tets,
+            arrays);
   arrays.cell_ids.resize(at(piece.num_boundary()));
   std::iota(arrays.cell_ids.begin(), arrays.cell_ids.end(),
             mesh.ids.first_boundary_triangle(piece.subdomain));
@@ -148,6 +152,23 @@ mesh::MeshArrays boundary_arrays(const mesh::Piece& piece, const mesh::MeshArray
   arrays.cell_ints["subdomain"].assign(at(piece.num_boundary()), piece.subdomain);
   auto& tet = arrays.cell_longs["tet"];
   for (const LocalIndex t : piece.boundary_tet) tet.push_back(tets.cell_ids[at(t)]);
+  return arrays;
+}
+
+mesh::MeshArrays line_arrays(const mesh::Piece& piece, const mesh::MeshArrays& tets,
+                             const WriteContext& mesh)
+{
+  mesh::MeshArrays arrays{.vertices_per_cell = piece.is_of_second_order() ? 3 : 2,
+                          .are_edges = true};
+  std::vector<std::string> names = mesh::line_names(mesh.coarse);
+  if (names.empty()) return arrays;
+  arrays.field_texts["line_names"] = std::move(names);
+  add_cells(with_nodes(piece.line_vertices, 2, piece.line_nodes, 1), piece, tets, arrays);
+  arrays.cell_ids.resize(at(piece.num_line_edges()));
+  std::iota(arrays.cell_ids.begin(), arrays.cell_ids.end(),
+            mesh.ids.first_line_edge(piece.subdomain));
+  arrays.cell_ints["line"] = piece.line;
+  arrays.cell_ints["subdomain"].assign(at(piece.num_line_edges()), piece.subdomain);
   return arrays;
 }
 
@@ -167,6 +188,7 @@ PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh, bool with_
   PieceArrays arrays;
   arrays.tets = tet_arrays(piece, std::move(points), mesh, with_quality);
   arrays.boundary = boundary_arrays(piece, arrays.tets, mesh);
+  arrays.lines = line_arrays(piece, arrays.tets, mesh);
   arrays.tets.point_xyz = std::move(piece.vertex_xyz);
   if (piece.is_of_second_order()) arrays.tets.vertices_per_cell = 10;
   arrays.tets.cell_points = with_nodes(std::move(piece.tet_vertices), 4, piece.tet_edge_nodes, 6);

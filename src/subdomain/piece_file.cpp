@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/io/files.hpp"
 #include "tessera/io/vtu.hpp"
 
 namespace tessera::subdomain {
@@ -82,11 +83,15 @@ void write_vtu_files(const PieceArrays& arrays, LocalIndex file, io::Compression
                      const std::filesystem::path& folder,
                      std::vector<std::filesystem::path>& written)
 {
-  written.push_back(piece_path("mesh", file));
-  io::write_vtu(arrays.tets, folder / written.back(), compression);
-  if (arrays.boundary.num_cells() == 0) return;
-  written.push_back(piece_path("boundary", file));
-  io::write_vtu(arrays.boundary, folder / written.back(), compression);
+  const auto write = [&](const mesh::MeshArrays& cells, const char* kind) {
+    written.push_back(piece_path(kind, file));
+    io::write_vtu(cells, folder / written.back(), compression);
+  };
+  write(arrays.tets, "mesh");
+  if (arrays.boundary.num_cells() > 0) write(arrays.boundary, "boundary");
+  if (arrays.lines.num_cells() == 0) return;
+  io::make_own_folder(folder / "lines");
+  write(arrays.lines, "lines");
 }
 
 }  // namespace
@@ -134,6 +139,7 @@ Hash128 PieceFile::add(mesh::Piece piece)
   PieceArrays added = piece_arrays(std::move(piece), mesh_, options_.cell_quality);
   const Hash128 digest = digest_of(added.tets);
   const auto num_boundary = added.boundary.point_ids.size();
+  const auto num_on_lines = added.lines.point_ids.size();
   if (arrays_.tets.num_cells() == 0) {
     arrays_ = std::move(added);
     num_skin_of_first_ = num_skin;
@@ -143,9 +149,11 @@ Hash128 PieceFile::add(mesh::Piece piece)
   if (tet_points_.empty()) {  // Most files hold one piece: only now it is known that this does not.
     remember(arrays_.tets, {num_skin_of_first_, first_of_layers}, tet_points_);
     remember(arrays_.boundary, {arrays_.boundary.point_ids.size(), 0}, boundary_points_);
+    remember(arrays_.lines, {arrays_.lines.point_ids.size(), 0}, line_points_);
   }
   append(added.tets, {num_skin, first_of_layers}, tet_points_, arrays_.tets);
   append(added.boundary, {num_boundary, 0}, boundary_points_, arrays_.boundary);
+  append(added.lines, {num_on_lines, 0}, line_points_, arrays_.lines);
   return digest;
 }
 

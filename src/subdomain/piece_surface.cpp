@@ -129,6 +129,7 @@ number::PieceCounts count_split_piece(const mesh::Piece& piece, const number::Su
   return {.interior_vertices = inside.interior_vertices,
           .tets = split.is_curved ? piece.num_tets() : inside.tets,
           .boundary_triangles = GlobalIndex{piece.num_boundary()} * (split.is_curved ? 1 : n * n),
+          .line_edges = GlobalIndex{piece.num_line_edges()} * (split.is_curved ? 1 : n),
           .owned_vertices = inside.interior_vertices + shared.owned.num_points(n)};
 }
 

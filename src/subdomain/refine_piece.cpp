@@ -8,6 +8,7 @@
 
 #include "tessera/fill/check.hpp"
 #include "tessera/fill/subdivide.hpp"
+#include "tessera/mesh/lattice_numbering.hpp"
 #include "tessera/optimize/smooth.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
@@ -63,7 +64,7 @@ class PieceSplitter {
       return refined;
     }
     const mesh::Skin skin = skin_of(points, tets);
-    refined.filled = check_and_measure(skin, std::move(tets), before);
+    refined.filled = check_and_measure(skin, points.levels(), std::move(tets), before);
     PieceSummary& summary = refined.filled.result.summary;
     summary.num_held_back = points.distance.num_held_back;
     summary.model_distance = points.distance.largest;
@@ -147,7 +148,23 @@ class PieceSplitter {
     return skin;
   }
 
-  [[nodiscard]] FilledPiece check_and_measure(const mesh::Skin& skin, fill::FillOutput tets,
+  // The parts of those that the piece had.
+  void add_line_edges(const mesh::LatticeLevels& levels, mesh::Piece& split) const
+  {
+    const mesh::LatticeNumbering numbering(all_.complex.faces, levels);
+    const std::vector<LocalIndex> edges = surface_.edges_on_lines();
+    for (std::size_t row = 0; row < edges.size(); ++row) {
+      for (LocalIndex k = 0; k < n_; ++k) {
+        split.line_vertices.push_back(numbering.edge_point(edges[row], k));
+        split.line_vertices.push_back(numbering.edge_point(edges[row], k + 1));
+        split.line.push_back(piece_.line[row]);
+      }
+    }
+  }
+
+  [[nodiscard]] FilledPiece check_and_measure(const mesh::Skin& skin,
+                                              const mesh::LatticeLevels& levels,
+                                              fill::FillOutput tets,
                                               const PieceSummary& before) const
   {
     const fill::FillFacts facts = fill::check_fill(
@@ -159,6 +176,7 @@ class PieceSplitter {
                                  .skin_index = skin.vertex_index,
                                  .tet_vertices = std::move(tets.tet_vertices)}};
     add_boundary(skin, all_.surface, facts.triangle_tet, filled.piece);
+    add_line_edges(levels, filled.piece);
     const auto on_seam = surface_.surface_flags(at(skin.num_vertices()),
                                                 [&](std::size_t simplex, mesh::HostKind kind) {
                                                   return surface_.is_on_seam(simplex, kind);

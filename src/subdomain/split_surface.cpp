@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "subdomain/split_surface.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -225,7 +226,7 @@ bool SplitSurface::is_on_geometry(std::size_t simplex, mesh::HostKind kind) cons
     case mesh::HostKind::vertex:
       return places_.vertex_on_geometry[simplex] != 0;
     case mesh::HostKind::edge:
-      return places_.edges[simplex].is_on_geometry();
+      return places_.edges[simplex].is_on_geometry() || places_.edge_on_line[simplex] != 0;
     default:
       return places_.of_triangles[simplex].is_on_geometry();
   }
@@ -242,6 +243,21 @@ bool SplitSurface::is_on_seam(std::size_t simplex, mesh::HostKind kind) const
     default:
       return around_.shared.triangle_on_seam[at(faces.triangle_skeleton[simplex])] != 0;
   }
+}
+
+std::vector<LocalIndex> SplitSurface::edges_on_lines() const
+{
+  const auto vertex = [&](LocalIndex v) {
+    const auto found = std::ranges::lower_bound(all_.names, piece_.skin_point(v));
+    return static_cast<LocalIndex>(found - all_.names.begin());
+  };
+  std::vector<LocalIndex> edges;
+  for (std::size_t row = 0; row < piece_.line.size(); ++row) {
+    const LocalIndex a = vertex(piece_.line_vertices[2 * row]);
+    const LocalIndex b = vertex(piece_.line_vertices[2 * row + 1]);
+    edges.push_back(mesh::find_edge(all_.complex.faces, {std::min(a, b), std::max(a, b)}));
+  }
+  return edges;
 }
 
 // All new points on the geometry that these tets have stay midpoints from now on.

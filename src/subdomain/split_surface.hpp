@@ -74,6 +74,9 @@ class SplitSurface {
   [[nodiscard]] bool is_on_geometry(std::size_t simplex, mesh::HostKind kind) const;
   [[nodiscard]] bool is_on_seam(std::size_t simplex, mesh::HostKind kind) const;
 
+  // Edges of the complex that the piece has on lines: those of Piece::line.
+  [[nodiscard]] std::vector<LocalIndex> edges_on_lines() const;
+
   // All new points on the geometry that these tets have stay midpoints from now on.
   [[nodiscard]] std::vector<mesh::PointLimit> limits_at(const std::vector<LocalIndex>& tets) const;
 

@@ -201,7 +201,7 @@ TEST_F(OccEmbed, PiecesOfAFaceKnowItsNumber)
 TEST_F(OccEmbed, LooseFacesMayBeDropped)
 {
   add(part_of_a_cylinder(0.3, 0.2, 2.2));
-  const auto source = read({.loose_faces = model::LooseFaces::drop});
+  const auto source = read({.loose_faces = model::LooseParts::drop});
   EXPECT_TRUE(source.assembly.embedded.empty());
   ASSERT_EQ(source.repairs.size(), 1U);
   EXPECT_NE(source.repairs.front().find("left out: 1"), std::string::npos);

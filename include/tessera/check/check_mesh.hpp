@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "tessera/base/types.hpp"
 #include "tessera/check/report.hpp"
@@ -78,5 +79,13 @@ struct CheckOptions {
 [[nodiscard]] CheckReport check_mesh(const PieceSource& tets, const PieceSource* boundary,
                                      const comm::Communicator& comm,
                                      const CheckOptions& options = {});
+
+/// @brief Adds a defect "line_edge" to the report if an edge on a line inside of solids is no edge
+/// of a tet of its piece. Reads the pieces of tets once more that have such edges.
+/// @note Collective. @throws InputError on all ranks if a piece cannot be read.
+/// @param[in] lines Pieces of edges. @param[in] piece_of_lines Of each, the piece of tets.
+void check_lines(const PieceSource& tets, const PieceSource& lines,
+                 const std::vector<LocalIndex>& piece_of_lines, const comm::Communicator& comm,
+                 CheckReport& report);
 
 }  // namespace tessera::check

@@ -83,7 +83,7 @@ struct PieceCounts {
   GlobalIndex num_tets = 0;
   GlobalIndex num_cells = 0;  ///< Tets, but those of one prism are one cell.
   int points_per_tet = 0;     ///< 4, or 10 of second order; 0 if there are no tets.
-  /// Cells of each material and faces of each patch: ascending; none of zero.
+  /// Cells of each material, faces of each patch, edges of each line: ascending; none of zero.
   ByShape<std::vector<TagCount>> elements{};
   /// Of triangles, also those that are half a face, without those that have a tet on the other side
   /// too.
@@ -129,10 +129,11 @@ struct Outline {
   std::vector<GlobalIndex> first_tet{0};   ///< Shape (num_pieces + 1); of prisms too.
   std::vector<GlobalIndex> first_cell{0};  ///< Shape (num_pieces + 1); in the order of their tets.
   /// Shape (num_pieces + 1) each: so many elements of a shape are in the pieces before.
-  ByShape<std::vector<GlobalIndex>> first_of{{{{0}, {0}, {0}, {0}, {0}}}};
+  ByShape<std::vector<GlobalIndex>> first_of{{{{0}, {0}, {0}, {0}, {0}, {0}}}};
   /// Names of the tags 1, 2, …; none empty, none twice.
   std::vector<std::string> material_names{};
   std::vector<std::string> patch_names{};    ///< As material_names.
+  std::vector<std::string> line_names{};     ///< The same.
   std::string length_unit{};                 ///< Empty if nobody knows it.
   std::vector<PeriodicPatch> periodic{};     ///< Empty unless asked for.
   std::vector<CellFaceCounts> cell_faces{};  ///< Shape (num_pieces); only for formats of polyhedra,
@@ -155,21 +156,30 @@ struct Outline {
     return num_of(Shape::triangle) + num_of(Shape::quad);
   }
   [[nodiscard]] GlobalIndex num_elements() const { return num_cells() + num_faces(); }
+  [[nodiscard]] GlobalIndex num_line_edges() const { return num_of(Shape::line); }
 
   /// @brief Number of the first element of a shape in a piece: elements have theirs from 0 in the
   /// order of shapes, those of one shape by pieces.
   [[nodiscard]] GlobalIndex first_number(Shape shape, LocalIndex piece) const
   {
     GlobalIndex number = first_of[shape][at(piece)];
-    for (const Shape before : kShapes)
+    for (const Shape before : kAllShapes)
       if (before < shape) number += num_of(before);
     return number;
+  }
+
+  /// @brief Names of the tags that elements of a shape have.
+  [[nodiscard]] const std::vector<std::string>& names_of(Shape shape) const
+  {
+    if (shape == Shape::line) return line_names;
+    return is_cell(shape) ? material_names : patch_names;
   }
 
   /// @brief Points of an element: corners, and of second order nodes.
   [[nodiscard]] std::size_t points_per(Shape shape) const
   {
     if (!is_of_second_order()) return num_corners(shape);
+    if (shape == Shape::line) return 3;
     return is_cell(shape) ? points_per_tet() : points_per_triangle();
   }
 
@@ -252,6 +262,11 @@ struct Piece {
   std::vector<std::int32_t> triangle_patch{};  ///< Shape (num_triangles): tags from 1.
   /// Shape (num_triangles): 1 if there is a tet on the other side too, here or in another piece.
   std::vector<std::uint8_t> is_inner_triangle{};
+
+  /// Shape (num_line_edges, 2), or (num_line_edges, 3) of second order, with the node last: rows;
+  /// each edge once in the mesh.
+  std::vector<LocalIndex> line_points{};
+  std::vector<std::int32_t> line{};  ///< Shape (num_line_edges): tags from 1.
 
   /// Ascending by patch, then by row. Of the pieces that have triangles of a patch on a point, the
   /// lowest has it here, which need not own it: so all pieces together have each point of a patch

@@ -65,6 +65,7 @@ enum class CellOrder {
   first,
   up_to_second,
   triangles,  ///< The linear triangles alone, also in a file of tets.
+  edges,      ///< The linear edges; in a file without any, those of second order.
 };
 
 /// @brief Reads a .vtu of any tool, in every encoding that VTK's XML format has. Local.

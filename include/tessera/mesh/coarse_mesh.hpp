@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <span>
 #include <string>
 #include <tuple>
@@ -26,9 +27,13 @@ namespace tessera::mesh {
 struct NamedCurve {
   LocalIndex curve = kNoIndex;  ///< The Model's curve number.
   std::string number{};         ///< As `tessera info` lists it: "7"; of CSG "3-7", its two faces.
-  std::string name{};           ///< The file's; empty: none.
+  std::string name{};           ///< The file's, or that of an [[embed]]; empty: none.
+  bool is_line = false;         ///< Inside of solids, on no face.
 
-  static auto fields(auto& self) { return std::tie(self.curve, self.number, self.name); }
+  static auto fields(auto& self)
+  {
+    return std::tie(self.curve, self.number, self.name, self.is_line);
+  }
 };
 
 /// @brief The small sequential mesh that everything else is derived from; the same on every rank.
@@ -113,6 +118,13 @@ struct CoarseMesh {
 
 /// @brief Names of the patches inside of bodies, each once. Local.
 [[nodiscard]] std::vector<std::string> inside_patch_names(const CoarseMesh& mesh);
+
+/// @brief Names of the lines inside of solids, each once. A line without a name has one of its
+/// curve. Local.
+[[nodiscard]] std::vector<std::string> line_names(const CoarseMesh& mesh);
+
+/// @brief By curve on a line inside of solids: the line, a row of line_names(). Local.
+[[nodiscard]] std::map<LocalIndex, LocalIndex> lines_by_curve(const CoarseMesh& mesh);
 
 /// @brief One name a body. Local.
 [[nodiscard]] std::vector<std::string> body_names(const CoarseMesh& mesh);

@@ -17,9 +17,11 @@ inline constexpr const char* kInsidePatchesName = "inside_patches";
 ///
 /// Plain exchange struct between the file format (io) and its users. Optional arrays are empty when
 /// the file has none. Cells are all of one kind: tets (4 points; 10 of second order, in the order
-/// of VTK_QUADRATIC_TETRA) or triangles (3; 6 as VTK_QUADRATIC_TRIANGLE).
+/// of VTK_QUADRATIC_TETRA), triangles (3; 6 as VTK_QUADRATIC_TRIANGLE) or edges (2; 3 as
+/// VTK_QUADRATIC_EDGE).
 struct MeshArrays {
   int vertices_per_cell = 4;              ///< 4, 10: tets; 3, 6: boundary triangles.
+  bool are_edges = false;                 ///< Then it is 2 or 3.
   std::vector<double> point_xyz{};        ///< Shape (num_points, 3).
   std::vector<LocalIndex> cell_points{};  ///< Shape (num_cells, vertices_per_cell), from 0.
   std::vector<GlobalIndex> point_ids{};   ///< Shape (num_points); GLOBAL_IDS. Optional.

@@ -41,16 +41,21 @@ struct Piece {
                                                 ///< geometry that this piece owns; outward.
   std::vector<LocalIndex> boundary_patch{};     ///< Shape (num_boundary).
   std::vector<LocalIndex> boundary_tet{};       ///< Shape (num_boundary); local tet behind it.
+  std::vector<LocalIndex> line_vertices{};  ///< Shape (num_line_edges, 2): edges on lines inside
+                                            ///< of solids that this piece owns.
+  std::vector<LocalIndex> line{};           ///< Shape (num_line_edges): row of line_names().
   // Of a piece of second order; else empty. Nodes count as vertices.
   std::vector<LocalIndex> tet_edge_nodes{};       ///< Shape (num_tets, 6), kQuadraticTetEdges.
   std::vector<LocalIndex> boundary_edge_nodes{};  ///< Shape (num_boundary, 3): sides 01, 12, 20.
+  std::vector<LocalIndex> line_nodes{};           ///< Shape (num_line_edges).
   Columns columns{};                              ///< Of its skin; empty without layers.
 
   static auto fields(auto& self)
   {
     return std::tie(self.subdomain, self.material, self.vertex_xyz, self.skin_host, self.skin_index,
                     self.tet_vertices, self.boundary_vertices, self.boundary_patch,
-                    self.boundary_tet, self.tet_edge_nodes, self.boundary_edge_nodes, self.columns);
+                    self.boundary_tet, self.line_vertices, self.line, self.tet_edge_nodes,
+                    self.boundary_edge_nodes, self.line_nodes, self.columns);
   }
 
   [[nodiscard]] LocalIndex num_vertices() const { return count(vertex_xyz.size(), 3); }
@@ -66,6 +71,8 @@ struct Piece {
   }
   [[nodiscard]] LocalIndex num_tets() const { return count(tet_vertices.size(), 4); }
   [[nodiscard]] LocalIndex num_boundary() const { return count(boundary_patch.size(), 1); }
+
+  [[nodiscard]] LocalIndex num_line_edges() const { return count(line.size(), 1); }
 
   [[nodiscard]] bool is_of_second_order() const { return !tet_edge_nodes.empty(); }
 

@@ -53,22 +53,32 @@ struct EmbeddedPart {
   }
 };
 
+/// @brief A line that was put into solids.
+struct EmbeddedLine {
+  std::string name{};        ///< Empty: the file has none.
+  LocalIndex num_edges = 0;  ///< Pieces of it in solids.
+  double length = 0.0;       ///< Of these; file length unit.
+
+  static auto fields(auto& self) { return std::tie(self.name, self.num_edges, self.length); }
+};
+
 /// @brief What was found where solids meet, and what was put into them.
 struct Assembly {
   std::vector<CommonPart> overlaps{};
   std::vector<ClosedGap> gaps{};
   std::vector<EmbeddedPart> embedded{};
+  std::vector<EmbeddedLine> lines{};
   double tolerance = 0.0;  ///< By which common faces, their edges and corners may be off; 0: none.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.overlaps, self.gaps, self.embedded, self.tolerance);
+    return std::tie(self.overlaps, self.gaps, self.embedded, self.lines, self.tolerance);
   }
 
-  /// @brief Whether faces lie inside of solids.
-  [[nodiscard]] bool has_inner_faces() const
+  /// @brief Whether faces or lines lie inside of solids.
+  [[nodiscard]] bool has_inner_parts() const
   {
-    return std::ranges::any_of(embedded, &EmbeddedPart::is_inside);
+    return !lines.empty() || std::ranges::any_of(embedded, &EmbeddedPart::is_inside);
   }
 };
 

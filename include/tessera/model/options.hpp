@@ -73,19 +73,19 @@ constexpr auto enum_words(Overlap /*type*/)
   });
 }
 
-/// @brief What becomes of faces that a file has beside its solids.
-enum class LooseFaces : int {
+/// @brief What becomes of faces or curves that a file has beside its solids.
+enum class LooseParts : int {
   embed,  ///< The mesh has them where they lie inside of a solid.
   drop,   ///< They are left out.
 };
-[[nodiscard]] constexpr LooseFaces last_value(LooseFaces /*type*/) { return LooseFaces::drop; }
+[[nodiscard]] constexpr LooseParts last_value(LooseParts /*type*/) { return LooseParts::drop; }
 
 /// @brief Words of it in case files.
-constexpr auto enum_words(LooseFaces /*type*/)
+constexpr auto enum_words(LooseParts /*type*/)
 {
-  return std::to_array<EnumWord<LooseFaces>>({
-      {LooseFaces::embed, "embed"},
-      {LooseFaces::drop, "drop"},
+  return std::to_array<EnumWord<LooseParts>>({
+      {LooseParts::embed, "embed"},
+      {LooseParts::drop, "drop"},
   });
 }
 
@@ -110,18 +110,28 @@ struct Disk {
   friend bool operator==(const Disk&, const Disk&) = default;
 };
 
-/// @brief A face that is put into the solids of a model; table `[[embed]]` of a case file. Lengths
-/// are in the output length unit.
-struct EmbeddedFace {
-  std::string name{};  ///< Of its patch.
-  std::variant<Polygon, Disk> shape{};
+/// @brief A line of straight pieces, as a well; its points in turn, at least two.
+struct Polyline {
+  std::vector<Vec3> points{};
 
-  static auto fields(auto& self) { return std::tie(self.name, self.shape); }
-  friend bool operator==(const EmbeddedFace&, const EmbeddedFace&) = default;
+  static auto fields(auto& self) { return std::tie(self.points); }
+  friend bool operator==(const Polyline&, const Polyline&) = default;
 };
 
-/// @brief What is wrong with a face whose values are right one by one; empty if nothing is. Local.
-[[nodiscard]] std::string defect_of(const EmbeddedFace& face);
+/// @brief A face or a line that is put into the solids of a model; table `[[embed]]` of a case
+/// file. Lengths are in the output length unit.
+struct EmbeddedShape {
+  std::string name{};  ///< Of its patch, or of its curve.
+  std::variant<Polygon, Disk, Polyline> shape{};
+
+  [[nodiscard]] bool is_line() const { return std::holds_alternative<Polyline>(shape); }
+
+  static auto fields(auto& self) { return std::tie(self.name, self.shape); }
+  friend bool operator==(const EmbeddedShape&, const EmbeddedShape&) = default;
+};
+
+/// @brief What is wrong with a shape whose values are right one by one; empty if nothing is. Local.
+[[nodiscard]] std::string defect_of(const EmbeddedShape& embedded);
 
 /// @brief How solids of a STEP, IGES or BREP file are put together, and what is put into them.
 struct AssemblyOptions {
@@ -129,12 +139,13 @@ struct AssemblyOptions {
   /// Nearer solids touch, and thinner overlaps are none; >= 0. Less than 0: not given, then it is
   /// kThinnest of the diagonal of the model's box.
   double gap = -1.0;
-  LooseFaces loose_faces = LooseFaces::embed;
-  std::vector<EmbeddedFace> embedded{};
+  LooseParts loose_faces = LooseParts::embed;
+  LooseParts loose_curves = LooseParts::drop;
+  std::vector<EmbeddedShape> embedded{};
 
   static auto fields(auto& self)
   {
-    return std::tie(self.overlap, self.gap, self.loose_faces, self.embedded);
+    return std::tie(self.overlap, self.gap, self.loose_faces, self.loose_curves, self.embedded);
   }
   friend bool operator==(const AssemblyOptions&, const AssemblyOptions&) = default;
 

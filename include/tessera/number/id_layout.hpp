@@ -16,22 +16,24 @@ struct PieceCounts {
   GlobalIndex interior_vertices = 0;  ///< Of the piece's own host; no other piece has them.
   GlobalIndex tets = 0;
   GlobalIndex boundary_triangles = 0;
+  GlobalIndex line_edges = 0;
   GlobalIndex owned_vertices = 0;  ///< Interior ones and those that no lower piece shares; 0 if
                                    ///< nobody needs it.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.interior_vertices, self.tets, self.boundary_triangles,
+    return std::tie(self.interior_vertices, self.tets, self.boundary_triangles, self.line_edges,
                     self.owned_vertices);
   }
 
   friend bool operator==(const PieceCounts&, const PieceCounts&) = default;
 };
 
-/// @brief Dense 64-bit ids 0…N-1 of vertices, tets and boundary triangles; the same for every
-/// number of ranks.
+/// @brief Dense 64-bit ids 0…N-1 of vertices, tets, boundary triangles and edges on lines; the same
+/// for every number of ranks.
 ///
-/// Tets and boundary triangles are counted piece by piece. Vertices are counted in one of two ways:
+/// Tets, boundary triangles and edges on lines are counted piece by piece. Vertices are counted in
+/// one of two ways:
 ///
 /// - by host: the vertices of the skeleton's vertices, edges and triangles (a closed form of their
 ///   levels each), then those inside the pieces (a prefix sum). Works before there are pieces.
@@ -72,6 +74,10 @@ class IdLayout {
   {
     return first_boundary_triangle_[at(subdomain)];
   }
+  [[nodiscard]] GlobalIndex first_line_edge(LocalIndex subdomain) const
+  {
+    return first_line_edge_[at(subdomain)];
+  }
 
   [[nodiscard]] GlobalIndex num_vertices() const { return first_vertex_.back(); }
   [[nodiscard]] GlobalIndex num_tets() const { return first_tet_.back(); }
@@ -94,6 +100,7 @@ class IdLayout {
   std::vector<GlobalIndex> first_vertex_{};              ///< Shape (num_subdomains + 1).
   std::vector<GlobalIndex> first_tet_{0};                ///< Shape (num_subdomains + 1).
   std::vector<GlobalIndex> first_boundary_triangle_{0};  ///< Shape (num_subdomains + 1).
+  std::vector<GlobalIndex> first_line_edge_{0};          ///< Shape (num_subdomains + 1).
 };
 
 }  // namespace tessera::number

@@ -29,6 +29,9 @@ void measure_tets(const mesh::Piece& piece, const std::vector<char>& on_seam, Fi
 /// @brief What a piece has of each patch, ascending. Local.
 [[nodiscard]] std::vector<PatchArea> patch_areas(const mesh::Piece& piece);
 
+/// @brief The lines that a piece has edges on, ascending. Local.
+[[nodiscard]] std::vector<LineLength> line_lengths(const mesh::Piece& piece);
+
 /// @brief What a piece as it was filled and its skin show: counts, shapes, outside and seams.
 /// Without volume, kernel and the distances to the model. Local.
 [[nodiscard]] FillResult measure_filled_piece(const PartitionedMesh& cut, const mesh::Skin& skin,

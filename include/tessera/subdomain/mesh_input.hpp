@@ -19,9 +19,10 @@ namespace tessera::subdomain {
 [[nodiscard]] std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& index,
                                                            const comm::Communicator& comm);
 
-/// @brief The piece files of boundary.pvtu beside mesh.pvtu, to which it belongs, if it is there.
-[[nodiscard]] std::optional<std::vector<std::filesystem::path>> boundary_pieces_of(
-    const std::filesystem::path& mesh, const comm::Communicator& comm);
+/// @brief The piece files of an index beside mesh.pvtu, to which it belongs, if it is there:
+/// boundary.pvtu or lines.pvtu.
+[[nodiscard]] std::optional<std::vector<std::filesystem::path>> pieces_beside(
+    const std::filesystem::path& mesh, const std::string& name, const comm::Communicator& comm);
 
 /// @brief Reads the pieces of a mesh and of its boundary, each rank some that stand together.
 /// @param[in] before_each Called before each file is read; what it throws, all ranks throw.

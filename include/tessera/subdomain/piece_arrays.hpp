@@ -44,6 +44,7 @@ struct WriteContext {
 struct PieceArrays {
   mesh::MeshArrays tets{};
   mesh::MeshArrays boundary{};
+  mesh::MeshArrays lines{};  ///< Edges on lines inside of solids; no arrays if there are none.
 };
 
 /// @brief A piece with global ids, owners, material, patches and names; an empty piece gives the

@@ -34,7 +34,8 @@ struct SubdomainRange {
 /// @brief One range for each of the given subdomains, under its own number.
 [[nodiscard]] std::vector<SubdomainRange> single_ranges(const std::vector<LocalIndex>& subdomains);
 
-/// @brief Name of a file's tets or boundary triangles, relative to the output folder.
+/// @brief Name of a file's tets, boundary triangles or edges on lines, relative to the output
+/// folder.
 [[nodiscard]] std::filesystem::path piece_path(const std::string& folder, LocalIndex file);
 
 /// @brief Gathers the pieces of one output file, points that they share once, and writes it.
@@ -46,8 +47,9 @@ class PieceFile {
   /// @brief Adds a piece and returns its digest. @pre pieces come in the order of subdomains.
   Hash128 add(mesh::Piece piece);
 
-  /// @brief Writes the tets and, unless there are none, the boundary triangles below `folder`:
-  /// mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu.
+  /// @brief Writes the tets and, unless there are none, the boundary triangles and the edges on
+  /// lines below `folder`: mesh/piece_NNNNNN.vtu, boundary/piece_NNNNNN.vtu and
+  /// lines/piece_NNNNNN.vtu.
   /// @return The files, relative to `folder`. @throws OutputError
   [[nodiscard]] std::vector<std::filesystem::path> write(const std::filesystem::path& folder,
                                                          LocalIndex file) const;
@@ -64,6 +66,7 @@ class PieceFile {
   std::size_t num_skin_of_first_ = 0;
   PointOfId tet_points_{};  ///< Points of skins only: no other is shared.
   PointOfId boundary_points_{};
+  PointOfId line_points_{};
 };
 
 }  // namespace tessera::subdomain

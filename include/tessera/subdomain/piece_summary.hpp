@@ -23,6 +23,15 @@ struct PatchArea {
   static auto fields(auto& self) { return std::tie(self.patch, self.num_triangles, self.area); }
 };
 
+/// @brief The edges that a piece has on one line inside of solids.
+struct LineLength {
+  LocalIndex line = 0;
+  GlobalIndex num_edges = 0;
+  double length = 0.0;  ///< Output length unit; of second order, of two parts an edge.
+
+  static auto fields(auto& self) { return std::tie(self.line, self.num_edges, self.length); }
+};
+
 /// @brief What the layers of a piece add to it; the other figures are without them, but for areas
 /// of patches.
 struct LayerSummary {
@@ -52,6 +61,7 @@ struct PieceSummary {
   double volume = 0.0;                    ///< Output length unit cubed.
   double boundary_area = 0.0;        ///< Outside of the model only; output length unit squared.
   std::vector<PatchArea> patches{};  ///< Of num_boundary; ascending, none without triangles.
+  std::vector<LineLength> lines{};   ///< Ascending, none without edges.
   LayerSummary layers{};
   double model_distance = 0.0;      ///< Largest, of the points not held back; output length unit.
   double held_back_distance = 0.0;  ///< Largest, of the held-back points; output length unit.
@@ -72,10 +82,10 @@ struct PieceSummary {
     return std::tie(self.subdomain, self.material, self.kernel, self.tries, self.num_held_back,
                     self.num_tets, self.num_interior_vertices, self.num_owned_vertices,
                     self.num_boundary, self.euler_characteristic, self.volume, self.boundary_area,
-                    self.patches, self.layers, self.model_distance, self.held_back_distance,
-                    self.cpu_s, self.was_limited, self.is_folded, self.min_scaled_jacobian,
-                    self.tets, self.seam_tets, self.outside, self.surface, self.content,
-                    self.digest);
+                    self.patches, self.lines, self.layers, self.model_distance,
+                    self.held_back_distance, self.cpu_s, self.was_limited, self.is_folded,
+                    self.min_scaled_jacobian, self.tets, self.seam_tets, self.outside, self.surface,
+                    self.content, self.digest);
   }
 
   // With its layers.

@@ -94,7 +94,7 @@ struct CoarseOptions {
   double defeature = 0.0;
   KeptParts kept{};                         ///< These are not merged, however small.
   std::vector<PeriodicPatches> periodic{};  ///< Found from the model; lengths as of max_size.
-  bool has_inner_faces = false;             ///< Of bodies; only remesh() knows them.
+  bool has_inner_parts = false;             ///< Faces or lines; only remesh() knows them.
 
   bool optimize = false;  ///< Whether optimize_interior() follows.
 
@@ -109,7 +109,7 @@ struct CoarseOptions {
   {
     return std::tie(self.mesher, self.max_size, self.grading, self.curvature,
                     self.feature_angle_deg, self.defeature, self.kept, self.periodic,
-                    self.has_inner_faces, self.optimize, self.surface_mesher, self.timeout_s,
+                    self.has_inner_parts, self.optimize, self.surface_mesher, self.timeout_s,
                     self.points);
   }
 

@@ -223,13 +223,14 @@ class Embedding {
   int num_outside_ = 0;
 };
 
-std::vector<Candidate> asked_faces(const std::vector<model::EmbeddedFace>& asked)
+std::vector<Candidate> asked_faces(const std::vector<model::EmbeddedShape>& asked)
 {
   std::vector<Candidate> candidates;
-  for (const model::EmbeddedFace& one : asked) {
-    const TopoDS_Face face =
-        std::visit([](const auto& shape) { return face_of(shape); }, one.shape);
-    candidates.push_back({face, {.name = one.name}, true});
+  for (const auto& [name, shape] : asked) {
+    TopoDS_Face face;
+    if (const auto* const polygon = std::get_if<model::Polygon>(&shape)) face = face_of(*polygon);
+    if (const auto* const disk = std::get_if<model::Disk>(&shape)) face = face_of(*disk);
+    if (!face.IsNull()) candidates.push_back({face, {.name = name}, true});
   }
   return candidates;
 }
@@ -260,15 +261,15 @@ void embed_faces(const std::vector<TopoDS_Shape>& loose, const model::AssemblyOp
                  CadFile& cad)
 {
   note_inner_faces(cad);
-  if (!loose.empty() && options.loose_faces == model::LooseFaces::embed) {
+  if (!loose.empty() && options.loose_faces == model::LooseParts::embed) {
     Embedding(faces_of_file(loose, cad), cad).run();
     cad.given_face.Clear();  // Numbers of the file are those with its own faces.
   } else if (!loose.empty()) {
     cad.repairs.push_back(
         fmt::format("faces that belong to no solid were left out: {}", loose.size()));
   }
-  if (options.embedded.empty()) return;
-  Embedding(asked_faces(options.embedded), cad).run();
+  std::vector<Candidate> asked = asked_faces(options.embedded);
+  if (!asked.empty()) Embedding(std::move(asked), cad).run();
 }
 
 }  // namespace tessera::cad

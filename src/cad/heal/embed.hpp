@@ -11,8 +11,9 @@
 
 namespace tessera::cad {
 
-/// @brief Puts faces into the solids of `cad.shape`: those of `options.embedded`, and with
-/// LooseFaces::embed those that the file has beside its solids. Local.
+/// @brief Puts faces into the solids of `cad.shape`: those of `options.embedded` that
+/// are no lines, and with
+/// LooseParts::embed those that the file has beside its solids. Local.
 ///
 /// Where a face lies in a solid it becomes a face of it, and where it divides a solid this becomes
 /// several, which `cad.solid_body` says. Where it lies on the surface of a solid it becomes a face

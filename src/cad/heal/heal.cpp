@@ -23,9 +23,11 @@
 
 #include "cad/cad_file.hpp"
 #include "cad/heal/embed.hpp"
+#include "cad/heal/embed_lines.hpp"
 #include "cad/heal/glue.hpp"
 #include "cad/heal/overlaps.hpp"
 #include "cad/heal/periods.hpp"
+#include "cad/inner_lines.hpp"
 #include "cad/shape.hpp"
 
 namespace tessera::cad {
@@ -291,15 +293,22 @@ std::vector<TopoDS_Shape> loose_faces_of(const TopoDS_Shape& shape)
   return loose;
 }
 
+std::vector<TopoDS_Shape> loose_curves_of(const TopoDS_Shape& shape)
+{
+  return count_of(shape, TopAbs_SOLID) == 0 ? std::vector<TopoDS_Shape>{} : inner_lines_of(shape);
+}
+
 }  // namespace
 
 void make_closed_solids(CadFile& cad, const model::AssemblyOptions& options)
 {
-  const std::vector<TopoDS_Shape> loose = loose_faces_of(cad.shape);
+  const std::vector<TopoDS_Shape> loose_faces = loose_faces_of(cad.shape);
+  const std::vector<TopoDS_Shape> loose_curves = loose_curves_of(cad.shape);
   std::vector<TopoDS_Shape> solids = closed_solids(cad);
   for (TopoDS_Shape& solid : solids) solid = without_overlaps(outward(solid, cad), cad);
   cad.shape = solids.size() == 1 ? solids.front() : glued(solids, options, cad);
-  embed_faces(loose, options, cad);
+  embed_faces(loose_faces, options, cad);
+  embed_lines(loose_curves, options, cad);
   for (TopExp_Explorer parts(cad.shape, TopAbs_SOLID); parts.More(); parts.Next()) {
     if (!is_closed(parts.Current())) {
       throw GeometryError(

@@ -383,7 +383,7 @@ Outline outline_of(std::vector<PieceCounts> pieces)
                                   - piece.num_own_nodes);
     outline.first_tet.push_back(outline.first_tet.back() + piece.num_tets);
     outline.first_cell.push_back(outline.first_cell.back() + piece.num_cells);
-    for (const Shape shape : kShapes) {
+    for (const Shape shape : kAllShapes) {
       GlobalIndex first = outline.first_of[shape].back();
       for (const TagCount& count : piece.elements[shape]) first += count.count;
       outline.first_of[shape].push_back(first);

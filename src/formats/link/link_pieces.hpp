@@ -53,6 +53,7 @@ struct LinkOptions {
 struct Tags {
   std::map<std::int32_t, std::int32_t> tag_of_material{};
   std::map<std::int32_t, std::int32_t> tag_of_patch{};
+  std::map<std::int32_t, std::int32_t> tag_of_line{};
 };
 
 struct LinkedMesh {

@@ -23,13 +23,13 @@ constexpr std::size_t kVertices = 0;
 constexpr std::size_t kFirstShape = 1;
 
 constexpr ByShape<const char*> kKeywords{
-    {"Tetrahedra", "Pyramids", "Prisms", "Triangles", "Quadrilaterals"}};
+    {"Tetrahedra", "Pyramids", "Prisms", "Triangles", "Quadrilaterals", "Edges"}};
 
 // Those of tets and triangles are always there.
 std::vector<Shape> shapes_of(const Outline& outline)
 {
   std::vector<Shape> shapes;
-  for (const Shape shape : kShapes)
+  for (const Shape shape : kAllShapes)
     if (shape == Shape::tet || shape == Shape::triangle || outline.num_of(shape) > 0)
       shapes.push_back(shape);
   return shapes;
@@ -44,7 +44,8 @@ struct Widths {
 
 Widths widths_of(const Outline& outline)
 {
-  const std::size_t num_tags = std::max(outline.material_names.size(), outline.patch_names.size());
+  const std::size_t num_tags = std::max(
+      {outline.material_names.size(), outline.patch_names.size(), outline.line_names.size()});
   return {num_digits(outline.num_points()), num_digits(static_cast<GlobalIndex>(num_tags))};
 }
 
@@ -85,7 +86,7 @@ class MeditWriter final : public Writer {
         widths_(widths_of(outline_)),
         file_(target.folder / "mesh.mesh", sections_of(outline_),
               "\nEnd\n" + names("material", outline_.material_names)
-                  + names("patch", outline_.patch_names))
+                  + names("patch", outline_.patch_names) + names("line", outline_.line_names))
   {
     require_32_bit_numbers(outline_, io::Format::medit);
   }

@@ -37,8 +37,7 @@ struct Blocks {
 
 Blocks blocks_of(const Outline& outline, Shape shape)
 {
-  const std::size_t num_tags =
-      is_cell(shape) ? outline.material_names.size() : outline.patch_names.size();
+  const std::size_t num_tags = outline.names_of(shape).size();
   std::vector<GlobalIndex> sums(num_tags + 1, 0);
   Blocks blocks{.type = msh_type(outline, shape),
                 .block_of = std::vector<std::size_t>(num_tags + 1, 0)};
@@ -58,7 +57,7 @@ Blocks blocks_of(const Outline& outline, Shape shape)
 ByShape<Blocks> blocks_of_shapes(const Outline& outline)
 {
   ByShape<Blocks> blocks;
-  for (const Shape shape : kShapes) blocks[shape] = blocks_of(outline, shape);
+  for (const Shape shape : kAllShapes) blocks[shape] = blocks_of(outline, shape);
   return blocks;
 }
 
@@ -119,7 +118,7 @@ class MshWriter final : public Writer {
   [[nodiscard]] std::vector<RecordSection> sections() const
   {
     const GlobalIndex num_points = outline_.num_points();
-    const GlobalIndex num_elements = outline_.num_elements();
+    const GlobalIndex num_elements = msh_num_elements(outline_);
     GlobalIndex num_blocks = 0;
     for (const Blocks& blocks : blocks_.values)
       num_blocks += static_cast<GlobalIndex>(blocks.counts.size());
@@ -133,10 +132,8 @@ class MshWriter final : public Writer {
     for (const Shape shape : kMshShapes) {
       const MshCellType& type = blocks_[shape].type;
       for (const TagCount& count : blocks_[shape].counts) {
-        const std::int32_t entity =
-            is_cell(shape) ? count.tag : msh_tag_of_patch(outline_, count.tag);
-        sections.push_back({msh4_block_head(type, entity, count.count), count.count,
-                            static_cast<GlobalIndex>(type.num_points + 1) * kTagSize});
+        sections.push_back({msh4_block_head(type, msh_tag(outline_, shape, count.tag), count.count),
+                            count.count, static_cast<GlobalIndex>(type.num_points + 1) * kTagSize});
       }
     }
     for (std::size_t row = 0; row < outline_.periodic.size(); ++row) {

@@ -41,7 +41,7 @@ void add_number(std::string& text, GlobalIndex number, int width)
 void require_short_numbers(const Outline& outline)
 {
   constexpr GlobalIndex kMost = std::numeric_limits<std::int32_t>::max();
-  if (outline.num_elements() <= kMost) return;
+  if (msh_num_elements(outline) <= kMost) return;
   throw ConfigError(fmt::format(
       "format msh2 holds {} elements at most, for its numbers have 32 bits; the mesh has {} cells "
       "and {} faces: take msh or xdmf",
@@ -53,9 +53,10 @@ class Msh2Writer final : public Writer {
   explicit Msh2Writer(const WriterTarget& target)
       : outline_(target.outline),
         point_width_(width_of(outline_.num_points())),
-        element_width_(width_of(outline_.num_elements())),
+        element_width_(width_of(msh_num_elements(outline_))),
         tag_width_(width_of(static_cast<GlobalIndex>(outline_.material_names.size()
-                                                     + outline_.patch_names.size()))),
+                                                     + outline_.patch_names.size()
+                                                     + outline_.line_names.size()))),
         file_(target.folder / "mesh_v2.msh", sections(),
               outline_.periodic.empty() ? kEndElements : kMshEndPeriodic)
   {
@@ -73,7 +74,7 @@ class Msh2Writer final : public Writer {
     for (const Shape shape : kMshShapes) {
       file_.write(section++, outline_.first_of[shape][at(number)],
                   elements_of(piece, msh_cells(outline_, number, shape, cells[shape]),
-                              is_cell(shape) ? 0 : msh_tag_of_patch(outline_, 0)));
+                              msh_tag(outline_, shape, 0)));
     }
     for_each_periodic(outline_, piece, [&](std::size_t row, GlobalIndex first, const auto& points) {
       std::string text;
@@ -111,7 +112,8 @@ class Msh2Writer final : public Writer {
     for (const Shape shape : kMshShapes) {
       sections.push_back({"", outline_.num_of(shape), element_size(msh_type(outline_, shape))});
     }
-    sections[kFirstShape].head = fmt::format("$EndNodes\n$Elements\n{}\n", outline_.num_elements());
+    sections[kFirstShape].head =
+        fmt::format("$EndNodes\n$Elements\n{}\n", msh_num_elements(outline_));
     for (std::size_t row = 0; row < outline_.periodic.size(); ++row) {
       sections.push_back({(row == 0 ? kEndElements : "") + msh2_periodic_head(outline_, row),
                           outline_.periodic[row].first_point.back(), 2 * (1 + point_width_) + 1});

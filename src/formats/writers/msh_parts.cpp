@@ -2,6 +2,7 @@
 #include "formats/writers/msh_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -31,58 +32,60 @@ std::vector<std::int32_t> tags_of(const PieceCounts& piece, std::span<const Shap
   return tags;
 }
 
+constexpr std::array kDimensions{kMshCurve, kMshSurface, kMshVolume};
+
+// What entities of one dimension are made of.
+std::span<const Shape> shapes_of(std::int32_t dimension)
+{
+  static constexpr std::array kLine{Shape::line};
+  if (dimension == kMshVolume) return kCellShapes;
+  if (dimension == kMshSurface) return kFaceShapes;
+  return kLine;
+}
+
 // Tags of the entities that pieces have, above those of the model: no two pieces share one.
 class PartTags {
  public:
   explicit PartTags(const Outline& outline)
-      : above_(
-          static_cast<std::int32_t>(outline.material_names.size() + outline.patch_names.size()))
+      : above_(msh_tag(outline, Shape::line, static_cast<std::int32_t>(outline.line_names.size())))
   {
-    for (const PieceCounts& piece : outline.pieces) {
-      first_surface_.push_back(num_surfaces_ + 1);
-      first_volume_.push_back(num_volumes_ + 1);
-      num_surfaces_ += static_cast<std::int32_t>(tags_of(piece, kFaceShapes).size());
-      num_volumes_ += static_cast<std::int32_t>(tags_of(piece, kCellShapes).size());
+    for (const std::int32_t dimension : kDimensions) {
+      std::vector<std::int32_t>& first = first_[at(dimension)];
+      first = {1};
+      for (const PieceCounts& piece : outline.pieces) {
+        const auto num_entities = tags_of(piece, shapes_of(dimension)).size();
+        first.push_back(first.back() + static_cast<std::int32_t>(num_entities));
+      }
     }
   }
 
-  // Of the first one of a piece; others follow.
-  [[nodiscard]] std::int32_t surface(LocalIndex piece) const
+  // Of the first entity of a piece that has this dimension; others follow.
+  [[nodiscard]] std::int32_t first(std::int32_t dimension, LocalIndex piece) const
   {
-    return above_ + first_surface_[at(piece)];
-  }
-  [[nodiscard]] std::int32_t volume(LocalIndex piece) const
-  {
-    return above_ + first_volume_[at(piece)];
+    return above_ + first_[at(dimension)][at(piece)];
   }
   [[nodiscard]] std::int32_t ghosts(LocalIndex piece) const
   {
-    return above_ + num_volumes_ + 1 + piece;
+    return above_ + first_[at(kMshVolume)].back() + piece;
   }
 
  private:
   std::int32_t above_;
-  std::int32_t num_surfaces_ = 0;
-  std::int32_t num_volumes_ = 0;
-  std::vector<std::int32_t> first_surface_{};
-  std::vector<std::int32_t> first_volume_{};
+  std::array<std::vector<std::int32_t>, kMshVolume + 1> first_{};  // By dimension, by piece.
 };
 
 // The file of one piece.
 class MshPart {
  public:
   MshPart(const Outline& outline, const PartTags& tags, const Piece& piece)
-      : piece_(piece),
+      : outline_(outline),
+        piece_(piece),
         ghosts_(piece.ghosts),
         counts_(outline.pieces[at(piece.number)]),
         tags_(tags),
-        cells_(piece),
-        patches_(tags_of(counts_, kFaceShapes)),
-        materials_(tags_of(counts_, kCellShapes)),
-        tag_of_first_patch_(msh_tag_of_patch(outline, 1)),
-        num_pieces_(outline.num_pieces())
+        cells_(piece)
   {
-    for (const Shape shape : kShapes)
+    for (const Shape shape : kAllShapes)
       elements_[shape] = msh_cells(outline, piece.number, shape, cells_[shape]);
   }
 
@@ -102,23 +105,23 @@ class MshPart {
 
   void add_part_entities()
   {
-    bytes_.add("$PartitionedEntities\n").add(GlobalIndex{num_pieces_});
+    bytes_.add("$PartitionedEntities\n").add(GlobalIndex{outline_.num_pieces()});
     bytes_.add(GlobalIndex{has_ghosts() ? 1 : 0});
     if (has_ghosts()) bytes_.add(tags_.ghosts(piece_.number)).add(part());
-    bytes_.add(GlobalIndex{0}).add(GlobalIndex{0});
-    bytes_.add(static_cast<GlobalIndex>(patches_.size()));
-    bytes_.add(static_cast<GlobalIndex>(materials_.size()));
-    add_entities(patches_, kMshSurface, tags_.surface(piece_.number), tag_of_first_patch_);
-    add_entities(materials_, kMshVolume, tags_.volume(piece_.number), 1);
+    bytes_.add(GlobalIndex{0});  // Points.
+    for (const std::int32_t dimension : kDimensions)
+      bytes_.add(static_cast<GlobalIndex>(tags_of(counts_, shapes_of(dimension)).size()));
+    for (const std::int32_t dimension : kDimensions) add_entities(dimension);
     bytes_.add("\n$EndPartitionedEntities\n");
   }
 
-  void add_entities(const std::vector<std::int32_t>& tags, std::int32_t dimension,
-                    std::int32_t first_entity, std::int32_t first_parent)
+  void add_entities(std::int32_t dimension)
   {
-    for (const std::int32_t tag : tags) {
-      const std::int32_t parent = first_parent + tag - 1;
-      bytes_.add(first_entity++).add(dimension).add(parent);
+    const std::span<const Shape> shapes = shapes_of(dimension);
+    std::int32_t entity = tags_.first(dimension, piece_.number);
+    for (const std::int32_t tag : tags_of(counts_, shapes)) {
+      const std::int32_t parent = msh_tag(outline_, shapes.front(), tag);
+      bytes_.add(entity++).add(dimension).add(parent);
       bytes_.add(GlobalIndex{1}).add(part());
       msh4_add_entity({.tag = parent, .box = counts_.box}, bytes_);
     }
@@ -135,8 +138,8 @@ class MshPart {
       return;
     }
     const auto [first, last] = std::ranges::minmax(nodes);
-    bytes_.add(msh4_nodes_head(tags_.volume(piece_.number), static_cast<GlobalIndex>(nodes.size()),
-                               first, last));
+    bytes_.add(msh4_nodes_head(tags_.first(kMshVolume, piece_.number),
+                               static_cast<GlobalIndex>(nodes.size()), first, last));
     bytes_.add(bytes_of(nodes)).add(bytes_of(piece_.point_xyz)).add(bytes_of(ghosts_.point_xyz));
     bytes_.add(kMshEndNodes);
   }
@@ -177,9 +180,9 @@ class MshPart {
   void add_blocks(Shape shape)
   {
     const MshCells& cells = elements_[shape];
-    const auto& tags = is_cell(shape) ? materials_ : patches_;
-    const std::int32_t first_entity =
-        is_cell(shape) ? tags_.volume(piece_.number) : tags_.surface(piece_.number);
+    const std::int32_t dimension = cells.type.dimension;
+    const std::vector<std::int32_t> tags = tags_of(counts_, shapes_of(dimension));
+    const std::int32_t first_entity = tags_.first(dimension, piece_.number);
     for (const TagCount& count : cells.counts) {
       const auto row = std::ranges::lower_bound(tags, count.tag) - tags.begin();
       const std::int32_t entity = first_entity + static_cast<std::int32_t>(row);
@@ -217,16 +220,13 @@ class MshPart {
     bytes_.add("\n$EndGhostElements\n");
   }
 
+  const Outline& outline_;
   const Piece& piece_;
   const Ghosts& ghosts_;
   const PieceCounts& counts_;
   const PartTags& tags_;
   PieceCells cells_;
-  std::vector<std::int32_t> patches_;
-  std::vector<std::int32_t> materials_;
   ByShape<MshCells> elements_{};
-  std::int32_t tag_of_first_patch_;
-  LocalIndex num_pieces_;
   MshBytes bytes_{};
 };
 

@@ -26,7 +26,8 @@ std::string msh4_periodic_head(const Outline& outline, std::size_t row)
   MshBytes bytes;
   if (row == 0) bytes.add("$Periodic\n").add(static_cast<GlobalIndex>(outline.periodic.size()));
   bytes.add(kMshSurface);
-  bytes.add(msh_tag_of_patch(outline, patch.to)).add(msh_tag_of_patch(outline, patch.from));
+  bytes.add(msh_tag(outline, Shape::triangle, patch.to));
+  bytes.add(msh_tag(outline, Shape::triangle, patch.from));
   bytes.add(static_cast<GlobalIndex>(matrix.size())).add(bytes_of(matrix));
   return bytes.add(patch.first_point.back()).text();
 }
@@ -36,7 +37,8 @@ std::string msh2_periodic_head(const Outline& outline, std::size_t row)
   const PeriodicPatch& patch = outline.periodic[row];
   const std::string head = fmt::format("$Periodic\n{}\n", outline.periodic.size());
   return fmt::format("{}{} {} {}\nAffine {}\n{}\n", row == 0 ? head : "", kMshSurface,
-                     msh_tag_of_patch(outline, patch.to), msh_tag_of_patch(outline, patch.from),
+                     msh_tag(outline, Shape::triangle, patch.to),
+                     msh_tag(outline, Shape::triangle, patch.from),
                      fmt::join(msh_matrix(patch.there), " "), patch.first_point.back());
 }
 

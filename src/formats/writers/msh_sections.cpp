@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "formats/writers/msh_sections.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <functional>
 #include <iterator>
@@ -48,9 +50,17 @@ std::vector<Box> boxes_of_tags(const Outline& outline, std::span<const Shape> sh
 
 }  // namespace
 
-std::int32_t msh_tag_of_patch(const Outline& outline, std::int32_t patch)
+GlobalIndex msh_num_elements(const Outline& outline)
 {
-  return static_cast<std::int32_t>(outline.material_names.size()) + patch;
+  return outline.num_elements() + outline.num_line_edges();
+}
+
+std::int32_t msh_tag(const Outline& outline, Shape shape, std::int32_t tag)
+{
+  if (is_cell(shape)) return tag;
+  std::size_t num_before = outline.material_names.size();
+  if (shape == Shape::line) num_before += outline.patch_names.size();
+  return static_cast<std::int32_t>(num_before) + tag;
 }
 
 MshCellType msh_type(const Outline& outline, Shape shape)
@@ -68,6 +78,9 @@ MshCellType msh_type(const Outline& outline, Shape shape)
                                           : MshCellType{kMshSurface, 2, 3};
     case Shape::quad:
       return {kMshSurface, 3, 4};
+    case Shape::line:
+      return outline.is_of_second_order() ? MshCellType{kMshCurve, 8, 3}
+                                          : MshCellType{kMshCurve, 1, 2};
   }
   return {};
 }
@@ -104,23 +117,21 @@ std::vector<GlobalIndex> msh4_records(const Piece& piece, const MshCells& cells,
 std::vector<MshEntity> msh_entities(const Outline& outline)
 {
   std::set<std::string> taken;
-  std::vector<MshEntity> materials;
-  std::vector<MshEntity> entities;
-  const std::vector<Box> material_boxes =
-      boxes_of_tags(outline, kCellShapes, outline.material_names.size());
-  for (const std::string& name : outline.material_names) {
-    const auto row = materials.size();
-    materials.push_back({kMshVolume, static_cast<std::int32_t>(row) + 1, made_unique(name, taken),
-                         material_boxes[row]});
-  }
-  const std::vector<Box> patch_boxes =
-      boxes_of_tags(outline, kFaceShapes, outline.patch_names.size());
-  for (const std::string& name : outline.patch_names) {
-    const auto row = entities.size();
-    const auto patch = static_cast<std::int32_t>(row) + 1;
-    entities.push_back({kMshSurface, msh_tag_of_patch(outline, patch), made_unique(name, taken),
-                        patch_boxes[row]});
-  }
+  const auto of_dimension = [&](std::int32_t dimension, std::span<const Shape> shapes,
+                                const std::vector<std::string>& names) {
+    std::vector<MshEntity> entities;
+    const std::vector<Box> boxes = boxes_of_tags(outline, shapes, names.size());
+    for (std::size_t row = 0; row < names.size(); ++row) {
+      const std::int32_t tag = msh_tag(outline, shapes.front(), static_cast<std::int32_t>(row) + 1);
+      entities.push_back({dimension, tag, made_unique(names[row], taken), boxes[row]});
+    }
+    return entities;
+  };
+  constexpr std::array kLine{Shape::line};
+  const auto materials = of_dimension(kMshVolume, kCellShapes, outline.material_names);
+  const auto patches = of_dimension(kMshSurface, kFaceShapes, outline.patch_names);
+  std::vector<MshEntity> entities = of_dimension(kMshCurve, kLine, outline.line_names);
+  entities.insert(entities.end(), patches.begin(), patches.end());
   entities.insert(entities.end(), materials.begin(), materials.end());
   return entities;
 }
@@ -139,11 +150,9 @@ std::string msh4_head(const std::vector<MshEntity>& entities)
   // The 1 tells readers the order of bytes.
   bytes.add("$MeshFormat\n4.1 1 8\n").add(1).add("\n$EndMeshFormat\n");
   bytes.add(msh_physical_names(entities)).add("$Entities\n");
-  GlobalIndex num_surfaces = 0;
-  for (const MshEntity& entity : entities)
-    if (entity.dimension == kMshSurface) ++num_surfaces;
-  bytes.add(GlobalIndex{0}).add(GlobalIndex{0}).add(num_surfaces);
-  bytes.add(static_cast<GlobalIndex>(entities.size()) - num_surfaces);
+  bytes.add(GlobalIndex{0});  // Points.
+  for (const std::int32_t dimension : {kMshCurve, kMshSurface, kMshVolume})
+    bytes.add(GlobalIndex{std::ranges::count(entities, dimension, &MshEntity::dimension)});
   for (const MshEntity& entity : entities) {
     bytes.add(entity.tag);
     msh4_add_entity(entity, bytes);

@@ -15,8 +15,9 @@
 #include "formats/cells.hpp"
 
 /// What the forms of Gmsh's MSH files have in common. Entities and physical groups have the same
-/// tags: materials 1…M, patches M+1…M+P, because some readers have one list of groups for all
-/// dimensions. Points and elements have their numbers plus 1: faces follow cells.
+/// tags: materials 1…M, patches M+1…M+P, then lines, because some readers have one list of groups
+/// for all dimensions. Points and elements have their numbers plus 1: faces follow cells, and lines
+/// come last.
 namespace tessera::formats {
 
 /// @brief A kind of cell as MSH numbers it.
@@ -25,15 +26,19 @@ struct MshCellType {
   std::int32_t number = 0;
   std::size_t num_points = 0;
 };
-inline constexpr std::int32_t kMshSurface = 2;  ///< A dimension.
+inline constexpr std::int32_t kMshCurve = 1;  ///< A dimension.
+inline constexpr std::int32_t kMshSurface = 2;
 inline constexpr std::int32_t kMshVolume = 3;
 
 /// @brief The kind that elements of a shape have in a mesh. Local.
 [[nodiscard]] MshCellType msh_type(const Outline& outline, Shape shape);
 
 /// @brief The order in which files have elements.
-inline constexpr std::array kMshShapes{Shape::triangle, Shape::quad, Shape::tet, Shape::pyramid,
-                                       Shape::prism};
+inline constexpr std::array kMshShapes{Shape::line, Shape::triangle, Shape::quad,
+                                       Shape::tet,  Shape::pyramid,  Shape::prism};
+
+/// @brief How many elements files have: those on lines too. Local.
+[[nodiscard]] GlobalIndex msh_num_elements(const Outline& outline);
 
 /// @brief Bytes of numbers, one behind the other. MSH's size_t is a GlobalIndex here.
 class MshBytes {
@@ -68,8 +73,9 @@ template <class Values>
   return {reinterpret_cast<const char*>(all.data()), all.size_bytes()};
 }
 
-/// @brief The tag of a patch in files. Local.
-[[nodiscard]] std::int32_t msh_tag_of_patch(const Outline& outline, std::int32_t patch);
+/// @brief The tag in files of what an element of a shape is of. Local.
+/// @param[in] tag In the outline.
+[[nodiscard]] std::int32_t msh_tag(const Outline& outline, Shape shape, std::int32_t tag);
 
 /// @brief Cells of one kind of a piece.
 struct MshCells {
@@ -102,8 +108,8 @@ struct MshEntity {
   Box box{};  ///< Of the pieces that have cells of it; of the mesh if none has.
 };
 
-/// @brief Patches, then materials. Names can be read by all readers: of 127 bytes at most, without
-/// quotes, backslashes and control characters, none twice. Local.
+/// @brief Lines, patches, then materials. Names can be read by all readers: of 127 bytes at most,
+/// without quotes, backslashes and control characters, none twice. Local.
 [[nodiscard]] std::vector<MshEntity> msh_entities(const Outline& outline);
 
 /// @brief $PhysicalNames, which is text in binary files too. Local.

@@ -21,11 +21,18 @@ inline constexpr std::array<std::string_view, 6> kUsualCellIdNames{
     kCellIdsName,   "GlobalElementID",  "GlobalElementId",
     "GlobalCellID", "GlobalElementIds", "vtkGlobalCellIds"};
 
-/// @brief VTK's number of the kind of cells with so many points: tets and triangles of first and
-/// second order; 0 for another number.
-[[nodiscard]] constexpr std::uint8_t vtk_cell_type(int vertices_per_cell)
+/// @brief A kind of cells by its points.
+struct CellKind {
+  int vertices = 4;
+  bool is_edge = false;
+};
+
+/// @brief VTK's number of a kind of cells: tets, triangles and edges of first and second order; 0
+/// for another number of points.
+[[nodiscard]] constexpr std::uint8_t vtk_cell_type(const CellKind& kind)
 {
-  switch (vertices_per_cell) {
+  if (kind.is_edge) return kind.vertices == 2 ? 3 : kind.vertices == 3 ? 21 : 0;
+  switch (kind.vertices) {
     case 3:
       return 5;
     case 4:
@@ -37,6 +44,11 @@ inline constexpr std::array<std::string_view, 6> kUsualCellIdNames{
     default:
       return 0;
   }
+}
+
+[[nodiscard]] inline std::uint8_t vtk_cell_type(const mesh::MeshArrays& piece)
+{
+  return vtk_cell_type(CellKind{piece.vertices_per_cell, piece.are_edges});
 }
 
 /// @brief Whether the piece has point ids. An empty one always has, as an index of pieces with ids

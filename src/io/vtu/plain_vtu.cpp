@@ -132,7 +132,7 @@ struct CellKinds {
 {
   const auto num_cells = static_cast<std::size_t>(piece.num_cells());
   CellKinds kinds;
-  kinds.types.assign(num_cells, vtk_cell_type(piece.vertices_per_cell));
+  kinds.types.assign(num_cells, vtk_cell_type(piece));
   kinds.ends.reserve(num_cells);
   for (std::size_t cell = 1; cell <= num_cells; ++cell) {
     kinds.ends.push_back(static_cast<std::int32_t>(cell) * piece.vertices_per_cell);

@@ -108,7 +108,7 @@ void add_texts(vtkFieldData& data, const std::map<std::string, std::vector<std::
   const vtkNew<vtkPoints> points;
   points->SetData(view_of<vtkDoubleArray>("Points", piece.point_xyz, 3));
   grid->SetPoints(points);
-  grid->SetCells(vtk_cell_type(piece.vertices_per_cell), make_cells(piece));
+  grid->SetCells(vtk_cell_type(piece), make_cells(piece));
 
   vtkPointData& point_data = *grid->GetPointData();
   vtkCellData& cell_data = *grid->GetCellData();

@@ -24,13 +24,15 @@ namespace {
 
 using mesh::MeshArrays;
 
-/// Points of a cell of the kinds that are read; earlier ones come first where a file has several.
-constexpr std::array kFirstOrder{4, 3};
-constexpr std::array kUpToSecondOrder{4, 3, 10, 6};
-constexpr std::array kTriangles{3};
+/// Kinds that are read; earlier ones come first where a file has several.
+constexpr std::array kFirstOrder{CellKind{4}, CellKind{3}};
+constexpr std::array kUpToSecondOrder{CellKind{4}, CellKind{3}, CellKind{10}, CellKind{6}};
+constexpr std::array kTriangles{CellKind{3}};
+constexpr std::array kEdges{CellKind{2, true}, CellKind{3, true}};
 
-std::span<const int> kinds_of(CellOrder order)
+std::span<const CellKind> kinds_of(CellOrder order)
 {
+  if (order == CellOrder::edges) return kEdges;
   if (order == CellOrder::triangles) return kTriangles;
   if (order == CellOrder::first) return kFirstOrder;
   return kUpToSecondOrder;
@@ -209,12 +211,13 @@ struct RawPiece {
   MixedCells cells{};
 };
 
-[[nodiscard]] MeshArrays reduce(RawPiece raw, const Encoding& encoding, int vertices_per_cell)
+[[nodiscard]] MeshArrays reduce(RawPiece raw, const Encoding& encoding, const CellKind& kind)
 {
   MeshArrays mesh;
-  mesh.vertices_per_cell = vertices_per_cell;
+  mesh.vertices_per_cell = kind.vertices;
+  mesh.are_edges = kind.is_edge;
   mesh.point_xyz = read_points(*raw.element, encoding);
-  const Selection selection = select_cells(raw.cells, vtk_cell_type(vertices_per_cell));
+  const Selection selection = select_cells(raw.cells, vtk_cell_type(kind));
   mesh.num_other_cells = static_cast<GlobalIndex>(selection.num_cells - selection.num_kept);
   keep_cells(std::move(raw.cells), selection, mesh);
   if (const XmlElement* const data = raw.element->child("PointData")) {
@@ -278,13 +281,13 @@ void append(MeshArrays& to, const MeshArrays& from)
   to.num_other_cells += from.num_other_cells;
 }
 
-/// @brief Points of a cell of the first of these kinds that is there; tets if none is.
-[[nodiscard]] int kind_to_read(const std::vector<RawPiece>& pieces, std::span<const int> kinds)
+/// @brief The first of these kinds that is there; the first of all if none is.
+[[nodiscard]] CellKind kind_to_read(const std::vector<RawPiece>& pieces,
+                                    std::span<const CellKind> kinds)
 {
-  const auto is_there = [&](int vertices_per_cell) {
+  const auto is_there = [&](const CellKind& kind) {
     return std::ranges::any_of(pieces, [&](const RawPiece& piece) {
-      return std::ranges::find(piece.cells.types, vtk_cell_type(vertices_per_cell))
-             != piece.cells.types.end();
+      return std::ranges::find(piece.cells.types, vtk_cell_type(kind)) != piece.cells.types.end();
     });
   };
   const auto found = std::ranges::find_if(kinds, is_there);
@@ -301,7 +304,7 @@ void append(MeshArrays& to, const MeshArrays& from)
   }
   require(!pieces.empty(), "it has no piece");
 
-  const int kind = kind_to_read(pieces, kinds_of(order));
+  const CellKind kind = kind_to_read(pieces, kinds_of(order));
   MeshArrays mesh = reduce(std::move(pieces.front()), encoding, kind);
   for (RawPiece& raw : std::span(pieces).subspan(1))
     append(mesh, reduce(std::move(raw), encoding, kind));

@@ -36,7 +36,7 @@ void require_consistent(const MeshArrays& piece)
   const auto is_optional = [](const auto& values, GlobalIndex size) {
     return values.empty() || std::cmp_equal(values.size(), size);
   };
-  require(vtk_cell_type(piece.vertices_per_cell) != 0, "vertices per cell");
+  require(vtk_cell_type(piece) != 0, "vertices per cell");
   require(piece.point_xyz.size() % 3 == 0, "size of positions");
   require(std::cmp_equal(piece.cell_points.size(), num_cells * piece.vertices_per_cell),
           "size of connectivity");

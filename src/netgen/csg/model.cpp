@@ -377,7 +377,7 @@ CsgSolids made_solids(const CsgModel& model, const std::string& file, const std:
 // What NETGEN's CSG cannot mesh is OpenCASCADE's model from here on.
 model::ModelSource of_open_cascade(cad::CadFile cad, const model::ModelSource& source,
                                    const std::string& why,
-                                   std::vector<model::EmbeddedFace> embedded = {})
+                                   std::vector<model::EmbeddedShape> embedded = {})
 {
   note_repair(Repair::csg_by_occ);
   cad.repairs = source.repairs;

@@ -14,6 +14,8 @@ namespace {
 
 constexpr const char* kDisk =
     "[[embed]]\nname = 'sheet'\ndisk = { centre = [1, 2, 3], normal = [0, 0, 2], radius = 0.5 }\n";
+constexpr const char* kWell =
+    "[[embed]]\nname = 'well'\npolyline = [[0, 0, 0], [1, 0, 0], [1, 1, 1.0]]\n";
 constexpr const char* kFault =
     "[[embed]]\nname = 'fault'\npolygon = [[0, 0, 0], [1, 0, 0], [1, 1, 1], [0, 1, 1.0]]\n";
 
@@ -37,12 +39,32 @@ TEST(Embed, HasPolygonsAndDisks)
   EXPECT_EQ(loaded.geometry.assembly, expected);
   EXPECT_EQ(parse_case(to_toml(loaded), "/cases/case.toml", {}), loaded);
   EXPECT_EQ(parsed("geometry.loose_faces = 'drop'\n").geometry.assembly.loose_faces,
-            model::LooseFaces::drop);
+            model::LooseParts::drop);
+}
+
+TEST(Embed, HasPolylines)
+{
+  const Case loaded = parsed(std::string("geometry.loose_curves = 'embed'\n") + kWell);
+  const model::AssemblyOptions expected{
+      .loose_curves = model::LooseParts::embed,
+      .embedded = {{"well", model::Polyline{{{0, 0, 0}, {1, 0, 0}, {1, 1, 1}}}}}};
+  EXPECT_EQ(loaded.geometry.assembly, expected);
+  EXPECT_EQ(parse_case(to_toml(loaded), "/cases/case.toml", {}), loaded);
+  EXPECT_NE(
+      error_of("[[embed]]\nname = 'a'\npolyline = [[0, 0, 0.0]]\n").find("two points or more"),
+      std::string::npos);
+  EXPECT_NE(error_of("[[embed]]\nname = 'a'\npolyline = [[0, 1, 2.0], [0, 1, 2]]\n")
+                .find("has the point [0, 1, 2] twice in turn"),
+            std::string::npos);
+  const std::string layer = "[[layer]]\npatch = '*'\nfirst = 0.1\ncount = 2\n";
+  EXPECT_NE(error_of(kWell + layer).find("[[embed]] \"well\" with a polyline excludes [[layer]]"),
+            std::string::npos);
 }
 
 TEST(Embed, ScalesWithTheModel)
 {
-  const auto scaled = parsed(std::string(kDisk) + kFault).geometry.assembly.scaled(0.5);
+  const auto scaled = parsed(std::string(kDisk) + kFault + kWell).geometry.assembly.scaled(0.5);
+  EXPECT_EQ(std::get<model::Polyline>(scaled.embedded[2].shape).points[2], (Vec3{0.5, 0.5, 0.5}));
   const auto& disk = std::get<model::Disk>(scaled.embedded[0].shape);
   EXPECT_EQ(disk.centre, (Vec3{0.5, 1.0, 1.5}));
   EXPECT_EQ(disk.normal, (Vec3{0, 0, 2}));

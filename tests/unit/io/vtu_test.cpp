@@ -74,6 +74,26 @@ TEST_P(WithCompression, WhatIsReadHasTheBitsThatWereWritten)
   }
 }
 
+TEST_P(WithCompression, EdgesOfBothOrdersAreReadBack)
+{
+  const TemporaryFolder folder;
+  for (const int num_points : {2, 3}) {
+    MeshArrays edges{.vertices_per_cell = num_points, .are_edges = true};
+    edges.point_xyz = {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
+    edges.point_ids = {5, 7, 8, 9};
+    edges.cell_points = num_points == 2 ? std::vector<LocalIndex>{0, 1, 2, 3}
+                                        : std::vector<LocalIndex>{0, 2, 1, 2, 0, 3};
+    edges.cell_ids = {0, 1};
+    edges.cell_ints["line"] = {0, 1};
+    edges.field_texts["line_names"] = {"well", "track"};
+    write_vtu(edges, folder / "edges.vtu", GetParam());
+    const MeshArrays read = read_vtu(folder / "edges.vtu", CellOrder::edges);
+    EXPECT_TRUE(read.are_edges);
+    testing::expect_same_bits(read, edges);
+    EXPECT_EQ(read_vtu(folder / "edges.vtu").num_cells(), 0);  // Neither tets nor triangles.
+  }
+}
+
 TEST_P(WithCompression, EqualArraysGiveEqualBytes)
 {
   const TemporaryFolder folder;

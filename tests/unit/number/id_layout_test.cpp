@@ -129,6 +129,14 @@ TEST(IdLayout, CountsBeyond32Bits)
   EXPECT_EQ(ids.num_boundary_triangles(), 2 * kMany);
 }
 
+TEST(IdLayout, EdgesOnLinesAreCountedPieceByPiece)
+{
+  const IdLayout ids = IdLayout::by_owner({{.line_edges = 3}, {}, {.line_edges = 2}, {}});
+  EXPECT_EQ(ids.first_line_edge(1), 3);
+  EXPECT_EQ(ids.first_line_edge(2), 3);
+  EXPECT_EQ(ids.first_line_edge(3), 5);
+}
+
 TEST(IdLayout, ByOwnerCountsThePiecesOneAfterTheOther)
 {
   const std::vector<PieceCounts> pieces{{.interior_vertices = 3, .tets = 10, .owned_vertices = 7},
