@@ -59,7 +59,7 @@ class MeshWorker final : public jobs::Worker {
 
   Bytes run(std::span<const std::byte> request) override
   {
-    return std::visit([this](const auto& one) { return answer(one); },
+    return std::visit([this](const auto& one) { return this->answer(one); },
                       from_bytes<Request>(request));
   }
 

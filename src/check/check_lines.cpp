@@ -13,7 +13,6 @@
 #include "tessera/base/vec3.hpp"
 #include "tessera/check/check_mesh.hpp"
 #include "tessera/comm/all_or_none.hpp"
-#include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::check {
 namespace {
@@ -42,10 +41,12 @@ std::set<Ends> edges_of_tets(const mesh::MeshArrays& tets, const std::set<Vec3>&
         points.contains(point_at(std::span(tets.point_xyz), static_cast<LocalIndex>(p))));
   }
   for (std::size_t first = 0; first < tets.cell_points.size(); first += width) {
-    for (const auto& [i, j] : mesh::kTetEdgeCorners) {
-      const LocalIndex a = tets.cell_points[first + i];
-      const LocalIndex b = tets.cell_points[first + j];
-      if (is_on_line[at(a)] && is_on_line[at(b)]) edges.insert(ends_of(tets, a, b));
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const LocalIndex a = tets.cell_points[first + i];
+        const LocalIndex b = tets.cell_points[first + j];
+        if (is_on_line[at(a)] && is_on_line[at(b)]) edges.insert(ends_of(tets, a, b));
+      }
     }
   }
   return edges;

@@ -326,20 +326,6 @@ void add_lines(const fs::path& file, VertexIdentity identity, LoadedPiece& piece
                    : std::vector<std::int32_t>(at(static_cast<LocalIndex>(edges.num_cells())), 0);
 }
 
-std::vector<std::string> names_of_lines(const std::vector<fs::path>& files,
-                                        const comm::Communicator& comm)
-{
-  return on_root(comm, [&] {
-    for (const fs::path& file : files) {
-      if (file.empty()) continue;
-      const auto texts = io::read_vtu(file, io::CellOrder::edges).field_texts;
-      const auto names = texts.find("line_names");
-      return names == texts.end() ? std::vector<std::string>{} : names->second;
-    }
-    return std::vector<std::string>{};
-  });
-}
-
 // What the first piece tells of all.
 struct FirstPiece {
   bool has_ids = true;
@@ -360,7 +346,15 @@ FileNames names_in(const mesh::MeshArrays& cells)
   };
   const std::vector<std::string> unit = texts("length_unit");
   return {texts("material_names"), texts("patch_names"), unit.empty() ? "" : unit.front(),
-          texts(mesh::kPeriodicPairsName)};
+          texts(mesh::kPeriodicPairsName), texts("line_names")};
+}
+
+std::vector<std::string> names_of_lines(const std::vector<fs::path>& files,
+                                        const comm::Communicator& comm)
+{
+  const auto first = std::ranges::find_if_not(files, &fs::path::empty);
+  if (first == files.end()) return {};
+  return on_root(comm, [&] { return names_in(io::read_vtu(*first, io::CellOrder::edges)).lines; });
 }
 
 }  // namespace

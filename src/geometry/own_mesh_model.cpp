@@ -333,6 +333,7 @@ model::ModelSource import_own_mesh(const std::filesystem::path& file,
   if (!options.cad.empty()) {
     model::ImportOptions of_cad{.feature_angle_deg = options.feature_angle_deg,
                                 .assembly = options.assembly};
+    of_cad.assembly.loose_curves = model::LooseParts::drop;
     of_cad.assembly.loose_faces = model::LooseParts::drop;  // The mesh need not have them.
     content.cad = import_cad(options.cad, of_cad);
   }

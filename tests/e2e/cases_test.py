@@ -36,6 +36,7 @@ CYLINDER_PATCHES = frozenset({"side", "top", "bottom"})
 PACKING_PATCHES = frozenset({"skin", "left", "right", "front", "back", "bottom", "top"})
 PENNY_PATCHES = numbered(6) | {"crack_plus", "crack_minus"}
 FAULT_PATCHES = numbered(16) | {"fault", "branch"}
+WELL_PATCHES = numbered(16) | {"fault"}
 CORE_PATCHES = frozenset({"outside", "core_skin", "shell_skin"})
 SHAFT_PATCHES = frozenset("journal taper seat keyway flange stub bore hole".split())
 # The keyway's walls end on a cylinder of radius 18; its floor is 13 above the axis, 8 wide, 24 long.
@@ -79,6 +80,9 @@ CASES = {
     ),
     "sphere": Expected(4 / 3 * math.pi, 0.05, ("ball",), numbered(1), coarser=("refine.levels=1",)),
     "torus": Expected(2 * math.pi**2 * 10 * 3**2, 0.05, ("torus",), frozenset({"skin"}), ("mm",)),
+    "well": Expected(
+        2e6, 1e-9, ("low", "middle", "high"), WELL_PATCHES, coarser=("size.target=16",)
+    ),
 }
 
 

@@ -6,7 +6,6 @@ import math
 import pathlib
 import re
 import sys
-import tempfile
 import unittest
 
 import getfem
@@ -19,7 +18,7 @@ from scipy.sparse import coo_matrix, csc_matrix, diags
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import cg
 from scipy.spatial import cKDTree
-from solver_meshes import Mesh, mpirun, run
+from solver_meshes import made_of, mpirun, run
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from periodic_models import packing_model  # noqa: E402
@@ -95,14 +94,6 @@ def wheel_case(num_sectors, size):
     return text + '[[periodic]]\nfrom = "start"\nto = "end"\nrotation = { axis = [0, 0, 1], angle = 30 }\n'
 
 
-def made(model, case, *settings):
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "case.toml"
-        file.write_text(case, encoding="utf-8")
-        file.with_name("model.geo").write_text(model, encoding="utf-8")
-        return Mesh(file, PARTS, *settings)
-
-
 class PeriodicProblem(Problem):
     """Conduction where temperatures rise by one from side to side."""
 
@@ -159,8 +150,9 @@ class Periodic(unittest.TestCase):
     def test_check_mesh(self):
         """In three directions and around an axis, in one mesh and in parts."""
         for mesh, num_patches in (
-            (made(balls_model(), balls_case("size.target = 0.1")), 6), (made(wheel_model(1), wheel_case(1, 0.05)), 2),
-        ):  # fmt: skip
+            (made_of(balls_model(), balls_case("size.target = 0.1"), parts=PARTS), 6),
+            (made_of(wheel_model(1), wheel_case(1, 0.05), parts=PARTS), 2),
+        ):
             self.addCleanup(mesh.remove)
             num_through = 0
             for folder in self.openfoam(mesh):
@@ -177,7 +169,7 @@ class Periodic(unittest.TestCase):
 
     def test_faces_are_partners(self):
         """In one mesh: face by face and corner by corner, but seen from the other side."""
-        mesh = made(balls_model(), balls_case("size.target = 0.15"))
+        mesh = made_of(balls_model(), balls_case("size.target = 0.15"), parts=PARTS)
         self.addCleanup(mesh.remove)
         part = Case(mesh.convert("openfoam-serial"))
         for axis, pair in enumerate(PAIRS):
@@ -187,7 +179,7 @@ class Periodic(unittest.TestCase):
 
     def test_hdf5_has_pairs_of_points(self):
         """All points of a patch, each where the image of its partner is."""
-        mesh = made(wheel_model(1), wheel_case(1, 0.1))
+        mesh = made_of(wheel_model(1), wheel_case(1, 0.1), parts=PARTS)
         self.addCleanup(mesh.remove)
         with h5py.File(mesh.convert("xdmf") / "mesh.h5") as file:
             points, patch = file["geometry/vertices"][:], file["boundary/patch"][:].ravel()
@@ -220,8 +212,8 @@ class Periodic(unittest.TestCase):
 
     def test_a_sector_is_as_warm_as_the_wheel(self):
         size = 0.065
-        sector, wheel = (made(wheel_model(num), wheel_case(num, size)) for num in (1, NUM_SECTORS))
-        insulated = made(wheel_model(1), wheel_case(1, size).split("[[periodic]]")[0])
+        sector, wheel = (made_of(wheel_model(num), wheel_case(num, size), parts=PARTS) for num in (1, NUM_SECTORS))
+        insulated = made_of(wheel_model(1), wheel_case(1, size).split("[[periodic]]")[0], parts=PARTS)
         for mesh in (sector, wheel, insulated):
             self.addCleanup(mesh.remove)
         serial, parts = (self.heat(folder) for folder in self.openfoam(sector))
@@ -238,7 +230,7 @@ class Periodic(unittest.TestCase):
         found = []
         for levels in (0, 1, 2):
             case = balls_case(f"coarse.max_size = 0.22\nrefine.levels = {levels}")
-            mesh = made(balls_model(), case)
+            mesh = made_of(balls_model(), case, parts=PARTS)
             self.addCleanup(mesh.remove)
             problem = PeriodicProblem(mesh.convert("msh2") / "mesh_v2.msh")
             found.append(problem.conductivity({"matrix": 1.0, "grains": 10.0}))

@@ -83,6 +83,15 @@ def read_pvtu(file):
     return vtk_to_numpy(grid.GetPoints().GetData()), cells, arrays, texts
 
 
+def made_of(model, case, parts):
+    """A mesh of a case file and its model.geo, both given as texts."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "case.toml"
+        file.write_text(case, encoding="utf-8")
+        file.with_name("model.geo").write_text(model, encoding="utf-8")
+        return Mesh(file, parts)
+
+
 class Mesh:
     """A mesh of one of the cases in configs/cases, or of a case file, in a folder of its own."""
 
