@@ -230,10 +230,10 @@ TEST_P(LatticeOfLevel, IsAffineOnAFlatModel)
       const LocalIndex v = complex.triangle_vertices[3 * at(t) + c];
       corners[c] = body.coarse.position(complex.vertex_coarse[at(v)]);
     }
-    for_each_point(lattice.most_intervals(), [&, &lattice = lattice](const TrianglePoint& p) {
+    for_each_point(lattice.most_intervals(), [&, &points = lattice](const TrianglePoint& p) {
       const Vec3 affine = corners[0] + (p.i / n) * (corners[1] - corners[0])
                           + (p.j / n) * (corners[2] - corners[0]);
-      ASSERT_LE(norm(lattice.triangle_point(t, p) - affine), 1e-15);
+      ASSERT_LE(norm(points.triangle_point(t, p) - affine), 1e-15);
     });
   }
 }
