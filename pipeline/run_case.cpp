@@ -291,7 +291,7 @@ class CaseRun {
     GlobalIndex num_boundary = 0;
     for (const subdomain::PieceSummary& piece : run.filled.pieces)
       num_boundary += piece.num_all_boundary();
-    const FolderSize size = size_of_folders(given_.output.directory, {"mesh", "boundary"});
+    const FolderSize size = size_of_folders(given_.output.directory, {"mesh", "boundary", "lines"});
     const ActualRun actual{
         .num_ranks = comm_.size(),
         .is_resumed = run_figures.is_resumed,

@@ -60,8 +60,9 @@ void require_disk_space(const RunOutline& outline, const io::OutputOptions& opti
   all_or_none(context.comm, [&] {
     if (context.comm.rank() != 0) return;
     // What an earlier try has left there need not be written again.
-    const double free = static_cast<double>(std::filesystem::space(context.folder).available)
-                        + size_of_folders(context.folder, {"mesh", "boundary", "pieces"}).bytes;
+    const double free =
+        static_cast<double>(std::filesystem::space(context.folder).available)
+        + size_of_folders(context.folder, {"mesh", "boundary", "lines", "pieces"}).bytes;
     if (need.file_bytes + need.store_bytes <= free) return;
     throw OutputError(fmt::format(
         "{}: about {:.3g} GB are needed and {:.3g} GB are free; choose another output.directory, "

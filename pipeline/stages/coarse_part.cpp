@@ -101,20 +101,23 @@ bool refine_for_sizes(RunResult& run, const model::NamedParts& parts, RunContext
   return is_made;
 }
 
-// Of a file with such faces; load_case() looks at those of the case.
+// Of a file with such faces or curves; load_case() looks at those of the case.
 void require_own_surface(const RunResult& run)
 {
   if (!run.resolved.coarse.has_inner_parts) return;
+  const bool has_lines = !run.model.assembly.lines.empty();
   const std::string_view other = run.resolved.coarse.mesher == surface::Mesher::gmsh
                                      ? "coarse.mesher = \"gmsh\""
                                  : run.resolved.decompose.method == decompose::Method::geometry
                                      ? "decompose.method = \"geometry\""
-                                     : "";
+                                 : has_lines && !run.resolved.layers.empty() ? "[[layer]]"
+                                                                             : "";
   if (other.empty()) return;
-  throw ConfigError(fmt::format(
-      "{}: the file has faces inside of solids, which exclude {}; leave that out, or set "
-      "geometry.loose_faces = \"drop\"",
-      run.resolved.geometry.file.string(), other));
+  throw ConfigError(
+      fmt::format("{}: the file has {} inside of solids, which exclude {}; leave that out, or set "
+                  "geometry.{} = \"drop\"",
+                  run.resolved.geometry.file.string(), has_lines ? "curves" : "faces", other,
+                  has_lines ? "loose_curves" : "loose_faces"));
 }
 
 // A coarse mesh, and once more where it is too coarse for the sizes.

@@ -174,7 +174,8 @@ bool RunState::has_made(config::Case given) const
     const config::Case there = config::load_case(output_ / "case.toml");
     given.output.directory = there.output.directory;  // Each may name the folder in its own way.
     return config::to_toml(there) == config::to_toml(given) && has_all_pieces(output_ / "mesh.pvtu")
-           && has_all_pieces(output_ / "boundary.pvtu");
+           && has_all_pieces(output_ / "boundary.pvtu")
+           && (!is_own_file(output_ / "lines.pvtu") || has_all_pieces(output_ / "lines.pvtu"));
   } catch (const Error&) {  // Then the folder is refused, as any other that is not empty.
     return false;
   }

@@ -95,11 +95,10 @@ void CellNumbers::require_images(const surface::CoarseOptions& options) const
       const auto is_near = [&](const Vec3& other) { return norm(other - place) <= tolerance; };
       if (std::ranges::any_of(others, is_near)) continue;
       throw NetgenError(
-          fmt::format("a face that ends inside of a solid is continued to the solid's sides, and "
-                      "reaches one of "
-                      "two periodic sides near ({:g}) but not the other one; turn the face, or "
-                      "divide the solid "
-                      "in the CAD program so that both sides are cut alike",
+          fmt::format("a face or a line that ends inside of a solid is continued to the solid's "
+                      "sides, and reaches one of two periodic sides near ({:g}) but not the other "
+                      "one; turn it, or divide the solid in the CAD program so that both sides "
+                      "are cut alike",
                       fmt::join(place, ", ")));
     }
   };

@@ -16,6 +16,7 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
@@ -101,9 +102,13 @@ TopoDS_Compound continued(const std::vector<TopoDS_Shape>& lines, double reach)
 
 std::vector<TopoDS_Shape> inner_lines_of(const TopoDS_Shape& shape)
 {
+  TopTools_IndexedMapOfShape seen;  // Also the edges of faces: a file may have one of them again.
+  for (TopExp_Explorer faces(shape, TopAbs_FACE); faces.More(); faces.Next())
+    TopExp::MapShapes(faces.Current(), TopAbs_EDGE, seen);
   std::vector<TopoDS_Shape> lines;
   for (TopExp_Explorer edges(shape, TopAbs_EDGE, TopAbs_FACE); edges.More(); edges.Next()) {
-    lines.push_back(edges.Current());
+    const int before = seen.Extent();
+    if (seen.Add(edges.Current()) > before) lines.push_back(edges.Current());
   }
   return lines;
 }

@@ -120,26 +120,36 @@ surface::CoarseSurface CadModel::mesh_cells(const surface::CoarseOptions& option
   return surface;
 }
 
-// That segments lead from one end of each line to the other.
+// That segments lead along each line, from one end to the other.
 void CadModel::require_whole_lines(const mesh::CoarseMesh& mesh) const
 {
-  constexpr double kMostMissing = 1e-6;
   std::map<LocalIndex, std::set<std::array<LocalIndex, 2>>> segments;
   for (LocalIndex s = 0; s < mesh.num_segments(); ++s) {
     const LocalIndex a = mesh.segment_vertices[2 * at(s)];
     const LocalIndex b = mesh.segment_vertices[2 * at(s) + 1];
     segments[mesh.segment_curve[at(s)]].insert({std::min(a, b), std::max(a, b)});
   }
-  for (LocalIndex curve = 0; curve < edges_.Extent(); ++curve) {
-    if (!is_line(curve)) continue;
-    double length = 0.0;
-    for (const auto& [a, b] : segments[curve]) length += norm(mesh.position(b) - mesh.position(a));
+  for (LocalIndex curve = num_edges_of_faces_; curve < edges_.Extent(); ++curve) {
+    std::map<LocalIndex, int> num_at;
+    for (const auto& ends : segments[curve]) {
+      for (const LocalIndex v : ends) ++num_at[v];
+    }
+    const auto num_ends = std::ranges::count(num_at, 1, [](const auto& one) { return one.second; });
     const BRepAdaptor_Curve line(TopoDS::Edge(edges_(curve + 1)));
-    const gp_Pnt from = line.Value(line.FirstParameter());
-    if (length >= (1.0 - kMostMissing) * from.Distance(line.Value(line.LastParameter()))) continue;
+    const gp_Pnt first = line.Value(line.FirstParameter());
+    const auto has_end = [&](const gp_Pnt& end) {
+      return std::ranges::any_of(num_at, [&](const auto& one) {
+        const Vec3 p = mesh.position(one.first);
+        return end.Distance({p[0], p[1], p[2]}) <= curve_at(curve).end_tolerance(p);
+      });
+    };
+    const bool is_closed = BRep_Tool::IsClosed(edges_(curve + 1));
+    if (num_ends == (is_closed ? 0 : 2) && has_end(first)
+        && has_end(line.Value(line.LastParameter())))
+      continue;
     throw NetgenError(
-        fmt::format("{}: the coarse mesh has not all of the line at ({:g}, {:g}, {:g})", file_name_,
-                    from.X(), from.Y(), from.Z()));
+        fmt::format("{}: the coarse mesh has not all of the line that begins at ({:g}, {:g}, {:g})",
+                    file_name_, first.X(), first.Y(), first.Z()));
   }
 }
 

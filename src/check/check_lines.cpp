@@ -34,7 +34,7 @@ std::set<Ends> edges_of_tets(const mesh::MeshArrays& tets, const std::set<Vec3>&
 {
   const auto width = static_cast<std::size_t>(tets.vertices_per_cell);
   std::set<Ends> edges;
-  if (width < 4 || tets.are_edges) return edges;  // Not even tets.
+  if (width != 4 && width != 10) return edges;  // Not even tets.
   std::vector<bool> is_on_line;
   for (std::size_t p = 0; 3 * p < tets.point_xyz.size(); ++p) {
     is_on_line.push_back(

@@ -313,10 +313,13 @@ void add_triangles(const mesh::MeshArrays& boundary, const std::vector<VertexKey
                                                   : std::vector<std::int32_t>(triangles.size(), 0);
 }
 
-// Edges that two points of the piece have, which need be no edge of a tet.
 void add_lines(const fs::path& file, VertexIdentity identity, LoadedPiece& piece)
 {
   const mesh::MeshArrays edges = io::read_vtu(file, io::CellOrder::edges);
+  const int num_points = piece.tet_nodes.empty() ? 2 : 3;
+  if (edges.num_cells() > 0 && edges.vertices_per_cell != num_points) {
+    throw InputError(file.string() + ": its edges are not of the order of the tets");
+  }
   const std::vector<LocalIndex> row =
       rows_of(keys_of_points(edges, identity, file), piece.point_keys, file);
   for (const LocalIndex point : edges.cell_points) piece.line_points.push_back(row[at(point)]);

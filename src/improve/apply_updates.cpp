@@ -167,6 +167,10 @@ class Updater {
     for (const LocalIndex v : piece_.line_vertices)
       piece.line_vertices.push_back(new_number_[at(v)]);
     piece.line = piece_.line;
+    if (std::ranges::find(piece.line_vertices, kNoIndex) != piece.line_vertices.end()) {
+      throw MeshError(fmt::format(
+          "updates took a point on a line inside of solids from subdomain {}", piece.subdomain));
+    }
     piece.columns = piece_.columns;
     piece.boundary_tet =
         mesh::match_surface(piece.boundary_vertices, piece.num_skin_vertices(), piece.tet_vertices)

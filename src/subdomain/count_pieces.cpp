@@ -30,9 +30,10 @@ std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& 
     piece.tets += layers->counts(s).tets;
     piece.boundary_triangles += layers->counts(s).side_triangles;
   }
-  for (const LineEdge& line : edges_on_lines(cut.skeleton, cut.coarse)) {
-    number::PieceCounts& owner = counts[at(cut.skeleton.edge_owner[at(line.edge)])];
-    owner.line_edges += of_skeleton.edge_intervals(line.edge);
+  const std::vector<LineEdge> lines = edges_on_lines(cut.skeleton, cut.coarse);
+  const std::vector<LocalIndex> owners = owners_of(lines, cut.skeleton, cut.decomposition);
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    counts[at(owners[row])].line_edges += of_skeleton.edge_intervals(lines[row].edge);
   }
   return counts;
 }

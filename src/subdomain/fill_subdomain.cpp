@@ -189,7 +189,7 @@ FilledPiece check_and_measure(const PartitionedMesh& cut, LocalIndex subdomain,
   piece.skin_index = raw.skin.vertex_index;
   piece.tet_vertices = std::move(raw.tets.tet_vertices);
   add_boundary(raw.skin, cut.skeleton, facts.triangle_tet, piece);
-  add_line_edges(cut.skeleton, cut.coarse, piece);
+  add_line_edges(cut, piece);
 
   filled.result = measure_filled_piece(cut, raw.skin, piece);
   PieceSummary& summary = filled.result.summary;

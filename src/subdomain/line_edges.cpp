@@ -27,19 +27,47 @@ std::vector<mesh::HostPoint> points_along(const mesh::Skeleton& skeleton,
   return points;
 }
 
-void add_line_edges(const mesh::Skeleton& skeleton, const mesh::CoarseMesh& coarse,
-                    mesh::Piece& piece)
+std::vector<LocalIndex> owners_of(const std::vector<LineEdge>& lines,
+                                  const mesh::Skeleton& skeleton,
+                                  const mesh::Decomposition& decomposition)
 {
-  const mesh::HostLayout hosts(skeleton);
+  std::vector<LocalIndex> owners(lines.size(), kNoIndex);
+  if (lines.empty()) return owners;
+  std::map<LocalIndex, std::size_t> row_of;
+  for (std::size_t row = 0; row < lines.size(); ++row) row_of.emplace(lines[row].edge, row);
+  const auto material = [&](LocalIndex subdomain) {
+    return subdomain == kNoIndex ? kNoIndex : decomposition.subdomain_material[at(subdomain)];
+  };
+  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
+    const LocalIndex* sides = &skeleton.triangle_subdomains[2 * at(t)];
+    if (material(sides[0]) == material(sides[1])) continue;
+    for (std::size_t side = 0; side < 3; ++side) {
+      const auto row = row_of.find(skeleton.triangle_edges[3 * at(t) + side]);
+      if (row == row_of.end()) continue;
+      LocalIndex& owner = owners[row->second];
+      for (const LocalIndex subdomain : {sides[0], sides[1]}) {
+        const bool is_lower = owner == kNoIndex || subdomain < owner;
+        if (subdomain != kNoIndex && is_lower) owner = subdomain;
+      }
+    }
+  }
+  return owners;
+}
+
+void add_line_edges(const PartitionedMesh& cut, mesh::Piece& piece)
+{
+  const mesh::HostLayout hosts(cut.skeleton);
+  const std::vector<LineEdge> lines = edges_on_lines(cut.skeleton, cut.coarse);
+  const std::vector<LocalIndex> owners = owners_of(lines, cut.skeleton, cut.decomposition);
   std::vector<LineEdge> owned;
-  std::map<mesh::HostPoint, LocalIndex> vertex_named;
   std::map<LocalIndex, LocalIndex> num_points;  // Inside of an edge.
-  for (const LineEdge& line : edges_on_lines(skeleton, coarse)) {
-    if (skeleton.edge_owner[at(line.edge)] != piece.subdomain) continue;
-    owned.push_back(line);
-    num_points[hosts.edge(line.edge)] = 0;
+  for (std::size_t row = 0; row < lines.size(); ++row) {
+    if (owners[row] != piece.subdomain) continue;
+    owned.push_back(lines[row]);
+    num_points[hosts.edge(lines[row].edge)] = 0;
   }
   if (owned.empty()) return;
+  std::map<mesh::HostPoint, LocalIndex> vertex_named;
   for (LocalIndex v = 0; v < piece.num_skin_vertices(); ++v) {
     const mesh::HostPoint name = piece.skin_point(v);
     vertex_named.emplace(name, v);
@@ -48,7 +76,7 @@ void add_line_edges(const mesh::Skeleton& skeleton, const mesh::CoarseMesh& coar
   }
   for (const LineEdge& line : owned) {
     const LocalIndex n = num_points.at(hosts.edge(line.edge)) + 1;
-    const std::vector<mesh::HostPoint> points = points_along(skeleton, hosts, line.edge, n);
+    const std::vector<mesh::HostPoint> points = points_along(cut.skeleton, hosts, line.edge, n);
     for (std::size_t k = 1; k < points.size(); ++k) {
       piece.line_vertices.push_back(vertex_named.at(points[k - 1]));
       piece.line_vertices.push_back(vertex_named.at(points[k]));

@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "tessera/mesh/coarse_mesh.hpp"
+#include "tessera/mesh/decomposition.hpp"
 #include "tessera/mesh/host_layout.hpp"
 #include "tessera/mesh/piece.hpp"
 #include "tessera/mesh/skeleton.hpp"
+#include "tessera/subdomain/partitioned_mesh.hpp"
 
 namespace tessera::subdomain {
 
@@ -26,9 +28,14 @@ struct LineEdge {
                                                         const mesh::HostLayout& hosts,
                                                         LocalIndex edge, LocalIndex n);
 
-// Gives a piece, as it was filled, the edges on lines that it owns: it is the lowest subdomain that
-// holds them.
-void add_line_edges(const mesh::Skeleton& skeleton, const mesh::CoarseMesh& coarse,
-                    mesh::Piece& piece);
+// The subdomain that owns each of these edges: the lowest one that ends there at another material
+// or outside. Its tet at such a triangle stays its own, whatever the improvement of seams
+// exchanges. Shape (lines).
+[[nodiscard]] std::vector<LocalIndex> owners_of(const std::vector<LineEdge>& lines,
+                                                const mesh::Skeleton& skeleton,
+                                                const mesh::Decomposition& decomposition);
+
+// Gives a piece, as it was filled, the edges on lines that it owns.
+void add_line_edges(const PartitionedMesh& cut, mesh::Piece& piece);
 
 }  // namespace tessera::subdomain

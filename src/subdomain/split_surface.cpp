@@ -256,6 +256,10 @@ std::vector<LocalIndex> SplitSurface::edges_on_lines() const
     const LocalIndex a = vertex(piece_.line_vertices[2 * row]);
     const LocalIndex b = vertex(piece_.line_vertices[2 * row + 1]);
     edges.push_back(mesh::find_edge(all_.complex.faces, {std::min(a, b), std::max(a, b)}));
+    if (edges.back() == kNoIndex) {
+      throw MeshError(
+          fmt::format("piece {} has lost an edge on a line inside of solids", piece_.subdomain));
+    }
   }
   return edges;
 }

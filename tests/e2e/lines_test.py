@@ -142,6 +142,15 @@ class Wells(LinesTest):
             with self.subTest(settings=settings):
                 self.assert_lines(self.mesh(case, "_".join(settings).replace("=", "_"), *sets(*settings), ranks=2))
 
+    def test_stay_where_many_subdomains_meet(self):
+        """Seams around them are improved, and pieces exchange tets."""
+        case = self.case(LINES, "coarse.max_size = 0.15\nrefine.levels = 1\n")
+        for settings in (("fill.kernel=optimize",), ("fill.kernel=optimize", "refine.levels=2", "fill.levels=1")):
+            with self.subTest(settings=settings):
+                keys = sets("decompose.subdomains=60", *settings)
+                report = self.assert_lines(self.mesh(case, settings[-1].replace("=", "_"), *keys, ranks=3))
+                self.assertGreater(report["num_subdomains"], 50)
+
     def test_have_sizes_of_their_own(self):
         region = "size.target = 0.15\n[[size.region]]\ncurve = 'well'\nsize = 0.03\ngrowth = 0.6\n"
         report = self.assert_lines(self.mesh(self.case(more="", embedded=region + LINES), "out", ranks=2))
@@ -163,6 +172,9 @@ class Wells(LinesTest):
         self.run_program("repartition", out / "mesh.pvtu", "--parts", 3, "--output", parts, ranks=2)
         self.assertEqual(self.run_program("check", parts / "mesh.pvtu", ranks=2).code, OK)
         self.assertEqual({name: len(cells) for name, cells in lines_of(grid_of(parts / "lines.pvtu")).items()}, num_edges)
+        edges = edges_of_tets(grid_of(parts / "mesh.pvtu"))
+        for cell in cells_of(grid_of(parts / "lines.pvtu")):
+            self.assertIn(frozenset(cell), edges)
 
     def test_are_held_against_the_tets_by_the_checker(self):
         out = self.mesh(self.case(), "out")

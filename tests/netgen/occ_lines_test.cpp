@@ -163,6 +163,49 @@ TEST_F(OccLines, CurvesOfTheFileAreLinesIfTheyAreAskedFor)
   EXPECT_NEAR(lengths_of(mesh).begin()->second, 0.3 * std::numbers::pi, 0.02);
 }
 
+TEST_F(OccLines, AClosedCurveIsALineToo)
+{
+  const gp_Circ circle(gp_Ax2(gp_Pnt(0.5, 0.5, 0.5), gp_Dir(1, 0, 0)), 0.3);
+  add(BRepBuilderAPI_MakeEdge(circle).Edge());
+  const auto mesh = this->mesh({.loose_curves = model::LooseParts::embed});
+  expect_one_body(mesh);
+  EXPECT_NEAR(lengths_of(mesh).begin()->second, 0.6 * std::numbers::pi, 0.04);
+}
+
+TEST_F(OccLines, WhatLinesShareHasTheNameOfTheFirst)
+{
+  const Polyline well{{{0.3, 0.4, 1.0}, {0.3, 0.4, 0.5}}};
+  const Polyline track{{{0.3, 0.4, 0.8}, {0.3, 0.4, 0.5}, {0.6, 0.4, 0.3}}};
+  const auto mesh = this->mesh({.embedded = {{"well", well}, {"track", track}}});
+  EXPECT_NEAR(lengths_of(mesh).at("well"), 0.5, kRounding);
+  EXPECT_NEAR(lengths_of(mesh).at("track"), norm(Vec3{0.3, 0.0, -0.2}), kRounding);
+  const std::string text = testing::message_of<GeometryError>([&] {
+    (void)read({.embedded = {{"well", well}, {"again", well}}});
+  });
+  EXPECT_NE(text.find("\"again\" lies on other lines altogether"), std::string::npos) << text;
+}
+
+TEST_F(OccLines, ALineAlongAnEdgeOfTheModelIsThatEdge)
+{
+  const auto mesh = with_line({{0.0, 0.0, 0.25}, {0.0, 0.0, 0.75}});
+  expect_one_body(mesh);
+  EXPECT_NEAR(lengths_of(mesh).at("well"), 0.5, kRounding);
+}
+
+TEST_F(OccLines, WhatLiesOutsideIsLeftOutAndTold)
+{
+  add(BRepBuilderAPI_MakeEdge(gp_Pnt(2, 0, 0), gp_Pnt(2, 1, 0)).Edge());
+  const auto source = read({.loose_curves = model::LooseParts::embed});
+  EXPECT_TRUE(source.assembly.lines.empty());
+  ASSERT_EQ(source.repairs.size(), 1U);
+  EXPECT_NE(source.repairs.front().find("outside of all solids were left out: 1"),
+            std::string::npos);
+  const std::string text = testing::message_of<GeometryError>([&] {
+    (void)with_line({{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5 + 1e-9}, {0.5, 0.5, 0.2}});
+  });
+  EXPECT_NE(text.find("points 1 and 2 of its polyline are one"), std::string::npos) << text;
+}
+
 TEST_F(OccLines, LinesThatLeaveNoDirectionAreRefusedWithAPlace)
 {
   std::vector<Vec3> points{{0.5, 0.5, 0.5}};

@@ -14,13 +14,14 @@
 /// every rank holds all of them.
 namespace tessera::subdomain {
 
-/// @brief Those of lines.pvtu beside mesh.pvtu, if it is there. Points that files share stand
-/// several times.
+/// @brief Those of lines.pvtu beside mesh.pvtu, if it is there, without ids of points. Points that
+/// files share stand several times; edges are numbered anew.
 /// @note Collective. @throws InputError on all ranks, naming a file.
 [[nodiscard]] std::optional<mesh::MeshArrays> read_lines(const std::filesystem::path& mesh,
                                                          const comm::Communicator& comm);
 
-/// @brief The lowest part that has a tet with each edge; kNoIndex: none has. @note Collective.
+/// @brief The lowest part that has a tet with each edge, by the places of its ends; kNoIndex: none
+/// has. @note Collective.
 /// @return Shape (num_cells of the lines).
 [[nodiscard]] std::vector<LocalIndex> parts_of_lines(const mesh::MeshArrays& lines,
                                                      const migrate::DistributedMesh& mesh,

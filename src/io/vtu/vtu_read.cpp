@@ -152,7 +152,7 @@ void read_point_data(const XmlElement& data, const Encoding& encoding, MeshArray
 /// @brief Whether these numbers have 32 bits in our files. Other tools write what they have.
 [[nodiscard]] bool is_narrow(std::string_view name)
 {
-  return name == "attribute" || name == "subdomain" || name == "patch";
+  return name == "attribute" || name == "subdomain" || name == "patch" || name == "line";
 }
 
 void read_cell_data(const XmlElement& data, const Encoding& encoding, const Selection& selection,
