@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Solids that touch, overlap or leave gaps, from the file to the mesh."""
+import collections
 import json
 import math
 import pathlib
@@ -8,8 +9,39 @@ import unittest
 
 import program
 from program import OK, WRONG_INPUT
+from vtkmodules.vtkCommonDataModel import vtkTriangle
+from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 MAKER = pathlib.Path(program.PROGRAM).parent / "assembly_models"
+
+
+# Models of the maker that overlap, on purpose; of one a body is there twice.
+OVERLAPPING = {"inclusion", "overlapping_corners", "pin_through_plate", "three_overlaps", "twice"}
+NUM_MODELS = 16
+
+
+def grid_of(file):
+    reader = vtkXMLPUnstructuredGridReader()
+    reader.SetFileName(str(file))
+    reader.Update()
+    return reader.GetOutput()
+
+
+def areas_between_materials(folder):
+    """Of triangles with tets of two materials, by the materials' numbers."""
+    tets = grid_of(folder / "mesh.pvtu")
+    ids, material = tets.GetPointData().GetArray("GlobalPointIds"), tets.GetCellData().GetArray("attribute")
+    first, areas = {}, collections.Counter()
+    for cell in range(tets.GetNumberOfCells()):
+        rows = [tets.GetCell(cell).GetPointId(i) for i in range(4)]
+        for left_out in range(4):
+            corners = [row for i, row in enumerate(rows) if i != left_out]
+            key = frozenset(int(ids.GetValue(row)) for row in corners)
+            if key not in first:
+                first[key] = int(material.GetValue(cell))
+            elif first[key] != (other := int(material.GetValue(cell))):
+                areas[tuple(sorted((first[key], other)))] += vtkTriangle.TriangleArea(*map(tets.GetPoint, corners))
+    return areas
 
 
 class Assemblies(program.ProgramTest):
@@ -45,6 +77,29 @@ class Assemblies(program.ProgramTest):
         text = self.run_program("info", self.models / "stairs.step").out
         self.assertIn("pairs of solids that share faces: 3\n", text)
         self.assertIn("  solids 2 'step 2' and 3 'step 3': 1 faces, area 0.75 mm²\n", text)
+
+    def test_the_mesh_has_what_open_cascade_has(self):
+        """Areas between bodies, their volumes and names; overlaps where they are meant."""
+        models = sorted(self.models.glob("*.step"))
+        self.assertEqual(len(models), NUM_MODELS)
+        overlapping = set()
+        for model in models:
+            with self.subTest(model=model.name):
+                found = self.info(model.name)
+                if found["assembly"]["overlaps"]:
+                    overlapping.add(model.stem)
+                out = self.mesh_of(model.name, model.stem, "geometry.overlap = 'first'", ranks=2)
+                report = json.loads((out / "report.json").read_text(encoding="utf-8"))
+                self.assertEqual(
+                    [one["name"] for one in report["materials"]], [solid["name"] for solid in found["solids"]]
+                )
+                for made, solid in zip(report["materials"], found["solids"]):
+                    self.assertAlmostEqual(made["volume"] / solid["volume"], 1.0, delta=0.03)
+                areas = areas_between_materials(out)
+                self.assertEqual(sorted(areas), sorted(tuple(touch["solids"]) for touch in found["touches"]))
+                for touch in found["touches"]:
+                    self.assertAlmostEqual(areas[tuple(touch["solids"])] / touch["area"], 1.0, delta=0.03)
+        self.assertEqual(overlapping, OVERLAPPING)
 
     def test_info_lists_what_overlaps(self):
         found = self.info("pin_through_plate.step")["assembly"]["overlaps"]
