@@ -10,7 +10,7 @@ import unittest
 import program
 from program import OK, WRONG_INPUT
 from vtkmodules.vtkCommonDataModel import vtkTriangle
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
+from vtk_grids import grid_of
 
 MAKER = pathlib.Path(program.PROGRAM).parent / "assembly_models"
 
@@ -18,13 +18,6 @@ MAKER = pathlib.Path(program.PROGRAM).parent / "assembly_models"
 # Models of the maker that overlap, on purpose; of one a body is there twice.
 OVERLAPPING = {"inclusion", "overlapping_corners", "pin_through_plate", "three_overlaps", "twice"}
 NUM_MODELS = 16
-
-
-def grid_of(file):
-    reader = vtkXMLPUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 def areas_between_materials(folder):

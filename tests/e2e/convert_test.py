@@ -15,10 +15,10 @@ import xml.etree.ElementTree
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import VTK_TETRA, VTK_TRIANGLE
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 import program
 from program import CANNOT_WRITE, OK, WRONG_INPUT
+from vtk_grids import grid_of
 
 FILES = {
     "xdmf": ["mesh.h5", "mesh.xdmf", "tets.xdmf", "boundary.xdmf"],
@@ -38,13 +38,6 @@ def hashes(folder):
         for file in folder.glob("**/*")
         if file.is_file() and file.name != ".tessera.lock"
     }
-
-
-def grid_of(file):
-    reader = vtkXMLPUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 def cells_of(grid, kind, size):

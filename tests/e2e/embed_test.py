@@ -11,7 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import program  # noqa: E402
 from poly_mesh import PolyMesh  # noqa: E402
 from program import FAILED, OK, WRONG_INPUT, sets  # noqa: E402
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader  # noqa: E402
+from vtk_grids import grid_of  # noqa: E402
 
 # Three layers of rock, a fault that ends in the middle one, and one that crosses it and ends in the layers at all of its rim.
 LAYERS = (
@@ -26,13 +26,6 @@ AREAS = {"fault": 0.5 / 0.6 * math.hypot(0.4, 0.6), "cross": 1.1 * math.hypot(0.
 # A penny in the middle of a block.
 BLOCK = "algebraic3d\nsolid block = orthobrick (-1, -1, -1; 1, 1, 1);\ntlo block;\n"
 PENNY = "[[embed]]\nname = 'crack'\ndisk = { centre = [0, 0, 0], normal = [0, 0, 1], radius = 0.5 }\n"
-
-
-def grid_of(file):
-    reader = vtkXMLPUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 def triangles_by_patch(boundary):

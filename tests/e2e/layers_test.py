@@ -6,12 +6,12 @@ import sys
 import unittest
 
 import numpy
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import program  # noqa: E402
 from poly_mesh import PolyMesh  # noqa: E402
 from program import DEGRADED, OK, STOPPED, WRONG_INPUT, sets  # noqa: E402
+from vtk_grids import grid_of  # noqa: E402
 
 PIPE = (
     "algebraic3d\nsolid inlet = plane (0, 0, 0; 0, 0, -1);\nsolid outlet = plane (0, 0, 2; 0, 0, 1);\n"
@@ -22,13 +22,6 @@ SHELL = (
     "algebraic3d\nsolid outer = sphere (0, 0, 0; 1);\nsolid inner = sphere (0, 0, 0; 0.5);\n"
     "solid shell = outer and not inner and plane (0, 0, 0; 0, 0, -1);\ntlo shell;\n"
 )
-
-
-def grid_of(file):
-    reader = vtkXMLPUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 def points_of(grid, cell):

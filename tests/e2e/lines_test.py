@@ -11,11 +11,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import program  # noqa: E402
 import meshio  # noqa: E402
 from program import FAILED, OK, WRONG_INPUT, sets  # noqa: E402
-from vtkmodules.vtkIOXML import (  # noqa: E402
-    vtkXMLPUnstructuredGridReader,
-    vtkXMLUnstructuredGridReader,
-    vtkXMLUnstructuredGridWriter,
-)
+from vtk_grids import grid_of  # noqa: E402
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter  # noqa: E402
 
 LAYERS = (
     "algebraic3d\nsolid low = orthobrick (0, 0, 0; 2, 1, 0.3);\nsolid middle = orthobrick (0, 0, 0.3; 2, 1, 0.6);\n"
@@ -29,13 +26,6 @@ FAULT = "[[embed]]\nname = 'fault'\npolygon = [[0.8, -0.1, -0.1], [0.8, 1.1, -0.
 LINES = f"[[embed]]\nname = 'well'\npolyline = {WELL}\n[[embed]]\nname = 'track'\npolyline = {TRACK}\n"
 TAGS = {"mesh.mesh": "medit:ref", "mesh_v2.msh": "gmsh:physical"}
 LENGTHS = {"well": 0.55 + math.dist(WELL[1], WELL[2]), "track": math.dist(*TRACK)}
-
-
-def grid_of(file):
-    reader = vtkXMLPUnstructuredGridReader()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 def ids_of(grid):
@@ -179,10 +169,7 @@ class Wells(LinesTest):
     def test_are_held_against_the_tets_by_the_checker(self):
         out = self.mesh(self.case(), "out")
         file = max((out / "lines").iterdir(), key=lambda one: one.stat().st_size)
-        reader = vtkXMLUnstructuredGridReader()
-        reader.SetFileName(str(file))
-        reader.Update()
-        grid = reader.GetOutput()
+        grid = grid_of(file)
         x, y, z = grid.GetPoint(0)
         grid.GetPoints().SetPoint(0, x + 1e-3, y, z)
         writer = vtkXMLUnstructuredGridWriter()

@@ -11,15 +11,8 @@ import program  # noqa: E402
 from msh_file import Msh  # noqa: E402
 from periodic_models import PACKING, PAIRS, SECTOR, packing_case, sector_case  # noqa: E402
 from program import FAILED, OK, WRONG_INPUT, sets  # noqa: E402
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader  # noqa: E402
+from vtk_grids import grid_of  # noqa: E402
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter  # noqa: E402
-
-
-def grid_of(file, reader_type=vtkXMLPUnstructuredGridReader):
-    reader = reader_type()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 def write_grid(grid, file):
@@ -212,7 +205,7 @@ class NodesOfFiles(PeriodicTest):
     def test_are_refused_if_a_point_has_no_partner(self):
         mesh = self.mesh(self.packing(), "mesh", *sets("fill.kernel=subdivide"))
         for file in mesh.glob("mesh/*.vtu"):
-            grid = grid_of(file, vtkXMLUnstructuredGridReader)
+            grid = grid_of(file)
             texts = grid.GetFieldData().GetAbstractArray("periodic_patches")
             self.assertEqual(texts.GetValue(1), "right")
             texts.SetValue(2, "1 0 0 2 0 1 0 0 0 0 1 0")
@@ -227,7 +220,7 @@ class Checked(PeriodicTest):
     def test_is_that_each_point_has_a_partner(self):
         out = self.mesh(self.packing(), "out", *sets("fill.kernel=subdivide"))
         for file in (*out.glob("mesh/*.vtu"), *out.glob("boundary/*.vtu")):
-            grid = grid_of(file, vtkXMLUnstructuredGridReader)
+            grid = grid_of(file)
             rows = [row for row in range(grid.GetNumberOfPoints()) if grid.GetPoint(row)[0] == 1.0]
             for row in rows:
                 x, y, z = grid.GetPoint(row)

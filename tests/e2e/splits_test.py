@@ -10,7 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import program  # noqa: E402
 from poly_mesh import PolyMesh  # noqa: E402
 from program import FAILED, OK, WRONG_INPUT, sets  # noqa: E402
-from vtkmodules.vtkIOXML import vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader  # noqa: E402
+from vtk_grids import grid_of  # noqa: E402
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter  # noqa: E402
 
 RADIUS = 0.5
@@ -28,13 +28,6 @@ BAFFLE = (
 )
 FACES = {"penny": 2, "baffle": 7}
 SPLITS = {"penny": "[[geometry.contact]]\nbody = 'a'\nother = 'b'\n", "baffle": "[[split]]\npatch = 'crack'\n"}
-
-
-def grid_of(file, reader_type=vtkXMLPUnstructuredGridReader):
-    reader = reader_type()
-    reader.SetFileName(str(file))
-    reader.Update()
-    return reader.GetOutput()
 
 
 class SplitsTest(program.ProgramTest):
@@ -140,7 +133,7 @@ class Checked(SplitsTest):
         ids_at = self.assert_both_sides_alike(out)
         moved = max(max(ids_at.values(), key=len))
         for file in (*out.glob("mesh/*.vtu"), *out.glob("boundary/*.vtu")):
-            grid = grid_of(file, vtkXMLUnstructuredGridReader)
+            grid = grid_of(file)
             ids = grid.GetPointData().GetGlobalIds()
             rows = [row for row in range(grid.GetNumberOfPoints()) if int(ids.GetValue(row)) == moved]
             for row in rows:
