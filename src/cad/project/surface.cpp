@@ -310,10 +310,11 @@ OccSurface::Descent OccSurface::nearest_boundary(const Vec3& point) const
 std::vector<OccSurface::Uv> OccSurface::descent_starts(const Vec3& point) const
 {
   const gp_Pnt target = to_occ(point);
-  const auto [rows, columns] = num_samples_;
+  const int rows = num_samples_[0];
+  const int columns = num_samples_[1];
   std::vector<double> distances;
   for (const gp_Pnt& sample : samples()) distances.push_back(sample.SquareDistance(target));
-  const auto distance_at = [&, rows = rows, columns = columns](int i, int j) {
+  const auto distance_at = [&](int i, int j) {
     const bool outside = i < 0 || j < 0 || i >= rows || j >= columns;
     return outside ? kFarAway : distances[at(i * columns + j)];
   };
