@@ -36,10 +36,6 @@ namespace {
 using Shapes = std::vector<TopoDS_Shape>;
 using Polygon = std::vector<Vec3>;
 
-gp_Pnt to_occ(const Vec3& p) { return {p[0], p[1], p[2]}; }
-
-Vec3 from_occ(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
-
 struct Mass {
   double volume = 0.0;
   Vec3 centre{};

@@ -31,8 +31,6 @@
 namespace tessera::cad {
 namespace {
 
-Vec3 coordinates(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
-
 // Directions in space that a surface is continued in have no end of their own: that far is enough.
 struct Reach {
   double length = 0.0;
@@ -98,8 +96,8 @@ TopoDS_Face continued(const TopoDS_Face& face, const Reach& reach)
   switch (surface.GetType()) {
     case GeomAbs_Plane: {
       const gp_Pln plane = surface.Plane();
-      return plane_face(coordinates(plane.Location().XYZ()),
-                        coordinates(plane.Axis().Direction().XYZ()), reach.solid);
+      return plane_face(from_occ(plane.Location()), from_occ(plane.Axis().Direction().XYZ()),
+                        reach.solid);
     }
     case GeomAbs_Cylinder:
       return on_whole_surface(face, {0.0, kTurn, uv[2] - reach.length, uv[3] + reach.length});
@@ -142,7 +140,7 @@ void require_no_inner_faces(const CutShape& cells)
     throw NetgenError(fmt::format(
         "a face that ends inside of a solid, near ({:g}), cannot be continued to the solid's "
         "sides; take plane ones, or continue it in the CAD program",
-        fmt::join(coordinates(place.XYZ()), ", ")));
+        fmt::join(from_occ(place), ", ")));
   }
 }
 

@@ -31,8 +31,6 @@
 namespace tessera::cad {
 namespace {
 
-Vec3 from_occ(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
-
 gp_Pnt middle_of(const TopoDS_Shape& edge)
 {
   const BRepAdaptor_Curve curve(TopoDS::Edge(edge));
@@ -91,8 +89,8 @@ TopoDS_Compound continued(const std::vector<TopoDS_Shape>& lines, double reach)
     if (BRep_Tool::IsClosed(line)) continue;
     const bool is_first = BRep_Tool::Parameter(end, line) < BRepAdaptor_Curve(line).LastParameter();
     const Vec3 onwards = is_first ? -1.0 * tangent_of(line, 0.0) : tangent_of(line, 1.0);
-    const Vec3 far = from_occ(BRep_Tool::Pnt(end).XYZ()) + reach * onwards;
-    const TopoDS_Vertex beyond = BRepBuilderAPI_MakeVertex(gp_Pnt(far[0], far[1], far[2]));
+    const Vec3 far = from_occ(BRep_Tool::Pnt(end)) + reach * onwards;
+    const TopoDS_Vertex beyond = BRepBuilderAPI_MakeVertex(to_occ(far));
     builder.Add(all, BRepBuilderAPI_MakeEdge(end, beyond).Edge());
   }
   return all;
@@ -140,7 +138,7 @@ Vec3 sweep_of(const std::vector<TopoDS_Shape>& lines)
       "the lines inside of solids go in so many directions, near ({:g}) and elsewhere, that no "
       "direction is across all of them; make each an [[embed]] of a case of its own, or leave "
       "some out",
-      fmt::join(from_occ(middle_of(lines.front()).XYZ()), ", ")));
+      fmt::join(from_occ(middle_of(lines.front())), ", ")));
 }
 
 void append_curtains(const std::vector<TopoDS_Shape>& lines, const Vec3& sweep,
@@ -161,20 +159,18 @@ void append_curtains(const std::vector<TopoDS_Shape>& lines, const Vec3& sweep,
 void require_lines(const CutShape& cells, const TopoDS_Shape& shape)
 {
   constexpr double kMostMissing = 1e-6;  // Of its length.
-  const std::vector<TopoDS_Shape> edges = parts_of(shape, TopAbs_EDGE);
-  std::vector<double> found(edges.size(), 0.0);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  std::vector<double> found(static_cast<std::size_t>(edges.Extent()), 0.0);
   for (const TopoDS_Shape& piece : parts_of(cells.shape, TopAbs_EDGE)) {
     const LocalIndex number = CutShape::number_in(cells.edges, piece);
     if (number != kNoIndex) found[at(number)] += length_of(piece);
   }
   for (const TopoDS_Shape& line : inner_lines_of(shape)) {
-    const auto place =
-        std::ranges::find_if(edges, [&](const TopoDS_Shape& edge) { return edge.IsSame(line); });
     const double length = length_of(line);
-    if (found[static_cast<std::size_t>(place - edges.begin())] >= (1.0 - kMostMissing) * length)
-      continue;
+    if (found[at(edges.FindIndex(line) - 1)] >= (1.0 - kMostMissing) * length) continue;
     throw NetgenError(fmt::format("OpenCASCADE does not put the line near ({:g}) into its solid",
-                                  fmt::join(from_occ(middle_of(line).XYZ()), ", ")));
+                                  fmt::join(from_occ(middle_of(line)), ", ")));
   }
 }
 

@@ -5,8 +5,14 @@
 
 #include <TopAbs_ShapeEnum.hxx>
 #include <TopoDS_Shape.hxx>
+#include <gp_Pnt.hxx>
+
+#include "tessera/base/vec3.hpp"
 
 namespace tessera::cad {
+
+[[nodiscard]] inline gp_Pnt to_occ(const Vec3& p) { return {p[0], p[1], p[2]}; }
+[[nodiscard]] inline Vec3 from_occ(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
 /// @brief The different parts of a kind, in the order of TopExp::MapShapes: the numbering of
 /// surfaces (faces) and curves (edges).

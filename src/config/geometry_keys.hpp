@@ -75,8 +75,7 @@ inline constexpr Key kGeometryKeys[] = {
      .meaning =
          "What becomes of curves that a .step, .iges or .brep has beside its solids and faces. "
          "\"embed\": where they lie inside of a solid, the mesh has them as edges; the rest is "
-         "left "
-         "out. \"drop\": all are left out.",
+         "left out. \"drop\": all are left out.",
      .reason = "files have many curves that were only drawn to make solids from"},
     {.name = "geometry.repair",
      .rule = word_rule([](Case& c) -> model::StlRepair& { return c.geometry.stl.repair; }),

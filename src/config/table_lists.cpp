@@ -329,8 +329,8 @@ constexpr TableList kTableLists[] = {
      .alternatives = kEmbedShapes,
      .meaning =
          "A plane face or a line that is put into the solids of a .step, .iges, .brep or .geo, as "
-         "a fault or a well: the mesh conforms to it. A face is a patch, a line a curve. It may "
-         "end inside of a solid, and stick out of it; what sticks out is left out.",
+         "a fault or a well: the mesh conforms to it. A face is a patch, and a line has edges. It "
+         "may end inside of a solid, and stick out of it; what sticks out is left out.",
      .reason = "the model has the faces that it has",
      .size = [](const Case& c) { return c.geometry.assembly.embedded.size(); },
      .resize = [](Case& c, std::size_t size) { c.geometry.assembly.embedded.resize(size); },

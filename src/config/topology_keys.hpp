@@ -25,7 +25,7 @@ inline constexpr Key kEmbedKeys[] = {
     {.name = "embed.name",
      .rule =
          TextRule{[](Case& c) -> std::string& { return c.geometry.assembly.embedded.back().name; }},
-     .meaning = "Name of its patch, or of its curve.",
+     .meaning = "Name of its patch, or of the line.",
      .reason = "other tables and solvers know it by that",
      .example = "\"fault\""},
     {.name = "embed.polygon",

@@ -6,8 +6,6 @@
 #include "tessera/mesh/lattice_levels.hpp"
 #include "tessera/subdomain/layer_tables.hpp"
 
-#include "subdomain/line_edges.hpp"
-
 namespace tessera::subdomain {
 
 std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& cut,
@@ -30,11 +28,8 @@ std::vector<number::PieceCounts> count_subdivided_pieces(const PartitionedMesh& 
     piece.tets += layers->counts(s).tets;
     piece.boundary_triangles += layers->counts(s).side_triangles;
   }
-  const std::vector<LineEdge> lines = edges_on_lines(cut.skeleton, cut.coarse);
-  const std::vector<LocalIndex> owners = owners_of(lines, cut.skeleton, cut.decomposition);
-  for (std::size_t row = 0; row < lines.size(); ++row) {
-    counts[at(owners[row])].line_edges += of_skeleton.edge_intervals(lines[row].edge);
-  }
+  for (const LineEdge& line : cut.lines)
+    counts[at(line.owner)].line_edges += of_skeleton.edge_intervals(line.edge);
   return counts;
 }
 

@@ -170,14 +170,13 @@ TrianglePoint GeometryPlace::point(LocalIndex n, LocalIndex i, LocalIndex j) con
   return {n * a.i + i * (b.i - a.i) + j * (c.i - a.i), n * a.j + i * (b.j - a.j) + j * (c.j - a.j)};
 }
 
-GeometryFinder::GeometryFinder(const mesh::Skeleton& skeleton, const mesh::CoarseMesh& coarse,
-                               const mesh::EdgeLevels& levels)
-    : skeleton_(skeleton),
-      coarse_(coarse),
-      levels_(mesh::lattice_levels(skeleton, levels)),
-      hosts_(skeleton),
-      triangles_of_host_(triangles_by_host(skeleton, hosts_)),
-      lines_(edges_on_lines(skeleton, coarse))
+GeometryFinder::GeometryFinder(const PartitionedMesh& cut)
+    : skeleton_(cut.skeleton),
+      coarse_(cut.coarse),
+      levels_(mesh::lattice_levels(cut.skeleton, cut.levels)),
+      hosts_(cut.skeleton),
+      triangles_of_host_(triangles_by_host(cut.skeleton, hosts_)),
+      lines_(cut.lines)
 {
 }
 

@@ -47,9 +47,8 @@ struct GeometryPlaces {
 // triangles on the geometry stay those of the skeleton's lattice.
 class GeometryFinder {
  public:
-  // The arguments are borrowed. @param[in] levels Those on which the pieces were filled.
-  GeometryFinder(const mesh::Skeleton& skeleton, const mesh::CoarseMesh& coarse,
-                 const mesh::EdgeLevels& levels);
+  // Borrowed, with the levels on which the pieces were filled.
+  explicit GeometryFinder(const PartitionedMesh& cut);
 
   // @param[in] names Of the first vertices of the complex; ascending.
   [[nodiscard]] GeometryPlaces find(const mesh::Complex& complex,
@@ -73,7 +72,7 @@ class GeometryFinder {
   mesh::LatticeLevels levels_;  // Of the skeleton.
   mesh::HostLayout hosts_;
   IndexLists triangles_of_host_;  // On the geometry only; by host of the skeleton.
-  std::vector<LineEdge> lines_;
+  const std::vector<LineEdge>& lines_;
 };
 
 // Points that are known before a complex is refined. All borrowed.

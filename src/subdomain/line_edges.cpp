@@ -4,8 +4,34 @@
 #include <map>
 
 namespace tessera::subdomain {
+namespace {
 
-std::vector<LineEdge> edges_on_lines(const mesh::Skeleton& skeleton, const mesh::CoarseMesh& coarse)
+void set_owners(const mesh::Skeleton& skeleton, const mesh::Decomposition& decomposition,
+                std::vector<LineEdge>& lines)
+{
+  std::map<LocalIndex, LocalIndex*> owner_of;
+  for (LineEdge& line : lines) owner_of.emplace(line.edge, &line.owner);
+  const auto material = [&](LocalIndex subdomain) {
+    return subdomain == kNoIndex ? kNoIndex : decomposition.subdomain_material[at(subdomain)];
+  };
+  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
+    const LocalIndex* sides = &skeleton.triangle_subdomains[2 * at(t)];
+    if (material(sides[0]) == material(sides[1])) continue;
+    for (std::size_t side = 0; side < 3; ++side) {
+      const auto owner = owner_of.find(skeleton.triangle_edges[3 * at(t) + side]);
+      if (owner == owner_of.end()) continue;
+      for (const LocalIndex subdomain : {sides[0], sides[1]}) {
+        const bool is_lower = *owner->second == kNoIndex || subdomain < *owner->second;
+        if (subdomain != kNoIndex && is_lower) *owner->second = subdomain;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<LineEdge> edges_on_lines(const mesh::CoarseMesh& coarse, const mesh::Skeleton& skeleton,
+                                     const mesh::Decomposition& decomposition)
 {
   std::vector<LineEdge> found;
   const std::map<LocalIndex, LocalIndex> lines = mesh::lines_by_curve(coarse);
@@ -14,6 +40,7 @@ std::vector<LineEdge> edges_on_lines(const mesh::Skeleton& skeleton, const mesh:
     const auto line = lines.find(skeleton.edge_curve[at(e)]);
     if (line != lines.end()) found.push_back({e, line->second});
   }
+  set_owners(skeleton, decomposition, found);
   return found;
 }
 
@@ -27,44 +54,15 @@ std::vector<mesh::HostPoint> points_along(const mesh::Skeleton& skeleton,
   return points;
 }
 
-std::vector<LocalIndex> owners_of(const std::vector<LineEdge>& lines,
-                                  const mesh::Skeleton& skeleton,
-                                  const mesh::Decomposition& decomposition)
-{
-  std::vector<LocalIndex> owners(lines.size(), kNoIndex);
-  if (lines.empty()) return owners;
-  std::map<LocalIndex, std::size_t> row_of;
-  for (std::size_t row = 0; row < lines.size(); ++row) row_of.emplace(lines[row].edge, row);
-  const auto material = [&](LocalIndex subdomain) {
-    return subdomain == kNoIndex ? kNoIndex : decomposition.subdomain_material[at(subdomain)];
-  };
-  for (LocalIndex t = 0; t < skeleton.num_triangles(); ++t) {
-    const LocalIndex* sides = &skeleton.triangle_subdomains[2 * at(t)];
-    if (material(sides[0]) == material(sides[1])) continue;
-    for (std::size_t side = 0; side < 3; ++side) {
-      const auto row = row_of.find(skeleton.triangle_edges[3 * at(t) + side]);
-      if (row == row_of.end()) continue;
-      LocalIndex& owner = owners[row->second];
-      for (const LocalIndex subdomain : {sides[0], sides[1]}) {
-        const bool is_lower = owner == kNoIndex || subdomain < owner;
-        if (subdomain != kNoIndex && is_lower) owner = subdomain;
-      }
-    }
-  }
-  return owners;
-}
-
 void add_line_edges(const PartitionedMesh& cut, mesh::Piece& piece)
 {
   const mesh::HostLayout hosts(cut.skeleton);
-  const std::vector<LineEdge> lines = edges_on_lines(cut.skeleton, cut.coarse);
-  const std::vector<LocalIndex> owners = owners_of(lines, cut.skeleton, cut.decomposition);
   std::vector<LineEdge> owned;
   std::map<LocalIndex, LocalIndex> num_points;  // Inside of an edge.
-  for (std::size_t row = 0; row < lines.size(); ++row) {
-    if (owners[row] != piece.subdomain) continue;
-    owned.push_back(lines[row]);
-    num_points[hosts.edge(lines[row].edge)] = 0;
+  for (const LineEdge& line : cut.lines) {
+    if (line.owner != piece.subdomain) continue;
+    owned.push_back(line);
+    num_points[hosts.edge(line.edge)] = 0;
   }
   if (owned.empty()) return;
   std::map<mesh::HostPoint, LocalIndex> vertex_named;

@@ -7,6 +7,8 @@
 #include "tessera/mesh/subdomain_tets.hpp"
 #include "tessera/untangle/fold_test.hpp"
 
+#include "subdomain/line_edges.hpp"
+
 namespace tessera::subdomain {
 
 SubdomainTables make_tables(const mesh::CoarseMesh& coarse,
@@ -18,6 +20,7 @@ SubdomainTables make_tables(const mesh::CoarseMesh& coarse,
   tables.seam_hosts = mesh::hosts_on_seams(tables.skeleton, decomposition);
   tables.on_geometry = untangle::vertices_on_geometry(coarse, tables.skeleton);
   tables.vertex_size = fill::vertex_sizes(coarse, tables.levels);
+  tables.lines = edges_on_lines(coarse, tables.skeleton, decomposition);
   return tables;
 }
 

@@ -201,8 +201,7 @@ class PieceSplitter {
 }  // namespace
 
 PieceRefiner::PieceRefiner(const PartitionedMesh& cut, const PieceSplit& split)
-    : state_(std::make_unique<const State>(
-        State{cut, split, GeometryFinder(cut.skeleton, cut.coarse, cut.levels)}))
+    : state_(std::make_unique<const State>(State{cut, split, GeometryFinder(cut)}))
 {
 }
 

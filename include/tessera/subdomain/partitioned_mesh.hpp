@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tuple>
+#include <vector>
 
 #include "tessera/base/flat_array.hpp"
 #include "tessera/base/index_lists.hpp"
@@ -12,6 +13,18 @@
 
 namespace tessera::subdomain {
 
+/// @brief An edge of the skeleton on a line inside of solids. All of these are there: a line lies
+/// on the sides of cells, and so between materials.
+struct LineEdge {
+  LocalIndex edge = kNoIndex;
+  LocalIndex line = kNoIndex;   ///< Row of mesh::line_names().
+  LocalIndex owner = kNoIndex;  ///< The lowest subdomain that ends there at another material or
+                                ///< outside. Its tet at such a triangle stays its own, whatever the
+                                ///< improvement of seams exchanges.
+
+  static auto fields(auto& self) { return std::tie(self.edge, self.line, self.owner); }
+};
+
 /// @brief The levels on which subdomains are filled, and what follows from them, the coarse mesh
 /// and the subdomains.
 struct SubdomainTables {
@@ -21,11 +34,12 @@ struct SubdomainTables {
   FlatArray<char> seam_hosts{};     ///< mesh::hosts_on_seams().
   FlatArray<char> on_geometry{};    ///< untangle::vertices_on_geometry().
   FlatArray<double> vertex_size{};  ///< fill::vertex_sizes().
+  std::vector<LineEdge> lines{};    ///< Ascending by edge.
 
   static auto fields(auto& self)
   {
     return std::tie(self.levels, self.skeleton, self.tets, self.seam_hosts, self.on_geometry,
-                    self.vertex_size);
+                    self.vertex_size, self.lines);
   }
 };
 

@@ -59,8 +59,6 @@ void add(const TopoDS_Shape& part, const std::vector<std::size_t>& rows,
   }
 }
 
-Vec3 to_vec3(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
-
 // Whether the solid at `row` loses to the one at `other` what they have in common.
 bool loses(std::size_t row, std::size_t other, model::Overlap rule)
 {
@@ -121,8 +119,8 @@ std::vector<model::CommonPart> common_parts(const Shapes& solids, const FusedSol
   for (const auto& [rows, common] : pairs) {
     parts.push_back({.solids = pair_of(solids, rows[0], rows[1], names),
                      .volume = common.volume,
-                     .low = to_vec3(common.box.CornerMin()),
-                     .high = to_vec3(common.box.CornerMax())});
+                     .low = from_occ(common.box.CornerMin()),
+                     .high = from_occ(common.box.CornerMax())});
   }
   return parts;
 }

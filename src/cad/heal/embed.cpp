@@ -32,21 +32,19 @@
 namespace tessera::cad {
 namespace {
 
-gp_Pnt point_of(const Vec3& p) { return {p[0], p[1], p[2]}; }
-
 TopoDS_Face face_of(const model::Polygon& polygon)
 {
   BRepBuilderAPI_MakePolygon rim;
-  for (const Vec3& corner : polygon.corners) rim.Add(point_of(corner));
+  for (const Vec3& corner : polygon.corners) rim.Add(to_occ(corner));
   rim.Close();
   const Vec3 normal = polygon.normal();
-  const gp_Pln plane(point_of(polygon.corners.front()), gp_Dir(normal[0], normal[1], normal[2]));
+  const gp_Pln plane(to_occ(polygon.corners.front()), gp_Dir(normal[0], normal[1], normal[2]));
   return BRepBuilderAPI_MakeFace(plane, rim.Wire()).Face();
 }
 
 TopoDS_Face face_of(const model::Disk& disk)
 {
-  const gp_Ax2 axis(point_of(disk.centre), gp_Dir(disk.normal[0], disk.normal[1], disk.normal[2]));
+  const gp_Ax2 axis(to_occ(disk.centre), gp_Dir(disk.normal[0], disk.normal[1], disk.normal[2]));
   const TopoDS_Edge rim = BRepBuilderAPI_MakeEdge(gp_Circ(axis, disk.radius));
   return BRepBuilderAPI_MakeFace(gp_Pln(gp_Ax3(axis)), BRepBuilderAPI_MakeWire(rim).Wire()).Face();
 }

@@ -44,8 +44,7 @@ Shapes edges_of(const std::string& name, const model::Polyline& line)
       throw GeometryError(fmt::format("[[embed]] \"{}\": points {} and {} of its polyline are one",
                                       name, i, i + 1));
     }
-    edges.push_back(
-        BRepBuilderAPI_MakeEdge(gp_Pnt(a[0], a[1], a[2]), gp_Pnt(b[0], b[1], b[2])).Edge());
+    edges.push_back(BRepBuilderAPI_MakeEdge(to_occ(a), to_occ(b)).Edge());
   }
   return edges;
 }

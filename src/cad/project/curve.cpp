@@ -15,6 +15,7 @@
 #include <gp_Vec.hxx>
 
 #include "cad/project/descent.hpp"
+#include "cad/shape.hpp"
 
 namespace tessera::cad {
 namespace {

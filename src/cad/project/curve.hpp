@@ -12,9 +12,6 @@
 
 namespace tessera::cad {
 
-[[nodiscard]] inline gp_Pnt to_occ(const Vec3& p) { return {p[0], p[1], p[2]}; }
-[[nodiscard]] inline Vec3 from_occ(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
-
 /// @brief The curve of one CAD edge between its ends, and projection onto it.
 ///
 /// Evaluates the Geom_Curve itself, not an adaptor. Adaptors keep the polynomial of the last span,

@@ -13,6 +13,7 @@
 #include <TopoDS.hxx>
 
 #include "cad/project/descent.hpp"
+#include "cad/shape.hpp"
 
 namespace tessera::cad {
 namespace {

@@ -39,8 +39,6 @@ constexpr double kFlat = 1e-4;
 // 4,000 faces take OpenCASCADE 2 seconds, 7,000 took 18. Free-form bodies have so many.
 constexpr std::size_t kMostFaces = 5000;
 
-gp_Pnt point_of(const Vec3& p) { return {p[0], p[1], p[2]}; }
-
 // A face for every triangle; they share their edges.
 class ShellBuilder {
  public:
@@ -49,7 +47,7 @@ class ShellBuilder {
     builder_.MakeShell(shell_);
     for (LocalIndex v = 0; v < surface.num_vertices(); ++v) {
       TopoDS_Vertex& vertex = vertices_.emplace_back();
-      builder_.MakeVertex(vertex, point_of(surface.position(v)), Precision::Confusion());
+      builder_.MakeVertex(vertex, to_occ(surface.position(v)), Precision::Confusion());
     }
     for (LocalIndex t = 0; t < surface.num_triangles(); ++t) add_face(t);
     shell_.Closed(true);
@@ -68,7 +66,7 @@ class ShellBuilder {
     const auto [p, q, r] = surface_.corners(t);
     const Vec3 normal = cross(q - p, r - p);
     if (norm(normal) == 0.0) return;  // Its neighbours are as near to each other as to it.
-    const gp_Pln plane(point_of(p), gp_Dir(normal[0], normal[1], normal[2]));
+    const gp_Pln plane(to_occ(p), gp_Dir(normal[0], normal[1], normal[2]));
     builder_.Add(shell_, BRepBuilderAPI_MakeFace(plane, wire, true).Face());
   }
 
