@@ -367,8 +367,7 @@ void check_periodic(const Case& loaded, const std::string& where)
   if (loaded.periodic.empty()) return;
   const bool is_mesh = model::is_mesh_name(loaded.geometry.file);
   const std::string_view other =
-      !loaded.layers.empty()                                      ? "[[layer]]"
-      : loaded.geometry.smooth                                    ? "geometry.smooth"
+      loaded.geometry.smooth                                      ? "geometry.smooth"
       : !is_mesh && loaded.coarse.mesher == surface::Mesher::gmsh ? "coarse.mesher = \"gmsh\""
       : loaded.decompose.method == decompose::Method::geometry ? "decompose.method = \"geometry\""
                                                                : "";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,36 +24,47 @@ namespace {
 constexpr int kSteps = 6;
 constexpr int kMoreSteps = 3;
 
+constexpr const char* kPeriodicObstacle =
+    "on a side of [[periodic]]; layers end there, and go on from its partner";
+
 constexpr double kCovered = 0.1;
 constexpr double kFull = 0.9;
 
-// Which patches have a triangle between two materials.
-std::vector<bool> inner_patches(const mesh::CoarseMesh& mesh)
+// Why a patch can be no wall; empty for one that can.
+std::vector<std::string> obstacles_of_patches(const mesh::CoarseMesh& mesh)
 {
-  std::vector<bool> is_inner(at(mesh.num_patches()), false);
+  std::vector<std::string> obstacles(at(mesh.num_patches()));
   const std::vector<mesh::TriangleTets> faces = mesh::tets_of_faces(mesh);
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (faces[f].tets[1] != kNoIndex) is_inner[at(mesh.face_patch[f])] = true;
+    if (faces[f].tets[1] == kNoIndex) continue;
+    obstacles[at(mesh.face_patch[f])] = "inside of the model; layers are for its outside";
   }
-  return is_inner;
+  for (const LocalIndex face : mesh.images.face_origin) {
+    if (face == kNoIndex) continue;
+    obstacles[at(mesh.face_patch[at(face)])] = kPeriodicObstacle;
+  }
+  for (std::size_t p = 0; p < mesh.images.patch_origin.size(); ++p) {
+    if (mesh.images.patch_origin[p] != kNoIndex) obstacles[p] = kPeriodicObstacle;
+  }
+  return obstacles;
 }
 
-// The patches on the outside that an entry fits. Of a pattern those between two materials are left
-// out; one that is named is an error.
+// The patches that an entry fits. Of a pattern those that can be no wall are left out; one that is
+// named is an error.
 std::vector<bool> walls_of(const LayerOptions& entry, const mesh::CoarseMesh& mesh,
-                           const std::vector<bool>& is_inner)
+                           const std::vector<std::string>& obstacles)
 {
   std::vector<bool> fits = matching_names("patch", entry.patch, mesh.patch_names);
   for (std::size_t p = 0; p < fits.size(); ++p) {
-    if (!fits[p] || !is_inner[p]) continue;
+    if (!fits[p] || obstacles[p].empty()) continue;
     fits[p] = false;
     if (mesh.patch_names[p] != entry.patch) continue;
-    throw ConfigError(fmt::format(
-        "patch \"{}\" lies inside of the model; layers are for its outside", entry.patch));
+    throw ConfigError(fmt::format("patch \"{}\" lies {}", entry.patch, obstacles[p]));
   }
   if (std::ranges::count(fits, true) > 0) return fits;
   throw ConfigError(fmt::format(
-      "all patches that \"{}\" fits lie inside of the model; layers are for its outside",
+      "all patches that \"{}\" fits lie inside of the model or on sides of [[periodic]]; layers "
+      "are for the rest of its outside",
       entry.patch));
 }
 
@@ -60,10 +72,10 @@ std::vector<bool> walls_of(const LayerOptions& entry, const mesh::CoarseMesh& me
 std::vector<LocalIndex> entries_of_patches(const mesh::CoarseMesh& mesh,
                                            std::span<const LayerOptions> options)
 {
-  const std::vector<bool> is_inner = inner_patches(mesh);
+  const std::vector<std::string> obstacles = obstacles_of_patches(mesh);
   std::vector<LocalIndex> entries(at(mesh.num_patches()), kNoIndex);
   for (std::size_t i = 0; i < options.size(); ++i) {
-    const std::vector<bool> walls = walls_of(options[i], mesh, is_inner);
+    const std::vector<bool> walls = walls_of(options[i], mesh, obstacles);
     for (std::size_t p = 0; p < walls.size(); ++p) {
       if (!walls[p]) continue;
       if (entries[p] != kNoIndex) {

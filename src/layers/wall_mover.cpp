@@ -83,9 +83,10 @@ Vec3 WallMover::beside_wall(const WallVertex& vertex, const Vec3& point) const
 
 void WallMover::place(std::span<const double> parts)
 {
-  for (std::size_t row = 0; row < parts.size(); ++row) {
-    const WallVertex& vertex = walls_.vertices[row];
-    std::ranges::copy(place_of(vertex, parts[row]), &mesh_.vertex_xyz[3 * at(vertex.vertex)]);
+  for (const WallVertex& vertex : walls_.vertices) {
+    const Vec3 place = place_of(walls_.vertices[at(vertex.origin)], parts[at(vertex.origin)]);
+    std::ranges::copy(vertex.image == 0 ? place : walls_.images[at(vertex.image)](place),
+                      &mesh_.vertex_xyz[3 * at(vertex.vertex)]);
   }
 }
 
@@ -113,7 +114,8 @@ std::vector<LocalIndex> WallMover::rows_of_bad() const
   std::vector<LocalIndex> rows;
   const auto add = [&](std::span<const LocalIndex> vertices) {
     for (const LocalIndex v : vertices) {
-      if (walls_.wall_of_vertex[at(v)] != kNoIndex) rows.push_back(walls_.wall_of_vertex[at(v)]);
+      const LocalIndex row = walls_.wall_of_vertex[at(v)];
+      if (row != kNoIndex) rows.push_back(walls_.vertices[at(row)].origin);
     }
   };
   for (std::size_t i = 0; i < tets_.size(); ++i) {
@@ -165,9 +167,8 @@ Vec3 WallMover::column_point(const WallVertex& vertex, double end) const
 void WallMover::update_parameters()
 {
   if (!mesh_.segment_t.empty()) {
-    for (std::size_t row = 0; row < part_.size(); ++row) {
-      const WallVertex& vertex = walls_.vertices[row];
-      const bool has_moved = part_[row] > 0.0 && vertex.column != Vec3{};
+    for (const WallVertex& vertex : walls_.vertices) {
+      const bool has_moved = part_[at(vertex.origin)] > 0.0 && vertex.column != Vec3{};
       if (has_moved && vertex.curve != kNoIndex) update_segments_at(vertex);
     }
   }

@@ -41,7 +41,7 @@ class WallMover {
   void find_tets();
   void update_segments_at(const WallVertex& vertex);
   void update_face(LocalIndex face);
-  /// Marks the rows of the vertices of all that is bad.
+  /// Of the vertices of all that is bad, or of those that these go along with.
   [[nodiscard]] std::vector<LocalIndex> rows_of_bad() const;
   [[nodiscard]] bool is_bad_triangle(const SurfaceTriangle& triangle) const;
   [[nodiscard]] bool is_bad_column(const SurfaceTriangle& triangle) const;
@@ -50,7 +50,8 @@ class WallMover {
   const model::Model& model_;
   WallSurface walls_;
   std::span<const double> ends_;
-  std::vector<double> part_{};         ///< By row of walls_.vertices: how far along its column.
+  std::vector<double> part_{};         ///< By row of walls_.vertices: how far along its column;
+                                       ///< counts where a vertex is its own origin.
   std::vector<LocalIndex> tets_{};     ///< With a vertex on a wall.
   std::vector<double> least_ratio_{};  ///< Of these tets, that they must keep.
 };

@@ -10,6 +10,8 @@
 #include "tessera/base/sort_unique.hpp"
 #include "tessera/mesh/face_tets.hpp"
 
+#include "layers/image_columns.hpp"
+
 namespace tessera::layers {
 namespace {
 
@@ -18,8 +20,6 @@ constexpr double kLeastCosine = 0.1;
 
 // A leaning column is longer, so that the layers keep their height; but no more than that.
 constexpr double kMostLean = 2.5;
-
-using Edge = std::array<LocalIndex, 2>;
 
 // A triangle keeps this shape, or half of its own if that is less.
 constexpr double kLeastShape = 0.15;
@@ -63,7 +63,7 @@ Vec3 best_direction(std::span<const Vec3> normals)
   return unit(centre);
 }
 
-Edge edge_between(LocalIndex a, LocalIndex b) { return {std::min(a, b), std::max(a, b)}; }
+WallEdge edge_between(LocalIndex a, LocalIndex b) { return {std::min(a, b), std::max(a, b)}; }
 
 // What is known around the vertices of walls.
 class WallFinder {
@@ -81,7 +81,9 @@ class WallFinder {
     const IndexLists around = triangles_around();
     for (std::size_t row = 0; row < surface_.vertices.size(); ++row) {
       set_column(surface_.vertices[row], around[static_cast<LocalIndex>(row)]);
+      surface_.vertices[row].origin = static_cast<LocalIndex>(row);
     }
+    join_image_columns(mesh_, edges_on_walls_, surface_);
     return std::move(surface_);
   }
 
@@ -121,16 +123,15 @@ class WallFinder {
   // Curves that leave a wall: their segments are no sides of its triangles.
   void find_segments()
   {
-    std::set<Edge> on_walls;
     for (const SurfaceTriangle& triangle : surface_.triangles) {
       if (!triangle.is_wall) continue;
       for (std::size_t c = 0; c < 3; ++c) {
-        on_walls.insert(edge_between(triangle.vertices[c], triangle.vertices[(c + 1) % 3]));
+        edges_on_walls_.insert(edge_between(triangle.vertices[c], triangle.vertices[(c + 1) % 3]));
       }
     }
     for (LocalIndex s = 0; s < mesh_.num_segments(); ++s) {
       const LocalIndex* v = &mesh_.segment_vertices[2 * at(s)];
-      if (on_walls.contains(edge_between(v[0], v[1]))) continue;
+      if (edges_on_walls_.contains(edge_between(v[0], v[1]))) continue;
       for (std::size_t end = 0; end < 2; ++end) {
         if (surface_.wall_of_vertex[at(v[end])] != kNoIndex) leaving_[v[end]].push_back({s, end});
       }
@@ -245,6 +246,7 @@ class WallFinder {
   const mesh::CoarseMesh& mesh_;
   std::span<const double> thickness_;
   WallSurface surface_{};
+  std::set<WallEdge> edges_on_walls_{};
   std::map<LocalIndex, std::vector<std::pair<LocalIndex, std::size_t>>> leaving_{};
 };
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/affine.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/model/model.hpp"
@@ -20,6 +21,9 @@ struct WallVertex {
   LocalIndex curve = kNoIndex;    ///< Between such patches; the column goes along it.
   double t = 0.0;                 ///< Of `wall` on the curve.
   model::SurfaceParameters uv{};  ///< Of `wall` on the patch.
+  LocalIndex origin = kNoIndex;   ///< Row of the vertex that this one goes along with as its image;
+                                  ///< its own for all others.
+  LocalIndex image = 0;           ///< Row of WallSurface::images that leads here from there.
 };
 
 /// @brief A triangle of the geometry that has a vertex on a wall.
@@ -40,12 +44,16 @@ struct WallSurface {
   std::vector<WallVertex> vertices{};        ///< Ascending.
   std::vector<SurfaceTriangle> triangles{};  ///< In the order of faces.
   std::vector<LocalIndex>
-      wall_of_vertex{};  ///< Shape (num_vertices): row of vertices, or kNoIndex.
+      wall_of_vertex{};          ///< Shape (num_vertices): row of vertices, or kNoIndex.
+  std::vector<Affine> images{};  ///< The first is the identity.
 };
 
 /// @brief Finds walls and the columns on them. Local.
+///
+/// Columns on periodic sides that are images of each other are alike. There is none where a wall
+/// goes on across the side as a patch without layers.
 /// @param[in] thickness Shape (num_patches): of the layers; 0: none.
-/// @pre No wall lies between two materials.
+/// @pre No wall lies between two materials, or is a periodic side.
 [[nodiscard]] WallSurface find_walls(const mesh::CoarseMesh& mesh,
                                      std::span<const double> thickness);
 

@@ -73,31 +73,38 @@ LocalIndex find_triangle(const Complex& complex, const std::array<LocalIndex, 3>
   return find_row<3>(complex.triangle_vertices, v);
 }
 
-Complex skeleton_complex(const Skeleton& skeleton, std::span<const LocalIndex> triangles)
+Complex edge_complex(const Skeleton& skeleton, std::span<const LocalIndex> edges)
 {
   Complex out;
-  out.triangle_skeleton.assign(triangles.begin(), triangles.end());
-  for (const LocalIndex t : triangles) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      out.vertex_skeleton.push_back(skeleton.triangle_vertices[3 * at(t) + c]);
-      out.edge_skeleton.push_back(skeleton.triangle_edges[3 * at(t) + c]);
-    }
+  out.edge_skeleton.assign(edges.begin(), edges.end());
+  for (const LocalIndex e : edges) {
+    const LocalIndex* v = &skeleton.edge_vertices[2 * at(e)];
+    out.vertex_skeleton.insert(out.vertex_skeleton.end(), v, v + 2);
   }
+  const std::vector<LocalIndex> ends = out.vertex_skeleton;
   sort_unique(out.vertex_skeleton);
-  sort_unique(out.edge_skeleton);
-  const auto local_vertex = [&](LocalIndex v) { return index_in(out.vertex_skeleton, v); };
+  for (const LocalIndex v : ends) out.edge_vertices.push_back(index_in(out.vertex_skeleton, v));
   for (const LocalIndex v : out.vertex_skeleton) {
     out.vertex_coarse.push_back(skeleton.vertex_coarse[at(v)]);
   }
-  for (const LocalIndex e : out.edge_skeleton) {
-    out.edge_vertices.push_back(local_vertex(skeleton.edge_vertices[2 * at(e)]));
-    out.edge_vertices.push_back(local_vertex(skeleton.edge_vertices[2 * at(e) + 1]));
+  return out;
+}
+
+Complex skeleton_complex(const Skeleton& skeleton, std::span<const LocalIndex> triangles)
+{
+  std::vector<LocalIndex> edges;
+  for (const LocalIndex t : triangles) {
+    const LocalIndex* e = &skeleton.triangle_edges[3 * at(t)];
+    edges.insert(edges.end(), e, e + 3);
   }
+  sort_unique(edges);
+  Complex out = edge_complex(skeleton, edges);
+  out.triangle_skeleton.assign(triangles.begin(), triangles.end());
   for (const LocalIndex t : triangles) {
     for (std::size_t c = 0; c < 3; ++c) {
-      out.triangle_vertices.push_back(local_vertex(skeleton.triangle_vertices[3 * at(t) + c]));
-      out.triangle_edges.push_back(
-          index_in(out.edge_skeleton, skeleton.triangle_edges[3 * at(t) + c]));
+      out.triangle_vertices.push_back(
+          index_in(out.vertex_skeleton, skeleton.triangle_vertices[3 * at(t) + c]));
+      out.triangle_edges.push_back(index_in(edges, skeleton.triangle_edges[3 * at(t) + c]));
     }
   }
   return out;

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "tessera/mesh/image_edges.hpp"
 #include "tessera/mesh/sorted_rows.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
@@ -59,19 +60,9 @@ std::vector<LocalIndex> pairs_of_images(const mesh::CoarseMesh& coarse,
                                         const std::vector<LocalIndex>& edges)
 {
   std::vector<LocalIndex> pairs;
-  const auto& origins = coarse.images.face_origin;
-  for (std::size_t f = 0; f < origins.size(); ++f) {
-    if (origins[f] == kNoIndex) continue;
-    const auto corners = [&](std::size_t face) {
-      const LocalIndex* v = &coarse.face_vertices[3 * face];
-      return mesh::sorted_triangle(v[0], v[1], v[2]);
-    };
-    const auto from = corners(at(origins[f]));
-    const auto to = corners(f);
-    for (const auto& [a, b] : {std::pair(0U, 1U), std::pair(0U, 2U), std::pair(1U, 2U)}) {
-      pairs.push_back(mesh::find_edge_row(edges, from[a], from[b]));
-      pairs.push_back(mesh::find_edge_row(edges, to[a], to[b]));
-    }
+  for (const mesh::ImageEdge& edge : mesh::image_edges(coarse)) {
+    pairs.push_back(mesh::find_edge_row(edges, edge.from[0], edge.from[1]));
+    pairs.push_back(mesh::find_edge_row(edges, edge.to[0], edge.to[1]));
   }
   return pairs;
 }

@@ -38,6 +38,12 @@ bool is_wall_triangle(const mesh::Complex& complex, const RefineContext& context
 // Which ends of columns are refined. Without layers there are those of the tets only.
 enum class Side { tets, walls };
 
+Vec3 end_of_column(const RefineContext& context, Side side, LocalIndex coarse_vertex)
+{
+  return side == Side::walls ? context.coarse.layers.wall(coarse_vertex)
+                             : context.coarse.position(coarse_vertex);
+}
+
 // Points inside of a triangle with `n` intervals a side that are new with this step.
 template <class Visit>
 void for_each_new_inner_point(LocalIndex n, LocalIndex step, const Visit& visit)
@@ -53,7 +59,7 @@ void for_each_new_inner_point(LocalIndex n, LocalIndex step, const Visit& visit)
 // Refines one complex; lives for one call of refine_lattice(). On the side of the walls only what
 // lies on them gets points; on the side of the tets these follow from the walls' points.
 //
-// What is the image of something at another place gets the points of that, and moves in the end.
+// What is the image of something at another place gets the points of that.
 class LatticeRefiner {
  public:
   LatticeRefiner(const mesh::Complex& complex, mesh::LatticeLevels levels,
@@ -69,6 +75,7 @@ class LatticeRefiner {
     triangle_uv_.resize(result_.triangle_points().size());
   }
 
+  // What is an image is not where it belongs yet: move_to_images().
   // @param[in] walls Points of the other side; null without layers.
   mesh::RefinedLattice run(const mesh::RefinedLattice* walls = nullptr)
   {
@@ -83,8 +90,6 @@ class LatticeRefiner {
         if (level <= result_.levels().triangle(t)) refine_triangle_on(level, t);
       }
     }
-    move_to_images(
-        complex_, orbits_, [this](LocalIndex v) { return coarse_position(v); }, result_);
     return std::move(result_);
   }
 
@@ -128,15 +133,22 @@ class LatticeRefiner {
                               : context_.skeleton.vertex_coarse[at(of_skeleton[corner])];
   }
 
+  // Coarse vertex of an end of the edge that one of the complex is refined as.
+  [[nodiscard]] LocalIndex end_of_edge(LocalIndex e, LocalIndex end) const
+  {
+    const LocalIndex edge = edge_origin(e);
+    return coarse_vertex(context_.skeleton.edge_vertices, 2 * at(edge) + at(end), edge,
+                         complex_.edge_vertices[2 * at(e) + at(end)]);
+  }
+
   [[nodiscard]] Vec3 coarse_position(LocalIndex v) const
   {
-    return side_ == Side::walls ? context_.coarse.layers.wall(v) : context_.coarse.position(v);
+    return end_of_column(context_, side_, v);
   }
 
   // Length of the column of a coarse vertex.
-  [[nodiscard]] double coarse_length(LocalIndex vertex) const
+  [[nodiscard]] double coarse_length(LocalIndex v) const
   {
-    const LocalIndex v = complex_.vertex_coarse[at(vertex)];
     return norm(context_.coarse.position(v) - context_.coarse.layers.wall(v));
   }
 
@@ -156,9 +168,9 @@ class LatticeRefiner {
   void refine_edge_behind_wall(LocalIndex e, LocalIndex step)
   {
     const LocalIndex n = result_.edge_intervals(e);
-    const LocalIndex edge = complex_.edge_skeleton[at(e)];
-    const double first = coarse_length(complex_.edge_vertices[2 * at(e)]);
-    const double last = coarse_length(complex_.edge_vertices[2 * at(e) + 1]);
+    const LocalIndex edge = edge_origin(e);
+    const double first = coarse_length(end_of_edge(e, 0));
+    const double last = coarse_length(end_of_edge(e, 1));
     const bool has_columns = first > 0.0 || last > 0.0;
     const auto column = [&](LocalIndex k) {
       return result_.edge_point(e, k) - walls_->edge_point(e, k);
@@ -201,10 +213,12 @@ class LatticeRefiner {
   [[nodiscard]] double wanted_length(LocalIndex t, const TrianglePoint& p) const
   {
     const LocalIndex* v = &complex_.triangle_vertices[3 * at(t)];
-    const double first = coarse_length(v[0]);
+    const auto length = [&](std::size_t c) {
+      return coarse_length(complex_.vertex_coarse[at(v[c])]);
+    };
     const LocalIndex n = result_.triangle_intervals(t);
-    return first + static_cast<double>(p.i) / n * (coarse_length(v[1]) - first)
-           + static_cast<double>(p.j) / n * (coarse_length(v[2]) - first);
+    return length(0) + static_cast<double>(p.i) / n * (length(1) - length(0))
+           + static_cast<double>(p.j) / n * (length(2) - length(0));
   }
 
   // Of the edge that is this side of a triangle, where the triangle is refined.
@@ -224,10 +238,7 @@ class LatticeRefiner {
     const LocalIndex edge = edge_origin(e);
     for (LocalIndex end = 0; end < 2; ++end) {
       const LocalIndex k = end * result_.edge_intervals(e);
-      result_.place_edge_point(
-          e, k,
-          coarse_position(coarse_vertex(context_.skeleton.edge_vertices, 2 * at(edge) + at(end),
-                                        edge, complex_.edge_vertices[2 * at(e) + at(end)])));
+      result_.place_edge_point(e, k, coarse_position(end_of_edge(e, end)));
       if (edge == kNoIndex || !has_parameters()) continue;
       const double* p = &context_.skeleton.edge_parameters[2 * (2 * at(edge) + at(end))];
       edge_parameters_[result_.edge_place(e, k)] = {p[0], p[1]};
@@ -408,12 +419,21 @@ void add(const mesh::ModelDistance& more, mesh::ModelDistance& sum)
 mesh::RefinedLattice refine_lattice(const mesh::Complex& complex, mesh::LatticeLevels levels,
                                     const RefineContext& context)
 {
+  const auto move = [&](Side side, mesh::RefinedLattice& points) {
+    move_to_images(
+        complex, context.skeleton.orbits,
+        [&](LocalIndex v) { return end_of_column(context, side, v); }, points);
+  };
   if (context.coarse.layers.are_none()) {
-    return LatticeRefiner(complex, std::move(levels), context).run();
+    mesh::RefinedLattice points = LatticeRefiner(complex, std::move(levels), context).run();
+    move(Side::tets, points);
+    return points;
   }
   auto walls = std::make_shared<mesh::RefinedLattice>(
       LatticeRefiner(complex, levels, context, Side::walls).run());
   mesh::RefinedLattice tets = LatticeRefiner(complex, std::move(levels), context).run(walls.get());
+  move(Side::walls, *walls);
+  move(Side::tets, tets);
   place_beside_walls(complex, context, tets, *walls);
   add(walls->distance, tets.distance);
   tets.walls = std::move(walls);

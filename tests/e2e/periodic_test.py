@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """[[periodic]]: sides that are images of each other, with the same points and triangles."""
+import itertools
 import math
 import pathlib
 import re
@@ -136,6 +137,68 @@ class Cracks(PeriodicTest):
                 self.assertGreater(len(report["splits"]), 8)
 
 
+# A pipe whose ends have no corner, and a part of a channel between two arcs.
+PIPE = (
+    "algebraic3d\nsolid pipe = cylinder (0, 0, 0; 0, 0, 1; 0.5) and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1; 0, 0, 1);\n"
+    "tlo pipe;\n"
+)
+BENT = (
+    "algebraic3d\nsolid before = cylinder (-1, 0.5, 0; -1, 0.5, 1; 1.2);\nsolid within = cylinder (0, 0.5, 0; 0, 0.5, 1; 1.2);\n"
+    "solid slab = plane (0, 0, 0; 0, -1, 0) and plane (0, 1, 0; 0, 1, 0) and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 0.8; 0, 0, 1)\n"
+    "  and plane (-1, 0, 0; -1, 0, 0);\nsolid body = slab and within and not before;\ntlo body;\n"
+)
+LAYERS = "[[layer]]\npatch = '*'\nfirst = 0.005\ncount = 3\n"
+
+
+class Layers(PeriodicTest):
+    """End at the sides, and go on from their partners."""
+
+    def between(self, model, start, end):
+        self.write("model.geo", model)
+        names = "".join(
+            f"[[geometry.name]]\nname = '{name}'\npatch = {{ box = {{ min = {box[0]}, max = {box[1]} }} }}\n"
+            for name, box in (("start", start), ("end", end))
+        )
+        head = "geometry.file = 'model.geo'\ncoarse.max_size = 0.25\nrefine.levels = 2\ndecompose.subdomains = 5\n"
+        return self.write("case.toml", head + names + "[[periodic]]\nfrom = 'start'\nto = 'end'\n" + LAYERS)
+
+    def assert_full(self, report):
+        self.assertEqual(report["layers"]["count"], 3)
+        self.assertGreater(report["layers"]["full_height"], 0.99)
+
+    def test_in_three_directions_have_the_same_bits_for_any_number_of_ranks(self):
+        self.write("model.geo", PACKING.replace("tlo grains;\n", ""))
+        case = self.write("case.toml", packing_case() + LAYERS)
+        alone = self.mesh(case, "alone", *sets("output.formats=['msh']"))
+        self.assert_full(self.assert_packing(alone))
+        self.assertEqual([len(link[4]) > 20 for link in Msh(alone / "mesh.msh").periodic], [True] * 3)
+        others = self.mesh(case, "others", *sets("output.formats=['msh']"), ranks=3)
+        self.assertEqual(program.mesh_files(others), program.mesh_files(alone))
+
+    def test_of_a_pipe(self):
+        case = self.between(PIPE, [[-1, -1, -0.1], [1, 1, 0.1]], [[-1, -1, 0.9], [1, 1, 1.1]])
+        for kernel in ("netgen", "subdivide"):
+            out = self.mesh(case, kernel, *sets(f"fill.kernel={kernel}"), ranks=2)
+            self.assert_full(self.assert_checked(out, volume_tolerance=1e-12)[0])
+            self.assert_alike(out, "start", "end", shifted((0, 0, 1)))
+
+    def test_lie_on_round_sides(self):
+        boxes = [[0.05, -0.1, -0.1], [0.25, 1.1, 0.9]], [[1.05, -0.1, -0.1], [1.25, 1.1, 0.9]]
+        out = self.mesh(self.between(BENT, *boxes), "out", ranks=2)
+        self.assert_full(self.assert_checked(out, volume_tolerance=1e-12)[0])
+        self.assert_alike(out, "start", "end", shifted((1, 0, 0)))
+        for x, y, _ in itertools.chain(*self.triangles(out, "end")):
+            self.assertAlmostEqual(math.hypot(x, y - 0.5), 1.2, delta=1e-9)
+
+    def test_end_where_the_side_has_no_wall_beyond(self):
+        """Only a part of the balls has layers, so its rims have partners without."""
+        self.write("model.geo", PACKING.replace("tlo grains;\n", ""))
+        walls = "[[geometry.name]]\nname = 'wall'\npatch = { box = { min = [-0.1, -0.1, -0.1], max = [0.35, 0.35, 0.35] } }\n"
+        case = self.write("case.toml", packing_case() + walls + LAYERS.replace("'*'", "'wall'"))
+        report = self.assert_packing(self.mesh(case, "out", ranks=2))
+        self.assertEqual([patch["name"] for patch in report["layers"]["patches"]], ["wall"])
+
+
 class NodesOfFiles(PeriodicTest):
     """Both forms of Gmsh's files, and those of Abaqus, say which nodes are images of which."""
 
@@ -242,7 +305,7 @@ class Refused(PeriodicTest):
             ("to = 'right'\ntranslation = [0.9, 0, 0]", FAILED, ("[[periodic]]", "the sides do not match", "translation")),
             ("to = 'nowhere'", WRONG_INPUT, ("[[periodic]]", 'patch = "nowhere"')),
             ("to = 'right'\nrotation.angle = 3", WRONG_INPUT, ("[[periodic]]", "rotation.axis")),
-            ("to = 'right'\n[[layer]]\npatch = 'left'\nfirst = 0.01\ncount = 2", WRONG_INPUT, ("[[periodic]] excludes [[layer]]",)),
+            ("to = 'right'\n[[layer]]\npatch = 'left'\nfirst = 0.01\ncount = 2", WRONG_INPUT, ("[[layer]]", '"left"', "side of [[periodic]]")),
         ):
             with self.subTest(wrong=wrong):
                 case.write_text(text.replace("to = 'right'", wrong))

@@ -94,6 +94,20 @@ def wheel_case(num_sectors, size):
     return text + '[[periodic]]\nfrom = "start"\nto = "end"\nrotation = { axis = [0, 0, 1], angle = 30 }\n'
 
 
+PIPE = (
+    "algebraic3d\nsolid pipe = cylinder (0, 0, 0; 0, 0, 1; 0.5) and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1; 0, 0, 1);\n"
+    "tlo pipe;\n"
+)
+
+
+def pipe_case(size):
+    """Along its axis, with layers on its wall."""
+    text = f'geometry.file = "model.geo"\nsize.target = {size}\n'
+    for name, sign in (("low", -1), ("high", 1)):
+        text += f'[[geometry.name]]\nname = "{name}"\npatch = {{ normal = [0, 0, {sign}] }}\n'
+    return text + '[[periodic]]\nfrom = "low"\nto = "high"\n[[layer]]\npatch = "*"\nfirst = 0.01\ncount = 4\n'
+
+
 class PeriodicProblem(Problem):
     """Conduction where temperatures rise by one from side to side."""
 
@@ -148,10 +162,11 @@ class Periodic(unittest.TestCase):
         return [Case(part) for part in sorted(folder.glob("processor*"))] or [Case(folder)]
 
     def test_check_mesh(self):
-        """In three directions and around an axis, in one mesh and in parts."""
+        """In three directions, around an axis, and with layers; in one mesh and in parts."""
         for mesh, num_patches in (
             (made_of(balls_model(), balls_case("size.target = 0.1"), parts=PARTS), 6),
             (made_of(wheel_model(1), wheel_case(1, 0.05), parts=PARTS), 2),
+            (made_of(PIPE, pipe_case(0.1), parts=PARTS), 2),
         ):
             self.addCleanup(mesh.remove)
             num_through = 0

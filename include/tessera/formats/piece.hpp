@@ -57,11 +57,14 @@ struct Box {
   static auto fields(auto& self) { return std::tie(self.lowest, self.highest); }
 };
 
-/// @brief Faces with this tag, and the corners of all of them.
+/// @brief Faces with this tag, of three corners or four, and the corners of all of them.
 struct FaceCount {
   std::int32_t tag = 0;
   GlobalIndex num_faces = 0;
   GlobalIndex num_corners = 0;
+
+  [[nodiscard]] GlobalIndex num_triangles() const { return 4 * num_faces - num_corners; }
+  [[nodiscard]] GlobalIndex num_quads() const { return num_corners - 3 * num_faces; }
 
   static auto fields(auto& self) { return std::tie(self.tag, self.num_faces, self.num_corners); }
 };
@@ -222,7 +225,8 @@ struct PeriodicPoint {
 /// @brief A face of a periodic patch, which is an original or an image; both have one number.
 struct CyclicFace {
   std::int32_t patch = 0;      ///< A tag.
-  GlobalIndex number = 0;      ///< Of the original among those of its patch, by pieces.
+  GlobalIndex number = 0;      ///< Of the original among those of its patch: triangles by pieces,
+                               ///< then faces of four corners by pieces.
   LocalIndex row = 0;          ///< Among the faces of the patch in the piece.
   LocalIndex other_piece = 0;  ///< Whose the partner is; may be the piece itself.
   LocalIndex first_point = 0;  ///< A row: partners begin with points that are partners.

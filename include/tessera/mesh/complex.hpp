@@ -40,6 +40,9 @@ struct Complex {
 [[nodiscard]] Complex skeleton_complex(const Skeleton& skeleton,
                                        std::span<const LocalIndex> triangles);
 
+/// @brief Some edges of the skeleton, ascending, with their vertices. Local.
+[[nodiscard]] Complex edge_complex(const Skeleton& skeleton, std::span<const LocalIndex> edges);
+
 /// @brief The skin of one subdomain: its skeleton triangles, in the order of
 /// Skeleton::triangles_of(). Local.
 [[nodiscard]] Complex skin_complex(const Skeleton& skeleton, LocalIndex subdomain);

@@ -2,7 +2,6 @@
 #include "formats/foam/cyclic.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -36,6 +35,27 @@ void require_one_partner_each(const Outline& outline)
   }
 }
 
+// Numbers of the originals of a pair. Triangles come first: so the corners before a face are known
+// from its number.
+struct Numbers {
+  Places triangles;
+  Places quads;
+
+  Numbers(const Outline& outline, std::int32_t tag)
+      : triangles(
+          outline, 0,
+          [&](LocalIndex piece) { return foam_patch_count(outline, piece, tag).num_triangles(); }),
+        quads(outline, triangles.end(),
+              [&](LocalIndex piece) { return foam_patch_count(outline, piece, tag).num_quads(); })
+  {
+  }
+
+  [[nodiscard]] LocalIndex piece_with(GlobalIndex number) const
+  {
+    return (number < triangles.end() ? triangles : quads).piece_with(number);
+  }
+};
+
 // Matches faces by the places of their first points within them, half way to the centre. An
 // original has its place there for the point that it begins with; an image asks at all of its
 // points, and begins with the one that finds something.
@@ -43,11 +63,7 @@ class FaceMatcher {
  public:
   explicit FaceMatcher(const Outline& outline) : outline_(outline)
   {
-    for (const PeriodicPatch& pair : outline.periodic) {
-      first_original_.emplace_back(outline, 0, [&](LocalIndex piece) {
-        return foam_patch_count(outline, piece, pair.from).num_faces;
-      });
-    }
+    for (const PeriodicPatch& pair : outline.periodic) numbers_.emplace_back(outline, pair.from);
   }
 
   // Pieces come in their order.
@@ -81,25 +97,29 @@ class FaceMatcher {
     std::size_t pair = 0;
     bool is_image = false;
     LocalIndex piece = 0;
-    LocalIndex row = 0;  // Among the faces of its patch.
-    std::array<LocalIndex, 3> points{};
+    LocalIndex row = 0;      // Among the faces of its patch.
+    GlobalIndex number = 0;  // Of an original.
+    FoamFace face{};
     Vec3 centre{};
     std::size_t asks_as = 0;  // First row of places_.
 
-    [[nodiscard]] std::size_t num_places() const { return is_image ? points.size() : 1; }
+    [[nodiscard]] std::size_t num_places() const { return is_image ? face.corners().size() : 1; }
   };
 
   void add_faces(const Piece& piece, std::size_t p, bool is_image)
   {
     const PeriodicPatch& pair = outline_.periodic[p];
     const std::vector<FoamFace> faces = foam_patch_faces(piece, is_image ? pair.to : pair.from);
+    GlobalIndex next_triangle = numbers_[p].triangles.of(piece.number);
+    GlobalIndex next_quad = numbers_[p].quads.of(piece.number);
     for (std::size_t row = 0; row < faces.size(); ++row) {
-      const auto& [a, b, c, unused] = faces[row].points;
+      GlobalIndex& next = faces[row].num_points == 3 ? next_triangle : next_quad;
       add({.pair = p,
            .is_image = is_image,
            .piece = piece.number,
            .row = static_cast<LocalIndex>(row),
-           .points = {a, b, c},
+           .number = is_image ? 0 : next++,
+           .face = faces[row],
            .asks_as = places_.size()},
           piece.point_xyz);
     }
@@ -108,21 +128,17 @@ class FaceMatcher {
   void add(Side side, std::span<const double> xyz)
   {
     const PeriodicPatch& pair = outline_.periodic[side.pair];
-    const auto [a, b, c] = side.points;
-    side.centre = 1.0 / 3.0 * (point_at(xyz, a) + point_at(xyz, b) + point_at(xyz, c));
-    for (std::size_t i = 0; i < side.num_places(); ++i) {
-      const Vec3 place = midpoint(point_at(xyz, side.points[i]), side.centre);
+    const auto corners = side.face.corners();
+    for (const LocalIndex corner : corners) side.centre = side.centre + point_at(xyz, corner);
+    side.centre = (1.0 / static_cast<double>(corners.size())) * side.centre;
+    for (const LocalIndex corner : corners.first(side.num_places())) {
+      const Vec3 place = midpoint(point_at(xyz, corner), side.centre);
       places_.push_back({.place = side.is_image ? place : pair.there(place),
-                         .label = side.is_image ? side.piece : number_of(side),
+                         .label = side.is_image ? side.piece : side.number,
                          .group = static_cast<std::int32_t>(side.pair),
                          .is_image = side.is_image});
     }
     sides_.push_back(side);
-  }
-
-  [[nodiscard]] GlobalIndex number_of(const Side& original) const
-  {
-    return first_original_[original.pair].of(original.piece) + original.row;
   }
 
   [[nodiscard]] CyclicFace with_partner(const Side& side,
@@ -139,10 +155,10 @@ class FaceMatcher {
   [[nodiscard]] CyclicFace original(const Side& side, GlobalIndex piece_of_image) const
   {
     return {.patch = outline_.periodic[side.pair].from,
-            .number = number_of(side),
+            .number = side.number,
             .row = side.row,
             .other_piece = static_cast<LocalIndex>(piece_of_image),
-            .first_point = side.points[0]};
+            .first_point = side.face.points[0]};
   }
 
   [[nodiscard]] CyclicFace image(const Side& side, std::size_t point, GlobalIndex number) const
@@ -150,8 +166,8 @@ class FaceMatcher {
     return {.patch = outline_.periodic[side.pair].to,
             .number = number,
             .row = side.row,
-            .other_piece = first_original_[side.pair].piece_with(number),
-            .first_point = side.points[point]};
+            .other_piece = numbers_[side.pair].piece_with(number),
+            .first_point = side.face.points[point]};
   }
 
   [[nodiscard]] std::string missing_text(const Side& side) const
@@ -161,13 +177,13 @@ class FaceMatcher {
         side.is_image ? std::pair(pair.to, pair.from) : std::pair(pair.from, pair.to);
     const auto& [x, y, z] = side.centre;
     return fmt::format(
-        "the triangle at ({:.9g}, {:.9g}, {:.9g}) of patch \"{}\" has no partner on \"{}\", though "
+        "the face at ({:.9g}, {:.9g}, {:.9g}) of patch \"{}\" has no partner on \"{}\", though "
         "the files call them periodic; `tessera check` lists their points",
         x, y, z, outline_.patch_names[at(own - 1)], outline_.patch_names[at(other - 1)]);
   }
 
   const Outline& outline_;
-  std::vector<Places> first_original_{};   // By pair: numbers of the originals.
+  std::vector<Numbers> numbers_{};         // By pair.
   std::vector<comm::SidePoint> places_{};  // Their groups are rows of Outline::periodic.
   std::vector<Side> sides_{};              // By piece.
 };

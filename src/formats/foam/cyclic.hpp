@@ -18,7 +18,7 @@ namespace tessera::formats {
 /// @brief Reads all pieces once more and finds the partner of each face of a periodic patch. A rank
 /// holds one piece, and what its pieces have of such patches.
 /// @note Collective.
-/// @param[in] mesh With Outline::periodic; without prisms.
+/// @param[in] mesh With Outline::periodic, and with Outline::cell_faces if there are prisms.
 /// @return By this rank's pieces: Piece::cyclic_faces.
 /// @throws InputError on all ranks if a face has no partner.
 /// @throws ConfigError on all ranks if a patch is in two pairs.

@@ -178,6 +178,15 @@ class OpenfoamSerialWriter final : public Writer {
     return {places.faces.of(piece.number), places.corners.of(piece.number)};
   }
 
+  // Faces of four corners follow all triangles.
+  static Start start_of_cyclic(const FacePlaces& places, GlobalIndex number)
+  {
+    const FaceCount all{.num_faces = places.faces.size(), .num_corners = places.corners.size()};
+    const GlobalIndex num_corners =
+        3 * number + std::max<GlobalIndex>(0, number - all.num_triangles());
+    return {places.faces.begin() + number, places.corners.begin() + num_corners};
+  }
+
   // Those of a periodic patch stand in the order of the originals.
   void write_patch(const Piece& piece, std::size_t k)
   {
@@ -190,8 +199,7 @@ class OpenfoamSerialWriter final : public Writer {
     for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
       for (end = i + 1; end < faces.size() && cyclic[end].number == cyclic[end - 1].number + 1;)
         ++end;
-      const GlobalIndex number = cyclic[i].number;
-      write_faces(piece, {places.faces.begin() + number, places.corners.begin() + 3 * number},
+      write_faces(piece, start_of_cyclic(places, cyclic[i].number),
                   std::span(faces).subspan(i, end - i));
     }
   }

@@ -147,7 +147,7 @@ class Finer {
   Finer(const SurfaceReference& reference, const model::Model& model, const CoarseOptions& options)
       : reference_(reference),
         model_(model),
-        rims_(reference, options.periodic),
+        rims_(reference, model, options.periodic),
         sizes_(size_function_of(reference, options)),
         surface_(remesh(reference, reference.surface(), sizes_, &model))
   {

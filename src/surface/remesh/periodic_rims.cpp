@@ -13,6 +13,8 @@
 #include "tessera/base/error.hpp"
 #include "tessera/model/point_search.hpp"
 
+#include "surface/remesh/side_shift.hpp"
+
 namespace tessera::surface {
 namespace {
 
@@ -265,37 +267,10 @@ std::map<LocalIndex, LocalIndex> vertices_of_image(PatchSurface& surface,
   return image;
 }
 
-// A translation may have been found from triangles, which are chords of what is curved. Corners of
-// the model lie where they are.
-Vec3 shift_by_corners(const PatchSurface& surface, const PeriodicPatches& side)
-{
-  constexpr double kNear = 1e-3;  // Of the translation.
-  const auto corners_of = [&](const std::vector<LocalIndex>& patches) {
-    std::set<LocalIndex> corners;
-    for (const std::size_t t : triangles_in(surface, patches)) {
-      for (const LocalIndex v : surface.triangles[t]) {
-        if (surface.vertex_is_fixed[at(v)] != 0) corners.insert(v);
-      }
-    }
-    return corners;
-  };
-  const std::set<LocalIndex> from = corners_of(side.from);
-  const std::set<LocalIndex> to = corners_of(side.to);
-  if (from.empty() || to.empty()) return side.there.shift;
-  const VertexFinder finder(surface, to);
-  Vec3 sum{};
-  for (const LocalIndex v : from) {
-    const Vec3& corner = surface.vertex_xyz[at(v)];
-    const LocalIndex image = finder.at_place(side.there(corner), kNear * norm(side.there.shift));
-    if (image == kNoIndex) return side.there.shift;
-    sum = sum + (surface.vertex_xyz[at(image)] - corner);
-  }
-  return (1.0 / static_cast<double>(from.size())) * sum;
-}
-
 }  // namespace
 
-PeriodicRims::PeriodicRims(const SurfaceReference& reference, std::vector<PeriodicPatches> sides)
+PeriodicRims::PeriodicRims(const SurfaceReference& reference, const model::Model& model,
+                           std::vector<PeriodicPatches> sides)
     : reference_(reference), sides_(std::move(sides))
 {
   std::vector<Affine> transforms{Affine{}};
@@ -305,13 +280,14 @@ PeriodicRims::PeriodicRims(const SurfaceReference& reference, std::vector<Period
     num_curves = std::max(num_curves, curve + 1);
   }
   for (PeriodicPatches& side : sides_) {
+    const auto pairs = image_curves(side);
+    for (const auto& [curve, image] : pairs) {
+      if (image != curve)
+        links.push_back({curve, image, static_cast<LocalIndex>(transforms.size())});
+    }
     const bool is_translation = side.there.rows == Affine{}.rows;
-    if (is_translation) side.there.shift = shift_by_corners(reference.surface(), side);
-    const std::vector<LocalIndex> candidates = curves_of(side.to);
-    for (const LocalIndex curve : curves_of(side.from)) {
-      const LocalIndex image = image_of_curve(curve, side.there, candidates);
-      if (image == kNoIndex || image == curve) continue;
-      links.push_back({curve, image, static_cast<LocalIndex>(transforms.size())});
+    if (is_translation) {
+      side.there.shift = shift_by_curves(reference, model, pairs, side.there.shift);
     }
     transforms.push_back(side.there);
   }
@@ -332,6 +308,17 @@ std::vector<LocalIndex> PeriodicRims::curves_of(const std::vector<LocalIndex>& p
     }
   }
   return {curves.begin(), curves.end()};
+}
+
+std::vector<std::array<LocalIndex, 2>> PeriodicRims::image_curves(const PeriodicPatches& side) const
+{
+  const std::vector<LocalIndex> candidates = curves_of(side.to);
+  std::vector<std::array<LocalIndex, 2>> pairs;
+  for (const LocalIndex curve : curves_of(side.from)) {
+    const LocalIndex image = image_of_curve(curve, side.there, candidates);
+    if (image != kNoIndex) pairs.push_back({curve, image});
+  }
+  return pairs;
 }
 
 LocalIndex PeriodicRims::image_of_curve(LocalIndex curve, const Affine& there,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <span>
+#include <array>
 #include <vector>
 
 #include "tessera/mesh/orbits.hpp"
+#include "tessera/model/model.hpp"
 #include "tessera/surface/options.hpp"
 #include "tessera/surface/reference.hpp"
 #include "tessera/surface/size_function.hpp"
@@ -18,7 +19,9 @@ namespace tessera::surface {
 class PeriodicRims {
  public:
   /// @param[in] reference Must live on.
-  PeriodicRims(const SurfaceReference& reference, std::vector<PeriodicPatches> sides);
+  /// @throws GeometryError if a projection fails.
+  PeriodicRims(const SurfaceReference& reference, const model::Model& model,
+               std::vector<PeriodicPatches> sides);
 
   [[nodiscard]] bool are_none() const { return sides_.empty(); }
 
@@ -35,6 +38,9 @@ class PeriodicRims {
 
  private:
   [[nodiscard]] std::vector<LocalIndex> curves_of(const std::vector<LocalIndex>& patches) const;
+  /// Curves of the one side, and their images on the other one.
+  [[nodiscard]] std::vector<std::array<LocalIndex, 2>> image_curves(
+      const PeriodicPatches& side) const;
   [[nodiscard]] LocalIndex image_of_curve(LocalIndex curve, const Affine& there,
                                           const std::vector<LocalIndex>& candidates) const;
   [[nodiscard]] LocalIndex image_of_patch(LocalIndex patch, const PeriodicPatches& side) const;

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <set>
+
+#include "tessera/mesh/coarse_mesh.hpp"
+
+#include "layers/wall_surface.hpp"
+
+namespace tessera::layers {
+
+/// @brief Two coarse vertices, ascending.
+using WallEdge = std::array<LocalIndex, 2>;
+
+/// @brief Makes columns on periodic sides alike: WallVertex::origin. Local; does nothing without
+/// such sides.
+/// @param[in] on_walls Sides of the triangles of walls.
+/// @pre Each vertex is its own origin, and has the column that it would have for itself.
+void join_image_columns(const mesh::CoarseMesh& mesh, const std::set<WallEdge>& on_walls,
+                        WallSurface& walls);
+
+}  // namespace tessera::layers

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/mesh/image_edges.hpp"
+
+#include "tessera/mesh/tet_topology.hpp"
+
+namespace tessera::mesh {
+
+std::vector<ImageEdge> image_edges(const CoarseMesh& mesh)
+{
+  const SideImages& sides = mesh.images;
+  const auto corners_of = [&](LocalIndex face) {
+    const LocalIndex* v = &mesh.face_vertices[3 * at(face)];
+    return sorted_triangle(v[0], v[1], v[2]);
+  };
+  constexpr std::array<std::array<std::size_t, 2>, 3> kSides{{{0, 1}, {0, 2}, {1, 2}}};
+  std::vector<ImageEdge> edges;
+  for (LocalIndex f = 0; !sides.are_none() && f < mesh.num_faces(); ++f) {
+    if (sides.face_origin[at(f)] == kNoIndex) continue;
+    const auto from = corners_of(sides.face_origin[at(f)]);
+    const auto to = corners_of(f);
+    const LocalIndex transform = sides.patch_transform[at(mesh.face_patch[at(f)])];
+    for (const auto& [a, b] : kSides) {
+      edges.push_back({{from[a], from[b]}, {to[a], to[b]}, transform});
+    }
+  }
+  return edges;
+}
+
+VertexOrbits find_vertex_orbits(const CoarseMesh& mesh)
+{
+  std::vector<ImageLink> links;
+  for (const ImageEdge& edge : image_edges(mesh)) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      links.push_back({edge.from[end], edge.to[end], edge.transform});
+    }
+  }
+  VertexOrbits orbits{.images = {Affine{}}};
+  orbits.vertices = find_orbits(mesh.num_vertices(), links, mesh.images.transforms, orbits.images);
+  return orbits;
+}
+
+}  // namespace tessera::mesh
