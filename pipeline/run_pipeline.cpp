@@ -13,6 +13,7 @@
 #include "pipeline/stages/improve_stage.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/number_stage.hpp"
+#include "pipeline/stages/partner_stage.hpp"
 #include "pipeline/stages/picture_stage.hpp"
 #include "pipeline/stages/refine_stage.hpp"
 #include "pipeline/stages/share_stage.hpp"
@@ -97,6 +98,7 @@ RunResult run_pipeline(const config::Case& given, const RunOptions& options, Run
   if (!outline.is_one_pass && !outline.splits_pieces()) {
     run_write_stage(run.resolved, outline.files, mesh, run.filled, context);
   }
+  run_partner_stage(run, outline.files, context);
   write_indices(run, outline.files, mesh, context);
   run.drawings = run_picture_stage(run, cut, outline.files, context);
   run.files = run_export_stage(run.resolved, context);

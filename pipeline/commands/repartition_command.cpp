@@ -18,12 +18,14 @@
 #include "tessera/io/files.hpp"
 #include "tessera/io/output_folder.hpp"
 #include "tessera/io/vtu.hpp"
+#include "tessera/mesh/periodic_pairs.hpp"
 #include "tessera/migrate/assemble.hpp"
 #include "tessera/migrate/cut_into_parts.hpp"
 #include "tessera/migrate/partition.hpp"
 #include "tessera/subdomain/mesh_input.hpp"
 #include "tessera/subdomain/part_arrays.hpp"
 #include "tessera/subdomain/part_lines.hpp"
+#include "tessera/subdomain/periodic_partners.hpp"
 #include "tessera/subdomain/piece_file.hpp"
 
 #include "pipeline/commands/part_report.hpp"
@@ -182,6 +184,10 @@ class Repartition {
     all_or_none(comm_, [&] {
       for (const migrate::GhostTets& ghosts : parts) write_part(context, ghosts);
     });
+    if (texts_.contains(mesh::kPeriodicPairsName)) {
+      subdomain::add_periodic_partners(boundary_files(command_.output), io::usual_compression(),
+                                       comm_, throw_if_stop_requested);
+    }
     const std::vector<io::SharedPoints> neighbours = shared_points(vertex_parts);
     all_or_none(comm_, [&] {
       if (comm_.rank() == 0) write_indices(context, neighbours);
@@ -226,23 +232,30 @@ class Repartition {
     return std::ranges::find(parts_of_lines_, part) != parts_of_lines_.end();
   }
 
+  [[nodiscard]] std::vector<fs::path> boundary_files(const fs::path& folder) const
+  {
+    std::vector<fs::path> files;
+    for (LocalIndex part = 0; part < command_.num_parts; ++part) {
+      if (figures_.parts[at(part)].num_boundary > 0)
+        files.push_back(folder / subdomain::piece_path("boundary", part));
+    }
+    return files;
+  }
+
   void write_indices(const subdomain::PartContext& context,
                      const std::vector<io::SharedPoints>& neighbours) const
   {
     std::vector<fs::path> tets;
-    std::vector<fs::path> boundary;
     std::vector<fs::path> lines;
     for (LocalIndex part = 0; part < command_.num_parts; ++part) {
       tets.push_back(subdomain::piece_path("mesh", part));
-      if (figures_.parts[at(part)].num_boundary > 0) {
-        boundary.push_back(subdomain::piece_path("boundary", part));
-      }
       if (has_lines(part)) lines.push_back(subdomain::piece_path("lines", part));
     }
     constexpr LocalIndex kNoPart = -1;  // Nothing but the names of arrays.
-    const subdomain::PieceArrays schema = subdomain::part_arrays(context, kNoPart, nullptr);
+    subdomain::PieceArrays schema = subdomain::part_arrays(context, kNoPart, nullptr);
+    subdomain::name_periodic_partners(schema.boundary);
     io::write_pvtu(command_.output / "mesh.pvtu", tets, schema.tets, neighbours);
-    io::write_pvtu(command_.output / "boundary.pvtu", boundary, schema.boundary);
+    io::write_pvtu(command_.output / "boundary.pvtu", boundary_files({}), schema.boundary);
     if (lines.empty()) return;
     io::write_pvtu(command_.output / "lines.pvtu", lines,
                    subdomain::lines_of_part(*lines_, parts_of_lines_, kNoPart, schema.tets));

@@ -11,6 +11,7 @@
 #include "tessera/formats/export_mesh.hpp"
 #include "tessera/io/record_store.hpp"
 #include "tessera/io/vtu.hpp"
+#include "tessera/subdomain/periodic_partners.hpp"
 #include "tessera/subdomain/piece_arrays.hpp"
 
 #include "pipeline/jobs/for_each_dynamic.hpp"
@@ -36,30 +37,48 @@ bool any_in(const subdomain::SubdomainRange& range,
   return false;
 }
 
+std::vector<std::filesystem::path> line_files(const std::vector<subdomain::SubdomainRange>& files,
+                                              const std::vector<subdomain::PieceSummary>& pieces)
+{
+  std::vector<std::filesystem::path> paths;
+  for (const subdomain::SubdomainRange& range : files) {
+    const auto has_lines = [](const auto& piece) { return !piece.lines.empty(); };
+    if (any_in(range, pieces, has_lines))
+      paths.push_back(subdomain::piece_path("lines", range.number));
+  }
+  return paths;
+}
+
 // An index without pieces is valid: a schema from an empty piece.
 void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files, const RunResult& run,
                         const subdomain::PieceArrays& schema, const std::filesystem::path& folder)
 {
   std::vector<std::filesystem::path> tets;
-  std::vector<std::filesystem::path> boundary;
-  std::vector<std::filesystem::path> lines;
-  const auto has_boundary = [](const auto& piece) { return piece.num_boundary > 0; };
-  const auto has_lines = [](const auto& piece) { return !piece.lines.empty(); };
   for (const subdomain::SubdomainRange& range : files) {
     tets.push_back(subdomain::piece_path("mesh", range.number));
-    if (any_in(range, run.filled.pieces, has_boundary)) {
-      boundary.push_back(subdomain::piece_path("boundary", range.number));
-    }
-    if (any_in(range, run.filled.pieces, has_lines)) {
-      lines.push_back(subdomain::piece_path("lines", range.number));
-    }
   }
   io::write_pvtu(folder / "mesh.pvtu", tets, schema.tets, formats::shared_points(run.files));
-  io::write_pvtu(folder / "boundary.pvtu", boundary, schema.boundary);
+  mesh::MeshArrays boundary = schema.boundary;
+  subdomain::name_periodic_partners(boundary);
+  io::write_pvtu(folder / "boundary.pvtu", boundary_files(files, run.filled.pieces), boundary);
+  const auto lines = line_files(files, run.filled.pieces);
   if (!lines.empty()) io::write_pvtu(folder / "lines.pvtu", lines, schema.lines);
 }
 
 }  // namespace
+
+std::vector<std::filesystem::path> boundary_files(
+    const std::vector<subdomain::SubdomainRange>& files,
+    const std::vector<subdomain::PieceSummary>& pieces)
+{
+  std::vector<std::filesystem::path> paths;
+  for (const subdomain::SubdomainRange& range : files) {
+    const auto has_boundary = [](const auto& piece) { return piece.num_boundary > 0; };
+    if (any_in(range, pieces, has_boundary))
+      paths.push_back(subdomain::piece_path("boundary", range.number));
+  }
+  return paths;
+}
 
 GatheredFile gather_file(const subdomain::SubdomainRange& range, const io::OutputOptions& options,
                          const subdomain::WriteContext& mesh, const PieceStore& pieces)

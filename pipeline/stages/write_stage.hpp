@@ -45,6 +45,11 @@ void run_write_stage(const config::Case& run_case,
                      const subdomain::WriteContext& mesh, FilledPieces& filled,
                      RunContext& context);
 
+/// @brief The files that have boundary triangles, relative to the output folder. Local.
+[[nodiscard]] std::vector<std::filesystem::path> boundary_files(
+    const std::vector<subdomain::SubdomainRange>& files,
+    const std::vector<subdomain::PieceSummary>& pieces);
+
 /// @brief Writes the indices mesh.pvtu and boundary.pvtu, and lines.pvtu if there are lines: from
 /// now on there is a mesh. If it is known which files share points (RunResult::files), mesh.pvtu
 /// says so.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/mesh/periodic_pairs.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -33,6 +34,23 @@ Affine affine_of(const std::string& text)
 }
 
 }  // namespace
+
+std::vector<LocalIndex> transforms_of(std::span<const PeriodicPair> pairs)
+{
+  std::vector<LocalIndex> transforms;
+  LocalIndex next = 0;
+  for (const PeriodicPair& pair : pairs) {
+    const auto first = std::ranges::find(pairs, pair.there, &PeriodicPair::there) - pairs.begin();
+    const bool is_known = first < std::ssize(transforms);
+    transforms.push_back(is_known ? transforms[static_cast<std::size_t>(first)] : next++);
+  }
+  return transforms;
+}
+
+std::string name_of_partners(LocalIndex transform)
+{
+  return fmt::format("{}{}", kPeriodicPartnerName, transform + 1);
+}
 
 std::vector<std::string> to_texts(std::span<const PeriodicPair> pairs)
 {

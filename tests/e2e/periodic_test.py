@@ -279,6 +279,60 @@ class NodesOfFiles(PeriodicTest):
             self.assertFalse((self.folder / "no/mesh.msh").exists())
 
 
+class Partners(PeriodicTest):
+    """Point arrays of the boundary files: the ids of the points whose images others are."""
+
+    def assert_partners(self, folder, pairs):
+        """Of all points of triangles of an image, one by one; others have none."""
+        grid = grid_of(folder / "boundary.pvtu")
+        data, names = grid.GetPointData(), grid.GetFieldData().GetAbstractArray("patch_names")
+        ids, patch = data.GetGlobalIds(), grid.GetCellData().GetArray("patch")
+        position = {int(ids.GetValue(row)): grid.GetPoint(row) for row in range(grid.GetNumberOfPoints())}
+        for number, ((_, end), shift) in enumerate(pairs.items(), 1):
+            partner = data.GetArray(f"periodic_partner_{number}")
+            rows = set()
+            for cell in range(grid.GetNumberOfCells()):
+                if names.GetValue(int(patch.GetValue(cell))) == end:
+                    points = grid.GetCell(cell).GetPointIds()
+                    rows.update(points.GetId(i) for i in range(points.GetNumberOfIds()))
+            self.assertGreater(len(rows), 20)
+            for row in range(grid.GetNumberOfPoints()):
+                of_row = int(partner.GetValue(row))
+                self.assertEqual(of_row >= 0, row in rows)
+                if row in rows:
+                    self.assertLess(math.dist(shifted(shift)(position[of_row]), grid.GetPoint(row)), 1e-13)
+
+    def test_are_those_of_their_places(self):
+        cracked = packing_case() + "[[split]]\npatch = 'patch_*'\n"
+        self.write("model.geo", PACKING)
+        for name, text, settings in (
+            ("whole", packing_case(), ()),
+            ("cracked", cracked, ("output.order=2", "output.compression=none")),
+            ("at_once", packing_case(), ("fill.kernel=subdivide", "output.files=2")),
+        ):
+            with self.subTest(name=name):
+                out = self.mesh(self.write(f"{name}.toml", text), name, *sets(*settings), ranks=2)
+                self.assert_partners(out, PAIRS)
+        parts = self.folder / "parts"
+        self.run_program("repartition", self.folder / "whole/mesh.pvtu", "--parts", 3, "--output", parts, ranks=2)
+        self.assert_partners(parts, PAIRS)
+
+    def test_are_checked(self):
+        out = self.mesh(self.packing(), "out", *sets("fill.kernel=subdivide"))
+        for file in out.glob("boundary/*.vtu"):
+            grid = grid_of(file)
+            partner = grid.GetPointData().GetArray("periodic_partner_2")
+            for row in range(grid.GetNumberOfPoints()):
+                if partner.GetValue(row) >= 0:
+                    partner.SetValue(row, partner.GetValue(row) + 1)
+                    break
+            write_grid(grid, file)
+        found = self.run_program("check", out / "mesh.pvtu", "--json", ranks=2)
+        self.assertEqual(found.code, FAILED, found.err)
+        self.assertIn("periodic_point", found.out)
+        self.assertIn("as the file says", found.out)
+
+
 class Checked(PeriodicTest):
     def test_is_that_each_point_has_a_partner(self):
         out = self.mesh(self.packing(), "out", *sets("fill.kernel=subdivide"))

@@ -79,8 +79,9 @@ enum class CellOrder {
 /// - Ids: the array that the attribute GlobalIds names; else one of the usual names.
 /// - Positions and cell arrays of 32-bit floating point are widened.
 /// - Integer arrays with one component: up to 32 bits (and UInt32 or 64 bits on points) become
-///   `point_ints`, `cell_ints`; wider ones of cells `cell_longs`. Arrays with no place in
-///   MeshArrays, or with values that do not fit it, are left out.
+///   `point_ints`, `cell_ints`; wider ones of cells `cell_longs`, and ids of periodic partners
+///   `point_longs`. Arrays with no place in MeshArrays, or with values that do not fit it, are left
+///   out.
 ///
 /// VTK's own reader is not used: it hangs or dies of a few flipped bits (a block size of 0).
 /// What is returned is consistent: sizes match, `cell_points` lie in 0…num_points-1.

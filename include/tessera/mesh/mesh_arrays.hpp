@@ -27,6 +27,7 @@ struct MeshArrays {
   std::vector<GlobalIndex> point_ids{};   ///< Shape (num_points); GLOBAL_IDS. Optional.
   std::vector<GlobalIndex> cell_ids{};    ///< Shape (num_cells); GLOBAL_IDS. Optional.
   std::map<std::string, std::vector<std::int32_t>> point_ints{};  ///< E.g. "owner".
+  std::map<std::string, std::vector<GlobalIndex>> point_longs{};  ///< E.g. "periodic_partner_1".
   std::map<std::string, std::vector<std::int32_t>> cell_ints{};   ///< E.g. "attribute", "patch".
   std::map<std::string, std::vector<GlobalIndex>>
       cell_longs{};                                           ///< E.g. "tet": id of the tet behind.

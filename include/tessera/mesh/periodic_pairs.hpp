@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tessera/base/affine.hpp"
+#include "tessera/base/types.hpp"
 
 namespace tessera::mesh {
 
@@ -20,6 +21,17 @@ struct PeriodicPair {
 
 /// @brief Name of the array of field data with the texts of to_texts().
 inline constexpr const char* kPeriodicPairsName = "periodic_patches";
+
+/// @brief How the names of point arrays of ids of partners begin; a number from 1 follows.
+inline constexpr const char* kPeriodicPartnerName = "periodic_partner_";
+
+/// @brief Of each pair its transform among the different ones, numbered from 0 as they first come:
+/// patches of one [[periodic]] have one. Local.
+[[nodiscard]] std::vector<LocalIndex> transforms_of(std::span<const PeriodicPair> pairs);
+
+/// @brief Name of the point array with the ids of the points whose images others are, for such a
+/// transform. Local.
+[[nodiscard]] std::string name_of_partners(LocalIndex transform);
 
 /// @brief Three texts a pair: both names, and the rows of a 3 x 4 matrix, whose last column is the
 /// shift, as numbers that read back as the same. Local.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <set>
+#include <string>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -11,6 +12,18 @@
 #include "tessera/base/error.hpp"
 
 namespace tessera::check {
+namespace {
+
+// None where a split lets several points stand at one position.
+std::optional<GlobalIndex> partner_of_file(const PieceMesh& boundary, LocalIndex transform,
+                                           LocalIndex point)
+{
+  const auto array = boundary.arrays.point_longs.find(mesh::name_of_partners(transform));
+  if (array == boundary.arrays.point_longs.end() || !boundary.split_patches().empty()) return {};
+  return array->second[at(point)];
+}
+
+}  // namespace
 
 void PeriodicMatcher::add(const PieceMesh& boundary, Findings& findings)
 {
@@ -27,46 +40,49 @@ void PeriodicMatcher::add(const PieceMesh& boundary, Findings& findings)
     findings.add(Kind::arrays, {boundary.name.piece, 0}, [&] { return error.what(); });
     return;
   }
+  // Several patches on one side may have one name, and those on the other side names of their own.
+  const std::vector<LocalIndex> transforms = mesh::transforms_of(pairs_);
   std::set<std::tuple<LocalIndex, LocalIndex, bool>> known;
-  const auto add_cell = [&](LocalIndex c, LocalIndex group, bool is_image) {
+  const auto add_cell = [&](LocalIndex c, LocalIndex pair, bool is_image) {
+    const LocalIndex group = transforms[at(pair)];
     for (const LocalIndex v : boundary.cell(c)) {
       if (!known.emplace(v, group, is_image).second) continue;
       const Vec3 position = boundary.position(v);
-      places_.push_back({.place = is_image ? position : pairs_[at(group)].there(position),
+      places_.push_back({.place = is_image ? position : pairs_[at(pair)].there(position),
+                         .label = std::max(boundary.point_id(v), GlobalIndex{0}),
                          .group = group,
                          .is_image = is_image});
-      points_.push_back({.position = position,
-                         .id = boundary.point_id(v),
-                         .piece = boundary.name.piece,
-                         .point = v});
+      points_.push_back(
+          {.position = position,
+           .id = boundary.point_id(v),
+           .piece = boundary.name.piece,
+           .point = v,
+           .pair = pair,
+           .partner_of_file = is_image ? partner_of_file(boundary, group, v) : std::nullopt});
     }
   };
   for (LocalIndex c = 0; c < boundary.num_cells(); ++c) {
     const auto patch = static_cast<std::size_t>(patches->second[at(c)]);
     if (boundary.is_left_out(c) || patch >= names->second.size()) continue;
     for (LocalIndex pair = 0; pair < std::ssize(pairs_); ++pair) {
-      if (names->second[patch] == pairs_[at(pair)].from) add_cell(c, group_of(pair), false);
-      if (names->second[patch] == pairs_[at(pair)].to) add_cell(c, group_of(pair), true);
+      if (names->second[patch] == pairs_[at(pair)].from) add_cell(c, pair, false);
+      if (names->second[patch] == pairs_[at(pair)].to) add_cell(c, pair, true);
     }
   }
 }
 
-// Several patches on one side may have one name, and those on the other side names of their own.
-LocalIndex PeriodicMatcher::group_of(LocalIndex pair) const
+void PeriodicMatcher::report(const Point& one, bool is_image, Findings& findings) const
 {
-  const auto first = std::ranges::find(pairs_, pairs_[at(pair)].there, &mesh::PeriodicPair::there);
-  return static_cast<LocalIndex>(first - pairs_.begin());
-}
-
-void PeriodicMatcher::report(const Point& one, const comm::SidePoint& place,
-                             Findings& findings) const
-{
-  const mesh::PeriodicPair& pair = pairs_[at(place.group)];
+  const mesh::PeriodicPair& pair = pairs_[at(one.pair)];
   findings.add(Kind::periodic_point, {one.piece, one.point}, [&] {
-    return fmt::format(
-        "boundary piece {}: point {}{} at {} of patch \"{}\" has no partner on \"{}\"", one.piece,
-        one.point, one.id == kNoId ? "" : fmt::format(" (id {})", one.id), to_text(one.position),
-        place.is_image ? pair.to : pair.from, place.is_image ? pair.from : pair.to);
+    const std::string point =
+        fmt::format("boundary piece {}: point {}{} at {} of patch \"{}\"", one.piece, one.point,
+                    one.id == kNoId ? "" : fmt::format(" (id {})", one.id), to_text(one.position),
+                    is_image ? pair.to : pair.from);
+    const std::string& other = is_image ? pair.from : pair.to;
+    if (!one.partner_of_file) return fmt::format("{} has no partner on \"{}\"", point, other);
+    return fmt::format("{} is not the image of that of \"{}\" with id {}, as the file says", point,
+                       other, *one.partner_of_file);
   });
 }
 
@@ -74,7 +90,10 @@ void PeriodicMatcher::finish(const comm::Communicator& comm, Findings& findings)
 {
   const std::vector<GlobalIndex> partners = comm::find_partners(places_, comm);
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (partners[i] == comm::kNoPartner) report(points_[i], places_[i], findings);
+    const std::optional<GlobalIndex>& of_file = points_[i].partner_of_file;
+    if (partners[i] != comm::kNoPartner && partners[i] == of_file.value_or(partners[i])) continue;
+    if (partners[i] == comm::kNoPartner) points_[i].partner_of_file.reset();
+    report(points_[i], places_[i].is_image, findings);
   }
   places_ = {};
   points_ = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tessera/base/vec3.hpp"
@@ -14,13 +15,13 @@
 namespace tessera::check {
 
 /// @brief Compares patches that the boundary file calls periodic: each point of the one must have a
-/// point of the other one where its image is.
+/// point of the other one where its image is; and what the file says of partners must be true.
 class PeriodicMatcher {
  public:
   /// @brief Takes the points of such patches. Local.
   void add(const PieceMesh& boundary, Findings& findings);
 
-  /// @brief Reports points without a partner. @note Collective.
+  /// @brief Reports points without a partner, or with a wrong one. @note Collective.
   void finish(const comm::Communicator& comm, Findings& findings);
 
  private:
@@ -29,13 +30,14 @@ class PeriodicMatcher {
     GlobalIndex id = kNoId;
     LocalIndex piece = 0;
     LocalIndex point = 0;
+    LocalIndex pair = 0;                           // A row of pairs_ with the patch.
+    std::optional<GlobalIndex> partner_of_file{};  // What the file says of an image.
   };
 
-  [[nodiscard]] LocalIndex group_of(LocalIndex pair) const;
-  void report(const Point& one, const comm::SidePoint& place, Findings& findings) const;
+  void report(const Point& one, bool is_image, Findings& findings) const;
 
   std::vector<mesh::PeriodicPair> pairs_{};  // The same in all pieces.
-  std::vector<comm::SidePoint> places_{};    // Group: the first pair with the transform.
+  std::vector<comm::SidePoint> places_{};    // Groups: mesh::transforms_of().
   std::vector<Point> points_{};              // Whose places these are.
 };
 

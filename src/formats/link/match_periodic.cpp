@@ -16,6 +16,7 @@
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/find_partners.hpp"
 #include "tessera/mesh/periodic_pairs.hpp"
+#include "tessera/mesh/side_places.hpp"
 
 namespace tessera::formats {
 namespace {
@@ -45,8 +46,7 @@ struct Missing {
   static auto fields(auto& self) { return std::tie(self.piece, self.point, self.text); }
 };
 
-// Matches points by places within triangles, half way to the centre: at a crack that goes to the
-// side there are several points at one place, but a triangle has its place for itself.
+// Matches points by mesh::for_each_side_place().
 class PatchMatcher {
  public:
   PatchMatcher(const Outline& outline, const std::vector<PeriodicPatch>& patches)
@@ -107,11 +107,8 @@ class PatchMatcher {
     const std::span<const double> xyz(piece.point_xyz);
     for (std::size_t t = 0; t < piece.triangle_patch.size(); ++t) {
       if (piece.triangle_patch[t] != tag) continue;
-      const auto points = std::span(piece.triangle_points).subspan(width * t, width);
-      const Vec3 centre =
-          1.0 / 3.0
-          * (point_at(xyz, points[0]) + point_at(xyz, points[1]) + point_at(xyz, points[2]));
-      for (const LocalIndex row : points) visit(row, midpoint(point_at(xyz, row), centre));
+      mesh::for_each_side_place(xyz, std::span(piece.triangle_points).subspan(width * t, width),
+                                visit);
     }
   }
 

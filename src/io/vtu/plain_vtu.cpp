@@ -108,6 +108,7 @@ void put_point_data(Document& document, const MeshArrays& piece)
 {
   open_data(document, "PointData", kPointIdsName, piece.point_ids, has_point_ids(piece));
   document.put_all(piece.point_ints);
+  document.put_all(piece.point_longs);
   if (piece.num_ghost_layers > 0) document.put(kGhostName, piece.point_ghost);
   document.xml() << "      </PointData>\n";
 }

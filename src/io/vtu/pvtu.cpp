@@ -90,6 +90,7 @@ void put_field_data(std::string& out, const mesh::MeshArrays& schema,
   put_field_data(out, schema, neighbours);
   put_ids(out, "PPointData", kPointIdsName, has_point_ids(schema));
   put_arrays(out, "Int32", schema.point_ints);
+  put_arrays(out, "Int64", schema.point_longs);
   if (schema.num_ghost_layers > 0) put_array(out, "UInt8", kGhostName);
   out += "    </PPointData>\n";
   put_ids(out, "PCellData", kCellIdsName, has_cell_ids(schema));

@@ -119,6 +119,7 @@ void add_texts(vtkFieldData& data, const std::map<std::string, std::vector<std::
     cell_data.SetGlobalIds(view_of<vtkIdTypeArray>(kCellIdsName, piece.cell_ids));
   }
   add_arrays<vtkIntArray>(point_data, piece.point_ints);
+  add_arrays<vtkLongLongArray>(point_data, piece.point_longs);
   add_arrays<vtkIntArray>(cell_data, piece.cell_ints);
   add_arrays<vtkLongLongArray>(cell_data, piece.cell_longs);
   add_arrays<vtkDoubleArray>(cell_data, piece.cell_doubles);

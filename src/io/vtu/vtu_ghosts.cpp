@@ -49,6 +49,7 @@ void drop_points(mesh::MeshArrays& mesh, const std::vector<bool>& is_kept)
   for (LocalIndex& point : mesh.cell_points) point = place[static_cast<std::size_t>(point)];
   keep_rows(mesh.point_ids, is_kept);
   keep_rows_of_all(mesh.point_ints, is_kept);
+  keep_rows_of_all(mesh.point_longs, is_kept);
   keep_rows(mesh.point_xyz, is_kept, 3);
 }
 

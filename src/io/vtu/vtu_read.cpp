@@ -11,6 +11,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/io/vtu.hpp"
+#include "tessera/mesh/periodic_pairs.hpp"
 
 #include "io/vtu/arrays.hpp"
 #include "io/vtu/data_array.hpp"
@@ -138,6 +139,9 @@ void read_point_data(const XmlElement& data, const Encoding& encoding, MeshArray
     if (!array) continue;
     if (name_of(element) == ids) {
       if (auto values = values_as<GlobalIndex>(*array)) mesh.point_ids = *std::move(values);
+    } else if (name_of(element).starts_with(mesh::kPeriodicPartnerName)) {
+      if (auto values = values_as<GlobalIndex>(*array))
+        mesh.point_longs[name_of(element)] = *std::move(values);
     } else if (auto values = values_as<std::int32_t>(*array)) {
       mesh.point_ints[name_of(element)] = *std::move(values);
     }
@@ -275,6 +279,7 @@ void append(MeshArrays& to, const MeshArrays& from)
   append(to.point_xyz, from.point_xyz);
   for (const LocalIndex point : from.cell_points) to.cell_points.push_back(first_point + point);
   append(to.point_ints, from.point_ints);
+  append(to.point_longs, from.point_longs);
   append(to.cell_ints, from.cell_ints);
   append(to.cell_longs, from.cell_longs);
   append(to.cell_doubles, from.cell_doubles);

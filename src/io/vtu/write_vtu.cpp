@@ -53,6 +53,7 @@ void require_consistent(const MeshArrays& piece)
               && std::cmp_equal(piece.cell_ghost.size(), has_ghosts ? num_cells : 0),
           "size of ghosts");
   require_size(piece.point_ints, num_points);
+  require_size(piece.point_longs, num_points);
   require_size(piece.cell_ints, num_cells);
   require_size(piece.cell_longs, num_cells);
   require_size(piece.cell_doubles, num_cells);

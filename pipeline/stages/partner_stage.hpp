@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "tessera/subdomain/piece_file.hpp"
+
+#include "pipeline/run_result.hpp"
+#include "pipeline/runtime/run_context.hpp"
+
+namespace tessera::pipeline {
+
+/// @brief Tells points of periodic sides in the boundary files whose images they are; does nothing
+/// if the case has no such sides.
+/// @note Collective. @throws As subdomain::add_periodic_partners().
+void run_partner_stage(const RunResult& run, const std::vector<subdomain::SubdomainRange>& files,
+                       RunContext& context);
+
+}  // namespace tessera::pipeline

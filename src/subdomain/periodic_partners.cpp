@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tessera/subdomain/periodic_partners.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
+#include "tessera/comm/find_partners.hpp"
+#include "tessera/io/vtu.hpp"
+#include "tessera/mesh/periodic_pairs.hpp"
+#include "tessera/mesh/side_places.hpp"
+
+namespace tessera::subdomain {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<mesh::PeriodicPair> pairs_of(const mesh::MeshArrays& boundary)
+{
+  const auto texts = boundary.field_texts.find(mesh::kPeriodicPairsName);
+  if (texts == boundary.field_texts.end()) return {};
+  return mesh::periodic_pairs(texts->second);
+}
+
+// An image, and the place at which it asks.
+struct Image {
+  LocalIndex transform = 0;
+  LocalIndex point = 0;
+  std::size_t asks_as = 0;
+};
+
+// The points of some files on periodic patches.
+class PartnerFinder {
+ public:
+  // Files come in the order in which put() asks for them.
+  void add(const mesh::MeshArrays& boundary)
+  {
+    images_.emplace_back();
+    const std::vector<mesh::PeriodicPair> pairs = pairs_of(boundary);
+    const std::vector<LocalIndex> transforms = mesh::transforms_of(pairs);
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+      add_side(boundary, pairs[p].from, [&](LocalIndex point, const Vec3& place) {
+        places_.push_back({.place = pairs[p].there(place),
+                           .label = boundary.point_ids[at(point)],
+                           .group = transforms[p]});
+      });
+      add_side(boundary, pairs[p].to, [&](LocalIndex point, const Vec3& place) {
+        images_.back().push_back({transforms[p], point, places_.size()});
+        places_.push_back({.place = place, .group = transforms[p], .is_image = true});
+      });
+    }
+  }
+
+  // Collective.
+  void find(const comm::Communicator& comm) { partners_ = comm::find_partners(places_, comm); }
+
+  void put(std::size_t file, mesh::MeshArrays& boundary) const
+  {
+    for (const LocalIndex transform : mesh::transforms_of(pairs_of(boundary))) {
+      boundary.point_longs[mesh::name_of_partners(transform)].assign(
+          static_cast<std::size_t>(boundary.num_points()), comm::kNoPartner);
+    }
+    for (const Image& image : images_[file]) {
+      const GlobalIndex partner = partners_[image.asks_as];
+      if (partner == comm::kNoPartner) throw MeshError(missing(boundary, image.point));
+      boundary.point_longs[mesh::name_of_partners(image.transform)][at(image.point)] = partner;
+    }
+  }
+
+ private:
+  template <class Visit>
+  static void add_side(const mesh::MeshArrays& boundary, const std::string& name,
+                       const Visit& visit)
+  {
+    const std::vector<std::string>& names = boundary.field_texts.at("patch_names");
+    const std::vector<std::int32_t>& patch = boundary.cell_ints.at("patch");
+    const auto width = static_cast<std::size_t>(boundary.vertices_per_cell);
+    for (std::size_t t = 0; t < patch.size(); ++t) {
+      if (names.at(at(patch[t])) != name) continue;
+      mesh::for_each_side_place(boundary.point_xyz,
+                                std::span(boundary.cell_points).subspan(width * t, width), visit);
+    }
+  }
+
+  static std::string missing(const mesh::MeshArrays& boundary, LocalIndex point)
+  {
+    return fmt::format("the point with id {} is the image of none, though its patch is periodic",
+                       boundary.point_ids[at(point)]);
+  }
+
+  std::vector<std::vector<Image>> images_{};  // By file.
+  std::vector<comm::SidePoint> places_{};     // Their groups are transforms.
+  std::vector<GlobalIndex> partners_{};       // Of places_.
+};
+
+}  // namespace
+
+void add_periodic_partners(std::span<const fs::path> files, io::Compression compression,
+                           const comm::Communicator& comm, const std::function<void()>& before_each)
+{
+  std::vector<fs::path> own;
+  for (auto f = static_cast<std::size_t>(comm.rank()); f < files.size(); f += at(comm.size())) {
+    own.push_back(files[f]);
+  }
+  PartnerFinder finder;
+  all_or_none(comm, [&] {
+    for (const fs::path& file : own) {
+      before_each();
+      finder.add(io::read_vtu(file, io::CellOrder::up_to_second));
+    }
+  });
+  finder.find(comm);
+  all_or_none(comm, [&] {
+    for (std::size_t f = 0; f < own.size(); ++f) {
+      before_each();
+      mesh::MeshArrays boundary = io::read_vtu(own[f], io::CellOrder::up_to_second);
+      if (pairs_of(boundary).empty()) continue;
+      finder.put(f, boundary);
+      io::write_vtu(boundary, own[f], compression);
+    }
+  });
+}
+
+void name_periodic_partners(mesh::MeshArrays& schema)
+{
+  for (const LocalIndex transform : mesh::transforms_of(pairs_of(schema))) {
+    schema.point_longs[mesh::name_of_partners(transform)];
+  }
+}
+
+}  // namespace tessera::subdomain
