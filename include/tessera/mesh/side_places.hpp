@@ -10,8 +10,8 @@
 namespace tessera::mesh {
 
 /// @brief Calls `visit(point, place)` for each point of a triangle on a side with images. Its place
-/// is half way to the triangle's centre: at a crack that goes to the side there are several points at
-/// one position, but a triangle has these places for itself. Local.
+/// is half way to the triangle's centre: at a crack that goes to the side there are several points
+/// at one position, but a triangle has these places for itself. Local.
 /// @param[in] points Corners, and of second order nodes: rows of `xyz`.
 template <class Visit>
 void for_each_side_place(std::span<const double> xyz, std::span<const LocalIndex> points,

@@ -10,8 +10,8 @@
 #include "tessera/mesh/mesh_arrays.hpp"
 
 /// Which point is the image of which, in files of boundary triangles: for the k-th of the different
-/// transforms of `periodic_patches` the point array `periodic_partner_k`. A point that a triangle of
-/// an image has in the file has the id of the point whose image it is; all others have -1.
+/// transforms of `periodic_patches` the point array `periodic_partner_k`. A point that a triangle
+/// of an image has in the file has the id of the point whose image it is; all others have -1.
 namespace tessera::subdomain {
 
 /// @brief Puts the arrays into files that are written. Each rank reads some of them twice.
