@@ -24,6 +24,7 @@
 #include "tessera/migrate/partition.hpp"
 #include "tessera/subdomain/mesh_input.hpp"
 #include "tessera/subdomain/part_arrays.hpp"
+#include "tessera/subdomain/part_layers.hpp"
 #include "tessera/subdomain/part_lines.hpp"
 #include "tessera/subdomain/periodic_partners.hpp"
 #include "tessera/subdomain/piece_file.hpp"
@@ -115,8 +116,14 @@ class Repartition {
   ExitCode cut()
   {
     read();
-    migrate::RepartitionResult cut = migrate::cut_into_parts(
-        comm_, std::move(mesh_.mesh), {command_.num_parts, kMaxBalance}, figures_.traffic);
+    const auto columns_of_layers = [this](const migrate::MeshBlock& block) {
+      return subdomain::columns_of_layers(block, mesh_.columns);
+    };
+    migrate::RepartitionResult cut = migrate::cut_into_parts(comm_, std::move(mesh_.mesh),
+                                                             {.num_parts = command_.num_parts,
+                                                              .max_balance = kMaxBalance,
+                                                              .groups_of = columns_of_layers},
+                                                             figures_.traffic);
     mesh_.mesh = std::move(cut.mesh);
     figures_.cut = cut.figures;
     end_step("partition");

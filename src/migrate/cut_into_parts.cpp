@@ -109,13 +109,36 @@ Merit merit_of(const comm::Communicator& comm, const TetNeighbours& neighbours,
   return {std::max<GlobalIndex>(excess, 0), comm.sum(num_cut_sides)};
 }
 
+// Groups go where their first tets go.
+void join_groups(const PartRequest& request, DistributedMesh& mesh)
+{
+  if (!request.groups_of) return;
+  const std::vector<LocalIndex> first = request.groups_of(mesh);
+  for (std::size_t t = 0; t < first.size(); ++t) mesh.tet_part[t] = mesh.tet_part[at(first[t])];
+}
+
+// Of each tet whether it is in a group with others.
+std::vector<bool> grouped_tets(const PartRequest& request, const DistributedMesh& mesh)
+{
+  std::vector<bool> is_grouped(at(mesh.num_tets()), false);
+  if (!request.groups_of) return is_grouped;
+  const std::vector<LocalIndex> first = request.groups_of(mesh);
+  for (LocalIndex t = 0; t < mesh.num_tets(); ++t) {
+    if (first[at(t)] == t) continue;
+    is_grouped[at(t)] = true;
+    is_grouped[at(first[at(t)])] = true;
+  }
+  return is_grouped;
+}
+
 using Pairs = std::set<std::pair<LocalIndex, LocalIndex>>;
 
-// Makes the planned transfers that can be made and bans the others.
+// Makes the planned transfers that can be made, of tets that go for themselves, and bans the
+// others.
 // @return Whether one was made, on any rank.
 bool make_transfers(const comm::Communicator& comm, const std::vector<Transfer>& transfers,
                     const PartGraph& graph, GlobalIndex largest, const PartView& view,
-                    DistributedMesh& mesh, Pairs& banned)
+                    const std::vector<bool>& is_grouped, DistributedMesh& mesh, Pairs& banned)
 {
   std::vector<GlobalIndex> num_moved(transfers.size(), 0);
   for (std::size_t i = 0; i < transfers.size(); ++i) {
@@ -123,7 +146,8 @@ bool make_transfers(const comm::Communicator& comm, const std::vector<Transfer>&
     const auto num_parts = static_cast<LocalIndex>(graph.sizes.size());
     if (rank_of_part(transfer.from, num_parts, comm.size()) != comm.rank()) continue;
     const GlobalIndex room = largest - graph.sizes[at(transfer.to)];
-    const std::vector<LocalIndex> tets = choose_tets(view, transfer, room);
+    std::vector<LocalIndex> tets = choose_tets(view, transfer, room);
+    std::erase_if(tets, [&](LocalIndex t) { return is_grouped[at(t)]; });
     for (const LocalIndex t : tets) mesh.tet_part[at(t)] = transfer.to;
     num_moved[i] = static_cast<GlobalIndex>(tets.size());
   }
@@ -142,10 +166,12 @@ bool move_excess(const comm::Communicator& comm, const TetNeighbours& neighbours
   const PartView view(comm, neighbours, mesh.tet_part);
   const GlobalIndex largest = largest_of(comm, mesh, request);
   const PartGraph graph = graph_of_parts(comm, view, request.num_parts);
+  const std::vector<bool> is_grouped = grouped_tets(request, mesh);
   while (true) {
     const auto transfers = plan_transfers(graph, largest, banned);
     if (transfers.empty()) return false;
-    if (make_transfers(comm, transfers, graph, largest, view, mesh, banned)) return true;
+    if (make_transfers(comm, transfers, graph, largest, view, is_grouped, mesh, banned))
+      return true;
   }
 }
 
@@ -189,6 +215,7 @@ RepartitionResult cut_into_parts(const comm::Communicator& comm, DistributedMesh
   TetNeighbours neighbours = find_neighbours(comm, mesh);
   for (int num_good = 0; num_good < kGoodTries && figures.num_tries < kMaxTries;) {
     mesh.tet_part = partition_tets(comm, mesh, neighbours, request.num_parts, ++figures.num_tries);
+    join_groups(request, mesh);
     move();
     neighbours = connect();
     const Merit merit = merit_of(comm, neighbours, mesh, request);

@@ -12,6 +12,7 @@ import program  # noqa: E402
 from poly_mesh import PolyMesh  # noqa: E402
 from program import DEGRADED, OK, STOPPED, WRONG_INPUT, sets  # noqa: E402
 from vtk_grids import grid_of  # noqa: E402
+from vtkmodules.util.numpy_support import vtk_to_numpy  # noqa: E402
 
 PIPE = (
     "algebraic3d\nsolid inlet = plane (0, 0, 0; 0, 0, -1);\nsolid outlet = plane (0, 0, 2; 0, 0, 1);\n"
@@ -169,6 +170,25 @@ class OpenFoam(LayersTest):
                 numpy.testing.assert_allclose(part.face_areas[begin:end], -parts[there].face_areas[first:last], atol=1e-14)
                 num_shared += int((part.num_corners[begin:end] == 4).sum())
         self.assertGreater(num_shared, 0, "no prism stands on a seam")
+
+
+class Repartitioned(LayersTest):
+    def test_keeps_columns_whole(self):
+        """So that the parts have the same prisms; above the tets of a wall's triangle stand all its layers."""
+        out = self.mesh(self.case(), "out", *sets("fill.kernel=subdivide"))
+        report = self.checked(out)
+        for ranks in (1, 3):
+            parts, foam = self.folder / f"parts_{ranks}", self.folder / f"foam_{ranks}"
+            self.run_program("repartition", out / "mesh.pvtu", "--parts", 5, "--output", parts, ranks=ranks)
+            self.assertEqual(self.run_program("check", parts / "mesh.pvtu").code, program.OK)
+            done = self.run_program("convert", parts / "mesh.pvtu", "--format", "openfoam-serial", "--output", foam)
+            self.assertEqual(done.code, program.OK, done.err)
+            of_layers = report["layers"]["num_tets"]
+            self.assertEqual(PolyMesh(foam).num_cells(), of_layers // 3 + report["num_tets"] - of_layers)
+            for file in sorted(parts.glob("mesh/*.vtu")):
+                layer = vtk_to_numpy(grid_of(file).GetCellData().GetArray("layer"))
+                counts = numpy.bincount(layer, minlength=5)[1:]
+                self.assertEqual(set(counts), {counts[0]}, file.name)
 
 
 class Rims(LayersTest):

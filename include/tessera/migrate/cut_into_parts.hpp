@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "tessera/base/types.hpp"
 #include "tessera/comm/communicator.hpp"
 #include "tessera/migrate/distributed_mesh.hpp"
@@ -23,6 +26,9 @@ namespace tessera::migrate {
 struct PartRequest {
   LocalIndex num_parts = 1;
   double max_balance = 1.03;  ///< Largest part over the average; see largest_allowed().
+  /// Tets that are to stay in one part: of each the first one of its group, which is on the same
+  /// rank. Shape (num_tets). None: each goes for itself.
+  std::function<std::vector<LocalIndex>(const MeshBlock&)> groups_of{};
 };
 
 /// @brief How cut_into_parts() came to its result; the same on all ranks.
