@@ -140,6 +140,9 @@ class Repartition {
         subdomain::read_pieces(command_.mesh_file, comm_, throw_if_stop_requested);
     texts_ = subdomain::field_texts_of(pieces, comm_);
     texts_["tessera_version"] = {std::string(version())};
+    if (const auto pairs = texts_.find(mesh::kPeriodicPairsName); pairs != texts_.end()) {
+      all_or_none(comm_, [&] { static_cast<void>(mesh::periodic_pairs(pairs->second)); });
+    }
     end_step("read");
     mesh_ = subdomain::assemble_pieces(command_.mesh_file, pieces, comm_);
     figures_.notes = mesh_.notes;
@@ -191,14 +194,20 @@ class Repartition {
     all_or_none(comm_, [&] {
       for (const migrate::GhostTets& ghosts : parts) write_part(context, ghosts);
     });
-    if (texts_.contains(mesh::kPeriodicPairsName)) {
-      subdomain::add_periodic_partners(boundary_files(command_.output), io::usual_compression(),
-                                       comm_, throw_if_stop_requested);
-    }
+    if (texts_.contains(mesh::kPeriodicPairsName)) add_partners();
     const std::vector<io::SharedPoints> neighbours = shared_points(vertex_parts);
     all_or_none(comm_, [&] {
       if (comm_.rank() == 0) write_indices(context, neighbours);
     });
+  }
+
+  void add_partners()
+  {
+    const GlobalIndex num_missing = subdomain::add_periodic_partners(
+        boundary_files(command_.output), io::usual_compression(), comm_, throw_if_stop_requested);
+    if (num_missing == 0) return;
+    figures_.notes.push_back(
+        fmt::format("{} points of periodic patches are the image of none", num_missing));
   }
 
   // Every vertex is counted on the rank that owns it.

@@ -72,6 +72,14 @@ Vec3 WallMover::place_of(const WallVertex& vertex, double part) const
   return beside_wall(vertex, vertex.wall + part * vertex.column);
 }
 
+// Without a column it stays where it is: other transforms may have led there, which differ by
+// rounding.
+Vec3 WallMover::place_of_image(const WallVertex& vertex, double part) const
+{
+  if (vertex.image == 0 || part == 0.0) return place_of(vertex, part);
+  return walls_.images[at(vertex.image)](place_of(walls_.vertices[at(vertex.origin)], part));
+}
+
 Vec3 WallMover::beside_wall(const WallVertex& vertex, const Vec3& point) const
 {
   if (vertex.curve != kNoIndex) {
@@ -84,8 +92,7 @@ Vec3 WallMover::beside_wall(const WallVertex& vertex, const Vec3& point) const
 void WallMover::place(std::span<const double> parts)
 {
   for (const WallVertex& vertex : walls_.vertices) {
-    const Vec3 place = place_of(walls_.vertices[at(vertex.origin)], parts[at(vertex.origin)]);
-    std::ranges::copy(vertex.image == 0 ? place : walls_.images[at(vertex.image)](place),
+    std::ranges::copy(place_of_image(vertex, parts[at(vertex.origin)]),
                       &mesh_.vertex_xyz[3 * at(vertex.vertex)]);
   }
 }

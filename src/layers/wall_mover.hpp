@@ -34,6 +34,7 @@ class WallMover {
 
  private:
   [[nodiscard]] Vec3 place_of(const WallVertex& vertex, double part) const;
+  [[nodiscard]] Vec3 place_of_image(const WallVertex& vertex, double part) const;
   [[nodiscard]] Vec3 column_point(const WallVertex& vertex, double end) const;
   /// The point on the curve or patch without layers, if there is one.
   [[nodiscard]] Vec3 beside_wall(const WallVertex& vertex, const Vec3& point) const;

@@ -141,19 +141,23 @@ bool make_transfers(const comm::Communicator& comm, const std::vector<Transfer>&
                     const std::vector<bool>& is_grouped, DistributedMesh& mesh, Pairs& banned)
 {
   std::vector<GlobalIndex> num_moved(transfers.size(), 0);
+  std::vector<GlobalIndex> num_kept(transfers.size(), 0);
   for (std::size_t i = 0; i < transfers.size(); ++i) {
     const Transfer& transfer = transfers[i];
     const auto num_parts = static_cast<LocalIndex>(graph.sizes.size());
     if (rank_of_part(transfer.from, num_parts, comm.size()) != comm.rank()) continue;
     const GlobalIndex room = largest - graph.sizes[at(transfer.to)];
     std::vector<LocalIndex> tets = choose_tets(view, transfer, room);
-    std::erase_if(tets, [&](LocalIndex t) { return is_grouped[at(t)]; });
+    num_kept[i] = static_cast<GlobalIndex>(
+        std::erase_if(tets, [&](LocalIndex t) { return is_grouped[at(t)]; }));
     for (const LocalIndex t : tets) mesh.tet_part[at(t)] = transfer.to;
     num_moved[i] = static_cast<GlobalIndex>(tets.size());
   }
   comm.sum_in_place(num_moved);
+  comm.sum_in_place(num_kept);
   for (std::size_t i = 0; i < transfers.size(); ++i) {
-    if (num_moved[i] == 0) banned.emplace(transfers[i].from, transfers[i].to);
+    // What was behind those that stay comes back, and would go again.
+    if (num_moved[i] == 0 || num_kept[i] > 0) banned.emplace(transfers[i].from, transfers[i].to);
   }
   return std::ranges::any_of(num_moved, [](GlobalIndex num) { return num > 0; });
 }

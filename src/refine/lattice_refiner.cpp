@@ -94,7 +94,7 @@ class LatticeRefiner {
   }
 
  private:
-  [[nodiscard]] bool has_parameters() const { return !triangle_uv_.empty(); }
+  [[nodiscard]] bool has_parameters() const { return context_.model.has_parameters(); }
 
   void refine_edge_on(int level, LocalIndex e)
   {

@@ -21,6 +21,7 @@ std::vector<LocalIndex> origins_of_wall_edges(const mesh::Complex& complex,
 {
   std::vector<LocalIndex> origins;
   for (const LocalIndex edge : complex.edge_skeleton) {
+    if (edge == kNoIndex) continue;
     const LocalIndex origin = skeleton.orbits.edges.origin_of(edge);
     if (origin != edge && skeleton.is_on_wall(edge)) origins.push_back(origin);
   }

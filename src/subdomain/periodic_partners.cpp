@@ -6,9 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "tessera/base/error.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/find_partners.hpp"
 #include "tessera/io/vtu.hpp"
@@ -59,17 +56,20 @@ class PartnerFinder {
   // Collective.
   void find(const comm::Communicator& comm) { partners_ = comm::find_partners(places_, comm); }
 
-  void put(std::size_t file, mesh::MeshArrays& boundary) const
+  // @return The number of images without one.
+  GlobalIndex put(std::size_t file, mesh::MeshArrays& boundary) const
   {
+    GlobalIndex num_missing = 0;
     for (const LocalIndex transform : mesh::transforms_of(pairs_of(boundary))) {
       boundary.point_longs[mesh::name_of_partners(transform)].assign(
           static_cast<std::size_t>(boundary.num_points()), comm::kNoPartner);
     }
     for (const Image& image : images_[file]) {
       const GlobalIndex partner = partners_[image.asks_as];
-      if (partner == comm::kNoPartner) throw MeshError(missing(boundary, image.point));
       boundary.point_longs[mesh::name_of_partners(image.transform)][at(image.point)] = partner;
+      if (partner == comm::kNoPartner) ++num_missing;
     }
+    return num_missing;
   }
 
  private:
@@ -77,20 +77,17 @@ class PartnerFinder {
   static void add_side(const mesh::MeshArrays& boundary, const std::string& name,
                        const Visit& visit)
   {
-    const std::vector<std::string>& names = boundary.field_texts.at("patch_names");
-    const std::vector<std::int32_t>& patch = boundary.cell_ints.at("patch");
+    const auto texts = boundary.field_texts.find("patch_names");
+    const auto patches = boundary.cell_ints.find("patch");
+    if (texts == boundary.field_texts.end() || patches == boundary.cell_ints.end()) return;
+    const std::vector<std::string>& names = texts->second;
+    const std::vector<std::int32_t>& patch = patches->second;
     const auto width = static_cast<std::size_t>(boundary.vertices_per_cell);
     for (std::size_t t = 0; t < patch.size(); ++t) {
-      if (names.at(at(patch[t])) != name) continue;
+      if (at(patch[t]) >= names.size() || names[at(patch[t])] != name) continue;
       mesh::for_each_side_place(boundary.point_xyz,
                                 std::span(boundary.cell_points).subspan(width * t, width), visit);
     }
-  }
-
-  static std::string missing(const mesh::MeshArrays& boundary, LocalIndex point)
-  {
-    return fmt::format("the point with id {} is the image of none, though its patch is periodic",
-                       boundary.point_ids[at(point)]);
   }
 
   std::vector<std::vector<Image>> images_{};  // By file.
@@ -100,8 +97,9 @@ class PartnerFinder {
 
 }  // namespace
 
-void add_periodic_partners(std::span<const fs::path> files, io::Compression compression,
-                           const comm::Communicator& comm, const std::function<void()>& before_each)
+GlobalIndex add_periodic_partners(std::span<const fs::path> files, io::Compression compression,
+                                  const comm::Communicator& comm,
+                                  const std::function<void()>& before_each)
 {
   std::vector<fs::path> own;
   for (auto f = static_cast<std::size_t>(comm.rank()); f < files.size(); f += at(comm.size())) {
@@ -115,15 +113,17 @@ void add_periodic_partners(std::span<const fs::path> files, io::Compression comp
     }
   });
   finder.find(comm);
+  GlobalIndex num_missing = 0;
   all_or_none(comm, [&] {
     for (std::size_t f = 0; f < own.size(); ++f) {
       before_each();
       mesh::MeshArrays boundary = io::read_vtu(own[f], io::CellOrder::up_to_second);
       if (pairs_of(boundary).empty()) continue;
-      finder.put(f, boundary);
+      num_missing += finder.put(f, boundary);
       io::write_vtu(boundary, own[f], compression);
     }
   });
+  return comm.sum(num_missing);
 }
 
 void name_periodic_partners(mesh::MeshArrays& schema)

@@ -182,6 +182,19 @@ class Layers(PeriodicTest):
             self.assert_full(self.assert_checked(out, volume_tolerance=1e-12)[0])
             self.assert_alike(out, "start", "end", shifted((0, 0, 1)))
 
+    def test_of_a_pipe_whose_points_have_parameters(self):
+        """Its rims are one closed curve each, on which a point without a guess goes to another place."""
+        names = "".join(f"[[geometry.name]]\nname = '{n}'\npatch = {{ normal = [0, 0, {z}] }}\n" for n, z in (("start", -1), ("end", 1)))
+        head = f"geometry.file = '{program.CONFIGS / 'geometry/cylinder.step'}'\ncoarse.max_size = 3\nrefine.levels = 2\n"
+        layers = LAYERS.replace("0.005", "0.1")
+        case = self.write("case.toml", head + "decompose.subdomains = 5\n" + names + "[[periodic]]\nfrom = 'start'\nto = 'end'\n" + layers)
+        for kernel in ("netgen", "subdivide"):
+            out = self.mesh(case, kernel, *sets(f"fill.kernel={kernel}"), ranks=2)
+            report = self.assert_checked(out, volume_tolerance=1e-12)[0]
+            self.assert_full(report)
+            self.assertEqual(report["num_points_off_geometry"], 0)
+            self.assert_alike(out, "start", "end", shifted((0, 0, 20)))
+
     def test_lie_on_round_sides(self):
         boxes = [[0.05, -0.1, -0.1], [0.25, 1.1, 0.9]], [[1.05, -0.1, -0.1], [1.25, 1.1, 0.9]]
         out = self.mesh(self.between(BENT, *boxes), "out", ranks=2)

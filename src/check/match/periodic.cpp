@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <set>
 #include <string>
 #include <tuple>
@@ -13,6 +14,9 @@
 
 namespace tessera::check {
 namespace {
+
+// Label of a point without an id.
+constexpr GlobalIndex kNotSaid = std::numeric_limits<GlobalIndex>::max();
 
 // None where a split lets several points stand at one position.
 std::optional<GlobalIndex> partner_of_file(const PieceMesh& boundary, LocalIndex transform,
@@ -44,21 +48,9 @@ void PeriodicMatcher::add(const PieceMesh& boundary, Findings& findings)
   const std::vector<LocalIndex> transforms = mesh::transforms_of(pairs_);
   std::set<std::tuple<LocalIndex, LocalIndex, bool>> known;
   const auto add_cell = [&](LocalIndex c, LocalIndex pair, bool is_image) {
-    const LocalIndex group = transforms[at(pair)];
+    const Side side{pair, transforms[at(pair)], is_image};
     for (const LocalIndex v : boundary.cell(c)) {
-      if (!known.emplace(v, group, is_image).second) continue;
-      const Vec3 position = boundary.position(v);
-      places_.push_back({.place = is_image ? position : pairs_[at(pair)].there(position),
-                         .label = std::max(boundary.point_id(v), GlobalIndex{0}),
-                         .group = group,
-                         .is_image = is_image});
-      points_.push_back(
-          {.position = position,
-           .id = boundary.point_id(v),
-           .piece = boundary.name.piece,
-           .point = v,
-           .pair = pair,
-           .partner_of_file = is_image ? partner_of_file(boundary, group, v) : std::nullopt});
+      if (known.emplace(v, side.transform, is_image).second) add_point(boundary, v, side);
     }
   };
   for (LocalIndex c = 0; c < boundary.num_cells(); ++c) {
@@ -69,6 +61,24 @@ void PeriodicMatcher::add(const PieceMesh& boundary, Findings& findings)
       if (names->second[patch] == pairs_[at(pair)].to) add_cell(c, pair, true);
     }
   }
+}
+
+void PeriodicMatcher::add_point(const PieceMesh& boundary, LocalIndex point, const Side& side)
+{
+  const Vec3 position = boundary.position(point);
+  const GlobalIndex id = boundary.point_id(point);
+  places_.push_back({.place = side.is_image ? position : pairs_[at(side.pair)].there(position),
+                     .label = id == kNoId ? kNotSaid : id,
+                     .group = side.transform,
+                     .is_image = side.is_image});
+  points_.push_back({.position = position,
+                     .id = id,
+                     .piece = boundary.name.piece,
+                     .point = point,
+                     .pair = side.pair,
+                     .partner_of_file = side.is_image
+                                            ? partner_of_file(boundary, side.transform, point)
+                                            : std::nullopt});
 }
 
 void PeriodicMatcher::report(const Point& one, bool is_image, Findings& findings) const
@@ -91,7 +101,8 @@ void PeriodicMatcher::finish(const comm::Communicator& comm, Findings& findings)
   const std::vector<GlobalIndex> partners = comm::find_partners(places_, comm);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const std::optional<GlobalIndex>& of_file = points_[i].partner_of_file;
-    if (partners[i] != comm::kNoPartner && partners[i] == of_file.value_or(partners[i])) continue;
+    const bool is_said = of_file && partners[i] != kNotSaid;
+    if (partners[i] != comm::kNoPartner && (!is_said || partners[i] == *of_file)) continue;
     if (partners[i] == comm::kNoPartner) points_[i].partner_of_file.reset();
     report(points_[i], places_[i].is_image, findings);
   }

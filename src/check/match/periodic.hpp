@@ -34,6 +34,13 @@ class PeriodicMatcher {
     std::optional<GlobalIndex> partner_of_file{};  // What the file says of an image.
   };
 
+  struct Side {
+    LocalIndex pair = 0;
+    LocalIndex transform = 0;
+    bool is_image = false;
+  };
+
+  void add_point(const PieceMesh& boundary, LocalIndex point, const Side& side);
   void report(const Point& one, bool is_image, Findings& findings) const;
 
   std::vector<mesh::PeriodicPair> pairs_{};  // The same in all pieces.

@@ -280,14 +280,14 @@ PeriodicRims::PeriodicRims(const SurfaceReference& reference, const model::Model
     num_curves = std::max(num_curves, curve + 1);
   }
   for (PeriodicPatches& side : sides_) {
-    const auto pairs = image_curves(side);
-    for (const auto& [curve, image] : pairs) {
-      if (image != curve)
-        links.push_back({curve, image, static_cast<LocalIndex>(transforms.size())});
-    }
     const bool is_translation = side.there.rows == Affine{}.rows;
     if (is_translation) {
-      side.there.shift = shift_by_curves(reference, model, pairs, side.there.shift);
+      side.there.shift = shift_by_curves(reference, model, image_curves(side), side.there.shift);
+    }
+    for (const auto& [curve, image] : image_curves(side)) {
+      if (image != curve) {
+        links.push_back({curve, image, static_cast<LocalIndex>(transforms.size())});
+      }
     }
     transforms.push_back(side.there);
   }
