@@ -321,7 +321,7 @@ class Partners(PeriodicTest):
         for name, text, settings in (
             ("whole", packing_case(), ()),
             ("cracked", cracked, ("output.order=2", "output.compression=none")),
-            ("at_once", packing_case(), ("fill.kernel=subdivide", "output.files=2")),
+            ("at_once", packing_case(), ("fill.kernel=subdivide", "output.files=1")),
         ):
             with self.subTest(name=name):
                 out = self.mesh(self.write(f"{name}.toml", text), name, *sets(*settings), ranks=2)
