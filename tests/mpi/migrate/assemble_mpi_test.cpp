@@ -237,6 +237,34 @@ TEST(CutIntoParts, PartsAreConnectedBalancedAndComplete)
   }
 }
 
+TEST(CutIntoParts, GroupsOfTetsStayInOnePart)
+{
+  const comm::Communicator comm(MPI_COMM_WORLD);
+  constexpr GlobalIndex kSize = 6;  // The tets of a small cube follow one another.
+  const auto first_of_cubes = [](const MeshBlock& block) {
+    std::vector<LocalIndex> first;
+    for (LocalIndex t = 0; t < block.num_tets(); ++t) {
+      const bool is_new =
+          t == 0 || block.tet_ids[at(t)] / kSize != block.tet_ids[at(t - 1)] / kSize;
+      first.push_back(is_new ? t : first.back());
+    }
+    return first;
+  };
+  for (const LocalIndex num_parts : {2, 5, 12}) {
+    if (!can_make(num_parts)) continue;
+    Traffic traffic;
+    const RepartitionResult cut =
+        cut_into_parts(comm, assemble(comm, box_pieces(comm)).mesh,
+                       {.num_parts = num_parts, .groups_of = first_of_cubes}, traffic);
+    const std::vector<LocalIndex> first = first_of_cubes(cut.mesh);
+    for (LocalIndex t = 0; t < cut.mesh.num_tets(); ++t) {
+      EXPECT_EQ(cut.mesh.tet_part[at(t)], cut.mesh.tet_part[at(first[at(t)])]);
+    }
+    EXPECT_EQ(cut.mesh.num_tets() % kSize, 0);
+    expect_box(comm, cut.mesh);
+  }
+}
+
 TEST(CutIntoParts, TwoBodiesInOnePartStayApart)
 {
   const comm::Communicator comm(MPI_COMM_WORLD);
