@@ -12,7 +12,8 @@ namespace tessera::pipeline {
 
 /// @brief Tells points of periodic sides in the boundary files whose images they are; does nothing
 /// if the case has no such sides.
-/// @note Collective. @throws As subdomain::add_periodic_partners().
+/// @note Collective. @throws MeshError on every rank if a point of an image matches none; else as
+/// subdomain::add_periodic_partners().
 void run_partner_stage(const RunResult& run, const std::vector<subdomain::SubdomainRange>& files,
                        RunContext& context);
 

@@ -10,7 +10,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import program  # noqa: E402
 from msh_file import Msh  # noqa: E402
-from periodic_models import PACKING, PAIRS, SECTOR, packing_case, sector_case  # noqa: E402
+from periodic_models import PACKING, PAIRS, PIPE, SECTOR, packing_case, sector_case  # noqa: E402
 from program import FAILED, OK, WRONG_INPUT, sets  # noqa: E402
 from vtk_grids import grid_of  # noqa: E402
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter  # noqa: E402
@@ -137,11 +137,7 @@ class Cracks(PeriodicTest):
                 self.assertGreater(len(report["splits"]), 8)
 
 
-# A pipe whose ends have no corner, and a part of a channel between two arcs.
-PIPE = (
-    "algebraic3d\nsolid pipe = cylinder (0, 0, 0; 0, 0, 1; 0.5) and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1; 0, 0, 1);\n"
-    "tlo pipe;\n"
-)
+# A part of a channel between two arcs.
 BENT = (
     "algebraic3d\nsolid before = cylinder (-1, 0.5, 0; -1, 0.5, 1; 1.2);\nsolid within = cylinder (0, 0.5, 0; 0, 0.5, 1; 1.2);\n"
     "solid slab = plane (0, 0, 0; 0, -1, 0) and plane (0, 1, 0; 0, 1, 0) and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 0.8; 0, 0, 1)\n"

@@ -21,7 +21,7 @@ from scipy.spatial import cKDTree
 from solver_meshes import made_of, mpirun, run
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from periodic_models import packing_model  # noqa: E402
+from periodic_models import PIPE, packing_model  # noqa: E402
 
 PARTS = 3
 NUM_BALLS, RADIUS = 12, 0.126
@@ -92,12 +92,6 @@ def wheel_case(num_sectors, size):
     for name, normal in (("start", [0, -1, 0]), ("end", [-0.5, 0.8660254037844386, 0])):
         text += f'[[geometry.name]]\nname = "{name}"\npatch = {{ normal = {normal} }}\n'
     return text + '[[periodic]]\nfrom = "start"\nto = "end"\nrotation = { axis = [0, 0, 1], angle = 30 }\n'
-
-
-PIPE = (
-    "algebraic3d\nsolid pipe = cylinder (0, 0, 0; 0, 0, 1; 0.5) and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1; 0, 0, 1);\n"
-    "tlo pipe;\n"
-)
 
 
 def pipe_case(size):

@@ -27,6 +27,12 @@ SECTOR = (
     "solid sector = wheel and start and end and not hub and not hole;\ntlo sector;\n"
 )
 
+# A pipe whose ends have no corner.
+PIPE = (
+    "algebraic3d\nsolid pipe = cylinder (0, 0, 0; 0, 0, 1; 0.5) and plane (0, 0, 0; 0, 0, -1) and plane (0, 0, 1; 0, 0, 1);\n"
+    "tlo pipe;\n"
+)
+
 
 def packing_case(more="refine.levels = 1\n", pairs=tuple(PAIRS)):
     """A case with PACKING in model.geo."""
