@@ -37,14 +37,17 @@ bool any_in(const subdomain::SubdomainRange& range,
   return false;
 }
 
-std::vector<std::filesystem::path> line_files(const std::vector<subdomain::SubdomainRange>& files,
-                                              const std::vector<subdomain::PieceSummary>& pieces)
+// Files of a folder whose pieces have some, relative to the output folder.
+template <class HasSome>
+std::vector<std::filesystem::path> files_with(const char* folder,
+                                              const std::vector<subdomain::SubdomainRange>& files,
+                                              const std::vector<subdomain::PieceSummary>& pieces,
+                                              const HasSome& has_some)
 {
   std::vector<std::filesystem::path> paths;
   for (const subdomain::SubdomainRange& range : files) {
-    const auto has_lines = [](const auto& piece) { return !piece.lines.empty(); };
-    if (any_in(range, pieces, has_lines))
-      paths.push_back(subdomain::piece_path("lines", range.number));
+    if (any_in(range, pieces, has_some))
+      paths.push_back(subdomain::piece_path(folder, range.number));
   }
   return paths;
 }
@@ -61,7 +64,8 @@ void write_pvtu_indices(const std::vector<subdomain::SubdomainRange>& files, con
   mesh::MeshArrays boundary = schema.boundary;
   subdomain::name_periodic_partners(boundary);
   io::write_pvtu(folder / "boundary.pvtu", boundary_files(files, run.filled.pieces), boundary);
-  const auto lines = line_files(files, run.filled.pieces);
+  const auto has_lines = [](const auto& piece) { return !piece.lines.empty(); };
+  const auto lines = files_with("lines", files, run.filled.pieces, has_lines);
   if (!lines.empty()) io::write_pvtu(folder / "lines.pvtu", lines, schema.lines);
 }
 
@@ -71,13 +75,8 @@ std::vector<std::filesystem::path> boundary_files(
     const std::vector<subdomain::SubdomainRange>& files,
     const std::vector<subdomain::PieceSummary>& pieces)
 {
-  std::vector<std::filesystem::path> paths;
-  for (const subdomain::SubdomainRange& range : files) {
-    const auto has_boundary = [](const auto& piece) { return piece.num_boundary > 0; };
-    if (any_in(range, pieces, has_boundary))
-      paths.push_back(subdomain::piece_path("boundary", range.number));
-  }
-  return paths;
+  return files_with("boundary", files, pieces,
+                    [](const auto& piece) { return piece.num_boundary > 0; });
 }
 
 GatheredFile gather_file(const subdomain::SubdomainRange& range, const io::OutputOptions& options,

@@ -39,12 +39,9 @@ std::vector<std::string> obstacles_of_patches(const mesh::CoarseMesh& mesh)
     if (faces[f].tets[1] == kNoIndex) continue;
     obstacles[at(mesh.face_patch[f])] = "inside of the model; layers are for its outside";
   }
-  for (const LocalIndex face : mesh.images.face_origin) {
-    if (face == kNoIndex) continue;
-    obstacles[at(mesh.face_patch[at(face)])] = kPeriodicObstacle;
-  }
   for (std::size_t p = 0; p < mesh.images.patch_origin.size(); ++p) {
-    if (mesh.images.patch_origin[p] != kNoIndex) obstacles[p] = kPeriodicObstacle;
+    const LocalIndex origin = mesh.images.patch_origin[p];
+    if (origin != kNoIndex) obstacles[p] = obstacles[at(origin)] = kPeriodicObstacle;
   }
   return obstacles;
 }

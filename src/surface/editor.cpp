@@ -8,6 +8,8 @@
 
 #include "tessera/base/error.hpp"
 
+#include "surface/model_curve.hpp"
+
 namespace tessera::surface {
 namespace {
 
@@ -211,8 +213,7 @@ Vec3 SurfaceEditor::on_curve(LocalIndex curve, const Vec3& point, double size) c
   const Vec3 near = reference_.on_curve(curve, point);
   if (model_ == nullptr) return near;
   try {
-    const Vec3 place =
-        model_->project_to_curve(curve, near, reference_.curve_parameter(curve, near)).xyz;
+    const Vec3 place = on_model_curve(reference_, *model_, curve, near);
     return norm(place - near) < kMostOffReference * size ? place : near;
   } catch (const GeometryError&) {
     return near;  // As if there were no model; put_on_geometry() tries once more.

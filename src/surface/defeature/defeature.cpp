@@ -10,6 +10,7 @@
 
 #include "surface/defeature/defeaturer.hpp"
 #include "surface/groups.hpp"
+#include "surface/model_curve.hpp"
 
 namespace tessera::surface {
 namespace {
@@ -149,7 +150,7 @@ Defeatured defeature(PatchSurface& surface, const SurfaceReference& reference,
                      const model::Model& model, const MergeLimits& limits)
 {
   const OnCurve on_curve = [&](LocalIndex curve, LocalIndex /*near*/, const Vec3& point) {
-    return model.project_to_curve(curve, point, reference.curve_parameter(curve, point)).xyz;
+    return on_model_curve(reference, model, curve, point);
   };
   return defeature(surface, on_curve, limits);
 }

@@ -13,6 +13,7 @@
 
 #include "surface/crossings.hpp"
 #include "surface/editable_surface.hpp"
+#include "surface/model_curve.hpp"
 #include "surface/remesh/patch_folds.hpp"
 #include "surface/remesh/periodic_rims.hpp"
 #include "surface/remesh/remesh.hpp"
@@ -74,10 +75,7 @@ class Mover {
   [[nodiscard]] Vec3 target(std::size_t v) const
   {
     const Vec3& point = surface_.vertex_xyz[v];
-    if (curve_[v] != kNoIndex) {
-      return model_.project_to_curve(curve_[v], point, reference_.curve_parameter(curve_[v], point))
-          .xyz;
-    }
+    if (curve_[v] != kNoIndex) return on_model_curve(reference_, model_, curve_[v], point);
     const LocalIndex patch = surface_.triangle_patch[at(around_[v].front())];
     return model_.project_to_surface(patch, point, reference_.parameters(patch, point)).xyz;
   }

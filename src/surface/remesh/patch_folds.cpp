@@ -8,6 +8,7 @@
 #include "tessera/base/error.hpp"
 
 #include "surface/editable_surface.hpp"
+#include "surface/model_curve.hpp"
 
 namespace tessera::surface {
 namespace {
@@ -71,7 +72,7 @@ class FoldFinder {
 
   [[nodiscard]] Vec3 on_curve(LocalIndex curve, const Vec3& point) const
   {
-    return model_.project_to_curve(curve, point, reference_.curve_parameter(curve, point)).xyz;
+    return on_model_curve(reference_, model_, curve, point);
   }
 
   const PatchSurface& surface_;

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <vector>
 
+#include "surface/model_curve.hpp"
+
 namespace tessera::surface {
 namespace {
 
 // Each step of Newton's doubles the digits; the first has three from triangles.
 constexpr int kSteps = 5;
 
-// Below this part of what three directions give together, one of them is open.
+// Below this part of what three directions give together, one of them is open: that is rounding, as
+// a circle has 0.25 of it, and a rectangle of ten to one 0.08.
 constexpr double kLeastDeterminant = 1e-9;
 
 // A point of the one side, the curve that its image lies on, and the direction of that.
@@ -19,12 +22,6 @@ struct Sample {
   LocalIndex image_curve = kNoIndex;
   Vec3 direction{};
 };
-
-Vec3 on_curve(const SurfaceReference& reference, const model::Model& model, LocalIndex curve,
-              const Vec3& point)
-{
-  return model.project_to_curve(curve, point, reference.curve_parameter(curve, point)).xyz;
-}
 
 std::vector<Sample> samples_of(const SurfaceReference& reference, const model::Model& model,
                                std::span<const std::array<LocalIndex, 2>> curves)
@@ -36,7 +33,8 @@ std::vector<Sample> samples_of(const SurfaceReference& reference, const model::M
       if (surface.edge_curve[e] != curve) continue;
       const Vec3& a = surface.vertex_xyz[at(surface.edges[e][0])];
       const Vec3& b = surface.vertex_xyz[at(surface.edges[e][1])];
-      samples.push_back({on_curve(reference, model, curve, midpoint(a, b)), image, unit(b - a)});
+      samples.push_back(
+          {on_model_curve(reference, model, curve, midpoint(a, b)), image, unit(b - a)});
     }
   }
   return samples;
@@ -84,7 +82,7 @@ Vec3 shift_by_curves(const SurfaceReference& reference, const model::Model& mode
     for (const Sample& sample : samples) {
       const Vec3 image = sample.point + shift;
       equations.add(sample.direction,
-                    on_curve(reference, model, sample.image_curve, image) - image);
+                    on_model_curve(reference, model, sample.image_curve, image) - image);
     }
     if (samples.empty() || equations.is_open()) break;
     shift = shift + equations.solution();
