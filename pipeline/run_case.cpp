@@ -232,10 +232,11 @@ class CaseRun {
       state.require_same_run(input);
       state.clear();
     });
-    if (ended->status == MeshStatus::degraded) context.log.warn("degraded: {}", ended->reason);
-    context.log.info(
+    if (ended->status == MeshStatus::degraded)
+      context.log.warn(fmt::format("degraded: {}", ended->reason));
+    context.log.info(fmt::format(
         "nothing to do: the run in {} has ended, with {} tets; --overwrite makes them anew",
-        given_.output.directory.string(), ended->num_tets);
+        given_.output.directory.string(), ended->num_tets));
     return ended;
   }
 
@@ -258,7 +259,7 @@ class CaseRun {
       if (verdict.exit_code == ExitCode::ok && run.filled.improvement.num_failed == 0) {
         std::error_code error;  // The mesh is whole and the report says so, whatever stays here.
         std::filesystem::remove_all(given_.output.directory / "failure", error);
-        if (error) context.log.warn("failure: cannot be removed: {}", error.message());
+        if (error) context.log.warn(fmt::format("failure: cannot be removed: {}", error.message()));
       }
     });
     if (comm_.rank() == 0) say(run, verdict, run_figures.wall_time_s, context.log);
@@ -276,10 +277,10 @@ class CaseRun {
   void say(const RunResult& run, const Verdict& verdict, double wall_time_s,
            spdlog::logger& log) const
   {
-    for (const std::string& reason : verdict.reasons) log.warn("degraded: {}", reason);
+    for (const std::string& reason : verdict.reasons) log.warn(fmt::format("degraded: {}", reason));
     if (const auto warning = unbalanced_parts(run)) log.warn(*warning);
-    log.info("{} tets in {} pieces, {:.1f} s: {}", run.filled.num_tets(), run.filled.pieces.size(),
-             wall_time_s, given_.output.directory.string());
+    log.info(fmt::format("{} tets in {} pieces, {:.1f} s: {}", run.filled.num_tets(),
+                         run.filled.pieces.size(), wall_time_s, given_.output.directory.string()));
   }
 
   // Held against the prediction of a dry run, if there was one of this run.
@@ -330,7 +331,7 @@ class CaseRun {
       try {
         write();
       } catch (const Error& second) {
-        context.log.warn("a report is missing: {}", second.what());
+        context.log.warn(fmt::format("a report is missing: {}", second.what()));
       }
     };
     try_to([&] { io::write_text_atomically(given_.output.directory / "report.json", json); });

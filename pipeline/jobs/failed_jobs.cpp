@@ -101,9 +101,9 @@ void try_to_keep(const RunContext& context, const Write& write)
   try {
     write();
   } catch (const Error& error) {
-    context.log.warn("failure: {}", error.what());
+    context.log.warn(fmt::format("failure: {}", error.what()));
   } catch (const fs::filesystem_error& error) {
-    context.log.warn("failure: {}", error.what());
+    context.log.warn(fmt::format("failure: {}", error.what()));
   }
 }
 
@@ -228,8 +228,8 @@ void keep_places(const fs::path& file, const std::string& message, RunContext& c
     io::write_vtu(places_arrays(*places), failure / "places.vtu", io::Compression::none);
     io::write_text_atomically(failure / "places.png", text_of(to_png(places_picture(*places))));
     io::write_text_atomically(failure / "places.html", places_page(file, message, *places));
-    context.log.info("failure: {}: see {}", places_text(*places),
-                     (failure / "places.html").string());
+    context.log.info(fmt::format("failure: {}: see {}", places_text(*places),
+                                 (failure / "places.html").string()));
   });
 }
 

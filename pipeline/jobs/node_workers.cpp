@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "tessera/base/bytes.hpp"
 
 #include "pipeline/jobs/replaceable_parts.hpp"
@@ -65,14 +67,14 @@ NodeWorkers::NodeWorkers(const comm::Communicator& comm, jobs::JobRunner& jobs, 
   const std::vector<std::string> obstacles =
       comm.all_gather_rows(obstacle.empty() ? std::vector<std::string>{} : std::vector{obstacle});
   if (obstacles.empty()) return;
-  log.warn("{} of {} ranks keep the model in a process of their own: {}", obstacles.size(),
-           comm.size(), obstacles.front());
+  log.warn(fmt::format("{} of {} ranks keep the model in a process of their own: {}",
+                       obstacles.size(), comm.size(), obstacles.front()));
 }
 
 NodeWorkers::~NodeWorkers()
 {
   const std::string obstacle = obstacle_to([&] { jobs_.leave_node(); });
-  if (!obstacle.empty()) log_.debug("workers of this node: {}", obstacle);
+  if (!obstacle.empty()) log_.debug(fmt::format("workers of this node: {}", obstacle));
 }
 
 }  // namespace tessera::pipeline

@@ -21,7 +21,7 @@ jobs::JobOutcome run_job(const JobRequest& job, const jobs::JobRunner::WaitCallb
   jobs::JobOutcome outcome = context.jobs.run(job.request, job.limits, on_wait);
   if (!was_killed_from_outside(outcome) || outcome.loads_are_lost) return outcome;
   context.progress.clear();
-  context.log.warn("{}: done again: {}", job.name, outcome.message);
+  context.log.warn(fmt::format("{}: done again: {}", job.name, outcome.message));
   return context.jobs.run(job.request, job.limits, on_wait);
 }
 

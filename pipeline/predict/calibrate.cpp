@@ -186,8 +186,8 @@ class Sampler {
         context_.comm.max(static_cast<double>(context_.jobs.usage().loaded_bytes));
     const double jobs_peak = own_.times.back().jobs_peak_rss_bytes;
     const GlobalIndex largest = largest_job(set);
-    context_.log.debug("samples: {:.1f} MB are loaded, {:.1f} MB with a job of {} tets",
-                       1e-6 * loaded, 1e-6 * jobs_peak, largest);
+    context_.log.debug(fmt::format("samples: {:.1f} MB are loaded, {:.1f} MB with a job of {} tets",
+                                   1e-6 * loaded, 1e-6 * jobs_peak, largest));
     divide(rates.job_bytes_per_tet, jobs_peak - loaded - kJobBytes, static_cast<double>(largest));
   }
 

@@ -53,14 +53,14 @@ void Progress::update(std::int64_t done)
   if (tenth == last_tenth_ || since < kLineInterval_s) return;
   last_tenth_ = tenth;
   last_output_ = Clock::now();
-  log_->info("{:<10} {} of {} {}{}", stage_, done, total_, unit_, rate_and_rest(done));
+  log_->info(fmt::format("{:<10} {} of {} {}{}", stage_, done, total_, unit_, rate_and_rest(done)));
 }
 
 void Progress::end(const std::string& summary)
 {
   clear();
   if (style_ != Style::silent) {
-    log_->info("{:<10} {:>12}   {}", stage_, duration(elapsed_s()), summary);
+    log_->info(fmt::format("{:<10} {:>12}   {}", stage_, duration(elapsed_s()), summary));
   }
 }
 

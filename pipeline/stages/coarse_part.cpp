@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/base/hash.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/comm/all_or_none.hpp"
@@ -145,16 +147,17 @@ void tell_what_is_within_tolerance(const RunResult& run, RunContext& context)
 {
   const coarse::VertexDistance& distance = run.coarse.distance;
   if (distance.num_within == 0) return;
-  context.log.info(
+  context.log.info(fmt::format(
       "coarse: {} vertices are off the geometry by at most {:.3g}: within the tolerance "
       "of the CAD file, or less than {:g} of their edges",
-      distance.num_within, distance.largest_within, coarse::kMostOfEdgeOff);
+      distance.num_within, distance.largest_within, coarse::kMostOfEdgeOff));
 }
 
 void name_sharp_tets(RunResult& run, RunContext& context)
 {
   run.sharp = coarse::find_sharp_tets(run.coarse.mesh, kSharpAngle_deg);
-  if (const auto warning = sharp_warning(run.sharp)) context.log.warn("coarse: {}", *warning);
+  if (const auto warning = sharp_warning(run.sharp))
+    context.log.warn(fmt::format("coarse: {}", *warning));
 }
 
 }  // namespace
@@ -185,9 +188,10 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
     keep_coarse_mesh(run, options.state, context);
   }
   tell_what_is_within_tolerance(run, context);
-  if (const auto warning = size_warning(run.coarse)) context.log.warn("coarse: {}", *warning);
+  if (const auto warning = size_warning(run.coarse))
+    context.log.warn(fmt::format("coarse: {}", *warning));
   if (run.coarse.defeatured.is_any()) {
-    context.log.info("coarse: {}", defeatured_words(run.coarse));
+    context.log.info(fmt::format("coarse: {}", defeatured_words(run.coarse)));
   }
   all_or_none(context.comm, [&] {
     if (context.comm.rank() == 0) name_sharp_tets(run, context);

@@ -143,7 +143,7 @@ class CoarseTries {
   Bytes attempt(LocalIndex rung, const jobs::JobRunner::WaitCallback& on_wait)
   {
     const CoarsePlan& plan = plans_[at(rung)];
-    context_.log.debug("coarse: try {} begins: {}", rung + 1, name_of(plan.options));
+    context_.log.debug(fmt::format("coarse: try {} begins: {}", rung + 1, name_of(plan.options)));
     SurfaceTry made = try_coarse_surface(plan, on_wait, context_);
     if (made.end.loads_are_lost) throw_if_hopeless(made.end, file_);
     RungEnd end = RungEnd::failed;
@@ -190,7 +190,8 @@ class CoarseTries {
       result_.options = plan.options;
       result_.failures.push_back(fmt::format("{}{}: {}", is_cut(plan) ? "in parts, " : "",
                                              name_of(plan.options), end.message));
-      context_.log.warn("coarse: try {} failed: {}", result_.tries, result_.failures.back());
+      context_.log.warn(
+          fmt::format("coarse: try {} failed: {}", result_.tries, result_.failures.back()));
       result_.was_limited = result_.was_limited || depends_on_machine(end);
     }
     const auto front = ladder_.front();

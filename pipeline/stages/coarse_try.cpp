@@ -27,7 +27,8 @@ JobResult<Result> result_of(const JobRequest& job, const jobs::JobRunner::WaitCa
   static_cast<void>(take_noted_repairs());
   auto result = attempt_job(job, from_bytes<Result>, on_wait, context);
   keep_if_failed(job, result.end, context);
-  context.log.debug("{}: {:.2f} of {:.0f} s of CPU time", job.name, result.cpu_s, job.limits.cpu_s);
+  context.log.debug(
+      fmt::format("{}: {:.2f} of {:.0f} s of CPU time", job.name, result.cpu_s, job.limits.cpu_s));
   return result;
 }
 

@@ -101,8 +101,9 @@ class Filler {
     }
     auto [made, end, cpu_s] = run_try(range, request_of(order, plan, !order.is_probe), on_wait);
     throw_unless_of_the_job(end);
-    context_.log.debug("fill: subdomain {}: try {}{}, {:.2f} s of CPU time", range.first,
-                       order.number + 1, order.is_probe ? " before its turn" : "", cpu_s);
+    context_.log.debug(fmt::format("fill: subdomain {}: try {}{}, {:.2f} s of CPU time",
+                                   range.first, order.number + 1,
+                                   order.is_probe ? " before its turn" : "", cpu_s));
     FillVerdict verdict{.is_limited = depends_on_machine(end)};
     if (!made) {
       if (!order.before.is_made) keep_failure(order, plan, end, on_wait);

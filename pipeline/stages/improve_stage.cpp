@@ -143,7 +143,8 @@ class SeamImprover {
     const auto row = static_cast<std::size_t>(phase);
     if (phase > 0) make_bands(phase, work_.pieces[row]);
     const Counts counts = improve_regions(work_.wanted[row]);
-    context_.log.debug("improve: phase {}: regions, {}", phase, work_.wanted[row].size());
+    context_.log.debug(
+        fmt::format("improve: phase {}: regions, {}", phase, work_.wanted[row].size()));
     Improvement& improvement = filled_.improvement;
     improvement.num_regions += counts[0];
     improvement.num_improved += counts[1];
@@ -185,7 +186,7 @@ class SeamImprover {
                      stage_, context_, num_done_);
     num_done_ += std::ssize(pieces);
     pieces_->records().share();
-    context_.log.debug("improve: phase {}: bands of {} pieces", phase, pieces.size());
+    context_.log.debug(fmt::format("improve: phase {}: bands of {} pieces", phase, pieces.size()));
   }
 
   void measure(LocalIndex s, FilledPieces& own)
@@ -282,7 +283,8 @@ class SeamImprover {
       keep_failure(region, job, end, bands);
     }
     pieces_->keep_region(region, *made);
-    if (!made->is_improved) context_.log.debug("{} stays as it is: {}", name, made->reason);
+    if (!made->is_improved)
+      context_.log.debug(fmt::format("{} stays as it is: {}", name, made->reason));
     return *std::move(made);
   }
 

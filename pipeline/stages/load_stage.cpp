@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/mesh_worker.hpp"
@@ -50,8 +52,8 @@ void load_mesh(const SharedBytes& message, RunContext& context)
   const std::vector<std::string> obstacles = context.comm.all_gather_rows(
       obstacle.empty() ? std::vector<std::string>{} : std::vector{obstacle});
   if (obstacles.empty()) return;
-  context.log.info("coarse mesh: workers of {} ranks have copies of it: {}", obstacles.size(),
-                   obstacles.front());
+  context.log.info(fmt::format("coarse mesh: workers of {} ranks have copies of it: {}",
+                               obstacles.size(), obstacles.front()));
 }
 
 void load_numbers(const std::vector<number::PieceCounts>& counts, const std::string& length_unit,

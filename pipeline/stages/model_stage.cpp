@@ -114,7 +114,8 @@ model::ModelSource run_model_stage(const config::Case& run_case, RunContext& con
                       file);
   });
   stage.work_is_done();
-  for (const std::string& repair : source.repairs) context.log.warn("model: {}", repair);
+  for (const std::string& repair : source.repairs)
+    context.log.warn(fmt::format("model: {}", repair));
   stage.finish(file.filename().string());
   return source;
 }

@@ -103,8 +103,9 @@ Surface draw_files(const DrawingPlan& plan, MeshScene& scene, StageScope& stage,
                    }),
                    stage, context);
   if (const auto unread = context.comm.all_gather_rows(drawer.unread()); !unread.empty()) {
-    context.log.warn("{} files could not be read back: the pictures lack what is in them; {}",
-                     unread.size(), unread.front());
+    context.log.warn(
+        fmt::format("{} files could not be read back: the pictures lack what is in them; {}",
+                    unread.size(), unread.front()));
   }
   std::vector<SurfacePart> parts;
   for (const Bytes& of_rank : context.comm.gather_to_root(to_bytes(drawer.parts()))) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
 #include <malloc.h>
 
 #include "tessera/comm/share_on_node.hpp"
@@ -22,8 +23,8 @@ SharedBytes share(const std::function<MeshLoad()>& make, RunContext& context)
       [&] { replaceable_parts().before_sharing("share", context.comm.rank()); });
   const bool is_copy = !made.obstacle.empty();
   if (const GlobalIndex num_copies = context.comm.sum(is_copy ? 1 : 0); num_copies > 0) {
-    context.log.info("coarse mesh: {} ranks have a copy of their own; {}", num_copies,
-                     is_copy ? made.obstacle : "other nodes cannot share memory");
+    context.log.info(fmt::format("coarse mesh: {} ranks have a copy of their own; {}", num_copies,
+                                 is_copy ? made.obstacle : "other nodes cannot share memory"));
   }
   return std::move(made.bytes);
 }

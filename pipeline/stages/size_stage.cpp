@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "tessera/base/bytes.hpp"
 #include "tessera/coarse/model_figures.hpp"
 #include "tessera/comm/all_or_none.hpp"
@@ -90,8 +92,8 @@ config::Case resolve_size(const config::Case& given, double noise, RunContext& c
   if (wants_max_size) {
     const int levels = levels_for(estimated_tets(volume, given.size.target));
     resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, levels);
-    context.log.info("size.target {}: coarse.max_size = {}", given.size.target,
-                     resolved.coarse.max_size);
+    context.log.info(fmt::format("size.target {}: coarse.max_size = {}", given.size.target,
+                                 resolved.coarse.max_size));
   }
   resolved.coarse.defeature = least_feature(resolved, volume, noise);
   return resolved;

@@ -33,7 +33,8 @@ constexpr FileKind kFileKinds[] = {
 {
   std::string allowed;
   for (const FileKind& kind : kFileKinds) {
-    allowed += (allowed.empty() ? "" : " ") + std::string(kind.extension);
+    if (!allowed.empty()) allowed += ' ';
+    allowed += kind.extension;
   }
   throw InputError(
       fmt::format("{}: not a kind of CAD file that is known by its extension; known are {}",

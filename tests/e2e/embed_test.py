@@ -43,7 +43,7 @@ def triangles_by_patch(boundary):
 class EmbedTest(program.ProgramTest):
     def case(self, model=LAYERS, embedded=FAULTS, more="coarse.max_size = 0.2\nrefine.levels = 1\n"):
         self.write("model.geo", model)
-        return self.write("case.toml", f"geometry.file = 'model.geo'\ndecompose.subdomains = 7\n{more}{embedded}")
+        return self.write("case.toml", f"geometry.file = 'model.geo'\ndecompose.subdomains = 7\n{program.NO_PAGE}{more}{embedded}")
 
     def checked(self, folder):
         figures, _ = self.assert_checked(folder, volume_tolerance=1e-12)
@@ -161,7 +161,7 @@ class Crack(EmbedTest):
         return found
 
     def test_survives_a_kill(self):
-        case = self.case(more="coarse.max_size = 0.12\nrefine.levels = 2\noutput.report_html = false\n")
+        case = self.case(more="coarse.max_size = 0.12\nrefine.levels = 2\n")
         whole = self.mesh(case, "whole")
         process = self.start("mesh", case, "--output", self.folder / "killed", ranks=2)
         program.wait_until(lambda: program.num_filled(self.folder / "killed") > 0, "a filled subdomain")

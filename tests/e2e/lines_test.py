@@ -73,7 +73,7 @@ def distance_to(line, point):
 class LinesTest(program.ProgramTest):
     def case(self, embedded=LINES + FAULT, more="coarse.max_size = 0.25\nrefine.levels = 1\n"):
         self.write("model.geo", LAYERS)
-        return self.write("case.toml", f"geometry.file = 'model.geo'\ndecompose.subdomains = 7\n{more}{embedded}")
+        return self.write("case.toml", f"geometry.file = 'model.geo'\ndecompose.subdomains = 7\n{program.NO_PAGE}{more}{embedded}")
 
     def assert_lines(self, folder, expected=LENGTHS):
         """Each line is a chain of edges that tets have, on the polyline, as long as it is in the model."""

@@ -117,7 +117,7 @@ class Sides(PeriodicTest):
     def test_are_those_of_a_mesh_of_the_user(self):
         first = self.mesh(self.packing("refine.levels = 0\n"), "coarse", *sets('output.formats=["msh"]'))
         sides = "".join(f"[[periodic]]\nfrom = '{a}'\nto = '{b}'\n" for a, b in PAIRS)
-        case = self.write("own.toml", f"geometry.file = '{first}/mesh.msh'\nrefine.levels = 2\n{sides}")
+        case = self.write("own.toml", f"geometry.file = '{first}/mesh.msh'\nrefine.levels = 2\n{program.NO_PAGE}{sides}")
         out = self.mesh(case, "out", ranks=2)
         self.assert_packing(out)
         parts = self.folder / "parts"
@@ -156,7 +156,7 @@ class Layers(PeriodicTest):
             for name, box in (("start", start), ("end", end))
         )
         head = "geometry.file = 'model.geo'\ncoarse.max_size = 0.25\nrefine.levels = 2\ndecompose.subdomains = 5\n"
-        return self.write("case.toml", head + names + "[[periodic]]\nfrom = 'start'\nto = 'end'\n" + LAYERS)
+        return self.write("case.toml", program.NO_PAGE + head + names + "[[periodic]]\nfrom = 'start'\nto = 'end'\n" + LAYERS)
 
     def assert_full(self, report):
         self.assertEqual(report["layers"]["count"], 3)
@@ -183,7 +183,7 @@ class Layers(PeriodicTest):
         names = "".join(f"[[geometry.name]]\nname = '{n}'\npatch = {{ normal = [0, 0, {z}] }}\n" for n, z in (("start", -1), ("end", 1)))
         head = f"geometry.file = '{program.CONFIGS / 'geometry/cylinder.step'}'\ncoarse.max_size = 3\nrefine.levels = 2\n"
         layers = LAYERS.replace("0.005", "0.1")
-        case = self.write("case.toml", head + "decompose.subdomains = 5\n" + names + "[[periodic]]\nfrom = 'start'\nto = 'end'\n" + layers)
+        case = self.write("case.toml", program.NO_PAGE + head + "decompose.subdomains = 5\n" + names + "[[periodic]]\nfrom = 'start'\nto = 'end'\n" + layers)
         for kernel in ("netgen", "subdivide"):
             out = self.mesh(case, kernel, *sets(f"fill.kernel={kernel}"), ranks=2)
             report = self.assert_checked(out, volume_tolerance=1e-12)[0]

@@ -36,7 +36,7 @@ class SplitsTest(program.ProgramTest):
         face = FACES[name]
         return self.write(
             "case.toml",
-            f"geometry.file = 'model.geo'\ncoarse.max_size = 0.4\ndecompose.subdomains = 7\nrefine.levels = {levels}\n{more}\n"
+            f"geometry.file = 'model.geo'\ncoarse.max_size = 0.4\ndecompose.subdomains = 7\nrefine.levels = {levels}\n{program.NO_PAGE}{more}\n"
             f"[[geometry.name]]\nname = 'crack'\npatch = {{ faces = [{face}] }}\n{SPLITS[name]}",
         )
 

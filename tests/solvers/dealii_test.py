@@ -33,7 +33,7 @@ class DealII(unittest.TestCase):
         create_triangulation(), whatever the mesh; a run takes seconds."""
         for _ in range(TRIES):
             try:
-                return json.loads(mpirun(ranks, [self.laplace, mesh.mesh], timeout_s=30).splitlines()[-1])
+                return json.loads(mpirun(ranks, [self.laplace, mesh.mesh], timeout_s=15).splitlines()[-1])
             except subprocess.TimeoutExpired:
                 print("deal.II hangs; once more", flush=True)
         self.fail(f"deal.II has hung {TRIES} times")

@@ -38,13 +38,13 @@ def packing_case(more="refine.levels = 1\n", pairs=tuple(PAIRS)):
     """A case with PACKING in model.geo."""
     names = "".join(f"[[geometry.name]]\nname = '{n}'\npatch = {{ faces = [{f}] }}\n" for n, f in SIDES.items())
     sides = "".join(f"[[periodic]]\nfrom = '{a}'\nto = '{b}'\n" for a, b in pairs)
-    head = "geometry.file = 'model.geo'\ncoarse.max_size = 0.25\ndecompose.subdomains = 7\n"
+    head = "geometry.file = 'model.geo'\noutput.report_html = false\ncoarse.max_size = 0.25\ndecompose.subdomains = 7\n"
     return head + more + names + sides
 
 
 def sector_case(more="refine.levels = 2\n"):
     """A case with SECTOR in model.geo."""
-    head = "geometry.file = 'model.geo'\ncoarse.max_size = 0.15\ndecompose.subdomains = 4\n"
+    head = "geometry.file = 'model.geo'\noutput.report_html = false\ncoarse.max_size = 0.15\ndecompose.subdomains = 4\n"
     normals = {"start": [0, -1, 0], "end": [-0.5, 0.8660254037844386, 0]}
     names = "".join(f"[[geometry.name]]\nname = '{n}'\npatch = {{ normal = {v} }}\n" for n, v in normals.items())
     side = "[[periodic]]\nfrom = 'start'\nto = 'end'\nrotation = { axis = [0, 0, 1], angle = 30 }\n"

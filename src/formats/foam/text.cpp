@@ -25,7 +25,7 @@ std::string word_of_name(const std::string& name)
   for (const char c : name) word += is_of_word(c) ? c : '_';
   // Patches between processors have names of this beginning.
   if (word.empty() || !is_letter(word.front()) || word.starts_with("procBoundary"))
-    word.insert(0, "_");
+    word.insert(0, 1, '_');
   return word;
 }
 
