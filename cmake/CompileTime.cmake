@@ -5,8 +5,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=524288>)
 endif()
 
-# tessera_optimize_less(<target>): for code that computes little, or is run once, such as that of tests. It takes
-# a sixth to two fifths less time to compile, measured on six tests and four sources of the pipeline.
+# tessera_optimize_less(<target>): for code that is run once, such as that of tests. It takes a sixth less time to
+# compile, measured on six of them.
 function(tessera_optimize_less target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()

@@ -98,6 +98,8 @@ def problems(root: pathlib.Path):
     for top in ("include", "src", "pipeline"):
         for file in sorted(root.glob(f"{top}/**/*.[ch]pp")):
             here = file.relative_to(root).as_posix()
+            if here.startswith("src/precompiled."):  # Of all modules, and includes none.
+                continue
             module = module_of(here)
             if module not in ALLOWED:
                 yield f"{here}: module '{module}' is not in the layer table"
