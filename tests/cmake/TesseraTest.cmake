@@ -19,15 +19,9 @@ function(tessera_test_timeout variable seconds)
   set(${variable} ${seconds} PARENT_SCOPE)
 endfunction()
 
-# Clang wants the same macros in all that use a precompiled header, GCC only those that the header knows.
-set(TESSERA_PRECOMPILE_TESTS OFF)
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  set(TESSERA_PRECOMPILE_TESTS ON)
-endif()
-
 function(tessera_compile_quickly target)
   tessera_optimize_less(${target})
-  if(TESSERA_PRECOMPILE_TESTS)
+  if(TARGET tessera_test_headers)
     target_precompile_headers(${target} REUSE_FROM tessera_test_headers)
   endif()
 endfunction()
