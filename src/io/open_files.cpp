@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <string>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,11 +12,18 @@
 #include "tessera/base/error.hpp"
 
 #include "io/atomic_file.hpp"
+#include "io/segments.hpp"
 
 namespace tessera::io {
 namespace {
 
 constexpr std::size_t kMostOpen = 64;
+
+[[noreturn]] void throw_cannot_open(const std::filesystem::path& file, int error)
+{
+  if (error != ENOENT && error != ELOOP) throw_cannot_read_back(file, error);
+  throw InputError(fmt::format("cannot read {}: {}", file.string(), system_error_text(error)));
+}
 
 }  // namespace
 
@@ -27,17 +35,15 @@ void OpenFiles::close_all()
   descriptors_.clear();
 }
 
-int OpenFiles::open(const std::filesystem::path& file)
+OpenFile OpenFiles::open(const std::filesystem::path& file)
 {
   const auto known = descriptors_.find(file);
-  if (known != descriptors_.end()) return known->second;
+  if (known != descriptors_.end()) return {known->second, file};
   if (descriptors_.size() >= kMostOpen) close_all();
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor < 0) {
-    throw InputError(fmt::format("cannot read {}: {}", file.string(), system_error_text(errno)));
-  }
+  if (descriptor < 0) throw_cannot_open(file, errno);
   descriptors_.emplace(file, descriptor);
-  return descriptor;
+  return {descriptor, file};
 }
 
 }  // namespace tessera::io

@@ -54,18 +54,18 @@ fs::path file_path(const fs::path& folder, LocalIndex file)
 }
 
 // The record there if it is whole; then `offset` becomes that of the next one.
-std::optional<LogPlace> place_at(int descriptor, std::uint64_t& offset)
+std::optional<LogPlace> place_at(const OpenFile& file, std::uint64_t& offset)
 {
   RecordHead head;
-  if (!read_at(descriptor, offset, std::as_writable_bytes(std::span(&head, 1)))) return {};
+  if (!read_at(file, offset, std::as_writable_bytes(std::span(&head, 1)))) return {};
   if (head.magic != RecordHead().magic) return {};
-  const auto heads = read_heads(descriptor, offset + sizeof(head), head.num_segments);
+  const auto heads = read_heads(file, offset + sizeof(head), head.num_segments);
   const LogName name{head.kind, head.number};
   if (!heads || head.hash != hash_of(bytes_of(name), *heads)) return {};
   const std::uint64_t first = offset + size_of_heads(heads->size());
   std::uint64_t next = first;
   for (std::size_t i = 0; i < heads->size(); ++i) {
-    if (!read_segment(descriptor, first, *heads, i)) return {};
+    if (!read_segment(file, first, *heads, i)) return {};
     next += (*heads)[i].size;
   }
   return LogPlace{.name = name,
@@ -133,17 +133,15 @@ void LogWriter::write(std::span<const std::byte> bytes)
 
 LogReader::LogReader(fs::path folder) : folder_(std::move(folder)) {}
 
-int LogReader::open(LocalIndex file) const { return files_.open(file_path(folder_, file)); }
+OpenFile LogReader::open(LocalIndex file) const { return files_.open(file_path(folder_, file)); }
 
 Bytes LogReader::segment(const LogPlace& place, LocalIndex number) const
 {
-  const int descriptor = open(place.file);
-  const auto heads =
-      read_heads(descriptor, place.offset + sizeof(RecordHead), at(place.num_segments));
+  const OpenFile file = open(place.file);
+  const auto heads = read_heads(file, place.offset + sizeof(RecordHead), at(place.num_segments));
   std::optional<Bytes> segment;
   if (heads && hash_of(bytes_of(place.name), *heads) == place.head_hash) {
-    segment =
-        read_segment(descriptor, place.offset + size_of_heads(heads->size()), *heads, at(number));
+    segment = read_segment(file, place.offset + size_of_heads(heads->size()), *heads, at(number));
   }
   if (segment) return *std::move(segment);
   throw InputError(file_path(folder_, place.file).string() + " is cut off or altered");
@@ -169,10 +167,10 @@ std::vector<LocalIndex> LogReader::files() const
 
 std::vector<LogPlace> LogReader::find_places(LocalIndex file) const
 {
-  const int descriptor = open(file);
+  const OpenFile opened = open(file);
   std::vector<LogPlace> places;
   std::uint64_t offset = 0;
-  while (const auto place = place_at(descriptor, offset)) {
+  while (const auto place = place_at(opened, offset)) {
     places.push_back(*place);
     places.back().file = file;
   }

@@ -45,15 +45,16 @@ static_assert(sizeof(Header) == 40, "padding would leave bytes that are not set"
 }
 
 // The heads of a record's segments, if they are sound and the file is as long as they say.
-[[nodiscard]] std::optional<SegmentHeads> heads_of_file(int descriptor, const std::string& name)
+[[nodiscard]] std::optional<SegmentHeads> heads_of_file(const OpenFile& file,
+                                                        const std::string& name)
 {
   Header header;
-  if (!read_at(descriptor, 0, std::as_writable_bytes(std::span(&header, 1)))) return std::nullopt;
-  auto heads = read_heads(descriptor, sizeof(header), header.num_segments);
+  if (!read_at(file, 0, std::as_writable_bytes(std::span(&header, 1)))) return std::nullopt;
+  auto heads = read_heads(file, sizeof(header), header.num_segments);
   if (!heads || header != header_of(name, *heads)) return std::nullopt;
   std::uint64_t size = sizeof(header) + heads->size() * sizeof(SegmentHead);
   for (const SegmentHead& head : *heads) size += head.size;
-  return size == size_of_file(descriptor) ? std::move(heads) : std::nullopt;
+  return size == size_of_file(file) ? std::move(heads) : std::nullopt;
 }
 
 [[nodiscard]] fs::path file_path(const fs::path& folder, const std::string& name)
@@ -153,11 +154,11 @@ LocalIndex RecordReader::num_segments(const std::string& name) const
 Bytes RecordReader::segment(const std::string& name, LocalIndex number) const
 {
   const fs::path path = file_path(folder_, name);
-  const int descriptor = files_.open(path);
-  const auto heads = heads_of_file(descriptor, name);
+  const OpenFile file = files_.open(path);
+  const auto heads = heads_of_file(file, name);
   if (!heads) throw_damaged(path);
   const std::uint64_t first = sizeof(Header) + heads->size() * sizeof(SegmentHead);
-  auto bytes = read_segment(descriptor, first, *heads, at(number));
+  auto bytes = read_segment(file, first, *heads, at(number));
   if (!bytes) throw_damaged(path);
   return *std::move(bytes);
 }

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/hash.hpp"
+#include "tessera/io/open_files.hpp"
 
 /// The bytes of a record: a head, then one SegmentHead a segment, then the segments. So a reader
 /// takes out one segment, and knows that it is what was written. All functions are local.
@@ -36,20 +38,24 @@ using SegmentViews = std::vector<std::span<const std::byte>>;
 [[nodiscard]] Hash128 hash_of(std::span<const std::byte> name,
                               std::span<const SegmentHead> segments);
 
-/// @brief Bytes of a file that is open.
-[[nodiscard]] std::uint64_t size_of_file(int descriptor);
+/// @brief The file system fails with a file of the run's own: not what the user gave is wrong, but
+/// the output folder. @throws OutputError @param[in] error errno.
+[[noreturn]] void throw_cannot_read_back(const std::filesystem::path& file, int error);
 
-/// @brief Whether all of it was there.
-[[nodiscard]] bool read_at(int descriptor, std::uint64_t offset, std::span<std::byte> bytes);
+/// @brief Bytes of the file. @throws OutputError
+[[nodiscard]] std::uint64_t size_of_file(const OpenFile& file);
+
+/// @brief Whether all of it was there. @throws OutputError
+[[nodiscard]] bool read_at(const OpenFile& file, std::uint64_t offset, std::span<std::byte> bytes);
 
 /// @brief The heads that stand there; nothing if the file is too short for them.
 /// @param[in] num_segments May be garbage.
-[[nodiscard]] std::optional<SegmentHeads> read_heads(int descriptor, std::uint64_t offset,
+[[nodiscard]] std::optional<SegmentHeads> read_heads(const OpenFile& file, std::uint64_t offset,
                                                      std::uint64_t num_segments);
 
 /// @brief One segment; nothing if it is cut off, altered or not there.
 /// @param[in] offset Of the first segment.
-[[nodiscard]] std::optional<Bytes> read_segment(int descriptor, std::uint64_t offset,
+[[nodiscard]] std::optional<Bytes> read_segment(const OpenFile& file, std::uint64_t offset,
                                                 std::span<const SegmentHead> heads,
                                                 std::size_t number);
 

@@ -73,7 +73,8 @@ class LogReader {
 
   /// @brief One segment of a record, proven to be what was appended by its size and 128-bit hash.
   /// Nothing else of the record is read but its head.
-  /// @throws InputError naming the file if it is missing, cut off or altered.
+  /// @throws InputError naming the file if it is missing, cut off or altered; OutputError if the
+  /// file system fails.
   [[nodiscard]] Bytes segment(const LogPlace& place, LocalIndex number) const;
 
   /// @brief Numbers of the folder's files, ascending.
@@ -84,7 +85,7 @@ class LogReader {
   [[nodiscard]] std::vector<LogPlace> find_places(LocalIndex file) const;
 
  private:
-  [[nodiscard]] int open(LocalIndex file) const;
+  [[nodiscard]] OpenFile open(LocalIndex file) const;
 
   std::filesystem::path folder_;
   mutable OpenFiles files_{};

@@ -31,10 +31,12 @@ class RecordStore {
 
   /// @brief A segment of the record of that name, proven to be what was stored by its size and
   /// 128-bit hash. Other segments are not read.
-  /// @throws InputError naming the file if it is missing, cut off or altered.
+  /// @throws InputError naming the file if it is missing, cut off or altered; OutputError if the
+  /// file system fails.
   [[nodiscard]] Bytes get(const std::string& name, LocalIndex segment = 0) const;
 
   /// @brief The first segment of the record, if all of it is there and sound. Reads all of it.
+  /// @throws OutputError if the file system fails.
   [[nodiscard]] std::optional<Bytes> find(const std::string& name) const;
 
   /// @brief Whether there is a record of that name; whether it is sound, `get` tells.
@@ -59,10 +61,11 @@ class RecordReader {
  public:
   explicit RecordReader(std::filesystem::path folder);
 
-  /// @throws InputError naming the file if it is missing or damaged.
+  /// @throws InputError naming the file if it is missing or damaged; OutputError if the file system
+  /// fails.
   [[nodiscard]] LocalIndex num_segments(const std::string& name) const;
 
-  /// @brief As RecordStore::get(). @throws InputError
+  /// @brief As RecordStore::get(). @throws InputError, OutputError
   [[nodiscard]] Bytes segment(const std::string& name, LocalIndex number) const;
 
  private:

@@ -41,6 +41,17 @@ TEST(RecordStore, GivesBackWhatWasPutAlsoThroughAnotherObject)
   EXPECT_FALSE(same.contains("piece_1"));
 }
 
+TEST(RecordStore, AFileSystemThatFailsIsNoDamage)
+{
+  const TemporaryFolder folder;
+  const RecordStore store(folder / "pieces");
+  // It opens, and cannot be read.
+  std::filesystem::create_directory(folder / "pieces/piece_4.record");
+  const auto get = [&] { static_cast<void>(store.get("piece_4")); };
+  EXPECT_EQ(message_of<OutputError>(get),
+            "cannot read back " + (folder / "pieces/piece_4.record").string() + ": Is a directory");
+}
+
 TEST(RecordStore, GivesBackEverySegment)
 {
   const TemporaryFolder folder;
