@@ -70,6 +70,30 @@ TEST(GrowLayers, ThickerThanHalfTheCubeGoAsFarAsTheyCan)
   EXPECT_NO_THROW(mesh::validate(cube));
 }
 
+// A cube that leans: four of its edges are at 34 degrees, four at 146.
+TEST(GrowLayers, CloseTowardsAnAcuteEdge)
+{
+  mesh::CoarseMesh cube = testing::kuhn_cube(4);
+  for (LocalIndex v = 0; v < cube.num_vertices(); ++v) {
+    cube.vertex_xyz[3 * at(v)] += 1.5 * cube.position(v)[2];
+  }
+  (void)grow_layers(cube, std::vector{LayerOptions{.patch = "*", .first = 0.02, .count = 2}},
+                    kModel, false);
+  LocalIndex num_acute = 0;
+  LocalIndex num_obtuse = 0;
+  for (LocalIndex v = 0; v < cube.num_vertices(); ++v) {
+    const Vec3 wall = cube.layers.wall(v);
+    const double x = wall[0] - 1.5 * wall[2];
+    const bool is_on_edge = (x == 0.0 || x == 1.0) && (wall[2] == 0.0 || wall[2] == 1.0);
+    if (!is_on_edge || wall[1] == 0.0 || wall[1] == 1.0) continue;
+    const bool is_acute = x == wall[2];
+    EXPECT_EQ(wall == cube.position(v), is_acute);
+    ++(is_acute ? num_acute : num_obtuse);
+  }
+  EXPECT_EQ(num_acute, 6);
+  EXPECT_EQ(num_obtuse, 6);
+}
+
 TEST(GrowLayers, OfAPatternAreOnTheOutsideOnly)
 {
   mesh::CoarseMesh cube = testing::two_material_cube(2);
