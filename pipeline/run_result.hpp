@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tessera/base/hash.hpp"
@@ -44,9 +45,10 @@ struct Drawings {
 struct RunResult {
   config::Case resolved{};  ///< With size and levels as chosen.
   model::ModelSource model{};
-  RepairCounts import_repairs{};  ///< Of the model; on rank 0.
-  Hash128 field_content{};        ///< Of size.field; zero without one.
-  cut::CutChoice planes{};        ///< Without nodes unless the model is cut before it is meshed.
+  std::optional<coarse::ModelFigures> figures{};  ///< Of the model; none if they cannot be had.
+  RepairCounts import_repairs{};                  ///< Of the model; on rank 0.
+  Hash128 field_content{};                        ///< Of size.field; zero without one.
+  cut::CutChoice planes{};  ///< Without nodes unless the model is cut before it is meshed.
   CoarseResult coarse{};
   layers::LayerCover cover{};  ///< Of the walls by layers; without patches if there are none.
   coarse::SharpTets sharp{};   ///< Of the coarse mesh; on rank 0.

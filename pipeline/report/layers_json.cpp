@@ -31,14 +31,17 @@ Json layers_json(const RunResult& run)
                        {"full_height", cover.full / cover.area}});
   }
   GlobalIndex num_tets = 0;
+  GlobalIndex num_cells = 0;
   double volume = 0.0;
   for (const subdomain::PieceSummary& piece : run.filled.pieces) {
     num_tets += piece.layers.num_tets;
+    num_cells += piece.layers.num_cells;
     volume += piece.layers.volume;
   }
   const layers::PatchCover sum = run.cover.sum();
   return {{"count", run.coarse.mesh.layers.num_layers()},
           {"num_tets", num_tets},
+          {"num_cells", num_cells},
           {"volume", volume},
           {"covered", sum.covered / sum.area},
           {"full_height", sum.full / sum.area},

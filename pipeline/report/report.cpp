@@ -86,6 +86,7 @@ void add_counts(Json& json, const RunResult& run)
   json["only_subdomains"] = run.only_subdomains;
   json["num_subdomains_requested"] = run.resolved.decompose.subdomains;
   json["num_tets"] = run.filled.num_tets();
+  json["num_cells"] = run.filled.num_cells();
   if (run.only_subdomains.empty()) {
     json["num_vertices"] = run.num_vertices;
     return;

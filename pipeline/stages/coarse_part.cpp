@@ -95,7 +95,8 @@ bool refine_for_sizes(RunResult& run, const model::NamedParts& parts, RunContext
   if (points.size.empty()) return true;
   config::Case finer = run.resolved;
   finer.coarse.points = std::move(points);
-  CoarseResult second = run_second_coarse_stage(finer, run.coarse, run.planes.tree, context);
+  CoarseResult second =
+      run_second_coarse_stage(finer, run.figures, run.coarse, run.planes.tree, context);
   const bool is_made = on_root(context.comm, [&] { return second.mesh.num_tets() > 0; });
   model::apply_names(parts, second.mesh);
   replace(run.coarse, std::move(second));
@@ -132,7 +133,7 @@ void run_coarse_stages(RunResult& run, RunContext& context)
   run.resolved.coarse.has_inner_parts = run.model.assembly.has_inner_parts();
   require_own_surface(run);
   run.planes = choose_cuts(run, context);
-  run.coarse = run_coarse_stage(run.resolved, run.planes.tree, context);
+  run.coarse = run_coarse_stage(run.resolved, run.figures, run.planes.tree, context);
   model::apply_names(parts, run.coarse.mesh);
   const bool is_fine_enough = refine_for_sizes(run, parts, context);
   join_periodic_sides(run, context);
@@ -172,8 +173,10 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   run.field_content =
       comm::on_root(context.comm, [&] { return subdomain::size_field_content(given.size); });
   require_same_run(run, options.state, context);
+  run.figures = measure_model(given, context);
   // A wrap is that rough.
-  run.resolved = resolve_size(given, given.geometry.scale * run.model.wrap.tolerance, context);
+  run.resolved =
+      resolve_size(given, run.figures, given.geometry.scale * run.model.wrap.tolerance, context);
   run.resolved.fill = config::resolved_fill(given, !options.only_subdomains.empty());
   if (auto kept = kept_coarse_mesh(options.state, context)) {
     run.planes = std::move(kept->planes);

@@ -12,7 +12,6 @@
 #include "tessera/jobs/run_program.hpp"
 #include "tessera/model/options.hpp"
 
-#include "pipeline/jobs/run_job.hpp"
 #include "pipeline/stages/coarse_budget.hpp"
 
 namespace tessera::pipeline {
@@ -72,20 +71,11 @@ void drop_left_out(std::vector<CoarsePlan>& plans)
   });
 }
 
-constexpr jobs::JobLimits kFiguresLimits{.cpu_s = 20.0, .stall_s = 20.0, .memory_gib = 8.0};
-
-// If they cannot be had: those of a model with many faces, so that nothing ends too early.
-coarse::ModelFigures figures_of(const config::Case& run_case, RunContext& context)
+// If they are not known: those of a model with many faces, so that nothing ends too early.
+coarse::ModelFigures known_or_many(const std::optional<coarse::ModelFigures>& figures)
 {
-  constexpr coarse::ModelFigures kUnknown{.num_faces = 2500};
-  if (run_case.coarse.timeout_s > 0.0 || model::is_mesh_name(run_case.geometry.file))
-    return kUnknown;
-  const Bytes request = figures_request();
-  const auto [figures, end, cpu_s] =
-      attempt_job({"coarse: figures", request, kFiguresLimits}, from_bytes<coarse::ModelFigures>,
-                  wait_for_stop_signal(), context);
-  throw_unless_of_the_job(end);
-  return figures && std::isfinite(figures->area) ? *figures : kUnknown;
+  return figures && std::isfinite(figures->area) ? *figures
+                                                 : coarse::ModelFigures{.num_faces = 2500};
 }
 
 }  // namespace
@@ -121,17 +111,18 @@ RepairCounts repairs_of(const CoarsePlan& plan, const CoarsePlan& first)
 
 bool may_gmsh_help(const config::Case& run_case) { return is_for_gmsh(run_case) && !has_gmsh(); }
 
-std::vector<CoarsePlan> plans_for(const config::Case& run_case, const cut::CutTree& planes,
-                                  LocalIndex first_rung, RunContext& context)
+std::vector<CoarsePlan> plans_for(const config::Case& run_case,
+                                  const std::optional<coarse::ModelFigures>& figures,
+                                  const cut::CutTree& planes, LocalIndex first_rung,
+                                  const RunContext& context)
 {
-  const auto figures = on_root(context.comm, [&] { return figures_of(run_case, context); });
   const bool with_gmsh = on_root(context.comm, [&] { return is_for_gmsh(run_case) && has_gmsh(); });
   std::vector<CoarsePlan> plans;
   for (const auto& [options, is_cut] : attempts_at(run_case, planes, with_gmsh)) {
     plans.push_back({.options = options,
                      .planes = is_cut ? planes : cut::CutTree{},
                      .rung = first_rung + static_cast<LocalIndex>(plans.size()),
-                     .limits = surface_limits(options, figures, plans.empty())});
+                     .limits = surface_limits(options, known_or_many(figures), plans.empty())});
   }
   drop_left_out(plans);
   return plans;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tessera/base/repair.hpp"
+#include "tessera/coarse/model_figures.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/cut/cut_tree.hpp"
 #include "tessera/mesh/size_points.hpp"
@@ -23,11 +25,13 @@ namespace tessera::pipeline {
 
 /// @brief What the tries of a case are told: those of coarse_tries(), before them two on the parts
 /// if planes cut the model; Gmsh comes last, where rank 0 finds the program.
+/// @param[in] figures Of measure_model(): how long a try may take.
 /// @param[in] first_rung Number of the first of these tries.
 /// @note Collective.
 [[nodiscard]] std::vector<CoarsePlan> plans_for(const config::Case& run_case,
+                                                const std::optional<coarse::ModelFigures>& figures,
                                                 const cut::CutTree& planes, LocalIndex first_rung,
-                                                RunContext& context);
+                                                const RunContext& context);
 
 /// @brief What a try does that the first one does not. Local.
 [[nodiscard]] RepairCounts repairs_of(const CoarsePlan& plan, const CoarsePlan& first);

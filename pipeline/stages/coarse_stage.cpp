@@ -225,12 +225,13 @@ void warn_of_other_ways(const CoarseResult& result, const config::Case& run_case
 
 }  // namespace
 
-CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& planes,
-                              RunContext& context)
+CoarseResult run_coarse_stage(const config::Case& run_case,
+                              const std::optional<coarse::ModelFigures>& figures,
+                              const cut::CutTree& planes, RunContext& context)
 {
   StageScope stage(context, "coarse");
   CoarseResult result =
-      CoarseTries(run_case, plans_for(run_case, planes, 0, context), stage, context).run();
+      CoarseTries(run_case, plans_for(run_case, figures, planes, 0, context), stage, context).run();
   result = on_root_of_nodes(context.comm, [&] {
     if (result.mesh.num_tets() == 0) throw_no_mesh(result, run_case);
     return std::move(result);
@@ -242,11 +243,14 @@ CoarseResult run_coarse_stage(const config::Case& run_case, const cut::CutTree& 
   return result;
 }
 
-CoarseResult run_second_coarse_stage(const config::Case& run_case, const CoarseResult& before,
-                                     const cut::CutTree& planes, RunContext& context)
+CoarseResult run_second_coarse_stage(const config::Case& run_case,
+                                     const std::optional<coarse::ModelFigures>& figures,
+                                     const CoarseResult& before, const cut::CutTree& planes,
+                                     RunContext& context)
 {
   StageScope stage(context, "coarse");
-  CoarseTries tries(run_case, plans_for(run_case, planes, before.tries, context), stage, context);
+  CoarseTries tries(run_case, plans_for(run_case, figures, planes, before.tries, context), stage,
+                    context);
   CoarseResult result;
   try {
     result = tries.run();

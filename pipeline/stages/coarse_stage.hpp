@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <tuple>
 #include <vector>
 
 #include "tessera/base/repair.hpp"
+#include "tessera/coarse/model_figures.hpp"
 #include "tessera/coarse/snap_vertices.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/cut/cut_tree.hpp"
@@ -41,17 +43,19 @@ struct CoarseResult {
 /// beside the first on ranks that are free (CoarseLadder); after the fallbacks comes Gmsh.
 ///
 /// If parts that planes make of the model cannot be meshed, it is meshed as a whole.
+/// @param[in] figures Of measure_model().
 /// @param[in] planes Into which parts the model is cut; without nodes: not at all.
 /// @note Collective.
 /// @throws GeometryError, MeshError on every rank, with the words of every try, if none succeeds.
 [[nodiscard]] CoarseResult run_coarse_stage(const config::Case& run_case,
+                                            const std::optional<coarse::ModelFigures>& figures,
                                             const cut::CutTree& planes, RunContext& context);
 
 /// @brief As run_coarse_stage(), of a run that has a mesh already and goes on with that one if no
 /// try succeeds. Then the result, on all ranks, has no tets.
 /// @note Collective.
-[[nodiscard]] CoarseResult run_second_coarse_stage(const config::Case& run_case,
-                                                   const CoarseResult& before,
-                                                   const cut::CutTree& planes, RunContext& context);
+[[nodiscard]] CoarseResult run_second_coarse_stage(
+    const config::Case& run_case, const std::optional<coarse::ModelFigures>& figures,
+    const CoarseResult& before, const cut::CutTree& planes, RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "tessera/base/bytes.hpp"
-#include "tessera/coarse/model_figures.hpp"
 #include "tessera/comm/all_or_none.hpp"
 
 #include "pipeline/jobs/mesh_worker.hpp"
@@ -31,23 +29,23 @@ double measure_box(const config::Case& given, RunContext& context)
                      given.geometry.file.string() + ": size of the model", context);
 }
 
-// Of all solids; NaN if it cannot be had.
-double measure_volume(RunContext& context)
+std::optional<coarse::ModelFigures> ask_for_figures(RunContext& context)
 {
   const Bytes request = figures_request();
   const auto [figures, end, cpu_s] =
-      attempt_job({"volume", request, kQueryLimits}, from_bytes<coarse::ModelFigures>,
+      attempt_job({"figures", request, kQueryLimits}, from_bytes<coarse::ModelFigures>,
                   wait_for_stop_signal(), context);
   throw_unless_of_the_job(end);
-  return figures ? figures->volume : std::numeric_limits<double>::quiet_NaN();
+  return figures;
 }
 
 // A volume that the box cannot hold is none. Then a part fills about a third of a cube with the
 // box's diagonal.
-double volume_of(const config::Case& given, RunContext& context)
+double volume_of(const config::Case& given, const std::optional<coarse::ModelFigures>& figures,
+                 RunContext& context)
 {
   const double cube = std::pow(measure_box(given, context) / std::sqrt(3.0), 3.0);
-  const double volume = measure_volume(context);
+  const double volume = figures ? figures->volume : 0.0;
   return volume > 0.0 && volume <= cube ? volume : cube / 3.0;
 }
 
@@ -80,15 +78,24 @@ int levels_for(double num_fine_tets)
   return num_fine_tets < 1e8 ? 3 : 4;
 }
 
-config::Case resolve_size(const config::Case& given, double noise, RunContext& context)
+std::optional<coarse::ModelFigures> measure_model(const config::Case& given, RunContext& context)
+{
+  if (model::is_mesh_name(given.geometry.file)) return std::nullopt;
+  return on_root(context.comm, [&] { return ask_for_figures(context); });
+}
+
+config::Case resolve_size(const config::Case& given,
+                          const std::optional<coarse::ModelFigures>& figures, double noise,
+                          RunContext& context)
 {
   if (model::is_mesh_name(given.geometry.file)) return given;
   config::Case resolved = given;
   const bool wants_max_size = given.size.target > 0.0 && given.coarse.max_size == 0.0;
   const bool wants_least = given.size.target > 0.0 && given.size.min < 0.0;
-  const double volume = wants_max_size || wants_least
-                            ? on_root(context.comm, [&] { return volume_of(given, context); })
-                            : 0.0;
+  double volume = 0.0;
+  if (wants_max_size || wants_least) {
+    volume = on_root(context.comm, [&] { return volume_of(given, figures, context); });
+  }
   if (wants_max_size) {
     const int levels = levels_for(estimated_tets(volume, given.size.target));
     resolved.coarse.max_size = kSizeForEdge * std::ldexp(given.size.target, levels);

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "tessera/coarse/model_figures.hpp"
 #include "tessera/config/case.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
@@ -10,17 +11,25 @@
 
 namespace tessera::pipeline {
 
+/// @brief What the model has that is loaded in the workers, in output length units. None if it
+/// cannot be had, or if the case brings its coarse mesh and nobody asks for it.
+/// @note Collective.
+[[nodiscard]] std::optional<coarse::ModelFigures> measure_model(const config::Case& given,
+                                                                RunContext& context);
+
 /// @brief The case with coarse.max_size chosen from size.target, if that is given, and as many
 /// levels as it takes.
 ///
 /// The number of fine tets is estimated from the model's volume, or from its box where the volume
 /// is not known (CSG). The usual number of levels grows with it so that the serial coarse mesh
 /// stays small: each level makes it 8 times smaller. But it keeps enough tets to cut.
+/// @param[in] figures Of measure_model().
 /// @param[in] noise What is smaller in the model is merged unless the case has a size.min; output
 /// length unit.
-/// @note Collective: asks the model, which is loaded in the workers, for its box and volume.
-[[nodiscard]] config::Case resolve_size(const config::Case& given, double noise,
-                                        RunContext& context);
+/// @note Collective: asks the model, which is loaded in the workers, for its box.
+[[nodiscard]] config::Case resolve_size(const config::Case& given,
+                                        const std::optional<coarse::ModelFigures>& figures,
+                                        double noise, RunContext& context);
 
 /// @brief Number of regular tets of that edge in that volume.
 [[nodiscard]] double estimated_tets(double volume, double target);

@@ -23,6 +23,13 @@ GlobalIndex FilledPieces::num_tets() const
   return num_tets;
 }
 
+GlobalIndex FilledPieces::num_cells() const
+{
+  GlobalIndex num_cells = 0;
+  for (const subdomain::PieceSummary& piece : pieces) num_cells += piece.num_cells();
+  return num_cells;
+}
+
 void FilledPieces::add(const subdomain::FillResult& result)
 {
   if (!result.failures.empty()) failures.push_back({result.summary.subdomain, result.failures});

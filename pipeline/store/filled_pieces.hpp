@@ -44,6 +44,7 @@ struct FilledPieces {
 
   /// @brief Of the pieces that were made: all, or those of the subdomains asked for. Local.
   [[nodiscard]] GlobalIndex num_tets() const;
+  [[nodiscard]] GlobalIndex num_cells() const;  ///< The same, with prisms in place of their tets.
 
   /// @brief Adds one piece of this rank's. @pre seam_sums has its shape.
   void add(const subdomain::FillResult& result);

@@ -172,6 +172,7 @@ void measure_layers(const LayerTables& tables, FilledPiece& filled)
   }
   summary.boundary_area += layered.outside_area;
   summary.layers.num_tets = layered.piece.num_tets();
+  summary.layers.num_cells = std::ranges::count(layered.tet_of_prism, 0);
   summary.layers.num_side_triangles = layered.piece.num_boundary() - filled.piece.num_boundary();
   summary.patches = patch_areas(layered.piece);
 }

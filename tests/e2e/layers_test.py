@@ -137,6 +137,8 @@ class OpenFoam(LayersTest):
         self.assertGreater(mesh.cell_volumes().min(), 0.0)
         self.assertTrue((mesh.owner[: len(mesh.neighbour)] < mesh.neighbour).all())
         self.assertEqual(mesh.num_cells(), of_layers // 3 + case["num_tets"] - of_layers)
+        self.assertEqual(case["num_cells"], mesh.num_cells())
+        self.assertEqual(case["layers"]["num_cells"], of_layers // 3)
 
     def test_in_one_mesh_and_in_parts(self):
         out = self.mesh(self.case(), "out", *sets('output.formats=["openfoam-serial"]', "output.files=3"))

@@ -36,12 +36,13 @@ struct LineLength {
 /// of patches.
 struct LayerSummary {
   GlobalIndex num_tets = 0;
+  GlobalIndex num_cells = 0;           ///< Prisms; pyramids and tets where a column is missing.
   GlobalIndex num_side_triangles = 0;  ///< On patches without layers.
   double volume = 0.0;                 ///< Output length unit cubed.
 
   static auto fields(auto& self)
   {
-    return std::tie(self.num_tets, self.num_side_triangles, self.volume);
+    return std::tie(self.num_tets, self.num_cells, self.num_side_triangles, self.volume);
   }
 };
 
@@ -90,6 +91,8 @@ struct PieceSummary {
 
   // With its layers.
   [[nodiscard]] GlobalIndex num_all_tets() const { return num_tets + layers.num_tets; }
+  // Prisms count, and not their tets.
+  [[nodiscard]] GlobalIndex num_cells() const { return num_tets + layers.num_cells; }
   [[nodiscard]] GlobalIndex num_all_boundary() const
   {
     return num_boundary + layers.num_side_triangles;

@@ -59,7 +59,7 @@ struct UntangleAndFill : ::testing::Test {
     static_cast<void>(run_model_stage(cube, context));
     RunResult run;
     run.resolved = cube;
-    run.coarse = run_coarse_stage(cube, {}, context);
+    run.coarse = run_coarse_stage(cube, {}, {}, context);
     run.levels = cube.refine.levels;
     cut = run_decompose_stage(run, context);
     coarse = std::move(run.coarse);
