@@ -20,6 +20,7 @@
 #include "tessera/jobs/this_process.hpp"
 #include "tessera/model/options.hpp"
 #include "tessera/netgen/factory.hpp"
+#include "tessera/subdomain/piece_arrays.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
 
 #include "pipeline/estimate/disk_space.hpp"
@@ -30,7 +31,6 @@
 #include "pipeline/predict/dry_run.hpp"
 #include "pipeline/predict/prediction_file.hpp"
 #include "pipeline/report/mesh_view.hpp"
-#include "pipeline/report/names_json.hpp"
 #include "pipeline/report/report.hpp"
 #include "pipeline/report/report_page.hpp"
 #include "pipeline/run_pipeline.hpp"
@@ -340,7 +340,7 @@ class CaseRun {
 
   static std::string view_of(const std::string& json, const RunResult& run)
   {
-    return view_html(mesh_view({.patches = patch_names(run.coarse.mesh),
+    return view_html(mesh_view({.patches = subdomain::names_of_rows(run.coarse.mesh),
                                 .materials = mesh::body_names(run.coarse.mesh),
                                 .length_unit = output_length_unit(run),
                                 .report = json},

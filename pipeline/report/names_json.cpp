@@ -5,21 +5,9 @@
 #include <vector>
 
 #include "tessera/base/sort_unique.hpp"
+#include "tessera/subdomain/piece_arrays.hpp"
 
 namespace tessera::pipeline {
-
-std::vector<std::string> patch_names(const mesh::CoarseMesh& coarse)
-{
-  if (coarse.patch_row.empty()) return coarse.patch_names;
-  std::vector<std::string> names;
-  for (std::size_t p = 0; p < coarse.patch_names.size(); ++p) {
-    const std::size_t row = at(coarse.patch_row[p]);
-    if (names.size() <= row) names.resize(row + 1);
-    names[row] = coarse.patch_names[p];
-  }
-  return names;
-}
-
 namespace {
 
 // Sums of subdomains in their order, so the same for any number of ranks.
@@ -99,7 +87,7 @@ Json lines_json(const RunResult& run, const std::vector<std::string>& names)
 
 void add_names(Json& json, const RunResult& run)
 {
-  const std::vector<std::string> names = patch_names(run.coarse.mesh);
+  const std::vector<std::string> names = subdomain::names_of_rows(run.coarse.mesh);
   json["patch_names"] = names;
   json["patches"] = patches_json(run, names);
   json["materials"] = materials_json(run);

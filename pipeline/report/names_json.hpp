@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "pipeline/report/quality_json.hpp"
 #include "pipeline/run_result.hpp"
 
 namespace tessera::pipeline {
-
-/// @brief Names of patches, by row of the files: patches of one row have one name. Local.
-[[nodiscard]] std::vector<std::string> patch_names(const mesh::CoarseMesh& coarse);
 
 /// @brief Adds what the mesh has under each name: the blocks `patch_names`, `patches` and
 /// `materials` of report.json. Local.

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/report/names_json.hpp"
+#include "tessera/subdomain/piece_arrays.hpp"
 
 namespace tessera::pipeline {
 
 Json sharp_json(const coarse::SharpTets& sharp, const mesh::CoarseMesh& coarse)
 {
-  const std::vector<std::string> names = patch_names(coarse);
+  const std::vector<std::string> names = subdomain::names_of_rows(coarse);
   Json worst = Json::array();
   for (const coarse::SharpTet& tet : sharp.worst) {
     Json patches = Json::array();

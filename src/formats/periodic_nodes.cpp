@@ -6,16 +6,6 @@
 
 namespace tessera::formats {
 
-std::array<double, 12> periodic_matrix(const Affine& there)
-{
-  std::array<double, 12> matrix{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::ranges::copy(there.rows[i], matrix.begin() + static_cast<std::ptrdiff_t>(4 * i));
-    matrix[4 * i + 3] = there.shift[i];
-  }
-  return matrix;
-}
-
 void for_each_periodic(const Outline& outline, const Piece& piece, const VisitPeriodic& visit)
 {
   for (std::size_t row = 0; row < outline.periodic.size(); ++row) {

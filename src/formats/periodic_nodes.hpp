@@ -11,9 +11,6 @@
 /// The nodes of periodic patches as files list them: pair by pair.
 namespace tessera::formats {
 
-/// @brief The transform as a 3 x 4 matrix by rows, of which the last column is the shift. Local.
-[[nodiscard]] std::array<double, 12> periodic_matrix(const Affine& there);
-
 /// @brief Called with a row of Outline::periodic, how many of its points are in pieces before, and
 /// the points that this piece has of it: at least one.
 using VisitPeriodic =

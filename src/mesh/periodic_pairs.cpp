@@ -11,16 +11,6 @@
 namespace tessera::mesh {
 namespace {
 
-std::string text_of(const Affine& there)
-{
-  std::vector<double> numbers;
-  for (std::size_t i = 0; i < 3; ++i) {
-    numbers.insert(numbers.end(), there.rows[i].begin(), there.rows[i].end());
-    numbers.push_back(there.shift[i]);
-  }
-  return fmt::format("{}", fmt::join(numbers, " "));
-}
-
 Affine affine_of(const std::string& text)
 {
   std::istringstream in(text);
@@ -52,11 +42,22 @@ std::string name_of_partners(LocalIndex transform)
   return fmt::format("{}{}", kPeriodicPartnerName, transform + 1);
 }
 
+std::array<double, 12> matrix_of(const Affine& there)
+{
+  std::array<double, 12> matrix{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::ranges::copy(there.rows[i], matrix.begin() + static_cast<std::ptrdiff_t>(4 * i));
+    matrix[4 * i + 3] = there.shift[i];
+  }
+  return matrix;
+}
+
 std::vector<std::string> to_texts(std::span<const PeriodicPair> pairs)
 {
   std::vector<std::string> texts;
   for (const PeriodicPair& pair : pairs) {
-    texts.insert(texts.end(), {pair.from, pair.to, text_of(pair.there)});
+    const auto matrix = matrix_of(pair.there);
+    texts.insert(texts.end(), {pair.from, pair.to, fmt::format("{}", fmt::join(matrix, " "))});
   }
   return texts;
 }

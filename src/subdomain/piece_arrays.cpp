@@ -17,18 +17,6 @@ std::vector<std::string> names_or_none(const std::string& name)
   return name.empty() ? std::vector<std::string>{} : std::vector<std::string>{name};
 }
 
-// One name a row of files.
-std::vector<std::string> names_of_rows(const mesh::CoarseMesh& coarse)
-{
-  if (coarse.patch_row.empty()) return coarse.patch_names;
-  std::vector<std::string> names;
-  for (LocalIndex p = 0; p < coarse.num_patches(); ++p) {
-    const bool is_first = at(coarse.patch_row[at(p)]) == names.size();
-    if (is_first) names.push_back(coarse.patch_names[at(p)]);
-  }
-  return names;
-}
-
 std::vector<LocalIndex> rows_of_patches(std::vector<LocalIndex> patches,
                                         const mesh::CoarseMesh& coarse)
 {
@@ -173,6 +161,17 @@ mesh::MeshArrays line_arrays(const mesh::Piece& piece, const mesh::MeshArrays& t
 }
 
 }  // namespace
+
+std::vector<std::string> names_of_rows(const mesh::CoarseMesh& coarse)
+{
+  if (coarse.patch_row.empty()) return coarse.patch_names;
+  std::vector<std::string> names;
+  for (LocalIndex p = 0; p < coarse.num_patches(); ++p) {
+    const bool is_first = at(coarse.patch_row[at(p)]) == names.size();
+    if (is_first) names.push_back(coarse.patch_names[at(p)]);
+  }
+  return names;
+}
 
 PieceArrays piece_arrays(mesh::Piece piece, const WriteContext& mesh, bool with_quality)
 {

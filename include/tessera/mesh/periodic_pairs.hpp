@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,8 +34,11 @@ inline constexpr const char* kPeriodicPartnerName = "periodic_partner_";
 /// transform. Local.
 [[nodiscard]] std::string name_of_partners(LocalIndex transform);
 
-/// @brief Three texts a pair: both names, and the rows of a 3 x 4 matrix, whose last column is the
-/// shift, as numbers that read back as the same. Local.
+/// @brief The transform as a 3 x 4 matrix by rows, of which the last column is the shift. Local.
+[[nodiscard]] std::array<double, 12> matrix_of(const Affine& there);
+
+/// @brief Three texts a pair: both names, and matrix_of() its transform as numbers that read back
+/// as the same. Local.
 [[nodiscard]] std::vector<std::string> to_texts(std::span<const PeriodicPair> pairs);
 
 /// @brief The other way round. Local. @throws InputError if the texts are none of to_texts().

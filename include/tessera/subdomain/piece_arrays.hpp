@@ -47,6 +47,9 @@ struct PieceArrays {
   mesh::MeshArrays lines{};  ///< Edges on lines inside of solids; no arrays if there are none.
 };
 
+/// @brief Names of patches, by row of the files: patches of one row have one name. Local.
+[[nodiscard]] std::vector<std::string> names_of_rows(const mesh::CoarseMesh& coarse);
+
 /// @brief A piece with global ids, owners, material, patches and names; an empty piece gives the
 /// schema. Local.
 /// @param[in] with_quality Add the mean ratio of every tet.

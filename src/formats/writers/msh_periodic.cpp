@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tessera/mesh/periodic_pairs.hpp"
+
 #include "formats/writers/msh_sections.hpp"
 
 namespace tessera::formats {
@@ -14,7 +16,7 @@ namespace tessera::formats {
 std::array<double, 16> msh_matrix(const Affine& there)
 {
   std::array<double, 16> matrix{};
-  std::ranges::copy(periodic_matrix(there), matrix.begin());
+  std::ranges::copy(mesh::matrix_of(there), matrix.begin());
   matrix[15] = 1.0;
   return matrix;
 }

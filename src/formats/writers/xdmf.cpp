@@ -12,6 +12,7 @@
 
 #include "tessera/base/xml_escape.hpp"
 #include "tessera/io/files.hpp"
+#include "tessera/mesh/periodic_pairs.hpp"
 
 #include "formats/cells.hpp"
 #include "formats/files/hdf5_file.hpp"
@@ -288,7 +289,7 @@ class XdmfWriter final : public Writer {
     put<GlobalIndex>(kNeighbours, 0, neighbours);
     if (outline_.has_prisms()) put<GlobalIndex>(kFirstsOfShapes, 0, firsts_of_shapes());
     for (std::size_t p = 0; p < outline_.periodic.size(); ++p)
-      put<double>(periodic_transform_name(p), 0, periodic_matrix(outline_.periodic[p].there));
+      put<double>(periodic_transform_name(p), 0, mesh::matrix_of(outline_.periodic[p].there));
   }
 
   void write_periodic(const Piece& piece)
