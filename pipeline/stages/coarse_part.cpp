@@ -161,6 +161,12 @@ void name_sharp_tets(RunResult& run, RunContext& context)
     context.log.warn(fmt::format("coarse: {}", *warning));
 }
 
+// For sizes, and for how long tries at the coarse mesh may take.
+bool asks_for_figures(const config::Case& given, bool has_coarse_mesh)
+{
+  return given.size.target > 0.0 || !(has_coarse_mesh || given.coarse.timeout_s > 0.0);
+}
+
 }  // namespace
 
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
@@ -173,12 +179,13 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   run.field_content =
       comm::on_root(context.comm, [&] { return subdomain::size_field_content(given.size); });
   require_same_run(run, options.state, context);
-  run.figures = measure_model(given, context);
+  auto kept = kept_coarse_mesh(options.state, context);
+  if (asks_for_figures(given, kept.has_value())) run.figures = measure_model(given, context);
   // A wrap is that rough.
   run.resolved =
       resolve_size(given, run.figures, given.geometry.scale * run.model.wrap.tolerance, context);
   run.resolved.fill = config::resolved_fill(given, !options.only_subdomains.empty());
-  if (auto kept = kept_coarse_mesh(options.state, context)) {
+  if (kept) {
     run.planes = std::move(kept->planes);
     run.coarse = std::move(kept->coarse);
     run.cover = std::move(kept->cover);

@@ -14,20 +14,24 @@ void sum_over_ranks(quality::Histogram& histogram, const comm::Communicator& com
   histogram.set_counts(std::move(counts));
 }
 
+GlobalIndex sum_over(const std::vector<subdomain::PieceSummary>& pieces,
+                     GlobalIndex (subdomain::PieceSummary::*count)() const)
+{
+  GlobalIndex sum = 0;
+  for (const subdomain::PieceSummary& piece : pieces) sum += (piece.*count)();
+  return sum;
+}
+
 }  // namespace
 
 GlobalIndex FilledPieces::num_tets() const
 {
-  GlobalIndex num_tets = 0;
-  for (const subdomain::PieceSummary& piece : pieces) num_tets += piece.num_all_tets();
-  return num_tets;
+  return sum_over(pieces, &subdomain::PieceSummary::num_all_tets);
 }
 
 GlobalIndex FilledPieces::num_cells() const
 {
-  GlobalIndex num_cells = 0;
-  for (const subdomain::PieceSummary& piece : pieces) num_cells += piece.num_cells();
-  return num_cells;
+  return sum_over(pieces, &subdomain::PieceSummary::num_cells);
 }
 
 void FilledPieces::add(const subdomain::FillResult& result)

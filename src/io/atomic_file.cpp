@@ -26,6 +26,12 @@ std::string system_error_text(int error_number)
   return std::generic_category().message(error_number);
 }
 
+void throw_cannot_read_back(const std::filesystem::path& file, int error_number)
+{
+  throw OutputError(
+      fmt::format("cannot read back {}: {}", file.string(), system_error_text(error_number)));
+}
+
 bool is_temporary_name(const std::string& name)
 {
   const auto mark = name.rfind(kTemporaryMark);

@@ -11,6 +11,10 @@ namespace tessera::io {
 /// @brief The error number's text, e.g. "No space left on device".
 [[nodiscard]] std::string system_error_text(int error_number);
 
+/// @brief The file system fails with a file of the run's own: not what the user gave is wrong, but
+/// the output folder. @throws OutputError
+[[noreturn]] void throw_cannot_read_back(const std::filesystem::path& file, int error_number);
+
 /// @brief Whether `name` is one that AtomicFile gives to temporary files.
 [[nodiscard]] bool is_temporary_name(const std::string& name);
 

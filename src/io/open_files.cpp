@@ -12,7 +12,6 @@
 #include "tessera/base/error.hpp"
 
 #include "io/atomic_file.hpp"
-#include "io/segments.hpp"
 
 namespace tessera::io {
 namespace {

@@ -3,10 +3,7 @@
 
 #include <cerrno>
 
-#include <fmt/format.h>
 #include <unistd.h>
-
-#include "tessera/base/error.hpp"
 
 #include "io/atomic_file.hpp"
 
@@ -25,12 +22,6 @@ Hash128 hash_of(std::span<const std::byte> name, std::span<const SegmentHead> se
   Hash128 hash = hash_bytes(name);
   hash += hash_bytes(std::as_bytes(segments));
   return hash;
-}
-
-void throw_cannot_read_back(const std::filesystem::path& file, int error)
-{
-  throw OutputError(
-      fmt::format("cannot read back {}: {}", file.string(), system_error_text(error)));
 }
 
 std::uint64_t size_of_file(const OpenFile& file)

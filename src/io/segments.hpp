@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,10 +36,6 @@ using SegmentViews = std::vector<std::span<const std::byte>>;
 /// @brief Of a record's name and its segments.
 [[nodiscard]] Hash128 hash_of(std::span<const std::byte> name,
                               std::span<const SegmentHead> segments);
-
-/// @brief The file system fails with a file of the run's own: not what the user gave is wrong, but
-/// the output folder. @throws OutputError @param[in] error errno.
-[[noreturn]] void throw_cannot_read_back(const std::filesystem::path& file, int error);
 
 /// @brief Bytes of the file. @throws OutputError
 [[nodiscard]] std::uint64_t size_of_file(const OpenFile& file);

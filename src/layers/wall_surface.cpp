@@ -83,8 +83,8 @@ class WallFinder {
   {
     find_vertices();
     find_triangles();
+    find_wall_edges();
     find_segments();
-    find_acute_edges();
     const IndexLists around = triangles_around();
     for (std::size_t row = 0; row < surface_.vertices.size(); ++row) {
       WallVertex& vertex = surface_.vertices[row];
@@ -129,36 +129,41 @@ class WallFinder {
     }
   }
 
-  // Curves that leave a wall: their segments are no sides of its triangles.
-  void find_segments()
-  {
-    for (const SurfaceTriangle& triangle : surface_.triangles) {
-      if (!triangle.is_wall) continue;
-      for (std::size_t c = 0; c < 3; ++c) {
-        edges_on_walls_.insert(edge_between(triangle.vertices[c], triangle.vertices[(c + 1) % 3]));
-      }
-    }
-    for (LocalIndex s = 0; s < mesh_.num_segments(); ++s) {
-      const LocalIndex* v = &mesh_.segment_vertices[2 * at(s)];
-      if (edges_on_walls_.contains(edge_between(v[0], v[1]))) continue;
-      for (std::size_t end = 0; end < 2; ++end) {
-        if (surface_.wall_of_vertex[at(v[end])] != kNoIndex) leaving_[v[end]].push_back({s, end});
-      }
-    }
-  }
-
-  // Where two walls meet so that there is no room between them.
-  void find_acute_edges()
+  void find_wall_edges()
   {
     std::map<WallEdge, const SurfaceTriangle*> first;
     for (const SurfaceTriangle& triangle : surface_.triangles) {
       if (!triangle.is_wall) continue;
       for (std::size_t c = 0; c < 3; ++c) {
         const WallEdge edge = edge_between(triangle.vertices[c], triangle.vertices[(c + 1) % 3]);
+        edges_on_walls_.insert(edge);
         const auto [other, is_new] = first.emplace(edge, &triangle);
-        if (is_new || dot(other->second->normal, triangle.normal) > -kMostAcute) continue;
-        const Vec3 away = mesh_.position(triangle.vertices[(c + 2) % 3]) - mesh_.position(edge[0]);
-        if (dot(away, other->second->normal) < 0.0) on_acute_edge_.insert(edge.begin(), edge.end());
+        if (!is_new && meet_acutely(*other->second, triangle, c)) {
+          on_acute_edge_.insert(edge.begin(), edge.end());
+        }
+      }
+    }
+  }
+
+  // Whether there is no room between two triangles of walls. @param[in] side Of the second one,
+  // where they meet.
+  [[nodiscard]] bool meet_acutely(const SurfaceTriangle& first, const SurfaceTriangle& second,
+                                  std::size_t side) const
+  {
+    if (dot(first.normal, second.normal) > -kMostAcute) return false;
+    const Vec3 away =
+        mesh_.position(second.vertices[(side + 2) % 3]) - mesh_.position(second.vertices[side]);
+    return dot(away, first.normal) < 0.0;
+  }
+
+  // Curves that leave a wall: their segments are no sides of its triangles.
+  void find_segments()
+  {
+    for (LocalIndex s = 0; s < mesh_.num_segments(); ++s) {
+      const LocalIndex* v = &mesh_.segment_vertices[2 * at(s)];
+      if (edges_on_walls_.contains(edge_between(v[0], v[1]))) continue;
+      for (std::size_t end = 0; end < 2; ++end) {
+        if (surface_.wall_of_vertex[at(v[end])] != kNoIndex) leaving_[v[end]].push_back({s, end});
       }
     }
   }
