@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-
 #include "pipeline/report/quality_json.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
 
@@ -10,8 +8,5 @@ namespace tessera::pipeline {
 
 /// @brief The block `coarse.defeatured` of report.json: what of the model was merged. Local.
 [[nodiscard]] Json defeatured_json(const CoarseResult& coarse);
-
-/// @brief What to say of it. Local.
-[[nodiscard]] std::string defeatured_words(const CoarseResult& coarse);
 
 }  // namespace tessera::pipeline

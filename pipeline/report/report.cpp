@@ -22,8 +22,8 @@
 #include "pipeline/report/quality_json.hpp"
 #include "pipeline/report/repairs_json.hpp"
 #include "pipeline/report/sharp_json.hpp"
-#include "pipeline/report/size_warning.hpp"
 #include "pipeline/report/wrap_json.hpp"
+#include "pipeline/stages/coarse_warnings.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 

@@ -14,10 +14,8 @@
 #include "tessera/fill/fallbacks.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
 
-#include "pipeline/report/defeature_json.hpp"
-#include "pipeline/report/sharp_json.hpp"
-#include "pipeline/report/size_warning.hpp"
 #include "pipeline/stages/coarse_stage.hpp"
+#include "pipeline/stages/coarse_warnings.hpp"
 #include "pipeline/stages/cut_stage.hpp"
 #include "pipeline/stages/decompose_stage.hpp"
 #include "pipeline/stages/layer_stage.hpp"
