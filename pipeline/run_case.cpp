@@ -25,7 +25,6 @@
 
 #include "pipeline/estimate/disk_space.hpp"
 #include "pipeline/estimate/only_subdomains.hpp"
-#include "pipeline/estimate/output_plan.hpp"
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/node_workers.hpp"
 #include "pipeline/predict/dry_run.hpp"
@@ -34,6 +33,7 @@
 #include "pipeline/report/report.hpp"
 #include "pipeline/report/report_page.hpp"
 #include "pipeline/run_pipeline.hpp"
+#include "pipeline/run_plan.hpp"
 #include "pipeline/runtime/log.hpp"
 #include "pipeline/runtime/terminal.hpp"
 #include "pipeline/stages/model_stage.hpp"
@@ -315,7 +315,7 @@ class CaseRun {
         kind == ErrorKind::geometry || kind == ErrorKind::mesh || kind == ErrorKind::netgen;
     const std::filesystem::path& file = given_.geometry.file;
     const bool has_coarse_mesh = std::ranges::any_of(
-        context.times, [](const StageTime& time) { return time.name == "coarse"; });
+        context.times, [](const StageTime& time) { return time.name == word_of(Stage::coarse); });
     if (!is_mesh() || !is_of_model || has_coarse_mesh) return;
     if (model::lower_case_extension(file) == ".stl") keep_places(file, error.what(), context);
   }

@@ -30,7 +30,7 @@ DiskNeed disk_need(const RunOutline& outline, const Rates& rates)
 {
   // Beside the filled pieces there are bands, rims and updates. On shaft they are 0.8 times as much
   // with pieces of 72,000 tets, 1.4 times with 9,000 and 3.1 times with 2,400.
-  const double copies = outline.improves_seams() ? 3.0 : 1.0;
+  const double copies = outline.improves_seams ? 3.0 : 1.0;
   DiskNeed need;
   for (const subdomain::SubdomainRange& file : outline.files) {
     for (LocalIndex s = file.first; s < file.last; ++s) {

@@ -44,6 +44,25 @@ void count_split_tets(const subdomain::PartitionedMesh& cut, int splits,
   }
 }
 
+std::vector<subdomain::SubdomainRange> one_by_one(
+    const std::vector<subdomain::SubdomainRange>& files)
+{
+  std::vector<subdomain::SubdomainRange> single;
+  for (const subdomain::SubdomainRange& file : files) {
+    for (LocalIndex s = file.first; s < file.last; ++s) single.push_back({s, s, s + 1});
+  }
+  return single;
+}
+
+void count_seam_triangles(const subdomain::PartitionedMesh& cut, RunOutline& outline)
+{
+  const mesh::LatticeLevels filled = mesh::lattice_levels(cut.skeleton, cut.levels);
+  for (LocalIndex s = 0; s < cut.num_subdomains(); ++s) {
+    if (outline.kernels[at(s)] == fill::KernelKind::subdivide) continue;
+    outline.seam_triangles[at(s)] = num_seam_triangles(cut.skeleton, filled, s);
+  }
+}
+
 }  // namespace
 
 bool are_counts_known(const std::vector<fill::KernelKind>& kernels)
@@ -68,39 +87,6 @@ GlobalIndex RunOutline::boundary_triangles_of(const subdomain::SubdomainRange& r
   return sum_over(range, [&](LocalIndex s) { return pieces[at(s)].boundary_triangles; });
 }
 
-bool RunOutline::improves_seams() const
-{
-  return std::ranges::any_of(seam_triangles, [](GlobalIndex count) { return count > 0; });
-}
-
-void RunOutline::hand_over_pieces()
-{
-  has_files = false;
-  fill_into_store();
-}
-
-void RunOutline::curve_pieces()
-{
-  is_curved = true;
-  fill_into_store();
-}
-
-void RunOutline::divide_corners()
-{
-  are_counts_exact = false;
-  fill_into_store();
-}
-
-void RunOutline::fill_into_store()
-{
-  if (!is_one_pass) return;
-  is_one_pass = false;
-  jobs.clear();
-  for (const subdomain::SubdomainRange& file : files) {
-    for (LocalIndex s = file.first; s < file.last; ++s) jobs.push_back({s, s, s + 1});
-  }
-}
-
 int splits_after_fill(const fill::FillOptions& options,
                       const std::vector<fill::KernelKind>& kernels, int levels)
 {
@@ -108,31 +94,31 @@ int splits_after_fill(const fill::FillOptions& options,
 }
 
 RunOutline outline_run(const subdomain::PartitionedMesh& cut,
-                       const std::vector<fill::KernelKind>& kernels, int splits,
-                       const std::vector<subdomain::SubdomainRange>& files, bool improve_seams)
+                       const std::vector<fill::KernelKind>& kernels,
+                       const std::vector<subdomain::SubdomainRange>& files,
+                       const PieceChoices& choices)
 {
-  const mesh::EdgeLevels all = cut.levels.shifted(splits);
+  const mesh::EdgeLevels all = cut.levels.shifted(choices.splits);
   RunOutline outline{.levels = all.largest(),
                      .fill_levels = cut.levels.largest(),
                      .num_coarse_tets = cut.coarse.num_tets(),
                      .kernels = kernels,
                      .pieces = subdomain::count_subdivided_pieces(cut, all),
-                     .files = files};
-  if (splits > 0) count_split_tets(cut, splits, outline.pieces);
-  outline.are_counts_exact = are_counts_known(kernels);
-  outline.is_one_pass = outline.are_counts_exact;
+                     .files = files,
+                     .improves_seams = choices.improves_seams,
+                     .has_files = choices.has_files,
+                     .is_curved = choices.is_curved};
+  if (choices.splits > 0) count_split_tets(cut, choices.splits, outline.pieces);
+  outline.are_counts_exact = are_counts_known(kernels) && !choices.divides_corners;
+  outline.is_one_pass = outline.are_counts_exact && choices.has_files && !choices.is_curved;
+  outline.jobs = outline.is_one_pass ? files : one_by_one(files);
   const mesh::LatticeLevels of_skeleton = mesh::lattice_levels(cut.skeleton, all);
   outline.num_skeleton_vertices = mesh::num_skeleton_points(cut.skeleton, of_skeleton);
   if (const auto layers = subdomain::layer_tables(cut.coarse, cut.skeleton, of_skeleton)) {
     outline.num_skeleton_vertices += layers->num_points();
   }
-  const mesh::LatticeLevels filled = mesh::lattice_levels(cut.skeleton, cut.levels);
   outline.seam_triangles.resize(kernels.size());
-  for (LocalIndex s = 0; improve_seams && s < cut.num_subdomains(); ++s) {
-    if (kernels[at(s)] == fill::KernelKind::subdivide) continue;
-    outline.seam_triangles[at(s)] = num_seam_triangles(cut.skeleton, filled, s);
-  }
-  outline.jobs = outline.is_one_pass ? files : subdomain::file_ranges(cut.num_subdomains(), 0);
+  if (choices.improves_seams) count_seam_triangles(cut, outline);
   return outline;
 }
 

@@ -21,6 +21,16 @@ namespace tessera::pipeline {
 [[nodiscard]] bool divides_corners(const fill::FillOptions& options,
                                    const std::vector<fill::KernelKind>& kernels);
 
+/// @brief How pieces come into being; chosen once, by plan_run().
+struct PieceChoices {
+  int splits = 0;  ///< Levels on which pieces are split after they were filled.
+  /// Which tets have several faces on the geometry, and are divided, is known once they are made.
+  bool divides_corners = false;
+  bool improves_seams = false;
+  bool has_files = true;   ///< False: pieces wait in the store until they are handed over.
+  bool is_curved = false;  ///< Tets of second order, for which pieces wait in the store.
+};
+
 /// @brief What is known or expected of the fine mesh before any of it is made.
 struct RunOutline {
   int levels = 0;       ///< Of the finest coarse edge.
@@ -38,31 +48,24 @@ struct RunOutline {
   bool is_one_pass = false;       ///< Then fill jobs may write the files themselves, and do.
   std::vector<subdomain::SubdomainRange> jobs{};   ///< What each fill job makes.
   std::vector<subdomain::SubdomainRange> files{};  ///< What each file holds.
+  bool improves_seams = false;
   bool has_files = true;   ///< False: finished pieces are handed over instead.
   bool is_curved = false;  ///< Tets of second order.
 
   /// @brief Whether pieces are split after they were filled, or get nodes of second order.
   [[nodiscard]] bool splits_pieces() const { return fill_levels < levels || is_curved; }
 
+  /// @brief Whether ranks turn the pieces of the store into files.
+  [[nodiscard]] bool writes_from_store() const
+  {
+    return has_files && !is_one_pass && !splits_pieces();
+  }
+
   /// @brief Tets that a filled piece has for one that the mesh will have.
   [[nodiscard]] double filled_share() const { return std::ldexp(1.0, 3 * (fill_levels - levels)); }
 
-  /// @brief From now on there are no files: every piece waits in the store until it is handed over.
-  void hand_over_pieces();
-
-  /// @brief From now on pieces are known once they are filled: which of their tets have several
-  /// faces on the geometry, and are divided, is not known before.
-  void divide_corners();
-
-  /// @brief From now on tets are of second order, for which every piece waits in the store.
-  void curve_pieces();
-
   [[nodiscard]] GlobalIndex tets_of(const subdomain::SubdomainRange& range) const;
   [[nodiscard]] GlobalIndex boundary_triangles_of(const subdomain::SubdomainRange& range) const;
-  [[nodiscard]] bool improves_seams() const;
-
- private:
-  void fill_into_store();
 };
 
 /// @brief How many of the levels are left for pieces to be split after they were filled. Where all
@@ -71,13 +74,12 @@ struct RunOutline {
                                     const std::vector<fill::KernelKind>& kernels, int levels);
 
 /// @brief The outline of a run. Local; O(coarse tets).
-/// @param[in] cut With the levels on which pieces are filled. @param[in] splits Levels that follow.
-/// @param[in] files output.files, or those asked for; see run_pipeline().
-/// @param[in] improve_seams improve.seams.
+/// @param[in] cut With the levels on which pieces are filled.
+/// @param[in] files output.files, or those asked for; see output_ranges().
 [[nodiscard]] RunOutline outline_run(const subdomain::PartitionedMesh& cut,
-                                     const std::vector<fill::KernelKind>& kernels, int splits,
+                                     const std::vector<fill::KernelKind>& kernels,
                                      const std::vector<subdomain::SubdomainRange>& files,
-                                     bool improve_seams);
+                                     const PieceChoices& choices);
 
 /// @brief What to say if a file would hold more than its 32-bit indices reach: the first such file
 /// and the key to change. Local.

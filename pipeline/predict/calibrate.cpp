@@ -16,8 +16,8 @@
 #include "tessera/mesh/lattice.hpp"
 #include "tessera/subdomain/count_pieces.hpp"
 
-#include "pipeline/estimate/output_plan.hpp"
 #include "pipeline/predict/choose_samples.hpp"
+#include "pipeline/run_plan.hpp"
 #include "pipeline/runtime/log.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/share_stage.hpp"
@@ -105,9 +105,9 @@ class Sampler {
     if (set.jobs.empty()) return;
     const subdomain::PartitionedMesh cut(cut_.coarse, cut_.decomposition,
                                          cut_.levels.limited(set.levels));
-    RunOutline outline =
-        outline_run(cut, run_.kernels, 0, outline_.files, run_.resolved.improve.seams);
-    if (divides_corners(run_.resolved.fill, run_.kernels)) outline.divide_corners();
+    const RunOutline outline =
+        outline_run(cut, run_.kernels, outline_.files,
+                    {.divides_corners = divides_corners(run_.resolved.fill, run_.kernels)});
     own_.times.clear();
     fill(set, cut, outline);
     note_work(set, outline);

@@ -2,16 +2,15 @@
 #include "pipeline/predict/dry_run.hpp"
 
 #include <utility>
-#include <vector>
 
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/io/files.hpp"
 #include "tessera/jobs/this_process.hpp"
 
-#include "pipeline/estimate/output_plan.hpp"
 #include "pipeline/predict/calibrate.hpp"
 #include "pipeline/predict/prediction.hpp"
 #include "pipeline/predict/prediction_file.hpp"
+#include "pipeline/run_plan.hpp"
 #include "pipeline/stages/coarse_part.hpp"
 #include "pipeline/stages/load_stage.hpp"
 #include "pipeline/stages/share_stage.hpp"
@@ -43,23 +42,20 @@ std::string dry_run(const config::Case& given, const RunOptions& options, int nu
                     RunContext& context)
 {
   RunResult run = run_coarse_part(given, {}, context);
-  StageScope prepare(context, "prepare");
+  StageScope prepare(context, Stage::prepare);
   SharedMesh shared = share_mesh(run, context);
   const subdomain::PartitionedMesh cut(run.coarse.mesh, run.decomposition.decomposition,
                                        std::move(shared.tables));
-  std::vector<subdomain::SubdomainRange> files;
-  all_or_none(context.comm, [&] { files = output_ranges(run, options); });
-  RunOutline outline = outline_run(cut, run.kernels, run.splits, files, run.resolved.improve.seams);
-  if (divides_corners(run.resolved.fill, run.kernels)) outline.divide_corners();
+  RunPlan plan = plan_run(run, cut, options, context);
   load_mesh(shared.message, context);
   prepare.finish("");
 
   PredictionBasis basis{.memory = memory_before_fills(shared.message, context),
                         .serial_stages = context.times,
                         .num_ranks = num_ranks};
-  DryRun found;
-  found.calibration = calibrate(run, cut, outline, sample_folder(context.folder), context);
-  basis.outline = corrected(std::move(outline), found.calibration);
+  DryRun found{.stages = std::move(plan.stages)};
+  found.calibration = calibrate(run, cut, plan.outline, sample_folder(context.folder), context);
+  basis.outline = corrected(std::move(plan.outline), found.calibration);
   basis.rates = found.calibration.rates;
   found.prediction = predict(basis);
   all_or_none(context.comm, [&] {

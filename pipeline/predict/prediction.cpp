@@ -46,13 +46,13 @@ struct SharedTime {
   double makespan_s = 0.0;
 };
 
-void add_shared_stage(const std::string& name, std::vector<double> job_s, Prediction& prediction,
+void add_shared_stage(Stage stage, std::vector<double> job_s, Prediction& prediction,
                       SharedTime& shared)
 {
   const double cpu_s = std::accumulate(job_s.begin(), job_s.end(), 0.0);
   for (double& duration : job_s) duration += kJobOverhead_s;
   const Schedule schedule = simulate_schedule(job_s, prediction.num_ranks);
-  prediction.stages.push_back({name, schedule.makespan_s, cpu_s, false});
+  prediction.stages.push_back({std::string(word_of(stage)), schedule.makespan_s, cpu_s, false});
   shared.work_s += schedule.work_s;
   shared.makespan_s += schedule.makespan_s;
 }
@@ -103,19 +103,20 @@ void add_times(const PredictionBasis& basis, Prediction& prediction)
     subdomains.push_back({s, s, s + 1});
   }
   SharedTime shared;
-  add_shared_stage("plan", durations(subdomains, basis, &KernelRates::plan_cpu_s_per_tet),
+  add_shared_stage(Stage::plan, durations(subdomains, basis, &KernelRates::plan_cpu_s_per_tet),
                    prediction, shared);
   std::vector<double> fill_s = durations(outline.jobs, basis, &KernelRates::fill_cpu_s_per_tet);
   std::ranges::sort(fill_s, std::greater<>());
-  add_shared_stage("fill", std::move(fill_s), prediction, shared);
-  if (outline.improves_seams()) {
-    add_shared_stage("improve", improvement_durations(basis), prediction, shared);
+  add_shared_stage(Stage::fill, std::move(fill_s), prediction, shared);
+  if (outline.improves_seams) {
+    add_shared_stage(Stage::improve, improvement_durations(basis), prediction, shared);
   }
   if (outline.splits_pieces()) {
-    add_shared_stage("refine", refine_durations(outline), prediction, shared);
-  } else if (!outline.is_one_pass) {
-    add_shared_stage("write", durations(outline.files, basis, &KernelRates::write_cpu_s_per_tet),
-                     prediction, shared);
+    add_shared_stage(Stage::refine, refine_durations(outline), prediction, shared);
+  } else if (outline.writes_from_store()) {
+    add_shared_stage(Stage::write,
+                     durations(outline.files, basis, &KernelRates::write_cpu_s_per_tet), prediction,
+                     shared);
   }
   prediction.wall_s = serial_s + shared.makespan_s;
   prediction.serial_share = serial_s / prediction.wall_s;
@@ -156,8 +157,7 @@ void add_memory(const PredictionBasis& basis, Prediction& prediction)
   double job = kJobBytes + largest_cost(outline.jobs, basis, &KernelRates::job_bytes_per_tet);
   if (outline.splits_pieces()) job = std::max(job, kJobBytes + kRefineBytesPerTet * in_file);
   const double jobs = std::max(basis.memory.jobs_peak, basis.memory.loaded + job);
-  const bool is_written_by_ranks = !outline.is_one_pass && !outline.splits_pieces();
-  const double writer = is_written_by_ranks ? kWriterBytesPerTet * in_file : 0.0;
+  const double writer = outline.writes_from_store() ? kWriterBytesPerTet * in_file : 0.0;
   prediction.largest_job_bytes = basis.memory.loaded + job;
   prediction.memory_per_rank_bytes = basis.memory.process + writer + jobs;
   const bool shares_workers = basis.num_ranks >= kFewestRanksThatShare;

@@ -13,6 +13,7 @@
 #include "tessera/base/hash.hpp"
 #include "tessera/base/version.hpp"
 
+#include "pipeline/run_plan.hpp"
 #include "pipeline/store/run_state.hpp"
 
 namespace tessera::pipeline {
@@ -185,6 +186,7 @@ std::string prediction_json(const DryRun& dry_run, const PredictedRun& predicted
             {"case", predicted.case_hash},
             {"model", predicted.model_hash}};
   json.update(quantities_json(dry_run.prediction));
+  for (const Stage stage : dry_run.stages) json["plan"].push_back(word_of(stage));
   json["stages"] = stages_json(dry_run.prediction);
   json["resources"] = {{"disk_free_bytes", dry_run.resources.free_disk_bytes},
                        {"memory_bytes", dry_run.resources.machine_memory_bytes},
@@ -215,6 +217,7 @@ std::string prediction_table(const DryRun& dry_run)
                                                bytes_text(prediction.memory_per_rank_bytes),
                                                bytes_text(prediction.largest_job_bytes),
                                                bytes_text(dry_run.resources.machine_memory_bytes)));
+  table += row("stages", text_of(dry_run.stages));
   for (const StagePrediction& stage : prediction.stages) {
     table += row(stage.name,
                  fmt::format("{:.2f} s{}", stage.wall_s,

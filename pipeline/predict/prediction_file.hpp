@@ -22,7 +22,8 @@
 ///   ids), "memory_per_rank_bytes" (with its worker processes), "memory_of_node_bytes" (of that,
 ///   what all ranks of a node share), "largest_job_bytes";
 /// - times: "cpu_s" (plan, fill and write, all ranks), "wall_time_s", "serial_share", "busy_share";
-/// - "stages": "name", "wall_time_s", "cpu_s", "serial";
+/// - "plan": names of the stages that the run will have, in their order, as in its report;
+/// - "stages": "name", "wall_time_s", "cpu_s", "serial"; of those that take a while;
 /// - "resources": "disk_free_bytes", "memory_bytes", "cores";
 /// - "samples": "kernel", "levels", "subdomains", "cpu_s"; "rates" by kernel; "fits";
 /// - "must_change" and "should_change": sentences.
@@ -48,6 +49,7 @@ struct PredictedRun {
 
 /// @brief All that a dry run has found.
 struct DryRun {
+  StageList stages{};  ///< Of the run, as it plans them.
   Prediction prediction{};
   Calibration calibration{};
   Resources resources{};

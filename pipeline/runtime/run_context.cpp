@@ -11,10 +11,10 @@
 
 namespace tessera::pipeline {
 
-StageScope::StageScope(RunContext& context, std::string name, std::int64_t total,
+StageScope::StageScope(RunContext& context, Stage stage, std::int64_t total,
                        const std::string& unit)
     : context_(context),
-      name_(std::move(name)),
+      name_(word_of(stage)),
       start_(std::chrono::steady_clock::now()),
       cpu_before_s_(jobs::cpu_time_of_this_process())
 {

@@ -13,6 +13,7 @@
 #include "tessera/jobs/job_runner.hpp"
 
 #include "pipeline/runtime/progress.hpp"
+#include "pipeline/runtime/stage.hpp"
 
 namespace tessera::pipeline {
 
@@ -47,7 +48,7 @@ struct RunContext {
 /// @brief Times one stage and speaks of it: begins with the object, ends with finish().
 class StageScope {
  public:
-  StageScope(RunContext& context, std::string name, std::int64_t total = 0,
+  StageScope(RunContext& context, Stage stage, std::int64_t total = 0,
              const std::string& unit = "");
 
   /// @brief Marks the end of this rank's own work; what follows is waiting for others.

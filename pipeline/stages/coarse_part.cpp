@@ -121,25 +121,59 @@ void require_own_surface(const RunResult& run)
                   has_lines ? "loose_curves" : "loose_faces"));
 }
 
-// A coarse mesh, and once more where it is too coarse for the sizes.
-void run_coarse_stages(RunResult& run, RunContext& context)
+void take(LayeredMesh layered, RunResult& run)
 {
-  const PartsOfCase of_case = find_parts_of_case(run.resolved, run.model.format, context);
-  const model::NamedParts& parts = of_case.named;
-  run.resolved.coarse.kept = of_case.kept;
-  run.resolved.coarse.periodic = of_case.periodic;
-  run.resolved.coarse.has_inner_parts = run.model.assembly.has_inner_parts();
+  run.coarse.mesh = std::move(layered.mesh);
+  run.cover = std::move(layered.cover);
+}
+
+void take(LevelledMesh open, RunResult& run)
+{
+  run.coarse.mesh = std::move(open.mesh);
+  run.levels = open.levels;  // A copy does not hold the memory of the mesh.
+}
+
+// A coarse mesh, and once more where it is too coarse for the sizes.
+// @return Whether it is fine enough for them.
+bool make_coarse_mesh(const StageList& stages, RunResult& run, RunContext& context)
+{
+  config::Case& resolved = run.resolved;
+  PartsOfCase parts;
+  if (contains(stages, Stage::names)) parts = run_name_stage(resolved, run.model.format, context);
+  resolved.coarse.kept = std::move(parts.kept);
+  resolved.coarse.periodic = std::move(parts.periodic);
+  resolved.coarse.has_inner_parts = run.model.assembly.has_inner_parts();
   require_own_surface(run);
-  run.planes = choose_cuts(run, context);
-  run.coarse = run_coarse_stage(run.resolved, run.figures, run.planes.tree, context);
-  model::apply_names(parts, run.coarse.mesh);
-  const bool is_fine_enough = refine_for_sizes(run, parts, context);
-  join_periodic_sides(run, context);
-  divide_at_rims(run, context);
-  grow_layers(run, context);
-  choose_levels(run, context);
+  if (contains(stages, Stage::cut)) run.planes = run_cut_stage(run, context);
+  run.coarse = run_coarse_stage(resolved, run.figures, run.planes.tree, context);
+  model::apply_names(parts.named, run.coarse.mesh);
+  return !may_want_a_finer_mesh(resolved) || refine_for_sizes(run, parts.named, context);
+}
+
+void choose_levels(const StageList& stages, RunResult& run, RunContext& context)
+{
+  LevelChoice choice = contains(stages, Stage::levels)
+                           ? run_levels_stage(run.resolved, run.coarse.mesh, context)
+                           : uniform_levels(run.resolved, run.coarse.mesh);
+  run.levels = std::move(choice.levels);
+  run.splits = choice.splits;
+}
+
+void run_coarse_stages(const StageList& stages, RunResult& run, RunContext& context)
+{
+  const config::Case& resolved = run.resolved;
+  mesh::CoarseMesh& mesh = run.coarse.mesh;
+  const bool is_fine_enough = make_coarse_mesh(stages, run, context);
+  if (contains(stages, Stage::periodic)) mesh = run_periodic_stage(resolved, mesh, context);
+  if (contains(stages, Stage::split)) mesh = run_rim_stage(resolved, std::move(mesh), context);
+  if (contains(stages, Stage::layers)) take(run_layer_stage(resolved, mesh, context), run);
+  choose_levels(stages, run, context);
   if (!is_fine_enough) run.coarse.missed_size = longest_edge_in_sizes(run, context);
-  split_patches(run, context);  // The last one: sizes and layers know patches by their names.
+  // The last one: sizes and layers know patches by their names.
+  if (contains(stages, Stage::split)) {
+    take(run_split_stage(resolved, {std::move(mesh), run.levels}, context), run);
+  }
+  run.decomposition = run_decompose_stage(run, context);
 }
 
 void tell_what_is_within_tolerance(const RunResult& run, RunContext& context)
@@ -167,6 +201,21 @@ bool asks_for_figures(const config::Case& given, bool has_coarse_mesh)
 
 }  // namespace
 
+StageList coarse_stages(const config::Case& resolved, model::Format format)
+{
+  StageList stages{Stage::model};
+  append_if(names_parts(resolved, format), Stage::names, stages);
+  append_if(resolved.decompose.method == decompose::Method::geometry, Stage::cut, stages);
+  stages.push_back(Stage::coarse);
+  append_if(may_want_a_finer_mesh(resolved), Stage::levels, stages);  // A look at the sizes.
+  append_if(!resolved.periodic.empty(), Stage::periodic, stages);
+  append_if(!resolved.layers.empty(), Stage::layers, stages);
+  append_if(sizing::are_wanted(resolved.size), Stage::levels, stages);
+  append_if(!resolved.splits.are_none(), Stage::split, stages);
+  stages.push_back(Stage::decompose);
+  return stages;
+}
+
 RunResult run_coarse_part(const config::Case& given, const RunOptions& options, RunContext& context)
 {
   RunResult run;
@@ -181,7 +230,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
   if (asks_for_figures(given, kept.has_value())) run.figures = measure_model(given, context);
   // A wrap is that rough.
   run.resolved =
-      resolve_size(given, run.figures, given.geometry.scale * run.model.wrap.tolerance, context);
+      run_size_stage(given, run.figures, given.geometry.scale * run.model.wrap.tolerance, context);
   run.resolved.fill = config::resolved_fill(given, !options.only_subdomains.empty());
   if (kept) {
     run.planes = std::move(kept->planes);
@@ -191,8 +240,7 @@ RunResult run_coarse_part(const config::Case& given, const RunOptions& options, 
     run.splits = kept->splits;
     run.decomposition = std::move(kept->decomposition);
   } else {
-    run_coarse_stages(run, context);
-    run.decomposition = run_decompose_stage(run, context);
+    run_coarse_stages(coarse_stages(run.resolved, run.model.format), run, context);
     keep_coarse_mesh(run, options.state, context);
   }
   tell_what_is_within_tolerance(run, context);

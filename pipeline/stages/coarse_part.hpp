@@ -2,11 +2,15 @@
 #pragma once
 
 #include "tessera/config/case.hpp"
+#include "tessera/model/model.hpp"
 
 #include "pipeline/run_result.hpp"
 #include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
+
+/// @brief The stages from the model to the subdomains that the resolved case asks for. Local.
+[[nodiscard]] StageList coarse_stages(const config::Case& resolved, model::Format format);
 
 /// @brief The first stages, from the model to the subdomains: no fine work. What a stopped run has
 /// kept of them is taken from its folder.

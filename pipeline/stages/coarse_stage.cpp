@@ -229,7 +229,7 @@ CoarseResult run_coarse_stage(const config::Case& run_case,
                               const std::optional<coarse::ModelFigures>& figures,
                               const cut::CutTree& planes, RunContext& context)
 {
-  StageScope stage(context, "coarse");
+  StageScope stage(context, Stage::coarse);
   CoarseResult result =
       CoarseTries(run_case, plans_for(run_case, figures, planes, 0, context), stage, context).run();
   result = on_root_of_nodes(context.comm, [&] {
@@ -248,7 +248,7 @@ CoarseResult run_second_coarse_stage(const config::Case& run_case,
                                      const CoarseResult& before, const cut::CutTree& planes,
                                      RunContext& context)
 {
-  StageScope stage(context, "coarse");
+  StageScope stage(context, Stage::coarse);
   CoarseTries tries(run_case, plans_for(run_case, figures, planes, before.tries, context), stage,
                     context);
   CoarseResult result;

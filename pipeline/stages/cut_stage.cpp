@@ -73,10 +73,9 @@ LocalIndex num_parts_for(const config::Case& resolved, const model::ModelDescrip
   return static_cast<LocalIndex>(std::clamp(num_tets / kAutoPartTets, 1.0, kMostAutoParts));
 }
 
-cut::CutChoice choose_cuts(const RunResult& run, RunContext& context)
+cut::CutChoice run_cut_stage(const RunResult& run, RunContext& context)
 {
-  if (run.resolved.decompose.method == decompose::Method::mesh) return {};
-  StageScope stage(context, "cut");
+  StageScope stage(context, Stage::cut);
   cut::CutChoice choice = comm::on_root(context.comm, [&] {
     require_solids(run);
     return with_file_context(run.resolved, [&] { return choose(run.resolved, context); });

@@ -18,12 +18,11 @@ namespace tessera::pipeline {
 /// @brief What to say if the parts could not be meshed. Local.
 [[nodiscard]] std::optional<std::string> parts_not_meshed(const RunResult& run);
 
-/// @brief The planes that cut the model of a run before it is meshed, chosen on rank 0; without
-/// nodes if its coarse mesh is to be cut.
+/// @brief The planes that cut the model of a run before it is meshed, chosen on rank 0.
 /// @note Collective: the model is described in a job of rank 0.
 /// @throws ConfigError on every rank if the model has no solids that could be cut, or a given plane
 /// meets none.
-[[nodiscard]] cut::CutChoice choose_cuts(const RunResult& run, RunContext& context);
+[[nodiscard]] cut::CutChoice run_cut_stage(const RunResult& run, RunContext& context);
 
 /// @brief Wanted number of parts of a model: as many as subdomains are asked for. With "auto", as
 /// many as the coarse mesh is worth, or, if planes are given, those that they make. Local.

@@ -80,7 +80,7 @@ std::optional<std::string> too_many_subdomains(const config::Case& run_case,
 
 decompose::DecomposeResult run_decompose_stage(const RunResult& run, RunContext& context)
 {
-  StageScope stage(context, "decompose");
+  StageScope stage(context, Stage::decompose);
   if (const auto warning = too_many_subdomains(run.resolved, run.coarse.mesh)) {
     context.log.warn(*warning);
   }

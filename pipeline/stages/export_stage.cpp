@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/stages/export_stage.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -13,13 +12,18 @@
 
 namespace tessera::pipeline {
 
+std::vector<io::Format> other_formats(const io::OutputOptions& options)
+{
+  std::vector<io::Format> others = options.formats;
+  std::erase(others, io::Format::pvtu);
+  return others;
+}
+
 std::vector<formats::PieceCounts> run_export_stage(const config::Case& run_case,
                                                    RunContext& context)
 {
-  std::vector<io::Format> others = run_case.output.formats;
-  std::erase(others, io::Format::pvtu);
-  if (others.empty() && run_case.output.parts == 0) return {};
-  StageScope stage(context, others.empty() ? "neighbours" : "export");
+  const std::vector<io::Format> others = other_formats(run_case.output);
+  StageScope stage(context, others.empty() ? Stage::neighbours : Stage::export_formats);
   const std::filesystem::path index = context.folder / "mesh.pvtu";
   formats::Outline mesh =
       others.empty() ? formats::outline_of(index, context.comm, throw_if_stop_requested)

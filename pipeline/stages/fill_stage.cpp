@@ -201,7 +201,7 @@ FilledPieces run_fill_stage(const config::Case& run_case, const FillWork& work, 
 {
   const auto num_ranges = static_cast<LocalIndex>(work.ranges.size());
   const bool is_one_each = num_ranges == work.cut.num_subdomains();
-  StageScope stage(context, "fill", num_ranges, is_one_each ? "subdomains" : "files");
+  StageScope stage(context, Stage::fill, num_ranges, is_one_each ? "subdomains" : "files");
   Filler filler(run_case.fill, work, context);
   std::vector<double> weights;
   for (const subdomain::SubdomainRange& range : work.ranges) {

@@ -39,11 +39,12 @@ void call(const PieceSink& on_piece, LocalIndex number, subdomain::PieceArrays p
 
 }  // namespace
 
-void run_hand_over_stage(const std::vector<subdomain::SubdomainRange>& files,
-                         const subdomain::WriteContext& mesh, const PieceSink& on_piece,
-                         FilledPieces& filled, RunContext& context)
+std::vector<Hash128> run_hand_over_stage(const std::vector<subdomain::SubdomainRange>& files,
+                                         const subdomain::WriteContext& mesh,
+                                         const PieceSink& on_piece, const FilledPieces& filled,
+                                         RunContext& context)
 {
-  StageScope stage(context, "hand over", static_cast<std::int64_t>(files.size()), "pieces");
+  StageScope stage(context, Stage::hand_over, static_cast<std::int64_t>(files.size()), "pieces");
   const PieceStore store = store_of(filled, context.folder);
   std::vector<Hash128> digests(filled.pieces.size());
   const io::OutputOptions plain;
@@ -60,8 +61,8 @@ void run_hand_over_stage(const std::vector<subdomain::SubdomainRange>& files,
   };
   for_each_dynamic(in_order(files.size()), hand_over, stage, context);
   context.comm.sum_in_place(digests);
-  for (std::size_t s = 0; s < digests.size(); ++s) filled.pieces[s].digest = digests[s];
   stage.finish(fmt::format("{} pieces", files.size()));
+  return digests;
 }
 
 }  // namespace tessera::pipeline

@@ -16,11 +16,12 @@ namespace tessera::pipeline {
 using PieceSink = std::function<void(LocalIndex number, subdomain::PieceArrays piece)>;
 
 /// @brief In place of the write stage: hands every piece of the store to `on_piece` of the rank
-/// that takes it, and puts the digests into the summaries.
+/// that takes it.
+/// @return Digests of the pieces, as `filled` has these.
 /// @note Collective; which rank gets which piece is not determined.
 /// @throws OutputError on every rank if `on_piece` throws anything on any.
-void run_hand_over_stage(const std::vector<subdomain::SubdomainRange>& files,
-                         const subdomain::WriteContext& mesh, const PieceSink& on_piece,
-                         FilledPieces& filled, RunContext& context);
+[[nodiscard]] std::vector<Hash128> run_hand_over_stage(
+    const std::vector<subdomain::SubdomainRange>& files, const subdomain::WriteContext& mesh,
+    const PieceSink& on_piece, const FilledPieces& filled, RunContext& context);
 
 }  // namespace tessera::pipeline

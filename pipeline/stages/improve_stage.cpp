@@ -17,6 +17,7 @@
 #include "tessera/subdomain/core_figures.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
+#include "pipeline/estimate/run_outline.hpp"
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
@@ -309,6 +310,14 @@ class SeamImprover {
 
 }  // namespace
 
+bool have_seams_to_improve(const subdomain::PartitionedMesh& cut,
+                           const std::vector<fill::KernelKind>& kernels)
+{
+  if (are_counts_known(kernels)) return false;
+  const improve::SeamRegions regions(cut.skeleton, cut.decomposition);
+  return total_size(wanted_regions(regions, kernels)) > 0;
+}
+
 FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::PartitionedMesh& cut,
                                const std::vector<fill::KernelKind>& kernels, FilledPieces filled,
                                RunContext& context)
@@ -317,10 +326,9 @@ FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::Pa
       std::make_shared<const improve::SeamRegions>(cut.skeleton, cut.decomposition);
   SeamWork work{.regions = *regions, .wanted = wanted_regions(*regions, kernels)};
   const std::int64_t num_regions = total_size(work.wanted);
-  if (num_regions == 0) return filled;
   work.pieces = pieces_of_phases(*regions, work.wanted);
   const std::int64_t num_steps = num_regions + total_size(work.pieces) + std::ssize(filled.pieces);
-  StageScope stage(context, "improve", num_steps, "regions and pieces");
+  StageScope stage(context, Stage::improve, num_steps, "regions and pieces");
   all_or_none(context.comm, [&] {
     if (context.comm.rank() != 0) return;
     const fs::path folder = store_folder(context.folder);

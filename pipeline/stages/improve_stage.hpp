@@ -11,6 +11,12 @@
 
 namespace tessera::pipeline {
 
+/// @brief Whether two subdomains of a material meet that are not subdivided. Local; O(n log n) in
+/// the skeleton's triangles.
+/// @param[in] kernels By subdomain, as the case wants them.
+[[nodiscard]] bool have_seams_to_improve(const subdomain::PartitionedMesh& cut,
+                                         const std::vector<fill::KernelKind>& kernels);
+
 /// @brief Optimises the tets around the seams, in jobs, across the seams. Phase by phase: first
 /// around the faces between two subdomains, then around the curves where several meet, then around
 /// the ends of the curves.
@@ -19,8 +25,8 @@ namespace tessera::pipeline {
 /// as they are. A region whose job fails, or finds nothing better, keeps its tets.
 ///
 /// Pieces are read from the store, never changed there: the updates of the regions are kept beside
-/// them. Records of a run that was stopped are taken up again. Does nothing if no two subdomains of
-/// a material meet that are not subdivided.
+/// them. Records of a run that was stopped are taken up again.
+/// @pre have_seams_to_improve()
 /// @param[in] kernels By subdomain, as the case wants them: what is subdivided stays as it is.
 /// @param[in] filled As the fill stage returned it; all pieces are in the store.
 /// @return `filled` with the figures of the improved pieces, and the way to these pieces.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -88,29 +87,36 @@ int splits_of(const config::Case& resolved, const mesh::CoarseMesh& coarse,
   return splits;
 }
 
+LevelChoice split_choice(const config::Case& resolved, const mesh::CoarseMesh& coarse,
+                         const mesh::EdgeLevels& wanted)
+{
+  const int splits =
+      with_file_context(resolved, [&] { return splits_of(resolved, coarse, wanted); });
+  return {.levels = wanted.raised(splits), .splits = splits};
+}
+
 }  // namespace
 
-void choose_levels(RunResult& run, RunContext& context)
+LevelChoice uniform_levels(const config::Case& resolved, const mesh::CoarseMesh& coarse)
 {
-  std::optional<StageScope> stage;
-  if (sizing::are_wanted(run.resolved.size)) stage.emplace(context, "levels");
-  const mesh::CoarseMesh& coarse = run.coarse.mesh;
+  return split_choice(resolved, coarse, refine::levels_of(resolved.refine, false));
+}
+
+LevelChoice run_levels_stage(const config::Case& resolved, const mesh::CoarseMesh& coarse,
+                             RunContext& context)
+{
+  StageScope stage(context, Stage::levels);
   const mesh::EdgeLevels wanted = comm::on_root(context.comm, [&] {
-    return with_file_context(run.resolved, [&]() -> mesh::EdgeLevels {
-      if (!sizing::are_wanted(run.resolved.size)) {
-        return refine::levels_of(run.resolved.refine, false);
-      }
-      return wanted_levels(run.resolved, coarse,
-                           subdomain::read_size_field(run.resolved.size, coarse));
+    return with_file_context(resolved, [&] {
+      return wanted_levels(resolved, coarse, subdomain::read_size_field(resolved.size, coarse));
     });
   });
-  run.splits =
-      with_file_context(run.resolved, [&] { return splits_of(run.resolved, coarse, wanted); });
-  run.levels = wanted.raised(run.splits);
-  if (!stage) return;
-  stage->work_is_done();
-  stage->finish(run.levels.is_uniform() ? fmt::format("{} for all edges", run.levels.largest())
-                                        : fmt::format("up to {}", run.levels.largest()));
+  LevelChoice choice = split_choice(resolved, coarse, wanted);
+  const mesh::EdgeLevels& levels = choice.levels;
+  stage.work_is_done();
+  stage.finish(levels.is_uniform() ? fmt::format("{} for all edges", levels.largest())
+                                   : fmt::format("up to {}", levels.largest()));
+  return choice;
 }
 
 sizing::PartInSizes longest_edge_in_sizes(const RunResult& run, RunContext& context)
@@ -125,13 +131,15 @@ sizing::PartInSizes longest_edge_in_sizes(const RunResult& run, RunContext& cont
   });
 }
 
+bool may_want_a_finer_mesh(const config::Case& resolved)
+{
+  return sizing::is_graded(resolved.size) && !model::is_mesh_name(resolved.geometry.file)
+         && resolved.coarse.mesher != surface::Mesher::gmsh;
+}
+
 mesh::SizePoints sizes_for_a_finer_mesh(const RunResult& run, RunContext& context)
 {
-  if (!sizing::is_graded(run.resolved.size)) return {};
-  // A mesh is as it is, and Gmsh takes no sizes at points.
-  if (model::is_mesh_name(run.resolved.geometry.file)) return {};
-  if (run.resolved.coarse.mesher == surface::Mesher::gmsh) return {};
-  StageScope stage(context, "levels");
+  StageScope stage(context, Stage::levels);
   mesh::SizePoints points = comm::on_root(context.comm, [&] {
     return with_file_context(
         run.resolved, [&] { return points_of_smaller_sizes(run.resolved, run.coarse.mesh); });

@@ -96,7 +96,7 @@ void throw_unless_read(const jobs::JobOutcome& outcome, const std::filesystem::p
 
 model::ModelSource run_model_stage(const config::Case& run_case, RunContext& context)
 {
-  StageScope stage(context, "model");
+  StageScope stage(context, Stage::model);
   const std::filesystem::path& file = run_case.geometry.file;
   model::ModelSource source = on_root(context.comm, [&] {
     const auto run_import = [&](const std::string& name, const Bytes& request) {

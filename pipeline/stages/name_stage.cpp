@@ -170,7 +170,7 @@ std::vector<surface::PeriodicPatches> periodic_patches(const model::ModelDescrip
       return faces;
     };
     surface::PeriodicPatches patches{.from = faces_of(side.from), .to = faces_of(side.to)};
-    if (patches.from.empty() || patches.to.empty()) continue;  // join_periodic_sides() will say so.
+    if (patches.from.empty() || patches.to.empty()) continue;  // run_periodic_stage() will say so.
     patches.there = transform_of(
         side, given.geometry.scale
                   * (centroid_of(described, patches.to) - centroid_of(described, patches.from)));
@@ -178,6 +178,13 @@ std::vector<surface::PeriodicPatches> periodic_patches(const model::ModelDescrip
   }
   return all;
 }
+
+bool has_sides(const config::Case& given, model::Format format)
+{
+  return !given.periodic.empty() && format != model::Format::own;
+}
+
+bool has_embedded(const config::Case& given) { return !given.geometry.assembly.embedded.empty(); }
 
 }  // namespace
 
@@ -199,15 +206,18 @@ model::ModelDescription describe_model(const config::Case& given, RunContext& co
   return description_of(run_describe("describe", request, context), given);
 }
 
-PartsOfCase find_parts_of_case(const config::Case& given, model::Format format, RunContext& context)
+bool names_parts(const config::Case& given, model::Format format)
 {
   const Patterns patterns = patterns_of(given);
   const bool keeps_parts =
       given.coarse.defeature > 0.0 && !(patterns.patches.empty() && patterns.curves.empty());
-  const bool has_sides = !given.periodic.empty() && format != model::Format::own;
-  const bool has_embedded = !given.geometry.assembly.embedded.empty();
-  if (given.geometry.names.empty() && !keeps_parts && !has_sides && !has_embedded) return {};
-  StageScope stage(context, "names");
+  return !given.geometry.names.empty() || keeps_parts || has_sides(given, format)
+         || has_embedded(given);
+}
+
+PartsOfCase run_name_stage(const config::Case& given, model::Format format, RunContext& context)
+{
+  StageScope stage(context, Stage::names);
   PartsOfCase parts = comm::on_root(context.comm, [&] {
     return with_file_context(given, [&] {
       const auto run = [&](const std::string& name, const Bytes& request) {
@@ -217,9 +227,10 @@ PartsOfCase find_parts_of_case(const config::Case& given, model::Format format, 
           description_of(describe_in_jobs(format, run), given);
       PartsOfCase found{
           model::find_named_parts(described, given.geometry.names, given.geometry.scale)};
-      if (has_embedded) name_pieces(described, given, found.named);
-      found.kept = kept_parts(described, found.named, patterns);
-      if (has_sides) found.periodic = periodic_patches(described, found.named, given);
+      if (has_embedded(given)) name_pieces(described, given, found.named);
+      found.kept = kept_parts(described, found.named, patterns_of(given));
+      if (has_sides(given, format))
+        found.periodic = periodic_patches(described, found.named, given);
       return found;
     });
   });

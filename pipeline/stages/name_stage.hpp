@@ -42,12 +42,15 @@ struct PartsOfCase {
   static auto fields(auto& self) { return std::tie(self.named, self.kept, self.periodic); }
 };
 
-/// @brief Which faces, solids and curves of the model the case names; asks nothing of the model if
-/// the case gives no names, names nothing that could be merged, and has no periodic sides.
+/// @brief Whether the case gives names, names what could be merged, or has sides or embedded faces
+/// that are found by their names: then the model is to be asked. Local.
+[[nodiscard]] bool names_parts(const config::Case& given, model::Format format);
+
+/// @brief Which faces, solids and curves of the model the case names.
 /// @note Collective: the model is described in a job of rank 0.
 /// @throws ConfigError on every rank if a name of [[geometry.name]] fits nothing, or two fit the
 /// same.
-[[nodiscard]] PartsOfCase find_parts_of_case(const config::Case& given, model::Format format,
-                                             RunContext& context);
+[[nodiscard]] PartsOfCase run_name_stage(const config::Case& given, model::Format format,
+                                         RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -8,9 +8,10 @@
 #include "pipeline/store/improved_pieces.hpp"
 
 namespace tessera::pipeline {
+namespace {
 
-number::IdLayout number_mesh(const RunResult& run, const subdomain::PartitionedMesh& cut,
-                             const RunOutline& outline)
+number::IdLayout ids_of(const RunResult& run, const subdomain::PartitionedMesh& cut,
+                        const RunOutline& outline)
 {
   if (run.filled.improvement.pieces || run.filled.are_refined) {
     return number::IdLayout::by_owner(subdomain::counts_of(run.filled.pieces));
@@ -33,6 +34,29 @@ std::function<std::vector<subdomain::VertexPlace>(const mesh::Piece&)> places_of
   return [pieces = run.filled.improvement.pieces](const mesh::Piece& piece) {
     return pieces->places_of(piece);
   };
+}
+
+}  // namespace
+
+NumberedMesh run_number_stage(const RunResult& run, const subdomain::PartitionedMesh& cut,
+                              const RunOutline& outline)
+{
+  return {.ids = ids_of(run, cut, outline),
+          .places_of = places_of_vertices(run, cut),
+          .layers = subdomain::layer_tables(cut.coarse, cut.skeleton,
+                                            mesh::lattice_levels(cut.skeleton, cut.levels))};
+}
+
+subdomain::WriteContext write_context(const NumberedMesh& numbered,
+                                      const subdomain::PartitionedMesh& cut,
+                                      const std::string& length_unit)
+{
+  return {.coarse = cut.coarse,
+          .skeleton = cut.skeleton,
+          .ids = numbered.ids,
+          .length_unit = length_unit,
+          .places_of = numbered.places_of,
+          .layers = numbered.layers ? &*numbered.layers : nullptr};
 }
 
 }  // namespace tessera::pipeline

@@ -17,8 +17,7 @@ namespace tessera::pipeline {
 void run_partner_stage(const RunResult& run, const std::vector<subdomain::SubdomainRange>& files,
                        RunContext& context)
 {
-  if (run.resolved.periodic.empty()) return;
-  StageScope stage(context, "partners");
+  StageScope stage(context, Stage::partners);
   std::vector<std::filesystem::path> boundary = boundary_files(files, run.filled.pieces);
   for (std::filesystem::path& file : boundary) file = context.folder / file;
   const GlobalIndex num_missing = subdomain::add_periodic_partners(

@@ -10,8 +10,7 @@
 
 namespace tessera::pipeline {
 
-/// @brief Tells points of periodic sides in the boundary files whose images they are; does nothing
-/// if the case has no such sides.
+/// @brief Tells points of periodic sides in the boundary files whose images they are.
 /// @note Collective. @throws MeshError on every rank if a point of an image matches none; else as
 /// subdomain::add_periodic_partners().
 void run_partner_stage(const RunResult& run, const std::vector<subdomain::SubdomainRange>& files,

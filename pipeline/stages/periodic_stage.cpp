@@ -13,22 +13,23 @@
 
 namespace tessera::pipeline {
 
-void join_periodic_sides(RunResult& run, RunContext& context)
+mesh::CoarseMesh run_periodic_stage(const config::Case& run_case, const mesh::CoarseMesh& coarse,
+                                    RunContext& context)
 {
-  if (run.resolved.periodic.empty()) return;
-  StageScope stage(context, "periodic");
-  run.coarse.mesh = comm::on_root_of_nodes(context.comm, [&] {
-    return with_file_context(run.resolved, [&] {
-      mesh::CoarseMesh joined = run.coarse.mesh;
-      topology::join_periodic_sides(joined, run.resolved.periodic);
+  StageScope stage(context, Stage::periodic);
+  mesh::CoarseMesh made = comm::on_root_of_nodes(context.comm, [&] {
+    return with_file_context(run_case, [&] {
+      mesh::CoarseMesh joined = coarse;
+      topology::join_periodic_sides(joined, run_case.periodic);
       return joined;
     });
   });
-  const auto& origins = run.coarse.mesh.images.face_origin;
+  const auto& origins = made.images.face_origin;
   const auto num_images =
       std::ssize(origins) - std::ranges::count(std::as_const(origins), kNoIndex);
   stage.work_is_done();
   stage.finish(fmt::format("{} coarse triangles are images", num_images));
+  return made;
 }
 
 }  // namespace tessera::pipeline

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pipeline/run_result.hpp"
+#include "tessera/config/case.hpp"
+#include "tessera/mesh/coarse_mesh.hpp"
+
 #include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
 
-/// @brief Makes the sides of `[[periodic]]` images of each other; does nothing if the case has
-/// none. Sets `run.coarse.mesh`.
+/// @brief The coarse mesh with the sides of `[[periodic]]` as images of each other.
 /// @note Collective. @throws on every rank as topology::join_periodic_sides().
-void join_periodic_sides(RunResult& run, RunContext& context);
+[[nodiscard]] mesh::CoarseMesh run_periodic_stage(const config::Case& run_case,
+                                                  const mesh::CoarseMesh& coarse,
+                                                  RunContext& context);
 
 }  // namespace tessera::pipeline

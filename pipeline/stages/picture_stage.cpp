@@ -141,10 +141,10 @@ void put_together(Canvas& canvas, const comm::Communicator& comm)
 Drawings run_picture_stage(const RunResult& run, const subdomain::PartitionedMesh& cut,
                            const std::vector<subdomain::SubdomainRange>& files, RunContext& context)
 {
-  if (!run.resolved.output.report_html) return {};
   MeshScene scene(cut.coarse.vertex_xyz);
   const DrawingPlan plan = plan_drawing(run, cut, scene, files);
-  StageScope stage(context, "pictures", static_cast<std::int64_t>(num_lots(plan)), "lots of files");
+  StageScope stage(context, Stage::pictures, static_cast<std::int64_t>(num_lots(plan)),
+                   "lots of files");
   if (context.comm.rank() == 0) draw_coarse(run, cut, plan, scene);
   Drawings drawings{.surface = draw_files(plan, scene, stage, context)};
   for (Canvas* const canvas : scene.canvases()) put_together(*canvas, context.comm);

@@ -11,8 +11,8 @@
 
 namespace tessera::pipeline {
 
-/// @brief Draws the pictures of the report and gathers the surface that its page lets people turn;
-/// nothing if the case wants no report. They are the same for any number of ranks.
+/// @brief Draws the pictures of the report and gathers the surface that its page lets people turn.
+/// They are the same for any number of ranks.
 ///
 /// Files that the run has written are read back one at a time, as long as they are few enough: what
 /// the pictures cost is bounded, whatever the size of the mesh. Else coarse triangles and tets

@@ -220,12 +220,14 @@ void require_counted(const std::vector<subdomain::PieceSummary>& pieces,
 
 }  // namespace
 
-FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& work,
-                              mesh::ProjectionLimiter& limiter, FilledPieces filled,
-                              RunContext& context)
+LimitedPieces run_refine_stage(const config::Case& run_case, const RefineWork& work,
+                               LimitedPieces before, RunContext& context)
 {
+  FilledPieces& filled = before.filled;
+  mesh::ProjectionLimiter& limiter = before.limiter;
   const auto num_steps = 2 * std::ssize(filled.pieces) + std::ssize(work.ranges);
-  StageScope stage(context, work.split.is_curved ? "curve" : "refine", num_steps, "pieces");
+  StageScope stage(context, work.split.is_curved ? Stage::curve : Stage::refine, num_steps,
+                   "pieces");
   StageWork stage_work(run_case, work, filled, context, stage);
   const std::vector<number::PieceCounts> counts = stage_work.count_pieces();
   load_refinement({.split = work.split,
@@ -247,7 +249,7 @@ FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& wo
   all.improvement = filled.improvement;
   all.are_refined = true;
   stage.finish(fmt::format("{} tets", all.num_tets()));
-  return all;
+  return {std::move(all), std::move(limiter)};
 }
 
 }  // namespace tessera::pipeline

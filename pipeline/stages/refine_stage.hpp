@@ -6,7 +6,6 @@
 
 #include "tessera/config/case.hpp"
 #include "tessera/fill/options.hpp"
-#include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/piece_file.hpp"
 #include "tessera/subdomain/refine_piece.hpp"
@@ -31,12 +30,10 @@ struct RefineWork {
 /// tets nodes of second order: jobs of all ranks, which write the files themselves. Where tets fold
 /// although they were smoothed, or are not certainly valid when they are curved, points are held
 /// back from the geometry, and the pieces around them are made again.
-/// @param[in,out] limiter The plan that the pieces were filled under; gets the new limits.
-/// @return The figures of the pieces as they are now.
+/// @return The figures of the pieces as they are now, and the limits with the new ones.
 /// @note Collective.
 /// @throws MeshError on every rank if a piece cannot be split; OutputError; Interrupted.
-[[nodiscard]] FilledPieces run_refine_stage(const config::Case& run_case, const RefineWork& work,
-                                            mesh::ProjectionLimiter& limiter, FilledPieces filled,
-                                            RunContext& context);
+[[nodiscard]] LimitedPieces run_refine_stage(const config::Case& run_case, const RefineWork& work,
+                                             LimitedPieces before, RunContext& context);
 
 }  // namespace tessera::pipeline

@@ -84,9 +84,9 @@ std::optional<coarse::ModelFigures> measure_model(const config::Case& given, Run
   return on_root(context.comm, [&] { return ask_for_figures(context); });
 }
 
-config::Case resolve_size(const config::Case& given,
-                          const std::optional<coarse::ModelFigures>& figures, double noise,
-                          RunContext& context)
+config::Case run_size_stage(const config::Case& given,
+                            const std::optional<coarse::ModelFigures>& figures, double noise,
+                            RunContext& context)
 {
   if (model::is_mesh_name(given.geometry.file)) return given;
   config::Case resolved = given;

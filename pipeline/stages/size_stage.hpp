@@ -27,9 +27,9 @@ namespace tessera::pipeline {
 /// @param[in] noise What is smaller in the model is merged unless the case has a size.min; output
 /// length unit.
 /// @note Collective: asks the model, which is loaded in the workers, for its box.
-[[nodiscard]] config::Case resolve_size(const config::Case& given,
-                                        const std::optional<coarse::ModelFigures>& figures,
-                                        double noise, RunContext& context);
+[[nodiscard]] config::Case run_size_stage(const config::Case& given,
+                                          const std::optional<coarse::ModelFigures>& figures,
+                                          double noise, RunContext& context);
 
 /// @brief Number of regular tets of that edge in that volume.
 [[nodiscard]] double estimated_tets(double volume, double target);

@@ -54,11 +54,11 @@ Plan plan_for_folded(const Plan& before, const FilledPieces& filled,
 }  // namespace
 
 // A round either changes a kernel to subdivision, or lowers a limit, or is the last: so it ends.
-UntangledFill untangle_and_fill(const config::Case& run_case, const UntangleAndFillWork& work,
+LimitedPieces untangle_and_fill(const config::Case& run_case, const UntangleAndFillWork& work,
                                 RunContext& context)
 {
   Plan plan = first_plan(work, context);
-  UntangledFill result;
+  LimitedPieces result;
   for (;;) {
     all_or_none(context.comm, [&] {
       if (work.state != nullptr && context.comm.rank() == 0) work.state->keep_plan(plan);

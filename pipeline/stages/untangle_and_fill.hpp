@@ -5,7 +5,6 @@
 
 #include "tessera/config/case.hpp"
 #include "tessera/fill/options.hpp"
-#include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/subdomain/partitioned_mesh.hpp"
 #include "tessera/subdomain/piece_file.hpp"
 
@@ -23,18 +22,12 @@ struct UntangleAndFillWork {
   const RunState* state = nullptr;  ///< Keeps the plan for a resumed run; nullptr: nothing does.
 };
 
-/// @brief The pieces, and the limits under which they were made; the same on every rank.
-struct UntangledFill {
-  FilledPieces filled{};
-  mesh::ProjectionLimiter limiter{};
-};
-
 /// @brief Plans and fills. Where even subdivision finds inverted tets, plans anew for it and fills
 /// what that touches, until nothing is folded.
 /// @note Collective; the mesh is loaded in the workers.
 /// @throws MeshError on every rank if nothing is left to hold back, because coarse tets themselves
 /// are flat; what run_untangle_stage() and run_fill_stage() throw.
-[[nodiscard]] UntangledFill untangle_and_fill(const config::Case& run_case,
+[[nodiscard]] LimitedPieces untangle_and_fill(const config::Case& run_case,
                                               const UntangleAndFillWork& work, RunContext& context);
 
 /// @brief The plan after a round that left subdomains folded: these will be subdivided. It keeps

@@ -114,7 +114,7 @@ std::vector<LocalIndex> subdomains_around(const std::vector<mesh::PointLimit>& p
 mesh::ProjectionLimiter run_untangle_stage(const UntangleWork& work,
                                            mesh::ProjectionLimiter limiter, RunContext& context)
 {
-  StageScope stage(context, "plan");
+  StageScope stage(context, Stage::plan);
   std::vector<LocalIndex> subdomains = work.subdomains;
   while (!subdomains.empty()) {
     const auto found = mesh::on_whole_orbits(

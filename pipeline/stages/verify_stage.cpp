@@ -13,7 +13,7 @@ void run_verify_stage(const subdomain::PartitionedMesh& cut,
                       const std::vector<subdomain::SubdomainRange>& ranges,
                       const FilledPieces& filled, RunContext& context)
 {
-  StageScope stage(context, "verify");
+  StageScope stage(context, Stage::verify);
   subdomain::PieceFacts facts{filled.pieces, filled.seam_sums};
   const bool is_exchanged = filled.improvement.pieces != nullptr;
   facts.have_surfaces = is_exchanged || filled.are_refined;

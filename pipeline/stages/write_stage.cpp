@@ -98,12 +98,13 @@ std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,
   return std::move(gathered.digests);
 }
 
-void run_write_stage(const config::Case& run_case,
-                     const std::vector<subdomain::SubdomainRange>& files,
-                     const subdomain::WriteContext& mesh, FilledPieces& filled, RunContext& context)
+std::vector<Hash128> run_write_stage(const config::Case& run_case,
+                                     const std::vector<subdomain::SubdomainRange>& files,
+                                     const subdomain::WriteContext& mesh,
+                                     const FilledPieces& filled, RunContext& context)
 {
   const auto num_files = static_cast<LocalIndex>(files.size());
-  StageScope stage(context, "write", num_files, "files");
+  StageScope stage(context, Stage::write, num_files, "files");
   const PieceStore pieces = store_of(filled, context.folder);
   std::vector<Hash128> digests(filled.pieces.size());
   for_each_dynamic(in_order(files.size()), in_thread([&](LocalIndex file) {
@@ -113,8 +114,8 @@ void run_write_stage(const config::Case& run_case,
                    }),
                    stage, context);
   context.comm.sum_in_place(digests);
-  for (std::size_t s = 0; s < digests.size(); ++s) filled.pieces[s].digest = digests[s];
   stage.finish(fmt::format("{} files", num_files));
+  return digests;
 }
 
 void write_indices(const RunResult& run, const std::vector<subdomain::SubdomainRange>& files,

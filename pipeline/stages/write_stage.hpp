@@ -36,14 +36,14 @@ std::vector<Hash128> write_file(const subdomain::SubdomainRange& range,
                                 const io::OutputOptions& options,
                                 const subdomain::WriteContext& mesh, const PieceStore& pieces);
 
-/// @brief Turns the pieces of the store into files, and puts their digests into the summaries.
-/// Each range gets mesh/piece_NNNNNN.vtu and boundary/piece_NNNNNN.vtu.
+/// @brief Turns the pieces of the store into files. Each range gets mesh/piece_NNNNNN.vtu and
+/// boundary/piece_NNNNNN.vtu.
+/// @return Digests of the pieces, as `filled` has these.
 /// @note Collective.
 /// @throws OutputError on every rank (disk full, permission).
-void run_write_stage(const config::Case& run_case,
-                     const std::vector<subdomain::SubdomainRange>& files,
-                     const subdomain::WriteContext& mesh, FilledPieces& filled,
-                     RunContext& context);
+[[nodiscard]] std::vector<Hash128> run_write_stage(
+    const config::Case& run_case, const std::vector<subdomain::SubdomainRange>& files,
+    const subdomain::WriteContext& mesh, const FilledPieces& filled, RunContext& context);
 
 /// @brief The files that have boundary triangles, relative to the output folder. Local.
 [[nodiscard]] std::vector<std::filesystem::path> boundary_files(

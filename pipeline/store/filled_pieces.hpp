@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tessera/comm/communicator.hpp"
+#include "tessera/mesh/projection_limiter.hpp"
 #include "tessera/subdomain/piece_summary.hpp"
 
 namespace tessera::pipeline {
@@ -48,6 +49,12 @@ struct FilledPieces {
 
   /// @brief Adds one piece of this rank's. @pre seam_sums has its shape.
   void add(const subdomain::FillResult& result);
+};
+
+/// @brief The pieces, and the limits under which they were made; the same on every rank.
+struct LimitedPieces {
+  FilledPieces filled{};
+  mesh::ProjectionLimiter limiter{};
 };
 
 /// @brief Puts what the ranks have together; integers and sums modulo 2^64 only, so the result does

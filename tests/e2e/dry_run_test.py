@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """`tessera mesh --dry-run`: what it predicts becomes true, and it is in no run's way."""
 import json
+import pathlib
+import re
 import shutil
 import signal
+import sys
 import unittest
 
-import program
-from program import CANNOT_WRITE, OK, STOPPED, WRONG_INPUT
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+import program  # noqa: E402
+from periodic_models import PACKING, packing_case  # noqa: E402
+from program import CANNOT_WRITE, OK, STOPPED, WRONG_INPUT, sets  # noqa: E402
 
 SUBDIVIDE = ("--set", "fill.kernel=subdivide")
 
@@ -118,6 +123,64 @@ class Prediction(DryRunTest):
         for key, arguments in (("decompose.subdomains", ()), ("output.files", ("--set", "output.files=2"))):
             outcome = self.run_program("mesh", case, "--output", "real", "--overwrite", *SUBDIVIDE, *arguments)
             self.assert_refused(outcome, WRONG_INPUT, f"{key}: file 0 of", "choose more")
+
+
+class Plan(DryRunTest):
+    """A run plans its stages once, before it fills. It has those stages and no others, and a dry run names the same."""
+
+    def stages_of(self, case, *arguments):
+        """Of the report of a run; its log has the plan."""
+        out = self.mesh(case, "out", *arguments, "--overwrite")
+        done = [stage["name"] for stage in json.loads((out / "report.json").read_text())["stages"]]
+        planned = re.findall(r" stages: (.*)", (out / "log/run.log").read_text())
+        self.assertEqual(planned[-1:], [", ".join(done)])
+        return done
+
+    def assert_plans(self, case, after_decompose, *arguments):
+        predicted, said = self.dry_run(case, "out", *arguments)
+        done = self.stages_of(case, *arguments)
+        self.assertEqual(predicted["plan"], done)
+        self.assertRegex(said, rf"(?m)^  stages +{', '.join(done)}$")
+        self.assertEqual(done[done.index("decompose") + 1 :], after_decompose)
+        return done
+
+    def test_of_one_pass_and_of_seams_that_are_improved(self):
+        case = self.write_case(page=True)
+        self.assert_plans(case, ["plan", "fill", "improve", "verify", "write", "pictures"])
+        self.assert_plans(case, ["plan", "fill", "verify", "pictures"], *SUBDIVIDE)
+
+    def test_without_seams(self):
+        self.assert_plans(self.write_case(subdomains=1), ["plan", "fill", "verify", "write"])
+
+    def test_of_pieces_that_are_split(self):
+        self.assert_plans(
+            self.write_case(levels=2),
+            ["plan", "fill", "improve", "verify", "refine", "verify"],
+            *sets("fill.kernel=optimize", "fill.levels=1"),
+        )
+
+    def test_of_second_order_for_which_there_is_no_dry_run(self):
+        done = self.stages_of(self.write_case(), *SUBDIVIDE, *sets("output.order=2"))
+        self.assertEqual(done[-5:], ["plan", "fill", "verify", "curve", "verify"])
+
+    def test_of_parts_and_formats(self):
+        case = self.write_case()
+        self.assert_plans(case, ["plan", "fill", "verify", "neighbours"], *SUBDIVIDE, *sets("output.parts=2"))
+        self.assert_plans(
+            case, ["plan", "fill", "verify", "export"], *SUBDIVIDE, *sets('output.formats=["pvtu", "msh"]')
+        )
+
+    def test_of_sides_that_are_periodic(self):
+        self.write("model.geo", PACKING)
+        case = self.write("case.toml", packing_case())
+        done = self.assert_plans(case, ["plan", "fill", "verify", "partners"], *SUBDIVIDE)
+        self.assertEqual(done[: done.index("decompose")], ["model", "names", "coarse", "periodic"])
+
+    def test_of_sizes(self):
+        case = self.write_case()
+        case.write_text(case.read_text().replace("coarse.max_size = 0.7", "size.target = 0.3"))
+        done = self.assert_plans(case, ["plan", "fill", "verify"], *SUBDIVIDE)
+        self.assertEqual(done[: done.index("decompose")], ["model", "coarse", "levels"])
 
 
 class Folder(DryRunTest):

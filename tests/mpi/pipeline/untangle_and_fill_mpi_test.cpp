@@ -73,7 +73,7 @@ struct UntangleAndFill : ::testing::Test {
   }
 
   // The mesh is loaded as it is now.
-  UntangledFill run(KernelKind kernel, const RunState* state = nullptr)
+  LimitedPieces run(KernelKind kernel, const RunState* state = nullptr)
   {
     const subdomain::PartitionedMesh mesh(coarse.mesh, cut.decomposition, cube.refine.levels);
     const std::vector<KernelKind> kernels(at(mesh.num_subdomains()), kernel);
@@ -98,7 +98,7 @@ struct UntangleAndFill : ::testing::Test {
 
 TEST_F(UntangleAndFill, FillsEverySubdomainInOneRoundIfNothingIsFolded)
 {
-  const UntangledFill made = run(KernelKind::netgen);
+  const LimitedPieces made = run(KernelKind::netgen);
   EXPECT_EQ(made.filled.pieces.size(), at(cut.decomposition.num_subdomains()));
   EXPECT_TRUE(made.filled.folded.empty());
   EXPECT_TRUE(made.limiter.entries().empty());
@@ -127,7 +127,7 @@ TEST_F(UntangleAndFill, GoesOnWithThePlanThatAStoppedRunHasLeft)
       .limited = {1},
       .failures = {{1, {"out of memory"}}}};
   if (comm.rank() == 0) state.keep_plan(left);
-  const UntangledFill made = run(KernelKind::netgen, &state);
+  const LimitedPieces made = run(KernelKind::netgen, &state);
   for (const subdomain::PieceSummary& piece : made.filled.pieces) {
     EXPECT_EQ(piece.kernel, KernelKind::subdivide);
     EXPECT_EQ(piece.was_limited, piece.subdomain == 1);

@@ -6,7 +6,7 @@
 
 #include "tessera/base/error.hpp"
 
-#include "pipeline/estimate/output_plan.hpp"
+#include "pipeline/run_plan.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace tessera::pipeline {

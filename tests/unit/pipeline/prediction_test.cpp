@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pipeline/predict/prediction.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -223,10 +224,11 @@ TEST(Corrected, LeavesWhatIsKnownExactly)
 struct OutlineOfACube : ::testing::Test {
   const mesh::CoarseMesh cube = testing::two_material_cube(4);
   const mesh::Decomposition decomposition = testing::slabs(cube, 2);
-  [[nodiscard]] RunOutline outline(const std::vector<KernelKind>& kernels, int levels) const
+  [[nodiscard]] RunOutline outline(const std::vector<KernelKind>& kernels, int levels,
+                                   const PieceChoices& choices = {}) const
   {
     const subdomain::PartitionedMesh cut(cube, decomposition, levels);
-    return outline_run(cut, kernels, 0, subdomain::file_ranges(cut.num_subdomains(), 0), true);
+    return outline_run(cut, kernels, subdomain::file_ranges(cut.num_subdomains(), 0), choices);
   }
 };
 
@@ -242,6 +244,28 @@ TEST_F(OutlineOfACube, OfSubdivisionIsExact)
   }
   EXPECT_EQ(tets, 6 * 64 * 64);
   EXPECT_EQ(vertices, 17 * 17 * 17);
+}
+
+TEST_F(OutlineOfACube, PiecesThatWaitInTheStoreAreMadeOneByOne)
+{
+  const std::vector<KernelKind> all(4, KernelKind::subdivide);
+  for (const PieceChoices& choices :
+       {PieceChoices{.divides_corners = true}, PieceChoices{.has_files = false},
+        PieceChoices{.is_curved = true}}) {
+    const RunOutline outline = this->outline(all, 2, choices);
+    EXPECT_FALSE(outline.is_one_pass);
+    EXPECT_EQ(outline.are_counts_exact, !choices.divides_corners);
+    EXPECT_EQ(outline.jobs.size(), 4U);
+    EXPECT_EQ(outline.writes_from_store(), choices.divides_corners);
+  }
+}
+
+TEST_F(OutlineOfACube, SeamsCountOnlyIfTheyAreImproved)
+{
+  const std::vector<KernelKind> netgen(4, KernelKind::netgen);
+  EXPECT_EQ(this->outline(netgen, 1).seam_triangles, std::vector<GlobalIndex>(4, 0));
+  const RunOutline improved = this->outline(netgen, 1, {.improves_seams = true});
+  EXPECT_EQ(std::ranges::count(improved.seam_triangles, 0), 0);
 }
 
 TEST_F(OutlineOfACube, OfAFillIsNearTheTruth)

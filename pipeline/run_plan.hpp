@@ -22,17 +22,35 @@ namespace tessera::pipeline {
 /// @brief Unit of the output's lengths; empty if nobody knows it. Local.
 [[nodiscard]] std::string output_length_unit(const RunResult& run);
 
-/// @brief What will come out of a run, decided before anything of it is made.
-struct OutputPlan {
+/// @brief What a run does, chosen once, before any of its fine mesh is made.
+struct RunPlan {
+  /// In their order, from the model on. Not known yet: whether a finer coarse mesh is needed for
+  /// the sizes, and whether fills find folds. Then `coarse`, or `plan` and `fill`, follow once
+  /// more.
+  StageList stages{};
   RunOutline outline{};
   std::string length_unit{};  ///< output_length_unit().
+
+  [[nodiscard]] bool has(Stage stage) const { return contains(stages, stage); }
+
+  /// @brief Files that pictures may be drawn from.
+  [[nodiscard]] std::vector<subdomain::SubdomainRange> files_to_draw() const
+  {
+    return outline.has_files ? outline.files : std::vector<subdomain::SubdomainRange>{};
+  }
 };
 
-/// @brief Plans the output of a run whose subdomains are known.
+/// @brief The stages of a run of that outline. Local.
+[[nodiscard]] StageList stages_of(const RunResult& run, const RunOutline& outline);
+
+/// @brief Plans a run whose subdomains are known.
 /// @note Collective.
 /// @throws ConfigError on every rank, with the model's file, if the case asks for what this model
 /// cannot have.
-[[nodiscard]] OutputPlan plan_output(const RunResult& run, const subdomain::PartitionedMesh& cut,
-                                     const RunOptions& options, RunContext& context);
+[[nodiscard]] RunPlan plan_run(const RunResult& run, const subdomain::PartitionedMesh& cut,
+                               const RunOptions& options, const RunContext& context);
+
+/// @brief The names of stages, for people: "model, coarse, …". Local.
+[[nodiscard]] std::string text_of(const StageList& stages);
 
 }  // namespace tessera::pipeline
