@@ -75,7 +75,7 @@ LocalIndex num_parts_for(const config::Case& resolved, const model::ModelDescrip
 
 cut::CutChoice choose_cuts(const RunResult& run, RunContext& context)
 {
-  if (run.resolved.decompose.method == decompose::Method::mesh) return {};
+  if (run.resolved.decompose.method != decompose::Method::geometry) return {};
   StageScope stage(context, "cut");
   cut::CutChoice choice = comm::on_root(context.comm, [&] {
     require_solids(run);
