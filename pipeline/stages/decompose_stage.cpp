@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -53,13 +54,19 @@ std::vector<double> weights_of(const RunResult& run)
   return weights;
 }
 
+std::unique_ptr<decompose::GraphPartitioner> partitioner_of(decompose::Method method)
+{
+  return method == decompose::Method::octree ? decompose::make_octree_partitioner()
+                                             : decompose::make_metis_partitioner();
+}
+
 decompose::DecomposeResult cut(const RunResult& run)
 {
   const mesh::CoarseMesh& coarse = run.coarse.mesh;
   const std::vector<fill::KernelKind> kernels =
       fill::kernels_of(run.resolved.fill, coarse.material_names, coarse.tet_material);
   const std::vector<double> weights = weights_of(run);
-  const auto partitioner = decompose::make_metis_partitioner();
+  const auto partitioner = partitioner_of(run.resolved.decompose.method);
   decompose::DecomposeResult result = decompose::decompose(
       coarse, options_of(run, kernels), weights, *partitioner, run.coarse.tet_part);
   decompose::validate(coarse, result.decomposition);

@@ -143,7 +143,8 @@ constexpr Key kOtherKeys[] = {
     {.name = "decompose.method",
      .rule = word_rule([](Case& c) -> decompose::Method& { return c.decompose.method; }),
      .meaning =
-         "What is cut into subdomains. \"mesh\": the coarse mesh. \"geometry\": the model, by "
+         "What is cut into subdomains. \"mesh\": the coarse mesh, by METIS. \"octree\": the same, "
+         "in runs of octants along a space curve. \"geometry\": the model, by "
          "planes, before it is meshed; subdomains end at these planes. The model must be "
          "CSG, STEP, IGES or BREP. Where no plane cuts well, or the parts cannot be meshed, "
          "the coarse mesh is cut as well.",

@@ -18,6 +18,11 @@
 namespace tessera::decompose {
 namespace {
 
+struct Numbering {
+  std::vector<LocalIndex> number{};        // Shape (num_subdomains).
+  std::vector<LocalIndex> part_offsets{};  // As in mesh::Decomposition.
+};
+
 // One triangle between two subdomains, seen from the first.
 struct Contact {
   LocalIndex from;
@@ -47,9 +52,11 @@ std::vector<Contact> find_contacts(const TetGraph& graph, std::span<const LocalI
 
 class HierarchicalOrder {
  public:
-  HierarchicalOrder(const mesh::Decomposition& decomposition, const GraphPartitioner& partitioner)
+  HierarchicalOrder(const mesh::Decomposition& decomposition, std::vector<Vec3> place,
+                    const GraphPartitioner& partitioner)
       : decomposition_(&decomposition),
         partitioner_(&partitioner),
+        place_(std::move(place)),
         weight_(quantise(decomposition.subdomain_weight)),
         area_(decomposition.neighbour_area.empty() ? std::vector<std::int32_t>{}
                                                    : quantise(decomposition.neighbour_area)),
@@ -156,6 +163,7 @@ class HierarchicalOrder {
     for (const LocalIndex s : members) {
       local_[static_cast<std::size_t>(s)] = next++;
       graph.vertex_weight.push_back(weight_[static_cast<std::size_t>(s)]);
+      graph.place.push_back(place_[at(s)]);
     }
     for_each_neighbour(members, [&](LocalIndex s, LocalIndex neighbour, std::int32_t area) {
       const LocalIndex local = local_[static_cast<std::size_t>(neighbour)];
@@ -184,12 +192,36 @@ class HierarchicalOrder {
 
   const mesh::Decomposition* decomposition_;
   const GraphPartitioner* partitioner_;
+  std::vector<Vec3> place_;  // Of each subdomain.
   std::vector<std::int32_t> weight_;
   std::vector<std::int32_t> area_;
   std::vector<LocalIndex> order_;
   std::vector<std::size_t> block_begin_;  // shape (num_subdomains): first number of its block
   std::vector<LocalIndex> local_;         // shape (num_subdomains); kNoIndex between calls
 };
+
+// Of its centroids, by weight.
+std::vector<Vec3> places_of_subdomains(const TetGraph& graph,
+                                       const mesh::Decomposition& decomposition)
+{
+  std::vector<Vec3> places(decomposition.subdomain_weight.size(), Vec3{});
+  for (LocalIndex t = 0; t < graph.num_tets(); ++t) {
+    const std::size_t s = at(decomposition.tet_subdomain[at(t)]);
+    const double share = graph.weight(t) / decomposition.subdomain_weight[s];
+    places[s] = places[s] + share * centroid_of(*graph.mesh, t);
+  }
+  return places;
+}
+
+// New number of each subdomain, by recursive bisection of the weighted graph. Of two halves the one
+// nearer to what is already numbered comes first. So every aligned range is a connected, cheaply
+// cut part wherever the partitioner finds one.
+Numbering hierarchical_numbers(const TetGraph& graph, const mesh::Decomposition& decomposition,
+                               LocalIndex num_parts, const GraphPartitioner& partitioner)
+{
+  return HierarchicalOrder(decomposition, places_of_subdomains(graph, decomposition), partitioner)
+      .run(num_parts);
+}
 
 }  // namespace
 
@@ -227,12 +259,6 @@ mesh::Decomposition make_decomposition(const TetGraph& graph, FlatArray<LocalInd
   return result;
 }
 
-Numbering hierarchical_numbers(const mesh::Decomposition& decomposition, LocalIndex num_parts,
-                               const GraphPartitioner& partitioner)
-{
-  return HierarchicalOrder(decomposition, partitioner).run(num_parts);
-}
-
 mesh::Decomposition number_subdomains(const TetGraph& graph, const TetPartition& partition,
                                       LocalIndex num_parts, const GraphPartitioner& partitioner)
 {
@@ -251,7 +277,7 @@ mesh::Decomposition number_subdomains(const TetGraph& graph, const TetPartition&
                     "(decompose.subdomains)",
                     num_parts, provisional.num_subdomains()));
   }
-  Numbering numbering = hierarchical_numbers(provisional, num_parts, partitioner);
+  Numbering numbering = hierarchical_numbers(graph, provisional, num_parts, partitioner);
   for (LocalIndex& s : provisional.tet_subdomain) s = numbering.number[static_cast<std::size_t>(s)];
   mesh::Decomposition numbered = make_decomposition(graph, std::move(provisional.tet_subdomain));
   numbered.part_offsets = std::move(numbering.part_offsets);

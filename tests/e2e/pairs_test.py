@@ -42,6 +42,7 @@ WISHES = {
     "split after the fill": Wish(("fill.levels",), keys=("refine.levels=2", "fill.levels=1")),
     "corners": Wish(("fill.split_corners",), keys=("fill.split_corners=true",)),
     "planes": Wish(("decompose.method",), keys=("decompose.method='geometry'",)),
+    "octree": Wish(("decompose.method",), keys=("decompose.method='octree'",)),
     "gmsh": Wish(("coarse.mesher",), keys=("coarse.mesher='gmsh'",)),
     "parts": Wish(("output.parts",), keys=("output.parts=3",)),
     "openfoam": Wish(("output.formats", "openfoam"), keys=("output.formats=['openfoam-serial']",)),

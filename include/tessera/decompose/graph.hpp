@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
 
 namespace tessera::decompose {
 
@@ -16,6 +17,7 @@ struct Graph {
   std::vector<LocalIndex> neighbours{};       ///< Shape (num_entries).
   std::vector<std::int32_t> vertex_weight{};  ///< Shape (num_vertices).
   std::vector<std::int32_t> edge_weight{};    ///< Shape (num_entries); price of cutting the edge.
+  std::vector<Vec3> place{};  ///< Shape (num_vertices), finite; only some partitioners need it.
 
   [[nodiscard]] LocalIndex num_vertices() const
   {

@@ -27,6 +27,11 @@ class GraphPartitioner {
 /// @brief METIS with a fixed seed. @cite karypis1998
 [[nodiscard]] std::unique_ptr<GraphPartitioner> make_metis_partitioner();
 
+/// @brief Runs of octants along a Hilbert curve: each part is what lies in consecutive leaves of an
+/// octree that is divided until a leaf weighs little. Knows no edges, needs Graph::place. O(n log
+/// n).
+[[nodiscard]] std::unique_ptr<GraphPartitioner> make_octree_partitioner();
+
 /// @brief METIS's version, e.g. "5.1.0".
 [[nodiscard]] std::string metis_version();
 

@@ -8,12 +8,13 @@
 
 namespace tessera::decompose {
 
-/// @brief What is cut into subdomains.
+/// @brief What is cut into subdomains, and how.
 enum class Method : int {
-  mesh,      ///< The coarse mesh.
+  mesh,      ///< The coarse mesh, by METIS.
   geometry,  ///< The model, by planes, before it is meshed; then the coarse mesh of each part.
+  octree,    ///< The coarse mesh, in runs of octants along a space curve.
 };
-[[nodiscard]] constexpr Method last_value(Method /*type*/) { return Method::geometry; }
+[[nodiscard]] constexpr Method last_value(Method /*type*/) { return Method::octree; }
 
 /// @brief Words of the method in case files and reports.
 constexpr auto enum_words(Method /*tag*/)
@@ -21,6 +22,7 @@ constexpr auto enum_words(Method /*tag*/)
   return std::to_array<EnumWord<Method>>({
       {Method::mesh, "mesh"},
       {Method::geometry, "geometry"},
+      {Method::octree, "octree"},
   });
 }
 

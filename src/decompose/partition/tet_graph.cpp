@@ -47,6 +47,13 @@ double triangle_area(const mesh::CoarseMesh& mesh, const mesh::TriangleTets& tri
                       mesh.position(triangle.vertices[2]) - a));
 }
 
+Vec3 centroid_of(const mesh::CoarseMesh& mesh, LocalIndex t)
+{
+  Vec3 sum{};
+  for (const LocalIndex v : mesh.tet(t)) sum = sum + mesh.position(v);
+  return 0.25 * sum;
+}
+
 std::vector<std::int32_t> quantise(std::span<const double> values)
 {
   constexpr double kWantedMean = 1000.0;  // three digits: finer than any balance that is asked for
@@ -94,6 +101,7 @@ Graph dual_graph(const TetGraph& graph, std::span<const LocalIndex> tets,
     }
     dual.offsets.push_back(static_cast<LocalIndex>(dual.neighbours.size()));
     dual.vertex_weight.push_back(graph.tet_int_weight[static_cast<std::size_t>(t)]);
+    dual.place.push_back(centroid_of(*graph.mesh, t));
   }
   for (const LocalIndex t : tets) local_index[static_cast<std::size_t>(t)] = kNoIndex;
   return dual;

@@ -52,6 +52,9 @@ struct TetGraph {
 [[nodiscard]] double triangle_area(const mesh::CoarseMesh& mesh,
                                    const mesh::TriangleTets& triangle);
 
+/// @brief The mean of a tet's vertices.
+[[nodiscard]] Vec3 centroid_of(const mesh::CoarseMesh& mesh, LocalIndex t);
+
 /// @brief Positive integers in the ratio of the values, as exact as a Graph allows. @pre values >
 /// 0.
 [[nodiscard]] std::vector<std::int32_t> quantise(std::span<const double> values);

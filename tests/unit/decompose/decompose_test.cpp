@@ -64,14 +64,15 @@ TEST(Decompose, KeepsItsPromisesForEveryNumberOfSubdomains)
   }
 }
 
-TEST(Decompose, KeepsItsPromisesWithTheBlockPartitioner)
+TEST(Decompose, KeepsItsPromisesWithOtherPartitioners)
 {
   const auto mesh = testing::kuhn_cube(4);
-  const auto partitioner = make_block_partitioner();
-  for (const LocalIndex k : {1, 2, 3, 5, 8, 13, 100, 383, 384}) {
-    const auto result = decompose_by(mesh, k, *partitioner);
-    EXPECT_NO_THROW(validate(mesh, result.decomposition)) << k << " subdomains";
-    EXPECT_GE(result.decomposition.num_subdomains(), k);
+  for (const auto make_partitioner : {&make_block_partitioner, &make_octree_partitioner}) {
+    for (const LocalIndex k : {1, 2, 3, 5, 8, 13, 100, 383, 384}) {
+      const auto result = decompose_by(mesh, k, *make_partitioner());
+      EXPECT_NO_THROW(validate(mesh, result.decomposition)) << k << " subdomains";
+      EXPECT_GE(result.decomposition.num_subdomains(), k);
+    }
   }
 }
 
