@@ -82,6 +82,15 @@ TEST(TouchingFaces, AreNearerThanTheTolerance)
   }
 }
 
+// Along each axis it is near enough.
+TEST(TouchingFaces, AreNotThoseThatAreFartherOffAcrossTheAxes)
+{
+  for (const double off : {0.6, 0.9}) {
+    const auto xyz = with_points({{-off * 1e-3, -off * 1e-3, 0}, {-1, -1, 5}, {-1, -2, 5}});
+    EXPECT_EQ(find_touching_faces(xyz, kTwo, 1e-3).has_value(), off < 0.7);
+  }
+}
+
 // Far apart, but the sweep meets both at once.
 TEST(TouchingFaces, AreNotThoseBesideEachOther)
 {
