@@ -19,7 +19,10 @@ Affine affine_of(const std::string& text)
     for (double& number : there.rows[i]) in >> number;
     in >> there.shift[i];
   }
-  if (!in) throw InputError(fmt::format("\"{}\" is no matrix of 3 x 4 numbers", text));
+  std::string rest;
+  if (!in || in >> rest) {
+    throw InputError(fmt::format("\"{}\" is no matrix of 3 x 4 numbers", text));
+  }
   return there;
 }
 

@@ -12,7 +12,7 @@
 #include <Standard_Failure.hxx>
 #include <StlAPI_Writer.hxx>
 
-#include "netgen/hard_shapes.hpp"
+#include "netgen/cad/hard_shapes.hpp"
 
 namespace {
 

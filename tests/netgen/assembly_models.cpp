@@ -7,7 +7,7 @@
 
 #include <BRepTools.hxx>
 
-#include "netgen/assemblies.hpp"
+#include "netgen/cad/assemblies.hpp"
 
 namespace {
 

@@ -11,9 +11,9 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"
 
+#include "netgen/cad/occ_fixture.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/model_mesher.hpp"
-#include "netgen/occ_fixture.hpp"
 
 namespace tessera {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "support/temporary_file.hpp"
 
-#include "netgen/occ_fixture.hpp"
+#include "netgen/cad/occ_fixture.hpp"
 
 namespace tessera {
 namespace {

@@ -34,7 +34,7 @@
 #include "cad/shape.hpp"
 #include "cad/triangles/triangulation.hpp"
 #include "geometry/polygon_triangles.hpp"
-#include "netgen/occ_fixture.hpp"
+#include "netgen/cad/occ_fixture.hpp"
 
 namespace tessera::cad {
 namespace {

@@ -16,8 +16,8 @@
 
 #include "tessera/base/error.hpp"
 
-#include "netgen/hard_shapes.hpp"
-#include "netgen/occ_fixture.hpp"
+#include "netgen/cad/hard_shapes.hpp"
+#include "netgen/cad/occ_fixture.hpp"
 
 namespace tessera {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "netgen/assemblies.hpp"
+#include "netgen/cad/assemblies.hpp"
 
 #include <algorithm>
 #include <numbers>

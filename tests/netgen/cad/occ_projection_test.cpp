@@ -26,7 +26,7 @@
 #include "cad/project/curve.hpp"
 #include "cad/project/surface.hpp"
 #include "cad/project/trim.hpp"
-#include "netgen/occ_fixture.hpp"
+#include "netgen/cad/occ_fixture.hpp"
 
 namespace tessera {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "netgen/hard_shapes.hpp"
+#include "netgen/cad/hard_shapes.hpp"
 
 #include <array>
 #include <cmath>

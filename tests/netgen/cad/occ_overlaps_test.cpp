@@ -16,7 +16,7 @@
 
 #include "cad/heal/overlaps.hpp"
 #include "cad/shape.hpp"
-#include "netgen/occ_fixture.hpp"
+#include "netgen/cad/occ_fixture.hpp"
 
 namespace tessera::cad {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "support/temporary_folder.hpp"
 
-#include "netgen/assemblies.hpp"
-#include "netgen/occ_fixture.hpp"
+#include "netgen/cad/assemblies.hpp"
+#include "netgen/cad/occ_fixture.hpp"
 
 namespace tessera {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "support/cut_meshes.hpp"
 
-#include "netgen/occ_fixture.hpp"
+#include "netgen/cad/occ_fixture.hpp"
 
 namespace tessera {
 namespace {

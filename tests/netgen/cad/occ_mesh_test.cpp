@@ -15,8 +15,8 @@
 
 #include "support/temporary_folder.hpp"
 
-#include "netgen/hard_shapes.hpp"
-#include "netgen/occ_fixture.hpp"
+#include "netgen/cad/hard_shapes.hpp"
+#include "netgen/cad/occ_fixture.hpp"
 
 namespace tessera {
 namespace {

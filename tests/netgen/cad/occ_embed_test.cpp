@@ -23,7 +23,7 @@
 #include "support/cut_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
-#include "netgen/occ_fixture.hpp"
+#include "netgen/cad/occ_fixture.hpp"
 
 namespace tessera {
 namespace {
