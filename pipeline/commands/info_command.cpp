@@ -55,6 +55,12 @@ std::string describe_mesh(const std::filesystem::path& file)
       pieces.size(), num_cells, num_points, names);
 }
 
+template <class Read>
+auto run(const Bytes& request, const Read& read, jobs::JobRunner& jobs)
+{
+  return read_result(jobs.run(request, kInfoLimits, wait_for_stop_signal()), read);
+}
+
 // The model is read in a job: the CAD libraries may crash on it. Solids that overlap are listed,
 // not refused.
 model::ModelSource read_source(const std::filesystem::path& file, jobs::JobRunner& jobs)
@@ -62,32 +68,27 @@ model::ModelSource read_source(const std::filesystem::path& file, jobs::JobRunne
   netgen::require_model_file(file);
   return import_in_jobs(file, {.assembly = {.overlap = model::Overlap::first}},
                         [&](const std::string&, const Bytes& request) {
-                          return jobs.run(request, kInfoLimits, wait_for_stop_signal());
+                          return run(request, from_bytes<model::ModelSource>, jobs);
                         });
 }
 
 model::ModelDescription describe(const model::ModelSource& source,
                                  const std::filesystem::path& file, jobs::JobRunner& jobs)
 {
-  throw_unless_read(jobs.load(load_model_message(source, 1.0), kInfoLimits, wait_for_stop_signal()),
-                    file);
-  jobs::JobOutcome described =
-      describe_in_jobs(source.format, [&](const std::string&, const Bytes& request) {
-        jobs::JobOutcome outcome = jobs.run(request, kInfoLimits, wait_for_stop_signal());
-        static_cast<void>(read_result(outcome, description_from_bytes));
-        return outcome;
-      });
-  auto description = read_result(described, description_from_bytes);
-  throw_unless_read(described, file);
-  return std::move(*description);
+  require_read(jobs.load(load_model_message(source, 1.0), kInfoLimits, wait_for_stop_signal()),
+               file);
+  auto described = describe_in_jobs(source.format, [&](const std::string&, const Bytes& request) {
+    return run(request, description_from_bytes, jobs);
+  });
+  require_read(described.end, file);
+  return *std::move(described.made);
 }
 
 // A page, and no more, of an STL file that bounds no body: the error comes all the same.
 void write_places(const InfoCommand& command, const std::string& message, jobs::JobRunner& jobs)
 {
-  jobs::JobOutcome outcome =
-      jobs.run(places_request(command.file), kInfoLimits, wait_for_stop_signal());
-  const auto places = read_result(outcome, from_bytes<surface::SurfacePlaces>);
+  const auto places =
+      run(places_request(command.file), from_bytes<surface::SurfacePlaces>, jobs).made;
   if (!places || places->places.empty()) return;
   if (command.html)
     io::write_text_atomically(*command.html, places_page(command.file, message, *places));

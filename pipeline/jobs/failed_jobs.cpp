@@ -218,9 +218,10 @@ void keep_meshes_of_failed_region(const fs::path& kept,
 
 void keep_places(const fs::path& file, const std::string& message, RunContext& context)
 {
-  jobs::JobOutcome outcome =
-      context.jobs.run(places_request(file), kSkinLimits, wait_for_stop_signal());
-  const auto places = read_result(outcome, from_bytes<surface::SurfacePlaces>);
+  const auto places =
+      read_result(context.jobs.run(places_request(file), kSkinLimits, wait_for_stop_signal()),
+                  from_bytes<surface::SurfacePlaces>)
+          .made;
   if (!places || places->places.empty()) return;
   try_to_keep(context, [&] {
     const fs::path failure = context.folder / "failure";

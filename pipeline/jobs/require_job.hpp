@@ -18,8 +18,7 @@ auto require_job(const JobRequest& job, const Read& read, const std::string& wha
 {
   auto result = attempt_job(job, read, wait_for_stop_signal(), context);
   keep_if_failed(job, result.end, context);
-  require_ok(result.end, what);
-  return *std::move(result.made);
+  return require_made(std::move(result), what);
 }
 
 }  // namespace tessera::pipeline

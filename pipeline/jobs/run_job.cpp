@@ -71,11 +71,9 @@ void require_ok(const jobs::JobEnd& end, const std::string& what)
 
 void throw_unless_of_the_job(const jobs::JobEnd& end)
 {
-  throw_if_cancelled(end);
-  if (end.error == ErrorKind::output || end.error == ErrorKind::config) {
-    throw_error(*end.error, end.message);
-  }
-  if (end.loads_are_lost) throw MeshError(end.message + way_on(end));
+  const bool is_of_the_job = end.error != ErrorKind::output && end.error != ErrorKind::config
+                             && !end.loads_are_lost && end.status != jobs::JobStatus::cancelled;
+  if (!is_of_the_job) require_ok(end, "");
 }
 
 }  // namespace tessera::pipeline

@@ -28,26 +28,6 @@ struct JobRequest {
                                        const jobs::JobRunner::WaitCallback& on_wait,
                                        RunContext& context);
 
-/// @brief What `read` makes of the result of a job, if that has ended well. A result that cannot be
-/// read becomes a failure of the job: third-party code may have damaged its memory. Local.
-template <class Read>
-auto read_result(jobs::JobOutcome& outcome, const Read& read)
-    -> std::optional<decltype(read(outcome.result))>
-{
-  if (outcome.status != jobs::JobStatus::ok) return std::nullopt;
-  try {
-    return read(outcome.result);
-  } catch (const InputError& error) {
-    outcome.status = jobs::JobStatus::failed;
-    outcome.error = ErrorKind::netgen;
-    outcome.message = std::string("gave a result that cannot be used: ") + error.what();
-    return std::nullopt;
-  }
-}
-
-/// @brief Throws Interrupted if the callback cancelled the job. Local.
-void throw_if_cancelled(const jobs::JobEnd& end);
-
 /// @brief What a job has made, or how it failed.
 template <class T>
 struct JobResult {
@@ -56,17 +36,36 @@ struct JobResult {
   double cpu_s = 0.0;
 };
 
+/// @brief What `read` makes of the result of a job, if that has ended well. A result that cannot be
+/// read becomes a failure of the job: third-party code may have damaged its memory. Local.
+template <class Read>
+auto read_result(const jobs::JobOutcome& outcome, const Read& read)
+    -> JobResult<decltype(read(outcome.result))>
+{
+  JobResult<decltype(read(outcome.result))> result{{}, outcome, outcome.cpu_s};
+  if (outcome.status != jobs::JobStatus::ok) return result;
+  try {
+    result.made = read(outcome.result);
+  } catch (const InputError& error) {
+    result.end = {.status = jobs::JobStatus::failed,
+                  .error = ErrorKind::netgen,
+                  .message = std::string("gave a result that cannot be used: ") + error.what()};
+  }
+  return result;
+}
+
+/// @brief Throws Interrupted if the callback cancelled the job. Local.
+void throw_if_cancelled(const jobs::JobEnd& end);
+
 /// @brief Runs a job as run_job() and reads its result as read_result(). Local.
 /// @throws Interrupted if the job was cancelled.
 template <class Read>
 [[nodiscard]] auto attempt_job(const JobRequest& job, const Read& read,
                                const jobs::JobRunner::WaitCallback& on_wait, RunContext& context)
 {
-  jobs::JobOutcome outcome = run_job(job, on_wait, context);
-  auto made = read_result(outcome, read);
-  throw_if_cancelled(outcome);
-  return JobResult<typename decltype(made)::value_type>{std::move(made), std::move(outcome),
-                                                        outcome.cpu_s};
+  auto result = read_result(run_job(job, on_wait, context), read);
+  throw_if_cancelled(result.end);
+  return result;
 }
 
 /// @brief Loads a message of some kind, in place of an earlier one of that kind. Local.
@@ -87,10 +86,22 @@ template <class Read>
 [[nodiscard]] std::string way_on(const jobs::JobEnd& end);
 
 /// @brief Throws for what ends a run that cannot go on without this job or load; way_on() is part
-/// of the text. Local. @throws Interrupted if it was cancelled, else as jobs::throw_unless_ok().
+/// of the text. Stages whose last try has failed throw what all of them said; else this is where
+/// the end of a job becomes an error. Local.
+/// @param[in] what What it is about; empty: the message says so.
+/// @throws Interrupted if it was cancelled, else as jobs::throw_unless_ok().
 void require_ok(const jobs::JobEnd& end, const std::string& what);
 
+/// @brief What a job has made. Local. @throws what require_ok() throws.
+template <class T>
+[[nodiscard]] T require_made(JobResult<T> result, const std::string& what)
+{
+  require_ok(result.end, what);
+  return *std::move(result.made);
+}
+
 /// @brief Throws for what another try cannot mend: a stop, a full disk, a lost worker. Local.
+/// @throws what require_ok() throws.
 void throw_unless_of_the_job(const jobs::JobEnd& end);
 
 }  // namespace tessera::pipeline

@@ -172,7 +172,8 @@ PeerWatch::PeerWatch(std::function<void(const std::string&)> on_lost, PeerLimits
   const HeldSignals held{SIGINT, SIGTERM, SIGUSR1};  // They are for the main thread.
   try {
     thread_ = std::thread([this, limits] { run(limits); });
-  } catch (const std::system_error&) {  // No more threads for this user: then there is no watch.
+  } catch (const std::system_error& error) {  // No more threads for this user.
+    std::fprintf(stderr, "tessera: warning: nobody watches for lost ranks: %s\n", error.what());
   }
 }
 

@@ -11,6 +11,7 @@
 #include "tessera/base/repair.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/comm/share_on_node.hpp"
+#include "tessera/config/exclusions.hpp"
 #include "tessera/fill/fallbacks.hpp"
 #include "tessera/subdomain/read_size_field.hpp"
 
@@ -107,12 +108,8 @@ void require_own_surface(const RunResult& run)
 {
   if (!run.resolved.coarse.has_inner_parts) return;
   const bool has_lines = !run.model.assembly.lines.empty();
-  const std::string_view other = run.resolved.coarse.mesher == surface::Mesher::gmsh
-                                     ? "coarse.mesher = \"gmsh\""
-                                 : run.resolved.decompose.method == decompose::Method::geometry
-                                     ? "decompose.method = \"geometry\""
-                                 : has_lines && !run.resolved.layers.empty() ? "[[layer]]"
-                                                                             : "";
+  std::string_view other = config::excluded_by_inner_faces(run.resolved);
+  if (other.empty() && has_lines) other = config::excluded_by_inner_lines(run.resolved);
   if (other.empty()) return;
   throw ConfigError(
       fmt::format("{}: the file has {} inside of solids, which exclude {}; leave that out, or set "

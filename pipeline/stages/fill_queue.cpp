@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/jobs/run_job.hpp"
+
 namespace tessera::pipeline {
 namespace {
 
@@ -82,7 +84,7 @@ std::optional<std::size_t> FillQueue::probe_of(const Range& range)
 {
   for (std::size_t number = range.current + 1; number + 1 < range.kernels.size(); ++number) {
     const auto known = range.probed.find(static_cast<LocalIndex>(number));
-    if (known != range.probed.end() && known->second.is_made) return std::nullopt;
+    if (known != range.probed.end() && known->second.is_made()) return std::nullopt;
     if (known == range.probed.end() && !range.at_work.contains(static_cast<LocalIndex>(number)))
       return number;
   }
@@ -117,17 +119,17 @@ void FillQueue::take(Range& range, const FillVerdict& verdict, Rank rank)
   const fill::KernelKind kernel = range.kernels[range.current];
   ++range.current;
   ++tries.count;
-  tries.was_limited = tries.was_limited || verdict.is_limited;
-  if (verdict.is_made) {
+  tries.was_limited = tries.was_limited || depends_on_machine(verdict.end);
+  if (verdict.is_made()) {
     tries.is_made = true;
     tries.holder = rank;
     tries.angle_to_beat_deg = verdict.angle_deg;
   } else {
     tries.failures.push_back(
-        fmt::format("try {} ({}): {}", tries.count, word_of(kernel), verdict.message));
+        fmt::format("try {} ({}): {}", tries.count, word_of(kernel), verdict.end.message));
   }
   const bool is_last = range.current == range.kernels.size();
-  const bool may_be_better = verdict.is_made && verdict.is_poor && !had_one && !is_last
+  const bool may_be_better = verdict.is_made() && verdict.is_poor && !had_one && !is_last
                              && range.kernels[range.current] == fill::KernelKind::netgen;
   range.is_done = is_last || (tries.is_made && !may_be_better);
 }
@@ -136,7 +138,7 @@ void FillQueue::take_failed_probes(Range& range)
 {
   while (!range.is_done) {
     const auto known = range.probed.find(static_cast<LocalIndex>(range.current));
-    if (known == range.probed.end() || known->second.is_made) return;
+    if (known == range.probed.end() || known->second.is_made()) return;
     take(range, known->second, 0);
   }
 }
@@ -153,7 +155,7 @@ bool FillQueue::is_needed(LocalIndex item) const
   const auto number = static_cast<std::size_t>(item % most_tries_);
   // What a probe has made may fail when its turn comes, by a limit or on another machine.
   for (const auto& [known, verdict] : range.probed) {
-    if (verdict.is_made && range.current <= at(known) && at(known) < number) return false;
+    if (verdict.is_made() && range.current <= at(known) && at(known) < number) return false;
   }
   // With a result there is one more try at most, the current one.
   return number == range.current || (number > range.current && !range.tries.is_made);

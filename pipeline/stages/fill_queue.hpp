@@ -13,6 +13,7 @@
 #include "tessera/base/types.hpp"
 #include "tessera/comm/task_board.hpp"
 #include "tessera/fill/options.hpp"
+#include "tessera/jobs/job_runner.hpp"
 
 #include "pipeline/jobs/mesh_worker.hpp"
 
@@ -49,16 +50,13 @@ struct FillOrder {
 
 /// @brief How a try has ended; bytes of it are its verdict.
 struct FillVerdict {
-  bool is_made = false;
+  jobs::JobEnd end{};    ///< Of its job.
   bool is_poor = false;  ///< One more try may give a better result.
-  bool is_limited = false;
   double angle_deg = kAnyAngle;
-  std::string message{};  ///< Why it has failed.
 
-  static auto fields(auto& self)
-  {
-    return std::tie(self.is_made, self.is_poor, self.is_limited, self.angle_deg, self.message);
-  }
+  [[nodiscard]] bool is_made() const { return end.status == jobs::JobStatus::ok; }
+
+  static auto fields(auto& self) { return std::tie(self.end, self.is_poor, self.angle_deg); }
 };
 
 /// @brief The tries at all ranges. A rank without work gets the next try of a range that is begun,

@@ -96,7 +96,7 @@ class Filler {
       auto record = find_record(context_.folder, record_name(range.number), plan);
       if (record && !is_poor(record->results)) {
         made_[order.range] = {std::move(record->results), true};
-        return {.is_made = true};
+        return {};
       }
     }
     auto [made, end, cpu_s] = run_try(range, request_of(order, plan, !order.is_probe), on_wait);
@@ -104,15 +104,12 @@ class Filler {
     context_.log.debug(fmt::format("fill: subdomain {}: try {}{}, {:.2f} s of CPU time",
                                    range.first, order.number + 1,
                                    order.is_probe ? " before its turn" : "", cpu_s));
-    FillVerdict verdict{.is_limited = depends_on_machine(end)};
     if (!made) {
       if (!order.before.is_made) keep_failure(order, plan, end, on_wait);
-      verdict.message = end.message;
-      return verdict;
+      return {.end = std::move(end)};
     }
-    verdict.is_made = true;
-    verdict.is_poor = is_poor(*made);
-    verdict.angle_deg = made->front().summary.tets.min_dihedral_deg;
+    const FillVerdict verdict{.is_poor = is_poor(*made),
+                              .angle_deg = made->front().summary.tets.min_dihedral_deg};
     if (!order.is_probe) made_[order.range] = {std::move(*made), false};
     return verdict;
   }

@@ -29,11 +29,20 @@ bool has_two_readers(const std::filesystem::path& file)
 
 // What another reader may survive. An error that the reader tells is one of the file, and limits
 // are left out: whether they are met depends on the machine.
-bool has_died(const jobs::JobOutcome& outcome)
+bool has_died(const jobs::JobEnd& end)
 {
   const bool has_ended =
-      outcome.status == jobs::JobStatus::crashed || outcome.status == jobs::JobStatus::exited;
-  return has_ended && !was_killed_from_outside(outcome);
+      end.status == jobs::JobStatus::crashed || end.status == jobs::JobStatus::exited;
+  return has_ended && !was_killed_from_outside(end);
+}
+
+// Neither an error that the reader tells, nor a stop, nor a kill from outside.
+bool is_of_the_library(const jobs::JobEnd& end)
+{
+  using jobs::JobStatus;
+  if (end.status == JobStatus::failed) return end.error == ErrorKind::netgen;
+  return end.status != JobStatus::ok && end.status != JobStatus::cancelled
+         && !was_killed_from_outside(end);
 }
 
 // Lengths of the file, as import has them.
@@ -53,45 +62,39 @@ model::ImportOptions import_options(const config::Case& run_case)
 
 model::ModelSource import_in_jobs(
     const std::filesystem::path& file, const model::ImportOptions& options,
-    const std::function<jobs::JobOutcome(const std::string&, const Bytes&)>& run_import)
+    const std::function<JobResult<model::ModelSource>(const std::string&, const Bytes&)>&
+        run_import)
 {
-  jobs::JobOutcome outcome = run_import("model", import_request(file, options));
+  JobResult<model::ModelSource> read = run_import("model", import_request(file, options));
   std::string death;
   const bool may_be_plain =
       (has_two_readers(file) || has_two_readers(options.cad)) && !is_left_out(Repair::plain_reader);
-  if (has_died(outcome) && may_be_plain) {
-    jobs::JobOutcome plain =
-        run_import("model_plain", import_request(file, options, model::StepReader::plain));
-    if (plain.status == jobs::JobStatus::ok) death = outcome.message;
-    if (!death.empty() || plain.status == jobs::JobStatus::cancelled) outcome = std::move(plain);
+  if (has_died(read.end) && may_be_plain) {
+    auto plain = run_import("model_plain", import_request(file, options, model::StepReader::plain));
+    if (plain.made) death = read.end.message;
+    if (plain.made || plain.end.status == jobs::JobStatus::cancelled) read = std::move(plain);
   }
-  auto read = read_result(outcome, from_bytes<model::ModelSource>);
-  throw_unless_read(outcome, file);
+  require_read(read.end, file);
   if (!death.empty()) {
     note_repair(Repair::plain_reader);
-    read->repairs.insert(
-        read->repairs.begin(),
+    read.made->repairs.insert(
+        read.made->repairs.begin(),
         fmt::format("OpenCASCADE died of it, so that the plain reader was taken: {}", death));
   }
-  return std::move(*read);
+  return *std::move(read.made);
 }
 
-void throw_unless_read(const jobs::JobOutcome& outcome, const std::filesystem::path& file)
+void require_read(const jobs::JobEnd& end, const std::filesystem::path& file)
 {
-  throw_if_cancelled(outcome);
-  if (was_killed_from_outside(outcome)) {
-    throw MeshError(fmt::format("{}: {}{}", file.string(), outcome.message, way_on(outcome)));
+  jobs::JobEnd told = end;
+  if (is_of_the_library(end)) {
+    told = {.status = jobs::JobStatus::failed,
+            .error = ErrorKind::geometry,
+            .message = fmt::format("the CAD library cannot read this model: {}; repair it in a CAD "
+                                   "program or export it anew",
+                                   end.message)};
   }
-  const bool is_of_the_library =
-      outcome.status != jobs::JobStatus::ok
-      && (outcome.status != jobs::JobStatus::failed || outcome.error == ErrorKind::netgen);
-  if (is_of_the_library) {
-    throw GeometryError(
-        fmt::format("{}: the CAD library cannot read this model: {}; repair it in a CAD program or "
-                    "export it anew",
-                    file.string(), outcome.message));
-  }
-  jobs::throw_unless_ok(outcome, file.string());
+  require_ok(told, file.string());
 }
 
 model::ModelSource run_model_stage(const config::Case& run_case, RunContext& context)
@@ -101,17 +104,16 @@ model::ModelSource run_model_stage(const config::Case& run_case, RunContext& con
   model::ModelSource source = on_root(context.comm, [&] {
     const auto run_import = [&](const std::string& name, const Bytes& request) {
       const JobRequest job{name, request, kModelLimits};
-      jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
-      static_cast<void>(read_result(outcome, from_bytes<model::ModelSource>));
-      keep_if_failed(job, outcome, context);
-      return outcome;
+      auto read = attempt_job(job, from_bytes<model::ModelSource>, wait_for_stop_signal(), context);
+      keep_if_failed(job, read.end, context);
+      return read;
     };
     return import_in_jobs(file, import_options(run_case), run_import);
   });
   all_or_none(context.comm, [&] {
-    throw_unless_read(run_load("model", load_model_message(source, run_case.geometry.scale),
-                               kModelLimits, context),
-                      file);
+    require_read(run_load("model", load_model_message(source, run_case.geometry.scale),
+                          kModelLimits, context),
+                 file);
   });
   stage.work_is_done();
   for (const std::string& repair : source.repairs)

@@ -9,6 +9,7 @@
 #include "tessera/config/case.hpp"
 #include "tessera/model/model.hpp"
 
+#include "pipeline/jobs/run_job.hpp"
 #include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
@@ -22,14 +23,14 @@ namespace tessera::pipeline {
 /// @brief Reads a CAD file in a job. Where OpenCASCADE's reader of STEP dies, its plain reader is
 /// tried in a second job, which loses names; the model's repairs say so. Local.
 /// @param[in] run_import Runs a job of that name with that request, and keeps it if it failed.
-/// @throws As throw_unless_read(), of the first job.
+/// @throws As require_read(), of the first job.
 [[nodiscard]] model::ModelSource import_in_jobs(
     const std::filesystem::path& file, const model::ImportOptions& options,
-    const std::function<jobs::JobOutcome(const std::string& name, const Bytes& request)>&
-        run_import);
+    const std::function<JobResult<model::ModelSource>(const std::string& name,
+                                                      const Bytes& request)>& run_import);
 
-/// @brief Throws the error of a run whose model could not be imported or loaded. Whatever makes the
-/// reader fail, the error says that the file is bad, not the program. Local.
-void throw_unless_read(const jobs::JobOutcome& outcome, const std::filesystem::path& file);
+/// @brief require_ok() for a job or load that reads the model. Whatever makes the reader fail, the
+/// error says that the file is bad, not the program. Local.
+void require_read(const jobs::JobEnd& end, const std::filesystem::path& file);
 
 }  // namespace tessera::pipeline

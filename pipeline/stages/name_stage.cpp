@@ -19,6 +19,7 @@
 #include "pipeline/jobs/failed_jobs.hpp"
 #include "pipeline/jobs/for_each_dynamic.hpp"
 #include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/jobs/require_job.hpp"
 #include "pipeline/runtime/with_file_context.hpp"
 
 namespace tessera::pipeline {
@@ -26,29 +27,26 @@ namespace {
 
 constexpr jobs::JobLimits kDescribeLimits{.cpu_s = 600.0, .stall_s = 60.0, .memory_gib = 8.0};
 
-jobs::JobOutcome run_describe(const std::string& name, const Bytes& request, RunContext& context)
+JobResult<model::ModelDescription> run_describe(const std::string& name, const Bytes& request,
+                                                RunContext& context)
 {
   const JobRequest job{name, request, kDescribeLimits};
-  jobs::JobOutcome outcome = run_job(job, wait_for_stop_signal(), context);
-  static_cast<void>(read_result(outcome, description_from_bytes));
-  keep_if_failed(job, outcome, context);
-  return outcome;
+  auto described = attempt_job(job, description_from_bytes, wait_for_stop_signal(), context);
+  keep_if_failed(job, described.end, context);
+  return described;
 }
 
-model::ModelDescription description_of(jobs::JobOutcome outcome, const config::Case& given)
+std::string what_is_described(const config::Case& given)
 {
-  throw_if_cancelled(outcome);
-  outcome.message += way_on(outcome);
-  jobs::throw_unless_ok(outcome, given.geometry.file.string() + ": its faces and solids");
-  return description_from_bytes(outcome.result);
+  return given.geometry.file.string() + ": its faces and solids";
 }
 
 // Limits are left out: whether they are met depends on the machine, and which faces a name fits may
 // depend on the triangles.
-bool has_failed(const jobs::JobOutcome& outcome)
+bool has_failed(const jobs::JobEnd& end)
 {
-  return outcome.status != jobs::JobStatus::ok && outcome.status != jobs::JobStatus::cancelled
-         && !was_killed_from_outside(outcome) && !depends_on_machine(outcome);
+  return end.status != jobs::JobStatus::ok && end.status != jobs::JobStatus::cancelled
+         && !depends_on_machine(end);
 }
 
 // Patterns of names in the tables of a case.
@@ -188,22 +186,22 @@ bool has_embedded(const config::Case& given) { return !given.geometry.assembly.e
 
 }  // namespace
 
-jobs::JobOutcome describe_in_jobs(
+JobResult<model::ModelDescription> describe_in_jobs(
     model::Format format,
-    const std::function<jobs::JobOutcome(const std::string&, const Bytes&)>& run_describe)
+    const std::function<JobResult<model::ModelDescription>(const std::string&, const Bytes&)>&
+        run_describe)
 {
-  jobs::JobOutcome outcome =
-      run_describe("describe", describe_request(surface::SurfaceMesher::netgen));
-  if (format != model::Format::csg || !has_failed(outcome)) return outcome;
-  jobs::JobOutcome second =
-      run_describe("describe_remeshed", describe_request(surface::SurfaceMesher::remesh));
-  return has_failed(second) ? outcome : second;
+  auto first = run_describe("describe", describe_request(surface::SurfaceMesher::netgen));
+  if (format != model::Format::csg || !has_failed(first.end)) return first;
+  auto second = run_describe("describe_remeshed", describe_request(surface::SurfaceMesher::remesh));
+  return has_failed(second.end) ? std::move(first) : std::move(second);
 }
 
 model::ModelDescription describe_model(const config::Case& given, RunContext& context)
 {
   const Bytes request = describe_request(surface::SurfaceMesher::netgen);
-  return description_of(run_describe("describe", request, context), given);
+  return require_job({"describe", request, kDescribeLimits}, description_from_bytes,
+                     what_is_described(given), context);
 }
 
 bool names_parts(const config::Case& given, model::Format format)
@@ -224,7 +222,7 @@ PartsOfCase run_name_stage(const config::Case& given, model::Format format, RunC
         return run_describe(name, request, context);
       };
       const model::ModelDescription described =
-          description_of(describe_in_jobs(format, run), given);
+          require_made(describe_in_jobs(format, run), what_is_described(given));
       PartsOfCase found{
           model::find_named_parts(described, given.geometry.names, given.geometry.scale)};
       if (has_embedded(given)) name_pieces(described, given, found.named);

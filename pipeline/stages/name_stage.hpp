@@ -7,12 +7,12 @@
 
 #include "tessera/base/bytes.hpp"
 #include "tessera/config/case.hpp"
-#include "tessera/jobs/job_runner.hpp"
 #include "tessera/model/description.hpp"
 #include "tessera/model/model.hpp"
 #include "tessera/model/part_names.hpp"
 #include "tessera/surface/options.hpp"
 
+#include "pipeline/jobs/run_job.hpp"
 #include "pipeline/runtime/run_context.hpp"
 
 namespace tessera::pipeline {
@@ -20,12 +20,12 @@ namespace tessera::pipeline {
 /// @brief Runs a describe_request(), and a second one if NETGEN fails on a CSG model: triangles of
 /// OpenCASCADE's solids give the same numbers and names.
 /// @note Local.
-/// @param[in] run_describe Runs a job by its name and request; a result that cannot be read is a
-/// failure of it, as by read_result().
+/// @param[in] run_describe Runs a job by its name and request.
 /// @returns What has ended well, else what the first one has ended with.
-[[nodiscard]] jobs::JobOutcome describe_in_jobs(
+[[nodiscard]] JobResult<model::ModelDescription> describe_in_jobs(
     model::Format format,
-    const std::function<jobs::JobOutcome(const std::string&, const Bytes&)>& run_describe);
+    const std::function<JobResult<model::ModelDescription>(const std::string&, const Bytes&)>&
+        run_describe);
 
 /// @brief What the model holds by NETGEN's triangles, file length unit.
 /// @note For rank 0: runs a job of it. @throws what the job fails for.

@@ -3,17 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <iterator>
-#include <memory>
 #include <set>
-#include <span>
 #include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "tessera/base/error.hpp"
+#include "tessera/io/read_back.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -52,13 +49,8 @@ mesh::Piece piece_of_record(const fs::path& output, const std::string& name)
 
 WrittenFile measure_file(const fs::path& folder, const fs::path& path)
 {
-  std::ifstream in(folder / path, std::ios::binary);
-  std::error_code error;
-  const std::size_t size = fs::file_size(folder / path, error);
-  const auto bytes = std::make_unique_for_overwrite<char[]>(error ? 0 : size);
-  if (!error) in.read(bytes.get(), static_cast<std::streamsize>(size));
-  if (error || !in) throw OutputError("cannot read back " + (folder / path).string());
-  return {path.string(), size, hash_bytes(std::as_bytes(std::span(bytes.get(), size)))};
+  const Bytes bytes = io::read_back(folder / path);
+  return {path.string(), bytes.size(), hash_bytes(bytes)};
 }
 
 std::optional<FillRecord> find_record(const fs::path& output, const std::string& name,

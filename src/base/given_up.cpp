@@ -12,4 +12,16 @@ void note_given_up(std::string_view what, const std::exception& why)
   fmt::print(stderr, "given up: {}: {}\n", what, why.what());
 }
 
+void Attempts::note(const std::exception& why)
+{
+  if (num_given_up_++ == 0) first_reason_ = why.what();
+}
+
+Attempts::~Attempts()
+{
+  if (num_given_up_ == 0) return;
+  std::fprintf(stderr, "given up %lld times: %s: %s\n", static_cast<long long>(num_given_up_),
+               what_.c_str(), first_reason_.c_str());
+}
+
 }  // namespace tessera

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/given_up.hpp"
 #include "tessera/base/union_find.hpp"
 #include "tessera/mesh/half_edges.hpp"
 #include "tessera/model/nearest_point.hpp"
@@ -349,7 +350,8 @@ void unite_flat_contacts(const model::TriangleSoup& soup, model::CheckedSurface&
   try {
     Bodies bodies(surface, contacts, soup);
     made = united(surface, bodies, name);
-  } catch (const GeometryError&) {  // The file's surface is the better one then.
+  } catch (const GeometryError& error) {  // The file's surface is the better one then.
+    note_given_up("one surface of those that lie flat on each other", error);
   }
   if (made) {
     checked.surface = std::move(made->surface);

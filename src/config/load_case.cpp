@@ -13,6 +13,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/config/case.hpp"
+#include "tessera/config/exclusions.hpp"
 
 #include "config/key_table.hpp"
 #include "config/text.hpp"
@@ -337,26 +338,22 @@ void check_layers(const Case& loaded, const std::string& where)
   fail(where, fmt::format("[[layer]] excludes {}; leave out one of them", other));
 }
 
-// Lines would have to go on through the layers.
 void check_lines(const Case& loaded, const std::string& where)
 {
   const auto& embedded = loaded.geometry.assembly.embedded;
   const auto line = std::ranges::find_if(embedded, &model::EmbeddedShape::is_line);
-  if (line == embedded.end() || loaded.layers.empty()) return;
-  fail(where,
-       fmt::format("[[embed]] \"{}\" with a polyline excludes [[layer]]; leave out one of them",
-                   line->name));
+  const std::string_view other = excluded_by_inner_lines(loaded);
+  if (line == embedded.end() || other.empty()) return;
+  fail(where, fmt::format("[[embed]] \"{}\" with a polyline excludes {}; leave out one of them",
+                          line->name, other));
 }
 
-// What makes the surface of the model without these faces.
 void check_embedded(const Case& loaded, const std::string& where)
 {
   if (loaded.geometry.assembly.embedded.empty()) return;
-  const std::string_view other =
-      model::is_mesh_name(loaded.geometry.file)                ? "a mesh in geometry.file"
-      : loaded.coarse.mesher == surface::Mesher::gmsh          ? "coarse.mesher = \"gmsh\""
-      : loaded.decompose.method == decompose::Method::geometry ? "decompose.method = \"geometry\""
-                                                               : "";
+  const std::string_view other = model::is_mesh_name(loaded.geometry.file)
+                                     ? "a mesh in geometry.file"
+                                     : excluded_by_inner_faces(loaded);
   if (other.empty()) return;
   fail(where, fmt::format("[[embed]] excludes {}; leave out one of them", other));
 }

@@ -119,7 +119,7 @@ std::optional<Bytes> RecordStore::find(const std::string& name) const
     const LocalIndex num_segments = reader.num_segments(name);
     for (LocalIndex i = 1; i < num_segments; ++i) static_cast<void>(reader.segment(name, i));
     return reader.segment(name, 0);
-  } catch (const InputError&) {
+  } catch (const InputError&) {  // Damaged: who asks makes it again, as one that is missing.
     return std::nullopt;
   }
 }

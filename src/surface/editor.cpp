@@ -212,12 +212,10 @@ Vec3 SurfaceEditor::on_curve(LocalIndex curve, const Vec3& point, double size) c
 {
   const Vec3 near = reference_.on_curve(curve, point);
   if (model_ == nullptr) return near;
-  try {
-    const Vec3 place = on_model_curve(reference_, *model_, curve, near);
-    return norm(place - near) < kMostOffReference * size ? place : near;
-  } catch (const GeometryError&) {
-    return near;  // As if there were no model; put_on_geometry() tries once more.
-  }
+  const auto place = projections_.run<GeometryError>(
+      [&] { return on_model_curve(reference_, *model_, curve, near); });
+  // Without one as if there were no model; put_on_geometry() tries once more.
+  return place && norm(*place - near) < kMostOffReference * size ? *place : near;
 }
 
 // What a vertex in an edge makes of the triangles there.

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/given_up.hpp"
 #include "tessera/surface/reference.hpp"
 #include "tessera/surface/size_function.hpp"
 
@@ -128,6 +129,7 @@ class SurfaceEditor {
   EditableSurface surface_;
   const SizeFunction& sizes_;
   const model::Model* model_;
+  mutable Attempts projections_{"places on curves of the model"};
   std::optional<CrossingGuard> guard_{};
   int pass_ = 0;
   std::vector<int> changed_;      // Of each vertex: the last pass with a change there.

@@ -31,6 +31,7 @@
 
 #include "tessera/base/repair.hpp"
 
+#include "cad/error.hpp"
 #include "cad/heal/glue.hpp"
 #include "cad/shape.hpp"
 
@@ -269,7 +270,9 @@ TopoDS_Shape without_overlaps(const TopoDS_Shape& solid, CadFile& cad)
     note_repair(Repair::overlapping_edges, num_overlaps);
     cad.repairs.push_back(found + " and were made one");
     return body;
-  } catch (const Standard_Failure&) {
+  } catch (const Standard_Failure& failure) {
+    cad.repairs.push_back(fmt::format("edges of a solid that lie on each other: {}: left as is",
+                                      error_of(failure).what()));
     return solid;
   }
 }

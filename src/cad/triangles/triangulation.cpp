@@ -20,8 +20,10 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 
+#include "tessera/base/given_up.hpp"
 #include "tessera/base/repair.hpp"
 
+#include "cad/error.hpp"
 #include "cad/shape.hpp"
 #include "cad/triangles/face_loops.hpp"
 
@@ -228,7 +230,8 @@ bool triangulate_from_boundary(const TopoDS_Shape& face, const Closeness& closen
   const TopoDS_Shape upright = face.Oriented(TopAbs_FORWARD);
   try {
     return FaceTriangulator(TopoDS::Face(upright), closeness).run();
-  } catch (const Standard_Failure&) {
+  } catch (const Standard_Failure& failure) {
+    note_given_up("triangles of a face from its boundary", error_of(failure));
     return false;
   }
 }

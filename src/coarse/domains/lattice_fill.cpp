@@ -43,7 +43,8 @@ std::optional<surface::DomainTets> fill_hole(const surface::DomainSkin& hole,
     surface::DomainTets tets = filler(hole);
     const double volume = enclosed_volume(hole.vertex_xyz, hole.triangle_vertices);
     if (std::abs(volume_of(tets) - volume) <= kRounding * volume) return tets;
-  } catch (const NetgenError&) {  // There are other ways to fill it: fill_with_lattice().
+  } catch (const NetgenError& error) {  // There are other ways to fill it: fill_with_lattice().
+    note_given_up("tets in a hole of the lattice", error);
   }
   return std::nullopt;
 }

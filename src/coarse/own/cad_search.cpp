@@ -104,30 +104,31 @@ std::pair<LocalIndex, CadPlace> CadSearch::nearest_patch(const Vec3& point) cons
   return nearest;
 }
 
+template <class Project>
+CadPlace CadSearch::found(const Vec3& point, const Project& project) const
+{
+  const auto xyz = projections_.run<GeometryError>(project);
+  return xyz ? CadPlace{*xyz, norm(*xyz - point)} : CadPlace{point, kFar};
+}
+
 CadPlace CadSearch::on_patch(LocalIndex patch, const Vec3& point) const
 {
-  try {
-    const Vec3 xyz = model_
-                         .project_to_surface(cad_.patch_surface[at(patch)], point,
-                                             reference_.parameters(patch, point))
-                         .xyz;
-    return {xyz, norm(xyz - point)};
-  } catch (const GeometryError&) {
-    return {point, kFar};
-  }
+  return found(point, [&] {
+    return model_
+        .project_to_surface(cad_.patch_surface[at(patch)], point,
+                            reference_.parameters(patch, point))
+        .xyz;
+  });
 }
 
 CadPlace CadSearch::on_curve(LocalIndex curve, const Vec3& point) const
 {
-  try {
-    const Vec3 xyz = model_
-                         .project_to_curve(cad_.curve_number[at(curve)], point,
-                                           reference_.curve_parameter(curve, point))
-                         .xyz;
-    return {xyz, norm(xyz - point)};
-  } catch (const GeometryError&) {
-    return {point, kFar};
-  }
+  return found(point, [&] {
+    return model_
+        .project_to_curve(cad_.curve_number[at(curve)], point,
+                          reference_.curve_parameter(curve, point))
+        .xyz;
+  });
 }
 
 double CadSearch::misfit(LocalIndex patch, const std::array<Vec3, 3>& triangle) const

@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "tessera/base/given_up.hpp"
 #include "tessera/coarse/fit_to_cad.hpp"
 
 namespace tessera::coarse {
@@ -51,6 +52,8 @@ class CadSearch {
   void find_boxes();
   void find_patches_of_curves();
   void find_corners();
+  template <class Project>
+  [[nodiscard]] CadPlace found(const Vec3& point, const Project& project) const;
 
   const CadSurface& cad_;
   const surface::SurfaceReference& reference_;
@@ -58,6 +61,7 @@ class CadSearch {
   std::vector<Box> boxes_{};  // Of the patches' triangles.
   std::vector<std::set<LocalIndex>> patches_of_curve_{};
   std::vector<Vec3> corners_{};
+  mutable Attempts projections_{"places on the CAD model"};
 };
 
 }  // namespace tessera::coarse

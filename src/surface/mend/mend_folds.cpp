@@ -137,15 +137,14 @@ class FoldMender {
   }
 
   // What cannot be projected is no reason to leave the other folds: it counts as straight.
-  [[nodiscard]] Vec3 found_middle(const Edge& edge, LocalIndex group) const
+  [[nodiscard]] Vec3 found_middle(const Edge& edge, LocalIndex group)
   {
     const LocalIndex curve = surface_.curve(edge[0], edge[1]);
-    try {
+    const auto middle = projections_.run<GeometryError>([&] {
       return curve == kNoIndex ? on_group(edge, group)
                                : groups_.on_curve(curve, end_on(curve, edge), chord(edge));
-    } catch (const GeometryError&) {
-      return chord(edge);
-    }
+    });
+    return middle.value_or(chord(edge));
   }
 
   // At a seam, parameters of a vertex may be those of its other side. The search ends near them.
@@ -303,6 +302,7 @@ class FoldMender {
   SurfaceGroups& groups_;
   EditableSurface surface_;
   std::map<Edge, Vec3> middles_{};  // Of all edges that were asked for; no vertex moves.
+  Attempts projections_{"middles of edges on the geometry, to find folds"};
   std::vector<LocalIndex> found_{};
   bool has_folds_ = false;
   double least_share_ = 0.0;        // What a child must have more of.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/given_up.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/surface/overlap.hpp"
 
@@ -181,8 +182,8 @@ class Finer {
         surface_ = std::move(finer);
         cuts = std::move(left);
         note_repair(Repair::finer_at_cuts);
-      } catch (const GeometryError&) {
-        return;
+      } catch (const GeometryError& error) {
+        return note_given_up("shorter edges where the surface cuts itself", error);
       }
     }
   }
@@ -204,8 +205,8 @@ class Finer {
         folding = std::move(left);
         note_repair(Repair::finer_at_folds);
         num_cut = left_cut;
-      } catch (const GeometryError&) {
-        return;
+      } catch (const GeometryError& error) {
+        return note_given_up("shorter edges where the surface would fold", error);
       }
     }
   }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/given_up.hpp"
 
 #include "surface/editable_surface.hpp"
 #include "surface/model_curve.hpp"
@@ -54,15 +55,15 @@ class FoldFinder {
     return middles_.emplace(edge, found_middle(edge, surface_.triangle_patch[t])).first->second;
   }
 
-  [[nodiscard]] Vec3 found_middle(const Edge& edge, LocalIndex patch) const
+  // What cannot be projected counts as straight.
+  [[nodiscard]] Vec3 found_middle(const Edge& edge, LocalIndex patch)
   {
     const Vec3 chord = midpoint(surface_.vertex_xyz[at(edge[0])], surface_.vertex_xyz[at(edge[1])]);
     const auto curve = curves_.find(edge);
-    try {
+    const auto middle = projections_.run<GeometryError>([&] {
       return curve == curves_.end() ? on_surface(patch, chord) : on_curve(curve->second, chord);
-    } catch (const GeometryError&) {
-      return chord;
-    }
+    });
+    return middle.value_or(chord);
   }
 
   [[nodiscard]] Vec3 on_surface(LocalIndex patch, const Vec3& point) const
@@ -80,6 +81,7 @@ class FoldFinder {
   const model::Model& model_;
   std::map<Edge, LocalIndex> curves_{};
   std::map<Edge, Vec3> middles_{};
+  Attempts projections_{"middles of edges on the geometry, to find folds"};
 };
 
 }  // namespace

@@ -31,10 +31,13 @@ class FillQueueTest : public ::testing::Test {
   {
     queue_.ended(item, to_bytes(verdict), rank);
   }
-  static FillVerdict failed(const std::string& why) { return {.message = why}; }
+  static FillVerdict failed(const std::string& why)
+  {
+    return {.end = {.status = jobs::JobStatus::failed, .message = why}};
+  }
   static FillVerdict made(bool is_poor = false, double angle = 12.0)
   {
-    return {.is_made = true, .is_poor = is_poor, .angle_deg = angle};
+    return {.is_poor = is_poor, .angle_deg = angle};
   }
 
   // Range 1 is at its first try for long, range 0 is done.

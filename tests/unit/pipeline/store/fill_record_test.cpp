@@ -92,9 +92,17 @@ TEST_F(StoredFill, ThatIsDamagedIsNotFound)
   EXPECT_FALSE(is_found());
 }
 
-TEST_F(StoredFill, AFileThatCannotBeReadIsAnOutputError)
+TEST_F(StoredFill, AFileThatCannotBeReadIsAnOutputErrorWithTheReasonOfTheSystem)
 {
-  EXPECT_THROW(static_cast<void>(measure_file(output.path(), "c.vtu")), OutputError);
+  const auto message_for = [&](const char* name) {
+    return testing::message_of<OutputError>(
+        [&] { static_cast<void>(measure_file(output.path(), name)); });
+  };
+  EXPECT_EQ(message_for("c.vtu"),
+            "cannot read back " + (output / "c.vtu").string() + ": No such file or directory");
+  fs::create_directory(output / "d.vtu");
+  EXPECT_EQ(message_for("d.vtu"),
+            "cannot read back " + (output / "d.vtu").string() + ": Is a directory");
 }
 
 }  // namespace
