@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
 #include "tessera/mesh/half_edges.hpp"

@@ -137,7 +137,7 @@ TetSizes::TetSizes(const TetField& field, double grading) : grading_(grading), f
   std::vector<Corners> tets(field_.tet_points.size() / 4);
   for (std::size_t tet = 0; tet < tets.size(); ++tet) {
     tets[tet] = corners_of(field_, tet);
-    for (const Vec3& corner : tets[tet]) bounds_.include(corner);
+    box_.include(box_of(tets[tet]));
   }
   search_ = std::make_unique<const model::TetSearch>(tets);
 }
@@ -164,7 +164,8 @@ void TetSizes::lower(std::span<const double> xyz, std::span<double> sizes) const
 {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const Vec3 point = point_at(xyz, i);
-    if (least_ + grading_ * bounds_.distance(point) >= sizes[i]) continue;  // Spares the search.
+    if (least_ + grading_ * std::sqrt(box_.squared_distance(point)) >= sizes[i])
+      continue;  // Spares the search.
     const model::NearestPoint place = search_->nearest(point);
     sizes[i] = std::min(sizes[i], value_at(place) + grading_ * std::sqrt(place.squared_distance));
   }

@@ -57,7 +57,6 @@ bool lie_on_each_other(const Corners& a, const Vec3& normal_a, const Corners& b,
 std::vector<std::array<std::size_t, 2>> find_flat_contacts(const PatchSurface& surface,
                                                            double tolerance)
 {
-  const Vec3 margin{tolerance, tolerance, tolerance};
   std::vector<Box> boxes;
   std::vector<Vec3> normals;
   boxes.reserve(surface.triangles.size());
@@ -70,7 +69,7 @@ std::vector<std::array<std::size_t, 2>> find_flat_contacts(const PatchSurface& s
   std::vector<std::array<std::size_t, 2>> found;
   for (std::size_t t = 0; t < boxes.size(); ++t) {
     const Corners corners = surface.corners(t);
-    const Box around{boxes[t].low - margin, boxes[t].high + margin};
+    const Box around = boxes[t].widened(tolerance);
     tree.visit([&](const Box& box) { return box.touches(around); },
                [&](LocalIndex item) {
                  if (at(item) <= t) return;

@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "tessera/base/box.hpp"
 #include "tessera/coarse/fit_to_cad.hpp"
 
 namespace tessera::coarse {
@@ -43,11 +44,6 @@ class CadSearch {
   [[nodiscard]] CadPlace nearest_corner(const Vec3& point) const;
 
  private:
-  struct Box {
-    Vec3 low{};
-    Vec3 high{};
-  };
-
   void find_boxes();
   void find_patches_of_curves();
   void find_corners();

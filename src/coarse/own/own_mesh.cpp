@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/surface/touching_faces.hpp"
@@ -298,16 +299,8 @@ class OwnMeshBuilder {
       outer.push_back(triangle.vertices);
       tets.push_back(triangle.tets[0]);
     }
-    Vec3 low = own_.mesh.position(0);
-    Vec3 high = low;
-    for (LocalIndex v = 0; v < own_.mesh.num_vertices(); ++v) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], own_.mesh.position(v)[axis]);
-        high[axis] = std::max(high[axis], own_.mesh.position(v)[axis]);
-      }
-    }
-    const auto touching =
-        surface::find_touching_faces(own_.mesh.vertex_xyz, outer, kTouching * norm(high - low));
+    const std::span<const double> xyz = own_.mesh.vertex_xyz;
+    const auto touching = surface::find_touching_faces(xyz, outer, kTouching * box_diagonal(xyz));
     if (!touching) return;
     fail(fmt::format(
         "{} and tet {} meet at {} but do not share a face there; the mesh must conform",

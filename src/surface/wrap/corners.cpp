@@ -233,8 +233,7 @@ class SoundTriangles {
     const double gap = kLeastGapOfSheets * spacing_;
     for (std::size_t cell = 0; cell < places_.size(); ++cell) {
       const Vec3& corner = surface_.vertex_xyz[cell];
-      const Vec3 off{gap, gap, gap};
-      const Box around{corner - off, corner + off};
+      const Box around = Box{corner, corner}.widened(gap);
       tree.visit(
           [&](const Box& box) { return box.touches(around); },
           [&](LocalIndex t) { look_at_touch(static_cast<LocalIndex>(cell), t, neighbours[cell]); });
