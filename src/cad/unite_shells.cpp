@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/base/union_find.hpp"
 #include "tessera/mesh/half_edges.hpp"
 #include "tessera/model/nearest_point.hpp"
@@ -79,8 +80,6 @@ double volume_of(const std::vector<Corners>& triangles, const Vec3& origin)
   return volume;
 }
 
-double area_of(const Corners& p) { return 0.5 * norm(cross(p[1] - p[0], p[2] - p[0])); }
-
 // The given surface as bodies of their own and cavities.
 class Bodies {
  public:
@@ -97,7 +96,7 @@ class Bodies {
     for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
       const auto [a, b, c] = surface.corners(t);
       volume_[shell(t)] += tet_volume(origin_, a, b, c);
-      area_ += area_of({a, b, c});
+      area_ += triangle_area(a, b, c);
     }
     // Which of two that touch lies in the other is noise, so that their sides may be wrong. The
     // file says which they are.
@@ -195,14 +194,13 @@ std::optional<Vec3> point_inside(const std::vector<Corners>& skin, double volume
   double area = 0.0;
   const Corners* largest = &skin.front();
   for (const Corners& p : skin) {
-    area += area_of(p);
-    if (area_of(p) > area_of(*largest)) largest = &p;
+    area += triangle_area(p);
+    if (triangle_area(p) > triangle_area(*largest)) largest = &p;
   }
-  const auto& [a, b, c] = *largest;
-  const double below = 0.5 * std::min(0.1 * std::sqrt(area_of(*largest)), volume / area);
+  const double below = 0.5 * std::min(0.1 * std::sqrt(triangle_area(*largest)), volume / area);
   if (!(below > 2.0 * tolerance)) return std::nullopt;
-  const Vec3 normal = cross(b - a, c - a);
-  return (1.0 / 3.0) * (a + b + c) - (below / norm(normal)) * normal;
+  const Vec3 normal = normal_of(*largest);
+  return middle_of(*largest) - (below / norm(normal)) * normal;
 }
 
 void add_triangle(const Corners& corners, model::TriangleSoup& soup)
@@ -269,8 +267,8 @@ bool is_near(const model::TriangleSurface& surface, const model::TriangleSurface
   const model::TriangleSearch search = search_in(to);
   const auto is_on = [&](const Vec3& p) { return norm(search.nearest(p).xyz - p) <= most; };
   for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
-    const auto [a, b, c] = surface.corners(t);
-    if (!is_on(a) || !is_on(b) || !is_on(c) || !is_on((1.0 / 3.0) * (a + b + c))) return false;
+    const Corners corners = surface.corners(t);
+    if (!std::ranges::all_of(corners, is_on) || !is_on(middle_of(corners))) return false;
   }
   return true;
 }
@@ -285,10 +283,10 @@ bool is_all_there(const model::TriangleSurface& given, Bodies& bodies,
   const model::TriangleSearch search = search_in(made);
   GlobalIndex num_angles = 0;
   for (LocalIndex t = 0; t < given.num_triangles(); ++t) {
-    const auto [a, b, c] = given.corners(t);
-    const Vec3 middle = (1.0 / 3.0) * (a + b + c);
+    const Corners corners = given.corners(t);
+    const Vec3 middle = middle_of(corners);
     if (norm(search.nearest(middle).xyz - middle) <= kMostOff * tolerance) continue;
-    const Vec3 normal = cross(b - a, c - a);
+    const Vec3 normal = normal_of(corners);
     if (norm(normal) == 0.0) continue;
     num_angles += 2 * GlobalIndex{given.num_triangles()};
     if (num_angles > kMostAngles) return false;

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/half_edges.hpp"
 
@@ -37,11 +38,10 @@ LocalIndex longest_half_edge(const TriangleSurface& surface, LocalIndex t)
 // Zero if the height is noise.
 Vec3 own_normal(const TriangleSurface& surface, LocalIndex t, double noisy_height)
 {
-  const auto [a, b, c] = surface.corners(t);
-  const Vec3 n = cross(b - a, c - a);
+  const std::array<Vec3, 3> corners = surface.corners(t);
+  const Vec3 n = normal_of(corners);
   const double length = norm(n);
-  const double longest_side = std::max({norm(b - a), norm(c - b), norm(a - c)});
-  if (length <= noisy_height * longest_side) return {};
+  if (length <= noisy_height * longest_side(corners)) return {};
   return (1.0 / length) * n;
 }
 

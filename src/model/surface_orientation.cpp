@@ -11,6 +11,7 @@
 
 #include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/half_edges.hpp"
 #include "tessera/model/winding.hpp"
 
@@ -125,8 +126,7 @@ void nest(const TriangleSurface& surface, std::vector<Shell>& shells)
   for (const Shell& shell : shells) boxes.push_back(box_around(surface, shell));
   std::vector<std::vector<LocalIndex>> containers(shells.size());
   for (std::size_t s = 0; s < shells.size(); ++s) {
-    const auto [a, b, c] = surface.corners(shells[s].triangles.front());
-    const Vec3 probe = (1.0 / 3.0) * (a + b + c);
+    const Vec3 probe = middle_of(surface.corners(shells[s].triangles.front()));
     for (std::size_t other = 0; other < shells.size(); ++other) {
       if (other == s || !boxes[other].holds(probe)) continue;
       if (is_inside(surface, shells[other], probe)) {

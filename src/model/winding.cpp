@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
+
+#include "tessera/base/triangle.hpp"
 
 namespace tessera::model {
 namespace {
@@ -18,16 +21,6 @@ constexpr std::size_t kDeepest = 64;  // Halving 2^31 triangles gives 31 levels.
 constexpr double kFar = 3.0;
 constexpr double kFarNearHalf = 10.0;
 constexpr double kNearHalf = 0.03;
-
-Vec3 area_vector(const std::array<Vec3, 3>& corners)
-{
-  return 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]);
-}
-
-Vec3 middle_of(const std::array<Vec3, 3>& corners)
-{
-  return (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
-}
 
 }  // namespace
 
@@ -56,7 +49,7 @@ WindingNumbers::Node WindingNumbers::node_of(LocalIndex first, LocalIndex last) 
   Vec3 mean{};
   for (LocalIndex t = first; t < last; ++t) {
     const Corners& corners = triangles_[tessera::at(t)];
-    const Vec3 vector = area_vector(corners);
+    const Vec3 vector = 0.5 * normal_of(corners);
     // What has no area has a place all the same.
     const double weight = norm(vector) + std::numeric_limits<double>::min();
     area += weight;

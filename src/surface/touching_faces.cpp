@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tessera/base/box.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/model/nearest_point.hpp"
 
 namespace tessera::surface {
@@ -70,8 +71,7 @@ class TouchSearch {
   // A point of `a`, which `b` does not have as a corner, that lies on `b`.
   [[nodiscard]] std::optional<Vec3> touch(std::size_t a, std::size_t b) const
   {
-    const auto& [p, q, r] = corners_[a];
-    const Vec3 middle = (1.0 / 3.0) * (p + q + r);
+    const Vec3 middle = middle_of(corners_[a]);
     if (is_on(middle, b)) return middle;
     for (std::size_t c = 0; c < 3; ++c) {
       const bool is_shared =

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -121,17 +122,15 @@ CadPlace CadSearch::on_curve(LocalIndex curve, const Vec3& point) const
 double CadSearch::misfit(LocalIndex patch, const std::array<Vec3, 3>& triangle) const
 {
   constexpr double kNormalWeight = 0.5;
-  const auto& [a, b, c] = triangle;
-  const Vec3 middle = (1.0 / 3.0) * (a + b + c);
+  const Vec3 middle = middle_of(triangle);
   double sum = norm(reference_.on_patch(patch, middle) - middle);
   for (const Vec3& corner : triangle) {
     const Vec3 inner = midpoint(middle, corner);
     sum += norm(reference_.on_patch(patch, inner) - inner);
   }
-  const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
-  const Vec3 n = cross(b - a, c - a);
+  const Vec3 n = normal_of(triangle);
   const double cosine = std::abs(dot(n, reference_.normal(patch, middle))) / norm(n);
-  return 0.25 * sum / longest + kNormalWeight * (1.0 - cosine);
+  return 0.25 * sum / longest_side(triangle) + kNormalWeight * (1.0 - cosine);
 }
 
 std::vector<LocalIndex> CadSearch::curves_between(LocalIndex a, LocalIndex b) const

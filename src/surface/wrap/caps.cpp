@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "tessera/base/triangle.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/winding.hpp"
@@ -209,11 +210,11 @@ bool is_of_hole(const std::vector<Corners>& cap, const Surface& surface)
   double farthest = 0.0;
   double area = 0.0;
   double sum = 0.0;
-  for (const auto& [a, b, c] : cap) {
-    const Vec3 middle = (1.0 / 3.0) * (a + b + c);
+  for (const Corners& triangle : cap) {
+    const Vec3 middle = middle_of(triangle);
     farthest = std::max(farthest, surface.file.distance(middle));
-    area += triangle_area(a, b, c);
-    sum += triangle_area(a, b, c) * surface.winding.at(middle);
+    area += triangle_area(triangle);
+    sum += triangle_area(triangle) * surface.winding.at(middle);
   }
   return farthest > surface.tolerance && sum > kLeastWinding * area && sum < kMostWinding * area;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tessera/base/box_tree.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/half_edges.hpp"
 #include "tessera/surface/overlap.hpp"
 
@@ -164,7 +165,7 @@ class SoundTriangles {
 
   [[nodiscard]] Vec3 normal_of(const PatchSurface::Triangle& v) const
   {
-    return cross(place(v[1]) - place(v[0]), place(v[2]) - place(v[0]));
+    return tessera::normal_of({place(v[0]), place(v[1]), place(v[2])});
   }
 
   [[nodiscard]] bool is_flat(const PatchSurface::Triangle& v) const

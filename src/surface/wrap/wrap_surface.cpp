@@ -13,6 +13,7 @@
 
 #include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/model/winding.hpp"
 
 #include "surface/wrap/caps.hpp"
@@ -102,8 +103,9 @@ double largest_distance(const std::vector<Corners>& from, const FileTriangles& t
     while (!parts.empty()) {
       const Corners part = parts.back();
       parts.pop_back();
-      largest = std::max(largest, to.distance((1.0 / 3.0) * (a + b + c)));
-      if (std::max({norm(b - a), norm(c - b), norm(a - c)}) <= 2.0 * spacing) continue;
+      largest = std::max(largest, to.distance(middle_of(part)));
+      if (longest_side(part) <= 2.0 * spacing) continue;
+      const auto& [a, b, c] = part;
       const Vec3 ab = midpoint(a, b);
       const Vec3 bc = midpoint(b, c);
       const Vec3 ca = midpoint(c, a);
