@@ -116,7 +116,7 @@ model::CurvePoint StlModel::project_to_curve(LocalIndex curve, const Vec3& point
 // Nothing is near a point that is not finite.
 Vec3 StlModel::found(const model::NearestPoint& nearest) const
 {
-  if (nearest.part == kNoIndex) throw GeometryError(name_ + ": no nearest point found");
+  if (nearest.simplex == kNoIndex) throw GeometryError(name_ + ": no nearest point found");
   return nearest.xyz;
 }
 

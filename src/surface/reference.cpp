@@ -86,7 +86,7 @@ void SurfaceReference::add_patch(const std::vector<LocalIndex>& triangles)
 std::size_t SurfaceReference::nearest_triangle(LocalIndex patch, const Vec3& point) const
 {
   const Patch& found = patches_[at(patch)];
-  return at(found.triangles[at(found.search.nearest(point).part)]);
+  return at(found.triangles[at(found.search.nearest(point).simplex)]);
 }
 
 Vec3 SurfaceReference::on_patch(LocalIndex patch, const Vec3& point) const
@@ -98,7 +98,7 @@ SurfaceReference::Place SurfaceReference::place_on_patch(LocalIndex patch, const
 {
   const Patch& found = patches_[at(patch)];
   const model::NearestPoint nearest = found.search.nearest(point);
-  return {nearest.xyz, normals_[at(found.triangles[at(nearest.part)])]};
+  return {nearest.xyz, normals_[at(found.triangles[at(nearest.simplex)])]};
 }
 
 const Vec3* SurfaceReference::normal_of_plane(LocalIndex patch) const
@@ -135,7 +135,7 @@ double SurfaceReference::curve_parameter(LocalIndex curve, const Vec3& point) co
   if (surface_.edge_t.empty()) return 0.0;
   const Curve& found = curves_[at(curve)];
   const model::NearestPoint nearest = found.search.value().nearest(point);
-  const std::size_t e = found.edges[at(nearest.part)];
+  const std::size_t e = found.edges[at(nearest.simplex)];
   const Vec3& a = surface_.vertex_xyz[at(surface_.edges[e][0])];
   const Vec3& b = surface_.vertex_xyz[at(surface_.edges[e][1])];
   const double along = norm(b - a) > 0.0 ? norm(nearest.xyz - a) / norm(b - a) : 0.0;

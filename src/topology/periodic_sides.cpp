@@ -182,7 +182,7 @@ class Joiner {
       const model::NearestPoint nearest = search.nearest(image);
       const double off = norm(nearest.xyz - image);
       if (off > tolerance_) throw MeshError(too_far(side, mesh_.position(v), image, off));
-      partner[v] = candidates[at(nearest.part)];
+      partner[v] = candidates[at(nearest.simplex)];
     }
     return partner;
   }

@@ -103,17 +103,17 @@ int SkinDistance::side_of(const Vec3& point, double least) const
 // at a vertex. @cite baerentzen2005
 Vec3 SkinDistance::normal_at(const model::NearestPoint& nearest) const
 {
-  const std::array<Vec3, 3>& corners = triangles_[at(nearest.part)];
+  const std::array<Vec3, 3>& corners = triangles_[at(nearest.simplex)];
   for (std::size_t c = 0; c < 3; ++c) {
     if (nearest.xyz != corners[c]) continue;
-    return vertex_normals_[at(skin_.triangle_vertices[3 * at(nearest.part) + c])];
+    return vertex_normals_[at(skin_.triangle_vertices[3 * at(nearest.simplex) + c])];
   }
   constexpr double kOnEdge = 1e-6;  // Of its length.
   for (std::size_t c = 0; c < 3; ++c) {
     const Vec3& a = corners[c];
     const Vec3& b = corners[(c + 1) % 3];
     if (squared_distance_from_line(nearest.xyz, a, b) < kOnEdge * kOnEdge * dot(b - a, b - a)) {
-      return edge_normals_[at(edges_.index_of(side_at(skin_, at(nearest.part), c)))];
+      return edge_normals_[at(edges_.index_of(side_at(skin_, at(nearest.simplex), c)))];
     }
   }
   return unit_normal_of(corners);

@@ -204,8 +204,7 @@ class Fitter {
                          place_text(middle)));
       }
       const model::NearestPoint nearest = searches[at(patch)]->nearest(middle);
-      const auto& [a, b, c] = of_patch[at(patch)][at(nearest.part)];
-      const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+      const double longest = longest_side(of_patch[at(patch)][at(nearest.simplex)]);
       const double distance = norm(nearest.xyz - middle);
       if (distance <= kMostBulge * longest) continue;
       fail(fmt::format("{} is not covered at {}: the nearest triangle of the mesh is {:g} away",

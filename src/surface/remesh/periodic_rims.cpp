@@ -196,7 +196,7 @@ class VertexFinder {
   [[nodiscard]] LocalIndex at_place(const Vec3& place, double tolerance) const
   {
     const model::NearestPoint nearest = search_.nearest(place);
-    return norm(nearest.xyz - place) <= tolerance ? vertices_[at(nearest.part)] : kNoIndex;
+    return norm(nearest.xyz - place) <= tolerance ? vertices_[at(nearest.simplex)] : kNoIndex;
   }
 
  private:

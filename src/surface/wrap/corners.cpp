@@ -49,18 +49,15 @@ Sample sample_of(const Square& square, double spacing, const FileTriangles& file
   Vec3 normal{};
   for (int step = 0; step < kSteps; ++step) {
     nearest = file.search.nearest(square.inside + t * along);
-    const auto& [a, b, c] = file.triangles[at(nearest.part)];
-    normal = unit(cross(b - a, c - a));
+    normal = unit_normal_of(file.triangles[at(nearest.simplex)]);
     const double slope = dot(normal, along);
     if (std::abs(slope) < 0.1 * spacing) break;
     t = std::clamp(dot(normal, nearest.xyz - square.inside) / slope, 0.0, 1.0);
   }
   const Vec3 place = square.inside + t * along;
   nearest = file.search.nearest(place);
-  if (nearest.part != kNoIndex && norm(nearest.xyz - place) <= 0.5 * spacing) {
-    const auto& [a, b, c] = file.triangles[at(nearest.part)];
-    return {nearest.xyz, unit(cross(b - a, c - a)), place};
-  }
+  if (nearest.simplex != kNoIndex && norm(nearest.xyz - place) <= 0.5 * spacing)
+    return {nearest.xyz, unit_normal_of(file.triangles[at(nearest.simplex)]), place};
   const Vec3 between = square.inside + square.share * along;
   return {between, {}, between};
 }
