@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/single_precision.hpp"
 #include "tessera/base/triangle.hpp"
 #include "tessera/base/union_find.hpp"
 #include "tessera/mesh/half_edges.hpp"
@@ -35,12 +36,8 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 using Contacts = std::vector<std::array<std::size_t, 2>>;
 
-// Of the box diagonal: what counts as touching. Single precision leaves sheets that were meant to
-// be one so far apart.
-constexpr double kTouching = 1e-6;
-
-// How far the new surface may be off the old one, in parts of that. Both of two sheets may be
-// moved.
+// How far the new surface may be off the old one, in parts of what counts as touching. Both of two
+// sheets may be moved.
 constexpr double kMostOff = 10.0;
 constexpr double kMostOffOnAverage = 4.0;
 
@@ -309,7 +306,7 @@ std::optional<model::CheckedSurface> united(const model::TriangleSurface& surfac
                                             const std::string& name)
 {
   if (!bodies.are_known()) return std::nullopt;
-  const double tolerance = kTouching * model::box_diagonal(surface);
+  const double tolerance = kSinglePrecisionNoise * model::box_diagonal(surface);
   model::TriangleSoup soup = with_occ_errors(
       name, [&] { return outside_of(cells_of(surface, tolerance), bodies, tolerance); });
   if (soup.num_triangles() == 0) return std::nullopt;
@@ -340,8 +337,8 @@ void unite_flat_contacts(const model::TriangleSoup& soup, model::CheckedSurface&
       || is_left_out(Repair::flat_contacts)) {
     return;
   }
-  const Contacts contacts =
-      find_flat_contacts(geometry::triangles_of(surface), kTouching * model::box_diagonal(surface));
+  const Contacts contacts = find_flat_contacts(
+      geometry::triangles_of(surface), kSinglePrecisionNoise * model::box_diagonal(surface));
   if (contacts.empty()) return;
   std::optional<model::CheckedSurface> made;
   try {
