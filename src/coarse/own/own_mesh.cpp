@@ -14,6 +14,7 @@
 
 #include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/mesh/tet_edges.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/surface/touching_faces.hpp"
 
@@ -152,10 +153,7 @@ class OwnMeshBuilder {
     for (std::size_t c = 0; c < 4; ++c) {
       corners[c] = own_.mesh.position(own_.mesh.tet_vertices[4 * t + c]);
     }
-    double longest = 0.0;
-    for (const auto& [a, b] : mesh::kTetEdgeCorners) {
-      longest = std::max(longest, norm(corners[b] - corners[a]));
-    }
+    const double longest = mesh::longest_edge(corners);
     const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
     if (std::abs(volume) > kFlat * longest * longest * longest) return volume;
     fail(
