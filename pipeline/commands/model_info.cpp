@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/model/part_names.hpp"
 
@@ -29,21 +30,6 @@ using Json = nlohmann::ordered_json;
 constexpr double kTetsPerCube = 7.0;
 constexpr double kTetsPerThinness = 14.0;  // Times area h / volume, squared.
 
-struct Box {
-  Vec3 low{};
-  Vec3 high{};
-  bool is_empty = true;
-
-  void add(const Vec3& p)
-  {
-    if (std::exchange(is_empty, false)) low = high = p;
-    for (std::size_t c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], p[c]);
-      high[c] = std::max(high[c], p[c]);
-    }
-  }
-};
-
 // Of the triangles: of the whole model, and face by face.
 struct Boxes {
   Box model{};
@@ -58,8 +44,8 @@ Boxes boxes_of(const model::ModelDescription& description)
     for (std::size_t c = 0; c < 3; ++c) {
       const Vec3 p =
           point_at(std::span(description.vertex_xyz), description.triangle_vertices[3 * t + c]);
-      boxes.model.add(p);
-      boxes.faces[static_cast<std::size_t>(description.triangle_face[t])].add(p);
+      boxes.model.include(p);
+      boxes.faces[static_cast<std::size_t>(description.triangle_face[t])].include(p);
     }
   }
   return boxes;
@@ -100,8 +86,8 @@ std::string point_text(const Vec3& p)
 
 std::string box_text(const Box& box)
 {
-  return box.is_empty ? "not drawn"
-                      : fmt::format("{} to {}", point_text(box.low), point_text(box.high));
+  return box.is_empty() ? "not drawn"
+                        : fmt::format("{} to {}", point_text(box.low), point_text(box.high));
 }
 
 double predicted_tets(const Extent& extent, double size)
@@ -209,7 +195,7 @@ std::string sizes_text(const Extent& extent)
 
 Json json_of(const Box& box)
 {
-  return box.is_empty ? Json(nullptr) : Json({{"low", box.low}, {"high", box.high}});
+  return box.is_empty() ? Json(nullptr) : Json({{"low", box.low}, {"high", box.high}});
 }
 
 Json faces_json(const model::ModelDescription& description, const Boxes& boxes)

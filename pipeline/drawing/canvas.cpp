@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "tessera/base/box.hpp"
+#include "tessera/base/triangle.hpp"
 
 namespace tessera::pipeline {
 namespace {
@@ -37,7 +39,7 @@ class Raster {
  public:
   Raster(const std::array<Vec3, 3>& p, Sides sides) : p_(p)
   {
-    const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+    const Vec3 normal = normal_of(p);
     twice_area_ = normal[2];
     if (!is_seen()) return;
     // Light comes from over the eye's left shoulder, and falls on both sides of a triangle.
@@ -133,20 +135,12 @@ Vec3 Camera::on_picture(const Vec3& p) const
 
 Camera fit_camera(const View& view, std::span<const double> xyz, const Room& room)
 {
-  Vec3 low{};
-  Vec3 high{};
-  low.fill(std::numeric_limits<double>::max());
-  high.fill(std::numeric_limits<double>::lowest());
-  for (std::size_t v = 0; v < xyz.size() / 3; ++v) {
-    const Vec3 p = seen(view, point_at(xyz, v));
-    for (std::size_t c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], p[c]);
-      high[c] = std::max(high[c], p[c]);
-    }
-  }
-  if (xyz.empty()) low = high = {};
-  const Vec3 extent{std::max(high[0] - low[0], 1e-300), std::max(high[1] - low[1], 1e-300), 0.0};
-  Camera camera{.view = view, .width = room.width, .middle = midpoint(low, high)};
+  Box box;
+  for (std::size_t v = 0; v < xyz.size() / 3; ++v) box.include(seen(view, point_at(xyz, v)));
+  if (box.is_empty()) box.include(Vec3{});
+  const Vec3 sides = box.extent();
+  const Vec3 extent{std::max(sides[0], 1e-300), std::max(sides[1], 1e-300), 0.0};
+  Camera camera{.view = view, .width = room.width, .middle = midpoint(box.low, box.high)};
   camera.scale = std::min((room.width - 2 * room.margin) / extent[0],
                           (room.most_height - 2 * room.margin) / extent[1]);
   camera.height = std::clamp(static_cast<int>(camera.scale * extent[1]) + 2 * room.margin,

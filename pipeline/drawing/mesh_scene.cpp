@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tessera/base/box.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/quality/tet_quality.hpp"
 
@@ -26,15 +27,8 @@ constexpr double kOffMiddle = 0.0137;
 
 CutPlane plane_for(std::span<const double> xyz)
 {
-  Vec3 low{};
-  Vec3 high{};
-  low.fill(std::numeric_limits<double>::max());
-  high.fill(std::numeric_limits<double>::lowest());
-  for (std::size_t i = 0; i < xyz.size(); ++i) {
-    low[i % 3] = std::min(low[i % 3], xyz[i]);
-    high[i % 3] = std::max(high[i % 3], xyz[i]);
-  }
-  const Vec3 extent = high - low;
+  const Box box = bounding_box(xyz);
+  const Vec3 extent = box.extent();
   // Of equal sides the one that faces the eye most.
   std::size_t axis = 1;
   for (const std::size_t other : {std::size_t{0}, std::size_t{2}}) {
@@ -42,7 +36,7 @@ CutPlane plane_for(std::span<const double> xyz)
   }
   return {.axis = axis,
           .towards_eye = axis == 1 ? -1.0 : 1.0,
-          .position = 0.5 * (low[axis] + high[axis]) + kOffMiddle * extent[axis]};
+          .position = 0.5 * (box.low[axis] + box.high[axis]) + kOffMiddle * extent[axis]};
 }
 
 Canvas canvas_for(const Vec3& eye, std::span<const double> xyz)

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/model/description.hpp"
 
 #include "pipeline/drawing/model_picture.hpp"

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/name_patterns.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/comm/all_or_none.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 
@@ -140,18 +141,15 @@ void name_pieces(const model::ModelDescription& described, const config::Case& g
 // Centroid of some faces, file length unit.
 Vec3 centroid_of(const model::ModelDescription& model, const std::vector<LocalIndex>& faces)
 {
-  Vec3 sum{};
-  double area = 0.0;
+  std::vector<std::array<Vec3, 3>> triangles;
   for (std::size_t t = 0; t < model.triangle_face.size(); ++t) {
     if (std::ranges::find(faces, model.triangle_face[t]) == faces.end()) continue;
     const auto corner = [&](std::size_t c) {
       return point_at(std::span(model.vertex_xyz), model.triangle_vertices[3 * t + c]);
     };
-    const double of_triangle = triangle_area(corner(0), corner(1), corner(2));
-    sum = sum + (of_triangle / 3.0) * (corner(0) + corner(1) + corner(2));
-    area += of_triangle;
+    triangles.push_back({corner(0), corner(1), corner(2)});
   }
-  return (1.0 / area) * sum;
+  return tessera::centroid_of(triangles);
 }
 
 std::vector<surface::PeriodicPatches> periodic_patches(const model::ModelDescription& described,

@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/base/vec3.hpp"
 
 #include "pipeline/drawing/mesh_scene.hpp"
@@ -49,24 +49,24 @@ constexpr std::string_view kCoarseNote =
     "there are "
     "more of these than a page has room for, or only a part of the mesh was made.</p>\n";
 
-struct Box {
+struct Grid {
   Vec3 low{};
   Vec3 step{};
 };
 
-Box box_of(std::span<const double> xyz)
+Grid grid_around(std::span<const double> xyz)
 {
-  const auto [low, high] = bounding_box(xyz);
-  return {low, (1.0 / kSteps) * (high - low)};
+  const Box box = bounding_box(xyz);
+  return {box.low, (1.0 / kSteps) * box.extent()};
 }
 
-std::vector<std::uint32_t> coordinates(std::span<const double> xyz, const Box& box,
+std::vector<std::uint32_t> coordinates(std::span<const double> xyz, const Grid& grid,
                                        std::size_t axis)
 {
   std::vector<std::uint32_t> values;
   values.reserve(xyz.size() / 3);
   for (std::size_t i = axis; i < xyz.size(); i += 3) {
-    const double steps = box.step[axis] > 0.0 ? (xyz[i] - box.low[axis]) / box.step[axis] : 0.0;
+    const double steps = grid.step[axis] > 0.0 ? (xyz[i] - grid.low[axis]) / grid.step[axis] : 0.0;
     values.push_back(static_cast<std::uint32_t>(std::lround(std::clamp(steps, 0.0, kSteps))));
   }
   return values;
@@ -78,12 +78,12 @@ std::size_t width_of(std::span<const std::uint32_t> values)
   return largest <= 0xffU ? 1 : largest <= 0xffffU ? 2 : 4;
 }
 
-PackedArrays packed(const Surface& surface, const Box& box)
+PackedArrays packed(const Surface& surface, const Grid& grid)
 {
   PackedArrays arrays;
   for (const auto& [name, axis] : {std::pair("x", 0U), std::pair("y", 1U), std::pair("z", 2U)}) {
-    arrays.add(name, 2, coordinates(surface.point_xyz, box, axis));
-    arrays.add(std::string("line_") + name, 2, coordinates(surface.line_xyz, box, axis));
+    arrays.add(name, 2, coordinates(surface.point_xyz, grid, axis));
+    arrays.add(std::string("line_") + name, 2, coordinates(surface.line_xyz, grid, axis));
   }
   const std::vector<std::uint32_t> corners(surface.corners.begin(), surface.corners.end());
   arrays.add("corners", 4, corners);
@@ -133,12 +133,12 @@ std::string view_html(const SurfaceView& view)
         "page again, or set the environment variable TESSERA_THREE_JS to the file three.min.js.",
         three_js_file().string()));
   }
-  const Box box = box_of(surface.point_xyz);
-  const PackedArrays arrays = packed(surface, box);
+  const Grid grid = grid_around(surface.point_xyz);
+  const PackedArrays arrays = packed(surface, grid);
   Json data = view.description;
   data["is_coarse"] = surface.is_coarse;
-  data["low"] = box.low;
-  data["step"] = box.step;
+  data["low"] = grid.low;
+  data["step"] = grid.step;
   data["arrays"] = arrays.layout();
   data["palette"] = css_colours(distinct_colours());
   for (Json& colouring : data["colourings"]) {

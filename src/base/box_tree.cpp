@@ -45,8 +45,7 @@ void BoxTree::build(LocalIndex number, std::span<LocalIndex> items)
   }
   const auto children = static_cast<LocalIndex>(nodes_.size());
   node.children = children;
-  const Vec3 extent = box.high - box.low;
-  const auto axis = static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
+  const std::size_t axis = box.longest_axis();
   const auto place = [&](LocalIndex item) {
     return std::pair(boxes_[at(item)].low[axis] + boxes_[at(item)].high[axis], item);
   };

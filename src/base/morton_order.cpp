@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tessera/base/box.hpp"
+
 namespace tessera {
 namespace {
 
@@ -22,20 +24,18 @@ std::uint64_t spread_bits(std::uint64_t x)
   return x;
 }
 
-using Xyz = std::array<double, 3>;
-
-struct Box {
-  Xyz low{};
+struct Grid {
+  Vec3 low{};
   double cells_a_unit = 0.0;
 
-  [[nodiscard]] std::uint64_t code(const Xyz& xyz) const
+  [[nodiscard]] std::uint64_t code(const Vec3& xyz) const
   {
     return spread_bits(cell(xyz, 0)) | (spread_bits(cell(xyz, 1)) << 1)
            | (spread_bits(cell(xyz, 2)) << 2);
   }
 
  private:
-  [[nodiscard]] std::uint64_t cell(const Xyz& xyz, std::size_t axis) const
+  [[nodiscard]] std::uint64_t cell(const Vec3& xyz, std::size_t axis) const
   {
     const double place = (xyz[axis] - low[axis]) * cells_a_unit;
     return place > 0.0 ? std::min(static_cast<std::uint64_t>(place), kLastCell) : 0;
@@ -48,7 +48,7 @@ class Rows {
   Rows(std::span<const double> values, std::size_t width) : values_(values), width_(width) {}
 
   [[nodiscard]] std::size_t size() const { return values_.size() / width_; }
-  [[nodiscard]] Xyz operator[](std::size_t row) const
+  [[nodiscard]] Vec3 operator[](std::size_t row) const
   {
     const double* at = &values_[width_ * row];
     return {at[0], at[1], at[2]};
@@ -60,19 +60,12 @@ class Rows {
 };
 
 // @pre points are finite, and so are their differences.
-Box box_around(const Rows& points)
+Grid grid_around(const Rows& points)
 {
-  Xyz low = points[0];
-  Xyz high = low;
-  for (std::size_t row = 0; row < points.size(); ++row) {
-    const Xyz xyz = points[row];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], xyz[axis]);
-      high[axis] = std::max(high[axis], xyz[axis]);
-    }
-  }
-  const double size = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  return {low, size > 0.0 ? static_cast<double>(kLastCell) / size : 0.0};
+  Box box;
+  for (std::size_t row = 0; row < points.size(); ++row) box.include(points[row]);
+  const double size = std::ranges::max(box.extent());
+  return {box.low, size > 0.0 ? static_cast<double>(kLastCell) / size : 0.0};
 }
 
 // Sorts by the high half, ten bits a pass; equal ones stay in order.
@@ -94,9 +87,9 @@ std::vector<LocalIndex> morton_order(std::span<const double> values, std::size_t
 {
   const Rows points(values, width);
   if (points.size() == 0) return {};
-  const Box box = box_around(points);
+  const Grid grid = grid_around(points);
   std::vector<std::uint64_t> keys(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) keys[i] = (box.code(points[i]) << 32) | i;
+  for (std::size_t i = 0; i < points.size(); ++i) keys[i] = (grid.code(points[i]) << 32) | i;
   radix_sort(keys);
   std::vector<LocalIndex> order(points.size());
   std::transform(keys.begin(), keys.end(), order.begin(), [](std::uint64_t key) {

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/surface/on_geometry.hpp"
 
 #include "cad/cell_numbers.hpp"
@@ -242,8 +243,7 @@ void CadModel::guess_parameters(const surface::SurfaceReference& reference, mesh
   constexpr double kInside = 0.1;
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
     const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
-    const Vec3 middle =
-        (1.0 / 3.0) * (mesh.position(v[0]) + mesh.position(v[1]) + mesh.position(v[2]));
+    const Vec3 middle = middle_of({mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2])});
     const LocalIndex surface = mesh.patch_surface[at(mesh.face_patch[at(f)])];
     for (std::size_t c = 0; c < 3; ++c) {
       const Vec3 corner = mesh.position(v[c]);

@@ -18,6 +18,8 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/given_up.hpp"
+#include "tessera/base/single_precision.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/base/union_find.hpp"
 #include "tessera/mesh/half_edges.hpp"
 #include "tessera/model/nearest_point.hpp"
@@ -35,12 +37,8 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 using Contacts = std::vector<std::array<std::size_t, 2>>;
 
-// Of the box diagonal: what counts as touching. Single precision leaves sheets that were meant to
-// be one so far apart.
-constexpr double kTouching = 1e-6;
-
-// How far the new surface may be off the old one, in parts of that. Both of two sheets may be
-// moved.
+// How far the new surface may be off the old one, in parts of what counts as touching. Both of two
+// sheets may be moved.
 constexpr double kMostOff = 10.0;
 constexpr double kMostOffOnAverage = 4.0;
 
@@ -80,8 +78,6 @@ double volume_of(const std::vector<Corners>& triangles, const Vec3& origin)
   return volume;
 }
 
-double area_of(const Corners& p) { return 0.5 * norm(cross(p[1] - p[0], p[2] - p[0])); }
-
 // The given surface as bodies of their own and cavities.
 class Bodies {
  public:
@@ -98,7 +94,7 @@ class Bodies {
     for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
       const auto [a, b, c] = surface.corners(t);
       volume_[shell(t)] += tet_volume(origin_, a, b, c);
-      area_ += area_of({a, b, c});
+      area_ += triangle_area(a, b, c);
     }
     // Which of two that touch lies in the other is noise, so that their sides may be wrong. The
     // file says which they are.
@@ -196,14 +192,13 @@ std::optional<Vec3> point_inside(const std::vector<Corners>& skin, double volume
   double area = 0.0;
   const Corners* largest = &skin.front();
   for (const Corners& p : skin) {
-    area += area_of(p);
-    if (area_of(p) > area_of(*largest)) largest = &p;
+    area += triangle_area(p);
+    if (triangle_area(p) > triangle_area(*largest)) largest = &p;
   }
-  const auto& [a, b, c] = *largest;
-  const double below = 0.5 * std::min(0.1 * std::sqrt(area_of(*largest)), volume / area);
+  const double below = 0.5 * std::min(0.1 * std::sqrt(triangle_area(*largest)), volume / area);
   if (!(below > 2.0 * tolerance)) return std::nullopt;
-  const Vec3 normal = cross(b - a, c - a);
-  return (1.0 / 3.0) * (a + b + c) - (below / norm(normal)) * normal;
+  const Vec3 normal = normal_of(*largest);
+  return middle_of(*largest) - (below / norm(normal)) * normal;
 }
 
 void add_triangle(const Corners& corners, model::TriangleSoup& soup)
@@ -270,8 +265,8 @@ bool is_near(const model::TriangleSurface& surface, const model::TriangleSurface
   const model::TriangleSearch search = search_in(to);
   const auto is_on = [&](const Vec3& p) { return norm(search.nearest(p).xyz - p) <= most; };
   for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {
-    const auto [a, b, c] = surface.corners(t);
-    if (!is_on(a) || !is_on(b) || !is_on(c) || !is_on((1.0 / 3.0) * (a + b + c))) return false;
+    const Corners corners = surface.corners(t);
+    if (!std::ranges::all_of(corners, is_on) || !is_on(middle_of(corners))) return false;
   }
   return true;
 }
@@ -286,10 +281,10 @@ bool is_all_there(const model::TriangleSurface& given, Bodies& bodies,
   const model::TriangleSearch search = search_in(made);
   GlobalIndex num_angles = 0;
   for (LocalIndex t = 0; t < given.num_triangles(); ++t) {
-    const auto [a, b, c] = given.corners(t);
-    const Vec3 middle = (1.0 / 3.0) * (a + b + c);
+    const Corners corners = given.corners(t);
+    const Vec3 middle = middle_of(corners);
     if (norm(search.nearest(middle).xyz - middle) <= kMostOff * tolerance) continue;
-    const Vec3 normal = cross(b - a, c - a);
+    const Vec3 normal = normal_of(corners);
     if (norm(normal) == 0.0) continue;
     num_angles += 2 * GlobalIndex{given.num_triangles()};
     if (num_angles > kMostAngles) return false;
@@ -312,7 +307,7 @@ std::optional<model::CheckedSurface> united(const model::TriangleSurface& surfac
                                             const std::string& name)
 {
   if (!bodies.are_known()) return std::nullopt;
-  const double tolerance = kTouching * model::box_diagonal(surface);
+  const double tolerance = kSinglePrecisionNoise * model::box_diagonal(surface);
   model::TriangleSoup soup = with_occ_errors(
       name, [&] { return outside_of(cells_of(surface, tolerance), bodies, tolerance); });
   if (soup.num_triangles() == 0) return std::nullopt;
@@ -343,8 +338,8 @@ void unite_flat_contacts(const model::TriangleSoup& soup, model::CheckedSurface&
       || is_left_out(Repair::flat_contacts)) {
     return;
   }
-  const Contacts contacts =
-      find_flat_contacts(geometry::triangles_of(surface), kTouching * model::box_diagonal(surface));
+  const Contacts contacts = find_flat_contacts(
+      geometry::triangles_of(surface), kSinglePrecisionNoise * model::box_diagonal(surface));
   if (contacts.empty()) return;
   std::optional<model::CheckedSurface> made;
   try {

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "tessera/base/cheapest_triangulation.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 #include "coarse/child_energy.hpp"
@@ -14,6 +15,7 @@ namespace tessera::coarse {
 namespace {
 
 constexpr std::size_t kLargestRing = 7;  // Of the tets around an edge; larger ones seldom pay.
+using RingTriangulation = CheapestTriangulation<kLargestRing>;
 
 // More than any sum over a ring of fair tets: first of all such tets become fewer.
 constexpr double kCostOfTwoFacesOnAPatch = 1000.0;
@@ -32,13 +34,6 @@ struct Ring {
   LocalIndex a = kNoIndex;
   LocalIndex b = kNoIndex;
   std::vector<LocalIndex> corners{};
-};
-
-// Cheapest way to fill a ring's cavity without its edge: a triangulation of the ring, with a tet on
-// either side of each triangle. Best of all corners between i and j, for each i < j.
-struct RingPlan {
-  std::array<std::array<double, kLargestRing>, kLargestRing> cost{};
-  std::array<std::array<std::size_t, kLargestRing>, kLargestRing> middle{};
 };
 
 class Flipper {
@@ -150,44 +145,26 @@ class Flipper {
     for (std::size_t i = 0; i < n; ++i) {
       before += cost(ring.a, ring.b, ring.corners[i], ring.corners[(i + 1) % n]);
     }
-    const RingPlan plan = cheapest(ring);
-    if (!(plan.cost[0][n - 1] < (1.0 - kLeastGain) * before)) return false;
+    const RingTriangulation cheapest = cheapest_triangulation(ring);
+    if (!(cheapest.cost() < (1.0 - kLeastGain) * before)) return false;
     for (const EdgeOfTet& one : around) is_gone_[at(one.tet)] = 1;
-    add_tets(ring, plan, 0, n - 1);
+    const std::vector<LocalIndex>& c = ring.corners;
+    cheapest.for_each_triangle([&](std::size_t i, std::size_t j, std::size_t k) {
+      add({ring.a, c[i], c[j], c[k]}, ring.material);
+      add({ring.b, c[k], c[j], c[i]}, ring.material);
+    });
     return true;
   }
 
-  [[nodiscard]] RingPlan cheapest(const Ring& ring) const
+  // To fill the ring's cavity without its edge, each triangle gets a tet on either side.
+  [[nodiscard]] RingTriangulation cheapest_triangulation(const Ring& ring) const
   {
     const std::vector<LocalIndex>& c = ring.corners;
-    RingPlan plan;
-    for (std::size_t length = 2; length < c.size(); ++length) {
-      for (std::size_t i = 0; i + length < c.size(); ++i) {
-        const std::size_t j = i + length;
-        plan.cost[i][j] = kNoTet;
-        // An edge of other tets must not come a second time.
-        if (length + 1 < c.size() && is_edge(c[i], c[j])) continue;
-        for (std::size_t k = i + 1; k < j; ++k) {
-          const double sum = plan.cost[i][k] + plan.cost[k][j] + cost(ring.a, c[i], c[k], c[j])
-                             + cost(ring.b, c[j], c[k], c[i]);
-          if (!(sum < plan.cost[i][j])) continue;
-          plan.cost[i][j] = sum;
-          plan.middle[i][j] = k;
-        }
-      }
-    }
-    return plan;
-  }
-
-  void add_tets(const Ring& ring, const RingPlan& plan, std::size_t i, std::size_t j)
-  {
-    if (j < i + 2) return;
-    const std::size_t k = plan.middle[i][j];
-    const std::vector<LocalIndex>& c = ring.corners;
-    add({ring.a, c[i], c[k], c[j]}, ring.material);
-    add({ring.b, c[j], c[k], c[i]}, ring.material);
-    add_tets(ring, plan, i, k);
-    add_tets(ring, plan, k, j);
+    // An edge of other tets must not come a second time.
+    const auto is_new = [&](std::size_t i, std::size_t k) { return !is_edge(c[i], c[k]); };
+    return {c.size(), is_new, [&](double behind, std::size_t i, std::size_t j, std::size_t k) {
+              return behind + cost(ring.a, c[i], c[j], c[k]) + cost(ring.b, c[k], c[j], c[i]);
+            }};
   }
 
   // Two tets at a triangle become three around the edge between their opposite corners.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -25,9 +24,9 @@ constexpr std::array<EdgeCorners, 6> kEdges{
 
 Edge edge_of(LocalIndex a, LocalIndex b) { return {std::min(a, b), std::max(a, b)}; }
 
-double angle_between(const Vec3& u, const Vec3& v)
+double degrees_between(const Vec3& u, const Vec3& v)
 {
-  return std::atan2(norm(cross(u, v)), dot(u, v)) * 180.0 / std::numbers::pi;
+  return angle_between(u, v) * 180.0 / std::numbers::pi;
 }
 
 class SharpFinder {
@@ -55,8 +54,8 @@ class SharpFinder {
     const auto v = mesh_.tet(t);
     const Vec3 a = mesh_.position(v[edge.a]);
     const Vec3 along = mesh_.position(v[edge.b]) - a;
-    return angle_between(cross(along, mesh_.position(v[edge.c]) - a),
-                         cross(along, mesh_.position(v[edge.d]) - a));
+    return degrees_between(cross(along, mesh_.position(v[edge.c]) - a),
+                           cross(along, mesh_.position(v[edge.d]) - a));
   }
 
   [[nodiscard]] double smallest_angle(LocalIndex t) const
@@ -147,8 +146,8 @@ class SharpFinder {
   {
     const LocalIndex* v = &mesh_.face_vertices[3 * at(f)];
     const Vec3 tip = mesh_.position(v[c]);
-    return angle_between(mesh_.position(v[(c + 1) % 3]) - tip,
-                         mesh_.position(v[(c + 2) % 3]) - tip);
+    return degrees_between(mesh_.position(v[(c + 1) % 3]) - tip,
+                           mesh_.position(v[(c + 2) % 3]) - tip);
   }
 
   [[nodiscard]] bool is_tip(LocalIndex f) const

@@ -49,9 +49,9 @@ void allot_parts(std::vector<Leaf>& leaves, LocalIndex num_parts)
   }
 }
 
-class Planner {
+class PlaneChooser {
  public:
-  Planner(const model::ModelDescription& model, const CutOptions& options)
+  PlaneChooser(const model::ModelDescription& model, const CutOptions& options)
       : options_(options),
         solids_(solid_surfaces(model, options.coarse_size)),
         next_label_(static_cast<LocalIndex>(model.faces.size())),
@@ -268,7 +268,7 @@ CutChoice choose_planes(const model::ModelDescription& model, const CutOptions& 
 {
   require_valid(options);
   model.require_sound();
-  return Planner(model, options).run();
+  return PlaneChooser(model, options).run();
 }
 
 }  // namespace tessera::cut

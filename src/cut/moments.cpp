@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "tessera/base/box.hpp"
+
 namespace tessera::cut {
 namespace {
 
@@ -39,15 +41,8 @@ double mean_depth(std::array<double, 3> h)
 
 Vec3 middle_of_box(const PartSurface& part)
 {
-  Vec3 low = part.points.front();
-  Vec3 high = low;
-  for (const Vec3& p : part.points) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], p[d]);
-      high[d] = std::max(high[d], p[d]);
-    }
-  }
-  return midpoint(low, high);
+  const Box box = bounding_box(part.points);
+  return midpoint(box.low, box.high);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ class Sectioner {
   }
 
  private:
-  struct Piece {
+  struct Segment {
     LocalIndex from = kNoIndex;
     LocalIndex to = kNoIndex;
     double length = 0.0;
@@ -81,11 +81,11 @@ class Sectioner {
     const LocalIndex p = crossing(a, b);
     const LocalIndex q = crossing(c, a);
     if (is_below(a)) {
-      add_piece(q, p);
+      add_segment(q, p);
     } else {
-      add_piece(p, q);
+      add_segment(p, q);
     }
-    if (pieces_.back().length < noise_) return;
+    if (segments_.back().length < noise_) return;
     const Vec3 origin = part_.points[at(a)];
     const Vec3 normal = cross(part_.points[at(b)] - origin, part_.points[at(c)] - origin);
     largest_cosine_ =
@@ -124,39 +124,39 @@ class Sectioner {
     std::ranges::sort(stops, {}, [&](LocalIndex point) { return std::pair(place(point), point); });
     stops.push_back(to);
     for (const LocalIndex stop : stops) {
-      add_piece(from, stop);
+      add_segment(from, stop);
       from = stop;
     }
   }
 
   // In the direction that goes around the part below.
-  void add_piece(LocalIndex from, LocalIndex to)
+  void add_segment(LocalIndex from, LocalIndex to)
   {
-    pieces_.push_back({from, to, norm(points_[at(to)] - points_[at(from)])});
-    section_.perimeter += pieces_.back().length;
+    segments_.push_back({from, to, norm(points_[at(to)] - points_[at(from)])});
+    section_.perimeter += segments_.back().length;
     const Vec3& origin = points_.front();
     section_.area +=
         0.5 * dot(plane_.normal, cross(points_[at(from)] - origin, points_[at(to)] - origin));
   }
 
-  // Pieces between two corners are one edge; a loop without corners is one, too.
+  // Segments between two corners are one edge; a loop without corners is one, too.
   double shortest_edge()
   {
-    UnionFind edges(static_cast<LocalIndex>(pieces_.size()));
-    std::vector<LocalIndex> piece_at(points_.size(), kNoIndex);
-    for (LocalIndex i = 0; i < static_cast<LocalIndex>(pieces_.size()); ++i) {
-      for (const LocalIndex point : {pieces_[at(i)].from, pieces_[at(i)].to}) {
+    UnionFind edges(static_cast<LocalIndex>(segments_.size()));
+    std::vector<LocalIndex> segment_at(points_.size(), kNoIndex);
+    for (LocalIndex i = 0; i < static_cast<LocalIndex>(segments_.size()); ++i) {
+      for (const LocalIndex point : {segments_[at(i)].from, segments_[at(i)].to}) {
         if (is_corner_[at(point)]) continue;
-        if (piece_at[at(point)] != kNoIndex) edges.join(piece_at[at(point)], i);
-        piece_at[at(point)] = i;
+        if (segment_at[at(point)] != kNoIndex) edges.join(segment_at[at(point)], i);
+        segment_at[at(point)] = i;
       }
     }
-    std::vector<double> length(pieces_.size(), 0.0);
-    for (LocalIndex i = 0; i < static_cast<LocalIndex>(pieces_.size()); ++i) {
-      length[at(edges.find(i))] += pieces_[at(i)].length;
+    std::vector<double> length(segments_.size(), 0.0);
+    for (LocalIndex i = 0; i < static_cast<LocalIndex>(segments_.size()); ++i) {
+      length[at(edges.find(i))] += segments_[at(i)].length;
     }
     double shortest = std::numeric_limits<double>::infinity();
-    for (LocalIndex i = 0; i < static_cast<LocalIndex>(pieces_.size()); ++i) {
+    for (LocalIndex i = 0; i < static_cast<LocalIndex>(segments_.size()); ++i) {
       if (edges.find(i) == i) shortest = std::min(shortest, length[at(i)]);
     }
     return shortest;
@@ -171,7 +171,7 @@ class Sectioner {
   std::vector<bool> is_corner_{};
   std::vector<std::array<LocalIndex, 2>>
       foreign_{};  // Where lines of others are crossed: face, point.
-  std::vector<Piece> pieces_{};
+  std::vector<Segment> segments_{};
   double smallest_sine_ = 1.0;
   double largest_cosine_ = 0.0;
   Section section_{};

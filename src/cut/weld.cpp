@@ -4,32 +4,19 @@
 #include <numeric>
 #include <tuple>
 
+#include "tessera/base/box.hpp"
+#include "tessera/base/single_precision.hpp"
 #include "tessera/base/union_find.hpp"
 
 namespace tessera::cut {
 namespace {
-
-constexpr double kJoinedWithin = 1e-6;  // Of the box diagonal, as for STL files.
-
-double diagonal_of(const std::vector<Vec3>& points)
-{
-  Vec3 low = points.front();
-  Vec3 high = low;
-  for (const Vec3& p : points) {
-    for (std::size_t d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], p[d]);
-      high[d] = std::max(high[d], p[d]);
-    }
-  }
-  return norm(high - low);
-}
 
 // The lowest of the points that each one is joined with.
 std::vector<LocalIndex> joined_points(const std::vector<Vec3>& points)
 {
   // Near points are near along any direction. Along this one few others are: it is no axis.
   constexpr Vec3 kDirection{0.4082, 0.5345, 0.7401};
-  const double tolerance = kJoinedWithin * diagonal_of(points);
+  const double tolerance = kSinglePrecisionNoise * bounding_box(points).diagonal();
   std::vector<double> along(points.size());
   std::ranges::transform(points, along.begin(), [&](const Vec3& p) { return dot(kDirection, p); });
   std::vector<LocalIndex> order(points.size());

@@ -15,7 +15,7 @@
 
 #include <fmt/format.h>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/coarse/own_mesh.hpp"
 #include "tessera/coarse/smooth_surface.hpp"

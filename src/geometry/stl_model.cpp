@@ -116,7 +116,7 @@ model::CurvePoint StlModel::project_to_curve(LocalIndex curve, const Vec3& point
 // Nothing is near a point that is not finite.
 Vec3 StlModel::found(const model::NearestPoint& nearest) const
 {
-  if (nearest.part == kNoIndex) throw GeometryError(name_ + ": no nearest point found");
+  if (nearest.simplex == kNoIndex) throw GeometryError(name_ + ": no nearest point found");
   return nearest.xyz;
 }
 
@@ -126,7 +126,7 @@ coarse::ModelFigures StlModel::figures() const
                                .num_triangles = surface_.num_triangles()};
   for (LocalIndex t = 0; t < surface_.num_triangles(); ++t) {
     const auto [a, b, c] = surface_.corners(t);
-    figures.area += 0.5 * norm(cross(b - a, c - a));
+    figures.area += triangle_area(a, b, c);
     figures.volume += tet_volume(surface_.position(0), a, b, c);
   }
   return figures;
@@ -193,7 +193,7 @@ model::ModelDescription StlModel::describe(surface::SurfaceMesher /*mesher*/) co
     const auto [a, b, c] = surface_.corners(t);
     const LocalIndex material = surface_.triangle_material[at(t)];
     model::FaceDescription& face = described.faces[at(features_.triangle_patch[at(t)])];
-    face.area += 0.5 * norm(cross(b - a, c - a));
+    face.area += triangle_area(a, b, c);
     face.solids = {material};
     described.solids[at(material - 1)].volume += tet_volume(origin, a, b, c);
   }

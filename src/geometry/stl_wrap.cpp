@@ -8,6 +8,7 @@
 
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
+#include "tessera/base/single_precision.hpp"
 #include "tessera/surface/flat_contacts.hpp"
 #include "tessera/surface/overlap.hpp"
 #include "tessera/surface/wrap_surface.hpp"
@@ -20,9 +21,6 @@ namespace {
 constexpr const char* kWayOut =
     "repair it in a CAD program, or let geometry.repair = \"wrap\" make a closed surface around it";
 
-// Of the box diagonal, as in unite_flat_contacts().
-constexpr double kTouching = 1e-6;
-
 // Why nobody could fill a closed surface; empty if that can be.
 std::string what_cuts(const model::TriangleSurface& surface)
 {
@@ -33,7 +31,7 @@ std::string what_cuts(const model::TriangleSurface& surface)
                        overlaps.size(), fmt::join(overlaps.front().place, ", "));
   }
   const auto contacts =
-      surface::find_flat_contacts(triangles, kTouching * model::box_diagonal(surface));
+      surface::find_flat_contacts(triangles, kSinglePrecisionNoise * model::box_diagonal(surface));
   if (contacts.empty()) return {};
   return fmt::format("surface lies flat on itself at {} pairs of triangles", contacts.size());
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "tessera/base/search_tree.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/improve/region_mesh.hpp"
@@ -11,10 +12,7 @@
 
 namespace tessera::improve {
 
-// Finds the owner of the old tet with the nearest centroid: a k-d tree, kept as an array.
-//
-// Own code, because of equally near tets the lowest owner must win. nanoflann's leaves pass on only
-// what is strictly nearer than the worst distance.
+// Finds the owner of the old tet with the nearest centroid.
 class CentroidSearch {
  public:
   explicit CentroidSearch(const RegionMesh& mesh);
@@ -24,20 +22,13 @@ class CentroidSearch {
   [[nodiscard]] LocalIndex nearest_owner(const Vec3& point, OwnerSet allowed) const;
 
  private:
-  struct Node {
+  struct OldTet {
     Vec3 centroid{};
     LocalIndex owner = kNoIndex;
   };
-  struct Nearest {
-    double distance2 = 0.0;
-    LocalIndex owner = kNoIndex;
-  };
 
-  void sort_range(std::size_t first, std::size_t last, std::size_t axis);
-  void visit(std::size_t first, std::size_t last, std::size_t axis, const Vec3& point,
-             OwnerSet allowed, Nearest& nearest) const;
-
-  std::vector<Node> nodes_{};  // The middle of a range splits it.
+  SearchTree tree_{};
+  std::vector<OldTet> tets_{};  // In the order of the leaves.
 };
 
 }  // namespace tessera::improve

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/name_patterns.hpp"
 #include "tessera/mesh/face_tets.hpp"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tessera/base/sort_unique.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/prism.hpp"
 #include "tessera/quality/tet_quality.hpp"
 
@@ -142,7 +143,7 @@ bool WallMover::is_bad_triangle(const SurfaceTriangle& triangle) const
 {
   const auto& v = triangle.vertices;
   const std::array<Vec3, 3> p{mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])};
-  const Vec3 area = cross(p[1] - p[0], p[2] - p[0]);
+  const Vec3 area = normal_of(p);
   return dot(area, triangle.normal) < kMostTurn * norm(area)
          || triangle_shape(p) < triangle.least_shape;
 }

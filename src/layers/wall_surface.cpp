@@ -8,6 +8,7 @@
 
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/sort_unique.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/face_tets.hpp"
 
 #include "layers/image_columns.hpp"
@@ -34,8 +35,7 @@ SurfaceTriangle surface_triangle(const mesh::CoarseMesh& mesh, LocalIndex face,
                                  const std::array<LocalIndex, 3>& v, bool is_wall)
 {
   const std::array<Vec3, 3> p{mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2])};
-  return {face, v, is_wall, unit(cross(p[1] - p[0], p[2] - p[0])),
-          std::min(kLeastShape, 0.5 * triangle_shape(p))};
+  return {face, v, is_wall, unit_normal_of(p), std::min(kLeastShape, 0.5 * triangle_shape(p))};
 }
 
 // The faces of the geometry, turned so that they point away from the tets; of a face between two
@@ -290,7 +290,7 @@ double triangle_shape(const std::array<Vec3, 3>& corners)
     const Vec3 side = corners[(c + 1) % 3] - corners[c];
     longest = std::max(longest, dot(side, side));
   }
-  return norm(cross(corners[1] - corners[0], corners[2] - corners[0])) / longest;
+  return norm(normal_of(corners)) / longest;
 }
 
 WallSurface find_walls(const mesh::CoarseMesh& mesh, std::span<const double> thickness)

@@ -87,14 +87,6 @@ std::string ranges_text(std::span<const LocalIndex> numbers)
   return text;
 }
 
-void CriteriaTest::Box::include(const Box& other)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    low[axis] = std::min(low[axis], other.low[axis]);
-    high[axis] = std::max(high[axis], other.high[axis]);
-  }
-}
-
 CriteriaTest::CriteriaTest(const ModelDescription& model, double scale)
     : model_(&model), face_boxes_(model.faces.size()), solid_boxes_(model.solids.size())
 {
@@ -102,7 +94,7 @@ CriteriaTest::CriteriaTest(const ModelDescription& model, double scale)
     for (std::size_t c = 0; c < 3; ++c) {
       const Vec3 p =
           scale * point_at(std::span(model.vertex_xyz), model.triangle_vertices[3 * t + c]);
-      face_boxes_[at(model.triangle_face[t])].include({p, p});
+      face_boxes_[at(model.triangle_face[t])].include(p);
     }
   }
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
@@ -199,14 +191,8 @@ Criterion CriteriaTest::of_box(const Vec3& min, const Vec3& max,
     largest = std::max({largest, std::abs(box_.low[axis]), std::abs(box_.high[axis])});
   }
   const double slack = kDigits * largest;
-  for (const Box& box : boxes) {
-    bool is_inside = box.low != kNoPoint;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      is_inside =
-          is_inside && box.low[axis] >= min[axis] - slack && box.high[axis] <= max[axis] + slack;
-    }
-    criterion.fits.push_back(is_inside);
-  }
+  const Box around = Box{min, max}.widened(slack);
+  for (const Box& box : boxes) criterion.fits.push_back(!box.is_empty() && around.holds(box));
   return criterion;
 }
 

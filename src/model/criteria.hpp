@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/model/description.hpp"
@@ -44,13 +45,6 @@ class CriteriaTest {
   [[nodiscard]] std::vector<Criterion> criteria(const SolidCriteria& of) const;
 
  private:
-  struct Box {
-    Vec3 low = kNoPoint;
-    Vec3 high{-kNoPoint[0], -kNoPoint[1], -kNoPoint[2]};
-
-    void include(const Box& other);
-  };
-
   [[nodiscard]] Criterion of_numbers(std::string_view key, const std::vector<LocalIndex>& wanted,
                                      const PartKind& kind) const;
   [[nodiscard]] Criterion of_normal(const FaceCriteria& of) const;

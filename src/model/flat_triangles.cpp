@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/base/triangle.hpp"
+
 #include "surface_weld.hpp"
 
 namespace tessera::model {
@@ -185,8 +187,7 @@ class FlatTriangles {
   // As long as the triangle is large, twice.
   [[nodiscard]] Vec3 area_normal(const Triangle& v) const
   {
-    const Vec3 origin = surface_.position(v[0]);
-    return cross(surface_.position(v[1]) - origin, surface_.position(v[2]) - origin);
+    return normal_of({surface_.position(v[0]), surface_.position(v[1]), surface_.position(v[2])});
   }
 
   [[nodiscard]] double twice_area(const Triangle& v) const { return norm(area_normal(v)); }

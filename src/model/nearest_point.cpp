@@ -4,20 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace tessera::model {
 namespace {
 
-constexpr LocalIndex kLeafSize = 4;
-constexpr std::size_t kDeepest = 64;  // halving 2^31 parts gives 31 levels
-
-template <class Part>
-double middle_along(const Part& part, std::size_t axis)
+template <class Simplex>
+double middle_along(const Simplex& simplex, std::size_t axis)
 {
   double sum = 0.0;
-  for (const Vec3& corner : part) sum += corner[axis];
+  for (const Vec3& corner : simplex) sum += corner[axis];
   return sum;
 }
 
@@ -41,6 +37,25 @@ bool holds(const std::array<Vec3, 4>& tet, const Vec3& point)
     if (!is_on_inner_side(tet, opposite, point)) return false;
   }
   return true;
+}
+
+template <class Simplex>
+SearchTree tree_of(std::span<const Simplex> simplices)
+{
+  double largest = 0.0;
+  for (const Simplex& simplex : simplices) {
+    for (const Vec3& corner : simplex) {
+      for (const double x : corner) largest = std::max(largest, std::abs(x));
+    }
+  }
+  // Rounding of a nearest point must not put it outside its box, or a tie could be missed.
+  const double padding = 64.0 * std::numeric_limits<double>::epsilon() * largest;
+  return SearchTree(
+      static_cast<LocalIndex>(simplices.size()),
+      [&](LocalIndex number) { return box_of(simplices[at(number)]).widened(padding); },
+      [&](LocalIndex number, std::size_t axis) {
+        return std::pair(middle_along(simplices[at(number)], axis), number);
+      });
 }
 
 }  // namespace
@@ -104,144 +119,48 @@ Vec3 nearest_point_of(const std::array<Vec3, 4>& tet, const Vec3& point) noexcep
   return nearest;
 }
 
-template <class Part>
-NearestPointSearch<Part>::NearestPointSearch(std::span<const Part> parts) : numbers_(parts.size())
+template <class Simplex>
+NearestPointSearch<Simplex>::NearestPointSearch(std::span<const Simplex> simplices)
+    : tree_(tree_of(simplices))
 {
-  double largest = 0.0;
-  for (const Part& part : parts) {
-    for (const Vec3& corner : part) {
-      for (const double x : corner) largest = std::max(largest, std::abs(x));
-    }
-  }
-  // Rounding of a nearest point must not put it outside its box, or a tie could be missed.
-  padding_ = 64.0 * std::numeric_limits<double>::epsilon() * largest;
-  std::iota(numbers_.begin(), numbers_.end(), 0);
-  build(parts, 0, static_cast<LocalIndex>(parts.size()));
-  for (const LocalIndex number : numbers_) parts_.push_back(parts[at(number)]);
-}
-
-template <class Part>
-typename NearestPointSearch<Part>::Box NearestPointSearch<Part>::padded_box(
-    std::span<const Part> parts, LocalIndex first, LocalIndex last) const
-{
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Box box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  for (LocalIndex i = first; i < last; ++i) {
-    for (const Vec3& corner : parts[at(numbers_[at(i)])]) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.low[axis] = std::min(box.low[axis], corner[axis] - padding_);
-        box.high[axis] = std::max(box.high[axis], corner[axis] + padding_);
-      }
-    }
-  }
-  return box;
-}
-
-template <class Part>
-LocalIndex NearestPointSearch<Part>::build(std::span<const Part> parts, LocalIndex first,
-                                           LocalIndex last)
-{
-  const auto node = static_cast<LocalIndex>(nodes_.size());
-  const Box box = padded_box(parts, first, last);
-  nodes_.push_back({box, kNoIndex, first, last - first});
-  if (last - first <= kLeafSize) return node;
-
-  const Vec3 extent = box.high - box.low;
-  const auto axis = static_cast<std::size_t>(
-      std::distance(extent.begin(), std::max_element(extent.begin(), extent.end())));
-  const LocalIndex middle = first + (last - first) / 2;
-  std::nth_element(numbers_.begin() + first, numbers_.begin() + middle, numbers_.begin() + last,
-                   [&](LocalIndex a, LocalIndex b) {
-                     return std::pair(middle_along(parts[at(a)], axis), a)
-                            < std::pair(middle_along(parts[at(b)], axis), b);
-                   });
-  build(parts, first, middle);
-  const LocalIndex other_child = build(parts, middle, last);
-  nodes_[at(node)].other_child = other_child;
-  return node;
-}
-
-template <class Part>
-double NearestPointSearch<Part>::squared_distance(const Box& box, const Vec3& point) noexcept
-{
-  double sum = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double outside =
-        std::max({box.low[axis] - point[axis], point[axis] - box.high[axis], 0.0});
-    sum += outside * outside;
-  }
-  return sum;
-}
-
-template <class Part>
-void NearestPointSearch<Part>::look_into_leaf(const Node& leaf, const Vec3& point,
-                                              NearestPoint& best) const
-{
-  for (LocalIndex i = leaf.first; i < leaf.first + leaf.count; ++i) {
-    const Vec3 candidate = nearest_point_of(parts_[at(i)], point);
-    const Vec3 offset = candidate - point;
-    const std::pair distance_and_number(dot(offset, offset), numbers_[at(i)]);
-    if (distance_and_number < std::pair(best.squared_distance, best.part)) {
-      best = {candidate, distance_and_number.second, distance_and_number.first};
-    }
-  }
+  for (const LocalIndex number : tree_.order()) simplices_.push_back(simplices[at(number)]);
 }
 
 // Quicker than the search by distance, as most boxes and tets are ruled out at once.
-template <class Part>
-LocalIndex NearestPointSearch<Part>::lowest_holding(const Vec3& point) const requires IsTet<Part>
+template <class Simplex>
+LocalIndex NearestPointSearch<Simplex>::lowest_holding(
+    const Vec3& point) const requires IsTet<Simplex>
 {
-  std::array<LocalIndex, kDeepest> to_visit;
-  std::size_t num_to_visit = 0;
   LocalIndex lowest = kNoIndex;
-  to_visit[num_to_visit++] = 0;
-  while (num_to_visit > 0) {
-    const LocalIndex number = to_visit[--num_to_visit];
-    const Node& node = nodes_[at(number)];
-    if (squared_distance(node.box, point) > 0.0) continue;
-    if (node.other_child != kNoIndex) {
-      to_visit[num_to_visit++] = node.other_child;
-      to_visit[num_to_visit++] = number + 1;
-      continue;
-    }
-    for (LocalIndex i = node.first; i < node.first + node.count; ++i) {
-      const bool is_lower = lowest == kNoIndex || numbers_[at(i)] < lowest;
-      if (is_lower && holds(parts_[at(i)], point)) lowest = numbers_[at(i)];
-    }
-  }
+  tree_.search([&](LocalIndex node) { return tree_.nodes()[at(node)].box.squared_distance(point); },
+               [](double squared_distance) { return !(squared_distance > 0.0); },
+               [&](LocalIndex row) {
+                 const LocalIndex number = tree_.order()[at(row)];
+                 const bool is_lower = lowest == kNoIndex || number < lowest;
+                 if (is_lower && holds(simplices_[at(row)], point)) lowest = number;
+               });
   return lowest;
 }
 
-template <class Part>
-NearestPoint NearestPointSearch<Part>::nearest(const Vec3& point) const
+template <class Simplex>
+NearestPoint NearestPointSearch<Simplex>::nearest(const Vec3& point) const
 {
-  if constexpr (IsTet<Part>) {
+  if constexpr (IsTet<Simplex>) {
     const LocalIndex holding = lowest_holding(point);
     if (holding != kNoIndex) return {point, holding, 0.0};
   }
-  // Boxes at just the best distance are opened too: a tie with a lower number may be in there.
-  struct Visit {
-    LocalIndex node;
-    double squared_distance;
-  };
-  std::array<Visit, kDeepest> to_visit;
-  std::size_t num_to_visit = 0;
   NearestPoint best{{}, kNoIndex, std::numeric_limits<double>::infinity()};
-  to_visit[num_to_visit++] = {0, 0.0};
-  while (num_to_visit > 0) {
-    const Visit visit = to_visit[--num_to_visit];
-    if (visit.squared_distance > best.squared_distance) continue;
-    const Node& node = nodes_[at(visit.node)];
-    if (node.other_child == kNoIndex) {
-      look_into_leaf(node, point, best);
-      continue;
-    }
-    Visit near{visit.node + 1, squared_distance(nodes_[at(visit.node) + 1].box, point)};
-    Visit far{node.other_child, squared_distance(nodes_[at(node.other_child)].box, point)};
-    if (far.squared_distance < near.squared_distance) std::swap(near, far);
-    to_visit[num_to_visit++] = far;
-    to_visit[num_to_visit++] = near;
-  }
+  tree_.search([&](LocalIndex node) { return tree_.nodes()[at(node)].box.squared_distance(point); },
+               // At just the best distance there may be a simplex with a lower number.
+               [&](double squared_distance) { return !(squared_distance > best.squared_distance); },
+               [&](LocalIndex row) {
+                 const Vec3 candidate = nearest_point_of(simplices_[at(row)], point);
+                 const Vec3 offset = candidate - point;
+                 const std::pair distance_and_number(dot(offset, offset), tree_.order()[at(row)]);
+                 if (distance_and_number < std::pair(best.squared_distance, best.simplex)) {
+                   best = {candidate, distance_and_number.second, distance_and_number.first};
+                 }
+               });
   return best;
 }
 

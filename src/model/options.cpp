@@ -10,11 +10,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tessera/base/single_precision.hpp"
+
 namespace tessera::model {
 namespace {
-
-// By which corners of a polygon may be off its plane, of its size: what single precision leaves.
-constexpr double kMostOffPlane = 1e-6;
 
 bool is_colour(const std::string& text)
 {
@@ -64,7 +63,7 @@ std::string defect(const Polygon& of)
   if (!(norm(normal) > kLeastArea * size * size)) return "polygon has no area";
   for (const Vec3& corner : of.corners) {
     const double off = std::abs(dot(corner - first, normal)) / norm(normal);
-    if (off <= kMostOffPlane * size) continue;
+    if (off <= kSinglePrecisionNoise * size) continue;
     return fmt::format("polygon must lie in one plane; corner [{:g}] is off it by {:.3g}",
                        fmt::join(corner, ", "), off);
   }

@@ -9,15 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/single_precision.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/mesh/half_edges.hpp"
 
 namespace tessera::model {
 namespace {
-
-// Corners have the noise of single precision: below this height, of the box diagonal, a normal may
-// be off by several degrees.
-constexpr double kNoisyHeight = 1e-6;
 
 LocalIndex longest_half_edge(const TriangleSurface& surface, LocalIndex t)
 {
@@ -34,14 +32,13 @@ LocalIndex longest_half_edge(const TriangleSurface& surface, LocalIndex t)
   return 3 * t + longest;
 }
 
-// Zero if the height is noise.
+// Zero if the height is noise: then it may be off by several degrees.
 Vec3 own_normal(const TriangleSurface& surface, LocalIndex t, double noisy_height)
 {
-  const auto [a, b, c] = surface.corners(t);
-  const Vec3 n = cross(b - a, c - a);
+  const std::array<Vec3, 3> corners = surface.corners(t);
+  const Vec3 n = normal_of(corners);
   const double length = norm(n);
-  const double longest_side = std::max({norm(b - a), norm(c - b), norm(a - c)});
-  if (length <= noisy_height * longest_side) return {};
+  if (length <= noisy_height * longest_side(corners)) return {};
   return (1.0 / length) * n;
 }
 
@@ -190,7 +187,7 @@ LocalIndex SurfaceFeatures::curve_of_edge(LocalIndex a, LocalIndex b) const
 
 std::vector<Vec3> triangle_normals(const TriangleSurface& surface)
 {
-  const double noisy_height = kNoisyHeight * box_diagonal(surface);
+  const double noisy_height = kSinglePrecisionNoise * box_diagonal(surface);
   std::vector<Vec3> normals;
   std::vector<LocalIndex> without_normal;
   for (LocalIndex t = 0; t < surface.num_triangles(); ++t) {

@@ -9,39 +9,20 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/half_edges.hpp"
 #include "tessera/model/winding.hpp"
 
 namespace tessera::model {
 namespace {
 
-struct Box {
-  Vec3 low{};
-  Vec3 high{};
-};
-
-Box box_of(const TriangleSurface& surface, const Shell& shell)
+Box box_around(const TriangleSurface& surface, const Shell& shell)
 {
-  const Vec3 first = surface.corners(shell.triangles.front())[0];
-  Box box{first, first};
-  for (const LocalIndex t : shell.triangles) {
-    for (const Vec3& p : surface.corners(t)) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.low[axis] = std::min(box.low[axis], p[axis]);
-        box.high[axis] = std::max(box.high[axis], p[axis]);
-      }
-    }
-  }
+  Box box;
+  for (const LocalIndex t : shell.triangles) box.include(box_of(surface.corners(t)));
   return box;
-}
-
-bool contains(const Box& box, const Vec3& p)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (p[axis] < box.low[axis] || p[axis] > box.high[axis]) return false;
-  }
-  return true;
 }
 
 // Walks from triangle to triangle over shared edges, and marks those that must be turned to agree
@@ -142,13 +123,12 @@ bool is_inside(const TriangleSurface& surface, const Shell& shell, const Vec3& p
 void nest(const TriangleSurface& surface, std::vector<Shell>& shells)
 {
   std::vector<Box> boxes;
-  for (const Shell& shell : shells) boxes.push_back(box_of(surface, shell));
+  for (const Shell& shell : shells) boxes.push_back(box_around(surface, shell));
   std::vector<std::vector<LocalIndex>> containers(shells.size());
   for (std::size_t s = 0; s < shells.size(); ++s) {
-    const auto [a, b, c] = surface.corners(shells[s].triangles.front());
-    const Vec3 probe = (1.0 / 3.0) * (a + b + c);
+    const Vec3 probe = middle_of(surface.corners(shells[s].triangles.front()));
     for (std::size_t other = 0; other < shells.size(); ++other) {
-      if (other == s || !contains(boxes[other], probe)) continue;
+      if (other == s || !boxes[other].holds(probe)) continue;
       if (is_inside(surface, shells[other], probe)) {
         containers[s].push_back(static_cast<LocalIndex>(other));
       }
@@ -165,9 +145,9 @@ void nest(const TriangleSurface& surface, std::vector<Shell>& shells)
 bool is_inside_out(const TriangleSurface& surface, const Shell& shell, const std::string& name)
 {
   constexpr double kFlat = 1e-12;  // far below what single precision leaves of a flat shell
-  const Box box = box_of(surface, shell);
+  const double diagonal = box_around(surface, shell).diagonal();
   const double volume = enclosed_volume(surface, shell);
-  if (std::abs(volume) <= kFlat * std::pow(norm(box.high - box.low), 3)) {
+  if (std::abs(volume) <= kFlat * std::pow(diagonal, 3)) {
     throw GeometryError(
         fmt::format("{}: shell of {} triangles encloses no volume", name, shell.triangles.size()));
   }

@@ -7,9 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/repair.hpp"
+#include "tessera/base/single_precision.hpp"
 #include "tessera/mesh/half_edges.hpp"
 
 #include "flat_triangles.hpp"
@@ -18,10 +19,6 @@
 
 namespace tessera::model {
 namespace {
-
-// Of the box diagonal. Corners have the noise of single precision.
-constexpr double kWeldTolerance = 1e-6;
-constexpr double kFlatHeight = 1e-6;
 
 std::string counted(LocalIndex count, const std::string& one, const std::string& many)
 {
@@ -111,7 +108,7 @@ void drop_and_record(CheckedSurface& checked)
 void weld_and_record(CheckedSurface& checked)
 {
   if (open_edges(checked.surface).empty() || is_left_out(Repair::welded_vertices)) return;
-  const double tolerance = kWeldTolerance * box_diagonal(checked.surface);
+  const double tolerance = kSinglePrecisionNoise * box_diagonal(checked.surface);
   const LocalIndex num_joined = weld_open_vertices(checked.surface, tolerance);
   if (num_joined == 0) return;
   checked.counted_repairs.add(Repair::welded_vertices, num_joined);
@@ -169,7 +166,7 @@ bool mend_flat_and_record(CheckedSurface& checked, const std::vector<Shell>& she
                           const std::string& name)
 {
   if (is_left_out(Repair::flat_triangles)) return false;
-  const double height = kFlatHeight * box_diagonal(checked.surface);
+  const double height = kSinglePrecisionNoise * box_diagonal(checked.surface);
   const std::vector<Vec3> places = places_of(shells, checked.surface);
   const auto [num_steps, gone] = mend_flat_triangles(checked.surface, height);
   if (num_steps == 0) return false;

@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <utility>
+
+#include "tessera/base/triangle.hpp"
 
 namespace tessera::model {
 namespace {
@@ -18,16 +21,6 @@ constexpr std::size_t kDeepest = 64;  // Halving 2^31 triangles gives 31 levels.
 constexpr double kFar = 3.0;
 constexpr double kFarNearHalf = 10.0;
 constexpr double kNearHalf = 0.03;
-
-Vec3 area_vector(const std::array<Vec3, 3>& corners)
-{
-  return 0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]);
-}
-
-Vec3 middle_of(const std::array<Vec3, 3>& corners)
-{
-  return (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
-}
 
 }  // namespace
 
@@ -46,60 +39,40 @@ double solid_angle(const std::array<Vec3, 3>& corners, const Vec3& p)
 WindingNumbers::WindingNumbers(std::span<const Corners> triangles)
     : triangles_(triangles.begin(), triangles.end())
 {
-  build(0, static_cast<LocalIndex>(triangles_.size()));
+  const auto middle = [this](LocalIndex t) { return middle_of(triangles_[tessera::at(t)]); };
+  tree_ = SearchTree(
+      static_cast<LocalIndex>(triangles_.size()), kLeafSize,
+      [&](LocalIndex t) {
+        return Box{middle(t), middle(t)};
+      },
+      // By all corners behind the axis: equal middles must not leave the order to the library.
+      [&](LocalIndex t, std::size_t axis) {
+        return std::pair<double, const Corners&>(middle(t)[axis], triangles_[tessera::at(t)]);
+      },
+      [this](std::span<const LocalIndex> items) { add_dipole(items); });
+  for (std::size_t row = 0; row < triangles_.size(); ++row)
+    triangles_[row] = triangles[tessera::at(tree_.order()[row])];
 }
 
-WindingNumbers::Node WindingNumbers::node_of(LocalIndex first, LocalIndex last) const
+void WindingNumbers::add_dipole(std::span<const LocalIndex> triangles)
 {
-  Node node{.first = first, .count = last - first};
+  Dipole& dipole = dipoles_.emplace_back();
   double area = 0.0;
   Vec3 mean{};
-  for (LocalIndex t = first; t < last; ++t) {
+  for (const LocalIndex t : triangles) {
     const Corners& corners = triangles_[tessera::at(t)];
-    const Vec3 vector = area_vector(corners);
+    const Vec3 vector = 0.5 * normal_of(corners);
     // What has no area has a place all the same.
     const double weight = norm(vector) + std::numeric_limits<double>::min();
     area += weight;
     mean = mean + weight * middle_of(corners);
-    node.dipole = node.dipole + vector;
+    dipole.sum = dipole.sum + vector;
   }
-  node.centre = (1.0 / area) * mean;
-  for (LocalIndex t = first; t < last; ++t) {
+  dipole.centre = (1.0 / area) * mean;
+  for (const LocalIndex t : triangles) {
     for (const Vec3& corner : triangles_[tessera::at(t)])
-      node.radius = std::max(node.radius, norm(corner - node.centre));
+      dipole.radius = std::max(dipole.radius, norm(corner - dipole.centre));
   }
-  return node;
-}
-
-LocalIndex WindingNumbers::build(LocalIndex first, LocalIndex last)
-{
-  const auto number = static_cast<LocalIndex>(nodes_.size());
-  nodes_.push_back(node_of(first, last));
-  if (last - first <= kLeafSize) return number;
-  Vec3 low = kNoPoint;
-  Vec3 high = -1.0 * kNoPoint;
-  for (LocalIndex t = first; t < last; ++t) {
-    const Vec3 middle = middle_of(triangles_[tessera::at(t)]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], middle[axis]);
-      high[axis] = std::max(high[axis], middle[axis]);
-    }
-  }
-  const Vec3 extent = high - low;
-  const auto axis = static_cast<std::size_t>(
-      std::distance(extent.begin(), std::max_element(extent.begin(), extent.end())));
-  const LocalIndex half = first + (last - first) / 2;
-  // By all corners behind the axis: equal middles must not leave the order to the library.
-  std::nth_element(triangles_.begin() + first, triangles_.begin() + half, triangles_.begin() + last,
-                   [axis](const Corners& a, const Corners& b) {
-                     const double of_a = middle_of(a)[axis];
-                     const double of_b = middle_of(b)[axis];
-                     return of_a != of_b ? of_a < of_b : a < b;
-                   });
-  build(first, half);
-  const LocalIndex other_child = build(half, last);
-  nodes_[tessera::at(number)].other_child = other_child;
-  return number;
 }
 
 double WindingNumbers::sum(const Vec3& point, double far) const
@@ -109,16 +82,17 @@ double WindingNumbers::sum(const Vec3& point, double far) const
   double angle = 0.0;
   while (num_to_visit > 0) {
     const LocalIndex number = to_visit[--num_to_visit];
-    const Node& node = nodes_[tessera::at(number)];
-    const Vec3 offset = node.centre - point;
+    const SearchTree::Node& node = tree_.nodes()[tessera::at(number)];
+    const Dipole& dipole = dipoles_[tessera::at(number)];
+    const Vec3 offset = dipole.centre - point;
     const double distance2 = dot(offset, offset);
-    if (distance2 > far * far * node.radius * node.radius) {
-      angle += dot(node.dipole, offset) / (distance2 * std::sqrt(distance2));
-    } else if (node.other_child != kNoIndex) {
+    if (distance2 > far * far * dipole.radius * dipole.radius) {
+      angle += dot(dipole.sum, offset) / (distance2 * std::sqrt(distance2));
+    } else if (!node.is_leaf()) {
       to_visit[num_to_visit++] = node.other_child;
       to_visit[num_to_visit++] = number + 1;
     } else {
-      for (LocalIndex t = node.first; t < node.first + node.count; ++t)
+      for (LocalIndex t = node.first; t < node.last; ++t)
         angle += solid_angle(triangles_[tessera::at(t)], point);
     }
   }

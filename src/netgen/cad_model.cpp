@@ -29,15 +29,11 @@ namespace tessera::netgen {
 namespace {
 
 // A CAD model that NETGEN can mesh as well, and cut by planes.
-class NetgenCadModel final : public cad::CadModel, public MeshedByNetgen {
+class NetgenCadModel final : public NetgenModel<cad::CadModel> {
  public:
-  using CadModel::CadModel;
+  using NetgenModel::NetgenModel;
 
-  [[nodiscard]] surface::CoarseSurface mesh_whole(
-      const surface::CoarseOptions& options) const override
-  {
-    return mesh_whole(options, [](const auto&...) {});
-  }
+  using NetgenModel::mesh_whole;
   [[nodiscard]] surface::CoarseSurface mesh_whole(const surface::CoarseOptions& options,
                                                   const NetgenSurfaceUser& use) const override;
   [[nodiscard]] surface::CoarseSurface mesh_parts(const surface::CoarseOptions& options,

@@ -35,6 +35,21 @@ class MeshedByNetgen {
                                                           const NetgenSurfaceUser& use) const = 0;
 };
 
+/// @brief A model of some format whose surface NETGEN can mesh.
+/// @tparam Loaded A LoadedModel.
+template <class Loaded>
+class NetgenModel : public Loaded, public MeshedByNetgen {
+ public:
+  using Loaded::Loaded;
+  using MeshedByNetgen::mesh_whole;
+
+  [[nodiscard]] surface::CoarseSurface mesh_whole(
+      const surface::CoarseOptions& options) const override
+  {
+    return mesh_whole(options, [](const auto&...) {});
+  }
+};
+
 /// @brief What load_model() made, seen as a mesher; the model stays the caller's.
 class ModelMesher final : public coarse::CoarseMesher {
  public:

@@ -88,10 +88,9 @@ void add_skin(::netgen::Mesh& mesh, const surface::DomainSkin& skin)
   }
 }
 
-void set_sizes(::netgen::Mesh& mesh, const std::array<Vec3, 2>& box,
-               const ::netgen::MeshingParameters& parameters)
+void set_sizes(::netgen::Mesh& mesh, const Box& box, const ::netgen::MeshingParameters& parameters)
 {
-  mesh.SetLocalH(to_point3d(box[0]), to_point3d(box[1]), parameters.grading);
+  mesh.SetLocalH(to_point3d(box.low), to_point3d(box.high), parameters.grading);
   mesh.CalcLocalH(parameters.grading);
   for (const auto& wanted : parameters.meshsize_points) mesh.RestrictLocalH(wanted.pnt, wanted.h);
 }

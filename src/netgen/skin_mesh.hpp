@@ -6,6 +6,7 @@
 
 #include <meshing.hpp>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/surface/coarse_surface.hpp"
@@ -31,8 +32,7 @@ void add_skin(::netgen::Mesh& mesh, const surface::DomainSkin& skin);
 
 // The sizes that NETGEN would want inside of the skin. They are kept in a grid through `box`, and
 // so tets inside depend on where that lies.
-void set_sizes(::netgen::Mesh& mesh, const std::array<Vec3, 2>& box,
-               const ::netgen::MeshingParameters& parameters);
+void set_sizes(::netgen::Mesh& mesh, const Box& box, const ::netgen::MeshingParameters& parameters);
 
 // Vertices and tets of a NETGEN mesh, as ours: number i of NETGEN's is order[i] where there is one.
 struct OrderedTets {

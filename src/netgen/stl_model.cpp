@@ -12,16 +12,11 @@ namespace tessera::netgen {
 namespace {
 
 // An STL model that NETGEN's STL mesher can mesh as well.
-class NetgenStlModel final : public geometry::StlModel, public MeshedByNetgen {
+class NetgenStlModel final : public NetgenModel<geometry::StlModel> {
  public:
-  using StlModel::StlModel;
+  using NetgenModel::NetgenModel;
 
-  [[nodiscard]] surface::CoarseSurface mesh_whole(
-      const surface::CoarseOptions& options) const override
-  {
-    return mesh_whole(options, [](const auto&...) {});
-  }
-
+  using NetgenModel::mesh_whole;
   [[nodiscard]] surface::CoarseSurface mesh_whole(const surface::CoarseOptions& options,
                                                   const NetgenSurfaceUser& use) const override
   {

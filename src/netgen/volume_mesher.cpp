@@ -58,7 +58,7 @@ std::string touching_words(const surface::DomainSkin& skin)
     const LocalIndex* const v = &skin.triangle_vertices[c];
     triangles.push_back({v[0], v[1], v[2]});
   }
-  const double tolerance = kTouching * norm(skin.model_box[1] - skin.model_box[0]);
+  const double tolerance = kTouching * skin.model_box.diagonal();
   const auto touching = surface::find_touching_faces(skin.vertex_xyz, triangles, tolerance);
   if (!touching) return {};
   return fmt::format(
@@ -110,13 +110,13 @@ surface::DomainTets fill_domain(const surface::DomainSkin& skin,
                                 const surface::CoarseOptions& options)
 {
   if (skin.vertex.empty()) return {};
-  const double scale = scale_for_netgen(norm(skin.model_box[1] - skin.model_box[0]));
+  const double scale = scale_for_netgen(skin.model_box.diagonal());
   surface::CoarseOptions scaled = options;
   scaled.max_size = scale * std::min(options.max_size, skin.max_size);
   scaled.points = options.points.scaled(scale);
   surface::DomainSkin scaled_skin = skin;
   for (double& x : scaled_skin.vertex_xyz) x *= scale;
-  for (Vec3& corner : scaled_skin.model_box) corner = scale * corner;
+  scaled_skin.model_box = {scale * skin.model_box.low, scale * skin.model_box.high};
   ::netgen::MeshingParameters parameters = coarse_parameters(scaled);
   if (skin.is_hole) parameters.maxoutersteps = kMostStepsOfHole;
   NetgenSession session(parameters);

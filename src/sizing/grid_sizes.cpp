@@ -83,7 +83,7 @@ GridSizes::GridSizes(const GridField& field, double grading) : grading_(grading)
   for (std::size_t point = 0; point < field_.values.size(); ++point) {
     const Vec3 position = position_of(field_, triple_of(field_, point));
     require_size(field_.values[point], position);
-    bounds_.include(position);
+    box_.include(position);
   }
   limit_growth_in_cells(grading, field_);
 }

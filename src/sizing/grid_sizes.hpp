@@ -3,9 +3,8 @@
 
 #include <span>
 
+#include "tessera/base/box.hpp"
 #include "tessera/mesh/point_field.hpp"
-
-#include "sizing/bounds.hpp"
 
 namespace tessera::sizing {
 
@@ -15,7 +14,7 @@ class GridSizes {
   /// @throws InputError if a point has no sound position or size.
   GridSizes(const mesh::GridField& field, double grading);
 
-  [[nodiscard]] const Bounds& bounds() const noexcept { return bounds_; }
+  [[nodiscard]] const tessera::Box& box() const noexcept { return box_; }
 
   /// @brief As RegionSizes::lower().
   void lower(std::span<const double> xyz, std::span<double> sizes) const;
@@ -26,7 +25,7 @@ class GridSizes {
   double grading_;
   mesh::GridField field_;  // Growth limited.
   Vec3 step_lengths_{};
-  Bounds bounds_{};
+  tessera::Box box_{};
 };
 
 }  // namespace tessera::sizing

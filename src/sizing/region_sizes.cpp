@@ -9,6 +9,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/name_patterns.hpp"
 
+#include "sizing/box_text.hpp"
 #include "sizing/solids.hpp"
 
 namespace tessera::sizing {
@@ -18,24 +19,15 @@ namespace {
 template <std::size_t N>
 struct Selected {
   std::vector<std::array<Vec3, N>> parts{};
-  Bounds bounds{};
+  tessera::Box box{};
 
   void add(const mesh::CoarseMesh& coarse, std::span<const LocalIndex> vertices)
   {
     std::array<Vec3, N>& part = parts.emplace_back();
-    for (std::size_t i = 0; i < N; ++i) {
-      part[i] = coarse.position(vertices[i]);
-      bounds.include(part[i]);
-    }
+    for (std::size_t i = 0; i < N; ++i) part[i] = coarse.position(vertices[i]);
+    box.include(box_of(part));
   }
 };
-
-Bounds bounds_of(const mesh::CoarseMesh& coarse)
-{
-  Bounds bounds;
-  for (LocalIndex v = 0; v < coarse.num_vertices(); ++v) bounds.include(coarse.position(v));
-  return bounds;
-}
 
 // By number or name.
 std::set<LocalIndex> matching_curves(const std::string& pattern,
@@ -75,7 +67,7 @@ RegionSizes::Where RegionSizes::find(const Solid& solid, const mesh::CoarseMesh&
   throw ConfigError(
       fmt::format("it meets nothing of the model, whose box is {}; move the region or leave it out "
                   "(lengths are output units, so geometry.scale counts)",
-                  to_text(bounds_of(coarse))));
+                  box_text(bounding_box(coarse.vertex_xyz))));
 }
 
 RegionSizes::Where RegionSizes::find(const PatchPattern& patch, const mesh::CoarseMesh& coarse)
@@ -90,7 +82,7 @@ RegionSizes::Where RegionSizes::find(const PatchPattern& patch, const mesh::Coar
     throw ConfigError(fmt::format(
         "patch = \"{}\": the coarse mesh has no triangle on it; leave it out", patch.pattern));
   }
-  return Triangles{model::TriangleSearch(selected.parts), selected.bounds};
+  return Triangles{model::TriangleSearch(selected.parts), selected.box};
 }
 
 RegionSizes::Where RegionSizes::find(const MaterialPattern& material,
@@ -106,7 +98,7 @@ RegionSizes::Where RegionSizes::find(const MaterialPattern& material,
     throw ConfigError(fmt::format(
         "material = \"{}\": the coarse mesh has no tet of it; leave it out", material.pattern));
   }
-  return Tets{model::TetSearch(selected.parts), selected.bounds};
+  return Tets{model::TetSearch(selected.parts), selected.box};
 }
 
 RegionSizes::Where RegionSizes::find(const CurvePattern& curve, const mesh::CoarseMesh& coarse)
@@ -121,7 +113,7 @@ RegionSizes::Where RegionSizes::find(const CurvePattern& curve, const mesh::Coar
     throw ConfigError(fmt::format(
         "curve = \"{}\": the coarse mesh has no segment on it; leave it out", curve.pattern));
   }
-  return Segments{model::SegmentSearch(selected.parts), selected.bounds};
+  return Segments{model::SegmentSearch(selected.parts), selected.box};
 }
 
 RegionSizes::RegionSizes(const SizeRegion& region, double grading, const mesh::CoarseMesh& coarse)
@@ -138,7 +130,8 @@ void RegionSizes::lower(std::span<const double> xyz, std::span<double> sizes) co
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       const Vec3 point = point_at(xyz, i);
       if constexpr (requires { place.search; }) {
-        if (size_at(place.bounds.distance(point)) >= sizes[i]) continue;  // Spares the search.
+        if (size_at(std::sqrt(place.box.squared_distance(point))) >= sizes[i])
+          continue;  // Spares the search.
         const double squared = place.search.nearest(point).squared_distance;
         sizes[i] = std::min(sizes[i], size_at(std::sqrt(squared)));
       } else {

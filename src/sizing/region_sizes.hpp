@@ -4,11 +4,10 @@
 #include <span>
 #include <variant>
 
+#include "tessera/base/box.hpp"
 #include "tessera/mesh/coarse_mesh.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/sizing/options.hpp"
-
-#include "sizing/bounds.hpp"
 
 namespace tessera::sizing {
 
@@ -30,7 +29,7 @@ class RegionSizes {
   template <class Search>
   struct Found {
     Search search;
-    Bounds bounds;
+    tessera::Box box;
   };
   using Triangles = Found<model::TriangleSearch>;
   using Tets = Found<model::TetSearch>;

@@ -11,6 +11,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/morton_order.hpp"
 
+#include "sizing/box_text.hpp"
 #include "sizing/grid_sizes.hpp"
 #include "sizing/region_sizes.hpp"
 #include "sizing/tet_sizes.hpp"
@@ -33,15 +34,13 @@ FieldSizes sizes_of(const mesh::GridField& field, double grading)
 
 void require_meeting(const FieldSizes& field, const mesh::CoarseMesh& coarse)
 {
-  Bounds model;
-  for (LocalIndex v = 0; v < coarse.num_vertices(); ++v) model.include(coarse.position(v));
-  const Bounds& box =
-      std::visit([](const auto& sizes) -> const Bounds& { return sizes.bounds(); }, field);
-  if (box.meets(model)) return;
+  const tessera::Box model = bounding_box(coarse.vertex_xyz);
+  const tessera::Box box = std::visit([](const auto& sizes) { return sizes.box(); }, field);
+  if (box.touches(model)) return;
   throw InputError(fmt::format(
       "its box is {}, which does not meet the model's, {}; it must be in output length units, so "
       "geometry.scale counts",
-      to_text(box), to_text(model)));
+      box_text(box), box_text(model)));
 }
 
 FieldSizes field_sizes(const SizeOptions& options, const mesh::CoarseMesh& coarse,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tessera/mesh/tet_edges.hpp"
 #include "tessera/mesh/tet_lattice.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/sizing/coarse_sizes.hpp"
@@ -24,15 +25,6 @@ struct Cell {
     return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
   }
 };
-
-double longest_edge(const std::array<Vec3, 4>& corners)
-{
-  double longest = 0.0;
-  for (const auto& [a, b] : mesh::kTetEdgeCorners) {
-    longest = std::max(longest, norm(corners[b] - corners[a]));
-  }
-  return longest;
-}
 
 double radius_of(const Cell& cell, const Vec3& middle)
 {
@@ -111,7 +103,7 @@ void for_each_cell(const mesh::CoarseMesh& coarse, const mesh::EdgeLevels& level
       const Vec3 middle = cells[i].middle();
       const double reach = sizes.steepest() * radius_of(cells[i], middle);
       const double least = std::max(0.0, in_the_middle[i] - reach);
-      const bool is_cut = longest_edge(cells[i].corners) > coarse_edge * least
+      const bool is_cut = mesh::longest_edge(cells[i].corners) > coarse_edge * least
                           && num_cuts < kMostCuts && smaller.size() < kMostCells;
       visit(Visited{cells[i], middle, in_the_middle[i], num_cuts, is_cut});
       if (is_cut) append_children(cells[i], smaller);

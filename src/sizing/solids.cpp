@@ -5,21 +5,13 @@
 #include <array>
 #include <limits>
 
+#include "tessera/mesh/tet_edges.hpp"
 #include "tessera/model/nearest_point.hpp"
 
 namespace tessera::sizing {
 namespace {
 
 constexpr double kNearEnough = 0.2;  // In longest edges of a tet.
-
-double longest_edge(const std::array<Vec3, 4>& tet)
-{
-  double longest = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = i + 1; j < 4; ++j) longest = std::max(longest, norm(tet[j] - tet[i]));
-  }
-  return longest;
-}
 
 // Going to the nearest point of the one and of the other in turn ends at the nearest points of two
 // convex bodies.
@@ -28,7 +20,7 @@ bool is_near(const Solid& solid, const std::array<Vec3, 4>& tet)
 {
   constexpr int kMostTurns = 50;
   constexpr double kLeastGain = 1e-3;
-  const double longest = longest_edge(tet);
+  const double longest = mesh::longest_edge(tet);
   Vec3 in_tet = midpoint(midpoint(tet[0], tet[1]), midpoint(tet[2], tet[3]));
   double distance = std::numeric_limits<double>::infinity();
   for (int turn = 0; turn < kMostTurns; ++turn) {

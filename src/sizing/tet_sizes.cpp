@@ -137,7 +137,7 @@ TetSizes::TetSizes(const TetField& field, double grading) : grading_(grading), f
   std::vector<Corners> tets(field_.tet_points.size() / 4);
   for (std::size_t tet = 0; tet < tets.size(); ++tet) {
     tets[tet] = corners_of(field_, tet);
-    for (const Vec3& corner : tets[tet]) bounds_.include(corner);
+    box_.include(box_of(tets[tet]));
   }
   search_ = std::make_unique<const model::TetSearch>(tets);
 }
@@ -145,7 +145,7 @@ TetSizes::TetSizes(const TetField& field, double grading) : grading_(grading), f
 // By the volumes of the four tets that the point makes with the sides. Rounding may put it outside.
 double TetSizes::value_at(const model::NearestPoint& place) const
 {
-  const Corners corners = corners_of(field_, at(place.part));
+  const Corners corners = corners_of(field_, at(place.simplex));
   const double whole = tet_volume(corners[0], corners[1], corners[2], corners[3]);
   double sum = 0.0;
   double sum_of_weights = 0.0;
@@ -154,7 +154,7 @@ double TetSizes::value_at(const model::NearestPoint& place) const
     replaced[i] = place.xyz;
     const double part = tet_volume(replaced[0], replaced[1], replaced[2], replaced[3]);
     const double weight = std::max(0.0, part / whole);
-    sum += weight * field_.values[at(field_.tet_points[4 * at(place.part) + i])];
+    sum += weight * field_.values[at(field_.tet_points[4 * at(place.simplex) + i])];
     sum_of_weights += weight;
   }
   return sum / sum_of_weights;
@@ -164,7 +164,8 @@ void TetSizes::lower(std::span<const double> xyz, std::span<double> sizes) const
 {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const Vec3 point = point_at(xyz, i);
-    if (least_ + grading_ * bounds_.distance(point) >= sizes[i]) continue;  // Spares the search.
+    if (least_ + grading_ * std::sqrt(box_.squared_distance(point)) >= sizes[i])
+      continue;  // Spares the search.
     const model::NearestPoint place = search_->nearest(point);
     sizes[i] = std::min(sizes[i], value_at(place) + grading_ * std::sqrt(place.squared_distance));
   }

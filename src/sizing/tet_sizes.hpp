@@ -4,10 +4,9 @@
 #include <memory>
 #include <span>
 
+#include "tessera/base/box.hpp"
 #include "tessera/mesh/point_field.hpp"
 #include "tessera/model/nearest_point.hpp"
-
-#include "sizing/bounds.hpp"
 
 namespace tessera::sizing {
 
@@ -17,7 +16,7 @@ class TetSizes {
   /// @throws InputError if a used point has no sound position or size, or no tet has a volume.
   TetSizes(const mesh::TetField& field, double grading);
 
-  [[nodiscard]] const Bounds& bounds() const noexcept { return bounds_; }
+  [[nodiscard]] const tessera::Box& box() const noexcept { return box_; }
 
   /// @brief As RegionSizes::lower().
   void lower(std::span<const double> xyz, std::span<double> sizes) const;
@@ -28,7 +27,7 @@ class TetSizes {
   double grading_;
   double least_ = 0.0;    // Of all values.
   mesh::TetField field_;  // Points that tets use, each position once, growth limited.
-  Bounds bounds_{};
+  tessera::Box box_{};
   std::unique_ptr<const model::TetSearch> search_{};
 };
 

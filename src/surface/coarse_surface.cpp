@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/base/enclosed_volume.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/vec3.hpp"

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/base/triangle.hpp"
 #include "tessera/surface/patch_surface.hpp"
 
 namespace tessera::surface {
@@ -35,12 +36,6 @@ enum class Freedom : char { patch, curve, none };
 inline void add_if_new(LocalIndex value, std::vector<LocalIndex>& values)
 {
   if (std::ranges::find(values, value) == values.end()) values.push_back(value);
-}
-
-/// @brief Twice as long as the triangle's area.
-[[nodiscard]] inline Vec3 normal_of(const std::array<Vec3, 3>& p)
-{
-  return cross(p[1] - p[0], p[2] - p[0]);
 }
 
 /// @brief The four triangles that refinement makes of one, the one in the middle last.

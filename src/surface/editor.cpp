@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 
 #include "surface/model_curve.hpp"
 
@@ -102,7 +103,7 @@ bool SurfaceEditor::is_upright(const PlacedTriangle& one)
     all_corners = dot(n, normal_at(one.vertices[c], one.patch, one.corners[c])) >= least;
   }
   if (all_corners) return true;
-  const Vec3 middle = (1.0 / 3.0) * (one.corners[0] + one.corners[1] + one.corners[2]);
+  const Vec3 middle = middle_of(one.corners);
   return dot(n, reference_.normal(one.patch, middle)) >= least;
 }
 

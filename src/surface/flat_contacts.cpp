@@ -6,18 +6,12 @@
 #include <limits>
 
 #include "tessera/base/box_tree.hpp"
+#include "tessera/base/triangle.hpp"
 
 namespace tessera::surface {
 namespace {
 
 using Corners = std::array<Vec3, 3>;
-
-Vec3 normal_of(const Corners& p)
-{
-  const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
-  const double length = norm(n);
-  return length > 0.0 ? (1.0 / length) * n : Vec3{};
-}
 
 // All corners of `other` are so near to the plane.
 bool is_in_plane(const Corners& p, const Vec3& normal, const Corners& other, double tolerance)
@@ -57,20 +51,19 @@ bool lie_on_each_other(const Corners& a, const Vec3& normal_a, const Corners& b,
 std::vector<std::array<std::size_t, 2>> find_flat_contacts(const PatchSurface& surface,
                                                            double tolerance)
 {
-  const Vec3 margin{tolerance, tolerance, tolerance};
   std::vector<Box> boxes;
   std::vector<Vec3> normals;
   boxes.reserve(surface.triangles.size());
   normals.reserve(surface.triangles.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     boxes.push_back(box_of(surface.corners(t)));
-    normals.push_back(normal_of(surface.corners(t)));
+    normals.push_back(unit_normal_of(surface.corners(t)));
   }
   const BoxTree tree(boxes);
   std::vector<std::array<std::size_t, 2>> found;
   for (std::size_t t = 0; t < boxes.size(); ++t) {
     const Corners corners = surface.corners(t);
-    const Box around{boxes[t].low - margin, boxes[t].high + margin};
+    const Box around = boxes[t].widened(tolerance);
     tree.visit([&](const Box& box) { return box.touches(around); },
                [&](LocalIndex item) {
                  if (at(item) <= t) return;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "tessera/base/triangle.hpp"
+
 namespace tessera::surface {
 namespace {
 
@@ -13,17 +15,11 @@ constexpr double kFlat = 1e-6;
 // Unit normals that differ by less are one.
 constexpr double kSameNormal = 1e-9;
 
-double longest_edge(const std::array<Vec3, 3>& corners)
-{
-  return std::max({norm(corners[1] - corners[0]), norm(corners[2] - corners[1]),
-                   norm(corners[0] - corners[2])});
-}
-
 // Unit normal, or zero for a flat triangle.
-Vec3 unit_normal(const std::array<Vec3, 3>& corners)
+Vec3 sound_normal_of(const std::array<Vec3, 3>& corners)
 {
-  const Vec3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  const double longest = longest_edge(corners);
+  const Vec3 n = normal_of(corners);
+  const double longest = longest_side(corners);
   const double length = norm(n);
   return length <= kFlat * longest * longest ? Vec3{} : (1.0 / length) * n;
 }
@@ -31,7 +27,7 @@ Vec3 unit_normal(const std::array<Vec3, 3>& corners)
 // Weights of the corners at the foot of the perpendicular from `point`, kept within the triangle.
 Vec3 weights_at(const std::array<Vec3, 3>& corners, const Vec3& point)
 {
-  const Vec3 n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const Vec3 n = normal_of(corners);
   Vec3 weights{};
   double sum = 0.0;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -49,7 +45,7 @@ SurfaceReference::SurfaceReference(PatchSurface surface) : surface_(std::move(su
   std::vector<std::vector<LocalIndex>> all(at(surface_.num_patches()));
   std::vector<std::vector<LocalIndex>> sound(all.size());
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-    normals_.push_back(unit_normal(surface_.corners(t)));
+    normals_.push_back(sound_normal_of(surface_.corners(t)));
     const std::size_t patch = at(surface_.triangle_patch[t]);
     all[patch].push_back(static_cast<LocalIndex>(t));
     if (normals_.back() != Vec3{}) sound[patch].push_back(static_cast<LocalIndex>(t));
@@ -90,7 +86,7 @@ void SurfaceReference::add_patch(const std::vector<LocalIndex>& triangles)
 std::size_t SurfaceReference::nearest_triangle(LocalIndex patch, const Vec3& point) const
 {
   const Patch& found = patches_[at(patch)];
-  return at(found.triangles[at(found.search.nearest(point).part)]);
+  return at(found.triangles[at(found.search.nearest(point).simplex)]);
 }
 
 Vec3 SurfaceReference::on_patch(LocalIndex patch, const Vec3& point) const
@@ -102,7 +98,7 @@ SurfaceReference::Place SurfaceReference::place_on_patch(LocalIndex patch, const
 {
   const Patch& found = patches_[at(patch)];
   const model::NearestPoint nearest = found.search.nearest(point);
-  return {nearest.xyz, normals_[at(found.triangles[at(nearest.part)])]};
+  return {nearest.xyz, normals_[at(found.triangles[at(nearest.simplex)])]};
 }
 
 const Vec3* SurfaceReference::normal_of_plane(LocalIndex patch) const
@@ -139,7 +135,7 @@ double SurfaceReference::curve_parameter(LocalIndex curve, const Vec3& point) co
   if (surface_.edge_t.empty()) return 0.0;
   const Curve& found = curves_[at(curve)];
   const model::NearestPoint nearest = found.search.value().nearest(point);
-  const std::size_t e = found.edges[at(nearest.part)];
+  const std::size_t e = found.edges[at(nearest.simplex)];
   const Vec3& a = surface_.vertex_xyz[at(surface_.edges[e][0])];
   const Vec3& b = surface_.vertex_xyz[at(surface_.edges[e][1])];
   const double along = norm(b - a) > 0.0 ? norm(nearest.xyz - a) / norm(b - a) : 0.0;

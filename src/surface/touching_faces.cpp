@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tessera/base/box.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/model/nearest_point.hpp"
 
 namespace tessera::surface {
@@ -28,6 +30,7 @@ class TouchSearch {
     }
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const auto& [a, b, c] = corners_[t];
+      boxes_.push_back(box_of(corners_[t]));
       const std::array<double, 3> along{dot(kSweep, a), dot(kSweep, b), dot(kSweep, c)};
       const auto [low, high] = std::ranges::minmax(along);
       sweep_.push_back({low, high});
@@ -54,18 +57,13 @@ class TouchSearch {
   }
 
  private:
-  [[nodiscard]] Interval extent(std::size_t t, std::size_t axis) const
-  {
-    const auto& [a, b, c] = corners_[t];
-    return {std::min({a[axis], b[axis], c[axis]}), std::max({a[axis], b[axis], c[axis]})};
-  }
-
   [[nodiscard]] bool are_boxes_near(std::size_t a, std::size_t b) const
   {
+    const Box& of_a = boxes_[a];
+    const Box& of_b = boxes_[b];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Interval of_a = extent(a, axis);
-      const Interval of_b = extent(b, axis);
-      if (of_a.low > of_b.high + tolerance_ || of_b.low > of_a.high + tolerance_) return false;
+      if (of_a.low[axis] > of_b.high[axis] + tolerance_) return false;
+      if (of_b.low[axis] > of_a.high[axis] + tolerance_) return false;
     }
     return true;
   }
@@ -73,8 +71,7 @@ class TouchSearch {
   // A point of `a`, which `b` does not have as a corner, that lies on `b`.
   [[nodiscard]] std::optional<Vec3> touch(std::size_t a, std::size_t b) const
   {
-    const auto& [p, q, r] = corners_[a];
-    const Vec3 middle = (1.0 / 3.0) * (p + q + r);
+    const Vec3 middle = middle_of(corners_[a]);
     if (is_on(middle, b)) return middle;
     for (std::size_t c = 0; c < 3; ++c) {
       const bool is_shared =
@@ -92,6 +89,7 @@ class TouchSearch {
   const std::vector<Triangle>& triangles_;
   double tolerance_;
   std::vector<std::array<Vec3, 3>> corners_{};
+  std::vector<Box> boxes_{};
   std::vector<Interval> sweep_{};
   std::vector<std::size_t> order_{};  // By where the sweep meets them.
 };

@@ -11,9 +11,10 @@
 
 #include <fmt/format.h>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
 #include "tessera/base/name_patterns.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/face_tets.hpp"
 #include "tessera/mesh/orbit_walk.hpp"
 #include "tessera/mesh/tet_topology.hpp"
@@ -37,15 +38,9 @@ std::array<Vec3, 3> corners_of(const mesh::CoarseMesh& mesh, LocalIndex face)
 
 Vec3 centroid_of(const mesh::CoarseMesh& mesh, const Faces& faces)
 {
-  Vec3 sum{};
-  double area = 0.0;
-  for (const LocalIndex f : faces) {
-    const auto [a, b, c] = corners_of(mesh, f);
-    const double of_face = triangle_area(a, b, c);
-    sum = sum + (of_face / 3.0) * (a + b + c);
-    area += of_face;
-  }
-  return (1.0 / area) * sum;
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (const LocalIndex f : faces) triangles.push_back(corners_of(mesh, f));
+  return tessera::centroid_of(triangles);
 }
 
 std::vector<LocalIndex> vertices_of(const mesh::CoarseMesh& mesh, const Faces& faces)
@@ -187,7 +182,7 @@ class Joiner {
       const model::NearestPoint nearest = search.nearest(image);
       const double off = norm(nearest.xyz - image);
       if (off > tolerance_) throw MeshError(too_far(side, mesh_.position(v), image, off));
-      partner[v] = candidates[at(nearest.part)];
+      partner[v] = candidates[at(nearest.simplex)];
     }
     return partner;
   }
@@ -207,7 +202,7 @@ class Joiner {
   [[nodiscard]] static std::string no_image(const PeriodicSide& side,
                                             const std::array<Vec3, 3>& triangle)
   {
-    const Vec3 middle = (1.0 / 3.0) * (triangle[0] + triangle[1] + triangle[2]);
+    const Vec3 middle = middle_of(triangle);
     return fmt::format(
         "{}: the sides do not match: the triangle at ({:g}) has no partner with the same corners",
         words_of(side), fmt::join(middle, ", "));

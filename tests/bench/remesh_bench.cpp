@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/netgen/factory.hpp"
 #include "tessera/quality/tet_quality.hpp"
 #include "tessera/surface/on_geometry.hpp"

@@ -1,50 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/types.hpp"
-#include "tessera/base/vec3.hpp"
 
 namespace tessera {
-
-/// @brief An axis-parallel box. As it begins it is empty and touches nothing.
-struct Box {
-  Vec3 low = kNoPoint;
-  Vec3 high = -1.0 * kNoPoint;
-
-  constexpr void include(const Vec3& point) noexcept { include({point, point}); }
-  constexpr void include(const Box& other) noexcept
-  {
-    for (std::size_t d = 0; d < 3; ++d) {
-      low[d] = std::min(low[d], other.low[d]);
-      high[d] = std::max(high[d], other.high[d]);
-    }
-  }
-  [[nodiscard]] constexpr bool is_empty() const noexcept { return low[0] > high[0]; }
-  [[nodiscard]] constexpr bool holds(const Box& other) const noexcept
-  {
-    return low[0] <= other.low[0] && low[1] <= other.low[1] && low[2] <= other.low[2]
-           && other.high[0] <= high[0] && other.high[1] <= high[1] && other.high[2] <= high[2];
-  }
-  [[nodiscard]] constexpr bool touches(const Box& other) const noexcept
-  {
-    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1]
-           && other.low[1] <= high[1] && low[2] <= other.high[2] && other.low[2] <= high[2];
-  }
-};
-
-/// @brief The box of a triangle.
-[[nodiscard]] constexpr Box box_of(const std::array<Vec3, 3>& corners) noexcept
-{
-  Box box{corners[0], corners[0]};
-  box.include(corners[1]);
-  box.include(corners[2]);
-  return box;
-}
 
 /// @brief Finds boxes that touch another one, while some of them change and new ones come. Local.
 ///

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tessera/base/affine.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/base/index_lists.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
@@ -39,22 +40,6 @@ struct PieceNeighbour {
   {
     return std::tie(self.piece, self.num_shared_points, self.num_shared_faces);
   }
-};
-
-/// @brief A box along the axes around points; around none the lowest is above the highest.
-struct Box {
-  Vec3 lowest = kNoPoint;
-  Vec3 highest = -1.0 * kNoPoint;
-
-  void add(const Box& other)
-  {
-    for (std::size_t d = 0; d < 3; ++d) {
-      lowest[d] = std::min(lowest[d], other.lowest[d]);
-      highest[d] = std::max(highest[d], other.highest[d]);
-    }
-  }
-
-  static auto fields(auto& self) { return std::tie(self.lowest, self.highest); }
 };
 
 /// @brief Faces with this tag, of three corners or four, and the corners of all of them.

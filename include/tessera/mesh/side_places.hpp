@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "tessera/base/triangle.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -18,7 +19,7 @@ void for_each_side_place(std::span<const double> xyz, std::span<const LocalIndex
                          const Visit& visit)
 {
   const Vec3 centre =
-      1.0 / 3.0 * (point_at(xyz, points[0]) + point_at(xyz, points[1]) + point_at(xyz, points[2]));
+      middle_of({point_at(xyz, points[0]), point_at(xyz, points[1]), point_at(xyz, points[2])});
   for (const LocalIndex point : points) visit(point, midpoint(point_at(xyz, point), centre));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,9 +10,20 @@
 #include <vector>
 
 #include "tessera/base/types.hpp"
+#include "tessera/base/vec3.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 
 namespace tessera::mesh {
+
+/// @brief Longest edge of a tet. Local.
+[[nodiscard]] inline double longest_edge(const std::array<Vec3, 4>& corners) noexcept
+{
+  double longest = 0.0;
+  for (const auto& [a, b] : kTetEdgeCorners) {
+    longest = std::max(longest, norm(corners[b] - corners[a]));
+  }
+  return longest;
+}
 
 /// @brief Calls visit(a, b), a < b, once for each different edge of the tets.
 ///

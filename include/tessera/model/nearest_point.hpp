@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/search_tree.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -15,7 +16,7 @@ namespace tessera::model {
 /// @brief The nearest point of a set of triangles, segments or tets.
 struct NearestPoint {
   Vec3 xyz{};
-  LocalIndex part = kNoIndex;  ///< Number of the triangle, segment or tet, in the order given.
+  LocalIndex simplex = kNoIndex;  ///< Number of the triangle, segment or tet, in the order given.
   double squared_distance = 0.0;
 };
 
@@ -28,49 +29,30 @@ struct NearestPoint {
 /// @brief Nearest point of a tet, of either orientation or flat: the point itself if it is inside.
 [[nodiscard]] Vec3 nearest_point_of(const std::array<Vec3, 4>& tet, const Vec3& point) noexcept;
 
-template <class Part>
-concept IsTet = std::same_as<Part, std::array<Vec3, 4>>;
+template <class Simplex>
+concept IsTet = std::same_as<Simplex, std::array<Vec3, 4>>;
 
-/// @brief Search for the nearest point of many triangles, segments or tets (`Part`: array of
-/// corners).
+/// @brief Search for the nearest point of many triangles, segments or tets (`Simplex`: array
+/// of corners).
 ///
-/// A pure function of its argument: of equally near parts, the lowest number wins. That rule needs
-/// control over the walk, and exact distances. Of the libraries at hand, Boost's R-tree orders by
-/// box distance only and CGAL's tree is GPL. So the bounding volume hierarchy is our own.
-template <class Part>
+/// A pure function of its argument: of equally near simplices, the lowest number wins. That rule
+/// needs control over the walk, and exact distances. Of the libraries at hand, Boost's R-tree
+/// orders by box distance only and CGAL's tree is GPL. So the tree is our own.
+template <class Simplex>
 class NearestPointSearch {
  public:
-  /// @pre parts is not empty.
-  explicit NearestPointSearch(std::span<const Part> parts);
+  /// @pre simplices is not empty.
+  explicit NearestPointSearch(std::span<const Simplex> simplices);
 
   /// @note Local; touches no state, so calls may run side by side.
   [[nodiscard]] NearestPoint nearest(const Vec3& point) const;
 
  private:
-  struct Box {
-    Vec3 low{};
-    Vec3 high{};
-  };
-  // Children are node + 1 and `other_child`; a leaf has parts [first, first + count).
-  struct Node {
-    Box box{};
-    LocalIndex other_child = kNoIndex;
-    LocalIndex first = 0;
-    LocalIndex count = 0;
-  };
-
-  LocalIndex build(std::span<const Part> parts, LocalIndex first, LocalIndex last);
-  [[nodiscard]] Box padded_box(std::span<const Part> parts, LocalIndex first,
-                               LocalIndex last) const;
   /// The lowest tet that holds the point, or kNoIndex.
-  [[nodiscard]] LocalIndex lowest_holding(const Vec3& point) const requires IsTet<Part>;
-  void look_into_leaf(const Node& leaf, const Vec3& point, NearestPoint& best) const;
-  static double squared_distance(const Box& box, const Vec3& point) noexcept;
+  [[nodiscard]] LocalIndex lowest_holding(const Vec3& point) const requires IsTet<Simplex>;
 
-  double padding_ = 0.0;
-  std::vector<Node> nodes_{};
-  std::vector<LocalIndex> numbers_{};  // of parts, in the order of the leaves
-  std::vector<Part> parts_{};          // likewise, beside each other in memory
+  SearchTree tree_;
+  std::vector<Simplex> simplices_{};  // In the order of the leaves: beside each other in memory.
 };
 
 using TriangleSearch = NearestPointSearch<std::array<Vec3, 3>>;

@@ -10,7 +10,7 @@
 namespace tessera::model {
 
 /// @brief Search for the nearest of some points, which are segments without length:
-/// NearestPoint::part is its row. Local. @pre points is not empty.
+/// NearestPoint::simplex is its row. Local. @pre points is not empty.
 [[nodiscard]] inline SegmentSearch search_of_points(std::span<const Vec3> points)
 {
   std::vector<std::array<Vec3, 2>> segments;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "tessera/base/search_tree.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 
@@ -31,23 +32,20 @@ class WindingNumbers {
 
  private:
   using Corners = std::array<Vec3, 3>;
-  // Children are node + 1 and `other_child`; a leaf has triangles [first, first + count).
-  struct Node {
+  // What the triangles of a node are from afar.
+  struct Dipole {
     Vec3 centre{};
     double radius = 0.0;
-    Vec3 dipole{};  // The sum of the area vectors.
-    LocalIndex other_child = kNoIndex;
-    LocalIndex first = 0;
-    LocalIndex count = 0;
+    Vec3 sum{};  // Of the area vectors.
   };
 
-  LocalIndex build(LocalIndex first, LocalIndex last);
-  [[nodiscard]] Node node_of(LocalIndex first, LocalIndex last) const;
+  void add_dipole(std::span<const LocalIndex> triangles);
   // Nodes farther than `far` of their radii count as a dipole.
   [[nodiscard]] double sum(const Vec3& point, double far) const;
 
+  SearchTree tree_{};
   std::vector<Corners> triangles_{};  // In the order of the leaves.
-  std::vector<Node> nodes_{};
+  std::vector<Dipole> dipoles_{};     // Of each node.
 };
 
 }  // namespace tessera::model

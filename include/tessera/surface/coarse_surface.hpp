@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/cut/cut_mesh.hpp"
@@ -50,7 +51,7 @@ struct DomainSkin {
   std::vector<LocalIndex> triangle_patch{};     ///< Shape (num_triangles); those of cuts come last.
   std::vector<LocalIndex> edge_vertices{};      ///< Shape (num_edges, 2): those on curves.
   double max_size = 0.0;                        ///< Largest edge, file length unit, > 0.
-  std::array<Vec3, 2> model_box{};              ///< Lowest and highest corner of all skins.
+  Box model_box{};                              ///< Around all skins.
   bool is_hole = false;                         ///< In a domain that can also be filled otherwise.
 
   static auto fields(auto& self)

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "tessera/base/box_tree.hpp"
+#include "tessera/base/search_tree.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/surface/options.hpp"
 
@@ -33,22 +33,13 @@ class SizeFunction {
   void limit(const std::vector<SizeSource>& sources);
 
  private:
-  // Children are node + 1 and `other_child`; a leaf has sources [first, last).
-  struct Node {
-    Box box{};
-    double least = 0.0;  // Smallest size of its sources.
-    LocalIndex other_child = kNoIndex;
-    LocalIndex first = 0;
-    LocalIndex last = 0;
-  };
-
-  LocalIndex build(LocalIndex first, LocalIndex last);
-  [[nodiscard]] double least_in(const Node& node, const Vec3& place) const;
+  void build();
 
   double largest_;
   double growth_;
+  SearchTree tree_{};
   std::vector<SizeSource> sources_{};  // In the order of the leaves.
-  std::vector<Node> nodes_{};
+  std::vector<double> least_{};        // Of each node: the smallest size of its sources.
 };
 
 }  // namespace tessera::surface

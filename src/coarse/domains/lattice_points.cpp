@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/base/vec3.hpp"
 #include "tessera/surface/size_function.hpp"
 
@@ -59,7 +59,7 @@ std::vector<double> lattice_points(const surface::DomainSkin& skin,
                            .is_needed = [&](const Vec3& place, double within) {
                              return !distance.is_outside(place, within);
                            }};
-  const std::array<Vec3, 2> box = bounding_box(skin.vertex_xyz);
+  const Box box = bounding_box(skin.vertex_xyz);
   for (const LatticePoint& point : octree_lattice(box, cell_side(inside.max_size), space)) {
     if (!distance.is_inside(point.xyz, kLeastDistance * point.spacing)) continue;
     xyz.insert(xyz.end(), point.xyz.begin(), point.xyz.end());

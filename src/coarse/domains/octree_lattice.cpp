@@ -76,11 +76,10 @@ void require_few(double num_cells)
 // Cells of a level that are halved have their children on the next one. What is not is a leaf.
 class Octree {
  public:
-  Octree(const std::array<Vec3, 2>& box, double unit, const LatticeSpace& space)
-      : space_(space), root_side_(unit)
+  Octree(const Box& box, double unit, const LatticeSpace& space) : space_(space), root_side_(unit)
   {
     while (num_roots_in(box) > kMostRoots) root_side_ *= 2.0;
-    for_each_cell(cell_at(box[0]), cell_at(box[1]),
+    for_each_cell(cell_at(box.low), cell_at(box.high),
                   [&](const Cell& cell) { roots_.push_back(cell); });
   }
 
@@ -132,10 +131,10 @@ class Octree {
     return {of_axis(place[0]), of_axis(place[1]), of_axis(place[2])};
   }
 
-  [[nodiscard]] double num_roots_in(const std::array<Vec3, 2>& box) const
+  [[nodiscard]] double num_roots_in(const Box& box) const
   {
-    const Cell low = cell_at(box[0]);
-    const Cell high = cell_at(box[1]);
+    const Cell low = cell_at(box.low);
+    const Cell high = cell_at(box.high);
     double num_roots = 1.0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       num_roots *= static_cast<double>(high[axis] - low[axis] + 1);
@@ -222,8 +221,7 @@ class Octree {
 
 double cell_side(double rms_edge) { return rms_edge * std::sqrt(6.0 / 5.0); }
 
-std::vector<LatticePoint> octree_lattice(const std::array<Vec3, 2>& box, double unit,
-                                         const LatticeSpace& space)
+std::vector<LatticePoint> octree_lattice(const Box& box, double unit, const LatticeSpace& space)
 {
   Octree octree(box, rounded_to_eight_digits(unit), space);
   octree.build();

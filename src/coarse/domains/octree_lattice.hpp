@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <functional>
 #include <vector>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/vec3.hpp"
 
 namespace tessera::coarse {
@@ -34,12 +34,12 @@ struct LatticeSpace {
 /// that boxes of one model have one lattice. A cell is halved where wanted edges are shorter than
 /// its own by a factor of more than 1.6, and where cells beside it would be smaller by a factor
 /// of more than two. Where nothing is needed cells are large.
-/// @param[in] box Lowest and highest corner of what must be covered.
+/// @param[in] box What must be covered.
 /// @param[in] unit Side of a cell, > 0. It is rounded to eight binary digits, so that differences
 /// of points have few, and exact tests are fast.
 /// @return Ascending by place.
 /// @throws MeshError if there are too many cells.
-[[nodiscard]] std::vector<LatticePoint> octree_lattice(const std::array<Vec3, 2>& box, double unit,
+[[nodiscard]] std::vector<LatticePoint> octree_lattice(const Box& box, double unit,
                                                        const LatticeSpace& space);
 
 }  // namespace tessera::coarse

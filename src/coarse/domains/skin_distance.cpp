@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include "tessera/base/triangle.hpp"
 #include "tessera/model/winding.hpp"
 
 namespace tessera::coarse {
@@ -28,8 +29,6 @@ std::vector<std::array<Vec3, 3>> triangles_of(const surface::DomainSkin& skin)
   return triangles;
 }
 
-Vec3 normal_of(const std::array<Vec3, 3>& p) { return unit(cross(p[1] - p[0], p[2] - p[0])); }
-
 std::vector<Vec3> vertex_normals(const surface::DomainSkin& skin,
                                  const std::vector<std::array<Vec3, 3>>& triangles)
 {
@@ -40,7 +39,7 @@ std::vector<Vec3> vertex_normals(const surface::DomainSkin& skin,
       const Vec3 a = p[(c + 1) % 3] - p[c];
       const Vec3 b = p[(c + 2) % 3] - p[c];
       Vec3& normal = normals[at(skin.triangle_vertices[3 * t + c])];
-      normal = normal + angle_between(a, b) * normal_of(p);
+      normal = normal + angle_between(a, b) * unit_normal_of(p);
     }
   }
   return normals;
@@ -68,7 +67,7 @@ std::vector<Vec3> edge_normals(const surface::DomainSkin& skin, const mesh::RowT
   std::vector<Vec3> normals(edges.rows().size());
   for (std::size_t i = 0; i < skin.triangle_vertices.size(); ++i) {
     Vec3& normal = normals[at(edges.index_of(side_at(skin, i / 3, i % 3)))];
-    normal = normal + normal_of(triangles[i / 3]);
+    normal = normal + unit_normal_of(triangles[i / 3]);
   }
   return normals;
 }
@@ -104,20 +103,20 @@ int SkinDistance::side_of(const Vec3& point, double least) const
 // at a vertex. @cite baerentzen2005
 Vec3 SkinDistance::normal_at(const model::NearestPoint& nearest) const
 {
-  const std::array<Vec3, 3>& corners = triangles_[at(nearest.part)];
+  const std::array<Vec3, 3>& corners = triangles_[at(nearest.simplex)];
   for (std::size_t c = 0; c < 3; ++c) {
     if (nearest.xyz != corners[c]) continue;
-    return vertex_normals_[at(skin_.triangle_vertices[3 * at(nearest.part) + c])];
+    return vertex_normals_[at(skin_.triangle_vertices[3 * at(nearest.simplex) + c])];
   }
   constexpr double kOnEdge = 1e-6;  // Of its length.
   for (std::size_t c = 0; c < 3; ++c) {
     const Vec3& a = corners[c];
     const Vec3& b = corners[(c + 1) % 3];
     if (squared_distance_from_line(nearest.xyz, a, b) < kOnEdge * kOnEdge * dot(b - a, b - a)) {
-      return edge_normals_[at(edges_.index_of(side_at(skin_, at(nearest.part), c)))];
+      return edge_normals_[at(edges_.index_of(side_at(skin_, at(nearest.simplex), c)))];
     }
   }
-  return normal_of(corners);
+  return unit_normal_of(corners);
 }
 
 bool SkinDistance::is_wound_around(const Vec3& point) const

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 
 namespace tessera::coarse {
 namespace {
@@ -31,16 +32,9 @@ CadSearch::CadSearch(const CadSurface& cad, const surface::SurfaceReference& ref
 
 void CadSearch::find_boxes()
 {
-  const Box nothing{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  boxes_.assign(at(cad_.triangles.num_patches()), nothing);
+  boxes_.resize(at(cad_.triangles.num_patches()));
   for (std::size_t t = 0; t < cad_.triangles.triangles.size(); ++t) {
-    Box& box = boxes_[at(cad_.triangles.triangle_patch[t])];
-    for (const Vec3& corner : cad_.triangles.corners(t)) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.low[axis] = std::min(box.low[axis], corner[axis]);
-        box.high[axis] = std::max(box.high[axis], corner[axis]);
-      }
-    }
+    boxes_[at(cad_.triangles.triangle_patch[t])].include(box_of(cad_.triangles.corners(t)));
   }
 }
 
@@ -81,13 +75,8 @@ std::vector<LocalIndex> CadSearch::patches_near(const Vec3& point, double tolera
   const double reach = tolerance + kSlack * cad_.size;
   std::vector<LocalIndex> near;
   for (LocalIndex p = 0; p < cad_.triangles.num_patches(); ++p) {
-    const Box& box = boxes_[at(p)];
-    bool is_in_box = true;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      is_in_box = is_in_box && point[axis] >= box.low[axis] - reach
-                  && point[axis] <= box.high[axis] + reach;
-    }
-    if (!is_in_box || norm(reference_.on_patch(p, point) - point) > reach) continue;
+    if (!boxes_[at(p)].widened(reach).holds(point)) continue;
+    if (norm(reference_.on_patch(p, point) - point) > reach) continue;
     if (on_patch(p, point).distance <= tolerance) near.push_back(p);
   }
   return near;
@@ -134,17 +123,15 @@ CadPlace CadSearch::on_curve(LocalIndex curve, const Vec3& point) const
 double CadSearch::misfit(LocalIndex patch, const std::array<Vec3, 3>& triangle) const
 {
   constexpr double kNormalWeight = 0.5;
-  const auto& [a, b, c] = triangle;
-  const Vec3 middle = (1.0 / 3.0) * (a + b + c);
+  const Vec3 middle = middle_of(triangle);
   double sum = norm(reference_.on_patch(patch, middle) - middle);
   for (const Vec3& corner : triangle) {
     const Vec3 inner = midpoint(middle, corner);
     sum += norm(reference_.on_patch(patch, inner) - inner);
   }
-  const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
-  const Vec3 n = cross(b - a, c - a);
+  const Vec3 n = normal_of(triangle);
   const double cosine = std::abs(dot(n, reference_.normal(patch, middle))) / norm(n);
-  return 0.25 * sum / longest + kNormalWeight * (1.0 - cosine);
+  return 0.25 * sum / longest_side(triangle) + kNormalWeight * (1.0 - cosine);
 }
 
 std::vector<LocalIndex> CadSearch::curves_between(LocalIndex a, LocalIndex b) const

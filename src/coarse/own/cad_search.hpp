@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/given_up.hpp"
 #include "tessera/coarse/fit_to_cad.hpp"
 
@@ -44,11 +45,6 @@ class CadSearch {
   [[nodiscard]] CadPlace nearest_corner(const Vec3& point) const;
 
  private:
-  struct Box {
-    Vec3 low{};
-    Vec3 high{};
-  };
-
   void find_boxes();
   void find_patches_of_curves();
   void find_corners();

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/model/nearest_point.hpp"
 
 #include "coarse/own/cad_search.hpp"
@@ -64,11 +65,6 @@ class Fitter {
   {
     const LocalIndex* v = &mesh_.face_vertices[3 * at(f)];
     return {mesh_.position(v[0]), mesh_.position(v[1]), mesh_.position(v[2])};
-  }
-
-  [[nodiscard]] static Vec3 middle_of(const std::array<Vec3, 3>& corners)
-  {
-    return (1.0 / 3.0) * (corners[0] + corners[1] + corners[2]);
   }
 
   // What users see of a patch: `tessera info` counts from 1.
@@ -208,8 +204,7 @@ class Fitter {
                          place_text(middle)));
       }
       const model::NearestPoint nearest = searches[at(patch)]->nearest(middle);
-      const auto& [a, b, c] = of_patch[at(patch)][at(nearest.part)];
-      const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+      const double longest = longest_side(of_patch[at(patch)][at(nearest.simplex)]);
       const double distance = norm(nearest.xyz - middle);
       if (distance <= kMostBulge * longest) continue;
       fail(fmt::format("{} is not covered at {}: the nearest triangle of the mesh is {:g} away",
@@ -345,7 +340,7 @@ class Fitter {
     std::vector<char> is_done = own_.material_is_named;
     for (LocalIndex f = 0; f < mesh_.num_faces(); ++f) {
       const auto corners = corners_of(f);
-      const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+      const Vec3 normal = normal_of(corners);
       const LocalIndex cad = face_cad_[at(f)];
       const bool is_alike = dot(normal, search_.normal(cad, middle_of(corners))) > 0.0;
       const auto& [below, above] = cad_.triangles.patch_materials[at(cad)];

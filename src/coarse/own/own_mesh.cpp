@@ -12,7 +12,9 @@
 
 #include <fmt/format.h>
 
+#include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/mesh/tet_edges.hpp"
 #include "tessera/mesh/tet_topology.hpp"
 #include "tessera/surface/touching_faces.hpp"
 
@@ -151,10 +153,7 @@ class OwnMeshBuilder {
     for (std::size_t c = 0; c < 4; ++c) {
       corners[c] = own_.mesh.position(own_.mesh.tet_vertices[4 * t + c]);
     }
-    double longest = 0.0;
-    for (const auto& [a, b] : mesh::kTetEdgeCorners) {
-      longest = std::max(longest, norm(corners[b] - corners[a]));
-    }
+    const double longest = mesh::longest_edge(corners);
     const double volume = tet_volume(corners[0], corners[1], corners[2], corners[3]);
     if (std::abs(volume) > kFlat * longest * longest * longest) return volume;
     fail(
@@ -298,16 +297,8 @@ class OwnMeshBuilder {
       outer.push_back(triangle.vertices);
       tets.push_back(triangle.tets[0]);
     }
-    Vec3 low = own_.mesh.position(0);
-    Vec3 high = low;
-    for (LocalIndex v = 0; v < own_.mesh.num_vertices(); ++v) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], own_.mesh.position(v)[axis]);
-        high[axis] = std::max(high[axis], own_.mesh.position(v)[axis]);
-      }
-    }
-    const auto touching =
-        surface::find_touching_faces(own_.mesh.vertex_xyz, outer, kTouching * norm(high - low));
+    const std::span<const double> xyz = own_.mesh.vertex_xyz;
+    const auto touching = surface::find_touching_faces(xyz, outer, kTouching * box_diagonal(xyz));
     if (!touching) return;
     fail(fmt::format(
         "{} and tet {} meet at {} but do not share a face there; the mesh must conform",

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <set>
 
+#include "tessera/base/triangle.hpp"
+
 #include "coarse/own/own_patches.hpp"
 
 namespace tessera::coarse {
@@ -54,8 +56,8 @@ SmoothSurface::SmoothSurface(const mesh::CoarseMesh& mesh, double feature_angle_
 {
   for (LocalIndex f = 0; f < mesh.num_faces(); ++f) {
     const LocalIndex* v = &mesh.face_vertices[3 * at(f)];
-    const Vec3 a = mesh.position(v[0]);
-    face_normals_.push_back(unit(cross(mesh.position(v[1]) - a, mesh.position(v[2]) - a)));
+    face_normals_.push_back(
+        unit_normal_of({mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2])}));
   }
   find_sharp_edges(feature_angle_deg);
   make_segments(feature_angle_deg);

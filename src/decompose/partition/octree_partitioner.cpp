@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "tessera/base/box_tree.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/decompose/graph_partitioner.hpp"
 
 namespace tessera::decompose {

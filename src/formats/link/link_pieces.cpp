@@ -109,16 +109,6 @@ GlobalIndex number_of_own(const Outline& outline, const SkinPoint& point)
   return number;
 }
 
-Box box_of(const std::vector<double>& point_xyz)
-{
-  Box box;
-  for (std::size_t p = 0; 3 * p < point_xyz.size(); ++p) {
-    const Vec3 point = point_at(std::span(point_xyz), p);
-    box.add({point, point});
-  }
-  return box;
-}
-
 // Pieces of a rank under way to being linked.
 class Linker {
  public:
@@ -147,7 +137,7 @@ class Linker {
                     .num_cells = piece.tet_cell.empty() ? 0 : piece.tet_cell.back() + 1,
                     .points_per_tet = piece.points_per_tet(),
                     .elements = counted_elements(piece),
-                    .box = box_of(piece.point_xyz)};
+                    .box = bounding_box(piece.point_xyz)};
       triangles_.push_back({piece.triangle_side, piece.patch});
       halves_.push_back(source_.has_boundary() ? std::vector<SideHalves>{}
                                                : skin_halves(piece, behind));

@@ -30,7 +30,7 @@ std::string made_unique(const std::string& name, std::set<std::string>& taken)
 Box box_of_mesh(const Outline& outline)
 {
   Box box;
-  for (const PieceCounts& piece : outline.pieces) box.add(piece.box);
+  for (const PieceCounts& piece : outline.pieces) box.include(piece.box);
   return box;
 }
 
@@ -41,10 +41,11 @@ std::vector<Box> boxes_of_tags(const Outline& outline, std::span<const Shape> sh
   std::vector<Box> boxes(num_tags);
   for (const PieceCounts& piece : outline.pieces)
     for (const Shape shape : shapes)
-      for (const TagCount& count : piece.elements[shape]) boxes[at(count.tag - 1)].add(piece.box);
+      for (const TagCount& count : piece.elements[shape])
+        boxes[at(count.tag - 1)].include(piece.box);
   const Box all = box_of_mesh(outline);
   for (Box& box : boxes)
-    if (box.lowest[0] > box.highest[0]) box = all;
+    if (box.is_empty()) box = all;
   return boxes;
 }
 

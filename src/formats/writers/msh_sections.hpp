@@ -47,8 +47,7 @@ class MshBytes {
   MshBytes& add(GlobalIndex value) { return add_bytes(&value, sizeof(value)); }
   MshBytes& add(const Box& box)
   {
-    return add_bytes(box.lowest.data(), sizeof(box.lowest))
-        .add_bytes(box.highest.data(), sizeof(box.highest));
+    return add_bytes(box.low.data(), sizeof(box.low)).add_bytes(box.high.data(), sizeof(box.high));
   }
   MshBytes& add(std::string_view text) { return add_bytes(text.data(), text.size()); }
 

@@ -45,7 +45,7 @@ class Describer {
     const LocalIndex number = mesh_.patch_surface[at(mesh_.face_patch[at(f)])];
     described_.triangle_face.push_back(number);
     model::FaceDescription& face = faces_[number];
-    face.area += 0.5 * norm(cross(b - a, c - a));
+    face.area += triangle_area(a, b, c);
     const double volume = tet_volume(mesh_.position(0), a, b, c);
     add_side(out_of, volume, face);
     add_side(into, -volume, face);

@@ -67,7 +67,7 @@ Point iterate(Point point, double converged, const Step& step)
   return point;
 }
 
-class CsgModel final : public geometry::LoadedModel, public MeshedByNetgen {
+class CsgModel final : public NetgenModel<geometry::LoadedModel> {
  public:
   explicit CsgModel(const model::ModelSource& source);
 
@@ -95,11 +95,7 @@ class CsgModel final : public geometry::LoadedModel, public MeshedByNetgen {
   [[nodiscard]] bool sees_any() const { return sees_any_; }
   [[nodiscard]] std::string names_of(const std::vector<int>& solids) const;
   [[nodiscard]] CsgSolids solids() const;
-  [[nodiscard]] surface::CoarseSurface mesh_whole(
-      const surface::CoarseOptions& options) const override
-  {
-    return mesh_whole(options, [](const auto&...) {});
-  }
+  using NetgenModel::mesh_whole;
   [[nodiscard]] surface::CoarseSurface mesh_whole(const surface::CoarseOptions& options,
                                                   const NetgenSurfaceUser& use) const override;
   [[nodiscard]] surface::CoarseSurface mesh_parts(const surface::CoarseOptions& options,

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/base/union_find.hpp"
 
 #include "netgen/csg/access.hpp"
@@ -63,8 +64,8 @@ class Triangles {
  private:
   struct Corners {
     Vec3 a{}, b{}, c{};
-    [[nodiscard]] Vec3 centre() const { return (1.0 / 3.0) * (a + b + c); }
-    [[nodiscard]] Vec3 normal() const { return unit(cross(b - a, c - a)); }
+    [[nodiscard]] Vec3 centre() const { return middle_of({a, b, c}); }
+    [[nodiscard]] Vec3 normal() const { return unit_normal_of({a, b, c}); }
     [[nodiscard]] double size() const { return std::sqrt(triangle_area(a, b, c)); }
   };
 

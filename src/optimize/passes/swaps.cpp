@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "tessera/base/cheapest_triangulation.hpp"
+
 #include "optimize/tet_energy.hpp"
 
 namespace tessera::optimize {
@@ -84,20 +86,24 @@ class SmallRing {
   RingOfFour measured_;
 };
 
-// The cheapest triangulation of a larger ring by dynamic programming over its chords (Klincsek).
+// Larger rings, of which few pay.
 class LargeRing {
  public:
   LargeRing(const WorkingMesh& mesh, const EdgeRing& ring) : mesh_(mesh), ring_(ring) {}
 
-  [[nodiscard]] bool find(double most, Swap& swap)
+  [[nodiscard]] bool find(double most, Swap& swap) const
   {
-    const std::size_t n = ring_.size;
-    for (std::size_t length = 1; length < n; ++length) {
-      for (std::size_t i = 0; i + length < n; ++i) choose_apex(i, i + length);
-    }
-    if (!(cost_[0][n - 1] < most)) return false;
+    const auto any = [](std::size_t, std::size_t) { return true; };
+    const CheapestTriangulation<kMaxRing> cheapest(
+        ring_.size, any, [this](double behind, std::size_t i, std::size_t j, std::size_t k) {
+          return behind + triangle_cost({i, j, k});
+        });
+    if (!(cheapest.cost() < most)) return false;
     begin_swap(ring_.all_tets(), swap);
-    add_chord(0, n - 1, swap);
+    cheapest.for_each_triangle([&](std::size_t i, std::size_t j, std::size_t k) {
+      const Triangle triangle{i, j, k};
+      add_tets_on(ring_, triangle, energy_a(triangle), energy_b(triangle), swap);
+    });
     return true;
   }
 
@@ -122,33 +128,8 @@ class LargeRing {
     return cost_of_energy(a) + cost_of_energy(b);
   }
 
-  // The cheapest way to fill the part of the ring between i and k.
-  void choose_apex(std::size_t i, std::size_t k)
-  {
-    cost_[i][k] = k == i + 1 ? 0.0 : kInfinity;
-    apex_[i][k] = i + 1;
-    for (std::size_t j = i + 1; j < k; ++j) {
-      const double cost = cost_[i][j] + cost_[j][k] + triangle_cost({i, j, k});
-      if (cost < cost_[i][k]) {
-        cost_[i][k] = cost;
-        apex_[i][k] = j;
-      }
-    }
-  }
-
-  void add_chord(std::size_t i, std::size_t k, Swap& swap) const
-  {
-    if (k == i + 1) return;
-    const Triangle triangle{i, apex_[i][k], k};
-    add_tets_on(ring_, triangle, energy_a(triangle), energy_b(triangle), swap);
-    add_chord(i, triangle.j, swap);
-    add_chord(triangle.j, k, swap);
-  }
-
   const WorkingMesh& mesh_;
   const EdgeRing& ring_;
-  std::array<std::array<double, kMaxRing>, kMaxRing> cost_;
-  std::array<std::array<std::size_t, kMaxRing>, kMaxRing> apex_;
 };
 
 // No tet costs less than 1, and few less than this: a bound below which looking closer pays.

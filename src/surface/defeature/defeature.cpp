@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "tessera/base/triangle.hpp"
 #include "tessera/surface/coarse_surface.hpp"
 #include "tessera/surface/reference.hpp"
 
@@ -41,7 +42,7 @@ Parts patches_of(const PatchSurface& surface)
   Parts parts;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto [a, b, c] = surface.corners(t);
-    add_part(surface.triangle_patch[t], triangle_area(a, b, c), (1.0 / 3.0) * (a + b + c), parts);
+    add_part(surface.triangle_patch[t], triangle_area(a, b, c), middle_of({a, b, c}), parts);
   }
   return parts;
 }
@@ -69,8 +70,7 @@ Parts patches_of(const mesh::CoarseMesh& mesh)
     const Vec3 a = mesh.position(v[0]);
     const Vec3 b = mesh.position(v[1]);
     const Vec3 c = mesh.position(v[2]);
-    add_part(mesh.patch_surface[at(patch)], triangle_area(a, b, c), (1.0 / 3.0) * (a + b + c),
-             parts);
+    add_part(mesh.patch_surface[at(patch)], triangle_area(a, b, c), middle_of({a, b, c}), parts);
   }
   return parts;
 }

@@ -15,11 +15,6 @@
 
 namespace tessera::surface {
 
-[[nodiscard]] inline double longest_side(const std::array<Vec3, 3>& p)
-{
-  return std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
-}
-
 /// @brief Over its longest side; 0 if it has none.
 [[nodiscard]] inline double height_of(const std::array<Vec3, 3>& p)
 {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/base/triangle.hpp"
 #include "tessera/surface/overlap.hpp"
 
 #include "surface/editable_surface.hpp"
@@ -52,11 +53,6 @@ double smallest_angle(const Corners& p)
 {
   return std::min(
       {angle_deg(p[0], p[1], p[2]), angle_deg(p[1], p[2], p[0]), angle_deg(p[2], p[0], p[1])});
-}
-
-double longest_edge(const Corners& p)
-{
-  return std::max({norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])});
 }
 
 class Mender {
@@ -194,7 +190,7 @@ class Mender {
   [[nodiscard]] bool is_near(std::span<const LocalIndex> old, const Candidate& candidate,
                              LocalIndex near) const
   {
-    double most = kMostSagitta * longest_edge(candidate.corners);
+    double most = kMostSagitta * longest_side(candidate.corners);
     const double off = distance(candidate, near);
     if (off <= most) return true;
     for (const LocalIndex t : old) {
@@ -206,7 +202,7 @@ class Mender {
 
   [[nodiscard]] double distance(const Candidate& one, LocalIndex near) const
   {
-    const Vec3 middle = (1.0 / 3.0) * (one.corners[0] + one.corners[1] + one.corners[2]);
+    const Vec3 middle = middle_of(one.corners);
     return norm(groups_.on_group(one.group, near, middle) - middle);
   }
 

@@ -10,6 +10,7 @@
 #include "tessera/base/error.hpp"
 #include "tessera/base/given_up.hpp"
 #include "tessera/base/repair.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/surface/overlap.hpp"
 
 #include "surface/crossings.hpp"
@@ -245,7 +246,7 @@ class Finer {
     std::vector<SizeSource> sources;
     for (const std::size_t t : triangles) {
       const std::array<Vec3, 3> p = surface_.corners(t);
-      sources.push_back({p, 0.5 * sizes_((1.0 / 3.0) * (p[0] + p[1] + p[2]))});
+      sources.push_back({p, 0.5 * sizes_(middle_of(p))});
     }
     sizes_.limit(sources);
     PatchSurface finer = remeshed();

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/model/point_search.hpp"
 
 #include "surface/remesh/side_shift.hpp"
@@ -195,7 +196,7 @@ class VertexFinder {
   [[nodiscard]] LocalIndex at_place(const Vec3& place, double tolerance) const
   {
     const model::NearestPoint nearest = search_.nearest(place);
-    return norm(nearest.xyz - place) <= tolerance ? vertices_[at(nearest.part)] : kNoIndex;
+    return norm(nearest.xyz - place) <= tolerance ? vertices_[at(nearest.simplex)] : kNoIndex;
   }
 
  private:
@@ -358,7 +359,7 @@ LocalIndex PeriodicRims::image_of_patch(LocalIndex patch, const PeriodicPatches&
     double off = 0.0;
     for (const std::size_t t : triangles_in(surface, {patch})) {
       const auto [a, b, c] = surface.corners(t);
-      const Vec3 middle = side.there((1.0 / 3.0) * (a + b + c));
+      const Vec3 middle = side.there(middle_of({a, b, c}));
       off += triangle_area(a, b, c) * norm(reference_.on_patch(candidate, middle) - middle);
     }
     if (off >= least) continue;
@@ -375,7 +376,7 @@ std::vector<SizeSource> PeriodicRims::sizes_of_images(const PatchSurface& surfac
   const auto add = [&](const std::vector<LocalIndex>& patches, const Affine& there) {
     for (const std::size_t t : triangles_in(surface, patches)) {
       const auto [a, b, c] = surface.corners(t);
-      sources.push_back({{there(a), there(b), there(c)}, sizes((1.0 / 3.0) * (a + b + c))});
+      sources.push_back({{there(a), there(b), there(c)}, sizes(middle_of({a, b, c}))});
     }
   };
   for (const PeriodicPatches& side : sides_) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -13,22 +12,9 @@
 namespace tessera::surface {
 namespace {
 
-constexpr LocalIndex kLeafSize = 4;
-constexpr std::size_t kDeepest = 64;  // Halving 2^31 sources gives 31 levels.
-
 // NETGEN lets sizes grow faster than `grading` says: on a box with two rounded edges its triangles
 // are as few as with this factor.
 constexpr double kGrowthOfGrading = 1.7;
-
-double distance(const Box& box, const Vec3& point)
-{
-  double sum = 0.0;
-  for (std::size_t d = 0; d < 3; ++d) {
-    const double outside = std::max({box.low[d] - point[d], point[d] - box.high[d], 0.0});
-    sum += outside * outside;
-  }
-  return std::sqrt(sum);
-}
 
 // Ties are broken by all that a source is, so that the order of the leaves is the same everywhere.
 auto place_along(const SizeSource& source, std::size_t axis)
@@ -55,67 +41,41 @@ void SizeFunction::limit(const std::vector<SizeSource>& sources)
   for (const SizeSource& source : sources) {
     if (source.size < largest_) sources_.push_back(source);
   }
-  nodes_.clear();
-  if (!sources_.empty()) build(0, static_cast<LocalIndex>(sources_.size()));
+  build();
 }
 
-LocalIndex SizeFunction::build(LocalIndex first, LocalIndex last)
+void SizeFunction::build()
 {
-  const auto number = static_cast<LocalIndex>(nodes_.size());
-  Node node{.least = std::numeric_limits<double>::infinity(), .first = first, .last = last};
-  for (LocalIndex i = first; i < last; ++i) {
-    node.box.include(box_of(sources_[at(i)].corners));
-    node.least = std::min(node.least, sources_[at(i)].size);
+  tree_ = SearchTree(
+      static_cast<LocalIndex>(sources_.size()),
+      [this](LocalIndex i) { return box_of(sources_[at(i)].corners); },
+      [this](LocalIndex i, std::size_t axis) { return place_along(sources_[at(i)], axis); });
+  std::vector<SizeSource> ordered;
+  ordered.reserve(sources_.size());
+  for (const LocalIndex i : tree_.order()) ordered.push_back(sources_[at(i)]);
+  sources_ = std::move(ordered);
+  least_.clear();
+  for (const SearchTree::Node& node : tree_.nodes()) {
+    const auto own = std::span(sources_).subspan(at(node.first), at(node.last - node.first));
+    least_.push_back(std::ranges::min(own, {}, &SizeSource::size).size);
   }
-  nodes_.push_back(node);
-  if (last - first <= kLeafSize) return number;
-  const Vec3 extent = node.box.high - node.box.low;
-  const auto axis = static_cast<std::size_t>(std::ranges::max_element(extent) - extent.begin());
-  const LocalIndex middle = first + (last - first) / 2;
-  std::ranges::nth_element(sources_.begin() + first, sources_.begin() + middle,
-                           sources_.begin() + last, {},
-                           [axis](const SizeSource& one) { return place_along(one, axis); });
-  build(first, middle);
-  const LocalIndex other_child = build(middle, last);
-  nodes_[at(number)].other_child = other_child;
-  return number;
 }
 
-double SizeFunction::least_in(const Node& node, const Vec3& place) const
-{
-  return node.least + growth_ * distance(node.box, place);
-}
-
-// The child that may have the lower size comes first: most of the others are ruled out by it.
 double SizeFunction::operator()(const Vec3& place) const
 {
-  struct Visit {
-    double least;
-    LocalIndex node;
-  };
   double size = largest_;
-  std::array<Visit, kDeepest> to_visit;
-  std::size_t num_to_visit = 0;
-  if (!nodes_.empty()) to_visit[num_to_visit++] = {least_in(nodes_[0], place), 0};
-  while (num_to_visit > 0) {
-    const auto [least, number] = to_visit[--num_to_visit];
-    if (least >= size) continue;
-    const Node& node = nodes_[at(number)];
-    if (node.other_child != kNoIndex) {
-      Visit first{least_in(nodes_[at(number) + 1], place), number + 1};
-      Visit second{least_in(nodes_[at(node.other_child)], place), node.other_child};
-      if (second.least < first.least) std::swap(first, second);
-      if (second.least < size) to_visit[num_to_visit++] = second;
-      if (first.least < size) to_visit[num_to_visit++] = first;
-      continue;
-    }
-    for (LocalIndex i = node.first; i < node.last; ++i) {
-      const SizeSource& source = sources_[at(i)];
-      if (source.size >= size) continue;
-      const double apart = norm(model::nearest_point_of(source.corners, place) - place);
-      size = std::min(size, source.size + growth_ * apart);
-    }
-  }
+  tree_.search(
+      [&](LocalIndex node) {
+        const Box& box = tree_.nodes()[at(node)].box;
+        return least_[at(node)] + growth_ * std::sqrt(box.squared_distance(place));
+      },
+      [&](double least) { return least < size; },
+      [&](LocalIndex row) {
+        const SizeSource& source = sources_[at(row)];
+        if (source.size >= size) return;
+        const double apart = norm(model::nearest_point_of(source.corners, place) - place);
+        size = std::min(size, source.size + growth_ * apart);
+      });
   return size;
 }
 

@@ -69,10 +69,7 @@ class StripSizes {
   {
     std::vector<Box> boxes;
     for (const CurveEdge& one : edges) {
-      const auto [a, b] = ends(one.edge);
-      Box box{a, a};
-      box.include(b);
-      boxes.push_back(box);
+      boxes.push_back(box_of(ends(one.edge)));
     }
     return boxes;
   }
@@ -83,8 +80,7 @@ class StripSizes {
     const Vec3 middle = midpoint(a, b);
     const double size = std::max(surface_.size(one.edge[0]), surface_.size(one.edge[1]));
     const double reach = size / kEdgesOfStrip;
-    const Vec3 around{reach, reach, reach};
-    const Box box{middle - around, middle + around};
+    const Box box = Box{middle, middle}.widened(reach);
     std::vector<std::pair<double, LocalIndex>> near;
     tree_.visit([&](const Box& other) { return other.touches(box); },
                 [&](LocalIndex other) {

@@ -171,7 +171,7 @@ class BentPlaces {
     double heights = 0.0;
     for (std::size_t side = 0; side < 2; ++side) {
       const auto corners = surface_.corners(triangles[side]);
-      normals[side] = cross(corners[1] - corners[0], corners[2] - corners[0]);
+      normals[side] = normal_of(corners);
       heights += norm(normals[side]) / length(edge);
     }
     const double turn = angle_between(normals[0], normals[1]);

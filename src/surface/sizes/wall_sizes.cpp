@@ -10,6 +10,7 @@
 
 #include "tessera/base/box_tree.hpp"
 #include "tessera/base/repair.hpp"
+#include "tessera/base/triangle.hpp"
 
 namespace tessera::surface {
 namespace {
@@ -109,7 +110,7 @@ class WallSizes {
     const Corners p = surface_.corners(t);
     const Vec3 normal = normal_of(p);
     if (norm(normal) == 0.0) return;
-    const Vec3 middle = (1.0 / 3.0) * (p[0] + p[1] + p[2]);
+    const Vec3 middle = middle_of(p);
     const Vec3 up = (reach_ / norm(normal)) * normal;
     const auto& materials = patch_materials_[at(surface_.patch(t))];
     if (materials[0] != 0) limit(t, {middle, -1.0 * up});

@@ -2,12 +2,14 @@
 #include "surface/wrap/caps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <map>
 #include <span>
 #include <utility>
 
+#include "tessera/base/cheapest_triangulation.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/base/types.hpp"
 #include "tessera/model/nearest_point.hpp"
 #include "tessera/model/winding.hpp"
@@ -115,32 +117,26 @@ struct Surface {
   double tolerance;
 };
 
-// The triangulation of a loop with the least area, by dynamic programming over its chords. No chord
-// lies on the surface beyond the rim: what is left there would have no thickness.
+// The triangulation of a loop with the least area. No chord lies on the surface beyond the rim:
+// what is left there would have no thickness.
 class LeastArea {
  public:
   LeastArea(const Loop& loop, const Surface& surface)
-      : loop_(loop),
-        surface_(surface),
-        rim_(edges_of(loop)),
-        area_(loop.size() * loop.size()),
-        apex_(loop.size() * loop.size())
+      : loop_(loop), surface_(surface), rim_(edges_of(loop)), least_(triangulation())
   {
-    for (std::size_t length = 2; length < loop.size(); ++length) {
-      for (std::size_t i = 0; i + length < loop.size(); ++i) choose_apex(i, i + length);
-    }
   }
 
-  // False if there is no such triangulation.
+  // False if there is no such triangulation. The order is that of the stack: sums over triangles
+  // depend on it.
   [[nodiscard]] bool add_to(std::vector<Corners>& cap) const
   {
-    if (!(area_[loop_.size() - 1] < kNever)) return false;
+    if (!std::isfinite(least_.cost())) return false;
     std::vector<std::pair<std::size_t, std::size_t>> chords{{0, loop_.size() - 1}};
     while (!chords.empty()) {
       const auto [i, k] = chords.back();
       chords.pop_back();
       if (k < i + 2) continue;
-      const std::size_t j = apex_[i * loop_.size() + k];
+      const std::size_t j = least_.apex(i, k);
       cap.push_back({loop_[i], loop_[j], loop_[k]});
       chords.insert(chords.end(), {{i, j}, {j, k}});
     }
@@ -148,8 +144,6 @@ class LeastArea {
   }
 
  private:
-  static constexpr double kNever = std::numeric_limits<double>::infinity();
-
   static std::vector<std::array<Vec3, 2>> edges_of(const Loop& loop)
   {
     std::vector<std::array<Vec3, 2>> edges;
@@ -158,19 +152,15 @@ class LeastArea {
     return edges;
   }
 
-  void choose_apex(std::size_t i, std::size_t k)
+  [[nodiscard]] CheapestTriangulation<> triangulation() const
   {
-    const std::size_t n = loop_.size();
-    double& least = area_[i * n + k] = kNever;
-    const bool is_edge = i == 0 && k == n - 1;
-    if (!is_edge && lies_on_surface(midpoint(loop_[i], loop_[k]))) return;
-    for (std::size_t j = i + 1; j < k; ++j) {
-      const double area =
-          area_[i * n + j] + area_[j * n + k] + triangle_area(loop_[i], loop_[j], loop_[k]);
-      if (!(area < least)) continue;
-      least = area;
-      apex_[i * n + k] = j;
-    }
+    const auto is_apart = [this](std::size_t i, std::size_t k) {
+      return !lies_on_surface(midpoint(loop_[i], loop_[k]));
+    };
+    return {loop_.size(), is_apart,
+            [this](double behind, std::size_t i, std::size_t j, std::size_t k) {
+              return behind + triangle_area(loop_[i], loop_[j], loop_[k]);
+            }};
   }
 
   [[nodiscard]] bool lies_on_surface(const Vec3& point) const
@@ -183,8 +173,7 @@ class LeastArea {
   const Loop& loop_;
   const Surface& surface_;
   model::SegmentSearch rim_;
-  std::vector<double> area_;       // Of what is cut off by the chord from row to column.
-  std::vector<std::size_t> apex_;  // Of the triangle at that chord.
+  CheapestTriangulation<> least_;
 };
 
 // Of a rim that is too long, every so manieth corner is taken, and fans close the rest. Empty if
@@ -209,11 +198,11 @@ bool is_of_hole(const std::vector<Corners>& cap, const Surface& surface)
   double farthest = 0.0;
   double area = 0.0;
   double sum = 0.0;
-  for (const auto& [a, b, c] : cap) {
-    const Vec3 middle = (1.0 / 3.0) * (a + b + c);
+  for (const Corners& triangle : cap) {
+    const Vec3 middle = middle_of(triangle);
     farthest = std::max(farthest, surface.file.distance(middle));
-    area += triangle_area(a, b, c);
-    sum += triangle_area(a, b, c) * surface.winding.at(middle);
+    area += triangle_area(triangle);
+    sum += triangle_area(triangle) * surface.winding.at(middle);
   }
   return farthest > surface.tolerance && sum > kLeastWinding * area && sum < kMostWinding * area;
 }

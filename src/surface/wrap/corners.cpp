@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tessera/base/box_tree.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/half_edges.hpp"
 #include "tessera/surface/overlap.hpp"
 
@@ -48,18 +49,15 @@ Sample sample_of(const Square& square, double spacing, const FileTriangles& file
   Vec3 normal{};
   for (int step = 0; step < kSteps; ++step) {
     nearest = file.search.nearest(square.inside + t * along);
-    const auto& [a, b, c] = file.triangles[at(nearest.part)];
-    normal = unit(cross(b - a, c - a));
+    normal = unit_normal_of(file.triangles[at(nearest.simplex)]);
     const double slope = dot(normal, along);
     if (std::abs(slope) < 0.1 * spacing) break;
     t = std::clamp(dot(normal, nearest.xyz - square.inside) / slope, 0.0, 1.0);
   }
   const Vec3 place = square.inside + t * along;
   nearest = file.search.nearest(place);
-  if (nearest.part != kNoIndex && norm(nearest.xyz - place) <= 0.5 * spacing) {
-    const auto& [a, b, c] = file.triangles[at(nearest.part)];
-    return {nearest.xyz, unit(cross(b - a, c - a)), place};
-  }
+  if (nearest.simplex != kNoIndex && norm(nearest.xyz - place) <= 0.5 * spacing)
+    return {nearest.xyz, unit_normal_of(file.triangles[at(nearest.simplex)]), place};
   const Vec3 between = square.inside + square.share * along;
   return {between, {}, between};
 }
@@ -164,7 +162,7 @@ class SoundTriangles {
 
   [[nodiscard]] Vec3 normal_of(const PatchSurface::Triangle& v) const
   {
-    return cross(place(v[1]) - place(v[0]), place(v[2]) - place(v[0]));
+    return tessera::normal_of({place(v[0]), place(v[1]), place(v[2])});
   }
 
   [[nodiscard]] bool is_flat(const PatchSurface::Triangle& v) const
@@ -233,8 +231,7 @@ class SoundTriangles {
     const double gap = kLeastGapOfSheets * spacing_;
     for (std::size_t cell = 0; cell < places_.size(); ++cell) {
       const Vec3& corner = surface_.vertex_xyz[cell];
-      const Vec3 off{gap, gap, gap};
-      const Box around{corner - off, corner + off};
+      const Box around = Box{corner, corner}.widened(gap);
       tree.visit(
           [&](const Box& box) { return box.touches(around); },
           [&](LocalIndex t) { look_at_touch(static_cast<LocalIndex>(cell), t, neighbours[cell]); });

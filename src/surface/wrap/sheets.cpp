@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "tessera/base/triangle.hpp"
 #include "tessera/mesh/half_edges.hpp"
 #include "tessera/model/winding.hpp"
 
@@ -32,8 +33,6 @@ struct Sheet {
   double area = 0.0;
   bool is_closed = true;
 };
-
-double area_of(const Corners& p) { return triangle_area(p[0], p[1], p[2]); }
 
 void turn(Sheet& sheet)
 {
@@ -94,7 +93,7 @@ class SheetWalk {
     double turned_area = 0.0;
     for (const LocalIndex t : triangles) {
       Corners p = surface_.corners(t);
-      const double area = area_of(p);
+      const double area = triangle_area(p);
       sheet.area += area;
       if (is_turned_[at(t)] != 0) {
         turned_area += area;
@@ -116,7 +115,7 @@ double bent_volume(const Sheet& sheet)
 {
   Vec3 middle{};
   for (const Corners& p : sheet.triangles)
-    middle = middle + (area_of(p) / (3.0 * sheet.area)) * (p[0] + p[1] + p[2]);
+    middle = middle + (triangle_area(p) / (3.0 * sheet.area)) * (p[0] + p[1] + p[2]);
   double volume = 0.0;
   for (const Corners& p : sheet.triangles) volume += tet_volume(middle, p[0], p[1], p[2]);
   return volume;
@@ -133,9 +132,9 @@ std::array<double, 2> fall_and_level(const Sheet& sheet, const model::WindingNum
   double level = 0.0;
   for (std::size_t t = 0; t < sheet.triangles.size(); t += step) {
     const Corners& p = sheet.triangles[t];
-    const Vec3 middle = (1.0 / 3.0) * (p[0] + p[1] + p[2]);
-    const Vec3 off = beside * unit(cross(p[1] - p[0], p[2] - p[0]));
-    const double weight = area_of(p);
+    const Vec3 middle = middle_of(p);
+    const Vec3 off = beside * unit_normal_of(p);
+    const double weight = triangle_area(p);
     area += weight;
     fall += weight * (others.at(middle - off) - others.at(middle + off));
     level += weight * others.at(middle);

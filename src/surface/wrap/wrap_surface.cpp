@@ -11,8 +11,9 @@
 
 #include <fmt/format.h>
 
-#include "tessera/base/box_diagonal.hpp"
+#include "tessera/base/box.hpp"
 #include "tessera/base/error.hpp"
+#include "tessera/base/triangle.hpp"
 #include "tessera/model/winding.hpp"
 
 #include "surface/wrap/caps.hpp"
@@ -61,15 +62,11 @@ double least_tolerance(const std::vector<Corners>& triangles, double diagonal)
 LatticeBoundary boundary_of(const std::vector<Corners>& triangles, double tolerance, double least,
                             const std::string& name)
 {
-  Vec3 low = kNoPoint;
-  for (const Corners& triangle : triangles) {
-    for (const Vec3& p : triangle) {
-      for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], p[a]);
-    }
-  }
+  Box box;
+  for (const Corners& triangle : triangles) box.include(box_of(triangle));
   const model::WindingNumbers numbers(triangles);
   WrapLattice lattice(
-      low - tolerance * kOffset, tolerance, [&](const Vec3& p) { return numbers.at(p); },
+      box.low - tolerance * kOffset, tolerance, [&](const Vec3& p) { return numbers.at(p); },
       kMostCells);
   std::optional<LatticeBoundary> boundary = lattice.boundary(triangles);
   if (!boundary) refuse_tolerance(tolerance, std::max(least, 1.5 * tolerance), name);
@@ -104,10 +101,11 @@ double largest_distance(const std::vector<Corners>& from, const FileTriangles& t
     for (const Vec3& p : triangle) largest = std::max(largest, to.distance(p));
     parts.push_back(triangle);
     while (!parts.empty()) {
-      const auto [a, b, c] = parts.back();
+      const Corners part = parts.back();
       parts.pop_back();
-      largest = std::max(largest, to.distance((1.0 / 3.0) * (a + b + c)));
-      if (std::max({norm(b - a), norm(c - b), norm(a - c)}) <= 2.0 * spacing) continue;
+      largest = std::max(largest, to.distance(middle_of(part)));
+      if (longest_side(part) <= 2.0 * spacing) continue;
+      const auto& [a, b, c] = part;
       const Vec3 ab = midpoint(a, b);
       const Vec3 bc = midpoint(b, c);
       const Vec3 ca = midpoint(c, a);

@@ -53,42 +53,6 @@ void expect_finds_all(const BoxTree& tree, const std::vector<Box>& boxes)
   EXPECT_GT(num_found, boxes.size());  // They touch more than themselves.
 }
 
-TEST(Box, IsEmptyAsItBeginsAndTouchesNothing)
-{
-  const Box empty;
-  EXPECT_TRUE(empty.is_empty());
-  EXPECT_FALSE(empty.touches(kAll));
-  EXPECT_FALSE(kAll.touches(empty));
-  EXPECT_FALSE(empty.touches(empty));
-  EXPECT_TRUE(kAll.holds(empty));
-}
-
-TEST(Box, TouchesWhatSharesACornerOnly)
-{
-  const Box box{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}};
-  EXPECT_TRUE(box.touches({{1.0, 1.0, 1.0}, {2.0, 2.0, 2.0}}));
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Box other{{1.0, 1.0, 1.0}, {2.0, 2.0, 2.0}};
-    other.low[axis] = 1.1;
-    EXPECT_FALSE(box.touches(other));
-    EXPECT_FALSE(other.touches(box));
-  }
-}
-
-TEST(Box, HoldsItselfAndWhatIsInside)
-{
-  const Box box = box_of({{{0.0, 3.0, 1.0}, {2.0, 0.0, 1.0}, {1.0, 1.0, -4.0}}});
-  EXPECT_EQ(box.low, (Vec3{0.0, 0.0, -4.0}));
-  EXPECT_EQ(box.high, (Vec3{2.0, 3.0, 1.0}));
-  EXPECT_TRUE(box.holds(box));
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    Box larger = box;
-    larger.high[axis] += 0.5;
-    EXPECT_TRUE(larger.holds(box));
-    EXPECT_FALSE(box.holds(larger));
-  }
-}
-
 TEST(BoxTree, FindsNothingWithoutBoxes)
 {
   EXPECT_EQ(touching(BoxTree({}), kAll), Items());

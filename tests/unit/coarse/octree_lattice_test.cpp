@@ -16,8 +16,6 @@
 namespace tessera::coarse {
 namespace {
 
-using Box = std::array<Vec3, 2>;
-
 LatticeSpace space_with(std::function<double(const Vec3&)> wanted_edge)
 {
   return {std::move(wanted_edge), [](const Vec3& /*place*/, double /*distance*/) { return true; }};
@@ -40,7 +38,7 @@ double distance_to_nearest(const std::vector<LatticePoint>& points, std::size_t 
 bool is_deep_in(const Box& box, const Vec3& p, double depth)
 {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (p[axis] < box[0][axis] + depth || p[axis] > box[1][axis] - depth) return false;
+    if (p[axis] < box.low[axis] + depth || p[axis] > box.high[axis] - depth) return false;
   }
   return true;
 }
@@ -90,8 +88,8 @@ TEST(OctreeLattice, CoversTheBox)
   const std::vector<LatticePoint> points = lattice_of_one_size(box, 1.0, 1.0 / cell_side(1.0));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto place = [axis](const LatticePoint& point) { return point.xyz[axis]; };
-    EXPECT_LE(std::ranges::min(points, {}, place).xyz[axis], box[0][axis]);
-    EXPECT_GE(std::ranges::max(points, {}, place).xyz[axis], box[1][axis]);
+    EXPECT_LE(std::ranges::min(points, {}, place).xyz[axis], box.low[axis]);
+    EXPECT_GE(std::ranges::max(points, {}, place).xyz[axis], box.high[axis]);
   }
 }
 
@@ -129,7 +127,7 @@ double graded_edge(const Vec3& place) { return std::min(4.0, 0.25 + 0.3 * norm(p
 
 std::vector<LatticePoint> graded_lattice()
 {
-  return octree_lattice({Vec3{-8, -8, -8}, Vec3{8, 8, 8}}, cell_side(4.0), space_with(graded_edge));
+  return octree_lattice({{-8, -8, -8}, {8, 8, 8}}, cell_side(4.0), space_with(graded_edge));
 }
 
 TEST(OctreeLattice, SpacingFollowsWhatIsWanted)

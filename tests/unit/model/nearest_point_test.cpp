@@ -58,7 +58,7 @@ void expect_same_as_looking_at_all(const std::vector<Part>& parts, const std::ve
   for (const Vec3& p : points) {
     const NearestPoint expected = by_looking_at_all(parts, p);
     const NearestPoint found = search.nearest(p);
-    EXPECT_EQ(found.part, expected.part);
+    EXPECT_EQ(found.simplex, expected.simplex);
     EXPECT_EQ(found.xyz, expected.xyz);
   }
 }
@@ -172,7 +172,7 @@ TEST(NearestPoint, IsNoneForAPointThatIsNotFinite)
   const std::vector<Triangle> triangles = triangles_of(testing::cube_soup());
   const TriangleSearch search{std::span<const Triangle>(triangles)};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(search.nearest({nan, 0.0, 0.0}).part, kNoIndex);
+  EXPECT_EQ(search.nearest({nan, 0.0, 0.0}).simplex, kNoIndex);
 }
 
 }  // namespace

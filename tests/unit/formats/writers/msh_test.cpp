@@ -22,7 +22,7 @@ Outline outline_of(GlobalIndex num_tets, GlobalIndex num_triangles)
   PieceCounts piece{.num_own_points = 4, .num_points = 4, .num_tets = num_tets};
   piece.elements[Shape::tet] = {{1, num_tets}};
   piece.elements[Shape::triangle] = {{1, num_triangles}};
-  piece.box.add({{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+  piece.box.include({{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
   outline.pieces = {piece};
   outline.first_point = {0, 4};
   outline.first_tet = {0, num_tets};
@@ -68,8 +68,8 @@ TEST(MshEntities, WithoutCellsHaveTheBoxOfTheMesh)
   Outline outline = outline_of(1, 1);
   outline.material_names.emplace_back("empty");
   for (const MshEntity& entity : msh_entities(outline)) {
-    EXPECT_EQ(entity.box.lowest, (Vec3{0.0, 0.0, 0.0})) << entity.name;
-    EXPECT_EQ(entity.box.highest, (Vec3{1.0, 1.0, 1.0})) << entity.name;
+    EXPECT_EQ(entity.box.low, (Vec3{0.0, 0.0, 0.0})) << entity.name;
+    EXPECT_EQ(entity.box.high, (Vec3{1.0, 1.0, 1.0})) << entity.name;
   }
 }
 
