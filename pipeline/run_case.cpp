@@ -36,7 +36,7 @@
 #include "pipeline/run_plan.hpp"
 #include "pipeline/runtime/log.hpp"
 #include "pipeline/runtime/terminal.hpp"
-#include "pipeline/stages/model_stage.hpp"
+#include "pipeline/stages/model/model_stage.hpp"
 #include "pipeline/store/run_state.hpp"
 #include "pipeline/viewer/view_page.hpp"
 

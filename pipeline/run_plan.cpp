@@ -9,9 +9,9 @@
 
 #include "pipeline/estimate/only_subdomains.hpp"
 #include "pipeline/runtime/with_file_context.hpp"
-#include "pipeline/stages/coarse_part.hpp"
-#include "pipeline/stages/export_stage.hpp"
-#include "pipeline/stages/improve_stage.hpp"
+#include "pipeline/stages/coarse/coarse_part.hpp"
+#include "pipeline/stages/fill/improve_stage.hpp"
+#include "pipeline/stages/output/export_stage.hpp"
 
 namespace tessera::pipeline {
 

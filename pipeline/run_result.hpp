@@ -19,8 +19,8 @@
 #include "tessera/subdomain/partitioned_mesh.hpp"
 
 #include "pipeline/drawing/mesh_scene.hpp"
-#include "pipeline/stages/coarse_stage.hpp"
-#include "pipeline/stages/hand_over_stage.hpp"
+#include "pipeline/stages/coarse/coarse_stage.hpp"
+#include "pipeline/stages/output/hand_over_stage.hpp"
 #include "pipeline/store/filled_pieces.hpp"
 #include "pipeline/store/run_state.hpp"
 #include "pipeline/viewer/surface.hpp"

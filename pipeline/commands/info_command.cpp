@@ -26,8 +26,8 @@
 #include "pipeline/jobs/run_job.hpp"
 #include "pipeline/report/places_page.hpp"
 #include "pipeline/runtime/stop_signal.hpp"
-#include "pipeline/stages/model_stage.hpp"
-#include "pipeline/stages/name_stage.hpp"
+#include "pipeline/stages/model/model_stage.hpp"
+#include "pipeline/stages/model/name_stage.hpp"
 
 namespace tessera::pipeline {
 namespace {

@@ -17,7 +17,7 @@
 #include "tessera/base/vec3.hpp"
 #include "tessera/model/part_names.hpp"
 
-#include "pipeline/report/assembly_json.hpp"
+#include "pipeline/report/json/assembly_json.hpp"
 
 namespace tessera::pipeline {
 namespace {

@@ -19,10 +19,10 @@
 #include "pipeline/predict/choose_samples.hpp"
 #include "pipeline/run_plan.hpp"
 #include "pipeline/runtime/log.hpp"
-#include "pipeline/stages/load_stage.hpp"
-#include "pipeline/stages/share_stage.hpp"
-#include "pipeline/stages/untangle_stage.hpp"
-#include "pipeline/stages/write_stage.hpp"
+#include "pipeline/stages/fill/load_stage.hpp"
+#include "pipeline/stages/fill/share_stage.hpp"
+#include "pipeline/stages/fill/untangle_stage.hpp"
+#include "pipeline/stages/output/write_stage.hpp"
 #include "pipeline/store/fill_record.hpp"
 
 namespace tessera::pipeline {

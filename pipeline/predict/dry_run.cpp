@@ -11,9 +11,9 @@
 #include "pipeline/predict/prediction.hpp"
 #include "pipeline/predict/prediction_file.hpp"
 #include "pipeline/run_plan.hpp"
-#include "pipeline/stages/coarse_part.hpp"
-#include "pipeline/stages/load_stage.hpp"
-#include "pipeline/stages/share_stage.hpp"
+#include "pipeline/stages/coarse/coarse_part.hpp"
+#include "pipeline/stages/fill/load_stage.hpp"
+#include "pipeline/stages/fill/share_stage.hpp"
 
 namespace tessera::pipeline {
 namespace {

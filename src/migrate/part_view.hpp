@@ -9,7 +9,7 @@
 #include "tessera/migrate/distributed_mesh.hpp"
 #include "tessera/migrate/tet_neighbours.hpp"
 
-#include "migrate/part_graph.hpp"
+#include "migrate/partition/part_graph.hpp"
 
 namespace tessera::migrate {
 

@@ -18,11 +18,11 @@
 #include "cad/model.hpp"
 #include "cad/shape.hpp"
 #include "cad/triangles/triangulation.hpp"
-#include "netgen/cad_steps.hpp"
 #include "netgen/loaders.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/model_mesher.hpp"
 #include "netgen/session.hpp"
+#include "netgen/surface/cad_steps.hpp"
 #include "netgen/versions.hpp"
 
 namespace tessera::netgen {

@@ -8,11 +8,11 @@
 #include "geometry/loaded_model.hpp"
 #include "geometry/own_mesh_model.hpp"
 #include "netgen/door.hpp"
-#include "netgen/fill_kernel.hpp"
+#include "netgen/fill/fill_kernel.hpp"
+#include "netgen/fill/skin_overlap.hpp"
 #include "netgen/loaders.hpp"
 #include "netgen/model_file.hpp"
 #include "netgen/model_mesher.hpp"
-#include "netgen/skin_overlap.hpp"
 
 namespace tessera::netgen {
 namespace {

@@ -10,8 +10,8 @@
 #include "tessera/base/error.hpp"
 
 #include "geometry/gmsh_mesher.hpp"
+#include "netgen/fill/skin_mesh.hpp"
 #include "netgen/mesh_conversion.hpp"
-#include "netgen/skin_mesh.hpp"
 #include "netgen/volume_mesher.hpp"
 
 namespace tessera::netgen {

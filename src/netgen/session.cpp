@@ -15,7 +15,7 @@
 #include "tessera/base/vec3.hpp"
 #include "tessera/jobs/this_process.hpp"
 
-#include "netgen/surface_messages.hpp"
+#include "netgen/surface/surface_messages.hpp"
 #include "netgen/versions.hpp"
 
 // Defined in a library of NETGEN and declared in no header of NETGEN.

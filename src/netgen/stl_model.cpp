@@ -6,7 +6,7 @@
 #include "cad/unite_shells.hpp"
 #include "netgen/loaders.hpp"
 #include "netgen/model_mesher.hpp"
-#include "netgen/stl_mesher.hpp"
+#include "netgen/surface/stl_mesher.hpp"
 
 namespace tessera::netgen {
 namespace {

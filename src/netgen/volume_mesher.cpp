@@ -17,9 +17,9 @@
 #include "tessera/coarse/optimize_domain.hpp"
 #include "tessera/surface/touching_faces.hpp"
 
+#include "netgen/fill/skin_mesh.hpp"
 #include "netgen/mesh_conversion.hpp"
 #include "netgen/session.hpp"
-#include "netgen/skin_mesh.hpp"
 #include "netgen/versions.hpp"
 
 namespace tessera::netgen {

@@ -14,10 +14,10 @@
 #include "tessera/subdomain/layer_tables.hpp"
 #include "tessera/subdomain/measure_piece.hpp"
 
-#include "subdomain/boundary_triangles.hpp"
-#include "subdomain/layer_columns.hpp"
-#include "subdomain/line_edges.hpp"
-#include "subdomain/piece_schedule.hpp"
+#include "subdomain/files/boundary_triangles.hpp"
+#include "subdomain/files/line_edges.hpp"
+#include "subdomain/layers/layer_columns.hpp"
+#include "subdomain/refine/piece_schedule.hpp"
 
 namespace tessera::subdomain {
 namespace {

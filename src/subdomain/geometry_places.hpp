@@ -16,7 +16,7 @@
 #include "tessera/mesh/refined_lattice.hpp"
 #include "tessera/mesh/skeleton.hpp"
 
-#include "subdomain/line_edges.hpp"
+#include "subdomain/files/line_edges.hpp"
 
 namespace tessera::subdomain {
 

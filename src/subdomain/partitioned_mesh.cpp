@@ -7,7 +7,7 @@
 #include "tessera/mesh/subdomain_tets.hpp"
 #include "tessera/untangle/fold_test.hpp"
 
-#include "subdomain/line_edges.hpp"
+#include "subdomain/files/line_edges.hpp"
 
 namespace tessera::subdomain {
 

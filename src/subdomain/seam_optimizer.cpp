@@ -7,7 +7,7 @@
 
 #include "tessera/optimize/optimize.hpp"
 
-#include "subdomain/piece_schedule.hpp"
+#include "subdomain/refine/piece_schedule.hpp"
 
 namespace tessera::subdomain {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "netgen/surface_messages.hpp"
+#include "netgen/surface/surface_messages.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,12 +15,12 @@
 
 #include "pipeline/jobs/mesh_worker.hpp"
 #include "pipeline/runtime/log.hpp"
-#include "pipeline/stages/coarse_stage.hpp"
-#include "pipeline/stages/decompose_stage.hpp"
-#include "pipeline/stages/load_stage.hpp"
-#include "pipeline/stages/model_stage.hpp"
-#include "pipeline/stages/share_stage.hpp"
-#include "pipeline/stages/untangle_and_fill.hpp"
+#include "pipeline/stages/coarse/coarse_stage.hpp"
+#include "pipeline/stages/coarse/decompose_stage.hpp"
+#include "pipeline/stages/fill/load_stage.hpp"
+#include "pipeline/stages/fill/share_stage.hpp"
+#include "pipeline/stages/fill/untangle_and_fill.hpp"
+#include "pipeline/stages/model/model_stage.hpp"
 #include "support/mpi_tests.hpp"
 
 namespace tessera::pipeline {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "migrate/part_graph.hpp"
+#include "migrate/partition/part_graph.hpp"
 
 #include <algorithm>
 #include <utility>

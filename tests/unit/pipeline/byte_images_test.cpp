@@ -17,8 +17,8 @@
 #include "tessera/subdomain/improve_seam_region.hpp"
 
 #include "pipeline/jobs/worker_messages.hpp"
-#include "pipeline/stages/coarse_stage.hpp"
-#include "pipeline/stages/decompose_stage.hpp"
+#include "pipeline/stages/coarse/coarse_stage.hpp"
+#include "pipeline/stages/coarse/decompose_stage.hpp"
 #include "pipeline/store/fill_record.hpp"
 #include "pipeline/store/filled_pieces.hpp"
 #include "pipeline/store/run_state.hpp"

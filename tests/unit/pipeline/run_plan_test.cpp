@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/stages/coarse_part.hpp"
-#include "pipeline/stages/improve_stage.hpp"
+#include "pipeline/stages/coarse/coarse_part.hpp"
+#include "pipeline/stages/fill/improve_stage.hpp"
 #include "support/decompositions.hpp"
 #include "support/meshes.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "subdomain/piece_schedule.hpp"
+#include "subdomain/refine/piece_schedule.hpp"
 
 #include <algorithm>
 

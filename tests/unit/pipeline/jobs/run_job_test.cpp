@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/stages/model_stage.hpp"
+#include "pipeline/stages/model/model_stage.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace tessera::pipeline {

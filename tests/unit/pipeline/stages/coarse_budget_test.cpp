@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/stages/coarse_budget.hpp"
+#include "pipeline/stages/coarse/coarse_budget.hpp"
 
 #include <gtest/gtest.h>
 
-#include "pipeline/stages/coarse_plans.hpp"
+#include "pipeline/stages/coarse/coarse_plans.hpp"
 
 namespace tessera::pipeline {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/stages/coarse_ladder.hpp"
+#include "pipeline/stages/coarse/coarse_ladder.hpp"
 
 #include <vector>
 

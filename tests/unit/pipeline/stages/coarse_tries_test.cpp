@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/stages/coarse_plans.hpp"
+#include "pipeline/stages/coarse/coarse_plans.hpp"
 
 namespace tessera::pipeline {
 namespace {

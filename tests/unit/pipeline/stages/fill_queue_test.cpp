@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/stages/fill_queue.hpp"
+#include "pipeline/stages/fill/fill_queue.hpp"
 
 #include <utility>
 #include <vector>

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/stages/untangle_and_fill.hpp"
+#include "pipeline/stages/fill/untangle_and_fill.hpp"
 
 namespace tessera::pipeline {
 namespace {

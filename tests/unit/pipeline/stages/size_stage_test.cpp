@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pipeline/stages/size_stage.hpp"
+#include "pipeline/stages/model/size_stage.hpp"
 
 #include <limits>
 #include <numbers>

@@ -12,7 +12,7 @@
 #include "tessera/base/bytes.hpp"
 #include "tessera/base/vec3.hpp"
 
-#include "pipeline/stages/drawing_plan.hpp"
+#include "pipeline/stages/output/drawing_plan.hpp"
 #include "support/decompositions.hpp"
 #include "support/meshes.hpp"
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stages/coarse/split_stage.hpp"
+
+#include <fmt/format.h>
+
+#include "tessera/comm/all_or_none.hpp"
+#include "tessera/comm/share_on_node.hpp"
+
+#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/jobs/require_job.hpp"
+#include "pipeline/runtime/with_file_context.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+constexpr jobs::JobLimits kSplitLimits{.cpu_s = 1800.0, .stall_s = 120.0, .memory_gib = 16.0};
+
+}  // namespace
+
+mesh::CoarseMesh run_rim_stage(const config::Case& run_case, mesh::CoarseMesh coarse,
+                               RunContext& context)
+{
+  const topology::SplitOptions& splits = run_case.splits;
+  const bool is_near = comm::on_root(context.comm, [&] {
+    return with_file_context(run_case, [&] { return topology::are_rims_near(coarse, splits); });
+  });
+  if (!is_near) return coarse;
+  return comm::on_root_of_nodes(context.comm, [&] {
+    return with_file_context(run_case, [&] {
+      const Bytes request = rim_request(coarse, splits);
+      return require_job({"rims", request, kSplitLimits}, from_bytes<mesh::CoarseMesh>, "[[split]]",
+                         context);
+    });
+  });
+}
+
+LevelledMesh run_split_stage(const config::Case& run_case, const LevelledMesh& closed,
+                             RunContext& context)
+{
+  StageScope stage(context, Stage::split);
+  LevelledMesh open = comm::on_root_of_nodes(context.comm, [&] {
+    return with_file_context(run_case, [&] {
+      LevelledMesh made = closed;
+      topology::split_patches(made.mesh, run_case.splits, made.levels);
+      return made;
+    });
+  });
+  const LocalIndex num_double = open.mesh.num_vertices() - closed.mesh.num_vertices();
+  stage.work_is_done();
+  stage.finish(fmt::format("{} coarse points are double", num_double));
+  return open;
+}
+
+}  // namespace tessera::pipeline

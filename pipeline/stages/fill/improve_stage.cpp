@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pipeline/stages/fill/improve_stage.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tessera/base/error.hpp"
+#include "tessera/comm/all_or_none.hpp"
+#include "tessera/subdomain/core_figures.hpp"
+#include "tessera/subdomain/measure_piece.hpp"
+
+#include "pipeline/estimate/run_outline.hpp"
+#include "pipeline/jobs/failed_jobs.hpp"
+#include "pipeline/jobs/for_each_dynamic.hpp"
+#include "pipeline/jobs/mesh_worker.hpp"
+#include "pipeline/store/band_segments.hpp"
+#include "pipeline/store/fill_record.hpp"
+#include "pipeline/store/improved_pieces.hpp"
+
+namespace tessera::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+// How the regions of one phase have ended: tried, improved, failed, limited.
+using Counts = std::vector<GlobalIndex>;
+
+Counts counts_of(const subdomain::RegionRecord& record)
+{
+  return {1, record.is_improved ? 1 : 0, record.has_failed ? 1 : 0, record.was_limited ? 1 : 0};
+}
+
+void add(const Counts& counts, Counts& sum)
+{
+  std::ranges::transform(counts, sum, sum.begin(), std::plus<>());
+}
+
+double volume_of(const std::vector<subdomain::PieceSummary>& pieces)
+{
+  double volume = 0.0;
+  for (const subdomain::PieceSummary& piece : pieces) volume += piece.volume;
+  return volume;
+}
+
+using RegionsByPhase = std::array<std::vector<LocalIndex>, improve::kNumPhases>;
+
+// The regions of each phase that are to be improved.
+RegionsByPhase wanted_regions(const improve::SeamRegions& regions,
+                              const std::vector<fill::KernelKind>& kernels)
+{
+  RegionsByPhase wanted;
+  for (LocalIndex region = 0; region < regions.num_regions(); ++region) {
+    const LocalIndex subdomain = regions.subdomains_of(region).front();
+    if (kernels[at(subdomain)] == fill::KernelKind::subdivide) continue;
+    wanted[static_cast<std::size_t>(regions.phase_of(region))].push_back(region);
+  }
+  return wanted;
+}
+
+// By phase, the pieces that its regions lie in, ascending. None in phase 0, whose bands come from
+// the fills.
+RegionsByPhase pieces_of_phases(const improve::SeamRegions& regions, const RegionsByPhase& wanted)
+{
+  RegionsByPhase pieces;
+  for (std::size_t phase = 1; phase < wanted.size(); ++phase) {
+    std::vector<LocalIndex>& some = pieces[phase];
+    for (const LocalIndex region : wanted[phase]) {
+      std::ranges::copy(regions.subdomains_of(region), std::back_inserter(some));
+    }
+    std::ranges::sort(some);
+    some.erase(std::ranges::unique(some).begin(), some.end());
+  }
+  return pieces;
+}
+
+std::int64_t total_size(const RegionsByPhase& lists)
+{
+  std::int64_t size = 0;
+  for (const auto& list : lists) size += std::ssize(list);
+  return size;
+}
+
+// Updates name vertices by their tags in the pieces, and a resumed run may have other pieces. A
+// poor piece is filled again, and its second try may succeed now where a limit had ended it.
+void drop_records_of_other_pieces(const std::vector<subdomain::PieceSummary>& pieces,
+                                  const io::RecordStore& store, const fs::path& folder)
+{
+  const std::string name = "improve";
+  std::vector<Hash128> contents;
+  for (const subdomain::PieceSummary& piece : pieces) contents.push_back(piece.content);
+  const Bytes record = to_bytes(contents);
+  if (store.find(name) == record) return;
+  io::remove_logs(folder);
+  store.put(name, record);
+}
+
+// What the improvement works on; the same on every rank.
+struct SeamWork {
+  const improve::SeamRegions& regions;
+  RegionsByPhase wanted{};  // Regions.
+  RegionsByPhase pieces{};  // That take part.
+
+  [[nodiscard]] bool takes_part(LocalIndex piece, int phase) const
+  {
+    return std::ranges::binary_search(pieces[static_cast<std::size_t>(phase)], piece);
+  }
+
+  // The piece's last phase before that one, or phase 0: the fill has left bands and a rim for it.
+  [[nodiscard]] int phase_before(LocalIndex piece, int phase) const
+  {
+    do {
+      --phase;
+    } while (phase > 0 && !takes_part(piece, phase));
+    return phase;
+  }
+};
+
+class SeamImprover {
+ public:
+  SeamImprover(const config::Case& run_case, const subdomain::PartitionedMesh& cut,
+               const SeamWork& work, FilledPieces filled, std::shared_ptr<ImprovedPieces> pieces,
+               RunContext& context, StageScope& stage)
+      : run_case_(run_case),
+        cut_(cut),
+        work_(work),
+        filled_(std::move(filled)),
+        pieces_(std::move(pieces)),
+        context_(context),
+        stage_(stage)
+  {
+    filled_.improvement.volume_before = volume_of(filled_.pieces);
+  }
+
+  void run_phase(int phase)
+  {
+    const auto row = static_cast<std::size_t>(phase);
+    if (phase > 0) make_bands(phase, work_.pieces[row]);
+    const Counts counts = improve_regions(work_.wanted[row]);
+    context_.log.debug(
+        fmt::format("improve: phase {}: regions, {}", phase, work_.wanted[row].size()));
+    Improvement& improvement = filled_.improvement;
+    improvement.num_regions += counts[0];
+    improvement.num_improved += counts[1];
+    improvement.num_failed += counts[2];
+    improvement.num_limited += counts[3];
+  }
+
+  // Who owns which vertex, and the figures of the pieces as they are now.
+  [[nodiscard]] FilledPieces number_shared_vertices() &&
+  {
+    FilledPieces own;
+    own.seam_sums.resize(filled_.seam_sums.size());
+    for_each_dynamic(in_order(filled_.pieces.size()),
+                     in_thread([&](LocalIndex s) { measure(s, own); }), stage_, context_,
+                     num_done_);
+    pieces_->records().share();
+    context_.log.debug("improve: lists of pieces");
+    all_or_none(context_.comm, [&] {
+      for (subdomain::PieceSummary& piece : own.pieces) add_owned(piece, own.histograms);
+    });
+    pieces_->records().share();
+    FilledPieces all = combine(std::move(own), context_.comm);
+    all.seam_sums = std::move(filled_.seam_sums);
+    all.failures = std::move(filled_.failures);
+    all.improvement = filled_.improvement;
+    all.improvement.pieces = pieces_;
+    return all;
+  }
+
+ private:
+  // Of the pieces as the phases before have left them.
+  void make_bands(int phase, const std::vector<LocalIndex>& pieces)
+  {
+    for_each_dynamic(pieces, in_thread([&](LocalIndex s) {
+                       if (pieces_->has_bands(s, phase)) return;
+                       pieces_->keep_bands(s, work_.phase_before(s, phase), phase,
+                                           most_of_rim(filled_.pieces[at(s)].num_tets));
+                     }),
+                     stage_, context_, num_done_);
+    num_done_ += std::ssize(pieces);
+    pieces_->records().share();
+    context_.log.debug(fmt::format("improve: phase {}: bands of {} pieces", phase, pieces.size()));
+  }
+
+  void measure(LocalIndex s, FilledPieces& own)
+  {
+    const ImprovedPieces::Outer outer = pieces_->outer(s);
+    subdomain::FillResult result = measure_part(outer.part, expected_seams(outer.part));
+    subdomain::add_core(outer.core, outer.part, result);
+    own.add(result);
+    pieces_->keep_list(outer);
+  }
+
+  // What the lists will say of a part's seams, but for a vertex in ten thousand that one of two
+  // pieces has lost.
+  [[nodiscard]] std::vector<char> expected_seams(const improve::PiecePart& part) const
+  {
+    return improve::vertices_perhaps_on_seams(part.piece, work_.regions);
+  }
+
+  [[nodiscard]] subdomain::FillResult measure_part(const improve::PiecePart& part,
+                                                   const std::vector<char>& on_seam) const
+  {
+    return subdomain::measure_improved_part(part, on_seam,
+                                            filled_.pieces[at(part.piece.subdomain)]);
+  }
+
+  // The tets of a piece that may be on seams, and others.
+  [[nodiscard]] improve::PiecePart part_with_seams(LocalIndex s) const
+  {
+    ImprovedPieces::Outer outer = pieces_->outer(s);
+    if (outer.core.figures.summary.seam_tets.num_tets == 0) return std::move(outer.part);
+    return improve::whole_piece(pieces_->piece(s));
+  }
+
+  // Where the lists say something else of the seams than was expected, tets are measured once more.
+  void add_owned(subdomain::PieceSummary& summary, quality::QualityHistograms& histograms)
+  {
+    const LocalIndex s = summary.subdomain;
+    const ImprovedPieces::Comparison lists = pieces_->own_vertices(s);
+    if (!lists.is_as_expected) {
+      const improve::PiecePart part = part_with_seams(s);
+      const auto expected = measure_part(part, expected_seams(part));
+      const auto found = measure_part(part, lists.seams_of(part.piece));
+      summary.seam_tets = found.summary.seam_tets;
+      histograms.seam_mean_ratio.subtract(expected.histograms.seam_mean_ratio);
+      histograms.seam_mean_ratio.add(found.histograms.seam_mean_ratio);
+    }
+    summary.num_owned_vertices =
+        summary.num_interior_vertices + static_cast<GlobalIndex>(lists.shared.owned.size());
+  }
+
+  [[nodiscard]] double num_tets_around(LocalIndex region) const
+  {
+    double sum = 0.0;
+    for (const LocalIndex s : work_.regions.subdomains_of(region)) {
+      sum += static_cast<double>(filled_.pieces[at(s)].num_tets);
+    }
+    return sum;
+  }
+
+  [[nodiscard]] Counts improve_regions(const std::vector<LocalIndex>& wanted)
+  {
+    std::vector<double> weights;
+    for (const LocalIndex region : wanted) weights.push_back(num_tets_around(region));
+    Counts counts(4, 0);
+    for_each_dynamic(
+        heaviest_first(weights),
+        [&](LocalIndex row, const auto& on_wait) {
+          const LocalIndex region = wanted[at(row)];
+          add(counts_of(improve(region, weights[at(row)], on_wait)), counts);
+        },
+        stage_, context_, num_done_);
+    num_done_ += std::ssize(wanted);
+    pieces_->records().share();
+    context_.comm.sum_in_place(counts);
+    return counts;
+  }
+
+  // A region that fails keeps its tets: they are those of valid pieces.
+  subdomain::RegionRecord improve(LocalIndex region, double num_tets,
+                                  const jobs::JobRunner::WaitCallback& on_wait)
+  {
+    if (pieces_->has_region(region)) return pieces_->find_region(region);
+    const std::string name = fmt::format("improve: region {}", region);
+    const std::vector<Bytes> bands = pieces_->bands_of(region);
+    const Bytes request = improve_request(region, bands);
+    const jobs::JobLimits limits = job_limits(run_case_.fill, num_tets);
+    const JobRequest job{name, request, limits};
+    auto [made, end, cpu_s] =
+        attempt_job(job, from_bytes<subdomain::RegionRecord>, on_wait, context_);
+    throw_unless_of_the_job(end);
+    if (!made) {
+      made = subdomain::RegionRecord{
+          .has_failed = true, .was_limited = depends_on_machine(end), .reason = end.message};
+      keep_failure(region, job, end, bands);
+    }
+    pieces_->keep_region(region, *made);
+    if (!made->is_improved)
+      context_.log.debug(fmt::format("{} stays as it is: {}", name, made->reason));
+    return *std::move(made);
+  }
+
+  void keep_failure(LocalIndex region, const JobRequest& job, const jobs::JobEnd& end,
+                    const std::vector<Bytes>& bands)
+  {
+    const auto kept = keep_failed_job(job, job.request, end, context_);
+    keep_meshes_of_failed_region(
+        kept, [&] { return region_mesh(bands, work_.regions, region); }, cut_.coarse,
+        cut_.decomposition, context_);
+  }
+
+  const config::Case& run_case_;
+  const subdomain::PartitionedMesh& cut_;
+  const SeamWork& work_;
+  FilledPieces filled_;
+  std::shared_ptr<ImprovedPieces> pieces_;
+  RunContext& context_;
+  StageScope& stage_;
+  std::int64_t num_done_ = 0;
+};
+
+}  // namespace
+
+bool have_seams_to_improve(const subdomain::PartitionedMesh& cut,
+                           const std::vector<fill::KernelKind>& kernels)
+{
+  if (are_counts_known(kernels)) return false;
+  const improve::SeamRegions regions(cut.skeleton, cut.decomposition);
+  return total_size(wanted_regions(regions, kernels)) > 0;
+}
+
+FilledPieces run_improve_stage(const config::Case& run_case, const subdomain::PartitionedMesh& cut,
+                               const std::vector<fill::KernelKind>& kernels, FilledPieces filled,
+                               RunContext& context)
+{
+  const auto regions =
+      std::make_shared<const improve::SeamRegions>(cut.skeleton, cut.decomposition);
+  SeamWork work{.regions = *regions, .wanted = wanted_regions(*regions, kernels)};
+  const std::int64_t num_regions = total_size(work.wanted);
+  work.pieces = pieces_of_phases(*regions, work.wanted);
+  const std::int64_t num_steps = num_regions + total_size(work.pieces) + std::ssize(filled.pieces);
+  StageScope stage(context, Stage::improve, num_steps, "regions and pieces");
+  all_or_none(context.comm, [&] {
+    if (context.comm.rank() != 0) return;
+    const fs::path folder = store_folder(context.folder);
+    drop_records_of_other_pieces(filled.pieces, io::RecordStore(folder), folder);
+  });
+  auto pieces =
+      std::make_shared<ImprovedPieces>(context.folder, cut.skeleton, regions, context.comm);
+  SeamImprover improver(run_case, cut, work, std::move(filled), std::move(pieces), context, stage);
+  for (int phase = 0; phase < improve::kNumPhases; ++phase) improver.run_phase(phase);
+  FilledPieces all = std::move(improver).number_shared_vertices();
+  stage.finish(
+      fmt::format("{} of {} regions are better", all.improvement.num_improved, num_regions));
+  return all;
+}
+
+}  // namespace tessera::pipeline
