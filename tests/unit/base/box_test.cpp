@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tessera/base/box.hpp"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -36,7 +37,7 @@ TEST(Box, TouchesWhatSharesACornerOnly)
 
 TEST(Box, HoldsItselfAndWhatIsInside)
 {
-  const Box box = box_of({{{0.0, 3.0, 1.0}, {2.0, 0.0, 1.0}, {1.0, 1.0, -4.0}}});
+  const Box box = box_of(std::array<Vec3, 3>{{{0.0, 3.0, 1.0}, {2.0, 0.0, 1.0}, {1.0, 1.0, -4.0}}});
   EXPECT_EQ(box.low, (Vec3{0.0, 0.0, -4.0}));
   EXPECT_EQ(box.high, (Vec3{2.0, 3.0, 1.0}));
   EXPECT_TRUE(box.holds(box));
