@@ -237,8 +237,8 @@ std::optional<std::string> merge_advice(const Report& report)
   if (!num || num_edges + num_faces + *num == 0.0) return std::nullopt;
   return fmt::format(
       "What is smaller than size.min was merged: {:.0f} edges and {:.0f} faces of the model. "
-      "Therefore {:.0f} vertices of the coarse mesh are off the geometry, by at most {:.3g}. That is "
-      "no defect.",
+      "Therefore {:.0f} vertices of the coarse mesh are off the geometry, by at most {:.3g}. That "
+      "is no defect.",
       num_edges, num_faces, *num, report.number("/coarse/defeatured/distance_max").value_or(0.0));
 }
 
